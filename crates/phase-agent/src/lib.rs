@@ -1,0 +1,1 @@
+//! One PHASE agent's mind: belief to subgoal to action.

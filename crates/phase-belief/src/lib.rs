@@ -1,0 +1,1 @@
+//! A PHASE agent's belief: complete-world particles that are predicted, checked and redrawn.

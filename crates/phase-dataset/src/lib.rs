@@ -1,0 +1,1 @@
+//! PHASE events at rest: formats, manifests, import and export.

@@ -1,0 +1,231 @@
+//! What agents want of the world and of each other.
+
+use crate::{Entity, State, arena};
+use serde::{Deserialize, Serialize};
+
+/// Whether a goal's condition is to hold or to be kept from holding; −1 and +1 in files.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
+#[serde(into = "i8", try_from = "i8")]
+pub enum Sign {
+    /// −1: avoid or undo.
+    Negative,
+    /// +1: achieve.
+    Positive,
+}
+
+impl Sign {
+    /// −1 or +1.
+    #[must_use]
+    pub const fn value(self) -> i8 {
+        match self {
+            Self::Negative => -1,
+            Self::Positive => 1,
+        }
+    }
+
+    /// The other sign.
+    #[must_use]
+    pub const fn negated(self) -> Self {
+        match self {
+            Self::Negative => Self::Positive,
+            Self::Positive => Self::Negative,
+        }
+    }
+}
+
+impl From<Sign> for i8 {
+    fn from(sign: Sign) -> Self {
+        sign.value()
+    }
+}
+
+impl TryFrom<i8> for Sign {
+    type Error = &'static str;
+
+    fn try_from(value: i8) -> Result<Self, Self::Error> {
+        match value {
+            1 => Ok(Self::Positive),
+            -1 => Ok(Self::Negative),
+            _ => Err("a goal's sign is 1 or -1"),
+        }
+    }
+}
+
+/// A physical goal. Numbers of agents and objects are 0 or 1, landmarks 0 to 3.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
+pub enum Goal {
+    /// On(agent, landmark).
+    AgentOnLandmark {
+        /// The agent to be on the landmark.
+        agent: u8,
+        /// The landmark.
+        landmark: u8,
+        /// +1, or −1 to keep the agent off.
+        sign: Sign,
+    },
+    /// On(object, landmark).
+    ObjectOnLandmark {
+        /// The object to be on the landmark.
+        object: u8,
+        /// The landmark.
+        landmark: u8,
+        /// +1, or −1 to keep the object off.
+        sign: Sign,
+    },
+    /// Touch(agent, other agent): approach (+1) or get away (−1).
+    Touch {
+        /// The agent that touches (in a chase, the chaser, for both agents' goals).
+        agent: u8,
+        /// The other agent.
+        other: u8,
+        /// +1 to approach, −1 to get away.
+        sign: Sign,
+    },
+}
+
+impl Goal {
+    /// The goal's sign.
+    #[must_use]
+    pub const fn sign(self) -> Sign {
+        match self {
+            Self::AgentOnLandmark { sign, .. }
+            | Self::ObjectOnLandmark { sign, .. }
+            | Self::Touch { sign, .. } => sign,
+        }
+    }
+
+    /// The same goal with the other sign.
+    #[must_use]
+    pub const fn negated(self) -> Self {
+        match self {
+            Self::AgentOnLandmark { agent, landmark, sign } => {
+                Self::AgentOnLandmark { agent, landmark, sign: sign.negated() }
+            }
+            Self::ObjectOnLandmark { object, landmark, sign } => {
+                Self::ObjectOnLandmark { object, landmark, sign: sign.negated() }
+            }
+            Self::Touch { agent, other, sign } => Self::Touch { agent, other, sign: sign.negated() },
+        }
+    }
+
+    /// The entity that has to be somewhere, and the landmark or entity it has to be at.
+    #[must_use]
+    pub const fn subject(self) -> Entity {
+        match self {
+            Self::AgentOnLandmark { agent, .. } | Self::Touch { agent, .. } => Entity::Agent(agent),
+            Self::ObjectOnLandmark { object, .. } => Entity::Object(object),
+        }
+    }
+
+    /// The landmark of the goal, if it has one.
+    #[must_use]
+    pub const fn landmark(self) -> Option<usize> {
+        match self {
+            Self::AgentOnLandmark { landmark, .. } | Self::ObjectOnLandmark { landmark, .. } => {
+                Some(landmark as usize)
+            }
+            Self::Touch { .. } => None,
+        }
+    }
+
+    /// Straight distance between the subject and its target in a state (u): 0 is as near as can be.
+    #[must_use]
+    pub fn distance(self, state: &State) -> f32 {
+        let subject = state.position(self.subject());
+        match self {
+            Self::AgentOnLandmark { landmark, .. } | Self::ObjectOnLandmark { landmark, .. } => {
+                subject.distance(arena::LANDMARKS[usize::from(landmark)])
+            }
+            Self::Touch { other, .. } => subject.distance(state.position(Entity::Agent(other))),
+        }
+    }
+}
+
+/// Social utility weight α of an agent towards the other; −1, 0, 1 in files.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default, Serialize, Deserialize)]
+#[serde(into = "i8", try_from = "i8")]
+pub enum Attitude {
+    /// α = −1: wants the other not to reach its goal.
+    Hinder,
+    /// α = 0: wants its own goal.
+    #[default]
+    Neutral,
+    /// α = 1: wants the other to reach its goal.
+    Help,
+}
+
+impl Attitude {
+    /// −1, 0 or 1.
+    #[must_use]
+    pub const fn alpha(self) -> i8 {
+        match self {
+            Self::Hinder => -1,
+            Self::Neutral => 0,
+            Self::Help => 1,
+        }
+    }
+}
+
+impl From<Attitude> for i8 {
+    fn from(attitude: Attitude) -> Self {
+        attitude.alpha()
+    }
+}
+
+impl TryFrom<i8> for Attitude {
+    type Error = &'static str;
+
+    fn try_from(value: i8) -> Result<Self, Self::Error> {
+        match value {
+            -1 => Ok(Self::Hinder),
+            0 => Ok(Self::Neutral),
+            1 => Ok(Self::Help),
+            _ => Err("a social utility weight is -1, 0 or 1"),
+        }
+    }
+}
+
+/// The relation between the two agents, as a viewer would name it.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Relation {
+    /// One helps the other, or both want the same.
+    Friendly,
+    /// One hinders the other, or their goals conflict.
+    Adversarial,
+    /// Neither.
+    Neutral,
+}
+
+impl Relation {
+    /// The paper's definition on goals and attitudes (section "Inference" and appendix): an attitude that is
+    /// not neutral decides; else equal goals are friendly; else the same object wanted on two landmarks, or
+    /// one agent approaching another that gets away, are adversarial; else neutral.
+    #[must_use]
+    pub fn of(goals: [Goal; 2], attitudes: [Attitude; 2]) -> Self {
+        if attitudes.contains(&Attitude::Help) {
+            Self::Friendly
+        } else if attitudes.contains(&Attitude::Hinder) {
+            Self::Adversarial
+        } else if goals[0] == goals[1] && goals[0].sign() == Sign::Positive {
+            Self::Friendly
+        } else if conflict(goals[0], goals[1]) {
+            Self::Adversarial
+        } else {
+            Self::Neutral
+        }
+    }
+}
+
+/// The two kinds of conflict the paper names: one object, two landmarks; and chase against flight.
+fn conflict(a: Goal, b: Goal) -> bool {
+    match (a, b) {
+        (
+            Goal::ObjectOnLandmark { object: object_a, landmark: landmark_a, .. },
+            Goal::ObjectOnLandmark { object: object_b, landmark: landmark_b, .. },
+        ) => object_a == object_b && landmark_a != landmark_b,
+        (Goal::Touch { sign: sign_a, .. }, Goal::Touch { sign: sign_b, .. }) => sign_a != sign_b,
+        _ => false,
+    }
+}

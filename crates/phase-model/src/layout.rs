@@ -1,0 +1,249 @@
+//! The twenty-two wall layouts and their reflections.
+//!
+//! Up to four walls radiate from the arena's centre, one in each *slot*: up (between rooms 0 and 1), left
+//! (0 and 3), down (3 and 2) and right (1 and 2). What a wall leaves open of its slot is a door.
+
+use crate::{Segment, Vec2, arena};
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+/// A room, which bears the same number as the landmark in it: 0 top left, 1 top right, 2 bottom right,
+/// 3 bottom left.
+pub type Room = usize;
+
+/// Length of a slot, from the centre to the boundary (u).
+pub const SLOT_LENGTH: f32 = 10.0;
+
+/// The two rooms on either side of each slot.
+pub const SLOT_ROOMS: [(Room, Room); 4] = [(0, 1), (0, 3), (3, 2), (1, 2)];
+
+/// Unit vectors from the centre along each slot.
+pub const SLOT_DIRECTIONS: [Vec2; 4] = [Vec2::Y, Vec2::NEG_X, Vec2::NEG_Y, Vec2::X];
+
+/// A wall in one slot.
+#[derive(Clone, Copy, PartialEq, Debug)]
+enum Wall {
+    /// No wall: the whole slot is open.
+    None,
+    /// From the centre outwards, this long (u).
+    Inner(f32),
+    /// From the boundary inwards, this long (u).
+    Outer(f32),
+}
+
+use Wall::{Inner, None as Open, Outer};
+
+/// The layouts by base number; `BASES[base][slot]`.
+const BASES: [[Wall; 4]; 22] = [
+    [Open, Open, Open, Open],
+    [Inner(10.0), Outer(5.0), Open, Open],
+    [Inner(10.0), Inner(5.0), Open, Open],
+    [Inner(10.0), Outer(7.5), Open, Open],
+    [Inner(10.0), Inner(7.5), Open, Open],
+    [Inner(10.0), Open, Outer(5.0), Open],
+    [Inner(10.0), Open, Inner(5.0), Open],
+    [Inner(10.0), Inner(5.0), Inner(5.0), Open],
+    [Inner(10.0), Inner(7.5), Inner(5.0), Open],
+    [Inner(5.0), Inner(10.0), Inner(5.0), Open],
+    [Inner(7.5), Inner(10.0), Inner(5.0), Open],
+    [Inner(10.0), Open, Outer(7.5), Open],
+    [Inner(10.0), Open, Inner(7.5), Open],
+    [Inner(10.0), Inner(5.0), Inner(7.5), Open],
+    [Inner(10.0), Inner(7.5), Inner(7.5), Open],
+    [Inner(7.5), Inner(10.0), Inner(7.5), Open],
+    [Inner(10.0), Inner(5.0), Inner(5.0), Inner(5.0)],
+    [Inner(10.0), Inner(7.5), Inner(5.0), Inner(5.0)],
+    [Inner(10.0), Inner(5.0), Inner(7.5), Inner(5.0)],
+    [Inner(10.0), Inner(7.5), Inner(7.5), Inner(5.0)],
+    [Inner(7.5), Inner(10.0), Inner(7.5), Inner(5.0)],
+    [Inner(10.0), Inner(7.5), Inner(7.5), Inner(7.5)],
+];
+
+/// The base layouts from which events are made; 1, 3, 5 and 11 exist but no published event uses them.
+pub const USED_BASES: [u8; 18] = [0, 2, 4, 6, 7, 8, 9, 10, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21];
+
+/// A reflection of the arena about an axis through its centre; 0 to 3 in files.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
+#[serde(into = "u8", try_from = "u8")]
+pub enum Flip {
+    /// 0: up and down change places.
+    UpDown,
+    /// 1: left and right change places.
+    LeftRight,
+    /// 2: about the diagonal y = x through the centre.
+    Diagonal,
+    /// 3: about the diagonal y = −x through the centre.
+    AntiDiagonal,
+}
+
+impl Flip {
+    /// All flips, in number order.
+    pub const ALL: [Self; 4] = [Self::UpDown, Self::LeftRight, Self::Diagonal, Self::AntiDiagonal];
+
+    /// The image of a point (u).
+    #[must_use]
+    pub fn point(self, point: Vec2) -> Vec2 {
+        arena::CENTRE + self.vector(point - arena::CENTRE)
+    }
+
+    /// The image of a free vector such as a velocity.
+    #[must_use]
+    pub const fn vector(self, vector: Vec2) -> Vec2 {
+        let Vec2 { x, y } = vector;
+        match self {
+            Self::UpDown => Vec2::new(x, -y),
+            Self::LeftRight => Vec2::new(-x, y),
+            Self::Diagonal => Vec2::new(y, x),
+            Self::AntiDiagonal => Vec2::new(-y, -x),
+        }
+    }
+
+    /// The image of an angle (rad). Reflections turn left turns into right turns.
+    #[must_use]
+    pub const fn angle(self, angle: f32) -> f32 {
+        use core::f32::consts::{FRAC_PI_2, PI};
+        match self {
+            Self::UpDown => PI - angle,
+            Self::LeftRight => -angle,
+            Self::Diagonal => -FRAC_PI_2 - angle,
+            Self::AntiDiagonal => FRAC_PI_2 - angle,
+        }
+    }
+
+    /// The landmark (or room) on which a landmark comes to lie.
+    #[must_use]
+    pub const fn landmark(self, landmark: usize) -> usize {
+        let images = match self {
+            Self::UpDown => [3, 2, 1, 0],
+            Self::LeftRight => [1, 0, 3, 2],
+            Self::Diagonal => [2, 1, 0, 3],
+            Self::AntiDiagonal => [0, 3, 2, 1],
+        };
+        images[landmark]
+    }
+
+    /// Which slot's wall comes to lie in each slot.
+    const fn slots(self) -> [usize; 4] {
+        match self {
+            Self::UpDown => [2, 1, 0, 3],
+            Self::LeftRight => [0, 3, 2, 1],
+            Self::Diagonal => [3, 2, 1, 0],
+            Self::AntiDiagonal => [1, 0, 3, 2],
+        }
+    }
+}
+
+impl From<Flip> for u8 {
+    fn from(flip: Flip) -> Self {
+        flip as Self
+    }
+}
+
+impl TryFrom<u8> for Flip {
+    type Error = LayoutError;
+
+    fn try_from(number: u8) -> Result<Self, LayoutError> {
+        Self::ALL.get(usize::from(number)).copied().ok_or(LayoutError::Flip(number.into()))
+    }
+}
+
+/// Why there is no such layout.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Error)]
+pub enum LayoutError {
+    /// The base number is past the last.
+    #[error("layout.base must be 0 to 21, not {0}")]
+    Base(u64),
+    /// The flip number is past the last.
+    #[error("layout.flip must be null or 0 to 3, not {0}")]
+    Flip(u64),
+}
+
+/// Where the inner walls stand: one of 22 base layouts, as it is or reflected.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize)]
+pub struct Layout {
+    base: u8,
+    flip: Option<Flip>,
+}
+
+impl Layout {
+    /// A layout by its numbers.
+    ///
+    /// # Errors
+    /// [`LayoutError::Base`] past 21.
+    pub const fn new(base: u8, flip: Option<Flip>) -> Result<Self, LayoutError> {
+        if (base as usize) < BASES.len() {
+            Ok(Self { base, flip })
+        } else {
+            Err(LayoutError::Base(base as u64))
+        }
+    }
+
+    /// All layouts of the paper's "90 environment layouts": 18 base layouts, each as it is and in four
+    /// reflections.
+    pub fn all_used() -> impl Iterator<Item = Self> {
+        USED_BASES.into_iter().flat_map(|base| {
+            core::iter::once(None).chain(Flip::ALL.map(Some)).map(move |flip| Self { base, flip })
+        })
+    }
+
+    /// The base number, 0 to 21.
+    #[must_use]
+    pub const fn base(self) -> u8 {
+        self.base
+    }
+
+    /// The reflection applied to it.
+    #[must_use]
+    pub const fn flip(self) -> Option<Flip> {
+        self.flip
+    }
+
+    /// The inner walls, by slot (u).
+    #[must_use]
+    pub fn walls(self) -> Vec<Segment> {
+        (0..4)
+            .filter_map(|slot| {
+                let (from, to) = match self.wall(slot) {
+                    Open => return None,
+                    Inner(length) => (0.0, length),
+                    Outer(length) => (SLOT_LENGTH - length, SLOT_LENGTH),
+                };
+                Some(along(slot, from, to))
+            })
+            .collect()
+    }
+
+    /// What is open of a slot (0 to 3), from the end nearer the centre to the end nearer the boundary;
+    /// `None` where a full wall closes it.
+    #[must_use]
+    pub fn opening(self, slot: usize) -> Option<Segment> {
+        let (from, to) = match self.wall(slot) {
+            Open => (0.0, SLOT_LENGTH),
+            Inner(length) => (length, SLOT_LENGTH),
+            Outer(length) => (0.0, SLOT_LENGTH - length),
+        };
+        (from < to).then(|| along(slot, from, to))
+    }
+
+    fn wall(self, slot: usize) -> Wall {
+        let slot = self.flip.map_or(slot, |flip| flip.slots()[slot]);
+        BASES[usize::from(self.base)][slot]
+    }
+}
+
+/// The part of a slot between two distances from the centre (u).
+fn along(slot: usize, from: f32, to: f32) -> Segment {
+    let direction = SLOT_DIRECTIONS[slot];
+    Segment { a: arena::CENTRE + direction * from, b: arena::CENTRE + direction * to }
+}
+
+/// The room a point lies in. Points on a border belong to the right and to the bottom.
+#[must_use]
+pub fn room_of(point: Vec2) -> Room {
+    match (point.x < arena::CENTRE.x, point.y > arena::CENTRE.y) {
+        (true, true) => 0,
+        (false, true) => 1,
+        (false, false) => 2,
+        (true, false) => 3,
+    }
+}

@@ -1,0 +1,40 @@
+//! The words of PHASE, without physics and without I/O.
+//!
+//! PHASE (Netanyahu et al., AAAI 2021) describes social events as a decentralised partially observable
+//! Markov decision process: two agents share a physical state, see parts of it and act at once. This crate
+//! holds the nouns every other crate speaks in: [`Scene`], [`Layout`], [`Entity`], [`State`], [`Action`],
+//! [`Goal`], [`Attitude`], and the one verb [`Dynamics`].
+//!
+//! The key design decision is that a [`State`] is plain `Copy` data of fixed size (two agents, at most two
+//! objects). A planner that imagines a hundred million steps copies states, it does not clone graphs. The
+//! price is that the numbers of agents and objects are compile-time limits.
+//!
+//! Units everywhere: world units (u), radians, seconds, newtons. Angle 0 faces +y and forward is
+//! (−sin θ, cos θ); positive angles turn left (counter-clockwise).
+
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+
+pub mod action;
+pub mod arena;
+pub mod entity;
+pub mod geometry;
+pub mod goal;
+pub mod layout;
+pub mod physique;
+pub mod random;
+pub mod reward;
+pub mod scene;
+pub mod state;
+pub mod validate;
+
+pub use action::Action;
+pub use entity::{AGENT_COUNT, Entity, EntitySet, MAX_ENTITIES, MAX_OBJECTS};
+pub use geometry::Segment;
+pub use glam::Vec2;
+pub use goal::{Attitude, Goal, Relation, Sign};
+pub use layout::{Flip, Layout, LayoutError, Room};
+pub use physique::{AgentBody, Physique, Size, Strength};
+pub use scene::{AgentSpec, EventKind, ObjectSpec, Scene};
+pub use state::{Body, Contacts, Dynamics, Grip, Side, State};
+pub use validate::SceneError;

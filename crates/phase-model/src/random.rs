@@ -1,0 +1,38 @@
+//! Independent random streams, each derived from (seed, purpose, index) and never shared.
+
+use rand::SeedableRng;
+pub use rand_pcg::Pcg64Mcg;
+
+/// What a random stream is for. Two purposes never share numbers, whatever the seed.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[repr(u64)]
+pub enum Purpose {
+    /// Sampling a scene.
+    Scene = 1,
+    /// Drawing and redrawing an agent's belief particles.
+    Belief = 2,
+    /// An agent's low-level search.
+    Search = 3,
+    /// Seeds of the events of a dataset.
+    Event = 4,
+}
+
+/// A generator for one purpose and one index (an event's number, an agent's number, a step …).
+#[must_use]
+pub fn stream(seed: u64, purpose: Purpose, index: u64) -> Pcg64Mcg {
+    Pcg64Mcg::seed_from_u64(derive_seed(seed, purpose, index))
+}
+
+/// The seed of [`stream`], for handing on to something that derives streams of its own.
+#[must_use]
+pub fn derive_seed(seed: u64, purpose: Purpose, index: u64) -> u64 {
+    mix(mix(mix(seed) ^ purpose as u64) ^ index)
+}
+
+/// The finaliser of SplitMix64: a bijection that spreads every input bit over the whole word.
+fn mix(word: u64) -> u64 {
+    let word = word.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let word = (word ^ (word >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let word = (word ^ (word >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    word ^ (word >> 31)
+}

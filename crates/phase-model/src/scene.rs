@@ -1,0 +1,139 @@
+//! A scene: everything that has to be said for two minds and a world to make an event.
+
+use crate::{
+    AGENT_COUNT, AgentBody, Attitude, Body, Entity, Goal, Layout, MAX_ENTITIES, MAX_OBJECTS, Physique,
+    Relation, Size, State, Strength,
+};
+use serde::{Deserialize, Serialize};
+
+/// What kind of social event a scene is set up for.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum EventKind {
+    /// One agent helps the other with its goal.
+    Helping,
+    /// One agent hinders the other.
+    Hindering,
+    /// One agent approaches the other, which gets away.
+    Chasing,
+    /// Both want the same object on different landmarks.
+    Competing,
+    /// Both want the same object on the same landmark.
+    Collaborating,
+    /// Each has its own goal and no interest in the other's.
+    Independent,
+}
+
+impl EventKind {
+    /// All kinds.
+    pub const ALL: [Self; 6] = [
+        Self::Helping,
+        Self::Hindering,
+        Self::Chasing,
+        Self::Competing,
+        Self::Collaborating,
+        Self::Independent,
+    ];
+
+    /// The name used in files and on screen.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Helping => "helping",
+            Self::Hindering => "hindering",
+            Self::Chasing => "chasing",
+            Self::Competing => "competing",
+            Self::Collaborating => "collaborating",
+            Self::Independent => "independent",
+        }
+    }
+}
+
+/// An agent of a scene.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct AgentSpec {
+    /// Size of the body.
+    pub size: Size,
+    /// Greatest force.
+    pub strength: Strength,
+    /// The goal. A helping agent bears the other's goal, a hindering one the other's goal negated.
+    pub goal: Goal,
+    /// Social utility weight α towards the other agent.
+    pub attitude: Attitude,
+    /// Pose and motion at the start.
+    pub start: Body,
+}
+
+/// An object of a scene.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct ObjectSpec {
+    /// Size.
+    pub size: Size,
+    /// Pose and motion at the start.
+    pub start: Body,
+}
+
+/// The physical and the social configuration of an event (paper, "Joint Physical-Social Simulation").
+/// [`crate::validate`] says which scenes make sense.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Scene {
+    /// Where the walls stand.
+    pub layout: Layout,
+    /// The two agents.
+    pub agents: [AgentSpec; AGENT_COUNT],
+    /// No, one or two objects.
+    pub objects: Vec<ObjectSpec>,
+    /// The kind of event the scene was made for.
+    pub kind: EventKind,
+}
+
+impl Scene {
+    /// The part of the scene that physics knows. Objects past the second are left out.
+    #[must_use]
+    pub fn physique(&self) -> Physique {
+        let mut object_radii = [0.0; MAX_OBJECTS];
+        for (radius, object) in object_radii.iter_mut().zip(&self.objects) {
+            *radius = object.size.radius();
+        }
+        Physique {
+            walls: self.layout.walls(),
+            agents: self.agents.map(|agent| AgentBody {
+                radius: agent.size.radius(),
+                max_force: agent.strength.max_force(),
+            }),
+            object_radii,
+            object_count: self.objects.len().min(MAX_OBJECTS),
+        }
+    }
+
+    /// The state in which the event starts: nothing held, no contacts known yet.
+    #[must_use]
+    pub fn initial_state(&self) -> State {
+        let mut bodies = [Body::default(); MAX_ENTITIES];
+        for (k, agent) in self.agents.iter().enumerate() {
+            bodies[Entity::agent(k).index()] = agent.start;
+        }
+        for (k, object) in self.objects.iter().take(MAX_OBJECTS).enumerate() {
+            bodies[Entity::object(k).index()] = object.start;
+        }
+        State::new(bodies)
+    }
+
+    /// Both goals.
+    #[must_use]
+    pub fn goals(&self) -> [Goal; AGENT_COUNT] {
+        self.agents.map(|agent| agent.goal)
+    }
+
+    /// Both attitudes.
+    #[must_use]
+    pub fn attitudes(&self) -> [Attitude; AGENT_COUNT] {
+        self.agents.map(|agent| agent.attitude)
+    }
+
+    /// The relation that follows from goals and attitudes.
+    #[must_use]
+    pub fn relation(&self) -> Relation {
+        Relation::of(self.goals(), self.attitudes())
+    }
+}

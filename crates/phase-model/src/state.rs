@@ -1,0 +1,215 @@
+//! The physical state of the world at one moment, as plain copyable data.
+
+use crate::{AGENT_COUNT, Action, Entity, MAX_ENTITIES, Physique, Vec2, geometry};
+use serde::{Deserialize, Serialize};
+
+/// Pose and motion of one body.
+#[derive(Clone, Copy, PartialEq, Debug, Default, Serialize, Deserialize)]
+pub struct Body {
+    /// The body's origin (u): mid-height of an agent (not its centre of mass), centre of an object.
+    pub position: Vec2,
+    /// Velocity of the centre of mass (u/s).
+    pub velocity: Vec2,
+    /// Angle (rad), unbounded, 0 facing +y, positive counter-clockwise.
+    pub angle: f32,
+    /// Angular velocity (rad/s). An agent's is 0 after every whole step.
+    pub angular_velocity: f32,
+}
+
+impl Body {
+    /// A body at rest.
+    #[must_use]
+    pub const fn at_rest(position: Vec2, angle: f32) -> Self {
+        Self { position, velocity: Vec2::ZERO, angle, angular_velocity: 0.0 }
+    }
+
+    /// Unit vector of the heading, (−sin θ, cos θ).
+    #[must_use]
+    pub fn forward(&self) -> Vec2 {
+        geometry::forward(self.angle)
+    }
+
+    /// Whether every number is finite.
+    #[must_use]
+    pub fn is_finite(&self) -> bool {
+        self.position.is_finite()
+            && self.velocity.is_finite()
+            && self.angle.is_finite()
+            && self.angular_velocity.is_finite()
+    }
+}
+
+/// The side of an agent that holds an object.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Side {
+    /// The narrow front.
+    Head,
+    /// The wide back.
+    Tail,
+    /// The right flank.
+    Right,
+    /// The left flank.
+    Left,
+}
+
+impl Side {
+    /// All sides, in the order in which grabbing tries them.
+    pub const ALL: [Self; 4] = [Self::Head, Self::Tail, Self::Right, Self::Left];
+
+    /// Unit vector from the agent's origin to the side, in the agent's frame (x right, y forward).
+    #[must_use]
+    pub const fn direction(self) -> Vec2 {
+        match self {
+            Self::Head => Vec2::new(0.0, 1.0),
+            Self::Tail => Vec2::new(0.0, -1.0),
+            Self::Right => Vec2::new(1.0, 0.0),
+            Self::Left => Vec2::new(-1.0, 0.0),
+        }
+    }
+}
+
+/// An agent's rigid hold of an object: the object's centre sits at distance R + r on the given side.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+pub struct Grip {
+    /// The object held, 0 or 1.
+    pub object: u8,
+    /// The side that holds it.
+    pub side: Side,
+    /// The object's angle minus the agent's, kept from the moment of grabbing (rad).
+    pub relative_angle: f32,
+}
+
+/// Which pairs of bodies are in physical contact, as the dynamics reported it after the last substep.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default, Serialize, Deserialize)]
+pub struct Contacts(u8);
+
+impl Contacts {
+    /// No body touches another.
+    pub const NONE: Self = Self(0);
+
+    /// Records that two different entities touch. Touching oneself is ignored.
+    pub const fn insert(&mut self, a: Entity, b: Entity) {
+        self.0 |= Self::bit(a, b);
+    }
+
+    /// Whether two entities touch.
+    #[must_use]
+    pub const fn touching(self, a: Entity, b: Entity) -> bool {
+        self.0 & Self::bit(a, b) != 0
+    }
+
+    /// One bit for each of the six unordered pairs; none for a pair of equals.
+    const fn bit(a: Entity, b: Entity) -> u8 {
+        let (a, b) = (a.index(), b.index());
+        let (low, high) = if a < b { (a, b) } else { (b, a) };
+        match (low, high) {
+            (0, 1) => 1,
+            (0, 2) => 2,
+            (0, 3) => 4,
+            (1, 2) => 8,
+            (1, 3) => 16,
+            (2, 3) => 32,
+            _ => 0,
+        }
+    }
+}
+
+/// The whole physical state: at most four bodies, who holds what, who touches whom.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+pub struct State {
+    /// Bodies by [`Entity::index`]; those past [`Physique::entity_count`] mean nothing.
+    pub bodies: [Body; MAX_ENTITIES],
+    /// What each agent holds.
+    pub grips: [Option<Grip>; AGENT_COUNT],
+    /// Contacts between bodies (not with walls) after the last substep.
+    pub contacts: Contacts,
+}
+
+impl State {
+    /// A state without grips and contacts.
+    #[must_use]
+    pub const fn new(bodies: [Body; MAX_ENTITIES]) -> Self {
+        Self { bodies, grips: [None; AGENT_COUNT], contacts: Contacts::NONE }
+    }
+
+    /// The body of an entity.
+    #[must_use]
+    pub const fn body(&self, entity: Entity) -> &Body {
+        &self.bodies[entity.index()]
+    }
+
+    /// The body of an entity, to change.
+    pub const fn body_mut(&mut self, entity: Entity) -> &mut Body {
+        &mut self.bodies[entity.index()]
+    }
+
+    /// Position of an entity's origin (u).
+    #[must_use]
+    pub const fn position(&self, entity: Entity) -> Vec2 {
+        self.bodies[entity.index()].position
+    }
+
+    /// The object an agent (0 or 1) holds.
+    #[must_use]
+    pub fn held_object(&self, agent: usize) -> Option<usize> {
+        self.grips[agent].map(|grip| usize::from(grip.object))
+    }
+
+    /// Whether an agent (0 or 1) holds an object (0 or 1).
+    #[must_use]
+    pub fn holds(&self, agent: usize, object: usize) -> bool {
+        self.held_object(agent) == Some(object)
+    }
+
+    /// Whether two entities touch: they are in contact or one holds the other.
+    #[must_use]
+    pub fn touching(&self, a: Entity, b: Entity) -> bool {
+        self.contacts.touching(a, b)
+            || match (a, b) {
+                (Entity::Agent(agent), Entity::Object(object))
+                | (Entity::Object(object), Entity::Agent(agent)) => {
+                    self.holds(usize::from(agent), usize::from(object))
+                }
+                _ => false,
+            }
+    }
+
+    /// The object that `attach` would grab, and with which side: of the objects whose centre is nearer than
+    /// r + [`crate::physique::GRAB_REACH`] to one of the agent's four grab points, the nearest.
+    /// `None` if the agent already holds something.
+    #[must_use]
+    pub fn attachable(&self, physique: &Physique, agent: usize) -> Option<(usize, Side)> {
+        if self.grips[agent].is_some() {
+            return None;
+        }
+        let body = &self.bodies[agent];
+        let radius = physique.agents[agent].radius;
+        let rotation = Vec2::from_angle(body.angle);
+        let mut best: Option<(f32, usize, Side)> = None;
+        for object in physique.objects() {
+            let centre = self.position(Entity::object(object));
+            let reach = physique.object_radii[object] + crate::physique::GRAB_REACH;
+            for side in Side::ALL {
+                let point = body.position + rotation.rotate(side.direction() * radius);
+                let distance = point.distance(centre);
+                if distance < reach && best.is_none_or(|(nearest, ..)| distance < nearest) {
+                    best = Some((distance, object, side));
+                }
+            }
+        }
+        best.map(|(_, object, side)| (object, side))
+    }
+
+    /// Whether every number of the bodies present is finite.
+    #[must_use]
+    pub fn is_finite(&self, physique: &Physique) -> bool {
+        self.bodies[..physique.entity_count()].iter().all(Body::is_finite)
+    }
+}
+
+/// State transitions of the Dec-POMDP, P(s′ | s, {aᵢ}, {fᵢ}); the forces fᵢ belong to the implementor.
+pub trait Dynamics {
+    /// Advances the state by one step: five substeps of 1/60 s under the two agents' actions.
+    fn step(&self, state: &mut State, actions: [Action; AGENT_COUNT]);
+}

@@ -1,0 +1,173 @@
+//! Which scenes make sense, and what is wrong with the others.
+
+use crate::{
+    AGENT_COUNT, Attitude, Entity, Goal, MAX_OBJECTS, Scene, arena, geometry::Outline, scene::AgentSpec,
+};
+use thiserror::Error;
+
+/// A rule that a scene breaks. The text names the field and the rule.
+#[derive(Clone, PartialEq, Debug, Error)]
+pub enum SceneError {
+    /// There are more objects than the world holds.
+    #[error("objects must number 0 to 2, not {0}")]
+    TooManyObjects(usize),
+    /// A number of a start state is NaN or infinite.
+    #[error("{field} must hold finite numbers")]
+    NotFinite {
+        /// The field, such as `agents[0].start`.
+        field: String,
+    },
+    /// A body's origin lies outside the arena.
+    #[error("{field} must lie inside the arena (x 6 to 26, y 2 to 22), not at ({x}, {y})")]
+    OutsideArena {
+        /// The field.
+        field: String,
+        /// Where it lies instead (u).
+        x: f32,
+        /// Where it lies instead (u).
+        y: f32,
+    },
+    /// A goal names something the scene does not have.
+    #[error("agents[{agent}].goal names {what} {number}, but the scene has only {count}")]
+    GoalOfAbsent {
+        /// Whose goal.
+        agent: usize,
+        /// `agent`, `object` or `landmark`.
+        what: &'static str,
+        /// The number named.
+        number: u8,
+        /// How many there are.
+        count: usize,
+    },
+    /// A goal is about an agent touching itself.
+    #[error("agents[{agent}].goal: an agent cannot touch itself")]
+    TouchesItself {
+        /// Whose goal.
+        agent: usize,
+    },
+    /// Both agents are social.
+    #[error("at most one agent may have a social utility weight other than 0")]
+    BothSocial,
+    /// A helper's or hinderer's goal is not the other's.
+    #[error("agents[{agent}].goal of a {role} agent must be the other agent's goal{sign}")]
+    SocialGoal {
+        /// The social agent.
+        agent: usize,
+        /// `helping` or `hindering`.
+        role: &'static str,
+        /// What has to be done to the other's goal.
+        sign: &'static str,
+    },
+    /// Two bodies overlap at the start.
+    #[error("{first} and {second} overlap at the start")]
+    Overlap {
+        /// The one body.
+        first: String,
+        /// The other body, or a wall.
+        second: String,
+    },
+}
+
+impl Scene {
+    /// Checks everything a scene must satisfy to be simulated: finite starts inside the arena, goals about
+    /// things that are there, at most one social agent whose goal is the other's. Overlapping starts pass:
+    /// the physics pushes them apart, and some real recordings begin so.
+    ///
+    /// # Errors
+    /// The first rule that is broken.
+    pub fn validate(&self) -> Result<(), SceneError> {
+        if self.objects.len() > MAX_OBJECTS {
+            return Err(SceneError::TooManyObjects(self.objects.len()));
+        }
+        let state = self.initial_state();
+        for entity in self.physique().entities() {
+            let body = state.body(entity);
+            let field = format!("{}.start", field_name(entity));
+            if !body.is_finite() {
+                return Err(SceneError::NotFinite { field });
+            }
+            if !arena::contains(body.position) {
+                return Err(SceneError::OutsideArena { field, x: body.position.x, y: body.position.y });
+            }
+        }
+        for (agent, spec) in self.agents.iter().enumerate() {
+            check_goal(agent, spec.goal, self.objects.len())?;
+        }
+        check_attitudes(&self.agents)
+    }
+
+    /// The stricter check for scenes of our own making: [`Scene::validate`], and no body overlaps a wall,
+    /// the boundary or another body.
+    ///
+    /// # Errors
+    /// The first rule that is broken.
+    pub fn validate_apart(&self) -> Result<(), SceneError> {
+        self.validate()?;
+        let (physique, state) = (self.physique(), self.initial_state());
+        let outlines: Vec<(Entity, Outline)> = physique
+            .entities()
+            .map(|entity| (entity, Outline::of(&physique, entity, state.body(entity))))
+            .collect();
+        for (k, (entity, outline)) in outlines.iter().enumerate() {
+            let overlap = |second: String| SceneError::Overlap { first: field_name(*entity), second };
+            if !outline.inside_arena() || physique.walls.iter().any(|&wall| outline.overlaps_wall(wall)) {
+                return Err(overlap("a wall".into()));
+            }
+            if let Some((other, _)) = outlines[..k].iter().find(|(_, other)| outline.overlaps(other)) {
+                return Err(overlap(field_name(*other)));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The field an entity has in files, such as `agents[0]`.
+fn field_name(entity: Entity) -> String {
+    match entity {
+        Entity::Agent(agent) => format!("agents[{agent}]"),
+        Entity::Object(object) => format!("objects[{object}]"),
+    }
+}
+
+fn check_goal(agent: usize, goal: Goal, object_count: usize) -> Result<(), SceneError> {
+    let check = |what, number: u8, count: usize| {
+        if usize::from(number) < count {
+            Ok(())
+        } else {
+            Err(SceneError::GoalOfAbsent { agent, what, number, count })
+        }
+    };
+    match goal {
+        Goal::AgentOnLandmark { agent: who, landmark, .. } => {
+            check("agent", who, AGENT_COUNT)?;
+            check("landmark", landmark, arena::LANDMARKS.len())
+        }
+        Goal::ObjectOnLandmark { object, landmark, .. } => {
+            check("object", object, object_count)?;
+            check("landmark", landmark, arena::LANDMARKS.len())
+        }
+        Goal::Touch { agent: who, other, .. } => {
+            check("agent", who, AGENT_COUNT)?;
+            check("agent", other, AGENT_COUNT)?;
+            if who == other { Err(SceneError::TouchesItself { agent }) } else { Ok(()) }
+        }
+    }
+}
+
+fn check_attitudes(agents: &[AgentSpec; AGENT_COUNT]) -> Result<(), SceneError> {
+    if agents.iter().all(|agent| agent.attitude != Attitude::Neutral) {
+        return Err(SceneError::BothSocial);
+    }
+    for (agent, spec) in agents.iter().enumerate() {
+        let other = agents[1 - agent].goal;
+        let (expected, role, sign) = match spec.attitude {
+            Attitude::Neutral => continue,
+            Attitude::Help => (other, "helping", ""),
+            Attitude::Hinder => (other.negated(), "hindering", " with the opposite sign"),
+        };
+        if spec.goal != expected {
+            return Err(SceneError::SocialGoal { agent, role, sign });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,1 @@
+//! What a PHASE agent sees and feels: a conical field of view with occlusion, and touch.

@@ -1,0 +1,54 @@
+//! What a search found, and why.
+
+/// The chosen action with the evidence for it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Decision {
+    /// The action to take: the most visited at the root; among equals the one of greater value, then of
+    /// smaller index.
+    pub action: usize,
+    /// The evidence for every action, by action index.
+    pub actions: Vec<ActionValue>,
+    /// What the search cost.
+    pub effort: SearchEffort,
+}
+
+impl Decision {
+    /// Draws the conclusion from the evidence. `actions` has one entry per action and is not empty.
+    pub(crate) fn new(actions: Vec<ActionValue>, effort: SearchEffort) -> Self {
+        let mut action = 0;
+        for (candidate, evidence) in actions.iter().enumerate().skip(1) {
+            let best = actions[action];
+            let more_visited = evidence.visits > best.visits;
+            let as_visited_and_better = evidence.visits == best.visits && evidence.value > best.value;
+            if more_visited || as_visited_and_better {
+                action = candidate;
+            }
+        }
+        Self { action, actions, effort }
+    }
+
+    /// The mean return of the chosen action: the value of the belief under this search.
+    pub fn value(&self) -> f64 {
+        self.actions[self.action].value
+    }
+}
+
+/// What the simulations that began with one action found.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ActionValue {
+    /// How many simulations began with it.
+    pub visits: usize,
+    /// The mean of their discounted returns, in the reward's unit; 0 where there were none.
+    pub value: f64,
+}
+
+/// What one search cost.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct SearchEffort {
+    /// Histories in the tree at the end, the root among them.
+    pub histories: usize,
+    /// The longest way from the root that a simulation went by selection, in actions; rollouts not counted.
+    pub depth: usize,
+    /// Steps of the model, rollouts included.
+    pub steps: usize,
+}

@@ -1,0 +1,83 @@
+//! POMCP with PUCT over any generative model.
+//!
+//! A problem says what one step does ([`GenerativeModel`]); [`Pomcp`] looks ahead by simulating, from
+//! particles of a belief, and says what to do and why ([`Decision`]). The tree search is POMCP (Silver &
+//! Veness 2010), its selection the PUCT of AlphaZero (Silver et al. 2018) with the constants of the PHASE
+//! paper's appendix. It knows nothing of PHASE, of physics or of how beliefs are kept.
+//!
+//! ```
+//! use phase_pomcp::{GenerativeModel, Outcome, Pomcp, PomcpSettings};
+//! use rand::{Rng, RngExt, SeedableRng};
+//!
+//! /// A coin lies under one of two cups. Peeking costs a little, a right guess earns 1; a guess ends it.
+//! struct Cups;
+//!
+//! impl GenerativeModel for Cups {
+//!     type State = usize; // the cup
+//!     type Observation = Option<usize>; // the cup, if peeked
+//!
+//!     fn action_count(&self) -> usize {
+//!         3 // guess cup 0, guess cup 1, peek
+//!     }
+//!     fn discount(&self) -> f64 {
+//!         0.95
+//!     }
+//!     fn step(&self, cup: &mut usize, action: usize, _: &mut impl Rng) -> Outcome<Option<usize>> {
+//!         match action {
+//!             2 => Outcome { observation: Some(*cup), reward: -0.1, terminal: false },
+//!             guess => Outcome {
+//!                 observation: None,
+//!                 reward: if guess == *cup { 1.0 } else { 0.0 },
+//!                 terminal: true,
+//!             },
+//!         }
+//!     }
+//! }
+//!
+//! let mut random = rand_pcg::Pcg32::seed_from_u64(1);
+//! let mut pomcp = Pomcp::new(PomcpSettings::default())?;
+//! let unsure = pomcp.search(&Cups, &[0, 1], &mut random)?;
+//! assert_eq!(unsure.action, 2); // peek: −0.1 + 0.95 × 1 beats a guess's 0.5
+//! let sure = pomcp.search(&Cups, &[1], &mut random)?;
+//! assert_eq!(sure.action, 1);
+//! # Ok::<(), phase_pomcp::PomcpError>(())
+//! ```
+//!
+//! # The one key decision
+//!
+//! The tree branches on histories of own actions **and observations**, compared by equality, and holds no
+//! states. So a plan can react to what it will see, which is what makes looking worth its cost, and the whole
+//! tree is three flat vectors of a few words per node that are reused from search to search.
+//!
+//! The price: the model must give observations coarse enough for simulations to meet again, for the tree
+//! cannot tell near from far; branches of an action are searched one after another, fine for dozens and slow
+//! for thousands; and a search starts afresh, as updating the belief by the particles of a subtree, which
+//! POMCP offers, is left to whoever keeps the belief.
+//!
+//! # Determinism
+//!
+//! A search is a function of its settings, model, particles and generator, to the last bit: nothing iterates
+//! over hashes, nothing reads a clock, and the logarithm is that of the `libm` crate on every platform.
+//!
+//! # Where it departs from the sources
+//!
+//! PUCT is undefined for actions never tried while the parent has no visits: here every action of a history
+//! is tried once, in random order, before they are compared. Values are mapped to 0..1 by the extremes in the
+//! tree before they are compared, see [`PomcpSettings::normalise_values`].
+
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+
+mod decision;
+mod error;
+mod model;
+pub mod puct;
+mod search;
+mod settings;
+mod tree;
+
+pub use decision::{ActionValue, Decision, SearchEffort};
+pub use error::PomcpError;
+pub use model::{GenerativeModel, Outcome};
+pub use search::Pomcp;
+pub use settings::PomcpSettings;

@@ -1,0 +1,44 @@
+//! Which action to try next: PUCT, and the scale it sees values on.
+
+use crate::PomcpSettings;
+
+/// The exploration factor shared by all actions of one history that has been visited `visits` times:
+/// `(ln((1 + N + c_base) / c_base) + c_init) · √N` (Silver et al. 2018).
+pub fn exploration(settings: &PomcpSettings, visits: u32) -> f64 {
+    let visits = f64::from(visits);
+    let rate = libm::log((1.0 + visits + settings.c_base) / settings.c_base) + settings.c_init;
+    rate * visits.sqrt()
+}
+
+/// The PUCT score `Q(a) + P(a) · exploration / (1 + n(a))` of an action of value `value` and prior `prior`
+/// that was chosen `visits` times; `exploration` is [`exploration`] of its history.
+pub fn score(value: f64, prior: f64, exploration: f64, visits: u32) -> f64 {
+    value + prior * exploration / (1.0 + f64::from(visits))
+}
+
+/// The smallest and the greatest mean value that any action in the tree has had so far.
+///
+/// Means, not single returns, as in MuZero: the scale is to tell actions apart, and one unlucky rollout deep
+/// in an average would only squeeze them together.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ValueRange {
+    min: f64,
+    max: f64,
+}
+
+impl ValueRange {
+    /// The range of no values.
+    pub const EMPTY: Self = Self { min: f64::INFINITY, max: f64::NEG_INFINITY };
+
+    /// Widens the range to hold `value`.
+    pub fn include(&mut self, value: f64) {
+        self.min = self.min.min(value);
+        self.max = self.max.max(value);
+    }
+
+    /// Maps a value within the range to 0..=1; to 0 where the range is a single value or empty, since then
+    /// nothing distinguishes one action from another.
+    pub fn normalise(&self, value: f64) -> f64 {
+        if self.max > self.min { (value - self.min) / (self.max - self.min) } else { 0.0 }
+    }
+}

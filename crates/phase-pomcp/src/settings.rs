@@ -1,0 +1,66 @@
+//! The few numbers a search is tuned with.
+
+use crate::PomcpError;
+
+/// How much to search, and how.
+///
+/// The defaults are those of the PHASE paper's appendix: 1000 simulations, 10 rollout steps, c_init 1.25 and
+/// c_base 1000.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PomcpSettings {
+    /// Simulations per search, one or more; each grows the tree by at most one history.
+    pub simulations: usize,
+    /// Steps of the default policy played from a newly grown leaf. Zero values a leaf by
+    /// [`value_estimate`](crate::GenerativeModel::value_estimate) alone.
+    pub rollout_steps: usize,
+    /// The exploration rate of PUCT at few visits; finite, zero or more.
+    pub c_init: f64,
+    /// The number of visits on the scale of which the exploration rate starts to grow; finite, above zero.
+    pub c_base: f64,
+    /// The greatest number of steps from the root that a simulation takes, tree and rollout together; one or
+    /// more. With it the search solves the problem of exactly that many steps. [`usize::MAX`], the default,
+    /// is no bound: every simulation goes to its leaf and `rollout_steps` beyond.
+    pub horizon: usize,
+    /// Whether selection first maps values to 0..1 by the smallest and greatest value in the tree, as MuZero
+    /// does (Schrittwieser et al. 2020, appendix B).
+    ///
+    /// PUCT adds an exploration term of order one to the value, which is meant for values in 0..1. Where a
+    /// step earns 0.01, say, an unscaled value would never be heard over that term and the search would
+    /// spread evenly over all actions; where it earns 100, the term would never be heard. Reported values are
+    /// never mapped.
+    pub normalise_values: bool,
+}
+
+impl Default for PomcpSettings {
+    fn default() -> Self {
+        Self {
+            simulations: 1000,
+            rollout_steps: 10,
+            c_init: 1.25,
+            c_base: 1000.0,
+            horizon: usize::MAX,
+            normalise_values: true,
+        }
+    }
+}
+
+impl PomcpSettings {
+    /// Checks every number against its stated range.
+    ///
+    /// # Errors
+    /// [`PomcpError::ZeroSimulations`], [`PomcpError::ZeroHorizon`] or [`PomcpError::InvalidExploration`].
+    pub fn validate(&self) -> Result<(), PomcpError> {
+        if self.simulations == 0 {
+            return Err(PomcpError::ZeroSimulations);
+        }
+        if self.horizon == 0 {
+            return Err(PomcpError::ZeroHorizon);
+        }
+        let init_is_fine = self.c_init.is_finite() && self.c_init >= 0.0;
+        let base_is_fine = self.c_base.is_finite() && self.c_base > 0.0;
+        if !(init_is_fine && base_is_fine) {
+            return Err(PomcpError::InvalidExploration { c_init: self.c_init, c_base: self.c_base });
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,174 @@
+//! The search tree as three flat vectors that are cleared, never freed, between searches.
+
+use rand::{Rng, RngExt};
+
+use crate::PomcpSettings;
+use crate::puct::{self, ValueRange};
+
+/// The index of a history in its tree.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct HistoryId(u32);
+
+/// The index of an action after a history.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct ActionId(u32);
+
+impl HistoryId {
+    /// The history of nothing done and nothing seen yet.
+    pub(crate) const ROOT: Self = Self(0);
+}
+
+/// Histories of own actions and observations, with what was earned after them.
+///
+/// The caller sees to it that histories × actions stays within 32 bits.
+#[derive(Debug, Clone)]
+pub(crate) struct Tree<O> {
+    histories: Vec<History>,
+    actions: Vec<Action>,
+    branches: Vec<Branch<O>>,
+}
+
+/// A point reached by acting and observing. Its actions lie side by side; they are added when the history is
+/// reached for the second time, since most leaves never are.
+#[derive(Debug, Clone, Copy)]
+struct History {
+    visits: u32,
+    first_action: u32,
+    action_count: u32,
+    untried: u32,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Action {
+    visits: u32,
+    /// The newest of the branches grown after this action, or [`NONE`].
+    branch: u32,
+    value: f64,
+    prior: f64,
+}
+
+/// An observation made after an action, and the history it leads to. An action's branches form a chain, so
+/// that growing one moves no other and needs no vector of its own.
+#[derive(Debug, Clone)]
+struct Branch<O> {
+    observation: O,
+    child: u32,
+    next: u32,
+}
+
+const NONE: u32 = u32::MAX;
+
+impl<O: Eq> Tree<O> {
+    pub(crate) fn new() -> Self {
+        Self { histories: Vec::new(), actions: Vec::new(), branches: Vec::new() }
+    }
+
+    /// Cuts the tree back to an untouched root.
+    pub(crate) fn reset(&mut self) {
+        self.histories.clear();
+        self.actions.clear();
+        self.branches.clear();
+        self.histories.push(History::LEAF);
+    }
+
+    pub(crate) fn history_count(&self) -> usize {
+        self.histories.len()
+    }
+
+    pub(crate) fn has_actions(&self, history: HistoryId) -> bool {
+        self.histories[history.0 as usize].action_count > 0
+    }
+
+    /// Gives a leaf its actions, with the weights that make up their priors. `sum` is the weights' sum.
+    pub(crate) fn add_actions(&mut self, history: HistoryId, weights: impl Iterator<Item = f64>, sum: f64) {
+        let first_action = self.actions.len();
+        self.actions.extend(weights.map(|weight| Action {
+            visits: 0,
+            branch: NONE,
+            value: 0.0,
+            prior: weight / sum,
+        }));
+        let action_count = (self.actions.len() - first_action) as u32;
+        self.histories[history.0 as usize] =
+            History { visits: 0, first_action: first_action as u32, action_count, untried: action_count };
+    }
+
+    /// Which action to try next after a history that has actions: while there are actions never tried, one
+    /// of them, drawn evenly; afterwards the one of greatest PUCT score, of smallest index among equals.
+    pub(crate) fn select(
+        &self,
+        history: HistoryId,
+        settings: &PomcpSettings,
+        range: &ValueRange,
+        random: &mut impl Rng,
+    ) -> usize {
+        let node = &self.histories[history.0 as usize];
+        let actions = self.actions_of(node);
+        if node.untried > 0 {
+            let drawn = random.random_range(0..node.untried) as usize;
+            let mut untried = actions.iter().enumerate().filter(|(_, action)| action.visits == 0);
+            return untried.nth(drawn).map_or(0, |(index, _)| index);
+        }
+        let exploration = puct::exploration(settings, node.visits);
+        let mut best = (0, f64::NEG_INFINITY);
+        for (index, action) in actions.iter().enumerate() {
+            let value = if settings.normalise_values { range.normalise(action.value) } else { action.value };
+            let score = puct::score(value, action.prior, exploration, action.visits);
+            if score > best.1 {
+                best = (index, score);
+            }
+        }
+        best.0
+    }
+
+    /// The node of one of a history's actions.
+    pub(crate) fn action(&self, history: HistoryId, action: usize) -> ActionId {
+        ActionId(self.histories[history.0 as usize].first_action + action as u32)
+    }
+
+    /// The history that an observation after an action leads to, and whether it had to be grown.
+    pub(crate) fn child(&mut self, action: ActionId, observation: O) -> (HistoryId, bool) {
+        let newest = self.actions[action.0 as usize].branch;
+        let mut next = newest;
+        while next != NONE {
+            let branch = &self.branches[next as usize];
+            if branch.observation == observation {
+                return (HistoryId(branch.child), false);
+            }
+            next = branch.next;
+        }
+        let child = self.histories.len() as u32;
+        self.histories.push(History::LEAF);
+        self.actions[action.0 as usize].branch = self.branches.len() as u32;
+        self.branches.push(Branch { observation, child, next: newest });
+        (HistoryId(child), true)
+    }
+
+    /// Counts one more visit that earned `value` from here on, and returns the action's new mean.
+    pub(crate) fn record(&mut self, history: HistoryId, action: ActionId, value: f64) -> f64 {
+        let node = &mut self.histories[history.0 as usize];
+        let action = &mut self.actions[action.0 as usize];
+        if action.visits == 0 {
+            node.untried -= 1;
+        }
+        node.visits += 1;
+        action.visits += 1;
+        action.value += (value - action.value) / f64::from(action.visits);
+        action.value
+    }
+
+    /// Visits and mean value of each of a history's actions.
+    pub(crate) fn evidence(&self, history: HistoryId) -> impl Iterator<Item = (u32, f64)> {
+        let actions = self.actions_of(&self.histories[history.0 as usize]);
+        actions.iter().map(|action| (action.visits, action.value))
+    }
+
+    fn actions_of(&self, node: &History) -> &[Action] {
+        let first = node.first_action as usize;
+        &self.actions[first..first + node.action_count as usize]
+    }
+}
+
+impl History {
+    const LEAF: Self = Self { visits: 0, first_action: 0, action_count: 0, untried: 0 };
+}

@@ -1,0 +1,1 @@
+//! On, Touch, Attach and Close: from physical to symbolic PHASE states.

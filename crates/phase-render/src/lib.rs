@@ -1,0 +1,1 @@
+//! PHASE events as frames and video.

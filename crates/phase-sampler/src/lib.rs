@@ -1,0 +1,1 @@
+//! Scenes for every kind of PHASE event.

@@ -1,0 +1,1 @@
+//! Two PHASE agents and a world make a social event.

@@ -1,0 +1,3 @@
+//! The PHASE command line.
+
+fn main() {}
