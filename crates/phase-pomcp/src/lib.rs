@@ -74,6 +74,7 @@ mod model;
 pub mod puct;
 mod search;
 mod settings;
+mod simulation;
 mod tree;
 
 pub use decision::{ActionValue, Decision, SearchEffort};

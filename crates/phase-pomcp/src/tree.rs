@@ -2,8 +2,8 @@
 
 use rand::{Rng, RngExt};
 
-use crate::PomcpSettings;
 use crate::puct::{self, ValueRange};
+use crate::{PomcpError, PomcpSettings};
 
 /// The index of a history in its tree.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -79,18 +79,33 @@ impl<O: Eq> Tree<O> {
         self.histories[history.0 as usize].action_count > 0
     }
 
-    /// Gives a leaf its actions, with the weights that make up their priors. `sum` is the weights' sum.
-    pub(crate) fn add_actions(&mut self, history: HistoryId, weights: impl Iterator<Item = f64>, sum: f64) {
-        let first_action = self.actions.len();
-        self.actions.extend(weights.map(|weight| Action {
-            visits: 0,
-            branch: NONE,
-            value: 0.0,
-            prior: weight / sum,
-        }));
-        let action_count = (self.actions.len() - first_action) as u32;
+    /// Gives a leaf its actions, whose priors are proportional to `weights`.
+    pub(crate) fn add_actions(
+        &mut self,
+        history: HistoryId,
+        weights: impl Iterator<Item = f64>,
+    ) -> Result<(), PomcpError> {
+        let first = self.actions.len();
+        let (mut last, mut sum) = (0.0, 0.0_f64);
+        for weight in weights {
+            last = weight;
+            sum += weight;
+            if weight.is_nan() || weight < 0.0 || sum.is_infinite() {
+                return Err(PomcpError::InvalidPrior { weight, sum });
+            }
+            self.actions.push(Action { visits: 0, branch: NONE, value: 0.0, prior: weight });
+        }
+        if sum <= 0.0 {
+            return Err(PomcpError::InvalidPrior { weight: last, sum });
+        }
+        let added = &mut self.actions[first..];
+        for action in added.iter_mut() {
+            action.prior /= sum;
+        }
+        let action_count = added.len() as u32;
         self.histories[history.0 as usize] =
-            History { visits: 0, first_action: first_action as u32, action_count, untried: action_count };
+            History { visits: 0, first_action: first as u32, action_count, untried: action_count };
+        Ok(())
     }
 
     /// Which action to try next after a history that has actions: while there are actions never tried, one

@@ -1,0 +1,40 @@
+//! Why an agent did what it did, for the event record and for pictures.
+
+use phase_model::Action;
+use phase_planner::Subgoal;
+use serde::{Deserialize, Serialize};
+
+/// A subgoal that some particles proposed, and what the high level made of it.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+pub struct SubgoalValue {
+    /// The subgoal.
+    pub subgoal: Subgoal,
+    /// V(B, h, g) of the paper: share of particles minus λ times their mean cost.
+    pub value: f64,
+    /// How many particles propose it.
+    pub particles: usize,
+}
+
+/// What the low level found out about one action at the root of its search.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+pub struct ActionValue {
+    /// The action.
+    pub action: Action,
+    /// Simulations that began with it.
+    pub visits: u32,
+    /// Mean discounted return of those.
+    pub value: f64,
+}
+
+/// One decision of one agent, explained.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+pub struct Thought {
+    /// The subgoal pursued.
+    pub subgoal: Subgoal,
+    /// All subgoals proposed, the most valuable first.
+    pub subgoals: Vec<SubgoalValue>,
+    /// The symbolic plan of the first particle that agrees with the subgoal, own subgoals only, in order.
+    pub plan: Vec<Subgoal>,
+    /// Every action searched, in the order of the action set; empty where no search was needed.
+    pub actions: Vec<ActionValue>,
+}

@@ -1,0 +1,122 @@
+//! One simulation: down the tree, one history more, a rollout, and back up.
+
+use rand::Rng;
+
+use crate::puct::ValueRange;
+use crate::tree::{ActionId, HistoryId, Tree};
+use crate::{GenerativeModel, Outcome, PomcpError, PomcpSettings};
+
+/// What the simulations of one search share.
+pub(crate) struct Simulation<'a, M: GenerativeModel> {
+    pub(crate) model: &'a M,
+    pub(crate) settings: &'a PomcpSettings,
+    pub(crate) action_count: usize,
+    pub(crate) discount: f64,
+    pub(crate) tree: &'a mut Tree<M::Observation>,
+    pub(crate) path: &'a mut Vec<PathStep>,
+    pub(crate) range: ValueRange,
+    /// The longest path so far.
+    pub(crate) depth: usize,
+    /// Steps of the model so far.
+    pub(crate) steps: usize,
+}
+
+/// One step that a simulation took inside the tree.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PathStep {
+    history: HistoryId,
+    action: ActionId,
+    reward: f64,
+}
+
+/// Returns up to this size can be averaged, and their differences taken, without overflow.
+const RETURN_LIMIT: f64 = f64::MAX / 4.0;
+
+impl<M: GenerativeModel> Simulation<'_, M> {
+    /// Runs one simulation from `state`, which it uses up.
+    pub(crate) fn run(&mut self, state: &mut M::State, random: &mut impl Rng) -> Result<(), PomcpError> {
+        let rest = self.descend(state, random)?;
+        self.depth = self.depth.max(self.path.len());
+        self.back_up(rest)
+    }
+
+    /// Follows the tree down to its edge, leaving the way in `path`, and returns what was earned beyond it.
+    fn descend(&mut self, state: &mut M::State, random: &mut impl Rng) -> Result<f64, PomcpError> {
+        self.path.clear();
+        let mut history = HistoryId::ROOT;
+        loop {
+            if !self.tree.has_actions(history) {
+                let weights = (0..self.action_count).map(|action| self.model.prior_weight(state, action));
+                self.tree.add_actions(history, weights)?;
+            }
+            let chosen = self.tree.select(history, self.settings, &self.range, random);
+            let action = self.tree.action(history, chosen);
+            let outcome = self.step(state, chosen, random)?;
+            self.path.push(PathStep { history, action, reward: outcome.reward });
+            if outcome.terminal {
+                return Ok(0.0);
+            }
+            if self.path.len() >= self.settings.horizon {
+                return self.estimate(state);
+            }
+            let (child, is_new) = self.tree.child(action, outcome.observation);
+            if is_new {
+                return self.roll_out(state, random);
+            }
+            history = child;
+        }
+    }
+
+    /// The discounted return of the default policy from `state` on.
+    fn roll_out(&mut self, state: &mut M::State, random: &mut impl Rng) -> Result<f64, PomcpError> {
+        let action_count = self.action_count;
+        let steps_left = self.settings.horizon - self.path.len();
+        let (mut total, mut weight) = (0.0, 1.0);
+        for _ in 0..self.settings.rollout_steps.min(steps_left) {
+            let action = self.model.rollout_action(state, random);
+            if action >= action_count {
+                return Err(PomcpError::RolloutActionOutOfRange { action, action_count });
+            }
+            let outcome = self.step(state, action, random)?;
+            total += weight * outcome.reward;
+            weight *= self.discount;
+            if outcome.terminal {
+                return Ok(total);
+            }
+        }
+        Ok(total + weight * self.estimate(state)?)
+    }
+
+    fn step(
+        &mut self,
+        state: &mut M::State,
+        action: usize,
+        random: &mut impl Rng,
+    ) -> Result<Outcome<M::Observation>, PomcpError> {
+        self.steps += 1;
+        let outcome = self.model.step(state, action, random);
+        if !outcome.reward.is_finite() {
+            return Err(PomcpError::NonFiniteReward { action, reward: outcome.reward });
+        }
+        Ok(outcome)
+    }
+
+    fn estimate(&self, state: &M::State) -> Result<f64, PomcpError> {
+        let estimate = self.model.value_estimate(state);
+        if estimate.is_finite() { Ok(estimate) } else { Err(PomcpError::NonFiniteEstimate { estimate }) }
+    }
+
+    /// Averages what was earned from each step of the path on into that step's action, the last step first.
+    fn back_up(&mut self, rest: f64) -> Result<(), PomcpError> {
+        let mut value = rest;
+        for step in self.path.iter().rev() {
+            value = step.reward + self.discount * value;
+            if value.is_nan() || value.abs() > RETURN_LIMIT {
+                return Err(PomcpError::ReturnOverflow { value });
+            }
+            let mean = self.tree.record(step.history, step.action, value);
+            self.range.include(mean);
+        }
+        Ok(())
+    }
+}
