@@ -1,1 +1,54 @@
 //! PHASE events as frames and video.
+//!
+//! A [`Stage`] knows what does not change in an event (walls, landmarks, radii, colours) and turns each
+//! [`phase_model::State`] into a [`Frame`]; a [`VideoEncoder`] turns frames into an H.264 .mp4 that browsers
+//! play and seek in. With an [`Overlay`] a frame also shows what one agent sees and believes.
+//!
+//! The key design decision is that the pixels are the whole interface: drawing and encoding meet in a
+//! [`Frame`] and know nothing of each other, and neither touches a file or a clock. Everything is drawn and
+//! encoded on one thread in a fixed order, so the same states make the same bytes. The price is that a frame
+//! costs a full picture in memory, and that one video cannot use more than one core; many videos can.
+//!
+//! ```
+//! use phase_model::{AgentBody, Body, Physique, State, Vec2};
+//! use phase_render::{Stage, Style, VideoEncoder};
+//!
+//! let agent = AgentBody { radius: 0.8, max_force: 300.0 };
+//! let physique = Physique { walls: vec![], agents: [agent; 2], object_radii: [0.0; 2], object_count: 0 };
+//! let stage = Stage::new(&physique, Style::default())?;
+//! let mut video = VideoEncoder::new(Vec::new(), stage.width(), stage.height(), 20)?;
+//! for tick in 0..3 {
+//!     let mut state = State::new([Body::default(); 4]);
+//!     state.bodies[0] = Body::at_rest(Vec2::new(10.0 + tick as f32, 8.0), 0.0);
+//!     state.bodies[1] = Body::at_rest(Vec2::new(20.0, 16.0), 1.0);
+//!     video.push(&stage.frame(&state, None))?;
+//! }
+//! let mp4: Vec<u8> = video.finish()?;
+//! assert_eq!(&mp4[4..8], b"ftyp");
+//! # Ok::<(), phase_render::RenderError>(())
+//! ```
+
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+
+pub mod error;
+pub mod font;
+pub mod frame;
+pub mod overlay;
+pub mod sheet;
+pub mod stage;
+pub mod style;
+pub mod video;
+pub mod yuv;
+
+mod bodies;
+mod painter;
+mod text;
+
+pub use error::RenderError;
+pub use frame::Frame;
+pub use overlay::Overlay;
+pub use sheet::contact_sheet;
+pub use stage::Stage;
+pub use style::{Colour, Palette, Style};
+pub use video::VideoEncoder;

@@ -1,0 +1,80 @@
+//! A fully observed walk whose optimal values have a closed form.
+
+use phase_pomcp::{Decision, GenerativeModel, Outcome, Pomcp, PomcpSettings};
+use rand::{Rng, RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+
+const FORWARD: usize = 0;
+const BACK: usize = 1;
+
+/// A walk on 0, 1, 2, … that ends at 0 and earns 1 there. Going back always works, going forward only with a
+/// certain probability, else one stays.
+struct Chain {
+    success: f64,
+}
+
+impl GenerativeModel for Chain {
+    type State = u32;
+    type Observation = u32;
+
+    fn action_count(&self) -> usize {
+        2
+    }
+
+    fn discount(&self) -> f64 {
+        0.9
+    }
+
+    fn step(&self, distance: &mut u32, action: usize, random: &mut impl Rng) -> Outcome<u32> {
+        if action == BACK {
+            *distance += 1;
+        } else if random.random_bool(self.success) {
+            *distance -= 1;
+        }
+        let terminal = *distance == 0;
+        Outcome { observation: *distance, reward: f64::from(terminal), terminal }
+    }
+}
+
+impl Chain {
+    /// The optimal values of going forward and back. Always going forward is optimal, and a step towards the
+    /// goal then takes a geometric time, so V(d) = x^d / γ with x = γp / (1 − γ(1 − p)).
+    fn exact(&self, distance: i32) -> [f64; 2] {
+        let discount = self.discount();
+        let x = discount * self.success / (1.0 - discount * (1.0 - self.success));
+        [x.powi(distance) / discount, x.powi(distance + 1)]
+    }
+
+    fn decide(&self, distance: u32, simulations: usize) -> Decision {
+        let settings = PomcpSettings { simulations, ..PomcpSettings::default() };
+        let mut pomcp = Pomcp::new(settings).unwrap();
+        pomcp.search(self, &[distance], &mut Pcg64Mcg::seed_from_u64(7)).unwrap()
+    }
+}
+
+#[test]
+fn root_values_converge_to_the_closed_form() {
+    for (success, distance) in [(1.0, 1), (1.0, 3), (1.0, 5), (0.7, 1), (0.7, 2), (0.7, 3)] {
+        let chain = Chain { success };
+        let exact = chain.exact(distance as i32);
+        let errors = [300, 3000, 30_000].map(|simulations| {
+            let decision = chain.decide(distance, simulations);
+            assert_eq!(decision.action, FORWARD, "success {success}, distance {distance}: {decision:?}");
+            let back = decision.actions[BACK].value - exact[BACK];
+            assert!(back < 0.02, "going back cannot be worth more than {}: {decision:?}", exact[BACK]);
+            (decision.value() - exact[FORWARD]).abs()
+        });
+        assert!(errors[2] < 0.025, "success {success}, distance {distance}: errors {errors:?}");
+        // One step from the goal there is nothing left to learn, and the error is chance alone.
+        if distance > 1 {
+            assert!(errors[2] < 0.5 * errors[0], "success {success}, distance {distance}: errors {errors:?}");
+        }
+    }
+}
+
+#[test]
+fn a_certain_last_step_is_valued_exactly() {
+    let decision = Chain { success: 1.0 }.decide(1, 100);
+    assert_eq!(decision.actions[FORWARD].value, 1.0);
+    assert_eq!(decision.value(), 1.0);
+}

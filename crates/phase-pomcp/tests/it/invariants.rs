@@ -1,0 +1,124 @@
+//! What holds for every search of every problem.
+
+use phase_pomcp::{GenerativeModel, Outcome, Pomcp, PomcpSettings};
+use proptest::prelude::*;
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+
+/// A problem whose transitions, observations and rewards are arbitrary but fixed, with some chance mixed in.
+#[derive(Debug, Clone)]
+struct Arbitrary {
+    seed: u64,
+    states: u64,
+    actions: usize,
+    observations: u64,
+    discount: f64,
+    rewards: (f64, f64),
+    ends: f64,
+}
+
+impl GenerativeModel for Arbitrary {
+    type State = u64;
+    type Observation = u64;
+
+    fn action_count(&self) -> usize {
+        self.actions
+    }
+
+    fn discount(&self) -> f64 {
+        self.discount
+    }
+
+    fn step(&self, state: &mut u64, action: usize, random: &mut impl rand::Rng) -> Outcome<u64> {
+        let key = self.seed ^ (*state << 32) ^ ((action as u64) << 16) ^ random.random_range(0..3);
+        let mut fixed = Pcg64Mcg::seed_from_u64(key);
+        *state = fixed.random_range(0..self.states);
+        let (low, high) = self.rewards;
+        Outcome {
+            observation: fixed.random_range(0..self.observations),
+            reward: low + (high - low) * fixed.random::<f64>(),
+            terminal: fixed.random_bool(self.ends),
+        }
+    }
+}
+
+fn problem() -> impl Strategy<Value = Arbitrary> {
+    let sizes = (any::<u64>(), 1..5_u64, 1..6_usize, 1..6_u64);
+    let rewards = (-100.0..100.0_f64, 0.0..100.0_f64);
+    let numbers = (0.0..=1.0_f64, rewards, prop_oneof![Just(0.0), 0.0..0.5_f64]);
+    (sizes, numbers).prop_map(|((seed, states, actions, observations), (discount, (low, span), ends))| {
+        Arbitrary { seed, states, actions, observations, discount, rewards: (low, low + span), ends }
+    })
+}
+
+fn settings() -> impl Strategy<Value = PomcpSettings> {
+    let horizon = prop_oneof![1..20_usize, Just(usize::MAX)];
+    (1..300_usize, 0..15_usize, 0.0..3.0_f64, 1.0..1e4_f64, horizon, any::<bool>()).prop_map(
+        |(simulations, rollout_steps, c_init, c_base, horizon, normalise_values)| PomcpSettings {
+            simulations,
+            rollout_steps,
+            c_init,
+            c_base,
+            horizon,
+            normalise_values,
+        },
+    )
+}
+
+proptest! {
+    #[test]
+    fn evidence_adds_up(problem in problem(), settings in settings(), seed: u64, other_seed: u64) {
+        let roots: Vec<u64> = (0..problem.states).collect();
+        let mut pomcp = Pomcp::new(settings).unwrap();
+        let mut random = Pcg64Mcg::seed_from_u64(seed);
+        let decision = pomcp.search(&problem, &roots, &mut random).unwrap();
+
+        prop_assert_eq!(decision.actions.len(), problem.actions);
+        prop_assert_eq!(decision.actions.iter().map(|action| action.visits).sum::<usize>(), settings.simulations);
+        let most = decision.actions.iter().map(|action| action.visits).max();
+        prop_assert_eq!(Some(decision.actions[decision.action].visits), most);
+        prop_assert!(most > Some(0));
+
+        // A return is at most the best reward at every step there can have been, and at least the worst.
+        let effort = decision.effort;
+        let longest = (effort.depth + settings.rollout_steps).min(settings.horizon);
+        let weights: f64 = (0..longest).map(|step| problem.discount.powi(step as i32)).sum();
+        let (low, high) = (problem.rewards.0.min(0.0) * weights, problem.rewards.1.max(0.0) * weights);
+        for action in decision.actions.iter().filter(|action| action.visits > 0) {
+            prop_assert!((low - 1e-6..=high + 1e-6).contains(&action.value), "{:?}", action);
+        }
+
+        prop_assert!((1..=settings.simulations + 1).contains(&effort.histories));
+        prop_assert!((1..=settings.simulations.min(settings.horizon)).contains(&effort.depth));
+        prop_assert!(effort.steps >= settings.simulations);
+        prop_assert!(effort.steps <= settings.simulations * longest);
+
+        // The same again is the same to the last bit, and so is what it leaves of the generator, whether the
+        // memory is fresh or was used for something else.
+        let mut again = Pcg64Mcg::seed_from_u64(seed);
+        let fresh = Pomcp::new(settings).unwrap().search(&problem, &roots, &mut again).unwrap();
+        prop_assert_eq!(&fresh, &decision);
+        prop_assert_eq!(&again, &random);
+        pomcp.search(&problem, &roots[..1], &mut Pcg64Mcg::seed_from_u64(other_seed)).unwrap();
+        let mut reused = Pcg64Mcg::seed_from_u64(seed);
+        prop_assert_eq!(&pomcp.search(&problem, &roots, &mut reused).unwrap(), &decision);
+        prop_assert_eq!(&reused, &random);
+    }
+}
+
+/// The seed decides: were it ignored, the determinism above would mean nothing.
+#[test]
+fn another_seed_is_another_search() {
+    let problem = Arbitrary {
+        seed: 4,
+        states: 3,
+        actions: 3,
+        observations: 3,
+        discount: 0.9,
+        rewards: (-1.0, 1.0),
+        ends: 0.0,
+    };
+    let mut pomcp = Pomcp::new(PomcpSettings::default()).unwrap();
+    let mut search = |seed| pomcp.search(&problem, &[0, 1, 2], &mut Pcg64Mcg::seed_from_u64(seed)).unwrap();
+    assert_ne!(search(1), search(2));
+}

@@ -4,5 +4,6 @@ mod chain;
 mod errors;
 mod invariants;
 mod puct;
+mod returns;
 mod tiger;
 mod tiger_problem;

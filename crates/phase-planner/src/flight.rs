@@ -1,0 +1,56 @@
+//! Getting away from the other agent.
+
+use crate::{
+    plan::{self, Plan},
+    situation::{Situation, Spot},
+};
+use phase_model::{Entity, arena, layout::room_of};
+use phase_predicates::Predicate;
+
+/// What a room must offer over staying put before it is worth running for (u).
+const WORTHWHILE: f32 = 2.0;
+/// How much of its own way the fleeing agent sets against the distance gained.
+const EFFORT: f32 = 0.5;
+/// Further away than this by way of doors, nobody need run (u).
+const SAFE: f32 = 20.0;
+
+/// Where to run: of the four rooms and the present spot, the one that puts most distance between the two,
+/// provided the fleeing agent is nearer to every door on the way than its pursuer.
+#[must_use]
+pub fn plan(situation: &Situation<'_>, agent: usize) -> Plan {
+    let (me, other) = (Entity::agent(agent), Entity::agent(1 - agent));
+    let (here, there) = (situation.state.position(me), situation.state.position(other));
+    let apart = |from, to, who: usize| {
+        situation.routes.cost(from, to, situation.width(who, None), situation.gaps(who, 0b11))
+    };
+    let present = apart(there, here, 1 - agent);
+    let mut best = Plan { subgoals: vec![plan::not(Predicate::Touch(agent as u8, other))], distance: 0.0 };
+    if present > SAFE && room_of(here) != room_of(there) {
+        return plan::let_go(situation, agent);
+    }
+    let mut best_gain = present + WORTHWHILE;
+    let width = situation.width(agent, None);
+    for landmark in 0..arena::LANDMARKS.len() as u8 {
+        let refuge = situation.position(Spot::Landmark(landmark));
+        if room_of(here) == usize::from(landmark) {
+            continue;
+        }
+        let Some(route) = situation.routes.best(here, refuge, width, situation.gaps(agent, 0b11)) else {
+            continue;
+        };
+        let reachable = route.impassable == 0
+            && route
+                .doors()
+                .iter()
+                .all(|&(_, door)| apart(here, door, agent) + 1.0 < apart(there, door, 1 - agent));
+        let gain = apart(there, refuge, 1 - agent) - EFFORT * route.length;
+        if reachable && gain > best_gain {
+            best_gain = gain;
+            let mut subgoals = Vec::new();
+            plan::rooms(&route, here, refuge, me, &mut subgoals);
+            subgoals.push(plan::not(Predicate::Touch(agent as u8, other)));
+            best = Plan { subgoals, distance: route.length };
+        }
+    }
+    best
+}

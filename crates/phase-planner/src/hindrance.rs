@@ -1,0 +1,234 @@
+//! Keeping the other agent from its goal.
+//!
+//! The hinderer asks, for everything it could bring about, how much the other's best plan would then cost,
+//! and weighs that against its own way. The other's cost is A*'s, so the hinderer knows what the other
+//! knows of doors, widths and strengths.
+
+use crate::{
+    plan::{self, Plan},
+    routes::Gaps,
+    search,
+    situation::{Situation, Spot, obstruct},
+    task::{Node, Task},
+};
+use phase_model::{Entity, Goal, Vec2, arena, layout::room_of};
+use phase_predicates::{Place, Predicate, achieved};
+
+/// How much of its own way the hinderer sets against the other's cost.
+const EFFORT: f32 = 0.4;
+/// Greatest effect that counts (u): whatever makes the goal impossible is as good as anything else that does.
+const GREATEST_EFFECT: f32 = 80.0;
+/// What standing in the way is worth where no door can be blocked (u).
+const IN_THE_WAY: f32 = 8.0;
+/// How much later than the other the hinderer may be at a door and still hope to close it (u).
+const LATE: f32 = 1.0;
+
+/// The most harmful thing an agent can do to a goal of the other. A negated goal is hindered by bringing its
+/// positive about.
+#[must_use]
+pub fn plan(situation: &Situation<'_>, agent: usize, goal: Goal) -> Plan {
+    let mut candidates = match goal {
+        Goal::AgentOnLandmark { landmark, .. } => keep_agent_off(situation, agent, goal, landmark),
+        Goal::ObjectOnLandmark { object, landmark, .. } => {
+            keep_object_off(situation, agent, goal, object, landmark)
+        }
+        Goal::Touch { sign, .. } => vec![evade_or_pursue(situation, agent, sign)],
+    };
+    // The first of equals, so that the order above decides ties.
+    let mut best: Option<(f32, Plan)> = None;
+    for (value, plan) in candidates.drain(..) {
+        if best.as_ref().is_none_or(|(highest, _)| value > *highest) {
+            best = Some((value, plan));
+        }
+    }
+    best.map_or(Plan::STAY, |(_, plan)| plan)
+}
+
+fn evade_or_pursue(situation: &Situation<'_>, agent: usize, sign: phase_model::Sign) -> (f32, Plan) {
+    if sign == phase_model::Sign::Positive {
+        return (0.0, crate::flight::plan(situation, agent));
+    }
+    let here = situation.state.position(Entity::agent(agent));
+    let there = situation.state.position(Entity::agent(1 - agent));
+    let mut subgoals = Vec::new();
+    let route = situation.routes.best(here, there, situation.width(agent, None), situation.gaps(agent, 0b11));
+    if let Some(route) = &route {
+        plan::rooms(route, here, there, Entity::agent(agent), &mut subgoals);
+    }
+    subgoals.push(plan::is(Predicate::Touch(agent as u8, Entity::agent(1 - agent))));
+    (0.0, Plan { subgoals, distance: route.map_or(0.0, |route| route.length) })
+}
+
+/// Block a door on the other's way, or stand between it and its landmark.
+fn keep_agent_off(situation: &Situation<'_>, agent: usize, goal: Goal, landmark: u8) -> Vec<(f32, Plan)> {
+    let victim = 1 - agent;
+    let base = other_cost(situation, victim, goal, Node::start(situation), None);
+    let target = situation.position(Spot::Landmark(landmark));
+    let there = situation.state.position(Entity::agent(victim));
+    let mut candidates = block_doors(situation, agent, goal, there, target, base);
+    let between = target + (there - target).clamp_length_max(guard_distance(situation));
+    let way = way(situation, agent, between);
+    let mut subgoals = let_go_first(situation, agent);
+    if room_of(situation.state.position(Entity::agent(agent))) != usize::from(landmark) && way > 6.0 {
+        approach_rooms(situation, agent, between, &mut subgoals);
+    }
+    subgoals.push(plan::not(Predicate::On(Entity::agent(victim), landmark)));
+    candidates.push((base + IN_THE_WAY - EFFORT * way, Plan { subgoals, distance: way }));
+    candidates
+}
+
+/// Each door on the other's way that the hinderer's body can close and that it can reach in time.
+fn block_doors(
+    situation: &Situation<'_>,
+    agent: usize,
+    goal: Goal,
+    from: Vec2,
+    to: Vec2,
+    base: f32,
+) -> Vec<(f32, Plan)> {
+    let victim = 1 - agent;
+    let width = situation.width(victim, None);
+    let Some(route) = situation.routes.best(from, to, width, situation.gaps(victim, 0b11)) else {
+        return Vec::new();
+    };
+    let mut candidates = Vec::new();
+    let mut room = room_of(from);
+    for &(slot, _) in route.doors() {
+        let next = crate::Routes::beyond(usize::from(slot), room);
+        let gap = situation.routes.gaps().0[usize::from(slot)];
+        room = next;
+        let Some((low, high)) = gap else { continue };
+        let middle = crate::routes::point_in(slot, 0.5 * (low + high));
+        let gaps = closed_by(situation, agent, victim, middle);
+        let effect = other_cost(situation, victim, goal, Node::start(situation), Some(gaps));
+        let own_way = way(situation, agent, middle);
+        if effect <= base + 1.0 || own_way > from.distance(middle) + LATE {
+            continue;
+        }
+        let mut subgoals = let_go_first(situation, agent);
+        subgoals.push(plan::not(Predicate::Close(Entity::agent(victim), Place::Landmark(next as u8))));
+        candidates.push((
+            effect.min(base + GREATEST_EFFECT) - EFFORT * own_way,
+            Plan { subgoals, distance: own_way },
+        ));
+    }
+    candidates
+}
+
+/// The doors as the victim finds them when the hinderer stands in one.
+fn closed_by(situation: &Situation<'_>, agent: usize, victim: usize, at: Vec2) -> Gaps {
+    let mut gaps = *situation.gaps(victim, 0b11);
+    let half_width = 0.5 * situation.width(agent, None);
+    obstruct(&mut gaps, at, half_width, half_width);
+    gaps
+}
+
+/// Take the object away, pull against the other, or failing that stand in the way.
+fn keep_object_off(
+    situation: &Situation<'_>,
+    agent: usize,
+    goal: Goal,
+    object: u8,
+    landmark: u8,
+) -> Vec<(f32, Plan)> {
+    let victim = 1 - agent;
+    let start = Node::start(situation);
+    let base = other_cost(situation, victim, goal, start, None);
+    let task = Task { situation, goal, actors: plan::only(agent), allied: false, narrowed: None };
+    let me = Entity::agent(agent);
+    let spot = Spot::Now(Entity::Object(object));
+    let holding = situation.state.held_object(agent) == Some(usize::from(object));
+    let contested = situation.state.held_object(victim) == Some(usize::from(object));
+    let fetch = if holding { 0.0 } else { task.distance(&start, agent, None, spot) };
+    let mut candidates = Vec::new();
+    for refuge in (0..arena::LANDMARKS.len() as u8).filter(|&refuge| refuge != landmark) {
+        let mut after = start;
+        after.objects[usize::from(object)] = Spot::Landmark(refuge);
+        after.holds[victim] = None;
+        let effect = other_cost(situation, victim, goal, after, None).min(base + GREATEST_EFFECT);
+        let mut carrying = start;
+        carrying.holds[agent] = Some(object);
+        let carry = task.distance(&carrying, agent, Some(object), Spot::Landmark(refuge));
+        let mut subgoals = Vec::new();
+        if !holding {
+            subgoals = let_go_first(situation, agent);
+            approach_rooms(situation, agent, situation.position(spot), &mut subgoals);
+            subgoals.push(plan::is(Predicate::Close(me, Place::Entity(Entity::Object(object)))));
+            subgoals.push(plan::is(Predicate::Attach(agent as u8, object)));
+        }
+        subgoals.push(plan::is(Predicate::On(Entity::Object(object), refuge)));
+        skip_done(situation, &mut subgoals);
+        let mut holders = plan::only(agent);
+        holders[victim] = false;
+        let feasible = situation.net_force(holders) > 0.0 || contested;
+        if feasible {
+            let value = effect - EFFORT * (fetch + carry);
+            candidates.push((value, Plan { subgoals, distance: fetch + carry }));
+        }
+    }
+    if achieved(situation.physique, situation.state, goal) {
+        return candidates;
+    }
+    let target = situation.position(Spot::Landmark(landmark));
+    candidates.extend(block_doors(situation, agent, goal, situation.position(spot), target, base));
+    if candidates.is_empty() {
+        let mut subgoals = let_go_first(situation, agent);
+        approach_rooms(situation, agent, target, &mut subgoals);
+        subgoals.push(plan::not(Predicate::On(Entity::Object(object), landmark)));
+        skip_done(situation, &mut subgoals);
+        candidates.push((0.0, Plan { subgoals, distance: way(situation, agent, target) }));
+    }
+    candidates
+}
+
+/// What the other's best plan costs from a symbolic state, acting alone.
+fn other_cost(
+    situation: &Situation<'_>,
+    other: usize,
+    goal: Goal,
+    node: Node,
+    narrowed: Option<Gaps>,
+) -> f32 {
+    let task = Task {
+        situation,
+        goal,
+        actors: plan::only(other),
+        allied: false,
+        narrowed: narrowed.map(|gaps| (other, gaps)),
+    };
+    search::solve(&task, node).map_or(f32::MAX, |plan| plan.cost)
+}
+
+/// Distance at which a guard stands before a landmark (u): both bodies' radii.
+fn guard_distance(situation: &Situation<'_>) -> f32 {
+    situation.physique.agents.iter().map(|body| body.radius).sum()
+}
+
+fn way(situation: &Situation<'_>, agent: usize, to: Vec2) -> f32 {
+    let from = situation.state.position(Entity::agent(agent));
+    situation.routes.cost(from, to, situation.width(agent, None), situation.gaps(agent, 0b11))
+}
+
+fn approach_rooms(situation: &Situation<'_>, agent: usize, to: Vec2, subgoals: &mut Vec<crate::Subgoal>) {
+    let from = situation.state.position(Entity::agent(agent));
+    let width = situation.width(agent, None);
+    if let Some(route) = situation.routes.best(from, to, width, situation.gaps(agent, 0b11)) {
+        plan::rooms(&route, from, to, Entity::agent(agent), subgoals);
+    }
+}
+
+fn let_go_first(situation: &Situation<'_>, agent: usize) -> Vec<crate::Subgoal> {
+    plan::let_go(situation, agent).subgoals
+}
+
+/// Drops the leading subgoals that hold already.
+fn skip_done(situation: &Situation<'_>, subgoals: &mut Vec<crate::Subgoal>) {
+    let done = subgoals
+        .iter()
+        .take_while(|subgoal| {
+            matches!(subgoal, crate::Subgoal::Achieve(literal)
+                if literal.is_true(situation.physique, situation.state))
+        })
+        .count();
+    subgoals.drain(..done);
+}

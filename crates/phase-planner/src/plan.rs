@@ -1,0 +1,236 @@
+//! One agent's plan from one physical state.
+
+use crate::{
+    Subgoal, flight, hindrance,
+    routes::{Route, Routes},
+    search::{self, SymbolicPlan},
+    situation::{Situation, Spot},
+    task::{Node, Operator, Task},
+};
+use phase_model::{AGENT_COUNT, Attitude, Entity, Goal, Layout, Physique, Sign, State, layout::room_of};
+use phase_predicates::{Literal, Place, Predicate, achieved};
+
+/// What an agent means to do, from one possible world.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Plan {
+    /// The agent's own subgoals in order. Empty when there is nothing for it to do.
+    pub subgoals: Vec<Subgoal>,
+    /// Ĉ: distance the agent has to travel before the final goal state is reached (u).
+    pub distance: f32,
+}
+
+impl Plan {
+    /// The plan of an agent with nothing to do.
+    pub const STAY: Self = Self { subgoals: Vec::new(), distance: 0.0 };
+
+    /// The most immediate subgoal.
+    #[must_use]
+    pub fn first(&self) -> Subgoal {
+        self.subgoals.first().copied().unwrap_or(Subgoal::Stay)
+    }
+}
+
+/// The high-level planner of one agent: what it knows that does not change.
+#[derive(Clone, Debug)]
+pub struct Planner {
+    physique: Physique,
+    routes: Routes,
+    agent: usize,
+    goals: [Goal; AGENT_COUNT],
+    attitude: Attitude,
+}
+
+impl Planner {
+    /// A planner for agent 0 or 1 with both agents' goals, which are common knowledge, and its own attitude
+    /// towards the other.
+    #[must_use]
+    pub fn new(
+        physique: Physique,
+        layout: Layout,
+        agent: usize,
+        goals: [Goal; AGENT_COUNT],
+        attitude: Attitude,
+    ) -> Self {
+        Self { physique, routes: Routes::new(layout), agent, goals, attitude }
+    }
+
+    /// The ways between rooms.
+    #[must_use]
+    pub const fn routes(&self) -> &Routes {
+        &self.routes
+    }
+
+    /// HP(gᵢ, gⱼ, αᵢⱼ, b) of Algorithm 1: the agent's best plan if the world is in this state.
+    #[must_use]
+    pub fn plan(&self, state: &State) -> Plan {
+        let situation = Situation::new(&self.physique, &self.routes, state);
+        let own = self.goals[self.agent];
+        let other = self.goals[1 - self.agent];
+        match self.attitude {
+            Attitude::Help => self.help(&situation, other),
+            Attitude::Hinder => hindrance::plan(&situation, self.agent, other),
+            Attitude::Neutral if own.sign() == Sign::Negative => self.avoid(&situation, own),
+            Attitude::Neutral => self.pursue(&situation, own, other),
+        }
+    }
+
+    /// A neutral agent reaches for its own goal by its own means. Only when the other wants the very same is
+    /// the other's force counted on.
+    fn pursue(&self, situation: &Situation<'_>, own: Goal, other: Goal) -> Plan {
+        if let Some(plan) = self.finish(situation, own) {
+            return plan;
+        }
+        let task =
+            Task { situation, goal: own, actors: only(self.agent), allied: own == other, narrowed: None };
+        search::solve(&task, Node::start(situation))
+            .map_or(Plan::STAY, |plan| express(&task, &plan, self.agent))
+    }
+
+    /// A helper looks for the cheapest way in which both together reach the other's goal, and does its own
+    /// part of it; if the other does best alone, that part is nothing.
+    fn help(&self, situation: &Situation<'_>, goal: Goal) -> Plan {
+        if goal.sign() == Sign::Negative {
+            return self.help_to_avoid(situation, goal);
+        }
+        if let Some(plan) = self.finish(situation, goal) {
+            return plan;
+        }
+        let task = Task { situation, goal, actors: [true; AGENT_COUNT], allied: true, narrowed: None };
+        search::solve(&task, Node::start(situation))
+            .map_or(Plan::STAY, |plan| express(&task, &plan, self.agent))
+    }
+
+    /// Who wants to be left alone is helped by keeping away; other negated goals by undoing them.
+    fn help_to_avoid(&self, situation: &Situation<'_>, goal: Goal) -> Plan {
+        match goal {
+            Goal::Touch { .. } => flight::plan(situation, self.agent),
+            _ => hindrance::plan(situation, self.agent, goal.negated()),
+        }
+    }
+
+    /// A negated goal of one's own: flight from the other, or keeping something off a landmark.
+    fn avoid(&self, situation: &Situation<'_>, goal: Goal) -> Plan {
+        match goal {
+            Goal::Touch { .. } => flight::plan(situation, self.agent),
+            _ => hindrance::plan(situation, self.agent, goal.negated()),
+        }
+    }
+
+    /// What to do once the goal holds: let go of whatever is in hand, else nothing. `None` while it does not.
+    fn finish(&self, situation: &Situation<'_>, goal: Goal) -> Option<Plan> {
+        achieved(situation.physique, situation.state, goal).then(|| let_go(situation, self.agent))
+    }
+}
+
+/// The plan of letting go of whatever is in hand and then staying.
+#[must_use]
+pub(crate) fn let_go(situation: &Situation<'_>, agent: usize) -> Plan {
+    situation.state.grips[agent].map_or(Plan::STAY, |grip| Plan {
+        subgoals: vec![not(Predicate::Attach(agent as u8, grip.object))],
+        distance: 0.0,
+    })
+}
+
+/// One agent's own part of a symbolic plan in the words of the subgoal space, and how far it has to travel.
+#[must_use]
+pub(crate) fn express(task: &Task<'_>, plan: &SymbolicPlan, agent: usize) -> Plan {
+    let mut subgoals = Vec::with_capacity(8);
+    let mut distance = 0.0;
+    for (node, operator) in &plan.steps {
+        match *operator {
+            Operator::Approach { agent: who, object } if who == agent => {
+                let target = Entity::Object(object);
+                let spot = node.objects[usize::from(object)];
+                distance += task.distance(node, agent, None, spot);
+                go(task, node, agent, None, spot, &mut subgoals);
+                subgoals.push(is(Predicate::Close(Entity::agent(agent), Place::Entity(target))));
+            }
+            Operator::Meet { agent: who } if who == agent => {
+                let spot = node.agents[1 - agent];
+                distance += task.distance(node, agent, None, spot);
+                go(task, node, agent, None, spot, &mut subgoals);
+                subgoals.push(is(Predicate::Touch(agent as u8, Entity::agent(1 - agent))));
+            }
+            Operator::Go { agent: who, landmark } if who == agent => {
+                let spot = Spot::Landmark(landmark);
+                distance += task.distance(node, agent, None, spot);
+                go(task, node, agent, None, spot, &mut subgoals);
+                subgoals.push(is(Predicate::On(Entity::agent(agent), landmark)));
+            }
+            Operator::Grab { agent: who, object } if who == agent => {
+                subgoals.push(is(Predicate::Attach(agent as u8, object)));
+            }
+            Operator::Carry { object, landmark, .. } if node.holds[agent] == Some(object) => {
+                let spot = Spot::Landmark(landmark);
+                distance += task.distance(node, agent, Some(object), spot);
+                go(task, node, agent, Some(object), spot, &mut subgoals);
+                subgoals.push(is(Predicate::On(Entity::Object(object), landmark)));
+            }
+            Operator::Release { agent: who, object } if who == agent => {
+                subgoals.push(not(Predicate::Attach(agent as u8, object)));
+            }
+            _ => {}
+        }
+    }
+    let (physique, state) = (task.situation.physique, task.situation.state);
+    // What already holds need not be brought about; the first subgoal is the first that does not.
+    let done = subgoals
+        .iter()
+        .take_while(
+            |subgoal| matches!(subgoal, Subgoal::Achieve(literal) if literal.is_true(physique, state)),
+        )
+        .count();
+    subgoals.drain(..done);
+    Plan { subgoals, distance }
+}
+
+/// The rooms on the way to a spot, as Close(·, landmark) subgoals for the agent or for what it carries. Rooms
+/// that the straight way passes through anyway are not worth a subgoal.
+fn go(task: &Task<'_>, node: &Node, agent: usize, held: Option<u8>, spot: Spot, subgoals: &mut Vec<Subgoal>) {
+    let situation = task.situation;
+    let from_spot = held.map_or(node.agents[agent], |object| node.objects[usize::from(object)]);
+    let (from, to) = (situation.position(from_spot), situation.position(spot));
+    let mover = held.map_or(Entity::agent(agent), Entity::Object);
+    let width = situation.width(agent, held.map(usize::from));
+    let gaps = task.gaps(node, agent, held);
+    if let Some(route) = situation.routes.best(from, to, width, &gaps) {
+        rooms(&route, from, to, mover, subgoals);
+    }
+}
+
+/// Close(mover, landmark) for each room of a route but the first.
+pub(crate) fn rooms(
+    route: &Route,
+    from: phase_model::Vec2,
+    to: phase_model::Vec2,
+    mover: Entity,
+    subgoals: &mut Vec<Subgoal>,
+) {
+    const STRAIGHT: f32 = 1.01;
+    if route.length <= from.distance(to) * STRAIGHT {
+        return;
+    }
+    let mut room = room_of(from);
+    for &(slot, _) in route.doors() {
+        room = Routes::beyond(usize::from(slot), room);
+        subgoals.push(is(Predicate::Close(mover, Place::Landmark(room as u8))));
+    }
+}
+
+/// The subgoal of making a predicate true.
+#[must_use]
+pub(crate) const fn is(predicate: Predicate) -> Subgoal {
+    Subgoal::Achieve(Literal::is(predicate))
+}
+
+/// The subgoal of making a predicate false.
+#[must_use]
+pub(crate) const fn not(predicate: Predicate) -> Subgoal {
+    Subgoal::Achieve(Literal::not(predicate))
+}
+
+/// The set of just one agent.
+#[must_use]
+pub(crate) fn only(agent: usize) -> [bool; AGENT_COUNT] {
+    core::array::from_fn(|who| who == agent)
+}

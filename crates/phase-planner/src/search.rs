@@ -1,0 +1,46 @@
+//! A* over symbolic states.
+
+use crate::task::{Node, Operator, Task};
+
+/// A* needs a totally ordered cost; this many units make one world unit.
+const UNITS: f32 = 256.0;
+
+/// A symbolic plan: what is done in which symbolic state, in order, and what it all costs.
+#[derive(Clone, Debug)]
+pub struct SymbolicPlan {
+    /// Each operator with the symbolic state it is applied in.
+    pub steps: Vec<(Node, Operator)>,
+    /// The symbolic state at the end.
+    pub end: Node,
+    /// Sum of the operators' costs (u of travel, with penalties for what is nearly impossible).
+    pub cost: f32,
+}
+
+/// The cheapest sequence of operators from a symbolic state to one where the task is done; `None` if there is
+/// none, as when nobody acts.
+#[must_use]
+pub fn solve(task: &Task<'_>, start: Node) -> Option<SymbolicPlan> {
+    let (nodes, cost) = pathfinding::prelude::astar(
+        &start,
+        |node| task.successors(node).into_iter().map(|(_, after, cost)| (after, units(cost))),
+        |node| (task.lower_bound(node) * UNITS) as u32,
+        |node| task.is_done(node),
+    )?;
+    let steps = nodes
+        .windows(2)
+        .filter_map(|pair| {
+            task.successors(&pair[0])
+                .into_iter()
+                .filter(|(_, after, _)| *after == pair[1])
+                .min_by(|a, b| a.2.total_cmp(&b.2))
+                .map(|(operator, ..)| (pair[0], operator))
+        })
+        .collect();
+    let end = nodes.last().copied().unwrap_or(start);
+    Some(SymbolicPlan { steps, end, cost: cost as f32 / UNITS })
+}
+
+/// A cost in A*'s units, rounded up so that the lower bound stays one. Not a number counts as very far.
+fn units(cost: f32) -> u32 {
+    libm::ceilf(cost.clamp(0.0, 1e6) * UNITS) as u32
+}

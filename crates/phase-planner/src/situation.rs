@@ -1,0 +1,129 @@
+//! A physical state as the high level sees it: a handful of named spots and what lies between them.
+
+use crate::routes::{Gaps, Routes};
+use phase_model::{
+    AGENT_COUNT, Entity, MAX_OBJECTS, Physique, State, Vec2, arena, layout::SLOT_DIRECTIONS,
+    physique::GROUND_FRICTION,
+};
+
+/// A place that can be named in a plan: where an entity is now, or a landmark's centre.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum Spot {
+    /// Where an entity is in the physical state that the plan starts from.
+    Now(Entity),
+    /// A landmark's centre.
+    Landmark(u8),
+}
+
+/// Everything a plan from one physical state needs to know.
+#[derive(Clone, Copy, Debug)]
+pub struct Situation<'a> {
+    /// Walls, bodies and forces.
+    pub physique: &'a Physique,
+    /// The ways between rooms.
+    pub routes: &'a Routes,
+    /// The physical state.
+    pub state: &'a State,
+    /// What is passable of each door for each agent while the objects in a mask (bit per object) are still
+    /// where they are now.
+    gaps: [[Gaps; 1 << MAX_OBJECTS]; AGENT_COUNT],
+    /// Which objects, where they are now, keep somebody from a door.
+    blockers: [bool; MAX_OBJECTS],
+}
+
+impl<'a> Situation<'a> {
+    /// Works out which doors the objects obstruct.
+    #[must_use]
+    pub fn new(physique: &'a Physique, routes: &'a Routes, state: &'a State) -> Self {
+        let gaps = core::array::from_fn(|agent| {
+            core::array::from_fn(|mask| {
+                let mut gaps = *routes.gaps();
+                for object in physique.objects().filter(|object| mask & (1 << object) != 0) {
+                    let radius = physique.object_radii[object];
+                    let reach = radius + physique.agents[agent].radius;
+                    obstruct(&mut gaps, state.position(Entity::object(object)), radius, reach);
+                }
+                gaps
+            })
+        });
+        let mut situation = Self { physique, routes, state, gaps, blockers: [false; MAX_OBJECTS] };
+        for object in physique.objects() {
+            situation.blockers[object] =
+                (0..AGENT_COUNT).any(|agent| situation.narrows_a_door(object, agent));
+        }
+        situation
+    }
+
+    /// Whether an object, where it is now, narrows some door too much for an agent that would fit through it
+    /// otherwise.
+    #[must_use]
+    pub const fn blocks_a_door(&self, object: usize) -> bool {
+        self.blockers[object]
+    }
+
+    /// Where a spot lies (u).
+    #[must_use]
+    pub fn position(&self, spot: Spot) -> Vec2 {
+        match spot {
+            Spot::Now(entity) => self.state.position(entity),
+            Spot::Landmark(landmark) => arena::LANDMARKS[usize::from(landmark)],
+        }
+    }
+
+    /// The doors as an agent finds them while the objects in `unmoved` are still where they are now.
+    #[must_use]
+    pub const fn gaps(&self, agent: usize, unmoved: usize) -> &Gaps {
+        &self.gaps[agent][unmoved]
+    }
+
+    /// Width of an agent, with an object in hand or not (u).
+    #[must_use]
+    pub fn width(&self, agent: usize, held: Option<usize>) -> f32 {
+        let own = self.physique.agents[agent].width();
+        held.map_or(own, |object| own.max(2.0 * self.physique.object_radii[object]))
+    }
+
+    /// Force left over for moving an object when these agents hold it and pull the same way, each body's
+    /// ground friction taken off (N). Nothing moves unless it is positive.
+    #[must_use]
+    pub fn net_force(&self, holders: [bool; AGENT_COUNT]) -> f32 {
+        let mut net = -GROUND_FRICTION;
+        for (agent, _) in holders.iter().enumerate().filter(|&(_, &holds)| holds) {
+            net += self.physique.agents[agent].max_force - GROUND_FRICTION;
+        }
+        net
+    }
+}
+
+impl Situation<'_> {
+    fn narrows_a_door(&self, object: usize, agent: usize) -> bool {
+        let width = self.width(agent, None);
+        (0..4).any(|slot| {
+            self.routes.gaps().width(slot) >= width && self.gaps[agent][1 << object].width(slot) < width
+        })
+    }
+}
+
+/// Takes a round obstacle out of every door that it lies in or before, leaving the wider remainder. An
+/// obstacle counts when the door's line is nearer to its centre than `reach` (u).
+pub fn obstruct(gaps: &mut Gaps, centre: Vec2, radius: f32, reach: f32) {
+    for (slot, direction) in SLOT_DIRECTIONS.iter().enumerate() {
+        let offset = centre - arena::CENTRE;
+        let (along, across) = (direction.dot(offset), direction.perp_dot(offset));
+        if across.abs() >= reach {
+            continue;
+        }
+        if let Some((from, to)) = gaps.0[slot] {
+            let (low, high) = ((along - radius).clamp(from, to), (along + radius).clamp(from, to));
+            if low < high {
+                let below = low - from;
+                let above = to - high;
+                gaps.0[slot] = match (below > 0.0, above > 0.0) {
+                    (false, false) => None,
+                    _ if below >= above => Some((from, low)),
+                    _ => Some((high, to)),
+                };
+            }
+        }
+    }
+}

@@ -1,0 +1,288 @@
+//! The symbolic problem that A* searches: who is where, who holds what, and what each step costs.
+
+use crate::{
+    routes::Gaps,
+    situation::{Situation, Spot},
+};
+use phase_model::{AGENT_COUNT, Entity, Goal, MAX_OBJECTS, arena};
+
+/// Cost of grabbing or letting go (u of travel).
+const HANDLING_COST: f32 = 1.0;
+/// Added when the holders are too weak to move an object at all: it is tried only when nothing else is left.
+const IMMOVABLE_COST: f32 = 60.0;
+/// How much longer carrying takes when the force left over is this small fraction of a newton or less.
+const GREATEST_SLOWNESS: f32 = 5.0;
+/// Net force at which carrying takes twice as long as walking (N).
+const SLOW_FORCE: f32 = 100.0;
+
+/// A symbolic state of the search: positions are spots, holds are by object number.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct Node {
+    /// Where each agent is.
+    pub agents: [Spot; AGENT_COUNT],
+    /// Where each object is; with its holders, if any.
+    pub objects: [Spot; MAX_OBJECTS],
+    /// What each agent holds.
+    pub holds: [Option<u8>; AGENT_COUNT],
+}
+
+impl Node {
+    /// The symbolic state that a physical state starts in.
+    #[must_use]
+    pub fn start(situation: &Situation<'_>) -> Self {
+        Self {
+            agents: core::array::from_fn(|agent| Spot::Now(Entity::agent(agent))),
+            objects: core::array::from_fn(|object| Spot::Now(Entity::object(object))),
+            holds: situation.state.grips.map(|grip| grip.map(|grip| grip.object)),
+        }
+    }
+
+    /// Objects that have not been moved, as a bit mask.
+    fn unmoved(&self) -> usize {
+        (0..MAX_OBJECTS)
+            .filter(|&object| self.objects[object] == Spot::Now(Entity::object(object)))
+            .fold(0, |mask, object| mask | 1 << object)
+    }
+
+    /// Whether each agent holds an object.
+    #[must_use]
+    pub fn holders(&self, object: u8) -> [bool; AGENT_COUNT] {
+        self.holds.map(|held| held == Some(object))
+    }
+}
+
+/// One symbolic action of one agent (of all holders, for carrying).
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Operator {
+    /// Go to where an object is.
+    Approach {
+        /// Who.
+        agent: usize,
+        /// The object.
+        object: u8,
+    },
+    /// Go to where the other agent is.
+    Meet {
+        /// Who.
+        agent: usize,
+    },
+    /// Go to a landmark, hands free.
+    Go {
+        /// Who.
+        agent: usize,
+        /// The landmark.
+        landmark: u8,
+    },
+    /// Take hold of an object.
+    Grab {
+        /// Who.
+        agent: usize,
+        /// The object.
+        object: u8,
+    },
+    /// Move a held object, and with it everyone who holds it, to a landmark.
+    Carry {
+        /// Who leads.
+        agent: usize,
+        /// The object.
+        object: u8,
+        /// Where to.
+        landmark: u8,
+    },
+    /// Let go.
+    Release {
+        /// Who.
+        agent: usize,
+        /// The object.
+        object: u8,
+    },
+}
+
+/// A goal to be reached by some agents' actions.
+#[derive(Clone, Copy, Debug)]
+pub struct Task<'a> {
+    /// Where everything is.
+    pub situation: &'a Situation<'a>,
+    /// What is to hold in the end; its sign is taken as positive.
+    pub goal: Goal,
+    /// Which agents act.
+    pub actors: [bool; AGENT_COUNT],
+    /// Whether both agents pull the same way when both hold an object.
+    pub allied: bool,
+    /// Doors narrowed for one agent by something that is not an object, such as the other agent's body.
+    pub narrowed: Option<(usize, Gaps)>,
+}
+
+impl Task<'_> {
+    /// Whether the goal holds in a symbolic state and no actor has its hands full.
+    #[must_use]
+    pub fn is_done(&self, node: &Node) -> bool {
+        let reached = match self.goal {
+            Goal::AgentOnLandmark { agent, landmark, .. } => {
+                node.agents[usize::from(agent)] == Spot::Landmark(landmark)
+            }
+            Goal::ObjectOnLandmark { object, landmark, .. } => {
+                node.objects[usize::from(object)] == Spot::Landmark(landmark)
+            }
+            Goal::Touch { agent, other, .. } => {
+                node.agents[usize::from(agent)] == node.agents[usize::from(other)]
+            }
+        };
+        reached && (0..AGENT_COUNT).all(|agent| !self.actors[agent] || node.holds[agent].is_none())
+    }
+
+    /// A lower bound on the cost still to come (u): the straight way of what has to move.
+    #[must_use]
+    pub fn lower_bound(&self, node: &Node) -> f32 {
+        let distance =
+            |from: Spot, to: Spot| self.situation.position(from).distance(self.situation.position(to));
+        match self.goal {
+            Goal::AgentOnLandmark { agent, landmark, .. } => {
+                distance(node.agents[usize::from(agent)], Spot::Landmark(landmark))
+            }
+            Goal::ObjectOnLandmark { object, landmark, .. } => {
+                distance(node.objects[usize::from(object)], Spot::Landmark(landmark))
+            }
+            Goal::Touch { agent, other, .. } => {
+                distance(node.agents[usize::from(agent)], node.agents[usize::from(other)])
+            }
+        }
+    }
+
+    /// Everything the actors can do next: operator, symbolic state after it, cost (u).
+    #[must_use]
+    pub fn successors(&self, node: &Node) -> Vec<(Operator, Node, f32)> {
+        let mut successors = Vec::with_capacity(12);
+        for agent in (0..AGENT_COUNT).filter(|&agent| self.actors[agent]) {
+            match node.holds[agent] {
+                Some(object) => self.with_full_hands(node, agent, object, &mut successors),
+                None => self.with_free_hands(node, agent, &mut successors),
+            }
+        }
+        successors
+    }
+
+    /// Distance an agent travels between two spots (u), without penalties for doors.
+    #[must_use]
+    pub fn distance(&self, node: &Node, agent: usize, held: Option<u8>, to: Spot) -> f32 {
+        let from = held.map_or(node.agents[agent], |object| node.objects[usize::from(object)]);
+        let (from, to) = (self.situation.position(from), self.situation.position(to));
+        let width = self.situation.width(agent, held.map(usize::from));
+        let gaps = self.gaps(node, agent, None);
+        self.situation.routes.best(from, to, width, &gaps).map_or(from.distance(to), |route| route.length)
+    }
+
+    fn with_free_hands(&self, node: &Node, agent: usize, successors: &mut Vec<(Operator, Node, f32)>) {
+        for object in self.situation.physique.objects() {
+            if !self.matters(object) {
+                continue;
+            }
+            let spot = node.objects[object];
+            let object = object as u8;
+            let mut after = *node;
+            if node.agents[agent] == spot {
+                after.holds[agent] = Some(object);
+                successors.push((Operator::Grab { agent, object }, after, HANDLING_COST));
+            } else {
+                after.agents[agent] = spot;
+                let cost = self.travel_cost(node, agent, None, spot, Some(object));
+                successors.push((Operator::Approach { agent, object }, after, cost));
+            }
+        }
+        match self.goal {
+            Goal::AgentOnLandmark { agent: who, landmark, .. } if usize::from(who) == agent => {
+                let spot = Spot::Landmark(landmark);
+                let mut after = *node;
+                after.agents[agent] = spot;
+                let cost = self.travel_cost(node, agent, None, spot, None);
+                successors.push((Operator::Go { agent, landmark }, after, cost));
+            }
+            Goal::Touch { .. } => {
+                let spot = node.agents[1 - agent];
+                let mut after = *node;
+                after.agents[agent] = spot;
+                let cost = self.travel_cost(node, agent, None, spot, None);
+                successors.push((Operator::Meet { agent }, after, cost));
+            }
+            _ => {}
+        }
+    }
+
+    fn with_full_hands(
+        &self,
+        node: &Node,
+        agent: usize,
+        object: u8,
+        successors: &mut Vec<(Operator, Node, f32)>,
+    ) {
+        let mut after = *node;
+        after.holds[agent] = None;
+        successors.push((Operator::Release { agent, object }, after, HANDLING_COST));
+        for landmark in 0..arena::LANDMARKS.len() as u8 {
+            let spot = Spot::Landmark(landmark);
+            if node.objects[usize::from(object)] == spot || !self.may_drop(object, landmark) {
+                continue;
+            }
+            let mut after = *node;
+            after.objects[usize::from(object)] = spot;
+            for holder in (0..AGENT_COUNT).filter(|&holder| node.holds[holder] == Some(object)) {
+                after.agents[holder] = spot;
+            }
+            let cost = self.carrying_cost(node, agent, object, spot);
+            successors.push((Operator::Carry { agent, object, landmark }, after, cost));
+        }
+    }
+
+    /// The object of the goal is carried to where it belongs, or, when both agents act, anywhere to be handed
+    /// over; an object in the way is carried out of the way.
+    fn may_drop(&self, object: u8, landmark: u8) -> bool {
+        match self.goal {
+            Goal::ObjectOnLandmark { object: wanted, landmark: goal, .. } if wanted == object => {
+                landmark == goal || self.actors == [true; AGENT_COUNT]
+            }
+            _ => true,
+        }
+    }
+
+    /// Objects worth touching: the goal's own, those that block a door for somebody, and those in hand.
+    fn matters(&self, object: usize) -> bool {
+        self.goal.subject() == Entity::object(object) || self.situation.blocks_a_door(object)
+    }
+
+    fn carrying_cost(&self, node: &Node, agent: usize, object: u8, to: Spot) -> f32 {
+        let holders = node.holders(object);
+        let net = if self.allied || holders != [true; AGENT_COUNT] {
+            self.situation.net_force(holders)
+        } else {
+            // The other pulls the other way.
+            let mut alone = [false; AGENT_COUNT];
+            alone[agent] = true;
+            self.situation.net_force(alone) - self.situation.physique.agents[1 - agent].max_force
+        };
+        let slowness =
+            if net > 0.0 { (1.0 + SLOW_FORCE / net).min(GREATEST_SLOWNESS) } else { GREATEST_SLOWNESS };
+        let travel = self.travel_cost(node, agent, Some(object), to, Some(object));
+        travel * slowness + if net > 0.0 { 0.0 } else { IMMOVABLE_COST }
+    }
+
+    fn travel_cost(&self, node: &Node, agent: usize, held: Option<u8>, to: Spot, ignored: Option<u8>) -> f32 {
+        let from = held.map_or(node.agents[agent], |object| node.objects[usize::from(object)]);
+        let (from, to) = (self.situation.position(from), self.situation.position(to));
+        let width = self.situation.width(agent, held.map(usize::from));
+        self.situation.routes.cost(from, to, width, &self.gaps(node, agent, ignored))
+    }
+
+    /// The doors as an agent finds them in a symbolic state; an object it holds or heads for is no obstacle.
+    pub(crate) fn gaps(&self, node: &Node, agent: usize, ignored: Option<u8>) -> Gaps {
+        if let Some((narrowed, gaps)) = self.narrowed
+            && narrowed == agent
+        {
+            return gaps;
+        }
+        let mut unmoved = node.unmoved();
+        for object in ignored.into_iter().chain(node.holds[agent]) {
+            unmoved &= !(1 << object);
+        }
+        *self.situation.gaps(agent, unmoved)
+    }
+}

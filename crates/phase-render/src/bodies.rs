@@ -1,0 +1,112 @@
+//! Agents and objects, solid or as a faint belief.
+
+use crate::{Palette, painter::Painter};
+use phase_model::{AGENT_COUNT, Body, Entity, MAX_OBJECTS, Physique, State, Vec2, geometry};
+
+/// Width of the outline of a body, all of it inside the body's shape (u).
+const OUTLINE: f32 = 0.09;
+/// Opacity of one believed body's inside and edge; many on top of one another become solid.
+const BELIEF_FILL: u8 = 26;
+const BELIEF_EDGE: u8 = 90;
+
+/// Eyes in the agent's frame as multiples of its radius: sideways and forward of the origin.
+const EYE: Vec2 = Vec2::new(0.5, 0.5);
+const EYE_RIM: f32 = 0.335;
+const EYE_WHITE: f32 = 0.291;
+/// The pupil lies ahead of the eye's centre, which makes the agent look where it goes.
+const PUPIL: Vec2 = Vec2::new(0.5, 0.7);
+const PUPIL_RADIUS: f32 = 0.224;
+
+/// The entities of a physique in the order in which they are drawn, at most what a state can hold.
+pub(crate) fn entities(physique: &Physique) -> impl Iterator<Item = Entity> + use<> {
+    (0..AGENT_COUNT + physique.object_count.min(MAX_OBJECTS)).map(Entity::from_index)
+}
+
+/// Draws all bodies of a state: agents, objects on top, and a mark at each grip.
+pub(crate) fn draw(painter: &mut Painter, palette: &Palette, physique: &Physique, state: &State) {
+    for entity in entities(physique) {
+        let (body, radius) = (state.body(entity), physique.radius(entity));
+        match entity {
+            Entity::Agent(agent) => draw_agent(painter, palette, usize::from(agent), radius, body),
+            Entity::Object(object) => {
+                let colour = palette.objects[usize::from(object)];
+                painter.disc(body.position, radius, palette.outline, 255);
+                painter.disc(body.position, radius - OUTLINE, colour, 255);
+            }
+        }
+    }
+    for agent in 0..AGENT_COUNT {
+        draw_grip(painter, palette, physique, state, agent);
+    }
+}
+
+/// Draws one body faintly, as something believed and not known.
+pub(crate) fn draw_believed(
+    painter: &mut Painter,
+    palette: &Palette,
+    physique: &Physique,
+    entity: Entity,
+    body: &Body,
+) {
+    let radius = physique.radius(entity);
+    match entity {
+        Entity::Agent(agent) => {
+            let colour = palette.agents[usize::from(agent)];
+            painter.polygon(&corners(body, radius, 0.0), colour, BELIEF_FILL);
+            painter.polygon_edge(&corners(body, radius, 0.5 * OUTLINE), OUTLINE, colour, BELIEF_EDGE);
+        }
+        Entity::Object(object) => {
+            let colour = palette.objects[usize::from(object)];
+            painter.disc(body.position, radius, colour, BELIEF_FILL);
+            painter.circle(body.position, radius - 0.5 * OUTLINE, OUTLINE, colour, BELIEF_EDGE);
+        }
+    }
+}
+
+fn draw_agent(painter: &mut Painter, palette: &Palette, agent: usize, radius: f32, body: &Body) {
+    painter.polygon(&corners(body, radius, 0.0), palette.outline, 255);
+    painter.polygon(&corners(body, radius, OUTLINE), palette.agents[agent], 255);
+    let place = placement(body, radius);
+    for side in [Vec2::new(-1.0, 1.0), Vec2::ONE] {
+        painter.disc(place(EYE * side), EYE_RIM * radius, [0, 0, 0], 255);
+        painter.disc(place(EYE * side), EYE_WHITE * radius, [255, 255, 255], 255);
+        painter.disc(place(PUPIL * side), PUPIL_RADIUS * radius, [0, 0, 0], 255);
+    }
+}
+
+/// A dark bar with a rim in the agent's colour, where the agent's side meets the object it holds.
+fn draw_grip(painter: &mut Painter, palette: &Palette, physique: &Physique, state: &State, agent: usize) {
+    let Some(grip) = state.grips[agent] else { return };
+    if usize::from(grip.object) >= physique.object_count.min(MAX_OBJECTS) {
+        return;
+    }
+    let along = grip.side.direction();
+    let place = placement(&state.bodies[agent], physique.agents[agent].radius);
+    let bar = |length: f32, depth: f32| {
+        [(-length, -depth), (length, -depth), (length, depth), (-length, depth)]
+            .map(|(across, deep)| place(along * (1.0 + deep) + along.perp() * across))
+    };
+    painter.polygon(&bar(0.48, 0.16), palette.agents[agent], 255);
+    painter.polygon(&bar(0.40, 0.09), palette.outline, 255);
+}
+
+/// From the agent's frame in multiples of its radius to the world.
+fn placement(body: &Body, radius: f32) -> impl Fn(Vec2) -> Vec2 {
+    let (origin, rotation) = (body.position, Vec2::from_angle(body.angle));
+    move |point| origin + rotation.rotate(point * radius)
+}
+
+/// An agent's corners in the world, each edge moved inwards by `inset` (u).
+fn corners(body: &Body, radius: f32, inset: f32) -> [Vec2; 4] {
+    // A flank leans by 1 in 2, so moving it in by `inset` moves it sideways by √5/2 times that, and each
+    // corner also slides along its flank as the base rises and the top sinks.
+    let sideways = 0.5 * 5.0_f32.sqrt() * inset;
+    let rotation = Vec2::from_angle(body.angle);
+    geometry::trapezoid(radius).map(|corner| {
+        let inward = Vec2::new(
+            -corner.x.signum() * (sideways - 0.5 * corner.y.signum() * inset),
+            -corner.y.signum() * inset,
+        );
+        body.position + rotation.rotate(corner + inward)
+    })
+}

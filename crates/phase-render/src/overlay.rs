@@ -1,0 +1,47 @@
+//! What one agent sees and believes, drawn over the true state.
+
+use crate::{Palette, bodies, painter::Painter};
+use phase_model::{Entity, Physique, State, Vec2};
+use phase_perception::{Cell, CellSet};
+
+/// One agent's view of the world at the moment of a frame.
+#[derive(Clone, Copy, Debug)]
+pub struct Overlay<'a> {
+    /// Whose view it is, 0 or 1. The agent knows its own state, so its own body is not drawn as a belief.
+    pub agent: usize,
+    /// The cells in its field of view; the others are dimmed.
+    pub visible: &'a CellSet,
+    /// The states it holds possible, each drawn faintly; where many agree the picture becomes solid.
+    pub particles: &'a [State],
+    /// Lines of printable ASCII below the arena, such as the subgoal and its value. Lines past
+    /// [`crate::Style::caption_lines`] and characters past the picture's edge are left out.
+    pub captions: &'a [String],
+}
+
+/// Opacity of the cover over cells out of sight, and of the tint of cells in sight.
+const UNSEEN: u8 = 120;
+const SEEN: u8 = 70;
+
+/// Covers the cells out of sight and tints those in sight.
+pub(crate) fn shade(painter: &mut Painter, palette: &Palette, visible: &CellSet) {
+    for cell in Cell::all() {
+        let (colour, alpha) =
+            if visible.contains(cell) { (palette.seen, SEEN) } else { (palette.unseen, UNSEEN) };
+        painter.rectangle(cell.min(), cell.min() + Vec2::ONE, colour, alpha);
+    }
+}
+
+/// Draws the particles' bodies, except the agent's own.
+pub(crate) fn draw_particles(
+    painter: &mut Painter,
+    palette: &Palette,
+    physique: &Physique,
+    overlay: &Overlay<'_>,
+) {
+    let own = |entity| matches!(entity, Entity::Agent(agent) if usize::from(agent) == overlay.agent);
+    for particle in overlay.particles {
+        for entity in bodies::entities(physique).filter(|&entity| !own(entity)) {
+            bodies::draw_believed(painter, palette, physique, entity, particle.body(entity));
+        }
+    }
+}

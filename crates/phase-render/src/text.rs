@@ -1,0 +1,33 @@
+//! Captions, dot by dot.
+
+use crate::{
+    Colour,
+    font::{self, GLYPH_WIDTH},
+};
+use tiny_skia::{Pixmap, PremultipliedColorU8};
+
+/// Writes one line with its upper left corner at a pixel, each dot `scale` pixels wide. What does not fit
+/// is cut off.
+pub(crate) fn write(pixmap: &mut Pixmap, corner: (u32, u32), scale: u32, line: &str, colour: Colour) {
+    let advance = (GLYPH_WIDTH as u32 + 1) * scale;
+    let (width, left) = (pixmap.width(), corner.0);
+    let fits = (width.saturating_sub(left) / advance.max(1)) as usize;
+    for (x, character) in (left..).step_by(advance.max(1) as usize).zip(line.chars().take(fits)) {
+        for (row, bits) in (0..).zip(font::glyph(character)) {
+            for column in (0..GLYPH_WIDTH as u32).filter(|column| bits & (0b10000 >> column) != 0) {
+                dot(pixmap, x + column * scale, corner.1 + row * scale, scale, colour);
+            }
+        }
+    }
+}
+
+/// Fills a square of `scale` pixels a side, as far as it lies in the picture.
+fn dot(pixmap: &mut Pixmap, left: u32, top: u32, scale: u32, [red, green, blue]: Colour) {
+    let (width, height) = (pixmap.width(), pixmap.height());
+    let Some(colour) = PremultipliedColorU8::from_rgba(red, green, blue, 255) else { return };
+    for y in top..(top + scale).min(height) {
+        for x in left..(left + scale).min(width) {
+            pixmap.pixels_mut()[(y * width + x) as usize] = colour;
+        }
+    }
+}
