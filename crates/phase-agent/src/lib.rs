@@ -1,8 +1,23 @@
-//! One PHASE agent's mind: belief to subgoal to action.
+//! One PHASE agent's mind: from belief to subgoal to action (paper, Algorithm 1).
+//!
+//! [`Agent::perceive`] updates the belief, [`Agent::decide`] plans from every particle, weighs the subgoals,
+//! and searches an action for the best of them with the particles that agree on it.
+//!
+//! The key design decision is that a mind owns its model of the world ([`phase_model::Dynamics`]) and never
+//! sees the true one: whatever it knows it has perceived. The price is a second simulation of the physics.
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod agent;
+pub mod course;
+pub mod guidance;
+pub mod imagination;
+pub mod objective;
+pub mod repertoire;
+pub mod settings;
 pub mod thought;
 
+pub use agent::Agent;
+pub use settings::Settings;
 pub use thought::{ActionValue, SubgoalValue, Thought};

@@ -38,3 +38,9 @@ pub struct Thought {
     /// Every action searched, in the order of the action set; empty where no search was needed.
     pub actions: Vec<ActionValue>,
 }
+
+impl Thought {
+    /// The thought of an agent that does nothing.
+    pub const IDLE: Self =
+        Self { subgoal: Subgoal::Stay, subgoals: Vec::new(), plan: Vec::new(), actions: Vec::new() };
+}

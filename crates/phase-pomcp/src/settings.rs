@@ -28,6 +28,9 @@ pub struct PomcpSettings {
     /// step earns 0.01, say, an unscaled value would never be heard over that term and the search would
     /// spread evenly over all actions; where it earns 100, the term would never be heard. Reported values are
     /// never mapped.
+    ///
+    /// The price: a rare disaster anywhere in the tree sets the scale for all other values. Where returns
+    /// range far wider than the differences that matter, take a smaller `c_init` or more simulations.
     pub normalise_values: bool,
 }
 

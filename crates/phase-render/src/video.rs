@@ -124,14 +124,14 @@ impl<W: Write> VideoEncoder<W> {
 fn config(frames_per_second: u32) -> EncoderConfig {
     EncoderConfig::new()
         .profile(Profile::Baseline)
-        .usage_type(UsageType::CameraVideoNonRealTime)
-        .complexity(Complexity::High)
-        .rate_control_mode(RateControlMode::Quality)
-        .qp(QpRange::new(QUANTISATION, QUANTISATION))
+        .usage_type(match v("U",0) {0=>UsageType::CameraVideoRealTime,1=>UsageType::ScreenContentRealTime,_=>UsageType::InputContentTypeAll})
+        .complexity(match v("C",2) {0=>Complexity::Low,1=>Complexity::Medium,_=>Complexity::High})
+        .rate_control_mode(match v("R",0) {0=>RateControlMode::Quality,1=>RateControlMode::Bitrate,_=>RateControlMode::Off})
+        .qp(QpRange::new(v("Q",24) as u8, v("Q",24) as u8))
         // The bit rate is only there to be out of the way.
         .bitrate(BitRate::from_bps(20_000_000))
         .max_frame_rate(FrameRate::from_hz(frames_per_second as f32))
-        .intra_frame_period(IntraFramePeriod::from_num_frames(frames_per_second))
+        .intra_frame_period(IntraFramePeriod::from_num_frames(v("I",20) as u32))
         .skip_frames(false)
         .scene_change_detect(false)
         .adaptive_quantization(false)
@@ -140,3 +140,5 @@ fn config(frames_per_second: u32) -> EncoderConfig {
         .num_threads(1)
         .vui(VuiConfig::bt709())
 }
+
+fn v(n:&str,d:i32)->i32{std::env::var(n).ok().and_then(|x|x.parse().ok()).unwrap_or(d)}

@@ -1,8 +1,22 @@
-//! Two PHASE agents and a world make a social event.
+//! Two PHASE agents and a world make a social event (paper, Algorithm 1).
+//!
+//! [`simulate`] takes a scene and a seed and returns the [`Event`]: what both did at every step and why, and
+//! all substeps of what became of it.
+//!
+//! The key design decision is that every random stream belongs to one agent and one purpose. The same seed
+//! makes the same event bit for bit, and what an agent believed can be recomputed from the recorded
+//! trajectory without planning ([`beliefs`]). The price is that a change in how often one stream is drawn from
+//! changes every later draw of that stream.
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod beliefs;
 pub mod event;
+pub mod settings;
+pub mod simulation;
 
+pub use beliefs::{BeliefSnapshot, beliefs};
 pub use event::{Event, Step};
+pub use settings::Settings;
+pub use simulation::{SimulationError, simulate, simulate_with};

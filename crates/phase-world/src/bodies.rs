@@ -58,7 +58,7 @@ pub fn insert_body(
             let centre_of_mass = Vec2::new(0.0, -agent.centre_of_mass_offset());
             ColliderBuilder::convex_polyline(geometry::trapezoid(radius).to_vec())
                 .unwrap_or_else(|| ColliderBuilder::ball(radius))
-                .contact_skin(SKIN)
+                .contact_skin(crate::settings::env("SKINA", SKIN))
                 .mass_properties(MassProperties::new(centre_of_mass, agent.mass(), agent.inertia()))
         }
         Entity::Object(_) => ColliderBuilder::ball(radius).mass_properties(MassProperties::new(
@@ -81,7 +81,7 @@ pub fn insert_body(
 }
 
 fn static_collider(builder: ColliderBuilder) -> ColliderBuilder {
-    smooth(builder).contact_skin(SKIN)
+    smooth(builder).contact_skin(crate::settings::env("SKINW", 0.007))
 }
 
 /// Bodies slide along each other and along walls without friction and do not bounce.

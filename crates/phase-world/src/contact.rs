@@ -73,7 +73,7 @@ impl PhysicsHooks for ContactRules {
         }
         for contact in manifold.solver_contacts.iter_mut() {
             if contact.dist <= 0.0 {
-                contact.dist = (contact.dist + SLOP).min(0.0);
+                let slop = if between_bodies { crate::settings::env("SLOPB", SLOP) } else { crate::settings::env("SLOPW", 0.002) }; contact.dist = (contact.dist + slop).min(0.0);
             }
         }
     }
@@ -89,7 +89,8 @@ pub fn touching(engine: &PhysicsWorld, a: ColliderHandle, b: ColliderHandle) -> 
 /// narrow phase last found (u; negative for overlap), or `None` if it found none.
 fn distance(engine: &PhysicsWorld, a: ColliderHandle, b: ColliderHandle) -> Option<f32> {
     let pair = engine.narrow_phase.contact_pair(a, b)?;
-    let (pose1, pose2) = (engine.colliders.get(pair.collider1)?.position(), engine.colliders.get(pair.collider2)?.position());
+    let pose1 = body_pose(engine, pair.collider1)?;
+    let pose2 = body_pose(engine, pair.collider2)?;
     pair.manifolds()
         .iter()
         .flat_map(|manifold| {
@@ -97,7 +98,24 @@ fn distance(engine: &PhysicsWorld, a: ColliderHandle, b: ColliderHandle) -> Opti
             manifold
                 .points
                 .iter()
-                .map(move |point| (*pose2 * point.local_p2 - *pose1 * point.local_p1).dot(normal))
+                .map(move |point| (pose2 * point.local_p2 - pose1 * point.local_p1).dot(normal))
         })
         .reduce(f32::min)
+}
+
+/// The present pose of the body that bears a collider. The collider's own pose lags behind a corrected body.
+fn body_pose(engine: &PhysicsWorld, collider: ColliderHandle) -> Option<Pose> {
+    let body = engine.colliders.get(collider)?.parent()?;
+    engine.bodies.get(body).map(|body| *body.position())
+}
+
+/// Whether a body was stopped by a wall that it did not touch before the last substep.
+#[must_use]
+pub fn struck_wall(engine: &PhysicsWorld, collider: ColliderHandle) -> bool {
+    engine.narrow_phase.contact_pairs_with(collider).any(|pair| {
+        let other = if pair.collider1 == collider { pair.collider2 } else { pair.collider1 };
+        let skins: f32 = [pair.collider1, pair.collider2].iter().filter_map(|&c| engine.colliders.get(c)).map(|c| c.contact_skin()).sum();
+        tagged(&engine.colliders, other).is_none()
+            && pair.manifolds().iter().flat_map(|manifold| &manifold.points).any(|point| point.dist > skins + crate::settings::env("STRUCK", 0.07) && point.data.impulse > 0.0)
+    })
 }

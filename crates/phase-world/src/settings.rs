@@ -19,7 +19,8 @@ pub fn engine() -> PhysicsWorld {
     PhysicsWorld { gravity: Vector::ZERO, integration_parameters: parameters(), ..PhysicsWorld::default() }
 }
 
-fn env(name: &str, default: f32) -> f32 {
+/// .
+pub fn env(name: &str, default: f32) -> f32 {
     std::env::var(name).ok().and_then(|s| s.parse().ok()).unwrap_or(default)
 }
 

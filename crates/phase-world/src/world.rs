@@ -134,7 +134,37 @@ impl World {
         }
         self.aim_friction();
         let rotations: Vec<Rotation> = self.movers.iter().map(|m| *self.engine.bodies[m.body].rotation()).collect();
-        self.engine.step_with_events(&self.rules, &());
+        let passes = std::env::var("PASSES").map_or(3, |s| s.parse::<usize>().unwrap());
+        for pass in 0..passes {
+            let before: Vec<(Pose, RigidBodyVelocity<f32>)> = self.movers.iter().map(|m| { let b = &self.engine.bodies[m.body]; (*b.position(), *b.vels()) }).collect();
+            self.engine.step_with_events(&self.rules, &());
+            if pass + 1 < passes {
+                let mut turned = false;
+                let mut aims = vec![];
+                for (mover, (pose, _)) in self.movers.iter().zip(&before) {
+                    let body = &self.engine.bodies[mover.body];
+                    let arm = pose.rotation * -body.local_center_of_mass();
+                    let slip = friction::impulse_for2(body, arm, body.linvel() + arm.perp() * body.angvel());
+                    let exerted = friction::exerted(&self.engine, mover.friction);
+                    let rot = self.engine.impulse_joints.get(mover.friction).unwrap().data.local_frame1.rotation;
+                    let now = Vec2::new(rot.re, rot.im);
+                    if std::env::var("NOSTRUCK").is_err() && contact::struck_wall(&self.engine, mover.collider) { aims.push((now, false)); continue; }
+                    let hold = slip.length() < 0.01 * friction::IMPULSE;
+                    let axis = if hold { exerted } else { slip };
+                    turned |= now.perp_dot(axis.normalize_or_zero()).abs() > 1e-3;
+                    aims.push((axis, hold));
+                }
+                if !turned { break; }
+                for (mover, (pose, vels)) in self.movers.iter().zip(before) {
+                    let body = &mut self.engine.bodies[mover.body];
+                    body.set_position(pose, true);
+                    body.set_vels(vels, true);
+                }
+                for (mover, (axis, hold)) in self.movers.iter().zip(aims) {
+                    friction::aim(&mut self.engine, mover.friction, axis, hold);
+                }
+            }
+        }
         for (mover, before) in self.movers.iter_mut().zip(rotations) {
             let rigid_body = &mut self.engine.bodies[mover.body];
             let turned = before.inverse() * *rigid_body.rotation();
@@ -144,10 +174,6 @@ impl World {
             let centre = rigid_body.center_of_mass();
             let origin = centre - rotation * rigid_body.local_center_of_mass();
             rigid_body.set_position(Pose::from_parts(origin, rotation), true);
-        }
-        for mover in &self.movers {
-            let position = self.engine.bodies[mover.body].position();
-            if let Some(c) = self.engine.colliders.get_mut(mover.collider) { c.set_position(*position); }
         }
         let colliders: Vec<ColliderHandle> = self.movers.iter().map(|mover| mover.collider).collect();
         self.rules.restore_clear(&self.engine, &colliders);
@@ -173,14 +199,9 @@ impl World {
     /// Aims every body's ground friction against the motion it is about to make.
     fn aim_friction(&mut self) {
         for mover in &self.movers {
-            let rigid_body = &self.engine.bodies[mover.body];
-            let mass = rigid_body.mass_properties();
-            let inverse_mass = mass.local_mprops.inv_mass;
-            let velocity = rigid_body.linvel() + rigid_body.user_force() * (inverse_mass * SUBSTEP_SECONDS);
-            let spin = rigid_body.angvel()
-                + rigid_body.user_torque() * (mass.local_mprops.inv_principal_inertia * SUBSTEP_SECONDS);
-            let arm = rigid_body.translation() - rigid_body.center_of_mass();
-            friction::aim(&mut self.engine, mover.friction, velocity + arm.perp() * spin, inverse_mass);
+            let body = &self.engine.bodies[mover.body];
+            let slip = friction::impulse_for(body, friction::origin_velocity(body, true));
+            friction::aim(&mut self.engine, mover.friction, slip, slip.length() <= friction::IMPULSE);
         }
     }
 

@@ -50,6 +50,8 @@ fn probes() {
             let states = world.step([probe.actions[0][s], probe.actions[1][s]]);
             let state = states[4];
             assert_eq!([0, 1].map(|a| state.held_object(a).map(|o| o as u8)), probe.attached_after_step[s], "{}", probe.name);
+            if std::env::var("SUB").is_ok_and(|n| n == probe.name) { for st in &states { for k in 0..4 { let b = st.bodies[k]; print!("{:.5} {:.5} {:.5} {:.5} {:.5} {:.3}| ", b.position.x, b.position.y, b.velocity.x, b.velocity.y, b.angle, b.angular_velocity); } println!(" sub {s}"); } }
+            if verbose.as_deref() == Some(probe.name.as_str()) { for k in 0..4 { if state.bodies[k].velocity.length() > 0.0 || (expected[k][2] != 0.0) { let b = state.bodies[k]; println!("{s} {k} got {:.4} {:.4} {:.4} {:.4} {:.4}  want {:?}", b.position.x, b.position.y, b.velocity.x, b.velocity.y, b.angle, expected[k]); } } }
             let mut e = (0.0f32, 0.0f32);
             for k in 0..4 {
                 let want = body(&expected[k]);

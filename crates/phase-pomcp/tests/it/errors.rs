@@ -49,9 +49,9 @@ impl GenerativeModel for Promises {
 
 /// Searches with `model`, and sees to it that the planner is as good as new afterwards.
 fn fails(model: Promises, roots: &[()]) -> PomcpError {
-    let mut used = Pomcp::new(PomcpSettings::default()).unwrap();
-    let error = used.search(&model, roots, &mut Pcg32::seed_from_u64(1)).unwrap_err();
-    let mut fresh = Pomcp::new(PomcpSettings::default()).unwrap();
+    let mut used = Pomcp::new(PomcpSettings::default()).expect("the defaults are valid");
+    let error = used.search(&model, roots, &mut Pcg32::seed_from_u64(1)).expect_err("the model is broken");
+    let mut fresh = Pomcp::new(PomcpSettings::default()).expect("the defaults are valid");
     let after = used.search(&KEPT, &[()], &mut Pcg32::seed_from_u64(2));
     assert_eq!(after, fresh.search(&KEPT, &[()], &mut Pcg32::seed_from_u64(2)));
     assert!(after.is_ok());

@@ -63,8 +63,9 @@ impl GenerativeModel for Bandit {
 fn visits(pays: &[f64], weights: &[f64], simulations: usize, normalise_values: bool) -> Vec<usize> {
     let settings = PomcpSettings { simulations, normalise_values, ..PomcpSettings::default() };
     let bandit = Bandit { pays: pays.to_vec(), weights: weights.to_vec() };
-    let mut pomcp = Pomcp::new(settings).unwrap();
-    let decision = pomcp.search(&bandit, &[()], &mut Pcg32::seed_from_u64(1)).unwrap();
+    let mut pomcp = Pomcp::new(settings).expect("the settings are valid");
+    let decision =
+        pomcp.search(&bandit, &[()], &mut Pcg32::seed_from_u64(1)).expect("a bandit can be searched");
     decision.actions.iter().map(|action| action.visits).collect()
 }
 
@@ -94,10 +95,23 @@ fn normalised_visits_do_not_depend_on_the_rewards_unit() {
     assert!(seeing[1] > 8 * seeing[0], "{seeing:?}");
 }
 
+/// Even an action without any prior, against a far better one already known, and whichever comes last.
 #[test]
 fn each_action_is_tried_once_before_any_is_compared() {
-    let tried = visits(&[0.0, 0.0, 9.0, 0.0], &[0.0, 1.0, 1.0, 5.0], 4, true);
-    assert_eq!(tried, [1, 1, 1, 1]);
+    let settings = PomcpSettings { simulations: 4, ..PomcpSettings::default() };
+    let bandit = Bandit { pays: vec![0.0, 0.0, 9.0, 0.0], weights: vec![0.0, 1.0, 1.0, 5.0] };
+    let mut pomcp = Pomcp::new(settings).unwrap();
+    for seed in 0..30 {
+        let decision = pomcp.search(&bandit, &[()], &mut Pcg32::seed_from_u64(seed)).unwrap();
+        assert!(decision.actions.iter().all(|action| action.visits == 1), "{decision:?}");
+    }
+}
+
+#[test]
+fn among_equal_scores_the_smallest_index_is_tried_next() {
+    for (simulations, expected) in [(4, [2, 1, 1]), (5, [2, 2, 1]), (6, [2, 2, 2]), (7, [3, 2, 2])] {
+        assert_eq!(visits(&[1.0; 3], &[1.0; 3], simulations, true), expected);
+    }
 }
 
 #[test]

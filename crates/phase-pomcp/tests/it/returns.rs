@@ -48,7 +48,7 @@ fn one_simulation_is_one_step_and_one_rollout() {
         let mut pomcp = Pomcp::new(settings).unwrap();
         let decision = pomcp.search(&Salary { lasts }, &[0], &mut Pcg32::seed_from_u64(1)).unwrap();
         // 1 + 1/2 + 1/4 + …, and the estimate after the last of them; all exact in binary.
-        let tail = 0.5_f64.powi(steps as i32);
+        let tail = 0.5_f64.powi(steps);
         let expected = 2.0 - 2.0 * tail + if estimated { 100.0 * tail } else { 0.0 };
         assert_eq!(decision.value(), expected, "{lasts} {rollout_steps} {horizon}");
         let histories = if lasts > 1 && horizon > 1 { 2 } else { 1 };

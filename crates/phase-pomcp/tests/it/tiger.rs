@@ -4,16 +4,17 @@ use phase_pomcp::{GenerativeModel, Pomcp, PomcpSettings};
 use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 
-use crate::tiger_problem::{LISTEN, OPEN_LEFT, OPEN_RIGHT, Rollout, Side, Tiger};
+use crate::tiger_problem::{LISTEN, OPEN_LEFT, OPEN_RIGHT, Side, Tiger};
 
 /// The problem of the literature.
-const CLASSIC: Tiger = Tiger { accuracy: 0.85, rollout: Rollout::Listen };
+const CLASSIC: Tiger = Tiger { accuracy: 0.85 };
 
 /// Steps after which the future no longer counts: 0.95³⁰⁰ is 2 in ten million.
 const FOREVER: usize = 300;
 
-/// The tiger's worst return sets the scale of values, some −130 to 20, on which a listening that pays is only
-/// a hundredth better than one that does not; the constants meant for games would explore that away.
+/// What decides well with few simulations. The tiger's worst return sets the scale of values, some −130 to 20,
+/// on which a listening that pays is but a hundredth better than one that does not, and with the constants
+/// meant for games it takes tens of thousands of simulations to tell.
 const SHARP: PomcpSettings = PomcpSettings {
     simulations: 2000,
     rollout_steps: 10,
@@ -56,16 +57,19 @@ fn it_listens_until_it_knows_enough() {
         (0.5, -9, LISTEN),
     ];
     for (accuracy, lead, expected) in cases {
-        let tiger = Tiger { accuracy, ..CLASSIC };
+        let tiger = Tiger { accuracy };
         assert_eq!(
             best(tiger.exact(FOREVER, lead)),
             expected,
             "reference at accuracy {accuracy}, lead {lead}"
         );
-        let mut pomcp = Pomcp::new(PomcpSettings { simulations: 40_000, ..SHARP }).unwrap();
+        let settings = PomcpSettings { simulations: 60_000, ..PomcpSettings::default() };
+        let mut pomcp = Pomcp::new(settings).unwrap();
         let roots = particles(&tiger, lead, 10_000);
-        let decision = pomcp.search(&tiger, &roots, &mut Pcg64Mcg::seed_from_u64(3)).unwrap();
-        assert_eq!(decision.action, expected, "accuracy {accuracy}, lead {lead}: {decision:?}");
+        for seed in 0..3 {
+            let decision = pomcp.search(&tiger, &roots, &mut Pcg64Mcg::seed_from_u64(seed)).unwrap();
+            assert_eq!(decision.action, expected, "accuracy {accuracy}, lead {lead}: {decision:?}");
+        }
     }
 }
 
@@ -80,7 +84,7 @@ fn root_values_approach_the_exact_ones() {
         assert_eq!(decision.action, best(exact), "{horizon} steps, lead {lead}: {exact:?} {decision:?}");
         // Below by what exploring costs; above by no more than chance (returns vary by some 30).
         let error = decision.value() - exact[decision.action];
-        assert!((-0.6..0.3).contains(&error), "{horizon} steps, lead {lead}: {exact:?} {decision:?}");
+        assert!((-0.9..0.3).contains(&error), "{horizon} steps, lead {lead}: {exact:?} {decision:?}");
     }
 }
 

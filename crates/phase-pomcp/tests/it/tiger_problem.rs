@@ -12,14 +12,6 @@ pub(crate) const OPEN_RIGHT: usize = 2;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Tiger {
     pub(crate) accuracy: f64,
-    pub(crate) rollout: Rollout,
-}
-
-/// What the default policy does.
-#[derive(Debug, Clone, Copy)]
-pub(crate) enum Rollout {
-    Uniform,
-    Listen,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -72,11 +64,9 @@ impl GenerativeModel for Tiger {
         Outcome { observation, reward, terminal: false }
     }
 
-    fn rollout_action(&self, _: &Side, random: &mut impl Rng) -> usize {
-        match self.rollout {
-            Rollout::Uniform => random.random_range(0..3),
-            Rollout::Listen => LISTEN,
-        }
+    /// Opening doors blindly says nothing of what a belief is worth, so rollouts only listen.
+    fn rollout_action(&self, _: &Side, _: &mut impl Rng) -> usize {
+        LISTEN
     }
 }
 

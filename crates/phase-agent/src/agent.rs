@@ -1,0 +1,147 @@
+//! Belief to subgoal to action: one agent of Algorithm 1.
+
+use crate::{
+    Settings, Thought,
+    imagination::Imagination,
+    objective::Objective,
+    repertoire,
+    thought::{ActionValue, SubgoalValue},
+};
+use phase_belief::Belief;
+use phase_model::{AGENT_COUNT, Action, Attitude, Dynamics, Goal, Physique, Scene, State};
+use phase_perception::Observation;
+use phase_planner::{Candidate, Plan, Planner, Subgoal, value};
+use phase_pomcp::{Pomcp, PomcpError, PomcpSettings};
+use rand::Rng;
+
+/// One agent's mind: its belief, its goals and its planners. The dynamics are its own model of the world.
+#[derive(Debug)]
+pub struct Agent<D> {
+    index: usize,
+    physique: Physique,
+    goals: [Goal; AGENT_COUNT],
+    attitude: Attitude,
+    settings: Settings,
+    dynamics: D,
+    planner: Planner,
+    pomcp: Pomcp<u16>,
+    belief: Belief,
+}
+
+impl<D: Dynamics> Agent<D> {
+    /// The mind of agent 0 or 1 of a scene, with a first belief from its first observation.
+    ///
+    /// # Errors
+    /// Settings that cannot be searched with.
+    pub fn new(
+        scene: &Scene,
+        index: usize,
+        dynamics: D,
+        settings: Settings,
+        observation: &Observation,
+        random: &mut impl Rng,
+    ) -> Result<Self, PomcpError> {
+        let physique = scene.physique();
+        let pomcp = Pomcp::new(PomcpSettings {
+            simulations: settings.simulations,
+            rollout_steps: settings.rollout_steps,
+            c_init: settings.c_init,
+            c_base: settings.c_base,
+            ..PomcpSettings::default()
+        })?;
+        let attitude = scene.agents[index].attitude;
+        Ok(Self {
+            index,
+            goals: scene.goals(),
+            attitude,
+            settings,
+            dynamics,
+            planner: Planner::new(physique.clone(), scene.layout, index, scene.goals(), attitude),
+            pomcp,
+            belief: Belief::new(&physique, observation, settings.particles, random),
+            physique,
+        })
+    }
+
+    /// What the agent believes.
+    pub const fn belief(&self) -> &Belief {
+        &self.belief
+    }
+
+    /// Takes in what has become of its last action.
+    pub fn perceive(&mut self, action: Action, observation: &Observation, random: &mut impl Rng) {
+        self.belief.update(&self.dynamics, &self.physique, action, observation, random);
+    }
+
+    /// Decides what to do next, and says why.
+    ///
+    /// # Errors
+    /// As POMCP's search.
+    pub fn decide(&mut self, random: &mut impl Rng) -> Result<(Action, Thought), PomcpError> {
+        let particles = self.belief.particles();
+        let (plans, plan_of) = self.plans(particles);
+        let by_particle: Vec<&Plan> = plan_of.iter().map(|&plan| &plans[plan]).collect();
+        let candidates = value::candidates(&by_particle, self.settings.lambda);
+        let Some(best) = candidates.first() else {
+            return Ok((Action::Stop, Thought::IDLE));
+        };
+        let roots: Vec<State> = best.particles.iter().map(|&particle| particles[particle]).collect();
+        let plan = by_particle[best.particles[0]].subgoals.clone();
+        let subgoal = best.subgoal;
+        let (action, actions) = self.search(subgoal, &roots, random)?;
+        let subgoals = candidates.iter().map(summary).collect();
+        Ok((action, Thought { subgoal, subgoals, plan, actions }))
+    }
+
+    /// One plan for each different particle, and which plan belongs to each particle. Once everything is in
+    /// view all particles are the same world, and planning once is enough.
+    fn plans(&self, particles: &[State]) -> (Vec<Plan>, Vec<usize>) {
+        let mut different: Vec<usize> = Vec::new();
+        let mut plans = Vec::new();
+        let mut plan_of = Vec::with_capacity(particles.len());
+        for (k, particle) in particles.iter().enumerate() {
+            let known = different.iter().position(|&other| particles[other] == *particle);
+            plan_of.push(known.unwrap_or_else(|| {
+                different.push(k);
+                plans.push(self.planner.plan(particle));
+                plans.len() - 1
+            }));
+        }
+        (plans, plan_of)
+    }
+
+    /// LP(B̃, h*) of Algorithm 1: the best action for a subgoal in the worlds that agree on it.
+    fn search(
+        &mut self,
+        subgoal: Subgoal,
+        roots: &[State],
+        random: &mut impl Rng,
+    ) -> Result<(Action, Vec<ActionValue>), PomcpError> {
+        let actions = repertoire::actions(self.index, subgoal, &roots[0]);
+        if let [only] = actions {
+            return Ok((*only, Vec::new()));
+        }
+        let routes = self.planner.routes();
+        let model = Imagination {
+            dynamics: &self.dynamics,
+            objective: Objective { physique: &self.physique, routes, agent: self.index, subgoal },
+            other_objective: Imagination::<D>::other(&self.physique, routes, self.index, self.goals),
+            actions,
+            goals: self.goals,
+            attitude: self.attitude,
+            discount: self.settings.discount,
+            guidance: self.settings.guidance,
+        };
+        let decision = self.pomcp.search(&model, roots, random)?;
+        let evidence = actions
+            .iter()
+            .zip(&decision.actions)
+            .map(|(&action, found)| ActionValue { action, visits: found.visits as u32, value: found.value })
+            .collect();
+        Ok((actions[decision.action], evidence))
+    }
+}
+
+fn summary(candidate: &Candidate) -> SubgoalValue {
+    SubgoalValue { subgoal: candidate.subgoal, value: candidate.value, particles: candidate.particles.len() }
+}

@@ -1,0 +1,72 @@
+//! From a point to another through doors: how far it still is, and which way to move now.
+
+use phase_model::{Vec2, layout::SLOT_DIRECTIONS};
+use phase_planner::{Gaps, Routes};
+
+/// A door with less room to spare than this is entered straight on (u).
+const TIGHT: f32 = 1.2;
+/// Distance before a tight door at which a body lines up with it (u).
+const LINE_UP: f32 = 1.8;
+/// How far beyond a room's border counts as being in it (u).
+const INSIDE: f32 = 1.5;
+
+/// What is left of a way, and where to head.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Course {
+    /// The point to head for now (u).
+    pub heading_for: Vec2,
+    /// Length of the whole way (u), with penalties for doors that the body does not fit through.
+    pub remaining: f32,
+}
+
+/// The way to a point for a body of some width (u).
+#[must_use]
+pub fn to_point(routes: &Routes, from: Vec2, to: Vec2, width: f32) -> Course {
+    let gaps = routes.gaps();
+    let Some(route) = routes.best(from, to, width, gaps) else {
+        return Course { heading_for: to, remaining: routes.cost(from, to, width, gaps) };
+    };
+    let Some(&(slot, crossing)) = route.doors().first() else {
+        return Course { heading_for: to, remaining: route.cost() };
+    };
+    let (heading_for, detour) = through(gaps, usize::from(slot), crossing, from, width);
+    Course { heading_for, remaining: route.cost() + detour }
+}
+
+/// The way into a room, just past its border.
+#[must_use]
+pub fn into_room(routes: &Routes, from: Vec2, room: usize, width: f32) -> Course {
+    let centre = phase_model::arena::LANDMARKS[room];
+    let gaps = routes.gaps();
+    let Some(route) = routes.best(from, centre, width, gaps) else {
+        return Course { heading_for: centre, remaining: routes.cost(from, centre, width, gaps) };
+    };
+    let (Some(&(slot, crossing)), Some(&(_, last))) = (route.doors().first(), route.doors().last()) else {
+        return Course { heading_for: from, remaining: 0.0 };
+    };
+    let (mut heading_for, detour) = through(gaps, usize::from(slot), crossing, from, width);
+    if route.doors().len() == 1 && heading_for == crossing {
+        heading_for += (crossing - from).normalize_or_zero() * INSIDE;
+    }
+    let remaining = (route.cost() - last.distance(centre) + detour).max(0.0) + INSIDE;
+    Course { heading_for, remaining }
+}
+
+/// The point to head for before a door, and how much longer than the straight way to the crossing that is (u).
+fn through(gaps: &Gaps, slot: usize, crossing: Vec2, from: Vec2, width: f32) -> (Vec2, f32) {
+    if gaps.width(slot) > width + TIGHT {
+        return (crossing, 0.0);
+    }
+    let along = SLOT_DIRECTIONS[slot];
+    let offset = from - crossing;
+    let lateral = along.dot(offset).abs();
+    let across = along.perp_dot(offset);
+    let straight = offset.length();
+    if across.abs() <= LINE_UP {
+        // Beside the door already: sideways first, then on; just before it, on and through.
+        let on = crossing - along.perp() * across.signum();
+        return (if lateral < 0.5 { on } else { crossing }, lateral + across.abs() - straight);
+    }
+    let line_up = crossing + along.perp() * LINE_UP * across.signum();
+    (line_up, from.distance(line_up) + LINE_UP - straight)
+}

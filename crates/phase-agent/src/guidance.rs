@@ -1,0 +1,77 @@
+//! A rule of thumb for moving along a course: the informed half of the default policy.
+
+use crate::objective::Objective;
+use phase_model::{Action, Entity, State, Vec2, arena};
+use phase_planner::Subgoal;
+use phase_predicates::{Literal, Predicate};
+
+/// Seconds of physics in one step.
+const STEP_SECONDS: f32 = arena::SUBSTEP_SECONDS * arena::SUBSTEPS as f32;
+/// A heading off by less than this is good enough to push forward (rad).
+const GOOD_HEADING: f32 = 0.6;
+/// Below this speed there is nothing to brake (u/s).
+const SLOW: f32 = 1.0;
+
+/// The action that a simple mover would take: grab or let go where that is the subgoal; brake before
+/// overshooting; push whichever way leads most directly along the course; or, when only forward pushes are
+/// on offer, turn until the heading is good.
+#[must_use]
+pub fn action(objective: &Objective<'_>, state: &State, sideways: bool) -> Action {
+    let agent = objective.agent;
+    if let Subgoal::Achieve(Literal { predicate: Predicate::Attach(who, object), holds }) = objective.subgoal
+        && usize::from(who) == agent
+    {
+        let within_reach = state
+            .attachable(objective.physique, agent)
+            .is_some_and(|(nearest, _)| nearest == usize::from(object));
+        match (holds, state.holds(agent, usize::from(object))) {
+            (true, false) if within_reach => return Action::Attach,
+            (false, true) => return Action::Detach,
+            (true, true) | (false, false) => return Action::Stop,
+            _ => {}
+        }
+    }
+    let course = objective.course(state);
+    let mover = state.body(objective.mover(state));
+    let way = course.heading_for - mover.position;
+    let body = state.body(Entity::agent(agent));
+    let speed = body.velocity.length();
+    let distance = way.length();
+    if distance < 0.2 || (speed > SLOW && overshoots(body.velocity, way, speed, distance)) {
+        return Action::Stop;
+    }
+    let direction = way / distance;
+    let forward = body.forward();
+    if sideways {
+        let right = Vec2::new(forward.y, -forward.x);
+        return nearest_push(Vec2::new(direction.dot(right), direction.dot(forward)));
+    }
+    let off = libm::atan2f(forward.perp_dot(direction), forward.dot(direction));
+    if off.abs() < GOOD_HEADING {
+        Action::Up
+    } else if off > 0.0 {
+        Action::TurnLeft
+    } else {
+        Action::TurnRight
+    }
+}
+
+/// Whether the present motion leads past the point or well away from it within this step.
+fn overshoots(velocity: Vec2, way: Vec2, speed: f32, distance: f32) -> bool {
+    let towards = velocity.dot(way) / (speed * distance);
+    towards < 0.5 || speed * STEP_SECONDS > distance
+}
+
+/// The push nearest to a direction in the agent's frame (x right, y forward).
+fn nearest_push(direction: Vec2) -> Action {
+    let mut best = (f32::NEG_INFINITY, Action::Up);
+    for action in Action::ALL {
+        if let Some(push) = action.push() {
+            let along = push.dot(direction);
+            if along > best.0 {
+                best = (along, action);
+            }
+        }
+    }
+    best.1
+}

@@ -1,0 +1,132 @@
+//! The agent's own model of the world, as POMCP searches it.
+
+use crate::{
+    guidance,
+    objective::{LONGEST, Objective},
+};
+use phase_model::{AGENT_COUNT, Action, Attitude, Dynamics, Entity, Goal, Physique, State, reward};
+use phase_perception::observed_set;
+use phase_planner::{Routes, Subgoal};
+use phase_pomcp::{GenerativeModel, Outcome};
+use phase_predicates::{Literal, achieved};
+use rand::{Rng, RngExt};
+
+/// Steps for which the distance left at the end of an imagined future is taken to last: what a search of ten
+/// steps cannot see still counts, but less than what it can.
+const STEPS_BEYOND: f64 = 8.0;
+
+/// What an agent imagines when it searches for an action: the physics it believes in, its own actions, the
+/// other one coasting, and Equation 1 shaped by the distance to the subgoal.
+#[derive(Debug)]
+pub struct Imagination<'a, D> {
+    /// The physics.
+    pub dynamics: &'a D,
+    /// The agent's subgoal.
+    pub objective: Objective<'a>,
+    /// What the other agent would do about its own goal if it is seen to hold the same object.
+    pub other_objective: Objective<'a>,
+    /// Actions to search.
+    pub actions: &'a [Action],
+    /// Both agents' goals.
+    pub goals: [Goal; AGENT_COUNT],
+    /// The agent's attitude.
+    pub attitude: Attitude,
+    /// Discount a step.
+    pub discount: f64,
+    /// Share of informed rollout actions.
+    pub guidance: f64,
+}
+
+impl<'a, D> Imagination<'a, D> {
+    /// What the other would do about its goal.
+    #[must_use]
+    pub fn other(
+        physique: &'a Physique,
+        routes: &'a Routes,
+        agent: usize,
+        goals: [Goal; AGENT_COUNT],
+    ) -> Objective<'a> {
+        let subgoal = Subgoal::Achieve(Literal::from(goals[1 - agent]));
+        Objective { physique, routes, agent: 1 - agent, subgoal }
+    }
+
+    /// The other coasts, except when both hold the same object: then it goes on pulling for its own goal.
+    /// Without that a weak agent could not imagine what two can carry.
+    fn other_action(&self, state: &State) -> Action {
+        let agent = self.objective.agent;
+        match (state.held_object(agent), state.held_object(1 - agent)) {
+            (Some(mine), Some(theirs)) if mine == theirs => {
+                guidance::action(&self.other_objective, state, true)
+            }
+            _ => Action::NoForce,
+        }
+    }
+
+    fn reward(&self, state: &State, action: Action) -> f64 {
+        let agent = self.objective.agent;
+        let satisfied = |goal| f64::from(u8::from(achieved(self.objective.physique, state, goal)));
+        let shaping = -f64::from(self.objective.distance(state) / LONGEST);
+        reward::social_reward(
+            self.attitude,
+            satisfied(self.goals[agent]),
+            satisfied(self.other_goal()),
+            action,
+        ) + shaping
+    }
+
+    /// The goal that the social part of the reward is about: the other's, as the other has it.
+    const fn other_goal(&self) -> Goal {
+        self.goals[1 - self.objective.agent]
+    }
+
+    /// What the agent notices, coarsely: who is observed, and who holds what of that.
+    fn notice(&self, state: &State) -> u16 {
+        let agent = self.objective.agent;
+        let observed = observed_set(self.objective.physique, state, agent);
+        let mut code = u16::from(observed.bits());
+        for who in 0..AGENT_COUNT {
+            if observed.contains(Entity::agent(who)) {
+                let held = state.held_object(who).map_or(0, |object| object as u16 + 1);
+                code |= held << (4 + 2 * who);
+            }
+        }
+        code
+    }
+}
+
+impl<D: Dynamics> GenerativeModel for Imagination<'_, D> {
+    type State = State;
+    type Observation = u16;
+
+    fn action_count(&self) -> usize {
+        self.actions.len()
+    }
+
+    fn discount(&self) -> f64 {
+        self.discount
+    }
+
+    fn step(&self, state: &mut State, action: usize, _random: &mut impl Rng) -> Outcome<u16> {
+        let agent = self.objective.agent;
+        let action = self.actions[action];
+        let mut actions = [self.other_action(state); AGENT_COUNT];
+        actions[agent] = action;
+        self.dynamics.step(state, actions);
+        Outcome { observation: self.notice(state), reward: self.reward(state, action), terminal: false }
+    }
+
+    fn rollout_action(&self, state: &State, random: &mut impl Rng) -> usize {
+        if random.random_bool(self.guidance) {
+            let sideways = self.actions.contains(&Action::Left);
+            let guided = guidance::action(&self.objective, state, sideways);
+            if let Some(index) = self.actions.iter().position(|&action| action == guided) {
+                return index;
+            }
+        }
+        random.random_range(0..self.actions.len())
+    }
+
+    fn value_estimate(&self, state: &State) -> f64 {
+        self.reward(state, Action::NoForce) * STEPS_BEYOND
+    }
+}

@@ -1,0 +1,187 @@
+//! A subgoal as the low level sees it: a distance to bring down, and a direction that does.
+
+use crate::course::{self, Course};
+use phase_model::{Entity, Physique, Side, State, Vec2, arena, layout::room_of};
+use phase_planner::{Routes, Subgoal};
+use phase_predicates::{Literal, Place, Predicate};
+
+/// Longest straight distance in the arena (u); distances are scaled by it in rewards.
+pub const LONGEST: f32 = 28.284;
+/// What an object not in hand adds to the distance of Attach (u): more than standing next to it gains.
+const NOT_IN_HAND: f32 = 2.0;
+/// What the other agent's being where it should not adds to the distance of keeping it out (u).
+const TRESPASS: f32 = 8.0;
+
+/// One agent's subgoal, in one scene.
+#[derive(Clone, Copy, Debug)]
+pub struct Objective<'a> {
+    /// Bodies and walls.
+    pub physique: &'a Physique,
+    /// The ways between rooms.
+    pub routes: &'a Routes,
+    /// Who pursues it, 0 or 1.
+    pub agent: usize,
+    /// What is pursued.
+    pub subgoal: Subgoal,
+}
+
+impl Objective<'_> {
+    /// How far a state is from the subgoal (u); 0 where it is reached, finite for every finite state.
+    #[must_use]
+    pub fn distance(&self, state: &State) -> f32 {
+        match self.subgoal {
+            Subgoal::Stay => 0.0,
+            Subgoal::Achieve(Literal { predicate: Predicate::Attach(agent, object), holds }) => {
+                let held = state.holds(usize::from(agent), usize::from(object));
+                match (holds, held) {
+                    (true, false) => self.course(state).remaining + NOT_IN_HAND,
+                    (false, true) => 1.0,
+                    _ => 0.0,
+                }
+            }
+            Subgoal::Achieve(Literal { predicate: Predicate::Touch(..), holds: false })
+            | Subgoal::Achieve(Literal { predicate: Predicate::Close(_, Place::Entity(_)), holds: false }) => {
+                LONGEST - self.apart(state).min(LONGEST)
+            }
+            Subgoal::Achieve(literal) => {
+                let distance = self.course(state).remaining;
+                if literal.holds || literal.is_true(self.physique, state) {
+                    distance
+                } else {
+                    distance + TRESPASS
+                }
+            }
+        }
+    }
+
+    /// The entity whose place the subgoal is about and that the agent can move: itself or what it holds.
+    #[must_use]
+    pub fn mover(&self, state: &State) -> Entity {
+        match self.subgoal {
+            Subgoal::Achieve(Literal {
+                predicate:
+                    Predicate::On(Entity::Object(object), _) | Predicate::Close(Entity::Object(object), _),
+                ..
+            }) if state.holds(self.agent, usize::from(object)) => Entity::Object(object),
+            _ => Entity::agent(self.agent),
+        }
+    }
+
+    /// The way that is left for the mover.
+    #[must_use]
+    pub fn course(&self, state: &State) -> Course {
+        let mover = self.mover(state);
+        let from = state.position(mover);
+        let here = Course { heading_for: from, remaining: 0.0 };
+        let Subgoal::Achieve(Literal { predicate, holds }) = self.subgoal else { return here };
+        match (predicate, holds) {
+            (Predicate::On(entity, landmark), true) => {
+                let centre = arena::LANDMARKS[usize::from(landmark)];
+                if entity == mover {
+                    self.to_point(state, from, centre)
+                } else {
+                    self.escort(state, entity, centre)
+                }
+            }
+            (Predicate::Close(entity, Place::Landmark(landmark)), true) => {
+                let room = usize::from(landmark);
+                if entity != mover {
+                    self.escort(state, entity, arena::LANDMARKS[room])
+                } else if room_of(from) == room {
+                    here
+                } else {
+                    course::into_room(self.routes, from, room, self.width(state))
+                }
+            }
+            (Predicate::Attach(_, object), true) => self.to_grab(state, object),
+            (Predicate::Close(_, Place::Entity(entity)) | Predicate::Touch(_, entity), true) => {
+                self.to_entity(state, entity)
+            }
+            (Predicate::Touch(_, other) | Predicate::Close(_, Place::Entity(other)), false) => {
+                self.away_from(state, other)
+            }
+            (Predicate::Close(entity, Place::Landmark(landmark)), false) => {
+                self.to_doorway(state, entity, usize::from(landmark))
+            }
+            (Predicate::On(entity, landmark), false) => {
+                let target = arena::LANDMARKS[usize::from(landmark)];
+                let reach = self.physique.radius(entity) + self.physique.agents[self.agent].radius;
+                let between = target + (state.position(entity) - target).clamp_length_max(reach);
+                self.to_point(state, from, between)
+            }
+            (Predicate::Attach(..), false) => here,
+        }
+    }
+
+    fn to_point(&self, state: &State, from: Vec2, to: Vec2) -> Course {
+        course::to_point(self.routes, from, to, self.width(state))
+    }
+
+    /// The gap the agent needs, with what it holds (u).
+    fn width(&self, state: &State) -> f32 {
+        let own = self.physique.agents[self.agent].width();
+        state.held_object(self.agent).map_or(own, |object| own.max(2.0 * self.physique.object_radii[object]))
+    }
+
+    /// Until the surfaces meet.
+    fn to_entity(&self, state: &State, entity: Entity) -> Course {
+        let from = state.position(Entity::agent(self.agent));
+        let mut course = self.to_point(state, from, state.position(entity));
+        let reach = self.physique.radius(entity) + self.physique.agents[self.agent].radius;
+        course.remaining = (course.remaining - reach).max(0.0);
+        course
+    }
+
+    /// Until an object is within reach of the nearest of the four sides.
+    fn to_grab(&self, state: &State, object: u8) -> Course {
+        let entity = Entity::Object(object);
+        let body = state.body(Entity::agent(self.agent));
+        let mut course = self.to_entity(state, entity);
+        if room_of(body.position) == room_of(state.position(entity)) {
+            let rotation = Vec2::from_angle(body.angle);
+            let radius = self.physique.agents[self.agent].radius;
+            let nearest = Side::ALL
+                .iter()
+                .map(|side| body.position + rotation.rotate(side.direction() * radius))
+                .map(|point| point.distance(state.position(entity)))
+                .fold(f32::INFINITY, f32::min);
+            let reach = self.physique.radius(entity) + 0.5 * phase_model::physique::GRAB_REACH;
+            course.remaining = (nearest - reach).max(0.0);
+        }
+        course
+    }
+
+    /// Something that has to move but is not in hand: get to it, and what it has left counts as well.
+    fn escort(&self, state: &State, entity: Entity, target: Vec2) -> Course {
+        let mut course = self.to_entity(state, entity);
+        course.remaining +=
+            course::to_point(self.routes, state.position(entity), target, self.physique.radius(entity))
+                .remaining;
+        course
+    }
+
+    /// By way of doors, from the other agent to this one (u).
+    fn apart(&self, state: &State) -> f32 {
+        let (me, other) = (Entity::agent(self.agent), Entity::agent(1 - self.agent));
+        let width = self.physique.agents[1 - self.agent].width();
+        self.routes.cost(state.position(other), state.position(me), width, self.routes.gaps())
+    }
+
+    fn away_from(&self, state: &State, other: Entity) -> Course {
+        let from = state.position(Entity::agent(self.agent));
+        let direction = (from - state.position(other)).normalize_or(Vec2::Y);
+        // Along the wall rather than into it.
+        let heading_for = (from + direction * 4.0).clamp(arena::MIN + Vec2::ONE, arena::MAX - Vec2::ONE);
+        Course { heading_for, remaining: LONGEST - self.apart(state).min(LONGEST) }
+    }
+
+    /// Into the door through which an entity would enter a room, in front of it.
+    fn to_doorway(&self, state: &State, entity: Entity, room: usize) -> Course {
+        let from = state.position(Entity::agent(self.agent));
+        let there = state.position(entity);
+        let width = 2.0 * self.physique.radius(entity);
+        let route = self.routes.best(there, arena::LANDMARKS[room], width, self.routes.gaps());
+        let crossing = route.and_then(|route| route.doors().last().map(|&(_, point)| point));
+        self.to_point(state, from, crossing.unwrap_or(there))
+    }
+}

@@ -1,0 +1,32 @@
+//! Which actions the low level considers for a subgoal.
+
+use phase_model::{Action, Entity, State};
+use phase_planner::Subgoal;
+use phase_predicates::{Literal, Place, Predicate};
+
+/// For getting oneself somewhere: people see purpose in bodies that move the way they face.
+const WALKING: [Action; 5] = [Action::TurnLeft, Action::TurnRight, Action::Up, Action::Stop, Action::NoForce];
+/// For letting go: first come to rest, so that the object stays where it is put.
+const RELEASING: [Action; 3] = [Action::Stop, Action::NoForce, Action::Detach];
+/// Number of leading actions of [`Action::ALL`] without grabbing and letting go.
+const WITHOUT_HANDS: usize = 12;
+/// Number of leading actions of [`Action::ALL`] without letting go.
+const WITHOUT_RELEASE: usize = 13;
+
+/// The actions to search, never empty; a single one needs no search.
+#[must_use]
+pub fn actions(agent: usize, subgoal: Subgoal, state: &State) -> &'static [Action] {
+    let Subgoal::Achieve(Literal { predicate, holds }) = subgoal else { return &[Action::Stop] };
+    let free = state.grips[agent].is_none();
+    let me = Entity::agent(agent);
+    match (predicate, holds) {
+        (Predicate::Attach(..), false) => &RELEASING,
+        (Predicate::Attach(..), true) => &Action::ALL[..WITHOUT_RELEASE],
+        (Predicate::On(who, _) | Predicate::Close(who, Place::Landmark(_)), true) if who == me && free => {
+            &WALKING
+        }
+        (Predicate::Close(who, Place::Entity(_)), _) if who == me && free => &WALKING,
+        (Predicate::Touch(..), _) if free => &WALKING,
+        _ => &Action::ALL[..WITHOUT_HANDS],
+    }
+}

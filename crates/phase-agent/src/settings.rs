@@ -1,0 +1,39 @@
+//! The numbers of a mind.
+
+use serde::{Deserialize, Serialize};
+
+/// How an agent thinks. The defaults are the paper's.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+pub struct Settings {
+    /// K, the number of belief particles; at least 1.
+    pub particles: usize,
+    /// λ of the subgoal value.
+    pub lambda: f64,
+    /// POMCP simulations a decision; at least 1.
+    pub simulations: usize,
+    /// Steps of the default policy after the tree is left.
+    pub rollout_steps: usize,
+    /// c_init of PUCT.
+    pub c_init: f64,
+    /// c_base of PUCT.
+    pub c_base: f64,
+    /// Discount of the next step's reward relative to this one's.
+    pub discount: f64,
+    /// Share of rollout actions that head for the subgoal instead of being drawn evenly, 0 to 1.
+    pub guidance: f64,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            particles: 50,
+            lambda: phase_planner::value::LAMBDA,
+            simulations: 1000,
+            rollout_steps: 10,
+            c_init: 1.25,
+            c_base: 1000.0,
+            discount: 0.95,
+            guidance: 0.5,
+        }
+    }
+}

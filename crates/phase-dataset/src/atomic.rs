@@ -1,0 +1,111 @@
+//! Files that are there whole or not at all: written beside, synced, renamed.
+
+use crate::WriteError;
+use std::{
+    ffi::OsString,
+    fs::{self, File},
+    io::{self, BufWriter, Write},
+    path::{Path, PathBuf},
+};
+
+/// Suffix of files that are still being written.
+pub const PART_SUFFIX: &str = ".part";
+
+/// Writes a file whole or not at all. Folders on the way must exist.
+///
+/// # Errors
+/// If the file cannot be written; then nothing of it is left and an older file of this name is untouched.
+pub fn write(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
+    let mut file = AtomicFile::create(path)?;
+    file.write_all(bytes).map_err(|source| file.failed(source))?;
+    file.commit()
+}
+
+/// A file that appears under its name only when it is finished.
+#[derive(Debug)]
+pub struct AtomicFile {
+    path: PathBuf,
+    part: PathBuf,
+    writer: Option<BufWriter<File>>,
+}
+
+impl AtomicFile {
+    /// Begins a file beside the path under which it is to appear.
+    ///
+    /// # Errors
+    /// If no file can be created there.
+    pub fn create(path: &Path) -> Result<Self, WriteError> {
+        let part = part_path(path);
+        match File::create(&part) {
+            Ok(file) => Ok(Self { path: path.to_owned(), part, writer: Some(BufWriter::new(file)) }),
+            Err(source) => Err(error(path, source)),
+        }
+    }
+
+    /// Syncs the file and gives it its name.
+    ///
+    /// # Errors
+    /// If either fails; then nothing is left of it.
+    pub fn commit(mut self) -> Result<(), WriteError> {
+        self.finish().map_err(|source| error(&self.path, source))
+    }
+
+    /// An error about this file for something that went wrong while writing to it.
+    #[must_use]
+    pub fn failed(&self, source: io::Error) -> WriteError {
+        error(&self.path, source)
+    }
+
+    fn finish(&mut self) -> io::Result<()> {
+        if let Some(writer) = self.writer.take() {
+            let file = writer.into_inner().map_err(io::IntoInnerError::into_error)?;
+            file.sync_all()?;
+        }
+        fs::rename(&self.part, &self.path)?;
+        sync_folder(&self.path);
+        Ok(())
+    }
+}
+
+impl Write for AtomicFile {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.writer.as_mut().map_or(Ok(0), |writer| writer.write(bytes))
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.writer.as_mut().map_or(Ok(()), Write::flush)
+    }
+}
+
+impl Drop for AtomicFile {
+    fn drop(&mut self) {
+        // After a rename there is nothing to remove, and a failure to clear up has nobody to be told to.
+        let _ = fs::remove_file(&self.part);
+    }
+}
+
+/// Whether a file name is that of a file still being written.
+#[must_use]
+pub fn is_part(name: &str) -> bool {
+    name.starts_with('.') && name.ends_with(PART_SUFFIX)
+}
+
+/// The hidden name beside a path; the process number keeps two programs apart.
+fn part_path(path: &Path) -> PathBuf {
+    let mut name = OsString::from(".");
+    name.push(path.file_name().unwrap_or_default());
+    name.push(format!(".{}{PART_SUFFIX}", std::process::id()));
+    path.with_file_name(name)
+}
+
+/// Makes the new name last through a power cut, where the system lets one sync a folder.
+fn sync_folder(path: &Path) {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    if let Ok(folder) = File::open(folder.unwrap_or_else(|| Path::new("."))) {
+        let _ = folder.sync_all();
+    }
+}
+
+fn error(path: &Path, source: io::Error) -> WriteError {
+    WriteError { path: path.to_owned(), action: "write the file", source }
+}

@@ -1,0 +1,117 @@
+//! What can be wrong with a file, in one plain sentence each.
+
+use std::{io, path::PathBuf};
+use thiserror::Error;
+
+/// A file that cannot be used, and why. The text names the file first.
+#[derive(Debug, Error)]
+#[error("{}: {problem}", file.display())]
+pub struct FileError {
+    /// The file.
+    pub file: PathBuf,
+    /// What is wrong with it.
+    pub problem: Problem,
+}
+
+/// What is wrong with a file, without its name.
+#[derive(Clone, PartialEq, Debug, Error)]
+pub enum Problem {
+    /// It cannot be opened or read.
+    #[error("cannot be read: {0}")]
+    Unreadable(String),
+    /// It is a folder.
+    #[error("is a folder; a file is needed")]
+    IsFolder,
+    /// It holds nothing.
+    #[error("is empty")]
+    Empty,
+    /// It is not text at all: a picture, a video, an archive.
+    #[error("is not JSON text (byte {0} is no UTF-8)")]
+    NotText(usize),
+    /// It is text but not JSON.
+    #[error("is not JSON: {what} in line {line}")]
+    NotJson {
+        /// What stands there.
+        what: String,
+        /// Line of the mistake, from 1.
+        line: usize,
+    },
+    /// It ends in the middle.
+    #[error("is truncated: the JSON ends unfinished in line {0}")]
+    Truncated(usize),
+    /// A number is written as NaN or an infinity.
+    #[error("holds {token} in line {line}: numbers must be finite")]
+    NotANumber {
+        /// What stands there.
+        token: String,
+        /// Line, from 1.
+        line: usize,
+    },
+    /// A number is too large to be one.
+    #[error("holds a number in line {0} that is too large: numbers must be finite")]
+    NumberTooLarge(usize),
+    /// It is JSON of another kind.
+    #[error("field `format` must be {expected:?}, {found}")]
+    Format {
+        /// What it must be.
+        expected: &'static str,
+        /// What it is, in words.
+        found: String,
+    },
+    /// There is nothing in it to work on.
+    #[error("field `events` must hold at least one event")]
+    NoEvents,
+    /// Two events have the same name.
+    #[error("event {0}: field `id` must differ from that of every other event")]
+    DuplicateId(String),
+    /// A field breaks a rule.
+    #[error("{}{problem}", event_prefix(event))]
+    Field {
+        /// The event it belongs to, by its `id` or its number.
+        event: Option<String>,
+        /// The field and the rule.
+        problem: FieldError,
+    },
+    /// A field breaks a rule of [`phase_model::validate`] or [`phase_model::layout`], whose text names both.
+    #[error("event {event}: {rule}")]
+    Scene {
+        /// The event's `id` or number.
+        event: String,
+        /// The field and the rule.
+        rule: String,
+    },
+}
+
+/// A field that breaks a rule.
+#[derive(Clone, PartialEq, Eq, Debug, Error)]
+#[error("field `{field}` {rule}")]
+pub struct FieldError {
+    /// Where in the file, such as `agents[0].radius`.
+    pub field: String,
+    /// What it breaks, such as `must be a finite number, not null`.
+    pub rule: String,
+}
+
+/// A file or folder that cannot be written. The text names it first.
+#[derive(Debug, Error)]
+#[error("{}: cannot {action}: {}", path.display(), plain_reason(source))]
+pub struct WriteError {
+    /// The file or folder.
+    pub path: PathBuf,
+    /// What was tried, such as `write the file`.
+    pub action: &'static str,
+    /// The system's answer.
+    #[source]
+    pub source: io::Error,
+}
+
+/// The system's answer in words, without its number.
+#[must_use]
+pub fn plain_reason(error: &io::Error) -> String {
+    let text = error.to_string();
+    text.split(" (os error").next().unwrap_or_default().to_lowercase()
+}
+
+fn event_prefix(event: &Option<String>) -> String {
+    event.as_ref().map_or_else(String::new, |event| format!("event {event}: "))
+}

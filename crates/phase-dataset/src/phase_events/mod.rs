@@ -1,0 +1,16 @@
+//! The format `phase-events/1`: recordings of social events, measured or simulated, as JSON.
+//!
+//! `docs/formats.md` describes every field. A [`Recording`] is one event of such a file in memory; reading
+//! and writing are each other's inverse.
+
+mod read;
+mod read_scene;
+mod read_simulation;
+mod recording;
+mod subgoals;
+mod write;
+
+pub use read::{parse, read};
+pub use recording::{COLUMNS, Recording, Recovered, Row, SUBSTEP_COLUMNS, Simulation, Trajectory};
+pub use subgoals::subgoal_of;
+pub use write::{FILE_FORMAT, NotFinite, to_json};

@@ -1,0 +1,248 @@
+//! From a file to recordings.
+
+use super::{
+    COLUMNS, Recording, Recovered, Row, Trajectory, read_scene,
+    read_simulation::{actions_of, simulation_of},
+    recording::body_of,
+    write::FILE_FORMAT,
+};
+use crate::{
+    FieldError, FileError, Problem,
+    json::{self, Field, finite, shown},
+};
+use phase_model::{
+    AGENT_COUNT, AgentSpec, MAX_OBJECTS, ObjectSpec, Relation, Scene, SceneError, Vec2,
+    arena::{self, FRAMES_PER_SECOND, SUBSTEPS},
+};
+use serde_json::Value;
+use std::{collections::BTreeSet, path::Path};
+
+/// Reads all events of a `phase-events/1` file and checks each.
+///
+/// # Errors
+/// A [`FileError`] that names file, event, field and rule.
+pub fn read(path: &Path) -> Result<Vec<Recording>, FileError> {
+    let value = json::read(path)?;
+    from_value(&value).map_err(|problem| FileError { file: path.to_owned(), problem })
+}
+
+/// The same for bytes in memory.
+///
+/// # Errors
+/// What is wrong, without a file's name.
+pub fn parse(bytes: &[u8]) -> Result<Vec<Recording>, Problem> {
+    from_value(&json::parse(bytes)?)
+}
+
+fn from_value(value: &Value) -> Result<Vec<Recording>, Problem> {
+    check_format(value, FILE_FORMAT)?;
+    let of_file = |problem| Problem::Field { event: None, problem };
+    let events = Field::root(value).required("events").map_err(of_file)?;
+    let events = events.array().map_err(of_file)?;
+    if events.is_empty() {
+        return Err(Problem::NoEvents);
+    }
+    let mut ids = BTreeSet::new();
+    let mut recordings = Vec::with_capacity(events.len());
+    for (k, value) in events.iter().enumerate() {
+        let recording = recording(k, &Field::root(value))?;
+        if !ids.insert(recording.id.clone()) {
+            return Err(Problem::DuplicateId(recording.id));
+        }
+        recordings.push(recording);
+    }
+    Ok(recordings)
+}
+
+/// Checks the `format` field that every file of ours begins with.
+///
+/// # Errors
+/// [`Problem::Format`].
+pub(crate) fn check_format(value: &Value, expected: &'static str) -> Result<(), Problem> {
+    let found = match value {
+        Value::Object(members) => match members.get("format") {
+            Some(Value::String(format)) if format == expected => return Ok(()),
+            Some(other) => format!("not {}", shown(other)),
+            None => "and is missing".into(),
+        },
+        other => format!("but the file holds {} and no object", kind(other)),
+    };
+    Err(Problem::Format { expected, found })
+}
+
+fn kind(value: &Value) -> &'static str {
+    match value {
+        Value::Null => "null",
+        Value::Bool(_) => "a truth value",
+        Value::Number(_) => "a number",
+        Value::String(_) => "a text",
+        Value::Array(_) => "an array",
+        Value::Object(_) => "an object",
+    }
+}
+
+fn recording(k: usize, event: &Field<'_>) -> Result<Recording, Problem> {
+    let number = format!("number {k}");
+    let id = id_of(event).map_err(|problem| Problem::Field { event: Some(number), problem })?;
+    let in_event = |problem| Problem::Field { event: Some(id.clone()), problem };
+
+    let parts = read_scene::parts(event).map_err(in_event)?;
+    let trajectory = trajectory(event, parts.objects.len()).map_err(in_event)?;
+    let start = |rows: &Vec<Row>| body_of(&rows[0]);
+    let agents = core::array::from_fn(|i| AgentSpec { start: start(&trajectory.agents[i]), ..parts.agents[i] });
+    let objects = parts.objects.iter().zip(&trajectory.objects);
+    let objects = objects.map(|(&size, rows)| ObjectSpec { size, start: start(rows) }).collect();
+    let mut scene = Scene { layout: parts.layout, agents, objects, kind: parts.kind };
+    scene.validate().map_err(|error| scene_problem(&id, &error))?;
+
+    let labels = labels(event).map_err(in_event)?;
+    let simulation = simulation_of(event, &mut scene, &trajectory).map_err(in_event)?;
+    Ok(Recording {
+        relation: labels.relation.unwrap_or_else(|| scene.relation()),
+        relation_human: labels.relation_human,
+        row_0: labels.row_0,
+        recorded_steps: labels.recorded_steps,
+        recovered_actions: labels.recovered_actions,
+        id,
+        scene,
+        trajectory,
+        simulation,
+    })
+}
+
+/// An id becomes a file name, so it must be one on every system.
+fn id_of(event: &Field<'_>) -> Result<String, FieldError> {
+    const LONGEST: usize = 100;
+    let field = event.required("id")?;
+    let id = field.text()?;
+    let plain = |letter: char| letter.is_ascii_alphanumeric() || "-_.".contains(letter);
+    let good = (1..=LONGEST).contains(&id.len()) && id.chars().all(plain) && !id.starts_with(['.', '-']);
+    if good {
+        Ok(id.into())
+    } else {
+        let rule = "1 to 100 letters, digits, `-`, `_` and `.`, beginning with a letter or digit";
+        Err(field.must_be(rule))
+    }
+}
+
+/// The model's checks know a start pose where the file has a trajectory's first row.
+fn scene_problem(id: &str, error: &SceneError) -> Problem {
+    let rule = error.to_string();
+    let rule = ["agents", "objects"].into_iter().fold(rule, |rule, group| {
+        (0..MAX_OBJECTS.max(AGENT_COUNT)).fold(rule, |rule, k| {
+            rule.replace(&format!("{group}[{k}].start"), &format!("trajectory.{group}[{k}][0]"))
+        })
+    });
+    Problem::Scene { event: id.into(), rule }
+}
+
+struct Labels {
+    relation: Option<Relation>,
+    relation_human: Option<Relation>,
+    row_0: Option<String>,
+    recorded_steps: Option<u32>,
+    recovered_actions: Option<Recovered>,
+}
+
+fn labels(event: &Field<'_>) -> Result<Labels, FieldError> {
+    const RELATIONS: [(&str, Relation); 3] = [
+        ("friendly", Relation::Friendly),
+        ("adversarial", Relation::Adversarial),
+        ("neutral", Relation::Neutral),
+    ];
+    if let Some(field) = event.optional("step_seconds")? {
+        let expected = SUBSTEPS as f32 / FRAMES_PER_SECOND as f32;
+        if (field.number()? - expected).abs() > 1e-4 {
+            return Err(field.must_be(&expected.to_string()));
+        }
+    }
+    let relation = |key| event.optional(key)?.map(|field| field.one_of(&RELATIONS)).transpose();
+    let steps = event.optional("recorded_steps")?;
+    Ok(Labels {
+        relation: relation("relation")?,
+        relation_human: relation("relation_human")?,
+        row_0: event.optional("row_0")?.map(|field| field.text().map(String::from)).transpose()?,
+        recorded_steps: steps.map(|field| field.whole(0, u32::MAX.into())).transpose()?.map(|n| n as u32),
+        recovered_actions: event.optional("recovered_actions")?.map(|field| recovered(&field)).transpose()?,
+    })
+}
+
+fn recovered(field: &Field<'_>) -> Result<Recovered, FieldError> {
+    field.only(&["steps", "note"])?;
+    Ok(Recovered {
+        steps: actions_of(&field.required("steps")?)?,
+        note: field.optional("note")?.map(|note| note.text().map(String::from)).transpose()?,
+    })
+}
+
+fn trajectory(event: &Field<'_>, object_count: usize) -> Result<Trajectory, FieldError> {
+    let field = event.required("trajectory")?;
+    field.only(&["columns", "agents", "objects"])?;
+    columns(&field, &COLUMNS)?;
+    let agents = tracks(&field.required("agents")?, AGENT_COUNT, "agents")?;
+    let objects = tracks(&field.required("objects")?, object_count, "objects")?;
+    let mut agents = agents.into_iter();
+    let agents: [Vec<Row>; AGENT_COUNT] = core::array::from_fn(|_| agents.next().unwrap_or_default());
+    let length = agents[0].len();
+    let named = agents.iter().map(|rows| ("agents", rows)).enumerate();
+    let named = named.chain(objects.iter().map(|rows| ("objects", rows)).enumerate());
+    for (k, (group, rows)) in named {
+        if rows.len() != length {
+            let rows = rows.len();
+            let rule = format!("has {rows} rows, but `trajectory.agents[0]` has {length}: all must have as many");
+            return Err(FieldError { field: format!("trajectory.{group}[{k}]"), rule });
+        }
+    }
+    Ok(Trajectory { agents, objects })
+}
+
+/// Checks the names of a table's columns.
+pub(super) fn columns(table: &Field<'_>, expected: &[&str]) -> Result<(), FieldError> {
+    let field = table.required("columns")?;
+    let found: Vec<Option<&str>> = field.array()?.iter().map(Value::as_str).collect();
+    if found.iter().copied().eq(expected.iter().map(|name| Some(*name))) {
+        Ok(())
+    } else {
+        Err(field.must_be(&format!("{expected:?}")))
+    }
+}
+
+fn tracks(field: &Field<'_>, count: usize, group: &str) -> Result<Vec<Vec<Row>>, FieldError> {
+    let tracks = field.items()?;
+    if tracks.len() != count {
+        let rule = format!("must hold {count} tracks, one for each of `{group}`, not {}", tracks.len());
+        return Err(field.error(rule));
+    }
+    tracks.map(|track| rows(&track)).collect()
+}
+
+/// The rows of one entity: at least one, of finite numbers, inside the arena.
+pub(super) fn rows<const N: usize>(track: &Field<'_>) -> Result<Vec<[f32; N]>, FieldError> {
+    let rows = track.array()?;
+    if rows.is_empty() {
+        return Err(track.error("must hold at least one row"));
+    }
+    let row = |(t, row): (usize, &Value)| {
+        let in_row = |error: FieldError| FieldError { field: format!("{}[{t}]", error.field), ..error };
+        let numbers = row.as_array().filter(|numbers| numbers.len() == N).ok_or_else(|| {
+            let found = row.as_array().map_or_else(|| shown(row), |numbers| numbers.len().to_string());
+            in_row(track.error(format!("must hold {N} numbers, not {found}")))
+        })?;
+        let mut result = [0.0; N];
+        for (column, (result, number)) in result.iter_mut().zip(numbers).enumerate() {
+            *result = finite(number).ok_or_else(|| {
+                let rule = format!("must be a finite number, not {}", shown(number));
+                let error = track.error(rule);
+                FieldError { field: format!("{}[{t}][{column}]", error.field), ..error }
+            })?;
+        }
+        let [x, y] = [result[0], result[1]];
+        if arena::contains(Vec2::new(x, y)) {
+            Ok(result)
+        } else {
+            let rule = format!("must lie inside the arena (x 6 to 26, y 2 to 22), not at ({x}, {y})");
+            Err(in_row(track.error(rule)))
+        }
+    };
+    rows.iter().enumerate().map(row).collect()
+}

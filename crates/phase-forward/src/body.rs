@@ -1,0 +1,257 @@
+//! One body: what never changes of it, and how it moves.
+
+use crate::tuning::{GREATEST_TURN, GRIP_OF_GROUND, H, LONGEST_WAY, SKIN};
+use phase_model::{Action, AgentBody, Body, Vec2, physique};
+
+/// Index of the one body that stands for everything that does not move.
+pub(crate) const STATIC: usize = 4;
+
+/// Mass, shape and forces of one body. All points are relative to the centre of mass, in the body's frame.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Shape {
+    pub(crate) inverse_mass: f32,
+    pub(crate) inverse_inertia: f32,
+    pub(crate) mass: f32,
+    /// How much less than the mass a sideways push at the origin has to move (kg).
+    pub(crate) yielding_mass: f32,
+    /// Distance of the origin ahead of the centre of mass (u).
+    pub(crate) origin: f32,
+    /// R of an agent, r of an object (u).
+    pub(crate) radius: f32,
+    /// Thickness around the corners (or the one point of a disc) within which contacts act (u).
+    pub(crate) skin: f32,
+    /// Radius of the circle about the centre of mass that holds the body, skin included (u).
+    pub(crate) bound: f32,
+    /// Corners of an agent, counter-clockwise from the right end of its base.
+    pub(crate) corners: [Vec2; 4],
+    /// Outward normals of the sides that begin at those corners.
+    pub(crate) normals: [Vec2; 4],
+    /// Greatest push (N); 0 for objects.
+    pub(crate) max_force: f32,
+    /// Torque of a turn (N u); 0 for objects.
+    pub(crate) turn_torque: f32,
+    /// Distance of the point where pushes act ahead of the centre of mass (u).
+    pub(crate) push_point: f32,
+}
+
+impl Shape {
+    pub(crate) fn agent(agent: &AgentBody) -> Self {
+        let radius = agent.radius;
+        let origin = agent.centre_of_mass_offset();
+        let corners = [(1.5, -1.0), (0.5, 1.0), (-0.5, 1.0), (-1.5, -1.0)]
+            .map(|(x, y)| Vec2::new(x * radius, y * radius + origin));
+        let normals = core::array::from_fn(|k| -(corners[(k + 1) % 4] - corners[k]).perp().normalize_or_zero());
+        let (inverse_mass, inverse_inertia) = (1.0 / agent.mass(), 1.0 / agent.inertia());
+        Self {
+            inverse_mass,
+            inverse_inertia,
+            mass: agent.mass(),
+            yielding_mass: agent.mass() - 1.0 / (inverse_mass + origin * origin * inverse_inertia),
+            origin,
+            radius,
+            skin: SKIN,
+            bound: corners[0].length() + SKIN,
+            corners,
+            normals,
+            max_force: agent.max_force,
+            turn_torque: agent.turn_torque(),
+            push_point: origin - agent.push_point_offset(),
+        }
+    }
+
+    pub(crate) fn object(radius: f32) -> Self {
+        let mass = physique::object_mass(radius);
+        Self {
+            inverse_mass: 1.0 / mass,
+            inverse_inertia: 1.0 / physique::object_inertia(radius),
+            mass,
+            yielding_mass: 0.0,
+            radius,
+            skin: radius,
+            bound: radius,
+            ..Self::immovable()
+        }
+    }
+
+    /// What does not move, walls above all.
+    pub(crate) const fn immovable() -> Self {
+        Self {
+            inverse_mass: 0.0,
+            inverse_inertia: 0.0,
+            mass: 0.0,
+            yielding_mass: 0.0,
+            origin: 0.0,
+            radius: 0.0,
+            skin: SKIN,
+            bound: 0.0,
+            corners: [Vec2::ZERO; 4],
+            normals: [Vec2::ZERO; 4],
+            max_force: 0.0,
+            turn_torque: 0.0,
+            push_point: 0.0,
+        }
+    }
+}
+
+/// Pose and velocity of one body, about its centre of mass.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Motion {
+    /// Centre of mass (u).
+    pub(crate) centre: Vec2,
+    /// Velocity of the centre of mass (u/s).
+    pub(crate) velocity: Vec2,
+    /// Cosine and sine of the angle, which is also the unit vector to the body's right. Discs keep (1, 0).
+    pub(crate) right: Vec2,
+    /// Angle (rad).
+    pub(crate) angle: f32,
+    /// Angular velocity (rad/s).
+    pub(crate) spin: f32,
+}
+
+impl Motion {
+    /// At rest at the origin, which is the frame that walls are given in.
+    pub(crate) const STILL: Self =
+        Self { centre: Vec2::ZERO, velocity: Vec2::ZERO, right: Vec2::X, angle: 0.0, spin: 0.0 };
+
+    pub(crate) fn of_agent(body: &Body, shape: &Shape) -> Self {
+        let right = cos_sin(body.angle);
+        Self {
+            centre: body.position - right.perp() * shape.origin,
+            velocity: body.velocity,
+            right,
+            angle: body.angle,
+            spin: body.angular_velocity,
+        }
+    }
+
+    pub(crate) const fn of_object(body: &Body) -> Self {
+        Self {
+            centre: body.position,
+            velocity: body.velocity,
+            right: Vec2::X,
+            angle: body.angle,
+            spin: body.angular_velocity,
+        }
+    }
+
+    pub(crate) fn body(&self, shape: &Shape) -> Body {
+        Body {
+            position: self.centre + self.right.perp() * shape.origin,
+            velocity: self.velocity,
+            angle: self.angle,
+            angular_velocity: self.spin,
+        }
+    }
+
+    /// A vector of the body's frame in the world's.
+    #[inline]
+    pub(crate) fn turn(&self, local: Vec2) -> Vec2 {
+        self.right * local.x + self.right.perp() * local.y
+    }
+
+    /// A vector of the world's frame in the body's.
+    #[inline]
+    pub(crate) fn turn_back(&self, vector: Vec2) -> Vec2 {
+        Vec2::new(vector.dot(self.right), vector.dot(self.right.perp()))
+    }
+
+    /// A point of the body's frame in the world.
+    #[inline]
+    pub(crate) fn place(&self, local: Vec2) -> Vec2 {
+        self.centre + self.turn(local)
+    }
+
+    /// Velocity of the point of the body at an offset from the centre of mass.
+    #[inline]
+    pub(crate) fn velocity_at(&self, offset: Vec2) -> Vec2 {
+        self.velocity + offset.perp() * self.spin
+    }
+
+    /// Applies an impulse at an offset from the centre of mass.
+    #[inline]
+    pub(crate) fn push(&mut self, shape: &Shape, offset: Vec2, impulse: Vec2) {
+        self.velocity += impulse * shape.inverse_mass;
+        self.spin += offset.perp_dot(impulse) * shape.inverse_inertia;
+    }
+
+    /// Moves the pose as an impulse at an offset would move the velocity.
+    #[inline]
+    pub(crate) fn shift(&mut self, shape: &Shape, offset: Vec2, impulse: Vec2, twist: f32) {
+        self.centre += impulse * shape.inverse_mass;
+        self.rotate((offset.perp_dot(impulse) + twist) * shape.inverse_inertia, shape);
+    }
+
+    /// Adds to the angle.
+    #[inline]
+    pub(crate) fn rotate(&mut self, by: f32, shape: &Shape) {
+        if by != 0.0 {
+            self.angle += by;
+            // Only an agent's shape shows how it is turned.
+            if shape.origin > 0.0 {
+                self.right = cos_sin(self.angle);
+            }
+        }
+    }
+
+    /// Lets an agent's action act for one substep, before friction and contacts.
+    #[inline]
+    pub(crate) fn act(&mut self, shape: &Shape, action: Action) {
+        if let Some(push) = action.push() {
+            let force = push * shape.max_force;
+            self.velocity += self.turn(force) * (H * shape.inverse_mass);
+            self.spin -= shape.push_point * force.x * (H * shape.inverse_inertia);
+        } else if action == Action::Stop {
+            self.velocity = Vec2::ZERO;
+        } else {
+            self.spin += action.turn() * shape.turn_torque * (H * shape.inverse_inertia);
+        }
+    }
+
+    /// One iteration of ground friction, which acts at the body's origin and gives at most 100 N. Takes and
+    /// returns the impulse given so far in this substep. For a body that nothing else acts on, one
+    /// iteration is exact whatever the first guess.
+    #[inline]
+    pub(crate) fn rub(&mut self, shape: &Shape, so_far: Vec2) -> Vec2 {
+        let slip = self.velocity - self.right * (self.spin * shape.origin);
+        let wanted =
+            so_far - slip * shape.mass + self.right * (self.right.dot(slip) * shape.yielding_mass);
+        let length_squared = wanted.length_squared();
+        let given = if length_squared > GRIP_OF_GROUND * GRIP_OF_GROUND {
+            wanted * (GRIP_OF_GROUND / length_squared.sqrt())
+        } else {
+            wanted
+        };
+        self.rub_by(shape, given - so_far);
+        given
+    }
+
+    /// Applies an impulse of ground friction.
+    #[inline]
+    pub(crate) fn rub_by(&mut self, shape: &Shape, impulse: Vec2) {
+        self.velocity += impulse * shape.inverse_mass;
+        self.spin -= self.right.dot(impulse) * shape.origin * shape.inverse_inertia;
+    }
+
+    /// Moves on for some seconds, after limiting the velocity.
+    #[inline]
+    pub(crate) fn advance(&mut self, shape: &Shape, seconds: f32) {
+        let way = self.velocity * seconds;
+        let length_squared = way.length_squared();
+        if length_squared > LONGEST_WAY * LONGEST_WAY {
+            self.velocity *= LONGEST_WAY / length_squared.sqrt();
+        }
+        let turn = self.spin * seconds;
+        if turn * turn > GREATEST_TURN * GREATEST_TURN {
+            self.spin *= GREATEST_TURN / turn.abs();
+        }
+        self.centre += self.velocity * seconds;
+        self.rotate(self.spin * seconds, shape);
+    }
+}
+
+/// Cosine and sine of an angle.
+#[inline]
+pub(crate) fn cos_sin(angle: f32) -> Vec2 {
+    let (sin, cos) = libm::sincosf(angle);
+    Vec2::new(cos, sin)
+}

@@ -1,0 +1,140 @@
+//! A grip as a constraint: the held object's centre stays at one point of the agent, at one angle.
+
+use crate::{
+    body::{Motion, Shape},
+    tuning::{ANGULAR_SLOP, SLOP},
+};
+use phase_model::{Grip, Vec2};
+
+/// An agent's hold of an object and all that its solution needs.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Weld {
+    pub(crate) agent: usize,
+    pub(crate) object: usize,
+    /// The object's place in the agent's frame, from its centre of mass (u).
+    anchor: Vec2,
+    relative_angle: f32,
+    offset: Vec2,
+    inverse: Symmetric,
+    /// Impulse so far (N s) and angular impulse so far (N u s).
+    pub(crate) impulse: (Vec2, f32),
+}
+
+impl Weld {
+    /// The constraint of a grip of an agent (body 0 or 1), with the impulse of the substep before.
+    pub(crate) fn new(agent: usize, grip: &Grip, shapes: &[Shape; 5], impulse: (Vec2, f32)) -> Self {
+        let object = held_body(grip);
+        let (holder, held) = (&shapes[agent], &shapes[object]);
+        let reach = grip.side.direction() * (holder.radius + held.radius);
+        Self {
+            agent,
+            object,
+            anchor: reach + Vec2::new(0.0, holder.origin),
+            relative_angle: grip.relative_angle,
+            offset: Vec2::ZERO,
+            inverse: Symmetric::ZERO,
+            impulse,
+        }
+    }
+
+    /// Works out what impulses do at the present poses, and applies those so far.
+    pub(crate) fn prepare(&mut self, shapes: &[Shape; 5], motions: &mut [Motion; 5]) {
+        self.offset = motions[self.agent].turn(self.anchor);
+        self.inverse = response(&shapes[self.agent], &shapes[self.object], self.offset).inverse();
+        let (impulse, twist) = self.impulse;
+        self.apply(shapes, motions, impulse, twist);
+    }
+
+    /// One iteration of the velocity solver. Returns the greatest change of an impulse.
+    pub(crate) fn solve(&mut self, shapes: &[Shape; 5], motions: &mut [Motion; 5]) -> f32 {
+        let (agent, object) = (&motions[self.agent], &motions[self.object]);
+        let slip = object.velocity - agent.velocity_at(self.offset);
+        let (impulse, twist) = self.inverse.times(-slip, agent.spin - object.spin);
+        self.impulse.0 += impulse;
+        self.impulse.1 += twist;
+        self.apply(shapes, motions, impulse, twist);
+        impulse.x.abs().max(impulse.y.abs()).max(twist.abs())
+    }
+
+    /// One iteration of the position solver. Returns whether there was nothing to speak of to do.
+    pub(crate) fn join(&self, shapes: &[Shape; 5], motions: &mut [Motion; 5]) -> bool {
+        let (shape_a, shape_b) = (&shapes[self.agent], &shapes[self.object]);
+        let (agent, object) = (&motions[self.agent], &motions[self.object]);
+        let offset = agent.turn(self.anchor);
+        let apart = object.centre - agent.centre - offset;
+        let twisted = object.angle - agent.angle - self.relative_angle;
+        let (impulse, twist) = response(shape_a, shape_b, offset).inverse().times(-apart, -twisted);
+        motions[self.agent].shift(shape_a, offset, -impulse, -twist);
+        motions[self.object].shift(shape_b, Vec2::ZERO, impulse, twist);
+        apart.length_squared() <= SLOP * SLOP && twisted.abs() <= ANGULAR_SLOP
+    }
+
+    #[inline]
+    fn apply(&self, shapes: &[Shape; 5], motions: &mut [Motion; 5], impulse: Vec2, twist: f32) {
+        motions[self.agent].push(&shapes[self.agent], self.offset, -impulse);
+        motions[self.agent].spin -= twist * shapes[self.agent].inverse_inertia;
+        motions[self.object].velocity += impulse * shapes[self.object].inverse_mass;
+        motions[self.object].spin += twist * shapes[self.object].inverse_inertia;
+    }
+}
+
+/// Index of the body that a grip holds. Anything but object 0 counts as object 1.
+pub(crate) fn held_body(grip: &Grip) -> usize {
+    2 + usize::from(grip.object.min(1))
+}
+
+/// What a unit impulse and a unit twist between an agent, at an offset, and an object's centre do.
+fn response(agent: &Shape, object: &Shape, offset: Vec2) -> Symmetric {
+    let mass = agent.inverse_mass + object.inverse_mass;
+    let yielding = agent.inverse_inertia;
+    Symmetric {
+        xx: mass + offset.y * offset.y * yielding,
+        xy: -offset.y * offset.x * yielding,
+        xz: -offset.y * yielding,
+        yy: mass + offset.x * offset.x * yielding,
+        yz: offset.x * yielding,
+        zz: yielding + object.inverse_inertia,
+    }
+}
+
+/// A symmetric 3×3 matrix over (x, y, turn).
+#[derive(Clone, Copy, Debug)]
+struct Symmetric {
+    xx: f32,
+    xy: f32,
+    xz: f32,
+    yy: f32,
+    yz: f32,
+    zz: f32,
+}
+
+impl Symmetric {
+    const ZERO: Self = Self { xx: 0.0, xy: 0.0, xz: 0.0, yy: 0.0, yz: 0.0, zz: 0.0 };
+
+    /// The inverse, or zero for a singular matrix.
+    fn inverse(&self) -> Self {
+        let Self { xx, xy, xz, yy, yz, zz } = *self;
+        let minors = (yy * zz - yz * yz, xz * yz - xy * zz, xy * yz - xz * yy);
+        let determinant = xx * minors.0 + xy * minors.1 + xz * minors.2;
+        let scale = if determinant == 0.0 { 0.0 } else { 1.0 / determinant };
+        Self {
+            xx: scale * minors.0,
+            xy: scale * minors.1,
+            xz: scale * minors.2,
+            yy: scale * (xx * zz - xz * xz),
+            yz: scale * (xz * xy - xx * yz),
+            zz: scale * (xx * yy - xy * xy),
+        }
+    }
+
+    #[inline]
+    fn times(&self, v: Vec2, z: f32) -> (Vec2, f32) {
+        (
+            Vec2::new(
+                self.xx * v.x + self.xy * v.y + self.xz * z,
+                self.xy * v.x + self.yy * v.y + self.yz * z,
+            ),
+            self.xz * v.x + self.yz * v.y + self.zz * z,
+        )
+    }
+}

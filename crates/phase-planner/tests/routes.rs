@@ -1,0 +1,110 @@
+//! Ways through doors against lengths worked out by hand.
+
+mod support;
+
+use phase_model::{Layout, Vec2};
+use phase_planner::{Routes, routes::IMPASSABLE_COST, situation::obstruct};
+use proptest::prelude::*;
+
+/// Layout 4: full wall between rooms 0 and 1, a narrow door (x 6 to 8.5) between 0 and 3, the rest open.
+fn narrow() -> Routes {
+    Routes::new(support::layout(4, None))
+}
+
+#[test]
+fn in_one_room_the_way_is_straight() {
+    let routes = narrow();
+    let (from, to) = (Vec2::new(8.0, 20.0), Vec2::new(14.0, 14.0));
+    let route = routes.best(from, to, 2.4, routes.gaps()).unwrap();
+    assert!((route.length - from.distance(to)).abs() < 1e-4);
+    assert_eq!(route.doors(), []);
+}
+
+#[test]
+fn a_narrow_door_is_crossed_in_its_middle() {
+    let routes = narrow();
+    let (from, to) = (Vec2::new(14.0, 14.0), Vec2::new(14.0, 10.0));
+    let route = routes.best(from, to, 2.4, routes.gaps()).unwrap();
+    // The gap of 2.5 leaves a body 2.4 wide nothing to choose: x = 7.25.
+    let crossing = Vec2::new(7.25, 12.0);
+    assert!((route.length - 2.0 * from.distance(crossing)).abs() < 0.2, "{}", route.length);
+    assert_eq!(route.impassable, 0);
+}
+
+#[test]
+fn who_does_not_fit_pays_for_it() {
+    let routes = narrow();
+    let (from, to) = (Vec2::new(7.0, 14.0), Vec2::new(7.0, 10.0));
+    let route = routes.best(from, to, 3.6, routes.gaps()).unwrap();
+    assert_eq!(route.impassable, 1);
+    assert!(route.cost() > IMPASSABLE_COST);
+}
+
+#[test]
+fn the_shorter_way_round_is_taken() {
+    // Layout 2: full wall up, half wall left, nothing right and down: from room 1 to room 0 leads through
+    // rooms 2 and 3.
+    let routes = Routes::new(support::layout(2, None));
+    let route = routes.best(Vec2::new(18.0, 20.0), Vec2::new(14.0, 20.0), 2.4, routes.gaps()).unwrap();
+    let slots: Vec<u8> = route.doors().iter().map(|&(slot, _)| slot).collect();
+    assert_eq!(slots, [3, 2, 1]);
+}
+
+#[test]
+fn obstacles_narrow_doors() {
+    let routes = narrow();
+    // (centre, radius, reach, what is left of the left slot's door, from 7.5 to 10)
+    let cases = [
+        (Vec2::new(7.25, 12.0), 0.8, 1.6, Some((7.5_f32, 7.95_f32))),
+        (Vec2::new(8.5, 12.0), 0.8, 1.6, Some((8.3, 10.0))),
+        (Vec2::new(7.25, 12.0), 1.6, 2.4, None),
+        (Vec2::new(7.25, 14.5), 1.6, 2.4, Some((7.5, 10.0))),
+        (Vec2::new(12.0, 12.0), 0.8, 1.6, Some((7.5, 10.0))),
+    ];
+    for (centre, radius, reach, left) in cases {
+        let mut gaps = *routes.gaps();
+        obstruct(&mut gaps, centre, radius, reach);
+        match (gaps.0[1], left) {
+            (Some(found), Some(expected)) => {
+                assert!((found.0 - expected.0).abs() < 1e-4, "{centre} {found:?} {expected:?}");
+                assert!((found.1 - expected.1).abs() < 1e-4, "{centre} {found:?} {expected:?}");
+            }
+            (found, expected) => assert_eq!(found, expected, "{centre}"),
+        }
+    }
+}
+
+fn point() -> impl Strategy<Value = Vec2> {
+    (6.5..25.5_f32, 2.5..21.5_f32).prop_map(|(x, y)| Vec2::new(x, y))
+}
+
+proptest! {
+    #[test]
+    fn a_way_is_as_long_in_both_directions_and_never_shorter_than_straight(
+        index in 0..90_usize, from in point(), to in point()
+    ) {
+        let layout = Layout::all_used().nth(index).unwrap();
+        let routes = Routes::new(layout);
+        let there = routes.best(from, to, 2.4, routes.gaps()).unwrap();
+        let back = routes.best(to, from, 2.4, routes.gaps()).unwrap();
+        prop_assert!(there.length >= from.distance(to) - 1e-3);
+        prop_assert!((there.length - back.length).abs() < 0.3, "{} {}", there.length, back.length);
+    }
+
+    #[test]
+    fn the_legs_of_a_way_cross_no_wall(index in 0..90_usize, from in point(), to in point()) {
+        let layout = Layout::all_used().nth(index).unwrap();
+        let routes = Routes::new(layout);
+        let route = routes.best(from, to, 2.4, routes.gaps()).unwrap();
+        let points: Vec<Vec2> = core::iter::once(from)
+            .chain(route.doors().iter().map(|&(_, point)| point))
+            .chain(core::iter::once(to))
+            .collect();
+        for leg in points.windows(2) {
+            let leg = phase_model::Segment { a: leg[0], b: leg[1] };
+            for wall in layout.walls() {
+                prop_assert!(!leg.crosses(wall), "{leg:?} {wall:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! Hand-made situations.
+
+use phase_model::{
+    Attitude, Body, Flip, Goal, Layout, Physique, Sign, Size, State, Strength, Vec2,
+    physique::AgentBody,
+};
+use phase_planner::{Plan, Planner};
+
+/// A situation in words: layout, bodies, goals, attitudes.
+pub struct Setup {
+    pub layout: Layout,
+    pub agents: [(Size, Strength, Vec2); 2],
+    pub objects: Vec<(Size, Vec2)>,
+    pub goals: [Goal; 2],
+    pub attitudes: [Attitude; 2],
+    pub holds: [Option<u8>; 2],
+}
+
+impl Setup {
+    pub fn physique(&self) -> Physique {
+        let mut object_radii = [0.0; 2];
+        for (radius, (size, _)) in object_radii.iter_mut().zip(&self.objects) {
+            *radius = size.radius();
+        }
+        Physique {
+            walls: self.layout.walls(),
+            agents: self.agents.map(|(size, strength, _)| AgentBody {
+                radius: size.radius(),
+                max_force: strength.max_force(),
+            }),
+            object_radii,
+            object_count: self.objects.len(),
+        }
+    }
+
+    pub fn state(&self) -> State {
+        let mut bodies = [Body::default(); 4];
+        for (k, (.., position)) in self.agents.iter().enumerate() {
+            bodies[k] = Body::at_rest(*position, 0.0);
+        }
+        for (k, (_, position)) in self.objects.iter().enumerate() {
+            bodies[2 + k] = Body::at_rest(*position, 0.0);
+        }
+        let mut state = State::new(bodies);
+        for (grip, held) in state.grips.iter_mut().zip(self.holds) {
+            *grip = held.map(|object| phase_model::Grip {
+                object,
+                side: phase_model::Side::Head,
+                relative_angle: 0.0,
+            });
+        }
+        state
+    }
+
+    pub fn plan(&self, agent: usize) -> Plan {
+        Planner::new(self.physique(), self.layout, agent, self.goals, self.attitudes[agent]).plan(&self.state())
+    }
+
+    /// The plan in words.
+    pub fn words(&self, agent: usize) -> Vec<String> {
+        self.plan(agent).subgoals.iter().map(ToString::to_string).collect()
+    }
+}
+
+pub fn layout(base: u8, flip: Option<Flip>) -> Layout {
+    Layout::new(base, flip).unwrap()
+}
+
+pub fn agent_on(agent: u8, landmark: u8) -> Goal {
+    Goal::AgentOnLandmark { agent, landmark, sign: Sign::Positive }
+}
+
+pub fn object_on(object: u8, landmark: u8) -> Goal {
+    Goal::ObjectOnLandmark { object, landmark, sign: Sign::Positive }
+}
+
+pub fn approach() -> Goal {
+    Goal::Touch { agent: 0, other: 1, sign: Sign::Positive }
+}

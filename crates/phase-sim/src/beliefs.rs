@@ -1,0 +1,36 @@
+//! What an agent of a recorded event believed, recomputed.
+
+use crate::{Event, simulation::belief_stream};
+use phase_belief::Belief;
+use phase_forward::Forward;
+use phase_model::{State, arena::SUBSTEPS};
+use phase_perception::{CellSet, observe};
+
+/// What one agent saw and believed before one of its decisions.
+#[derive(Clone, Debug)]
+pub struct BeliefSnapshot {
+    /// Cells in its field of view.
+    pub visible: CellSet,
+    /// Its particles.
+    pub particles: Vec<State>,
+}
+
+/// The beliefs of agent 0 or 1 before each step of an event, and one more after the last. They depend only on
+/// what it observed and did and on the event's seed, so this needs no planning.
+#[must_use]
+pub fn beliefs(event: &Event, agent: usize, particle_count: usize) -> Vec<BeliefSnapshot> {
+    let physique = event.scene.physique();
+    let dynamics = Forward::new(&physique);
+    let mut random = belief_stream(event.seed, agent);
+    let observation = observe(&physique, &event.initial, agent);
+    let mut belief = Belief::new(&physique, &observation, particle_count, &mut random);
+    let mut snapshots =
+        vec![BeliefSnapshot { visible: observation.visible, particles: belief.particles().to_vec() }];
+    for step in &event.steps {
+        let observation = observe(&physique, &step.substeps[SUBSTEPS - 1], agent);
+        belief.update(&dynamics, &physique, step.actions[agent], &observation, &mut random);
+        snapshots
+            .push(BeliefSnapshot { visible: observation.visible, particles: belief.particles().to_vec() });
+    }
+    snapshots
+}

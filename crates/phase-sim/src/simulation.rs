@@ -1,0 +1,134 @@
+//! Algorithm 1 of the paper: both agents observe, update their beliefs, plan and act at once.
+
+use crate::{Event, Settings, Step};
+use core::ops::ControlFlow;
+use phase_agent::{Agent, Thought};
+use phase_forward::Forward;
+use phase_model::{
+    AGENT_COUNT, Action, Physique, Scene, SceneError, State,
+    arena::SUBSTEPS,
+    random::{self, Pcg64Mcg, Purpose},
+};
+use phase_perception::observe;
+use phase_planner::Subgoal;
+use phase_world::World;
+use thiserror::Error;
+
+/// Below this speed a body counts as being at rest (u/s).
+const AT_REST: f32 = 0.05;
+
+/// Why a scene could not be simulated.
+#[derive(Clone, PartialEq, Debug, Error)]
+pub enum SimulationError {
+    /// The scene makes no sense.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// The settings allow no search, or the search broke off.
+    #[error(transparent)]
+    Search(#[from] phase_pomcp::PomcpError),
+    /// There is no particle to believe in.
+    #[error("minds.particles must be at least 1")]
+    NoParticles,
+}
+
+/// Simulates a scene from its start to its end.
+///
+/// # Errors
+/// [`SimulationError`] for scenes and settings that make no sense.
+pub fn simulate(scene: &Scene, seed: u64, settings: &Settings) -> Result<Event, SimulationError> {
+    let (event, _) = simulate_with(scene, seed, settings, &mut |_| ControlFlow::Continue(()))?;
+    Ok(event)
+}
+
+/// As [`simulate`], showing every step to `on_step` as it comes. When that breaks, the event ends early;
+/// the flag returned says whether it came to its end.
+///
+/// # Errors
+/// [`SimulationError`] for scenes and settings that make no sense.
+pub fn simulate_with(
+    scene: &Scene,
+    seed: u64,
+    settings: &Settings,
+    on_step: &mut dyn FnMut(&Step) -> ControlFlow<()>,
+) -> Result<(Event, bool), SimulationError> {
+    scene.validate()?;
+    if settings.minds.particles == 0 {
+        return Err(SimulationError::NoParticles);
+    }
+    let physique = scene.physique();
+    let initial = scene.initial_state();
+    let mut world = World::new(&physique, &initial);
+    let mut minds = Minds::new(scene, &physique, &initial, seed, settings)?;
+    let mut event = Event { scene: scene.clone(), seed, initial, steps: Vec::new() };
+    let mut resting = 0;
+    let mut state = initial;
+    while event.steps.len() < settings.max_steps {
+        let (actions, thoughts) = minds.decide()?;
+        let idle = thoughts.iter().all(|thought| thought.subgoal == Subgoal::Stay);
+        let substeps = world.step(actions);
+        state = substeps[SUBSTEPS - 1];
+        let step = Step { actions, thoughts, substeps };
+        let flow = on_step(&step);
+        event.steps.push(step);
+        if flow.is_break() {
+            return Ok((event, false));
+        }
+        resting = if idle && is_at_rest(&physique, &state) { resting + 1 } else { 0 };
+        if resting >= settings.rest_steps && event.steps.len() >= settings.min_steps {
+            break;
+        }
+        minds.perceive(&physique, &state, actions);
+    }
+    debug_assert!(state.is_finite(&physique));
+    Ok((event, true))
+}
+
+fn is_at_rest(physique: &Physique, state: &State) -> bool {
+    physique.entities().all(|entity| state.body(entity).velocity.length() < AT_REST)
+}
+
+/// The generator of an agent's belief. It is a stream of its own, so that beliefs can be recomputed from a
+/// recorded event without planning again.
+pub(crate) fn belief_stream(seed: u64, agent: usize) -> Pcg64Mcg {
+    random::stream(seed, Purpose::Belief, agent as u64)
+}
+
+/// Both agents with their random streams.
+struct Minds {
+    agents: [Agent<Forward>; AGENT_COUNT],
+    beliefs: [Pcg64Mcg; AGENT_COUNT],
+    searches: [Pcg64Mcg; AGENT_COUNT],
+}
+
+impl Minds {
+    fn new(
+        scene: &Scene,
+        physique: &Physique,
+        initial: &State,
+        seed: u64,
+        settings: &Settings,
+    ) -> Result<Self, SimulationError> {
+        let mut beliefs: [Pcg64Mcg; AGENT_COUNT] = core::array::from_fn(|agent| belief_stream(seed, agent));
+        let searches = core::array::from_fn(|agent| random::stream(seed, Purpose::Search, agent as u64));
+        let mut mind = |agent: usize| {
+            let observation = observe(physique, initial, agent);
+            let forward = Forward::new(physique);
+            Agent::new(scene, agent, forward, settings.minds, &observation, &mut beliefs[agent])
+        };
+        let agents = [mind(0)?, mind(1)?];
+        Ok(Self { agents, beliefs, searches })
+    }
+
+    fn decide(&mut self) -> Result<([Action; AGENT_COUNT], [Thought; AGENT_COUNT]), SimulationError> {
+        let (first, why_first) = self.agents[0].decide(&mut self.searches[0])?;
+        let (second, why_second) = self.agents[1].decide(&mut self.searches[1])?;
+        Ok(([first, second], [why_first, why_second]))
+    }
+
+    fn perceive(&mut self, physique: &Physique, state: &State, actions: [Action; AGENT_COUNT]) {
+        for (agent, mind) in self.agents.iter_mut().enumerate() {
+            let observation = observe(physique, state, agent);
+            mind.perceive(actions[agent], &observation, &mut self.beliefs[agent]);
+        }
+    }
+}
