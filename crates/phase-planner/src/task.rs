@@ -1,7 +1,7 @@
 //! The symbolic problem that A* searches: who is where, who holds what, and what each step costs.
 
 use crate::{
-    routes::Gaps,
+    routes::{Gaps, IMPASSABLE_COST},
     situation::{Situation, Spot},
 };
 use phase_model::{AGENT_COUNT, Entity, Goal, MAX_OBJECTS, arena};
@@ -269,7 +269,17 @@ impl Task<'_> {
         let from = held.map_or(node.agents[agent], |object| node.objects[usize::from(object)]);
         let (from, to) = (self.situation.position(from), self.situation.position(to));
         let width = self.situation.width(agent, held.map(usize::from));
-        self.situation.routes.cost(from, to, width, &self.gaps(node, agent, ignored))
+        let cost = self.situation.routes.cost(from, to, width, &self.gaps(node, agent, ignored));
+        if held.is_none() && self.is_behind_a_blocker(node, agent) { cost + IMPASSABLE_COST } else { cost }
+    }
+
+    /// Whether an agent stands at an object that still blocks a door. It may be on either side of it, so
+    /// walking on as if past it would be a way through the blocked door.
+    fn is_behind_a_blocker(&self, node: &Node, agent: usize) -> bool {
+        self.situation.physique.objects().any(|object| {
+            let spot = Spot::Now(Entity::object(object));
+            self.situation.blocks_a_door(object) && node.agents[agent] == spot && node.objects[object] == spot
+        })
     }
 
     /// The doors as an agent finds them in a symbolic state; an object it holds or heads for is no obstacle.

@@ -150,17 +150,15 @@ fn helpers_help() {
         ),
     ];
     for (what, setup, expected) in cases {
-        assert_eq!(help(setup).plan(0).first().to_string(), expected, "{what}");
+        let setup = help(setup);
+        assert_eq!(setup.plan(0).first().to_string(), expected, "{what}");
     }
 }
 
 #[test]
 fn helpers_stay_out_of_the_way_when_not_needed() {
-    let walking = Setup {
-        goals: [agent_on(1, 0); 2],
-        attitudes: [Attitude::Help, Attitude::Neutral],
-        ..plain()
-    };
+    let walking =
+        Setup { goals: [agent_on(1, 0); 2], attitudes: [Attitude::Help, Attitude::Neutral], ..plain() };
     assert_eq!(walking.plan(0).first(), Subgoal::Stay);
     let carrying = Setup {
         agents: [(Small, Strong, Vec2::new(8.0, 4.0)), (Small, Mighty, Vec2::new(23.0, 14.0))],

@@ -1,45 +1,62 @@
 //! The bodies and walls as rapier sees them.
 
+use crate::{contact, settings};
 use phase_model::{Body, Entity, Physique, Segment, Vec2, arena, geometry, physique};
 use rapier2d::prelude::*;
 
-/// Thickness of the skin around agents and walls; objects have none (u).
-pub const SKIN: f32 = 0.01;
-/// Farthest motion in one substep that is foreseen for contacts with walls (u).
+/// Thickness of the skin around agents; objects have none (u).
+const AGENT_SKIN: f32 = 0.01;
+/// Thickness of the skin around walls (u). Less the penetration that is tolerated, an agent rests 0.015 u from
+/// a wall and an object 0.005 u.
+const WALL_SKIN: f32 = 0.007;
+/// Farthest motion in one substep for which contacts with walls are foreseen (u).
 const FORESEEN_MOTION: f32 = 2.0;
-/// Half the thickness of the arena's boundary (u); nothing can be pushed out on the far side.
+/// Half the thickness of the arena's boundary (u). Nothing gets deep enough to be pushed out on the far side.
 const BOUNDARY_HALF_THICKNESS: f32 = 10.0;
+/// Greatest angular velocity that a start may have (rad/s).
+const MAX_SPIN: f32 = 1000.0;
 
-/// The pose of a body (u, rad).
-#[must_use]
-pub fn pose(position: Vec2, angle: f32) -> Pose {
-    Pose::from_parts(position, rotation(angle))
-}
-
-/// The rotation by an angle (rad), computed in one way on every platform.
+/// The rotation by an angle (rad), the same on every platform.
 #[must_use]
 pub fn rotation(angle: f32) -> Rotation {
     let (sin, cos) = libm::sincosf(angle);
     Rotation::from_cos_sin_unchecked(cos, sin)
 }
 
+/// The pose at a position (u) and an angle (rad).
+#[must_use]
+pub fn pose(position: Vec2, angle: f32) -> Pose {
+    Pose::from_parts(position, rotation(angle))
+}
+
+/// The nearest start that makes sense: finite, inside the arena, not faster than anything can be.
+#[must_use]
+pub fn possible(body: &Body) -> Body {
+    let or = |vector: Vec2, default| if vector.is_finite() { vector } else { default };
+    let or_zero = |number: f32| if number.is_finite() { number } else { 0.0 };
+    Body {
+        position: or(body.position, arena::CENTRE).clamp(arena::MIN, arena::MAX),
+        velocity: or(body.velocity.clamp_length_max(settings::MAX_SPEED), Vec2::ZERO),
+        angle: or_zero(body.angle),
+        angular_velocity: or_zero(body.angular_velocity).clamp(-MAX_SPIN, MAX_SPIN),
+    }
+}
+
 /// Adds the fixed body that bears the arena's boundary and the inner walls, and to which ground friction is
 /// anchored.
 pub fn insert_ground(engine: &mut PhysicsWorld, walls: &[Segment]) -> RigidBodyHandle {
     let ground = engine.insert_body(RigidBodyBuilder::fixed());
-    let half = arena::SIDE / 2.0;
-    let thick = BOUNDARY_HALF_THICKNESS;
-    let offset = half + thick;
-    for direction in [Vec2::X, Vec2::Y, Vec2::NEG_X, Vec2::NEG_Y] {
-        let along = direction.abs() * thick + direction.perp().abs() * (half + 2.0 * thick);
-        let slab = ColliderBuilder::cuboid(along.x, along.y)
-            .translation(arena::CENTRE + direction * offset);
-        engine.insert_collider(static_collider(slab), Some(ground));
+    let half_side = arena::SIDE / 2.0;
+    for outward in [Vec2::X, Vec2::Y, Vec2::NEG_X, Vec2::NEG_Y] {
+        let half_extents = outward.abs() * BOUNDARY_HALF_THICKNESS
+            + outward.perp().abs() * (half_side + 2.0 * BOUNDARY_HALF_THICKNESS);
+        let slab = ColliderBuilder::cuboid(half_extents.x, half_extents.y)
+            .translation(arena::CENTRE + outward * (half_side + BOUNDARY_HALF_THICKNESS));
+        engine.insert_collider(smooth(slab).contact_skin(WALL_SKIN), Some(ground));
     }
-    for wall in walls {
-        if wall.a.is_finite() && wall.b.is_finite() {
-            engine.insert_collider(static_collider(ColliderBuilder::segment(wall.a, wall.b)), Some(ground));
-        }
+    for wall in walls.iter().filter(|wall| wall.a.is_finite() && wall.b.is_finite()) {
+        let segment = ColliderBuilder::segment(wall.a, wall.b);
+        engine.insert_collider(smooth(segment).contact_skin(WALL_SKIN), Some(ground));
     }
     ground
 }
@@ -49,7 +66,7 @@ pub fn insert_body(
     engine: &mut PhysicsWorld,
     physique: &Physique,
     entity: Entity,
-    body: &Body,
+    start: &Body,
 ) -> (RigidBodyHandle, ColliderHandle) {
     let radius = physique.radius(entity);
     let collider = match entity {
@@ -57,8 +74,9 @@ pub fn insert_body(
             let agent = &physique.agents[usize::from(agent)];
             let centre_of_mass = Vec2::new(0.0, -agent.centre_of_mass_offset());
             ColliderBuilder::convex_polyline(geometry::trapezoid(radius).to_vec())
+                // Only a radius that is no length has no hull.
                 .unwrap_or_else(|| ColliderBuilder::ball(radius))
-                .contact_skin(crate::settings::env("SKINA", SKIN))
+                .contact_skin(AGENT_SKIN)
                 .mass_properties(MassProperties::new(centre_of_mass, agent.mass(), agent.inertia()))
         }
         Entity::Object(_) => ColliderBuilder::ball(radius).mass_properties(MassProperties::new(
@@ -68,23 +86,19 @@ pub fn insert_body(
         )),
     };
     let rigid_body = RigidBodyBuilder::dynamic()
-        .pose(pose(body.position, body.angle))
-        .linvel(body.velocity)
-        .angvel(body.angular_velocity)
+        .pose(pose(start.position, start.angle))
+        .linvel(start.velocity)
+        .angvel(start.angular_velocity)
         .can_sleep(false)
         .allow_fast_rotation(true)
         .soft_ccd_prediction(FORESEEN_MOTION);
     let collider = smooth(collider)
         .active_hooks(ActiveHooks::FILTER_CONTACT_PAIRS | ActiveHooks::MODIFY_SOLVER_CONTACTS)
-        .user_data(crate::contact::tag(entity));
+        .user_data(contact::tag(entity));
     engine.insert(rigid_body, collider)
 }
 
-fn static_collider(builder: ColliderBuilder) -> ColliderBuilder {
-    smooth(builder).contact_skin(crate::settings::env("SKINW", 0.007))
-}
-
-/// Bodies slide along each other and along walls without friction and do not bounce.
+/// Surfaces slide along each other without friction and do not bounce.
 fn smooth(builder: ColliderBuilder) -> ColliderBuilder {
     builder.friction(0.0).restitution(0.0)
 }

@@ -1,12 +1,17 @@
-//! Which contacts count: the rules the engine asks for, and the contacts it reports.
+//! Which contacts count: what the engine is told, and what it reports.
 
+use crate::mover::Mover;
 use phase_model::{Entity, MAX_ENTITIES};
 use rapier2d::prelude::*;
 
-/// Penetration that is left alone so that resting contacts persist (u).
-const SLOP: f32 = 0.005;
-/// Greatest distance between two surfaces, skins included, that counts as touching (u).
+/// Penetration of skins that is left alone, so that bodies at rest keep touching (u).
+const BODY_SLOP: f32 = 0.005;
+/// The same between a body and a wall (u).
+const WALL_SLOP: f32 = 0.002;
+/// Greatest distance between two surfaces that counts as touching (u); above all skins together.
 const TOUCHING_DISTANCE: f32 = 0.02;
+/// Least distance from which hitting a wall is an impact and no sliding along it (u).
+const IMPACT_DISTANCE: f32 = 0.07;
 
 /// The mark of an entity's collider; walls bear 0.
 #[must_use]
@@ -14,13 +19,14 @@ pub fn tag(entity: Entity) -> u128 {
     entity.index() as u128 + 1
 }
 
-/// The entity whose mark a collider bears, or `None` for a wall.
+/// The index of the entity whose mark a collider bears, or `None` for a wall.
 fn tagged(colliders: &ColliderSet, handle: ColliderHandle) -> Option<usize> {
     let tag = colliders.get(handle)?.user_data;
     (1..=MAX_ENTITIES as u128).contains(&tag).then(|| tag as usize - 1)
 }
 
-/// Pairs of bodies that pass through each other: held ones, and those let go that still overlap.
+/// The contact rules: bodies collide once they touch, walls are foreseen, and an object that was let go passes
+/// through the agent that held it until the two have moved clear of each other.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ContactRules {
     released: [[bool; MAX_ENTITIES]; MAX_ENTITIES],
@@ -29,35 +35,32 @@ pub struct ContactRules {
 impl ContactRules {
     /// Lets a pair overlap until it has moved clear.
     pub fn release(&mut self, a: Entity, b: Entity) {
-        self.set(a.index(), b.index(), true);
+        self.set_released(a.index(), b.index(), true);
     }
 
-    /// Restores the contact of every released pair that has moved clear.
-    pub fn restore_clear(&mut self, engine: &PhysicsWorld, colliders: &[ColliderHandle]) {
-        for a in 0..colliders.len() {
-            for b in 0..a {
-                if self.released[a][b]
-                    && distance(engine, colliders[a], colliders[b]).is_none_or(|distance| distance > 0.0)
-                {
-                    self.set(a, b, false);
+    /// Makes released pairs solid again that do not touch any more; `movers` are the entities' by index.
+    pub fn restore_clear(&mut self, engine: &PhysicsWorld, movers: &[Mover]) {
+        for (a, first) in movers.iter().enumerate() {
+            for (b, second) in movers.iter().enumerate().take(a) {
+                if self.released[a][b] && !touching(engine, first.collider, second.collider) {
+                    self.set_released(a, b, false);
                 }
             }
         }
     }
 
-    fn set(&mut self, a: usize, b: usize, value: bool) {
-        self.released[a][b] = value;
-        self.released[b][a] = value;
+    fn set_released(&mut self, a: usize, b: usize, released: bool) {
+        self.released[a][b] = released;
+        self.released[b][a] = released;
     }
 }
 
 impl PhysicsHooks for ContactRules {
     fn filter_contact_pair(&self, context: &PairFilterContext) -> Option<SolverFlags> {
-        let pair = (
-            tagged(context.colliders, context.collider1),
-            tagged(context.colliders, context.collider2),
-        );
-        match pair {
+        let [first, second] =
+            [context.collider1, context.collider2].map(|collider| tagged(context.colliders, collider));
+        match (first, second) {
+            // The engine still measures the distance, but does not act on it.
             (Some(a), Some(b)) if self.released[a][b] => Some(SolverFlags::empty()),
             _ => Some(SolverFlags::COMPUTE_RIGID_IMPULSES),
         }
@@ -67,55 +70,53 @@ impl PhysicsHooks for ContactRules {
         let between_bodies = tagged(context.colliders, context.collider1).is_some()
             && tagged(context.colliders, context.collider2).is_some();
         let Some(manifold) = context.rigid_mut() else { return };
-        if between_bodies {
-            // Bodies collide once they touch; only walls, which are thin, are foreseen.
+        let slop = if between_bodies {
             manifold.solver_contacts.retain(|contact| contact.dist <= 0.0);
-        }
-        for contact in manifold.solver_contacts.iter_mut() {
-            if contact.dist <= 0.0 {
-                let slop = if between_bodies { crate::settings::env("SLOPB", SLOP) } else { crate::settings::env("SLOPW", 0.002) }; contact.dist = (contact.dist + slop).min(0.0);
-            }
+            BODY_SLOP
+        } else {
+            WALL_SLOP
+        };
+        for contact in manifold.solver_contacts.iter_mut().filter(|contact| contact.dist <= 0.0) {
+            contact.dist = (contact.dist + slop).min(0.0);
         }
     }
 }
 
-/// Whether two bodies touch at their present poses.
+/// Whether two bodies touch at their present poses, by the contact points that the engine's narrow phase last
+/// found between them.
 #[must_use]
 pub fn touching(engine: &PhysicsWorld, a: ColliderHandle, b: ColliderHandle) -> bool {
     distance(engine, a, b).is_some_and(|distance| distance <= TOUCHING_DISTANCE)
 }
 
-/// Distance between two surfaces at the bodies' present poses, from the contact points that the engine's
-/// narrow phase last found (u; negative for overlap), or `None` if it found none.
+/// Whether a wall stopped a body in the last substep that did not touch it before.
+#[must_use]
+pub fn hit_wall(engine: &PhysicsWorld, collider: ColliderHandle) -> bool {
+    engine.narrow_phase.contact_pairs_with(collider).any(|pair| {
+        let other = if pair.collider1 == collider { pair.collider2 } else { pair.collider1 };
+        let mut points = pair.manifolds().iter().flat_map(|manifold| &manifold.points);
+        tagged(&engine.colliders, other).is_none()
+            && points.any(|point| point.dist > IMPACT_DISTANCE && point.data.impulse > 0.0)
+    })
+}
+
+/// Distance between two surfaces without skins (u, negative for overlap), or `None` if they are far apart or
+/// welded to each other.
 fn distance(engine: &PhysicsWorld, a: ColliderHandle, b: ColliderHandle) -> Option<f32> {
     let pair = engine.narrow_phase.contact_pair(a, b)?;
-    let pose1 = body_pose(engine, pair.collider1)?;
-    let pose2 = body_pose(engine, pair.collider2)?;
+    let (pose1, pose2) = (body_pose(engine, pair.collider1)?, body_pose(engine, pair.collider2)?);
     pair.manifolds()
         .iter()
         .flat_map(|manifold| {
             let normal = pose1.rotation * manifold.local_n1;
-            manifold
-                .points
-                .iter()
-                .map(move |point| (pose2 * point.local_p2 - pose1 * point.local_p1).dot(normal))
+            let gap = move |point: &TrackedContact<ContactData>| pose2 * point.local_p2 - pose1 * point.local_p1;
+            manifold.points.iter().map(move |point| gap(point).dot(normal))
         })
         .reduce(f32::min)
 }
 
-/// The present pose of the body that bears a collider. The collider's own pose lags behind a corrected body.
+/// The present pose of the body that bears a collider; the collider's own pose lags behind.
 fn body_pose(engine: &PhysicsWorld, collider: ColliderHandle) -> Option<Pose> {
     let body = engine.colliders.get(collider)?.parent()?;
     engine.bodies.get(body).map(|body| *body.position())
-}
-
-/// Whether a body was stopped by a wall that it did not touch before the last substep.
-#[must_use]
-pub fn struck_wall(engine: &PhysicsWorld, collider: ColliderHandle) -> bool {
-    engine.narrow_phase.contact_pairs_with(collider).any(|pair| {
-        let other = if pair.collider1 == collider { pair.collider2 } else { pair.collider1 };
-        let skins: f32 = [pair.collider1, pair.collider2].iter().filter_map(|&c| engine.colliders.get(c)).map(|c| c.contact_skin()).sum();
-        tagged(&engine.colliders, other).is_none()
-            && pair.manifolds().iter().flat_map(|manifold| &manifold.points).any(|point| point.dist > skins + crate::settings::env("STRUCK", 0.07) && point.data.impulse > 0.0)
-    })
 }

@@ -16,8 +16,7 @@ impl Weld {
     /// they are apart, the next substep pulls them together. The two do not collide while welded.
     pub fn insert(
         engine: &mut PhysicsWorld,
-        agent: RigidBodyHandle,
-        object: RigidBodyHandle,
+        [agent, object]: [RigidBodyHandle; 2],
         grip: Grip,
         length: f32,
     ) -> Self {

@@ -18,12 +18,14 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
-pub mod bodies;
-pub mod contact;
+mod bodies;
+mod contact;
 pub mod dynamics;
-pub mod friction;
-pub mod grip;
-pub mod settings;
+mod friction;
+mod grip;
+mod mover;
+mod settings;
+mod substep;
 pub mod world;
 
 pub use dynamics::WorldDynamics;

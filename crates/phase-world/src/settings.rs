@@ -1,55 +1,46 @@
 //! How rapier's solver is set up.
 
+use phase_model::arena::SUBSTEP_SECONDS;
 use rapier2d::prelude::{IntegrationParameters, PhysicsWorld, SpringCoefficients, Vector};
 
-/// Share of a penetration that is corrected within one substep.
-const PENETRATION_CORRECTION: f32 = 0.893;
-/// Greatest speed at which the position correction pushes bodies apart (u/s).
-const MAX_CORRECTION_SPEED: f32 = 120.0;
-/// Speed limit of every body (u/s).
-const MAX_SPEED: f32 = 120.0;
-/// Sweeps over all constraints in one substep.
+/// Greatest speed of any body, and of position corrections (u/s): 2 u in one substep.
+pub const MAX_SPEED: f32 = 2.0 / SUBSTEP_SECONDS;
+/// Share of a penetration that is corrected within one substep: ten corrections by a fifth each.
+const CORRECTION: f32 = 0.893;
+/// Sweeps over all constraints in one substep, before and again after positions have moved.
 const SWEEPS: usize = 10;
-/// Damping ratio that makes contacts rigid.
+/// Damping ratio at which contacts no longer give way.
 const RIGID: f32 = 1.0e4;
 
 /// An empty engine without gravity, with the solver settings of this crate.
+///
+/// One solver iteration of many sweeps: rapier spreads forces over its iterations, so that more of them
+/// would let a pushed body go less far. No warm starting and no recycled contacts: nothing is remembered from
+/// one substep to the next but poses and velocities.
 #[must_use]
 pub fn engine() -> PhysicsWorld {
-    PhysicsWorld { gravity: Vector::ZERO, integration_parameters: parameters(), ..PhysicsWorld::default() }
-}
-
-/// .
-pub fn env(name: &str, default: f32) -> f32 {
-    std::env::var(name).ok().and_then(|s| s.parse().ok()).unwrap_or(default)
-}
-
-fn parameters() -> IntegrationParameters {
-    let dt = phase_model::arena::SUBSTEP_SECONDS;
-    let erp = env("ERP", PENETRATION_CORRECTION);
-    let softness = rigid(erp, dt);
-    IntegrationParameters {
-        dt,
+    let softness = rigid_contact();
+    let integration_parameters = IntegrationParameters {
+        dt: SUBSTEP_SECONDS,
         num_solver_iterations: 1,
-        num_internal_pgs_iterations: env("PGS", SWEEPS as f32) as usize,
-        num_internal_stabilization_iterations: env("STAB", SWEEPS as f32) as usize,
+        num_internal_pgs_iterations: SWEEPS,
+        num_internal_stabilization_iterations: SWEEPS,
         contact_softness: softness,
         static_contact_softness: softness,
-        normalized_max_corrective_velocity: MAX_CORRECTION_SPEED,
+        normalized_max_corrective_velocity: MAX_SPEED,
         normalized_max_linear_velocity: MAX_SPEED,
-        normalized_prediction_distance: env("PRED", 0.02),
-        normalized_allowed_linear_error: 0.005,
         warmstart_coefficient: 0.0,
         warmstart_joints: false,
         contact_recycling: false,
         ..IntegrationParameters::default()
-    }
+    };
+    PhysicsWorld { gravity: Vector::ZERO, integration_parameters, ..PhysicsWorld::default() }
 }
 
-/// A spring that corrects the given share of an error in one substep and does not give way otherwise.
-fn rigid(share: f32, dt: f32) -> SpringCoefficients<f32> {
-    // share = dt ω / (dt ω + 2 ζ), solved for ω.
-    let angular_frequency = 2.0 * RIGID * share / (1.0 - share) / dt;
+/// A contact spring that corrects [`CORRECTION`] of a penetration in one substep and is rigid otherwise.
+fn rigid_contact() -> SpringCoefficients<f32> {
+    // The share corrected is dt ω / (dt ω + 2 ζ); solved for ω.
+    let angular_frequency = 2.0 * RIGID * CORRECTION / (1.0 - CORRECTION) / SUBSTEP_SECONDS;
     SpringCoefficients {
         natural_frequency: angular_frequency / (2.0 * core::f32::consts::PI),
         damping_ratio: RIGID,

@@ -1,23 +1,22 @@
 //! Hand-made situations.
 
 use phase_model::{
-    Attitude, Body, Flip, Goal, Layout, Physique, Sign, Size, State, Strength, Vec2,
-    physique::AgentBody,
+    Attitude, Body, Flip, Goal, Layout, Physique, Sign, Size, State, Strength, Vec2, physique::AgentBody,
 };
 use phase_planner::{Plan, Planner};
 
 /// A situation in words: layout, bodies, goals, attitudes.
-pub struct Setup {
-    pub layout: Layout,
-    pub agents: [(Size, Strength, Vec2); 2],
-    pub objects: Vec<(Size, Vec2)>,
-    pub goals: [Goal; 2],
-    pub attitudes: [Attitude; 2],
-    pub holds: [Option<u8>; 2],
+pub(crate) struct Setup {
+    pub(crate) layout: Layout,
+    pub(crate) agents: [(Size, Strength, Vec2); 2],
+    pub(crate) objects: Vec<(Size, Vec2)>,
+    pub(crate) goals: [Goal; 2],
+    pub(crate) attitudes: [Attitude; 2],
+    pub(crate) holds: [Option<u8>; 2],
 }
 
 impl Setup {
-    pub fn physique(&self) -> Physique {
+    pub(crate) fn physique(&self) -> Physique {
         let mut object_radii = [0.0; 2];
         for (radius, (size, _)) in object_radii.iter_mut().zip(&self.objects) {
             *radius = size.radius();
@@ -33,7 +32,7 @@ impl Setup {
         }
     }
 
-    pub fn state(&self) -> State {
+    pub(crate) fn state(&self) -> State {
         let mut bodies = [Body::default(); 4];
         for (k, (.., position)) in self.agents.iter().enumerate() {
             bodies[k] = Body::at_rest(*position, 0.0);
@@ -52,28 +51,29 @@ impl Setup {
         state
     }
 
-    pub fn plan(&self, agent: usize) -> Plan {
-        Planner::new(self.physique(), self.layout, agent, self.goals, self.attitudes[agent]).plan(&self.state())
+    pub(crate) fn plan(&self, agent: usize) -> Plan {
+        Planner::new(self.physique(), self.layout, agent, self.goals, self.attitudes[agent])
+            .plan(&self.state())
     }
 
     /// The plan in words.
-    pub fn words(&self, agent: usize) -> Vec<String> {
+    pub(crate) fn words(&self, agent: usize) -> Vec<String> {
         self.plan(agent).subgoals.iter().map(ToString::to_string).collect()
     }
 }
 
-pub fn layout(base: u8, flip: Option<Flip>) -> Layout {
-    Layout::new(base, flip).unwrap()
+pub(crate) fn layout(base: u8, flip: Option<Flip>) -> Layout {
+    Layout::new(base, flip).expect("a known layout")
 }
 
-pub fn agent_on(agent: u8, landmark: u8) -> Goal {
+pub(crate) fn agent_on(agent: u8, landmark: u8) -> Goal {
     Goal::AgentOnLandmark { agent, landmark, sign: Sign::Positive }
 }
 
-pub fn object_on(object: u8, landmark: u8) -> Goal {
+pub(crate) fn object_on(object: u8, landmark: u8) -> Goal {
     Goal::ObjectOnLandmark { object, landmark, sign: Sign::Positive }
 }
 
-pub fn approach() -> Goal {
+pub(crate) fn approach() -> Goal {
     Goal::Touch { agent: 0, other: 1, sign: Sign::Positive }
 }

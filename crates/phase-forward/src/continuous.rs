@@ -1,0 +1,125 @@
+//! Impacts on walls within a substep: stop at the wall, lose the speed into it, go on for the time left.
+
+use crate::{
+    body::{STATIC, cos_sin},
+    contact::Contact,
+    impact::{Way, impact},
+    key::{KeySet, bit, wall_key},
+    manifold::Polygon,
+    tuning::{H, IMPACT_CORRECTION, IMPACT_POSITION_ITERATIONS, MOST_IMPACTS, SLOP, VELOCITY_ITERATIONS},
+    wall::MAX_WALLS,
+    world::World,
+};
+use phase_model::Vec2;
+
+/// Most walls that one impact takes into account.
+const TOGETHER: usize = 8;
+
+impl World<'_> {
+    /// Resolves the impacts of one body on the walls among the candidates. Returns whether there were any,
+    /// with the body's centre at the last of them.
+    pub(crate) fn impacts(&mut self, body: usize, candidates: KeySet) -> Option<Vec2> {
+        let (start, start_angle) = self.starts[body];
+        let shape = &self.forward.shapes[body];
+        let mut way = Way {
+            from: start,
+            to: self.motions[body].centre,
+            from_angle: start_angle,
+            to_angle: self.motions[body].angle,
+        };
+        let mut spent = 0.0_f32;
+        let mut met = [0_u8; MAX_WALLS];
+        let mut off: KeySet = 0;
+        let mut last = None;
+        loop {
+            let mut first: Option<(f32, usize)> = None;
+            for wall in (0..self.forward.wall_count).rev() {
+                let key = bit(wall_key(wall, body));
+                if candidates & key == 0 || off & key != 0 || met[wall] > MOST_IMPACTS {
+                    continue;
+                }
+                if let Some(share) = impact(shape, &way, &self.forward.walls[wall]) {
+                    let time = (spent + (1.0 - spent) * share).min(1.0);
+                    if first.is_none_or(|(earliest, _)| time < earliest) {
+                        first = Some((time, wall));
+                    }
+                }
+            }
+            let Some((time, wall)) = first.filter(|(time, _)| *time <= 1.0 - 10.0 * f32::EPSILON) else {
+                return last;
+            };
+            let (way_before, motion_before) = (way, self.motions[body]);
+            way.skip((time - spent) / (1.0 - spent));
+            self.put(body, way.from, way.from_angle);
+            met[wall] += 1;
+            let polygon = Polygon::new(shape, &self.motions[body]);
+            let polygons = [polygon; 2];
+            let key = wall_key(wall, body);
+            let (bodies, manifold) = self.collide(key, &polygons);
+            if manifold.count == 0 {
+                off |= bit(key);
+                way = way_before;
+                self.motions[body] = motion_before;
+                continue;
+            }
+            spent = time;
+            let mut contacts = [Contact::new(key as u8, bodies, manifold); TOGETHER];
+            let mut count = 1;
+            for other in (0..self.forward.wall_count).rev() {
+                let key = wall_key(other, body);
+                if other == wall || candidates & bit(key) == 0 || count == TOGETHER {
+                    continue;
+                }
+                off &= !bit(key);
+                let (bodies, manifold) = self.collide(key, &polygons);
+                if manifold.count > 0 {
+                    contacts[count] = Contact::new(key as u8, bodies, manifold);
+                    count += 1;
+                }
+            }
+            self.bounce(body, &mut contacts[..count], spent, &mut way);
+            last = Some(way.from);
+        }
+    }
+
+    /// Separates a body from walls it has just reached, takes away its speed into them, and moves it on.
+    fn bounce(&mut self, body: usize, contacts: &mut [Contact], spent: f32, way: &mut Way) {
+        let shapes = &self.forward.shapes;
+        for contact in contacts.iter_mut() {
+            debug_assert!(contact.a == STATIC && contact.b == body);
+            contact.prepare(shapes, &self.motions);
+        }
+        for _ in 0..IMPACT_POSITION_ITERATIONS {
+            let mut settled = true;
+            for contact in contacts.iter() {
+                settled &= contact.separate(shapes, &mut self.motions, IMPACT_CORRECTION) >= -1.5 * SLOP;
+            }
+            if settled {
+                break;
+            }
+        }
+        way.from = self.motions[body].centre;
+        way.from_angle = self.motions[body].angle;
+        for contact in contacts.iter_mut() {
+            contact.prepare(shapes, &self.motions);
+        }
+        for _ in 0..VELOCITY_ITERATIONS {
+            for contact in contacts.iter_mut() {
+                contact.solve(shapes, &mut self.motions);
+            }
+        }
+        self.motions[body].advance(&shapes[body], (1.0 - spent) * H);
+        way.to = self.motions[body].centre;
+        way.to_angle = self.motions[body].angle;
+    }
+
+    /// Sets a body's pose.
+    fn put(&mut self, body: usize, centre: Vec2, angle: f32) {
+        let motion = &mut self.motions[body];
+        motion.centre = centre;
+        motion.angle = angle;
+        if self.forward.shapes[body].origin > 0.0 {
+            motion.right = cos_sin(angle);
+        }
+    }
+}

@@ -1,0 +1,257 @@
+//! One substep of 1/60 s: find contacts, solve velocities, move, solve positions.
+
+use crate::{
+    body::STATIC,
+    contact::Contact,
+    key::{KeySet, PAIRS, bit, descending, pair_key},
+    manifold::{self, Manifold, Polygon},
+    tuning::{CORRECTION, H, POSITION_ITERATIONS, SETTLED_IMPULSE, SLOP, VELOCITY_ITERATIONS},
+    wall::MAX_WALLS,
+    weld::Weld,
+    world::{MAX_CONTACTS, Trace, World},
+};
+use phase_model::{AGENT_COUNT, Vec2};
+
+/// A set of bodies, one bit each.
+pub(crate) type BodySet = u8;
+
+/// A joint: ground friction of one of four bodies (0 to 3), or the weld of an agent (4 and 5).
+type Joint = u8;
+
+impl World<'_> {
+    /// Finds which of the pairs of shapes in a set touch, newest first.
+    pub(crate) fn find_contacts(&mut self, candidates: KeySet) {
+        self.contact_count = 0;
+        if candidates == 0 {
+            return;
+        }
+        let polygons = [0, 1].map(|agent| Polygon::new(&self.forward.shapes[agent], &self.motions[agent]));
+        for key in descending(candidates) {
+            if self.contact_count == MAX_CONTACTS {
+                return;
+            }
+            let (bodies, manifold) = self.collide(key, &polygons);
+            if manifold.count > 0 {
+                let mut contact = Contact::new(key as u8, bodies, manifold);
+                self.impulses.recall(&mut contact);
+                self.contacts[self.contact_count] = contact;
+                self.contact_count += 1;
+            }
+        }
+    }
+
+    /// Applies forces and solves all given bodies, group by group.
+    pub(crate) fn solve(&mut self, members: BodySet) {
+        for body in 0..self.forward.count {
+            self.starts[body] = (self.motions[body].centre, self.motions[body].angle);
+            if body < AGENT_COUNT && members & 1 << body != 0 {
+                self.motions[body].act(&self.forward.shapes[body], self.actions[body]);
+            }
+        }
+        let mut welds: [Option<Weld>; AGENT_COUNT] = [None; AGENT_COUNT];
+        for agent in 0..AGENT_COUNT {
+            if self.held(agent).is_some() {
+                welds[agent] = self.grips[agent]
+                    .as_ref()
+                    .map(|grip| Weld::new(agent, grip, &self.forward.shapes, self.impulses.welds[agent]));
+            }
+        }
+        let mut done: BodySet = !members;
+        for seed in (0..self.forward.count).rev() {
+            if done & 1 << seed == 0 {
+                let island = self.island(seed, &welds, &mut done);
+                self.solve_island(&island, &mut welds);
+            }
+        }
+        for agent in 0..AGENT_COUNT {
+            if let Some(weld) = &welds[agent] {
+                self.impulses.welds[agent] = weld.impulse;
+            }
+        }
+        self.impulses.trace_count = self.contact_count;
+        for (trace, contact) in self.impulses.traces.iter_mut().zip(&self.contacts[..self.contact_count]) {
+            *trace = Trace {
+                key: contact.key,
+                count: contact.manifold.count as u8,
+                names: contact.manifold.names,
+                impulses: contact.impulses,
+            };
+        }
+    }
+
+    /// The contact of a pair of shapes.
+    pub(crate) fn collide(&self, key: usize, polygons: &[Polygon; 2]) -> ((usize, usize), Manifold) {
+        let (motions, shapes) = (&self.motions, &self.forward.shapes);
+        if key < pair_key(0) {
+            let (wall, body) = (&self.forward.walls[key / 4], key % 4);
+            let manifold = if body < AGENT_COUNT {
+                manifold::wall_agent(wall, &motions[body], &polygons[body])
+            } else {
+                manifold::wall_disc(wall, &motions[body], shapes[STATIC].skin + shapes[body].skin)
+            };
+            return ((STATIC, body), manifold);
+        }
+        let (a, b) = PAIRS[key - 4 * MAX_WALLS];
+        let skins = shapes[a].skin + shapes[b].skin;
+        let manifold = if b < AGENT_COUNT {
+            manifold::agents((&motions[a], &polygons[a]), (&motions[b], &polygons[b]))
+        } else if a < AGENT_COUNT {
+            manifold::agent_disc(&shapes[a], &motions[a], &motions[b], skins)
+        } else {
+            manifold::discs(&motions[a], &motions[b], skins)
+        };
+        ((a, b), manifold)
+    }
+
+    /// Everything that hangs together with a body by contacts and grips, in the order of solution.
+    fn island(&self, seed: usize, welds: &[Option<Weld>; AGENT_COUNT], done: &mut BodySet) -> Island {
+        let mut island = Island::EMPTY;
+        let mut taken = 0_u32;
+        let mut joined: u8 = 0;
+        let (mut stack, mut height) = ([seed; 4], 1);
+        *done |= 1 << seed;
+        while height > 0 {
+            height -= 1;
+            let body = stack[height];
+            island.bodies[island.body_count] = body as u8;
+            island.body_count += 1;
+            let mut reach = |other: usize| {
+                if other != STATIC && *done & 1 << other == 0 {
+                    *done |= 1 << other;
+                    stack[height] = other;
+                    height += 1;
+                }
+            };
+            for (index, contact) in self.contacts[..self.contact_count].iter().enumerate() {
+                if taken & 1 << index == 0 && (contact.a == body || contact.b == body) {
+                    taken |= 1 << index;
+                    island.contacts[island.contact_count] = index as u8;
+                    island.contact_count += 1;
+                    reach(if contact.a == body { contact.b } else { contact.a });
+                }
+            }
+            let mut join = |joint: Joint| {
+                if joined & 1 << joint == 0 {
+                    joined |= 1 << joint;
+                    island.joints[island.joint_count] = joint;
+                    island.joint_count += 1;
+                }
+            };
+            for agent in [self.latest_grip, 1 - self.latest_grip] {
+                if let Some(weld) = &welds[agent] {
+                    if weld.agent == body {
+                        join(4 + agent as u8);
+                        reach(weld.object);
+                    } else if weld.object == body {
+                        join(4 + agent as u8);
+                        reach(weld.agent);
+                    }
+                }
+            }
+            join(body as u8);
+        }
+        island
+    }
+
+    fn solve_island(&mut self, island: &Island, welds: &mut [Option<Weld>; AGENT_COUNT]) {
+        let shapes = &self.forward.shapes;
+        let motions = &mut self.motions;
+        let bodies = &island.bodies[..island.body_count];
+        let joints = &island.joints[..island.joint_count];
+        let contacts = &island.contacts[..island.contact_count];
+        if let ([], &[body]) = (contacts, joints) {
+            // Nothing but the ground acts on it.
+            let body = usize::from(body);
+            self.impulses.ground[body] = motions[body].rub(&shapes[body], Vec2::ZERO);
+            motions[body].advance(&shapes[body], H);
+            return;
+        }
+        for &index in contacts {
+            self.contacts[usize::from(index)].prepare(shapes, motions);
+        }
+        for &index in contacts {
+            self.contacts[usize::from(index)].warm_start(shapes, motions);
+        }
+        for &joint in joints {
+            let joint = usize::from(joint);
+            if joint < 4 {
+                motions[joint].rub_by(&shapes[joint], self.impulses.ground[joint]);
+            } else if let Some(weld) = &mut welds[joint - 4] {
+                weld.prepare(shapes, motions);
+            }
+        }
+        for _ in 0..VELOCITY_ITERATIONS {
+            let mut change = 0.0_f32;
+            for &joint in joints {
+                let joint = usize::from(joint);
+                if joint < 4 {
+                    let before = self.impulses.ground[joint];
+                    let after = motions[joint].rub(&shapes[joint], before);
+                    self.impulses.ground[joint] = after;
+                    change = change.max((after - before).abs().max_element());
+                } else if let Some(weld) = &mut welds[joint - 4] {
+                    change = change.max(weld.solve(shapes, motions));
+                }
+            }
+            for &index in contacts {
+                change = change.max(self.contacts[usize::from(index)].solve(shapes, motions));
+            }
+            if change < SETTLED_IMPULSE {
+                break;
+            }
+        }
+        for &body in bodies {
+            let body = usize::from(body);
+            motions[body].advance(&shapes[body], H);
+        }
+        for _ in 0..POSITION_ITERATIONS {
+            let mut settled = true;
+            for &index in contacts {
+                let gap = self.contacts[usize::from(index)].separate(shapes, motions, CORRECTION);
+                settled &= gap >= -3.0 * SLOP;
+            }
+            for &joint in joints {
+                if let Some(weld) = usize::from(joint).checked_sub(4).and_then(|agent| welds[agent].as_ref())
+                {
+                    settled &= weld.join(shapes, motions);
+                }
+            }
+            if settled {
+                break;
+            }
+        }
+    }
+
+    /// The pairs of bodies that touch as they are now, among the given keys.
+    pub(crate) fn touching(&self, candidates: KeySet) -> KeySet {
+        let pairs = candidates >> pair_key(0) << pair_key(0);
+        if pairs == 0 {
+            return 0;
+        }
+        let polygons = [0, 1].map(|agent| Polygon::new(&self.forward.shapes[agent], &self.motions[agent]));
+        descending(pairs)
+            .filter(|&key| self.collide(key, &polygons).1.count > 0)
+            .fold(0, |set, key| set | bit(key))
+    }
+}
+
+/// Bodies that hang together, with what holds them.
+struct Island {
+    bodies: [u8; 4],
+    body_count: usize,
+    contacts: [u8; MAX_CONTACTS],
+    contact_count: usize,
+    joints: [Joint; 6],
+    joint_count: usize,
+}
+
+impl Island {
+    const EMPTY: Self = Self {
+        bodies: [0; 4],
+        body_count: 0,
+        contacts: [0; MAX_CONTACTS],
+        contact_count: 0,
+        joints: [0; 6],
+        joint_count: 0,
+    };
+}

@@ -1,0 +1,156 @@
+//! The bodies at work: a state taken apart for solving, and put together again.
+
+use crate::{
+    Forward,
+    body::{Motion, STATIC},
+    contact::Contact,
+    key::KeySet,
+    weld::held_body,
+};
+use phase_model::{AGENT_COUNT, Action, Entity, Grip, State, Vec2};
+
+/// Most contacts that are solved at once; more than four bodies between walls ever have.
+pub(crate) const MAX_CONTACTS: usize = 24;
+
+/// What is kept of a contact for the next substep.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Trace {
+    pub(crate) key: u8,
+    pub(crate) count: u8,
+    pub(crate) names: [u16; 2],
+    pub(crate) impulses: [f32; 2],
+}
+
+impl Trace {
+    pub(crate) const NONE: Self = Self { key: u8::MAX, count: 0, names: [0; 2], impulses: [0.0; 2] };
+}
+
+/// Impulses of the last substep, with which the next starts.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Impulses {
+    pub(crate) traces: [Trace; MAX_CONTACTS],
+    pub(crate) trace_count: usize,
+    pub(crate) ground: [Vec2; 4],
+    pub(crate) welds: [(Vec2, f32); AGENT_COUNT],
+}
+
+impl Impulses {
+    pub(crate) const NONE: Self = Self {
+        traces: [Trace::NONE; MAX_CONTACTS],
+        trace_count: 0,
+        ground: [Vec2::ZERO; 4],
+        welds: [(Vec2::ZERO, 0.0); AGENT_COUNT],
+    };
+
+    /// The impulses that a contact's points had in the last substep.
+    pub(crate) fn recall(&self, contact: &mut Contact) {
+        let Some(trace) = self.traces[..self.trace_count].iter().find(|trace| trace.key == contact.key)
+        else {
+            return;
+        };
+        for point in 0..contact.manifold.count {
+            for old in 0..usize::from(trace.count) {
+                if trace.names[old] == contact.manifold.names[point] {
+                    contact.impulses[point] = trace.impulses[old];
+                    break;
+                }
+            }
+        }
+    }
+}
+
+/// Everything that one step works on.
+pub(crate) struct World<'a> {
+    pub(crate) forward: &'a Forward,
+    /// The four bodies and the one that stands for all walls.
+    pub(crate) motions: [Motion; 5],
+    /// Where each body was at the start of the substep: centre and angle.
+    pub(crate) starts: [(Vec2, f32); 4],
+    pub(crate) grips: [Option<Grip>; AGENT_COUNT],
+    /// The agent that grabbed last; its weld comes first.
+    pub(crate) latest_grip: usize,
+    pub(crate) actions: [Action; AGENT_COUNT],
+    pub(crate) contacts: [Contact; MAX_CONTACTS],
+    pub(crate) contact_count: usize,
+    pub(crate) impulses: Impulses,
+    /// Pairs that may not touch: held, or let go of and not yet clear.
+    pub(crate) apart: KeySet,
+}
+
+impl<'a> World<'a> {
+    /// Takes a state apart. Numbers that are not finite become 0.
+    pub(crate) fn new(forward: &'a Forward, state: &State, actions: [Action; AGENT_COUNT]) -> Self {
+        let mut motions = [Motion::STILL; 5];
+        for (index, motion) in motions.iter_mut().enumerate().take(forward.count) {
+            let mut body = state.bodies[index];
+            if !body.is_finite() {
+                body = forward.mended(body);
+            }
+            *motion = if index < AGENT_COUNT {
+                Motion::of_agent(&body, &forward.shapes[index])
+            } else {
+                Motion::of_object(&body)
+            };
+        }
+        Self {
+            forward,
+            motions,
+            starts: [(Vec2::ZERO, 0.0); 4],
+            grips: state.grips,
+            latest_grip: 1,
+            actions,
+            contacts: [Contact::NONE; MAX_CONTACTS],
+            contact_count: 0,
+            impulses: Impulses::NONE,
+            apart: 0,
+        }
+    }
+
+    /// The held pair of each agent, as bodies.
+    pub(crate) fn held(&self, agent: usize) -> Option<usize> {
+        let body = held_body(self.grips[agent].as_ref()?);
+        (body < self.forward.count).then_some(body)
+    }
+
+    /// Writes the bodies and grips into a state, whose contacts stay as they are.
+    pub(crate) fn write(&self, state: &mut State) {
+        for index in 0..self.forward.count {
+            state.bodies[index] = self.motions[index].body(&self.forward.shapes[index]);
+        }
+        state.grips = self.grips;
+    }
+
+    /// Lets both agents grab or let go, which happens once and before anything moves. Returns the agents
+    /// that let go of something, with the body they held.
+    pub(crate) fn grab(&mut self, state: &State) -> [Option<usize>; AGENT_COUNT] {
+        let mut let_go = [None; AGENT_COUNT];
+        for agent in 0..AGENT_COUNT {
+            match self.actions[agent] {
+                Action::Attach => {
+                    if let Some((object, side)) = state.attachable(&self.forward.physique, agent) {
+                        let held = state.body(Entity::object(object));
+                        self.grips[agent] = Some(Grip {
+                            object: object as u8,
+                            side,
+                            relative_angle: held.angle - state.bodies[agent].angle,
+                        });
+                        self.impulses.welds[agent] = (Vec2::ZERO, 0.0);
+                        self.latest_grip = agent;
+                    }
+                }
+                Action::Detach => {
+                    let_go[agent] = self.held(agent);
+                    self.grips[agent] = None;
+                }
+                _ => {}
+            }
+        }
+        let_go
+    }
+
+    /// The body at an index, or the one that stands for walls.
+    pub(crate) fn is_moving(&self, body: usize) -> bool {
+        body < STATIC
+            && (self.motions[body].velocity != Vec2::ZERO || self.motions[body].spin != 0.0)
+    }
+}

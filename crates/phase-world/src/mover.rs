@@ -1,0 +1,103 @@
+//! One body that moves: its parts in the engine and what the engine does not keep of it.
+
+use crate::{bodies, friction, friction::Aim};
+use phase_model::{Action, AgentBody, Body, Entity, Physique, Vec2};
+use rapier2d::prelude::*;
+
+/// Where a body is and how it moves, as the engine has it.
+pub type Motion = (Pose, RigidBodyVelocity<f32>);
+
+/// One agent's or object's parts in the engine.
+#[derive(Clone, Copy, Debug)]
+pub struct Mover {
+    /// The rigid body.
+    pub body: RigidBodyHandle,
+    /// Its only collider.
+    pub collider: ColliderHandle,
+    /// Its ground friction.
+    pub friction: ImpulseJointHandle,
+    /// The unbounded angle; the engine knows it only modulo a full turn (rad).
+    angle: f32,
+}
+
+impl Mover {
+    /// Adds an entity to the engine, as near to the given start as makes sense.
+    pub fn insert(
+        engine: &mut PhysicsWorld,
+        ground: RigidBodyHandle,
+        physique: &Physique,
+        entity: Entity,
+        start: &Body,
+    ) -> Self {
+        let start = bodies::possible(start);
+        let (body, collider) = bodies::insert_body(engine, physique, entity, &start);
+        Self { body, collider, friction: friction::insert(engine, ground, body), angle: start.angle }
+    }
+
+    /// Pose and motion of the body's origin and centre of mass, with the unbounded angle.
+    #[must_use]
+    pub fn state(&self, engine: &PhysicsWorld) -> Body {
+        let body = &engine.bodies[self.body];
+        Body {
+            position: body.translation(),
+            velocity: body.linvel(),
+            angle: self.angle,
+            angular_velocity: body.angvel(),
+        }
+    }
+
+    /// Sets an agent's push or torque for the coming substep, or stops it.
+    pub fn act(&self, engine: &mut PhysicsWorld, agent: &AgentBody, action: Action) {
+        let body = &mut engine.bodies[self.body];
+        body.reset_forces(true);
+        body.reset_torques(true);
+        if let Some(push) = action.push() {
+            let point = *body.position() * Vec2::new(0.0, -agent.push_point_offset());
+            let force = *body.rotation() * (push * agent.max_force);
+            body.add_force_at_point(force, point, true);
+        }
+        body.add_torque(action.turn() * agent.turn_torque(), true);
+        if action == Action::Stop {
+            body.set_linvel(Vec2::ZERO, true);
+        }
+    }
+
+    /// Takes the angular velocity away.
+    pub fn stop_turning(&self, engine: &mut PhysicsWorld) {
+        engine.bodies[self.body].set_angvel(0.0, true);
+    }
+
+    /// The body's pose and velocity.
+    #[must_use]
+    pub fn motion(&self, engine: &PhysicsWorld) -> Motion {
+        let body = &engine.bodies[self.body];
+        (*body.position(), *body.vels())
+    }
+
+    /// Puts the body back to an earlier pose and velocity.
+    pub fn restore(&self, engine: &mut PhysicsWorld, (pose, velocities): Motion) {
+        let body = &mut engine.bodies[self.body];
+        body.set_position(pose, true);
+        body.set_vels(velocities, true);
+    }
+
+    /// The aim of the friction that the substep just taken calls for; `before` is the motion it began with.
+    #[must_use]
+    pub fn better_aim(&self, engine: &PhysicsWorld, before: &Motion) -> Aim {
+        Aim::after(engine, &engine.bodies[self.body], &before.0.rotation, self.friction)
+    }
+
+    /// Counts the turn since `before` and sets it right.
+    ///
+    /// The engine turns a body by moving its axis along the tangent, so that where it should have turned by Δθ
+    /// it has turned by atan Δθ. The centre of mass stays where it is.
+    pub fn correct_turn(&mut self, engine: &mut PhysicsWorld, before: &Motion) {
+        let body = &mut engine.bodies[self.body];
+        let turned = before.0.rotation.inverse() * *body.rotation();
+        // Nothing turns by a right angle along a tangent; the guard only keeps the quotient finite.
+        self.angle += turned.im / turned.re.max(f32::EPSILON);
+        let rotation = bodies::rotation(self.angle);
+        let origin = body.center_of_mass() - rotation * body.local_center_of_mass();
+        body.set_position(Pose::from_parts(origin, rotation), true);
+    }
+}
