@@ -106,13 +106,18 @@ impl<D: Dynamics> GenerativeModel for Imagination<'_, D> {
         self.discount
     }
 
-    fn step(&self, state: &mut State, action: usize, _random: &mut impl Rng) -> Outcome<u16> {
+    fn step(&self, state: &mut State, action: usize, random: &mut impl Rng) -> Outcome<u16> {
+        let Outcome { reward, terminal, .. } = self.rollout_step(state, action, random);
+        Outcome { observation: self.notice(state), reward, terminal }
+    }
+
+    fn rollout_step(&self, state: &mut State, action: usize, _random: &mut impl Rng) -> Outcome<()> {
         let agent = self.objective.agent;
         let action = self.actions[action];
         let mut actions = [self.other_action(state); AGENT_COUNT];
         actions[agent] = action;
         self.dynamics.step(state, actions);
-        Outcome { observation: self.notice(state), reward: self.reward(state, action), terminal: false }
+        Outcome { observation: (), reward: self.reward(state, action), terminal: false }
     }
 
     fn rollout_action(&self, state: &State, random: &mut impl Rng) -> usize {

@@ -58,6 +58,20 @@ pub enum Problem {
         /// What it is, in words.
         found: String,
     },
+    /// It is JSON of the right format, but some of it is missing or of the wrong type.
+    #[error("is no complete {what}: {rule}")]
+    Shape {
+        /// What it should be.
+        what: &'static str,
+        /// What is wrong.
+        rule: String,
+    },
+    /// Its size or checksum is not the one in the manifest.
+    #[error("differs in {0} from what its manifest says")]
+    Altered(&'static str),
+    /// A manifest names a path that leads out of its folder.
+    #[error("lies outside of the dataset's folder")]
+    OutsideFolder,
     /// There is nothing in it to work on.
     #[error("field `events` must hold at least one event")]
     NoEvents,

@@ -1,10 +1,34 @@
-//! PHASE events at rest.
+//! PHASE events at rest: files, formats, checksums, and folders that several runs may meet in.
+//!
+//! - [`phase_events`] reads and writes the exchange format `phase-events/1`, of measured recordings and of
+//!   simulated events alike.
+//! - [`manifest`], [`gallery`] and [`card`] describe a generated dataset to programs and to people.
+//! - [`outcome`] and [`summary`] judge what became of goals and compare simulations with recordings.
+//! - [`atomic`], [`folder`] and [`cache`] let a run be interrupted at any moment and nothing be half-written.
+//!
+//! The key design decision is that files are read by hand from a tree of JSON values instead of by derived
+//! readers: whoever made the file learns which field of which event breaks which rule. The price is a reader
+//! four times as long, and a file has to fit in memory twice.
+//!
+//! Together with the command line this crate is where the outside world is touched; it does so only at paths
+//! it is given.
+
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
 pub mod atomic;
+pub mod cache;
+pub mod card;
+pub mod checksum;
 pub mod error;
+pub mod folder;
+pub mod gallery;
 pub mod json;
+pub mod manifest;
+pub mod outcome;
 pub mod phase_events;
+pub mod preset;
+pub mod summary;
+pub mod words;
 
 pub use error::{FieldError, FileError, Problem, WriteError};

@@ -1,14 +1,12 @@
 //! Ways through doors against lengths worked out by hand.
 
-mod support;
-
 use phase_model::{Layout, Vec2};
 use phase_planner::{Routes, routes::IMPASSABLE_COST, situation::obstruct};
 use proptest::prelude::*;
 
 /// Layout 4: full wall between rooms 0 and 1, a narrow door (x 6 to 8.5) between 0 and 3, the rest open.
 fn narrow() -> Routes {
-    Routes::new(support::layout(4, None))
+    Routes::new(Layout::new(4, None).expect("layout 4"))
 }
 
 #[test]
@@ -44,7 +42,7 @@ fn who_does_not_fit_pays_for_it() {
 fn the_shorter_way_round_is_taken() {
     // Layout 2: full wall up, half wall left, nothing right and down: from room 1 to room 0 leads through
     // rooms 2 and 3.
-    let routes = Routes::new(support::layout(2, None));
+    let routes = Routes::new(Layout::new(2, None).unwrap());
     let route = routes.best(Vec2::new(18.0, 20.0), Vec2::new(14.0, 20.0), 2.4, routes.gaps()).unwrap();
     let slots: Vec<u8> = route.doors().iter().map(|&(slot, _)| slot).collect();
     assert_eq!(slots, [3, 2, 1]);

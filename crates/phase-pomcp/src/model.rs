@@ -32,6 +32,15 @@ pub trait GenerativeModel {
         random: &mut impl Rng,
     ) -> Outcome<Self::Observation>;
 
+    /// As [`step`](Self::step), for rollouts, where nobody looks at the observation.
+    ///
+    /// Override it where observations cost more than the step; it must move the state and earn just as
+    /// `step` does.
+    fn rollout_step(&self, state: &mut Self::State, action: usize, random: &mut impl Rng) -> Outcome<()> {
+        let Outcome { reward, terminal, .. } = self.step(state, action, random);
+        Outcome { observation: (), reward, terminal }
+    }
+
     /// The action of the default policy, which is played from a newly grown leaf on; in `0..action_count()`.
     ///
     /// Uniform unless overridden. A policy that does something sensible is the cheapest way to a better plan.

@@ -4,7 +4,7 @@ use rand::Rng;
 
 use crate::puct::ValueRange;
 use crate::tree::{ActionId, HistoryId, Tree};
-use crate::{GenerativeModel, Outcome, PomcpError, PomcpSettings};
+use crate::{GenerativeModel, PomcpError, PomcpSettings};
 
 /// What the simulations of one search share.
 pub(crate) struct Simulation<'a, M: GenerativeModel> {
@@ -51,7 +51,8 @@ impl<M: GenerativeModel> Simulation<'_, M> {
             }
             let chosen = self.tree.select(history, self.settings, &self.range, random);
             let action = self.tree.action(history, chosen);
-            let outcome = self.step(state, chosen, random)?;
+            let outcome = self.model.step(state, chosen, random);
+            self.check(chosen, outcome.reward)?;
             self.path.push(PathStep { history, action, reward: outcome.reward });
             if outcome.terminal {
                 return Ok(0.0);
@@ -77,7 +78,8 @@ impl<M: GenerativeModel> Simulation<'_, M> {
             if action >= action_count {
                 return Err(PomcpError::RolloutActionOutOfRange { action, action_count });
             }
-            let outcome = self.step(state, action, random)?;
+            let outcome = self.model.rollout_step(state, action, random);
+            self.check(action, outcome.reward)?;
             total += weight * outcome.reward;
             weight *= self.discount;
             if outcome.terminal {
@@ -87,18 +89,10 @@ impl<M: GenerativeModel> Simulation<'_, M> {
         Ok(total + weight * self.estimate(state)?)
     }
 
-    fn step(
-        &mut self,
-        state: &mut M::State,
-        action: usize,
-        random: &mut impl Rng,
-    ) -> Result<Outcome<M::Observation>, PomcpError> {
+    /// Counts a step of the model and checks what it earned.
+    fn check(&mut self, action: usize, reward: f64) -> Result<(), PomcpError> {
         self.steps += 1;
-        let outcome = self.model.step(state, action, random);
-        if !outcome.reward.is_finite() {
-            return Err(PomcpError::NonFiniteReward { action, reward: outcome.reward });
-        }
-        Ok(outcome)
+        if reward.is_finite() { Ok(()) } else { Err(PomcpError::NonFiniteReward { action, reward }) }
     }
 
     fn estimate(&self, state: &M::State) -> Result<f64, PomcpError> {

@@ -52,13 +52,14 @@ pub(crate) fn draw_believed(
     match entity {
         Entity::Agent(agent) => {
             let colour = palette.agents[usize::from(agent)];
-            painter.polygon(&corners(body, radius, 0.0), colour, BELIEF_FILL);
-            painter.polygon_edge(&corners(body, radius, 0.5 * OUTLINE), OUTLINE, colour, BELIEF_EDGE);
+            let (outer, inner) = (corners(body, radius, 0.0), corners(body, radius, OUTLINE));
+            painter.polygon(&inner, colour, BELIEF_FILL);
+            painter.frame(&outer, &inner, colour, BELIEF_EDGE);
         }
         Entity::Object(object) => {
             let colour = palette.objects[usize::from(object)];
-            painter.disc(body.position, radius, colour, BELIEF_FILL);
-            painter.circle(body.position, radius - 0.5 * OUTLINE, OUTLINE, colour, BELIEF_EDGE);
+            painter.disc(body.position, radius - OUTLINE, colour, BELIEF_FILL);
+            painter.ring(body.position, radius, radius - OUTLINE, colour, BELIEF_EDGE);
         }
     }
 }

@@ -20,7 +20,7 @@ pub struct Overlay<'a> {
 
 /// Opacity of the cover over cells out of sight, and of the tint of cells in sight.
 const UNSEEN: u8 = 120;
-const SEEN: u8 = 70;
+const SEEN: u8 = 45;
 
 /// Covers the cells out of sight and tints those in sight.
 pub(crate) fn shade(painter: &mut Painter, palette: &Palette, visible: &CellSet) {

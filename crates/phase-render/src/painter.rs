@@ -2,7 +2,7 @@
 
 use crate::{Colour, Style};
 use phase_model::{Vec2, arena};
-use tiny_skia::{Color, FillRule, LineJoin, Paint, Path, PathBuilder, Pixmap, Rect, Stroke, Transform};
+use tiny_skia::{Color, FillRule, Paint, Path, PathBuilder, Pixmap, Rect, Transform};
 
 /// Where the world lies in the picture.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -50,10 +50,10 @@ impl Painter {
         }
     }
 
-    /// Draws the edge of a polygon, `width` (u) wide with the edge in the middle.
-    pub(crate) fn polygon_edge(&mut self, corners: &[Vec2], width: f32, colour: Colour, alpha: u8) {
-        if let Some(path) = self.polygon_path(corners) {
-            self.stroke(&path, width, colour, alpha);
+    /// Fills what lies between a polygon and a smaller one inside it (u).
+    pub(crate) fn frame(&mut self, outer: &[Vec2], inner: &[Vec2], colour: Colour, alpha: u8) {
+        if let (Some(outer), Some(inner)) = (self.polygon_path(outer), self.polygon_path(inner)) {
+            self.fill_between(&outer, &inner, colour, alpha);
         }
     }
 
@@ -64,10 +64,10 @@ impl Painter {
         }
     }
 
-    /// Draws a circle, `width` (u) wide with the radius in the middle.
-    pub(crate) fn circle(&mut self, centre: Vec2, radius: f32, width: f32, colour: Colour, alpha: u8) {
-        if let Some(path) = self.disc_path(centre, radius) {
-            self.stroke(&path, width, colour, alpha);
+    /// Fills what lies between two circles around one centre (u).
+    pub(crate) fn ring(&mut self, centre: Vec2, outer: f32, inner: f32, colour: Colour, alpha: u8) {
+        if let (Some(outer), Some(inner)) = (self.disc_path(centre, outer), self.disc_path(centre, inner)) {
+            self.fill_between(&outer, &inner, colour, alpha);
         }
     }
 
@@ -90,10 +90,14 @@ impl Painter {
         self.pixmap.fill_path(path, &paint(colour, alpha), FillRule::Winding, Transform::identity(), None);
     }
 
-    fn stroke(&mut self, path: &Path, width: f32, colour: Colour, alpha: u8) {
-        let stroke =
-            Stroke { width: width * self.view.scale, line_join: LineJoin::Miter, ..Stroke::default() };
-        self.pixmap.stroke_path(path, &paint(colour, alpha), &stroke, Transform::identity(), None);
+    fn fill_between(&mut self, outer: &Path, inner: &Path, colour: Colour, alpha: u8) {
+        let mut builder = PathBuilder::new();
+        builder.push_path(outer);
+        builder.push_path(inner);
+        if let Some(path) = builder.finish() {
+            let paint = paint(colour, alpha);
+            self.pixmap.fill_path(&path, &paint, FillRule::EvenOdd, Transform::identity(), None);
+        }
     }
 }
 

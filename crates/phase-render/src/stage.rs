@@ -5,7 +5,7 @@ use crate::{
     painter::{Painter, View},
     text,
 };
-use phase_model::{Physique, Segment, State, Vec2, arena};
+use phase_model::{Physique, State, Vec2, arena};
 use tiny_skia::{Color, Pixmap};
 
 /// Thickness of an inner wall (u); physically walls have none.
@@ -95,15 +95,22 @@ impl Stage {
 /// Draws the inner walls and the boundary.
 fn draw_walls(painter: &mut Painter, physique: &Physique, style: &Style) {
     let ink = style.palette.ink;
-    for &Segment { a, b } in &physique.walls {
-        // Square ends: half the thickness is added along the wall too, so that walls that meet join up.
-        let along = (b - a).normalize_or_zero() * (0.5 * WALL_THICKNESS);
+    for (k, &wall) in physique.walls.iter().enumerate() {
+        // Where walls meet, each reaches over the other's half, so that the corner is filled; a free end
+        // stops where the wall stops, so that doors are as wide as they look.
+        let meets = |end: Vec2| {
+            let others = physique.walls.iter().enumerate().filter(|(other, _)| *other != k);
+            others.into_iter().any(|(_, other)| other.distance(end) == 0.0)
+        };
+        let along = (wall.b - wall.a).normalize_or_zero() * (0.5 * WALL_THICKNESS);
+        let a = if meets(wall.a) { wall.a - along } else { wall.a };
+        let b = if meets(wall.b) { wall.b + along } else { wall.b };
         let across = along.perp();
-        let corners = [a - along - across, b + along - across, b + along + across, a - along + across];
-        painter.polygon(&corners, ink, 255);
+        painter.polygon(&[a - across, b - across, b + across, a + across], ink, 255);
     }
-    let half = Vec2::splat(0.5 * BOUNDARY_THICKNESS);
-    let (low, high) = (arena::MIN - half, arena::MAX + half);
-    let corners = [low, Vec2::new(high.x, low.y), high, Vec2::new(low.x, high.y)];
-    painter.polygon_edge(&corners, BOUNDARY_THICKNESS, ink, 255);
+    let square = |grow: f32| {
+        let (low, high) = (arena::MIN - Vec2::splat(grow), arena::MAX + Vec2::splat(grow));
+        [low, Vec2::new(high.x, low.y), high, Vec2::new(low.x, high.y)]
+    };
+    painter.frame(&square(BOUNDARY_THICKNESS), &square(0.0), ink, 255);
 }

@@ -32,6 +32,8 @@ pub struct VideoEncoder<W: Write> {
 
 /// Quantisation: 0 is lossless, 51 is worst; at 24 edges and eyes are crisp and flat colours exact to ±2.
 const QUANTISATION: u8 = 24;
+/// Bits per second named to the encoder, which takes no notice of it at constant quality.
+const BIT_RATE: u32 = 1_000_000;
 /// Sides the encoder takes (pixels).
 const SIDES: std::ops::RangeInclusive<u32> = 16..=2160;
 
@@ -124,19 +126,20 @@ impl<W: Write> VideoEncoder<W> {
 fn config(frames_per_second: u32) -> EncoderConfig {
     EncoderConfig::new()
         .profile(Profile::Baseline)
-        .usage_type(match v("U",0) {0=>UsageType::CameraVideoRealTime,1=>UsageType::ScreenContentRealTime,_=>UsageType::InputContentTypeAll})
-        .complexity(match v("C",2) {0=>Complexity::Low,1=>Complexity::Medium,_=>Complexity::High})
-        .rate_control_mode(match v("R",0) {0=>RateControlMode::Quality,1=>RateControlMode::Bitrate,_=>RateControlMode::Off})
+        .usage_type(UsageType::CameraVideoRealTime)
+        .complexity(Complexity::High)
+        // The other modes trade quality for bits, or do not heed the range below. This one only follows the
+        // receiver's buffer, which nobody reports here, so the range is all that decides.
+        .rate_control_mode(RateControlMode::Bufferbased)
         .qp(QpRange::new(v("Q",24) as u8, v("Q",24) as u8))
-        // The bit rate is only there to be out of the way.
-        .bitrate(BitRate::from_bps(20_000_000))
+        .bitrate(BitRate::from_bps(BIT_RATE))
         .max_frame_rate(FrameRate::from_hz(frames_per_second as f32))
-        .intra_frame_period(IntraFramePeriod::from_num_frames(v("I",20) as u32))
+        .intra_frame_period(IntraFramePeriod::from_num_frames(2 * frames_per_second))
         .skip_frames(false)
         .scene_change_detect(false)
         .adaptive_quantization(false)
         .background_detection(false)
-        .long_term_reference(false)
+        .background_detection(v("BG",0)==1).adaptive_quantization(v("AQ",0)==1).long_term_reference(false)
         .num_threads(1)
         .vui(VuiConfig::bt709())
 }

@@ -18,20 +18,20 @@ const MAX_SPIN: f32 = 1000.0;
 
 /// The rotation by an angle (rad), the same on every platform.
 #[must_use]
-pub fn rotation(angle: f32) -> Rotation {
+pub(crate) fn rotation(angle: f32) -> Rotation {
     let (sin, cos) = libm::sincosf(angle);
     Rotation::from_cos_sin_unchecked(cos, sin)
 }
 
 /// The pose at a position (u) and an angle (rad).
 #[must_use]
-pub fn pose(position: Vec2, angle: f32) -> Pose {
+pub(crate) fn pose(position: Vec2, angle: f32) -> Pose {
     Pose::from_parts(position, rotation(angle))
 }
 
 /// The nearest start that makes sense: finite, inside the arena, not faster than anything can be.
 #[must_use]
-pub fn possible(body: &Body) -> Body {
+pub(crate) fn possible(body: &Body) -> Body {
     let or = |vector: Vec2, default| if vector.is_finite() { vector } else { default };
     let or_zero = |number: f32| if number.is_finite() { number } else { 0.0 };
     Body {
@@ -44,7 +44,7 @@ pub fn possible(body: &Body) -> Body {
 
 /// Adds the fixed body that bears the arena's boundary and the inner walls, and to which ground friction is
 /// anchored.
-pub fn insert_ground(engine: &mut PhysicsWorld, walls: &[Segment]) -> RigidBodyHandle {
+pub(crate) fn insert_ground(engine: &mut PhysicsWorld, walls: &[Segment]) -> RigidBodyHandle {
     let ground = engine.insert_body(RigidBodyBuilder::fixed());
     let half_side = arena::SIDE / 2.0;
     for outward in [Vec2::X, Vec2::Y, Vec2::NEG_X, Vec2::NEG_Y] {
@@ -62,7 +62,7 @@ pub fn insert_ground(engine: &mut PhysicsWorld, walls: &[Segment]) -> RigidBodyH
 }
 
 /// Adds an entity's body, with the mass, the inertia and the centre of mass that its radius implies.
-pub fn insert_body(
+pub(crate) fn insert_body(
     engine: &mut PhysicsWorld,
     physique: &Physique,
     entity: Entity,

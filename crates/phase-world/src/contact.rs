@@ -15,7 +15,7 @@ const IMPACT_DISTANCE: f32 = 0.07;
 
 /// The mark of an entity's collider; walls bear 0.
 #[must_use]
-pub fn tag(entity: Entity) -> u128 {
+pub(crate) fn tag(entity: Entity) -> u128 {
     entity.index() as u128 + 1
 }
 
@@ -28,18 +28,18 @@ fn tagged(colliders: &ColliderSet, handle: ColliderHandle) -> Option<usize> {
 /// The contact rules: bodies collide once they touch, walls are foreseen, and an object that was let go passes
 /// through the agent that held it until the two have moved clear of each other.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct ContactRules {
+pub(crate) struct ContactRules {
     released: [[bool; MAX_ENTITIES]; MAX_ENTITIES],
 }
 
 impl ContactRules {
     /// Lets a pair overlap until it has moved clear.
-    pub fn release(&mut self, a: Entity, b: Entity) {
+    pub(crate) fn release(&mut self, a: Entity, b: Entity) {
         self.set_released(a.index(), b.index(), true);
     }
 
     /// Makes released pairs solid again that do not touch any more; `movers` are the entities' by index.
-    pub fn restore_clear(&mut self, engine: &PhysicsWorld, movers: &[Mover]) {
+    pub(crate) fn restore_clear(&mut self, engine: &PhysicsWorld, movers: &[Mover]) {
         for (a, first) in movers.iter().enumerate() {
             for (b, second) in movers.iter().enumerate().take(a) {
                 if self.released[a][b] && !touching(engine, first.collider, second.collider) {
@@ -85,13 +85,13 @@ impl PhysicsHooks for ContactRules {
 /// Whether two bodies touch at their present poses, by the contact points that the engine's narrow phase last
 /// found between them.
 #[must_use]
-pub fn touching(engine: &PhysicsWorld, a: ColliderHandle, b: ColliderHandle) -> bool {
+pub(crate) fn touching(engine: &PhysicsWorld, a: ColliderHandle, b: ColliderHandle) -> bool {
     distance(engine, a, b).is_some_and(|distance| distance <= TOUCHING_DISTANCE)
 }
 
 /// Whether a wall stopped a body in the last substep that did not touch it before.
 #[must_use]
-pub fn hit_wall(engine: &PhysicsWorld, collider: ColliderHandle) -> bool {
+pub(crate) fn hit_wall(engine: &PhysicsWorld, collider: ColliderHandle) -> bool {
     engine.narrow_phase.contact_pairs_with(collider).any(|pair| {
         let other = if pair.collider1 == collider { pair.collider2 } else { pair.collider1 };
         let mut points = pair.manifolds().iter().flat_map(|manifold| &manifold.points);

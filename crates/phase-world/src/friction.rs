@@ -20,7 +20,7 @@ const HELD_SLIP: f32 = 0.01;
 const SAME_AIM: f32 = 1.0e-3;
 
 /// Ties a body's origin to the ground by two motors at right angles that aim at standing still.
-pub fn insert(engine: &mut PhysicsWorld, ground: RigidBodyHandle, body: RigidBodyHandle) -> ImpulseJointHandle {
+pub(crate) fn insert(engine: &mut PhysicsWorld, ground: RigidBodyHandle, body: RigidBodyHandle) -> ImpulseJointHandle {
     let joint = [JointAxis::LinX, JointAxis::LinY].into_iter().fold(
         GenericJointBuilder::new(JointAxesMask::empty()),
         |joint, axis| joint.motor_velocity(axis, 0.0, MOTOR_GAIN).motor_max_force(axis, GROUND_FRICTION),
@@ -30,7 +30,7 @@ pub fn insert(engine: &mut PhysicsWorld, ground: RigidBodyHandle, body: RigidBod
 
 /// How a body's friction is directed in one substep.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Aim {
+pub(crate) struct Aim {
     /// Unit vector of the main motor.
     axis: Vec2,
     /// Whether the motor across acts, too.
@@ -40,7 +40,7 @@ pub struct Aim {
 impl Aim {
     /// The aim for a body on its own, whose forces are set for the coming substep.
     #[must_use]
-    pub fn foreseen(body: &RigidBody) -> Self {
+    pub(crate) fn foreseen(body: &RigidBody) -> Self {
         let mass = &body.mass_properties().local_mprops;
         let velocity = body.linvel() + body.user_force() * (mass.inv_mass * SUBSTEP_SECONDS);
         let spin = body.angvel() + body.user_torque() * (mass.inv_principal_inertia * SUBSTEP_SECONDS);
@@ -51,7 +51,7 @@ impl Aim {
     /// The aim that the motion after a substep calls for: along the origin's slip, or for a body held in place
     /// along the impulse that held it. `rotation` is the body's before the substep.
     #[must_use]
-    pub fn after(engine: &PhysicsWorld, body: &RigidBody, rotation: &Rotation, joint: ImpulseJointHandle) -> Self {
+    pub(crate) fn after(engine: &PhysicsWorld, body: &RigidBody, rotation: &Rotation, joint: ImpulseJointHandle) -> Self {
         let slip = stopping_impulse(body, rotation, body.linvel(), body.angvel());
         let hold = slip.length() < HELD_SLIP * MAX_IMPULSE;
         let along = if hold { exerted(engine, joint) } else { slip };
@@ -60,12 +60,12 @@ impl Aim {
 
     /// Whether two aims come to the same.
     #[must_use]
-    pub fn agrees_with(&self, other: &Self) -> bool {
+    pub(crate) fn agrees_with(&self, other: &Self) -> bool {
         self.axis.perp_dot(other.axis).abs() <= SAME_AIM
     }
 
     /// Sets a body's friction for the coming substep.
-    pub fn apply(self, engine: &mut PhysicsWorld, joint: ImpulseJointHandle) {
+    pub(crate) fn apply(self, engine: &mut PhysicsWorld, joint: ImpulseJointHandle) {
         let Some(joint) = engine.impulse_joints.get_mut(joint, false) else { return };
         let rotation = Rotation::from_cos_sin_unchecked(self.axis.x, self.axis.y);
         joint.data.set_local_frame1(Pose::from_rotation(rotation));

@@ -5,16 +5,16 @@ use rapier2d::prelude::*;
 
 /// A grip and the joint that enforces it.
 #[derive(Clone, Copy, Debug)]
-pub struct Weld {
+pub(crate) struct Weld {
     /// What is held, where and at which relative angle.
-    pub grip: Grip,
+    pub(crate) grip: Grip,
     joint: ImpulseJointHandle,
 }
 
 impl Weld {
     /// Welds an object's centre to the point of an agent at distance `length` = R + r on the grip's side. If
     /// they are apart, the next substep pulls them together. The two do not collide while welded.
-    pub fn insert(
+    pub(crate) fn insert(
         engine: &mut PhysicsWorld,
         [agent, object]: [RigidBodyHandle; 2],
         grip: Grip,
@@ -28,7 +28,7 @@ impl Weld {
     }
 
     /// Lets go.
-    pub fn remove(self, engine: &mut PhysicsWorld) {
+    pub(crate) fn remove(self, engine: &mut PhysicsWorld) {
         engine.remove_impulse_joint(self.joint);
     }
 }

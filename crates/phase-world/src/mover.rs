@@ -5,24 +5,24 @@ use phase_model::{Action, AgentBody, Body, Entity, Physique, Vec2};
 use rapier2d::prelude::*;
 
 /// Where a body is and how it moves, as the engine has it.
-pub type Motion = (Pose, RigidBodyVelocity<f32>);
+pub(crate) type Motion = (Pose, RigidBodyVelocity<f32>);
 
 /// One agent's or object's parts in the engine.
 #[derive(Clone, Copy, Debug)]
-pub struct Mover {
+pub(crate) struct Mover {
     /// The rigid body.
-    pub body: RigidBodyHandle,
+    pub(crate) body: RigidBodyHandle,
     /// Its only collider.
-    pub collider: ColliderHandle,
+    pub(crate) collider: ColliderHandle,
     /// Its ground friction.
-    pub friction: ImpulseJointHandle,
+    pub(crate) friction: ImpulseJointHandle,
     /// The unbounded angle; the engine knows it only modulo a full turn (rad).
     angle: f32,
 }
 
 impl Mover {
     /// Adds an entity to the engine, as near to the given start as makes sense.
-    pub fn insert(
+    pub(crate) fn insert(
         engine: &mut PhysicsWorld,
         ground: RigidBodyHandle,
         physique: &Physique,
@@ -36,7 +36,7 @@ impl Mover {
 
     /// Pose and motion of the body's origin and centre of mass, with the unbounded angle.
     #[must_use]
-    pub fn state(&self, engine: &PhysicsWorld) -> Body {
+    pub(crate) fn state(&self, engine: &PhysicsWorld) -> Body {
         let body = &engine.bodies[self.body];
         Body {
             position: body.translation(),
@@ -47,7 +47,7 @@ impl Mover {
     }
 
     /// Sets an agent's push or torque for the coming substep, or stops it.
-    pub fn act(&self, engine: &mut PhysicsWorld, agent: &AgentBody, action: Action) {
+    pub(crate) fn act(&self, engine: &mut PhysicsWorld, agent: &AgentBody, action: Action) {
         let body = &mut engine.bodies[self.body];
         body.reset_forces(true);
         body.reset_torques(true);
@@ -63,19 +63,19 @@ impl Mover {
     }
 
     /// Takes the angular velocity away.
-    pub fn stop_turning(&self, engine: &mut PhysicsWorld) {
+    pub(crate) fn stop_turning(&self, engine: &mut PhysicsWorld) {
         engine.bodies[self.body].set_angvel(0.0, true);
     }
 
     /// The body's pose and velocity.
     #[must_use]
-    pub fn motion(&self, engine: &PhysicsWorld) -> Motion {
+    pub(crate) fn motion(&self, engine: &PhysicsWorld) -> Motion {
         let body = &engine.bodies[self.body];
         (*body.position(), *body.vels())
     }
 
     /// Puts the body back to an earlier pose and velocity.
-    pub fn restore(&self, engine: &mut PhysicsWorld, (pose, velocities): Motion) {
+    pub(crate) fn restore(&self, engine: &mut PhysicsWorld, (pose, velocities): Motion) {
         let body = &mut engine.bodies[self.body];
         body.set_position(pose, true);
         body.set_vels(velocities, true);
@@ -83,7 +83,7 @@ impl Mover {
 
     /// The aim of the friction that the substep just taken calls for; `before` is the motion it began with.
     #[must_use]
-    pub fn better_aim(&self, engine: &PhysicsWorld, before: &Motion) -> Aim {
+    pub(crate) fn better_aim(&self, engine: &PhysicsWorld, before: &Motion) -> Aim {
         Aim::after(engine, &engine.bodies[self.body], &before.0.rotation, self.friction)
     }
 
@@ -91,7 +91,7 @@ impl Mover {
     ///
     /// The engine turns a body by moving its axis along the tangent, so that where it should have turned by Δθ
     /// it has turned by atan Δθ. The centre of mass stays where it is.
-    pub fn correct_turn(&mut self, engine: &mut PhysicsWorld, before: &Motion) {
+    pub(crate) fn correct_turn(&mut self, engine: &mut PhysicsWorld, before: &Motion) {
         let body = &mut engine.bodies[self.body];
         let turned = before.0.rotation.inverse() * *body.rotation();
         // Nothing turns by a right angle along a tangent; the guard only keeps the quotient finite.

@@ -4,7 +4,7 @@ use phase_model::arena::SUBSTEP_SECONDS;
 use rapier2d::prelude::{IntegrationParameters, PhysicsWorld, SpringCoefficients, Vector};
 
 /// Greatest speed of any body, and of position corrections (u/s): 2 u in one substep.
-pub const MAX_SPEED: f32 = 2.0 / SUBSTEP_SECONDS;
+pub(crate) const MAX_SPEED: f32 = 2.0 / SUBSTEP_SECONDS;
 /// Share of a penetration that is corrected within one substep: ten corrections by a fifth each.
 const CORRECTION: f32 = 0.893;
 /// Sweeps over all constraints in one substep, before and again after positions have moved.
@@ -18,7 +18,7 @@ const RIGID: f32 = 1.0e4;
 /// would let a pushed body go less far. No warm starting and no recycled contacts: nothing is remembered from
 /// one substep to the next but poses and velocities.
 #[must_use]
-pub fn engine() -> PhysicsWorld {
+pub(crate) fn engine() -> PhysicsWorld {
     let softness = rigid_contact();
     let integration_parameters = IntegrationParameters {
         dt: SUBSTEP_SECONDS,

@@ -16,7 +16,7 @@ const MAX_TAKES: usize = 3;
 /// The direction of friction follows from the motion it acts on. So the substep is taken with the direction
 /// foreseen from each body's own push, and if contacts or welds made a body slide another way, it is taken
 /// again from the same start with the direction found.
-pub fn advance(engine: &mut PhysicsWorld, movers: &mut [Mover], rules: &ContactRules) {
+pub(crate) fn advance(engine: &mut PhysicsWorld, movers: &mut [Mover], rules: &ContactRules) {
     let before: Vec<_> = movers.iter().map(|mover| mover.motion(engine)).collect();
     let mut aims: Vec<Aim> = movers.iter().map(|mover| Aim::foreseen(&engine.bodies[mover.body])).collect();
     for take in 1..=MAX_TAKES {

@@ -10,6 +10,7 @@ mod recording;
 mod subgoals;
 mod write;
 
+pub(crate) use read::check_format;
 pub use read::{parse, read};
 pub use recording::{COLUMNS, Recording, Recovered, Row, SUBSTEP_COLUMNS, Simulation, Trajectory};
 pub use subgoals::subgoal_of;

@@ -1,0 +1,193 @@
+//! Output folders: whose they are, and that one run at a time writes into them.
+
+use crate::{WriteError, atomic, error::plain_reason, json};
+use serde_json::{Value, json};
+use std::{
+    fs::{self, File, OpenOptions, TryLockError},
+    io,
+    path::{Path, PathBuf},
+};
+use thiserror::Error;
+
+/// The file that says which run a folder that is not finished yet belongs to.
+const MARKER: &str = ".phase-run.json";
+/// The file that a running program keeps locked. The system unlocks it when the program ends, however it ends.
+const LOCK: &str = ".phase-lock";
+/// Where a run keeps what it may need again if it is interrupted.
+const CACHE: &str = ".cache";
+const MARKER_FORMAT: &str = "phase-run/1";
+
+/// What a folder holds.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Contents {
+    /// Nothing, or it is not there at all.
+    Nothing,
+    /// A run that was broken off; with its description.
+    Unfinished(Value),
+    /// A run that came to its end: the file that is written last is there.
+    Finished,
+}
+
+/// Why a folder cannot be used.
+#[derive(Debug, Error)]
+pub enum FolderError {
+    /// There is a file of this name.
+    #[error("{}: is a file; the output needs a folder", .0.display())]
+    IsFile(PathBuf),
+    /// It holds something that is not ours.
+    #[error("{}: holds something else ({entry}); choose an empty or a new folder", path.display())]
+    Foreign {
+        /// The folder.
+        path: PathBuf,
+        /// One of the things in it.
+        entry: String,
+    },
+    /// It cannot be looked into.
+    #[error("{}: cannot be read: {reason}", path.display())]
+    Unreadable {
+        /// The folder.
+        path: PathBuf,
+        /// Why.
+        reason: String,
+    },
+    /// It cannot be written.
+    #[error(transparent)]
+    NotWritable(#[from] WriteError),
+    /// Another run is writing into it right now.
+    #[error("{}: another run is writing into this folder; wait for it or choose another folder", .0.display())]
+    Busy(PathBuf),
+}
+
+/// Looks what a folder holds, without touching it. `last_file` is the name of the file a run writes last.
+///
+/// # Errors
+/// [`FolderError::IsFile`], [`FolderError::Foreign`] or [`FolderError::Unreadable`].
+pub fn inspect(path: &Path, last_file: &str) -> Result<Contents, FolderError> {
+    let entries = match fs::read_dir(path) {
+        Ok(entries) => entries,
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Contents::Nothing),
+        Err(_) if path.is_file() => return Err(FolderError::IsFile(path.to_owned())),
+        // A file on the way to the folder makes it impossible to create; the claim reports that.
+        Err(error) if error.kind() == io::ErrorKind::NotADirectory => return Ok(Contents::Nothing),
+        Err(error) => {
+            return Err(FolderError::Unreadable { path: path.to_owned(), reason: plain_reason(&error) });
+        }
+    };
+    let mut names: Vec<String> =
+        entries.flatten().map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+    names.retain(|name| name != LOCK && !(atomic::is_part(name) && name.starts_with(&format!(".{MARKER}"))));
+    names.sort();
+    if names.is_empty() {
+        return Ok(Contents::Nothing);
+    }
+    if names.iter().any(|name| name == last_file) {
+        return Ok(Contents::Finished);
+    }
+    match marker(path) {
+        Some(run) => Ok(Contents::Unfinished(run)),
+        None => Err(FolderError::Foreign { path: path.to_owned(), entry: names.swap_remove(0) }),
+    }
+}
+
+/// A folder that this run alone writes into, until it is dropped.
+#[derive(Debug)]
+pub struct Folder {
+    path: PathBuf,
+    // Held for its lock alone.
+    _lock: File,
+}
+
+impl Folder {
+    /// Creates the folder if need be, locks it and leaves word whose it is. Only for folders that
+    /// [`inspect`] has found usable.
+    ///
+    /// # Errors
+    /// [`FolderError::NotWritable`] or [`FolderError::Busy`].
+    pub fn claim(path: &Path, run: &Value) -> Result<Self, FolderError> {
+        let failed = |action, source| WriteError { path: path.to_owned(), action, source };
+        fs::create_dir_all(path).map_err(|source| failed("create the folder", source))?;
+        let mut options = OpenOptions::new();
+        let lock = options.create(true).write(true).truncate(false).open(path.join(LOCK));
+        let lock = lock.map_err(|source| failed("write into the folder", source))?;
+        match lock.try_lock() {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => return Err(FolderError::Busy(path.to_owned())),
+            Err(TryLockError::Error(source)) => return Err(failed("lock the folder", source).into()),
+        }
+        let marker = json!({ "format": MARKER_FORMAT, "run": run });
+        atomic::write(&path.join(MARKER), format!("{marker}\n").as_bytes())?;
+        let folder = Self { path: path.to_owned(), _lock: lock };
+        folder.subfolder(CACHE)?;
+        Ok(folder)
+    }
+
+    /// The folder.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The folder's place for what is needed only until the run ends.
+    #[must_use]
+    pub fn cache(&self) -> PathBuf {
+        self.path.join(CACHE)
+    }
+
+    /// Creates a folder in the folder and clears it of files that an earlier run left unfinished.
+    ///
+    /// # Errors
+    /// If it cannot be created.
+    pub fn subfolder(&self, name: &str) -> Result<PathBuf, WriteError> {
+        let path = self.path.join(name);
+        fs::create_dir_all(&path).map_err(|source| WriteError {
+            path: path.clone(),
+            action: "create the folder",
+            source,
+        })?;
+        clear_parts(&path);
+        Ok(path)
+    }
+
+    /// Takes away everything that served the run and is no part of its result.
+    ///
+    /// # Errors
+    /// If something cannot be removed.
+    pub fn finish(self) -> Result<(), WriteError> {
+        clear_parts(&self.path);
+        remove(&self.cache(), |path| fs::remove_dir_all(path))?;
+        remove(&self.path.join(MARKER), |path| fs::remove_file(path))?;
+        remove(&self.path.join(LOCK), |path| fs::remove_file(path))
+    }
+}
+
+/// Whether a finished folder still holds what served its run.
+#[must_use]
+pub fn has_leftovers(path: &Path) -> bool {
+    path.join(MARKER).exists()
+}
+
+fn marker(path: &Path) -> Option<Value> {
+    let value = json::read(&path.join(MARKER)).ok()?;
+    let ours = value.get("format").and_then(Value::as_str) == Some(MARKER_FORMAT);
+    ours.then(|| value.get("run").cloned()).flatten()
+}
+
+fn clear_parts(folder: &Path) {
+    let Ok(entries) = fs::read_dir(folder) else { return };
+    for entry in entries.flatten() {
+        if atomic::is_part(&entry.file_name().to_string_lossy()) {
+            // What cannot be removed is only litter; the run does not depend on it.
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}
+
+fn remove(path: &Path, how: impl Fn(&Path) -> io::Result<()>) -> Result<(), WriteError> {
+    match how(path) {
+        Err(source) if source.kind() != io::ErrorKind::NotFound => {
+            Err(WriteError { path: path.to_owned(), action: "remove it", source })
+        }
+        _ => Ok(()),
+    }
+}
+

@@ -1,0 +1,173 @@
+//! `manifest.json`: what a dataset holds, how it was made, and the checksum of every file.
+
+use crate::{
+    FileError, Problem,
+    checksum::FileEntry,
+    json,
+    outcome::Outcome,
+    phase_events::{self, Trajectory},
+};
+use phase_model::{AGENT_COUNT, EventKind, Goal, Relation};
+use phase_sim::Event;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use std::path::Path;
+
+/// The value of the field `format` of manifests.
+pub const DATASET_FORMAT: &str = "phase-dataset/1";
+/// The manifest's file name. It is written last: a folder with a manifest is complete.
+pub const MANIFEST_FILE: &str = "manifest.json";
+
+/// A whole dataset.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Manifest {
+    /// Always [`DATASET_FORMAT`].
+    pub format: String,
+    /// Name and version of the program that made it.
+    pub generator: String,
+    /// Name of the preset it was made from.
+    pub preset: String,
+    /// The seed from which all chance in it was derived.
+    pub seed: u64,
+    /// Settings of simulation and minds.
+    pub settings: Value,
+    /// The events, in order.
+    pub events: Vec<EventEntry>,
+    /// The files that belong to no single event.
+    pub files: Vec<FileEntry>,
+}
+
+/// One event of a dataset.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct EventEntry {
+    /// Name.
+    pub id: String,
+    /// What kind of event it was made to show.
+    pub kind: EventKind,
+    /// The relation that follows from goals and attitudes.
+    pub relation: Relation,
+    /// The event's own seed.
+    pub seed: u64,
+    /// Where the walls stand.
+    pub layout: LayoutEntry,
+    /// The agents.
+    pub agents: [AgentEntry; AGENT_COUNT],
+    /// Size levels of the objects.
+    pub object_size_levels: Vec<u8>,
+    /// Length (steps of 0.25 s of video).
+    pub steps: usize,
+    /// The event with everything known about it.
+    pub event: FileEntry,
+    /// The video.
+    pub video: FileEntry,
+}
+
+/// A layout by its numbers.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LayoutEntry {
+    /// 0 to 21.
+    pub base: u8,
+    /// 0 to 3, or none.
+    pub flip: Option<u8>,
+}
+
+/// One agent of an event and what became of its goal.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AgentEntry {
+    /// 0 to 3.
+    pub size_level: u8,
+    /// 0 to 3.
+    pub strength_level: u8,
+    /// The goal.
+    pub goal: Goal,
+    /// Social utility weight: −1, 0 or 1.
+    pub alpha: i8,
+    /// Whether the goal was reached; see [`Outcome`].
+    pub reached: bool,
+    /// Steps until it was reached, of positive goals.
+    pub steps_to_goal: Option<usize>,
+}
+
+impl EventEntry {
+    /// Describes an event whose files are in a dataset's folder already.
+    ///
+    /// # Errors
+    /// If a file cannot be read.
+    pub fn of(folder: &Path, id: &str, event: &Event) -> Result<Self, FileError> {
+        let scene = &event.scene;
+        let (physique, rows) = (scene.physique(), Trajectory::means(event));
+        let agent = |k: usize| {
+            let spec = &scene.agents[k];
+            let outcome = Outcome::of(&physique, &rows, spec.goal);
+            AgentEntry {
+                size_level: spec.size.level(),
+                strength_level: spec.strength.level(),
+                goal: spec.goal,
+                alpha: spec.attitude.alpha(),
+                reached: outcome.reached,
+                steps_to_goal: outcome.steps,
+            }
+        };
+        Ok(Self {
+            id: id.into(),
+            kind: scene.kind,
+            relation: scene.relation(),
+            seed: event.seed,
+            layout: LayoutEntry { base: scene.layout.base(), flip: scene.layout.flip().map(u8::from) },
+            agents: core::array::from_fn(agent),
+            object_size_levels: scene.objects.iter().map(|object| object.size.level()).collect(),
+            steps: event.steps.len(),
+            event: FileEntry::of(folder, event_path(id))?,
+            video: FileEntry::of(folder, video_path(id))?,
+        })
+    }
+}
+
+/// Where an event's JSON lies in a dataset's folder.
+#[must_use]
+pub fn event_path(id: &str) -> String {
+    format!("events/{id}.json")
+}
+
+/// Where an event's video lies in a dataset's folder.
+#[must_use]
+pub fn video_path(id: &str) -> String {
+    format!("videos/{id}.mp4")
+}
+
+impl Manifest {
+    /// Reads a manifest.
+    ///
+    /// # Errors
+    /// If it is no JSON, of another format, or incomplete.
+    pub fn read(path: &Path) -> Result<Self, FileError> {
+        let fail = |problem| FileError { file: path.to_owned(), problem };
+        let value = json::read(path)?;
+        phase_events::check_format(&value, DATASET_FORMAT).map_err(fail)?;
+        serde_json::from_value(value).map_err(|error| {
+            let rule = error.to_string();
+            fail(Problem::Shape { what: "dataset manifest", rule })
+        })
+    }
+
+    /// The manifest as a file's text.
+    #[must_use]
+    pub fn to_json(&self) -> String {
+        // Writing plain data of ours to a string cannot fail.
+        let text = serde_json::to_string_pretty(self).unwrap_or_default();
+        format!("{text}\n")
+    }
+
+    /// Checks that every file is there and unchanged.
+    ///
+    /// # Errors
+    /// Names the first file that is not.
+    pub fn verify(&self, folder: &Path) -> Result<(), FileError> {
+        let of_events = self.events.iter().flat_map(|event| [&event.event, &event.video]);
+        of_events.chain(&self.files).try_for_each(|file| file.verify(folder))
+    }
+}

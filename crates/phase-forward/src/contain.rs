@@ -1,0 +1,44 @@
+//! The last resort: no centre of mass leaves the arena or crosses a wall, whatever the solver did.
+
+use crate::{
+    key::{KeySet, bit, wall_key},
+    world::World,
+};
+use phase_model::{Segment, Vec2, arena};
+
+/// Least distance of a centre of mass from the boundary (u).
+const MARGIN: f32 = 0.01;
+
+impl World<'_> {
+    /// Brings a body back if its centre of mass crossed one of the candidate walls or left the arena. Deeply
+    /// overlapping bodies that push one another can do that to the solver, which only looks at impacts of
+    /// bodies that were clear of the wall before.
+    pub(crate) fn contain(&mut self, body: usize, candidates: KeySet) {
+        let start = self.starts[body].0;
+        let motion = &mut self.motions[body];
+        if !(motion.centre.is_finite() && motion.velocity.is_finite() && motion.spin.is_finite()) {
+            motion.velocity = Vec2::ZERO;
+            motion.spin = 0.0;
+            motion.centre = start;
+        }
+        let inside = motion.centre.clamp(arena::MIN + MARGIN, arena::MAX - MARGIN);
+        if inside.x != motion.centre.x {
+            motion.velocity.x = 0.0;
+        }
+        if inside.y != motion.centre.y {
+            motion.velocity.y = 0.0;
+        }
+        motion.centre = inside;
+        for (index, wall) in self.forward.walls[..self.forward.wall_count].iter().enumerate() {
+            if candidates & bit(wall_key(index, body)) == 0 || wall.is_point() {
+                continue;
+            }
+            let path = Segment { a: start, b: motion.centre };
+            if path.crosses(Segment { a: wall.a, b: wall.b }) {
+                motion.centre = start;
+                let into = motion.velocity.dot(wall.normal);
+                motion.velocity -= wall.normal * into;
+            }
+        }
+    }
+}

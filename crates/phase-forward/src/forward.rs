@@ -1,0 +1,262 @@
+//! The kernel: what never changes of a scene's physics, and steps from state to state.
+
+use crate::{
+    body::{Motion, Shape},
+    key::{KeySet, PAIRS, bit, pair_key, pair_of},
+    memory::Memory,
+    reach,
+    substep::BodySet,
+    tuning::H,
+    wall::{MAX_WALLS, Wall, walls},
+    world::World,
+};
+use phase_model::{
+    AGENT_COUNT, Action, Body, Contacts, Dynamics, Entity, Physique, State, Vec2, arena,
+    arena::SUBSTEPS,
+};
+
+/// The dynamics of one scene: walls, shapes, masses and forces, prepared for stepping.
+///
+/// At most two objects and four inner walls count, which is all that PHASE has; more are left out.
+#[derive(Clone, Debug)]
+pub struct Forward {
+    pub(crate) physique: Physique,
+    pub(crate) shapes: [Shape; 5],
+    pub(crate) walls: [Wall; MAX_WALLS],
+    pub(crate) wall_count: usize,
+    pub(crate) count: usize,
+}
+
+impl Forward {
+    /// Prepares the dynamics of a scene.
+    #[must_use]
+    pub fn new(physique: &Physique) -> Self {
+        let mut shapes = [Shape::immovable(); 5];
+        for (shape, agent) in shapes.iter_mut().zip(&physique.agents) {
+            *shape = Shape::agent(agent);
+        }
+        for (shape, radius) in shapes[AGENT_COUNT..4].iter_mut().zip(physique.object_radii) {
+            *shape = Shape::object(radius);
+        }
+        let (walls, wall_count) = walls(&physique.walls);
+        let count = physique.entity_count().min(4);
+        Self { physique: physique.clone(), shapes, walls, wall_count, count }
+    }
+
+    /// One step (five substeps) from a state alone, with the state after each substep. Impulses of contacts
+    /// and grips start from nothing, as [`Dynamics::step`] does; the last state is the one it leaves.
+    pub fn step_substeps(&self, state: &mut State, actions: [Action; AGENT_COUNT]) -> [State; SUBSTEPS] {
+        let mut substeps = [*state; SUBSTEPS];
+        self.step_cold(state, actions, Some(&mut substeps));
+        substeps[SUBSTEPS - 1] = *state;
+        substeps
+    }
+
+    /// One step (five substeps) that goes on from the impulses of the step before, with the state after each
+    /// substep: for replaying recordings as faithfully as possible. The memory must come from
+    /// [`Forward::remember`] or from the step that led to this state.
+    pub fn step_warm(
+        &self,
+        state: &mut State,
+        memory: &mut Memory,
+        actions: [Action; AGENT_COUNT],
+    ) -> [State; SUBSTEPS] {
+        let mut world = World::new(self, state, actions);
+        memory.enter(&mut world);
+        world.grab(state);
+        let mut substeps = [*state; SUBSTEPS];
+        for substep in &mut substeps {
+            self.substep_warm(&mut world, memory);
+            self.finish(&world, state, memory.alive());
+            *substep = *state;
+        }
+        memory.leave(&world);
+        self.stop_turning(state);
+        substeps[SUBSTEPS - 1] = *state;
+        substeps
+    }
+
+    /// The memory of a world that has just been set up in a state: no impulses, every pair in reach ready
+    /// to touch.
+    #[must_use]
+    pub fn remember(&self, state: &State) -> Memory {
+        Memory::new(&World::new(self, state, [Action::NoForce; AGENT_COUNT]))
+    }
+
+    /// One substep of 1/60 s in which nobody acts. The original runs one before the first step, which pushes
+    /// overlapping bodies apart.
+    pub fn settle(&self, state: &mut State) {
+        let mut world = World::new(self, state, [Action::NoForce; AGENT_COUNT]);
+        self.substep_cold(&mut world, self.everyone());
+        self.finish(&world, state, !0);
+        self.stop_turning(state);
+    }
+
+    /// [`Forward::settle`] with memory.
+    pub fn settle_warm(&self, state: &mut State, memory: &mut Memory) {
+        let mut world = World::new(self, state, [Action::NoForce; AGENT_COUNT]);
+        memory.enter(&mut world);
+        self.substep_warm(&mut world, memory);
+        memory.leave(&world);
+        self.finish(&world, state, memory.alive());
+        self.stop_turning(state);
+    }
+
+    /// The same body with numbers that mean something.
+    pub(crate) fn mended(&self, body: Body) -> Body {
+        let number = |x: f32| if x.is_finite() { x } else { 0.0 };
+        let vector = |v: Vec2| Vec2::new(number(v.x), number(v.y));
+        let position = if body.position.is_finite() { body.position } else { arena::CENTRE };
+        Body {
+            position,
+            velocity: vector(body.velocity),
+            angle: number(body.angle),
+            angular_velocity: number(body.angular_velocity),
+        }
+    }
+
+    fn everyone(&self) -> BodySet {
+        (1 << self.count) - 1
+    }
+
+    fn step_cold(
+        &self,
+        state: &mut State,
+        actions: [Action; AGENT_COUNT],
+        mut substeps: Option<&mut [State; SUBSTEPS]>,
+    ) {
+        let mut world = World::new(self, state, actions);
+        let let_go = world.grab(state);
+        world.apart = self.just_let_go(&world, state, let_go);
+        let members = reach::members(&world);
+        for k in 0..SUBSTEPS {
+            for body in 0..self.count {
+                if members & 1 << body == 0 {
+                    self.drift(&mut world.motions[body], body, actions);
+                }
+            }
+            if members != 0 {
+                self.substep_cold(&mut world, members);
+            }
+            if let Some(substeps) = &mut substeps {
+                self.finish(&world, &mut substeps[k], !0);
+            }
+        }
+        self.finish(&world, state, !0);
+        self.stop_turning(state);
+    }
+
+    /// One substep of a body that nothing can reach.
+    #[inline]
+    fn drift(&self, motion: &mut Motion, body: usize, actions: [Action; AGENT_COUNT]) {
+        let shape = &self.shapes[body];
+        if body < AGENT_COUNT {
+            motion.act(shape, actions[body]);
+        }
+        if motion.velocity != Vec2::ZERO || motion.spin != 0.0 {
+            motion.rub(shape, Vec2::ZERO);
+            motion.advance(shape, H);
+        }
+    }
+
+    fn substep_cold(&self, world: &mut World<'_>, members: BodySet) {
+        let mut candidates = reach::pairs_near(world, members) & !world.apart;
+        for body in 0..self.count {
+            if members & 1 << body != 0 {
+                candidates |= reach::walls_near(world, body);
+            }
+        }
+        world.find_contacts(candidates);
+        world.solve(members);
+        for body in 0..self.count {
+            if members & 1 << body != 0 {
+                let walls = reach::walls_on_way(world, body);
+                if walls != 0 {
+                    world.impacts(body, walls);
+                    world.contain(body, walls);
+                }
+            }
+        }
+    }
+
+    fn substep_warm(&self, world: &mut World<'_>, memory: &mut Memory) {
+        memory.drop_dead(world);
+        world.find_contacts(memory.alive());
+        memory.newest_first(world);
+        world.solve(self.everyone());
+        memory.follow(world);
+        for body in 0..self.count {
+            if world.impacts(body, memory.alive()).is_some() {
+                memory.follow_one(world, body);
+            }
+            let walls = reach::walls_on_way(world, body);
+            world.contain(body, walls);
+        }
+        memory.find_new(world);
+    }
+
+    /// Writes bodies, grips and contacts into a state. Only pairs among the candidates can touch.
+    fn finish(&self, world: &World<'_>, state: &mut State, candidates: KeySet) {
+        world.write(state);
+        state.contacts = Contacts::NONE;
+        let near = reach::pairs_near(world, self.everyone()) & candidates & !world.apart;
+        let touching = world.touching(near);
+        for (pair, (a, b)) in PAIRS.into_iter().enumerate() {
+            if touching & bit(pair_key(pair)) != 0 {
+                state.contacts.insert(Entity::from_index(a), Entity::from_index(b));
+            }
+        }
+    }
+
+    /// Agents do not go on turning from one step to the next.
+    fn stop_turning(&self, state: &mut State) {
+        for body in &mut state.bodies[..AGENT_COUNT] {
+            body.angular_velocity = 0.0;
+        }
+    }
+
+    /// Pairs that may not touch in this step: what is held, what is let go of in this step, and what looks
+    /// as if it had been let go of just before. Objects held at an agent's flank lie 0.1 r deep in it and
+    /// stay out of contact, once let go of, until they have moved; a state does not say so, but an object
+    /// that deep at exactly that place, that does not come nearer and did not touch, can be nothing else.
+    fn just_let_go(
+        &self,
+        world: &World<'_>,
+        state: &State,
+        let_go: [Option<usize>; AGENT_COUNT],
+    ) -> KeySet {
+        /// How far from the place where it was held an object is no longer just let go of (u).
+        const CLEAR: f32 = 0.1;
+        /// Speed of approach at which it has not just been let go of (u/s).
+        const APPROACH: f32 = 1.0;
+        let mut apart = 0;
+        for agent in 0..AGENT_COUNT {
+            for held in [world.held(agent), let_go[agent]].into_iter().flatten() {
+                apart |= bit(pair_key(pair_of(agent, held)));
+            }
+            for object in AGENT_COUNT..self.count {
+                let (holder, held) = (&world.motions[agent], &world.motions[object]);
+                let reach = self.shapes[agent].radius + self.shapes[object].radius;
+                let between = held.centre - holder.place(Vec2::new(0.0, self.shapes[agent].origin));
+                if between.length_squared() > (reach + CLEAR) * (reach + CLEAR)
+                    || state.contacts.touching(Entity::agent(agent), Entity::from_index(object))
+                {
+                    continue;
+                }
+                let place = holder.right * (reach * between.dot(holder.right).signum());
+                let approach = (holder.velocity - held.velocity).dot(between.normalize_or_zero());
+                if place.distance_squared(between) < CLEAR * CLEAR && approach < APPROACH {
+                    apart |= bit(pair_key(pair_of(agent, object)));
+                }
+            }
+        }
+        apart
+    }
+}
+
+impl Dynamics for Forward {
+    /// One step from a state alone: impulses of contacts and grips start from nothing.
+    fn step(&self, state: &mut State, actions: [Action; AGENT_COUNT]) {
+        self.step_cold(state, actions, None);
+    }
+}

@@ -1,0 +1,96 @@
+//! Which scenes are refused, and what relations follow from goals and attitudes.
+
+use phase_model::{
+    AgentSpec, Attitude, Body, EventKind, Goal, Layout, ObjectSpec, Relation, Scene, SceneError, Sign, Size,
+    Strength, Vec2,
+};
+
+const ON_0: Goal = Goal::AgentOnLandmark { agent: 1, landmark: 0, sign: Sign::Positive };
+
+fn object_on(object: u8, landmark: u8) -> Goal {
+    Goal::ObjectOnLandmark { object, landmark, sign: Sign::Positive }
+}
+
+fn scene() -> Scene {
+    let agent = |x: f32, goal| AgentSpec {
+        size: Size::Small,
+        strength: Strength::Fair,
+        goal,
+        attitude: Attitude::Neutral,
+        start: Body::at_rest(Vec2::new(x, 8.0), 0.0),
+    };
+    Scene {
+        layout: Layout::new(0, None).expect("layout 0"),
+        agents: [agent(8.0, object_on(0, 2)), agent(24.0, ON_0)],
+        objects: vec![ObjectSpec { size: Size::Small, start: Body::at_rest(Vec2::new(16.0, 18.0), 0.0) }],
+        kind: EventKind::Independent,
+    }
+}
+
+/// A change to a good scene, and what the complaint must say.
+type Fault = (fn(&mut Scene), &'static str);
+
+#[test]
+fn faults_are_named() {
+    assert_eq!(scene().validate(), Ok(()));
+    assert_eq!(scene().validate_apart(), Ok(()));
+    let faults: [Fault; 9] = [
+        (|s| s.agents[0].start.position.x = f32::NAN, "agents[0].start must hold finite numbers"),
+        (|s| s.objects[0].start.angle = f32::INFINITY, "objects[0].start must hold finite numbers"),
+        (|s| s.agents[1].start.position.y = 22.5, "agents[1].start must lie inside the arena"),
+        (|s| s.agents[0].goal = object_on(1, 2), "agents[0].goal names object 1"),
+        (|s| s.agents[0].goal = object_on(0, 4), "agents[0].goal names landmark 4"),
+        (
+            |s| s.agents[1].goal = Goal::Touch { agent: 1, other: 1, sign: Sign::Positive },
+            "cannot touch itself",
+        ),
+        (|s| s.objects = vec![s.objects[0]; 3], "objects must number 0 to 2, not 3"),
+        (|s| s.agents.iter_mut().for_each(|agent| agent.attitude = Attitude::Help), "at most one agent"),
+        (
+            |s| s.agents[0].attitude = Attitude::Hinder,
+            "must be the other agent's goal with the opposite sign",
+        ),
+    ];
+    for (change, complaint) in faults {
+        let mut scene = scene();
+        change(&mut scene);
+        let error = scene.validate().expect_err(complaint).to_string();
+        assert!(error.contains(complaint), "{error} / {complaint}");
+    }
+}
+
+#[test]
+fn overlaps_are_refused_only_where_asked() {
+    let mut scene = scene();
+    scene.agents[1].start.position = Vec2::new(9.0, 8.0);
+    assert_eq!(scene.validate(), Ok(()));
+    assert!(matches!(scene.validate_apart(), Err(SceneError::Overlap { .. })));
+    scene.agents[1].start.position = Vec2::new(25.5, 8.0);
+    assert!(matches!(scene.validate_apart(), Err(SceneError::Overlap { .. })));
+}
+
+#[test]
+fn relations_follow_the_papers_definitions() {
+    use Attitude::{Help, Hinder, Neutral};
+    let chase = Goal::Touch { agent: 0, other: 1, sign: Sign::Positive };
+    let own = |landmark| Goal::AgentOnLandmark { agent: 0, landmark, sign: Sign::Positive };
+    let cases = [
+        ([ON_0, ON_0], [Help, Neutral], Relation::Friendly),
+        ([ON_0.negated(), ON_0], [Hinder, Neutral], Relation::Adversarial),
+        ([object_on(0, 1), object_on(0, 1)], [Neutral; 2], Relation::Friendly),
+        ([object_on(0, 1), object_on(0, 2)], [Neutral; 2], Relation::Adversarial),
+        ([object_on(0, 1), object_on(1, 1)], [Neutral; 2], Relation::Neutral),
+        ([chase, chase.negated()], [Neutral; 2], Relation::Adversarial),
+        ([own(0), ON_0], [Neutral; 2], Relation::Neutral),
+    ];
+    for (goals, attitudes, relation) in cases {
+        assert_eq!(Relation::of(goals, attitudes), relation, "{goals:?} {attitudes:?}");
+    }
+}
+
+#[test]
+fn goals_are_written_as_the_recordings_write_them() {
+    let json = serde_json::to_string(&object_on(0, 2).negated()).expect("plain data");
+    assert_eq!(json, r#"{"kind":"object_on_landmark","object":0,"landmark":2,"sign":-1}"#);
+    assert!(serde_json::from_str::<Goal>(&json.replace("-1", "0")).is_err());
+}
