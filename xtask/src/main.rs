@@ -1,3 +1,10 @@
-//! The PHASE command line.
+//! The PHASE command line: `cargo xtask gen-dataset`, `simulate`, `render`, `tidy`.
 
-fn main() {}
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    xtask::main_with(std::env::args_os())
+}

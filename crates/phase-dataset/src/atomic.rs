@@ -21,6 +21,19 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     file.commit()
 }
 
+/// Removes a file; that there is none is fine.
+///
+/// # Errors
+/// If it is there and stays.
+pub fn remove(path: &Path) -> Result<(), WriteError> {
+    match fs::remove_file(path) {
+        Err(source) if source.kind() != io::ErrorKind::NotFound => {
+            Err(WriteError { path: path.to_owned(), action: "remove the file", source })
+        }
+        _ => Ok(()),
+    }
+}
+
 /// A file that appears under its name only when it is finished.
 #[derive(Debug)]
 pub struct AtomicFile {

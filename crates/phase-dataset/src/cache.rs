@@ -38,7 +38,7 @@ impl Cache {
     #[must_use]
     pub fn load(&self, id: &str, seed: u64) -> Option<Event> {
         let bytes = std::fs::read(self.path(id)).ok()?;
-        let payload = bytes.strip_prefix(&self.head(id, seed))?;
+        let payload = bytes.strip_prefix(&self.head(id, seed)[..])?;
         let (sum, payload) = payload.split_first_chunk::<32>()?;
         if *sum != sha256(payload) {
             return None;

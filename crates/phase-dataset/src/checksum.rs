@@ -30,10 +30,8 @@ impl FileEntry {
     pub fn of(folder: &Path, path: impl Into<String>) -> Result<Self, FileError> {
         let path = path.into();
         let file = folder.join(&path);
-        let (bytes, sha256) = digest(&file).map_err(|error| FileError {
-            problem: Problem::Unreadable(plain_reason(&error)),
-            file,
-        })?;
+        let (bytes, sha256) = digest(&file)
+            .map_err(|error| FileError { problem: Problem::Unreadable(plain_reason(&error)), file })?;
         Ok(Self { path, bytes, sha256 })
     }
 

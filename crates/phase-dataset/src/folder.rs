@@ -190,4 +190,3 @@ fn remove(path: &Path, how: impl Fn(&Path) -> io::Result<()>) -> Result<(), Writ
         _ => Ok(()),
     }
 }
-

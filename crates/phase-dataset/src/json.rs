@@ -3,10 +3,7 @@
 //! Deriving a reader would be shorter, but its errors name types and columns; a person wants the field and
 //! the rule.
 
-use crate::{
-    FieldError, FileError, Problem,
-    error::plain_reason,
-};
+use crate::{FieldError, FileError, Problem, error::plain_reason};
 use serde_json::{Map, Value, error::Category};
 use std::{io, path::Path};
 

@@ -4,19 +4,17 @@
 //! for both, blind to what happened between rows.
 
 use crate::phase_events::Trajectory;
-use phase_model::{
-    Entity, Goal, Physique, Segment, Sign, State, Vec2,
-    arena,
-    geometry::Outline,
-};
+use phase_model::{Entity, Goal, Physique, Segment, Sign, State, Vec2, arena, geometry::Outline};
 use phase_predicates::threshold::{ON_AGENT, ON_OBJECT};
+use serde::{Deserialize, Serialize};
 
 /// Two agents touch when their outlines are no farther apart than this (u). A row is a mean over five
 /// substeps, in which bodies that bounce off each other are already apart again.
 pub const TOUCH_GAP: f32 = 0.1;
 
 /// What became of one agent's goal.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Outcome {
     /// Whether it was reached. To be (or to keep someone off) somewhere counts at the end of the event, to
     /// touch someone at any time, and to get away from someone at the end again.

@@ -6,14 +6,21 @@ use crate::{
     memory::Memory,
     reach,
     substep::BodySet,
-    tuning::H,
+    tuning::{H, VELOCITY_ITERATIONS},
     wall::{MAX_WALLS, Wall, walls},
-    world::World,
+    world::{Touching, World},
 };
 use phase_model::{
     AGENT_COUNT, Action, Body, Contacts, Dynamics, Entity, Physique, State, Vec2, arena,
     arena::SUBSTEPS,
 };
+
+/// How far from the place where it was let go of an object is clear of its holder (u).
+const CLEAR: f32 = 0.1;
+/// How many substeps' way at the speed of that moment it has to go beyond that.
+const CLEAR_SUBSTEPS: f32 = 4.0;
+/// Iterations of the velocity solver in a substep that starts without impulses.
+const COLD_ITERATIONS: usize = 20;
 
 /// The dynamics of one scene: walls, shapes, masses and forces, prepared for stepping.
 ///
@@ -47,7 +54,9 @@ impl Forward {
     /// and grips start from nothing, as [`Dynamics::step`] does; the last state is the one it leaves.
     pub fn step_substeps(&self, state: &mut State, actions: [Action; AGENT_COUNT]) -> [State; SUBSTEPS] {
         let mut substeps = [*state; SUBSTEPS];
-        self.step_cold(state, actions, Some(&mut substeps));
+        self.step_cold::<true>(state, actions, |world, substep| {
+            self.finish(world, &mut substeps[substep], !0);
+        });
         substeps[SUBSTEPS - 1] = *state;
         substeps
     }
@@ -87,7 +96,7 @@ impl Forward {
     /// overlapping bodies apart.
     pub fn settle(&self, state: &mut State) {
         let mut world = World::new(self, state, [Action::NoForce; AGENT_COUNT]);
-        self.substep_cold(&mut world, self.everyone());
+        self.substep_cold(&mut world, self.everyone(), &mut Touching::NONE.clone());
         self.finish(&world, state, !0);
         self.stop_turning(state);
     }
@@ -119,55 +128,76 @@ impl Forward {
         (1 << self.count) - 1
     }
 
-    fn step_cold(
+    /// A step from a state alone. `observe` is shown the bodies after each substep if any of them may touch
+    /// something, or if `ALL` asks for it.
+    fn step_cold<const ALL: bool>(
         &self,
         state: &mut State,
         actions: [Action; AGENT_COUNT],
-        mut substeps: Option<&mut [State; SUBSTEPS]>,
+        mut observe: impl FnMut(&World<'_>, usize),
     ) {
         let mut world = World::new(self, state, actions);
         let let_go = world.grab(state);
-        world.apart = self.just_let_go(&world, state, let_go);
+        self.part(&mut world, state, let_go);
         let members = reach::members(&world);
-        for k in 0..SUBSTEPS {
+        if members == 0 && !ALL {
             for body in 0..self.count {
-                if members & 1 << body == 0 {
-                    self.drift(&mut world.motions[body], body, actions);
-                }
+                self.drift(&mut world, body, SUBSTEPS);
             }
-            if members != 0 {
-                self.substep_cold(&mut world, members);
-            }
-            if let Some(substeps) = &mut substeps {
-                self.finish(&world, &mut substeps[k], !0);
-            }
+        } else {
+            self.step_together(&mut world, members, &mut observe);
         }
-        self.finish(&world, state, !0);
+        self.finish(&world, state, if members == 0 { 0 } else { !0 });
         self.stop_turning(state);
     }
 
-    /// One substep of a body that nothing can reach.
-    #[inline]
-    fn drift(&self, motion: &mut Motion, body: usize, actions: [Action; AGENT_COUNT]) {
-        let shape = &self.shapes[body];
-        if body < AGENT_COUNT {
-            motion.act(shape, actions[body]);
+    /// The five substeps of a step in which the given bodies may touch something.
+    fn step_together(
+        &self,
+        world: &mut World<'_>,
+        members: BodySet,
+        observe: &mut impl FnMut(&World<'_>, usize),
+    ) {
+        let mut touching = Touching::NONE;
+        for substep in 0..SUBSTEPS {
+            for body in 0..self.count {
+                if members & 1 << body == 0 {
+                    self.drift(world, body, 1);
+                }
+            }
+            world.iterations = if substep == 0 { COLD_ITERATIONS } else { VELOCITY_ITERATIONS };
+            self.substep_cold(world, members, &mut touching);
+            if world.let_go != 0 {
+                Self::reunite(world);
+            }
+            observe(world, substep);
         }
-        if motion.velocity != Vec2::ZERO || motion.spin != 0.0 {
+    }
+
+    /// Some substeps of a body that nothing can reach.
+    #[inline]
+    fn drift(&self, world: &mut World<'_>, body: usize, substeps: usize) {
+        let (shape, motion) = (&self.shapes[body], &mut world.motions[body]);
+        let action = if body < AGENT_COUNT { world.actions[body] } else { Action::NoForce };
+        if motion.velocity == Vec2::ZERO && motion.spin == 0.0 && action.push().is_none() && action.turn() == 0.0 {
+            return;
+        }
+        for _ in 0..substeps {
+            motion.act(shape, action);
             motion.rub(shape, Vec2::ZERO);
             motion.advance(shape, H);
         }
     }
 
-    fn substep_cold(&self, world: &mut World<'_>, members: BodySet) {
+    fn substep_cold(&self, world: &mut World<'_>, members: BodySet, touching: &mut Touching) {
         let mut candidates = reach::pairs_near(world, members) & !world.apart;
         for body in 0..self.count {
             if members & 1 << body != 0 {
                 candidates |= reach::walls_near(world, body);
             }
         }
-        world.find_contacts(candidates);
-        world.solve(members);
+        world.find_contacts(candidates, touching);
+        world.solve(members, touching);
         for body in 0..self.count {
             if members & 1 << body != 0 {
                 let walls = reach::walls_on_way(world, body);
@@ -181,9 +211,9 @@ impl Forward {
 
     fn substep_warm(&self, world: &mut World<'_>, memory: &mut Memory) {
         memory.drop_dead(world);
-        world.find_contacts(memory.alive());
-        memory.newest_first(world);
-        world.solve(self.everyone());
+        world.find_contacts(memory.alive(), &mut memory.touching);
+        memory.newest_first();
+        world.solve(self.everyone(), &mut memory.touching);
         memory.follow(world);
         for body in 0..self.count {
             if world.impacts(body, memory.alive()).is_some() {
@@ -215,24 +245,19 @@ impl Forward {
         }
     }
 
-    /// Pairs that may not touch in this step: what is held, what is let go of in this step, and what looks
+    /// Sets apart the pairs that may not touch: what is held, what is let go of in this step, and what looks
     /// as if it had been let go of just before. Objects held at an agent's flank lie 0.1 r deep in it and
     /// stay out of contact, once let go of, until they have moved; a state does not say so, but an object
     /// that deep at exactly that place, that does not come nearer and did not touch, can be nothing else.
-    fn just_let_go(
-        &self,
-        world: &World<'_>,
-        state: &State,
-        let_go: [Option<usize>; AGENT_COUNT],
-    ) -> KeySet {
-        /// How far from the place where it was held an object is no longer just let go of (u).
-        const CLEAR: f32 = 0.1;
+    fn part(&self, world: &mut World<'_>, state: &State, let_go: [Option<usize>; AGENT_COUNT]) {
         /// Speed of approach at which it has not just been let go of (u/s).
         const APPROACH: f32 = 1.0;
-        let mut apart = 0;
         for agent in 0..AGENT_COUNT {
-            for held in [world.held(agent), let_go[agent]].into_iter().flatten() {
-                apart |= bit(pair_key(pair_of(agent, held)));
+            if let Some(held) = world.held(agent) {
+                world.apart |= bit(pair_key(pair_of(agent, held)));
+            }
+            if let Some(held) = let_go[agent] {
+                world.let_go |= bit(pair_key(pair_of(agent, held)));
             }
             for object in AGENT_COUNT..self.count {
                 let (holder, held) = (&world.motions[agent], &world.motions[object]);
@@ -246,17 +271,37 @@ impl Forward {
                 let place = holder.right * (reach * between.dot(holder.right).signum());
                 let approach = (holder.velocity - held.velocity).dot(between.normalize_or_zero());
                 if place.distance_squared(between) < CLEAR * CLEAR && approach < APPROACH {
-                    apart |= bit(pair_key(pair_of(agent, object)));
+                    world.let_go |= bit(pair_key(pair_of(agent, object)));
                 }
             }
         }
-        apart
+        if world.let_go != 0 {
+            world.apart |= world.let_go;
+            for body in 0..self.count {
+                let motion = &world.motions[body];
+                world.let_go_at[body] = motion.centre;
+                world.let_go_room[body] = CLEAR + CLEAR_SUBSTEPS * H * motion.velocity.length();
+            }
+        }
+    }
+
+    /// Lets pairs touch again of which one has moved away from where it was let go of.
+    fn reunite(world: &mut World<'_>) {
+        for (pair, (a, b)) in PAIRS.into_iter().enumerate() {
+            let moved = |body: usize| {
+                (world.motions[body].centre - world.let_go_at[body]).abs().max_element() > world.let_go_room[body]
+            };
+            if world.let_go & bit(pair_key(pair)) != 0 && (moved(a) || moved(b)) {
+                world.let_go &= !bit(pair_key(pair));
+                world.apart &= !bit(pair_key(pair));
+            }
+        }
     }
 }
 
 impl Dynamics for Forward {
     /// One step from a state alone: impulses of contacts and grips start from nothing.
     fn step(&self, state: &mut State, actions: [Action; AGENT_COUNT]) {
-        self.step_cold(state, actions, None);
+        self.step_cold::<false>(state, actions, |_, _| {});
     }
 }

@@ -7,6 +7,14 @@ use crate::{
 };
 use phase_model::Vec2;
 
+/// Sides whose gaps differ by less than this tie, and the first wins (u). Bodies that start in the same place
+/// are such ties, and rounding must not decide where they go.
+const TIE: f32 = 1e-5;
+
+/// The first shape's side is the reference unless the second's gap exceeds this share of the first's and
+/// this much on top (u).
+const PREFERENCE: (f32, f32) = (0.98, 0.001);
+
 /// Which shape the normal belongs to.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Reference {
@@ -127,19 +135,37 @@ impl Polygon {
         (a.min(b).min(c).min(d), a.max(b).max(c).max(d))
     }
 
-    /// The side whose normal separates the other polygon most, and by how much.
+    /// The side whose normal separates the other polygon most, and by how much. Found by climbing from the
+    /// side that looks most towards the other's centre of mass, which matters where polygons overlap deeply.
     #[inline]
-    fn widest_gap(&self, other: &Self) -> (usize, f32) {
-        let mut best = (0, f32::MIN);
-        for side in 0..4 {
-            let normal = self.normals[side];
-            let nearest = other.corners.iter().fold(f32::MAX, |least, corner| least.min(normal.dot(*corner)));
-            let gap = nearest - normal.dot(self.corners[side]);
-            if gap > best.1 {
-                best = (side, gap);
+    fn widest_gap(&self, other: &Self, towards: Vec2) -> (usize, f32) {
+        let side = self.side_against(-towards);
+        let gap = self.gap(side, other);
+        let (previous, next) = ((side + 3) % 4, (side + 1) % 4);
+        let (gap_previous, gap_next) = (self.gap(previous, other), self.gap(next, other));
+        let (mut best, step) = if gap_previous > gap && gap_previous > gap_next {
+            ((previous, gap_previous), 3)
+        } else if gap_next > gap {
+            ((next, gap_next), 1)
+        } else {
+            return (side, gap);
+        };
+        loop {
+            let side = (best.0 + step) % 4;
+            let gap = self.gap(side, other);
+            if gap <= best.1 {
+                return best;
             }
+            best = (side, gap);
         }
-        best
+    }
+
+    /// How far the other polygon is beyond a side; negative if it reaches behind it.
+    #[inline]
+    fn gap(&self, side: usize, other: &Self) -> f32 {
+        let normal = self.normals[side];
+        let nearest = other.corners.iter().fold(f32::MAX, |least, corner| least.min(normal.dot(*corner)));
+        nearest - normal.dot(self.corners[side])
     }
 
     /// The side that looks most against a direction.
@@ -173,7 +199,7 @@ pub(crate) fn agent_disc(shape: &Shape, agent: &Motion, disc: &Motion, skins: f3
         if along > skins {
             return Manifold::NONE;
         }
-        if along > gap {
+        if along > gap + TIE {
             (side, gap) = (k, along);
         }
     }
@@ -226,17 +252,16 @@ pub(crate) fn wall_disc(wall: &Wall, disc: &Motion, skins: f32) -> Manifold {
 /// Contact of two agents.
 pub(crate) fn agents(first: (&Motion, &Polygon), second: (&Motion, &Polygon)) -> Manifold {
     const SKINS: f32 = 2.0 * SKIN;
-    /// By how much the second agent's side has to be better for it to be preferred (u).
-    const PREFERENCE: f32 = 0.1 * crate::tuning::SLOP;
-    let (side_a, gap_a) = first.1.widest_gap(second.1);
+    let towards = second.0.centre - first.0.centre;
+    let (side_a, gap_a) = first.1.widest_gap(second.1, towards);
     if gap_a > SKINS {
         return Manifold::NONE;
     }
-    let (side_b, gap_b) = second.1.widest_gap(first.1);
+    let (side_b, gap_b) = second.1.widest_gap(first.1, -towards);
     if gap_b > SKINS {
         return Manifold::NONE;
     }
-    let flipped = gap_b > gap_a + PREFERENCE;
+    let flipped = gap_b > PREFERENCE.0 * gap_a + PREFERENCE.1;
     let (reference, incident, side) =
         if flipped { (second, first, side_b) } else { (first, second, side_a) };
     let normal = reference.1.normals[side];
@@ -270,8 +295,6 @@ pub(crate) fn agents(first: (&Motion, &Polygon), second: (&Motion, &Polygon)) ->
 /// Contact of a wall (first) and an agent (second).
 pub(crate) fn wall_agent(wall: &Wall, agent: &Motion, polygon: &Polygon) -> Manifold {
     const SKINS: f32 = 2.0 * SKIN;
-    /// The wall's own normal is preferred to an agent's side unless that is better by a margin.
-    const PREFERENCE: (f32, f32) = (0.98, 0.001);
     let front = wall.normal.dot(agent.centre - wall.a) >= 0.0;
     let wall_normal = if front { wall.normal } else { -wall.normal };
     let reach = wall_normal.dot(wall.a);

@@ -5,7 +5,7 @@ use crate::{
     key::{KEYS, KeySet, PAIRS, bit, descending, pair_key, pair_of, wall_key},
     manifold::Polygon,
     tuning::SKIN,
-    world::{Impulses, World},
+    world::{Impulses, Touching, World},
 };
 use phase_model::{AGENT_COUNT, Vec2};
 
@@ -21,6 +21,7 @@ const FORESIGHT: f32 = 2.0;
 #[derive(Clone, Copy, Debug)]
 pub struct Memory {
     impulses: Impulses,
+    pub(crate) touching: Touching,
     /// When each pair came up for contact; 0 for pairs that are not.
     since: [u32; KEYS],
     now: u32,
@@ -34,6 +35,7 @@ impl Memory {
     pub(crate) fn new(world: &World<'_>) -> Self {
         let mut memory = Self {
             impulses: Impulses::NONE,
+            touching: Touching::NONE,
             since: [0; KEYS],
             now: 1,
             alive: 0,
@@ -76,9 +78,10 @@ impl Memory {
     }
 
     /// Sorts the contacts found so that the newest come first.
-    pub(crate) fn newest_first(&self, world: &mut World<'_>) {
-        world.contacts[..world.contact_count]
-            .sort_by_key(|contact| core::cmp::Reverse(self.since[usize::from(contact.key)]));
+    pub(crate) fn newest_first(&mut self) {
+        let since = &self.since;
+        self.touching.contacts[..self.touching.count]
+            .sort_by_key(|contact| core::cmp::Reverse(since[usize::from(contact.key)]));
     }
 
     /// Draws the boxes of bodies anew that have left theirs, and finds what has come up for contact.

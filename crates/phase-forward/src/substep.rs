@@ -5,10 +5,10 @@ use crate::{
     contact::Contact,
     key::{KeySet, PAIRS, bit, descending, pair_key},
     manifold::{self, Manifold, Polygon},
-    tuning::{CORRECTION, H, POSITION_ITERATIONS, SETTLED_IMPULSE, SLOP, VELOCITY_ITERATIONS},
+    tuning::{CORRECTION, H, POSITION_ITERATIONS, SETTLED_IMPULSE, SLOP},
     wall::MAX_WALLS,
     weld::Weld,
-    world::{MAX_CONTACTS, Trace, World},
+    world::{MAX_CONTACTS, Touching, World},
 };
 use phase_model::{AGENT_COUNT, Vec2};
 
@@ -20,28 +20,22 @@ type Joint = u8;
 
 impl World<'_> {
     /// Finds which of the pairs of shapes in a set touch, newest first.
-    pub(crate) fn find_contacts(&mut self, candidates: KeySet) {
-        self.contact_count = 0;
+    pub(crate) fn find_contacts(&self, candidates: KeySet, touching: &mut Touching) {
+        touching.count = 0;
         if candidates == 0 {
             return;
         }
         let polygons = [0, 1].map(|agent| Polygon::new(&self.forward.shapes[agent], &self.motions[agent]));
         for key in descending(candidates) {
-            if self.contact_count == MAX_CONTACTS {
-                return;
-            }
             let (bodies, manifold) = self.collide(key, &polygons);
             if manifold.count > 0 {
-                let mut contact = Contact::new(key as u8, bodies, manifold);
-                self.impulses.recall(&mut contact);
-                self.contacts[self.contact_count] = contact;
-                self.contact_count += 1;
+                touching.add(Contact::new(key as u8, bodies, manifold));
             }
         }
     }
 
     /// Applies forces and solves all given bodies, group by group.
-    pub(crate) fn solve(&mut self, members: BodySet) {
+    pub(crate) fn solve(&mut self, members: BodySet, touching: &mut Touching) {
         for body in 0..self.forward.count {
             self.starts[body] = (self.motions[body].centre, self.motions[body].angle);
             if body < AGENT_COUNT && members & 1 << body != 0 {
@@ -59,8 +53,8 @@ impl World<'_> {
         let mut done: BodySet = !members;
         for seed in (0..self.forward.count).rev() {
             if done & 1 << seed == 0 {
-                let island = self.island(seed, &welds, &mut done);
-                self.solve_island(&island, &mut welds);
+                let island = self.island(seed, touching.found(), &welds, &mut done);
+                self.solve_island(&island, &mut touching.contacts, &mut welds);
             }
         }
         for agent in 0..AGENT_COUNT {
@@ -68,15 +62,7 @@ impl World<'_> {
                 self.impulses.welds[agent] = weld.impulse;
             }
         }
-        self.impulses.trace_count = self.contact_count;
-        for (trace, contact) in self.impulses.traces.iter_mut().zip(&self.contacts[..self.contact_count]) {
-            *trace = Trace {
-                key: contact.key,
-                count: contact.manifold.count as u8,
-                names: contact.manifold.names,
-                impulses: contact.impulses,
-            };
-        }
+        touching.keep();
     }
 
     /// The contact of a pair of shapes.
@@ -104,7 +90,7 @@ impl World<'_> {
     }
 
     /// Everything that hangs together with a body by contacts and grips, in the order of solution.
-    fn island(&self, seed: usize, welds: &[Option<Weld>; AGENT_COUNT], done: &mut BodySet) -> Island {
+    fn island(&self, seed: usize, contacts: &[Contact], welds: &[Option<Weld>; AGENT_COUNT], done: &mut BodySet) -> Island {
         let mut island = Island::EMPTY;
         let mut taken = 0_u32;
         let mut joined: u8 = 0;
@@ -122,7 +108,7 @@ impl World<'_> {
                     height += 1;
                 }
             };
-            for (index, contact) in self.contacts[..self.contact_count].iter().enumerate() {
+            for (index, contact) in contacts.iter().enumerate() {
                 if taken & 1 << index == 0 && (contact.a == body || contact.b == body) {
                     taken |= 1 << index;
                     island.contacts[island.contact_count] = index as u8;
@@ -153,7 +139,12 @@ impl World<'_> {
         island
     }
 
-    fn solve_island(&mut self, island: &Island, welds: &mut [Option<Weld>; AGENT_COUNT]) {
+    fn solve_island(
+        &mut self,
+        island: &Island,
+        all: &mut [Contact; MAX_CONTACTS],
+        welds: &mut [Option<Weld>; AGENT_COUNT],
+    ) {
         let shapes = &self.forward.shapes;
         let motions = &mut self.motions;
         let bodies = &island.bodies[..island.body_count];
@@ -167,10 +158,10 @@ impl World<'_> {
             return;
         }
         for &index in contacts {
-            self.contacts[usize::from(index)].prepare(shapes, motions);
+            all[usize::from(index)].prepare(shapes, motions);
         }
         for &index in contacts {
-            self.contacts[usize::from(index)].warm_start(shapes, motions);
+            all[usize::from(index)].warm_start(shapes, motions);
         }
         for &joint in joints {
             let joint = usize::from(joint);
@@ -180,7 +171,7 @@ impl World<'_> {
                 weld.prepare(shapes, motions);
             }
         }
-        for _ in 0..VELOCITY_ITERATIONS {
+        for _ in 0..self.iterations {
             let mut change = 0.0_f32;
             for &joint in joints {
                 let joint = usize::from(joint);
@@ -194,7 +185,7 @@ impl World<'_> {
                 }
             }
             for &index in contacts {
-                change = change.max(self.contacts[usize::from(index)].solve(shapes, motions));
+                change = change.max(all[usize::from(index)].solve(shapes, motions));
             }
             if change < SETTLED_IMPULSE {
                 break;
@@ -207,7 +198,7 @@ impl World<'_> {
         for _ in 0..POSITION_ITERATIONS {
             let mut settled = true;
             for &index in contacts {
-                let gap = self.contacts[usize::from(index)].separate(shapes, motions, CORRECTION);
+                let gap = all[usize::from(index)].separate(shapes, motions, CORRECTION);
                 settled &= gap >= -3.0 * SLOP;
             }
             for &joint in joints {

@@ -2,9 +2,10 @@
 
 use crate::{
     Forward,
-    body::{Motion, STATIC},
+    body::Motion,
     contact::Contact,
     key::KeySet,
+    tuning::VELOCITY_ITERATIONS,
     weld::held_body,
 };
 use phase_model::{AGENT_COUNT, Action, Entity, Grip, State, Vec2};
@@ -25,27 +26,59 @@ impl Trace {
     pub(crate) const NONE: Self = Self { key: u8::MAX, count: 0, names: [0; 2], impulses: [0.0; 2] };
 }
 
-/// Impulses of the last substep, with which the next starts.
+/// The contacts found in a substep, newest first, and what is kept of those of the substep before.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Impulses {
-    pub(crate) traces: [Trace; MAX_CONTACTS],
-    pub(crate) trace_count: usize,
-    pub(crate) ground: [Vec2; 4],
-    pub(crate) welds: [(Vec2, f32); AGENT_COUNT],
+pub(crate) struct Touching {
+    pub(crate) contacts: [Contact; MAX_CONTACTS],
+    pub(crate) count: usize,
+    pub(crate) traces: Traces,
 }
 
-impl Impulses {
-    pub(crate) const NONE: Self = Self {
-        traces: [Trace::NONE; MAX_CONTACTS],
-        trace_count: 0,
-        ground: [Vec2::ZERO; 4],
-        welds: [(Vec2::ZERO, 0.0); AGENT_COUNT],
-    };
+impl Touching {
+    pub(crate) const NONE: Self =
+        Self { contacts: [Contact::NONE; MAX_CONTACTS], count: 0, traces: Traces::NONE };
 
-    /// The impulses that a contact's points had in the last substep.
-    pub(crate) fn recall(&self, contact: &mut Contact) {
-        let Some(trace) = self.traces[..self.trace_count].iter().find(|trace| trace.key == contact.key)
-        else {
+    /// The contacts found.
+    pub(crate) fn found(&self) -> &[Contact] {
+        &self.contacts[..self.count]
+    }
+
+    /// Adds a contact, with the impulses its points had in the last substep. Drops it if there are too many.
+    pub(crate) fn add(&mut self, mut contact: Contact) {
+        if self.count < MAX_CONTACTS {
+            self.traces.recall(&mut contact);
+            self.contacts[self.count] = contact;
+            self.count += 1;
+        }
+    }
+
+    /// Keeps what the next substep needs.
+    pub(crate) fn keep(&mut self) {
+        self.traces.count = self.count;
+        for (trace, contact) in self.traces.list.iter_mut().zip(&self.contacts[..self.count]) {
+            *trace = Trace {
+                key: contact.key,
+                count: contact.manifold.count as u8,
+                names: contact.manifold.names,
+                impulses: contact.impulses,
+            };
+        }
+    }
+}
+
+/// What is kept of all contacts of a substep.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Traces {
+    list: [Trace; MAX_CONTACTS],
+    count: usize,
+}
+
+impl Traces {
+    pub(crate) const NONE: Self = Self { list: [Trace::NONE; MAX_CONTACTS], count: 0 };
+
+    /// Gives a contact's points the impulses they had.
+    fn recall(&self, contact: &mut Contact) {
+        let Some(trace) = self.list[..self.count].iter().find(|trace| trace.key == contact.key) else {
             return;
         };
         for point in 0..contact.manifold.count {
@@ -59,6 +92,20 @@ impl Impulses {
     }
 }
 
+/// Impulses of the last substep other than contacts', with which the next starts.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Impulses {
+    /// Of ground friction on each body (N s).
+    pub(crate) ground: [Vec2; 4],
+    /// Of each agent's weld (N s and N u s).
+    pub(crate) welds: [(Vec2, f32); AGENT_COUNT],
+}
+
+impl Impulses {
+    pub(crate) const NONE: Self =
+        Self { ground: [Vec2::ZERO; 4], welds: [(Vec2::ZERO, 0.0); AGENT_COUNT] };
+}
+
 /// Everything that one step works on.
 pub(crate) struct World<'a> {
     pub(crate) forward: &'a Forward,
@@ -70,11 +117,16 @@ pub(crate) struct World<'a> {
     /// The agent that grabbed last; its weld comes first.
     pub(crate) latest_grip: usize,
     pub(crate) actions: [Action; AGENT_COUNT],
-    pub(crate) contacts: [Contact; MAX_CONTACTS],
-    pub(crate) contact_count: usize,
     pub(crate) impulses: Impulses,
     /// Pairs that may not touch: held, or let go of and not yet clear.
     pub(crate) apart: KeySet,
+    /// Those of them that were let go of, and where all bodies were then.
+    pub(crate) let_go: KeySet,
+    pub(crate) let_go_at: [Vec2; 4],
+    /// How far each body has to move from there before it counts as clear (u).
+    pub(crate) let_go_room: [f32; 4],
+    /// Iterations of the velocity solver in the coming substep.
+    pub(crate) iterations: usize,
 }
 
 impl<'a> World<'a> {
@@ -99,10 +151,12 @@ impl<'a> World<'a> {
             grips: state.grips,
             latest_grip: 1,
             actions,
-            contacts: [Contact::NONE; MAX_CONTACTS],
-            contact_count: 0,
             impulses: Impulses::NONE,
             apart: 0,
+            let_go: 0,
+            let_go_at: [Vec2::ZERO; 4],
+            let_go_room: [0.0; 4],
+            iterations: VELOCITY_ITERATIONS,
         }
     }
 
@@ -146,11 +200,5 @@ impl<'a> World<'a> {
             }
         }
         let_go
-    }
-
-    /// The body at an index, or the one that stands for walls.
-    pub(crate) fn is_moving(&self, body: usize) -> bool {
-        body < STATIC
-            && (self.motions[body].velocity != Vec2::ZERO || self.motions[body].spin != 0.0)
     }
 }

@@ -3,6 +3,7 @@
 mod reference;
 
 use phase_forward::Forward;
+use phase_model::Vec2;
 use reference::{action, distance, number, numbers, percentile, physique, read, set_up, state, walls};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -59,6 +60,13 @@ fn replay(probe: &Value) -> (Vec<f32>, Vec<f32>) {
     let (mut warm, mut memory) = set_up(&forward, recorded(0));
     let mut cold = recorded(0);
     forward.settle(&mut cold);
+    for (body, velocity) in probe["init_velocities"].as_array().into_iter().flatten().enumerate() {
+        if let Some(velocity) = velocity.as_array() {
+            for state in [&mut warm, &mut cold] {
+                state.bodies[body].velocity = Vec2::new(number(&velocity[0]), number(&velocity[1]));
+            }
+        }
+    }
     let mut errors = (Vec::new(), Vec::new());
     for step in 0..probe["steps"].as_array().unwrap().len() {
         let actions = [0, 1].map(|agent| action(&probe["actions"][agent][step]));

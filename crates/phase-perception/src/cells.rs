@@ -28,6 +28,17 @@ impl Cell {
         Some(Self((clamp(offset.y) * CELLS_PER_SIDE + clamp(offset.x)) as u16))
     }
 
+    /// The cells that a box (lower left and upper right corner, u) has inner points in common with; what lies
+    /// outside the arena is cut off.
+    pub fn in_box(min: Vec2, max: Vec2) -> impl Iterator<Item = Self> {
+        let low = (min - arena::MIN).floor().max(Vec2::ZERO);
+        let high = (max - arena::MIN).ceil().min(Vec2::splat(CELLS_PER_SIDE as f32)).max(low);
+        let (columns, rows) = ((low.x as usize)..(high.x as usize), (low.y as usize)..(high.y as usize));
+        rows.flat_map(move |row| {
+            columns.clone().map(move |column| Self((row * CELLS_PER_SIDE + column) as u16))
+        })
+    }
+
     /// Position in row-major order, 0 to 399.
     #[must_use]
     pub const fn index(self) -> usize {

@@ -77,7 +77,7 @@ fn event(frame: usize) -> State {
     let time = frame as f32 / FRAMES as f32;
     let swing = |rate: f32| libm::sinf(2.0 * PI * rate * time);
     let mut bodies = [Body::default(); 4];
-    bodies[1] = Body::at_rest(Vec2::new(9.0 + 1.2 * swing(2.0), 17.5 + 3.0 * swing(5.0)), 4.0 * swing(1.0));
+    bodies[1] = Body::at_rest(Vec2::new(9.5 + swing(2.0), 17.0 + 2.5 * swing(5.0)), 4.0 * swing(1.0));
     bodies[2] = Body::at_rest(Vec2::new(13.5, 19.0 + 2.0 * (time - 0.4).clamp(0.0, 0.3)), 0.0);
     let angle = -0.4 * PI + 1.4 * swing(1.5);
     bodies[0] = Body::at_rest(Vec2::new(19.5 + 2.5 * swing(1.0), 7.0 + 2.5 * swing(2.0)), angle);

@@ -9,8 +9,9 @@ pub const GLYPH_HEIGHT: usize = 9;
 /// leftmost. Characters other than the printable ASCII ones (32 to 126) look like a question mark.
 #[must_use]
 pub fn glyph(character: char) -> [u8; GLYPH_HEIGHT] {
-    let printable = |character: char| (' '..='~').contains(&character).then_some(character as usize - ' ' as usize);
-    printable(character).and_then(|index| GLYPHS.get(index)).copied().unwrap_or(GLYPHS['?' as usize - ' ' as usize])
+    let position = |character: char| (character as usize).checked_sub(' ' as usize);
+    let fallback = GLYPHS['?' as usize - ' ' as usize];
+    position(character).and_then(|index| GLYPHS.get(index)).copied().unwrap_or(fallback)
 }
 
 /// The glyphs of ASCII 32 to 126, in that order.

@@ -27,7 +27,8 @@ pub(crate) fn shade(painter: &mut Painter, palette: &Palette, visible: &CellSet)
     for cell in Cell::all() {
         let (colour, alpha) =
             if visible.contains(cell) { (palette.seen, SEEN) } else { (palette.unseen, UNSEEN) };
-        painter.rectangle(cell.min(), cell.min() + Vec2::ONE, colour, alpha);
+        let corner = cell.min();
+        painter.rectangle(corner, corner + Vec2::ONE, colour, alpha);
     }
 }
 

@@ -33,13 +33,15 @@ pub(crate) struct Painter {
 }
 
 impl Painter {
-    /// Fills an axis-aligned rectangle between two corners (u).
+    /// Fills an axis-aligned rectangle between two corners (u), its edges moved to the nearest pixels, so that
+    /// neighbours meet without a seam even where they are translucent.
     pub(crate) fn rectangle(&mut self, a: Vec2, b: Vec2, colour: Colour, alpha: u8) {
-        let (a, b) = (self.view.pixel(a), self.view.pixel(b));
+        let (a, b) = (self.view.pixel(a).round(), self.view.pixel(b).round());
         let (low, high) = (a.min(b), a.max(b));
         if let Some(rectangle) = Rect::from_ltrb(low.x, low.y, high.x, high.y) {
-            let path = PathBuilder::from_rect(rectangle);
-            self.fill(&path, colour, alpha);
+            let mut paint = paint(colour, alpha);
+            paint.anti_alias = false;
+            self.pixmap.fill_rect(rectangle, &paint, Transform::identity(), None);
         }
     }
 

@@ -2,7 +2,10 @@
 
 use crate::mover::Mover;
 use phase_model::{Entity, MAX_ENTITIES};
-use rapier2d::prelude::*;
+use rapier2d::{
+    parry::{bounding_volume::BoundingVolume, query},
+    prelude::*,
+};
 
 /// Penetration of skins that is left alone, so that bodies at rest keep touching (u).
 const BODY_SLOP: f32 = 0.005;
@@ -42,7 +45,7 @@ impl ContactRules {
     pub(crate) fn restore_clear(&mut self, engine: &PhysicsWorld, movers: &[Mover]) {
         for (a, first) in movers.iter().enumerate() {
             for (b, second) in movers.iter().enumerate().take(a) {
-                if self.released[a][b] && !touching(engine, first.collider, second.collider) {
+                if self.released[a][b] && !touching(engine, first, second) {
                     self.set_released(a, b, false);
                 }
             }
@@ -60,8 +63,7 @@ impl PhysicsHooks for ContactRules {
         let [first, second] =
             [context.collider1, context.collider2].map(|collider| tagged(context.colliders, collider));
         match (first, second) {
-            // The engine still measures the distance, but does not act on it.
-            (Some(a), Some(b)) if self.released[a][b] => Some(SolverFlags::empty()),
+            (Some(a), Some(b)) if self.released[a][b] => None,
             _ => Some(SolverFlags::COMPUTE_RIGID_IMPULSES),
         }
     }
@@ -82,11 +84,15 @@ impl PhysicsHooks for ContactRules {
     }
 }
 
-/// Whether two bodies touch at their present poses, by the contact points that the engine's narrow phase last
-/// found between them.
-#[must_use]
-pub(crate) fn touching(engine: &PhysicsWorld, a: ColliderHandle, b: ColliderHandle) -> bool {
-    distance(engine, a, b).is_some_and(|distance| distance <= TOUCHING_DISTANCE)
+/// Whether two bodies touch at their present poses, by the engine's own contact query.
+pub(crate) fn touching(engine: &PhysicsWorld, a: &Mover, b: &Mover) -> bool {
+    let placed = |mover: &Mover| {
+        let shape = engine.colliders.get(mover.collider)?.shape();
+        Some((engine.bodies.get(mover.body)?.position(), shape))
+    };
+    let (Some((pose1, shape1)), Some((pose2, shape2))) = (placed(a), placed(b)) else { return false };
+    let near = shape1.compute_aabb(pose1).loosened(TOUCHING_DISTANCE).intersects(&shape2.compute_aabb(pose2));
+    near && matches!(query::contact(pose1, shape1, pose2, shape2, TOUCHING_DISTANCE), Ok(Some(_)))
 }
 
 /// Whether a wall stopped a body in the last substep that did not touch it before.
@@ -98,25 +104,4 @@ pub(crate) fn hit_wall(engine: &PhysicsWorld, collider: ColliderHandle) -> bool 
         tagged(&engine.colliders, other).is_none()
             && points.any(|point| point.dist > IMPACT_DISTANCE && point.data.impulse > 0.0)
     })
-}
-
-/// Distance between two surfaces without skins (u, negative for overlap), or `None` if they are far apart or
-/// welded to each other.
-fn distance(engine: &PhysicsWorld, a: ColliderHandle, b: ColliderHandle) -> Option<f32> {
-    let pair = engine.narrow_phase.contact_pair(a, b)?;
-    let (pose1, pose2) = (body_pose(engine, pair.collider1)?, body_pose(engine, pair.collider2)?);
-    pair.manifolds()
-        .iter()
-        .flat_map(|manifold| {
-            let normal = pose1.rotation * manifold.local_n1;
-            let gap = move |point: &TrackedContact<ContactData>| pose2 * point.local_p2 - pose1 * point.local_p1;
-            manifold.points.iter().map(move |point| gap(point).dot(normal))
-        })
-        .reduce(f32::min)
-}
-
-/// The present pose of the body that bears a collider; the collider's own pose lags behind.
-fn body_pose(engine: &PhysicsWorld, collider: ColliderHandle) -> Option<Pose> {
-    let body = engine.colliders.get(collider)?.parent()?;
-    engine.bodies.get(body).map(|body| *body.position())
 }

@@ -10,28 +10,34 @@
 use phase_model::{Vec2, arena::SUBSTEP_SECONDS, physique::GROUND_FRICTION};
 use rapier2d::prelude::*;
 
+/// The main motor's axis and the one across.
+const AXES: [JointAxis; 2] = [JointAxis::LinX, JointAxis::LinY];
 /// Gain of the motors' velocity target; so large that only the force limit matters.
 const MOTOR_GAIN: f32 = 1.0e8;
 /// Greatest impulse of friction in one substep (N s).
 const MAX_IMPULSE: f32 = GROUND_FRICTION * SUBSTEP_SECONDS;
-/// Slip below which a body counts as held, as a share of the greatest impulse.
-const HELD_SLIP: f32 = 0.01;
+/// Impulse below which what it would stop counts as resting (N s); such a body creeps by less than 1e-4 u in
+/// a whole event.
+const NO_SLIP: f32 = 1.0e-5;
 /// Sine of the angle by which two aims may differ without making a difference.
 const SAME_AIM: f32 = 1.0e-3;
 
 /// Ties a body's origin to the ground by two motors at right angles that aim at standing still.
-pub(crate) fn insert(engine: &mut PhysicsWorld, ground: RigidBodyHandle, body: RigidBodyHandle) -> ImpulseJointHandle {
-    let joint = [JointAxis::LinX, JointAxis::LinY].into_iter().fold(
-        GenericJointBuilder::new(JointAxesMask::empty()),
-        |joint, axis| joint.motor_velocity(axis, 0.0, MOTOR_GAIN).motor_max_force(axis, GROUND_FRICTION),
-    );
+pub(crate) fn insert(
+    engine: &mut PhysicsWorld,
+    ground: RigidBodyHandle,
+    body: RigidBodyHandle,
+) -> ImpulseJointHandle {
+    let joint = AXES.into_iter().fold(GenericJointBuilder::new(JointAxesMask::empty()), |joint, axis| {
+        joint.motor_velocity(axis, 0.0, MOTOR_GAIN).motor_max_force(axis, GROUND_FRICTION)
+    });
     engine.insert_impulse_joint(ground, body, joint.build())
 }
 
 /// How a body's friction is directed in one substep.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct Aim {
-    /// Unit vector of the main motor.
+    /// Unit vector of the main motor, or zero for no friction at all.
     axis: Vec2,
     /// Whether the motor across acts, too.
     hold: bool,
@@ -45,35 +51,62 @@ impl Aim {
         let velocity = body.linvel() + body.user_force() * (mass.inv_mass * SUBSTEP_SECONDS);
         let spin = body.angvel() + body.user_torque() * (mass.inv_principal_inertia * SUBSTEP_SECONDS);
         let slip = stopping_impulse(body, body.rotation(), velocity, spin);
-        Self { axis: slip.normalize_or(Vec2::X), hold: slip.length() <= MAX_IMPULSE }
+        Self::against(slip)
     }
 
-    /// The aim that the motion after a substep calls for: along the origin's slip, or for a body held in place
-    /// along the impulse that held it. `rotation` is the body's before the substep.
-    #[must_use]
-    pub(crate) fn after(engine: &PhysicsWorld, body: &RigidBody, rotation: &Rotation, joint: ImpulseJointHandle) -> Self {
+    /// The aim that the motion after a substep calls for: against the slip that would have been without
+    /// friction. `rotation` is the body's before the substep.
+    pub(crate) fn after(
+        engine: &PhysicsWorld,
+        body: &RigidBody,
+        rotation: &Rotation,
+        joint: ImpulseJointHandle,
+    ) -> Self {
         let slip = stopping_impulse(body, rotation, body.linvel(), body.angvel());
-        let hold = slip.length() < HELD_SLIP * MAX_IMPULSE;
-        let along = if hold { exerted(engine, joint) } else { slip };
-        Self { axis: along.normalize_or(Vec2::X), hold }
+        Self::against(slip + exerted(engine, joint))
+    }
+
+    /// The aim against a slip, given as the impulse that would stop it.
+    fn against(slip: Vec2) -> Self {
+        let impulse = slip.length();
+        if impulse <= NO_SLIP {
+            // Others may be about to move what rests; which way, a take without its friction shows.
+            return Self { axis: Vec2::ZERO, hold: false };
+        }
+        Self { axis: slip / impulse, hold: impulse <= MAX_IMPULSE }
     }
 
     /// Whether two aims come to the same.
     #[must_use]
     pub(crate) fn agrees_with(&self, other: &Self) -> bool {
-        self.axis.perp_dot(other.axis).abs() <= SAME_AIM
+        self.axis == other.axis
+            || self.axis.perp_dot(other.axis).abs() <= SAME_AIM && self.axis.dot(other.axis) != 0.0
     }
 
     /// Sets a body's friction for the coming substep.
     pub(crate) fn apply(self, engine: &mut PhysicsWorld, joint: ImpulseJointHandle) {
-        let Some(joint) = engine.impulse_joints.get_mut(joint, false) else { return };
-        let rotation = Rotation::from_cos_sin_unchecked(self.axis.x, self.axis.y);
-        joint.data.set_local_frame1(Pose::from_rotation(rotation));
-        joint.data.set_motor_max_force(JointAxis::LinY, if self.hold { GROUND_FRICTION } else { 0.0 });
+        let axis = if self.axis == Vec2::ZERO { Vec2::X } else { self.axis };
+        let force = |acts: bool| if acts { GROUND_FRICTION } else { 0.0 };
+        let forces = [force(self.axis != Vec2::ZERO), force(self.hold)];
+        let rotation = Rotation::from_cos_sin_unchecked(axis.x, axis.y);
+        let is_set = |joint: &ImpulseJoint| {
+            joint.data.local_frame1.rotation == rotation
+                && AXES.map(|axis| joint.data.motor(axis).map(|motor| motor.max_force)) == forces.map(Some)
+        };
+        // Asking for a joint to change it has the engine go over all joints again.
+        if engine.impulse_joints.get(joint).is_none_or(is_set) {
+            return;
+        }
+        if let Some(joint) = engine.impulse_joints.get_mut(joint, false) {
+            joint.data.set_local_frame1(Pose::from_rotation(rotation));
+            for (axis, force) in AXES.into_iter().zip(forces) {
+                joint.data.set_motor_max_force(axis, force);
+            }
+        }
     }
 }
 
-/// The impulse at a body's origin that would stop its origin (N s), up to its sign.
+/// The impulse at a body's origin that, taken from it, stops its origin (N s).
 fn stopping_impulse(body: &RigidBody, rotation: &Rotation, velocity: Vec2, spin: f32) -> Vec2 {
     let mass = &body.mass_properties().local_mprops;
     let arm = *rotation * -mass.local_com;
@@ -85,9 +118,9 @@ fn stopping_impulse(body: &RigidBody, rotation: &Rotation, velocity: Vec2, spin:
     (slip - across * turned) / mass.inv_mass
 }
 
-/// The impulse that friction exerted in the last substep, up to its sign (N s).
+/// The impulse that friction took from a body in the last substep (N s).
 fn exerted(engine: &PhysicsWorld, joint: ImpulseJointHandle) -> Vec2 {
     let Some(joint) = engine.impulse_joints.get(joint) else { return Vec2::ZERO };
     let impulse = |axis| joint.data.motor(axis).map_or(0.0, |motor| motor.impulse);
-    joint.data.local_frame1.rotation * Vec2::new(impulse(JointAxis::LinX), impulse(JointAxis::LinY))
+    joint.data.local_frame1.rotation * Vec2::from(AXES.map(impulse))
 }

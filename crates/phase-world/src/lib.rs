@@ -1,19 +1,27 @@
 //! The true PHASE world: a scene simulated by rapier2d, stepped by actions.
 //!
 //! [`World`] takes a [`Physique`](phase_model::Physique) and a [`State`](phase_model::State), advances by
-//! five substeps of 1/60 s per step under the two agents' actions, and reports every state in between with
-//! the contacts the engine found.
+//! five substeps of 1/60 s per step under the two agents' actions, and reports the state after each with the
+//! grips and the contacts between bodies. [`WorldDynamics`] puts it behind the interface of planners.
 //!
-//! The key design decision is that everything is done with rapier's own means: solver settings
-//! ([`settings`]), joints ([`friction`], [`grip`]), skins and continuous collision ([`bodies`]) and contact
-//! hooks ([`contact`]). There is no second solver around the engine, so what the engine guarantees (no
-//! explosions, no tunnelling, bit-identical repetition) stays guaranteed. Warm starting is off, so a pose and
-//! a velocity per body are the whole state: a world built anew from its own [`World::state`] goes on as the
-//! old one would have.
+//! The key design decision is that everything is done with rapier's own means: solver settings (`settings`),
+//! bodies, skins and foreseen contacts (`bodies`), contact hooks (`contact`), motors for ground friction
+//! (`friction`) and welds for grips (`grip`). There is no second solver around the engine, so what it promises
+//! holds here: nothing tunnels, overlaps are undone without explosions, and the same inputs give the same bits
+//! on every thread. Only two things are done outside: a substep whose contacts or welds made a body slide
+//! another way than foreseen is taken again with friction aimed better (`substep`), and rotations, which rapier
+//! integrates along the tangent, are set right afterwards (`mover`).
 //!
-//! The price is time: a substep costs microseconds, because rapier keeps sets, graphs and trees for
-//! thousands of bodies where there are four. Planners that imagine millions of steps want a plain-data
-//! kernel instead; this crate is the authority that such a kernel is held against.
+//! Nothing is warm-started, so a pose and a velocity per body are nearly the whole state. A world built anew
+//! from its own [`World::state`] goes on as the old one would have, except for pairs that were let go and still
+//! overlap, and for the last bits of contacts, whose order the engine remembers; collisions amplify those.
+//!
+//! The price is time, 10 to 40 µs a substep: rapier keeps sets, graphs and trees for thousands of bodies where
+//! there are four, and bodies in contact need two or three takes. Planners that imagine millions of steps want
+//! a plain-data kernel instead; this crate is the authority that such a kernel is held against. The other price
+//! is that impacts between two fast bodies are only as good as the engine's: they meet when they touch, without
+//! sinking into each other first, and two discs struck together part company with recordings of the published
+//! simulator by some tenths of a unit.
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]

@@ -1,7 +1,7 @@
 //! One body that moves: its parts in the engine and what the engine does not keep of it.
 
 use crate::{bodies, friction, friction::Aim};
-use phase_model::{Action, AgentBody, Body, Entity, Physique, Vec2};
+use phase_model::{Action, AgentBody, Body, Entity, Physique, Vec2, arena};
 use rapier2d::prelude::*;
 
 /// Where a body is and how it moves, as the engine has it.
@@ -90,14 +90,19 @@ impl Mover {
     /// Counts the turn since `before` and sets it right.
     ///
     /// The engine turns a body by moving its axis along the tangent, so that where it should have turned by Δθ
-    /// it has turned by atan Δθ. The centre of mass stays where it is.
+    /// it has turned by atan Δθ. The centre of mass stays where it is, unless the origin left the arena.
     pub(crate) fn correct_turn(&mut self, engine: &mut PhysicsWorld, before: &Motion) {
-        let body = &mut engine.bodies[self.body];
+        let body = &engine.bodies[self.body];
         let turned = before.0.rotation.inverse() * *body.rotation();
+        if turned.im == 0.0 && arena::contains(body.translation()) {
+            return;
+        }
         // Nothing turns by a right angle along a tangent; the guard only keeps the quotient finite.
         self.angle += turned.im / turned.re.max(f32::EPSILON);
         let rotation = bodies::rotation(self.angle);
         let origin = body.center_of_mass() - rotation * body.local_center_of_mass();
-        body.set_position(Pose::from_parts(origin, rotation), true);
+        // Several bodies that start in one spot of the boundary can squeeze one of them into it for a moment.
+        let origin = origin.clamp(arena::MIN, arena::MAX);
+        engine.bodies[self.body].set_position(Pose::from_parts(origin, rotation), true);
     }
 }

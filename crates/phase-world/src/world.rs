@@ -1,12 +1,7 @@
 //! The world: a scene's bodies in the engine, stepped by actions.
 
-use crate::{
-    bodies, contact, contact::ContactRules, grip::Weld, mover::Mover, settings, substep,
-};
-use phase_model::{
-    AGENT_COUNT, Action, Entity, Grip, MAX_OBJECTS, Physique, State,
-    arena::{SUBSTEP_SECONDS, SUBSTEPS},
-};
+use crate::{bodies, contact, contact::ContactRules, grip::Weld, mover::Mover, settings, substep};
+use phase_model::{AGENT_COUNT, Action, Entity, Grip, MAX_OBJECTS, Physique, State, arena::SUBSTEPS};
 use rapier2d::prelude::*;
 
 /// A scene's bodies in motion.
@@ -39,23 +34,24 @@ impl World {
                 world.weld(agent, grip);
             }
         }
-        world.find_contacts();
         world
     }
 
-    /// The present state, with grips and with the contacts between bodies that the engine reports.
+    /// The present state, with grips and with the contacts between bodies that the engine finds. A body and
+    /// the one that holds it are in no contact; their grip says that they touch.
     #[must_use]
     pub fn state(&self) -> State {
         let mut state = State::new(Default::default());
+        state.grips = self.welds.map(|weld| weld.map(|weld| weld.grip));
         for (index, mover) in self.movers.iter().enumerate() {
             state.bodies[index] = mover.state(&self.engine);
             for (other, earlier) in self.movers.iter().enumerate().take(index) {
-                if contact::touching(&self.engine, mover.collider, earlier.collider) {
-                    state.contacts.insert(Entity::from_index(index), Entity::from_index(other));
+                let (held, holder) = (Entity::from_index(index), Entity::from_index(other));
+                if !state.touching(held, holder) && contact::touching(&self.engine, mover, earlier) {
+                    state.contacts.insert(held, holder);
                 }
             }
         }
-        state.grips = self.welds.map(|weld| weld.map(|weld| weld.grip));
         state
     }
 
@@ -120,12 +116,5 @@ impl World {
         }
         substep::advance(&mut self.engine, &mut self.movers, &self.rules);
         self.rules.restore_clear(&self.engine, &self.movers);
-    }
-
-    /// Has the engine look for contacts without letting time pass.
-    fn find_contacts(&mut self) {
-        self.engine.integration_parameters.dt = 0.0;
-        self.engine.step_with_events(&self.rules, &());
-        self.engine.integration_parameters.dt = SUBSTEP_SECONDS;
     }
 }

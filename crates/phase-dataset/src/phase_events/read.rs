@@ -89,7 +89,8 @@ fn recording(k: usize, event: &Field<'_>) -> Result<Recording, Problem> {
     let parts = read_scene::parts(event).map_err(in_event)?;
     let trajectory = trajectory(event, parts.objects.len()).map_err(in_event)?;
     let start = |rows: &Vec<Row>| body_of(&rows[0]);
-    let agents = core::array::from_fn(|i| AgentSpec { start: start(&trajectory.agents[i]), ..parts.agents[i] });
+    let agents =
+        core::array::from_fn(|i| AgentSpec { start: start(&trajectory.agents[i]), ..parts.agents[i] });
     let objects = parts.objects.iter().zip(&trajectory.objects);
     let objects = objects.map(|(&size, rows)| ObjectSpec { size, start: start(rows) }).collect();
     let mut scene = Scene { layout: parts.layout, agents, objects, kind: parts.kind };
@@ -189,7 +190,8 @@ fn trajectory(event: &Field<'_>, object_count: usize) -> Result<Trajectory, Fiel
     for (k, (group, rows)) in named {
         if rows.len() != length {
             let rows = rows.len();
-            let rule = format!("has {rows} rows, but `trajectory.agents[0]` has {length}: all must have as many");
+            let rule =
+                format!("has {rows} rows, but `trajectory.agents[0]` has {length}: all must have as many");
             return Err(FieldError { field: format!("trajectory.{group}[{k}]"), rule });
         }
     }

@@ -119,7 +119,11 @@ fn goal(field: &Field<'_>) -> Result<Goal, FieldError> {
     match field.required("kind")?.one_of(&kinds)? {
         0 => {
             field.only(&["kind", "agent", "landmark", "sign"])?;
-            Ok(Goal::AgentOnLandmark { agent: number("agent")?, landmark: number("landmark")?, sign: sign()? })
+            Ok(Goal::AgentOnLandmark {
+                agent: number("agent")?,
+                landmark: number("landmark")?,
+                sign: sign()?,
+            })
         }
         1 => {
             field.only(&["kind", "object", "landmark", "sign"])?;

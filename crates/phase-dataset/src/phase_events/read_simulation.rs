@@ -35,7 +35,9 @@ pub(super) fn simulation_of(
     let subgoals = of_length(event, "subgoals", steps)?;
     let thoughts = of_length(event, "thoughts", steps)?.items()?;
     let mut recorded = Vec::with_capacity(steps);
-    for (t, ((actions, subgoals), thoughts)) in actions.into_iter().zip(subgoals.items()?).zip(thoughts).enumerate() {
+    for (t, ((actions, subgoals), thoughts)) in
+        actions.into_iter().zip(subgoals.items()?).zip(thoughts).enumerate()
+    {
         let of_step = 1 + t * SUBSTEPS;
         recorded.push(Step {
             actions,
@@ -193,7 +195,8 @@ fn contacts(field: &Field<'_>, objects: usize) -> Result<Contacts, FieldError> {
 fn pair(subgoals: &Field<'_>, thoughts: &Field<'_>) -> Result<[Thought; AGENT_COUNT], FieldError> {
     let pairs = subgoals.items()?.zip(thoughts.items()?);
     let pair = pairs.map(|(goal, field)| thought(&goal, &field)).collect::<Result<Vec<_>, _>>()?;
-    <[Thought; AGENT_COUNT]>::try_from(pair).map_err(|_| thoughts.error("must hold one thought for each agent"))
+    <[Thought; AGENT_COUNT]>::try_from(pair)
+        .map_err(|_| thoughts.error("must hold one thought for each agent"))
 }
 
 fn thought(subgoal: &Field<'_>, field: &Field<'_>) -> Result<Thought, FieldError> {
@@ -225,7 +228,10 @@ fn thought(subgoal: &Field<'_>, field: &Field<'_>) -> Result<Thought, FieldError
 
 fn named(field: &Field<'_>) -> Result<Subgoal, FieldError> {
     subgoal_of(field.text()?).ok_or_else(|| {
-        field.error(format!("must be a subgoal such as \"Attach(agent 0, object 1)\", not {}", shown(field.value())))
+        field.error(format!(
+            "must be a subgoal such as \"Attach(agent 0, object 1)\", not {}",
+            shown(field.value())
+        ))
     })
 }
 

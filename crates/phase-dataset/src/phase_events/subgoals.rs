@@ -20,14 +20,16 @@ fn all_subgoals() -> impl Iterator<Item = Subgoal> {
     let agents = || 0..AGENT_COUNT as u8;
     let on = entities().flat_map(move |entity| landmarks().map(move |to| Predicate::On(entity, to)));
     let touch = agents().flat_map(move |agent| entities().map(move |entity| Predicate::Touch(agent, entity)));
-    let attach = agents()
-        .flat_map(|agent| (0..MAX_OBJECTS as u8).map(move |object| Predicate::Attach(agent, object)));
+    let attach =
+        agents().flat_map(|agent| (0..MAX_OBJECTS as u8).map(move |object| Predicate::Attach(agent, object)));
     let close = entities().flat_map(move |entity| {
         let places = entities().map(Place::Entity).chain(landmarks().map(Place::Landmark));
         places.map(move |place| Predicate::Close(entity, place))
     });
-    let literals = on.chain(touch).chain(attach).chain(close).flat_map(|predicate| {
-        [Literal::is(predicate), Literal::not(predicate)]
-    });
+    let literals = on
+        .chain(touch)
+        .chain(attach)
+        .chain(close)
+        .flat_map(|predicate| [Literal::is(predicate), Literal::not(predicate)]);
     literals.map(Subgoal::Achieve).chain([Subgoal::Stay])
 }

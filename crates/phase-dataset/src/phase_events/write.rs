@@ -84,7 +84,8 @@ fn add_simulation(lines: &mut Lines, simulation: &Simulation) {
     let actions: Vec<_> = event.steps.iter().map(|step| step.actions.map(|action| action.name())).collect();
     lines.add("actions", &actions);
     let each_thought = || event.steps.iter().map(|step| step.thoughts.each_ref());
-    let subgoals: Vec<_> = each_thought().map(|pair| pair.map(|thought| thought.subgoal.to_string())).collect();
+    let subgoals: Vec<_> =
+        each_thought().map(|pair| pair.map(|thought| thought.subgoal.to_string())).collect();
     lines.add("subgoals", &subgoals);
     lines.add("values", &each_thought().map(|pair| pair.map(value_of)).collect::<Vec<_>>());
     lines.add("substeps", &Substeps::of(simulation));
@@ -93,7 +94,11 @@ fn add_simulation(lines: &mut Lines, simulation: &Simulation) {
 
 /// V of the subgoal pursued, if any particle proposed it.
 fn value_of(thought: &Thought) -> Option<f64> {
-    thought.subgoals.iter().find(|proposed| proposed.subgoal == thought.subgoal).map(|proposed| proposed.value)
+    thought
+        .subgoals
+        .iter()
+        .find(|proposed| proposed.subgoal == thought.subgoal)
+        .map(|proposed| proposed.value)
 }
 
 fn is_finite(recording: &Recording) -> bool {

@@ -1,0 +1,181 @@
+//! The belief itself: particles, memory, and one step of both.
+
+use crate::{consistency::contradicted, memory::CellMemory, place::Placer, predict::predict};
+use phase_model::{
+    AGENT_COUNT, Action, Body, Contacts, Dynamics, Entity, EntitySet, MAX_ENTITIES, Physique, State,
+    geometry::Outline,
+};
+use phase_perception::{Cell, CellSet, Observation, footprint::covered};
+use rand::Rng;
+
+/// The paper's number of particles, K.
+pub const PARTICLE_COUNT: usize = 50;
+
+/// What one agent holds for possible: K whole states of the world, each consistent with what it observes.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Belief {
+    agent: usize,
+    particles: Vec<State>,
+    memory: CellMemory,
+    redrawn: usize,
+    unresolved: usize,
+}
+
+impl Belief {
+    /// The belief of the observing agent after its first observation. Observed entities are as they are; the
+    /// others are uniform over all places where they overlap neither walls nor the boundary nor another body and
+    /// would not have been seen. (The paper's main text has possible states uniform, its appendix headings 0;
+    /// headings are uniform here.) All bodies that are not observed rest and hold nothing.
+    #[must_use]
+    pub fn new(
+        physique: &Physique,
+        observation: &Observation,
+        particle_count: usize,
+        rng: &mut impl Rng,
+    ) -> Self {
+        let blank = State::new([Body::default(); MAX_ENTITIES]);
+        let mut belief = Self {
+            agent: observation.agent,
+            particles: vec![blank; particle_count],
+            memory: CellMemory::new(),
+            redrawn: 0,
+            unresolved: 0,
+        };
+        belief.memory.note(&seen_or_covered(physique, observation));
+        let mut placer = Placer::new(physique, &belief.memory);
+        let unknown: EntitySet =
+            physique.entities().filter(|&entity| !observation.observed.contains(entity)).collect();
+        for particle in &mut belief.particles {
+            overwrite(particle, observation);
+            belief.unresolved += redraw(particle, unknown, &mut placer, rng);
+            belief.redrawn += unknown.iter().count();
+        }
+        belief
+    }
+
+    /// One step from t to t + 1: predicts every particle under the action the agent took at t, overwrites it
+    /// with what the agent observes at t + 1, and redraws what contradicts that.
+    pub fn update(
+        &mut self,
+        dynamics: &impl Dynamics,
+        physique: &Physique,
+        own_action: Action,
+        observation: &Observation,
+        rng: &mut impl Rng,
+    ) {
+        self.memory.note(&seen_or_covered(physique, observation));
+        (self.redrawn, self.unresolved) = (0, 0);
+        let mut placer = Placer::new(physique, &self.memory);
+        let observed = observation.observed;
+        for particle in &mut self.particles {
+            predict(dynamics, physique, particle, self.agent, own_action, observed);
+            overwrite(particle, observation);
+            let impossible = contradicted(physique, particle, observed, &observation.visible);
+            if !impossible.is_empty() {
+                self.unresolved += redraw(particle, impossible, &mut placer, rng);
+                self.redrawn += impossible.iter().count();
+            }
+        }
+    }
+
+    /// Whose belief it is, 0 or 1.
+    #[must_use]
+    pub fn agent(&self) -> usize {
+        self.agent
+    }
+
+    /// The possible states, all equally likely.
+    #[must_use]
+    pub fn particles(&self) -> &[State] {
+        &self.particles
+    }
+
+    /// When the agent last saw each cell. A cell that a known body covers wholly counts as seen, for nothing
+    /// else can be there.
+    #[must_use]
+    pub fn memory(&self) -> &CellMemory {
+        &self.memory
+    }
+
+    /// Cells known to hold nothing unknown right now.
+    pub fn seen_now(&self) -> impl Iterator<Item = Cell> {
+        Cell::all().filter(|&cell| self.memory.age(cell) == Some(0))
+    }
+
+    /// Cells that the agent has never seen.
+    pub fn never_seen(&self) -> impl Iterator<Item = Cell> {
+        Cell::all().filter(|&cell| self.memory.age(cell).is_none())
+    }
+
+    /// How many bodies, over all particles, were redrawn in the last step.
+    #[must_use]
+    pub fn redrawn(&self) -> usize {
+        self.redrawn
+    }
+
+    /// How many of these found no possible place, neither in 200 draws nor when 1600 places all over the arena
+    /// were gone through. Such a body lies in view, or in a body, or in a wall, in this order of preference;
+    /// the next step tries again.
+    #[must_use]
+    pub fn unresolved(&self) -> usize {
+        self.unresolved
+    }
+}
+
+/// Cells in which the agent knows that nothing unobserved is.
+fn seen_or_covered(physique: &Physique, observation: &Observation) -> CellSet {
+    let mut cells = observation.visible;
+    for entity in observation.observed.iter() {
+        if let Some(body) = observation.body(entity) {
+            covered(&Outline::of(physique, entity, body)).iter().for_each(|cell| cells.insert(cell));
+        }
+    }
+    cells
+}
+
+/// Replaces what is observed by the truth, and drops what cannot be true beside it: an unobserved agent's hold
+/// of an observed object, and contacts between what is observed and what is not.
+fn overwrite(particle: &mut State, observation: &Observation) {
+    let observed = observation.observed;
+    for entity in observed.iter() {
+        if let Some(body) = observation.body(entity) {
+            *particle.body_mut(entity) = *body;
+        }
+    }
+    for agent in 0..AGENT_COUNT {
+        let known = observation.grip(agent);
+        let imagined =
+            particle.grips[agent].filter(|grip| !observed.contains(Entity::object(usize::from(grip.object))));
+        particle.grips[agent] = known.unwrap_or(imagined);
+    }
+    particle.contacts = contacts(|a, b| match (observed.contains(a), observed.contains(b)) {
+        (true, true) => observation.contacts().touching(a, b),
+        (false, false) => particle.contacts.touching(a, b),
+        _ => false,
+    });
+}
+
+/// Gives some entities new places, in which they neither hold nor touch anything. Returns how many found none.
+fn redraw(particle: &mut State, which: EntitySet, placer: &mut Placer<'_>, rng: &mut impl Rng) -> usize {
+    for agent in 0..AGENT_COUNT {
+        particle.grips[agent] = particle.grips[agent].filter(|grip| {
+            !which.contains(Entity::agent(agent)) && !which.contains(Entity::object(usize::from(grip.object)))
+        });
+    }
+    let before = particle.contacts;
+    particle.contacts = contacts(|a, b| !which.contains(a) && !which.contains(b) && before.touching(a, b));
+    placer.redraw(particle, which, rng)
+}
+
+/// The contacts between the pairs that satisfy a condition.
+fn contacts(touching: impl Fn(Entity, Entity) -> bool) -> Contacts {
+    let mut contacts = Contacts::NONE;
+    for b in (0..MAX_ENTITIES).map(Entity::from_index) {
+        for a in (0..b.index()).map(Entity::from_index) {
+            if touching(a, b) {
+                contacts.insert(a, b);
+            }
+        }
+    }
+    contacts
+}

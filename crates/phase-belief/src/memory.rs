@@ -1,0 +1,68 @@
+//! What an agent remembers of places: how long ago it last saw each cell.
+
+use phase_model::Entity;
+use phase_perception::{Cell, CellSet, cells::CELL_COUNT};
+
+/// Steps after which a cell seen empty is trusted to hold no agent by a factor e less. Agents cross the arena
+/// in about as many.
+pub const AGENT_FORGETTING: f32 = 20.0;
+/// The same for objects, which move only when somebody moves them.
+pub const OBJECT_FORGETTING: f32 = 200.0;
+
+/// How well a body may have got into a cell that was last seen `age` steps ago (`None`: never), from 0 to 1:
+/// 1 − exp(−age/τ), with τ in steps. Exactly 0 for a cell that is seen now, exactly 1 for one never seen.
+#[must_use]
+pub fn hiding_weight(age: Option<u32>, forgetting: f32) -> f32 {
+    age.map_or(1.0, |age| -libm::expm1f(-(age as f32) / forgetting))
+}
+
+/// The age of every cell's last sighting.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct CellMemory {
+    ages: [u32; CELL_COUNT],
+}
+
+/// The age of cells that have never been seen.
+const NEVER: u32 = u32::MAX;
+
+impl CellMemory {
+    /// The memory of an agent that has seen nothing yet.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self { ages: [NEVER; CELL_COUNT] }
+    }
+
+    /// Lets one step pass and notes the cells seen at its end.
+    pub fn note(&mut self, seen: &CellSet) {
+        for (cell, age) in Cell::all().zip(&mut self.ages) {
+            *age = match *age {
+                _ if seen.contains(cell) => 0,
+                NEVER => NEVER,
+                age => (age + 1).min(NEVER - 1),
+            };
+        }
+    }
+
+    /// Steps since a cell was last seen, 0 if it is seen now, `None` if it has never been.
+    #[must_use]
+    pub fn age(&self, cell: Cell) -> Option<u32> {
+        let age = self.ages[cell.index()];
+        (age != NEVER).then_some(age)
+    }
+
+    /// How well an entity may have got into a cell unseen; see [`hiding_weight`].
+    #[must_use]
+    pub fn weight(&self, entity: Entity, cell: Cell) -> f32 {
+        let forgetting = match entity {
+            Entity::Agent(_) => AGENT_FORGETTING,
+            Entity::Object(_) => OBJECT_FORGETTING,
+        };
+        hiding_weight(self.age(cell), forgetting)
+    }
+}
+
+impl Default for CellMemory {
+    fn default() -> Self {
+        Self::new()
+    }
+}

@@ -1,0 +1,78 @@
+//! One step of the dynamics under constant motion.
+
+use crate::consistency::{SLACK, loosely_overlap, shrunk};
+use phase_model::{AGENT_COUNT, Action, Dynamics, Entity, EntitySet, Physique, State, Vec2, arena};
+
+/// Advances a particle by one step in which the believing agent acts and the other goes on as it was going.
+///
+/// The dynamics know only agents that push and agents that coast to a stop. Someone who walks does neither, so
+/// the other agent's velocity is kept after the step, and with it that of the object it holds, wherever nothing
+/// is in the way; where something is, the dynamics' outcome stands. If the other agent is observed at the end
+/// of the step, this does not matter and is left out. Free objects coast, for nobody drives them.
+pub(crate) fn predict(
+    dynamics: &impl Dynamics,
+    physique: &Physique,
+    particle: &mut State,
+    agent: usize,
+    own_action: Action,
+    observed: EntitySet,
+) {
+    let before = *particle;
+    let mut actions = [Action::NoForce; AGENT_COUNT];
+    actions[agent] = own_action;
+    dynamics.step(particle, actions);
+    let other = 1 - agent;
+    if !observed.contains(Entity::agent(other)) {
+        keep_moving(physique, &before, particle, other);
+    }
+}
+
+/// Puts an agent and what it holds where constant motion would have taken them, if the way is free.
+fn keep_moving(physique: &Physique, before: &State, after: &mut State, agent: usize) {
+    let velocity = before.body(Entity::agent(agent)).velocity;
+    let held = before.held_object(agent);
+    let shared = held.is_some_and(|object| before.holds(1 - agent, object));
+    if velocity == Vec2::ZERO || shared || held != after.held_object(agent) {
+        return;
+    }
+    let mut moving = EntitySet::EMPTY;
+    moving.insert(Entity::agent(agent));
+    if let Some(object) = held {
+        moving.insert(Entity::object(object));
+    }
+    if (1..=arena::SUBSTEPS).all(|substep| {
+        let way = velocity * (substep as f32 * arena::SUBSTEP_SECONDS);
+        moving.iter().all(|entity| is_free(physique, before, after, moving, entity, way))
+    }) {
+        let way = velocity * (arena::SUBSTEPS as f32 * arena::SUBSTEP_SECONDS);
+        for entity in moving.iter() {
+            let mut body = *before.body(entity);
+            body.position += way;
+            body.velocity = velocity;
+            body.angular_velocity = 0.0;
+            *after.body_mut(entity) = body;
+        }
+    }
+}
+
+/// Whether an entity can be moved by a vector without meeting a wall, or a body where it was before or is after
+/// the step, and without the dynamics having found it in contact.
+fn is_free(
+    physique: &Physique,
+    before: &State,
+    after: &State,
+    moving: EntitySet,
+    entity: Entity,
+    way: Vec2,
+) -> bool {
+    let mut body = *before.body(entity);
+    body.position += way;
+    let outline = shrunk(physique, entity, &body, SLACK);
+    outline.inside_arena()
+        && !physique.walls.iter().any(|&wall| outline.overlaps_wall(wall))
+        && physique.entities().filter(|&other| !moving.contains(other)).all(|other| {
+            !after.contacts.touching(entity, other)
+                && !loosely_overlap(physique, (entity, &body), (other, before.body(other)))
+                && !loosely_overlap(physique, (entity, &body), (other, after.body(other)))
+        })
+}

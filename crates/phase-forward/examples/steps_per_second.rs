@@ -1,0 +1,118 @@
+//! Times steps of the kernel: free motion, pushing, carrying, and random actions in all layouts.
+
+use phase_forward::Forward;
+use phase_model::{
+    Action, AgentBody, Body, Dynamics, Grip, Layout, Physique, Side, Size, State, Strength, Vec2,
+    arena::START_POINTS,
+};
+use std::time::Instant;
+
+/// Steps between fresh starts.
+const EPISODE: usize = 60;
+
+fn main() {
+    let steps: usize = std::env::args().nth(1).and_then(|n| n.parse().ok()).unwrap_or(2_000_000);
+    let agent = |size: Size, strength: Strength| AgentBody { radius: size.radius(), max_force: strength.max_force() };
+    let open = Physique {
+        walls: Vec::new(),
+        agents: [agent(Size::Small, Strength::Strong), agent(Size::Large, Strength::Mighty)],
+        object_radii: [0.8, 1.2],
+        object_count: 2,
+    };
+    let at = |places: [(f32, f32); 4]| State::new(places.map(|(x, y)| Body::at_rest(Vec2::new(x, y), 0.0)));
+    let apart = at([(10.0, 8.0), (10.0, 16.0), (22.0, 8.0), (22.0, 16.0)]);
+    let near = at([(10.0, 8.0), (20.0, 8.0), (10.0, 9.65), (20.0, 10.45)]);
+    let mut held = near;
+    held.bodies[2].position.y = 9.6;
+    held.bodies[3].position.y = 10.4;
+    for (k, grip) in held.grips.iter_mut().enumerate() {
+        *grip = Some(Grip { object: k as u8, side: Side::Head, relative_angle: 0.0 });
+    }
+    let forward = Forward::new(&open);
+    let turns = [Action::Up, Action::Down, Action::TurnLeft, Action::TurnRight];
+    report("free, pushing to and fro", steps, |k| (&forward, apart, k % 4 == 0), |k| [turns[k / 2 % 2]; 2]);
+    report("free, turning", steps, |k| (&forward, apart, k % 4 == 0), |k| [turns[2 + k / 2 % 2]; 2]);
+    report("pushing two objects", steps, |k| (&forward, near, k % 8 == 0), |_| [Action::Up; 2]);
+    report("carrying two objects", steps, |k| (&forward, held, k % 8 == 0), |k| [turns[k / 4 % 4]; 2]);
+
+    let mut dice = Dice(1);
+    let scenes: Vec<(Forward, State)> = Layout::all_used()
+        .flat_map(|layout| [layout; 4])
+        .map(|layout| {
+            let mut size = || Size::ALL[dice.roll(4)];
+            let sizes = [size(), size(), size(), size()];
+            let physique = Physique {
+                walls: layout.walls(),
+                agents: [0, 1].map(|k| agent(sizes[k], Strength::ALL[dice.roll(4)])),
+                object_radii: [sizes[2].radius(), sizes[3].radius()],
+                object_count: 2,
+            };
+            let mut places: Vec<Vec2> = START_POINTS.into_iter().flatten().collect();
+            let bodies = [0, 1, 2, 3].map(|_| {
+                let place = places.swap_remove(dice.roll(places.len()));
+                Body::at_rest(place, dice.roll(628) as f32 / 100.0)
+            });
+            (Forward::new(&physique), State::new(bodies))
+        })
+        .collect();
+    let mut actions = Dice(7);
+    report(
+        "random actions",
+        steps,
+        |k| {
+            let (forward, state) = &scenes[k / EPISODE % scenes.len()];
+            (forward, *state, k % EPISODE == 0)
+        },
+        |_| [Action::ALL[actions.roll(14)], Action::ALL[actions.roll(14)]],
+    );
+    let mut actions = Dice(7);
+    report(
+        "random actions, each held for six steps",
+        steps,
+        |k| {
+            let (forward, state) = &scenes[k / EPISODE % scenes.len()];
+            (forward, *state, k % EPISODE == 0)
+        },
+        |k| {
+            let mut held = Dice(actions.0 ^ (k / 6) as u64);
+            [Action::ALL[held.roll(14)], Action::ALL[held.roll(14)]]
+        },
+    );
+    actions.roll(2);
+}
+
+/// Times steps. `scene` gives the kernel and start state for a step, and whether to start afresh.
+fn report<'a>(
+    name: &str,
+    steps: usize,
+    scene: impl Fn(usize) -> (&'a Forward, State, bool),
+    mut actions: impl FnMut(usize) -> [Action; 2],
+) {
+    if std::env::args().nth(2).is_some_and(|only| !name.starts_with(&only)) {
+        return;
+    }
+    let mut state = scene(0).1;
+    let start = Instant::now();
+    for k in 0..steps {
+        let (forward, fresh, restart) = scene(k);
+        if restart {
+            state = fresh;
+        }
+        forward.step(&mut state, actions(k));
+    }
+    let nanoseconds = start.elapsed().as_nanos() as f64 / steps as f64;
+    println!("{name}: {nanoseconds:.0} ns a step (ends at {:?})", state.bodies[0].position);
+}
+
+/// A small generator of random numbers.
+struct Dice(u64);
+
+impl Dice {
+    fn roll(&mut self, sides: usize) -> usize {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut word = self.0;
+        word = (word ^ (word >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        word = (word ^ (word >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((word ^ (word >> 31)) % sides as u64) as usize
+    }
+}

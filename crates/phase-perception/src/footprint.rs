@@ -1,0 +1,115 @@
+//! Which cells a body lies on.
+
+use crate::cells::{CELLS_PER_SIDE, Cell, CellSet};
+use phase_model::{Body, Entity, Physique, Vec2, arena, geometry::Outline};
+
+/// The cells that share inner points with an entity's outline; parts outside the arena have none.
+#[must_use]
+pub fn footprint(physique: &Physique, entity: Entity, body: &Body) -> CellSet {
+    let mut cells = CellSet::EMPTY;
+    let _ = any_cell(&Outline::of(physique, entity, body), |cell| {
+        cells.insert(cell);
+        false
+    });
+    cells
+}
+
+/// Whether a condition holds for one of the cells of an outline's footprint. Cells are tried row by row, and
+/// none after the first that satisfies it.
+#[must_use]
+pub fn any_cell(outline: &Outline, mut condition: impl FnMut(Cell) -> bool) -> bool {
+    let shape = Shape::of(outline);
+    Range::of(outline).any(|cell| shape.overlaps(cell) && condition(cell))
+}
+
+/// The cells that an outline covers wholly, so that no other body can have a part in them.
+#[must_use]
+pub fn covered(outline: &Outline) -> CellSet {
+    let shape = Shape::of(outline);
+    let mut cells = CellSet::EMPTY;
+    let _ = Range::of(outline).any(|cell| {
+        if shape.covers(cell) {
+            cells.insert(cell);
+        }
+        false
+    });
+    cells
+}
+
+/// Half the side of a cell (u).
+const HALF: f32 = 0.5;
+
+/// The rows and columns of an outline's bounding box.
+struct Range {
+    columns: core::ops::Range<usize>,
+    rows: core::ops::Range<usize>,
+}
+
+impl Range {
+    fn of(outline: &Outline) -> Self {
+        let (min, max) = outline.bounds();
+        // Numbers below 0 and NaN become 0, so that a box that is nowhere has no cells.
+        let from = |coordinate: f32| coordinate as usize;
+        let to = |coordinate: f32| coordinate.min(CELLS_PER_SIDE as f32).ceil() as usize;
+        let (min, max) = (min - arena::MIN, max - arena::MIN);
+        Self { columns: from(min.x)..to(max.x), rows: from(min.y)..to(max.y) }
+    }
+
+    fn any(&self, mut condition: impl FnMut(Cell) -> bool) -> bool {
+        self.rows.clone().any(|row| {
+            self.columns
+                .clone()
+                .any(|column| Cell::from_index(row * CELLS_PER_SIDE + column).is_some_and(&mut condition))
+        })
+    }
+}
+
+/// An outline prepared for being held against many cells, all of the same size.
+enum Shape {
+    /// The outward normals of the four edges, how far along each the outline reaches, and how much more or
+    /// less a cell's centre may lie along it for the cell to be touched or covered.
+    Trapezoid([(Vec2, f32, f32); 4]),
+    Disc {
+        centre: Vec2,
+        radius_squared: f32,
+    },
+}
+
+impl Shape {
+    fn of(outline: &Outline) -> Self {
+        match *outline {
+            Outline::Trapezoid(corners) => Self::Trapezoid(core::array::from_fn(|k| {
+                let normal = -(corners[(k + 1) % 4] - corners[k]).perp();
+                (normal, normal.dot(corners[k]), HALF * (normal.x.abs() + normal.y.abs()))
+            })),
+            Outline::Disc { centre, radius } => Self::Disc { centre, radius_squared: radius * radius },
+        }
+    }
+
+    /// Whether the outline has inner points in a cell of its bounding box. For the trapezoid this is the
+    /// separating axis test, whose other two axes are the box's.
+    fn overlaps(&self, cell: Cell) -> bool {
+        let middle = cell.centre();
+        match self {
+            Self::Trapezoid(edges) => {
+                edges.iter().all(|&(normal, reach, slack)| normal.dot(middle) - slack < reach)
+            }
+            Self::Disc { centre, radius_squared } => {
+                let beyond = ((*centre - middle).abs() - HALF).max(Vec2::ZERO);
+                beyond.length_squared() < *radius_squared
+            }
+        }
+    }
+
+    fn covers(&self, cell: Cell) -> bool {
+        let middle = cell.centre();
+        match self {
+            Self::Trapezoid(edges) => {
+                edges.iter().all(|&(normal, reach, slack)| normal.dot(middle) + slack <= reach)
+            }
+            Self::Disc { centre, radius_squared } => {
+                ((*centre - middle).abs() + HALF).length_squared() <= *radius_squared
+            }
+        }
+    }
+}

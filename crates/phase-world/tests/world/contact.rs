@@ -1,0 +1,71 @@
+//! The contacts that states report.
+
+use crate::{ASIDE, OBJECT, lone_agent, step};
+use phase_model::{Action, Body, Contacts, Entity, Size, State, Strength, Vec2};
+use phase_world::World;
+
+/// Agent 0 with object 0 straight ahead at a gap.
+fn ahead(gap: f32) -> State {
+    State::new([
+        Body::at_rest(Vec2::new(12.0, 8.0), 0.0),
+        Body::at_rest(ASIDE, 0.0),
+        Body::at_rest(Vec2::new(12.0, 9.6 + gap), 0.0),
+        Body::at_rest(ASIDE - Vec2::new(0.0, 5.0), 0.0),
+    ])
+}
+
+#[test]
+fn only_bodies_within_a_fiftieth_touch() {
+    for (gap, expected) in [(-0.2, true), (0.0, true), (0.015, true), (0.03, false), (0.5, false)] {
+        let world = World::new(&lone_agent(Size::Small, Strength::Fair), &ahead(gap));
+        let contacts = world.state().contacts;
+        assert_eq!(contacts.touching(Entity::agent(0), OBJECT), expected, "gap {gap}");
+        let mut only = Contacts::NONE;
+        if expected {
+            only.insert(OBJECT, Entity::agent(0));
+        }
+        assert_eq!(contacts, only, "no other pair touches");
+    }
+}
+
+#[test]
+fn pushing_touches_until_the_pusher_stops() {
+    let mut world = World::new(&lone_agent(Size::Small, Strength::Strong), &ahead(0.1));
+    assert!(!world.state().touching(Entity::agent(0), OBJECT));
+    for _ in 0..3 {
+        step(&mut world, Action::Up);
+    }
+    assert!(step(&mut world, Action::Up).touching(Entity::agent(0), OBJECT));
+    assert!(!step(&mut world, Action::Stop).touching(Entity::agent(0), OBJECT), "the object rolls on");
+}
+
+#[test]
+fn held_pairs_touch_through_their_grip() {
+    let mut world = World::new(&lone_agent(Size::Small, Strength::Strong), &ahead(0.1));
+    let state = step(&mut world, Action::Attach);
+    assert_eq!(state.contacts, Contacts::NONE);
+    assert!(state.touching(Entity::agent(0), OBJECT));
+    let state = step(&mut world, Action::Detach);
+    assert!(state.contacts.touching(Entity::agent(0), OBJECT), "let go, but still in contact");
+}
+
+#[test]
+fn walls_are_no_contacts() {
+    let mut state = ahead(3.0);
+    state.bodies[0].position = Vec2::new(12.0, 3.0);
+    let mut world = World::new(&lone_agent(Size::Small, Strength::Strong), &state);
+    for _ in 0..4 {
+        state = step(&mut world, Action::Down);
+    }
+    assert!(state.bodies[0].position.y < 2.83, "the agent stands against the wall");
+    assert_eq!(state.contacts, Contacts::NONE);
+}
+
+#[test]
+fn bodies_do_not_pass_through_each_other() {
+    let mut world = World::new(&lone_agent(Size::Small, Strength::Mighty), &ahead(0.3));
+    for _ in 0..8 {
+        let state = step(&mut world, Action::Up);
+        assert!(state.position(OBJECT).y - state.bodies[0].position.y > 1.55);
+    }
+}

@@ -1,0 +1,161 @@
+//! The commands and their options.
+
+use clap::{Args, Parser, Subcommand, error::ContextValue, value_parser};
+use phase_sim::Settings;
+use std::path::PathBuf;
+
+/// Physically grounded social events: two agents see, believe, plan and act.
+#[derive(Parser, Debug)]
+#[command(name = "cargo xtask", bin_name = "cargo xtask", version)]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// What to do.
+#[derive(Subcommand, Debug)]
+pub enum Command {
+    /// Make a dataset of social events, with videos and a page to look at them
+    GenDataset(GenDataset),
+    /// Simulate the scenes of a phase-events/1 file, each from its first row
+    Simulate(Simulate),
+    /// Turn events into videos, or into pictures of their key frames
+    Render(Render),
+    /// Check the rules of the house that the compiler cannot
+    Tidy,
+}
+
+/// Options of `gen-dataset`.
+#[derive(Args, Debug)]
+pub struct GenDataset {
+    /// What to make: demo (twelve events, two of each kind)
+    #[arg(long, default_value = "demo")]
+    pub preset: String,
+    /// Number of events [default: the preset's]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u64).range(1..=1_000_000))]
+    pub events: Option<u64>,
+    /// Seed of all chance in the dataset [default: the preset's]
+    #[arg(long, value_name = "S")]
+    pub seed: Option<u64>,
+    /// Folder for the dataset; new, empty, or of this very run [default: out/<preset>-<seed>]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// How the agents think.
+    #[command(flatten)]
+    pub effort: Effort,
+    /// How many events at once.
+    #[command(flatten)]
+    pub jobs: Jobs,
+}
+
+/// Options of `simulate`.
+#[derive(Args, Debug)]
+pub struct Simulate {
+    /// File in the format phase-events/1
+    #[arg(long, value_name = "FILE")]
+    pub events: PathBuf,
+    /// Only the event with this id; may be given several times
+    #[arg(long, value_name = "ID")]
+    pub id: Vec<String>,
+    /// Seed of all chance in the simulations
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    pub seed: u64,
+    /// Make no videos
+    #[arg(long)]
+    pub no_video: bool,
+    /// Folder for the results; new, empty, or of this very run
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    /// How the agents think.
+    #[command(flatten)]
+    pub effort: Effort,
+    /// How many events at once.
+    #[command(flatten)]
+    pub jobs: Jobs,
+}
+
+/// Options of `render`.
+#[derive(Args, Debug)]
+pub struct Render {
+    /// An event file (phase-events/1) or the folder of a dataset
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    /// Only the event with this id; may be given several times
+    #[arg(long, value_name = "ID")]
+    pub id: Vec<String>,
+    /// Folder for the results, or for a single event a file ending in .mp4 (.png with --contact-sheet)
+    #[arg(long, value_name = "DIR|FILE", default_value = "out/render")]
+    pub out: PathBuf,
+    /// Draw what agent 0 or 1 sees and believes too (simulated events only)
+    #[arg(long, value_name = "AGENT", value_parser = value_parser!(u8).range(0..=1))]
+    pub belief: Option<u8>,
+    /// Instead of a video, one picture of N frames spread evenly over the event
+    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=100))]
+    pub contact_sheet: Option<u16>,
+    /// How many events at once.
+    #[command(flatten)]
+    pub jobs: Jobs,
+}
+
+/// How many events at once.
+#[derive(Args, Debug)]
+pub struct Jobs {
+    /// Events to work on at once; results do not depend on it [default: all cores]
+    #[arg(long, value_name = "J", value_parser = value_parser!(u16).range(1..=1024))]
+    pub jobs: Option<u16>,
+}
+
+/// How long events last and how hard agents think; the defaults are the paper's.
+#[derive(Args, Debug)]
+pub struct Effort {
+    /// Belief particles of each agent [default: 50]
+    #[arg(long, value_name = "K", value_parser = value_parser!(u32).range(1..=100_000))]
+    pub particles: Option<u32>,
+    /// POMCP simulations a decision [default: 1000]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=10_000_000))]
+    pub simulations: Option<u32>,
+    /// Longest an event may last, in steps of 0.25 s [default: 100]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=10_000))]
+    pub max_steps: Option<u32>,
+}
+
+impl Effort {
+    /// The settings asked for.
+    #[must_use]
+    pub fn settings(&self) -> Settings {
+        let mut settings = Settings::default();
+        if let Some(particles) = self.particles {
+            settings.minds.particles = particles as usize;
+        }
+        if let Some(simulations) = self.simulations {
+            settings.minds.simulations = simulations as usize;
+        }
+        if let Some(steps) = self.max_steps {
+            settings.max_steps = steps as usize;
+        }
+        settings
+    }
+
+    /// The options as they were given, to repeat the command.
+    #[must_use]
+    pub fn as_given(&self) -> String {
+        let options =
+            [("particles", self.particles), ("simulations", self.simulations), ("max-steps", self.max_steps)];
+        let given = options.into_iter().filter_map(|(name, value)| Some(format!(" --{name} {}", value?)));
+        given.collect()
+    }
+}
+
+/// What is wrong with a command line, on one line.
+#[must_use]
+pub fn one_sentence(error: &clap::Error) -> String {
+    let text = error.render().to_string();
+    let before_usage = ["\n\nUsage", "\n\nFor more", "\nUsage"]
+        .into_iter()
+        .fold(text.as_str(), |text, mark| text.split(mark).next().unwrap_or_default());
+    let words: Vec<&str> = before_usage.split_whitespace().collect();
+    let has_suggestion = error.context().any(|(_, value)| matches!(value, ContextValue::StyledStrs(_)));
+    let hint = if has_suggestion { "" } else { " (--help lists the options)" };
+    format!("{}{hint}", words.join(" "))
+}

@@ -1,0 +1,49 @@
+//! The one place where the command line meets sampler and simulation.
+
+use crate::error::CliError;
+use core::ops::ControlFlow;
+use phase_model::{
+    EventKind, Scene,
+    random::{self, Purpose},
+};
+use phase_sim::{BeliefSnapshot, Event, Settings, Step};
+
+/// Name and version of this program, as files bear it.
+pub const GENERATOR: &str = concat!("phase ", env!("CARGO_PKG_VERSION"));
+
+/// The scene of one event of a dataset.
+///
+/// # Errors
+/// [`CliError::Sample`].
+pub fn scene(kind: EventKind, dataset_seed: u64, index: usize) -> Result<Scene, CliError> {
+    let mut random = random::stream(dataset_seed, Purpose::Scene, index as u64);
+    Ok(phase_sampler::sample(kind, &mut random)?)
+}
+
+/// The seed of one event of a dataset or of a file of scenes.
+#[must_use]
+pub fn event_seed(seed: u64, index: usize) -> u64 {
+    random::derive_seed(seed, Purpose::Event, index as u64)
+}
+
+/// Simulates an event; `None` if `on_step` broke it off.
+///
+/// # Errors
+/// [`CliError::Simulation`].
+pub fn simulate(
+    id: &str,
+    scene: &Scene,
+    seed: u64,
+    settings: &Settings,
+    on_step: &mut dyn FnMut(&Step) -> ControlFlow<()>,
+) -> Result<Option<Event>, CliError> {
+    let (event, finished) = phase_sim::simulate_with(scene, seed, settings, on_step)
+        .map_err(|source| CliError::Simulation { id: id.into(), source })?;
+    Ok(finished.then_some(event))
+}
+
+/// What an agent saw and believed before each step of a recorded event, and after the last.
+#[must_use]
+pub fn beliefs(event: &Event, agent: usize, settings: &Settings) -> Vec<BeliefSnapshot> {
+    phase_sim::beliefs(event, agent, settings.minds.particles)
+}

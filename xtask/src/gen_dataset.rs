@@ -1,0 +1,190 @@
+//! `gen-dataset`: a preset and a seed make a dataset.
+
+use crate::{
+    cli::GenDataset,
+    engine::{self, GENERATOR},
+    error::CliError,
+    interrupt,
+    parallel::make_all,
+    production::{Order, Production, settings_value},
+};
+use phase_dataset::{
+    atomic,
+    card::card,
+    checksum::FileEntry,
+    folder::{self, Contents, Folder},
+    gallery::{self, Timeline},
+    manifest::{DATASET_FORMAT, EventEntry, MANIFEST_FILE, Manifest, event_path, video_path},
+    preset::Preset,
+};
+use phase_sim::Settings;
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
+
+/// The presets that come with the program.
+const PRESETS: [(&str, &str); 1] = [("demo", include_str!("../../data/presets/demo.json"))];
+const PAGE_FILE: &str = "index.html";
+const CARD_FILE: &str = "README.md";
+
+/// Runs the command.
+///
+/// # Errors
+/// Any [`CliError`].
+pub fn run(arguments: &GenDataset) -> Result<(), CliError> {
+    let plan = Plan::of(arguments)?;
+    let out = arguments.out.clone().unwrap_or_else(|| plan.default_folder());
+    match folder::inspect(&out, MANIFEST_FILE)? {
+        Contents::Finished => return plan.check_finished(&out),
+        Contents::Unfinished(run) => {
+            plan.check_same(&out, "an unfinished", &run)?;
+            eprintln!("going on in {}", out.display());
+        }
+        Contents::Nothing => {}
+    }
+    interrupt::listen();
+    let folder = Folder::claim(&out, &plan.run())?;
+    folder.subfolder("events")?;
+    folder.subfolder("videos")?;
+    let production = Production::new(&folder, plan.settings, plan.count);
+    let made = make_all(&arguments.jobs, plan.count, |index| plan.make(&production, folder.path(), index))?;
+    drop(production);
+    let Some(made) = made else { return Err(CliError::Interrupted(out)) };
+    plan.complete(&folder, made)?;
+    folder.finish()?;
+    println!("{} events in {}", plan.count, out.display());
+    println!("open {} to watch them", out.join(PAGE_FILE).display());
+    Ok(())
+}
+
+/// Everything that decides what a dataset holds.
+struct Plan {
+    preset: Preset,
+    count: usize,
+    seed: u64,
+    settings: Settings,
+    command: String,
+}
+
+impl Plan {
+    fn of(arguments: &GenDataset) -> Result<Self, CliError> {
+        let found = PRESETS.iter().find(|(name, _)| *name == arguments.preset);
+        let (name, text) = found.ok_or_else(|| CliError::UnknownPreset {
+            name: arguments.preset.clone(),
+            known: PRESETS.map(|(name, _)| name).join(", "),
+        })?;
+        let preset = Preset::parse(name, text)?;
+        let count = arguments.events.map_or(preset.events, |events| events as usize);
+        let seed = arguments.seed.unwrap_or(preset.seed);
+        let effort = arguments.effort.as_given();
+        let command =
+            format!("cargo xtask gen-dataset --preset {name} --events {count} --seed {seed}{effort}");
+        Ok(Self { preset, count, seed, settings: arguments.effort.settings(), command })
+    }
+
+    /// A folder that differs with everything a user is likely to vary.
+    fn default_folder(&self) -> PathBuf {
+        let count = if self.count == self.preset.events { String::new() } else { format!("-{}", self.count) };
+        Path::new("out").join(format!("{}-seed{}{count}", self.preset.name, self.seed))
+    }
+
+    fn run(&self) -> Value {
+        run_value(&self.preset.name, self.count, self.seed, GENERATOR, &settings_value(&self.settings))
+    }
+
+    fn check_same(&self, path: &Path, state: &'static str, run: &Value) -> Result<(), CliError> {
+        match difference(run, &self.run()) {
+            None => Ok(()),
+            Some(difference) => Err(CliError::OtherRun { path: path.to_owned(), state, difference }),
+        }
+    }
+
+    /// A finished dataset is taken as it is if it is the one asked for and whole.
+    fn check_finished(&self, out: &Path) -> Result<(), CliError> {
+        let manifest = Manifest::read(&out.join(MANIFEST_FILE))?;
+        let (preset, count) = (&manifest.preset, manifest.events.len());
+        let run = run_value(preset, count, manifest.seed, &manifest.generator, &manifest.settings);
+        self.check_same(out, "a finished", &run)?;
+        manifest.verify(out).map_err(CliError::Altered)?;
+        if folder::has_leftovers(out) {
+            Folder::claim(out, &run)?.finish()?;
+        }
+        println!("{} holds this dataset already; all {count} events are whole", out.display());
+        println!("open {} to watch them", out.join(PAGE_FILE).display());
+        Ok(())
+    }
+
+    fn make(
+        &self,
+        production: &Production,
+        out: &Path,
+        index: usize,
+    ) -> Result<Option<(EventEntry, Timeline)>, CliError> {
+        let id = self.preset.id(index);
+        let order = Order {
+            seed: engine::event_seed(self.seed, index),
+            relation: None,
+            json: out.join(event_path(&id)),
+            video: Some(out.join(video_path(&id))),
+            id,
+        };
+        let scene = || engine::scene(self.preset.kind(index), self.seed, index);
+        let Some(event) = production.make(&order, scene)? else { return Ok(None) };
+        let entry = EventEntry::of(out, &order.id, &event).map_err(CliError::ReadBack)?;
+        Ok(Some((entry, Timeline::of(&event))))
+    }
+
+    /// Writes what describes the whole; the manifest last, since with it the dataset is complete.
+    fn complete(&self, folder: &Folder, made: Vec<(EventEntry, Timeline)>) -> Result<(), CliError> {
+        let (events, timelines): (Vec<EventEntry>, Vec<Timeline>) = made.into_iter().unzip();
+        let mut manifest = Manifest {
+            format: DATASET_FORMAT.into(),
+            generator: GENERATOR.into(),
+            preset: self.preset.name.clone(),
+            seed: self.seed,
+            settings: settings_value(&self.settings),
+            events,
+            files: Vec::new(),
+        };
+        let out = folder.path();
+        let described =
+            [(PAGE_FILE, gallery::page(&manifest, &timelines)), (CARD_FILE, card(&manifest, &self.command))];
+        for (name, text) in described {
+            atomic::write(&out.join(name), text.as_bytes())?;
+            manifest.files.push(FileEntry::of(out, name).map_err(CliError::ReadBack)?);
+        }
+        Ok(atomic::write(&out.join(MANIFEST_FILE), manifest.to_json().as_bytes())?)
+    }
+}
+
+fn run_value(preset: &str, events: usize, seed: u64, generator: &str, settings: &Value) -> Value {
+    json!({
+        "command": "gen-dataset", "preset": preset, "events": events, "seed": seed, "generator": generator,
+        "settings": settings,
+    })
+}
+
+/// The first thing in which another run differs from this one, in words.
+#[must_use]
+pub fn difference(other: &Value, this: &Value) -> Option<String> {
+    match (other, this) {
+        (Value::Object(a), Value::Object(b)) => {
+            let mut keys: Vec<&String> = b.keys().chain(a.keys()).collect();
+            keys.sort();
+            keys.dedup();
+            // The command first: with another one nothing else compares.
+            keys.sort_by_key(|key| *key != "command");
+            keys.into_iter().find_map(|key| {
+                let (a, b) = (a.get(key).unwrap_or(&Value::Null), b.get(key).unwrap_or(&Value::Null));
+                match (a, b) {
+                    (Value::Object(_), Value::Object(_)) => {
+                        difference(a, b).map(|inner| format!("{key}.{inner}"))
+                    }
+                    _ if a == b => None,
+                    _ => Some(format!("{key} {a} instead of {b}")),
+                }
+            })
+        }
+        _ if other == this => None,
+        _ => Some(format!("{other} instead of {this}")),
+    }
+}

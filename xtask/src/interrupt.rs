@@ -1,0 +1,31 @@
+//! Ctrl-C: once to stop in good order, twice to stop at once.
+
+use std::sync::{
+    Once,
+    atomic::{AtomicBool, Ordering},
+};
+
+static REQUESTED: AtomicBool = AtomicBool::new(false);
+
+/// Begins to listen. Without it, or where the system does not let us listen, Ctrl-C ends the program at once;
+/// nothing is half-written then either, but the event at work is lost.
+pub fn listen() {
+    static LISTENING: Once = Once::new();
+    LISTENING.call_once(|| {
+        let heard = ctrlc::set_handler(|| {
+            if REQUESTED.swap(true, Ordering::Relaxed) {
+                std::process::exit(130);
+            }
+            eprintln!("stopping; once more to stop at once");
+        });
+        if let Err(error) = heard {
+            eprintln!("note: cannot listen for Ctrl-C ({error}); it will stop at once");
+        }
+    });
+}
+
+/// Whether someone wants us to stop.
+#[must_use]
+pub fn requested() -> bool {
+    REQUESTED.load(Ordering::Relaxed)
+}

@@ -1,0 +1,63 @@
+//! How far a run has come: a bar with the time left on a terminal, a line for each event elsewhere.
+
+use indicatif::{ProgressBar, ProgressStyle};
+use std::{
+    io::IsTerminal,
+    sync::atomic::{AtomicUsize, Ordering},
+    time::Duration,
+};
+
+/// Progress over events that take a known greatest number of steps each. Goes to stderr.
+#[derive(Debug)]
+pub struct Progress {
+    bar: Option<ProgressBar>,
+    events: usize,
+    steps_each: usize,
+    finished: AtomicUsize,
+}
+
+impl Progress {
+    /// Nothing done yet.
+    #[must_use]
+    pub fn new(events: usize, steps_each: usize) -> Self {
+        let bar = std::io::stderr().is_terminal().then(|| {
+            let bar = ProgressBar::new((events * steps_each) as u64);
+            let style = ProgressStyle::with_template(
+                "{bar:30} {percent:>3} % of {msg} · {elapsed} gone, about {eta} left",
+            );
+            bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+            bar.set_message(format!("{events} events"));
+            bar.enable_steady_tick(Duration::from_millis(500));
+            bar
+        });
+        Self { bar, events, steps_each, finished: AtomicUsize::new(0) }
+    }
+
+    /// One step of some event is done.
+    pub fn step(&self) {
+        if let Some(bar) = &self.bar {
+            bar.inc(1);
+        }
+    }
+
+    /// An event is done. `counted` of its steps were reported with [`Progress::step`]; `line` says what it is.
+    pub fn event(&self, counted: usize, line: &str) {
+        let number = 1 + self.finished.fetch_add(1, Ordering::Relaxed);
+        let text = format!("{number}/{} {line}", self.events);
+        match &self.bar {
+            Some(bar) => {
+                bar.inc(self.steps_each.saturating_sub(counted) as u64);
+                bar.println(text);
+            }
+            None => eprintln!("{text}"),
+        }
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+}

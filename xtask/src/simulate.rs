@@ -1,0 +1,118 @@
+//! `simulate`: the scenes of a `phase-events/1` file, each from its first row.
+
+use crate::{
+    cli::Simulate,
+    engine::{self, GENERATOR},
+    error::CliError,
+    gen_dataset::difference,
+    interrupt,
+    parallel::make_all,
+    production::{Order, Production, settings_value},
+    source,
+};
+use phase_dataset::{
+    atomic,
+    checksum::{hexadecimal, sha256},
+    folder::{self, Contents, Folder},
+    phase_events::{self, Recording},
+    summary::{Comparison, SUMMARY_FILE, Summary},
+};
+use phase_model::Relation;
+use serde_json::{Value, json};
+use std::path::Path;
+
+/// Runs the command.
+///
+/// # Errors
+/// Any [`CliError`].
+pub fn run(arguments: &Simulate) -> Result<(), CliError> {
+    let recordings = phase_events::read(&arguments.events)?;
+    let chosen = source::choose(&arguments.events, recordings, &arguments.id)?;
+    let reserved = SUMMARY_FILE.trim_end_matches(".json");
+    if chosen.iter().any(|(_, recording)| recording.id == reserved) {
+        let file = arguments.events.display();
+        let rule = "is taken: the summary is written under that name";
+        return Err(CliError::Usage(format!("{file}: event {reserved}: field `id` {rule}")));
+    }
+    let (run, out) = (run_value(arguments, &chosen), &arguments.out);
+    match folder::inspect(out, SUMMARY_FILE)? {
+        Contents::Finished => return check_finished(out, &run),
+        Contents::Unfinished(other) => {
+            check_same(out, "an unfinished", &other, &run)?;
+            eprintln!("going on in {}", out.display());
+        }
+        Contents::Nothing => {}
+    }
+    interrupt::listen();
+    let folder = Folder::claim(out, &run)?;
+    let production = Production::new(&folder, arguments.effort.settings(), chosen.len());
+    let made = make_all(&arguments.jobs, chosen.len(), |k| {
+        let (index, recording) = &chosen[k];
+        make(&production, arguments, *index, recording)
+    })?;
+    drop(production);
+    let Some(comparisons) = made else { return Err(CliError::Interrupted(out.clone())) };
+    let summary = Summary::new(run, comparisons);
+    atomic::write(&out.join(SUMMARY_FILE), summary.to_json().as_bytes())?;
+    folder.finish()?;
+    print!("{}", summary.table());
+    println!("{} simulated events in {}", summary.events.len(), out.display());
+    Ok(())
+}
+
+fn make(
+    production: &Production,
+    arguments: &Simulate,
+    index: usize,
+    recording: &Recording,
+) -> Result<Option<Comparison>, CliError> {
+    let (id, out) = (&recording.id, &arguments.out);
+    let video = !arguments.no_video;
+    let order = Order {
+        id: id.clone(),
+        // By its place in the file, so that the same event comes out with or without the others.
+        seed: engine::event_seed(arguments.seed, index),
+        relation: Some(recording.relation),
+        json: out.join(format!("{id}.json")),
+        video: video.then(|| out.join(format!("{id}.mp4"))),
+    };
+    let Some(event) = production.make(&order, || Ok(recording.scene.clone()))? else { return Ok(None) };
+    Ok(Some(Comparison::of(out, recording, &event, video).map_err(CliError::ReadBack)?))
+}
+
+/// What decides the results: the events themselves and not the file they came in, the seed, the settings.
+fn run_value(arguments: &Simulate, chosen: &[(usize, Recording)]) -> Value {
+    let events: Vec<Value> = chosen.iter().map(|(index, recording)| json!([index, recording.id])).collect();
+    let read: String = chosen.iter().map(|(index, recording)| input_of(*index, recording)).collect();
+    json!({
+        "command": "simulate", "generator": GENERATOR, "seed": arguments.seed,
+        "videos": !arguments.no_video, "settings": settings_value(&arguments.effort.settings()),
+        "events": events, "input_sha256": hexadecimal(&sha256(read.as_bytes())),
+    })
+}
+
+/// Everything the results depend on in one event of the input: the scene, the labels and the recorded rows.
+fn input_of(index: usize, recording: &Recording) -> String {
+    let (scene, rows) = (&recording.scene, &recording.trajectory);
+    let relation: Relation = recording.relation;
+    format!("{index} {} {relation:?} {scene:?} {rows:?}\n", recording.id)
+}
+
+fn check_same(out: &Path, state: &'static str, other: &Value, run: &Value) -> Result<(), CliError> {
+    match difference(other, run) {
+        None => Ok(()),
+        Some(difference) => Err(CliError::OtherRun { path: out.to_owned(), state, difference }),
+    }
+}
+
+fn check_finished(out: &Path, run: &Value) -> Result<(), CliError> {
+    let summary = Summary::read(&out.join(SUMMARY_FILE))?;
+    check_same(out, "a finished", &summary.run, run)?;
+    summary.verify(out).map_err(CliError::Altered)?;
+    if folder::has_leftovers(out) {
+        Folder::claim(out, run)?.finish()?;
+    }
+    print!("{}", summary.table());
+    println!("{} holds these {} simulated events already", out.display(), summary.events.len());
+    Ok(())
+}

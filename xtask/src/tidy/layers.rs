@@ -1,0 +1,77 @@
+//! Which crates there are and which may use which.
+
+use super::Workspace;
+use std::path::{Path, PathBuf};
+
+/// The crates from the ground floor up. A crate may use those before it, never those after it.
+pub const LAYERS: [&str; 13] = [
+    "phase-model",
+    "phase-world",
+    "phase-forward",
+    "phase-perception",
+    "phase-belief",
+    "phase-predicates",
+    "phase-planner",
+    "phase-pomcp",
+    "phase-agent",
+    "phase-sim",
+    "phase-sampler",
+    "phase-dataset",
+    "phase-render",
+];
+
+const MAP: &str = "docs/ARCHITECTURE.md";
+
+/// Every crate is in the list above and on the map; what is on the map exists; none uses one above it.
+pub(super) fn check(workspace: &mut Workspace) {
+    let crates = workspace.crates();
+    let map = workspace.read(Path::new(MAP));
+    for name in &crates {
+        let manifest = PathBuf::from(format!("crates/{name}/Cargo.toml"));
+        if !LAYERS.contains(&name.as_str()) {
+            workspace.report(&manifest, 1, format!("{name} is missing in xtask/src/tidy/layers.rs"));
+        }
+        if !mentions(&map).any(|(_, mentioned)| mentioned == name) {
+            workspace.report(MAP, 1, format!("the map does not mention {name}"));
+        }
+        check_uses(workspace, name, &manifest);
+    }
+    for (line, mentioned) in mentions(&map) {
+        if !crates.iter().any(|name| name == mentioned) {
+            workspace.report(MAP, line, format!("the map mentions {mentioned}, which is no crate"));
+        }
+    }
+}
+
+fn check_uses(workspace: &mut Workspace, name: &str, manifest: &Path) {
+    let level = |name: &str| LAYERS.iter().position(|layer| *layer == name);
+    let text = workspace.read(manifest);
+    let mut section = "";
+    for (k, line) in text.lines().enumerate() {
+        if line.starts_with('[') {
+            section = line.trim();
+            continue;
+        }
+        // Tests may look down from above; the library may not.
+        if section != "[dependencies]" {
+            continue;
+        }
+        let used = line.split(['.', '=', ' ']).next().unwrap_or_default();
+        if used.starts_with("phase-") && level(used) >= level(name) {
+            workspace.report(manifest, k + 1, format!("{name} must not use {used}, which is not below it"));
+        }
+    }
+}
+
+/// The crates that the map names in backticks, with their lines. A path such as `phase_x::y` is none.
+fn mentions(map: &str) -> impl Iterator<Item = (usize, &str)> {
+    map.lines().enumerate().flat_map(|(k, line)| {
+        let quoted = line.split('`').skip(1).step_by(2);
+        quoted.filter(|name| is_crate_name(name)).map(move |name| (k + 1, name))
+    })
+}
+
+fn is_crate_name(name: &str) -> bool {
+    let plain = |letter: char| letter.is_ascii_lowercase() || letter == '-';
+    name.strip_prefix("phase-").is_some_and(|rest| !rest.is_empty() && rest.chars().all(plain))
+}

@@ -1,0 +1,119 @@
+//! `tidy`: the rules of the house that the compiler cannot check.
+
+mod layers;
+mod sources;
+mod texts;
+
+pub use layers::LAYERS;
+
+use crate::error::CliError;
+use std::{
+    fmt, fs, io,
+    path::{Path, PathBuf},
+};
+
+/// A rule that is broken somewhere.
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub struct Finding {
+    /// The file, relative to the workspace.
+    pub file: PathBuf,
+    /// The line, from 1.
+    pub line: usize,
+    /// What is wrong, in a sentence.
+    pub rule: String,
+}
+
+impl fmt::Display for Finding {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "{}:{}: {}", self.file.display(), self.line, self.rule)
+    }
+}
+
+/// Runs the command on the workspace this program was built from.
+///
+/// # Errors
+/// [`CliError::Untidy`] if a rule is broken.
+pub fn run() -> Result<(), CliError> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."));
+    let findings = check(root);
+    for finding in &findings {
+        eprintln!("{finding}");
+    }
+    if findings.is_empty() {
+        println!("tidy");
+        Ok(())
+    } else {
+        Err(CliError::Untidy(findings.len()))
+    }
+}
+
+/// Everything that is wrong in a workspace, in the order of files and lines.
+#[must_use]
+pub fn check(root: &Path) -> Vec<Finding> {
+    let mut workspace = Workspace { root: root.to_owned(), findings: Vec::new() };
+    layers::check(&mut workspace);
+    sources::check(&mut workspace);
+    texts::check(&mut workspace);
+    let mut findings = workspace.findings;
+    findings.sort();
+    findings.dedup();
+    findings
+}
+
+/// A workspace and what was found in it so far.
+struct Workspace {
+    root: PathBuf,
+    findings: Vec<Finding>,
+}
+
+impl Workspace {
+    fn report(&mut self, file: impl Into<PathBuf>, line: usize, rule: impl Into<String>) {
+        self.findings.push(Finding { file: file.into(), line, rule: rule.into() });
+    }
+
+    /// The text of a file; a file that cannot be read is a finding and an empty text.
+    fn read(&mut self, file: &Path) -> String {
+        fs::read_to_string(self.root.join(file)).unwrap_or_else(|error| {
+            self.report(file, 1, format!("cannot be read: {error}"));
+            String::new()
+        })
+    }
+
+    /// Names of the folders in `crates/`, sorted.
+    fn crates(&self) -> Vec<String> {
+        let entries = fs::read_dir(self.root.join("crates")).into_iter().flatten().flatten();
+        let folders = entries.filter(|entry| entry.path().join("Cargo.toml").is_file());
+        let mut names: Vec<String> =
+            folders.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+        names.sort();
+        names
+    }
+
+    /// All files with one of these endings below some folders, relative to the workspace, sorted.
+    fn files(&self, folders: &[&str], endings: &[&str]) -> Vec<PathBuf> {
+        let mut found = Vec::new();
+        for folder in folders {
+            // A folder that is not there holds no files.
+            let _ = walk(&self.root.join(folder), &mut found);
+        }
+        let mut files: Vec<PathBuf> = found
+            .into_iter()
+            .filter(|file| endings.iter().any(|ending| file.to_string_lossy().ends_with(ending)))
+            .filter_map(|file| file.strip_prefix(&self.root).map(Path::to_owned).ok())
+            .collect();
+        files.sort();
+        files
+    }
+}
+
+fn walk(folder: &Path, found: &mut Vec<PathBuf>) -> io::Result<()> {
+    for entry in fs::read_dir(folder)? {
+        let path = entry?.path();
+        if path.is_dir() {
+            walk(&path, found)?;
+        } else {
+            found.push(path);
+        }
+    }
+    Ok(())
+}

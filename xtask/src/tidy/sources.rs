@@ -1,0 +1,54 @@
+//! What Rust files must and must not contain.
+
+use super::Workspace;
+use std::path::{Path, PathBuf};
+
+/// Longest a Rust file may be (lines).
+const LONGEST: usize = 500;
+/// The one file that may know the cache's encoding.
+const CACHE: &str = "crates/phase-dataset/src/cache.rs";
+/// What every crate root says.
+const ROOT_ATTRIBUTES: [&str; 2] = ["#![forbid(unsafe_code)]", "#![deny(missing_docs)]"];
+
+/// Checks every Rust file of crates and command line.
+pub(super) fn check(workspace: &mut Workspace) {
+    let crates = workspace.crates();
+    let roots = crates.iter().map(|name| PathBuf::from(format!("crates/{name}/src/lib.rs")));
+    for root in roots.chain(["xtask/src/lib.rs".into(), "xtask/src/main.rs".into()]) {
+        let text = workspace.read(&root);
+        for attribute in ROOT_ATTRIBUTES {
+            if !text.lines().any(|line| line == attribute) {
+                workspace.report(&root, 1, format!("the crate root must say {attribute}"));
+            }
+        }
+    }
+    for file in workspace.files(&["crates", "xtask", "benches"], &[".rs"]) {
+        check_file(workspace, &file);
+    }
+}
+
+fn check_file(workspace: &mut Workspace, file: &Path) {
+    // Spelled in two parts, so that this file does not find itself.
+    let unfinished = [concat!("todo", "!("), concat!("dbg", "!("), concat!("unimplemented", "!(")];
+    let encoding = concat!("bin", "code");
+    let text = workspace.read(file);
+    let lines = text.lines().count();
+    if lines > LONGEST {
+        workspace.report(file, LONGEST + 1, format!("has {lines} lines; more than {LONGEST} is too long"));
+    }
+    for (k, line) in text.lines().enumerate() {
+        let line_number = k + 1;
+        if line.contains('\t') {
+            workspace.report(file, line_number, "holds a tab; indent with spaces");
+        }
+        if line.ends_with(' ') {
+            workspace.report(file, line_number, "ends in a space");
+        }
+        if let Some(word) = unfinished.into_iter().find(|word| line.contains(word)) {
+            workspace.report(file, line_number, format!("{}…) must not stay", word));
+        }
+        if line.contains(encoding) && file != Path::new(CACHE) {
+            workspace.report(file, line_number, format!("only {CACHE} may know of {encoding}"));
+        }
+    }
+}
