@@ -1,6 +1,6 @@
 //! From a point to another through doors: how far it still is, and which way to move now.
 
-use phase_model::{Vec2, layout::SLOT_DIRECTIONS};
+use phase_model::{Vec2, arena, layout::SLOT_DIRECTIONS};
 use phase_planner::{Gaps, Routes};
 
 /// A door with less room to spare than this is entered straight on (u).
@@ -17,6 +17,34 @@ pub struct Course {
     pub heading_for: Vec2,
     /// Length of the whole way (u), with penalties for doors that the body does not fit through.
     pub remaining: f32,
+}
+
+/// Goes round bodies in the way: if the straight line to the point that a course heads for passes through one of
+/// these discs (centre, radius; u), the course is bent past the disc's nearer side, or the other if that side
+/// is outside the arena.
+#[must_use]
+pub fn around(course: Course, from: Vec2, discs: impl Iterator<Item = (Vec2, f32)>) -> Course {
+    let way = course.heading_for - from;
+    let length = way.length();
+    let Some(direction) = way.try_normalize() else { return course };
+    let mut nearest: Option<(f32, Vec2, f32)> = None;
+    for (centre, radius) in discs {
+        let offset = centre - from;
+        let along = offset.dot(direction);
+        // Whoever touches the disc already must not be sent back through it.
+        let hits = along > 0.0 && along < length && direction.perp_dot(offset).abs() < radius;
+        if hits && nearest.is_none_or(|(first, ..)| along < first) {
+            nearest = Some((along, centre, radius));
+        }
+    }
+    let Some((along, centre, radius)) = nearest else { return course };
+    let left = direction.perp();
+    let side = if left.dot(centre - from) > 0.0 { -1.0 } else { 1.0 };
+    let inside = |point: Vec2| arena::contains(point - Vec2::ONE) && arena::contains(point + Vec2::ONE);
+    let past = |side: f32| from + direction * along + left * (side * radius + left.dot(centre - from));
+    let corner = if inside(past(side)) { past(side) } else { past(-side) };
+    let detour = from.distance(corner) + corner.distance(course.heading_for) - length;
+    Course { heading_for: corner, remaining: course.remaining + detour }
 }
 
 /// The way to a point for a body of some width (u).
@@ -36,7 +64,7 @@ pub fn to_point(routes: &Routes, from: Vec2, to: Vec2, width: f32) -> Course {
 /// The way into a room, just past its border.
 #[must_use]
 pub fn into_room(routes: &Routes, from: Vec2, room: usize, width: f32) -> Course {
-    let centre = phase_model::arena::LANDMARKS[room];
+    let centre = arena::LANDMARKS[room];
     let gaps = routes.gaps();
     let Some(route) = routes.best(from, centre, width, gaps) else {
         return Course { heading_for: centre, remaining: routes.cost(from, centre, width, gaps) };

@@ -14,6 +14,9 @@ use rand::{Rng, RngExt};
 /// Steps for which the distance left at the end of an imagined future is taken to last: what a search of ten
 /// steps cannot see still counts, but less than what it can.
 const STEPS_BEYOND: f64 = 8.0;
+/// How much more likely than any other the rule of thumb's action looks before it has been tried. Where all
+/// actions come to the same, as for one too weak to move its load, it is what people expect to see.
+const GUIDED_WEIGHT: f64 = 2.0;
 
 /// What an agent imagines when it searches for an action: the physics it believes in, its own actions, the
 /// other one coasting, and Equation 1 shaped by the distance to the subgoal.
@@ -60,6 +63,11 @@ impl<'a, D> Imagination<'a, D> {
             }
             _ => Action::NoForce,
         }
+    }
+
+    /// What the rule of thumb would do.
+    fn guided(&self, state: &State) -> Action {
+        guidance::action(&self.objective, state, self.actions.contains(&Action::Left))
     }
 
     fn reward(&self, state: &State, action: Action) -> f64 {
@@ -122,13 +130,16 @@ impl<D: Dynamics> GenerativeModel for Imagination<'_, D> {
 
     fn rollout_action(&self, state: &State, random: &mut impl Rng) -> usize {
         if random.random_bool(self.guidance) {
-            let sideways = self.actions.contains(&Action::Left);
-            let guided = guidance::action(&self.objective, state, sideways);
+            let guided = self.guided(state);
             if let Some(index) = self.actions.iter().position(|&action| action == guided) {
                 return index;
             }
         }
         random.random_range(0..self.actions.len())
+    }
+
+    fn prior_weight(&self, state: &State, action: usize) -> f64 {
+        if self.actions[action] == self.guided(state) { GUIDED_WEIGHT } else { 1.0 }
     }
 
     fn value_estimate(&self, state: &State) -> f64 {

@@ -9,6 +9,8 @@ use phase_predicates::{Literal, Place, Predicate};
 pub const LONGEST: f32 = 28.284;
 /// What an object not in hand adds to the distance of Attach (u): more than standing next to it gains.
 const NOT_IN_HAND: f32 = 2.0;
+/// Room kept between bodies that pass each other (u).
+const CLEARANCE: f32 = 0.4;
 /// What the other agent's being where it should not adds to the distance of keeping it out (u).
 const TRESPASS: f32 = 8.0;
 
@@ -67,9 +69,42 @@ impl Objective<'_> {
         }
     }
 
-    /// The way that is left for the mover.
+    /// The way that is left for the mover, round bodies that stand in it.
     #[must_use]
     pub fn course(&self, state: &State) -> Course {
+        let course = self.open_course(state);
+        let mover = self.mover(state);
+        let clearance = self.physique.radius(mover) + CLEARANCE;
+        let discs = self
+            .physique
+            .entities()
+            .filter(|&entity| self.is_in_the_way(state, entity))
+            .map(|entity| (state.position(entity), self.physique.radius(entity) + clearance));
+        course::around(course, state.position(mover), discs)
+    }
+
+    /// Whether an entity is to be walked round: it is neither the agent nor what the subgoal is about, and
+    /// neither of them holds it.
+    fn is_in_the_way(&self, state: &State, entity: Entity) -> bool {
+        let me = Entity::agent(self.agent);
+        let about = match self.subgoal {
+            Subgoal::Achieve(Literal { predicate, .. }) => match predicate {
+                Predicate::On(subject, _) | Predicate::Close(subject, Place::Landmark(_)) => subject,
+                Predicate::Close(_, Place::Entity(target)) | Predicate::Touch(_, target) => target,
+                Predicate::Attach(_, object) => Entity::Object(object),
+            },
+            Subgoal::Stay => me,
+        };
+        let held_with = |object: u8| match entity {
+            Entity::Agent(who) => state.holds(usize::from(who), usize::from(object)),
+            Entity::Object(other) => other == object,
+        };
+        let mine = state.grips[self.agent].is_some_and(|grip| held_with(grip.object));
+        entity != me && entity != about && !mine
+    }
+
+    /// The way that is left for the mover, as if nobody stood in it.
+    fn open_course(&self, state: &State) -> Course {
         let mover = self.mover(state);
         let from = state.position(mover);
         let here = Course { heading_for: from, remaining: 0.0 };

@@ -1,6 +1,10 @@
 //! One body: what never changes of it, and how it moves.
 
-use crate::tuning::{GREATEST_TURN, GRIP_OF_GROUND, H, LONGEST_WAY, SKIN};
+use crate::{
+    tuning::{GREATEST_TURN, GRIP_OF_GROUND, H, LONGEST_WAY, SKIN},
+    turn::{cos_sin, turned},
+};
+use glam::Vec4;
 use phase_model::{Action, AgentBody, Body, Vec2, physique};
 
 /// Index of the one body that stands for everything that does not move.
@@ -11,6 +15,8 @@ pub(crate) const STATIC: usize = 4;
 pub(crate) struct Shape {
     pub(crate) inverse_mass: f32,
     pub(crate) inverse_inertia: f32,
+    /// Inverse mass (twice) and inverse inertia, to go with a [`Twist`].
+    pub(crate) yielding: Vec4,
     pub(crate) mass: f32,
     /// How much less than the mass a sideways push at the origin has to move (kg).
     pub(crate) yielding_mass: f32,
@@ -45,6 +51,7 @@ impl Shape {
         Self {
             inverse_mass,
             inverse_inertia,
+            yielding: Vec4::new(inverse_mass, inverse_mass, inverse_inertia, 0.0),
             mass: agent.mass(),
             yielding_mass: agent.mass() - 1.0 / (inverse_mass + origin * origin * inverse_inertia),
             origin,
@@ -61,9 +68,11 @@ impl Shape {
 
     pub(crate) fn object(radius: f32) -> Self {
         let mass = physique::object_mass(radius);
+        let (inverse_mass, inverse_inertia) = (1.0 / mass, 1.0 / physique::object_inertia(radius));
         Self {
-            inverse_mass: 1.0 / mass,
-            inverse_inertia: 1.0 / physique::object_inertia(radius),
+            inverse_mass,
+            inverse_inertia,
+            yielding: Vec4::new(inverse_mass, inverse_mass, inverse_inertia, 0.0),
             mass,
             yielding_mass: 0.0,
             radius,
@@ -78,6 +87,7 @@ impl Shape {
         Self {
             inverse_mass: 0.0,
             inverse_inertia: 0.0,
+            yielding: Vec4::ZERO,
             mass: 0.0,
             yielding_mass: 0.0,
             origin: 0.0,
@@ -161,19 +171,6 @@ impl Motion {
         self.centre + self.turn(local)
     }
 
-    /// Velocity of the point of the body at an offset from the centre of mass.
-    #[inline]
-    pub(crate) fn velocity_at(&self, offset: Vec2) -> Vec2 {
-        self.velocity + offset.perp() * self.spin
-    }
-
-    /// Applies an impulse at an offset from the centre of mass.
-    #[inline]
-    pub(crate) fn push(&mut self, shape: &Shape, offset: Vec2, impulse: Vec2) {
-        self.velocity += impulse * shape.inverse_mass;
-        self.spin += offset.perp_dot(impulse) * shape.inverse_inertia;
-    }
-
     /// Moves the pose as an impulse at an offset would move the velocity.
     #[inline]
     pub(crate) fn shift(&mut self, shape: &Shape, offset: Vec2, impulse: Vec2, twist: f32) {
@@ -188,7 +185,7 @@ impl Motion {
             self.angle += by;
             // Only an agent's shape shows how it is turned.
             if shape.origin > 0.0 {
-                self.right = cos_sin(self.angle);
+                self.right = turned(self.right, by);
             }
         }
     }
@@ -207,29 +204,30 @@ impl Motion {
         }
     }
 
-    /// One iteration of ground friction, which acts at the body's origin and gives at most 100 N. Takes and
-    /// returns the impulse given so far in this substep. For a body that nothing else acts on, one
-    /// iteration is exact whatever the first guess.
+    /// Moves on for one substep with nothing but the ground's friction. Returns the impulse of the friction.
     #[inline]
-    pub(crate) fn rub(&mut self, shape: &Shape, so_far: Vec2) -> Vec2 {
-        let slip = self.velocity - self.right * (self.spin * shape.origin);
-        let wanted =
-            so_far - slip * shape.mass + self.right * (self.right.dot(slip) * shape.yielding_mass);
-        let length_squared = wanted.length_squared();
-        let given = if length_squared > GRIP_OF_GROUND * GRIP_OF_GROUND {
-            wanted * (GRIP_OF_GROUND / length_squared.sqrt())
-        } else {
-            wanted
-        };
-        self.rub_by(shape, given - so_far);
-        given
+    pub(crate) fn slide(&mut self, shape: &Shape) -> Vec2 {
+        if self.velocity == Vec2::ZERO && self.spin == 0.0 {
+            return Vec2::ZERO;
+        }
+        let mut twist = self.twist();
+        let rubbed = twist.rub(shape, self.right, Vec2::ZERO);
+        self.set_twist(twist);
+        self.advance(shape, H);
+        rubbed
     }
 
-    /// Applies an impulse of ground friction.
+    /// The velocity in one vector.
     #[inline]
-    pub(crate) fn rub_by(&mut self, shape: &Shape, impulse: Vec2) {
-        self.velocity += impulse * shape.inverse_mass;
-        self.spin -= self.right.dot(impulse) * shape.origin * shape.inverse_inertia;
+    pub(crate) fn twist(&self) -> Twist {
+        Twist(Vec4::new(self.velocity.x, self.velocity.y, self.spin, 0.0))
+    }
+
+    /// Sets the velocity.
+    #[inline]
+    pub(crate) fn set_twist(&mut self, twist: Twist) {
+        self.velocity = Vec2::new(twist.0.x, twist.0.y);
+        self.spin = twist.0.z;
     }
 
     /// Moves on for some seconds, after limiting the velocity.
@@ -249,9 +247,53 @@ impl Motion {
     }
 }
 
-/// Cosine and sine of an angle.
-#[inline]
-pub(crate) fn cos_sin(angle: f32) -> Vec2 {
-    let (sin, cos) = libm::sincosf(angle);
-    Vec2::new(cos, sin)
+/// A velocity (x, y and spin), or an impulse in the same three directions, in one vector that is read and
+/// written as a whole: the velocity solver does little else.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Twist(pub(crate) Vec4);
+
+impl Twist {
+    pub(crate) const ZERO: Self = Self(Vec4::ZERO);
+
+    /// What a unit impulse in a direction at an offset from the centre of mass is.
+    #[inline]
+    pub(crate) fn of_impulse(direction: Vec2, offset: Vec2) -> Self {
+        Self(Vec4::new(direction.x, direction.y, offset.perp_dot(direction), 0.0))
+    }
+
+    /// The velocity along an impulse's direction.
+    #[inline]
+    pub(crate) fn dot(self, other: Self) -> f32 {
+        self.0.x * other.0.x + self.0.y * other.0.y + self.0.z * other.0.z
+    }
+
+    /// Adds what a multiple of an impulse does to a body.
+    #[inline]
+    pub(crate) fn push(&mut self, impulse: Self, times: f32, shape: &Shape) {
+        self.0 += impulse.0 * shape.yielding * times;
+    }
+
+    /// One iteration of ground friction, which acts at the body's origin and gives at most 100 N. Takes and
+    /// returns the impulse given so far in this substep. For a body that nothing else acts on, one
+    /// iteration is exact whatever the first guess.
+    #[inline]
+    pub(crate) fn rub(&mut self, shape: &Shape, right: Vec2, so_far: Vec2) -> Vec2 {
+        let slip = Vec2::new(self.0.x, self.0.y) - right * (self.0.z * shape.origin);
+        let wanted = so_far - slip * shape.mass + right * (right.dot(slip) * shape.yielding_mass);
+        let length_squared = wanted.length_squared();
+        let given = if length_squared > GRIP_OF_GROUND * GRIP_OF_GROUND {
+            wanted * (GRIP_OF_GROUND / length_squared.sqrt())
+        } else {
+            wanted
+        };
+        self.rub_by(shape, right, given - so_far);
+        given
+    }
+
+    /// Applies an impulse of ground friction.
+    #[inline]
+    pub(crate) fn rub_by(&mut self, shape: &Shape, right: Vec2, impulse: Vec2) {
+        let twist = -right.dot(impulse) * shape.origin;
+        self.0 += Vec4::new(impulse.x, impulse.y, twist, 0.0) * shape.yielding;
+    }
 }

@@ -1,11 +1,10 @@
 //! One contact as a constraint: bodies may not approach each other at its points.
 
 use crate::{
-    body::{Motion, STATIC, Shape},
+    body::{Motion, STATIC, Shape, Twist},
     manifold::Manifold,
     tuning::{LONGEST_CORRECTION, SLOP},
 };
-use phase_model::Vec2;
 
 /// Two points whose effective masses differ by more than this are solved as one.
 const WORST_CONDITION: f32 = 1000.0;
@@ -25,9 +24,8 @@ pub(crate) struct Contact {
     skins: f32,
     /// Number of points the velocity solver uses.
     count: usize,
-    normal: Vec2,
-    offsets_a: [Vec2; 2],
-    offsets_b: [Vec2; 2],
+    /// What a unit impulse at each point is to the first and to the second body.
+    rows: [(Twist, Twist); 2],
     /// What a unit impulse at point i does to the speed at point j: (0, 0), (0, 1) and (1, 1).
     response: [f32; 3],
     /// The inverse of the same matrix, if both points are solved together.
@@ -43,9 +41,7 @@ impl Contact {
         impulses: [0.0; 2],
         skins: 0.0,
         count: 0,
-        normal: Vec2::ZERO,
-        offsets_a: [Vec2::ZERO; 2],
-        offsets_b: [Vec2::ZERO; 2],
+        rows: [(Twist::ZERO, Twist::ZERO); 2],
         response: [0.0; 3],
         inverse: [0.0; 3],
     };
@@ -61,19 +57,19 @@ impl Contact {
         let (shape_a, shape_b) = (&shapes[self.a], &shapes[self.b]);
         self.skins = shape_a.skin + shape_b.skin;
         let (normal, middles) = self.manifold.middles(a, b, shape_a.skin, shape_b.skin);
-        self.normal = normal;
         self.count = self.manifold.count;
-        let mass = shape_a.inverse_mass + shape_b.inverse_mass;
-        let mut arms = [(0.0, 0.0); 2];
-        for point in 0..self.count {
-            self.offsets_a[point] = middles[point] - a.centre;
-            self.offsets_b[point] = middles[point] - b.centre;
-            arms[point] =
-                (self.offsets_a[point].perp_dot(normal), self.offsets_b[point].perp_dot(normal));
+        for (row, middle) in self.rows.iter_mut().zip(middles).take(self.count) {
+            *row = (
+                Twist::of_impulse(-normal, middle - a.centre),
+                Twist::of_impulse(normal, middle - b.centre),
+            );
         }
+        let rows = self.rows;
         let respond = |i: usize, j: usize| {
-            mass + shape_a.inverse_inertia * arms[i].0 * arms[j].0
-                + shape_b.inverse_inertia * arms[i].1 * arms[j].1
+            let mut twists = (Twist::ZERO, Twist::ZERO);
+            twists.0.push(rows[j].0, 1.0, shape_a);
+            twists.1.push(rows[j].1, 1.0, shape_b);
+            rows[i].0.dot(twists.0) + rows[i].1.dot(twists.1)
         };
         self.response[0] = respond(0, 0);
         if self.count == 2 {
@@ -90,24 +86,25 @@ impl Contact {
     }
 
     /// Applies the impulses so far, those of the substep before as a first guess.
-    pub(crate) fn warm_start(&self, shapes: &[Shape; 5], motions: &mut [Motion; 5]) {
+    pub(crate) fn warm_start(&self, shapes: &[Shape; 5], twists: &mut [Twist; 5]) {
         for point in 0..self.count {
-            self.apply(shapes, motions, point, self.impulses[point]);
+            self.apply(shapes, twists, point, self.impulses[point]);
         }
     }
 
     /// One iteration of the velocity solver. Returns the greatest change of an impulse (N s).
-    pub(crate) fn solve(&mut self, shapes: &[Shape; 5], motions: &mut [Motion; 5]) -> f32 {
+    #[inline]
+    pub(crate) fn solve(&mut self, shapes: &[Shape; 5], twists: &mut [Twist; 5]) -> f32 {
         let before = self.impulses;
         let after = if self.count == 1 {
-            let speed = self.speed(motions, 0);
+            let speed = self.speed(twists, 0);
             [(before[0] - speed / self.response[0]).max(0.0), before[1]]
         } else {
             let [first, cross, second] = self.response;
             // Speeds there would be without the impulses so far.
             let bare = [
-                self.speed(motions, 0) - first * before[0] - cross * before[1],
-                self.speed(motions, 1) - cross * before[0] - second * before[1],
+                self.speed(twists, 0) - first * before[0] - cross * before[1],
+                self.speed(twists, 1) - cross * before[0] - second * before[1],
             ];
             match self.complementary(bare) {
                 Some(after) => after,
@@ -118,7 +115,7 @@ impl Contact {
         for point in 0..self.count {
             let change = after[point] - before[point];
             if change != 0.0 {
-                self.apply(shapes, motions, point, change);
+                self.apply(shapes, twists, point, change);
                 greatest = greatest.max(change.abs());
             }
         }
@@ -156,21 +153,16 @@ impl Contact {
 
     /// Speed at which the bodies part at a point (u/s).
     #[inline]
-    fn speed(&self, motions: &[Motion; 5], point: usize) -> f32 {
-        let towards = motions[self.b].velocity_at(self.offsets_b[point]);
-        if self.a == STATIC {
-            return towards.dot(self.normal);
-        }
-        (towards - motions[self.a].velocity_at(self.offsets_a[point])).dot(self.normal)
+    fn speed(&self, twists: &[Twist; 5], point: usize) -> f32 {
+        let (row_a, row_b) = self.rows[point];
+        row_a.dot(twists[self.a]) + row_b.dot(twists[self.b])
     }
 
     #[inline]
-    fn apply(&self, shapes: &[Shape; 5], motions: &mut [Motion; 5], point: usize, impulse: f32) {
-        let impulse = self.normal * impulse;
-        if self.a != STATIC {
-            motions[self.a].push(&shapes[self.a], self.offsets_a[point], -impulse);
-        }
-        motions[self.b].push(&shapes[self.b], self.offsets_b[point], impulse);
+    fn apply(&self, shapes: &[Shape; 5], twists: &mut [Twist; 5], point: usize, impulse: f32) {
+        let (row_a, row_b) = self.rows[point];
+        twists[self.a].push(row_a, impulse, &shapes[self.a]);
+        twists[self.b].push(row_b, impulse, &shapes[self.b]);
     }
 
     /// Impulses at both points such that nothing approaches, nothing pulls, and no impulse acts where the

@@ -1,12 +1,12 @@
 //! Impacts on walls within a substep: stop at the wall, lose the speed into it, go on for the time left.
 
 use crate::{
-    body::{STATIC, cos_sin},
+    body::{STATIC, Twist},
     contact::Contact,
     impact::{Way, impact},
     key::{KeySet, bit, wall_key},
     manifold::Polygon,
-    tuning::{H, IMPACT_CORRECTION, IMPACT_POSITION_ITERATIONS, MOST_IMPACTS, SLOP, VELOCITY_ITERATIONS},
+    tuning::{H, IMPACT_CORRECTION, IMPACT_POSITION_ITERATIONS, MOST_IMPACTS, SETTLED_IMPULSE, SLOP, VELOCITY_ITERATIONS},
     wall::MAX_WALLS,
     world::World,
 };
@@ -19,13 +19,14 @@ impl World<'_> {
     /// Resolves the impacts of one body on the walls among the candidates. Returns whether there were any,
     /// with the body's centre at the last of them.
     pub(crate) fn impacts(&mut self, body: usize, candidates: KeySet) -> Option<Vec2> {
-        let (start, start_angle) = self.starts[body];
+        let (start, start_angle, right) = self.starts[body];
         let shape = &self.forward.shapes[body];
         let mut way = Way {
             from: start,
             to: self.motions[body].centre,
             from_angle: start_angle,
             to_angle: self.motions[body].angle,
+            right,
         };
         let mut spent = 0.0_f32;
         let mut met = [0_u8; MAX_WALLS];
@@ -50,7 +51,7 @@ impl World<'_> {
             };
             let (way_before, motion_before) = (way, self.motions[body]);
             way.skip((time - spent) / (1.0 - spent));
-            self.put(body, way.from, way.from_angle);
+            self.put(body, &way);
             met[wall] += 1;
             let polygon = Polygon::new(shape, &self.motions[body]);
             let polygons = [polygon; 2];
@@ -100,26 +101,32 @@ impl World<'_> {
         }
         way.from = self.motions[body].centre;
         way.from_angle = self.motions[body].angle;
+        way.right = self.motions[body].right;
         for contact in contacts.iter_mut() {
             contact.prepare(shapes, &self.motions);
         }
+        let mut twists = [Twist::ZERO; 5];
+        twists[body] = self.motions[body].twist();
         for _ in 0..VELOCITY_ITERATIONS {
-            for contact in contacts.iter_mut() {
-                contact.solve(shapes, &mut self.motions);
+            let change = contacts
+                .iter_mut()
+                .map(|contact| contact.solve(shapes, &mut twists))
+                .fold(0.0, f32::max);
+            if change < SETTLED_IMPULSE {
+                break;
             }
         }
+        self.motions[body].set_twist(twists[body]);
         self.motions[body].advance(&shapes[body], (1.0 - spent) * H);
         way.to = self.motions[body].centre;
         way.to_angle = self.motions[body].angle;
     }
 
-    /// Sets a body's pose.
-    fn put(&mut self, body: usize, centre: Vec2, angle: f32) {
+    /// Sets a body's pose to the start of a way.
+    fn put(&mut self, body: usize, way: &Way) {
         let motion = &mut self.motions[body];
-        motion.centre = centre;
-        motion.angle = angle;
-        if self.forward.shapes[body].origin > 0.0 {
-            motion.right = cos_sin(angle);
-        }
+        motion.centre = way.from;
+        motion.angle = way.from_angle;
+        motion.right = way.right;
     }
 }

@@ -184,8 +184,7 @@ impl Forward {
         }
         for _ in 0..substeps {
             motion.act(shape, action);
-            motion.rub(shape, Vec2::ZERO);
-            motion.advance(shape, H);
+            motion.slide(shape);
         }
     }
 

@@ -5,9 +5,10 @@
 //! repeat from there.
 
 use crate::{
-    body::{Motion, Shape, cos_sin},
+    body::{Motion, Shape},
     manifold::Polygon,
     tuning::{SKIN, SLOP},
+    turn::turned,
     wall::Wall,
 };
 use phase_model::Vec2;
@@ -25,21 +26,25 @@ pub(crate) struct Way {
     pub(crate) to: Vec2,
     pub(crate) from_angle: f32,
     pub(crate) to_angle: f32,
+    /// Unit vector to the body's right at the start of the way.
+    pub(crate) right: Vec2,
 }
 
 impl Way {
     /// Cuts off the first share of the way.
     pub(crate) fn skip(&mut self, share: f32) {
         self.from += (self.to - self.from) * share;
-        self.from_angle += (self.to_angle - self.from_angle) * share;
+        let by = (self.to_angle - self.from_angle) * share;
+        self.from_angle += by;
+        self.right = turned(self.right, by);
     }
 
-    fn at(&self, share: f32, turns: bool) -> Motion {
-        let angle = (1.0 - share) * self.from_angle + share * self.to_angle;
+    #[inline]
+    fn at(&self, share: f32) -> Motion {
+        let by = (self.to_angle - self.from_angle) * share;
         Motion {
             centre: self.from * (1.0 - share) + self.to * share,
-            angle,
-            right: if turns { cos_sin(angle) } else { Vec2::X },
+            right: if by == 0.0 { self.right } else { turned(self.right, by) },
             ..Motion::STILL
         }
     }
@@ -52,6 +57,9 @@ pub(crate) fn impact(shape: &Shape, way: &Way, wall: &Wall) -> Option<f32> {
     let target = (shape.skin + SKIN - 3.0 * SLOP).max(SLOP);
     let corners: &[Vec2] = if polygon { &shape.corners } else { &shape.corners[..1] };
     let search = Search { shape, corners, way, wall, polygon };
+    if search.stays_beside(target + TOLERANCE) {
+        return None;
+    }
     let mut now = 0.0;
     for _ in 0..AXES {
         let (distance, axis) = search.nearest(now)?;
@@ -117,9 +125,30 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
+    /// Whether the body is on the same side of the wall's line, and clear of it, at both ends of its way: the
+    /// usual case, also for bodies that lean on a wall.
+    #[inline]
+    fn stays_beside(&self, clear: f32) -> bool {
+        let normal = self.wall.normal;
+        let before = normal.dot(self.way.from - self.wall.a);
+        let after = normal.dot(self.way.to - self.wall.a);
+        if before * after <= 0.0 {
+            return false;
+        }
+        if !self.polygon {
+            return before.abs() > clear && after.abs() > clear;
+        }
+        let side = if before > 0.0 { normal } else { -normal };
+        [(0.0, before), (1.0, after)].into_iter().all(|(share, centre)| {
+            let side = self.way.at(share).turn_back(side);
+            let deepest = self.corners.iter().fold(f32::MAX, |least, corner| least.min(corner.dot(side)));
+            centre.abs() + deepest > clear
+        })
+    }
+
     /// Distance without skins and the axis of the nearest features; `None` where body and wall overlap.
     fn nearest(&self, share: f32) -> Option<(f32, Axis)> {
-        let motion = self.way.at(share, self.polygon);
+        let motion = self.way.at(share);
         let wall = self.wall;
         let side = if wall.normal.dot(motion.centre - wall.a) >= 0.0 { wall.normal } else { -wall.normal };
         if self.polygon && self.overlap(&motion, side) {
@@ -173,7 +202,7 @@ impl Search<'_> {
 
     /// The least gap along an axis, and the corner and the wall's end between which it is.
     fn deepest(&self, axis: &Axis, share: f32) -> (f32, Vec2, Vec2) {
-        let motion = self.way.at(share, self.polygon);
+        let motion = self.way.at(share);
         let end_along = |axis: Vec2| {
             if axis.dot(self.wall.b) > axis.dot(self.wall.a) { self.wall.b } else { self.wall.a }
         };
@@ -186,7 +215,7 @@ impl Search<'_> {
     }
 
     fn gap(&self, axis: &Axis, corner: Vec2, end: Vec2, share: f32) -> f32 {
-        gap(axis, &self.way.at(share, self.polygon), corner, end)
+        gap(axis, &self.way.at(share), corner, end)
     }
 
     fn corner_against(&self, direction: Vec2) -> Vec2 {

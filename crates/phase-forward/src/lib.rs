@@ -15,6 +15,7 @@ mod memory;
 mod reach;
 mod substep;
 mod tuning;
+mod turn;
 mod wall;
 mod weld;
 mod world;

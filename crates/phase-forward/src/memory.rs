@@ -87,13 +87,8 @@ impl Memory {
     /// Draws the boxes of bodies anew that have left theirs, and finds what has come up for contact.
     pub(crate) fn follow(&mut self, world: &World<'_>) {
         for body in 0..world.forward.count {
-            let (centre, angle) = world.starts[body];
-            let mut before = world.motions[body];
-            before.centre = centre;
-            before.angle = angle;
-            if world.forward.shapes[body].origin > 0.0 {
-                before.right = crate::body::cos_sin(angle);
-            }
+            let (centre, angle, right) = world.starts[body];
+            let before = Motion { centre, angle, right, ..world.motions[body] };
             self.redraw(&world.forward.shapes[body], body, &before, &world.motions[body]);
         }
         self.find_new(world);

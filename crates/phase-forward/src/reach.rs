@@ -89,7 +89,7 @@ pub(crate) fn walls_near(world: &World<'_>, body: usize) -> KeySet {
 
 /// The walls whose box a body's circle has swept over in this substep.
 pub(crate) fn walls_on_way(world: &World<'_>, body: usize) -> KeySet {
-    let (start, angle) = world.starts[body];
+    let (start, angle, _) = world.starts[body];
     let motion = &world.motions[body];
     if start == motion.centre && angle == motion.angle {
         return 0;

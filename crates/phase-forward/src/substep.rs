@@ -36,30 +36,40 @@ impl World<'_> {
 
     /// Applies forces and solves all given bodies, group by group.
     pub(crate) fn solve(&mut self, members: BodySet, touching: &mut Touching) {
-        for body in 0..self.forward.count {
-            self.starts[body] = (self.motions[body].centre, self.motions[body].angle);
-            if body < AGENT_COUNT && members & 1 << body != 0 {
-                self.motions[body].act(&self.forward.shapes[body], self.actions[body]);
-            }
-        }
         let mut welds: [Option<Weld>; AGENT_COUNT] = [None; AGENT_COUNT];
-        for agent in 0..AGENT_COUNT {
-            if self.held(agent).is_some() {
-                welds[agent] = self.grips[agent]
-                    .as_ref()
-                    .map(|grip| Weld::new(agent, grip, &self.forward.shapes, self.impulses.welds[agent]));
+        let mut linked: BodySet = 0;
+        for (agent, weld) in welds.iter_mut().enumerate() {
+            if let (Some(grip), Some(held)) = (&self.grips[agent], self.held(agent)) {
+                linked |= 1 << agent | 1 << held;
+                *weld = Some(Weld::new(agent, grip, &self.forward.shapes, self.impulses.welds[agent]));
             }
         }
-        let mut done: BodySet = !members;
+        for contact in touching.found() {
+            linked |= 1 << contact.b | (1 << contact.a & 0xf);
+        }
+        for body in 0..self.forward.count {
+            if members & 1 << body == 0 {
+                continue;
+            }
+            let (shape, motion) = (&self.forward.shapes[body], &mut self.motions[body]);
+            self.starts[body] = (motion.centre, motion.angle, motion.right);
+            if body < AGENT_COUNT {
+                motion.act(shape, self.actions[body]);
+            }
+            if linked & 1 << body == 0 {
+                self.impulses.ground[body] = motion.slide(shape);
+            }
+        }
+        let mut done = !(members & linked);
         for seed in (0..self.forward.count).rev() {
             if done & 1 << seed == 0 {
                 let island = self.island(seed, touching.found(), &welds, &mut done);
                 self.solve_island(&island, &mut touching.contacts, &mut welds);
             }
         }
-        for agent in 0..AGENT_COUNT {
-            if let Some(weld) = &welds[agent] {
-                self.impulses.welds[agent] = weld.impulse;
+        for (impulse, weld) in self.impulses.welds.iter_mut().zip(&welds) {
+            if let Some(weld) = weld {
+                *impulse = weld.impulse;
             }
         }
         touching.keep();
@@ -150,25 +160,19 @@ impl World<'_> {
         let bodies = &island.bodies[..island.body_count];
         let joints = &island.joints[..island.joint_count];
         let contacts = &island.contacts[..island.contact_count];
-        if let ([], &[body]) = (contacts, joints) {
-            // Nothing but the ground acts on it.
-            let body = usize::from(body);
-            self.impulses.ground[body] = motions[body].rub(&shapes[body], Vec2::ZERO);
-            motions[body].advance(&shapes[body], H);
-            return;
-        }
+        let mut twists = [0, 1, 2, 3, 4].map(|body: usize| motions[body].twist());
         for &index in contacts {
             all[usize::from(index)].prepare(shapes, motions);
         }
         for &index in contacts {
-            all[usize::from(index)].warm_start(shapes, motions);
+            all[usize::from(index)].warm_start(shapes, &mut twists);
         }
         for &joint in joints {
             let joint = usize::from(joint);
             if joint < 4 {
-                motions[joint].rub_by(&shapes[joint], self.impulses.ground[joint]);
+                twists[joint].rub_by(&shapes[joint], motions[joint].right, self.impulses.ground[joint]);
             } else if let Some(weld) = &mut welds[joint - 4] {
-                weld.prepare(shapes, motions);
+                weld.prepare(shapes, motions, &mut twists);
             }
         }
         for _ in 0..self.iterations {
@@ -177,19 +181,23 @@ impl World<'_> {
                 let joint = usize::from(joint);
                 if joint < 4 {
                     let before = self.impulses.ground[joint];
-                    let after = motions[joint].rub(&shapes[joint], before);
+                    let after = twists[joint].rub(&shapes[joint], motions[joint].right, before);
                     self.impulses.ground[joint] = after;
                     change = change.max((after - before).abs().max_element());
                 } else if let Some(weld) = &mut welds[joint - 4] {
-                    change = change.max(weld.solve(shapes, motions));
+                    change = change.max(weld.solve(shapes, &mut twists));
                 }
             }
             for &index in contacts {
-                change = change.max(all[usize::from(index)].solve(shapes, motions));
+                change = change.max(all[usize::from(index)].solve(shapes, &mut twists));
             }
             if change < SETTLED_IMPULSE {
                 break;
             }
+        }
+        for &body in bodies {
+            let body = usize::from(body);
+            motions[body].set_twist(twists[body]);
         }
         for &body in bodies {
             let body = usize::from(body);

@@ -11,7 +11,7 @@ pub(crate) const POSITION_ITERATIONS: usize = 10;
 /// Iterations of the position solver after an impact on a wall.
 pub(crate) const IMPACT_POSITION_ITERATIONS: usize = 20;
 /// The velocity solver stops when no impulse changes by more than this (N s).
-pub(crate) const SETTLED_IMPULSE: f32 = 1e-4;
+pub(crate) const SETTLED_IMPULSE: f32 = 1e-3;
 /// Depth of overlap that contacts keep on purpose, so that they do not flicker (u).
 pub(crate) const SLOP: f32 = 0.005;
 /// Error of a joint's angle that counts as none (rad).

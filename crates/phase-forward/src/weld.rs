@@ -1,9 +1,10 @@
 //! A grip as a constraint: the held object's centre stays at one point of the agent, at one angle.
 
 use crate::{
-    body::{Motion, Shape},
+    body::{Motion, Shape, Twist},
     tuning::{ANGULAR_SLOP, SLOP},
 };
+use glam::Vec4;
 use phase_model::{Grip, Vec2};
 
 /// An agent's hold of an object and all that its solution needs.
@@ -38,21 +39,25 @@ impl Weld {
     }
 
     /// Works out what impulses do at the present poses, and applies those so far.
-    pub(crate) fn prepare(&mut self, shapes: &[Shape; 5], motions: &mut [Motion; 5]) {
+    pub(crate) fn prepare(&mut self, shapes: &[Shape; 5], motions: &[Motion; 5], twists: &mut [Twist; 5]) {
         self.offset = motions[self.agent].turn(self.anchor);
         self.inverse = response(&shapes[self.agent], &shapes[self.object], self.offset).inverse();
         let (impulse, twist) = self.impulse;
-        self.apply(shapes, motions, impulse, twist);
+        self.apply(shapes, twists, impulse, twist);
     }
 
     /// One iteration of the velocity solver. Returns the greatest change of an impulse.
-    pub(crate) fn solve(&mut self, shapes: &[Shape; 5], motions: &mut [Motion; 5]) -> f32 {
-        let (agent, object) = (&motions[self.agent], &motions[self.object]);
-        let slip = object.velocity - agent.velocity_at(self.offset);
-        let (impulse, twist) = self.inverse.times(-slip, agent.spin - object.spin);
+    #[inline]
+    pub(crate) fn solve(&mut self, shapes: &[Shape; 5], twists: &mut [Twist; 5]) -> f32 {
+        let (agent, object) = (twists[self.agent].0, twists[self.object].0);
+        let slip = Vec2::new(
+            object.x - agent.x + agent.z * self.offset.y,
+            object.y - agent.y - agent.z * self.offset.x,
+        );
+        let (impulse, twist) = self.inverse.times(-slip, agent.z - object.z);
         self.impulse.0 += impulse;
         self.impulse.1 += twist;
-        self.apply(shapes, motions, impulse, twist);
+        self.apply(shapes, twists, impulse, twist);
         impulse.x.abs().max(impulse.y.abs()).max(twist.abs())
     }
 
@@ -70,11 +75,11 @@ impl Weld {
     }
 
     #[inline]
-    fn apply(&self, shapes: &[Shape; 5], motions: &mut [Motion; 5], impulse: Vec2, twist: f32) {
-        motions[self.agent].push(&shapes[self.agent], self.offset, -impulse);
-        motions[self.agent].spin -= twist * shapes[self.agent].inverse_inertia;
-        motions[self.object].velocity += impulse * shapes[self.object].inverse_mass;
-        motions[self.object].spin += twist * shapes[self.object].inverse_inertia;
+    fn apply(&self, shapes: &[Shape; 5], twists: &mut [Twist; 5], impulse: Vec2, twist: f32) {
+        let on_agent = Vec4::new(impulse.x, impulse.y, self.offset.perp_dot(impulse) + twist, 0.0);
+        twists[self.agent].push(Twist(on_agent), -1.0, &shapes[self.agent]);
+        let on_object = Vec4::new(impulse.x, impulse.y, twist, 0.0);
+        twists[self.object].push(Twist(on_object), 1.0, &shapes[self.object]);
     }
 }
 

@@ -11,7 +11,7 @@ use crate::{
 use phase_model::{AGENT_COUNT, Action, Entity, Grip, State, Vec2};
 
 /// Most contacts that are solved at once; more than four bodies between walls ever have.
-pub(crate) const MAX_CONTACTS: usize = 24;
+pub(crate) const MAX_CONTACTS: usize = 16;
 
 /// What is kept of a contact for the next substep.
 #[derive(Clone, Copy, Debug)]
@@ -111,8 +111,10 @@ pub(crate) struct World<'a> {
     pub(crate) forward: &'a Forward,
     /// The four bodies and the one that stands for all walls.
     pub(crate) motions: [Motion; 5],
-    /// Where each body was at the start of the substep: centre and angle.
-    pub(crate) starts: [(Vec2, f32); 4],
+    /// Where each body was at the start of the substep: centre, angle, unit vector to its right.
+    pub(crate) starts: [(Vec2, f32, Vec2); 4],
+    /// For each body, the walls that it can reach in this step at all.
+    pub(crate) walls: [KeySet; 4],
     pub(crate) grips: [Option<Grip>; AGENT_COUNT],
     /// The agent that grabbed last; its weld comes first.
     pub(crate) latest_grip: usize,
@@ -147,7 +149,8 @@ impl<'a> World<'a> {
         Self {
             forward,
             motions,
-            starts: [(Vec2::ZERO, 0.0); 4],
+            starts: [(Vec2::ZERO, 0.0, Vec2::X); 4],
+            walls: [!0; 4],
             grips: state.grips,
             latest_grip: 1,
             actions,

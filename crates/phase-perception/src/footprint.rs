@@ -1,7 +1,7 @@
 //! Which cells a body lies on.
 
-use crate::cells::{CELLS_PER_SIDE, Cell, CellSet};
-use phase_model::{Body, Entity, Physique, Vec2, arena, geometry::Outline};
+use crate::cells::{Cell, CellSet};
+use phase_model::{Body, Entity, Physique, Vec2, geometry::Outline};
 
 /// The cells that share inner points with an entity's outline; parts outside the arena have none.
 #[must_use]
@@ -19,49 +19,23 @@ pub fn footprint(physique: &Physique, entity: Entity, body: &Body) -> CellSet {
 #[must_use]
 pub fn any_cell(outline: &Outline, mut condition: impl FnMut(Cell) -> bool) -> bool {
     let shape = Shape::of(outline);
-    Range::of(outline).any(|cell| shape.overlaps(cell) && condition(cell))
+    near(outline).any(|cell| shape.overlaps(cell) && condition(cell))
 }
 
 /// The cells that an outline covers wholly, so that no other body can have a part in them.
 #[must_use]
 pub fn covered(outline: &Outline) -> CellSet {
     let shape = Shape::of(outline);
-    let mut cells = CellSet::EMPTY;
-    let _ = Range::of(outline).any(|cell| {
-        if shape.covers(cell) {
-            cells.insert(cell);
-        }
-        false
-    });
-    cells
+    near(outline).filter(|&cell| shape.covers(cell)).collect()
 }
 
 /// Half the side of a cell (u).
 const HALF: f32 = 0.5;
 
-/// The rows and columns of an outline's bounding box.
-struct Range {
-    columns: core::ops::Range<usize>,
-    rows: core::ops::Range<usize>,
-}
-
-impl Range {
-    fn of(outline: &Outline) -> Self {
-        let (min, max) = outline.bounds();
-        // Numbers below 0 and NaN become 0, so that a box that is nowhere has no cells.
-        let from = |coordinate: f32| coordinate as usize;
-        let to = |coordinate: f32| coordinate.min(CELLS_PER_SIDE as f32).ceil() as usize;
-        let (min, max) = (min - arena::MIN, max - arena::MIN);
-        Self { columns: from(min.x)..to(max.x), rows: from(min.y)..to(max.y) }
-    }
-
-    fn any(&self, mut condition: impl FnMut(Cell) -> bool) -> bool {
-        self.rows.clone().any(|row| {
-            self.columns
-                .clone()
-                .any(|column| Cell::from_index(row * CELLS_PER_SIDE + column).is_some_and(&mut condition))
-        })
-    }
+/// The cells of an outline's bounding box.
+fn near(outline: &Outline) -> impl Iterator<Item = Cell> {
+    let (min, max) = outline.bounds();
+    Cell::in_box(min, max)
 }
 
 /// An outline prepared for being held against many cells, all of the same size.

@@ -1,16 +1,35 @@
-//! What a PHASE agent sees and feels.
+//! What a PHASE agent sees and feels: a conical field of view with occlusion, and touch.
 //!
-//! [`observe`] gives an agent's observation of a state: the cells in its conical field of view, hidden by walls
-//! and by other bodies, the entities it sees in them, those it feels, and those it knows of because they
-//! touch an observed one (paper, "Belief Representation and Update" and its footnote). [`observed_set`] gives
-//! just the entities, fast enough for a tree search.
+//! An agent knows the walls, but of the other bodies only what it observes (paper, "Formulation" and "Belief
+//! Representation and Update"): itself, what it sees, what it touches, and whatever touches something it
+//! observes. [`observe`] answers in full and gives an [`Observation`]; [`observed_set`] answers only *which*
+//! bodies are observed, for the millions of states that a planner imagines.
 //!
-//! The key design decision is that seeing is reckoned per 1 × 1 u cell and by the cell's centre, as the
-//! published simulator does, so that "where could it still be?" has an exact answer for a particle. The price
-//! is that a body shows as soon as one of its cells' centres does.
+//! # What is seen
 //!
-//! A body does not hide its own cells: otherwise no one would ever be seen head-on. It does hide what is
-//! behind it, also when the observer itself holds it.
+//! The eye sits in the agent's centre of mass and looks along its heading, [54.69°](eye::TAN_HALF_ANGLE) to
+//! either side, as far as the arena reaches. Inner walls, objects and the other agent stand in the way, the
+//! bodies as discs. An object that the agent itself holds is no exception, so whoever carries something in
+//! front of its head sees little else: the paper has all entities obstruct the view, and an object does not
+//! turn transparent by being held.
+//!
+//! # The key design decisions
+//!
+//! Seeing is reckoned in [cells](Cell) of 1 × 1 u, and by their centres, as in the paper and the published
+//! simulator, so that the question "where could it still be?" has an exact answer for a particle. A body is
+//! seen if one of the cells of its [footprint] is visible, leaving that body itself out of what stands in the
+//! way; otherwise a large body straight ahead would hide its own cells and go unseen. The price is that a body
+//! shows as soon as the centre of one of its cells does, and hides as long as none does.
+//!
+//! What is observed is the *least set* that satisfies the paper's sentence "entities that are in contact with
+//! observed entities are also defined as observed": touching is followed from body to body until nothing new
+//! comes up. Stopping after one link, as the published simulator does, would make the answer depend on the
+//! order in which links are followed, and could show an agent without what it holds. With the closure, a
+//! body that is not observed touches nothing that is, and nobody unobserved holds anything observed, so that a
+//! belief never has to guess half of a grip. The price: a row of touching bodies is known as a whole as soon as
+//! one of them is.
+//!
+//! An [`Observation`] holds copies of the observed bodies only, so that nothing built upon it can peek.
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
@@ -21,5 +40,6 @@ pub mod footprint;
 pub mod observation;
 
 pub use cells::{Cell, CellSet};
-pub use eye::{field_of_view, sees};
+pub use eye::{Eye, field_of_view, sees};
+pub use footprint::footprint;
 pub use observation::{Observation, observe, observed_set};

@@ -1,97 +1,109 @@
-//! What an agent knows of a state from seeing and feeling.
+//! What one agent observes of one state: what it sees, what it feels, and what touches that.
 
 use crate::{
     cells::{Cell, CellSet},
-    eye::Eye,
+    eye::{Eye, field_of_view},
 };
-use phase_model::{AGENT_COUNT, Body, Contacts, Entity, EntitySet, Grip, Physique, State};
+use phase_model::{AGENT_COUNT, Body, Contacts, Entity, EntitySet, Grip, MAX_ENTITIES, Physique, State};
 
-/// One agent's observation o of one state. What it does not observe cannot be read from it.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Observation {
-    /// Who observes, 0 or 1.
-    pub agent: usize,
-    /// Cells in the field of view.
-    pub visible: CellSet,
-    /// Entities whose state is known: the observer, what it sees, what touches it, and what touches those.
-    pub observed: EntitySet,
-    /// Entities that touch the observer.
-    pub touched: EntitySet,
-    state: State,
-}
-
-impl Observation {
-    /// The body of an observed entity.
-    #[must_use]
-    pub fn body(&self, entity: Entity) -> Option<&Body> {
-        self.observed.contains(entity).then(|| self.state.body(entity))
-    }
-
-    /// What an agent (0 or 1) holds, if that agent is observed.
-    #[must_use]
-    pub fn grip(&self, agent: usize) -> Option<Option<Grip>> {
-        self.observed.contains(Entity::agent(agent)).then(|| self.state.grips[agent])
-    }
-
-    /// Contacts between observed entities.
-    #[must_use]
-    pub fn contacts(&self) -> Contacts {
-        let mut contacts = Contacts::NONE;
-        for a in self.observed.iter() {
-            for b in self.observed.iter().filter(|&b| self.state.contacts.touching(a, b)) {
-                contacts.insert(a, b);
-            }
-        }
-        contacts
-    }
-
-    /// Whether two observed entities touch; `None` if either is not observed.
-    #[must_use]
-    pub fn touching(&self, a: Entity, b: Entity) -> Option<bool> {
-        (self.observed.contains(a) && self.observed.contains(b)).then(|| self.state.touching(a, b))
-    }
-}
-
-/// Everything an agent (0 or 1) observes of a state.
+/// Everything an agent (0 or 1) observes of a state, oᵢ of the paper.
 #[must_use]
 pub fn observe(physique: &Physique, state: &State, agent: usize) -> Observation {
-    let eye = Eye::new(physique, state, agent);
-    Observation {
-        agent,
-        visible: Cell::all().filter(|&cell| eye.sees_cell(cell)).collect(),
-        observed: observed_by(&eye, physique, state, agent),
-        touched: touched_by(physique, state, agent),
-        state: *state,
-    }
-}
-
-/// The entities an agent observes: as [`observe`] says, but without working out the whole field of view.
-#[must_use]
-pub fn observed_set(physique: &Physique, state: &State, agent: usize) -> EntitySet {
-    observed_by(&Eye::new(physique, state, agent), physique, state, agent)
-}
-
-fn observed_by(eye: &Eye<'_>, physique: &Physique, state: &State, agent: usize) -> EntitySet {
-    let me = Entity::agent(agent);
-    let mut observed = touched_by(physique, state, agent);
-    observed.insert(me);
-    for entity in physique.entities() {
-        if !observed.contains(entity) && eye.sees(entity) {
-            observed.insert(entity);
+    let observed = observed_set(physique, state, agent);
+    let own = Entity::agent(agent);
+    let mut known = State::new([Body::default(); MAX_ENTITIES]);
+    for entity in observed.iter() {
+        *known.body_mut(entity) = *state.body(entity);
+        if let Entity::Agent(holder) = entity {
+            known.grips[usize::from(holder)] = state.grips[usize::from(holder)];
+        }
+        for other in observed.iter().filter(|&other| state.contacts.touching(entity, other)) {
+            known.contacts.insert(entity, other);
         }
     }
-    // Whatever touches an observed entity is observed too, and so on; a chain has at most three links.
-    for _ in 1..physique.entity_count().max(AGENT_COUNT) {
-        for entity in physique.entities() {
-            if observed.iter().any(|other| state.touching(entity, other)) {
-                observed.insert(entity);
-            }
+    Observation {
+        agent,
+        visible: field_of_view(physique, state, agent),
+        observed,
+        touched: physique.entities().filter(|&entity| state.touching(own, entity)).collect(),
+        known,
+    }
+}
+
+/// Which entities an agent (0 or 1) observes, itself included: the coarse observation for imagined states.
+/// Equal to [`Observation::observed`] of [`observe`], but looks only at the cells that bodies lie on.
+#[must_use]
+pub fn observed_set(physique: &Physique, state: &State, agent: usize) -> EntitySet {
+    let mut observed = with_touching(physique, state, [Entity::agent(agent)].into_iter().collect());
+    let mut eye = None;
+    for entity in physique.entities() {
+        if !observed.contains(entity)
+            && eye.get_or_insert_with(|| Eye::new(physique, state, agent)).sees(entity)
+        {
+            observed.insert(entity);
+            observed = with_touching(physique, state, observed);
         }
     }
     observed
 }
 
-fn touched_by(physique: &Physique, state: &State, agent: usize) -> EntitySet {
-    let me = Entity::agent(agent);
-    physique.entities().filter(|&entity| entity != me && state.touching(me, entity)).collect()
+/// What an agent observes at one moment. Of what it does not observe, nothing is in here, so that two
+/// observations are equal if the agent cannot tell them apart.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Observation {
+    /// Who observes, 0 or 1.
+    pub agent: usize,
+    /// The cells whose centre the agent sees.
+    pub visible: CellSet,
+    /// The entities whose bodies, grips and contacts are known exactly; the agent itself is one of them.
+    pub observed: EntitySet,
+    /// The entities that the agent feels: those in contact with it or attached to it.
+    pub touched: EntitySet,
+    /// The state as far as it is observed; the rest is blank.
+    known: State,
+}
+
+impl Observation {
+    /// The true body of an entity, or `None` if it is not observed.
+    #[must_use]
+    pub fn body(&self, entity: Entity) -> Option<&Body> {
+        self.observed.contains(entity).then(|| self.known.body(entity))
+    }
+
+    /// What an agent (0 or 1) holds, or the outer `None` if the agent is not observed. Whatever an observed
+    /// agent holds is observed, too.
+    #[must_use]
+    pub fn grip(&self, agent: usize) -> Option<Option<Grip>> {
+        (agent < AGENT_COUNT && self.observed.contains(Entity::agent(agent))).then(|| self.known.grips[agent])
+    }
+
+    /// The contacts between observed entities. An unobserved entity touches no observed one.
+    #[must_use]
+    pub fn contacts(&self) -> Contacts {
+        self.known.contacts
+    }
+
+    /// Whether two entities touch, by contact or by one holding the other, or `None` if neither is observed.
+    #[must_use]
+    pub fn touching(&self, a: Entity, b: Entity) -> Option<bool> {
+        (self.observed.contains(a) || self.observed.contains(b)).then(|| self.known.touching(a, b))
+    }
+
+    /// Whether the agent sees the centre of a cell.
+    #[must_use]
+    pub fn sees_cell(&self, cell: Cell) -> bool {
+        self.visible.contains(cell)
+    }
+}
+
+/// A set of entities, all that touch one of them, all that touch one of those, and so on.
+fn with_touching(physique: &Physique, state: &State, mut set: EntitySet) -> EntitySet {
+    loop {
+        let touching = |entity: Entity| set.iter().any(|known| state.touching(known, entity));
+        let larger = physique.entities().filter(|&entity| touching(entity)).collect::<EntitySet>().union(set);
+        if larger == set {
+            return set;
+        }
+        set = larger;
+    }
 }

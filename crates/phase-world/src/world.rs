@@ -15,8 +15,9 @@ pub struct World {
 
 impl World {
     /// A world in the given state. Any start will do: bodies that overlap are pushed apart over the first
-    /// substeps without gaining speed, grips become rigid welds that pull their object into place, and numbers
-    /// that are not finite or lie outside the arena are replaced by the nearest that make sense.
+    /// substeps and hardly gain speed by it, grips become rigid welds that pull their object into place, and numbers
+    /// that are not finite or lie outside the arena are replaced by the nearest that make sense. A body that
+    /// starts across an inner wall may come out on either side of it.
     #[must_use]
     pub fn new(physique: &Physique, state: &State) -> Self {
         let mut physique = physique.clone();
@@ -46,9 +47,9 @@ impl World {
         for (index, mover) in self.movers.iter().enumerate() {
             state.bodies[index] = mover.state(&self.engine);
             for (other, earlier) in self.movers.iter().enumerate().take(index) {
-                let (held, holder) = (Entity::from_index(index), Entity::from_index(other));
-                if !state.touching(held, holder) && contact::touching(&self.engine, mover, earlier) {
-                    state.contacts.insert(held, holder);
+                let (a, b) = (Entity::from_index(index), Entity::from_index(other));
+                if !state.touching(a, b) && contact::touching(&self.engine, mover, earlier) {
+                    state.contacts.insert(a, b);
                 }
             }
         }

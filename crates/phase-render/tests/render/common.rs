@@ -28,11 +28,13 @@ pub(crate) fn state() -> State {
 }
 
 pub(crate) fn stage() -> Stage {
-    Stage::new(&physique(), Style::default()).unwrap()
+    Stage::new(&physique(), Style::default()).expect("the default style and points in the picture are valid")
 }
 
 /// Red, green and blue at a world point.
 pub(crate) fn at(stage: &Stage, frame: &Frame, x: f32, y: f32) -> [u8; 3] {
     let pixel = stage.pixel(Vec2::new(x, y));
-    frame.pixel(pixel.x as u32, pixel.y as u32).unwrap()
+    frame
+        .pixel(pixel.x as u32, pixel.y as u32)
+        .expect("the default style and points in the picture are valid")
 }

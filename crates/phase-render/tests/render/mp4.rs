@@ -9,7 +9,7 @@ pub(crate) struct Mp4Box<'a> {
 }
 
 pub(crate) fn word(bytes: &[u8], at: usize) -> u32 {
-    u32::from_be_bytes(bytes[at..at + 4].try_into().unwrap())
+    u32::from_be_bytes(bytes[at..at + 4].try_into().expect("an .mp4 has it"))
 }
 
 /// The boxes side by side in some bytes; they must fill them exactly.
@@ -18,7 +18,7 @@ pub(crate) fn boxes(bytes: &[u8]) -> Vec<Mp4Box<'_>> {
     while at < bytes.len() {
         let size = word(bytes, at) as usize;
         assert!(size >= 8 && at + size <= bytes.len(), "a box of {size} bytes at {at}");
-        let kind = String::from_utf8(bytes[at + 4..at + 8].to_vec()).unwrap();
+        let kind = String::from_utf8(bytes[at + 4..at + 8].to_vec()).expect("an .mp4 has it");
         found.push(Mp4Box { kind, start: at + 8, content: &bytes[at + 8..at + size] });
         at += size;
     }

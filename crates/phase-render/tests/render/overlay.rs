@@ -6,7 +6,7 @@ use phase_perception::{Cell, CellSet};
 use phase_render::{Frame, Overlay, Palette, Stage, Style, font};
 
 fn stage(caption_lines: u32) -> Stage {
-    Stage::new(&physique(), Style { caption_lines, ..Style::default() }).unwrap()
+    Stage::new(&physique(), Style { caption_lines, ..Style::default() }).expect("a valid style")
 }
 
 /// The cells right of x = 12 and above y = 14.

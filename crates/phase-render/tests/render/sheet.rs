@@ -5,7 +5,7 @@ use phase_render::{Frame, RenderError, Stage, Style, contact_sheet, sheet::GAP};
 
 /// Frames of 100 × 100 pixels that differ.
 fn frames(count: usize) -> Vec<Frame> {
-    let stage = Stage::new(&physique(), Style::with_side(100)).unwrap();
+    let stage = Stage::new(&physique(), Style::with_side(100)).expect("a valid style");
     let move_right = |k: usize| {
         let mut state = state();
         state.bodies[0].position.x += k as f32;

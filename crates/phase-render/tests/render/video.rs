@@ -9,7 +9,7 @@ use std::io::{self, Write};
 
 /// Frames of an agent that moves and turns.
 fn frames(side: u32, count: usize) -> Vec<Frame> {
-    let stage = Stage::new(&physique(), Style::with_side(side)).unwrap();
+    let stage = Stage::new(&physique(), Style::with_side(side)).expect("a valid video");
     let step = |k: usize| {
         let mut state = state();
         state.bodies[0].position += Vec2::new(0.05, -0.03) * k as f32;
@@ -20,12 +20,13 @@ fn frames(side: u32, count: usize) -> Vec<Frame> {
 }
 
 fn encode(frames: &[Frame], rate: u32) -> Vec<u8> {
-    let mut video = VideoEncoder::new(Vec::new(), frames[0].width(), frames[0].height(), rate).unwrap();
+    let mut video =
+        VideoEncoder::new(Vec::new(), frames[0].width(), frames[0].height(), rate).expect("a valid video");
     for frame in frames {
-        video.push(frame).unwrap();
+        video.push(frame).expect("a valid video");
     }
     assert_eq!(video.frame_count(), frames.len());
-    video.finish().unwrap()
+    video.finish().expect("a valid video")
 }
 
 #[test]

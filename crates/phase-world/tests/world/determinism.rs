@@ -48,6 +48,8 @@ fn runs_repeat_bit_for_bit_on_any_thread() {
     let first = run();
     assert!(first.iter().any(|state| state.contacts != phase_model::Contacts::NONE), "the run is eventful");
     assert!(first.iter().any(|state| state.grips.iter().any(Option::is_some)));
+    fn can_move_between_threads<T: Send>() {}
+    can_move_between_threads::<World>();
     let others: Vec<_> = (0..4).map(|_| std::thread::spawn(run)).collect();
     for other in others {
         let other = other.join().expect("the run ends");
