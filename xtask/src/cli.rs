@@ -1,6 +1,6 @@
 //! The commands and their options.
 
-use clap::{Args, Parser, Subcommand, error::ContextValue, value_parser};
+use clap::{Args, Parser, Subcommand, error::ErrorKind, value_parser};
 use phase_sim::Settings;
 use std::path::PathBuf;
 
@@ -147,15 +147,15 @@ impl Effort {
     }
 }
 
-/// What is wrong with a command line, on one line.
+/// What is wrong with a command line, on one line; the whole help for a line without a command.
 #[must_use]
 pub fn one_sentence(error: &clap::Error) -> String {
     let text = error.render().to_string();
-    let before_usage = ["\n\nUsage", "\n\nFor more", "\nUsage"]
-        .into_iter()
-        .fold(text.as_str(), |text, mark| text.split(mark).next().unwrap_or_default());
-    let words: Vec<&str> = before_usage.split_whitespace().collect();
-    let has_suggestion = error.context().any(|(_, value)| matches!(value, ContextValue::StyledStrs(_)));
-    let hint = if has_suggestion { "" } else { " (--help lists the options)" };
-    format!("{}{hint}", words.join(" "))
+    if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
+        return text;
+    }
+    let paragraphs = text.split("\n\n");
+    let about_it = paragraphs.take_while(|part| !part.starts_with("Usage") && !part.starts_with("For more"));
+    let lines = about_it.map(|part| part.split_whitespace().collect::<Vec<_>>().join(" "));
+    format!("{} (--help lists the options)", lines.collect::<Vec<_>>().join("; "))
 }

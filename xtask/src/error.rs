@@ -50,6 +50,9 @@ pub enum CliError {
         /// Ids that look like it, in words.
         near: String,
     },
+    /// A folder holds nothing to render.
+    #[error("{}: is a folder without manifest.json or summary.json; give an event file or a finished dataset", .0.display())]
+    NotADataset(PathBuf),
     /// An option does not go with the input.
     #[error("{0}")]
     Usage(String),
@@ -109,6 +112,7 @@ impl CliError {
             | Self::Altered(_)
             | Self::UnknownPreset { .. }
             | Self::UnknownId { .. }
+            | Self::NotADataset(_)
             | Self::Usage(_) => 2,
             Self::Interrupted(_) => 130,
             Self::Simulation { .. }

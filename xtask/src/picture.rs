@@ -75,9 +75,11 @@ pub fn write_sheet(
     Ok(atomic::write(path, &png)?)
 }
 
-/// A shape between a square and a page lying on its side.
+/// Columns for a shape between a square and a page on its side that leaves the fewest places empty.
 fn columns(count: usize) -> usize {
-    (1..=count).find(|columns| columns * columns * 2 >= count * 3).unwrap_or(1)
+    let widest = (1..=count).find(|columns| columns * columns >= 2 * count).unwrap_or(count).max(1);
+    let squarest = (1..=widest).find(|columns| columns * columns >= count).unwrap_or(widest);
+    (squarest..=widest).min_by_key(|columns| count.next_multiple_of(*columns)).unwrap_or(widest)
 }
 
 fn style(style: Style, shots: &[Shot<'_>]) -> Style {

@@ -28,8 +28,11 @@ impl Source {
             let chosen = choose(path, phase_events::read(path)?, ids)?;
             return Ok(Self::Loaded(chosen.into_iter().map(|(_, recording)| recording).collect()));
         }
-        let simulated = path.join(SUMMARY_FILE).is_file() && !path.join(MANIFEST_FILE).is_file();
-        let files: Vec<(String, String)> = if simulated {
+        let is_dataset = path.join(MANIFEST_FILE).is_file();
+        if !is_dataset && !path.join(SUMMARY_FILE).is_file() {
+            return Err(CliError::NotADataset(path.to_owned()));
+        }
+        let files: Vec<(String, String)> = if !is_dataset {
             let summary = Summary::read(&path.join(SUMMARY_FILE))?;
             summary.events.into_iter().map(|event| (event.id, event.event.path)).collect()
         } else {

@@ -8,7 +8,7 @@ use crate::{
     thought::{ActionValue, SubgoalValue},
 };
 use phase_belief::Belief;
-use phase_model::{AGENT_COUNT, Action, Attitude, Dynamics, Goal, Physique, Scene, State};
+use phase_model::{AGENT_COUNT, Action, Attitude, Dynamics, EntitySet, Goal, Physique, Scene, State};
 use phase_perception::Observation;
 use phase_planner::{Candidate, Plan, Planner, Subgoal, value};
 use phase_pomcp::{Pomcp, PomcpError, PomcpSettings};
@@ -26,6 +26,7 @@ pub struct Agent<D> {
     planner: Planner,
     pomcp: Pomcp<u16>,
     belief: Belief,
+    observed: EntitySet,
 }
 
 impl<D: Dynamics> Agent<D> {
@@ -59,6 +60,7 @@ impl<D: Dynamics> Agent<D> {
             planner: Planner::new(physique.clone(), scene.layout, index, scene.goals(), attitude),
             pomcp,
             belief: Belief::new(&physique, observation, settings.particles, random),
+            observed: observation.observed,
             physique,
         })
     }
@@ -70,6 +72,7 @@ impl<D: Dynamics> Agent<D> {
 
     /// Takes in what has become of its last action.
     pub fn perceive(&mut self, action: Action, observation: &Observation, random: &mut impl Rng) {
+        self.observed = observation.observed;
         self.belief.update(&self.dynamics, &self.physique, action, observation, random);
     }
 
@@ -103,7 +106,7 @@ impl<D: Dynamics> Agent<D> {
             let known = different.iter().position(|&other| particles[other] == *particle);
             plan_of.push(known.unwrap_or_else(|| {
                 different.push(k);
-                plans.push(self.planner.plan(particle));
+                plans.push(self.planner.plan(particle, self.observed));
                 plans.len() - 1
             }));
         }

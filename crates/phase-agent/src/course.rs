@@ -1,12 +1,16 @@
 //! From a point to another through doors: how far it still is, and which way to move now.
 
 use phase_model::{Vec2, arena, layout::SLOT_DIRECTIONS};
-use phase_planner::{Gaps, Routes};
+use phase_planner::{Gaps, Routes, routes::IMPASSABLE_COST};
 
 /// A door with less room to spare than this is entered straight on (u).
 const TIGHT: f32 = 1.2;
 /// Distance before a tight door at which a body lines up with it (u).
 const LINE_UP: f32 = 1.8;
+/// Distance from a door, and to its side, at which one waits for it to be free (u).
+const WAITING_ROOM: f32 = 1.5;
+/// A body nearer to a door's crossing than this takes the door (u).
+const DOORWAY: f32 = 2.5;
 /// How far beyond a room's border counts as being in it (u).
 const INSIDE: f32 = 1.5;
 
@@ -17,6 +21,33 @@ pub struct Course {
     pub heading_for: Vec2,
     /// Length of the whole way (u), with penalties for doors that the body does not fit through.
     pub remaining: f32,
+}
+
+/// What is left of a way when one has to wait before its first door: a place beside the door, out of the way of
+/// who comes through.
+fn wait(slot: usize, crossing: Vec2, from: Vec2, width: f32) -> Vec2 {
+    let along = SLOT_DIRECTIONS[slot];
+    let side = along.perp() * along.perp_dot(from - crossing).signum();
+    // Towards the arena's centre there is always a wall to wait at.
+    crossing + side * (0.5 * width + WAITING_ROOM) - along * WAITING_ROOM
+}
+
+/// Lets another body through first: if the other is in the first door on the way, and nearer to it, the course
+/// leads to a place beside that door instead.
+#[must_use]
+pub fn give_way(routes: &Routes, from: Vec2, to: Vec2, width: f32, other: Vec2) -> Option<Course> {
+    let route = routes.best(from, to, width, routes.gaps())?;
+    let &(slot, crossing) = route.doors().first()?;
+    let slot = usize::from(slot);
+    let (mine, theirs) = (from.distance(crossing), other.distance(crossing));
+    let is_taken = theirs < DOORWAY
+        && theirs < mine
+        && mine < 2.0 * DOORWAY
+        && routes.gaps().width(slot) < 2.0 * width + TIGHT;
+    is_taken.then(|| {
+        let place = wait(slot, crossing, from, width);
+        Course { heading_for: place, remaining: route.length + from.distance(place) }
+    })
 }
 
 /// Goes round bodies in the way: if the straight line to the point that a course heads for passes through one of
@@ -57,6 +88,11 @@ pub fn to_point(routes: &Routes, from: Vec2, to: Vec2, width: f32) -> Course {
     let Some(&(slot, crossing)) = route.doors().first() else {
         return Course { heading_for: to, remaining: route.cost() };
     };
+    if gaps.width(usize::from(slot)) < width {
+        // It does not fit: it waits before the door instead of getting stuck in it.
+        let place = wait(usize::from(slot), crossing, from, width);
+        return Course { heading_for: place, remaining: IMPASSABLE_COST + from.distance(place) };
+    }
     let (heading_for, detour) = through(gaps, usize::from(slot), crossing, from, width);
     Course { heading_for, remaining: route.cost() + detour }
 }
@@ -72,6 +108,10 @@ pub fn into_room(routes: &Routes, from: Vec2, room: usize, width: f32) -> Course
     let (Some(&(slot, crossing)), Some(&(_, last))) = (route.doors().first(), route.doors().last()) else {
         return Course { heading_for: from, remaining: 0.0 };
     };
+    if gaps.width(usize::from(slot)) < width {
+        let place = wait(usize::from(slot), crossing, from, width);
+        return Course { heading_for: place, remaining: IMPASSABLE_COST + from.distance(place) };
+    }
     let (mut heading_for, detour) = through(gaps, usize::from(slot), crossing, from, width);
     if route.doors().len() == 1 && heading_for == crossing {
         heading_for += (crossing - from).normalize_or_zero() * INSIDE;

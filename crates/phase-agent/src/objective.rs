@@ -103,7 +103,7 @@ impl Objective<'_> {
         entity != me && entity != about && !mine
     }
 
-    /// The way that is left for the mover, as if nobody stood in it.
+    /// The way that is left for the mover, as if nobody stood in it but in doors.
     fn open_course(&self, state: &State) -> Course {
         let mover = self.mover(state);
         let from = state.position(mover);
@@ -125,7 +125,8 @@ impl Objective<'_> {
                 } else if room_of(from) == room {
                     here
                 } else {
-                    course::into_room(self.routes, from, room, self.width(state))
+                    self.give_way(state, from, arena::LANDMARKS[room])
+                        .unwrap_or_else(|| course::into_room(self.routes, from, room, self.width(state)))
                 }
             }
             (Predicate::Attach(_, object), true) => self.to_grab(state, object),
@@ -149,7 +150,24 @@ impl Objective<'_> {
     }
 
     fn to_point(&self, state: &State, from: Vec2, to: Vec2) -> Course {
-        course::to_point(self.routes, from, to, self.width(state))
+        self.give_way(state, from, to)
+            .unwrap_or_else(|| course::to_point(self.routes, from, to, self.width(state)))
+    }
+
+    /// The course to a place to wait at while the other agent is in the door, unless the two carry something
+    /// together or the other is what this is about.
+    fn give_way(&self, state: &State, from: Vec2, to: Vec2) -> Option<Course> {
+        let Subgoal::Achieve(Literal { predicate, holds: true }) = self.subgoal else { return None };
+        let other = Entity::agent(1 - self.agent);
+        let about_other = match predicate {
+            Predicate::Touch(_, entity) | Predicate::Close(_, Place::Entity(entity)) => entity == other,
+            _ => false,
+        };
+        let mine = state.held_object(self.agent);
+        if about_other || (mine.is_some() && mine == state.held_object(1 - self.agent)) {
+            return None;
+        }
+        course::give_way(self.routes, from, to, self.width(state), state.position(other))
     }
 
     /// The gap the agent needs, with what it holds (u).

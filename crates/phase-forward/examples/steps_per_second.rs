@@ -67,7 +67,7 @@ fn main() {
     );
     let mut actions = Dice(7);
     report(
-        "random actions, each held for six steps",
+        "held random actions",
         steps,
         |k| {
             let (forward, state) = &scenes[k / EPISODE % scenes.len()];

@@ -30,7 +30,12 @@ impl World<'_> {
         }
         motion.centre = inside;
         for (index, wall) in self.forward.walls[..self.forward.wall_count].iter().enumerate() {
-            if candidates & bit(wall_key(index, body)) == 0 || wall.is_point() {
+            if candidates & bit(wall_key(index, body)) == 0 {
+                continue;
+            }
+            let (before, after) =
+                (wall.normal.dot(start - wall.a), wall.normal.dot(motion.centre - wall.a));
+            if before * after > 0.0 || wall.is_point() {
                 continue;
             }
             let path = Segment { a: start, b: motion.centre };

@@ -3,8 +3,8 @@
 use crate::{
     body::{STATIC, Twist},
     contact::Contact,
-    impact::{Way, impact},
-    key::{KeySet, bit, wall_key},
+    impact::{Ends, Way, impact},
+    key::{KeySet, bit, descending, wall_key},
     manifold::Polygon,
     tuning::{H, IMPACT_CORRECTION, IMPACT_POSITION_ITERATIONS, MOST_IMPACTS, SETTLED_IMPULSE, SLOP, VELOCITY_ITERATIONS},
     wall::MAX_WALLS,
@@ -28,6 +28,10 @@ impl World<'_> {
             to_angle: self.motions[body].angle,
             right,
         };
+        let ends = Ends::new(shape, &way);
+        if descending(candidates).all(|key| ends.clear_of(&self.forward.walls[key / 4])) {
+            return None;
+        }
         let mut spent = 0.0_f32;
         let mut met = [0_u8; MAX_WALLS];
         let mut off: KeySet = 0;
@@ -37,6 +41,9 @@ impl World<'_> {
             for wall in (0..self.forward.wall_count).rev() {
                 let key = bit(wall_key(wall, body));
                 if candidates & key == 0 || off & key != 0 || met[wall] > MOST_IMPACTS {
+                    continue;
+                }
+                if last.is_none() && ends.clear_of(&self.forward.walls[wall]) {
                     continue;
                 }
                 if let Some(share) = impact(shape, &way, &self.forward.walls[wall]) {

@@ -7,7 +7,7 @@ use crate::{
     reach,
     substep::BodySet,
     tuning::{H, VELOCITY_ITERATIONS},
-    wall::{MAX_WALLS, Wall, walls},
+    wall::{Boxes, MAX_WALLS, Wall, walls},
     world::{Touching, World},
 };
 use phase_model::{
@@ -31,6 +31,7 @@ pub struct Forward {
     pub(crate) shapes: [Shape; 5],
     pub(crate) walls: [Wall; MAX_WALLS],
     pub(crate) wall_count: usize,
+    pub(crate) boxes: Boxes,
     pub(crate) count: usize,
 }
 
@@ -47,7 +48,8 @@ impl Forward {
         }
         let (walls, wall_count) = walls(&physique.walls);
         let count = physique.entity_count().min(4);
-        Self { physique: physique.clone(), shapes, walls, wall_count, count }
+        let boxes = Boxes::new(&walls[..wall_count]);
+        Self { physique: physique.clone(), shapes, walls, wall_count, boxes, count }
     }
 
     /// One step (five substeps) from a state alone, with the state after each substep. Impulses of contacts
@@ -96,7 +98,9 @@ impl Forward {
     /// overlapping bodies apart.
     pub fn settle(&self, state: &mut State) {
         let mut world = World::new(self, state, [Action::NoForce; AGENT_COUNT]);
-        self.substep_cold(&mut world, self.everyone(), &mut Touching::NONE.clone());
+        let pairs = reach::pairs_near(&world, self.everyone());
+        let mut touching = Touching::NONE;
+        self.substep_cold(&mut world, self.everyone(), pairs, &mut touching);
         self.finish(&world, state, !0);
         self.stop_turning(state);
     }
@@ -139,10 +143,15 @@ impl Forward {
         let mut world = World::new(self, state, actions);
         let let_go = world.grab(state);
         self.part(&mut world, state, let_go);
-        let members = reach::members(&world);
+        let members = reach::members(&mut world);
         if members == 0 && !ALL {
-            for body in 0..self.count {
+            for body in AGENT_COUNT..self.count {
                 self.drift(&mut world, body, SUBSTEPS);
+            }
+            // Taking turns lets the processor work on both agents at once.
+            for _ in 0..SUBSTEPS {
+                self.drift(&mut world, 0, 1);
+                self.drift(&mut world, 1, 1);
             }
         } else {
             self.step_together(&mut world, members, &mut observe);
@@ -159,19 +168,34 @@ impl Forward {
         observe: &mut impl FnMut(&World<'_>, usize),
     ) {
         let mut touching = Touching::NONE;
+        let mut outlines = [None; AGENT_COUNT];
         for substep in 0..SUBSTEPS {
+            let pairs = reach::pairs_near(world, members) & !world.apart;
+            let mut involved = self.held_together(world) | reach::bodies_of(pairs);
             for body in 0..self.count {
                 if members & 1 << body == 0 {
                     self.drift(world, body, 1);
+                } else if involved & 1 << body == 0 && !world.glide(body, &mut outlines) {
+                    involved |= 1 << body;
                 }
             }
-            world.iterations = if substep == 0 { COLD_ITERATIONS } else { VELOCITY_ITERATIONS };
-            self.substep_cold(world, members, &mut touching);
+            if involved != 0 {
+                outlines = [None; AGENT_COUNT];
+                world.iterations = if substep == 0 { COLD_ITERATIONS } else { VELOCITY_ITERATIONS };
+                self.substep_cold(world, involved, pairs, &mut touching);
+            }
             if world.let_go != 0 {
                 Self::reunite(world);
             }
             observe(world, substep);
         }
+    }
+
+    /// Agents that hold something, and what they hold.
+    fn held_together(&self, world: &World<'_>) -> BodySet {
+        (0..AGENT_COUNT)
+            .filter_map(|agent| Some(1 << agent | 1 << world.held(agent)?))
+            .fold(0, |set, bodies: BodySet| set | bodies)
     }
 
     /// Some substeps of a body that nothing can reach.
@@ -188,8 +212,15 @@ impl Forward {
         }
     }
 
-    fn substep_cold(&self, world: &mut World<'_>, members: BodySet, touching: &mut Touching) {
-        let mut candidates = reach::pairs_near(world, members) & !world.apart;
+    /// One substep of bodies that may touch each other, as the given pairs, and walls.
+    fn substep_cold(
+        &self,
+        world: &mut World<'_>,
+        members: BodySet,
+        pairs: KeySet,
+        touching: &mut Touching,
+    ) {
+        let mut candidates = pairs;
         for body in 0..self.count {
             if members & 1 << body != 0 {
                 candidates |= reach::walls_near(world, body);
@@ -215,10 +246,10 @@ impl Forward {
         world.solve(self.everyone(), &mut memory.touching);
         memory.follow(world);
         for body in 0..self.count {
-            if world.impacts(body, memory.alive()).is_some() {
+            let walls = reach::walls_on_way(world, body);
+            if world.impacts(body, walls & memory.alive()).is_some() {
                 memory.follow_one(world, body);
             }
-            let walls = reach::walls_on_way(world, body);
             world.contain(body, walls);
         }
         memory.find_new(world);

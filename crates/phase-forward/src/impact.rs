@@ -54,12 +54,9 @@ impl Way {
 /// wall from the start.
 pub(crate) fn impact(shape: &Shape, way: &Way, wall: &Wall) -> Option<f32> {
     let polygon = shape.origin > 0.0;
-    let target = (shape.skin + SKIN - 3.0 * SLOP).max(SLOP);
+    let target = target(shape);
     let corners: &[Vec2] = if polygon { &shape.corners } else { &shape.corners[..1] };
     let search = Search { shape, corners, way, wall, polygon };
-    if search.stays_beside(target + TOLERANCE) {
-        return None;
-    }
     let mut now = 0.0;
     for _ in 0..AXES {
         let (distance, axis) = search.nearest(now)?;
@@ -106,6 +103,52 @@ pub(crate) fn impact(shape: &Shape, way: &Way, wall: &Wall) -> Option<f32> {
     None
 }
 
+/// The distance from a wall, without skins, at which a body is said to have reached it (u).
+fn target(shape: &Shape) -> f32 {
+    (shape.skin + SKIN - 3.0 * SLOP).max(SLOP)
+}
+
+/// A body's outlines at the two ends of its way, against which most walls can be ruled out at once.
+pub(crate) struct Ends {
+    pub(crate) centres: [Vec2; 2],
+    /// An agent's outlines.
+    pub(crate) polygons: Option<[Polygon; 2]>,
+    /// Distance from the outline (or from a disc's centre) within which walls are not ruled out (u).
+    pub(crate) clear: f32,
+}
+
+impl Ends {
+    pub(crate) fn new(shape: &Shape, way: &Way) -> Self {
+        let polygons =
+            (shape.origin > 0.0).then(|| [0.0, 1.0].map(|share| Polygon::new(shape, &way.at(share))));
+        Self { centres: [way.from, way.to], polygons, clear: target(shape) + TOLERANCE }
+    }
+
+    /// Whether some axis keeps body and wall clear of each other at both ends of the way: the wall's normal,
+    /// also for bodies that lean on it, or the normal of one of the body's sides.
+    #[inline]
+    pub(crate) fn clear_of(&self, wall: &Wall) -> bool {
+        let [before, after] = self.centres.map(|centre| wall.normal.dot(centre - wall.a));
+        let Some(polygons) = &self.polygons else {
+            return before * after > 0.0 && before.abs() > self.clear && after.abs() > self.clear;
+        };
+        if before * after > 0.0 {
+            let normal = if before > 0.0 { wall.normal } else { -wall.normal };
+            let limit = normal.dot(wall.a) + self.clear;
+            if polygons.iter().all(|polygon| polygon.corners.iter().all(|c| normal.dot(*c) > limit)) {
+                return true;
+            }
+        }
+        (0..4).any(|side| {
+            polygons.iter().all(|polygon| {
+                let normal = polygon.normals[side];
+                let limit = normal.dot(polygon.corners[side]) + self.clear;
+                normal.dot(wall.a) > limit && normal.dot(wall.b) > limit
+            })
+        })
+    }
+}
+
 /// An axis that separates body and wall.
 enum Axis {
     /// From a wall's end to a corner, fixed.
@@ -125,27 +168,6 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Whether the body is on the same side of the wall's line, and clear of it, at both ends of its way: the
-    /// usual case, also for bodies that lean on a wall.
-    #[inline]
-    fn stays_beside(&self, clear: f32) -> bool {
-        let normal = self.wall.normal;
-        let before = normal.dot(self.way.from - self.wall.a);
-        let after = normal.dot(self.way.to - self.wall.a);
-        if before * after <= 0.0 {
-            return false;
-        }
-        if !self.polygon {
-            return before.abs() > clear && after.abs() > clear;
-        }
-        let side = if before > 0.0 { normal } else { -normal };
-        [(0.0, before), (1.0, after)].into_iter().all(|(share, centre)| {
-            let side = self.way.at(share).turn_back(side);
-            let deepest = self.corners.iter().fold(f32::MAX, |least, corner| least.min(corner.dot(side)));
-            centre.abs() + deepest > clear
-        })
-    }
-
     /// Distance without skins and the axis of the nearest features; `None` where body and wall overlap.
     fn nearest(&self, share: f32) -> Option<(f32, Axis)> {
         let motion = self.way.at(share);

@@ -8,6 +8,7 @@ mod contact;
 mod contain;
 mod continuous;
 mod forward;
+mod glide;
 mod impact;
 mod key;
 mod manifold;

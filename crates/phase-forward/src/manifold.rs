@@ -120,6 +120,8 @@ pub(crate) struct Polygon {
 }
 
 impl Polygon {
+    pub(crate) const NONE: Self = Self { corners: [Vec2::ZERO; 4], normals: [Vec2::ZERO; 4] };
+
     #[inline]
     pub(crate) fn new(shape: &Shape, motion: &Motion) -> Self {
         Self {

@@ -1,7 +1,7 @@
 //! What can touch what: coarse tests that spare the exact ones.
 
 use crate::{
-    key::{KeySet, PAIRS, bit, pair_key, wall_key},
+    key::{KeySet, PAIRS, bit, pair_key},
     substep::BodySet,
     tuning::H,
     world::World,
@@ -18,20 +18,20 @@ const CORRECTIONS: f32 = 0.5;
 const LEEWAY: f32 = 0.02;
 
 /// The bodies that may touch or hold anything in the coming step, whatever happens; all others move alone.
-pub(crate) fn members(world: &World<'_>) -> BodySet {
+/// Notes for each of them which walls it can reach.
+pub(crate) fn members(world: &mut World<'_>) -> BodySet {
     let forward = world.forward;
     let mut members: BodySet = 0;
     let mut ways = [0.0_f32; 4];
-    for (body, way) in ways.iter_mut().enumerate().take(forward.count) {
+    for body in 0..forward.count {
         let (motion, shape) = (&world.motions[body], &forward.shapes[body]);
-        *way = motion.velocity.length() * STEP;
+        let mut way = motion.velocity.length() * STEP;
         if body < AGENT_COUNT && world.actions[body].push().is_some() {
-            *way += shape.max_force * shape.inverse_mass * WAY_PER_ACCELERATION;
+            way += shape.max_force * shape.inverse_mass * WAY_PER_ACCELERATION;
         }
-        let room = Vec2::splat(shape.bound + *way + LEEWAY);
-        if near_walls(world, body, motion.centre - room, motion.centre + room) != 0 {
-            members |= 1 << body;
-        }
+        ways[body] = way;
+        world.walls[body] = near_walls(world, body, motion.centre, motion.centre, shape.bound + way + LEEWAY);
+        members |= u8::from(world.walls[body] != 0) << body;
     }
     let mut grouped: BodySet = 0;
     for agent in 0..AGENT_COUNT {
@@ -49,12 +49,16 @@ pub(crate) fn members(world: &World<'_>) -> BodySet {
             grouped |= 1 << a | 1 << b;
         }
     }
+    if grouped == 0 {
+        return members;
+    }
     // Bodies that hit each other may go anywhere that their speeds together could take them.
     let mut before = 0;
+    let mut together = 0.0;
     while grouped != before {
         before = grouped;
-        let together: f32 = (0..forward.count).filter(|body| grouped & 1 << body != 0).map(|b| ways[b]).sum();
-        let together = 2.0 * together + CORRECTIONS;
+        let sum: f32 = (0..forward.count).filter(|body| grouped & 1 << body != 0).map(|body| ways[body]).sum();
+        together = 2.0 * sum + CORRECTIONS;
         for (a, b) in PAIRS {
             let (first, second) = (grouped & 1 << a != 0, grouped & 1 << b != 0);
             if first != second && reaches(a, b, together + if first { ways[b] } else { ways[a] }) {
@@ -62,7 +66,27 @@ pub(crate) fn members(world: &World<'_>) -> BodySet {
             }
         }
     }
+    for body in 0..forward.count {
+        if grouped & 1 << body != 0 {
+            let centre = world.motions[body].centre;
+            world.walls[body] =
+                near_walls(world, body, centre, centre, forward.shapes[body].bound + together);
+        }
+    }
     members | grouped
+}
+
+/// The bodies that belong to some pairs.
+pub(crate) fn bodies_of(pairs: KeySet) -> BodySet {
+    let mut bodies = 0;
+    if pairs != 0 {
+        for (pair, (a, b)) in PAIRS.into_iter().enumerate() {
+            if pairs & bit(pair_key(pair)) != 0 {
+                bodies |= 1 << a | 1 << b;
+            }
+        }
+    }
+    bodies
 }
 
 /// The pairs of bodies in a set whose circles overlap now.
@@ -80,33 +104,38 @@ pub(crate) fn pairs_near(world: &World<'_>, members: BodySet) -> KeySet {
     near
 }
 
-/// The walls whose box a body's circle reaches now.
+/// The walls in reach in this step whose box a body's circle reaches now.
+#[inline]
 pub(crate) fn walls_near(world: &World<'_>, body: usize) -> KeySet {
-    let room = Vec2::splat(world.forward.shapes[body].bound);
+    if world.walls[body] == 0 {
+        return 0;
+    }
     let centre = world.motions[body].centre;
-    near_walls(world, body, centre - room, centre + room)
+    near_walls(world, body, centre, centre, world.forward.shapes[body].bound) & world.walls[body]
 }
 
-/// The walls whose box a body's circle has swept over in this substep.
+/// The walls in reach in this step whose box a body's circle has swept over in this substep.
+#[inline]
 pub(crate) fn walls_on_way(world: &World<'_>, body: usize) -> KeySet {
+    if world.walls[body] == 0 {
+        return 0;
+    }
     let (start, angle, _) = world.starts[body];
     let motion = &world.motions[body];
     if start == motion.centre && angle == motion.angle {
         return 0;
     }
-    let room = Vec2::splat(world.forward.shapes[body].bound);
-    near_walls(world, body, start.min(motion.centre) - room, start.max(motion.centre) + room)
+    near_walls(
+        world,
+        body,
+        start.min(motion.centre),
+        start.max(motion.centre),
+        world.forward.shapes[body].bound,
+    ) & world.walls[body]
 }
 
-/// The walls whose boxes overlap a box.
+/// The walls whose boxes overlap a box with some room around it.
 #[inline]
-fn near_walls(world: &World<'_>, body: usize, min: Vec2, max: Vec2) -> KeySet {
-    let forward = world.forward;
-    let mut near = 0;
-    for (index, wall) in forward.walls[..forward.wall_count].iter().enumerate() {
-        if wall.min.x <= max.x && wall.max.x >= min.x && wall.min.y <= max.y && wall.max.y >= min.y {
-            near |= bit(wall_key(index, body));
-        }
-    }
-    near
+fn near_walls(world: &World<'_>, body: usize, min: Vec2, max: Vec2, room: f32) -> KeySet {
+    world.forward.boxes.near(min - room, max + room) << body
 }

@@ -25,7 +25,7 @@ impl World<'_> {
         if candidates == 0 {
             return;
         }
-        let polygons = [0, 1].map(|agent| Polygon::new(&self.forward.shapes[agent], &self.motions[agent]));
+        let polygons = self.polygons(candidates);
         for key in descending(candidates) {
             let (bodies, manifold) = self.collide(key, &polygons);
             if manifold.count > 0 {
@@ -73,6 +73,19 @@ impl World<'_> {
             }
         }
         touching.keep();
+    }
+
+    /// The outlines of those agents whose outlines matter to some pairs of shapes.
+    fn polygons(&self, candidates: KeySet) -> [Polygon; AGENT_COUNT] {
+        /// Keys of all walls and body 0.
+        const WALLS: KeySet = 0x1111_1111_1111_1111 & (bit(pair_key(0)) - 1);
+        let both = bit(pair_key(0));
+        [0, 1].map(|agent| {
+            if candidates & (WALLS << agent | both) == 0 {
+                return Polygon::NONE;
+            }
+            Polygon::new(&self.forward.shapes[agent], &self.motions[agent])
+        })
     }
 
     /// The contact of a pair of shapes.
@@ -227,7 +240,7 @@ impl World<'_> {
         if pairs == 0 {
             return 0;
         }
-        let polygons = [0, 1].map(|agent| Polygon::new(&self.forward.shapes[agent], &self.motions[agent]));
+        let polygons = self.polygons(pairs);
         descending(pairs)
             .filter(|&key| self.collide(key, &polygons).1.count > 0)
             .fold(0, |set, key| set | bit(key))

@@ -134,7 +134,7 @@ fn keep_object_off(
     let victim = 1 - agent;
     let start = Node::start(situation);
     let base = other_cost(situation, victim, goal, start, None);
-    let task = Task { situation, goal, actors: plan::only(agent), allied: false, narrowed: None };
+    let task = lone_task(situation, agent, goal, None);
     let me = Entity::agent(agent);
     let spot = Spot::Now(Entity::Object(object));
     let holding = situation.state.held_object(agent) == Some(usize::from(object));
@@ -157,7 +157,7 @@ fn keep_object_off(
             subgoals.push(plan::is(Predicate::Attach(agent as u8, object)));
         }
         subgoals.push(plan::is(Predicate::On(Entity::Object(object), refuge)));
-        skip_done(situation, &mut subgoals);
+        plan::skip_done(situation, &mut subgoals);
         let mut holders = plan::only(agent);
         holders[victim] = false;
         let feasible = situation.net_force(holders) > 0.0 || contested;
@@ -175,7 +175,7 @@ fn keep_object_off(
         let mut subgoals = let_go_first(situation, agent);
         approach_rooms(situation, agent, target, &mut subgoals);
         subgoals.push(plan::not(Predicate::On(Entity::Object(object), landmark)));
-        skip_done(situation, &mut subgoals);
+        plan::skip_done(situation, &mut subgoals);
         candidates.push((0.0, Plan { subgoals, distance: way(situation, agent, target) }));
     }
     candidates
@@ -189,14 +189,19 @@ fn other_cost(
     node: Node,
     narrowed: Option<Gaps>,
 ) -> f32 {
-    let task = Task {
+    search::solve(&lone_task(situation, other, goal, narrowed), node).map_or(f32::MAX, |plan| plan.cost)
+}
+
+/// The task of one agent that acts alone and against the other, which may have narrowed doors for it.
+fn lone_task<'a>(situation: &'a Situation<'a>, agent: usize, goal: Goal, narrowed: Option<Gaps>) -> Task<'a> {
+    Task {
         situation,
         goal,
-        actors: plan::only(other),
+        actors: plan::only(agent),
+        effort: [1.0; 2],
         allied: false,
-        narrowed: narrowed.map(|gaps| (other, gaps)),
-    };
-    search::solve(&task, node).map_or(f32::MAX, |plan| plan.cost)
+        narrowed: narrowed.map(|gaps| (agent, gaps)),
+    }
 }
 
 /// Distance at which a guard stands before a landmark (u): both bodies' radii.
@@ -219,16 +224,4 @@ fn approach_rooms(situation: &Situation<'_>, agent: usize, to: Vec2, subgoals: &
 
 fn let_go_first(situation: &Situation<'_>, agent: usize) -> Vec<crate::Subgoal> {
     plan::let_go(situation, agent).subgoals
-}
-
-/// Drops the leading subgoals that hold already.
-fn skip_done(situation: &Situation<'_>, subgoals: &mut Vec<crate::Subgoal>) {
-    let done = subgoals
-        .iter()
-        .take_while(|subgoal| {
-            matches!(subgoal, crate::Subgoal::Achieve(literal)
-                if literal.is_true(situation.physique, situation.state))
-        })
-        .count();
-    subgoals.drain(..done);
 }

@@ -7,15 +7,22 @@ use crate::{
     situation::{Situation, Spot},
     task::{Node, Operator, Task},
 };
-use phase_model::{AGENT_COUNT, Attitude, Entity, Goal, Layout, Physique, Sign, State, layout::room_of};
+use phase_model::{
+    AGENT_COUNT, Attitude, Entity, EntitySet, Goal, Layout, Physique, Sign, State, layout::room_of,
+};
 use phase_predicates::{Literal, Place, Predicate, achieved};
+
+/// What a helper's own travel counts for beside the helpee's: of two ways that are equally short it takes the
+/// one that spares the other.
+const HELPERS_EFFORT: f32 = 0.5;
 
 /// What an agent means to do, from one possible world.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Plan {
     /// The agent's own subgoals in order. Empty when there is nothing for it to do.
     pub subgoals: Vec<Subgoal>,
-    /// Ĉ: distance the agent has to travel before the final goal state is reached (u).
+    /// Ĉ: distance that has to be travelled, by whoever travels in the plan, before the final goal state is
+    /// reached (u).
     pub distance: f32,
 }
 
@@ -60,42 +67,52 @@ impl Planner {
         &self.routes
     }
 
-    /// HP(gᵢ, gⱼ, αᵢⱼ, b) of Algorithm 1: the agent's best plan if the world is in this state.
+    /// HP(gᵢ, gⱼ, αᵢⱼ, b) of Algorithm 1: the agent's best plan if the world is in this state, of which it
+    /// observes these entities.
     #[must_use]
-    pub fn plan(&self, state: &State) -> Plan {
+    pub fn plan(&self, state: &State, observed: EntitySet) -> Plan {
         let situation = Situation::new(&self.physique, &self.routes, state);
         let own = self.goals[self.agent];
         let other = self.goals[1 - self.agent];
         match self.attitude {
-            Attitude::Help => self.help(&situation, other),
+            Attitude::Help => self.help(&situation, other, observed),
             Attitude::Hinder => hindrance::plan(&situation, self.agent, other),
             Attitude::Neutral if own.sign() == Sign::Negative => self.avoid(&situation, own),
-            Attitude::Neutral => self.pursue(&situation, own, other),
+            Attitude::Neutral => self.pursue(&situation, own, other, observed),
         }
     }
 
     /// A neutral agent reaches for its own goal by its own means. Only when the other wants the very same is
     /// the other's force counted on.
-    fn pursue(&self, situation: &Situation<'_>, own: Goal, other: Goal) -> Plan {
-        if let Some(plan) = self.finish(situation, own) {
+    fn pursue(&self, situation: &Situation<'_>, own: Goal, other: Goal, observed: EntitySet) -> Plan {
+        if let Some(plan) = self.finish(situation, own, observed) {
             return plan;
         }
-        let task =
-            Task { situation, goal: own, actors: only(self.agent), allied: own == other, narrowed: None };
+        let task = Task {
+            situation,
+            goal: own,
+            actors: only(self.agent),
+            effort: [1.0; AGENT_COUNT],
+            allied: own == other,
+            narrowed: None,
+        };
         search::solve(&task, Node::start(situation))
             .map_or(Plan::STAY, |plan| express(&task, &plan, self.agent))
     }
 
     /// A helper looks for the cheapest way in which both together reach the other's goal, and does its own
     /// part of it; if the other does best alone, that part is nothing.
-    fn help(&self, situation: &Situation<'_>, goal: Goal) -> Plan {
+    fn help(&self, situation: &Situation<'_>, goal: Goal, observed: EntitySet) -> Plan {
         if goal.sign() == Sign::Negative {
             return self.help_to_avoid(situation, goal);
         }
-        if let Some(plan) = self.finish(situation, goal) {
+        if let Some(plan) = self.finish(situation, goal, observed) {
             return plan;
         }
-        let task = Task { situation, goal, actors: [true; AGENT_COUNT], allied: true, narrowed: None };
+        let mut effort = [1.0; AGENT_COUNT];
+        effort[self.agent] = HELPERS_EFFORT;
+        let actors = [true; AGENT_COUNT];
+        let task = Task { situation, goal, actors, effort, allied: true, narrowed: None };
         search::solve(&task, Node::start(situation))
             .map_or(Plan::STAY, |plan| express(&task, &plan, self.agent))
     }
@@ -116,10 +133,46 @@ impl Planner {
         }
     }
 
-    /// What to do once the goal holds: let go of whatever is in hand, else nothing. `None` while it does not.
-    fn finish(&self, situation: &Situation<'_>, goal: Goal) -> Option<Plan> {
-        achieved(situation.physique, situation.state, goal).then(|| let_go(situation, self.agent))
+    /// What to do once the goal holds: let go of whatever is in hand, else nothing. An agent that believes an
+    /// object to be where it should be without observing it goes and looks. `None` while the goal does not hold.
+    fn finish(&self, situation: &Situation<'_>, goal: Goal, observed: EntitySet) -> Option<Plan> {
+        if !achieved(situation.physique, situation.state, goal) {
+            return None;
+        }
+        match goal.subject() {
+            object @ Entity::Object(_) if !observed.contains(object) => {
+                Some(visit(situation, self.agent, object))
+            }
+            _ => Some(let_go(situation, self.agent)),
+        }
     }
+}
+
+/// The plan of going near an entity.
+fn visit(situation: &Situation<'_>, agent: usize, entity: Entity) -> Plan {
+    let me = Entity::agent(agent);
+    let (from, to) = (situation.state.position(me), situation.state.position(entity));
+    let mut subgoals = Vec::new();
+    let width = situation.width(agent, None);
+    let route = situation.routes.best(from, to, width, situation.routes.gaps());
+    if let Some(route) = &route {
+        rooms(route, from, to, me, &mut subgoals);
+    }
+    subgoals.push(is(Predicate::Close(me, Place::Entity(entity))));
+    skip_done(situation, &mut subgoals);
+    Plan { subgoals, distance: route.map_or(0.0, |route| route.length) }
+}
+
+/// Drops the leading subgoals that hold already: what is left begins with something to bring about.
+pub(crate) fn skip_done(situation: &Situation<'_>, subgoals: &mut Vec<Subgoal>) {
+    let done = subgoals
+        .iter()
+        .take_while(|subgoal| {
+            matches!(subgoal, Subgoal::Achieve(literal)
+                if literal.is_true(situation.physique, situation.state))
+        })
+        .count();
+    subgoals.drain(..done);
 }
 
 /// The plan of letting go of whatever is in hand and then staying.
@@ -131,39 +184,33 @@ pub(crate) fn let_go(situation: &Situation<'_>, agent: usize) -> Plan {
     })
 }
 
-/// One agent's own part of a symbolic plan in the words of the subgoal space, and how far it has to travel.
+/// One agent's own part of a symbolic plan in the words of the subgoal space, and how far all have to travel.
 #[must_use]
 pub(crate) fn express(task: &Task<'_>, plan: &SymbolicPlan, agent: usize) -> Plan {
     let mut subgoals = Vec::with_capacity(8);
     let mut distance = 0.0;
     for (node, operator) in &plan.steps {
+        distance += travel(task, node, *operator);
         match *operator {
             Operator::Approach { agent: who, object } if who == agent => {
-                let target = Entity::Object(object);
                 let spot = node.objects[usize::from(object)];
-                distance += task.distance(node, agent, None, spot);
                 go(task, node, agent, None, spot, &mut subgoals);
-                subgoals.push(is(Predicate::Close(Entity::agent(agent), Place::Entity(target))));
+                let target = Place::Entity(Entity::Object(object));
+                subgoals.push(is(Predicate::Close(Entity::agent(agent), target)));
             }
             Operator::Meet { agent: who } if who == agent => {
-                let spot = node.agents[1 - agent];
-                distance += task.distance(node, agent, None, spot);
-                go(task, node, agent, None, spot, &mut subgoals);
+                go(task, node, agent, None, node.agents[1 - agent], &mut subgoals);
                 subgoals.push(is(Predicate::Touch(agent as u8, Entity::agent(1 - agent))));
             }
             Operator::Go { agent: who, landmark } if who == agent => {
-                let spot = Spot::Landmark(landmark);
-                distance += task.distance(node, agent, None, spot);
-                go(task, node, agent, None, spot, &mut subgoals);
+                go(task, node, agent, None, Spot::Landmark(landmark), &mut subgoals);
                 subgoals.push(is(Predicate::On(Entity::agent(agent), landmark)));
             }
             Operator::Grab { agent: who, object } if who == agent => {
                 subgoals.push(is(Predicate::Attach(agent as u8, object)));
             }
             Operator::Carry { object, landmark, .. } if node.holds[agent] == Some(object) => {
-                let spot = Spot::Landmark(landmark);
-                distance += task.distance(node, agent, Some(object), spot);
-                go(task, node, agent, Some(object), spot, &mut subgoals);
+                go(task, node, agent, Some(object), Spot::Landmark(landmark), &mut subgoals);
                 subgoals.push(is(Predicate::On(Entity::Object(object), landmark)));
             }
             Operator::Release { agent: who, object } if who == agent => {
@@ -172,16 +219,23 @@ pub(crate) fn express(task: &Task<'_>, plan: &SymbolicPlan, agent: usize) -> Pla
             _ => {}
         }
     }
-    let (physique, state) = (task.situation.physique, task.situation.state);
-    // What already holds need not be brought about; the first subgoal is the first that does not.
-    let done = subgoals
-        .iter()
-        .take_while(
-            |subgoal| matches!(subgoal, Subgoal::Achieve(literal) if literal.is_true(physique, state)),
-        )
-        .count();
-    subgoals.drain(..done);
+    skip_done(task.situation, &mut subgoals);
     Plan { subgoals, distance }
+}
+
+/// Distance travelled in one operator, whoever travels (u).
+fn travel(task: &Task<'_>, node: &Node, operator: Operator) -> f32 {
+    match operator {
+        Operator::Approach { agent, object } => {
+            task.distance(node, agent, None, node.objects[usize::from(object)])
+        }
+        Operator::Meet { agent } => task.distance(node, agent, None, node.agents[1 - agent]),
+        Operator::Go { agent, landmark } => task.distance(node, agent, None, Spot::Landmark(landmark)),
+        Operator::Carry { agent, object, landmark } => {
+            task.distance(node, agent, Some(object), Spot::Landmark(landmark))
+        }
+        Operator::Grab { .. } | Operator::Release { .. } => 0.0,
+    }
 }
 
 /// The rooms on the way to a spot, as Close(·, landmark) subgoals for the agent or for what it carries. Rooms

@@ -107,6 +107,8 @@ pub struct Task<'a> {
     pub goal: Goal,
     /// Which agents act.
     pub actors: [bool; AGENT_COUNT],
+    /// What each agent's travel counts for: 1 as it is, less where the agent is glad to do it.
+    pub effort: [f32; AGENT_COUNT],
     /// Whether both agents pull the same way when both hold an object.
     pub allied: bool,
     /// Doors narrowed for one agent by something that is not an object, such as the other agent's body.
@@ -136,7 +138,7 @@ impl Task<'_> {
     pub fn lower_bound(&self, node: &Node) -> f32 {
         let distance =
             |from: Spot, to: Spot| self.situation.position(from).distance(self.situation.position(to));
-        match self.goal {
+        let straight = match self.goal {
             Goal::AgentOnLandmark { agent, landmark, .. } => {
                 distance(node.agents[usize::from(agent)], Spot::Landmark(landmark))
             }
@@ -146,7 +148,8 @@ impl Task<'_> {
             Goal::Touch { agent, other, .. } => {
                 distance(node.agents[usize::from(agent)], node.agents[usize::from(other)])
             }
-        }
+        };
+        straight * self.effort[0].min(self.effort[1])
     }
 
     /// Everything the actors can do next: operator, symbolic state after it, cost (u).
@@ -269,7 +272,8 @@ impl Task<'_> {
         let from = held.map_or(node.agents[agent], |object| node.objects[usize::from(object)]);
         let (from, to) = (self.situation.position(from), self.situation.position(to));
         let width = self.situation.width(agent, held.map(usize::from));
-        let cost = self.situation.routes.cost(from, to, width, &self.gaps(node, agent, ignored));
+        let cost = self.effort[agent]
+            * self.situation.routes.cost(from, to, width, &self.gaps(node, agent, ignored));
         if held.is_none() && self.is_behind_a_blocker(node, agent) { cost + IMPASSABLE_COST } else { cost }
     }
 

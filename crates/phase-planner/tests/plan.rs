@@ -4,7 +4,7 @@ mod support;
 
 use phase_model::{Attitude, Size::*, Strength::*, Vec2};
 use phase_planner::Subgoal;
-use support::{Setup, agent_on, approach, layout, object_on};
+use support::{Setup, agent_on, approach, everything, layout, object_on};
 
 /// Agent 0 at the top left, agent 1 at the bottom right, no walls, no objects.
 fn plain() -> Setup {
@@ -15,6 +15,7 @@ fn plain() -> Setup {
         goals: [agent_on(0, 2), agent_on(1, 0)],
         attitudes: [Attitude::Neutral; 2],
         holds: [None; 2],
+        observed: everything(),
     }
 }
 
@@ -72,6 +73,18 @@ fn one_stops_when_done() {
         ..plain()
     };
     assert_eq!(delivered.words(0), ["not Attach(agent 0, object 0)"]);
+}
+
+#[test]
+fn one_does_not_take_an_unseen_success_on_trust() {
+    let believed = Setup {
+        objects: vec![(Small, Vec2::new(23.0, 5.0))],
+        goals: [object_on(0, 2), agent_on(1, 0)],
+        observed: [phase_model::Entity::Agent(0)].into_iter().collect(),
+        ..plain()
+    };
+    assert_eq!(believed.words(0), ["Close(agent 0, object 0)"]);
+    assert_eq!(Setup { observed: everything(), ..believed }.plan(0).first(), Subgoal::Stay);
 }
 
 #[test]
@@ -247,6 +260,7 @@ fn a_stolen_object_goes_where_the_other_does_not_fit() {
         goals: [object_on(0, 2).negated(), object_on(0, 2)],
         attitudes: [Attitude::Hinder, Attitude::Neutral],
         holds: [Some(0), None],
+        observed: everything(),
     };
     let words = setup.words(0);
     let refuges = ["On(object 0, landmark 0)", "On(object 0, landmark 1)", "On(object 0, landmark 3)"];

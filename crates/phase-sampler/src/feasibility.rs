@@ -16,7 +16,14 @@ pub const IMPOSSIBLE: f32 = 95.0;
 pub fn cost(scene: &Scene, goal: Goal, actors: [bool; AGENT_COUNT]) -> f32 {
     let (physique, routes, state) = (scene.physique(), Routes::new(scene.layout), scene.initial_state());
     let situation = Situation::new(&physique, &routes, &state);
-    let task = Task { situation: &situation, goal, actors, allied: true, narrowed: None };
+    let task = Task {
+        situation: &situation,
+        goal,
+        actors,
+        effort: [1.0; AGENT_COUNT],
+        allied: true,
+        narrowed: None,
+    };
     search::solve(&task, Node::start(&situation)).map_or(f32::INFINITY, |plan| plan.cost)
 }
 

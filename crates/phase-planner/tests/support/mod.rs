@@ -1,7 +1,8 @@
 //! Hand-made situations.
 
 use phase_model::{
-    Attitude, Body, Flip, Goal, Layout, Physique, Sign, Size, State, Strength, Vec2, physique::AgentBody,
+    Attitude, Body, EntitySet, Flip, Goal, Layout, Physique, Sign, Size, State, Strength, Vec2,
+    physique::AgentBody,
 };
 use phase_planner::{Plan, Planner};
 
@@ -13,6 +14,7 @@ pub(crate) struct Setup {
     pub(crate) goals: [Goal; 2],
     pub(crate) attitudes: [Attitude; 2],
     pub(crate) holds: [Option<u8>; 2],
+    pub(crate) observed: EntitySet,
 }
 
 impl Setup {
@@ -53,7 +55,7 @@ impl Setup {
 
     pub(crate) fn plan(&self, agent: usize) -> Plan {
         Planner::new(self.physique(), self.layout, agent, self.goals, self.attitudes[agent])
-            .plan(&self.state())
+            .plan(&self.state(), self.observed)
     }
 
     /// The plan in words.
@@ -76,4 +78,9 @@ pub(crate) fn object_on(object: u8, landmark: u8) -> Goal {
 
 pub(crate) fn approach() -> Goal {
     Goal::Touch { agent: 0, other: 1, sign: Sign::Positive }
+}
+
+/// Everything there can be.
+pub(crate) fn everything() -> EntitySet {
+    (0..4).map(phase_model::Entity::from_index).collect()
 }

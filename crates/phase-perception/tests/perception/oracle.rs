@@ -1,0 +1,93 @@
+//! Seeing reckoned slowly, in other ways and with more digits.
+
+use phase_model::{Entity, Physique, Segment, State, arena};
+use phase_perception::Cell;
+
+/// Whether a cell's centre is seen, and by how much the closest of the decisions was taken (u or rad).
+pub(crate) struct Sight {
+    pub(crate) visible: bool,
+    pub(crate) margin: f64,
+}
+
+/// Angles by the arc tangent, discs by walking along the ray, walls by where the ray meets their line.
+pub(crate) fn look(physique: &Physique, state: &State, agent: usize, cell: Cell) -> Sight {
+    let body = &state.bodies[agent];
+    let (eye, heading) = centre_of_mass(physique, state, Entity::agent(agent));
+    let centre = cell.centre();
+    let ray = (f64::from(centre.x) - eye.0, f64::from(centre.y) - eye.1);
+    debug_assert!((heading - f64::from(body.angle)).abs() < 1e-9);
+
+    let half_angle = (0.8_f64 / (17.0 / 30.0)).atan();
+    let off_axis = wrapped((-ray.0).atan2(ray.1) - heading).abs();
+    let mut visible = off_axis < half_angle;
+    let mut margin = (off_axis - half_angle).abs();
+
+    for wall in &physique.walls {
+        let (meets, by) = meets(wall, eye, ray);
+        visible &= !meets;
+        margin = margin.min(by);
+    }
+    for entity in physique.entities().filter(|&entity| entity != Entity::agent(agent)) {
+        let (disc, _) = centre_of_mass(physique, state, entity);
+        let radius = f64::from(physique.radius(entity));
+        let offset = (disc.0 - eye.0, disc.1 - eye.1);
+        let nearest = walk(ray, offset);
+        // An eye inside a body, or right beside it, is another matter.
+        margin = margin.min(offset.0.hypot(offset.1) - radius);
+        visible &= nearest >= radius;
+        margin = margin.min((nearest - radius).abs());
+    }
+    Sight { visible, margin }
+}
+
+/// Distance between a point and the way from the origin to the end of a ray, by trying many steps and then
+/// finer ones around the best.
+fn walk(ray: (f64, f64), point: (f64, f64)) -> f64 {
+    let distance = |t: f64| (ray.0 * t - point.0).hypot(ray.1 * t - point.1);
+    let (mut best, mut step) = (0.0, 0.1);
+    for _ in 0..6 {
+        let candidates = (-10..=10).map(|k| (best + f64::from(k) * step).clamp(0.0, 1.0));
+        best = candidates.min_by(|&a, &b| distance(a).total_cmp(&distance(b))).unwrap();
+        step *= 0.15;
+    }
+    distance(best)
+}
+
+/// Whether a ray meets a wall, which runs along an axis, and how far from not doing so or doing so it is.
+fn meets(wall: &Segment, eye: (f64, f64), ray: (f64, f64)) -> (bool, f64) {
+    let upright = wall.a.x == wall.b.x;
+    assert!(upright || wall.a.y == wall.b.y);
+    let turned = |(x, y): (f64, f64)| if upright { (x, y) } else { (y, x) };
+    let ends = [wall.a, wall.b].map(|end| turned((f64::from(end.x), f64::from(end.y))));
+    let ((across, along), (ray_across, ray_along)) = (turned(eye), turned(ray));
+    let (line, low, high) = (ends[0].0, ends[0].1.min(ends[1].1), ends[0].1.max(ends[1].1));
+    let (before, after) = (across - line, across + ray_across - line);
+    if (before > 0.0) == (after > 0.0) {
+        return (false, before.abs().min(after.abs()));
+    }
+    let at = along + ray_along * (line - across) / ray_across;
+    let by = (at - low).abs().min((at - high).abs());
+    ((low..=high).contains(&at), by.min(before.abs()).min(after.abs()))
+}
+
+fn centre_of_mass(physique: &Physique, state: &State, entity: Entity) -> ((f64, f64), f64) {
+    let body = state.body(entity);
+    let heading = f64::from(body.angle);
+    let behind = match entity {
+        Entity::Agent(_) => f64::from(physique.radius(entity)) / 6.0,
+        Entity::Object(_) => 0.0,
+    };
+    let (x, y) = (f64::from(body.position.x), f64::from(body.position.y));
+    ((x + heading.sin() * behind, y - heading.cos() * behind), heading)
+}
+
+fn wrapped(angle: f64) -> f64 {
+    use std::f64::consts::{PI, TAU};
+    (angle + PI).rem_euclid(TAU) - PI
+}
+
+/// The least margin of all cells: how far a state is from looking otherwise.
+pub(crate) fn least_margin(physique: &Physique, state: &State, agent: usize) -> f64 {
+    assert!(arena::SIDE == 20.0);
+    Cell::all().map(|cell| look(physique, state, agent, cell).margin).fold(f64::INFINITY, f64::min)
+}
