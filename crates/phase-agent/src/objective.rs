@@ -125,8 +125,14 @@ impl Objective<'_> {
                 } else if room_of(from) == room {
                     here
                 } else {
-                    self.give_way(state, from, arena::LANDMARKS[room])
-                        .unwrap_or_else(|| course::into_room(self.routes, from, room, self.width(state)))
+                    self.give_way(state, from, arena::LANDMARKS[room]).unwrap_or_else(|| {
+                        course::into_room(
+                            self.routes,
+                            from,
+                            room,
+                            self.width(state, from, arena::LANDMARKS[room]),
+                        )
+                    })
                 }
             }
             (Predicate::Attach(_, object), true) => self.to_grab(state, object),
@@ -151,7 +157,7 @@ impl Objective<'_> {
 
     fn to_point(&self, state: &State, from: Vec2, to: Vec2) -> Course {
         self.give_way(state, from, to)
-            .unwrap_or_else(|| course::to_point(self.routes, from, to, self.width(state)))
+            .unwrap_or_else(|| course::to_point(self.routes, from, to, self.width(state, from, to)))
     }
 
     /// The course to a place to wait at while the other agent is in the door, unless the two carry something
@@ -167,13 +173,22 @@ impl Objective<'_> {
         if about_other || (mine.is_some() && mine == state.held_object(1 - self.agent)) {
             return None;
         }
-        course::give_way(self.routes, from, to, self.width(state), state.position(other))
+        course::give_way(self.routes, from, to, self.width(state, from, to), state.position(other))
     }
 
-    /// The gap the agent needs, with what it holds (u).
-    fn width(&self, state: &State) -> f32 {
+    /// The room to keep on the way between two points (u): as much as the agent, what it holds and who else
+    /// holds that take side by side, if the doors allow it, or else what just passes.
+    fn width(&self, state: &State, from: Vec2, to: Vec2) -> f32 {
         let own = self.physique.agents[self.agent].width();
-        state.held_object(self.agent).map_or(own, |object| own.max(2.0 * self.physique.object_radii[object]))
+        let Some(object) = state.held_object(self.agent) else { return own };
+        let tight = own.max(2.0 * self.physique.object_radii[object]);
+        let mut radii = self.physique.object_radii[object] + self.physique.agents[self.agent].radius;
+        if state.holds(1 - self.agent, object) {
+            radii += self.physique.agents[1 - self.agent].radius;
+        }
+        let wide = tight.max(2.0 * radii);
+        let route = self.routes.best(from, to, wide, self.routes.gaps());
+        if route.is_some_and(|route| route.impassable == 0) { wide } else { tight }
     }
 
     /// Until the surfaces meet.

@@ -113,7 +113,7 @@ impl Belief {
         self.redrawn
     }
 
-    /// How many of these found no possible place, neither in 200 draws nor when 1600 places all over the arena
+    /// How many of these found no possible place, neither in 200 draws nor when 3600 places all over the arena
     /// were gone through. Such a body lies in view, or in a body, or in a wall, in this order of preference;
     /// the next step tries again.
     #[must_use]

@@ -40,6 +40,7 @@ mod consistency;
 pub mod memory;
 mod place;
 mod predict;
+mod weights;
 
 pub use belief::{Belief, PARTICLE_COUNT};
 pub use memory::{AGENT_FORGETTING, CellMemory, OBJECT_FORGETTING, hiding_weight};

@@ -1,9 +1,13 @@
 //! Drawing a place for a body that is not observed.
 
-use crate::{consistency::is_clear_of_walls, memory::CellMemory};
+use crate::{
+    consistency::is_clear_of_walls,
+    memory::CellMemory,
+    weights::{Reservoir, Weights},
+};
 use core::f32::consts::PI;
-use phase_model::{Body, Entity, EntitySet, MAX_ENTITIES, Physique, State, Vec2, geometry::Outline};
-use phase_perception::{Cell, cells::CELL_COUNT, footprint::any_cell};
+use phase_model::{Body, Entity, EntitySet, MAX_ENTITIES, Physique, State, Vec2, arena, geometry::Outline};
+use phase_perception::Cell;
 use rand::{Rng, RngExt};
 
 /// Tries at a place for one body before all places are gone through.
@@ -11,7 +15,7 @@ const TRIES: usize = 200;
 /// Draws of all bodies of a particle together, before those that overlap are drawn one after the other.
 const JOINT_TRIES: usize = 8;
 /// Places tried in a cell, along each side, when all cells are gone through.
-const PLACES_PER_SIDE: usize = 2;
+const PLACES_PER_SIDE: usize = 3;
 
 /// Draws places in one step of a belief, for all its particles.
 pub(crate) struct Placer<'a> {
@@ -35,8 +39,10 @@ impl<'a> Placer<'a> {
             outlines[entity.index()] = Some(Outline::of(self.physique, entity, particle.body(entity)));
         }
         for _ in 0..JOINT_TRIES {
-            if self.draw_all(particle, which, outlines, rng) {
-                return 0;
+            match self.draw_all(particle, which, outlines, rng) {
+                Some(true) => return 0,
+                Some(false) => {}
+                None => break,
             }
         }
         let mut unresolved = 0;
@@ -55,25 +61,25 @@ impl<'a> Placer<'a> {
         unresolved
     }
 
-    /// Draws each entity clear of the outlines given; false if one found no place or two overlap.
+    /// Draws each entity clear of the outlines given; false if two overlap, `None` if one found no place.
     fn draw_all(
         &mut self,
         particle: &mut State,
         which: EntitySet,
         mut outlines: [Option<Outline>; MAX_ENTITIES],
         rng: &mut impl Rng,
-    ) -> bool {
+    ) -> Option<bool> {
         let fixed = outlines;
         for entity in which.iter() {
-            let Some(body) = self.draw(entity, &fixed, rng) else { return false };
+            let body = self.draw(entity, &fixed, rng)?;
             let outline = Outline::of(self.physique, entity, &body);
             if overlaps_any(&outline, &outlines) {
-                return false;
+                return Some(false);
             }
             outlines[entity.index()] = Some(outline);
             *particle.body_mut(entity) = body;
         }
-        true
+        Some(true)
     }
 
     /// A random place for one entity, or `None` after too many rejections.
@@ -102,8 +108,8 @@ impl<'a> Placer<'a> {
     }
 
     /// Goes through all cells and picks one of the possible places in proportion to its weight. If no place is
-    /// possible, one that is at least clear of walls and bodies, or else of walls, or else where the body was or
-    /// the first place tried, and false.
+    /// possible, one that is at least clear of walls and bodies, or else of walls, or else where the body was,
+    /// and false.
     fn search(
         &mut self,
         entity: Entity,
@@ -113,31 +119,32 @@ impl<'a> Placer<'a> {
     ) -> (Body, bool) {
         let physique = self.physique;
         let weights = self.weights(entity);
-        let (mut possible, mut clear, mut inside) =
-            (Reservoir::default(), Reservoir::default(), Reservoir::default());
-        for cell in Cell::all() {
-            for place in 0..PLACES_PER_SIDE * PLACES_PER_SIDE {
-                let (column, row) = (place % PLACES_PER_SIDE, place / PLACES_PER_SIDE);
-                let offset = (Vec2::new(column as f32, row as f32) + 0.5) / PLACES_PER_SIDE as f32;
-                let body = Body::at_rest(cell.min() + offset, random_angle(entity, rng));
+        let mut possible = Reservoir::default();
+        for cell in Cell::all().filter(|&cell| weights.of(cell) > 0.0) {
+            for body in places(cell, entity, rng) {
                 let outline = Outline::of(physique, entity, &body);
-                if !is_clear_of_walls(physique, &outline) {
-                    continue;
+                if is_clear_of_walls(physique, &outline) && !overlaps_any(&outline, outlines) {
+                    possible.offer(body, weights.least(&outline), rng);
                 }
-                inside.offer(body, 1.0, rng);
-                if overlaps_any(&outline, outlines) {
-                    continue;
-                }
-                clear.offer(body, 1.0, rng);
-                possible.offer(body, weights.least(&outline), rng);
             }
         }
         if let Some(body) = possible.kept {
             return (body, true);
         }
+        let (mut clear, mut inside) = (Reservoir::default(), Reservoir::default());
+        for cell in Cell::all() {
+            for body in places(cell, entity, rng) {
+                let outline = Outline::of(physique, entity, &body);
+                if is_clear_of_walls(physique, &outline) {
+                    inside.offer(body, 1.0, rng);
+                    if !overlaps_any(&outline, outlines) {
+                        clear.offer(body, 1.0, rng);
+                    }
+                }
+            }
+        }
         let rest = Some(Body::at_rest(last.position, last.angle)).filter(Body::is_finite);
-        let body = clear.kept.or(inside.kept).or(rest).unwrap_or_default();
-        (body, false)
+        (clear.kept.or(inside.kept).or(rest).unwrap_or(Body::at_rest(arena::CENTRE, 0.0)), false)
     }
 
     /// The weights of all cells for one kind of entity, reckoned when first needed.
@@ -150,6 +157,15 @@ impl<'a> Placer<'a> {
     }
 }
 
+/// Places spread evenly over a cell, with random headings.
+fn places(cell: Cell, entity: Entity, rng: &mut impl Rng) -> [Body; PLACES_PER_SIDE * PLACES_PER_SIDE] {
+    core::array::from_fn(|place| {
+        let (column, row) = (place % PLACES_PER_SIDE, place / PLACES_PER_SIDE);
+        let offset = (Vec2::new(column as f32, row as f32) + 0.5) / PLACES_PER_SIDE as f32;
+        Body::at_rest(cell.min() + offset, random_angle(entity, rng))
+    })
+}
+
 /// An agent's heading may be any; an object looks the same at any angle.
 fn random_angle(entity: Entity, rng: &mut impl Rng) -> f32 {
     match entity {
@@ -160,64 +176,4 @@ fn random_angle(entity: Entity, rng: &mut impl Rng) -> f32 {
 
 fn overlaps_any(outline: &Outline, others: &[Option<Outline>; MAX_ENTITIES]) -> bool {
     others.iter().flatten().any(|other| outline.overlaps(other))
-}
-
-/// The weight of each cell, ready for drawing cells in proportion.
-struct Weights {
-    weights: [f32; CELL_COUNT],
-    /// Sum of the weights up to and including each cell.
-    sums: [f32; CELL_COUNT],
-}
-
-impl Weights {
-    fn new(memory: &CellMemory, entity: Entity) -> Self {
-        let (mut weights, mut sums) = ([0.0; CELL_COUNT], [0.0; CELL_COUNT]);
-        let mut sum = 0.0;
-        for cell in Cell::all() {
-            let weight = memory.weight(entity, cell);
-            sum += weight;
-            weights[cell.index()] = weight;
-            sums[cell.index()] = sum;
-        }
-        Self { weights, sums }
-    }
-
-    fn of(&self, cell: Cell) -> f32 {
-        self.weights[cell.index()]
-    }
-
-    /// A cell in proportion to its weight, or `None` if all weigh nothing.
-    fn draw(&self, rng: &mut impl Rng) -> Option<Cell> {
-        let mark = rng.random::<f32>() * self.sums[CELL_COUNT - 1];
-        // Rounding may put the mark onto the very end, past all cells.
-        Cell::from_index(self.sums.partition_point(|&sum| sum <= mark))
-    }
-
-    /// The least weight of the cells an outline lies on, 0 if it lies on none.
-    fn least(&self, outline: &Outline) -> f32 {
-        let mut least = f32::INFINITY;
-        let nothing = any_cell(outline, |cell| {
-            least = least.min(self.of(cell));
-            least <= 0.0
-        });
-        if nothing || least == f32::INFINITY { 0.0 } else { least }
-    }
-}
-
-/// One of many bodies, kept with a probability in proportion to its weight.
-#[derive(Default)]
-struct Reservoir {
-    kept: Option<Body>,
-    total: f32,
-}
-
-impl Reservoir {
-    fn offer(&mut self, body: Body, weight: f32, rng: &mut impl Rng) {
-        if weight > 0.0 {
-            self.total += weight;
-            if rng.random::<f32>() * self.total < weight {
-                self.kept = Some(body);
-            }
-        }
-    }
 }

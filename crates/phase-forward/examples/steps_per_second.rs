@@ -12,7 +12,8 @@ const EPISODE: usize = 60;
 
 fn main() {
     let steps: usize = std::env::args().nth(1).and_then(|n| n.parse().ok()).unwrap_or(2_000_000);
-    let agent = |size: Size, strength: Strength| AgentBody { radius: size.radius(), max_force: strength.max_force() };
+    let agent =
+        |size: Size, strength: Strength| AgentBody { radius: size.radius(), max_force: strength.max_force() };
     let open = Physique {
         walls: Vec::new(),
         agents: [agent(Size::Small, Strength::Strong), agent(Size::Large, Strength::Mighty)],
@@ -103,7 +104,10 @@ fn report<'a>(
     let per_step = |nanoseconds: u128| nanoseconds as f64 / steps as f64;
     let elapsed = per_step(start.elapsed().as_nanos());
     let spent = busy().zip(start_busy).map_or(f64::NAN, |(end, start)| per_step(end - start));
-    println!("{name}: {spent:.0} ns a step on the processor, {elapsed:.0} by the clock (ends at {:?})", state.bodies[0].position);
+    println!(
+        "{name}: {spent:.0} ns a step on the processor, {elapsed:.0} by the clock (ends at {:?})",
+        state.bodies[0].position
+    );
 }
 
 /// Time this process has spent on a processor (ns), where the system tells.

@@ -46,7 +46,8 @@ impl Shape {
         let origin = agent.centre_of_mass_offset();
         let corners = [(1.5, -1.0), (0.5, 1.0), (-0.5, 1.0), (-1.5, -1.0)]
             .map(|(x, y)| Vec2::new(x * radius, y * radius + origin));
-        let normals = core::array::from_fn(|k| -(corners[(k + 1) % 4] - corners[k]).perp().normalize_or_zero());
+        let normals =
+            core::array::from_fn(|k| -(corners[(k + 1) % 4] - corners[k]).perp().normalize_or_zero());
         let (inverse_mass, inverse_inertia) = (1.0 / agent.mass(), 1.0 / agent.inertia());
         Self {
             inverse_mass,

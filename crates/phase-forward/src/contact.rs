@@ -59,10 +59,8 @@ impl Contact {
         let (normal, middles) = self.manifold.middles(a, b, shape_a.skin, shape_b.skin);
         self.count = self.manifold.count;
         for (row, middle) in self.rows.iter_mut().zip(middles).take(self.count) {
-            *row = (
-                Twist::of_impulse(-normal, middle - a.centre),
-                Twist::of_impulse(normal, middle - b.centre),
-            );
+            *row =
+                (Twist::of_impulse(-normal, middle - a.centre), Twist::of_impulse(normal, middle - b.centre));
         }
         let rows = self.rows;
         let respond = |i: usize, j: usize| {

@@ -7,7 +7,7 @@ use crate::{
 use phase_model::{Segment, Vec2, arena};
 
 /// Least distance of a centre of mass from the boundary (u).
-const MARGIN: f32 = 0.01;
+pub(crate) const MARGIN: f32 = 0.01;
 
 impl World<'_> {
     /// Brings a body back if its centre of mass crossed one of the candidate walls or left the arena. Deeply
@@ -33,8 +33,7 @@ impl World<'_> {
             if candidates & bit(wall_key(index, body)) == 0 {
                 continue;
             }
-            let (before, after) =
-                (wall.normal.dot(start - wall.a), wall.normal.dot(motion.centre - wall.a));
+            let (before, after) = (wall.normal.dot(start - wall.a), wall.normal.dot(motion.centre - wall.a));
             if before * after > 0.0 || wall.is_point() {
                 continue;
             }

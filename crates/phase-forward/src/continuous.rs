@@ -6,7 +6,10 @@ use crate::{
     impact::{Ends, Way, impact},
     key::{KeySet, bit, descending, wall_key},
     manifold::Polygon,
-    tuning::{H, IMPACT_CORRECTION, IMPACT_POSITION_ITERATIONS, MOST_IMPACTS, SETTLED_IMPULSE, SLOP, VELOCITY_ITERATIONS},
+    tuning::{
+        H, IMPACT_CORRECTION, IMPACT_POSITION_ITERATIONS, MOST_IMPACTS, SETTLED_IMPULSE, SLOP,
+        VELOCITY_ITERATIONS,
+    },
     wall::MAX_WALLS,
     world::World,
 };
@@ -115,10 +118,8 @@ impl World<'_> {
         let mut twists = [Twist::ZERO; 5];
         twists[body] = self.motions[body].twist();
         for _ in 0..VELOCITY_ITERATIONS {
-            let change = contacts
-                .iter_mut()
-                .map(|contact| contact.solve(shapes, &mut twists))
-                .fold(0.0, f32::max);
+            let change =
+                contacts.iter_mut().map(|contact| contact.solve(shapes, &mut twists)).fold(0.0, f32::max);
             if change < SETTLED_IMPULSE {
                 break;
             }

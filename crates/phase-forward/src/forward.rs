@@ -1,24 +1,17 @@
 //! The kernel: what never changes of a scene's physics, and steps from state to state.
 
 use crate::{
-    body::{Motion, Shape},
-    key::{KeySet, PAIRS, bit, pair_key, pair_of},
+    body::Shape,
+    key::{KeySet, PAIRS, bit, pair_key},
     memory::Memory,
     reach,
     substep::BodySet,
-    tuning::{H, VELOCITY_ITERATIONS},
+    tuning::VELOCITY_ITERATIONS,
     wall::{Boxes, MAX_WALLS, Wall, walls},
     world::{Touching, World},
 };
-use phase_model::{
-    AGENT_COUNT, Action, Body, Contacts, Dynamics, Entity, Physique, State, Vec2, arena,
-    arena::SUBSTEPS,
-};
+use phase_model::{AGENT_COUNT, Action, Contacts, Dynamics, Entity, Physique, State, Vec2, arena::SUBSTEPS};
 
-/// How far from the place where it was let go of an object is clear of its holder (u).
-const CLEAR: f32 = 0.1;
-/// How many substeps' way at the speed of that moment it has to go beyond that.
-const CLEAR_SUBSTEPS: f32 = 4.0;
 /// Iterations of the velocity solver in a substep that starts without impulses.
 const COLD_ITERATIONS: usize = 20;
 
@@ -115,19 +108,6 @@ impl Forward {
         self.stop_turning(state);
     }
 
-    /// The same body with numbers that mean something.
-    pub(crate) fn mended(&self, body: Body) -> Body {
-        let number = |x: f32| if x.is_finite() { x } else { 0.0 };
-        let vector = |v: Vec2| Vec2::new(number(v.x), number(v.y));
-        let position = if body.position.is_finite() { body.position } else { arena::CENTRE };
-        Body {
-            position,
-            velocity: vector(body.velocity),
-            angle: number(body.angle),
-            angular_velocity: number(body.angular_velocity),
-        }
-    }
-
     fn everyone(&self) -> BodySet {
         (1 << self.count) - 1
     }
@@ -142,7 +122,7 @@ impl Forward {
     ) {
         let mut world = World::new(self, state, actions);
         let let_go = world.grab(state);
-        self.part(&mut world, state, let_go);
+        world.part(state, let_go);
         let members = reach::members(&mut world);
         if members == 0 && !ALL {
             for body in AGENT_COUNT..self.count {
@@ -181,11 +161,12 @@ impl Forward {
             }
             if involved != 0 {
                 outlines = [None; AGENT_COUNT];
+                world.at_ease &= !involved;
                 world.iterations = if substep == 0 { COLD_ITERATIONS } else { VELOCITY_ITERATIONS };
                 self.substep_cold(world, involved, pairs, &mut touching);
             }
             if world.let_go != 0 {
-                Self::reunite(world);
+                world.reunite();
             }
             observe(world, substep);
         }
@@ -203,7 +184,11 @@ impl Forward {
     fn drift(&self, world: &mut World<'_>, body: usize, substeps: usize) {
         let (shape, motion) = (&self.shapes[body], &mut world.motions[body]);
         let action = if body < AGENT_COUNT { world.actions[body] } else { Action::NoForce };
-        if motion.velocity == Vec2::ZERO && motion.spin == 0.0 && action.push().is_none() && action.turn() == 0.0 {
+        if motion.velocity == Vec2::ZERO
+            && motion.spin == 0.0
+            && action.push().is_none()
+            && action.turn() == 0.0
+        {
             return;
         }
         for _ in 0..substeps {
@@ -213,13 +198,7 @@ impl Forward {
     }
 
     /// One substep of bodies that may touch each other, as the given pairs, and walls.
-    fn substep_cold(
-        &self,
-        world: &mut World<'_>,
-        members: BodySet,
-        pairs: KeySet,
-        touching: &mut Touching,
-    ) {
+    fn substep_cold(&self, world: &mut World<'_>, members: BodySet, pairs: KeySet, touching: &mut Touching) {
         let mut candidates = pairs;
         for body in 0..self.count {
             if members & 1 << body != 0 {
@@ -272,59 +251,6 @@ impl Forward {
     fn stop_turning(&self, state: &mut State) {
         for body in &mut state.bodies[..AGENT_COUNT] {
             body.angular_velocity = 0.0;
-        }
-    }
-
-    /// Sets apart the pairs that may not touch: what is held, what is let go of in this step, and what looks
-    /// as if it had been let go of just before. Objects held at an agent's flank lie 0.1 r deep in it and
-    /// stay out of contact, once let go of, until they have moved; a state does not say so, but an object
-    /// that deep at exactly that place, that does not come nearer and did not touch, can be nothing else.
-    fn part(&self, world: &mut World<'_>, state: &State, let_go: [Option<usize>; AGENT_COUNT]) {
-        /// Speed of approach at which it has not just been let go of (u/s).
-        const APPROACH: f32 = 1.0;
-        for agent in 0..AGENT_COUNT {
-            if let Some(held) = world.held(agent) {
-                world.apart |= bit(pair_key(pair_of(agent, held)));
-            }
-            if let Some(held) = let_go[agent] {
-                world.let_go |= bit(pair_key(pair_of(agent, held)));
-            }
-            for object in AGENT_COUNT..self.count {
-                let (holder, held) = (&world.motions[agent], &world.motions[object]);
-                let reach = self.shapes[agent].radius + self.shapes[object].radius;
-                let between = held.centre - holder.place(Vec2::new(0.0, self.shapes[agent].origin));
-                if between.length_squared() > (reach + CLEAR) * (reach + CLEAR)
-                    || state.contacts.touching(Entity::agent(agent), Entity::from_index(object))
-                {
-                    continue;
-                }
-                let place = holder.right * (reach * between.dot(holder.right).signum());
-                let approach = (holder.velocity - held.velocity).dot(between.normalize_or_zero());
-                if place.distance_squared(between) < CLEAR * CLEAR && approach < APPROACH {
-                    world.let_go |= bit(pair_key(pair_of(agent, object)));
-                }
-            }
-        }
-        if world.let_go != 0 {
-            world.apart |= world.let_go;
-            for body in 0..self.count {
-                let motion = &world.motions[body];
-                world.let_go_at[body] = motion.centre;
-                world.let_go_room[body] = CLEAR + CLEAR_SUBSTEPS * H * motion.velocity.length();
-            }
-        }
-    }
-
-    /// Lets pairs touch again of which one has moved away from where it was let go of.
-    fn reunite(world: &mut World<'_>) {
-        for (pair, (a, b)) in PAIRS.into_iter().enumerate() {
-            let moved = |body: usize| {
-                (world.motions[body].centre - world.let_go_at[body]).abs().max_element() > world.let_go_room[body]
-            };
-            if world.let_go & bit(pair_key(pair)) != 0 && (moved(a) || moved(b)) {
-                world.let_go &= !bit(pair_key(pair));
-                world.apart &= !bit(pair_key(pair));
-            }
         }
     }
 }

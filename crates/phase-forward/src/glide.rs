@@ -1,6 +1,12 @@
 //! Substeps of a body that walls may be near, but that nothing touches.
 
-use crate::{impact::Ends, key::descending, manifold::Polygon, tuning::{SKIN, SLOP}, world::World};
+use crate::{
+    impact::Ends,
+    key::descending,
+    manifold::Polygon,
+    tuning::{SKIN, SLOP},
+    world::World,
+};
 use phase_model::{AGENT_COUNT, Vec2};
 
 impl World<'_> {
@@ -15,6 +21,9 @@ impl World<'_> {
             after.act(shape, self.actions[body]);
         }
         let rests = after.velocity == Vec2::ZERO && after.spin == 0.0;
+        if rests && self.at_ease & 1 << body != 0 {
+            return true;
+        }
         after.slide(shape);
         if self.walls[body] != 0 {
             // Within their skins walls may touch a moving body; one at rest they leave alone unless it
@@ -33,6 +42,7 @@ impl World<'_> {
             }
         }
         self.motions[body] = after;
+        self.at_ease = self.at_ease & !(1 << body) | u8::from(rests) << body;
         true
     }
 }

@@ -119,8 +119,8 @@ pub(crate) struct Ends {
 
 impl Ends {
     pub(crate) fn new(shape: &Shape, way: &Way) -> Self {
-        let polygons =
-            (shape.origin > 0.0).then(|| [0.0, 1.0].map(|share| Polygon::new(shape, &way.at(share))));
+        let polygons = (shape.origin > 0.0)
+            .then(|| [Polygon::new(shape, &way.at(0.0)), Polygon::new(shape, &way.at(1.0))]);
         Self { centres: [way.from, way.to], polygons, clear: target(shape) + TOLERANCE }
     }
 
@@ -128,7 +128,8 @@ impl Ends {
     /// also for bodies that lean on it, or the normal of one of the body's sides.
     #[inline]
     pub(crate) fn clear_of(&self, wall: &Wall) -> bool {
-        let [before, after] = self.centres.map(|centre| wall.normal.dot(centre - wall.a));
+        let side = |centre: Vec2| wall.normal.dot(centre - wall.a);
+        let (before, after) = (side(self.centres[0]), side(self.centres[1]));
         let Some(polygons) = &self.polygons else {
             return before * after > 0.0 && before.abs() > self.clear && after.abs() > self.clear;
         };

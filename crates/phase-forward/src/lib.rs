@@ -1,4 +1,44 @@
 //! The PHASE dynamics as a plain-data kernel that a planner can copy and step millions of times.
+//!
+//! [`Forward`] holds what never changes of a scene: walls, shapes, masses, forces. A [`phase_model::State`] is
+//! `Copy`, so remembering a moment is copying it and going back is exact. A step allocates nothing, uses no
+//! chance and no clock, and repeats bit for bit. There are two ways to step:
+//!
+//! - [`phase_model::Dynamics::step`], and [`Forward::step_substeps`] with its five frames, go from a state
+//!   alone. This is what planners and belief particles use.
+//! - [`Forward::step_warm`] also takes a [`Memory`] of the impulses that acted last, and of the pairs that
+//!   were up for contact. This is what replays of recordings need.
+//!
+//! The key design decision is to be the same *kind* of solver as the one that made the published recordings
+//! (sequential impulses with ten iterations, ground friction and grips as constraints among the contacts,
+//! overlaps taken back by moving bodies, impacts on walls found in time), specialised to two trapezoids, two
+//! discs and thin walls. A solver of another kind comes out near, but a planner that inverts recordings, or
+//! pushes an object for ten steps, needs the same numbers. The price is that its oddities are kept too, and
+//! that nothing else than PHASE fits in: no more than four bodies, no friction between them, no bounce.
+//!
+//! # One substep of 1/60 s
+//!
+//! 1. An agent's force or torque changes its velocity ([`phase_model::Action::push`] acts R/12 behind its
+//!    origin, in its own frame); `stop` sets the velocity to zero.
+//! 2. Shapes that touch where they are now become contacts. What hangs together by contacts and grips is
+//!    solved together: grips, ground friction (at most 100 N at a body's origin), then contacts, newest first.
+//! 3. Bodies move, and overlaps and stretched grips are corrected by moving them further.
+//! 4. A body whose way led it onto a wall goes back to the moment of impact, loses its speed into the wall
+//!    and spends the rest of the substep from there. Bodies may tunnel through each other, but not through walls.
+//!
+//! After the fifth substep agents stop turning; objects do not.
+//!
+//! # What a state does not say
+//!
+//! Let go of, an object does not touch its holder again before one of them has moved about 0.1 u; if it was
+//! held at a flank it lies a tenth of its radius deep in the agent. [`Memory`] carries this as the original
+//! does. From a state alone, the pair is kept apart in the step of the `detach`, and in later ones as long as
+//! the object lies deep in a flank exactly where it was held, does not approach, and was not in contact.
+//!
+//! # What it costs to reach
+//!
+//! Bodies that can reach nothing within the step are moved without looking at anything. Bodies near walls
+//! are moved first and looked at after: if they stayed clear, nothing had to be solved.
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
@@ -11,6 +51,7 @@ mod forward;
 mod glide;
 mod impact;
 mod key;
+mod let_go;
 mod manifold;
 mod memory;
 mod reach;

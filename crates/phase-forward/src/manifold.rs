@@ -124,9 +124,12 @@ impl Polygon {
 
     #[inline]
     pub(crate) fn new(shape: &Shape, motion: &Motion) -> Self {
+        // Written out because `map` on arrays does not unroll here.
+        let [a, b, c, d] = &shape.corners;
+        let [e, f, g, h] = &shape.normals;
         Self {
-            corners: shape.corners.map(|corner| motion.place(corner)),
-            normals: shape.normals.map(|normal| motion.turn(normal)),
+            corners: [motion.place(*a), motion.place(*b), motion.place(*c), motion.place(*d)],
+            normals: [motion.turn(*e), motion.turn(*f), motion.turn(*g), motion.turn(*h)],
         }
     }
 
@@ -264,8 +267,7 @@ pub(crate) fn agents(first: (&Motion, &Polygon), second: (&Motion, &Polygon)) ->
         return Manifold::NONE;
     }
     let flipped = gap_b > PREFERENCE.0 * gap_a + PREFERENCE.1;
-    let (reference, incident, side) =
-        if flipped { (second, first, side_b) } else { (first, second, side_a) };
+    let (reference, incident, side) = if flipped { (second, first, side_b) } else { (first, second, side_a) };
     let normal = reference.1.normals[side];
     let next = (side + 1) % 4;
     let other_side = incident.1.side_against(normal);
@@ -300,7 +302,8 @@ pub(crate) fn wall_agent(wall: &Wall, agent: &Motion, polygon: &Polygon) -> Mani
     let front = wall.normal.dot(agent.centre - wall.a) >= 0.0;
     let wall_normal = if front { wall.normal } else { -wall.normal };
     let reach = wall_normal.dot(wall.a);
-    let gap = polygon.corners.iter().fold(f32::MAX, |least, corner| least.min(wall_normal.dot(*corner) - reach));
+    let gap =
+        polygon.corners.iter().fold(f32::MAX, |least, corner| least.min(wall_normal.dot(*corner) - reach));
     if gap > SKINS {
         return Manifold::NONE;
     }
@@ -324,14 +327,11 @@ pub(crate) fn wall_agent(wall: &Wall, agent: &Motion, polygon: &Polygon) -> Mani
             [(wall.a, name(false, side, true, 0)), (wall.b, name(false, side, true, 1))],
         )
     } else {
-        let face = if front {
-            [(wall.a, 0.0, 0), (wall.b, 0.0, 1)]
-        } else {
-            [(wall.b, 0.0, 1), (wall.a, 0.0, 0)]
-        };
+        let face =
+            if front { [(wall.a, 0.0, 0), (wall.b, 0.0, 1)] } else { [(wall.b, 0.0, 1), (wall.a, 0.0, 0)] };
         let facing = polygon.side_against(wall_normal);
-        let incident =
-            [facing, (facing + 1) % 4].map(|k| (polygon.corners[k], name(false, 0, true, k)));
+        let named = |k: usize| (polygon.corners[k], name(false, 0, true, k));
+        let incident = [named(facing), named((facing + 1) % 4)];
         (wall_normal, face, incident)
     };
     // The side planes stand on the face itself: what sticks out beyond its ends does not count.
@@ -370,11 +370,7 @@ const fn name(first_is_corner: bool, first: usize, second_is_corner: bool, secon
 /// Cuts a line of two named points off at the two ends of a face, given as (corner, leeway, number).
 /// `tangent` leads from the first end to the second. `None` if nothing is left.
 #[inline]
-fn clip(
-    line: [(Vec2, u16); 2],
-    tangent: Vec2,
-    ends: [(Vec2, f32, usize); 2],
-) -> Option<[(Vec2, u16); 2]> {
+fn clip(line: [(Vec2, u16); 2], tangent: Vec2, ends: [(Vec2, f32, usize); 2]) -> Option<[(Vec2, u16); 2]> {
     let once = clip_at(line, -tangent, ends[0])?;
     clip_at(once, tangent, ends[1])
 }
@@ -387,7 +383,7 @@ fn clip_at(
     (corner, leeway, number): (Vec2, f32, usize),
 ) -> Option<[(Vec2, u16); 2]> {
     let limit = outward.dot(corner) + leeway;
-    let beyond = line.map(|(point, _)| outward.dot(point) - limit);
+    let beyond = [outward.dot(line[0].0) - limit, outward.dot(line[1].0) - limit];
     match (beyond[0] <= 0.0, beyond[1] <= 0.0) {
         (true, true) => Some(line),
         (false, false) => None,

@@ -6,7 +6,7 @@ use crate::{
     tuning::H,
     world::World,
 };
-use phase_model::{AGENT_COUNT, Vec2, arena};
+use phase_model::{AGENT_COUNT, Action, Vec2, arena, physique};
 
 /// Substeps in a step, as seconds.
 const STEP: f32 = arena::SUBSTEPS as f32 * H;
@@ -23,14 +23,20 @@ pub(crate) fn members(world: &mut World<'_>) -> BodySet {
     let forward = world.forward;
     let mut members: BodySet = 0;
     let mut ways = [0.0_f32; 4];
-    for body in 0..forward.count {
+    for (body, longest) in ways.iter_mut().enumerate().take(forward.count) {
         let (motion, shape) = (&world.motions[body], &forward.shapes[body]);
-        let mut way = motion.velocity.length() * STEP;
-        if body < AGENT_COUNT && world.actions[body].push().is_some() {
-            way += shape.max_force * shape.inverse_mass * WAY_PER_ACCELERATION;
+        let action = if body < AGENT_COUNT { world.actions[body] } else { Action::NoForce };
+        let coast = if action == Action::Stop { Vec2::ZERO } else { motion.velocity * STEP };
+        // What may lead off the straight way: pushes, and the ground's friction on a body that turns.
+        let mut force = if action.push().is_some() { shape.max_force } else { 0.0 };
+        if force > 0.0 || action.turn() != 0.0 || motion.spin != 0.0 {
+            force += physique::GROUND_FRICTION;
         }
-        ways[body] = way;
-        world.walls[body] = near_walls(world, body, motion.centre, motion.centre, shape.bound + way + LEEWAY);
+        let aside = force * shape.inverse_mass * WAY_PER_ACCELERATION;
+        *longest = coast.length() + aside;
+        let (here, there) = (motion.centre, motion.centre + coast);
+        world.walls[body] =
+            near_walls(world, body, here.min(there), here.max(there), shape.bound + aside + LEEWAY);
         members |= u8::from(world.walls[body] != 0) << body;
     }
     let mut grouped: BodySet = 0;
@@ -41,8 +47,7 @@ pub(crate) fn members(world: &mut World<'_>) -> BodySet {
     }
     let reaches = |a: usize, b: usize, way: f32| {
         let reach = forward.shapes[a].bound + forward.shapes[b].bound + way + LEEWAY;
-        b < forward.count
-            && world.motions[a].centre.distance_squared(world.motions[b].centre) < reach * reach
+        b < forward.count && world.motions[a].centre.distance_squared(world.motions[b].centre) < reach * reach
     };
     for (a, b) in PAIRS {
         if reaches(a, b, ways[a] + ways[b]) {
@@ -57,7 +62,8 @@ pub(crate) fn members(world: &mut World<'_>) -> BodySet {
     let mut together = 0.0;
     while grouped != before {
         before = grouped;
-        let sum: f32 = (0..forward.count).filter(|body| grouped & 1 << body != 0).map(|body| ways[body]).sum();
+        let sum: f32 =
+            (0..forward.count).filter(|body| grouped & 1 << body != 0).map(|body| ways[body]).sum();
         together = 2.0 * sum + CORRECTIONS;
         for (a, b) in PAIRS {
             let (first, second) = (grouped & 1 << a != 0, grouped & 1 << b != 0);

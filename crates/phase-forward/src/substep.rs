@@ -1,7 +1,7 @@
 //! One substep of 1/60 s: find contacts, solve velocities, move, solve positions.
 
 use crate::{
-    body::STATIC,
+    body::{STATIC, Twist},
     contact::Contact,
     key::{KeySet, PAIRS, bit, descending, pair_key},
     manifold::{self, Manifold, Polygon},
@@ -10,7 +10,7 @@ use crate::{
     weld::Weld,
     world::{MAX_CONTACTS, Touching, World},
 };
-use phase_model::{AGENT_COUNT, Vec2};
+use phase_model::AGENT_COUNT;
 
 /// A set of bodies, one bit each.
 pub(crate) type BodySet = u8;
@@ -80,12 +80,13 @@ impl World<'_> {
         /// Keys of all walls and body 0.
         const WALLS: KeySet = 0x1111_1111_1111_1111 & (bit(pair_key(0)) - 1);
         let both = bit(pair_key(0));
-        [0, 1].map(|agent| {
+        let outline = |agent: usize| {
             if candidates & (WALLS << agent | both) == 0 {
                 return Polygon::NONE;
             }
             Polygon::new(&self.forward.shapes[agent], &self.motions[agent])
-        })
+        };
+        [outline(0), outline(1)]
     }
 
     /// The contact of a pair of shapes.
@@ -113,7 +114,13 @@ impl World<'_> {
     }
 
     /// Everything that hangs together with a body by contacts and grips, in the order of solution.
-    fn island(&self, seed: usize, contacts: &[Contact], welds: &[Option<Weld>; AGENT_COUNT], done: &mut BodySet) -> Island {
+    fn island(
+        &self,
+        seed: usize,
+        contacts: &[Contact],
+        welds: &[Option<Weld>; AGENT_COUNT],
+        done: &mut BodySet,
+    ) -> Island {
         let mut island = Island::EMPTY;
         let mut taken = 0_u32;
         let mut joined: u8 = 0;
@@ -173,7 +180,8 @@ impl World<'_> {
         let bodies = &island.bodies[..island.body_count];
         let joints = &island.joints[..island.joint_count];
         let contacts = &island.contacts[..island.contact_count];
-        let mut twists = [0, 1, 2, 3, 4].map(|body: usize| motions[body].twist());
+        let [a, b, c, d, _] = motions;
+        let mut twists = [a.twist(), b.twist(), c.twist(), d.twist(), Twist::ZERO];
         for &index in contacts {
             all[usize::from(index)].prepare(shapes, motions);
         }

@@ -85,9 +85,8 @@ impl Boxes {
         let inside = arena::MIN + SKIN;
         let outside = arena::MAX - SKIN;
         let amid = min.x > inside.x && min.y > inside.y && max.x < outside.x && max.y < outside.y;
-        let clear = |(low, high): (Vec2, Vec2)| {
-            low.x > max.x || low.y > max.y || high.x < min.x || high.y < min.y
-        };
+        let clear =
+            |(low, high): (Vec2, Vec2)| low.x > max.x || low.y > max.y || high.x < min.x || high.y < min.y;
         if amid && clear(self.inner[0]) && clear(self.inner[1]) {
             return 0;
         }

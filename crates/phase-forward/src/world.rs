@@ -1,14 +1,10 @@
 //! The bodies at work: a state taken apart for solving, and put together again.
 
 use crate::{
-    Forward,
-    body::Motion,
-    contact::Contact,
-    key::KeySet,
-    tuning::VELOCITY_ITERATIONS,
+    Forward, body::Motion, contact::Contact, contain::MARGIN, key::KeySet, tuning::VELOCITY_ITERATIONS,
     weld::held_body,
 };
-use phase_model::{AGENT_COUNT, Action, Entity, Grip, State, Vec2};
+use phase_model::{AGENT_COUNT, Action, Body, Entity, Grip, State, Vec2, arena};
 
 /// Most contacts that are solved at once; more than four bodies between walls ever have.
 pub(crate) const MAX_CONTACTS: usize = 16;
@@ -102,8 +98,7 @@ pub(crate) struct Impulses {
 }
 
 impl Impulses {
-    pub(crate) const NONE: Self =
-        Self { ground: [Vec2::ZERO; 4], welds: [(Vec2::ZERO, 0.0); AGENT_COUNT] };
+    pub(crate) const NONE: Self = Self { ground: [Vec2::ZERO; 4], welds: [(Vec2::ZERO, 0.0); AGENT_COUNT] };
 }
 
 /// Everything that one step works on.
@@ -127,24 +122,29 @@ pub(crate) struct World<'a> {
     pub(crate) let_go_at: [Vec2; 4],
     /// How far each body has to move from there before it counts as clear (u).
     pub(crate) let_go_room: [f32; 4],
+    /// Bodies at rest of which it is known that no wall moves them.
+    pub(crate) at_ease: u8,
     /// Iterations of the velocity solver in the coming substep.
     pub(crate) iterations: usize,
 }
 
 impl<'a> World<'a> {
-    /// Takes a state apart. Numbers that are not finite become 0.
+    /// Takes a state apart. Numbers that make no sense are mended, and centres of mass brought into the arena.
     pub(crate) fn new(forward: &'a Forward, state: &State, actions: [Action; AGENT_COUNT]) -> Self {
         let mut motions = [Motion::STILL; 5];
         for (index, motion) in motions.iter_mut().enumerate().take(forward.count) {
             let mut body = state.bodies[index];
-            if !body.is_finite() {
-                body = forward.mended(body);
+            if !is_sane(&body) {
+                body = mended(body);
             }
             *motion = if index < AGENT_COUNT {
                 Motion::of_agent(&body, &forward.shapes[index])
             } else {
                 Motion::of_object(&body)
             };
+            if !arena::contains(motion.centre) {
+                motion.centre = motion.centre.clamp(arena::MIN + MARGIN, arena::MAX - MARGIN);
+            }
         }
         Self {
             forward,
@@ -159,6 +159,7 @@ impl<'a> World<'a> {
             let_go: 0,
             let_go_at: [Vec2::ZERO; 4],
             let_go_room: [0.0; 4],
+            at_ease: 0,
             iterations: VELOCITY_ITERATIONS,
         }
     }
@@ -181,7 +182,7 @@ impl<'a> World<'a> {
     /// that let go of something, with the body they held.
     pub(crate) fn grab(&mut self, state: &State) -> [Option<usize>; AGENT_COUNT] {
         let mut let_go = [None; AGENT_COUNT];
-        for agent in 0..AGENT_COUNT {
+        for (agent, let_go) in let_go.iter_mut().enumerate() {
             match self.actions[agent] {
                 Action::Attach => {
                     if let Some((object, side)) = state.attachable(&self.forward.physique, agent) {
@@ -196,12 +197,41 @@ impl<'a> World<'a> {
                     }
                 }
                 Action::Detach => {
-                    let_go[agent] = self.held(agent);
+                    *let_go = self.held(agent);
                     self.grips[agent] = None;
                 }
                 _ => {}
             }
         }
         let_go
+    }
+}
+
+/// Greatest speed that is taken seriously (u/s), and spin (rad/s); bodies that move freely are limited to far
+/// less anyway.
+const FASTEST: f32 = 1e4;
+/// Greatest angle that is taken seriously (rad); beyond it, neighbouring numbers are a visible turn apart.
+const FARTHEST_TURN: f32 = 1e5;
+
+/// Whether all numbers of a body make sense.
+fn is_sane(body: &Body) -> bool {
+    body.position.is_finite()
+        && body.velocity.abs().max_element() <= FASTEST
+        && body.angular_velocity.abs() <= FASTEST
+        && body.angle.abs() <= FARTHEST_TURN
+        && !body.velocity.is_nan()
+}
+
+/// The same body with numbers that make sense: 0 for those that are none, the nearest for those out of range.
+fn mended(body: Body) -> Body {
+    let number = |x: f32, most: f32| if x.is_nan() { 0.0 } else { x.clamp(-most, most) };
+    Body {
+        position: Vec2::new(
+            number(body.position.x, 2.0 * arena::MAX.x),
+            number(body.position.y, 2.0 * arena::MAX.y),
+        ),
+        velocity: Vec2::new(number(body.velocity.x, FASTEST), number(body.velocity.y, FASTEST)),
+        angle: number(body.angle, FARTHEST_TURN),
+        angular_velocity: number(body.angular_velocity, FASTEST),
     }
 }

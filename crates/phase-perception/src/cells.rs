@@ -29,8 +29,9 @@ impl Cell {
     }
 
     /// The cells that a box (lower left and upper right corner, u) has inner points in common with; what lies
-    /// outside the arena is cut off.
+    /// outside the arena is cut off. A box with NaN in it has none.
     pub fn in_box(min: Vec2, max: Vec2) -> impl Iterator<Item = Self> {
+        let max = if min.cmple(max).all() { max } else { arena::MIN };
         let low = (min - arena::MIN).floor().max(Vec2::ZERO);
         let high = (max - arena::MIN).ceil().min(Vec2::splat(CELLS_PER_SIDE as f32)).max(low);
         let (columns, rows) = ((low.x as usize)..(high.x as usize), (low.y as usize)..(high.y as usize));

@@ -165,14 +165,23 @@ impl Task<'_> {
         successors
     }
 
-    /// Distance an agent travels between two spots (u), without penalties for doors.
+    /// Distance an agent travels between two spots (u), with the penalties of doors that it does not fit
+    /// through.
     #[must_use]
     pub fn distance(&self, node: &Node, agent: usize, held: Option<u8>, to: Spot) -> f32 {
         let from = held.map_or(node.agents[agent], |object| node.objects[usize::from(object)]);
         let (from, to) = (self.situation.position(from), self.situation.position(to));
-        let width = self.situation.width(agent, held.map(usize::from));
-        let gaps = self.gaps(node, agent, None);
-        self.situation.routes.best(from, to, width, &gaps).map_or(from.distance(to), |route| route.length)
+        let gaps = self.gaps(node, agent, held);
+        self.situation.routes.cost(from, to, self.width(node, agent, held), &gaps)
+    }
+
+    /// Width of an agent with what it holds and with who else holds that (u).
+    fn width(&self, node: &Node, agent: usize, held: Option<u8>) -> f32 {
+        let mut width = self.situation.width(agent, held.map(usize::from));
+        if held.is_some() && node.holds[1 - agent] == held {
+            width = width.max(self.situation.width(1 - agent, None));
+        }
+        width
     }
 
     fn with_free_hands(&self, node: &Node, agent: usize, successors: &mut Vec<(Operator, Node, f32)>) {
@@ -271,7 +280,7 @@ impl Task<'_> {
     fn travel_cost(&self, node: &Node, agent: usize, held: Option<u8>, to: Spot, ignored: Option<u8>) -> f32 {
         let from = held.map_or(node.agents[agent], |object| node.objects[usize::from(object)]);
         let (from, to) = (self.situation.position(from), self.situation.position(to));
-        let width = self.situation.width(agent, held.map(usize::from));
+        let width = self.width(node, agent, held);
         let cost = self.effort[agent]
             * self.situation.routes.cost(from, to, width, &self.gaps(node, agent, ignored));
         if held.is_none() && self.is_behind_a_blocker(node, agent) { cost + IMPASSABLE_COST } else { cost }

@@ -1,10 +1,7 @@
 //! Reading the reference material, which lies beside the project where it is available at all.
 
 use phase_forward::{Forward, Memory};
-use phase_model::{
-    Action, AgentBody, Body, Grip, Physique, Segment, Side, State, Vec2,
-    arena::{CENTRE, MAX, MIN},
-};
+use phase_model::{Action, AgentBody, Body, Physique, Segment, State, Vec2};
 use serde_json::Value;
 use std::path::Path;
 
@@ -15,24 +12,32 @@ pub(crate) fn read(path: &str) -> Option<Value> {
         println!("skipped: there is no reference material beside the project");
         return None;
     };
-    Some(serde_json::from_str(&text).unwrap())
+    Some(serde_json::from_str(&text).expect("valid JSON"))
 }
 
 pub(crate) fn number(value: &Value) -> f32 {
-    value.as_f64().unwrap() as f32
+    value.as_f64().expect("a number") as f32
 }
 
 pub(crate) fn numbers(value: &Value) -> Vec<f32> {
-    value.as_array().unwrap().iter().map(number).collect()
+    value.as_array().expect("a list").iter().map(number).collect()
 }
 
 pub(crate) fn walls(value: &Value) -> Vec<Segment> {
     let point = |value: &Value| Vec2::new(number(&value[0]), number(&value[1]));
-    value.as_array().unwrap().iter().map(|wall| Segment { a: point(&wall[0]), b: point(&wall[1]) }).collect()
+    value
+        .as_array()
+        .expect("a list")
+        .iter()
+        .map(|wall| Segment { a: point(&wall[0]), b: point(&wall[1]) })
+        .collect()
 }
 
 pub(crate) fn action(value: &Value) -> Action {
-    Action::ALL.into_iter().find(|action| action.name() == value.as_str().unwrap()).unwrap()
+    Action::ALL
+        .into_iter()
+        .find(|action| action.name() == value.as_str().expect("a name"))
+        .expect("an action")
 }
 
 /// A body from a row x, y, vx, vy, angle and perhaps angular velocity.
@@ -65,35 +70,10 @@ pub(crate) fn distance(a: &State, b: &State) -> f32 {
     a.bodies.iter().zip(&b.bodies).map(|(a, b)| a.position.distance(b.position)).fold(0.0, f32::max)
 }
 
-/// Gives a recorded state the grips that the record says agents have, on the sides where objects lie.
-pub(crate) fn hold(state: &mut State, held: &Value, relative_angles: [f32; 2]) {
-    for agent in 0..2 {
-        state.grips[agent] = held[agent].as_u64().map(|object| {
-            let (holder, object_body) = (&state.bodies[agent], &state.bodies[2 + object as usize]);
-            let between = object_body.position - holder.position;
-            let right = Vec2::from_angle(holder.angle);
-            let local = Vec2::new(between.dot(right), between.dot(right.perp()));
-            let side =
-                Side::ALL.into_iter().max_by(|a, b| {
-                    a.direction().dot(local).total_cmp(&b.direction().dot(local))
-                });
-            Grip { object: object as u8, side: side.unwrap(), relative_angle: relative_angles[agent] }
-        });
-    }
-}
-
 /// The p-th percentile (0 to 100) of some errors.
 pub(crate) fn percentile(errors: &mut [f32], p: usize) -> f32 {
     errors.sort_by(f32::total_cmp);
     if errors.is_empty() { 0.0 } else { errors[(errors.len() - 1) * p / 100] }
-}
-
-/// Whether every body's origin lies in the arena.
-pub(crate) fn inside(state: &State) -> bool {
-    state.bodies.iter().all(|body| {
-        let off = (body.position - CENTRE).abs();
-        off.max_element() <= (MAX - MIN).max_element() * 0.5 + 0.3
-    })
 }
 
 /// A freshly set-up world after its idle substep, with its memory.

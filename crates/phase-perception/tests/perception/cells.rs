@@ -51,6 +51,8 @@ fn boxes_have_the_cells_they_share_inner_points_with() {
         ((26.0, 5.0), (40.0, 9.0), 0),
         ((f32::NEG_INFINITY, 2.0), (f32::INFINITY, 3.0), CELLS_PER_SIDE),
         ((f32::INFINITY, 2.0), (f32::INFINITY, 3.0), 0),
+        ((f32::NAN, 2.0), (f32::NAN, 3.0), 0),
+        ((6.0, 2.0), (f32::NAN, 3.0), 0),
     ];
     for (min, max, expected) in cases {
         assert_eq!(Cell::in_box(min.into(), max.into()).count(), expected, "{min:?} to {max:?}");

@@ -57,10 +57,8 @@ pub(crate) fn any_physique() -> impl Strategy<Value = Physique> {
 }
 
 pub(crate) fn any_body() -> impl Strategy<Value = Body> {
-    (6.0_f32..26.0, 2.0_f32..22.0, -9.0_f32..9.0).prop_map(|(x, y, angle)| Body {
-        velocity: Vec2::new(y, x),
-        ..Body::at_rest(Vec2::new(x, y), angle)
-    })
+    (6.0_f32..26.0, 2.0_f32..22.0, -9.0_f32..9.0)
+        .prop_map(|(x, y, angle)| Body { velocity: Vec2::new(y, x), ..Body::at_rest(Vec2::new(x, y), angle) })
 }
 
 /// Bodies anywhere in the arena, some pairs in contact, some objects held.

@@ -30,13 +30,244 @@ fn check(walls: &[((f32, f32), (f32, f32))], state: &State, expected: [&str; 20]
 
 #[test]
 fn an_empty_room_is_seen_as_far_as_the_cone_reaches() {
-    check(&[], &looking((16.5, 6.5), 0.0), [""; 20]);
+    // The apex is at y = 6.367, and 24/17 cells more come into view with every row.
+    check(
+        &[],
+        &looking((16.5, 6.5), 0.0),
+        [
+            "oooooooooooooooooooo",
+            "oooooooooooooooooooo",
+            "oooooooooooooooooooo",
+            "oooooooooooooooooooo",
+            "oooooooooooooooooooo",
+            "oooooooooooooooooooo",
+            "oooooooooooooooooooo",
+            "oooooooooooooooooooo",
+            "oooooooooooooooooooo",
+            "..ooooooooooooooooo.",
+            "...ooooooooooooooo..",
+            ".....ooooooooooo....",
+            "......ooooooooo.....",
+            ".......ooooooo......",
+            ".........ooo........",
+            "..........o.........",
+            "....................",
+            "....................",
+            "....................",
+            "....................",
+        ],
+    );
 }
+
 #[test]
-fn a_wall_and_its_door() {
-    check(&[((16.0, 12.0), (6.0, 12.0)), ((18.5, 12.0), (26.0, 12.0))], &looking((14.5, 6.5), 0.0), [""; 20]);
+fn through_a_door_one_sees_a_strip() {
+    check(
+        &[((16.0, 12.0), (6.0, 12.0)), ((18.5, 12.0), (26.0, 12.0))],
+        &looking((14.5, 6.5), 0.0),
+        [
+            ".............oooooo.",
+            "............ooooooo.",
+            "............oooooo..",
+            "............ooooo...",
+            "...........ooooo....",
+            "...........ooooo....",
+            "...........oooo.....",
+            "...........ooo......",
+            "..........oooo......",
+            "..........ooo.......",
+            ".ooooooooooooooo....",
+            "...ooooooooooo......",
+            "....ooooooooo.......",
+            ".....ooooooo........",
+            ".......ooo..........",
+            "........o...........",
+            "....................",
+            "....................",
+            "....................",
+            "....................",
+        ],
+    );
 }
+
 #[test]
-fn body() {
-    check(&[], &with(with(looking((8.5, 12.0), -FRAC_PI_2), BALL, (13.0, 12.0)), OTHER, (20.0, 17.0)), [""; 20]);
+fn objects_and_agents_cast_shadows() {
+    // Facing right; an object straight ahead at (13, 12), the other agent at (20, 17).
+    check(
+        &[],
+        &with(with(looking((8.5, 12.0), -FRAC_PI_2), BALL, (13.0, 12.0)), OTHER, (20.0, 17.0)),
+        [
+            ".........ooooooooooo",
+            "........oooooooooooo",
+            "........oooooooooo..",
+            ".......oooooooo.....",
+            "......oooooooo....oo",
+            "......ooooooo..ooooo",
+            ".....ooooooooooooooo",
+            "....ooooooooooooo...",
+            "...oooooooo.........",
+            "...ooo..............",
+            "...ooo..............",
+            "...oooooooo.........",
+            "....ooooooooooooo...",
+            ".....ooooooooooooooo",
+            "......oooooooooooooo",
+            "......oooooooooooooo",
+            ".......ooooooooooooo",
+            "........oooooooooooo",
+            "........oooooooooooo",
+            ".........ooooooooooo",
+        ],
+    );
+}
+
+#[test]
+fn the_cone_ends_at_its_half_angle() {
+    // The apex at (10.5, 4.5 − 0.8/6); seen from there, (x, y) is at tan = |x − 10.5| / (y − apex).
+    let apex_y = 4.5 - 0.8 / 6.0;
+    let upright = |angle: f32| {
+        let mut state = looking((10.5, 4.5), angle);
+        // Turning is about the origin, but the apex should stay.
+        state.body_mut(ME).position = Vec2::new(10.5, apex_y) + state.body(ME).forward() * (0.8 / 6.0);
+        state
+    };
+    let edge = 54.69_f32.to_radians();
+    let target = Vec2::new(15.5, 9.5);
+    let towards = arc_tangent(target.x - 10.5, target.y - apex_y);
+    let cases = [
+        ("on the axis", -towards, true),
+        ("just inside, to the left of the axis", -towards - edge + 0.001, true),
+        ("just outside, to the left", -towards - edge - 0.001, false),
+        ("just inside, to the right", -towards + edge - 0.001, true),
+        ("just outside, to the right", -towards + edge + 0.001, false),
+        ("right behind", -towards + PI, false),
+        ("a full turn on", -towards + 2.0 * PI, true),
+    ];
+    let physique = physique(Vec::new(), Size::Small);
+    let cell = Cell::at(target).unwrap();
+    for (name, angle, expected) in cases {
+        assert_eq!(field_of_view(&physique, &upright(angle), 0).contains(cell), expected, "{name}");
+    }
+}
+
+#[test]
+fn a_ray_along_a_wall_passes_and_one_through_its_end_does_not() {
+    let cell = Cell::at(Vec2::new(10.5, 15.5)).unwrap();
+    let cases = [
+        ("clear of the end", wall((11.0, 10.0), (26.0, 10.0)), true),
+        ("through the end", wall((10.5, 10.0), (26.0, 10.0)), false),
+        ("across", wall((6.0, 10.0), (26.0, 10.0)), false),
+        ("along", wall((11.0, 4.0), (11.0, 22.0)), true),
+        ("short of the wall", wall((6.0, 16.0), (26.0, 16.0)), true),
+        ("behind", wall((6.0, 3.0), (26.0, 3.0)), true),
+    ];
+    for (name, wall, expected) in cases {
+        let state = looking((10.5, 4.5), 0.0);
+        assert_eq!(
+            field_of_view(&physique(vec![wall], Size::Small), &state, 0).contains(cell),
+            expected,
+            "{name}"
+        );
+    }
+}
+
+#[test]
+fn entities_are_seen_if_a_cell_of_theirs_is() {
+    let front = looking((10.5, 6.5), 0.0);
+    let huge = |state: State| (Size::Huge, state);
+    let small = |state: State| (Size::Small, state);
+    let cases = [
+        ("straight ahead", small(with(front, BALL, (10.5, 15.0))), true),
+        (
+            "right before the head, too large to see its cells past it",
+            huge(with(front, BALL, (10.5, 9.8))),
+            true,
+        ),
+        ("behind", small(with(front, BALL, (10.5, 3.0))), false),
+        ("beside", small(with(front, BALL, (13.0, 6.0))), false),
+        ("only the far side in the cone", small(with(front, BALL, (13.3, 8.0))), true),
+        (
+            "behind a smaller one of the same bearing",
+            small(with(with(front, BOX, (10.5, 10.5)), BALL, (10.5, 13.5))),
+            false,
+        ),
+        ("behind the other agent", small(with(with(front, OTHER, (10.5, 9.5)), BALL, (10.5, 13.0))), false),
+        (
+            "half behind the other agent",
+            small(with(with(front, OTHER, (10.5, 12.5)), BALL, (12.6, 16.5))),
+            true,
+        ),
+        ("nowhere", small(with(front, BALL, (AWAY.x, AWAY.y))), false),
+        ("not a number", small(with(front, BALL, (f32::NAN, 10.0))), false),
+    ];
+    for (name, (size, state), expected) in cases {
+        assert_eq!(sees(&physique(Vec::new(), size), &state, 0, BALL), expected, "{name}");
+    }
+}
+
+#[test]
+fn walls_hide_entities_and_doors_show_them() {
+    let walls = || vec![wall((16.0, 12.0), (6.0, 12.0)), wall((18.5, 12.0), (26.0, 12.0))];
+    let cases = [((12.0, 14.0), false), ((17.2, 13.0), true), ((18.5, 20.0), true), ((23.0, 14.0), false)];
+    for (place, expected) in cases {
+        let state = with(looking((14.5, 6.5), 0.0), BALL, place);
+        assert_eq!(sees(&physique(walls(), Size::Small), &state, 0, BALL), expected, "{place:?}");
+    }
+}
+
+#[test]
+fn nobody_sees_itself_or_what_is_not_there() {
+    let mut physique = physique(Vec::new(), Size::Small);
+    let state = with(looking((10.5, 6.5), 0.0), BOX, (10.5, 12.0));
+    assert!(!sees(&physique, &state, 0, ME));
+    assert!(sees(&physique, &state, 0, BOX));
+    physique.object_count = 1;
+    assert!(!sees(&physique, &state, 0, BOX));
+}
+
+/// The angle whose tangent is x/y; the heading towards (x, y) is its negative.
+fn arc_tangent(x: f32, y: f32) -> f32 {
+    x.atan2(y)
+}
+
+proptest! {
+    #[test]
+    fn cells_are_seen_as_reckoned_slowly(physique in any_physique(), state in any_state(), agent in 0_usize..2) {
+        let visible = field_of_view(&physique, &state, agent);
+        for cell in Cell::all() {
+            let sight = look(&physique, &state, agent, cell);
+            prop_assert!(
+                sight.margin < 1e-3 || visible.contains(cell) == sight.visible,
+                "{cell:?}, margin {}", sight.margin
+            );
+        }
+    }
+
+    /// An entity is seen exactly if its cells would be visible were it not there.
+    #[test]
+    fn entities_are_seen_as_if_they_hid_nothing(
+        physique in any_physique(), state in any_state(), agent in 0_usize..2,
+    ) {
+        for entity in physique.entities().filter(|entity| entity.index() != agent) {
+            let mut without = state;
+            *without.body_mut(entity) = Body::at_rest(AWAY, 0.0);
+            let cells = footprint(&physique, entity, state.body(entity));
+            let expected = field_of_view(&physique, &without, agent).intersects(&cells);
+            prop_assert_eq!(sees(&physique, &state, agent, entity), expected, "{:?}", entity);
+        }
+    }
+
+    /// No number makes it panic, and an eye that is nowhere sees nothing of the arena.
+    #[test]
+    fn any_numbers_will_do(numbers in prop::array::uniform12(prop::num::f32::ANY), agent in 0_usize..2) {
+        let body = |k: usize| Body::at_rest(Vec2::new(numbers[k], numbers[k + 1]), numbers[k + 2]);
+        let state = State::new([body(0), body(3), body(6), body(9)]);
+        let physique = physique(vec![wall((16.0, 12.0), (6.0, 12.0))], Size::Large);
+        let visible = field_of_view(&physique, &state, agent);
+        if !state.bodies[agent].is_finite() {
+            prop_assert!(visible.is_empty());
+        }
+        for entity in physique.entities() {
+            let _ = sees(&physique, &state, agent, entity);
+        }
+    }
 }

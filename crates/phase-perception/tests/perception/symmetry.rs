@@ -1,0 +1,56 @@
+//! The world looks the same in a mirror.
+
+use crate::{
+    common::{any_physique, any_state},
+    oracle::least_margin,
+};
+use phase_model::{Body, Flip, Physique, Segment, State};
+use phase_perception::{Cell, CellSet, field_of_view, footprint, observed_set};
+use proptest::prelude::*;
+
+fn mirrored(flip: Flip, physique: &Physique, state: &State) -> (Physique, State) {
+    let mut physique = physique.clone();
+    for wall in &mut physique.walls {
+        *wall = Segment { a: flip.point(wall.a), b: flip.point(wall.b) };
+    }
+    let mut state = *state;
+    state.bodies = state.bodies.map(|body| Body {
+        position: flip.point(body.position),
+        velocity: flip.vector(body.velocity),
+        angle: flip.angle(body.angle),
+        angular_velocity: -body.angular_velocity,
+    });
+    (physique, state)
+}
+
+fn image(flip: Flip, cells: &CellSet) -> CellSet {
+    cells.iter().filter_map(|cell| Cell::at(flip.point(cell.centre()))).collect()
+}
+
+/// Whether bodies a little smaller or larger would lie on other cells.
+fn is_on_the_line(physique: &Physique, state: &State) -> bool {
+    let cells = |grown: f32| -> Vec<CellSet> {
+        let mut physique = physique.clone();
+        physique.agents.iter_mut().for_each(|agent| agent.radius += grown);
+        physique.object_radii.iter_mut().for_each(|radius| *radius += grown);
+        physique.entities().map(|entity| footprint(&physique, entity, state.body(entity))).collect()
+    };
+    cells(-1e-4) != cells(1e-4)
+}
+
+proptest! {
+    #[test]
+    fn mirrored_states_show_mirrored_cells_and_the_same_entities(
+        physique in any_physique(), state in any_state(), agent in 0_usize..2,
+    ) {
+        prop_assume!(least_margin(&physique, &state, agent).abs() > 1e-4);
+        prop_assume!(!is_on_the_line(&physique, &state));
+        let visible = field_of_view(&physique, &state, agent);
+        let observed = observed_set(&physique, &state, agent);
+        for flip in Flip::ALL {
+            let (physique, state) = mirrored(flip, &physique, &state);
+            prop_assert_eq!(field_of_view(&physique, &state, agent), image(flip, &visible), "{:?}", flip);
+            prop_assert_eq!(observed_set(&physique, &state, agent), observed, "{:?}", flip);
+        }
+    }
+}

@@ -1,0 +1,168 @@
+//! What holds of every particle, whatever happens.
+
+use crate::common::{Mad, any_physique, clear_of_walls, legal_state, random, shrunk};
+use phase_belief::Belief;
+use phase_forward::Forward;
+use phase_model::{Action, Dynamics, Entity, Physique, State, geometry::Outline};
+use phase_perception::{Observation, footprint, observe};
+use proptest::prelude::*;
+use rand::RngExt;
+
+/// How deep particles may let bodies sink into others, and a little for rounding (u).
+const SLACK: f32 = 0.051;
+
+/// Every particle agrees with the observation and is physically possible.
+fn check(physique: &Physique, belief: &Belief, observation: &Observation) -> Result<(), TestCaseError> {
+    let agent = observation.agent;
+    prop_assert_eq!(belief.unresolved(), 0);
+    for particle in belief.particles() {
+        prop_assert!(particle.is_finite(physique));
+        for entity in physique.entities() {
+            match observation.body(entity) {
+                Some(body) => prop_assert_eq!(particle.body(entity), body),
+                None => check_unobserved(physique, particle, observation, entity)?,
+            }
+            for other in physique.entities() {
+                if let Some(touching) = observation.touching(entity, other) {
+                    prop_assert_eq!(particle.touching(entity, other), touching, "{:?} {:?}", entity, other);
+                }
+            }
+        }
+        prop_assert_eq!(Some(particle.grips[agent]), observation.grip(agent));
+        if let Some(grip) = observation.grip(1 - agent) {
+            prop_assert_eq!(particle.grips[1 - agent], grip);
+        }
+    }
+    Ok(())
+}
+
+fn check_unobserved(
+    physique: &Physique,
+    particle: &State,
+    observation: &Observation,
+    entity: Entity,
+) -> Result<(), TestCaseError> {
+    let smaller = shrunk(physique, SLACK);
+    let body = particle.body(entity);
+    let seen = footprint(physique, entity, body).intersects(&observation.visible);
+    prop_assert!(!seen, "{:?} is in view at {:?}", entity, body);
+    let outline = Outline::of(&smaller, entity, body);
+    prop_assert!(clear_of_walls(&smaller, &outline), "{:?} is in a wall at {:?}", entity, body);
+    for other in physique.entities().filter(|&other| other != entity) {
+        let mut smaller = smaller.clone();
+        if matches!(
+            (entity, other),
+            (Entity::Agent(_), Entity::Object(_)) | (Entity::Object(_), Entity::Agent(_))
+        ) {
+            if particle.touching(entity, other) {
+                continue;
+            }
+            // Objects let go at a flank stay where they were held, a tenth of their radius deep.
+            smaller.object_radii.iter_mut().for_each(|radius| *radius *= 0.89);
+        }
+        let a = Outline::of(&smaller, entity, body);
+        let b = Outline::of(&smaller, other, particle.body(other));
+        prop_assert!(!a.overlaps(&b), "{:?} overlaps {:?}", entity, other);
+    }
+    Ok(())
+}
+
+fn any_action() -> impl Strategy<Value = Action> {
+    prop::sample::select(Action::ALL.to_vec())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(40))]
+
+    /// Both agents act at random in a true world, and each believes.
+    #[test]
+    fn beliefs_stay_consistent_through_events(
+        physique in any_physique(),
+        actions in prop::collection::vec([any_action(), any_action()], 1..25),
+        seed in any::<u64>(),
+    ) {
+        let forward = Forward::new(&physique);
+        let mut chance = random(seed);
+        let mut truth = legal_state(&physique, &mut chance);
+        let mut beliefs = [0, 1].map(|agent| {
+            Belief::new(&physique, &observe(&physique, &truth, agent), 12, &mut chance)
+        });
+        for (agent, belief) in beliefs.iter().enumerate() {
+            check(&physique, belief, &observe(&physique, &truth, agent))?;
+        }
+        for both in actions {
+            forward.step(&mut truth, both);
+            for (agent, belief) in beliefs.iter_mut().enumerate() {
+                let observation = observe(&physique, &truth, agent);
+                belief.update(&forward, &physique, both[agent], &observation, &mut chance);
+                prop_assert_eq!(belief.particles().len(), 12);
+                prop_assert_eq!(belief.agent(), agent);
+                check(&physique, belief, &observation)?;
+            }
+        }
+    }
+
+    /// No prediction can spoil a belief.
+    #[test]
+    fn beliefs_survive_any_dynamics(
+        physique in any_physique(),
+        numbers in prop::array::uniform12(prop_oneof![prop::num::f32::ANY, -9.0_f32..9.0, Just(0.0)]),
+        agent in 0_usize..2,
+        seed in any::<u64>(),
+    ) {
+        let mut chance = random(seed);
+        let truth = legal_state(&physique, &mut chance);
+        let observation = observe(&physique, &truth, agent);
+        let mut belief = Belief::new(&physique, &observation, 12, &mut chance);
+        for _ in 0..3 {
+            belief.update(&Mad(numbers), &physique, Action::Up, &observation, &mut chance);
+            check(&physique, &belief, &observation)?;
+        }
+    }
+
+    /// At first nothing overlaps at all, and whoever is not observed rests and holds nothing.
+    #[test]
+    fn first_beliefs_are_clean(physique in any_physique(), agent in 0_usize..2, seed in any::<u64>()) {
+        let mut chance = random(seed);
+        let truth = legal_state(&physique, &mut chance);
+        let observation = observe(&physique, &truth, agent);
+        let belief = Belief::new(&physique, &observation, 12, &mut chance);
+        prop_assert_eq!(belief.redrawn(), 12 * (physique.entity_count() - observation.observed.iter().count()));
+        for particle in belief.particles() {
+            let outlines: Vec<_> = physique
+                .entities()
+                .map(|entity| Outline::of(&physique, entity, particle.body(entity)))
+                .collect();
+            for (k, outline) in outlines.iter().enumerate() {
+                prop_assert!(clear_of_walls(&physique, outline));
+                prop_assert!(!outlines[..k].iter().any(|other| outline.overlaps(other)));
+                let entity = Entity::from_index(k);
+                if observation.body(entity).is_none() {
+                    prop_assert_eq!(particle.body(entity).velocity, phase_model::Vec2::ZERO);
+                    prop_assert_eq!(particle.body(entity).angular_velocity, 0.0);
+                }
+            }
+            prop_assert_eq!(particle.grips, [None; 2]);
+        }
+    }
+
+    /// The same generator gives the same particles, and another one others.
+    #[test]
+    fn beliefs_are_a_function_of_the_generator(physique in any_physique(), seed in any::<u64>()) {
+        let truth = legal_state(&physique, &mut random(seed));
+        let observation = observe(&physique, &truth, 0);
+        let forward = Forward::new(&physique);
+        let run = |seed: u64| {
+            let mut chance = random(seed);
+            let mut belief = Belief::new(&physique, &observation, 8, &mut chance);
+            for _ in 0..3 {
+                belief.update(&forward, &physique, Action::TurnLeft, &observation, &mut chance);
+            }
+            (belief, chance.random::<u64>())
+        };
+        prop_assert_eq!(run(seed), run(seed));
+        if physique.entities().any(|entity| observation.body(entity).is_none()) {
+            prop_assert_ne!(run(seed).0, run(seed.wrapping_add(1)).0);
+        }
+    }
+}

@@ -1,0 +1,9 @@
+//! Beliefs: their invariants, their statistics, and what they do in drawn cases.
+
+mod common;
+mod consistency;
+mod invariants;
+mod memory;
+mod place;
+mod predict;
+mod statistics;

@@ -1,0 +1,65 @@
+//! Files are there whole or not at all.
+
+use phase_dataset::atomic::{self, AtomicFile};
+use std::{fs, io::Write};
+
+fn names(folder: &std::path::Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).expect("a folder");
+    let mut names: Vec<String> =
+        entries.map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned()).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn a_file_appears_when_it_is_finished() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("event.json");
+    let mut file = AtomicFile::create(&path).expect("created");
+    file.write_all(b"half").expect("written");
+    file.flush().expect("flushed");
+    assert!(!path.exists());
+    assert!(names(folder.path()).iter().all(|name| atomic::is_part(name)));
+    file.write_all(b" and half").expect("written");
+    file.commit().expect("committed");
+    assert_eq!(names(folder.path()), ["event.json"]);
+    assert_eq!(fs::read(&path).expect("read"), b"half and half");
+}
+
+#[test]
+fn an_unfinished_file_leaves_the_old_one_alone() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("event.json");
+    atomic::write(&path, b"old").expect("written");
+    let mut file = AtomicFile::create(&path).expect("created");
+    file.write_all(b"new").expect("written");
+    drop(file);
+    assert_eq!(names(folder.path()), ["event.json"]);
+    assert_eq!(fs::read(&path).expect("read"), b"old");
+    atomic::write(&path, b"newer").expect("written");
+    assert_eq!(fs::read(&path).expect("read"), b"newer");
+}
+
+#[test]
+fn what_cannot_be_written_is_named_and_leaves_nothing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("missing").join("event.json");
+    let sentence = atomic::write(&path, b"text").expect_err("no folder").to_string();
+    assert!(sentence.contains("event.json") && sentence.contains("cannot write the file"), "{sentence}");
+    assert!(!sentence.contains("os error"), "{sentence}");
+    // A folder of that name cannot be replaced by a file.
+    let taken = folder.path().join("taken");
+    fs::create_dir_all(taken.join("inside")).expect("a folder");
+    atomic::write(&taken, b"text").expect_err("a folder");
+    assert_eq!(names(folder.path()), ["taken"]);
+}
+
+#[test]
+fn removing_what_is_not_there_is_fine() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("event.json");
+    atomic::remove(&path).expect("nothing to do");
+    fs::write(&path, "text").expect("written");
+    atomic::remove(&path).expect("removed");
+    assert!(!path.exists());
+}

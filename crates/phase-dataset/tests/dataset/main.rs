@@ -1,0 +1,16 @@
+//! Events at rest, tested module by module.
+
+mod atomic;
+mod cache;
+mod checksum;
+mod folder;
+mod gallery;
+mod manifest;
+mod outcome;
+mod phase_events_read;
+mod phase_events_real;
+mod phase_events_round_trip;
+mod preset;
+mod summary;
+mod support;
+mod words;

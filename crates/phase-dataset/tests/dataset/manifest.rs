@@ -1,0 +1,77 @@
+//! Manifests describe, and notice what changed.
+
+use crate::support::plain_event;
+use phase_dataset::{
+    Problem,
+    manifest::{DATASET_FORMAT, EventEntry, MANIFEST_FILE, Manifest, event_path, video_path},
+};
+use phase_model::{EventKind, Relation};
+use serde_json::{Value, json};
+use std::{fs, path::Path};
+
+/// A dataset of one event whose files hold a few bytes.
+pub fn dataset(folder: &Path, id: &str) -> Manifest {
+    for path in [event_path(id), video_path(id)] {
+        fs::create_dir_all(folder.join(&path).parent().expect("a parent")).expect("a folder");
+        fs::write(folder.join(&path), path.as_bytes()).expect("written");
+    }
+    let entry = EventEntry::of(folder, id, &plain_event(2)).expect("described");
+    Manifest {
+        format: DATASET_FORMAT.into(),
+        generator: "phase test".into(),
+        preset: "demo".into(),
+        seed: u64::MAX,
+        settings: json!({"max_steps": 2}),
+        events: vec![entry],
+        files: vec![],
+    }
+}
+
+#[test]
+fn an_event_is_described_as_it_is() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let manifest = dataset(folder.path(), "demo-0000");
+    let event = &manifest.events[0];
+    assert_eq!((event.kind, event.relation, event.steps), (EventKind::Helping, Relation::Friendly, 2));
+    assert_eq!((event.layout.base, event.layout.flip), (20, Some(3)));
+    assert_eq!(
+        event.agents.map(|agent| (agent.size_level, agent.strength_level, agent.alpha)),
+        [(3, 2, 1), (3, 2, 0)]
+    );
+    assert_eq!(event.object_size_levels, [0, 2]);
+    assert_eq!(event.video.path, "videos/demo-0000.mp4");
+    assert_eq!(event.video.bytes, "videos/demo-0000.mp4".len() as u64);
+}
+
+#[test]
+fn a_manifest_is_read_as_it_was_written() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let manifest = dataset(folder.path(), "demo-0000");
+    let path = folder.path().join(MANIFEST_FILE);
+    fs::write(&path, manifest.to_json()).expect("written");
+    let read = Manifest::read(&path).expect("our own manifest");
+    assert_eq!(read, manifest);
+    read.verify(folder.path()).expect("unchanged");
+    fs::write(folder.path().join(video_path("demo-0000")), "another").expect("written");
+    let error = read.verify(folder.path()).expect_err("changed");
+    assert!(error.file.ends_with(video_path("demo-0000")), "{error}");
+}
+
+#[test]
+fn what_is_no_manifest_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let good: Value = serde_json::from_str(&dataset(folder.path(), "a").to_json()).expect("JSON");
+    let path = folder.path().join(MANIFEST_FILE);
+    let read = |text: &str| {
+        fs::write(&path, text).expect("written");
+        Manifest::read(&path).expect_err(text).problem
+    };
+    assert!(matches!(read("{}"), Problem::Format { .. }));
+    assert!(matches!(read("{\"format\":\"other\"}"), Problem::Format { .. }));
+    let mut value = good.clone();
+    value.as_object_mut().expect("an object").remove("seed");
+    let problem = read(&value.to_string());
+    assert!(problem.to_string().contains("seed"), "{problem}");
+    let text = good.to_string();
+    assert!(matches!(read(&text[..text.len() - 9]), Problem::Truncated(_)));
+}

@@ -1,0 +1,85 @@
+//! When a goal counts as reached.
+
+use phase_dataset::{
+    outcome::{Outcome, TOUCH_GAP},
+    phase_events::{Row, Trajectory},
+};
+use phase_model::{AgentBody, Goal, Physique, Sign};
+
+fn physique() -> Physique {
+    let agent = AgentBody { radius: 1.0, max_force: 300.0 };
+    Physique { walls: vec![], agents: [agent; 2], object_radii: [1.0, 0.0], object_count: 1 }
+}
+
+fn at(x: f32, y: f32) -> Row {
+    [x, y, 0.0, 0.0, 0.0]
+}
+
+/// Agent 0 and object 0 move as told along y = 4.5; agent 1 stands at (16, 4.5), both face up.
+fn trajectory(agent: &[f32], object: &[f32]) -> Trajectory {
+    let rows = |xs: &[f32]| xs.iter().map(|&x| at(x, 4.5)).collect();
+    Trajectory { agents: [rows(agent), vec![at(16.0, 4.5); agent.len()]], objects: vec![rows(object)] }
+}
+
+#[test]
+fn being_somewhere_counts_at_the_end() {
+    // Landmark 3 is at (8.5, 4.5).
+    let (far, near, just, beyond) = (12.0, 8.5, 8.5 + 0.56, 8.5 + 0.57);
+    let goal = |sign| Goal::AgentOnLandmark { agent: 0, landmark: 3, sign };
+    let cases: &[(&[f32], bool, Option<usize>)] = &[
+        (&[far, near, near], true, Some(1)),
+        (&[near, far, near], true, Some(2)),
+        (&[near, near, near], true, Some(0)),
+        (&[far, near, far], false, None),
+        (&[far, far, just], true, Some(2)),
+        (&[far, far, beyond], false, None),
+    ];
+    for (xs, reached, steps) in cases {
+        let rows = trajectory(xs, &[20.0; 3]);
+        let outcome = Outcome::of(&physique(), &rows, goal(Sign::Positive));
+        assert_eq!(outcome, Outcome { reached: *reached, steps: *steps }, "{xs:?}");
+        let outcome = Outcome::of(&physique(), &rows, goal(Sign::Negative));
+        assert_eq!(outcome, Outcome { reached: !reached, steps: None }, "{xs:?} negated");
+    }
+}
+
+#[test]
+fn an_object_may_lie_farther_off_than_an_agent() {
+    let goal = Goal::ObjectOnLandmark { object: 0, landmark: 3, sign: Sign::Positive };
+    for (x, reached) in [(8.5 + 1.41, true), (8.5 + 1.42, false)] {
+        let outcome = Outcome::of(&physique(), &trajectory(&[20.0; 2], &[20.0, x]), goal);
+        assert_eq!(outcome.reached, reached, "{x}");
+    }
+}
+
+/// Two trapezoids of radius 1 that stand side by side have bases 3 wide, so they touch at 3 u.
+#[test]
+fn touching_counts_at_any_time_and_getting_away_at_the_end() {
+    let goal = |sign| Goal::Touch { agent: 0, other: 1, sign };
+    let (apart, touching, just, beyond) = (8.0, 13.0, 13.0 - 0.99 * TOUCH_GAP, 13.0 - 1.01 * TOUCH_GAP);
+    let cases: &[(&[f32], Option<usize>, bool)] = &[
+        (&[apart, touching, apart], Some(1), true),
+        (&[apart, apart, touching], Some(2), false),
+        (&[apart, 15.0, 15.0], Some(1), false),
+        (&[apart, apart, apart], None, true),
+        (&[apart, just, apart], Some(1), true),
+        (&[apart, beyond, beyond], None, true),
+    ];
+    for (xs, first, away) in cases {
+        let rows = trajectory(xs, &[20.0; 3]);
+        let outcome = Outcome::of(&physique(), &rows, goal(Sign::Positive));
+        assert_eq!(outcome, Outcome { reached: first.is_some(), steps: *first }, "{xs:?}");
+        let outcome = Outcome::of(&physique(), &rows, goal(Sign::Negative));
+        assert_eq!(outcome, Outcome { reached: *away, steps: None }, "{xs:?}");
+    }
+}
+
+#[test]
+fn head_on_agents_touch_by_their_flat_fronts() {
+    let mut rows = trajectory(&[16.0, 16.0], &[20.0; 2]);
+    // Agent 0 below, facing up; agent 1 above, facing down: fronts meet at a distance of 2 u.
+    rows.agents[1] =
+        vec![[16.0, 9.0, 0.0, 0.0, core::f32::consts::PI], [16.0, 6.55, 0.0, 0.0, core::f32::consts::PI]];
+    let goal = Goal::Touch { agent: 0, other: 1, sign: Sign::Positive };
+    assert_eq!(Outcome::of(&physique(), &rows, goal).steps, Some(1));
+}

@@ -1,0 +1,69 @@
+//! Pairs that hold each other, or did so just before, and therefore do not touch.
+
+use crate::{
+    key::{PAIRS, bit, pair_key, pair_of},
+    tuning::H,
+    world::World,
+};
+use phase_model::{AGENT_COUNT, Entity, State, Vec2};
+
+/// How far from the place where it was let go of an object is clear of its holder (u).
+const CLEAR: f32 = 0.1;
+/// How many substeps' way at the speed of that moment it has to go beyond that.
+const CLEAR_SUBSTEPS: f32 = 4.0;
+
+impl World<'_> {
+    /// Sets apart the pairs that may not touch: what is held, what is let go of in this step, and what looks
+    /// as if it had been let go of just before. Objects held at an agent's flank lie 0.1 r deep in it and
+    /// stay out of contact, once let go of, until they have moved; a state does not say so, but an object
+    /// that deep at exactly that place, that does not come nearer and did not touch, can be nothing else.
+    pub(crate) fn part(&mut self, state: &State, let_go: [Option<usize>; AGENT_COUNT]) {
+        /// Speed of approach at which it has not just been let go of (u/s).
+        const APPROACH: f32 = 1.0;
+        for (agent, let_go) in let_go.into_iter().enumerate() {
+            if let Some(held) = self.held(agent) {
+                self.apart |= bit(pair_key(pair_of(agent, held)));
+            }
+            if let Some(held) = let_go {
+                self.let_go |= bit(pair_key(pair_of(agent, held)));
+            }
+            for object in AGENT_COUNT..self.forward.count {
+                let (holder, held) = (&self.motions[agent], &self.motions[object]);
+                let reach = self.forward.shapes[agent].radius + self.forward.shapes[object].radius;
+                let between = held.centre - holder.place(Vec2::new(0.0, self.forward.shapes[agent].origin));
+                if between.length_squared() > (reach + CLEAR) * (reach + CLEAR)
+                    || state.contacts.touching(Entity::agent(agent), Entity::from_index(object))
+                {
+                    continue;
+                }
+                let place = holder.right * (reach * between.dot(holder.right).signum());
+                let approach = (holder.velocity - held.velocity).dot(between.normalize_or_zero());
+                if place.distance_squared(between) < CLEAR * CLEAR && approach < APPROACH {
+                    self.let_go |= bit(pair_key(pair_of(agent, object)));
+                }
+            }
+        }
+        if self.let_go != 0 {
+            self.apart |= self.let_go;
+            for body in 0..self.forward.count {
+                let motion = &self.motions[body];
+                self.let_go_at[body] = motion.centre;
+                self.let_go_room[body] = CLEAR + CLEAR_SUBSTEPS * H * motion.velocity.length();
+            }
+        }
+    }
+
+    /// Lets pairs touch again of which one has moved away from where it was let go of.
+    pub(crate) fn reunite(&mut self) {
+        for (pair, (a, b)) in PAIRS.into_iter().enumerate() {
+            let moved = |body: usize| {
+                (self.motions[body].centre - self.let_go_at[body]).abs().max_element()
+                    > self.let_go_room[body]
+            };
+            if self.let_go & bit(pair_key(pair)) != 0 && (moved(a) || moved(b)) {
+                self.let_go &= !bit(pair_key(pair));
+                self.apart &= !bit(pair_key(pair));
+            }
+        }
+    }
+}

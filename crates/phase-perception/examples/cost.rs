@@ -1,0 +1,54 @@
+//! Measures what seeing costs: `cargo run --release -p phase-perception --example cost`.
+
+use phase_model::{
+    AgentBody, Body, Entity, Layout, LayoutError, Physique, Size, State, Vec2,
+    random::{Pcg64Mcg, Purpose, stream},
+};
+use phase_perception::{field_of_view, observe, observed_set, sees};
+use std::{hint::black_box, time::Instant};
+
+/// States looked at, over and over.
+const STATES: usize = 1000;
+/// Times that each is looked at.
+const ROUNDS: usize = 50;
+
+fn main() -> Result<(), LayoutError> {
+    let physique = Physique {
+        walls: Layout::new(20, None)?.walls(),
+        agents: [Size::Large, Size::Small].map(|size| AgentBody { radius: size.radius(), max_force: 300.0 }),
+        object_radii: [Size::Medium.radius(), Size::Huge.radius()],
+        object_count: 2,
+    };
+    let mut random = stream(1, Purpose::Scene, 0);
+    let states: Vec<State> =
+        (0..STATES).map(|_| State::new(core::array::from_fn(|_| any_body(&mut random)))).collect();
+    let visible: usize = states.iter().map(|state| field_of_view(&physique, state, 0).len()).sum();
+    let observed: usize =
+        states.iter().map(|state| observed_set(&physique, state, 0).iter().count() - 1).sum();
+    println!("{STATES} random states, 4 bodies, 4 walls; on average");
+    println!("  {:.0} of 400 cells visible,", visible as f64 / STATES as f64);
+    println!("  {:.2} of 3 others observed", observed as f64 / STATES as f64);
+    measure("field_of_view", &states, |state| field_of_view(&physique, state, 0).len());
+    measure("observe", &states, |state| observe(&physique, state, 0).visible.len());
+    measure("observed_set", &states, |state| observed_set(&physique, state, 0).bits().into());
+    measure("sees (an agent)", &states, |state| sees(&physique, state, 0, Entity::agent(1)).into());
+    measure("sees (an object)", &states, |state| sees(&physique, state, 0, Entity::object(0)).into());
+    Ok(())
+}
+
+fn any_body(random: &mut Pcg64Mcg) -> Body {
+    use rand::RngExt;
+    let position = Vec2::new(random.random_range(7.5..24.5), random.random_range(3.5..20.5));
+    Body::at_rest(position, random.random_range(-3.0..3.0))
+}
+
+fn measure(name: &str, states: &[State], look: impl Fn(&State) -> usize) {
+    let start = Instant::now();
+    for _ in 0..ROUNDS {
+        for state in states {
+            black_box(look(black_box(state)));
+        }
+    }
+    let nanoseconds = start.elapsed().as_nanos() as f64 / (ROUNDS * states.len()) as f64;
+    println!("  {name:<18}{nanoseconds:8.0} ns");
+}

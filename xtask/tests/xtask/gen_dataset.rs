@@ -1,0 +1,93 @@
+//! `gen-dataset`, with agents that think little.
+
+use crate::support::{QUICK, refuse, run, succeed, text, tree};
+use phase_dataset::{
+    manifest::Manifest,
+    phase_events::{Recording, parse},
+};
+use std::{fs, path::Path};
+
+fn generate<'a>(out: &'a str, more: &[&'a str]) -> Vec<&'a str> {
+    [&["gen-dataset", "--events", "3", "--out", out], &QUICK[..], more].concat()
+}
+
+/// The same seed, one job and two: the same bytes in every file.
+#[test]
+fn results_do_not_depend_on_the_number_of_jobs() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    succeed(path, &generate("one", &["--jobs", "1"]));
+    succeed(path, &generate("two", &["--jobs", "2"]));
+    let (one, two) = (tree(&path.join("one")), tree(&path.join("two")));
+    assert_eq!(one.len(), 3 + 2 * 3);
+    assert!(
+        one == two,
+        "{:?}",
+        one.iter().filter(|(name, bytes)| two.get(*name) != Some(bytes)).map(|it| it.0).collect::<Vec<_>>()
+    );
+    succeed(path, &generate("three", &["--seed", "2"]));
+    let other = tree(&path.join("three"));
+    let event = Path::new("events/demo-0000.json");
+    assert!(one[event] != other[event], "another seed makes another event");
+}
+
+#[test]
+fn the_folder_holds_what_it_promises() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("out");
+    let told = succeed(folder.path(), &generate("out", &[]));
+    assert!(told.contains("out") && told.contains("index.html"), "{told}");
+    let manifest = Manifest::read(&out.join("manifest.json")).expect("a manifest");
+    manifest.verify(&out).expect("every checksum fits");
+    let kinds: Vec<&str> = manifest.events.iter().map(|event| event.kind.name()).collect();
+    assert_eq!(kinds, ["helping", "hindering", "chasing"]);
+    for entry in &manifest.events {
+        let bytes = fs::read(out.join(&entry.event.path)).expect("an event file");
+        let events: Vec<Recording> = parse(&bytes).expect("a good event file");
+        assert_eq!(events.len(), 1);
+        let simulation = events[0].simulation.as_ref().expect("a simulation");
+        assert_eq!((events[0].id.as_str(), simulation.event.seed), (entry.id.as_str(), entry.seed));
+        assert_eq!(simulation.event.steps.len(), 4);
+        events[0].scene.validate_apart().expect("nothing overlaps at the start");
+        let video = fs::read(out.join(&entry.video.path)).expect("a video");
+        assert_eq!(&video[4..8], b"ftyp");
+    }
+    let page = fs::read_to_string(out.join("index.html")).expect("a page");
+    assert_eq!(page.matches("<video").count(), 3);
+    let card = fs::read_to_string(out.join("README.md")).expect("a card");
+    assert!(card.contains("--events 3") && card.contains("--simulations 20"), "{card}");
+}
+
+#[test]
+fn a_finished_dataset_is_left_alone() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    succeed(path, &generate("out", &[]));
+    let before = tree(&path.join("out"));
+    let told = succeed(path, &generate("out", &["--jobs", "2"]));
+    assert!(told.contains("already"), "{told}");
+    assert!(tree(&path.join("out")) == before);
+
+    let sentence = refuse(path, &generate("out", &["--seed", "5"]));
+    assert!(sentence.contains("out: ") && sentence.contains("seed 1 instead of 5"), "{sentence}");
+    let sentence = refuse(path, &["simulate", "--events", "out/events/demo-0000.json", "--out", "out"]);
+    assert!(sentence.contains("holds something else"), "{sentence}");
+    assert!(tree(&path.join("out")) == before);
+
+    let video = path.join("out/videos/demo-0001.mp4");
+    fs::write(&video, "spoilt").expect("written");
+    let sentence = refuse(path, &generate("out", &[]));
+    assert!(sentence.contains("demo-0001.mp4") && sentence.contains("size"), "{sentence}");
+    assert_eq!(fs::read_to_string(&video).expect("still there"), "spoilt");
+}
+
+#[test]
+fn without_a_folder_it_names_its_own() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let arguments = [&["gen-dataset", "--events", "1", "--seed", "9"], &QUICK[..]].concat();
+    let output = run(folder.path(), &arguments);
+    assert!(output.status.success());
+    assert!(text(&output.stdout).contains("out/demo-seed9-1"), "{}", text(&output.stdout));
+    assert!(text(&output.stderr).contains("1/1 demo-0000 helping"), "{}", text(&output.stderr));
+    assert!(folder.path().join("out/demo-seed9-1/index.html").is_file());
+}

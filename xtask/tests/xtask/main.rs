@@ -1,0 +1,9 @@
+//! The command line, run as a program.
+
+mod bad_input;
+mod gen_dataset;
+mod interruption;
+mod render;
+mod simulate;
+mod support;
+mod tidy;

@@ -1,0 +1,91 @@
+//! `simulate`, with agents that think little.
+
+use crate::support::{QUICK, recording, refuse, succeed, tree, write_events};
+use phase_dataset::{phase_events, summary::Summary};
+use serde_json::json;
+use std::path::Path;
+
+fn simulate<'a>(out: &'a str, more: &[&'a str]) -> Vec<&'a str> {
+    [&["simulate", "--events", "events.json", "--out", out], &QUICK[..], more].concat()
+}
+
+/// A folder with a file of two events; the second starts with two bodies in one place.
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut overlapping = recording("overlapping");
+    let object = overlapping["trajectory"]["agents"][1].clone();
+    overlapping["trajectory"]["objects"][0] = object;
+    write_events(&folder.path().join("events.json"), &[recording("apart"), overlapping]);
+    folder
+}
+
+#[test]
+fn every_scene_is_simulated_from_its_first_row() {
+    let folder = folder();
+    let path = folder.path();
+    let told = succeed(path, &simulate("out", &[]));
+    assert!(told.contains("independent"), "{told}");
+    let names: Vec<String> = tree(&path.join("out")).keys().map(|name| name.display().to_string()).collect();
+    assert_eq!(names, ["apart.json", "apart.mp4", "overlapping.json", "overlapping.mp4", "summary.json"]);
+    let input = phase_events::read(&path.join("events.json")).expect("the input");
+    for original in &input {
+        let file = path.join("out").join(format!("{}.json", original.id));
+        let made = phase_events::read(&file).expect("the result").remove(0);
+        assert_eq!((made.id.as_str(), &made.scene), (original.id.as_str(), &original.scene));
+        assert_eq!(made.trajectory.agents[0][0], original.trajectory.agents[0][0]);
+        assert_eq!(made.trajectory.steps(), 4);
+        assert!(made.simulation.is_some());
+    }
+    let summary = Summary::read(&path.join("out/summary.json")).expect("a summary");
+    summary.verify(&path.join("out")).expect("every checksum fits");
+    // Agent 0 stands on its landmark from the start and agent 1 never gets to its own.
+    let recorded = summary.events[0].agents.map(|agent| agent.recorded.reached);
+    assert_eq!(recorded, [true, false]);
+    assert_eq!(summary.events[0].agents[0].recorded.steps, Some(0));
+}
+
+#[test]
+fn one_event_comes_out_as_it_does_among_the_others() {
+    let folder = folder();
+    let path = folder.path();
+    succeed(path, &simulate("all", &["--no-video", "--jobs", "2"]));
+    succeed(path, &simulate("one", &["--no-video", "--id", "overlapping"]));
+    let (all, one) = (tree(&path.join("all")), tree(&path.join("one")));
+    let names: Vec<&Path> = one.keys().map(|name| name.as_path()).collect();
+    assert_eq!(names, [Path::new("overlapping.json"), Path::new("summary.json")]);
+    assert!(all[Path::new("overlapping.json")] == one[Path::new("overlapping.json")]);
+    succeed(path, &simulate("seed", &["--no-video", "--seed", "2"]));
+    assert!(tree(&path.join("seed"))[Path::new("apart.json")] != all[Path::new("apart.json")]);
+}
+
+#[test]
+fn a_finished_folder_is_left_alone() {
+    let folder = folder();
+    let path = folder.path();
+    let first = succeed(path, &simulate("out", &["--no-video"]));
+    let before = tree(&path.join("out"));
+    let second = succeed(path, &simulate("out", &["--no-video"]));
+    assert!(second.contains("already"));
+    assert_eq!(first.lines().next(), second.lines().next(), "the table is shown again");
+    let sentence = refuse(path, &simulate("out", &[]));
+    assert!(sentence.contains("videos false instead of true"), "{sentence}");
+    let mut changed = recording("apart");
+    changed["trajectory"]["agents"][0][0][0] = json!(9.0);
+    write_events(&path.join("events.json"), &[changed]);
+    refuse(path, &simulate("out", &["--no-video"]));
+    assert!(tree(&path.join("out")) == before);
+}
+
+#[test]
+fn a_start_alone_is_enough() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut start = recording("start");
+    for pointer in ["/trajectory/agents/0", "/trajectory/agents/1", "/trajectory/objects/0"] {
+        let rows = start.pointer_mut(pointer).expect(pointer).as_array_mut().expect("rows");
+        rows.truncate(1);
+    }
+    write_events(&folder.path().join("events.json"), &[start]);
+    let told = succeed(folder.path(), &simulate("out", &["--no-video"]));
+    let all = told.lines().find(|line| line.starts_with("all")).expect("a line for all");
+    assert!(all.contains("0 of   0"), "there is nothing to compare with: {told}");
+}

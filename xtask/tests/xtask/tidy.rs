@@ -1,0 +1,134 @@
+//! `tidy` on made-up workspaces, and on this one.
+
+use std::{fs, path::Path};
+use xtask::tidy::{LAYERS, check};
+
+const ROOT: &str = "#![forbid(unsafe_code)]\n#![deny(missing_docs)]\n";
+
+/// Writes a workspace of two crates in which nothing is wrong.
+fn workspace(root: &Path) {
+    let readme = "# It\n\n```sh\ncargo xtask gen-dataset\n```\n\n```sh\ncargo test --workspace\n```\n";
+    let files = [
+        ("README.md", readme.to_owned()),
+        (".ci/run", "cargo test --workspace\ncargo xtask gen-dataset --events 1\n".to_owned()),
+        ("docs/ARCHITECTURE.md", "`phase-model`, `phase-world`, [it](../README.md#two)\n".to_owned()),
+        ("crates/phase-model/Cargo.toml", "[dependencies]\nserde.workspace = true\n".to_owned()),
+        ("crates/phase-model/src/lib.rs", ROOT.to_owned()),
+        ("crates/phase-world/Cargo.toml", "[dependencies]\nphase-model.workspace = true\n".to_owned()),
+        ("crates/phase-world/src/lib.rs", ROOT.to_owned()),
+        ("xtask/src/lib.rs", ROOT.to_owned()),
+        ("xtask/src/main.rs", ROOT.to_owned()),
+    ];
+    for (name, text) in files {
+        write(root, name, &text);
+    }
+}
+
+fn write(root: &Path, name: &str, text: &str) {
+    let path = root.join(name);
+    fs::create_dir_all(path.parent().expect("a parent")).expect("a folder");
+    fs::write(path, text).expect("written");
+}
+
+fn findings(root: &Path) -> Vec<String> {
+    check(root).iter().map(ToString::to_string).collect()
+}
+
+#[test]
+fn a_tidy_workspace_passes() {
+    let folder = tempfile::tempdir().expect("a folder");
+    workspace(folder.path());
+    assert_eq!(findings(folder.path()), [""; 0]);
+}
+
+#[test]
+fn every_rule_is_checked() {
+    let long = format!("{ROOT}{}", "//\n".repeat(499));
+    let encoding = format!("{ROOT}use bin{}::serde;\n", "code");
+    let cases: &[(&str, &str, &[&str])] = &[
+        (
+            "crates/phase-model/Cargo.toml",
+            "[dependencies]\nserde = \"1\"\nphase-world.workspace = true\n",
+            &["crates/phase-model/Cargo.toml:3: phase-model must not use phase-world, which is not below it"],
+        ),
+        ("crates/phase-model/Cargo.toml", "[dev-dependencies]\nphase-world = { path = \"\" }\n", &[]),
+        (
+            "crates/phase-new/Cargo.toml",
+            "",
+            &[
+                "crates/phase-new/Cargo.toml:1: phase-new is missing in xtask/src/tidy/layers.rs",
+                "crates/phase-new/src/lib.rs:1: cannot be read",
+                "docs/ARCHITECTURE.md:1: the map does not mention phase-new",
+            ],
+        ),
+        (
+            "docs/ARCHITECTURE.md",
+            "`phase-model` and\n`phase-world` and `phase-gone`, `phase-events/1`\n",
+            &["docs/ARCHITECTURE.md:2: the map mentions phase-gone, which is no crate"],
+        ),
+        (
+            "docs/more.md",
+            "see [this](missing.md) and\n[that](https://example.org/x.md)\n",
+            &["docs/more.md:1: links to missing.md"],
+        ),
+        ("docs/more.md", "[out](../../etc/passwd)\n", &["docs/more.md:1: links to ../../etc/passwd"]),
+        ("docs/more.md", "a space \n", &["docs/more.md:1: ends in a space"]),
+        (
+            "crates/phase-model/src/lib.rs",
+            "#![deny(missing_docs)]\n",
+            &["crates/phase-model/src/lib.rs:1: the crate root must say #![forbid(unsafe_code)]"],
+        ),
+        (
+            "xtask/src/main.rs",
+            "#![forbid(unsafe_code)]\n",
+            &["xtask/src/main.rs:1: the crate root must say #![deny(missing_docs)]"],
+        ),
+        ("crates/phase-model/src/lib.rs", &long, &["crates/phase-model/src/lib.rs:501: has 501 lines"]),
+        (
+            "crates/phase-model/src/lib.rs",
+            &encoding,
+            &["crates/phase-model/src/lib.rs:3: only crates/phase-dataset/src/cache.rs"],
+        ),
+        (
+            "crates/phase-model/tests/all.rs",
+            "fn a() {\n\tlet b = 1; \n}\n",
+            &[
+                "crates/phase-model/tests/all.rs:2: ends in a space",
+                "crates/phase-model/tests/all.rs:2: holds a tab",
+            ],
+        ),
+        (
+            "xtask/src/more.rs",
+            concat!("fn a() { dbg", "!(1); }\n"),
+            &["xtask/src/more.rs:1: dbg!(…) must not stay"],
+        ),
+        (
+            ".ci/run",
+            "cargo test\ncargo xtask gen-dataset\n",
+            &[".ci/run:1: must run the README's command `cargo test --workspace`"],
+        ),
+        (
+            "README.md",
+            "cargo test --workspace\n",
+            &["README.md:1: must show the command `cargo xtask gen-dataset`"],
+        ),
+    ];
+    for (name, text, expected) in cases {
+        let folder = tempfile::tempdir().expect("a folder");
+        workspace(folder.path());
+        write(folder.path(), name, text);
+        let found = findings(folder.path());
+        assert_eq!(found.len(), expected.len(), "{name}: {found:?}");
+        for (found, expected) in found.iter().zip(*expected) {
+            assert!(found.starts_with(expected), "{found:?} does not begin with {expected:?}");
+        }
+    }
+}
+
+#[test]
+fn the_layers_are_those_there_are() {
+    let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates");
+    for layer in LAYERS {
+        assert!(crates.join(layer).join("Cargo.toml").is_file(), "{layer}");
+    }
+}
