@@ -38,7 +38,7 @@ pub struct GenDataset {
     /// Seed of all chance in the dataset [default: the preset's]
     #[arg(long, value_name = "S")]
     pub seed: Option<u64>,
-    /// Folder for the dataset; new, empty, or of this very run [default: out/<preset>-<seed>]
+    /// Folder for the dataset; new, empty, or of this very run [default: out/PRESET-seedS]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// How the agents think.

@@ -2,6 +2,7 @@
 
 use crate::{
     cli::GenDataset,
+    console::{remark, tell},
     engine::{self, GENERATOR},
     error::CliError,
     interrupt,
@@ -37,7 +38,7 @@ pub fn run(arguments: &GenDataset) -> Result<(), CliError> {
         Contents::Finished => return plan.check_finished(&out),
         Contents::Unfinished(run) => {
             plan.check_same(&out, "an unfinished", &run)?;
-            eprintln!("going on in {}", out.display());
+            remark(format!("going on in {}", out.display()));
         }
         Contents::Nothing => {}
     }
@@ -51,8 +52,8 @@ pub fn run(arguments: &GenDataset) -> Result<(), CliError> {
     let Some(made) = made else { return Err(CliError::Interrupted(out)) };
     plan.complete(&folder, made)?;
     folder.finish()?;
-    println!("{} events in {}", plan.count, out.display());
-    println!("open {} to watch them", out.join(PAGE_FILE).display());
+    tell(format!("{} events in {}", plan.count, out.display()));
+    tell(format!("open {} to watch them", out.join(PAGE_FILE).display()));
     Ok(())
 }
 
@@ -108,8 +109,8 @@ impl Plan {
         if folder::has_leftovers(out) {
             Folder::claim(out, &run)?.finish()?;
         }
-        println!("{} holds this dataset already; all {count} events are whole", out.display());
-        println!("open {} to watch them", out.join(PAGE_FILE).display());
+        tell(format!("{} holds this dataset already; all {count} events are whole", out.display()));
+        tell(format!("open {} to watch them", out.join(PAGE_FILE).display()));
         Ok(())
     }
 

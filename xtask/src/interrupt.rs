@@ -1,5 +1,6 @@
 //! Ctrl-C: once to stop in good order, twice to stop at once.
 
+use crate::console::remark;
 use std::sync::{
     Once,
     atomic::{AtomicBool, Ordering},
@@ -16,10 +17,10 @@ pub fn listen() {
             if REQUESTED.swap(true, Ordering::Relaxed) {
                 std::process::exit(130);
             }
-            eprintln!("stopping; once more to stop at once");
+            remark("stopping; once more to stop at once");
         });
         if let Err(error) = heard {
-            eprintln!("note: cannot listen for Ctrl-C ({error}); it will stop at once");
+            remark(format!("note: cannot listen for Ctrl-C ({error}); it will stop at once"));
         }
     });
 }

@@ -13,6 +13,7 @@
 #![deny(missing_docs)]
 
 pub mod cli;
+pub mod console;
 pub mod engine;
 pub mod error;
 pub mod gen_dataset;
@@ -28,6 +29,7 @@ pub mod tidy;
 
 use clap::Parser;
 use cli::{Cli, Command};
+use console::remark;
 use error::CliError;
 use std::{ffi::OsString, process::ExitCode};
 
@@ -37,7 +39,7 @@ pub fn main_with(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Ok(cli) => match run(cli.command) {
             Ok(()) => ExitCode::SUCCESS,
             Err(error) => {
-                eprintln!("error: {error}");
+                remark(format!("error: {error}"));
                 ExitCode::from(error.exit_code())
             }
         },
@@ -47,7 +49,7 @@ pub fn main_with(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
             ExitCode::SUCCESS
         }
         Err(error) => {
-            eprintln!("{}", cli::one_sentence(&error));
+            remark(cli::one_sentence(&error));
             ExitCode::from(2)
         }
     }

@@ -1,5 +1,6 @@
 //! How far a run has come: a bar with the time left on a terminal, a line for each event elsewhere.
 
+use crate::console::remark;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::{
     io::IsTerminal,
@@ -49,7 +50,7 @@ impl Progress {
                 bar.inc(self.steps_each.saturating_sub(counted) as u64);
                 bar.println(text);
             }
-            None => eprintln!("{text}"),
+            None => remark(&text),
         }
     }
 }

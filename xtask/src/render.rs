@@ -2,6 +2,7 @@
 
 use crate::{
     cli::Render,
+    console::tell,
     engine,
     error::CliError,
     interrupt,
@@ -30,7 +31,7 @@ pub fn run(arguments: &Render) -> Result<(), CliError> {
         let recording = source.load(index)?;
         let path = target.path(&recording.id, arguments.belief, extension);
         let note = render(arguments, &recording, &path)?;
-        println!("{}{note}", path.display());
+        tell(format!("{}{note}", path.display()));
         Ok(Some(()))
     })?;
     made.map(|_| ()).ok_or_else(|| CliError::Interrupted(arguments.out.clone()))

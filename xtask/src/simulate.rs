@@ -2,6 +2,7 @@
 
 use crate::{
     cli::Simulate,
+    console::{remark, tell},
     engine::{self, GENERATOR},
     error::CliError,
     gen_dataset::difference,
@@ -39,7 +40,7 @@ pub fn run(arguments: &Simulate) -> Result<(), CliError> {
         Contents::Finished => return check_finished(out, &run),
         Contents::Unfinished(other) => {
             check_same(out, "an unfinished", &other, &run)?;
-            eprintln!("going on in {}", out.display());
+            remark(format!("going on in {}", out.display()));
         }
         Contents::Nothing => {}
     }
@@ -55,8 +56,8 @@ pub fn run(arguments: &Simulate) -> Result<(), CliError> {
     let summary = Summary::new(run, comparisons);
     atomic::write(&out.join(SUMMARY_FILE), summary.to_json().as_bytes())?;
     folder.finish()?;
-    print!("{}", summary.table());
-    println!("{} simulated events in {}", summary.events.len(), out.display());
+    tell(summary.table().trim_end());
+    tell(format!("{} simulated events in {}", summary.events.len(), out.display()));
     Ok(())
 }
 
@@ -112,7 +113,7 @@ fn check_finished(out: &Path, run: &Value) -> Result<(), CliError> {
     if folder::has_leftovers(out) {
         Folder::claim(out, run)?.finish()?;
     }
-    print!("{}", summary.table());
-    println!("{} holds these {} simulated events already", out.display(), summary.events.len());
+    tell(summary.table().trim_end());
+    tell(format!("{} holds these {} simulated events already", out.display(), summary.events.len()));
     Ok(())
 }

@@ -9,6 +9,8 @@ use phase_predicates::{Literal, Place, Predicate};
 pub const LONGEST: f32 = 28.284;
 /// What an object not in hand adds to the distance of Attach (u): more than standing next to it gains.
 const NOT_IN_HAND: f32 = 2.0;
+/// What a carrier's own way round a corner counts for beside the way of what it carries.
+const CARRIERS_SHARE: f32 = 0.5;
 /// Room kept between bodies that pass each other (u).
 const CLEARANCE: f32 = 0.4;
 /// What the other agent's being where it should not adds to the distance of keeping it out (u).
@@ -72,8 +74,11 @@ impl Objective<'_> {
     /// The way that is left for the mover, round bodies that stand in it.
     #[must_use]
     pub fn course(&self, state: &State) -> Course {
-        let course = self.open_course(state);
+        let mut course = self.open_course(state);
         let mover = self.mover(state);
+        if let Entity::Object(_) = mover {
+            course.remaining = self.with_carrier(state, mover, course.remaining);
+        }
         let clearance = self.physique.radius(mover) + CLEARANCE;
         let discs = self
             .physique
@@ -81,6 +86,26 @@ impl Objective<'_> {
             .filter(|&entity| self.is_in_the_way(state, entity))
             .map(|entity| (state.position(entity), self.physique.radius(entity) + clearance));
         course::around(course, state.position(mover), discs)
+    }
+
+    /// The distance left for a held object, with a share for its carrier: whoever carries something through a
+    /// door has to come through it too, and may have to turn first.
+    fn with_carrier(&self, state: &State, mover: Entity, remaining: f32) -> f32 {
+        let me = Entity::agent(self.agent);
+        let target = match self.subgoal {
+            Subgoal::Achieve(Literal {
+                predicate: Predicate::On(_, landmark) | Predicate::Close(_, Place::Landmark(landmark)),
+                ..
+            }) => arena::LANDMARKS[usize::from(landmark)],
+            _ => return remaining,
+        };
+        let to_target = |entity: Entity| {
+            let from = state.position(entity);
+            self.routes.best(from, target, 0.0, self.routes.gaps()).map_or(0.0, |route| route.length)
+        };
+        let arm = self.physique.radius(me) + self.physique.radius(mover);
+        let behind = (to_target(me) - to_target(mover) - arm).max(0.0);
+        remaining + CARRIERS_SHARE * behind
     }
 
     /// Whether an entity is to be walked round: it is neither the agent nor what the subgoal is about, and

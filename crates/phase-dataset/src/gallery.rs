@@ -4,11 +4,16 @@ use crate::{
     manifest::{AgentEntry, EventEntry, Manifest},
     words::{self, Piece},
 };
-use phase_model::{AGENT_COUNT, Attitude, Entity, EventKind, Size, Strength};
+use phase_model::{
+    AGENT_COUNT, Attitude, Entity, EventKind, Sign, Size, Strength,
+    arena::{FRAMES_PER_SECOND, SUBSTEPS},
+};
 use phase_sim::Event;
 use serde_json::json;
 use std::fmt::Write as _;
 
+/// How long a step is shown (s).
+const SECONDS_PER_STEP: f64 = SUBSTEPS as f64 / FRAMES_PER_SECOND as f64;
 const PAGE: &str = include_str!("../assets/page.html");
 const STYLE: &str = include_str!("../assets/style.css");
 const SCRIPT: &str = include_str!("../assets/script.js");
@@ -142,7 +147,7 @@ fn card(event: &EventEntry) -> String {
         json = escape(&event.event.path),
         base = event.layout.base,
         steps = event.steps,
-        seconds = event.steps as f64 * 0.25,
+        seconds = event.steps as f64 * SECONDS_PER_STEP,
     )
 }
 
@@ -158,10 +163,13 @@ fn agent(k: usize, agent: &AgentEntry) -> String {
     let goal: String = words::goal(k, agent.goal).into_iter().map(chip).collect();
     let outcome = match (agent.reached, agent.steps_to_goal) {
         (true, Some(steps)) => {
-            format!("<span class=\"yes\">reached after {:.1} s</span>", steps as f64 * 0.25)
+            format!("<span class=\"yes\">done after {:.1} s</span>", steps as f64 * SECONDS_PER_STEP)
         }
         (true, None) => "<span class=\"yes\">so at the end</span>".into(),
-        (false, _) => "<span class=\"no\">not at the end</span>".into(),
+        (false, _) if agent.goal.sign() == Sign::Negative => {
+            "<span class=\"no\">not so at the end</span>".into()
+        }
+        (false, _) => "<span class=\"no\">not done</span>".into(),
     };
     format!(
         "<li>{me} <span class=\"body\">{size}, {strength}</span>{stance} wants to {goal} {outcome}\

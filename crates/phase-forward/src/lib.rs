@@ -32,8 +32,12 @@
 //!
 //! Let go of, an object does not touch its holder again before one of them has moved about 0.1 u; if it was
 //! held at a flank it lies a tenth of its radius deep in the agent. [`Memory`] carries this as the original
-//! does. From a state alone, the pair is kept apart in the step of the `detach`, and in later ones as long as
-//! the object lies deep in a flank exactly where it was held, does not approach, and was not in contact.
+//! does. From a state alone, the pair is kept apart in the step of the `detach`, and at the start of later
+//! ones if the object lies deep in a flank just where it was held, does not approach, and was not in contact;
+//! in either case until one of the two has moved away from where it then was.
+//!
+//! Impulses are the other thing a state leaves out: the first substep of a step from a state alone starts
+//! from none, with twice the iterations; the four after it go on from each other's.
 //!
 //! # What it costs to reach
 //!

@@ -6,7 +6,7 @@ use crate::{
     tuning::H,
     world::World,
 };
-use phase_model::{AGENT_COUNT, Action, Vec2, arena, physique};
+use phase_model::{AGENT_COUNT, Vec2, arena};
 
 /// Substeps in a step, as seconds.
 const STEP: f32 = arena::SUBSTEPS as f32 * H;
@@ -25,18 +25,12 @@ pub(crate) fn members(world: &mut World<'_>) -> BodySet {
     let mut ways = [0.0_f32; 4];
     for (body, longest) in ways.iter_mut().enumerate().take(forward.count) {
         let (motion, shape) = (&world.motions[body], &forward.shapes[body]);
-        let action = if body < AGENT_COUNT { world.actions[body] } else { Action::NoForce };
-        let coast = if action == Action::Stop { Vec2::ZERO } else { motion.velocity * STEP };
-        // What may lead off the straight way: pushes, and the ground's friction on a body that turns.
-        let mut force = if action.push().is_some() { shape.max_force } else { 0.0 };
-        if force > 0.0 || action.turn() != 0.0 || motion.spin != 0.0 {
-            force += physique::GROUND_FRICTION;
+        let mut way = motion.velocity.length() * STEP;
+        if body < AGENT_COUNT && world.actions[body].push().is_some() {
+            way += shape.max_force * shape.inverse_mass * WAY_PER_ACCELERATION;
         }
-        let aside = force * shape.inverse_mass * WAY_PER_ACCELERATION;
-        *longest = coast.length() + aside;
-        let (here, there) = (motion.centre, motion.centre + coast);
-        world.walls[body] =
-            near_walls(world, body, here.min(there), here.max(there), shape.bound + aside + LEEWAY);
+        *longest = way;
+        world.walls[body] = near_walls(world, body, motion.centre, motion.centre, shape.bound + way + LEEWAY);
         members |= u8::from(world.walls[body] != 0) << body;
     }
     let mut grouped: BodySet = 0;

@@ -16,6 +16,10 @@ use phase_predicates::{Literal, Place, Predicate, achieved};
 /// one that spares the other.
 const HELPERS_EFFORT: f32 = 0.5;
 
+/// A plan that costs this much contains something nearly impossible (u): see
+/// [`crate::routes::IMPASSABLE_COST`] and the cost of a load too heavy.
+const HOPELESS: f32 = 60.0;
+
 /// What an agent means to do, from one possible world.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Plan {
@@ -82,8 +86,8 @@ impl Planner {
         }
     }
 
-    /// A neutral agent reaches for its own goal by its own means. Only when the other wants the very same is
-    /// the other's force counted on.
+    /// A neutral agent reaches for its own goal by its own means. Only when the other wants the very same, and
+    /// it cannot do it alone, is the other counted on.
     fn pursue(&self, situation: &Situation<'_>, own: Goal, other: Goal, observed: EntitySet) -> Plan {
         if let Some(plan) = self.finish(situation, own, observed) {
             return plan;
@@ -96,8 +100,31 @@ impl Planner {
             allied: own == other,
             narrowed: None,
         };
-        search::solve(&task, Node::start(situation))
-            .map_or(Plan::STAY, |plan| express(&task, &plan, self.agent))
+        let alone = search::solve(&task, Node::start(situation));
+        match alone {
+            Some(plan) if own != other || plan.cost < HOPELESS => express(&task, &plan, self.agent),
+            _ if own == other => self.cooperate(situation, own, 1.0, observed),
+            _ => Plan::STAY,
+        }
+    }
+
+    /// The own part of the cheapest way in which both together reach a goal; the own travel counts for
+    /// `effort` beside the other's.
+    fn cooperate(&self, situation: &Situation<'_>, goal: Goal, own_effort: f32, observed: EntitySet) -> Plan {
+        let mut effort = [1.0; AGENT_COUNT];
+        effort[self.agent] = own_effort;
+        let actors = [true; AGENT_COUNT];
+        let task = Task { situation, goal, actors, effort, allied: true, narrowed: None };
+        let plan = search::solve(&task, Node::start(situation))
+            .map_or(Plan::STAY, |plan| express(&task, &plan, self.agent));
+        // Not being needed is something to be seen.
+        let unseen = [goal.subject(), Entity::agent(1 - self.agent)];
+        match unseen.into_iter().find(|&entity| !observed.contains(entity)) {
+            Some(entity) if plan.subgoals.is_empty() => {
+                Plan { distance: plan.distance, ..visit(situation, self.agent, entity) }
+            }
+            _ => plan,
+        }
     }
 
     /// A helper looks for the cheapest way in which both together reach the other's goal, and does its own
@@ -109,12 +136,7 @@ impl Planner {
         if let Some(plan) = self.finish(situation, goal, observed) {
             return plan;
         }
-        let mut effort = [1.0; AGENT_COUNT];
-        effort[self.agent] = HELPERS_EFFORT;
-        let actors = [true; AGENT_COUNT];
-        let task = Task { situation, goal, actors, effort, allied: true, narrowed: None };
-        search::solve(&task, Node::start(situation))
-            .map_or(Plan::STAY, |plan| express(&task, &plan, self.agent))
+        self.cooperate(situation, goal, HELPERS_EFFORT, observed)
     }
 
     /// Who wants to be left alone is helped by keeping away; other negated goals by undoing them.
@@ -148,7 +170,7 @@ impl Planner {
     }
 }
 
-/// The plan of going near an entity.
+/// The plan of going to an entity to see it.
 fn visit(situation: &Situation<'_>, agent: usize, entity: Entity) -> Plan {
     let me = Entity::agent(agent);
     let (from, to) = (situation.state.position(me), situation.state.position(entity));
@@ -159,8 +181,10 @@ fn visit(situation: &Situation<'_>, agent: usize, entity: Entity) -> Plan {
         rooms(route, from, to, me, &mut subgoals);
     }
     subgoals.push(is(Predicate::Close(me, Place::Entity(entity))));
+    // Near and yet unobserved, it is behind one's back: reaching for it means turning to it.
+    subgoals.push(is(Predicate::Touch(agent as u8, entity)));
     skip_done(situation, &mut subgoals);
-    Plan { subgoals, distance: route.map_or(0.0, |route| route.length) }
+    Plan { subgoals, distance: route.map_or(0.0, |route| route.cost()) }
 }
 
 /// Drops the leading subgoals that hold already: what is left begins with something to bring about.

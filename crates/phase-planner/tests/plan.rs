@@ -83,7 +83,7 @@ fn one_does_not_take_an_unseen_success_on_trust() {
         observed: [phase_model::Entity::Agent(0)].into_iter().collect(),
         ..plain()
     };
-    assert_eq!(believed.words(0), ["Close(agent 0, object 0)"]);
+    assert_eq!(believed.words(0), ["Close(agent 0, object 0)", "Touch(agent 0, object 0)"]);
     assert_eq!(Setup { observed: everything(), ..believed }.plan(0).first(), Subgoal::Stay);
 }
 

@@ -6,6 +6,7 @@ mod texts;
 
 pub use layers::LAYERS;
 
+use crate::console::{remark, tell};
 use crate::error::CliError;
 use std::{
     fmt, fs, io,
@@ -37,10 +38,10 @@ pub fn run() -> Result<(), CliError> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."));
     let findings = check(root);
     for finding in &findings {
-        eprintln!("{finding}");
+        remark(finding);
     }
     if findings.is_empty() {
-        println!("tidy");
+        tell("tidy");
         Ok(())
     } else {
         Err(CliError::Untidy(findings.len()))
@@ -71,12 +72,10 @@ impl Workspace {
         self.findings.push(Finding { file: file.into(), line, rule: rule.into() });
     }
 
-    /// The text of a file; a file that cannot be read is a finding and an empty text.
-    fn read(&mut self, file: &Path) -> String {
-        fs::read_to_string(self.root.join(file)).unwrap_or_else(|error| {
-            self.report(file, 1, format!("cannot be read: {error}"));
-            String::new()
-        })
+    /// The text of a file. That it cannot be read is a finding; then there is nothing more to find in it.
+    fn read(&mut self, file: &Path) -> Option<String> {
+        let text = fs::read_to_string(self.root.join(file));
+        text.map_err(|error| self.report(file, 1, format!("cannot be read: {error}"))).ok()
     }
 
     /// Names of the folders in `crates/`, sorted.

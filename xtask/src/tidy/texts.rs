@@ -10,7 +10,8 @@ const COMMANDS: [&str; 2] = ["cargo xtask gen-dataset", "cargo test --workspace"
 
 /// Checks commands, links and lines of the documents.
 pub(super) fn check(workspace: &mut Workspace) {
-    let (readme, ci) = (workspace.read(Path::new(README)), workspace.read(Path::new(CI)));
+    let mut read = |file: &str| workspace.read(Path::new(file)).unwrap_or_default();
+    let (readme, ci) = (read(README), read(CI));
     for command in COMMANDS {
         if !readme.lines().any(|line| line == command) {
             workspace.report(README, 1, format!("must show the command `{command}` on a line of its own"));
@@ -22,7 +23,7 @@ pub(super) fn check(workspace: &mut Workspace) {
     let mut documents = workspace.files(&["docs"], &[".md"]);
     documents.push(README.into());
     for document in documents {
-        let text = workspace.read(&document);
+        let Some(text) = workspace.read(&document) else { continue };
         for (k, line) in text.lines().enumerate() {
             if line.ends_with([' ', '\t']) {
                 workspace.report(&document, k + 1, "ends in a space");

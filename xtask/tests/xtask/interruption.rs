@@ -82,7 +82,7 @@ fn two_runs_in_one_folder_do_not_mix() {
     let path = folder.path();
     let mut child = start(path, "out");
     let sentence = refuse(path, &["gen-dataset", "--events", "4", "--out", "out"]);
-    assert!(sentence.contains("simulations"), "other options come first: {sentence}");
+    assert!(sentence.contains("unfinished run of another kind"), "{sentence}");
     let output = xtask(path).args(generate("out")).output().expect("the program starts");
     assert_eq!(output.status.code(), Some(2));
     assert!(text(&output.stderr).contains("another run is writing"), "{}", text(&output.stderr));

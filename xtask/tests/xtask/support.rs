@@ -9,29 +9,29 @@ use std::{
 };
 
 /// Options that make events short and thinking quick.
-pub const QUICK: [&str; 6] = ["--simulations", "20", "--particles", "10", "--max-steps", "4"];
+pub(crate) const QUICK: [&str; 6] = ["--simulations", "20", "--particles", "10", "--max-steps", "4"];
 
 /// The program, to be run in a folder.
-pub fn xtask(folder: &Path) -> Command {
+pub(crate) fn xtask(folder: &Path) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_xtask"));
     command.current_dir(folder);
     command
 }
 
 /// Runs the program to its end.
-pub fn run(folder: &Path, arguments: &[&str]) -> Output {
+pub(crate) fn run(folder: &Path, arguments: &[&str]) -> Output {
     xtask(folder).args(arguments).output().expect("the program starts")
 }
 
 /// Runs the program and checks that it is content.
-pub fn succeed(folder: &Path, arguments: &[&str]) -> String {
+pub(crate) fn succeed(folder: &Path, arguments: &[&str]) -> String {
     let output = run(folder, arguments);
     assert!(output.status.success(), "{arguments:?}: {}", text(&output.stderr));
     text(&output.stdout)
 }
 
 /// Runs the program and checks that it refuses with one plain sentence, which is returned.
-pub fn refuse(folder: &Path, arguments: &[&str]) -> String {
+pub(crate) fn refuse(folder: &Path, arguments: &[&str]) -> String {
     let output = run(folder, arguments);
     let sentence = text(&output.stderr);
     assert_eq!(output.status.code(), Some(2), "{arguments:?}: {sentence}");
@@ -43,12 +43,12 @@ pub fn refuse(folder: &Path, arguments: &[&str]) -> String {
     sentence
 }
 
-pub fn text(bytes: &[u8]) -> String {
+pub(crate) fn text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
 }
 
 /// Every file below a folder with its contents.
-pub fn tree(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+pub(crate) fn tree(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     let mut files = BTreeMap::new();
     collect(folder, folder, &mut files);
     files
@@ -67,7 +67,7 @@ fn collect(root: &Path, folder: &Path, files: &mut BTreeMap<PathBuf, Vec<u8>>) {
 }
 
 /// A recording of four steps in which both agents stand still, in the open; they want to go to landmarks.
-pub fn recording(id: &str) -> Value {
+pub(crate) fn recording(id: &str) -> Value {
     let still = |x: f64, y: f64| vec![json!([x, y, 0.0, 0.0, 0.5]); 5];
     let agent = |number: u8, landmark: u8| {
         json!({
@@ -90,7 +90,7 @@ pub fn recording(id: &str) -> Value {
 }
 
 /// A file with these events.
-pub fn write_events(path: &Path, events: &[Value]) {
+pub(crate) fn write_events(path: &Path, events: &[Value]) {
     let file = json!({"format": "phase-events/1", "events": events});
     fs::write(path, file.to_string()).expect("written");
 }

@@ -11,7 +11,10 @@ fn workspace(root: &Path) {
     let files = [
         ("README.md", readme.to_owned()),
         (".ci/run", "cargo test --workspace\ncargo xtask gen-dataset --events 1\n".to_owned()),
-        ("docs/ARCHITECTURE.md", "`phase-model`, `phase-world`, [it](../README.md#two)\n".to_owned()),
+        (
+            "docs/ARCHITECTURE.md",
+            "| `phase-model` |\n| `phase-world` | [it](../README.md#two) |\nlater `phase-x`\n".to_owned(),
+        ),
         ("crates/phase-model/Cargo.toml", "[dependencies]\nserde.workspace = true\n".to_owned()),
         ("crates/phase-model/src/lib.rs", ROOT.to_owned()),
         ("crates/phase-world/Cargo.toml", "[dependencies]\nphase-model.workspace = true\n".to_owned()),
@@ -63,8 +66,8 @@ fn every_rule_is_checked() {
         ),
         (
             "docs/ARCHITECTURE.md",
-            "`phase-model` and\n`phase-world` and `phase-gone`, `phase-events/1`\n",
-            &["docs/ARCHITECTURE.md:2: the map mentions phase-gone, which is no crate"],
+            "| `phase-model` | `phase-events/1` |\n| `phase-world` |\n| `phase-gone` |\n",
+            &["docs/ARCHITECTURE.md:3: the map mentions phase-gone, which is no crate"],
         ),
         (
             "docs/more.md",
@@ -100,7 +103,7 @@ fn every_rule_is_checked() {
         (
             "xtask/src/more.rs",
             concat!("fn a() { dbg", "!(1); }\n"),
-            &["xtask/src/more.rs:1: dbg!(…) must not stay"],
+            &[concat!("xtask/src/more.rs:1: dbg", "!(…) must not stay")],
         ),
         (
             ".ci/run",

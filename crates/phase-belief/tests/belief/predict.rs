@@ -1,1 +1,132 @@
+//! Constant motion of what is not observed.
 
+use crate::common::{BALL, BOX, ME, OTHER, physique, random, state, wall};
+use core::f32::consts::PI;
+use phase_belief::Belief;
+use phase_forward::Forward;
+use phase_model::{
+    Action, Dynamics, Entity, Grip, Physique, Segment, Side, Size, State, Vec2, geometry::Outline,
+};
+use phase_perception::observe;
+
+/// Agent 0 sees everything at the top of the arena, then turns away at once and sees none of it; the state
+/// that its particles then predict of it after some steps.
+fn imagine(physique: &Physique, first: State, steps: usize) -> State {
+    let observation = observe(physique, &first, 0);
+    assert_eq!(observation.observed.iter().count(), physique.entity_count(), "all is seen at first");
+    let mut chance = random(1);
+    let mut belief = Belief::new(physique, &observation, 3, &mut chance);
+    let mut away = first;
+    *away.body_mut(ME) = phase_model::Body::at_rest(Vec2::new(16.0, 4.0), PI);
+    let observation = observe(physique, &away, 0);
+    assert_eq!(observation.observed, [ME].into_iter().collect());
+    let forward = Forward::new(physique);
+    for _ in 0..steps {
+        belief.update(&forward, physique, Action::NoForce, &observation, &mut chance);
+        assert_eq!(belief.redrawn(), 0);
+    }
+    assert!(belief.particles().iter().all(|particle| particle == &belief.particles()[0]));
+    belief.particles()[0]
+}
+
+/// Agent 0 at the bottom, looking up; the other at (16, 14) with a velocity, looking up.
+fn scene(velocity: Vec2, ball: (f32, f32)) -> State {
+    let mut state = state([(16.0, 4.0, 0.0), (16.0, 14.0, 0.0), (ball.0, ball.1, 0.0), (8.0, 14.0, 0.0)]);
+    state.body_mut(OTHER).velocity = velocity;
+    state
+}
+
+fn small(walls: Vec<Segment>) -> Physique {
+    physique(walls, Size::Small, 1)
+}
+
+#[test]
+fn the_other_agent_goes_on_as_it_was_going() {
+    let velocity = Vec2::new(-6.0, 3.0);
+    let first = scene(velocity, (20.0, 8.0));
+    for steps in 1..4 {
+        let last = imagine(&small(Vec::new()), first, steps);
+        let expected = first.position(OTHER) + velocity * (steps as f32 * 5.0 / 60.0);
+        assert!(last.position(OTHER).distance(expected) < 1e-4, "{steps}");
+        assert_eq!(last.body(OTHER).velocity, velocity);
+        assert_eq!(last.body(OTHER).angle, 0.0);
+    }
+}
+
+#[test]
+fn free_objects_coast_to_a_stop() {
+    let mut first = scene(Vec2::ZERO, (10.0, 10.0));
+    first.body_mut(BALL).velocity = Vec2::new(0.0, 8.0);
+    let last = imagine(&small(Vec::new()), first, 4);
+    // v²/2a with a = 100 N / 2.01 kg.
+    let expected = 10.0 + 64.0 / (2.0 * 100.0 / 2.0106);
+    assert_eq!(last.body(BALL).velocity, Vec2::ZERO);
+    assert!((last.position(BALL).y - expected).abs() < 0.1, "{}", last.position(BALL));
+}
+
+#[test]
+fn what_it_holds_goes_along() {
+    let velocity = Vec2::new(4.0, -2.0);
+    let mut first = scene(velocity, (16.0, 15.6));
+    first.body_mut(BALL).velocity = velocity;
+    first.grips[1] = Some(Grip { object: 0, side: Side::Head, relative_angle: 0.0 });
+    let last = imagine(&small(Vec::new()), first, 3);
+    assert_eq!(last.grips, first.grips);
+    for entity in [OTHER, BALL] {
+        let expected = first.position(entity) + velocity * 0.25;
+        assert!(last.position(entity).distance(expected) < 1e-4, "{entity:?}");
+        assert_eq!(last.body(entity).velocity, velocity);
+    }
+}
+
+#[test]
+fn what_is_in_the_way_stops_it() {
+    let walls = || vec![wall((6.0, 17.0), (26.0, 17.0))];
+    let (up, right) = (Vec2::new(0.0, 9.0), Vec2::new(9.0, 0.0));
+    let last = imagine(&small(walls()), scene(up, (20.0, 8.0)), 8);
+    let top = last.position(OTHER).y + 0.8;
+    assert!((16.0..17.05).contains(&top) && last.body(OTHER).velocity.y < 1.0, "a wall: {top}");
+
+    let last = imagine(&small(Vec::new()), scene(up, (20.0, 8.0)), 16);
+    let top = last.position(OTHER).y + 0.8;
+    assert!((21.0..22.05).contains(&top) && last.body(OTHER).velocity.y < 1.0, "the boundary: {top}");
+
+    // An object is pushed on, and the agent that pushes loses speed.
+    let physique = small(Vec::new());
+    let last = imagine(&physique, scene(right, (20.0, 14.0)), 5);
+    assert!(last.position(BALL).x > 20.05 && last.body(OTHER).velocity.x < 8.0);
+    let smaller = crate::common::shrunk(&physique, 0.05);
+    let [agent, ball] = [OTHER, BALL].map(|entity| Outline::of(&smaller, entity, last.body(entity)));
+    assert!(!agent.overlaps(&ball));
+}
+
+#[test]
+fn nothing_passes_through_a_wall_however_fast() {
+    let physique = small(vec![wall((6.0, 17.0), (26.0, 17.0))]);
+    for speed in [20.0, 40.0, 60.0, 100.0] {
+        let last = imagine(&physique, scene(Vec2::new(0.0, speed), (20.0, 8.0)), 2);
+        assert!(last.position(OTHER).y < 17.0, "{speed}: {}", last.position(OTHER));
+    }
+}
+
+#[test]
+fn the_agents_own_action_is_known() {
+    // Agent 0 holds an object behind itself and cannot tell more of it than it feels; the true next state
+    // is what the dynamics say for its action, and so is the prediction.
+    let physique = physique(Vec::new(), Size::Small, 2);
+    let mut first = state([(16.0, 12.0, 0.0), (8.0, 4.0, 0.0), (16.0, 10.4, 0.0), (24.0, 4.0, 0.0)]);
+    first.grips[0] = Some(Grip { object: 0, side: Side::Tail, relative_angle: 0.0 });
+    let forward = Forward::new(&physique);
+    let mut chance = random(2);
+    let mut belief = Belief::new(&physique, &observe(&physique, &first, 0), 5, &mut chance);
+    let mut truth = first;
+    forward.step(&mut truth, [Action::Detach, Action::NoForce]);
+    let after = observe(&physique, &truth, 0);
+    belief.update(&forward, &physique, Action::Detach, &after, &mut chance);
+    for particle in belief.particles() {
+        assert_eq!(particle.grips[0], None);
+        let error = particle.position(BALL).distance(truth.position(BALL));
+        assert!(error < 0.01, "{error}");
+        assert!(Entity::object(1) == BOX && particle.position(BOX).is_finite());
+    }
+}

@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use std::{fs, path::Path};
 
 /// A dataset of one event whose files hold a few bytes.
-pub fn dataset(folder: &Path, id: &str) -> Manifest {
+pub(crate) fn dataset(folder: &Path, id: &str) -> Manifest {
     for path in [event_path(id), video_path(id)] {
         fs::create_dir_all(folder.join(&path).parent().expect("a parent")).expect("a folder");
         fs::write(folder.join(&path), path.as_bytes()).expect("written");

@@ -11,7 +11,7 @@ use phase_sim::{Event, Step};
 use serde_json::{Value, json};
 
 /// A scene in which agent 0 helps agent 1 to put object 0 on landmark 1.
-pub fn scene() -> Scene {
+pub(crate) fn scene() -> Scene {
     let goal = Goal::ObjectOnLandmark { object: 0, landmark: 1, sign: Sign::Positive };
     let agent = |attitude, x, angle| AgentSpec {
         size: Size::Medium,
@@ -31,7 +31,7 @@ pub fn scene() -> Scene {
 
 /// An event of `steps` steps in which everything that a file can tell changes somewhere. `number` gives the
 /// numbers in it.
-pub fn event(steps: usize, mut number: impl FnMut() -> f32) -> Event {
+pub(crate) fn event(steps: usize, mut number: impl FnMut() -> f32) -> Event {
     let scene = scene();
     let initial = scene.initial_state();
     let mut state = initial;
@@ -55,7 +55,7 @@ pub fn event(steps: usize, mut number: impl FnMut() -> f32) -> Event {
 }
 
 /// An event with numbers that no two of are equal and few of which are short in decimal.
-pub fn plain_event(steps: usize) -> Event {
+pub(crate) fn plain_event(steps: usize) -> Event {
     let mut k = 0_u32;
     event(steps, || {
         k += 1;
@@ -108,12 +108,12 @@ fn idle() -> Thought {
 }
 
 /// The number of frames of an event with this many steps.
-pub const fn frames(steps: usize) -> usize {
+pub(crate) const fn frames(steps: usize) -> usize {
     1 + steps * SUBSTEPS
 }
 
 /// A measured recording as its maker would write it, with every optional field.
-pub fn file() -> Value {
+pub(crate) fn file() -> Value {
     let row = |x: f64| json!([x, 14.0, 0.5, -0.25, 1.5]);
     let track = |x: f64| json!([row(x), row(x + 0.125), row(x + 0.25)]);
     json!({
