@@ -25,7 +25,8 @@ function write(place, text) {
 
 // Frame 0 is the start; each step takes the five frames after it.
 function show(card) {
-  const frame = Math.floor(card.querySelector("video").currentTime * FRAMES_PER_SECOND + 0.01);
+  const time = card.querySelector("video").currentTime;
+  const frame = Math.floor(time * FRAMES_PER_SECOND + 0.01);
   const step = Math.max(0, Math.floor((frame - 1) / FRAMES_PER_STEP));
   const timeline = subgoals[card.dataset.id] || [];
   timeline.forEach((changes, agent) => {
@@ -33,23 +34,46 @@ function show(card) {
     const place = card.querySelector(`[data-agent="${agent}"] .subgoal`);
     if (place) write(place, now ? now[1] : "–");
   });
+  card.querySelector(".player input").value = time;
+  card.querySelector(".player output").textContent = `${time.toFixed(1)} s`;
 }
 
-for (const card of cards) {
+const play = (video) => { const started = video.play(); if (started) started.catch(() => {}); };
+
+// The browser's own controls lie over the picture; ours lie below it.
+function control(card) {
   const video = card.querySelector("video");
+  const player = card.querySelector(".player");
+  const toggle = player.querySelector(".toggle");
+  const seek = (time) => {
+    video.pause();
+    video.currentTime = Math.min(Math.max(time, 0), video.duration || 0);
+  };
   const follow = () => {
     show(card);
-    if (!video.paused && !video.ended) requestAnimationFrame(follow);
+    const running = !video.paused && !video.ended;
+    toggle.textContent = running ? "❚❚" : "▶";
+    toggle.setAttribute("aria-label", running ? "pause" : "play");
+    if (running) requestAnimationFrame(follow);
   };
-  for (const name of ["play", "seeked", "timeupdate", "ended"]) video.addEventListener(name, follow);
+  for (const name of ["play", "pause", "seeked", "ended"]) video.addEventListener(name, follow);
+  const playOrPause = () => (video.paused || video.ended ? play(video) : video.pause());
+  toggle.addEventListener("click", playOrPause);
+  video.addEventListener("click", playOrPause);
+  const step = FRAMES_PER_STEP / FRAMES_PER_SECOND;
+  player.querySelector(".back").addEventListener("click", () => seek(video.currentTime - step));
+  player.querySelector(".next").addEventListener("click", () => seek(video.currentTime + step));
+  player.querySelector("input").addEventListener("input", (event) => seek(Number(event.target.value)));
+  video.controls = false;
+  player.hidden = false;
   show(card);
 }
+cards.forEach(control);
 
 // Videos load their first picture when they come near the window, so that five hundred cost nothing at once.
 const playButton = document.getElementById("play");
 const inView = new Set();
 const playing = () => playButton.getAttribute("aria-pressed") === "true";
-const play = (video) => { const started = video.play(); if (started) started.catch(() => {}); };
 const observer = new IntersectionObserver((entries) => {
   for (const { target, isIntersecting } of entries) {
     const video = target.querySelector("video");

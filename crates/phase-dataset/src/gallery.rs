@@ -138,6 +138,11 @@ fn card(event: &EventEntry) -> String {
         "<article class=\"card\" data-kind=\"{kind}\" data-id=\"{id}\" aria-label=\"{kind}, {id}\">\n\
          <header><h2>{kind}</h2><span class=\"tag {relation}\">{relation}</span><code>{id}</code></header>\n\
          <video controls muted playsinline preload=\"none\" src=\"{video}\" title=\"{what}\"></video>\n\
+         <div class=\"player\" hidden><button type=\"button\" class=\"toggle\" aria-label=\"play\">▶</button>\
+         <button type=\"button\" class=\"back\" aria-label=\"one step back\">‹</button>\
+         <button type=\"button\" class=\"next\" aria-label=\"one step on\">›</button>\
+         <input type=\"range\" min=\"0\" max=\"{seconds}\" step=\"0.05\" value=\"0\" aria-label=\"time\">\
+         <output>0.0 s</output></div>\n\
          <ul class=\"agents\">\n{agents}</ul>\n\
          <p class=\"meta\">{things}layout {base}{flip} · {steps} steps, {seconds:.1} s · \
          <a href=\"{json}\">data</a></p>\n</article>\n",

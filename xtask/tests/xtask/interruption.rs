@@ -9,7 +9,7 @@ use std::{
 };
 
 const COMMAND: [&str; 10] =
-    ["gen-dataset", "--events", "4", "--simulations", "150", "--max-steps", "12", "--jobs", "1", "--out"];
+    ["gen-dataset", "--events", "4", "--simulations", "100", "--max-steps", "10", "--jobs", "1", "--out"];
 
 fn generate(out: &str) -> Vec<&str> {
     [&COMMAND[..], &[out]].concat()
@@ -52,7 +52,7 @@ fn an_interrupted_run_is_resumed_to_the_same_bytes() {
         let output = xtask(path).args(generate(&out)).output().expect("the program starts");
         assert!(output.status.success(), "{name}: {}", text(&output.stderr));
         assert!(
-            text(&output.stderr).contains("demo-0000 helping: 12 steps (kept)"),
+            text(&output.stderr).contains("demo-0000 helping: 10 steps (kept)"),
             "{}",
             text(&output.stderr)
         );
