@@ -30,9 +30,8 @@ pub(crate) fn predict(
 /// Puts an agent and what it holds where constant motion would have taken them, if the way is free.
 fn keep_moving(physique: &Physique, before: &State, after: &mut State, agent: usize) {
     let velocity = before.body(Entity::agent(agent)).velocity;
-    let held = before.held_object(agent);
-    let shared = held.is_some_and(|object| before.holds(1 - agent, object));
-    if velocity == Vec2::ZERO || shared || held != after.held_object(agent) {
+    let held = before.held_object(agent).filter(|&object| object < physique.object_count);
+    if velocity == Vec2::ZERO {
         return;
     }
     let mut moving = EntitySet::EMPTY;

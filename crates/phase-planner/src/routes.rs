@@ -149,7 +149,9 @@ impl Routes {
                 let before = if k == 0 { from } else { doors[k - 1].1 };
                 let after = if k + 1 == count { to } else { doors[k + 1].1 };
                 let slot = doors[k].0;
-                doors[k].1 = point_in(slot, crossing(slot, before, after).clamp(ranges[k].0, ranges[k].1));
+                // Not clamp: rounding may leave a range of no width upside down.
+                let (low, high) = ranges[k];
+                doors[k].1 = point_in(slot, crossing(slot, before, after).max(low).min(high));
             }
         }
         let mut length = 0.0;

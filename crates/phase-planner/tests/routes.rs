@@ -72,6 +72,17 @@ fn obstacles_narrow_doors() {
     }
 }
 
+#[test]
+fn a_gap_that_rounding_turns_upside_down_is_no_panic() {
+    let routes = narrow();
+    for step in 0..2000 {
+        let mut gaps = *routes.gaps();
+        gaps.0[1] = Some((7.5 + step as f32 * 1e-3, 10.0 - step as f32 * 3e-4));
+        let route = routes.best(Vec2::new(7.0, 14.0), Vec2::new(9.0, 10.0), 4.8, &gaps).unwrap();
+        assert!(route.length.is_finite());
+    }
+}
+
 fn point() -> impl Strategy<Value = Vec2> {
     (6.5..25.5_f32, 2.5..21.5_f32).prop_map(|(x, y)| Vec2::new(x, y))
 }

@@ -9,7 +9,7 @@ use std::{
 };
 
 const COMMAND: [&str; 10] =
-    ["gen-dataset", "--events", "4", "--simulations", "100", "--max-steps", "10", "--jobs", "1", "--out"];
+    ["gen-dataset", "--events", "3", "--simulations", "80", "--max-steps", "10", "--jobs", "1", "--out"];
 
 fn generate(out: &str) -> Vec<&str> {
     [&COMMAND[..], &[out]].concat()
@@ -21,7 +21,7 @@ fn start(folder: &Path, out: &str) -> Child {
         xtask(folder).args(generate(out)).stderr(Stdio::piped()).spawn().expect("the program starts");
     let stderr = child.stderr.take().expect("a pipe");
     let line = BufReader::new(stderr).lines().next().expect("a line").expect("text");
-    assert!(line.starts_with("1/4 "), "{line}");
+    assert!(line.starts_with("1/3 "), "{line}");
     child
 }
 
@@ -45,6 +45,10 @@ fn an_interrupted_run_is_resumed_to_the_same_bytes() {
         assert!(!stopped.contains_key(Path::new("manifest.json")), "{name}: it was finished already");
         assert!(stopped.contains_key(Path::new("events/demo-0000.json")), "{name}");
 
+        if name == "-TERM" {
+            // It is the same as -INT from here on.
+            continue;
+        }
         let other = [&generate(&out)[..], &["--seed", "77"]].concat();
         let sentence = refuse(path, &other);
         assert!(sentence.contains("unfinished") && sentence.contains("seed 1 instead of 77"), "{sentence}");
@@ -81,7 +85,7 @@ fn two_runs_in_one_folder_do_not_mix() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path();
     let mut child = start(path, "out");
-    let sentence = refuse(path, &["gen-dataset", "--events", "4", "--out", "out"]);
+    let sentence = refuse(path, &["gen-dataset", "--events", "3", "--out", "out"]);
     assert!(sentence.contains("unfinished run of another kind"), "{sentence}");
     let output = xtask(path).args(generate("out")).output().expect("the program starts");
     assert_eq!(output.status.code(), Some(2));

@@ -104,6 +104,15 @@ fn an_unseen_grip_lasts_while_nothing_contradicts_it() {
 }
 
 #[test]
+fn a_grip_that_still_draws_its_object_into_place_is_no_contradiction() {
+    let mut imagined = held(hidden(), Side::Head);
+    imagined.body_mut(BALL).position.y -= 0.3;
+    assert_eq!(confront(hidden(), imagined).redrawn(), 0);
+    imagined.grips[1] = None;
+    assert_eq!(confront(hidden(), imagined).redrawn(), 20);
+}
+
+#[test]
 fn grips_go_when_either_end_does() {
     let truth = hidden();
     let imagined = held(truth, Side::Head);

@@ -43,6 +43,27 @@ fn a_tight_hiding_place_is_found() {
 }
 
 #[test]
+fn a_tight_hiding_place_is_found_among_many_that_are_too_tight() {
+    // A hundred single cells into which nothing fits, and one square of four into which the object does.
+    let physique = physique(Vec::new(), Size::Small, 1);
+    let mut truth = truth();
+    truth.contacts.insert(phase_model::Entity::agent(0), OTHER);
+    let mut observation = observe(&physique, &truth, 0);
+    let square = |x: usize, y: usize| (10..12).contains(&x) && (14..16).contains(&y);
+    let hidden = |cell: Cell| {
+        let (x, y) = (cell.index() % 20, cell.index() / 20);
+        (x % 2 == 1 && y % 2 == 1) || square(x, y)
+    };
+    observation.visible = Cell::all().filter(|&cell| !hidden(cell)).collect();
+    let belief = Belief::new(&physique, &observation, 50, &mut random(8));
+    assert_eq!(belief.unresolved(), 0);
+    for particle in belief.particles() {
+        let cells = footprint(&physique, BALL, particle.body(BALL));
+        assert!(cells.iter().all(|cell| square(cell.index() % 20, cell.index() / 20)));
+    }
+}
+
+#[test]
 fn two_that_hide_together_do_not_overlap() {
     let physique = physique(Vec::new(), Size::Small, 1);
     let observation = all_but(&physique, (12.0, 17.0), 5);

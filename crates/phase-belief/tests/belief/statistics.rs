@@ -73,6 +73,17 @@ fn the_first_belief_is_uniform() {
     let counts = counts(&belief, BALL, &cells);
     assert!(counts.iter().sum::<f64>() / 40_000.0 > 0.8);
     assert!(excess(&counts).abs() < 4.0, "{}", excess(&counts));
+    // And within cells.
+    for part in [|place: Vec2| place.x, |place: Vec2| place.y] {
+        let mut tenths = [0.0; 10];
+        for particle in belief.particles() {
+            let place = particle.position(BALL);
+            if Cell::at(place).is_some_and(|cell| cells.contains(&cell)) {
+                tenths[((part(place).fract() * 10.0) as usize).min(9)] += 1.0;
+            }
+        }
+        assert!(excess(&tenths).abs() < 4.0, "{tenths:?}");
+    }
     // The test can tell: with a tenth of the cells counted twice, it is far off.
     let skewed: Vec<f64> =
         counts.iter().enumerate().map(|(k, count)| if k % 10 == 0 { count * 2.0 } else { *count }).collect();

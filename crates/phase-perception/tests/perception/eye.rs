@@ -224,6 +224,15 @@ fn nobody_sees_itself_or_what_is_not_there() {
     assert!(!sees(&physique, &state, 0, BOX));
 }
 
+#[test]
+fn a_wall_through_the_eye_hides_nothing() {
+    let walls = vec![wall((10.5, 4.0), (10.5, 5.0))];
+    let state = looking((10.5, 4.5), 0.0);
+    let seen = field_of_view(&physique(walls, Size::Small), &state, 0);
+    assert_eq!(seen, field_of_view(&physique(Vec::new(), Size::Small), &state, 0));
+    assert!(seen.len() > 100);
+}
+
 /// The angle whose tangent is x/y; the heading towards (x, y) is its negative.
 fn arc_tangent(x: f32, y: f32) -> f32 {
     x.atan2(y)
