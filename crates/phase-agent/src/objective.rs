@@ -138,7 +138,7 @@ impl Objective<'_> {
             (Predicate::On(entity, landmark), true) => {
                 let centre = arena::LANDMARKS[usize::from(landmark)];
                 if entity == mover {
-                    self.to_point(state, from, centre)
+                    self.towards(state, from, centre)
                 } else {
                     self.escort(state, entity, centre)
                 }
@@ -160,27 +160,27 @@ impl Objective<'_> {
                     })
                 }
             }
-            (Predicate::Attach(_, object), true) => self.to_grab(state, object),
+            (Predicate::Attach(_, object), true) => self.within_reach_of(state, object),
             (Predicate::Close(_, Place::Entity(entity)) | Predicate::Touch(_, entity), true) => {
-                self.to_entity(state, entity)
+                self.up_to(state, entity)
             }
             (Predicate::Touch(_, other) | Predicate::Close(_, Place::Entity(other)), false) => {
                 self.away_from(state, other)
             }
             (Predicate::Close(entity, Place::Landmark(landmark)), false) => {
-                self.to_doorway(state, entity, usize::from(landmark))
+                self.blocking(state, entity, usize::from(landmark))
             }
             (Predicate::On(entity, landmark), false) => {
                 let target = arena::LANDMARKS[usize::from(landmark)];
                 let reach = self.physique.radius(entity) + self.physique.agents[self.agent].radius;
                 let between = target + (state.position(entity) - target).clamp_length_max(reach);
-                self.to_point(state, from, between)
+                self.towards(state, from, between)
             }
             (Predicate::Attach(..), false) => here,
         }
     }
 
-    fn to_point(&self, state: &State, from: Vec2, to: Vec2) -> Course {
+    fn towards(&self, state: &State, from: Vec2, to: Vec2) -> Course {
         self.give_way(state, from, to)
             .unwrap_or_else(|| course::to_point(self.routes, from, to, self.width(state, from, to)))
     }
@@ -217,19 +217,19 @@ impl Objective<'_> {
     }
 
     /// Until the surfaces meet.
-    fn to_entity(&self, state: &State, entity: Entity) -> Course {
+    fn up_to(&self, state: &State, entity: Entity) -> Course {
         let from = state.position(Entity::agent(self.agent));
-        let mut course = self.to_point(state, from, state.position(entity));
+        let mut course = self.towards(state, from, state.position(entity));
         let reach = self.physique.radius(entity) + self.physique.agents[self.agent].radius;
         course.remaining = (course.remaining - reach).max(0.0);
         course
     }
 
     /// Until an object is within reach of the nearest of the four sides.
-    fn to_grab(&self, state: &State, object: u8) -> Course {
+    fn within_reach_of(&self, state: &State, object: u8) -> Course {
         let entity = Entity::Object(object);
         let body = state.body(Entity::agent(self.agent));
-        let mut course = self.to_entity(state, entity);
+        let mut course = self.up_to(state, entity);
         if room_of(body.position) == room_of(state.position(entity)) {
             let rotation = Vec2::from_angle(body.angle);
             let radius = self.physique.agents[self.agent].radius;
@@ -246,7 +246,7 @@ impl Objective<'_> {
 
     /// Something that has to move but is not in hand: get to it, and what it has left counts as well.
     fn escort(&self, state: &State, entity: Entity, target: Vec2) -> Course {
-        let mut course = self.to_entity(state, entity);
+        let mut course = self.up_to(state, entity);
         course.remaining +=
             course::to_point(self.routes, state.position(entity), target, self.physique.radius(entity))
                 .remaining;
@@ -269,12 +269,12 @@ impl Objective<'_> {
     }
 
     /// Into the door through which an entity would enter a room, in front of it.
-    fn to_doorway(&self, state: &State, entity: Entity, room: usize) -> Course {
+    fn blocking(&self, state: &State, entity: Entity, room: usize) -> Course {
         let from = state.position(Entity::agent(self.agent));
         let there = state.position(entity);
         let width = 2.0 * self.physique.radius(entity);
         let route = self.routes.best(there, arena::LANDMARKS[room], width, self.routes.gaps());
         let crossing = route.and_then(|route| route.doors().last().map(|&(_, point)| point));
-        self.to_point(state, from, crossing.unwrap_or(there))
+        self.towards(state, from, crossing.unwrap_or(there))
     }
 }

@@ -23,9 +23,9 @@ pub struct Belief {
 
 impl Belief {
     /// The belief of the observing agent after its first observation. Observed entities are as they are; the
-    /// others are uniform over all places where they overlap neither walls nor the boundary nor another body and
-    /// would not have been seen. (The paper's main text has possible states uniform, its appendix headings 0;
-    /// headings are uniform here.) All bodies that are not observed rest and hold nothing.
+    /// others are uniform over all places where they overlap neither walls nor the boundary nor another body
+    /// and would not have been seen. (The paper's main text has possible states uniform, its appendix
+    /// headings 0; headings are uniform here.) All bodies that are not observed rest and hold nothing.
     #[must_use]
     pub fn new(
         physique: &Physique,
@@ -113,9 +113,9 @@ impl Belief {
         self.redrawn
     }
 
-    /// How many of these found no possible place, neither in 200 draws nor when 3600 places all over the arena
-    /// were gone through. Such a body lies in view, or in a body, or in a wall, in this order of preference;
-    /// the next step tries again.
+    /// How many of these found no possible place, neither in 200 draws nor when 3600 places all over the
+    /// arena were gone through. Such a body lies in view, or in a body, or in a wall, in this order of
+    /// preference; the next step tries again.
     #[must_use]
     pub fn unresolved(&self) -> usize {
         self.unresolved
@@ -133,8 +133,8 @@ fn seen_or_covered(physique: &Physique, observation: &Observation) -> CellSet {
     cells
 }
 
-/// Replaces what is observed by the truth, and drops what cannot be true beside it: an unobserved agent's hold
-/// of an observed object, and contacts between what is observed and what is not.
+/// Replaces what is observed by the truth, and drops what cannot be true beside it: an unobserved agent's
+/// hold of an observed object, and contacts between what is observed and what is not.
 fn overwrite(particle: &mut State, observation: &Observation) {
     let observed = observation.observed;
     for entity in observed.iter() {
@@ -155,7 +155,8 @@ fn overwrite(particle: &mut State, observation: &Observation) {
     });
 }
 
-/// Gives some entities new places, in which they neither hold nor touch anything. Returns how many found none.
+/// Gives some entities new places, in which they neither hold nor touch anything. Returns how many found
+/// none.
 fn redraw(particle: &mut State, which: EntitySet, placer: &mut Placer<'_>, rng: &mut impl Rng) -> usize {
     for agent in 0..AGENT_COUNT {
         particle.grips[agent] = particle.grips[agent].filter(|grip| {

@@ -6,16 +6,16 @@ use phase_model::{
 };
 use phase_perception::{CellSet, footprint::any_cell};
 
-/// How deep bodies may lie in walls and in one another before a particle counts as impossible (u). Solvers let
-/// resting contacts sink in a little, and a belief must not lose a body for leaning on a wall.
+/// How deep bodies may lie in walls and in one another before a particle counts as impossible (u). Solvers
+/// let resting contacts sink in a little, and a belief must not lose a body for leaning on a wall.
 pub(crate) const SLACK: f32 = 0.05;
 
 /// How deep an object may lie in an agent, in its own radius: 1 − 2/√5. This is how deep one held by a flank
 /// lies in the slanting side, and there it stays when it is let go.
 const FLANK_DEPTH: f32 = 0.105_573;
 
-/// The entities, of those not observed, whose bodies cannot be where a particle has them. Of two that overlap,
-/// the later by index is the one that cannot.
+/// The entities, of those not observed, whose bodies cannot be where a particle has them. Of two that
+/// overlap, the later by index is the one that cannot.
 pub(crate) fn contradicted(
     physique: &Physique,
     particle: &State,

@@ -1,36 +1,37 @@
 //! A PHASE agent's belief: complete-world particles that are predicted, checked and redrawn.
 //!
 //! An agent does not know where the bodies are that it does not observe. Its [`Belief`] is a set of
-//! [`PARTICLE_COUNT`] possible states of the whole world (paper, "Belief Representation and Update"). In every
-//! step each particle is
+//! [`PARTICLE_COUNT`] possible states of the whole world (paper, "Belief Representation and Update"). In
+//! every step each particle is
 //!
 //! 1. predicted by one step of the dynamics under the agent's own action and constant motion of the other,
 //! 2. overwritten with the truth about everything observed, and
 //! 3. checked: whatever contradicts the observation is redrawn in unseen free space.
 //!
-//! A body contradicts the observation if it lies where the agent sees that nothing is, in a wall or out of the
-//! arena, or in another body, or if its numbers are not finite.
+//! A body contradicts the observation if it lies where the agent sees that nothing is, in a wall or out of
+//! the arena, or in another body, or if its numbers are not finite.
 //!
 //! # The one key decision
 //!
-//! Particles have no weights and are never copied from one another. The observation is exact, so a hypothesis is
-//! either possible or not; an impossible body is drawn anew rather than replaced by a copy of another particle's.
-//! Particles therefore never collapse into a few, and fifty are enough. The price: what is redrawn forgets where
-//! it had been thought to be, and how the redrawing is done *is* the prior of the search for hidden things.
+//! Particles have no weights and are never copied from one another. The observation is exact, so a hypothesis
+//! is either possible or not; an impossible body is drawn anew rather than replaced by a copy of another
+//! particle's. Particles therefore never collapse into copies of a few. The price: what is
+//! redrawn forgets where it had been thought to be, and how the redrawing is done *is* the prior of the
+//! search for hidden things.
 //!
 //! # Where bodies are redrawn
 //!
 //! The place of a redrawn body is uniform over the free space, weighted by how well a body can have got there
-//! unseen: a cell counts 0 while it is visible, 1 if it has never been seen, and 1 − exp(−age/τ) if it was last
-//! seen `age` steps ago ([`hiding_weight`]). A place that was seen empty is likely empty still, the more so the
-//! shorter ago; τ is 20 steps for an agent, which moves by itself, and 200 steps, longer than an event, for an
-//! object, which lies until somebody moves it. So a searcher turns to what it has not looked at, yet never runs
-//! out of places when it has seen everything. A body lies on many cells, and the least of their weights counts:
-//! it would have been noticed in any of them. Strips between cells that happen to have been missed would
-//! otherwise attract bodies that do not fit into them.
+//! unseen: a cell counts 0 while it is visible, 1 if it has never been seen, and 1 − exp(−age/τ) if it was
+//! last seen `age` steps ago ([`hiding_weight`]). A place that was seen empty is likely empty still, the more
+//! so the shorter ago; τ is 20 steps for an agent, which moves by itself, and 200 steps, longer than an
+//! event, for an object, which lies until somebody moves it. So a searcher turns to what it has not looked
+//! at, yet never runs out of places when it has seen everything. A body lies on many cells, and the least of
+//! their weights counts: it would have been noticed in any of them. Strips between cells that happen to have
+//! been missed would otherwise attract bodies that do not fit into them.
 //!
-//! A redrawn body rests, an agent's heading is uniform, and nobody holds it or is held. If a body is held in a
-//! particle and either of the two is redrawn, the grip is gone; the other stays where it was.
+//! A redrawn body rests, an agent's heading is uniform, and nobody holds it or is held. If a body is held in
+//! a particle and either of the two is redrawn, the grip is gone; the other stays where it was.
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]

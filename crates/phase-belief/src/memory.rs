@@ -3,10 +3,9 @@
 use phase_model::Entity;
 use phase_perception::{Cell, CellSet, cells::CELL_COUNT};
 
-/// Steps after which a cell seen empty is trusted to hold no agent by a factor e less. Agents cross the arena
-/// in about as many.
+/// The τ of [`hiding_weight`] for agents, which move by themselves (steps).
 pub const AGENT_FORGETTING: f32 = 20.0;
-/// The same for objects, which move only when somebody moves them.
+/// The τ for objects, which move only when somebody moves them (steps). Events are 40 to 100 steps long.
 pub const OBJECT_FORGETTING: f32 = 200.0;
 
 /// How well a body may have got into a cell that was last seen `age` steps ago (`None`: never), from 0 to 1:

@@ -30,9 +30,9 @@ impl<'a> Placer<'a> {
         Self { physique, memory, agents: None, objects: None }
     }
 
-    /// Gives some entities of a particle new bodies at rest, which overlap neither walls, nor the other bodies,
-    /// nor one another. All are drawn together and together rejected, so that none has the first choice.
-    /// Returns how many could not be placed.
+    /// Gives some entities of a particle new bodies at rest, which overlap neither walls, nor the other
+    /// bodies, nor one another. All are drawn together and together rejected, so that none has the first
+    /// choice. Returns how many could not be placed.
     pub(crate) fn redraw(&mut self, particle: &mut State, which: EntitySet, rng: &mut impl Rng) -> usize {
         let mut outlines = [None; MAX_ENTITIES];
         for entity in self.physique.entities().filter(|&entity| !which.contains(entity)) {
@@ -107,9 +107,9 @@ impl<'a> Placer<'a> {
         None
     }
 
-    /// Goes through all cells and picks one of the possible places in proportion to its weight. If no place is
-    /// possible, one that is at least clear of walls and bodies, or else of walls, or else where the body was,
-    /// and false.
+    /// Goes through all cells and picks one of the possible places in proportion to its weight. If no place
+    /// is possible, one that is at least clear of walls and bodies, or else of walls, or else where the body
+    /// was, and false.
     fn search(
         &mut self,
         entity: Entity,

@@ -5,10 +5,10 @@ use phase_model::{AGENT_COUNT, Action, Dynamics, Entity, EntitySet, Physique, St
 
 /// Advances a particle by one step in which the believing agent acts and the other goes on as it was going.
 ///
-/// The dynamics know only agents that push and agents that coast to a stop. Someone who walks does neither, so
-/// the other agent's velocity is kept after the step, and with it that of the object it holds, wherever nothing
-/// is in the way; where something is, the dynamics' outcome stands. If the other agent is observed at the end
-/// of the step, this does not matter and is left out. Free objects coast, for nobody drives them.
+/// The dynamics know only agents that push and agents that coast to a stop. Someone who walks does neither,
+/// so the other agent's velocity is kept after the step, and with it that of the object it holds, wherever
+/// nothing is in the way; where something is, the dynamics' outcome stands. If the other agent is observed at
+/// the end of the step, this does not matter and is left out. Free objects coast, for nobody drives them.
 pub(crate) fn predict(
     dynamics: &impl Dynamics,
     physique: &Physique,
@@ -54,8 +54,8 @@ fn keep_moving(physique: &Physique, before: &State, after: &mut State, agent: us
     }
 }
 
-/// Whether an entity can be moved by a vector without meeting a wall, or a body where it was before or is after
-/// the step, and without the dynamics having found it in contact.
+/// Whether an entity that has been moved by a vector lies in no wall and in no body, neither where that was
+/// before the step nor where it is after it: pushing something is left to the dynamics.
 fn is_free(
     physique: &Physique,
     before: &State,
@@ -70,8 +70,7 @@ fn is_free(
     outline.inside_arena()
         && !physique.walls.iter().any(|&wall| outline.overlaps_wall(wall))
         && physique.entities().filter(|&other| !moving.contains(other)).all(|other| {
-            !after.contacts.touching(entity, other)
-                && !loosely_overlap(physique, (entity, &body), (other, before.body(other)))
+            !loosely_overlap(physique, (entity, &body), (other, before.body(other)))
                 && !loosely_overlap(physique, (entity, &body), (other, after.body(other)))
         })
 }

@@ -150,7 +150,8 @@ impl Disc {
     const NOTHING: Self = Self { centre: Vec2::ZERO, radius_squared: 0.0 };
 
     /// Whether the disc has inner points on the straight way from the apex to the end of a ray. A disc whose
-    /// centre is not ahead does not block: an eye that is itself inside a body still sees what is away from it.
+    /// centre is not ahead does not block: an eye that is itself inside a body still sees what is away from
+    /// it.
     fn blocks(&self, ray: Vec2) -> bool {
         let ahead = ray.dot(self.centre);
         let length_squared = ray.length_squared();

@@ -17,17 +17,17 @@
 //!
 //! Seeing is reckoned in [cells](Cell) of 1 × 1 u, and by their centres, as in the paper and the published
 //! simulator, so that the question "where could it still be?" has an exact answer for a particle. A body is
-//! seen if one of the cells of its [footprint] is visible, leaving that body itself out of what stands in the
-//! way; otherwise a large body straight ahead would hide its own cells and go unseen. The price is that a body
-//! shows as soon as the centre of one of its cells does, and hides as long as none does.
+//! seen if one of the cells of its [footprint](footprint()) is visible, leaving that body itself out of what
+//! stands in the way; otherwise a large body straight ahead would hide its own cells and go unseen. The price
+//! is that a body shows as soon as the centre of one of its cells does, and hides as long as none does.
 //!
 //! What is observed is the *least set* that satisfies the paper's sentence "entities that are in contact with
 //! observed entities are also defined as observed": touching is followed from body to body until nothing new
 //! comes up. Stopping after one link, as the published simulator does, would make the answer depend on the
-//! order in which links are followed, and could show an agent without what it holds. With the closure, a
-//! body that is not observed touches nothing that is, and nobody unobserved holds anything observed, so that a
-//! belief never has to guess half of a grip. The price: a row of touching bodies is known as a whole as soon as
-//! one of them is.
+//! order in which links are followed, and could show an agent without what it holds. With the closure, a body
+//! that is not observed touches nothing that is, and nobody unobserved holds anything observed, so that a
+//! belief never has to guess half of a grip. The price: a row of touching bodies is known as a whole as soon
+//! as one of them is.
 //!
 //! An [`Observation`] holds copies of the observed bodies only, so that nothing built upon it can peek.
 

@@ -5,7 +5,7 @@ use phase_model::{Entity, Vec2};
 use phase_perception::{Cell, CellSet};
 
 fn cell(index: usize) -> Cell {
-    Cell::from_index(index).unwrap()
+    Cell::from_index(index).expect("a cell of the arena")
 }
 
 #[test]

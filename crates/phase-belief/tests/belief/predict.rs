@@ -5,13 +5,17 @@ use core::f32::consts::PI;
 use phase_belief::Belief;
 use phase_forward::Forward;
 use phase_model::{
-    Action, Dynamics, Entity, Grip, Physique, Segment, Side, Size, State, Vec2, geometry::Outline,
+    AGENT_COUNT, Action, Dynamics, Grip, Physique, Segment, Side, Size, State, Vec2, geometry::Outline,
 };
 use phase_perception::observe;
 
 /// Agent 0 sees everything at the top of the arena, then turns away at once and sees none of it; the state
 /// that its particles then predict of it after some steps.
 fn imagine(physique: &Physique, first: State, steps: usize) -> State {
+    imagine_by(&Forward::new(physique), physique, first, steps)
+}
+
+fn imagine_by(dynamics: &impl Dynamics, physique: &Physique, first: State, steps: usize) -> State {
     let observation = observe(physique, &first, 0);
     assert_eq!(observation.observed.iter().count(), physique.entity_count(), "all is seen at first");
     let mut chance = random(1);
@@ -20,9 +24,8 @@ fn imagine(physique: &Physique, first: State, steps: usize) -> State {
     *away.body_mut(ME) = phase_model::Body::at_rest(Vec2::new(16.0, 4.0), PI);
     let observation = observe(physique, &away, 0);
     assert_eq!(observation.observed, [ME].into_iter().collect());
-    let forward = Forward::new(physique);
     for _ in 0..steps {
-        belief.update(&forward, physique, Action::NoForce, &observation, &mut chance);
+        belief.update(dynamics, physique, Action::NoForce, &observation, &mut chance);
         assert_eq!(belief.redrawn(), 0);
     }
     assert!(belief.particles().iter().all(|particle| particle == &belief.particles()[0]));
@@ -110,23 +113,54 @@ fn nothing_passes_through_a_wall_however_fast() {
 }
 
 #[test]
-fn the_agents_own_action_is_known() {
-    // Agent 0 holds an object behind itself and cannot tell more of it than it feels; the true next state
-    // is what the dynamics say for its action, and so is the prediction.
+fn pushing_is_left_to_the_dynamics() {
+    // A heavy agent pushes a light object, which gives way.
+    let mut physique = small(Vec::new());
+    physique.agents[1].radius = 1.6;
+    let first = scene(Vec2::new(3.0, 0.0), (18.33, 14.37));
+    let last = imagine(&physique, first, 1);
+    assert!(last.position(BALL).x > 18.38, "{}", last.position(BALL));
+    assert!(last.body(OTHER).velocity.x < 2.7, "{}", last.body(OTHER).velocity);
+}
+
+#[test]
+fn what_gets_in_the_way_stops_it() {
+    /// The object appears beside the other agent.
+    struct Appear;
+    impl Dynamics for Appear {
+        fn step(&self, state: &mut State, _: [Action; AGENT_COUNT]) {
+            state.body_mut(BALL).position = Vec2::new(17.9, 14.0);
+        }
+    }
+    for (velocity, way) in [(6.0, 0.0), (-6.0, -0.5)] {
+        let first = scene(Vec2::new(velocity, 0.0), (20.0, 8.0));
+        let last = imagine_by(&Appear, &small(Vec::new()), first, 1);
+        assert!((last.position(OTHER).x - 16.0 - way).abs() < 1e-4, "{velocity}");
+    }
+}
+
+#[test]
+fn the_agents_own_action_is_known_and_the_other_does_nothing() {
+    /// The second object shows what the dynamics were told.
+    struct Tell;
+    impl Dynamics for Tell {
+        fn step(&self, state: &mut State, actions: [Action; AGENT_COUNT]) {
+            state.body_mut(BOX).position =
+                Vec2::new(8.0 + actions[0].index() as f32, 10.0 + actions[1].index() as f32 / 2.0);
+        }
+    }
     let physique = physique(Vec::new(), Size::Small, 2);
-    let mut first = state([(16.0, 12.0, 0.0), (8.0, 4.0, 0.0), (16.0, 10.4, 0.0), (24.0, 4.0, 0.0)]);
-    first.grips[0] = Some(Grip { object: 0, side: Side::Tail, relative_angle: 0.0 });
-    let forward = Forward::new(&physique);
-    let mut chance = random(2);
-    let mut belief = Belief::new(&physique, &observe(&physique, &first, 0), 5, &mut chance);
-    let mut truth = first;
-    forward.step(&mut truth, [Action::Detach, Action::NoForce]);
-    let after = observe(&physique, &truth, 0);
-    belief.update(&forward, &physique, Action::Detach, &after, &mut chance);
-    for particle in belief.particles() {
-        assert_eq!(particle.grips[0], None);
-        let error = particle.position(BALL).distance(truth.position(BALL));
-        assert!(error < 0.01, "{error}");
-        assert!(Entity::object(1) == BOX && particle.position(BOX).is_finite());
+    let truth = state([(16.0, 4.0, PI), (24.0, 4.0, 0.0), (8.0, 20.0, 0.0), (24.0, 20.0, 0.0)]);
+    let mirrored = state([(24.0, 4.0, 0.0), (16.0, 4.0, PI), (8.0, 20.0, 0.0), (24.0, 20.0, 0.0)]);
+    for (agent, truth) in [(0, truth), (1, mirrored)] {
+        let observation = observe(&physique, &truth, agent);
+        let mut chance = random(2);
+        let mut belief = Belief::new(&physique, &observation, 30, &mut chance);
+        belief.update(&Tell, &physique, Action::Left, &observation, &mut chance);
+        let (own, none) = (Action::Left.index() as f32, Action::NoForce.index() as f32);
+        let told = if agent == 0 { (own, none) } else { (none, own) };
+        let expected = Vec2::new(8.0 + told.0, 10.0 + told.1 / 2.0);
+        let as_told = belief.particles().iter().filter(|particle| particle.position(BOX) == expected).count();
+        assert!(as_told > 20, "{as_told}");
     }
 }

@@ -172,7 +172,7 @@ fn a_place_last_seen_five_steps_ago_counts_as_stated() {
 #[test]
 fn bodies_do_not_slip_into_gaps_between_what_was_just_seen() {
     // Three looks leave three wedges of 10.6° unseen, everywhere narrower than an object. If only the cell of
-    // a body's centre counted, one in twenty would end up there.
+    // a body's centre counted, some would end up there.
     let physique = two_rooms();
     let states = [0.0, 1.0, 2.0].map(|thirds| in_left_room(12.0, 12.0, thirds * 2.0 * PI / 3.0));
     let (belief, _) = looks(&physique, &Lost(&[BALL]), 20_000, &states);

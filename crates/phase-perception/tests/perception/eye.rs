@@ -5,7 +5,7 @@ use crate::{
     oracle::look,
 };
 use core::f32::consts::{FRAC_PI_2, PI};
-use phase_model::{Body, Size, State, Vec2};
+use phase_model::{Body, Segment, Size, State, Vec2};
 use phase_perception::{Cell, CellSet, field_of_view, footprint, sees};
 use proptest::prelude::*;
 
@@ -22,8 +22,8 @@ fn drawn(cells: &CellSet) -> Vec<String> {
     (0..20).rev().map(row).collect()
 }
 
-fn check(walls: &[((f32, f32), (f32, f32))], state: &State, expected: [&str; 20]) {
-    let physique = physique(walls.iter().map(|&(a, b)| wall(a, b)).collect(), Size::Small);
+fn check(walls: &[Segment], state: &State, expected: [&str; 20]) {
+    let physique = physique(walls.to_vec(), Size::Small);
     let seen = drawn(&field_of_view(&physique, state, 0));
     assert_eq!(seen, expected, "seen:\n{}\n", seen.join("\n"));
 }
@@ -62,7 +62,7 @@ fn an_empty_room_is_seen_as_far_as_the_cone_reaches() {
 #[test]
 fn through_a_door_one_sees_a_strip() {
     check(
-        &[((16.0, 12.0), (6.0, 12.0)), ((18.5, 12.0), (26.0, 12.0))],
+        &[wall((16.0, 12.0), (6.0, 12.0)), wall((18.5, 12.0), (26.0, 12.0))],
         &looking((14.5, 6.5), 0.0),
         [
             ".............oooooo.",

@@ -1,6 +1,6 @@
 //! Seeing reckoned slowly, in other ways and with more digits.
 
-use phase_model::{Entity, Physique, Segment, State, arena};
+use phase_model::{Entity, Physique, Segment, State};
 use phase_perception::Cell;
 
 /// Whether a cell's centre is seen, and by how much the closest of the decisions was taken (u or rad).
@@ -47,7 +47,7 @@ fn walk(ray: (f64, f64), point: (f64, f64)) -> f64 {
     let (mut best, mut step) = (0.0, 0.1);
     for _ in 0..6 {
         let candidates = (-10..=10).map(|k| (best + f64::from(k) * step).clamp(0.0, 1.0));
-        best = candidates.min_by(|&a, &b| distance(a).total_cmp(&distance(b))).unwrap();
+        best = candidates.min_by(|&a, &b| distance(a).total_cmp(&distance(b))).expect("there are candidates");
         step *= 0.15;
     }
     distance(best)
@@ -88,6 +88,5 @@ fn wrapped(angle: f64) -> f64 {
 
 /// The least margin of all cells: how far a state is from looking otherwise.
 pub(crate) fn least_margin(physique: &Physique, state: &State, agent: usize) -> f64 {
-    assert!(arena::SIDE == 20.0);
     Cell::all().map(|cell| look(physique, state, agent, cell).margin).fold(f64::INFINITY, f64::min)
 }

@@ -1,4 +1,4 @@
-//! Measures what seeing costs: `cargo run --release -p phase-perception --example cost`.
+//! Measures what seeing costs: `cargo run --release -p phase-perception --example perception_cost`.
 
 use phase_model::{
     AgentBody, Body, Entity, Layout, LayoutError, Physique, Size, State, Vec2,
