@@ -202,7 +202,7 @@ impl Objective<'_> {
     }
 
     /// The room to keep on the way between two points (u): as much as the agent, what it holds and who else
-    /// holds that take side by side, if the doors allow it, or else what just passes.
+    /// holds that take side by side, if the doors allow it, or else what just passes, be it the object alone.
     fn width(&self, state: &State, from: Vec2, to: Vec2) -> f32 {
         let own = self.physique.agents[self.agent].width();
         let Some(object) = state.held_object(self.agent) else { return own };
@@ -212,8 +212,13 @@ impl Objective<'_> {
             radii += self.physique.agents[1 - self.agent].radius;
         }
         let wide = tight.max(2.0 * radii);
-        let route = self.routes.best(from, to, wide, self.routes.gaps());
-        if route.is_some_and(|route| route.impassable == 0) { wide } else { tight }
+        let fits = |width| {
+            let route = self.routes.best(from, to, width, self.routes.gaps());
+            route.is_some_and(|route| route.impassable == 0)
+        };
+        // What does not fit itself may still push through what it holds.
+        let object_alone = 2.0 * self.physique.object_radii[object];
+        [wide, tight, object_alone].into_iter().find(|&width| fits(width)).unwrap_or(tight)
     }
 
     /// Until the surfaces meet.

@@ -237,6 +237,13 @@ pub(crate) fn express(task: &Task<'_>, plan: &SymbolicPlan, agent: usize) -> Pla
                 go(task, node, agent, Some(object), Spot::Landmark(landmark), &mut subgoals);
                 subgoals.push(is(Predicate::On(Entity::Object(object), landmark)));
             }
+            Operator::Pass { agent: who, object, slot, room } if who == agent => {
+                let near = Routes::beyond(usize::from(slot), usize::from(room)) as u8;
+                go(task, node, agent, Some(object), Spot::Inside { slot, room: near }, &mut subgoals);
+                let place = Place::Landmark(room);
+                subgoals.push(is(Predicate::Close(Entity::Object(object), place)));
+                subgoals.push(not(Predicate::Attach(agent as u8, object)));
+            }
             Operator::Release { agent: who, object } if who == agent => {
                 subgoals.push(not(Predicate::Attach(agent as u8, object)));
             }
@@ -257,6 +264,10 @@ fn travel(task: &Task<'_>, node: &Node, operator: Operator) -> f32 {
         Operator::Go { agent, landmark } => task.distance(node, agent, None, Spot::Landmark(landmark)),
         Operator::Carry { agent, object, landmark } => {
             task.distance(node, agent, Some(object), Spot::Landmark(landmark))
+        }
+        Operator::Pass { agent, object, slot, room } => {
+            let near = Routes::beyond(usize::from(slot), usize::from(room)) as u8;
+            task.distance(node, agent, Some(object), Spot::Inside { slot, room: near })
         }
         Operator::Grab { .. } | Operator::Release { .. } => 0.0,
     }

@@ -1,6 +1,6 @@
 //! A physical state as the high level sees it: a handful of named spots and what lies between them.
 
-use crate::routes::{Gaps, Routes};
+use crate::routes::{Gaps, Routes, point_in};
 use phase_model::{
     AGENT_COUNT, Entity, MAX_OBJECTS, Physique, State, Vec2, arena, layout::SLOT_DIRECTIONS,
     physique::GROUND_FRICTION,
@@ -13,7 +13,17 @@ pub enum Spot {
     Now(Entity),
     /// A landmark's centre.
     Landmark(u8),
+    /// In a room, just inside the door in a slot.
+    Inside {
+        /// The slot of the door.
+        slot: u8,
+        /// The room.
+        room: u8,
+    },
 }
+
+/// How far inside a room things lie that were passed through its door (u).
+const INSIDE: f32 = 1.2;
 
 /// Everything a plan from one physical state needs to know.
 #[derive(Clone, Copy, Debug)]
@@ -67,6 +77,13 @@ impl<'a> Situation<'a> {
         match spot {
             Spot::Now(entity) => self.state.position(entity),
             Spot::Landmark(landmark) => arena::LANDMARKS[usize::from(landmark)],
+            Spot::Inside { slot, room } => {
+                let (low, high) = self.routes.gaps().0[usize::from(slot)].unwrap_or_default();
+                let middle = point_in(slot, 0.5 * (low + high));
+                let across = SLOT_DIRECTIONS[usize::from(slot)].perp();
+                let inwards = across.dot(arena::LANDMARKS[usize::from(room)] - middle).signum();
+                middle + across * inwards * INSIDE
+            }
         }
     }
 

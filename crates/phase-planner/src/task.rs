@@ -4,7 +4,7 @@ use crate::{
     routes::{Gaps, IMPASSABLE_COST},
     situation::{Situation, Spot},
 };
-use phase_model::{AGENT_COUNT, Entity, Goal, MAX_OBJECTS, arena};
+use phase_model::{AGENT_COUNT, Entity, Goal, MAX_OBJECTS, arena, layout::SLOT_ROOMS};
 
 /// Cost of grabbing or letting go (u of travel).
 const HANDLING_COST: f32 = 1.0;
@@ -88,6 +88,17 @@ pub enum Operator {
         object: u8,
         /// Where to.
         landmark: u8,
+    },
+    /// Bring an object to a door that one does not fit through oneself, push it through and let go.
+    Pass {
+        /// Who.
+        agent: usize,
+        /// The object.
+        object: u8,
+        /// The slot of the door.
+        slot: u8,
+        /// The room that the object comes to lie in.
+        room: u8,
     },
     /// Let go.
     Release {
@@ -242,6 +253,33 @@ impl Task<'_> {
             }
             let cost = self.carrying_cost(node, agent, object, spot);
             successors.push((Operator::Carry { agent, object, landmark }, after, cost));
+        }
+        if self.actors == [true; AGENT_COUNT] {
+            self.passing(node, agent, object, successors);
+        }
+    }
+
+    /// Handing an object over through each door that it fits through and its holder does not.
+    fn passing(&self, node: &Node, agent: usize, object: u8, successors: &mut Vec<(Operator, Node, f32)>) {
+        let own = self.situation.width(agent, None);
+        let diameter = 2.0 * self.situation.physique.object_radii[usize::from(object)];
+        for (slot, (a, b)) in SLOT_ROOMS.into_iter().enumerate() {
+            let gap = self.situation.routes.gaps().width(slot);
+            if gap < diameter || gap >= own {
+                continue;
+            }
+            for (near, beyond) in [(a, b), (b, a)] {
+                let slot = slot as u8;
+                let before = Spot::Inside { slot, room: near as u8 };
+                let passed = Spot::Inside { slot, room: beyond as u8 };
+                let mut after = *node;
+                after.agents[agent] = before;
+                after.objects[usize::from(object)] = passed;
+                after.holds[agent] = None;
+                let cost = self.carrying_cost(node, agent, object, before) + 2.0 * HANDLING_COST;
+                let room = beyond as u8;
+                successors.push((Operator::Pass { agent, object, slot, room }, after, cost));
+            }
         }
     }
 

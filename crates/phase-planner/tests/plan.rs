@@ -169,6 +169,21 @@ fn helpers_help() {
 }
 
 #[test]
+fn a_helper_too_big_for_the_door_passes_the_object_through() {
+    // Layout 4's narrow door (room 0 to room 3) lets the small object through, but neither agent.
+    let setup = Setup {
+        layout: layout(4, None),
+        agents: [(Large, Strong, Vec2::new(8.0, 17.0)), (Huge, Strong, Vec2::new(8.0, 6.0))],
+        objects: vec![(Small, Vec2::new(8.0, 15.0))],
+        goals: [object_on(0, 3); 2],
+        attitudes: [Attitude::Help, Attitude::Neutral],
+        holds: [Some(0), None],
+        ..plain()
+    };
+    assert_eq!(setup.words(0), ["Close(object 0, landmark 3)", "not Attach(agent 0, object 0)"]);
+}
+
+#[test]
 fn helpers_stay_out_of_the_way_when_not_needed() {
     let walking =
         Setup { goals: [agent_on(1, 0); 2], attitudes: [Attitude::Help, Attitude::Neutral], ..plain() };
