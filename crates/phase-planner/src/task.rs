@@ -4,7 +4,10 @@ use crate::{
     routes::{Gaps, IMPASSABLE_COST},
     situation::{Situation, Spot},
 };
-use phase_model::{AGENT_COUNT, Entity, Goal, MAX_OBJECTS, arena, layout::SLOT_ROOMS};
+use phase_model::{
+    AGENT_COUNT, Entity, Goal, MAX_OBJECTS, Vec2, arena,
+    layout::{SLOT_ROOMS, room_of},
+};
 
 /// Cost of grabbing or letting go (u of travel).
 const HANDLING_COST: f32 = 1.0;
@@ -180,10 +183,21 @@ impl Task<'_> {
     /// through.
     #[must_use]
     pub fn distance(&self, node: &Node, agent: usize, held: Option<u8>, to: Spot) -> f32 {
-        let from = held.map_or(node.agents[agent], |object| node.objects[usize::from(object)]);
-        let (from, to) = (self.situation.position(from), self.situation.position(to));
+        let (from, to) = (self.start(node, agent, held), self.situation.position(to));
         let gaps = self.gaps(node, agent, held);
         self.situation.routes.cost(from, to, self.width(node, agent, held), &gaps)
+    }
+
+    /// Where a way begins: at the agent, or at what it carries; but if a holder is still behind a door that the
+    /// object has passed, at that holder, for it has to come along.
+    fn start(&self, node: &Node, agent: usize, held: Option<u8>) -> Vec2 {
+        let Some(object) = held else { return self.situation.position(node.agents[agent]) };
+        let at = self.situation.position(node.objects[usize::from(object)]);
+        (0..AGENT_COUNT)
+            .filter(|&holder| node.holds[holder] == held)
+            .map(|holder| self.situation.position(node.agents[holder]))
+            .find(|&holder| room_of(holder) != room_of(at))
+            .unwrap_or(at)
     }
 
     /// Width of an agent with what it holds and with who else holds that (u).
@@ -316,8 +330,7 @@ impl Task<'_> {
     }
 
     fn travel_cost(&self, node: &Node, agent: usize, held: Option<u8>, to: Spot, ignored: Option<u8>) -> f32 {
-        let from = held.map_or(node.agents[agent], |object| node.objects[usize::from(object)]);
-        let (from, to) = (self.situation.position(from), self.situation.position(to));
+        let (from, to) = (self.start(node, agent, held), self.situation.position(to));
         let width = self.width(node, agent, held);
         let cost = self.effort[agent]
             * self.situation.routes.cost(from, to, width, &self.gaps(node, agent, ignored));
