@@ -104,8 +104,15 @@ impl Objective<'_> {
             self.routes.best(from, target, 0.0, self.routes.gaps()).map_or(0.0, |route| route.length)
         };
         let arm = self.physique.radius(me) + self.physique.radius(mover);
-        let behind = (to_target(me) - to_target(mover) - arm).max(0.0);
-        remaining + CARRIERS_SHARE * behind
+        let lag = to_target(me) - to_target(mover) - arm;
+        let own_width = self.physique.agents[self.agent].width();
+        let from = state.position(me);
+        let fits = self
+            .routes
+            .best(from, target, own_width, self.routes.gaps())
+            .is_some_and(|route| route.impassable == 0);
+        // Who has to push the load through a door alone must get behind it.
+        remaining + CARRIERS_SHARE * if fits { lag.max(0.0) } else { lag.abs() }
     }
 
     /// Whether an entity is to be walked round: it is neither the agent nor what the subgoal is about, and

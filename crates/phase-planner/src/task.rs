@@ -200,11 +200,13 @@ impl Task<'_> {
             .unwrap_or(at)
     }
 
-    /// Width of an agent with what it holds and with who else holds that (u).
+    /// Width of an agent with what it holds and with who else holds that (u). Two carriers are not in line
+    /// with each other, so they take more room than the wider of them.
     fn width(&self, node: &Node, agent: usize, held: Option<u8>) -> f32 {
         let mut width = self.situation.width(agent, held.map(usize::from));
         if held.is_some() && node.holds[1 - agent] == held {
-            width = width.max(self.situation.width(1 - agent, None));
+            let radius = |who: usize| self.situation.physique.agents[who].radius;
+            width = width.max(self.situation.width(1 - agent, None)) + radius(0).min(radius(1));
         }
         width
     }
@@ -282,7 +284,12 @@ impl Task<'_> {
             if gap < diameter || gap >= own {
                 continue;
             }
+            let here = room_of(self.situation.position(node.objects[usize::from(object)]));
             for (near, beyond) in [(a, b), (b, a)] {
+                // What lies beyond the door already is only to be let go of.
+                if here == beyond {
+                    continue;
+                }
                 let slot = slot as u8;
                 let before = Spot::Inside { slot, room: near as u8 };
                 let passed = Spot::Inside { slot, room: beyond as u8 };
