@@ -9,6 +9,8 @@ use phase_predicates::{Literal, Place, Predicate};
 pub const LONGEST: f32 = 28.284;
 /// What an object not in hand adds to the distance of Attach (u): more than standing next to it gains.
 const NOT_IN_HAND: f32 = 2.0;
+/// Half of what turning one's back on what one is to get close to costs (u).
+const FACING: f32 = 0.5;
 /// What a carrier's own way round a corner counts for beside the way of what it carries.
 const CARRIERS_SHARE: f32 = 0.5;
 /// Room kept between bodies that pass each other (u).
@@ -48,7 +50,7 @@ impl Objective<'_> {
                 LONGEST - self.apart(state).min(LONGEST)
             }
             Subgoal::Achieve(literal) => {
-                let distance = self.course(state).remaining;
+                let distance = self.course(state).remaining + self.averted(state, literal);
                 if literal.holds || literal.is_true(self.physique, state) {
                     distance
                 } else {
@@ -56,6 +58,17 @@ impl Objective<'_> {
                 }
             }
         }
+    }
+
+    /// What not facing the entity one is to get close to adds (u). It makes agents look where they are going,
+    /// and turn to where they believe something unseen to be; that is how they find it, or find it gone.
+    fn averted(&self, state: &State, literal: Literal) -> f32 {
+        let Literal { predicate: Predicate::Close(who, Place::Entity(target)), holds: true } = literal else {
+            return 0.0;
+        };
+        let body = state.body(who);
+        let way = (state.position(target) - body.position).normalize_or_zero();
+        if who == Entity::agent(self.agent) { FACING * (1.0 - way.dot(body.forward())) } else { 0.0 }
     }
 
     /// The entity whose place the subgoal is about and that the agent can move: itself or what it holds.

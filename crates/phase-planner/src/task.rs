@@ -5,7 +5,7 @@ use crate::{
     situation::{Situation, Spot},
 };
 use phase_model::{
-    AGENT_COUNT, Entity, Goal, MAX_OBJECTS, Vec2, arena,
+    AGENT_COUNT, Entity, Goal, MAX_OBJECTS, arena,
     layout::{SLOT_ROOMS, room_of},
 };
 
@@ -179,36 +179,30 @@ impl Task<'_> {
         successors
     }
 
-    /// Distance an agent travels between two spots (u), with the penalties of doors that it does not fit
-    /// through.
+    /// Distance to a spot (u), for an agent or for an object and everyone who holds it, with the penalties of
+    /// doors that somebody does not fit through. Whatever is held, all holders have to come along, so the
+    /// longest way counts.
     #[must_use]
     pub fn distance(&self, node: &Node, agent: usize, held: Option<u8>, to: Spot) -> f32 {
-        let (from, to) = (self.start(node, agent, held), self.situation.position(to));
-        let gaps = self.gaps(node, agent, held);
-        self.situation.routes.cost(from, to, self.width(node, agent, held), &gaps)
+        self.longest_way(node, agent, held, to, held)
     }
 
-    /// Where a way begins: at the agent, or at what it carries; but if a holder is still behind a door that the
-    /// object has passed, at that holder, for it has to come along.
-    fn start(&self, node: &Node, agent: usize, held: Option<u8>) -> Vec2 {
-        let Some(object) = held else { return self.situation.position(node.agents[agent]) };
-        let at = self.situation.position(node.objects[usize::from(object)]);
+    fn longest_way(&self, node: &Node, agent: usize, held: Option<u8>, to: Spot, ignored: Option<u8>) -> f32 {
+        let situation = self.situation;
+        let gaps = self.gaps(node, agent, ignored);
+        let cost = |from: Spot, width: f32| {
+            situation.routes.cost(situation.position(from), situation.position(to), width, &gaps)
+        };
+        let Some(object) = held else { return cost(node.agents[agent], situation.width(agent, None)) };
+        let radius = |who: usize| situation.physique.agents[who].radius;
+        let diameter = 2.0 * situation.physique.object_radii[usize::from(object)];
+        let holders = node.holders(object);
+        // Two carriers are not in line with each other, so they take more room than the wider of them.
+        let extra = if holders == [true; AGENT_COUNT] { radius(0).min(radius(1)) } else { 0.0 };
         (0..AGENT_COUNT)
-            .filter(|&holder| node.holds[holder] == held)
-            .map(|holder| self.situation.position(node.agents[holder]))
-            .find(|&holder| room_of(holder) != room_of(at))
-            .unwrap_or(at)
-    }
-
-    /// Width of an agent with what it holds and with who else holds that (u). Two carriers are not in line
-    /// with each other, so they take more room than the wider of them.
-    fn width(&self, node: &Node, agent: usize, held: Option<u8>) -> f32 {
-        let mut width = self.situation.width(agent, held.map(usize::from));
-        if held.is_some() && node.holds[1 - agent] == held {
-            let radius = |who: usize| self.situation.physique.agents[who].radius;
-            width = width.max(self.situation.width(1 - agent, None)) + radius(0).min(radius(1));
-        }
-        width
+            .filter(|&holder| holders[holder] || holder == agent)
+            .map(|holder| cost(node.agents[holder], situation.width(holder, None) + extra))
+            .fold(cost(node.objects[usize::from(object)], diameter), f32::max)
     }
 
     fn with_free_hands(&self, node: &Node, agent: usize, successors: &mut Vec<(Operator, Node, f32)>) {
@@ -337,10 +331,7 @@ impl Task<'_> {
     }
 
     fn travel_cost(&self, node: &Node, agent: usize, held: Option<u8>, to: Spot, ignored: Option<u8>) -> f32 {
-        let (from, to) = (self.start(node, agent, held), self.situation.position(to));
-        let width = self.width(node, agent, held);
-        let cost = self.effort[agent]
-            * self.situation.routes.cost(from, to, width, &self.gaps(node, agent, ignored));
+        let cost = self.effort[agent] * self.longest_way(node, agent, held, to, ignored);
         if held.is_none() && self.is_behind_a_blocker(node, agent) { cost + IMPASSABLE_COST } else { cost }
     }
 
