@@ -5,7 +5,7 @@
 //!
 //! The key design decision is that every random stream belongs to one agent and one purpose. The same seed
 //! makes the same event bit for bit, and what an agent believed can be recomputed from the recorded
-//! trajectory without planning ([`beliefs`]). The price is that a change in how often one stream is drawn from
+//! trajectory without planning ([`beliefs()`]). The price is that a change in how often one stream is drawn from
 //! changes every later draw of that stream.
 
 #![forbid(unsafe_code)]
