@@ -1,0 +1,106 @@
+//! One seed, one event; and beliefs that can be recomputed.
+
+use core::ops::ControlFlow;
+use phase_model::{
+    EventKind, Scene,
+    random::{Purpose, stream},
+};
+use phase_perception::observe;
+use phase_sim::{Settings, SimulationError, beliefs, simulate, simulate_with};
+
+fn scene(kind: EventKind) -> Scene {
+    phase_sampler::sample(kind, &mut stream(5, Purpose::Scene, 0)).expect("a scene of every kind")
+}
+
+/// Small minds and short events, so that a test takes a moment.
+fn quick() -> Settings {
+    let mut settings = Settings { max_steps: 12, min_steps: 4, ..Settings::default() };
+    settings.minds.particles = 10;
+    settings.minds.simulations = 40;
+    settings
+}
+
+#[test]
+fn one_seed_makes_one_event_on_any_thread() {
+    for kind in [EventKind::Helping, EventKind::Chasing] {
+        let scene = scene(kind);
+        let first = simulate(&scene, 11, &quick()).unwrap();
+        let others: Vec<_> = std::thread::scope(|scope| {
+            let threads: Vec<_> =
+                (0..3).map(|_| scope.spawn(|| simulate(&scene, 11, &quick()).unwrap())).collect();
+            threads.into_iter().map(|thread| thread.join().unwrap()).collect()
+        });
+        for other in others {
+            // PartialEq would take 0 for -0; the text does not.
+            assert_eq!(format!("{first:?}"), format!("{other:?}"));
+        }
+        let different = simulate(&scene, 12, &quick()).unwrap();
+        assert_ne!(format!("{first:?}"), format!("{different:?}"));
+    }
+}
+
+#[test]
+fn lengths_are_kept() {
+    let scene = scene(EventKind::Independent);
+    let event = simulate(&scene, 1, &quick()).unwrap();
+    assert!((4..=12).contains(&event.steps.len()));
+    assert_eq!(event.frames().count(), 1 + 5 * event.steps.len());
+}
+
+#[test]
+fn an_event_can_be_broken_off() {
+    let scene = scene(EventKind::Independent);
+    let mut steps = 0;
+    let (event, finished) = simulate_with(&scene, 1, &quick(), &mut |_| {
+        steps += 1;
+        if steps == 3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    })
+    .unwrap();
+    assert!(!finished);
+    assert_eq!(event.steps.len(), 3);
+}
+
+#[test]
+fn nonsense_is_refused() {
+    let mut bad = scene(EventKind::Independent);
+    bad.agents[0].start.position.x = f32::NAN;
+    assert!(matches!(simulate(&bad, 1, &quick()), Err(SimulationError::Scene(_))));
+    let mut settings = quick();
+    settings.minds.particles = 0;
+    assert!(matches!(
+        simulate(&scene(EventKind::Independent), 1, &settings),
+        Err(SimulationError::NoParticles)
+    ));
+    settings = quick();
+    settings.minds.simulations = 0;
+    assert!(matches!(
+        simulate(&scene(EventKind::Independent), 1, &settings),
+        Err(SimulationError::Search(_))
+    ));
+}
+
+#[test]
+fn beliefs_are_recomputed_from_the_record() {
+    let scene = scene(EventKind::Competing);
+    let event = simulate(&scene, 2, &quick()).unwrap();
+    let physique = scene.physique();
+    for agent in 0..2 {
+        let snapshots = beliefs(&event, agent, 10);
+        assert_eq!(snapshots.len(), event.steps.len() + 1);
+        let states = core::iter::once(&event.initial).chain(event.steps.iter().map(|step| &step.substeps[4]));
+        for (state, snapshot) in states.zip(&snapshots) {
+            let observation = observe(&physique, state, agent);
+            assert_eq!(snapshot.particles.len(), 10);
+            for particle in &snapshot.particles {
+                for entity in observation.observed.iter() {
+                    assert_eq!(particle.body(entity), state.body(entity), "{entity:?}");
+                }
+            }
+        }
+        // The agent's own thoughts name as many particles as it believed in.
+        for step in &event.steps {
+            let named: usize = step.thoughts[agent].subgoals.iter().map(|value| value.particles).sum();
+            assert_eq!(named, 10);
+        }
+    }
+}
