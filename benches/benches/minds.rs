@@ -1,0 +1,56 @@
+//! Seeing, believing, planning and deciding, with a plain workload beside them by which the machine's noise
+//! can be told.
+
+use core::hint::black_box;
+use criterion::Criterion;
+use phase_agent::Agent;
+use phase_belief::Belief;
+use phase_forward::Forward;
+use phase_model::{
+    Action, EventKind, Scene,
+    random::{Purpose, stream},
+};
+use phase_perception::{field_of_view, observe, observed_set};
+use phase_planner::Planner;
+
+fn scene() -> Scene {
+    phase_sampler::sample(EventKind::Helping, &mut stream(1, Purpose::Scene, 0)).expect("a helping scene")
+}
+
+fn main() {
+    let mut criterion = Criterion::default().configure_from_args();
+    let scene = scene();
+    let (physique, state) = (scene.physique(), scene.initial_state());
+    let observation = observe(&physique, &state, 0);
+    let forward = || Forward::new(&physique);
+
+    let numbers: Vec<f64> = (0..10_000).map(f64::from).collect();
+    criterion.bench_function("yardstick/sum of 10 000 square roots", |bencher| {
+        bencher.iter(|| black_box(&numbers).iter().map(|number| number.sqrt()).sum::<f64>());
+    });
+    criterion.bench_function("perception/field of view", |bencher| {
+        bencher.iter(|| field_of_view(&physique, black_box(&state), 0));
+    });
+    criterion.bench_function("perception/observed set", |bencher| {
+        bencher.iter(|| observed_set(&physique, black_box(&state), 0));
+    });
+    criterion.bench_function("belief/update of 50 particles", |bencher| {
+        let dynamics = forward();
+        let mut random = stream(1, Purpose::Belief, 0);
+        let mut belief = Belief::new(&physique, &observation, 50, &mut random);
+        bencher.iter(|| belief.update(&dynamics, &physique, Action::NoForce, &observation, &mut random));
+    });
+    criterion.bench_function("planner/one plan", |bencher| {
+        let planner = Planner::new(physique.clone(), scene.layout, 0, scene.goals(), scene.attitudes()[0]);
+        bencher.iter(|| planner.plan(black_box(&state), observation.observed));
+    });
+    criterion.bench_function("agent/one decision at the paper's settings", |bencher| {
+        let mut random = stream(1, Purpose::Belief, 0);
+        let mut agent =
+            Agent::new(&scene, 0, forward(), phase_agent::Settings::default(), &observation, &mut random)
+                .expect("good settings");
+        let mut search = stream(1, Purpose::Search, 0);
+        bencher.iter(|| agent.decide(&mut search));
+    });
+    criterion.final_summary();
+}
