@@ -1,0 +1,168 @@
+//! Guidance, repertoire, reward and decisions in hand-made states.
+
+use phase_agent::{
+    Agent, Settings, guidance,
+    imagination::Imagination,
+    objective::{LONGEST, Objective},
+    repertoire,
+};
+use phase_forward::Forward;
+use phase_model::{
+    Action, AgentSpec, Attitude, Body, Dynamics, Entity, EventKind, Goal, Grip, Layout, ObjectSpec, Scene,
+    Side, Sign, Size, State, Strength, Vec2,
+    random::{Purpose, stream},
+};
+use phase_perception::observe;
+use phase_planner::{Routes, Subgoal};
+use phase_pomcp::GenerativeModel;
+use phase_predicates::{Literal, Place, Predicate};
+
+const ON_2: Goal = Goal::AgentOnLandmark { agent: 0, landmark: 2, sign: Sign::Positive };
+const OTHER_ON_0: Goal = Goal::AgentOnLandmark { agent: 1, landmark: 0, sign: Sign::Positive };
+
+/// No walls; agent 0 at a point with a heading, agent 1 and the object out of the way.
+fn scene(position: Vec2, angle: f32) -> Scene {
+    let agent = |position, angle, goal| AgentSpec {
+        size: Size::Small,
+        strength: Strength::Strong,
+        goal,
+        attitude: Attitude::Neutral,
+        start: Body::at_rest(position, angle),
+    };
+    Scene {
+        layout: Layout::new(0, None).expect("layout 0"),
+        agents: [agent(position, angle, ON_2), agent(Vec2::new(9.0, 7.0), 0.0, OTHER_ON_0)],
+        objects: vec![ObjectSpec { size: Size::Small, start: Body::at_rest(Vec2::new(9.0, 14.0), 0.0) }],
+        kind: EventKind::Independent,
+    }
+}
+
+fn achieve(predicate: Predicate) -> Subgoal {
+    Subgoal::Achieve(Literal::is(predicate))
+}
+
+/// The rule of thumb's action for a subgoal of agent 0.
+fn thumb(scene: &Scene, state: &State, subgoal: Subgoal, sideways: bool) -> Action {
+    let (physique, routes) = (scene.physique(), Routes::new(scene.layout));
+    guidance::action(&Objective { physique: &physique, routes: &routes, agent: 0, subgoal }, state, sideways)
+}
+
+#[test]
+fn the_rule_of_thumb_turns_goes_and_brakes() {
+    let to_landmark = achieve(Predicate::On(Entity::Agent(0), 2));
+    // Landmark 2 lies at (23.5, 4.5); heading π faces down.
+    let above = Vec2::new(23.5, 14.0);
+    for (angle, expected) in [
+        (core::f32::consts::PI, Action::Up),
+        (core::f32::consts::PI - 1.2, Action::TurnLeft),
+        (core::f32::consts::PI + 1.2, Action::TurnRight),
+    ] {
+        let scene = scene(above, angle);
+        assert_eq!(thumb(&scene, &scene.initial_state(), to_landmark, false), expected, "{angle}");
+    }
+    let near = scene(Vec2::new(23.5, 5.5), core::f32::consts::PI);
+    let mut fast = near.initial_state();
+    fast.bodies[0].velocity = Vec2::new(0.0, -20.0);
+    assert_eq!(thumb(&near, &fast, to_landmark, false), Action::Stop);
+}
+
+#[test]
+fn the_rule_of_thumb_uses_its_hands() {
+    let beside = scene(Vec2::new(9.0, 12.3), 0.0);
+    let attach = achieve(Predicate::Attach(0, 0));
+    assert_eq!(thumb(&beside, &beside.initial_state(), attach, true), Action::Attach);
+    let mut holding = beside.initial_state();
+    holding.grips[0] = Some(Grip { object: 0, side: Side::Head, relative_angle: 0.0 });
+    let release = Subgoal::Achieve(Literal::not(Predicate::Attach(0, 0)));
+    assert_eq!(thumb(&beside, &holding, release, true), Action::Detach);
+}
+
+#[test]
+fn every_subgoal_has_its_actions() {
+    let state = scene(Vec2::new(20.0, 15.0), 0.0).initial_state();
+    let mut holding = state;
+    holding.grips[0] = Some(Grip { object: 0, side: Side::Head, relative_angle: 0.0 });
+    let close = achieve(Predicate::Close(Entity::Agent(0), Place::Landmark(1)));
+    let carry = achieve(Predicate::On(Entity::Object(0), 1));
+    let release = Subgoal::Achieve(Literal::not(Predicate::Attach(0, 0)));
+    for (subgoal, state, count) in [
+        (Subgoal::Stay, &state, 1),
+        (close, &state, 5),
+        (achieve(Predicate::Touch(0, Entity::Agent(1))), &state, 5),
+        (achieve(Predicate::Attach(0, 0)), &state, 13),
+        (carry, &holding, 12),
+        (release, &holding, 3),
+    ] {
+        assert_eq!(repertoire::actions(0, subgoal, state).len(), count, "{subgoal}");
+    }
+}
+
+#[test]
+fn rewards_follow_equation_1() {
+    // Agent 0 rests on its landmark, agent 1 on its own; the subgoal is 10 u away.
+    let mut scene = scene(Vec2::new(23.5, 4.5), 0.0);
+    scene.agents[1].start.position = Vec2::new(8.5, 19.5);
+    // Weak enough that one push does not carry it off the landmark.
+    scene.agents[0].strength = Strength::Weak;
+    let (physique, routes, state) = (scene.physique(), Routes::new(scene.layout), scene.initial_state());
+    let forward = Forward::new(&physique);
+    let subgoal = achieve(Predicate::On(Entity::Agent(0), 1));
+    let objective = Objective { physique: &physique, routes: &routes, agent: 0, subgoal };
+    let goals = [ON_2, OTHER_ON_0];
+    for (attitude, social) in [(Attitude::Neutral, 1.0), (Attitude::Help, 1.0), (Attitude::Hinder, -1.0)] {
+        for (action, cost) in [(Action::Stop, 0.0), (Action::Left, 0.02)] {
+            let actions = [action];
+            let model = Imagination {
+                dynamics: &forward,
+                objective,
+                other_objective: Imagination::<Forward>::other(&physique, &routes, 0, goals),
+                actions: &actions,
+                goals,
+                attitude,
+                discount: 0.95,
+                guidance: 0.0,
+            };
+            let mut after = state;
+            let reward = model.rollout_step(&mut after, 0, &mut stream(1, Purpose::Search, 0)).reward;
+            let mut by_hand = state;
+            forward.step(&mut by_hand, [action, Action::NoForce]);
+            assert_eq!(after, by_hand);
+            let distance = objective.distance(&by_hand);
+            assert!((distance - 15.0).abs() < 0.7, "landmark 1 is 15 u above landmark 2: {distance}");
+            let expected = social - cost - f64::from(distance / LONGEST);
+            assert!((reward - expected).abs() < 1e-6, "{attitude:?} {action:?}: {reward} {expected}");
+        }
+    }
+}
+
+/// The first decision of agent 0 with a modest search.
+fn decide(scene: &Scene, seed: u64) -> (Action, Subgoal) {
+    let (physique, state) = (scene.physique(), scene.initial_state());
+    let observation = observe(&physique, &state, 0);
+    let settings = Settings { simulations: 300, particles: 20, ..Settings::default() };
+    let mut random = stream(seed, Purpose::Belief, 0);
+    let forward = Forward::new(&physique);
+    let mut agent =
+        Agent::new(scene, 0, forward, settings, &observation, &mut random).expect("good settings");
+    let (action, thought) = agent.decide(&mut stream(seed, Purpose::Search, 0)).expect("a decision");
+    (action, thought.subgoal)
+}
+
+#[test]
+fn a_landmark_straight_ahead_is_walked_to_and_then_stayed_on() {
+    for seed in 0..5 {
+        let ahead = scene(Vec2::new(23.5, 14.0), core::f32::consts::PI);
+        assert_eq!(decide(&ahead, seed), (Action::Up, achieve(Predicate::On(Entity::Agent(0), 2))), "{seed}");
+        let there = scene(Vec2::new(23.5, 4.5), 0.0);
+        assert_eq!(decide(&there, seed), (Action::Stop, Subgoal::Stay), "{seed}");
+    }
+}
+
+#[test]
+fn an_object_within_reach_is_taken() {
+    for seed in 0..5 {
+        let mut beside = scene(Vec2::new(9.0, 12.3), 0.0);
+        beside.agents[0].goal = Goal::ObjectOnLandmark { object: 0, landmark: 1, sign: Sign::Positive };
+        assert_eq!(decide(&beside, seed), (Action::Attach, achieve(Predicate::Attach(0, 0))), "{seed}");
+    }
+}
