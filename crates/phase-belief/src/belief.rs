@@ -69,8 +69,9 @@ impl Belief {
         let observed = observation.observed;
         for particle in &mut self.particles {
             predict(dynamics, physique, particle, self.agent, own_action, observed);
+            let unfelt = unfelt(physique, particle, self.agent, observed);
             overwrite(particle, observation);
-            let impossible = contradicted(physique, particle, observed, &observation.visible);
+            let impossible = contradicted(physique, particle, observed, &observation.visible).union(unfelt);
             if !impossible.is_empty() {
                 self.unresolved += redraw(particle, impossible, &mut placer, rng);
                 self.redrawn += impossible.iter().count();
@@ -120,6 +121,16 @@ impl Belief {
     pub fn unresolved(&self) -> usize {
         self.unresolved
     }
+}
+
+/// What would touch the agent, or hang on its side, if the prediction were true, and yet is not felt: it is not
+/// there. Whoever reaches for something behind its back and grasps nothing has learned that.
+fn unfelt(physique: &Physique, particle: &State, agent: usize, observed: EntitySet) -> EntitySet {
+    let me = Entity::agent(agent);
+    physique
+        .entities()
+        .filter(|&entity| !observed.contains(entity) && particle.touching(me, entity))
+        .collect()
 }
 
 /// Cells in which the agent knows that nothing unobserved is.

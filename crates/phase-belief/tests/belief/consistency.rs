@@ -155,7 +155,6 @@ fn an_observed_grip_is_taken_over() {
 fn contacts_are_the_truth_where_observed_and_imagined_elsewhere() {
     let truth = hidden();
     let mut imagined = truth;
-    imagined.contacts.insert(ME, OTHER);
     imagined.contacts.insert(BALL, BOX);
     imagined.contacts.insert(OTHER, BOX);
     let belief = confront(truth, imagined);
@@ -165,6 +164,23 @@ fn contacts_are_the_truth_where_observed_and_imagined_elsewhere() {
             assert!(!particle.contacts.touching(ME, OTHER));
             assert!(particle.contacts.touching(BALL, BOX));
             assert_eq!(particle.contacts.touching(OTHER, BOX), with_other);
+        }
+    }
+}
+
+#[test]
+fn what_should_be_felt_and_is_not_is_not_there() {
+    let truth = hidden();
+    // In reach behind one's back: predicted in the own grip, or in contact.
+    let behind = moved(truth, BALL, 16.0, 5.6);
+    let mut gripped = behind;
+    gripped.grips[0] = Some(Grip { object: 0, side: Side::Tail, relative_angle: 0.0 });
+    let mut touching = behind;
+    touching.contacts.insert(ME, BALL);
+    for (imagined, stays) in [(behind, true), (gripped, false), (touching, false)] {
+        for particle in confront(truth, imagined).particles() {
+            assert_eq!(particle.position(BALL) == imagined.position(BALL), stays);
+            assert_eq!(particle.grips[0], None);
         }
     }
 }
