@@ -72,7 +72,7 @@ impl<'a, D> Imagination<'a, D> {
 
     fn reward(&self, state: &State, action: Action) -> f64 {
         let agent = self.objective.agent;
-        let satisfied = |goal| f64::from(u8::from(self.is_seen_achieved(state, goal)));
+        let satisfied = |goal| f64::from(u8::from(achieved(self.objective.physique, state, goal)));
         let shaping = -f64::from(self.objective.distance(state) / LONGEST);
         reward::social_reward(
             self.attitude,
@@ -80,14 +80,6 @@ impl<'a, D> Imagination<'a, D> {
             satisfied(self.other_goal()),
             action,
         ) + shaping
-    }
-
-    /// R(s, g) as the agent can earn it: a goal counts as reached while the agent observes what it is about.
-    /// Otherwise believing in an unseen success would be as good as looking.
-    fn is_seen_achieved(&self, state: &State, goal: Goal) -> bool {
-        let physique = self.objective.physique;
-        achieved(physique, state, goal)
-            && observed_set(physique, state, self.objective.agent).contains(goal.subject())
     }
 
     /// The goal that the social part of the reward is about: the other's, as the other has it.

@@ -123,14 +123,12 @@ impl Belief {
     }
 }
 
-/// What would touch the agent, or hang on its side, if the prediction were true, and yet is not felt: it is not
-/// there. Whoever reaches for something behind its back and grasps nothing has learned that.
+/// What would be in the agent's grip if the prediction were true, and yet is not felt: it is not there. Whoever
+/// reaches for something behind its back and grasps nothing has learned that. Predicted contacts are not
+/// precise enough for the same conclusion.
 fn unfelt(physique: &Physique, particle: &State, agent: usize, observed: EntitySet) -> EntitySet {
-    let me = Entity::agent(agent);
-    physique
-        .entities()
-        .filter(|&entity| !observed.contains(entity) && particle.touching(me, entity))
-        .collect()
+    let in_hand = particle.held_object(agent).map(Entity::object);
+    physique.entities().filter(|&entity| !observed.contains(entity) && Some(entity) == in_hand).collect()
 }
 
 /// Cells in which the agent knows that nothing unobserved is.
