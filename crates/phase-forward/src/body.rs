@@ -4,8 +4,8 @@ use crate::{
     tuning::{GREATEST_TURN, GRIP_OF_GROUND, H, LONGEST_WAY, SKIN},
     turn::{cos_sin, turned},
 };
-use glam::Vec4;
 use phase_model::{Action, AgentBody, Body, Vec2, physique};
+use wide::f32x4;
 
 /// Index of the one body that stands for everything that does not move.
 pub(crate) const STATIC: usize = 4;
@@ -16,7 +16,7 @@ pub(crate) struct Shape {
     pub(crate) inverse_mass: f32,
     pub(crate) inverse_inertia: f32,
     /// Inverse mass (twice) and inverse inertia, to go with a [`Twist`].
-    pub(crate) yielding: Vec4,
+    pub(crate) yielding: f32x4,
     pub(crate) mass: f32,
     /// How much less than the mass a sideways push at the origin has to move (kg).
     pub(crate) yielding_mass: f32,
@@ -52,7 +52,7 @@ impl Shape {
         Self {
             inverse_mass,
             inverse_inertia,
-            yielding: Vec4::new(inverse_mass, inverse_mass, inverse_inertia, 0.0),
+            yielding: f32x4::new([inverse_mass, inverse_mass, inverse_inertia, 0.0]),
             mass: agent.mass(),
             yielding_mass: agent.mass() - 1.0 / (inverse_mass + origin * origin * inverse_inertia),
             origin,
@@ -73,7 +73,7 @@ impl Shape {
         Self {
             inverse_mass,
             inverse_inertia,
-            yielding: Vec4::new(inverse_mass, inverse_mass, inverse_inertia, 0.0),
+            yielding: f32x4::new([inverse_mass, inverse_mass, inverse_inertia, 0.0]),
             mass,
             yielding_mass: 0.0,
             radius,
@@ -88,7 +88,7 @@ impl Shape {
         Self {
             inverse_mass: 0.0,
             inverse_inertia: 0.0,
-            yielding: Vec4::ZERO,
+            yielding: f32x4::ZERO,
             mass: 0.0,
             yielding_mass: 0.0,
             origin: 0.0,
@@ -205,10 +205,16 @@ impl Motion {
         }
     }
 
+    /// Whether it neither moves nor turns.
+    #[inline]
+    pub(crate) fn is_still(&self) -> bool {
+        self.velocity == Vec2::ZERO && self.spin == 0.0
+    }
+
     /// Moves on for one substep with nothing but the ground's friction. Returns the impulse of the friction.
     #[inline]
     pub(crate) fn slide(&mut self, shape: &Shape) -> Vec2 {
-        if self.velocity == Vec2::ZERO && self.spin == 0.0 {
+        if self.is_still() {
             return Vec2::ZERO;
         }
         let mut twist = self.twist();
@@ -221,14 +227,13 @@ impl Motion {
     /// The velocity in one vector.
     #[inline]
     pub(crate) fn twist(&self) -> Twist {
-        Twist(Vec4::new(self.velocity.x, self.velocity.y, self.spin, 0.0))
+        Twist(f32x4::new([self.velocity.x, self.velocity.y, self.spin, 0.0]))
     }
 
     /// Sets the velocity.
     #[inline]
     pub(crate) fn set_twist(&mut self, twist: Twist) {
-        self.velocity = Vec2::new(twist.0.x, twist.0.y);
-        self.spin = twist.0.z;
+        (self.velocity, self.spin) = twist.parts();
     }
 
     /// Moves on for some seconds, after limiting the velocity.
@@ -251,21 +256,35 @@ impl Motion {
 /// A velocity (x, y and spin), or an impulse in the same three directions, in one vector that is read and
 /// written as a whole: the velocity solver does little else.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Twist(pub(crate) Vec4);
+pub(crate) struct Twist(pub(crate) f32x4);
 
 impl Twist {
-    pub(crate) const ZERO: Self = Self(Vec4::ZERO);
+    pub(crate) const ZERO: Self = Self(f32x4::ZERO);
+
+    /// The velocity (or the impulse) and the spin in it.
+    #[inline]
+    pub(crate) fn parts(self) -> (Vec2, f32) {
+        let [x, y, turn, _] = self.0.to_array();
+        (Vec2::new(x, y), turn)
+    }
 
     /// What a unit impulse in a direction at an offset from the centre of mass is.
     #[inline]
     pub(crate) fn of_impulse(direction: Vec2, offset: Vec2) -> Self {
-        Self(Vec4::new(direction.x, direction.y, offset.perp_dot(direction), 0.0))
+        Self(f32x4::new([direction.x, direction.y, offset.perp_dot(direction), 0.0]))
     }
 
     /// The velocity along an impulse's direction.
     #[inline]
     pub(crate) fn dot(self, other: Self) -> f32 {
-        self.0.x * other.0.x + self.0.y * other.0.y + self.0.z * other.0.z
+        let [x, y, turn, _] = (self.0 * other.0).to_array();
+        x + y + turn
+    }
+
+    /// The velocity along this impulse's direction that a unit of another impulse gives a body.
+    #[inline]
+    pub(crate) fn through(self, other: Self, shape: &Shape) -> f32 {
+        self.dot(Self(other.0 * shape.yielding))
     }
 
     /// Adds what a multiple of an impulse does to a body.
@@ -279,7 +298,8 @@ impl Twist {
     /// iteration is exact whatever the first guess.
     #[inline]
     pub(crate) fn rub(&mut self, shape: &Shape, right: Vec2, so_far: Vec2) -> Vec2 {
-        let slip = Vec2::new(self.0.x, self.0.y) - right * (self.0.z * shape.origin);
+        let (velocity, spin) = self.parts();
+        let slip = velocity - right * (spin * shape.origin);
         let wanted = so_far - slip * shape.mass + right * (right.dot(slip) * shape.yielding_mass);
         let length_squared = wanted.length_squared();
         let given = if length_squared > GRIP_OF_GROUND * GRIP_OF_GROUND {
@@ -295,6 +315,6 @@ impl Twist {
     #[inline]
     pub(crate) fn rub_by(&mut self, shape: &Shape, right: Vec2, impulse: Vec2) {
         let twist = -right.dot(impulse) * shape.origin;
-        self.0 += Vec4::new(impulse.x, impulse.y, twist, 0.0) * shape.yielding;
+        self.0 += f32x4::new([impulse.x, impulse.y, twist, 0.0]) * shape.yielding;
     }
 }

@@ -53,21 +53,34 @@ impl Contact {
 
     /// Works out where impulses act and what they do, at the present poses.
     pub(crate) fn prepare(&mut self, shapes: &[Shape; 5], motions: &[Motion; 5]) {
-        let (a, b) = (&motions[self.a], &motions[self.b]);
-        let (shape_a, shape_b) = (&shapes[self.a], &shapes[self.b]);
+        self.prepare_between((&shapes[self.a], &motions[self.a]), (&shapes[self.b], &motions[self.b]), false);
+    }
+
+    /// The same for a contact with a wall, of which only the second body has a say.
+    pub(crate) fn prepare_alone(&mut self, shapes: &[Shape; 5], motion: &Motion) {
+        self.prepare_between((&shapes[STATIC], &Motion::STILL), (&shapes[self.b], motion), true);
+    }
+
+    #[inline(always)]
+    fn prepare_between(
+        &mut self,
+        (shape_a, a): (&Shape, &Motion),
+        (shape_b, b): (&Shape, &Motion),
+        alone: bool,
+    ) {
         self.skins = shape_a.skin + shape_b.skin;
         let (normal, middles) = self.manifold.middles(a, b, shape_a.skin, shape_b.skin);
         self.count = self.manifold.count;
         for (row, middle) in self.rows.iter_mut().zip(middles).take(self.count) {
-            *row =
-                (Twist::of_impulse(-normal, middle - a.centre), Twist::of_impulse(normal, middle - b.centre));
+            if !alone {
+                row.0 = Twist::of_impulse(-normal, middle - a.centre);
+            }
+            row.1 = Twist::of_impulse(normal, middle - b.centre);
         }
-        let rows = self.rows;
+        let rows = &self.rows;
         let respond = |i: usize, j: usize| {
-            let mut twists = (Twist::ZERO, Twist::ZERO);
-            twists.0.push(rows[j].0, 1.0, shape_a);
-            twists.1.push(rows[j].1, 1.0, shape_b);
-            rows[i].0.dot(twists.0) + rows[i].1.dot(twists.1)
+            let on_b = rows[i].1.through(rows[j].1, shape_b);
+            if alone { on_b } else { rows[i].0.through(rows[j].0, shape_a) + on_b }
         };
         self.response[0] = respond(0, 0);
         if self.count == 2 {
@@ -90,48 +103,70 @@ impl Contact {
         }
     }
 
+    /// The same for a contact with a wall.
+    #[inline]
+    pub(crate) fn warm_start_alone(&self, shape: &Shape, twist: &mut Twist) {
+        for point in 0..self.count {
+            twist.push(self.rows[point].1, self.impulses[point], shape);
+        }
+    }
+
     /// One iteration of the velocity solver. Returns the greatest change of an impulse (N s).
     #[inline]
     pub(crate) fn solve(&mut self, shapes: &[Shape; 5], twists: &mut [Twist; 5]) -> f32 {
-        let before = self.impulses;
-        let after = if self.count == 1 {
-            let speed = self.speed(twists, 0);
-            [(before[0] - speed / self.response[0]).max(0.0), before[1]]
-        } else {
-            let [first, cross, second] = self.response;
-            // Speeds there would be without the impulses so far.
-            let bare = [
-                self.speed(twists, 0) - first * before[0] - cross * before[1],
-                self.speed(twists, 1) - cross * before[0] - second * before[1],
-            ];
-            match self.complementary(bare) {
-                Some(after) => after,
-                None => return 0.0,
-            }
-        };
-        let mut greatest = 0.0_f32;
-        for point in 0..self.count {
-            let change = after[point] - before[point];
+        let changes = self.changes(|(row_a, row_b)| row_a.dot(twists[self.a]) + row_b.dot(twists[self.b]));
+        for (point, &change) in changes.iter().enumerate().take(self.count) {
             if change != 0.0 {
+                self.impulses[point] += change;
                 self.apply(shapes, twists, point, change);
-                greatest = greatest.max(change.abs());
             }
         }
-        self.impulses = after;
-        greatest
+        changes[0].abs().max(changes[1].abs())
+    }
+
+    /// The same for a contact with a wall.
+    #[inline]
+    pub(crate) fn solve_alone(&mut self, shape: &Shape, twist: &mut Twist) -> f32 {
+        let changes = self.changes(|(_, row)| row.dot(*twist));
+        for (point, &change) in changes.iter().enumerate().take(self.count) {
+            if change != 0.0 {
+                self.impulses[point] += change;
+                twist.push(self.rows[point].1, change, shape);
+            }
+        }
+        changes[0].abs().max(changes[1].abs())
+    }
+
+    /// By how much the impulses at the points have to change, for the speed at which the bodies part there.
+    #[inline(always)]
+    fn changes(&self, speed: impl Fn(&(Twist, Twist)) -> f32) -> [f32; 2] {
+        let before = self.impulses;
+        if self.count == 1 {
+            let speed = speed(&self.rows[0]);
+            return [(before[0] - speed / self.response[0]).max(0.0) - before[0], 0.0];
+        }
+        let [first, cross, second] = self.response;
+        // Speeds there would be without the impulses so far.
+        let bare = [
+            speed(&self.rows[0]) - first * before[0] - cross * before[1],
+            speed(&self.rows[1]) - cross * before[0] - second * before[1],
+        ];
+        self.complementary(bare).map_or([0.0; 2], |after| [after[0] - before[0], after[1] - before[1]])
     }
 
     /// One iteration of the position solver, which takes back a share of the overlap. Returns the gap found
     /// before, negative where shapes overlap (u).
     pub(crate) fn separate(&self, shapes: &[Shape; 5], motions: &mut [Motion; 5], share: f32) -> f32 {
+        if self.a == STATIC {
+            return self.separate_alone(&shapes[self.b], &mut motions[self.b], share);
+        }
         let (shape_a, shape_b) = (&shapes[self.a], &shapes[self.b]);
         let mut least = f32::MAX;
         for point in 0..self.manifold.count {
             let (a, b) = (&motions[self.a], &motions[self.b]);
             let (normal, at, gap) = self.manifold.gap(a, b, self.skins, point);
             least = least.min(gap);
-            let correction = (share * (gap + SLOP)).clamp(-LONGEST_CORRECTION, 0.0);
-            if correction == 0.0 {
+            if gap >= -SLOP {
                 continue;
             }
             let (offset_a, offset_b) = (at - a.centre, at - b.centre);
@@ -140,20 +175,29 @@ impl Contact {
                 + shape_b.inverse_mass
                 + shape_a.inverse_inertia * arm_a * arm_a
                 + shape_b.inverse_inertia * arm_b * arm_b;
-            let impulse = normal * (-correction / response);
-            if self.a != STATIC {
-                motions[self.a].shift(shape_a, offset_a, -impulse, 0.0);
-            }
+            let impulse = normal * (correction(share, gap) / response);
+            motions[self.a].shift(shape_a, offset_a, -impulse, 0.0);
             motions[self.b].shift(shape_b, offset_b, impulse, 0.0);
         }
         least
     }
 
-    /// Speed at which the bodies part at a point (u/s).
+    /// The same for a contact with a wall.
     #[inline]
-    fn speed(&self, twists: &[Twist; 5], point: usize) -> f32 {
-        let (row_a, row_b) = self.rows[point];
-        row_a.dot(twists[self.a]) + row_b.dot(twists[self.b])
+    pub(crate) fn separate_alone(&self, shape: &Shape, motion: &mut Motion, share: f32) -> f32 {
+        let mut least = f32::MAX;
+        for point in 0..self.manifold.count {
+            let (normal, at, gap) = self.manifold.gap_to_wall(motion, self.skins, point);
+            least = least.min(gap);
+            if gap >= -SLOP {
+                continue;
+            }
+            let offset = at - motion.centre;
+            let arm = offset.perp_dot(normal);
+            let response = shape.inverse_mass + shape.inverse_inertia * arm * arm;
+            motion.shift(shape, offset, normal * (correction(share, gap) / response), 0.0);
+        }
+        least
     }
 
     #[inline]
@@ -187,4 +231,10 @@ impl Contact {
         }
         (bare[0] >= 0.0 && bare[1] >= 0.0).then_some([0.0, 0.0])
     }
+}
+
+/// How far one iteration of the position solver takes bodies apart that overlap (u).
+#[inline]
+fn correction(share: f32, gap: f32) -> f32 {
+    (-share * (gap + SLOP)).min(LONGEST_CORRECTION)
 }

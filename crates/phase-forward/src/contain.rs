@@ -15,6 +15,7 @@ impl World<'_> {
     /// bodies that were clear of the wall before.
     pub(crate) fn contain(&mut self, body: usize, candidates: KeySet) {
         let start = self.starts[body].0;
+        self.moved(body);
         let motion = &mut self.motions[body];
         if !(motion.centre.is_finite() && motion.velocity.is_finite() && motion.spin.is_finite()) {
             motion.velocity = Vec2::ZERO;

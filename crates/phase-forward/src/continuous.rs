@@ -1,7 +1,7 @@
 //! Impacts on walls within a substep: stop at the wall, lose the speed into it, go on for the time left.
 
 use crate::{
-    body::{STATIC, Twist},
+    body::STATIC,
     contact::Contact,
     impact::{Ends, Way, impact},
     key::{KeySet, bit, descending, wall_key},
@@ -96,38 +96,39 @@ impl World<'_> {
     /// Separates a body from walls it has just reached, takes away its speed into them, and moves it on.
     fn bounce(&mut self, body: usize, contacts: &mut [Contact], spent: f32, way: &mut Way) {
         let shapes = &self.forward.shapes;
+        let (shape, motion) = (&shapes[body], &mut self.motions[body]);
         for contact in contacts.iter_mut() {
             debug_assert!(contact.a == STATIC && contact.b == body);
-            contact.prepare(shapes, &self.motions);
+            contact.prepare_alone(shapes, motion);
         }
         for _ in 0..IMPACT_POSITION_ITERATIONS {
             let mut settled = true;
             for contact in contacts.iter() {
-                settled &= contact.separate(shapes, &mut self.motions, IMPACT_CORRECTION) >= -1.5 * SLOP;
+                settled &= contact.separate_alone(shape, motion, IMPACT_CORRECTION) >= -1.5 * SLOP;
             }
             if settled {
                 break;
             }
         }
-        way.from = self.motions[body].centre;
-        way.from_angle = self.motions[body].angle;
-        way.right = self.motions[body].right;
+        way.from = motion.centre;
+        way.from_angle = motion.angle;
+        way.right = motion.right;
         for contact in contacts.iter_mut() {
-            contact.prepare(shapes, &self.motions);
+            contact.prepare_alone(shapes, motion);
         }
-        let mut twists = [Twist::ZERO; 5];
-        twists[body] = self.motions[body].twist();
+        let mut twist = motion.twist();
         for _ in 0..VELOCITY_ITERATIONS {
             let change =
-                contacts.iter_mut().map(|contact| contact.solve(shapes, &mut twists)).fold(0.0, f32::max);
+                contacts.iter_mut().map(|contact| contact.solve_alone(shape, &mut twist)).fold(0.0, f32::max);
             if change < SETTLED_IMPULSE {
                 break;
             }
         }
-        self.motions[body].set_twist(twists[body]);
-        self.motions[body].advance(&shapes[body], (1.0 - spent) * H);
-        way.to = self.motions[body].centre;
-        way.to_angle = self.motions[body].angle;
+        motion.set_twist(twist);
+        motion.advance(shape, (1.0 - spent) * H);
+        way.to = motion.centre;
+        way.to_angle = motion.angle;
+        self.moved(body);
     }
 
     /// Sets a body's pose to the start of a way.

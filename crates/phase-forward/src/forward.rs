@@ -10,7 +10,7 @@ use crate::{
     wall::{Boxes, MAX_WALLS, Wall, walls},
     world::{Touching, World},
 };
-use phase_model::{AGENT_COUNT, Action, Contacts, Dynamics, Entity, Physique, State, Vec2, arena::SUBSTEPS};
+use phase_model::{AGENT_COUNT, Action, Contacts, Dynamics, Entity, Physique, State, arena::SUBSTEPS};
 
 /// Iterations of the velocity solver in a substep that starts without impulses.
 const COLD_ITERATIONS: usize = 20;
@@ -71,7 +71,7 @@ impl Forward {
         let mut substeps = [*state; SUBSTEPS];
         for substep in &mut substeps {
             self.substep_warm(&mut world, memory);
-            self.finish(&world, state, memory.alive());
+            self.finish(&mut world, state, memory.alive());
             *substep = *state;
         }
         memory.leave(&world);
@@ -91,10 +91,9 @@ impl Forward {
     /// overlapping bodies apart.
     pub fn settle(&self, state: &mut State) {
         let mut world = World::new(self, state, [Action::NoForce; AGENT_COUNT]);
-        let pairs = reach::pairs_near(&world, self.everyone());
         let mut touching = Touching::NONE;
-        self.substep_cold(&mut world, self.everyone(), pairs, &mut touching);
-        self.finish(&world, state, !0);
+        self.substep_cold(&mut world, self.everyone(), &mut touching);
+        self.finish(&mut world, state, !0);
         self.stop_turning(state);
     }
 
@@ -104,7 +103,7 @@ impl Forward {
         memory.enter(&mut world);
         self.substep_warm(&mut world, memory);
         memory.leave(&world);
-        self.finish(&world, state, memory.alive());
+        self.finish(&mut world, state, memory.alive());
         self.stop_turning(state);
     }
 
@@ -118,7 +117,7 @@ impl Forward {
         &self,
         state: &mut State,
         actions: [Action; AGENT_COUNT],
-        mut observe: impl FnMut(&World<'_>, usize),
+        mut observe: impl FnMut(&mut World<'_>, usize),
     ) {
         let mut world = World::new(self, state, actions);
         let let_go = world.grab(state);
@@ -136,7 +135,7 @@ impl Forward {
         } else {
             self.step_together(&mut world, members, &mut observe);
         }
-        self.finish(&world, state, if members == 0 { 0 } else { !0 });
+        self.finish(&mut world, state, if members == 0 { 0 } else { !0 });
         self.stop_turning(state);
     }
 
@@ -145,26 +144,17 @@ impl Forward {
         &self,
         world: &mut World<'_>,
         members: BodySet,
-        observe: &mut impl FnMut(&World<'_>, usize),
+        observe: &mut impl FnMut(&mut World<'_>, usize),
     ) {
         let mut touching = Touching::NONE;
-        let mut outlines = [None; AGENT_COUNT];
         for substep in 0..SUBSTEPS {
-            let pairs = reach::pairs_near(world, members) & !world.apart;
-            let mut involved = self.held_together(world) | reach::bodies_of(pairs);
             for body in 0..self.count {
                 if members & 1 << body == 0 {
                     self.drift(world, body, 1);
-                } else if involved & 1 << body == 0 && !world.glide(body, &mut outlines) {
-                    involved |= 1 << body;
                 }
             }
-            if involved != 0 {
-                outlines = [None; AGENT_COUNT];
-                world.at_ease &= !involved;
-                world.iterations = if substep == 0 { COLD_ITERATIONS } else { VELOCITY_ITERATIONS };
-                self.substep_cold(world, involved, pairs, &mut touching);
-            }
+            world.iterations = if substep == 0 { COLD_ITERATIONS } else { VELOCITY_ITERATIONS };
+            self.substep_cold(world, members, &mut touching);
             if world.let_go != 0 {
                 world.reunite();
             }
@@ -172,45 +162,43 @@ impl Forward {
         }
     }
 
-    /// Agents that hold something, and what they hold.
-    fn held_together(&self, world: &World<'_>) -> BodySet {
-        (0..AGENT_COUNT)
-            .filter_map(|agent| Some(1 << agent | 1 << world.held(agent)?))
-            .fold(0, |set, bodies: BodySet| set | bodies)
-    }
-
     /// Some substeps of a body that nothing can reach.
     #[inline]
     fn drift(&self, world: &mut World<'_>, body: usize, substeps: usize) {
         let (shape, motion) = (&self.shapes[body], &mut world.motions[body]);
         let action = if body < AGENT_COUNT { world.actions[body] } else { Action::NoForce };
-        if motion.velocity == Vec2::ZERO
-            && motion.spin == 0.0
-            && action.push().is_none()
-            && action.turn() == 0.0
-        {
+        if motion.is_still() && action.push().is_none() && action.turn() == 0.0 {
             return;
         }
         for _ in 0..substeps {
             motion.act(shape, action);
             motion.slide(shape);
         }
+        world.moved(body);
     }
 
-    /// One substep of bodies that may touch each other, as the given pairs, and walls.
-    fn substep_cold(&self, world: &mut World<'_>, members: BodySet, pairs: KeySet, touching: &mut Touching) {
+    /// One substep of bodies that may touch each other and walls.
+    fn substep_cold(&self, world: &mut World<'_>, members: BodySet, touching: &mut Touching) {
+        let pairs = reach::pairs_near(world, members) & !world.apart;
+        let busy = world.busy(members, pairs);
+        if busy == 0 {
+            return;
+        }
         let mut candidates = pairs;
+        world.outline(busy);
         for body in 0..self.count {
-            if members & 1 << body != 0 {
+            if busy & 1 << body != 0 {
                 candidates |= reach::walls_near(world, body);
             }
         }
         world.find_contacts(candidates, touching);
-        world.solve(members, touching);
+        let before = world.outlines.boxes;
+        world.solve(busy, touching);
+        world.outline(busy);
         for body in 0..self.count {
-            if members & 1 << body != 0 {
-                let walls = reach::walls_on_way(world, body);
-                if walls != 0 {
+            if busy & 1 << body != 0 {
+                if reach::may_meet_wall(world, body, before[body]) {
+                    let walls = reach::walls_swept(world, body);
                     world.impacts(body, walls);
                     world.contain(body, walls);
                 }
@@ -220,12 +208,14 @@ impl Forward {
 
     fn substep_warm(&self, world: &mut World<'_>, memory: &mut Memory) {
         memory.drop_dead(world);
+        world.all_moved();
+        world.outline(self.everyone());
         world.find_contacts(memory.alive(), &mut memory.touching);
         memory.newest_first();
         world.solve(self.everyone(), &mut memory.touching);
         memory.follow(world);
         for body in 0..self.count {
-            let walls = reach::walls_on_way(world, body);
+            let walls = reach::walls_swept(world, body);
             if world.impacts(body, walls & memory.alive()).is_some() {
                 memory.follow_one(world, body);
             }
@@ -235,7 +225,7 @@ impl Forward {
     }
 
     /// Writes bodies, grips and contacts into a state. Only pairs among the candidates can touch.
-    fn finish(&self, world: &World<'_>, state: &mut State, candidates: KeySet) {
+    fn finish(&self, world: &mut World<'_>, state: &mut State, candidates: KeySet) {
         world.write(state);
         state.contacts = Contacts::NONE;
         let near = reach::pairs_near(world, self.everyone()) & candidates & !world.apart;

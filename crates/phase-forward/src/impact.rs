@@ -108,6 +108,12 @@ fn target(shape: &Shape) -> f32 {
     (shape.skin + SKIN - 3.0 * SLOP).max(SLOP)
 }
 
+/// The room around its box that a body needs to have to be clear of what it does not overlap (u).
+pub(crate) fn room(shape: &Shape) -> f32 {
+    let inside = if shape.origin > 0.0 { 0.0 } else { shape.radius };
+    target(shape) + TOLERANCE - inside
+}
+
 /// A body's outlines at the two ends of its way, against which most walls can be ruled out at once.
 pub(crate) struct Ends {
     pub(crate) centres: [Vec2; 2],

@@ -41,8 +41,8 @@
 //!
 //! # What it costs to reach
 //!
-//! Bodies that can reach nothing within the step are moved without looking at anything. Bodies near walls
-//! are moved first and looked at after: if they stayed clear, nothing had to be solved.
+//! Bodies that can reach nothing within the step are moved without looking at anything. Bodies that lie still
+//! and that nothing moving is near are left alone. Outlines are worked out once for every pose.
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
@@ -52,12 +52,12 @@ mod contact;
 mod contain;
 mod continuous;
 mod forward;
-mod glide;
 mod impact;
 mod key;
 mod let_go;
 mod manifold;
 mod memory;
+mod outline;
 mod reach;
 mod substep;
 mod tuning;

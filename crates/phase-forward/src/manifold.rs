@@ -79,6 +79,27 @@ impl Manifold {
         }
     }
 
+    /// [`Manifold::gap`] where the first shape is a wall.
+    #[inline]
+    pub(crate) fn gap_to_wall(&self, body: &Motion, skins: f32, point: usize) -> (Vec2, Vec2, f32) {
+        match self.reference {
+            Reference::Points => {
+                let to = body.place(self.points[0]);
+                let normal = (to - self.anchor).normalize_or_zero();
+                (normal, (self.anchor + to) * 0.5, (to - self.anchor).dot(normal) - skins)
+            }
+            Reference::First => {
+                let touching = body.place(self.points[point]);
+                (self.normal, touching, (touching - self.anchor).dot(self.normal) - skins)
+            }
+            Reference::Second => {
+                let normal = body.turn(self.normal);
+                let touching = self.points[point];
+                (-normal, touching, (touching - body.place(self.anchor)).dot(normal) - skins)
+            }
+        }
+    }
+
     /// The normal and the middles of the overlaps, where impulses act.
     #[inline]
     pub(crate) fn middles(&self, a: &Motion, b: &Motion, skin_a: f32, skin_b: f32) -> (Vec2, [Vec2; 2]) {

@@ -1,12 +1,15 @@
 //! What can touch what: coarse tests that spare the exact ones.
 
 use crate::{
+    impact,
     key::{KeySet, PAIRS, bit, pair_key},
+    outline::Aabb,
     substep::BodySet,
-    tuning::H,
+    tuning::{H, SKIN},
+    wall,
     world::World,
 };
-use phase_model::{AGENT_COUNT, Vec2, arena};
+use phase_model::{AGENT_COUNT, arena};
 
 /// Substeps in a step, as seconds.
 const STEP: f32 = arena::SUBSTEPS as f32 * H;
@@ -30,7 +33,7 @@ pub(crate) fn members(world: &mut World<'_>) -> BodySet {
             way += shape.max_force * shape.inverse_mass * WAY_PER_ACCELERATION;
         }
         *longest = way;
-        world.walls[body] = near_walls(world, body, motion.centre, motion.centre, shape.bound + way + LEEWAY);
+        world.walls[body] = forward.boxes.near_point(motion.centre, shape.bound + way + LEEWAY);
         members |= u8::from(world.walls[body] != 0) << body;
     }
     let mut grouped: BodySet = 0;
@@ -69,8 +72,7 @@ pub(crate) fn members(world: &mut World<'_>) -> BodySet {
     for body in 0..forward.count {
         if grouped & 1 << body != 0 {
             let centre = world.motions[body].centre;
-            world.walls[body] =
-                near_walls(world, body, centre, centre, forward.shapes[body].bound + together);
+            world.walls[body] = forward.boxes.near_point(centre, forward.shapes[body].bound + together);
         }
     }
     members | grouped
@@ -104,38 +106,44 @@ pub(crate) fn pairs_near(world: &World<'_>, members: BodySet) -> KeySet {
     near
 }
 
-/// The walls in reach in this step whose box a body's circle reaches now.
+/// The walls in reach in this step whose box a body's box reaches now. Its outline must be up to date.
 #[inline]
 pub(crate) fn walls_near(world: &World<'_>, body: usize) -> KeySet {
     if world.walls[body] == 0 {
         return 0;
     }
-    let centre = world.motions[body].centre;
-    near_walls(world, body, centre, centre, world.forward.shapes[body].bound) & world.walls[body]
+    let (min, max) = world.outlines.boxes[body];
+    let skin = agent_skin(body);
+    wall::keys(world.walls[body] & world.forward.boxes.near(min - skin, max + skin), body)
 }
 
-/// The walls in reach in this step whose box a body's circle has swept over in this substep.
+/// Whether a body may have reached a wall on its way through this substep: whether its boxes at the two ends
+/// of the way do not lie both beyond each wall, on one side. The outline at the end must be up to date.
 #[inline]
-pub(crate) fn walls_on_way(world: &World<'_>, body: usize) -> KeySet {
-    if world.walls[body] == 0 {
-        return 0;
+pub(crate) fn may_meet_wall(world: &World<'_>, body: usize, (from_min, from_max): Aabb) -> bool {
+    let (to_min, to_max) = world.outlines.boxes[body];
+    if world.walls[body] == 0 || from_min == to_min && from_max == to_max {
+        return false;
     }
+    // Walls have their skin in their boxes.
+    let room = impact::room(&world.forward.shapes[body]) - SKIN;
+    let (min, max) = (from_min.min(to_min) - room, from_max.max(to_max) + room);
+    world.walls[body] & world.forward.boxes.near(min, max) != 0
+}
+
+/// The walls whose box a body's circle has swept over in this substep.
+pub(crate) fn walls_swept(world: &World<'_>, body: usize) -> KeySet {
     let (start, angle, _) = world.starts[body];
     let motion = &world.motions[body];
     if start == motion.centre && angle == motion.angle {
         return 0;
     }
-    near_walls(
-        world,
-        body,
-        start.min(motion.centre),
-        start.max(motion.centre),
-        world.forward.shapes[body].bound,
-    ) & world.walls[body]
+    let room = world.forward.shapes[body].bound;
+    let (min, max) = (start.min(motion.centre) - room, start.max(motion.centre) + room);
+    wall::keys(world.forward.boxes.near(min, max), body)
 }
 
-/// The walls whose boxes overlap a box with some room around it.
-#[inline]
-fn near_walls(world: &World<'_>, body: usize, min: Vec2, max: Vec2, room: f32) -> KeySet {
-    world.forward.boxes.near(min - room, max + room) << body
+/// Room that a body's box leaves for the body's skin (u): discs have theirs inside.
+const fn agent_skin(body: usize) -> f32 {
+    if body < AGENT_COUNT { SKIN } else { 0.0 }
 }

@@ -5,6 +5,7 @@ use crate::{
     contact::Contact,
     key::{KeySet, PAIRS, bit, descending, pair_key},
     manifold::{self, Manifold, Polygon},
+    reach,
     tuning::{CORRECTION, H, POSITION_ITERATIONS, SETTLED_IMPULSE, SLOP},
     wall::MAX_WALLS,
     weld::Weld,
@@ -19,15 +20,12 @@ pub(crate) type BodySet = u8;
 type Joint = u8;
 
 impl World<'_> {
-    /// Finds which of the pairs of shapes in a set touch, newest first.
+    /// Finds which of the pairs of shapes in a set touch, newest first. The outlines of the bodies must be
+    /// up to date.
     pub(crate) fn find_contacts(&self, candidates: KeySet, touching: &mut Touching) {
         touching.count = 0;
-        if candidates == 0 {
-            return;
-        }
-        let polygons = self.polygons(candidates);
         for key in descending(candidates) {
-            let (bodies, manifold) = self.collide(key, &polygons);
+            let (bodies, manifold) = self.collide(key, &self.outlines.polygons);
             if manifold.count > 0 {
                 touching.add(Contact::new(key as u8, bodies, manifold));
             }
@@ -37,7 +35,8 @@ impl World<'_> {
     /// Applies forces and solves all given bodies, group by group.
     pub(crate) fn solve(&mut self, members: BodySet, touching: &mut Touching) {
         let mut welds: [Option<Weld>; AGENT_COUNT] = [None; AGENT_COUNT];
-        let mut linked: BodySet = 0;
+        // Bodies that lean on walls, and bodies that hang together with others.
+        let (mut leaning, mut linked): (BodySet, BodySet) = (0, 0);
         for (agent, weld) in welds.iter_mut().enumerate() {
             if let (Some(grip), Some(held)) = (&self.grips[agent], self.held(agent)) {
                 linked |= 1 << agent | 1 << held;
@@ -45,19 +44,31 @@ impl World<'_> {
             }
         }
         for contact in touching.found() {
-            linked |= 1 << contact.b | (1 << contact.a & 0xf);
+            if contact.a == STATIC {
+                leaning |= 1 << contact.b;
+            } else {
+                linked |= 1 << contact.a | 1 << contact.b;
+            }
         }
+        let mut still: BodySet = 0;
         for body in 0..self.forward.count {
             if members & 1 << body == 0 {
                 continue;
             }
             let (shape, motion) = (&self.forward.shapes[body], &mut self.motions[body]);
             self.starts[body] = (motion.centre, motion.angle, motion.right);
+            still |= u8::from(motion.is_still()) << body;
             if body < AGENT_COUNT {
                 motion.act(shape, self.actions[body]);
+                still &= !(u8::from(!motion.is_still()) << body);
             }
-            if linked & 1 << body == 0 {
+            if linked & 1 << body != 0 {
+                continue;
+            }
+            if leaning & 1 << body == 0 {
                 self.impulses.ground[body] = motion.slide(shape);
+            } else {
+                self.solve_alone(body, touching.found_mut());
             }
         }
         let mut done = !(members & linked);
@@ -72,21 +83,48 @@ impl World<'_> {
                 *impulse = weld.impulse;
             }
         }
+        for body in 0..self.forward.count {
+            if members & 1 << body == 0 {
+                continue;
+            }
+            let (motion, (centre, angle, _)) = (&self.motions[body], self.starts[body]);
+            if motion.centre != centre || motion.angle != angle {
+                self.moved(body);
+            } else if still & 1 << body != 0 && motion.is_still() {
+                self.at_ease |= 1 << body;
+            }
+        }
         touching.keep();
     }
 
-    /// The outlines of those agents whose outlines matter to some pairs of shapes.
-    fn polygons(&self, candidates: KeySet) -> [Polygon; AGENT_COUNT] {
-        /// Keys of all walls and body 0.
-        const WALLS: KeySet = 0x1111_1111_1111_1111 & (bit(pair_key(0)) - 1);
-        let both = bit(pair_key(0));
-        let outline = |agent: usize| {
-            if candidates & (WALLS << agent | both) == 0 {
-                return Polygon::NONE;
+    /// Those of the given bodies that the coming substep can change: all but those at ease that are near
+    /// nobody else. The others are at ease no more.
+    pub(crate) fn busy(&mut self, members: BodySet, pairs: KeySet) -> BodySet {
+        let mut busy = members & !self.at_ease;
+        if busy == members {
+            return busy;
+        }
+        let mut before = 0;
+        while busy != before {
+            before = busy;
+            let mut wake = |both: BodySet| {
+                if busy & both != 0 {
+                    busy |= both;
+                }
+            };
+            for (pair, (a, b)) in PAIRS.into_iter().enumerate() {
+                if pairs & bit(pair_key(pair)) != 0 {
+                    wake(1 << a | 1 << b);
+                }
             }
-            Polygon::new(&self.forward.shapes[agent], &self.motions[agent])
-        };
-        [outline(0), outline(1)]
+            for agent in 0..AGENT_COUNT {
+                if let Some(held) = self.held(agent) {
+                    wake(1 << agent | 1 << held);
+                }
+            }
+        }
+        self.at_ease &= !busy;
+        busy
     }
 
     /// The contact of a pair of shapes.
@@ -169,6 +207,42 @@ impl World<'_> {
         island
     }
 
+    /// Solves a body that touches nothing but walls.
+    fn solve_alone(&mut self, body: usize, all: &mut [Contact]) {
+        let shapes = &self.forward.shapes;
+        let (shape, motion) = (&shapes[body], &mut self.motions[body]);
+        let mut twist = motion.twist();
+        let mut ground = self.impulses.ground[body];
+        for contact in all.iter_mut().filter(|contact| contact.b == body) {
+            contact.prepare_alone(shapes, motion);
+            contact.warm_start_alone(shape, &mut twist);
+        }
+        twist.rub_by(shape, motion.right, ground);
+        for _ in 0..self.iterations {
+            let after = twist.rub(shape, motion.right, ground);
+            let mut change = (after - ground).abs().max_element();
+            ground = after;
+            for contact in all.iter_mut().filter(|contact| contact.b == body) {
+                change = change.max(contact.solve_alone(shape, &mut twist));
+            }
+            if change < SETTLED_IMPULSE {
+                break;
+            }
+        }
+        self.impulses.ground[body] = ground;
+        motion.set_twist(twist);
+        motion.advance(shape, H);
+        for _ in 0..POSITION_ITERATIONS {
+            let mut settled = true;
+            for contact in all.iter().filter(|contact| contact.b == body) {
+                settled &= contact.separate_alone(shape, motion, CORRECTION) >= -3.0 * SLOP;
+            }
+            if settled {
+                break;
+            }
+        }
+    }
+
     fn solve_island(
         &mut self,
         island: &Island,
@@ -243,14 +317,14 @@ impl World<'_> {
     }
 
     /// The pairs of bodies that touch as they are now, among the given keys.
-    pub(crate) fn touching(&self, candidates: KeySet) -> KeySet {
+    pub(crate) fn touching(&mut self, candidates: KeySet) -> KeySet {
         let pairs = candidates >> pair_key(0) << pair_key(0);
         if pairs == 0 {
             return 0;
         }
-        let polygons = self.polygons(pairs);
+        self.outline(reach::bodies_of(pairs));
         descending(pairs)
-            .filter(|&key| self.collide(key, &polygons).1.count > 0)
+            .filter(|&key| self.collide(key, &self.outlines.polygons).1.count > 0)
             .fold(0, |set, key| set | bit(key))
     }
 }

@@ -1,10 +1,11 @@
 //! Walls: the arena's boundary, the inner walls, and the stray points at their ends.
 
 use crate::{
-    key::{KeySet, wall_key},
+    key::{KeySet, bit, wall_key},
     tuning::SKIN,
 };
 use phase_model::{Segment, Vec2, arena};
+use wide::f32x4;
 
 /// Most inner walls a kernel holds; PHASE has at most four.
 pub(crate) const MAX_INNER: usize = 4;
@@ -40,66 +41,70 @@ impl Wall {
     }
 }
 
-/// The boxes around all walls, coordinate by coordinate, so that one box is held against all at once.
-/// Those of walls that are not there are empty.
+/// A set of walls, one bit each.
+pub(crate) type WallSet = u16;
+
+/// Walls are held against a box four at a time.
+const GROUPS: usize = MAX_WALLS.div_ceil(4);
+
+/// The boxes around all walls, skin included, coordinate by coordinate, so that one box is held against many
+/// at once. Those of walls that are not there are empty.
 #[derive(Clone, Debug)]
 pub(crate) struct Boxes {
-    min_x: [f32; MAX_WALLS],
-    min_y: [f32; MAX_WALLS],
-    max_x: [f32; MAX_WALLS],
-    max_y: [f32; MAX_WALLS],
-    /// The boxes around all upright and around all other inner walls.
-    inner: [(Vec2, Vec2); 2],
+    min_x: [f32x4; GROUPS],
+    min_y: [f32x4; GROUPS],
+    max_x: [f32x4; GROUPS],
+    max_y: [f32x4; GROUPS],
 }
 
 impl Boxes {
     pub(crate) fn new(walls: &[Wall]) -> Self {
-        let (most, least) = (f32::INFINITY, f32::NEG_INFINITY);
-        let mut boxes = Self {
-            min_x: [most; MAX_WALLS],
-            min_y: [most; MAX_WALLS],
-            max_x: [least; MAX_WALLS],
-            max_y: [least; MAX_WALLS],
-            inner: [(Vec2::splat(most), Vec2::splat(least)); 2],
+        let coordinate = |of: fn(&Wall) -> f32, none: f32| {
+            let lane = |k: usize| walls.get(k).map_or(none, of);
+            core::array::from_fn(|g| {
+                f32x4::new([lane(4 * g), lane(4 * g + 1), lane(4 * g + 2), lane(4 * g + 3)])
+            })
         };
-        for (k, wall) in walls.iter().enumerate().take(MAX_WALLS) {
-            boxes.min_x[k] = wall.min.x;
-            boxes.min_y[k] = wall.min.y;
-            boxes.max_x[k] = wall.max.x;
-            boxes.max_y[k] = wall.max.y;
-            if k >= BOUNDARY {
-                // A wall's end point goes with the wall before it.
-                let whole = &walls[k - (k - BOUNDARY) % 2];
-                let size = whole.max - whole.min;
-                let (min, max) = &mut boxes.inner[usize::from(size.x > size.y)];
-                *min = min.min(wall.min);
-                *max = max.max(wall.max);
-            }
+        Self {
+            min_x: coordinate(|wall| wall.min.x, f32::INFINITY),
+            min_y: coordinate(|wall| wall.min.y, f32::INFINITY),
+            max_x: coordinate(|wall| wall.max.x, f32::NEG_INFINITY),
+            max_y: coordinate(|wall| wall.max.y, f32::NEG_INFINITY),
         }
-        boxes
     }
 
-    /// The walls whose boxes overlap a box, as keys of body 0.
+    /// The walls whose boxes come nearer to a point than some room, along both axes.
     #[inline]
-    pub(crate) fn near(&self, min: Vec2, max: Vec2) -> KeySet {
-        let inside = arena::MIN + SKIN;
-        let outside = arena::MAX - SKIN;
-        let amid = min.x > inside.x && min.y > inside.y && max.x < outside.x && max.y < outside.y;
-        let clear =
-            |(low, high): (Vec2, Vec2)| low.x > max.x || low.y > max.y || high.x < min.x || high.y < min.y;
-        if amid && clear(self.inner[0]) && clear(self.inner[1]) {
-            return 0;
-        }
+    pub(crate) fn near_point(&self, point: Vec2, room: f32) -> WallSet {
+        self.near(point - room, point + room)
+    }
+
+    /// The walls whose boxes overlap a box.
+    #[inline]
+    pub(crate) fn near(&self, min: Vec2, max: Vec2) -> WallSet {
+        let [min_x, min_y] = [min.x, min.y].map(f32x4::splat);
+        let [max_x, max_y] = [max.x, max.y].map(f32x4::splat);
         let mut near = 0;
-        for wall in 0..MAX_WALLS {
-            let overlaps = (self.min_x[wall] <= max.x)
-                & (self.max_x[wall] >= min.x)
-                & (self.min_y[wall] <= max.y)
-                & (self.max_y[wall] >= min.y);
-            near |= KeySet::from(overlaps) << wall_key(wall, 0);
+        for group in 0..GROUPS {
+            let overlaps = self.min_x[group].simd_le(max_x)
+                & self.max_x[group].simd_ge(min_x)
+                & self.min_y[group].simd_le(max_y)
+                & self.max_y[group].simd_ge(min_y);
+            near |= (overlaps.to_bitmask() as WallSet) << (4 * group);
         }
         near
     }
+}
+
+/// The keys of some walls with a body.
+#[inline]
+pub(crate) fn keys(mut walls: WallSet, body: usize) -> KeySet {
+    let mut keys = 0;
+    while walls != 0 {
+        keys |= bit(wall_key(walls.trailing_zeros() as usize, body));
+        walls &= walls - 1;
+    }
+    keys
 }
 
 /// All pieces of wall, in the order in which the original creates them, and their number.

@@ -4,8 +4,8 @@ use crate::{
     body::{Motion, Shape, Twist},
     tuning::{ANGULAR_SLOP, SLOP},
 };
-use glam::Vec4;
 use phase_model::{Grip, Vec2};
+use wide::f32x4;
 
 /// An agent's hold of an object and all that its solution needs.
 #[derive(Clone, Copy, Debug)]
@@ -49,12 +49,10 @@ impl Weld {
     /// One iteration of the velocity solver. Returns the greatest change of an impulse.
     #[inline]
     pub(crate) fn solve(&mut self, shapes: &[Shape; 5], twists: &mut [Twist; 5]) -> f32 {
-        let (agent, object) = (twists[self.agent].0, twists[self.object].0);
-        let slip = Vec2::new(
-            object.x - agent.x + agent.z * self.offset.y,
-            object.y - agent.y - agent.z * self.offset.x,
-        );
-        let (impulse, twist) = self.inverse.times(-slip, agent.z - object.z);
+        let ((agent, agent_spin), (object, object_spin)) =
+            (twists[self.agent].parts(), twists[self.object].parts());
+        let slip = object - agent - self.offset.perp() * agent_spin;
+        let (impulse, twist) = self.inverse.times(-slip, agent_spin - object_spin);
         self.impulse.0 += impulse;
         self.impulse.1 += twist;
         self.apply(shapes, twists, impulse, twist);
@@ -76,9 +74,9 @@ impl Weld {
 
     #[inline]
     fn apply(&self, shapes: &[Shape; 5], twists: &mut [Twist; 5], impulse: Vec2, twist: f32) {
-        let on_agent = Vec4::new(impulse.x, impulse.y, self.offset.perp_dot(impulse) + twist, 0.0);
+        let on_agent = f32x4::new([impulse.x, impulse.y, self.offset.perp_dot(impulse) + twist, 0.0]);
         twists[self.agent].push(Twist(on_agent), -1.0, &shapes[self.agent]);
-        let on_object = Vec4::new(impulse.x, impulse.y, twist, 0.0);
+        let on_object = f32x4::new([impulse.x, impulse.y, twist, 0.0]);
         twists[self.object].push(Twist(on_object), 1.0, &shapes[self.object]);
     }
 }

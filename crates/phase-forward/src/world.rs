@@ -1,8 +1,8 @@
 //! The bodies at work: a state taken apart for solving, and put together again.
 
 use crate::{
-    Forward, body::Motion, contact::Contact, contain::MARGIN, key::KeySet, tuning::VELOCITY_ITERATIONS,
-    weld::held_body,
+    Forward, body::Motion, contact::Contact, contain::MARGIN, key::KeySet, outline::Outlines,
+    tuning::VELOCITY_ITERATIONS, wall::WallSet, weld::held_body,
 };
 use phase_model::{AGENT_COUNT, Action, Body, Entity, Grip, State, Vec2, arena};
 
@@ -37,6 +37,11 @@ impl Touching {
     /// The contacts found.
     pub(crate) fn found(&self) -> &[Contact] {
         &self.contacts[..self.count]
+    }
+
+    /// The contacts found, to be solved.
+    pub(crate) fn found_mut(&mut self) -> &mut [Contact] {
+        &mut self.contacts[..self.count]
     }
 
     /// Adds a contact, with the impulses its points had in the last substep. Drops it if there are too many.
@@ -108,8 +113,9 @@ pub(crate) struct World<'a> {
     pub(crate) motions: [Motion; 5],
     /// Where each body was at the start of the substep: centre, angle, unit vector to its right.
     pub(crate) starts: [(Vec2, f32, Vec2); 4],
+    pub(crate) outlines: Outlines,
     /// For each body, the walls that it can reach in this step at all.
-    pub(crate) walls: [KeySet; 4],
+    pub(crate) walls: [WallSet; 4],
     pub(crate) grips: [Option<Grip>; AGENT_COUNT],
     /// The agent that grabbed last; its weld comes first.
     pub(crate) latest_grip: usize,
@@ -122,7 +128,7 @@ pub(crate) struct World<'a> {
     pub(crate) let_go_at: [Vec2; 4],
     /// How far each body has to move from there before it counts as clear (u).
     pub(crate) let_go_room: [f32; 4],
-    /// Bodies at rest of which it is known that no wall moves them.
+    /// Bodies at rest of which it is known that the ground and the walls leave them where they are.
     pub(crate) at_ease: u8,
     /// Iterations of the velocity solver in the coming substep.
     pub(crate) iterations: usize,
@@ -150,7 +156,8 @@ impl<'a> World<'a> {
             forward,
             motions,
             starts: [(Vec2::ZERO, 0.0, Vec2::X); 4],
-            walls: [!0; 4],
+            outlines: Outlines::NONE,
+            walls: [WallSet::MAX; 4],
             grips: state.grips,
             latest_grip: 1,
             actions,
