@@ -1,0 +1,49 @@
+//! How far an engine of the PHASE physics comes out from recorded motion.
+//!
+//! Three kinds of record are replayed with the actions that made them: [`Probe`]s, each a few steps of one
+//! effect; [`Run`]s, a hundred steps of everything; and [`Replay`]s, real recordings whose actions are known.
+//! Any [`Engine`] can be held against them with [`probes_report`], [`run_reports`], [`replay_reports`] and
+//! [`ahead`]; what comes out is a [`Report`] of medians and percentiles.
+//!
+//! The key design decision is that this crate knows no engine: an engine is whatever can be set up in a state,
+//! settle, and be stepped. So the command line and the tests of every engine measure with the same reader, the
+//! same replay and the same statistics, and numbers from different places can be held side by side. The price
+//! is a small adapter wherever an engine meets it.
+//!
+//! # What is measured
+//!
+//! The error of a step is the largest over all bodies, of the distance between positions (u) and, separately,
+//! of the difference of the unbounded angles (rad). Motion with contacts is chaotic, so a run that is followed
+//! freely says little after the first divergence. It is therefore also restarted from each of its recorded
+//! states and followed for one and for ten steps.
+//!
+//! Real recordings are not restarted: their rows are means over the five substeps of a step and no states, and
+//! a state of our own replay would hold the engine against itself.
+
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+
+mod deviation;
+mod engine;
+mod error;
+mod family;
+mod measure;
+mod probe;
+mod read;
+mod replay;
+mod report;
+mod run;
+mod statistics;
+
+pub use deviation::Deviation;
+pub use engine::Engine;
+pub use error::ReadError;
+pub use family::family;
+pub use measure::{ahead, probes_report, replay_reports, run_reports};
+pub use probe::{Followed, Probe};
+pub use replay::Replay;
+pub use report::{
+    Ahead, FamilyReport, ProbeReport, ProbesReport, Report, RunReport, StateAlone, SubstepReport,
+};
+pub use run::{Run, grip_of};
+pub use statistics::{Spread, percentile};

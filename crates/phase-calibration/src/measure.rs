@@ -1,0 +1,87 @@
+//! Holding an engine against many records.
+
+use crate::{
+    Ahead, Deviation, Engine, FamilyReport, Followed, Probe, ProbeReport, ProbesReport, Replay, Run,
+    RunReport, Spread, SubstepReport, family, report::columns,
+};
+use std::collections::BTreeMap;
+
+/// Replays all probes.
+#[must_use]
+pub fn probes_report<E: Engine>(probes: &[Probe]) -> ProbesReport {
+    let mut families: BTreeMap<&str, Vec<Followed>> = BTreeMap::new();
+    let mut each = Vec::with_capacity(probes.len());
+    for probe in probes {
+        let (followed, family) = (probe.follow::<E>(), family(&probe.name));
+        each.extend(probe_report(&probe.name, family, &followed));
+        families.entry(family).or_default().push(followed);
+    }
+    let families = families.into_iter();
+    let families = families.filter_map(|(name, all)| Some((name.to_owned(), family_report(&all)?)));
+    ProbesReport { n: probes.len(), families: families.collect(), each }
+}
+
+/// Follows all runs freely from their starts.
+#[must_use]
+pub fn run_reports<E: Engine>(runs: &[Run]) -> Vec<RunReport> {
+    let report = |run: &Run| {
+        let (deviations, mismatches) = run.follow::<E>(0, usize::MAX);
+        RunReport::of(&run.name, &deviations, Some(mismatches))
+    };
+    runs.iter().filter_map(report).collect()
+}
+
+/// Follows real recordings freely from their starts.
+#[must_use]
+pub fn replay_reports<E: Engine>(replays: &[Replay]) -> Vec<RunReport> {
+    replays.iter().filter_map(|replay| RunReport::of(&replay.id, &replay.follow::<E>(), None)).collect()
+}
+
+/// Restarts all runs from every state that is followed by as many steps, and takes the position error after
+/// the last of them. `None` if no run is long enough.
+#[must_use]
+pub fn ahead<E: Engine>(runs: &[Run], steps: usize) -> Option<Ahead> {
+    let starts = |run: &Run| 0..(run.states.len()).saturating_sub(steps);
+    let last = |run: &Run, start| Some(run.follow::<E>(start, steps).0.last()?.position);
+    let errors = runs.iter().flat_map(|run| starts(run).filter_map(move |start| last(run, start)));
+    Ahead::of(&errors.collect::<Vec<f32>>())
+}
+
+fn probe_report(name: &str, family: &str, followed: &Followed) -> Option<ProbeReport> {
+    let (positions, angles) = columns(&followed.steps);
+    Some(ProbeReport {
+        name: name.into(),
+        family: family.into(),
+        steps: positions.len(),
+        start: followed.start,
+        position: Spread::of(&positions)?,
+        angle: Spread::of(&angles)?,
+        grip_mismatches: followed.grip_mismatches,
+    })
+}
+
+fn family_report(all: &[Followed]) -> Option<FamilyReport> {
+    let pooled = |of: fn(&Followed) -> &[Deviation]| all.iter().flat_map(of).copied().collect::<Vec<_>>();
+    let (steps, substeps) = (pooled(|followed| &followed.steps), pooled(|followed| &followed.substeps));
+    let (positions, angles) = columns(&steps);
+    let (substep_positions, substep_angles) = columns(&substeps);
+    Some(FamilyReport {
+        n: all.len(),
+        steps: steps.len(),
+        position: Spread::of(&positions)?,
+        angle: Spread::of(&angles)?,
+        within_0_01: share_within(&steps, 0.01),
+        within_0_1: share_within(&steps, 0.1),
+        substeps: SubstepReport {
+            position: Spread::of(&substep_positions)?,
+            angle: Spread::of(&substep_angles)?,
+        },
+        grip_mismatches: all.iter().map(|followed| followed.grip_mismatches).sum(),
+    })
+}
+
+/// Share of moments at which position (u) and angle (rad) are both within a limit.
+fn share_within(deviations: &[Deviation], limit: f32) -> f64 {
+    let within = deviations.iter().filter(|it| it.position <= limit && it.angle <= limit);
+    within.count() as f64 / deviations.len().max(1) as f64
+}

@@ -1,0 +1,31 @@
+//! Replays: real recordings whose actions are known.
+
+use crate::{Deviation, Engine, deviation::mean};
+use phase_model::{AGENT_COUNT, Action, Body, MAX_ENTITIES, Physique, State};
+
+/// One real recording. One idle substep lies between its initial state and its first step.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Replay {
+    /// The recording's id.
+    pub id: String,
+    /// Walls, radii, forces.
+    pub physique: Physique,
+    /// The state before the idle substep.
+    pub initial: State,
+    /// What both agents did, by step.
+    pub actions: Vec<[Action; AGENT_COUNT]>,
+    /// The means over the five substeps of each step; angular velocities are not recorded.
+    pub rows: Vec<[Body; MAX_ENTITIES]>,
+}
+
+impl Replay {
+    /// How far the means over an engine's substeps come out from each row, as long as actions are known.
+    #[must_use]
+    pub fn follow<E: Engine>(&self) -> Vec<Deviation> {
+        let mut engine = E::set_up(&self.physique, &self.initial);
+        engine.settle();
+        let steps = self.actions.iter().zip(&self.rows);
+        let far = |found: [Body; MAX_ENTITIES], row| Deviation::between(&self.physique, &found, row);
+        steps.map(|(&actions, row)| far(mean(&engine.step(actions)), row)).collect()
+    }
+}

@@ -1,0 +1,167 @@
+//! What came out, ready to be written as JSON. Positions are in u, angles in rad; what is not finite is null.
+
+use crate::{Deviation, Spread, percentile};
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// Within how far of a run its engine is said to follow it (u).
+pub(crate) const FOLLOWING: f32 = 0.5;
+
+/// Everything measured of one engine. What was not asked for is absent.
+#[derive(Clone, PartialEq, Debug, Default, Serialize)]
+pub struct Report {
+    /// The engine's name.
+    pub engine: String,
+    /// Errors on probes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub probes: Option<ProbesReport>,
+    /// Errors on runs, followed freely from their start.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub runs: Option<Vec<RunReport>>,
+    /// Errors on real recordings, followed freely from their start.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub replays: Option<Vec<RunReport>>,
+    /// Errors one step after a restart from each recorded state of the runs.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub one_step: Option<Ahead>,
+    /// Errors ten steps after a restart from each recorded state of the runs.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ten_steps: Option<Ahead>,
+    /// The last two for an engine without its memory, where it has one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub state_alone: Option<StateAlone>,
+}
+
+/// Errors on probes.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct ProbesReport {
+    /// Number of probes.
+    pub n: usize,
+    /// Their families, by name.
+    pub families: BTreeMap<String, FamilyReport>,
+    /// Every probe.
+    pub each: Vec<ProbeReport>,
+}
+
+/// Errors after all steps of all probes of a family.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct FamilyReport {
+    /// Number of probes.
+    pub n: usize,
+    /// Number of steps in them.
+    pub steps: usize,
+    /// Position errors (u).
+    pub position: Spread,
+    /// Angle errors (rad).
+    pub angle: Spread,
+    /// Share of steps within 0.01 u and 0.01 rad.
+    pub within_0_01: f64,
+    /// Share of steps within 0.1 u and 0.1 rad.
+    pub within_0_1: f64,
+    /// Errors after all substeps.
+    pub substeps: SubstepReport,
+    /// Steps after which an agent holds something else than recorded.
+    pub grip_mismatches: usize,
+}
+
+/// Errors after substeps.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize)]
+pub struct SubstepReport {
+    /// Position errors (u).
+    pub position: Spread,
+    /// Angle errors (rad).
+    pub angle: Spread,
+}
+
+/// Errors on one probe.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct ProbeReport {
+    /// Its name.
+    pub name: String,
+    /// Its family.
+    pub family: String,
+    /// Number of steps.
+    pub steps: usize,
+    /// Error before the first step.
+    pub start: Deviation,
+    /// Position errors after steps (u).
+    pub position: Spread,
+    /// Angle errors after steps (rad).
+    pub angle: Spread,
+    /// Steps after which an agent holds something else than recorded.
+    pub grip_mismatches: usize,
+}
+
+/// Errors on one run or real recording.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct RunReport {
+    /// Its name or id.
+    pub id: String,
+    /// Number of steps.
+    pub steps: usize,
+    /// Position errors (u).
+    pub position: Spread,
+    /// Angle errors (rad).
+    pub angle: Spread,
+    /// Steps before the first whose position error exceeds 0.5 u.
+    pub steps_within_0_5: usize,
+    /// Position error after each step (u).
+    pub position_by_step: Vec<f32>,
+    /// Steps after which an agent holds something else than recorded; absent where that is not recorded.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub grip_mismatches: Option<usize>,
+}
+
+/// Position errors some steps after restarts (u).
+#[derive(Clone, Copy, PartialEq, Debug, Serialize)]
+pub struct Ahead {
+    /// Number of restarts.
+    pub n: usize,
+    /// 50th percentile.
+    pub median: f32,
+    /// 90th percentile.
+    pub p90: f32,
+    /// 99th percentile.
+    pub p99: f32,
+}
+
+/// Errors after restarts of an engine that is given a state and nothing else before every step.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize)]
+pub struct StateAlone {
+    /// After one step.
+    pub one_step: Option<Ahead>,
+    /// After ten steps.
+    pub ten_steps: Option<Ahead>,
+}
+
+impl RunReport {
+    /// From the errors after each step; `None` of no steps.
+    #[must_use]
+    pub fn of(id: &str, deviations: &[Deviation], grip_mismatches: Option<usize>) -> Option<Self> {
+        let (positions, angles) = columns(deviations);
+        let lost = positions.iter().position(|error| *error > FOLLOWING);
+        Some(Self {
+            id: id.into(),
+            steps: positions.len(),
+            position: Spread::of(&positions)?,
+            angle: Spread::of(&angles)?,
+            steps_within_0_5: lost.unwrap_or(positions.len()),
+            position_by_step: positions,
+            grip_mismatches,
+        })
+    }
+}
+
+impl Ahead {
+    /// Of some position errors; `None` of none.
+    #[must_use]
+    pub fn of(errors: &[f32]) -> Option<Self> {
+        let [median, p90, p99] = [50, 90, 99].map(|hundredths| percentile(errors, hundredths));
+        Some(Self { n: errors.len(), median: median?, p90: p90?, p99: p99? })
+    }
+}
+
+/// Position errors and angle errors.
+pub(crate) fn columns(deviations: &[Deviation]) -> (Vec<f32>, Vec<f32>) {
+    deviations.iter().map(|deviation| (deviation.position, deviation.angle)).unzip()
+}
