@@ -1,6 +1,6 @@
 //! The commands and their options.
 
-use clap::{Args, Parser, Subcommand, error::ErrorKind, value_parser};
+use clap::{Args, Parser, Subcommand, ValueEnum, error::ErrorKind, value_parser};
 use phase_sim::Settings;
 use std::path::PathBuf;
 
@@ -22,6 +22,8 @@ pub enum Command {
     Simulate(Simulate),
     /// Turn events into videos, or into pictures of their key frames
     Render(Render),
+    /// Hold an engine of the physics against recorded motion
+    CheckPhysics(CheckPhysics),
     /// Check the rules of the house that the compiler cannot
     Tidy,
 }
@@ -96,6 +98,35 @@ pub struct Render {
     /// How many events at once.
     #[command(flatten)]
     pub jobs: Jobs,
+}
+
+/// Options of `check-physics`; at least one of the three files is needed.
+#[derive(Args, Debug)]
+pub struct CheckPhysics {
+    /// File of probes: a few steps of one effect each
+    #[arg(long, value_name = "FILE")]
+    pub probes: Option<PathBuf>,
+    /// File of runs: many steps of everything
+    #[arg(long, value_name = "FILE")]
+    pub runs: Option<PathBuf>,
+    /// File in the format phase-events/1; its events with recovered actions are replayed
+    #[arg(long, value_name = "FILE")]
+    pub events: Option<PathBuf>,
+    /// The engine to check
+    #[arg(long, value_enum, default_value_t = EngineName::World)]
+    pub engine: EngineName,
+    /// Also write the numbers into this file
+    #[arg(long, value_name = "OUT")]
+    pub json: Option<PathBuf>,
+}
+
+/// An engine of the physics.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
+pub enum EngineName {
+    /// The true world, in rapier2d
+    World,
+    /// The kernel that planners imagine with
+    Forward,
 }
 
 /// How many events at once.

@@ -1,5 +1,6 @@
 //! Every way in which a command can fail, and its exit code.
 
+use phase_calibration::ReadError;
 use phase_dataset::{FileError, WriteError, folder::FolderError, phase_events::NotFinite};
 use phase_render::RenderError;
 use phase_sampler::SampleError;
@@ -13,6 +14,14 @@ pub enum CliError {
     /// An input file cannot be used.
     #[error(transparent)]
     File(#[from] FileError),
+    /// A file of probes or runs cannot be used.
+    #[error("{}: {problem}", file.display())]
+    Record {
+        /// The file.
+        file: PathBuf,
+        /// What is wrong with it.
+        problem: ReadError,
+    },
     /// The output folder cannot be used.
     #[error(transparent)]
     Folder(#[from] FolderError),
@@ -106,6 +115,7 @@ impl CliError {
     pub const fn exit_code(&self) -> u8 {
         match self {
             Self::File(_)
+            | Self::Record { .. }
             | Self::Folder(_)
             | Self::Output(_)
             | Self::OtherRun { .. }

@@ -3,6 +3,7 @@
 //! - `gen-dataset` makes social events from a preset and a seed,
 //! - `simulate` plays the scenes of a `phase-events/1` file,
 //! - `render` turns events into videos and pictures,
+//! - `check-physics` holds an engine against recorded motion,
 //! - `tidy` checks what the compiler cannot.
 //!
 //! The key design decision is that a command says what is wrong in one plain sentence and an exit code: 0 done,
@@ -12,6 +13,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod check_physics;
 pub mod cli;
 pub mod console;
 pub mod engine;
@@ -64,6 +66,7 @@ pub fn run(command: Command) -> Result<(), CliError> {
         Command::GenDataset(arguments) => gen_dataset::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Render(arguments) => render::run(&arguments),
+        Command::CheckPhysics(arguments) => check_physics::run(&arguments),
         Command::Tidy => tidy::run(),
     }
 }

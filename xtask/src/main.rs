@@ -1,4 +1,4 @@
-//! The PHASE command line: `cargo xtask gen-dataset`, `simulate`, `render`, `tidy`.
+//! The PHASE command line: `cargo xtask gen-dataset`, `simulate`, `render`, `check-physics`, `tidy`.
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]

@@ -35,7 +35,8 @@ pub struct Probe {
 /// How far an engine came out from a probe.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Followed {
-    /// Before the first step.
+    /// Before the first step, after the engine's own idle substep; only where bodies overlap at the start can
+    /// it be wrong.
     pub start: Deviation,
     /// After each step.
     pub steps: Vec<Deviation>,
@@ -75,8 +76,12 @@ impl Probe {
         let far = |state: &State, recorded: &State| {
             Deviation::between(&self.physique, &state.bodies, &recorded.bodies)
         };
+        let start = far(&engine.state(), &self.initial);
+        if !E::REMEMBERS {
+            engine = E::set_up(&self.physique, &self.initial);
+        }
         let mut followed = Followed {
-            start: far(&engine.state(), &self.initial),
+            start,
             steps: Vec::with_capacity(self.steps.len()),
             substeps: Vec::with_capacity(self.substeps.len()),
             grip_mismatches: 0,

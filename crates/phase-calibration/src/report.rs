@@ -82,7 +82,7 @@ pub struct ProbeReport {
     pub family: String,
     /// Number of steps.
     pub steps: usize,
-    /// Error before the first step.
+    /// Error after the engine's own idle substep, before the first step.
     pub start: Deviation,
     /// Position errors after steps (u).
     pub position: Spread,

@@ -7,6 +7,7 @@ mod read;
 mod read_scene;
 mod read_simulation;
 mod recording;
+mod replay;
 mod subgoals;
 mod write;
 

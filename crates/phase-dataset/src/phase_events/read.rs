@@ -96,7 +96,7 @@ fn recording(k: usize, event: &Field<'_>) -> Result<Recording, Problem> {
     let mut scene = Scene { layout: parts.layout, agents, objects, kind: parts.kind };
     scene.validate().map_err(|error| scene_problem(&id, &error))?;
 
-    let labels = labels(event).map_err(in_event)?;
+    let labels = labels(event, trajectory.steps()).map_err(in_event)?;
     let simulation = simulation_of(event, &mut scene, &trajectory).map_err(in_event)?;
     Ok(Recording {
         relation: labels.relation.unwrap_or_else(|| scene.relation()),
@@ -145,7 +145,7 @@ struct Labels {
     recovered_actions: Option<Recovered>,
 }
 
-fn labels(event: &Field<'_>) -> Result<Labels, FieldError> {
+fn labels(event: &Field<'_>, rows: usize) -> Result<Labels, FieldError> {
     const RELATIONS: [(&str, Relation); 3] = [
         ("friendly", Relation::Friendly),
         ("adversarial", Relation::Adversarial),
@@ -164,14 +164,23 @@ fn labels(event: &Field<'_>) -> Result<Labels, FieldError> {
         relation_human: relation("relation_human")?,
         row_0: event.optional("row_0")?.map(|field| field.text().map(String::from)).transpose()?,
         recorded_steps: steps.map(|field| field.whole(0, u32::MAX.into())).transpose()?.map(|n| n as u32),
-        recovered_actions: event.optional("recovered_actions")?.map(|field| recovered(&field)).transpose()?,
+        recovered_actions: event
+            .optional("recovered_actions")?
+            .map(|field| recovered(&field, rows))
+            .transpose()?,
     })
 }
 
-fn recovered(field: &Field<'_>) -> Result<Recovered, FieldError> {
+fn recovered(field: &Field<'_>, rows: usize) -> Result<Recovered, FieldError> {
     field.only(&["steps", "note"])?;
+    let list = field.required("steps")?;
+    let steps = actions_of(&list)?;
+    if steps.len() > rows {
+        let rule = format!("must hold at most the {rows} steps of `trajectory`, not {}", steps.len());
+        return Err(list.error(rule));
+    }
     Ok(Recovered {
-        steps: actions_of(&field.required("steps")?)?,
+        steps,
         note: field.optional("note")?.map(|note| note.text().map(String::from)).transpose()?,
     })
 }

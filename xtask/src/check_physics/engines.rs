@@ -1,0 +1,102 @@
+//! The project's two engines as `phase_calibration` wants them.
+
+use phase_calibration::Engine;
+use phase_forward::{Forward, Memory};
+use phase_model::{AGENT_COUNT, Action, Physique, State, Vec2, arena::SUBSTEPS};
+use phase_world::World;
+
+/// The true world.
+pub(super) struct WorldEngine {
+    physique: Physique,
+    world: World,
+}
+
+impl Engine for WorldEngine {
+    const REMEMBERS: bool = false;
+
+    fn set_up(physique: &Physique, state: &State) -> Self {
+        Self { physique: physique.clone(), world: World::new(physique, state) }
+    }
+
+    fn settle(&mut self) {
+        self.world.settle();
+    }
+
+    /// The world remembers nothing but poses, velocities and grips, so it may as well be set up anew.
+    fn set_velocity(&mut self, body: usize, velocity: Vec2) {
+        let mut state = self.world.state();
+        state.bodies[body].velocity = velocity;
+        self.world = World::new(&self.physique, &state);
+    }
+
+    fn state(&self) -> State {
+        self.world.state()
+    }
+
+    fn step(&mut self, actions: [Action; AGENT_COUNT]) -> [State; SUBSTEPS] {
+        self.world.step(actions)
+    }
+}
+
+/// The kernel with its memory from step to step, which is its faithful mode.
+pub(super) struct WarmForward {
+    forward: Forward,
+    state: State,
+    memory: Memory,
+}
+
+impl Engine for WarmForward {
+    const REMEMBERS: bool = true;
+
+    fn set_up(physique: &Physique, state: &State) -> Self {
+        let forward = Forward::new(physique);
+        let memory = forward.remember(state);
+        Self { forward, state: *state, memory }
+    }
+
+    fn settle(&mut self) {
+        self.forward.settle_warm(&mut self.state, &mut self.memory);
+    }
+
+    fn set_velocity(&mut self, body: usize, velocity: Vec2) {
+        self.state.bodies[body].velocity = velocity;
+    }
+
+    fn state(&self) -> State {
+        self.state
+    }
+
+    fn step(&mut self, actions: [Action; AGENT_COUNT]) -> [State; SUBSTEPS] {
+        self.forward.step_warm(&mut self.state, &mut self.memory, actions)
+    }
+}
+
+/// The kernel from the state alone, as planners and beliefs step it.
+pub(super) struct ColdForward {
+    forward: Forward,
+    state: State,
+}
+
+impl Engine for ColdForward {
+    const REMEMBERS: bool = false;
+
+    fn set_up(physique: &Physique, state: &State) -> Self {
+        Self { forward: Forward::new(physique), state: *state }
+    }
+
+    fn settle(&mut self) {
+        self.forward.settle(&mut self.state);
+    }
+
+    fn set_velocity(&mut self, body: usize, velocity: Vec2) {
+        self.state.bodies[body].velocity = velocity;
+    }
+
+    fn state(&self) -> State {
+        self.state
+    }
+
+    fn step(&mut self, actions: [Action; AGENT_COUNT]) -> [State; SUBSTEPS] {
+        self.forward.step_substeps(&mut self.state, actions)
+    }
+}

@@ -1,0 +1,141 @@
+//! `check-physics`: how far an engine comes out from recorded motion.
+
+mod engines;
+mod table;
+mod targets;
+
+use crate::{
+    cli::{CheckPhysics, EngineName},
+    console::tell,
+    error::CliError,
+};
+use engines::{ColdForward, WarmForward, WorldEngine};
+use phase_calibration::{
+    Engine, Probe, ReadError, Replay, Report, Run, StateAlone, ahead, probes_report, replay_reports,
+    run_reports,
+};
+use phase_dataset::{atomic, json, phase_events};
+use serde_json::Value;
+use std::path::Path;
+use targets::Target;
+
+/// What the engine is held against.
+struct Records {
+    probes: Option<Vec<Probe>>,
+    runs: Option<Vec<Run>>,
+    replays: Option<Vec<Replay>>,
+    /// Events with recovered actions that cannot be replayed because they are mirrored.
+    mirrored: usize,
+}
+
+/// Runs the command. That a target is missed is a result and no error.
+///
+/// # Errors
+/// Any [`CliError`] about the files.
+pub fn run(arguments: &CheckPhysics) -> Result<(), CliError> {
+    let files = [&arguments.probes, &arguments.runs, &arguments.events];
+    if files.iter().all(|file| file.is_none()) {
+        let rule = "check-physics needs at least one of --probes, --runs and --events";
+        return Err(CliError::Usage(rule.into()));
+    }
+    if let Some(out) = &arguments.json {
+        check_output(out, files.into_iter().flatten().map(|file| file.as_path()))?;
+    }
+    let records = Records::read(arguments)?;
+    let (report, targets) = match arguments.engine {
+        EngineName::World => {
+            let report = records.measure::<WorldEngine>("world");
+            let targets = targets::of_world(&report);
+            (report, targets)
+        }
+        EngineName::Forward => {
+            let mut report = records.measure::<WarmForward>("forward");
+            report.state_alone = records.runs.as_ref().map(|runs| StateAlone {
+                one_step: ahead::<ColdForward>(runs, 1),
+                ten_steps: ahead::<ColdForward>(runs, 10),
+            });
+            let targets = targets::of_forward(&report);
+            (report, targets)
+        }
+    };
+    tell(table::print(&report, &targets, records.mirrored).trim_end());
+    if let Some(out) = &arguments.json {
+        let text = to_json(&report, &targets, records.mirrored);
+        atomic::write(out, text.as_bytes()).map_err(CliError::Output)?;
+    }
+    Ok(())
+}
+
+impl Records {
+    fn read(arguments: &CheckPhysics) -> Result<Self, CliError> {
+        let (replays, mirrored) = match &arguments.events {
+            None => (None, 0),
+            Some(file) => {
+                let (replays, mirrored) = replays(file)?;
+                (Some(replays), mirrored)
+            }
+        };
+        Ok(Self {
+            probes: arguments.probes.as_ref().map(|file| read(file, Probe::from_value)).transpose()?,
+            runs: arguments.runs.as_ref().map(|file| read(file, Run::from_value)).transpose()?,
+            replays,
+            mirrored,
+        })
+    }
+
+    fn measure<E: Engine>(&self, engine: &str) -> Report {
+        let runs = self.runs.as_deref();
+        Report {
+            engine: engine.into(),
+            probes: self.probes.as_deref().map(probes_report::<E>),
+            runs: runs.map(run_reports::<E>),
+            replays: self.replays.as_deref().map(replay_reports::<E>),
+            one_step: runs.and_then(|runs| ahead::<E>(runs, 1)),
+            ten_steps: runs.and_then(|runs| ahead::<E>(runs, 10)),
+            state_alone: None,
+        }
+    }
+}
+
+fn read<T>(file: &Path, parse: impl Fn(&Value) -> Result<T, ReadError>) -> Result<T, CliError> {
+    let value = json::read(file)?;
+    parse(&value).map_err(|problem| CliError::Record { file: file.to_owned(), problem })
+}
+
+/// The events of a file that can be replayed, and the number of those that could be but for being mirrored.
+fn replays(file: &Path) -> Result<(Vec<Replay>, usize), CliError> {
+    let mut recordings = phase_events::read(file)?;
+    recordings.retain(|recording| recording.recovered_actions.is_some());
+    let replays: Vec<Replay> = recordings.iter().filter_map(phase_events::Recording::replay).collect();
+    let mirrored = recordings.iter().filter(|recording| recording.scene.layout.flip().is_some()).count();
+    if replays.is_empty() {
+        let rule = "field `events` must hold an event with `recovered_actions` that is not mirrored";
+        return Err(CliError::Usage(format!("{}: {rule}", file.display())));
+    }
+    Ok((replays, mirrored))
+}
+
+/// Nothing may be lost by writing the report.
+fn check_output<'a>(out: &Path, mut inputs: impl Iterator<Item = &'a Path>) -> Result<(), CliError> {
+    let usage = |rule: &str| CliError::Usage(format!("--json {}: {rule}", out.display()));
+    if out.is_dir() {
+        return Err(usage("is a folder; a file is needed"));
+    }
+    let same = |input: &Path| {
+        out == input
+            || out.canonicalize().is_ok_and(|out| input.canonicalize().is_ok_and(|input| out == input))
+    };
+    if inputs.any(same) { Err(usage("is an input file; choose another")) } else { Ok(()) }
+}
+
+fn to_json(report: &Report, targets: &[Target], mirrored: usize) -> String {
+    // Plain numbers of ours always have a JSON form.
+    let mut value = serde_json::to_value(report).unwrap_or_default();
+    if let Value::Object(members) = &mut value {
+        members.insert("targets".into(), targets.iter().map(Target::to_value).collect());
+        if report.replays.is_some() {
+            members.insert("mirrored_left_out".into(), mirrored.into());
+        }
+    }
+    serde_json::to_string_pretty(&value).unwrap_or_default() + "\n"
+}
