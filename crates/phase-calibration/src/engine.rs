@@ -5,9 +5,10 @@ use phase_model::{AGENT_COUNT, Action, Physique, State, Vec2, arena::SUBSTEPS};
 /// An engine in motion. An implementation is an adapter that holds the engine, its state and whatever it
 /// remembers from step to step.
 pub trait Engine: Sized {
-    /// Whether the engine carries anything from substep to substep that a state does not say, such as impulses.
-    /// Then a probe is replayed through its idle substep, else from the recorded state after it.
-    const REMEMBERS: bool;
+    /// Whether a probe is replayed through the engine's own idle substep, or from the recorded state after it.
+    /// An engine with a memory needs the former; for one without, the latter says all there is, and keeps what
+    /// it makes of overlaps at the start out of the errors of everything else.
+    const THROUGH_IDLE: bool;
 
     /// Freshly set up in a state, grips included. This is also how a run is restarted.
     fn set_up(physique: &Physique, state: &State) -> Self;

@@ -77,7 +77,7 @@ impl Probe {
             Deviation::between(&self.physique, &state.bodies, &recorded.bodies)
         };
         let start = far(&engine.state(), &self.initial);
-        if !E::REMEMBERS {
+        if !E::THROUGH_IDLE {
             engine = E::set_up(&self.physique, &self.initial);
         }
         let mut followed = Followed {

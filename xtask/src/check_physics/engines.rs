@@ -12,7 +12,7 @@ pub(super) struct WorldEngine {
 }
 
 impl Engine for WorldEngine {
-    const REMEMBERS: bool = false;
+    const THROUGH_IDLE: bool = false;
 
     fn set_up(physique: &Physique, state: &State) -> Self {
         Self { physique: physique.clone(), world: World::new(physique, state) }
@@ -46,7 +46,7 @@ pub(super) struct WarmForward {
 }
 
 impl Engine for WarmForward {
-    const REMEMBERS: bool = true;
+    const THROUGH_IDLE: bool = true;
 
     fn set_up(physique: &Physique, state: &State) -> Self {
         let forward = Forward::new(physique);
@@ -78,7 +78,7 @@ pub(super) struct ColdForward {
 }
 
 impl Engine for ColdForward {
-    const REMEMBERS: bool = false;
+    const THROUGH_IDLE: bool = true;
 
     fn set_up(physique: &Physique, state: &State) -> Self {
         Self { forward: Forward::new(physique), state: *state }

@@ -15,6 +15,7 @@ use phase_calibration::{
     run_reports,
 };
 use phase_dataset::{atomic, json, phase_events};
+use serde::Serialize;
 use serde_json::Value;
 use std::path::Path;
 use targets::Target;
@@ -128,14 +129,19 @@ fn check_output<'a>(out: &Path, mut inputs: impl Iterator<Item = &'a Path>) -> R
     if inputs.any(same) { Err(usage("is an input file; choose another")) } else { Ok(()) }
 }
 
+/// The file that `--json` writes.
+#[derive(Serialize)]
+struct Output<'a> {
+    #[serde(flatten)]
+    report: &'a Report,
+    targets: &'a [Target],
+    /// Events with recovered actions that were left out because they are mirrored.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    mirrored_left_out: Option<usize>,
+}
+
 fn to_json(report: &Report, targets: &[Target], mirrored: usize) -> String {
+    let mirrored_left_out = report.replays.as_ref().map(|_| mirrored);
     // Plain numbers of ours always have a JSON form.
-    let mut value = serde_json::to_value(report).unwrap_or_default();
-    if let Value::Object(members) = &mut value {
-        members.insert("targets".into(), targets.iter().map(Target::to_value).collect());
-        if report.replays.is_some() {
-            members.insert("mirrored_left_out".into(), mirrored.into());
-        }
-    }
-    serde_json::to_string_pretty(&value).unwrap_or_default() + "\n"
+    serde_json::to_string_pretty(&Output { report, targets, mirrored_left_out }).unwrap_or_default() + "\n"
 }

@@ -44,6 +44,8 @@ fn sections(text: &mut String, report: &Report, targets: &[Target], mirrored: us
                 it.grip_mismatches,
             )?;
         }
+        let worst = probes.each.iter().map(|probe| probe.start.position).fold(0.0, f32::max);
+        writeln!(text, "idle substep before the first step, which parts overlaps: worst error {worst:.5} u")?;
         writeln!(
             text,
             "within: share of steps within so many u and rad; wrong: steps after which a grip differs"
@@ -76,10 +78,10 @@ fn sections(text: &mut String, report: &Report, targets: &[Target], mirrored: us
         }
     }
     if !targets.is_empty() {
-        let missed = targets.iter().filter(|target| !target.met()).count();
+        let missed = targets.iter().filter(|target| !target.met).count();
         writeln!(text, "\n{} targets, {missed} missed", targets.len())?;
         for target in targets {
-            let verdict = if target.met() { "met" } else { "MISSED" };
+            let verdict = if target.met { "met" } else { "MISSED" };
             writeln!(text, "{:<58} {:>9.5}  {:>8}  {verdict}", target.what, target.measured, target.rule())?;
         }
     }

@@ -1,16 +1,21 @@
 //! The published targets of both engines, and whether they are met.
 
 use phase_calibration::{Ahead, Report, RunReport, percentile};
-use serde_json::{Value, json};
+use serde::Serialize;
 
 /// One target and what was measured.
+#[derive(Serialize)]
 pub(super) struct Target {
-    /// What was measured, such as `wall: steps within 0.1 u and 0.1 rad`.
+    /// What is measured, such as `wall: steps within 0.1 u and 0.1 rad`.
     pub(super) what: String,
-    pub(super) measured: f64,
-    limit: f64,
-    /// Whether the limit is the least that will do, and not the most.
+    /// What was measured.
+    pub(super) measured: f32,
+    /// The most that will do, or the least.
+    limit: f32,
+    /// Whether the limit is the least.
     at_least: bool,
+    /// Whether it is met; a number that is none meets nothing.
+    pub(super) met: bool,
 }
 
 /// Families of which the world must keep nine in ten steps within a limit (u and rad).
@@ -22,28 +27,18 @@ const WORLD_PERCENTILE: [&str; 2] = ["tug", "push_off_centre"];
 const FORWARD_LOOSE: [&str; 2] = ["carry", "items_collide"];
 
 impl Target {
-    fn at_most(what: impl Into<String>, measured: f32, limit: f64) -> Self {
-        Self { what: what.into(), measured: measured.into(), limit, at_least: false }
+    fn at_most(what: impl Into<String>, measured: f32, limit: f32) -> Self {
+        Self { what: what.into(), measured, limit, at_least: false, met: measured <= limit }
     }
 
-    fn at_least(what: impl Into<String>, measured: f64, limit: f64) -> Self {
-        Self { what: what.into(), measured, limit, at_least: true }
-    }
-
-    /// Whether it is met; a number that is none meets nothing.
-    pub(super) fn met(&self) -> bool {
-        // Single precision must not miss a limit that it cannot express.
-        const SLACK: f64 = 1e-7;
-        if self.at_least { self.measured >= self.limit - SLACK } else { self.measured <= self.limit + SLACK }
+    fn at_least(what: impl Into<String>, measured: f64, limit: f32) -> Self {
+        let measured = measured as f32;
+        Self { what: what.into(), measured, limit, at_least: true, met: measured >= limit }
     }
 
     /// The limit in words.
     pub(super) fn rule(&self) -> String {
-        format!("{} {}", if self.at_least { ">=" } else { "<=" }, self.limit as f32)
-    }
-
-    pub(super) fn to_value(&self) -> Value {
-        json!({"what": self.what, "measured": self.measured, "target": self.rule(), "met": self.met()})
+        format!("{} {}", if self.at_least { ">=" } else { "<=" }, self.limit)
     }
 }
 
