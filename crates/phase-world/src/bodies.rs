@@ -6,11 +6,9 @@ use rapier2d::prelude::*;
 
 /// Thickness of the skin around agents; objects have none (u).
 const AGENT_SKIN: f32 = 0.01;
-/// Thickness of the skin around walls (u). Less the penetration that is tolerated, an agent rests 0.015 u from
+/// Thickness of the skin around walls (u). Less the penetration of skins that is tolerated, an agent rests 0.015 u from
 /// a wall and an object 0.005 u.
-const WALL_SKIN: f32 = 0.007;
-/// Farthest motion in one substep for which contacts with walls are foreseen (u).
-const FORESEEN_MOTION: f32 = 2.0;
+const WALL_SKIN: f32 = 0.01;
 /// Half the thickness of the arena's boundary (u). Nothing gets deep enough to be pushed out on the far side.
 const BOUNDARY_HALF_THICKNESS: f32 = 10.0;
 /// Greatest angular velocity that a start may have (rad/s).
@@ -90,8 +88,7 @@ pub(crate) fn insert_body(
         .linvel(start.velocity)
         .angvel(start.angular_velocity)
         .can_sleep(false)
-        .allow_fast_rotation(true)
-        .soft_ccd_prediction(FORESEEN_MOTION);
+        .allow_fast_rotation(true);
     let collider = smooth(collider)
         .active_hooks(ActiveHooks::FILTER_CONTACT_PAIRS | ActiveHooks::MODIFY_SOLVER_CONTACTS)
         .user_data(contact::tag(entity));

@@ -8,13 +8,9 @@ use rapier2d::{
 };
 
 /// Penetration of skins that is left alone, so that bodies at rest keep touching (u).
-const BODY_SLOP: f32 = 0.005;
-/// The same between a body and a wall (u).
-const WALL_SLOP: f32 = 0.002;
+const SLOP: f32 = 0.005;
 /// Greatest distance between two surfaces that counts as touching (u); above all skins together.
 const TOUCHING_DISTANCE: f32 = 0.02;
-/// Least distance from which hitting a wall is an impact and no sliding along it (u).
-const IMPACT_DISTANCE: f32 = 0.07;
 
 /// The mark of an entity's collider; walls bear 0.
 #[must_use]
@@ -28,7 +24,7 @@ fn tagged(colliders: &ColliderSet, handle: ColliderHandle) -> Option<usize> {
     (1..=MAX_ENTITIES as u128).contains(&tag).then(|| tag as usize - 1)
 }
 
-/// The contact rules: bodies collide once they touch, walls are foreseen, and an object that was let go passes
+/// The contact rules: what touches at the start of a substep collides, and an object that was let go passes
 /// through the agent that held it until the two have moved clear of each other.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct ContactRules {
@@ -69,17 +65,10 @@ impl PhysicsHooks for ContactRules {
     }
 
     fn modify_solver_contacts(&self, context: &mut ContactModificationContext) {
-        let between_bodies = tagged(context.colliders, context.collider1).is_some()
-            && tagged(context.colliders, context.collider2).is_some();
         let Some(manifold) = context.rigid_mut() else { return };
-        let slop = if between_bodies {
-            manifold.solver_contacts.retain(|contact| contact.dist <= 0.0);
-            BODY_SLOP
-        } else {
-            WALL_SLOP
-        };
-        for contact in manifold.solver_contacts.iter_mut().filter(|contact| contact.dist <= 0.0) {
-            contact.dist = (contact.dist + slop).min(0.0);
+        manifold.solver_contacts.retain(|contact| contact.dist <= 0.0);
+        for contact in manifold.solver_contacts.iter_mut() {
+            contact.dist = (contact.dist + SLOP).min(0.0);
         }
     }
 }
@@ -93,15 +82,4 @@ pub(crate) fn touching(engine: &PhysicsWorld, a: &Mover, b: &Mover) -> bool {
     let (Some((pose1, shape1)), Some((pose2, shape2))) = (placed(a), placed(b)) else { return false };
     let near = shape1.compute_aabb(pose1).loosened(TOUCHING_DISTANCE).intersects(&shape2.compute_aabb(pose2));
     near && matches!(query::contact(pose1, shape1, pose2, shape2, TOUCHING_DISTANCE), Ok(Some(_)))
-}
-
-/// Whether a wall stopped a body in the last substep that did not touch it before.
-#[must_use]
-pub(crate) fn hit_wall(engine: &PhysicsWorld, collider: ColliderHandle) -> bool {
-    engine.narrow_phase.contact_pairs_with(collider).any(|pair| {
-        let other = if pair.collider1 == collider { pair.collider2 } else { pair.collider1 };
-        let mut points = pair.manifolds().iter().flat_map(|manifold| &manifold.points);
-        tagged(&engine.colliders, other).is_none()
-            && points.any(|point| point.dist > IMPACT_DISTANCE && point.data.impulse > 0.0)
-    })
 }

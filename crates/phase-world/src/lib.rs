@@ -32,6 +32,7 @@ mod contact;
 pub mod dynamics;
 mod friction;
 mod grip;
+mod impact;
 mod mover;
 mod settings;
 mod substep;

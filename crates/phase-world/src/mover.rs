@@ -10,6 +10,8 @@ pub(crate) type Motion = (Pose, RigidBodyVelocity<f32>);
 /// One agent's or object's parts in the engine.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Mover {
+    /// Whose parts they are.
+    pub(crate) entity: Entity,
     /// The rigid body.
     pub(crate) body: RigidBodyHandle,
     /// Its only collider.
@@ -17,7 +19,7 @@ pub(crate) struct Mover {
     /// Its ground friction.
     pub(crate) friction: ImpulseJointHandle,
     /// The unbounded angle; the engine knows it only modulo a full turn (rad).
-    angle: f32,
+    pub(crate) angle: f32,
 }
 
 impl Mover {
@@ -31,7 +33,7 @@ impl Mover {
     ) -> Self {
         let start = bodies::possible(start);
         let (body, collider) = bodies::insert_body(engine, physique, entity, &start);
-        Self { body, collider, friction: friction::insert(engine, ground, body), angle: start.angle }
+        Self { entity, body, collider, friction: friction::insert(engine, ground, body), angle: start.angle }
     }
 
     /// Pose and motion of the body's origin and centre of mass, with the unbounded angle.
@@ -90,19 +92,37 @@ impl Mover {
     /// Counts the turn since `before` and sets it right.
     ///
     /// The engine turns a body by moving its axis along the tangent, so that where it should have turned by Δθ
-    /// it has turned by atan Δθ. The centre of mass stays where it is, unless the origin left the arena.
+    /// it has turned by atan Δθ. The centre of mass stays where it is.
     pub(crate) fn correct_turn(&mut self, engine: &mut PhysicsWorld, before: &Motion) {
         let body = &engine.bodies[self.body];
-        let turned = before.0.rotation.inverse() * *body.rotation();
-        if turned.im == 0.0 && arena::contains(body.translation()) {
-            return;
+        let turn = turn_between(&before.0.rotation, body.rotation());
+        if turn != 0.0 {
+            self.angle += turn;
+            let pose = pose_around(body.local_center_of_mass(), body.center_of_mass(), self.angle);
+            engine.bodies[self.body].set_position(pose, true);
         }
-        // Nothing turns by a right angle along a tangent; the guard only keeps the quotient finite.
-        self.angle += turned.im / turned.re.max(f32::EPSILON);
-        let rotation = bodies::rotation(self.angle);
-        let origin = body.center_of_mass() - rotation * body.local_center_of_mass();
-        // Several bodies that start in one spot of the boundary can squeeze one of them into it for a moment.
-        let origin = origin.clamp(arena::MIN, arena::MAX);
-        engine.bodies[self.body].set_position(Pose::from_parts(origin, rotation), true);
     }
+
+    /// Brings an origin back that bodies starting in one spot of the boundary have squeezed out of the arena.
+    pub(crate) fn stay_inside(&self, engine: &mut PhysicsWorld) {
+        let body = &mut engine.bodies[self.body];
+        if !arena::contains(body.translation()) {
+            let inside = body.translation().clamp(arena::MIN, arena::MAX);
+            body.set_translation(inside, true);
+        }
+    }
+}
+
+/// The turn that the engine should have made where it went from one rotation to another along the tangent
+/// (rad).
+pub(crate) fn turn_between(before: &Rotation, after: &Rotation) -> f32 {
+    let turned = before.inverse() * *after;
+    // Nothing turns by a right angle along a tangent; the guard only keeps the quotient finite.
+    turned.im / turned.re.max(f32::EPSILON)
+}
+
+/// The pose at an angle that has the centre of mass at `centre`.
+pub(crate) fn pose_around(centre_of_mass: Vec2, centre: Vec2, angle: f32) -> Pose {
+    let rotation = bodies::rotation(angle);
+    Pose::from_parts(centre - rotation * centre_of_mass, rotation)
 }

@@ -1,9 +1,9 @@
 //! One substep of the engine, with ground friction aimed where the bodies slide.
 
 use crate::{
-    contact,
     contact::ContactRules,
     friction::Aim,
+    impact::Impacts,
     mover::{Motion, Mover},
 };
 use rapier2d::prelude::*;
@@ -15,8 +15,13 @@ const MAX_TAKES: usize = 3;
 ///
 /// The direction of friction follows from the motion it acts on. So the substep is taken with the direction
 /// foreseen from each body's own push, and if contacts or welds made a body slide another way, it is taken
-/// again from the same start with the direction found.
-pub(crate) fn advance(engine: &mut PhysicsWorld, movers: &mut [Mover], rules: &ContactRules) {
+/// again from the same start with the direction found. Impacts on walls are played out last, body by body.
+pub(crate) fn advance(
+    engine: &mut PhysicsWorld,
+    impacts: Impacts,
+    movers: &mut [Mover],
+    rules: &ContactRules,
+) {
     let before: Vec<_> = movers.iter().map(|mover| mover.motion(engine)).collect();
     let mut aims: Vec<Aim> = movers.iter().map(|mover| Aim::foreseen(&engine.bodies[mover.body])).collect();
     for take in 1..=MAX_TAKES {
@@ -32,7 +37,10 @@ pub(crate) fn advance(engine: &mut PhysicsWorld, movers: &mut [Mover], rules: &C
         }
     }
     for (mover, motion) in movers.iter_mut().zip(&before) {
+        let angle = mover.angle;
         mover.correct_turn(engine, motion);
+        impacts.play_out(engine, mover, motion, angle);
+        mover.stay_inside(engine);
     }
 }
 
@@ -40,13 +48,9 @@ pub(crate) fn advance(engine: &mut PhysicsWorld, movers: &mut [Mover], rules: &C
 fn improve(aims: &mut [Aim], engine: &PhysicsWorld, movers: &[Mover], before: &[Motion]) -> bool {
     let mut improved = false;
     for ((aim, mover), motion) in aims.iter_mut().zip(movers).zip(before) {
-        // A wall that stops a body in mid-flight takes its velocity at once, friction or not: until then the
-        // body slid as foreseen.
-        if !contact::hit_wall(engine, mover.collider) {
-            let better = mover.better_aim(engine, motion);
-            improved |= !better.agrees_with(aim);
-            *aim = better;
-        }
+        let better = mover.better_aim(engine, motion);
+        improved |= !better.agrees_with(aim);
+        *aim = better;
     }
     improved
 }

@@ -1,13 +1,19 @@
 //! The world: a scene's bodies in the engine, stepped by actions.
 
-use crate::{bodies, contact, contact::ContactRules, grip::Weld, mover::Mover, settings, substep};
-use phase_model::{AGENT_COUNT, Action, Entity, Grip, MAX_OBJECTS, Physique, State, arena::SUBSTEPS};
+use crate::{
+    bodies, contact, contact::ContactRules, grip::Weld, impact, impact::Impacts, mover::Mover, settings,
+    substep,
+};
+use phase_model::{
+    AGENT_COUNT, Action, Entity, Grip, MAX_OBJECTS, Physique, Segment, State, arena::SUBSTEPS,
+};
 use rapier2d::prelude::*;
 
 /// A scene's bodies in motion.
 pub struct World {
     physique: Physique,
     engine: PhysicsWorld,
+    walls: Vec<Segment>,
     movers: Vec<Mover>,
     welds: [Option<Weld>; AGENT_COUNT],
     rules: ContactRules,
@@ -29,7 +35,14 @@ impl World {
             .map(|entity| Mover::insert(&mut engine, ground, &physique, entity, state.body(entity)))
             .collect();
         let rules = ContactRules::default();
-        let mut world = Self { physique, engine, movers, welds: [None; AGENT_COUNT], rules };
+        let mut world = Self {
+            walls: impact::walls(&physique),
+            physique,
+            engine,
+            movers,
+            welds: [None; AGENT_COUNT],
+            rules,
+        };
         for (agent, grip) in state.grips.into_iter().enumerate() {
             if let Some(grip) = grip {
                 world.weld(agent, grip);
@@ -115,7 +128,8 @@ impl World {
         for ((mover, body), action) in self.movers.iter().zip(&self.physique.agents).zip(actions) {
             mover.act(&mut self.engine, body, action);
         }
-        substep::advance(&mut self.engine, &mut self.movers, &self.rules);
+        let impacts = Impacts::new(&self.physique, &self.walls);
+        substep::advance(&mut self.engine, impacts, &mut self.movers, &self.rules);
         self.rules.restore_clear(&self.engine, &self.movers);
     }
 }
