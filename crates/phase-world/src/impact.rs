@@ -69,7 +69,7 @@ impl<'a> Impacts<'a> {
             let centre_of_mass = body.local_center_of_mass();
             let sweep = Sweep::from_poses(&from, &to, centre_of_mass);
             let Some(share) = self.first(engine.colliders[mover.collider].shape(), &sweep) else { return };
-            left *= 1.0 - share;
+            left = (left * (1.0 - share) - settings::IMPACT_SECONDS).max(0.0);
             angle += (mover.angle - angle) * share;
             let at = mover::pose_around(centre_of_mass, sweep.c1.lerp(sweep.c2, share), angle);
             if impact == MOST_IMPACTS {
@@ -121,7 +121,18 @@ impl<'a> Impacts<'a> {
         let (body, _) = bodies::insert_body(&mut engine, self.physique, mover.entity, &start);
         engine.step_with_events(&ContactRules::default(), &());
         let body = &engine.bodies[body];
-        (*body.position(), *body.vels())
+        let gyration = body.mass_properties().local_mprops.inv_mass
+            / body.mass_properties().local_mprops.inv_principal_inertia;
+        let energy = |motion: RigidBodyVelocity<f32>| {
+            motion.linvel.length_squared() + motion.angvel * motion.angvel * gyration
+        };
+        let mut after = *body.vels();
+        let gain = energy(after) / energy(velocities);
+        if gain > 1.0 {
+            // A wall does no work: what a body wedged between two of them gains is an error of the solver.
+            after = after * libm::sqrtf(1.0 / gain);
+        }
+        (*body.position(), after)
     }
 }
 

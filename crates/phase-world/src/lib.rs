@@ -5,24 +5,30 @@
 //! grips and the contacts between bodies. [`WorldDynamics`] puts it behind the interface of planners.
 //!
 //! The key design decision is that everything is done with rapier's own means: solver settings (`settings`),
-//! bodies, skins and foreseen contacts (`bodies`), contact hooks (`contact`), motors for ground friction
-//! (`friction`) and welds for grips (`grip`). There is no second solver around the engine, so what it promises
-//! holds here: walls stop what moves at any speed, overlaps are undone without explosions, and the same inputs
-//! give the same bits on every thread. Three things are done around it: a substep whose contacts or welds made
-//! a body slide another way than foreseen is taken again with friction aimed better (`substep`), rotations,
-//! which rapier integrates along the tangent, are set right afterwards, and so is an origin that bodies
-//! starting in one spot squeezed out of the arena (`mover`).
+//! bodies and skins (`bodies`), contact hooks (`contact`), motors for ground friction
+//! (`friction`), welds for grips (`grip`), sweep tests for impacts on walls (`impact`). There is no second
+//! solver around the engine, so what it promises holds here: walls stop what moves at any speed, overlaps are
+//! undone without explosions, and the same inputs give the same bits on every thread. Four things are done
+//! around it: a substep whose contacts or welds made a body slide another way than foreseen is taken again with
+//! friction aimed better (`substep`); rotations, which rapier integrates along the tangent, are set right
+//! afterwards (`mover`); a body that hit a wall in mid-substep goes back to the moment of impact, has the
+//! engine resolve it there, and goes on for the time left (`impact`); and an origin that bodies starting in one
+//! spot squeezed out of the arena is put back (`mover`).
+//!
+//! Impacts are found, not foreseen. rapier offers two other ways, and both cost fidelity: contacts foreseen
+//! along the way act with the lever of where the body starts and catch on the ends of walls that it is about to
+//! pass, and rapier's own continuous collision detection drops what is left of the substep, also along the
+//! wall.
 //!
 //! Nothing is warm-started, so a pose and a velocity per body are nearly the whole state. A world built anew
 //! from its own [`World::state`] goes on as the old one would have, except for pairs that were let go and still
 //! overlap, and for the last bits of contacts, whose order the engine remembers; collisions amplify those.
 //!
 //! The price is time, 10 to 40 µs a substep: rapier keeps sets, graphs and trees for thousands of bodies where
-//! there are four, and bodies in contact need two or three takes. Planners that imagine millions of steps want
-//! a plain-data kernel instead; this crate is the authority that such a kernel is held against. The other price
-//! is fidelity in hard impacts: two discs struck together part company with recordings of the published
-//! simulator by some tenths of a unit, and so, for a few substeps, does what is driven into a wall by a body
-//! behind it.
+//! there are four, bodies in contact need two or three takes, and an impact is resolved in an engine built for
+//! it. Planners that imagine millions of steps want a plain-data kernel instead; this crate is the authority
+//! that such a kernel is held against. The other price is fidelity in hard impacts between bodies: two discs
+//! struck together part company with recordings of the published simulator by some tenths of a unit.
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]

@@ -10,9 +10,9 @@ const CORRECTION: f32 = 0.893;
 /// The same after an impact on a wall.
 const IMPACT_CORRECTION: f32 = 0.75;
 /// Longest way by which an impact parts a body from a wall (u).
-const IMPACT_WAY: f32 = 0.4;
+const IMPACT_WAY: f32 = 0.05;
 /// Duration of an impact (s).
-const IMPACT_SECONDS: f32 = 1.0e-3 * SUBSTEP_SECONDS;
+pub(crate) const IMPACT_SECONDS: f32 = 0.01 * SUBSTEP_SECONDS;
 /// Sweeps over all constraints in one substep, before and again after positions have moved.
 const SWEEPS: usize = 10;
 /// Damping ratio at which contacts no longer give way.
@@ -46,8 +46,8 @@ pub(crate) fn engine() -> PhysicsWorld {
     PhysicsWorld { gravity: Vector::ZERO, integration_parameters, ..PhysicsWorld::default() }
 }
 
-/// An empty engine for impacts, one step of which takes next to no time: overlaps are undone and velocities
-/// into walls taken away, but nothing gets anywhere by its velocity.
+/// An empty engine for impacts, one step of which takes next to no time, so that overlaps are undone and
+/// velocities into walls taken away, but little else happens.
 #[must_use]
 pub(crate) fn impact_engine() -> PhysicsWorld {
     let mut engine = engine();
@@ -57,7 +57,7 @@ pub(crate) fn impact_engine() -> PhysicsWorld {
     parameters.contact_softness = softness;
     parameters.static_contact_softness = softness;
     parameters.normalized_max_corrective_velocity = IMPACT_WAY / IMPACT_SECONDS;
-    parameters.normalized_max_linear_velocity = IMPACT_WAY / IMPACT_SECONDS;
+    parameters.normalized_max_linear_velocity = MAX_SPEED + IMPACT_WAY / IMPACT_SECONDS;
     engine
 }
 

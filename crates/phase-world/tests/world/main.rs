@@ -4,6 +4,7 @@ mod contact;
 mod determinism;
 mod dynamics;
 mod grip;
+mod impact;
 mod motion;
 mod probes;
 mod safety;
