@@ -1,9 +1,12 @@
 //! Which contacts count: what the engine is told, and what it reports.
 
 use crate::mover::Mover;
-use phase_model::{Entity, MAX_ENTITIES};
+use phase_model::{Entity, MAX_ENTITIES, Vec2, arena::SUBSTEP_SECONDS};
 use rapier2d::{
-    parry::{bounding_volume::BoundingVolume, query},
+    parry::{
+        bounding_volume::{Aabb, BoundingVolume},
+        query,
+    },
     prelude::*,
 };
 
@@ -11,6 +14,11 @@ use rapier2d::{
 const SLOP: f32 = 0.005;
 /// Greatest distance between two surfaces that counts as touching (u); above all skins together.
 const TOUCHING_DISTANCE: f32 = 0.02;
+
+/// How far from where it was let go of a body at rest is clear of its former partner (u).
+const CLEAR: f32 = 0.1;
+/// How many substeps' way at the speed of that moment it has to go beyond that.
+const CLEAR_SUBSTEPS: f32 = 4.0;
 
 /// The mark of an entity's collider; walls bear 0.
 #[must_use]
@@ -25,32 +33,35 @@ fn tagged(colliders: &ColliderSet, handle: ColliderHandle) -> Option<usize> {
 }
 
 /// The contact rules: what touches at the start of a substep collides, and an object that was let go passes
-/// through the agent that held it until the two have moved clear of each other.
+/// through the agent that held it until one of them has moved away from where it then was.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct ContactRules {
-    released: [[bool; MAX_ENTITIES]; MAX_ENTITIES],
+    /// For every pair that was let go, where the first of both may be without touching the second.
+    released: [[Option<Aabb>; MAX_ENTITIES]; MAX_ENTITIES],
 }
 
 impl ContactRules {
-    /// Lets a pair overlap until it has moved clear.
-    pub(crate) fn release(&mut self, a: Entity, b: Entity) {
-        self.set_released(a.index(), b.index(), true);
-    }
-
-    /// Makes released pairs solid again that do not touch any more; `movers` are the entities' by index.
-    pub(crate) fn restore_clear(&mut self, engine: &PhysicsWorld, movers: &[Mover]) {
-        for (a, first) in movers.iter().enumerate() {
-            for (b, second) in movers.iter().enumerate().take(a) {
-                if self.released[a][b] && !touching(engine, first, second) {
-                    self.set_released(a, b, false);
-                }
-            }
+    /// Lets a pair overlap until one of them has left the place where it is.
+    pub(crate) fn release(&mut self, engine: &PhysicsWorld, a: &Mover, b: &Mover) {
+        for (one, other) in [(a, b), (b, a)] {
+            let body = &engine.bodies[one.body];
+            let room = CLEAR + CLEAR_SUBSTEPS * SUBSTEP_SECONDS * body.linvel().length();
+            let place = Aabb::from_half_extents(body.center_of_mass(), Vec2::splat(room));
+            self.released[one.entity.index()][other.entity.index()] = Some(place);
         }
     }
 
-    fn set_released(&mut self, a: usize, b: usize, released: bool) {
-        self.released[a][b] = released;
-        self.released[b][a] = released;
+    /// Makes released pairs solid again of which one has left its place.
+    pub(crate) fn restore_clear(&mut self, engine: &PhysicsWorld, movers: &[Mover]) {
+        for mover in movers {
+            let (this, centre) = (mover.entity.index(), engine.bodies[mover.body].center_of_mass());
+            for other in 0..MAX_ENTITIES {
+                if self.released[this][other].is_some_and(|place| !place.contains_local_point(centre)) {
+                    self.released[this][other] = None;
+                    self.released[other][this] = None;
+                }
+            }
+        }
     }
 }
 
@@ -59,7 +70,7 @@ impl PhysicsHooks for ContactRules {
         let [first, second] =
             [context.collider1, context.collider2].map(|collider| tagged(context.colliders, collider));
         match (first, second) {
-            (Some(a), Some(b)) if self.released[a][b] => None,
+            (Some(a), Some(b)) if self.released[a][b].is_some() => None,
             _ => Some(SolverFlags::COMPUTE_RIGID_IMPULSES),
         }
     }

@@ -109,7 +109,8 @@ impl World {
 
     fn detach(&mut self, agent: usize) {
         if let Some(weld) = self.welds[agent].take() {
-            self.rules.release(Entity::agent(agent), Entity::Object(weld.grip.object));
+            let object = Entity::Object(weld.grip.object).index();
+            self.rules.release(&self.engine, &self.movers[agent], &self.movers[object]);
             weld.remove(&mut self.engine);
         }
     }

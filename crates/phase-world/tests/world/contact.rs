@@ -70,3 +70,22 @@ fn bodies_do_not_pass_through_each_other() {
         assert!(state.position(OBJECT).y - state.bodies[0].position.y > 1.55);
     }
 }
+
+#[test]
+fn what_was_let_go_is_solid_once_either_has_left_its_place() {
+    let mut world = World::new(&lone_agent(Size::Small, Strength::Mighty), &ahead(0.0));
+    step(&mut world, Action::Attach);
+    let released = step(&mut world, Action::Detach).position(OBJECT);
+    let mut least = f32::INFINITY;
+    let mut last = world.state();
+    for _ in 0..4 {
+        for state in world.step([Action::Up, Action::NoForce]) {
+            least = least.min(state.position(OBJECT).distance(state.bodies[0].position));
+            last = state;
+        }
+    }
+    // The agent gets 0.1 u and a substep's way, 0.2 u at most from rest, into the object; then it pushes it.
+    assert!((1.3..1.55).contains(&least), "nearest {least}");
+    assert!(last.position(OBJECT).distance(released) > 1.0, "the agent pushes the object ahead");
+    assert!(last.position(OBJECT).distance(last.bodies[0].position) > 1.58, "and does not stay in it");
+}
