@@ -22,7 +22,8 @@
 //!
 //! Nothing is warm-started, so a pose and a velocity per body are nearly the whole state. A world built anew
 //! from its own [`World::state`] goes on as the old one would have, except for pairs that were let go and are
-//! not clear of each other yet, and for the last bits of contacts, whose order the engine remembers; collisions amplify those.
+//! not clear of each other yet, and for the last bits of contacts, whose order the engine remembers; collisions
+//! amplify those.
 //!
 //! The price is time, 10 to 40 µs a substep: rapier keeps sets, graphs and trees for thousands of bodies where
 //! there are four, bodies in contact need two or three takes, and an impact is resolved in an engine built for
