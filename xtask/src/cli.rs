@@ -1,7 +1,12 @@
 //! The commands and their options.
 
-use clap::{Args, Parser, Subcommand, ValueEnum, error::ErrorKind, value_parser};
-use phase_sim::Settings;
+use clap::{
+    Args, Parser, Subcommand,
+    builder::{PossibleValuesParser, TypedValueParser},
+    error::ErrorKind,
+    value_parser,
+};
+use phase_sim::{Engine, Settings};
 use std::path::PathBuf;
 
 /// Physically grounded social events: two agents see, believe, plan and act.
@@ -113,20 +118,11 @@ pub struct CheckPhysics {
     #[arg(long, value_name = "FILE")]
     pub events: Option<PathBuf>,
     /// The engine to check
-    #[arg(long, value_enum, default_value_t = EngineName::World)]
-    pub engine: EngineName,
+    #[arg(long, value_name = "ENGINE", default_value = Engine::World.name(), value_parser = engines())]
+    pub engine: Engine,
     /// Also write the numbers into this file
     #[arg(long, value_name = "OUT")]
     pub json: Option<PathBuf>,
-}
-
-/// An engine of the physics.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
-pub enum EngineName {
-    /// The true world, in rapier2d
-    World,
-    /// The kernel that planners imagine with
-    Forward,
 }
 
 /// How many events at once.
@@ -137,9 +133,13 @@ pub struct Jobs {
     pub jobs: Option<u16>,
 }
 
-/// How long events last and how hard agents think; the defaults are the paper's.
+/// What events play in, how long they last and how hard agents think; the defaults are the paper's.
 #[derive(Args, Debug)]
 pub struct Effort {
+    /// Physics that the events themselves play in: `world` (rapier2d) or `forward` (the kernel that agents
+    /// imagine with, nearest to the published simulator) [default: world]
+    #[arg(long, value_name = "ENGINE", hide_possible_values = true, value_parser = engines())]
+    pub engine: Option<Engine>,
     /// Belief particles of each agent [default: 50]
     #[arg(long, value_name = "K", value_parser = value_parser!(u32).range(1..=100_000))]
     pub particles: Option<u32>,
@@ -155,7 +155,7 @@ impl Effort {
     /// The settings asked for.
     #[must_use]
     pub fn settings(&self) -> Settings {
-        let mut settings = Settings::default();
+        let mut settings = Settings { engine: self.engine.unwrap_or_default(), ..Settings::default() };
         if let Some(particles) = self.particles {
             settings.minds.particles = particles as usize;
         }
@@ -173,9 +173,16 @@ impl Effort {
     pub fn as_given(&self) -> String {
         let options =
             [("particles", self.particles), ("simulations", self.simulations), ("max-steps", self.max_steps)];
+        let engine = self.engine.map(|engine| format!(" --engine {}", engine.name()));
         let given = options.into_iter().filter_map(|(name, value)| Some(format!(" --{name} {}", value?)));
-        given.collect()
+        engine.into_iter().chain(given).collect()
     }
+}
+
+/// Reads an engine by its name.
+fn engines() -> impl TypedValueParser<Value = Engine> {
+    let names = PossibleValuesParser::new(Engine::ALL.map(Engine::name));
+    names.try_map(|name| Engine::ALL.into_iter().find(|engine| engine.name() == name).ok_or("no such engine"))
 }
 
 /// What is wrong with a command line, on one line; the whole help for a line without a command.

@@ -18,7 +18,7 @@ use phase_dataset::{
     manifest::{DATASET_FORMAT, EventEntry, MANIFEST_FILE, Manifest, event_path, video_path},
     preset::Preset,
 };
-use phase_sim::Settings;
+use phase_sim::{Engine, Settings};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
@@ -37,7 +37,7 @@ pub fn run(arguments: &GenDataset) -> Result<(), CliError> {
     match folder::inspect(&out, MANIFEST_FILE)? {
         Contents::Finished => return plan.check_finished(&out),
         Contents::Unfinished(run) => {
-            plan.check_same(&out, "an unfinished", &run)?;
+            check_same(&out, "an unfinished", &run, &plan.run())?;
             remark(format!("going on in {}", out.display()));
         }
         Contents::Nothing => {}
@@ -85,18 +85,15 @@ impl Plan {
     /// A folder that differs with everything a user is likely to vary.
     fn default_folder(&self) -> PathBuf {
         let count = if self.count == self.preset.events { String::new() } else { format!("-{}", self.count) };
-        Path::new("out").join(format!("{}-seed{}{count}", self.preset.name, self.seed))
+        let engine = match self.settings.engine {
+            Engine::World => String::new(),
+            other => format!("-{}", other.name()),
+        };
+        Path::new("out").join(format!("{}-seed{}{count}{engine}", self.preset.name, self.seed))
     }
 
     fn run(&self) -> Value {
         run_value(&self.preset.name, self.count, self.seed, GENERATOR, &settings_value(&self.settings))
-    }
-
-    fn check_same(&self, path: &Path, state: &'static str, run: &Value) -> Result<(), CliError> {
-        match difference(run, &self.run()) {
-            None => Ok(()),
-            Some(difference) => Err(CliError::OtherRun { path: path.to_owned(), state, difference }),
-        }
     }
 
     /// A finished dataset is taken as it is if it is the one asked for and whole.
@@ -104,7 +101,7 @@ impl Plan {
         let manifest = Manifest::read(&out.join(MANIFEST_FILE))?;
         let (preset, count) = (&manifest.preset, manifest.events.len());
         let run = run_value(preset, count, manifest.seed, &manifest.generator, &manifest.settings);
-        self.check_same(out, "a finished", &run)?;
+        check_same(out, "a finished", &run, &self.run())?;
         manifest.verify(out).map_err(CliError::Altered)?;
         if folder::has_leftovers(out) {
             Folder::claim(out, &run)?.finish()?;
@@ -164,9 +161,24 @@ fn run_value(preset: &str, events: usize, seed: u64, generator: &str, settings: 
     })
 }
 
+/// Checks that the run of a folder is this one.
+///
+/// # Errors
+/// [`CliError::OtherRun`].
+pub fn check_same(out: &Path, state: &'static str, other: &Value, run: &Value) -> Result<(), CliError> {
+    let mut other = other.clone();
+    if let Some(settings) = other.get_mut("settings").and_then(Value::as_object_mut) {
+        // Runs from before there was a choice.
+        settings.entry("engine").or_insert_with(|| Engine::default().name().into());
+    }
+    match difference(&other, run) {
+        None => Ok(()),
+        Some(difference) => Err(CliError::OtherRun { path: out.to_owned(), state, difference }),
+    }
+}
+
 /// The first thing in which another run differs from this one, in words.
-#[must_use]
-pub fn difference(other: &Value, this: &Value) -> Option<String> {
+fn difference(other: &Value, this: &Value) -> Option<String> {
     match (other, this) {
         (Value::Object(a), Value::Object(b)) => {
             let mut keys: Vec<&String> = b.keys().chain(a.keys()).collect();

@@ -5,7 +5,7 @@ use crate::{
     console::{remark, tell},
     engine::{self, GENERATOR},
     error::CliError,
-    gen_dataset::difference,
+    gen_dataset::check_same,
     interrupt,
     parallel::make_all,
     production::{Order, Production, settings_value},
@@ -97,13 +97,6 @@ fn input_of(index: usize, recording: &Recording) -> String {
     let (scene, rows) = (&recording.scene, &recording.trajectory);
     let relation: Relation = recording.relation;
     format!("{index} {} {relation:?} {scene:?} {rows:?}\n", recording.id)
-}
-
-fn check_same(out: &Path, state: &'static str, other: &Value, run: &Value) -> Result<(), CliError> {
-    match difference(other, run) {
-        None => Ok(()),
-        Some(difference) => Err(CliError::OtherRun { path: out.to_owned(), state, difference }),
-    }
 }
 
 fn check_finished(out: &Path, run: &Value) -> Result<(), CliError> {

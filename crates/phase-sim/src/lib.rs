@@ -1,7 +1,8 @@
 //! Two PHASE agents and a world make a social event (paper, Algorithm 1).
 //!
 //! [`simulate`] takes a scene and a seed and returns the [`Event`]: what both did at every step and why, and
-//! all substeps of what became of it.
+//! all substeps of what became of it. The event plays in `phase-world`, or on request in `phase-forward`
+//! ([`Engine`]); what agents perceive, believe and imagine is made in the same way for both.
 //!
 //! The key design decision is that every random stream belongs to one agent and one purpose. The same seed
 //! makes the same event bit for bit, and what an agent believed can be recomputed from the recorded
@@ -15,8 +16,9 @@ pub mod beliefs;
 pub mod event;
 pub mod settings;
 pub mod simulation;
+mod truth;
 
 pub use beliefs::{BeliefSnapshot, beliefs};
 pub use event::{Event, Step};
-pub use settings::Settings;
+pub use settings::{Engine, Settings};
 pub use simulation::{SimulationError, simulate, simulate_with};

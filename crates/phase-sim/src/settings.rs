@@ -1,10 +1,38 @@
-//! How an event is simulated.
+//! How an event is simulated: the physics it plays in, how long it lasts, how its agents think.
 
 use serde::{Deserialize, Serialize};
 
-/// Lengths and minds. The defaults are the paper's.
+/// The physics in which an event itself plays. Agents imagine with `phase-forward` in either case.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Engine {
+    /// `phase-world`: the true world, simulated by rapier2d.
+    #[default]
+    World,
+    /// `phase-forward` with memory of its last impulses: nearest to the published simulator, and faster.
+    Forward,
+}
+
+impl Engine {
+    /// All engines.
+    pub const ALL: [Self; 2] = [Self::World, Self::Forward];
+
+    /// The name used in files and options.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::World => "world",
+            Self::Forward => "forward",
+        }
+    }
+}
+
+/// Physics, lengths and minds. The defaults are the paper's.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Settings {
+    /// What the event plays in. Files written before there was a choice mean the default.
+    #[serde(default)]
+    pub engine: Engine,
     /// An event never lasts longer (steps of 0.25 s; the paper's 25 s).
     pub max_steps: usize,
     /// An event never ends earlier, unless `max_steps` is smaller (the paper's 10 s).
@@ -17,6 +45,12 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { max_steps: 100, min_steps: 40, rest_steps: 8, minds: phase_agent::Settings::default() }
+        Self {
+            engine: Engine::default(),
+            max_steps: 100,
+            min_steps: 40,
+            rest_steps: 8,
+            minds: phase_agent::Settings::default(),
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! Algorithm 1 of the paper: both agents observe, update their beliefs, plan and act at once.
 
-use crate::{Event, Settings, Step};
+use crate::{Event, Settings, Step, truth::Truth};
 use core::ops::ControlFlow;
 use phase_agent::{Agent, Thought};
 use phase_forward::Forward;
@@ -11,7 +11,6 @@ use phase_model::{
 };
 use phase_perception::observe;
 use phase_planner::Subgoal;
-use phase_world::World;
 use thiserror::Error;
 
 /// Below this speed a body counts as being at rest (u/s).
@@ -57,7 +56,7 @@ pub fn simulate_with(
     }
     let physique = scene.physique();
     let initial = scene.initial_state();
-    let mut world = World::new(&physique, &initial);
+    let mut world = Truth::new(settings.engine, &physique, &initial);
     let mut minds = Minds::new(scene, &physique, &initial, seed, settings)?;
     let mut event = Event { scene: scene.clone(), seed, initial, steps: Vec::new() };
     let mut resting = 0;

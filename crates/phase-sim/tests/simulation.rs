@@ -1,12 +1,13 @@
 //! One seed, one event; and beliefs that can be recomputed.
 
 use core::ops::ControlFlow;
+use phase_forward::Forward;
 use phase_model::{
     EventKind, Scene,
     random::{Purpose, stream},
 };
 use phase_perception::observe;
-use phase_sim::{Settings, SimulationError, beliefs, simulate, simulate_with};
+use phase_sim::{Engine, Settings, SimulationError, beliefs, simulate, simulate_with};
 
 fn scene(kind: EventKind) -> Scene {
     phase_sampler::sample(kind, &mut stream(5, Purpose::Scene, 0)).expect("a scene of every kind")
@@ -37,6 +38,46 @@ fn one_seed_makes_one_event_on_any_thread() {
         let different = simulate(&scene, 12, &quick()).unwrap();
         assert_ne!(format!("{first:?}"), format!("{different:?}"));
     }
+}
+
+#[test]
+fn both_engines_repeat_themselves_and_differ() {
+    for kind in [EventKind::Chasing, EventKind::Hindering] {
+        let scene = scene(kind);
+        let [world, forward] = Engine::ALL.map(|engine| {
+            let settings = Settings { engine, ..quick() };
+            let [first, again] = [0, 1].map(|_| simulate(&scene, 3, &settings).unwrap());
+            assert_eq!(format!("{first:?}"), format!("{again:?}"), "{engine:?}");
+            first
+        });
+        assert_eq!(world.initial, forward.initial);
+        assert_ne!(world.steps, forward.steps);
+        // Before anything has happened, agents do not know what they are in.
+        assert_eq!(world.steps[0].actions, forward.steps[0].actions);
+    }
+}
+
+/// In the kernel, an event is what its own actions lead to when they are replayed with memory.
+#[test]
+fn events_of_the_kernel_are_replays_of_it() {
+    let scene = scene(EventKind::Collaborating);
+    let event = simulate(&scene, 4, &Settings { engine: Engine::Forward, ..quick() }).unwrap();
+    let forward = Forward::new(&scene.physique());
+    let (mut state, mut memory) = (event.initial, forward.remember(&event.initial));
+    for step in &event.steps {
+        assert_eq!(forward.step_warm(&mut state, &mut memory, step.actions), step.substeps);
+    }
+}
+
+#[test]
+fn settings_without_an_engine_mean_the_world() {
+    let mut settings = serde_json::to_value(quick()).unwrap();
+    for engine in Engine::ALL {
+        settings["engine"] = engine.name().into();
+        assert_eq!(serde_json::from_value::<Settings>(settings.clone()).unwrap().engine, engine);
+    }
+    settings.as_object_mut().unwrap().remove("engine");
+    assert_eq!(serde_json::from_value::<Settings>(settings).unwrap(), quick());
 }
 
 #[test]
@@ -82,9 +123,9 @@ fn nonsense_is_refused() {
 #[test]
 fn beliefs_are_recomputed_from_the_record() {
     let scene = scene(EventKind::Competing);
-    let event = simulate(&scene, 2, &quick()).unwrap();
     let physique = scene.physique();
-    for agent in 0..2 {
+    for (engine, agent) in [(Engine::World, 0), (Engine::World, 1), (Engine::Forward, 0)] {
+        let event = simulate(&scene, 2, &Settings { engine, ..quick() }).unwrap();
         let snapshots = beliefs(&event, agent, 10);
         assert_eq!(snapshots.len(), event.steps.len() + 1);
         let states = core::iter::once(&event.initial).chain(event.steps.iter().map(|step| &step.substeps[4]));

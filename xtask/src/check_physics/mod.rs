@@ -5,7 +5,7 @@ mod table;
 mod targets;
 
 use crate::{
-    cli::{CheckPhysics, EngineName},
+    cli::CheckPhysics,
     console::tell,
     error::CliError,
 };
@@ -44,12 +44,12 @@ pub fn run(arguments: &CheckPhysics) -> Result<(), CliError> {
     }
     let records = Records::read(arguments)?;
     let (report, targets) = match arguments.engine {
-        EngineName::World => {
+        phase_sim::Engine::World => {
             let report = records.measure::<WorldEngine>("world");
             let targets = targets::of_world(&report);
             (report, targets)
         }
-        EngineName::Forward => {
+        phase_sim::Engine::Forward => {
             let mut report = records.measure::<WarmForward>("forward");
             report.state_alone = records.runs.as_ref().map(|runs| StateAlone {
                 one_step: ahead::<ColdForward>(runs, 1),

@@ -21,6 +21,8 @@ fn numbers_and_names_out_of_range() {
         (&["gen-dataset", "--simulations", "0"], &["--simulations", "'0'"]),
         (&["gen-dataset", "--particles", "0"], &["--particles", "'0'"]),
         (&["gen-dataset", "--max-steps", "0"], &["--max-steps", "'0'"]),
+        (&["gen-dataset", "--engine", "box2d"], &["--engine", "'box2d'", "world", "forward"]),
+        (&[&simulate[..], &["--engine", "World"]].concat(), &["--engine", "'World'", "world", "forward"]),
         (&["gen-dataset", "--evnts", "3"], &["--evnts", "--events"]),
         (&["simulate"], &["--events", "--out"]),
         (

@@ -82,6 +82,34 @@ fn a_finished_dataset_is_left_alone() {
 }
 
 #[test]
+fn the_engine_is_recorded_and_kept_to() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    succeed(path, &generate("world", &[]));
+    succeed(path, &generate("forward", &["--engine", "forward"]));
+    let (world, forward) = (tree(&path.join("world")), tree(&path.join("forward")));
+    let event = Path::new("events/demo-0000.json");
+    assert!(world[event] != forward[event], "another engine makes another event");
+    let recorded = text(&forward[event]);
+    assert!(recorded.contains(r#""engine":"forward""#), "{recorded}");
+    assert!(text(&forward[Path::new("README.md")]).contains("--engine forward"));
+
+    let sentence = refuse(path, &generate("forward", &[]));
+    assert!(
+        sentence.contains(r#"a finished run of another kind (settings.engine "forward" instead of "world")"#)
+    );
+    assert!(tree(&path.join("forward")) == forward);
+
+    // Before there was a choice, nothing was recorded.
+    let file = path.join("world/manifest.json");
+    let mut manifest = Manifest::read(&file).expect("a manifest");
+    manifest.settings.as_object_mut().expect("settings").remove("engine").expect("an engine");
+    fs::write(&file, manifest.to_json()).expect("written");
+    assert!(succeed(path, &generate("world", &["--engine", "world"])).contains("already"));
+    refuse(path, &generate("world", &["--engine", "forward"]));
+}
+
+#[test]
 fn without_a_folder_it_names_its_own() {
     let folder = tempfile::tempdir().expect("a folder");
     let arguments = [&["gen-dataset", "--events", "1", "--seed", "9"], &QUICK[..]].concat();
@@ -90,4 +118,6 @@ fn without_a_folder_it_names_its_own() {
     assert!(text(&output.stdout).contains("out/demo-seed9-1"), "{}", text(&output.stdout));
     assert!(text(&output.stderr).contains("1/1 demo-0000 helping"), "{}", text(&output.stderr));
     assert!(folder.path().join("out/demo-seed9-1/index.html").is_file());
+    let told = succeed(folder.path(), &[&arguments[..], &["--engine", "forward"]].concat());
+    assert!(told.contains("out/demo-seed9-1-forward"), "{told}");
 }

@@ -53,6 +53,11 @@ fn an_interrupted_run_is_resumed_to_the_same_bytes() {
         let sentence = refuse(path, &other);
         assert!(sentence.contains("unfinished") && sentence.contains("seed 1 instead of 77"), "{sentence}");
 
+        let other = [&generate(&out)[..], &["--engine", "forward"]].concat();
+        let sentence = refuse(path, &other);
+        let difference = r#"settings.engine "world" instead of "forward""#;
+        assert!(sentence.contains("unfinished") && sentence.contains(difference), "{sentence}");
+
         let output = xtask(path).args(generate(&out)).output().expect("the program starts");
         assert!(output.status.success(), "{name}: {}", text(&output.stderr));
         assert!(

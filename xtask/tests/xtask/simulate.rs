@@ -54,6 +54,8 @@ fn one_event_comes_out_as_it_does_among_the_others() {
     let names: Vec<&Path> = one.keys().map(|name| name.as_path()).collect();
     assert_eq!(names, [Path::new("overlapping.json"), Path::new("summary.json")]);
     assert!(all[Path::new("overlapping.json")] == one[Path::new("overlapping.json")]);
+    succeed(path, &simulate("forward", &["--no-video", "--engine", "forward"]));
+    assert!(tree(&path.join("forward"))[Path::new("apart.json")] != all[Path::new("apart.json")]);
     succeed(path, &simulate("seed", &["--no-video", "--seed", "2"]));
     assert!(tree(&path.join("seed"))[Path::new("apart.json")] != all[Path::new("apart.json")]);
 }
@@ -69,6 +71,8 @@ fn a_finished_folder_is_left_alone() {
     assert_eq!(first.lines().next(), second.lines().next(), "the table is shown again");
     let sentence = refuse(path, &simulate("out", &[]));
     assert!(sentence.contains("videos false instead of true"), "{sentence}");
+    let sentence = refuse(path, &simulate("out", &["--no-video", "--engine", "forward"]));
+    assert!(sentence.contains(r#"settings.engine "world" instead of "forward""#), "{sentence}");
     let mut changed = recording("apart");
     changed["trajectory"]["agents"][0][0][0] = json!(9.0);
     write_events(&path.join("events.json"), &[changed]);
