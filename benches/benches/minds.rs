@@ -34,11 +34,30 @@ fn main() {
     criterion.bench_function("perception/observed set", |bencher| {
         bencher.iter(|| observed_set(&physique, black_box(&state), 0));
     });
+    criterion.bench_function("perception/one observation", |bencher| {
+        bencher.iter(|| observe(&physique, black_box(&state), 0));
+    });
     criterion.bench_function("belief/update of 50 particles", |bencher| {
         let dynamics = forward();
         let mut random = stream(1, Purpose::Belief, 0);
         let mut belief = Belief::new(&physique, &observation, 50, &mut random);
         bencher.iter(|| belief.update(&dynamics, &physique, Action::NoForce, &observation, &mut random));
+    });
+    criterion.bench_function("belief/update of 50 particles, nobody observed", |bencher| {
+        let dynamics = forward();
+        let mut random = stream(1, Purpose::Belief, 0);
+        // Turned until it sees nobody.
+        let mut turned = (0..64).map(|k| {
+            let mut turned = state;
+            turned.bodies[0].angle = 0.1 * k as f32;
+            observe(&physique, &turned, 0)
+        });
+        let others = || physique.entities().skip(1);
+        let blind = turned
+            .find(|seen| others().all(|other| seen.body(other).is_none()))
+            .expect("some direction in which there is nobody");
+        let mut belief = Belief::new(&physique, &blind, 50, &mut random);
+        bencher.iter(|| belief.update(&dynamics, &physique, Action::NoForce, &blind, &mut random));
     });
     criterion.bench_function("planner/one plan", |bencher| {
         let planner = Planner::new(physique.clone(), scene.layout, 0, scene.goals(), scene.attitudes()[0]);

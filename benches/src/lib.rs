@@ -1,1 +1,9 @@
-//! Criterion benches of the PHASE crates; see `benches/`.
+//! Criterion benches of the PHASE crates; `cargo bench -p phase-benches`.
+//!
+//! - `physics`: four steps of the true world and of the forward model in free motion, pushing and carrying;
+//!   saving a state (a copy) and restoring one (in the world: a new world in that state).
+//! - `random_actions`: one five-substep step of the forward model on average, over states in the middle of things
+//!   and actions drawn evenly. The states come from scenes of every kind, played by the true world under random held
+//!   actions; and, if the environment variable `PHASE_EVENTS` names a `phase-events/1` file, also from the rows of
+//!   its recordings, each start stepped ten times.
+//! - `minds`: field of view, observing, belief updates, planning, deciding; and a yardstick.
