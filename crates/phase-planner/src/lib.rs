@@ -10,7 +10,30 @@
 //! goes and pulls, as people expect to see. The price is that a plan's existence does not mean that it will
 //! succeed; its cost does.
 //!
-//! This crate knows no physics engine: widths, forces and straight distances are all it uses.
+//! This crate knows no physics engine: widths, forces and straight distances are all it uses, so it plans for
+//! whoever has a map. One agent is to get from the upper left room to the lower right one, where walls leave one
+//! way round:
+//!
+//! ```
+//! use phase_model::{AgentBody, Attitude, Body, EntitySet, Goal, Layout, Physique, Sign, State, Vec2};
+//! use phase_planner::Planner;
+//!
+//! let layout = Layout::new(2, None)?;
+//! let body = AgentBody { radius: 0.8, max_force: 450.0 };
+//! let physique =
+//!     Physique { walls: layout.walls(), agents: [body; 2], object_radii: [0.0; 2], object_count: 0 };
+//! let places = [Vec2::new(8.0, 18.0), Vec2::new(24.0, 8.0), Vec2::ZERO, Vec2::ZERO];
+//! let state = State::new(places.map(|place| Body::at_rest(place, 0.0)));
+//! let goals = [(0, 1), (1, 0)]
+//!     .map(|(agent, landmark)| Goal::AgentOnLandmark { agent, landmark, sign: Sign::Positive });
+//! let planner = Planner::new(physique, layout, 0, goals, Attitude::Neutral);
+//! let plan = planner.plan(&state, EntitySet::EMPTY);
+//! let words: Vec<String> = plan.subgoals.iter().map(|subgoal| subgoal.to_string()).collect();
+//! assert_eq!(words[0], "Close(agent 0, landmark 3)"); // the next room on the way
+//! assert_eq!(words[3], "On(agent 0, landmark 1)");
+//! assert!(plan.distance > 16.0); // farther than the bird flies
+//! # Ok::<(), phase_model::LayoutError>(())
+//! ```
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
