@@ -2,7 +2,7 @@
 
 use crate::{
     Settings, Thought,
-    imagination::Imagination,
+    imagination::{Imagination, Imagined},
     objective::Objective,
     repertoire,
     thought::{ActionValue, SubgoalValue},
@@ -135,7 +135,9 @@ impl<D: Dynamics> Agent<D> {
             discount: self.settings.discount,
             guidance: self.settings.guidance,
         };
-        let decision = self.pomcp.search(&model, roots, random)?;
+        let imagined: Vec<Imagined> =
+            roots.iter().map(|&state| Imagined::new(&model.objective, state)).collect();
+        let decision = self.pomcp.search(&model, &imagined, random)?;
         let evidence = actions
             .iter()
             .zip(&decision.actions)

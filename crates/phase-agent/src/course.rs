@@ -1,7 +1,7 @@
 //! From a point to another through doors: how far it still is, and which way to move now.
 
 use phase_model::{Vec2, arena, layout::SLOT_DIRECTIONS};
-use phase_planner::{Gaps, Routes, routes::IMPASSABLE_COST};
+use phase_planner::{Gaps, Route, Routes, routes::IMPASSABLE_COST};
 
 /// A door with less room to spare than this is entered straight on (u).
 const TIGHT: f32 = 1.2;
@@ -23,6 +23,36 @@ pub struct Course {
     pub remaining: f32,
 }
 
+/// The best way between two points for a body of some width: found once, for all that asks about it.
+#[derive(Clone, Copy, Debug)]
+pub struct Way<'a> {
+    routes: &'a Routes,
+    from: Vec2,
+    to: Vec2,
+    width: f32,
+    route: Option<Route>,
+}
+
+impl<'a> Way<'a> {
+    /// Finds the way for a width (u), through doors as the layout has them.
+    #[must_use]
+    pub fn find(routes: &'a Routes, from: Vec2, to: Vec2, width: f32) -> Self {
+        Self { routes, from, to, width, route: routes.best(from, to, width, routes.gaps()) }
+    }
+
+    /// Whether the body fits through every door on the way.
+    #[must_use]
+    pub fn fits(&self) -> bool {
+        self.route.is_some_and(|route| route.impassable == 0)
+    }
+
+    /// The course where no door leads there at all.
+    fn blind(&self) -> Course {
+        let remaining = self.routes.cost(self.from, self.to, self.width, self.routes.gaps());
+        Course { heading_for: self.to, remaining }
+    }
+}
+
 /// What is left of a way when one has to wait before its first door: a place beside the door, out of the way of
 /// who comes through.
 fn wait(slot: usize, crossing: Vec2, from: Vec2, width: f32) -> Vec2 {
@@ -35,8 +65,9 @@ fn wait(slot: usize, crossing: Vec2, from: Vec2, width: f32) -> Vec2 {
 /// Lets another body through first: if the other is in the first door on the way, and nearer to it, the course
 /// leads to a place beside that door instead.
 #[must_use]
-pub fn give_way(routes: &Routes, from: Vec2, to: Vec2, width: f32, other: Vec2) -> Option<Course> {
-    let route = routes.best(from, to, width, routes.gaps())?;
+pub fn give_way(way: &Way<'_>, other: Vec2) -> Option<Course> {
+    let Way { routes, from, width, route, .. } = *way;
+    let route = route?;
     let &(slot, crossing) = route.doors().first()?;
     let slot = usize::from(slot);
     let (mine, theirs) = (from.distance(crossing), other.distance(crossing));
@@ -78,13 +109,12 @@ pub fn around(course: Course, from: Vec2, discs: impl Iterator<Item = (Vec2, f32
     Course { heading_for: corner, remaining: course.remaining + detour }
 }
 
-/// The way to a point for a body of some width (u).
+/// The course along a way to its end.
 #[must_use]
-pub fn to_point(routes: &Routes, from: Vec2, to: Vec2, width: f32) -> Course {
+pub fn to_point(way: &Way<'_>) -> Course {
+    let Way { routes, from, to, width, route } = *way;
     let gaps = routes.gaps();
-    let Some(route) = routes.best(from, to, width, gaps) else {
-        return Course { heading_for: to, remaining: routes.cost(from, to, width, gaps) };
-    };
+    let Some(route) = route else { return way.blind() };
     let Some(&(slot, crossing)) = route.doors().first() else {
         return Course { heading_for: to, remaining: route.cost() };
     };
@@ -97,14 +127,12 @@ pub fn to_point(routes: &Routes, from: Vec2, to: Vec2, width: f32) -> Course {
     Course { heading_for, remaining: route.cost() + detour }
 }
 
-/// The way into a room, just past its border.
+/// The course along a way to a room's centre, but only just past the room's border.
 #[must_use]
-pub fn into_room(routes: &Routes, from: Vec2, room: usize, width: f32) -> Course {
-    let centre = arena::LANDMARKS[room];
+pub fn into_room(way: &Way<'_>) -> Course {
+    let Way { routes, from, to: centre, width, route } = *way;
     let gaps = routes.gaps();
-    let Some(route) = routes.best(from, centre, width, gaps) else {
-        return Course { heading_for: centre, remaining: routes.cost(from, centre, width, gaps) };
-    };
+    let Some(route) = route else { return way.blind() };
     let (Some(&(slot, crossing)), Some(&(_, last))) = (route.doors().first(), route.doors().last()) else {
         return Course { heading_for: from, remaining: 0.0 };
     };

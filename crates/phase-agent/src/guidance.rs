@@ -1,6 +1,6 @@
 //! A rule of thumb for moving along a course: the informed half of the default policy.
 
-use crate::objective::Objective;
+use crate::{course::Course, objective::Objective};
 use phase_model::{Action, Entity, State, Vec2, arena};
 use phase_planner::Subgoal;
 use phase_predicates::{Literal, Predicate};
@@ -14,9 +14,9 @@ const SLOW: f32 = 1.0;
 
 /// The action that a simple mover would take: grab or let go where that is the subgoal; brake before
 /// overshooting; push whichever way leads most directly along the course; or, when only forward pushes are
-/// on offer, turn until the heading is good.
+/// on offer, turn until the heading is good. `course` is the state's, if it has been laid already.
 #[must_use]
-pub fn action(objective: &Objective<'_>, state: &State, sideways: bool) -> Action {
+pub fn action(objective: &Objective<'_>, state: &State, course: Option<Course>, sideways: bool) -> Action {
     let agent = objective.agent;
     if let Subgoal::Achieve(Literal { predicate: Predicate::Attach(who, object), holds }) = objective.subgoal
         && usize::from(who) == agent
@@ -31,7 +31,7 @@ pub fn action(objective: &Objective<'_>, state: &State, sideways: bool) -> Actio
             _ => {}
         }
     }
-    let course = objective.course(state);
+    let course = course.unwrap_or_else(|| objective.course(state));
     let mover = state.body(objective.mover(state));
     let way = course.heading_for - mover.position;
     let body = state.body(Entity::agent(agent));

@@ -1,6 +1,7 @@
 //! The agent's own model of the world, as POMCP searches it.
 
 use crate::{
+    course::Course,
     guidance,
     objective::{LONGEST, Objective},
 };
@@ -59,21 +60,23 @@ impl<'a, D> Imagination<'a, D> {
         let agent = self.objective.agent;
         match (state.held_object(agent), state.held_object(1 - agent)) {
             (Some(mine), Some(theirs)) if mine == theirs => {
-                guidance::action(&self.other_objective, state, true)
+                guidance::action(&self.other_objective, state, None, true)
             }
             _ => Action::NoForce,
         }
     }
 
     /// What the rule of thumb would do.
-    fn guided(&self, state: &State) -> Action {
-        guidance::action(&self.objective, state, self.actions.contains(&Action::Left))
+    fn guided(&self, imagined: &Imagined) -> Action {
+        let sideways = self.actions.contains(&Action::Left);
+        guidance::action(&self.objective, &imagined.state, imagined.course, sideways)
     }
 
-    fn reward(&self, state: &State, action: Action) -> f64 {
+    fn reward(&self, imagined: &Imagined, action: Action) -> f64 {
+        let state = &imagined.state;
         let agent = self.objective.agent;
         let satisfied = |goal| f64::from(u8::from(achieved(self.objective.physique, state, goal)));
-        let shaping = -f64::from(self.objective.distance(state) / LONGEST);
+        let shaping = -f64::from(imagined.distance / LONGEST);
         reward::social_reward(
             self.attitude,
             satisfied(self.goals[agent]),
@@ -102,8 +105,26 @@ impl<'a, D> Imagination<'a, D> {
     }
 }
 
+/// A state as the search carries it along, with what the objective says of it: rewards and the rule of thumb ask
+/// for the same.
+#[derive(Clone, Copy, Debug)]
+pub struct Imagined {
+    state: State,
+    distance: f32,
+    course: Option<Course>,
+}
+
+impl Imagined {
+    /// A state seen in the light of an objective.
+    #[must_use]
+    pub fn new(objective: &Objective<'_>, state: State) -> Self {
+        let (distance, course) = objective.look(&state);
+        Self { state, distance, course }
+    }
+}
+
 impl<D: Dynamics> GenerativeModel for Imagination<'_, D> {
-    type State = State;
+    type State = Imagined;
     type Observation = u16;
 
     fn action_count(&self) -> usize {
@@ -114,23 +135,25 @@ impl<D: Dynamics> GenerativeModel for Imagination<'_, D> {
         self.discount
     }
 
-    fn step(&self, state: &mut State, action: usize, random: &mut impl Rng) -> Outcome<u16> {
-        let Outcome { reward, terminal, .. } = self.rollout_step(state, action, random);
-        Outcome { observation: self.notice(state), reward, terminal }
+    fn step(&self, imagined: &mut Imagined, action: usize, random: &mut impl Rng) -> Outcome<u16> {
+        let Outcome { reward, terminal, .. } = self.rollout_step(imagined, action, random);
+        Outcome { observation: self.notice(&imagined.state), reward, terminal }
     }
 
-    fn rollout_step(&self, state: &mut State, action: usize, _random: &mut impl Rng) -> Outcome<()> {
+    fn rollout_step(&self, imagined: &mut Imagined, action: usize, _random: &mut impl Rng) -> Outcome<()> {
+        let state = &mut imagined.state;
         let agent = self.objective.agent;
         let action = self.actions[action];
         let mut actions = [self.other_action(state); AGENT_COUNT];
         actions[agent] = action;
         self.dynamics.step(state, actions);
-        Outcome { observation: (), reward: self.reward(state, action), terminal: false }
+        (imagined.distance, imagined.course) = self.objective.look(state);
+        Outcome { observation: (), reward: self.reward(imagined, action), terminal: false }
     }
 
-    fn rollout_action(&self, state: &State, random: &mut impl Rng) -> usize {
+    fn rollout_action(&self, imagined: &Imagined, random: &mut impl Rng) -> usize {
         if random.random_bool(self.guidance) {
-            let guided = self.guided(state);
+            let guided = self.guided(imagined);
             if let Some(index) = self.actions.iter().position(|&action| action == guided) {
                 return index;
             }
@@ -138,11 +161,11 @@ impl<D: Dynamics> GenerativeModel for Imagination<'_, D> {
         random.random_range(0..self.actions.len())
     }
 
-    fn prior_weight(&self, state: &State, action: usize) -> f64 {
-        if self.actions[action] == self.guided(state) { GUIDED_WEIGHT } else { 1.0 }
+    fn prior_weight(&self, imagined: &Imagined, action: usize) -> f64 {
+        if self.actions[action] == self.guided(imagined) { GUIDED_WEIGHT } else { 1.0 }
     }
 
-    fn value_estimate(&self, state: &State) -> f64 {
-        self.reward(state, Action::NoForce) * STEPS_BEYOND
+    fn value_estimate(&self, imagined: &Imagined) -> f64 {
+        self.reward(imagined, Action::NoForce) * STEPS_BEYOND
     }
 }

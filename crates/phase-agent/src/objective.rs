@@ -1,6 +1,6 @@
 //! A subgoal as the low level sees it: a distance to bring down, and a direction that does.
 
-use crate::course::{self, Course};
+use crate::course::{self, Course, Way};
 use phase_model::{Entity, Physique, Side, State, Vec2, arena, layout::room_of};
 use phase_planner::{Routes, Subgoal};
 use phase_predicates::{Literal, Place, Predicate};
@@ -35,12 +35,21 @@ impl Objective<'_> {
     /// How far a state is from the subgoal (u); 0 where it is reached, finite for every finite state.
     #[must_use]
     pub fn distance(&self, state: &State) -> f32 {
-        match self.subgoal {
+        self.look(state).0
+    }
+
+    /// The distance of a state, and the course, if the distance is taken along it, so that nobody need lay the
+    /// same course twice.
+    #[must_use]
+    pub fn look(&self, state: &State) -> (f32, Option<Course>) {
+        let mut course = None;
+        let mut remaining = || course.insert(self.course(state)).remaining;
+        let distance = match self.subgoal {
             Subgoal::Stay => 0.0,
             Subgoal::Achieve(Literal { predicate: Predicate::Attach(agent, object), holds }) => {
                 let held = state.holds(usize::from(agent), usize::from(object));
                 match (holds, held) {
-                    (true, false) => self.course(state).remaining + NOT_IN_HAND,
+                    (true, false) => remaining() + NOT_IN_HAND,
                     (false, true) => 1.0,
                     _ => 0.0,
                 }
@@ -50,14 +59,15 @@ impl Objective<'_> {
                 LONGEST - self.apart(state).min(LONGEST)
             }
             Subgoal::Achieve(literal) => {
-                let distance = self.course(state).remaining + self.averted(state, literal);
+                let distance = remaining() + self.averted(state, literal);
                 if literal.holds || literal.is_true(self.physique, state) {
                     distance
                 } else {
                     distance + TRESPASS
                 }
             }
-        }
+        };
+        (distance, course)
     }
 
     /// What not facing the entity one is to get close to adds (u). It makes agents look where they are going,
@@ -170,14 +180,8 @@ impl Objective<'_> {
                 } else if room_of(from) == room {
                     here
                 } else {
-                    self.give_way(state, from, arena::LANDMARKS[room]).unwrap_or_else(|| {
-                        course::into_room(
-                            self.routes,
-                            from,
-                            room,
-                            self.width(state, from, arena::LANDMARKS[room]),
-                        )
-                    })
+                    let way = self.way(state, from, arena::LANDMARKS[room]);
+                    self.give_way(state, &way).unwrap_or_else(|| course::into_room(&way))
                 }
             }
             (Predicate::Attach(_, object), true) => self.within_reach_of(state, object),
@@ -201,13 +205,13 @@ impl Objective<'_> {
     }
 
     fn towards(&self, state: &State, from: Vec2, to: Vec2) -> Course {
-        self.give_way(state, from, to)
-            .unwrap_or_else(|| course::to_point(self.routes, from, to, self.width(state, from, to)))
+        let way = self.way(state, from, to);
+        self.give_way(state, &way).unwrap_or_else(|| course::to_point(&way))
     }
 
     /// The course to a place to wait at while the other agent is in the door, unless the two carry something
     /// together or the other is what this is about.
-    fn give_way(&self, state: &State, from: Vec2, to: Vec2) -> Option<Course> {
+    fn give_way(&self, state: &State, way: &Way<'_>) -> Option<Course> {
         let Subgoal::Achieve(Literal { predicate, holds: true }) = self.subgoal else { return None };
         let other = Entity::agent(1 - self.agent);
         let about_other = match predicate {
@@ -218,27 +222,25 @@ impl Objective<'_> {
         if about_other || (mine.is_some() && mine == state.held_object(1 - self.agent)) {
             return None;
         }
-        course::give_way(self.routes, from, to, self.width(state, from, to), state.position(other))
+        course::give_way(way, state.position(other))
     }
 
-    /// The room to keep on the way between two points (u): as much as the agent, what it holds and who else
+    /// The way between two points, with room kept for as much as the agent, what it holds and who else
     /// holds that take side by side, if the doors allow it, or else what just passes, be it the object alone.
-    fn width(&self, state: &State, from: Vec2, to: Vec2) -> f32 {
+    fn way(&self, state: &State, from: Vec2, to: Vec2) -> Way<'_> {
+        let find = |width| Way::find(self.routes, from, to, width);
         let own = self.physique.agents[self.agent].width();
-        let Some(object) = state.held_object(self.agent) else { return own };
+        let Some(object) = state.held_object(self.agent) else { return find(own) };
         let tight = own.max(2.0 * self.physique.object_radii[object]);
         let mut radii = self.physique.object_radii[object] + self.physique.agents[self.agent].radius;
         if state.holds(1 - self.agent, object) {
             radii += self.physique.agents[1 - self.agent].radius;
         }
         let wide = tight.max(2.0 * radii);
-        let fits = |width| {
-            let route = self.routes.best(from, to, width, self.routes.gaps());
-            route.is_some_and(|route| route.impassable == 0)
-        };
         // What does not fit itself may still push through what it holds.
         let object_alone = 2.0 * self.physique.object_radii[object];
-        [wide, tight, object_alone].into_iter().find(|&width| fits(width)).unwrap_or(tight)
+        let mut ways = [wide, tight, object_alone].into_iter().map(find);
+        ways.find(Way::fits).unwrap_or_else(|| find(tight))
     }
 
     /// Until the surfaces meet.
@@ -272,9 +274,13 @@ impl Objective<'_> {
     /// Something that has to move but is not in hand: get to it, and what it has left counts as well.
     fn escort(&self, state: &State, entity: Entity, target: Vec2) -> Course {
         let mut course = self.up_to(state, entity);
-        course.remaining +=
-            course::to_point(self.routes, state.position(entity), target, self.physique.radius(entity))
-                .remaining;
+        course.remaining += course::to_point(&Way::find(
+            self.routes,
+            state.position(entity),
+            target,
+            self.physique.radius(entity),
+        ))
+        .remaining;
         course
     }
 

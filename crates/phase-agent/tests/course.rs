@@ -1,7 +1,7 @@
 //! Courses by hand.
 
-use phase_agent::course::{Course, around, give_way, into_room, to_point};
-use phase_model::{Layout, Vec2};
+use phase_agent::course::{Course, Way, around, give_way, into_room, to_point};
+use phase_model::{Layout, Vec2, arena};
 use phase_planner::{Routes, routes::IMPASSABLE_COST};
 
 /// A narrow door (x 6 to 8.5) between rooms 0 and 3, a full wall between 0 and 1, the rest open.
@@ -17,20 +17,20 @@ fn half() -> Routes {
 #[test]
 fn in_the_open_one_goes_straight() {
     let (from, to) = (Vec2::new(18.0, 10.0), Vec2::new(24.0, 18.0));
-    let course = to_point(&narrow(), from, to, 2.4);
+    let course = to_point(&Way::find(&narrow(), from, to, 2.4));
     assert!((course.remaining - 10.0).abs() < 1e-3, "{course:?}");
 }
 
 #[test]
 fn a_wide_door_is_headed_for_directly() {
-    let course = to_point(&half(), Vec2::new(8.0, 16.0), Vec2::new(8.0, 6.0), 2.4);
+    let course = to_point(&Way::find(&half(), Vec2::new(8.0, 16.0), Vec2::new(8.0, 6.0), 2.4));
     assert!(course.heading_for.distance(Vec2::new(8.0, 12.0)) < 0.1, "{course:?}");
     assert!((course.remaining - 10.0).abs() < 0.1);
 }
 
 #[test]
 fn before_a_tight_door_one_lines_up() {
-    let course = to_point(&narrow(), Vec2::new(13.0, 16.0), Vec2::new(8.0, 6.0), 2.4);
+    let course = to_point(&Way::find(&narrow(), Vec2::new(13.0, 16.0), Vec2::new(8.0, 6.0), 2.4));
     assert!((course.heading_for.x - 7.25).abs() < 0.1, "{course:?}");
     assert!(course.heading_for.y > 13.0, "not yet in the door: {course:?}");
 }
@@ -38,8 +38,8 @@ fn before_a_tight_door_one_lines_up() {
 #[test]
 fn who_does_not_fit_waits_beside_the_door() {
     for course in [
-        to_point(&narrow(), Vec2::new(9.0, 17.0), Vec2::new(8.0, 6.0), 3.6),
-        into_room(&narrow(), Vec2::new(9.0, 17.0), 3, 3.6),
+        to_point(&Way::find(&narrow(), Vec2::new(9.0, 17.0), Vec2::new(8.0, 6.0), 3.6)),
+        into_room(&Way::find(&narrow(), Vec2::new(9.0, 17.0), arena::LANDMARKS[3], 3.6)),
     ] {
         let place = course.heading_for;
         assert!(place.y > 14.0 && place.x > 8.5, "{course:?}");
@@ -50,12 +50,16 @@ fn who_does_not_fit_waits_beside_the_door() {
 #[test]
 fn one_gives_way_to_who_is_in_the_door() {
     let (from, to) = (Vec2::new(7.3, 15.0), Vec2::new(8.0, 6.0));
-    let yields = |other| give_way(&narrow(), from, to, 2.4, other).is_some();
+    let yields = |other| give_way(&Way::find(&narrow(), from, to, 2.4), other).is_some();
     assert!(yields(Vec2::new(7.3, 11.8)));
     assert!(!yields(Vec2::new(14.0, 8.0)));
     // A wide opening has room for both.
     assert!(
-        give_way(&half(), Vec2::new(20.0, 15.0), Vec2::new(20.0, 8.0), 2.4, Vec2::new(20.0, 12.0)).is_none()
+        give_way(
+            &Way::find(&half(), Vec2::new(20.0, 15.0), Vec2::new(20.0, 8.0), 2.4),
+            Vec2::new(20.0, 12.0)
+        )
+        .is_none()
     );
 }
 

@@ -44,7 +44,12 @@ fn achieve(predicate: Predicate) -> Subgoal {
 /// The rule of thumb's action for a subgoal of agent 0.
 fn thumb(scene: &Scene, state: &State, subgoal: Subgoal, sideways: bool) -> Action {
     let (physique, routes) = (scene.physique(), Routes::new(scene.layout));
-    guidance::action(&Objective { physique: &physique, routes: &routes, agent: 0, subgoal }, state, sideways)
+    guidance::action(
+        &Objective { physique: &physique, routes: &routes, agent: 0, subgoal },
+        state,
+        None,
+        sideways,
+    )
 }
 
 #[test]
