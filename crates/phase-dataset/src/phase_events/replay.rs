@@ -1,8 +1,8 @@
 //! A recording as something an engine can be held against.
 
-use super::{Recording, recording::body_of};
+use super::Recording;
 use phase_calibration::Replay;
-use phase_model::{Action, Body, MAX_ENTITIES, State};
+use phase_model::Action;
 
 impl Recording {
     /// The recording with its recovered actions, as far as they are known.
@@ -16,18 +16,14 @@ impl Recording {
         if self.scene.layout.flip().is_some() {
             return None;
         }
-        let row = |t: usize| -> [Body; MAX_ENTITIES] {
-            let mut rows =
-                self.trajectory.entities().map(|rows| rows.get(t).map(body_of).unwrap_or_default());
-            core::array::from_fn(|_| rows.next().unwrap_or_default())
-        };
         let left_only = |action| if action == Action::TurnRight { Action::TurnLeft } else { action };
+        let rows = (1..=recovered.steps.len()).map(|t| Some(self.trajectory.state(t)?.bodies));
         Some(Replay {
             id: self.id.clone(),
             physique: self.scene.physique(),
-            initial: State::new(row(0)),
+            initial: self.trajectory.state(0)?,
             actions: recovered.steps.iter().map(|both| both.map(left_only)).collect(),
-            rows: (1..=recovered.steps.len()).map(row).collect(),
+            rows: rows.collect::<Option<_>>()?,
         })
     }
 }

@@ -44,6 +44,27 @@ fn every_field_arrives() {
 }
 
 #[test]
+fn recordings_with_known_actions_can_be_replayed() {
+    let mut value = file();
+    let event = &mut value["events"][0];
+    event["recovered_actions"]["steps"] = json!([["turnright", "turnleft"], ["up", "attach"]]);
+    assert_eq!(parse_value(&value).expect("a good file")[0].replay(), None, "mirrored");
+    let event = value["events"][0].as_object_mut().expect("an event");
+    event["layout"] = json!({"base": 4, "flip": null});
+    event.remove("walls").expect("the walls of another layout");
+    let recording = &parse_value(&value).expect("a good file")[0];
+    let replay = recording.replay().expect("a replay");
+    assert_eq!((replay.id.as_str(), &replay.physique), ("made-up-1", &recording.scene.physique()));
+    assert_eq!(replay.actions, [[Action::TurnLeft; 2], [Action::Up, Action::Attach]]);
+    assert_eq!(Some(replay.initial), recording.trajectory.state(0));
+    let rows = [1, 2].map(|t| recording.trajectory.state(t).expect("a row").bodies);
+    assert_eq!(replay.rows, rows);
+
+    value["events"][0]["recovered_actions"]["steps"] = json!([]);
+    assert_eq!(parse_value(&value).expect("a good file")[0].replay(), None, "nothing known");
+}
+
+#[test]
 fn what_is_optional_may_be_absent() {
     let mut value = file();
     let event = value["events"][0].as_object_mut().expect("an event");
@@ -165,6 +186,11 @@ fn every_rule_names_event_field_and_rule() {
             "/events/0/recovered_actions/steps/1",
             json!(["up"]),
             &["`recovered_actions.steps[1]`", "two actions"],
+        ),
+        (
+            "/events/0/recovered_actions/steps",
+            json!([["up", "up"], ["up", "up"], ["up", "up"]]),
+            &["`recovered_actions.steps`", "at most the 2 steps", "not 3"],
         ),
     ];
     for (pointer, replacement, expected) in cases {
