@@ -12,16 +12,16 @@ fn still() -> Value {
 /// A probe in which nobody does anything for two steps, but the record says that object 1 moved by 0.3 u in the
 /// second.
 fn probe(name: &str) -> Value {
-    let mut moved = still();
+    let (still, mut moved) = (still(), still());
     moved[3][0] = json!(20.3);
     let rows = |entity: usize| {
-        let row = |k| json!(if k > 5 { &moved } else { &still() }[entity].as_array().expect("a row")[..5]);
+        let row = |k| json!(if k > 5 { &moved } else { &still }[entity].as_array().expect("a row")[..5]);
         (0..11).map(row).collect::<Vec<_>>()
     };
     json!({
         "name": name, "wall_segs": [], "sizes": [0.8, 0.8, 0.8, 0.8], "max_force": [150, 300],
         "init_velocities": null, "actions": [["noforce", "stop"], ["stop", "noforce"]],
-        "initial": still(), "steps": [still(), moved], "substeps": [rows(0), rows(1), rows(2), rows(3)],
+        "initial": still, "steps": [still, moved], "substeps": [rows(0), rows(1), rows(2), rows(3)],
         "attached_after_step": [[null, null], [null, null]],
     })
 }
