@@ -36,10 +36,11 @@ pub(crate) fn members(world: &mut World<'_>) -> BodySet {
         world.walls[body] = forward.boxes.near_point(motion.centre, shape.bound + way + LEEWAY);
         members |= u8::from(world.walls[body] != 0) << body;
     }
-    let mut grouped: BodySet = 0;
+    let (mut grouped, mut stretch): (BodySet, f32) = (0, 0.0);
     for agent in 0..AGENT_COUNT {
         if let Some(held) = world.held(agent) {
             grouped |= 1 << agent | 1 << held;
+            stretch += world.stretch(agent).unwrap_or(0.0);
         }
     }
     let reaches = |a: usize, b: usize, way: f32| {
@@ -61,7 +62,7 @@ pub(crate) fn members(world: &mut World<'_>) -> BodySet {
         before = grouped;
         let sum: f32 =
             (0..forward.count).filter(|body| grouped & 1 << body != 0).map(|body| ways[body]).sum();
-        together = 2.0 * sum + CORRECTIONS;
+        together = 2.0 * sum + stretch + CORRECTIONS;
         for (a, b) in PAIRS {
             let (first, second) = (grouped & 1 << a != 0, grouped & 1 << b != 0);
             if first != second && reaches(a, b, together + if first { ways[b] } else { ways[a] }) {

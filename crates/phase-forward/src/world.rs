@@ -4,7 +4,7 @@ use crate::{
     Forward, body::Motion, contact::Contact, contain::MARGIN, key::KeySet, outline::Outlines,
     tuning::VELOCITY_ITERATIONS, wall::WallSet, weld::held_body,
 };
-use phase_model::{AGENT_COUNT, Action, Body, Entity, Grip, State, Vec2, arena};
+use phase_model::{AGENT_COUNT, Action, Body, Grip, State, Vec2, arena};
 
 /// Most contacts that are solved at once; more than four bodies between walls ever have.
 pub(crate) const MAX_CONTACTS: usize = 16;
@@ -152,13 +152,14 @@ impl<'a> World<'a> {
                 motion.centre = motion.centre.clamp(arena::MIN + MARGIN, arena::MAX - MARGIN);
             }
         }
+        let grips = [0, 1].map(|agent| Some(mended_grip(state.grips[agent]?, agent, &motions)));
         Self {
             forward,
             motions,
             starts: [(Vec2::ZERO, 0.0, Vec2::X); 4],
             outlines: Outlines::NONE,
             walls: [WallSet::MAX; 4],
-            grips: state.grips,
+            grips,
             latest_grip: 1,
             actions,
             impulses: Impulses::NONE,
@@ -177,6 +178,15 @@ impl<'a> World<'a> {
         (body < self.forward.count).then_some(body)
     }
 
+    /// How far what an agent holds is from where it holds it (u).
+    pub(crate) fn stretch(&self, agent: usize) -> Option<f32> {
+        let (grip, held) = (self.grips[agent].as_ref()?, self.held(agent)?);
+        let (shape, holder) = (&self.forward.shapes[agent], &self.motions[agent]);
+        let reach = grip.side.direction() * (shape.radius + self.forward.shapes[held].radius);
+        let place = holder.place(reach + Vec2::new(0.0, shape.origin));
+        Some(place.distance(self.motions[held].centre))
+    }
+
     /// Writes the bodies and grips into a state, whose contacts stay as they are.
     pub(crate) fn write(&self, state: &mut State) {
         for index in 0..self.forward.count {
@@ -193,12 +203,10 @@ impl<'a> World<'a> {
             match self.actions[agent] {
                 Action::Attach => {
                     if let Some((object, side)) = state.attachable(&self.forward.physique, agent) {
-                        let held = state.body(Entity::object(object));
-                        self.grips[agent] = Some(Grip {
-                            object: object as u8,
-                            side,
-                            relative_angle: held.angle - state.bodies[agent].angle,
-                        });
+                        // Not the state's angles, which may have had to be mended.
+                        let relative_angle =
+                            self.motions[AGENT_COUNT + object].angle - self.motions[agent].angle;
+                        self.grips[agent] = Some(Grip { object: object as u8, side, relative_angle });
                         self.impulses.welds[agent] = (Vec2::ZERO, 0.0);
                         self.latest_grip = agent;
                     }
@@ -219,6 +227,16 @@ impl<'a> World<'a> {
 const FASTEST: f32 = 1e4;
 /// Greatest angle that is taken seriously (rad); beyond it, neighbouring numbers are a visible turn apart.
 const FARTHEST_TURN: f32 = 1e5;
+
+/// Greatest twist of a grip that is taken seriously (rad); the strongest agents do not come near it.
+const MOST_TWISTED: f32 = 1.0;
+
+/// The same grip, at the angle at which its object is if the angle it says is far from that or no number.
+fn mended_grip(grip: Grip, agent: usize, motions: &[Motion; 5]) -> Grip {
+    let angle = motions[held_body(&grip)].angle - motions[agent].angle;
+    let is_sane = (grip.relative_angle - angle).abs() <= MOST_TWISTED;
+    Grip { relative_angle: if is_sane { grip.relative_angle } else { angle }, ..grip }
+}
 
 /// Whether all numbers of a body make sense.
 fn is_sane(body: &Body) -> bool {

@@ -4,7 +4,8 @@ mod scenes;
 
 use phase_forward::Forward;
 use phase_model::{
-    Action, AgentBody, Body, Dynamics, Entity, Layout, Physique, Segment, Size, State, Vec2, arena,
+    Action, AgentBody, Body, Dynamics, Entity, Grip, Layout, Physique, Segment, Side, Size, State, Vec2,
+    arena,
     geometry::Outline,
     physique::{GROUND_FRICTION, object_inertia, object_mass},
 };
@@ -13,6 +14,17 @@ use scenes::{actions, apart, clear_of_walls, physiques};
 
 /// How deep a corner or rim may be in a wall (u): 0.02 nearly always, more where a fast body is hit into it.
 const SUNK: f32 = 0.3;
+
+/// No grip, or one of any object at any side and angle, wherever its object may be.
+fn grips() -> impl Strategy<Value = Option<Grip>> {
+    let angle = prop_oneof![-7.0..7.0_f32, prop::num::f32::ANY];
+    let side = prop::sample::select(Side::ALL.to_vec());
+    let grip = (0..2_u8, side, angle);
+    prop::option::weighted(
+        0.3,
+        grip.prop_map(|(object, side, relative_angle)| Grip { object, side, relative_angle }),
+    )
+}
 /// Bodies anywhere in the arena, even in walls and in each other, moving at up to a hundred units a second.
 fn bodies() -> impl Strategy<Value = [Body; 4]> {
     let body = || {
@@ -173,16 +185,18 @@ proptest! {
         }
     }
 
-    /// Any numbers at all in the bodies, in any layout. Nothing is grabbed: no grip can keep such angles.
+    /// Any numbers at all in bodies and grips, in any layout.
     #[test]
     fn any_state_is_survived(
         physique in physiques(),
         numbers in prop::array::uniform4(prop::array::uniform6(prop::num::f32::ANY)),
         sound in prop::array::uniform4(any::<bool>()),
         bodies in bodies(),
+        grips in [grips(), grips()],
         actions in actions(3),
     ) {
         let mut state = State::new(bodies);
+        state.grips = grips;
         for ((body, [x, y, vx, vy, angle, spin]), sound) in state.bodies.iter_mut().zip(numbers).zip(sound) {
             if !sound {
                 let (position, velocity) = (Vec2::new(x, y), Vec2::new(vx, vy));
@@ -192,9 +206,7 @@ proptest! {
         let forward = Forward::new(&physique);
         let (mut settled, mut warm, mut memory) = (state, state, forward.remember(&state));
         forward.settle(&mut settled);
-        let no_grab = |action| if action == Action::Attach { Action::NoForce } else { action };
         for actions in actions {
-            let actions = actions.map(no_grab);
             forward.step(&mut state, actions);
             forward.step_warm(&mut warm, &mut memory, actions);
             for state in [&state, &warm, &settled] {

@@ -4,11 +4,7 @@ mod engines;
 mod table;
 mod targets;
 
-use crate::{
-    cli::CheckPhysics,
-    console::tell,
-    error::CliError,
-};
+use crate::{cli::CheckPhysics, console::tell, error::CliError};
 use engines::{ColdForward, WarmForward, WorldEngine};
 use phase_calibration::{
     Engine, Probe, ReadError, Replay, Report, Run, StateAlone, ahead, probes_report, replay_reports,
