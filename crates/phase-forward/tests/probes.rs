@@ -20,7 +20,7 @@ const FAMILIES: [(&str, f32, f32); 16] = [
     ("push", 1e-4, 1e-3),
     ("grab_pull", 1e-5, 5e-3),
     ("grab_turn", 1e-4, 1e-4),
-    ("attach", 1e-5, 2e-3),
+    ("attach", 1.2e-5, 2e-3),
     ("carry", 1e-3, 5e-3),
     ("tug", 1e-5, 1e-5),
     ("items_collide", 1e-3, 1e-2),
