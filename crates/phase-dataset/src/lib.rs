@@ -3,7 +3,7 @@
 //! - [`phase_events`] reads and writes the exchange format `phase-events/1`, of measured recordings and of
 //!   simulated events alike.
 //! - [`manifest`], [`gallery`] and [`card`] describe a generated dataset to programs and to people.
-//! - [`outcome`] and [`summary`] judge what became of goals and compare simulations with recordings.
+//! - [`summary`] compares simulations with recordings.
 //! - [`atomic`], [`folder`] and [`cache`] let a run be interrupted at any moment and nothing be half-written.
 //!
 //! The key design decision is that files are read by hand from a tree of JSON values instead of by derived
@@ -25,7 +25,6 @@ pub mod folder;
 pub mod gallery;
 pub mod json;
 pub mod manifest;
-pub mod outcome;
 pub mod phase_events;
 pub mod preset;
 pub mod summary;

@@ -4,9 +4,9 @@ use crate::{
     FileError, Problem,
     checksum::FileEntry,
     json,
-    outcome::Outcome,
-    phase_events::{self, Trajectory},
+    phase_events,
 };
+use phase_evidence::{Outcome, Track};
 use phase_model::{AGENT_COUNT, EventKind, Goal, Relation};
 use phase_sim::Event;
 use serde::{Deserialize, Serialize};
@@ -99,10 +99,10 @@ impl EventEntry {
     /// If a file cannot be read.
     pub fn of(folder: &Path, id: &str, event: &Event) -> Result<Self, FileError> {
         let scene = &event.scene;
-        let (physique, rows) = (scene.physique(), Trajectory::means(event));
+        let track = Track::of_event(event);
         let agent = |k: usize| {
             let spec = &scene.agents[k];
-            let outcome = Outcome::of(&physique, &rows, spec.goal);
+            let outcome = Outcome::of(&track, spec.goal);
             AgentEntry {
                 size_level: spec.size.level(),
                 strength_level: spec.strength.level(),

@@ -4,9 +4,9 @@ use crate::{
     FileError, Problem,
     checksum::FileEntry,
     json,
-    outcome::Outcome,
-    phase_events::{self, Recording, Trajectory},
+    phase_events::{self, Recording},
 };
+use phase_evidence::{Outcome, Track, statistics::median};
 use phase_model::{AGENT_COUNT, EventKind, Goal};
 use phase_sim::Event;
 use serde::{Deserialize, Serialize};
@@ -96,8 +96,8 @@ impl Comparison {
     /// # Errors
     /// If a file cannot be read.
     pub fn of(folder: &Path, recording: &Recording, event: &Event, video: bool) -> Result<Self, FileError> {
-        let physique = recording.scene.physique();
-        let simulated = Trajectory::means(event);
+        let recorded = Track { physique: recording.scene.physique(), states: recording.trajectory.states() };
+        let simulated = Track::of_event(event);
         let id = recording.id.clone();
         Ok(Self {
             kind: recording.scene.kind,
@@ -106,8 +106,8 @@ impl Comparison {
             agents: recording.scene.agents.map(|agent| AgentComparison {
                 goal: agent.goal,
                 alpha: agent.attitude.alpha(),
-                recorded: Outcome::of(&physique, &recording.trajectory, agent.goal),
-                simulated: Outcome::of(&physique, &simulated, agent.goal),
+                recorded: Outcome::of(&recorded, agent.goal),
+                simulated: Outcome::of(&simulated, agent.goal),
             }),
             event: FileEntry::of(folder, format!("{id}.json"))?,
             video: video.then(|| FileEntry::of(folder, format!("{id}.mp4"))).transpose()?,
@@ -203,14 +203,7 @@ fn row(kind: Option<EventKind>, events: &[&Comparison]) -> KindRow {
         recorded_reached: count(|it| it.recorded.reached),
         simulated_reached: count(|it| it.simulated.reached),
         timed: recorded.len(),
-        recorded_steps: median(recorded),
-        simulated_steps: median(simulated),
+        recorded_steps: median(&recorded),
+        simulated_steps: median(&simulated),
     }
-}
-
-fn median(mut numbers: Vec<usize>) -> Option<f64> {
-    numbers.sort_unstable();
-    let middle = numbers.len() / 2;
-    let upper = *numbers.get(middle)? as f64;
-    if numbers.len() % 2 == 1 { Some(upper) } else { Some(0.5 * (upper + numbers[middle - 1] as f64)) }
 }

@@ -1,6 +1,6 @@
 //! What agents want of the world and of each other.
 
-use crate::{Entity, State, arena};
+use crate::{Entity, Flip, State, arena};
 use serde::{Deserialize, Serialize};
 
 /// Whether a goal's condition is to hold or to be kept from holding; −1 and +1 in files.
@@ -106,6 +106,20 @@ impl Goal {
                 Self::ObjectOnLandmark { object, landmark, sign: sign.negated() }
             }
             Self::Touch { agent, other, sign } => Self::Touch { agent, other, sign: sign.negated() },
+        }
+    }
+
+    /// The goal in a mirrored arena: the landmark becomes the one that lies at its image.
+    #[must_use]
+    pub const fn mirrored(self, flip: Flip) -> Self {
+        match self {
+            Self::AgentOnLandmark { agent, landmark, sign } => {
+                Self::AgentOnLandmark { agent, landmark: image(flip, landmark), sign }
+            }
+            Self::ObjectOnLandmark { object, landmark, sign } => {
+                Self::ObjectOnLandmark { object, landmark: image(flip, landmark), sign }
+            }
+            Self::Touch { .. } => self,
         }
     }
 
@@ -216,6 +230,11 @@ impl Relation {
             Self::Neutral
         }
     }
+}
+
+/// The image of a landmark; a number that names none stays as it is.
+const fn image(flip: Flip, landmark: u8) -> u8 {
+    if (landmark as usize) < arena::LANDMARKS.len() { flip.landmark(landmark as usize) as u8 } else { landmark }
 }
 
 /// The two kinds of conflict the paper names: one object, two landmarks; and chase against flight.

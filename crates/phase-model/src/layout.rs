@@ -186,6 +186,12 @@ impl Layout {
         })
     }
 
+    /// The base layout of this one in a mirror.
+    #[must_use]
+    pub const fn flipped(self, flip: Flip) -> Self {
+        Self { base: self.base, flip: Some(flip) }
+    }
+
     /// The base number, 0 to 21.
     #[must_use]
     pub const fn base(self) -> u8 {

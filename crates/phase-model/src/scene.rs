@@ -1,7 +1,7 @@
 //! A scene: everything that has to be said for two minds and a world to make an event.
 
 use crate::{
-    AGENT_COUNT, AgentBody, Attitude, Body, Entity, Goal, Layout, MAX_ENTITIES, MAX_OBJECTS, Physique,
+    AGENT_COUNT, AgentBody, Attitude, Body, Entity, Flip, Goal, Layout, MAX_ENTITIES, MAX_OBJECTS, Physique,
     Relation, Size, State, Strength,
 };
 use serde::{Deserialize, Serialize};
@@ -135,5 +135,22 @@ impl Scene {
     #[must_use]
     pub fn relation(&self) -> Relation {
         Relation::of(self.goals(), self.attitudes())
+    }
+
+    /// The whole scene in a mirror: walls, starts and the landmarks of the goals. `None` if the layout is a
+    /// reflection already, because two reflections one after the other need not be one.
+    #[must_use]
+    pub fn mirrored(&self, flip: Flip) -> Option<Self> {
+        if self.layout.flip().is_some() {
+            return None;
+        }
+        let agents = self.agents.map(|agent| AgentSpec {
+            goal: agent.goal.mirrored(flip),
+            start: agent.start.mirrored(flip),
+            ..agent
+        });
+        let object = |object: &ObjectSpec| ObjectSpec { start: object.start.mirrored(flip), ..*object };
+        let objects = self.objects.iter().map(object).collect();
+        Some(Self { layout: self.layout.flipped(flip), agents, objects, kind: self.kind })
     }
 }

@@ -1,6 +1,6 @@
 //! The physical state of the world at one moment, as plain copyable data.
 
-use crate::{AGENT_COUNT, Action, Entity, MAX_ENTITIES, Physique, Vec2, geometry};
+use crate::{AGENT_COUNT, Action, Entity, Flip, MAX_ENTITIES, Physique, Vec2, geometry};
 use serde::{Deserialize, Serialize};
 
 /// Pose and motion of one body.
@@ -27,6 +27,17 @@ impl Body {
     #[must_use]
     pub fn forward(&self) -> Vec2 {
         geometry::forward(self.angle)
+    }
+
+    /// The body in a mirrored arena.
+    #[must_use]
+    pub fn mirrored(&self, flip: Flip) -> Self {
+        Self {
+            position: flip.point(self.position),
+            velocity: flip.vector(self.velocity),
+            angle: flip.angle(self.angle),
+            angular_velocity: -self.angular_velocity,
+        }
     }
 
     /// Whether every number is finite.
@@ -97,6 +108,12 @@ impl Contacts {
     #[must_use]
     pub const fn touching(self, a: Entity, b: Entity) -> bool {
         self.0 & Self::bit(a, b) != 0
+    }
+
+    /// Pairs that touch in either.
+    #[must_use]
+    pub const fn union(self, other: Self) -> Self {
+        Self(self.0 | other.0)
     }
 
     /// One bit for each of the six unordered pairs; none for a pair of equals.

@@ -39,6 +39,10 @@ pub struct Settings {
     pub min_steps: usize,
     /// An event ends once, for this many steps in a row, neither agent had anything to do and nothing moved.
     pub rest_steps: usize,
+    /// An agent (0 or 1) that stops and stays whatever its goal, so that an event can be compared with what
+    /// would have happened without it; usually none. Any other number names nobody.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub idle: Option<usize>,
     /// How both agents think.
     pub minds: phase_agent::Settings,
 }
@@ -50,6 +54,7 @@ impl Default for Settings {
             max_steps: 100,
             min_steps: 40,
             rest_steps: 8,
+            idle: None,
             minds: phase_agent::Settings::default(),
         }
     }

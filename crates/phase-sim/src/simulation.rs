@@ -97,6 +97,8 @@ struct Minds {
     agents: [Agent<Forward>; AGENT_COUNT],
     beliefs: [Pcg64Mcg; AGENT_COUNT],
     searches: [Pcg64Mcg; AGENT_COUNT],
+    /// Who does nothing and need not think.
+    idle: Option<usize>,
 }
 
 impl Minds {
@@ -115,17 +117,27 @@ impl Minds {
             Agent::new(scene, agent, forward, settings.minds, &observation, &mut beliefs[agent])
         };
         let agents = [mind(0)?, mind(1)?];
-        Ok(Self { agents, beliefs, searches })
+        Ok(Self { agents, beliefs, searches, idle: settings.idle })
     }
 
     fn decide(&mut self) -> Result<([Action; AGENT_COUNT], [Thought; AGENT_COUNT]), SimulationError> {
-        let (first, why_first) = self.agents[0].decide(&mut self.searches[0])?;
-        let (second, why_second) = self.agents[1].decide(&mut self.searches[1])?;
+        let (first, why_first) = self.decide_for(0)?;
+        let (second, why_second) = self.decide_for(1)?;
         Ok(([first, second], [why_first, why_second]))
+    }
+
+    fn decide_for(&mut self, agent: usize) -> Result<(Action, Thought), SimulationError> {
+        if self.idle == Some(agent) {
+            return Ok((Action::Stop, Thought::IDLE));
+        }
+        Ok(self.agents[agent].decide(&mut self.searches[agent])?)
     }
 
     fn perceive(&mut self, physique: &Physique, state: &State, actions: [Action; AGENT_COUNT]) {
         for (agent, mind) in self.agents.iter_mut().enumerate() {
+            if self.idle == Some(agent) {
+                continue;
+            }
             let observation = observe(physique, state, agent);
             mind.perceive(actions[agent], &observation, &mut self.beliefs[agent]);
         }

@@ -16,6 +16,7 @@ pub const LAYERS: [&str; 14] = [
     "phase-pomcp",
     "phase-agent",
     "phase-sim",
+    "phase-evidence",
     "phase-sampler",
     "phase-dataset",
     "phase-render",

@@ -1,6 +1,7 @@
 //! One event of a `phase-events/1` file, in memory.
 
-use phase_model::{AGENT_COUNT, Action, Body, Relation, Scene, State, arena::SUBSTEPS};
+use phase_evidence::Track;
+use phase_model::{AGENT_COUNT, Action, Body, Relation, Scene, State};
 use phase_sim::Event;
 use serde_json::Value;
 
@@ -26,12 +27,9 @@ impl Trajectory {
     /// The rows of a simulated event: the initial state, then for each step the mean over its substeps.
     #[must_use]
     pub fn means(event: &Event) -> Self {
-        let rows = |entity: usize| {
-            let first = row_of(&event.initial.bodies[entity]);
-            let rest = event.steps.iter().map(|step| mean(step.substeps.map(|state| state.bodies[entity])));
-            core::iter::once(first).chain(rest).collect()
-        };
-        let objects = event.scene.physique().object_count;
+        let track = Track::of_event(event);
+        let rows = |entity: usize| track.states.iter().map(|state| row_of(&state.bodies[entity])).collect();
+        let objects = track.physique.object_count;
         Self {
             agents: core::array::from_fn(rows),
             objects: (AGENT_COUNT..AGENT_COUNT + objects).map(rows).collect(),
@@ -42,6 +40,12 @@ impl Trajectory {
     #[must_use]
     pub fn steps(&self) -> usize {
         self.agents[0].len().saturating_sub(1)
+    }
+
+    /// Every row as a state, for judging what a trajectory shows.
+    #[must_use]
+    pub fn states(&self) -> Vec<State> {
+        (0..=self.steps()).map_while(|t| self.state(t)).collect()
     }
 
     /// Rows of every entity, agents first.
@@ -131,15 +135,4 @@ fn row_of(body: &Body) -> Row {
 pub(super) fn body_of(&[x, y, vx, vy, angle]: &Row) -> Body {
     let (position, velocity) = (phase_model::Vec2::new(x, y), phase_model::Vec2::new(vx, vy));
     Body { position, velocity, angle, angular_velocity: 0.0 }
-}
-
-/// Angles are unbounded, so their plain mean is the mean of the unwrapped angles.
-fn mean(bodies: [Body; SUBSTEPS]) -> Row {
-    let mut sums = [0.0_f64; COLUMNS.len()];
-    for body in &bodies {
-        for (sum, number) in sums.iter_mut().zip(row_of(body)) {
-            *sum += f64::from(number);
-        }
-    }
-    sums.map(|sum| (sum / SUBSTEPS as f64) as f32)
 }

@@ -6,7 +6,6 @@ mod checksum;
 mod folder;
 mod gallery;
 mod manifest;
-mod outcome;
 mod phase_events_read;
 mod phase_events_real;
 mod phase_events_round_trip;

@@ -2,9 +2,9 @@
 
 use phase_dataset::{
     checksum::FileEntry,
-    outcome::Outcome,
     summary::{AgentComparison, Comparison, Summary, tabulate},
 };
+use phase_evidence::Outcome;
 use phase_model::{EventKind, Goal, Sign};
 use serde_json::json;
 use std::fs;

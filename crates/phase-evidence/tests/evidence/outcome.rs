@@ -1,24 +1,17 @@
 //! When a goal counts as reached.
 
-use phase_dataset::{
-    outcome::{Outcome, TOUCH_GAP},
-    phase_events::{Row, Trajectory},
-};
-use phase_model::{AgentBody, Goal, Physique, Sign};
-
-fn physique() -> Physique {
-    let agent = AgentBody { radius: 1.0, max_force: 300.0 };
-    Physique { walls: vec![], agents: [agent; 2], object_radii: [1.0, 0.0], object_count: 1 }
-}
-
-fn at(x: f32, y: f32) -> Row {
-    [x, y, 0.0, 0.0, 0.0]
-}
+use crate::support::{Move, track};
+use phase_evidence::{Outcome, contact::TOUCH_GAP};
+use phase_model::{Body, Goal, Sign, Vec2};
 
 /// Agent 0 and object 0 move as told along y = 4.5; agent 1 stands at (16, 4.5), both face up.
-fn trajectory(agent: &[f32], object: &[f32]) -> Trajectory {
-    let rows = |xs: &[f32]| xs.iter().map(|&x| at(x, 4.5)).collect();
-    Trajectory { agents: [rows(agent), vec![at(16.0, 4.5); agent.len()]], objects: vec![rows(object)] }
+fn trajectory(agent: &[f32], object: &[f32]) -> phase_evidence::Track {
+    let moves = agent.iter().zip(object).map(|(&agent, &object)| Move {
+        agents: [(agent, 4.5, 0.0), (16.0, 4.5, 0.0)],
+        objects: vec![(object, 4.5)],
+        ..Move::default()
+    });
+    track(moves)
 }
 
 #[test]
@@ -36,9 +29,9 @@ fn being_somewhere_counts_at_the_end() {
     ];
     for (xs, reached, steps) in cases {
         let rows = trajectory(xs, &[20.0; 3]);
-        let outcome = Outcome::of(&physique(), &rows, goal(Sign::Positive));
+        let outcome = Outcome::of(&rows, goal(Sign::Positive));
         assert_eq!(outcome, Outcome { reached: *reached, steps: *steps }, "{xs:?}");
-        let outcome = Outcome::of(&physique(), &rows, goal(Sign::Negative));
+        let outcome = Outcome::of(&rows, goal(Sign::Negative));
         assert_eq!(outcome, Outcome { reached: !reached, steps: None }, "{xs:?} negated");
     }
 }
@@ -47,7 +40,7 @@ fn being_somewhere_counts_at_the_end() {
 fn an_object_may_lie_farther_off_than_an_agent() {
     let goal = Goal::ObjectOnLandmark { object: 0, landmark: 3, sign: Sign::Positive };
     for (x, reached) in [(8.5 + 1.41, true), (8.5 + 1.42, false)] {
-        let outcome = Outcome::of(&physique(), &trajectory(&[20.0; 2], &[20.0, x]), goal);
+        let outcome = Outcome::of(&trajectory(&[20.0; 2], &[20.0, x]), goal);
         assert_eq!(outcome.reached, reached, "{x}");
     }
 }
@@ -67,9 +60,9 @@ fn touching_counts_at_any_time_and_getting_away_at_the_end() {
     ];
     for (xs, first, away) in cases {
         let rows = trajectory(xs, &[20.0; 3]);
-        let outcome = Outcome::of(&physique(), &rows, goal(Sign::Positive));
+        let outcome = Outcome::of(&rows, goal(Sign::Positive));
         assert_eq!(outcome, Outcome { reached: first.is_some(), steps: *first }, "{xs:?}");
-        let outcome = Outcome::of(&physique(), &rows, goal(Sign::Negative));
+        let outcome = Outcome::of(&rows, goal(Sign::Negative));
         assert_eq!(outcome, Outcome { reached: *away, steps: None }, "{xs:?}");
     }
 }
@@ -78,8 +71,9 @@ fn touching_counts_at_any_time_and_getting_away_at_the_end() {
 fn head_on_agents_touch_by_their_flat_fronts() {
     let mut rows = trajectory(&[16.0, 16.0], &[20.0; 2]);
     // Agent 0 below, facing up; agent 1 above, facing down: fronts meet at a distance of 2 u.
-    rows.agents[1] =
-        vec![[16.0, 9.0, 0.0, 0.0, core::f32::consts::PI], [16.0, 6.55, 0.0, 0.0, core::f32::consts::PI]];
+    for (state, y) in rows.states.iter_mut().zip([9.0, 6.55]) {
+        state.bodies[1] = Body::at_rest(Vec2::new(16.0, y), core::f32::consts::PI);
+    }
     let goal = Goal::Touch { agent: 0, other: 1, sign: Sign::Positive };
-    assert_eq!(Outcome::of(&physique(), &rows, goal).steps, Some(1));
+    assert_eq!(Outcome::of(&rows, goal).steps, Some(1));
 }

@@ -1,0 +1,68 @@
+//! Who stood in whose way.
+
+use crate::{Track, track::other};
+use phase_model::{Entity, State, Vec2, layout::SLOT_DIRECTIONS};
+use phase_planner::{Routes, routes::point_in, situation::obstruct};
+
+/// Steps in which an agent's body narrowed a door on another's cheapest way to a point, so much that the other
+/// no longer fitted through. `target` gives the point for each state (u); `None` where there is none.
+///
+/// What counts is the door of the layout and the agent's body alone: objects in the door do not.
+#[must_use]
+pub fn steps_blocking_a_door(
+    track: &Track,
+    routes: &Routes,
+    blocker: usize,
+    target: impl Fn(&State) -> Option<Vec2>,
+) -> Vec<usize> {
+    let blocked = other(blocker);
+    let width = track.physique.agents[blocked].width();
+    let reach = |state: &State| state.position(Entity::agent(blocker));
+    let in_the_way = |state: &State| {
+        let from = state.position(Entity::agent(blocked));
+        let route = target(state).and_then(|to| routes.best(from, to, width, routes.gaps()));
+        let Some(route) = route else { return false };
+        let radius = track.physique.agents[blocker].radius;
+        let mut gaps = *routes.gaps();
+        obstruct(&mut gaps, reach(state), radius, radius + track.physique.agents[blocked].radius);
+        route.doors().iter().any(|&(slot, _)| {
+            let slot = usize::from(slot);
+            routes.gaps().width(slot) >= width && gaps.width(slot) < width
+        })
+    };
+    (0..track.states.len()).filter(|&t| in_the_way(&track.states[t])).collect()
+}
+
+/// Steps in which an agent stood between the other and a point: nearer to the point than the other, and no
+/// farther from the straight line between them than both radii.
+#[must_use]
+pub fn steps_between(
+    track: &Track,
+    blocker: usize,
+    target: impl Fn(&State) -> Option<Vec2>,
+) -> Vec<usize> {
+    let blocked = other(blocker);
+    let reach = track.physique.agents[0].radius + track.physique.agents[1].radius;
+    let between = |state: &State| {
+        let Some(to) = target(state) else { return false };
+        let from = state.position(Entity::agent(blocked));
+        let at = state.position(Entity::agent(blocker));
+        let line = phase_model::Segment { a: from, b: to };
+        line.distance(at) <= reach && at.distance(to) < from.distance(to)
+    };
+    (0..track.states.len()).filter(|&t| between(&track.states[t])).collect()
+}
+
+/// The door (slot) an agent stands in, if any: its origin is nearer to the door's line than its radius, and
+/// within the opening.
+#[must_use]
+pub fn door_of(track: &Track, routes: &Routes, state: &State, agent: usize) -> Option<usize> {
+    let position = state.position(Entity::agent(agent));
+    let radius = track.physique.agents[agent].radius;
+    (0..SLOT_DIRECTIONS.len()).find(|&slot| {
+        routes.gaps().0[slot].is_some_and(|(low, high)| {
+            let line = phase_model::Segment { a: point_in(slot as u8, low), b: point_in(slot as u8, high) };
+            line.distance(position) < radius
+        })
+    })
+}

@@ -1,0 +1,41 @@
+//! What an agent changed: an event beside the same event in which that agent did nothing.
+
+use crate::Outcome;
+use serde::{Deserialize, Serialize};
+
+/// The outcome of one goal with and without an agent's doing.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+pub struct Effect {
+    /// With it.
+    pub with: Outcome,
+    /// Without.
+    pub without: Outcome,
+}
+
+/// A time counts as shorter or longer only from a difference of this many percent on; less is chance.
+const MARGIN_PERCENT: usize = 10;
+
+impl Effect {
+    /// Whether the goal was reached only thanks to the agent, or at least a tenth sooner.
+    #[must_use]
+    pub const fn helped(&self) -> bool {
+        better(self.with, self.without)
+    }
+
+    /// Whether the goal was missed because of the agent, or reached at least a tenth later.
+    #[must_use]
+    pub const fn hindered(&self) -> bool {
+        better(self.without, self.with)
+    }
+}
+
+/// Whether one outcome is clearly better than another: reached where the other is not, or clearly sooner.
+const fn better(one: Outcome, other: Outcome) -> bool {
+    match (one, other) {
+        (Outcome { reached: true, .. }, Outcome { reached: false, .. }) => true,
+        (Outcome { reached: true, steps: Some(one) }, Outcome { reached: true, steps: Some(other) }) => {
+            one < other && 100 * one <= (100 - MARGIN_PERCENT) * other
+        }
+        _ => false,
+    }
+}

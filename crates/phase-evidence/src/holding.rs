@@ -1,0 +1,84 @@
+//! Who held which object when, and carrying together.
+
+use crate::Track;
+use phase_model::{AGENT_COUNT, Entity};
+use serde::{Deserialize, Serialize};
+
+/// A time during which one agent held one object without a break.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+pub struct Hold {
+    /// Who, 0 or 1.
+    pub agent: usize,
+    /// What, 0 or 1.
+    pub object: usize,
+    /// The first step at whose end it was held.
+    pub from: usize,
+    /// The last step at whose end it was held.
+    pub to: usize,
+}
+
+impl Hold {
+    /// How many steps it lasted.
+    #[must_use]
+    pub const fn steps(&self) -> usize {
+        self.to + 1 - self.from
+    }
+}
+
+/// Every hold of an event, agent 0's first, each agent's in order of time.
+#[must_use]
+pub fn holds(track: &Track) -> Vec<Hold> {
+    let mut holds: Vec<Hold> = Vec::new();
+    for agent in 0..AGENT_COUNT {
+        for (t, state) in track.states.iter().enumerate() {
+            let Some(object) = state.held_object(agent) else { continue };
+            match holds.last_mut() {
+                Some(last) if last.agent == agent && last.object == object && last.to + 1 == t => last.to = t,
+                _ => holds.push(Hold { agent, object, from: t, to: t }),
+            }
+        }
+    }
+    holds
+}
+
+/// Steps in which an agent (0 or 1) held an object, and how far the object went in them.
+#[must_use]
+pub fn carried(track: &Track, agent: usize, object: usize) -> Carrying {
+    carrying(track, object, |holders| holders[agent.min(AGENT_COUNT - 1)])
+}
+
+/// Steps in which both agents held the same object, and how far it went in them: it is carried together where
+/// it moves, and fought over where it does not.
+#[must_use]
+pub fn carried_together(track: &Track, object: usize) -> Carrying {
+    carrying(track, object, |holders| holders == [true; AGENT_COUNT])
+}
+
+/// For how long an object was held in some way, and how far it went.
+#[derive(Clone, Copy, PartialEq, Debug, Default, Serialize, Deserialize)]
+pub struct Carrying {
+    /// Steps.
+    pub steps: usize,
+    /// Distance the object travelled in them (u).
+    pub distance: f32,
+    /// How much nearer to each landmark it came in them (u); negative where it went away.
+    pub approach: [f32; 4],
+}
+
+fn carrying(track: &Track, object: usize, counts: impl Fn([bool; AGENT_COUNT]) -> bool) -> Carrying {
+    let mut carrying = Carrying::default();
+    let entity = Entity::object(object.min(phase_model::MAX_OBJECTS - 1));
+    for (t, pair) in track.states.windows(2).enumerate() {
+        let holders = core::array::from_fn(|agent| pair[1].holds(agent, object));
+        if !counts(holders) {
+            continue;
+        }
+        carrying.steps += 1;
+        carrying.distance += track.distance_in_step(entity, t + 1);
+        for (approach, landmark) in carrying.approach.iter_mut().zip(phase_model::arena::LANDMARKS) {
+            *approach += pair[0].position(entity).distance(landmark);
+            *approach -= pair[1].position(entity).distance(landmark);
+        }
+    }
+    carrying
+}

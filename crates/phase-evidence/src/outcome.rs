@@ -1,0 +1,55 @@
+//! Whether and when an agent's goal was reached.
+
+use crate::{Track, contact};
+use phase_model::{Entity, Goal, Physique, Sign, State, arena};
+use phase_predicates::threshold::{ON_AGENT, ON_OBJECT};
+use serde::{Deserialize, Serialize};
+
+/// What became of one agent's goal.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Outcome {
+    /// Whether it was reached. To be (or to keep someone off) somewhere counts at the end of the event, to
+    /// touch someone at any time, and to get away from someone at the end again.
+    pub reached: bool,
+    /// Steps until a positive goal was reached: for good, or for the first time if it is to touch someone.
+    pub steps: Option<usize>,
+}
+
+impl Outcome {
+    /// Judges a goal on the states of a track, and on bodies alone: what recordings do not tell (contacts and
+    /// grips) is not asked of simulations either.
+    #[must_use]
+    pub fn of(track: &Track, goal: Goal) -> Self {
+        let holds: Vec<bool> =
+            track.states.iter().map(|state| condition(&track.physique, state, goal)).collect();
+        let at_the_end = holds.last().copied().unwrap_or(false);
+        match (goal, goal.sign()) {
+            (_, Sign::Negative) => Self { reached: !at_the_end, steps: None },
+            (Goal::Touch { .. }, Sign::Positive) => {
+                let first = holds.iter().position(|&holds| holds);
+                Self { reached: first.is_some(), steps: first }
+            }
+            (_, Sign::Positive) => {
+                let since = holds.iter().rposition(|&holds| !holds).map_or(0, |last_not| last_not + 1);
+                Self { reached: at_the_end, steps: at_the_end.then_some(since) }
+            }
+        }
+    }
+}
+
+/// Whether what the goal speaks of is the case, whatever the goal's sign.
+#[must_use]
+pub fn condition(physique: &Physique, state: &State, goal: Goal) -> bool {
+    let near = |entity: Entity, landmark: u8, limit: f32| {
+        let centre = arena::LANDMARKS.get(usize::from(landmark));
+        centre.is_some_and(|&centre| state.position(entity).distance(centre) < limit)
+    };
+    match goal {
+        Goal::AgentOnLandmark { agent, landmark, .. } => near(Entity::Agent(agent), landmark, ON_AGENT),
+        Goal::ObjectOnLandmark { object, landmark, .. } => near(Entity::Object(object), landmark, ON_OBJECT),
+        Goal::Touch { agent, other, .. } => {
+            contact::gap(physique, state, Entity::Agent(agent), Entity::Agent(other)) <= contact::TOUCH_GAP
+        }
+    }
+}

@@ -1,0 +1,58 @@
+//! Who went after whom, and who got away.
+
+use crate::Track;
+use phase_model::{Entity, layout::room_of};
+use serde::{Deserialize, Serialize};
+
+/// Slower than this an agent is not going anywhere (u a step of 0.083 s of physics).
+const STANDING: f32 = 0.1;
+/// Heading for something means that most of the motion goes towards it: the cosine of 60°.
+const TOWARDS: f32 = 0.5;
+
+/// How one agent moved with regard to the other, over a whole event.
+#[derive(Clone, Copy, PartialEq, Debug, Default, Serialize, Deserialize)]
+pub struct Pursuit {
+    /// Steps in which it went anywhere at all.
+    pub moving: usize,
+    /// Of these, steps in which it went towards where the other had just been.
+    pub towards: usize,
+    /// Of these, steps in which it went away from where the other had just been.
+    pub away: usize,
+    /// How much nearer the two were at the end than at the start (u); negative if farther.
+    pub closed: f32,
+    /// The nearest they came, between origins (u).
+    pub nearest: f32,
+    /// How often it changed rooms.
+    pub rooms_changed: usize,
+}
+
+impl Pursuit {
+    /// Looks at how agent 0 or 1 moved with regard to the other.
+    #[must_use]
+    pub fn of(track: &Track, agent: usize) -> Self {
+        let (who, other) = (Entity::agent(agent), Entity::agent(crate::track::other(agent)));
+        let distance = |t: usize| {
+            track.states.get(t).map_or(0.0, |state| state.position(who).distance(state.position(other)))
+        };
+        let mut pursuit = Self {
+            closed: distance(0) - distance(track.steps()),
+            nearest: (0..track.states.len()).map(distance).fold(f32::INFINITY, f32::min),
+            ..Self::default()
+        };
+        for pair in track.states.windows(2) {
+            let motion = pair[1].position(who) - pair[0].position(who);
+            let line = pair[0].position(other) - pair[0].position(who);
+            if room_of(pair[0].position(who)) != room_of(pair[1].position(who)) {
+                pursuit.rooms_changed += 1;
+            }
+            if motion.length() < STANDING {
+                continue;
+            }
+            pursuit.moving += 1;
+            let cosine = motion.normalize_or_zero().dot(line.normalize_or_zero());
+            pursuit.towards += usize::from(cosine > TOWARDS);
+            pursuit.away += usize::from(cosine < -TOWARDS);
+        }
+        pursuit
+    }
+}

@@ -1,0 +1,51 @@
+//! How quietly an event ended.
+
+use crate::Track;
+use phase_model::Entity;
+use serde::{Deserialize, Serialize};
+
+/// What an entity still did after some step.
+#[derive(Clone, Copy, PartialEq, Debug, Default, Serialize, Deserialize)]
+pub struct Rest {
+    /// Steps looked at.
+    pub steps: usize,
+    /// Distance travelled in them (u).
+    pub travelled: f32,
+    /// Greatest distance from where it was at the beginning of them (u).
+    pub strayed: f32,
+    /// Sum of all turning, either way (rad).
+    pub turned: f32,
+    /// Steps in which it moved more than 0.02 u or turned more than 0.02 rad.
+    pub restless: usize,
+}
+
+/// Less than this in one step counts as resting (u, rad).
+const STILL: f32 = 0.02;
+
+impl Rest {
+    /// What an entity did after step `from`.
+    #[must_use]
+    pub fn after(track: &Track, entity: Entity, from: usize) -> Self {
+        let states = track.states.get(from..).unwrap_or_default();
+        let Some(first) = states.first() else { return Self::default() };
+        let mut rest = Self::default();
+        for pair in states.windows(2) {
+            let (before, after) = (pair[0].body(entity), pair[1].body(entity));
+            let moved = before.position.distance(after.position);
+            let turned = (after.angle - before.angle).abs();
+            rest.steps += 1;
+            rest.travelled += moved;
+            rest.turned += turned;
+            rest.strayed = rest.strayed.max(after.position.distance(first.position(entity)));
+            rest.restless += usize::from(moved > STILL || turned > STILL);
+        }
+        rest
+    }
+
+    /// Whether nothing of any account happened: it stayed within 0.3 u, turned by less than a quarter turn
+    /// altogether, and was still in nine steps of ten.
+    #[must_use]
+    pub fn is_quiet(&self) -> bool {
+        self.strayed < 0.3 && self.turned < core::f32::consts::FRAC_PI_2 && 10 * self.restless <= self.steps
+    }
+}

@@ -1,0 +1,12 @@
+//! Judgements on tracks made up by hand.
+
+mod contact;
+mod effect;
+mod exploration;
+mod holding;
+mod outcome;
+mod pursuit;
+mod rest;
+mod statistics;
+mod support;
+mod way;
