@@ -4,6 +4,7 @@
 //! - `simulate` plays the scenes of a `phase-events/1` file,
 //! - `render` turns events into videos and pictures,
 //! - `check-physics` holds an engine against recorded motion,
+//! - `check-behaviour` shows how reliably agents do what they are planned to do,
 //! - `tidy` checks what the compiler cannot.
 //!
 //! The key design decision is that a command says what is wrong in one plain sentence and an exit code: 0 done,
@@ -14,6 +15,7 @@
 #![deny(missing_docs)]
 
 pub mod check_physics;
+pub mod check_behaviour;
 pub mod cli;
 pub mod console;
 pub mod engine;
@@ -67,6 +69,7 @@ pub fn run(command: Command) -> Result<(), CliError> {
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Render(arguments) => render::run(&arguments),
         Command::CheckPhysics(arguments) => check_physics::run(&arguments),
+        Command::CheckBehaviour(arguments) => check_behaviour::run(&arguments),
         Command::Tidy => tidy::run(),
     }
 }

@@ -130,7 +130,12 @@ pub fn write_video(path: &Path, id: &str, event: &Event) -> Result<(), CliError>
 /// Stands for everything that decides an event besides its scene and seed: the settings and this very program.
 /// An event cached by another build is made again, so that no dataset mixes two.
 fn fingerprint(settings: &Value) -> [u8; 32] {
+    sha256(&[&program()[..], settings.to_string().as_bytes()].concat())
+}
+
+/// Stands for this very program.
+#[must_use]
+pub fn program() -> [u8; 32] {
     let program = std::env::current_exe().and_then(std::fs::read).map(|bytes| sha256(&bytes));
-    let program = program.unwrap_or_else(|_| sha256(GENERATOR.as_bytes()));
-    sha256(&[&program[..], settings.to_string().as_bytes()].concat())
+    program.unwrap_or_else(|_| sha256(GENERATOR.as_bytes()))
 }

@@ -1,11 +1,6 @@
 //! `manifest.json`: what a dataset holds, how it was made, and the checksum of every file.
 
-use crate::{
-    FileError, Problem,
-    checksum::FileEntry,
-    json,
-    phase_events,
-};
+use crate::{FileError, Problem, checksum::FileEntry, json, phase_events};
 use phase_evidence::{Outcome, Track};
 use phase_model::{AGENT_COUNT, EventKind, Goal, Relation};
 use phase_sim::Event;

@@ -36,11 +36,7 @@ pub fn steps_blocking_a_door(
 /// Steps in which an agent stood between the other and a point: nearer to the point than the other, and no
 /// farther from the straight line between them than both radii.
 #[must_use]
-pub fn steps_between(
-    track: &Track,
-    blocker: usize,
-    target: impl Fn(&State) -> Option<Vec2>,
-) -> Vec<usize> {
+pub fn steps_between(track: &Track, blocker: usize, target: impl Fn(&State) -> Option<Vec2>) -> Vec<usize> {
     let blocked = other(blocker);
     let reach = track.physique.agents[0].radius + track.physique.agents[1].radius;
     let between = |state: &State| {

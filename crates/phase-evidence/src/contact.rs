@@ -40,8 +40,7 @@ pub fn steps_touching(track: &Track, a: Entity, b: Entity) -> Vec<usize> {
 
 /// The nearest points of two convex polygons that are apart include a corner of one of them.
 fn corner_gap(corners: &[Vec2; 4], polygon: &[Vec2; 4]) -> f32 {
-    let distances =
-        corners.iter().flat_map(|&corner| edges(polygon).map(move |edge| edge.distance(corner)));
+    let distances = corners.iter().flat_map(|&corner| edges(polygon).map(move |edge| edge.distance(corner)));
     distances.fold(f32::INFINITY, f32::min)
 }
 

@@ -18,7 +18,10 @@ impl Track {
     #[must_use]
     pub fn of_event(event: &Event) -> Self {
         let steps = event.steps.iter().map(mean_state);
-        Self { physique: event.scene.physique(), states: core::iter::once(event.initial).chain(steps).collect() }
+        Self {
+            physique: event.scene.physique(),
+            states: core::iter::once(event.initial).chain(steps).collect(),
+        }
     }
 
     /// Steps after the initial state.

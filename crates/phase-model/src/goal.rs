@@ -234,7 +234,11 @@ impl Relation {
 
 /// The image of a landmark; a number that names none stays as it is.
 const fn image(flip: Flip, landmark: u8) -> u8 {
-    if (landmark as usize) < arena::LANDMARKS.len() { flip.landmark(landmark as usize) as u8 } else { landmark }
+    if (landmark as usize) < arena::LANDMARKS.len() {
+        flip.landmark(landmark as usize) as u8
+    } else {
+        landmark
+    }
 }
 
 /// The two kinds of conflict the paper names: one object, two landmarks; and chase against flight.

@@ -1,0 +1,257 @@
+//! Whether an event shows what its row wants.
+
+use super::rows::{Criterion, Form, Part};
+use phase_evidence::{
+    Effect, Outcome, Rest, Track, blocking, contact, exploration,
+    holding::{self, Carrying},
+    pursuit::Pursuit,
+};
+use phase_model::{AGENT_COUNT, Entity, Goal, Scene, State, Vec2, arena, layout::Room};
+use phase_planner::Routes;
+
+/// Steps an agent may take to let go and come to rest after its goal is reached.
+const SETTLING: usize = 8;
+/// Steps at the end over which nothing may move after fetching.
+const AT_THE_END: usize = 4;
+/// For how long something must be done to be seen (steps).
+const VISIBLE: usize = 3;
+
+/// What was made of one event.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Verdict {
+    /// Whether the row's criterion holds.
+    pub success: bool,
+    /// Whether the means the row is named for was seen; `None` where the row names none.
+    pub shown: Option<bool>,
+    /// What became of the judged agent's goal.
+    pub with: Outcome,
+    /// The same without the other's doing.
+    pub without: Option<Outcome>,
+    /// What was seen, in words, for people.
+    pub notes: String,
+}
+
+/// Judges an event of a scene, beside its counterfactual if the part has one.
+#[must_use]
+pub fn judge(part: &Part, scene: &Scene, track: &Track, control: Option<&Track>) -> Verdict {
+    let case = Case { part, scene, track };
+    let goal = scene.agents[part.judged].goal;
+    let with = Outcome::of(track, goal);
+    let without = control.map(|control| Outcome::of(control, goal));
+    let effect = without.map(|without| Effect { with, without });
+    let (success, shown, notes) = match part.criterion {
+        Criterion::Reach => (case.all_reached(), None, case.outcomes()),
+        Criterion::Fetch => case.fetch(),
+        Criterion::SearchFirst(wanted) => case.search(wanted),
+        Criterion::CarryTogether => case.carry_together(goal),
+        Criterion::Help => {
+            let held = case.held_anything(1 - part.judged);
+            (
+                effect.is_some_and(|effect| effect.helped()),
+                Some(held >= VISIBLE),
+                format!("helper held {held}"),
+            )
+        }
+        Criterion::StayOut => case.stay_out(with, effect),
+        Criterion::Hinder(form) => {
+            let (shown, notes) = case.hindrance(form, goal);
+            (effect.is_some_and(|effect| effect.hindered()), Some(shown), notes)
+        }
+        Criterion::Chase => case.chase(effect),
+        Criterion::Compete => case.compete(goal),
+        Criterion::Rest => case.rest(),
+    };
+    Verdict { success, shown, with, without, notes }
+}
+
+/// One event under judgement.
+struct Case<'a> {
+    part: &'a Part,
+    scene: &'a Scene,
+    track: &'a Track,
+}
+
+type Judgement = (bool, Option<bool>, String);
+
+impl Case<'_> {
+    /// The agents that the row is about, with their outcomes.
+    fn active(&self) -> impl Iterator<Item = (usize, Outcome)> {
+        let who = (0..AGENT_COUNT).filter(|&agent| self.part.idle != Some(agent));
+        who.map(|agent| (agent, Outcome::of(self.track, self.scene.agents[agent].goal)))
+    }
+
+    fn all_reached(&self) -> bool {
+        self.active().all(|(_, outcome)| outcome.reached)
+    }
+
+    fn outcomes(&self) -> String {
+        let words = |(agent, outcome): (usize, Outcome)| match outcome.steps {
+            Some(steps) => format!("agent {agent} after {steps}"),
+            None if outcome.reached => format!("agent {agent} in the end"),
+            None => format!("agent {agent} never"),
+        };
+        self.active().map(words).collect::<Vec<_>>().join(", ")
+    }
+
+    fn fetch(&self) -> Judgement {
+        let last = self.track.states.last();
+        let held = last.is_some_and(|state| state.grips.iter().any(Option::is_some));
+        let from = self.track.steps().saturating_sub(AT_THE_END);
+        let still = self.track.physique.entities().all(|it| Rest::after(self.track, it, from).is_quiet());
+        let notes = format!("{}, held at the end: {held}, still: {still}", self.outcomes());
+        (self.all_reached() && !held && still, None, notes)
+    }
+
+    fn search(&self, wanted: usize) -> Judgement {
+        // In the scene as it is written the near region is room 1 and the larger one rooms 0 and 3.
+        let image = |room: Room| self.scene.layout.flip().map_or(room, |flip| flip.landmark(room));
+        let (near, larger) = ([image(1)], [image(0), image(3)]);
+        let first = exploration::searched_first(self.track, self.part.judged, &[&near, &larger]);
+        let notes = first.map_or_else(
+            || "neither searched".into(),
+            |(region, step)| format!("{} first, at step {step}", ["near", "larger"][region]),
+        );
+        (first.is_some_and(|(region, _)| region == wanted), None, format!("{notes}; {}", self.outcomes()))
+    }
+
+    fn carry_together(&self, goal: Goal) -> Judgement {
+        let Some(object) = object_of(goal) else { return (false, None, String::new()) };
+        let together = holding::carried_together(self.track, object);
+        let shown = together.steps >= VISIBLE && together.distance > 1.0;
+        let notes = format!("together {} steps, {:.1} u", together.steps, together.distance);
+        (self.all_reached() && shown, Some(shown), notes)
+    }
+
+    fn stay_out(&self, with: Outcome, effect: Option<Effect>) -> Judgement {
+        let (helper, helpee) = (Entity::agent(1 - self.part.judged), Entity::agent(self.part.judged));
+        let touched = contact::steps_touching(self.track, helper, helpee).len();
+        let good = with.reached && touched == 0 && effect.is_some_and(|effect| !effect.hindered());
+        let way = self.track.distance_travelled(helper, 0..self.track.states.len());
+        (good, None, format!("touched {touched} steps, helper went {way:.1} u"))
+    }
+
+    fn hindrance(&self, form: Form, goal: Goal) -> (bool, String) {
+        let hinderer = 1 - self.part.judged;
+        let object = object_of(goal).unwrap_or(0);
+        let alone = self.held_by_alone(hinderer, object);
+        match form {
+            Form::Block => {
+                let routes = Routes::new(self.scene.layout);
+                let target = |state: &State| way_of(goal, state);
+                let door = blocking::steps_blocking_a_door(self.track, &routes, hinderer, target).len();
+                let between = blocking::steps_between(self.track, hinderer, target).len();
+                (door.max(between) >= VISIBLE, format!("blocked a door {door} steps, between {between}"))
+            }
+            Form::Take => {
+                let away = goal.landmark().map_or(0.0, |landmark| -alone.approach[landmark]);
+                let shown = alone.steps >= VISIBLE && alone.distance > 1.0;
+                (
+                    shown,
+                    format!("held alone {} steps, {:.1} u, {away:.1} u away", alone.steps, alone.distance),
+                )
+            }
+            Form::Drag => {
+                let both = holding::carried_together(self.track, object).steps;
+                (both >= VISIBLE, format!("both held {both} steps, hinderer alone {}", alone.steps))
+            }
+            Form::Hide => {
+                let hidden = self.out_of_reach(self.part.judged, object);
+                (hidden, format!("hidden: {hidden}, held alone {} steps", alone.steps))
+            }
+            Form::Evade => {
+                let flight = Pursuit::of(self.track, hinderer);
+                let notes =
+                    format!("away {} of {}, rooms {}", flight.away, flight.moving, flight.rooms_changed);
+                (flight.moving >= VISIBLE, notes)
+            }
+        }
+    }
+
+    fn chase(&self, effect: Option<Effect>) -> Judgement {
+        let (chaser, fleer) = (Pursuit::of(self.track, 0), Pursuit::of(self.track, 1));
+        let chases = 2 * chaser.towards >= chaser.moving && chaser.moving >= VISIBLE;
+        let flees = effect.is_some_and(|effect| effect.hindered());
+        let notes = format!(
+            "chaser towards {} of {}, fleer changed rooms {} times, nearest {:.1} u",
+            chaser.towards, chaser.moving, fleer.rooms_changed, chaser.nearest
+        );
+        (chases && flees, Some(fleer.rooms_changed > 0), notes)
+    }
+
+    fn compete(&self, goal: Goal) -> Judgement {
+        let Some(object) = object_of(goal) else { return (false, None, String::new()) };
+        let touched = |agent: usize| {
+            !contact::steps_touching(self.track, Entity::agent(agent), Entity::object(object)).is_empty()
+        };
+        let engaged = touched(0) && touched(1);
+        let fought = holding::carried_together(self.track, object).steps;
+        let decided = self.active().any(|(_, outcome)| outcome.reached);
+        let notes = format!("{}, both held {fought} steps, both touched it: {engaged}", self.outcomes());
+        (engaged && (decided || fought >= 5), Some(fought >= VISIBLE), notes)
+    }
+
+    fn rest(&self) -> Judgement {
+        let reached = self.active().filter_map(|(_, outcome)| outcome.steps).max();
+        let (true, Some(reached)) = (self.all_reached(), reached) else {
+            return (false, None, self.outcomes());
+        };
+        let from = reached + SETTLING;
+        let last = self.track.states.last();
+        let held = last.is_some_and(|state| state.grips.iter().any(Option::is_some));
+        let mut quiet = true;
+        let mut notes = format!("{}, held at the end: {held}", self.outcomes());
+        for entity in self.track.physique.entities() {
+            let rest = Rest::after(self.track, entity, from);
+            if !rest.is_quiet() {
+                quiet = false;
+                let (strayed, turned) = (rest.strayed, rest.turned);
+                notes += &format!("; {entity:?} strayed {strayed:.2} u, turned {turned:.2} rad");
+            }
+        }
+        (quiet && !held, None, notes)
+    }
+
+    fn held_anything(&self, agent: usize) -> usize {
+        self.track.states.iter().filter(|state| state.grips[agent].is_some()).count()
+    }
+
+    /// What an agent did with an object while the other had no hold of it.
+    fn held_by_alone(&self, agent: usize, object: usize) -> Carrying {
+        let all = holding::carried(self.track, agent, object);
+        let together = holding::carried_together(self.track, object);
+        Carrying {
+            steps: all.steps - together.steps,
+            distance: all.distance - together.distance,
+            approach: core::array::from_fn(|k| all.approach[k] - together.approach[k]),
+        }
+    }
+
+    /// Whether in the end an object lies where an agent does not fit through the doors.
+    fn out_of_reach(&self, agent: usize, object: usize) -> bool {
+        let Some(state) = self.track.states.last() else { return false };
+        let routes = Routes::new(self.scene.layout);
+        let (from, to) = (state.position(Entity::agent(agent)), state.position(Entity::object(object)));
+        let width = self.track.physique.agents[agent].width();
+        routes.best(from, to, width, routes.gaps()).is_none_or(|route| route.impassable > 0)
+    }
+}
+
+const fn object_of(goal: Goal) -> Option<usize> {
+    match goal.subject() {
+        Entity::Object(object) => Some(object as usize),
+        Entity::Agent(_) => None,
+    }
+}
+
+/// Where an agent with a goal has to go: to the object it has no hold of yet, else to the goal's end.
+fn way_of(goal: Goal, state: &State) -> Option<Vec2> {
+    match goal {
+        Goal::ObjectOnLandmark { object, .. }
+            if !(0..AGENT_COUNT).any(|agent| state.holds(agent, usize::from(object))) =>
+        {
+            Some(state.position(Entity::Object(object)))
+        }
+        Goal::Touch { other, .. } => Some(state.position(Entity::Agent(other))),
+        _ => goal.landmark().and_then(|landmark| arena::LANDMARKS.get(landmark).copied()),
+    }
+}

@@ -1,0 +1,158 @@
+//! `check-behaviour`: whether agents do what they are planned to do, over seeds and mirrored scenes.
+
+mod judge;
+mod report;
+mod rows;
+mod trial;
+
+use crate::{
+    cli::CheckBehaviour,
+    console::tell,
+    engine::GENERATOR,
+    error::CliError,
+    interrupt,
+    parallel::make_all,
+    picture::{self, Shot},
+    production::settings_value,
+};
+use phase_dataset::{
+    WriteError, atomic,
+    folder::{self, Folder},
+    phase_events,
+};
+use phase_model::{Scene, arena::SUBSTEPS};
+use report::{SceneResult, Trial};
+pub use rows::PARTS;
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
+use trial::Laboratory;
+
+/// The report's file name in the output folder; it is written last.
+const REPORT_FILE: &str = "behaviour.json";
+/// Where the contact sheets go.
+const SHEETS: &str = "sheets";
+/// Frames of a contact sheet.
+const SHEET_FRAMES: usize = 15;
+
+/// Runs the command.
+///
+/// # Errors
+/// Any [`CliError`].
+pub fn run(arguments: &CheckBehaviour) -> Result<(), CliError> {
+    let scenes = scenes(arguments)?;
+    let seeds = arguments.seeds as usize;
+    let run = json!({
+        "command": "check-behaviour", "generator": GENERATOR, "seeds": seeds,
+        "settings": settings_value(&arguments.effort.settings()),
+    });
+    let folder = prepare(&arguments.out, &run)?;
+    interrupt::listen();
+    let controls = scenes.iter().filter(|(part, ..)| PARTS[*part].control.is_some()).count();
+    let events = seeds * (scenes.len() + controls);
+    let laboratory = Laboratory::new(&folder, arguments.effort.settings(), events);
+    let made = make_all(&arguments.jobs, scenes.len() * seeds, |k| {
+        let (part, id, scene) = &scenes[k / seeds];
+        laboratory.trial(&PARTS[*part], id, scene, k % seeds)
+    })?;
+    let Some(trials) = made else { return Err(CliError::Interrupted(arguments.out.clone())) };
+    let mut trials = trials.into_iter();
+    let results: Vec<SceneResult> = scenes
+        .iter()
+        .map(|(part, id, _)| SceneResult {
+            part: *part,
+            id: id.clone(),
+            trials: trials.by_ref().take(seeds).collect(),
+        })
+        .collect();
+    let sheets = folder.subfolder(SHEETS)?;
+    for (result, (.., scene)) in results.iter().zip(&scenes) {
+        draw(&laboratory, &sheets, result, scene)?;
+    }
+    drop(laboratory);
+    complete(arguments, folder, &report::to_json(&run, &results))?;
+    tell(report::table(&results).trim_end());
+    tell(format!("contact sheets in {}", arguments.out.join(SHEETS).display()));
+    Ok(())
+}
+
+/// The scenes asked for: part of the table, id, scene.
+fn scenes(arguments: &CheckBehaviour) -> Result<Vec<(usize, String, Scene)>, CliError> {
+    let mut scenes = Vec::new();
+    let wanted = |row: u8| arguments.row.is_empty() || arguments.row.contains(&row);
+    for (k, part) in PARTS.iter().enumerate().filter(|(_, part)| wanted(part.row)) {
+        let file = arguments.scenes().join(format!("{}.json", part.name));
+        for recording in phase_events::read(&file)? {
+            let (id, scene) = (recording.id, recording.scene);
+            let problem = if scene.layout.flip().is_some() {
+                Some("field `layout.flip` must be null, since scenes are mirrored here".into())
+            } else {
+                scene.validate_apart().err().map(|error| error.to_string())
+            };
+            if let Some(rule) = problem {
+                return Err(CliError::Usage(format!("{}: event {id}: {rule}", file.display())));
+            }
+            scenes.push((k, id, scene));
+        }
+    }
+    Ok(scenes)
+}
+
+/// Takes the folder. What a check that came to its end left in it is replaced; what one that did not has kept is
+/// used as far as this very program made it.
+fn prepare(out: &Path, run: &Value) -> Result<Folder, CliError> {
+    folder::inspect(out, REPORT_FILE)?;
+    let folder = Folder::claim(out, run)?;
+    atomic::remove(&out.join(REPORT_FILE))?;
+    let sheets = folder.subfolder(SHEETS)?;
+    let failed = |source| WriteError { path: sheets.clone(), action: "clear the folder", source };
+    for entry in std::fs::read_dir(&sheets).map_err(failed)?.flatten() {
+        if entry.path().extension().is_some_and(|extension| extension == "png") {
+            atomic::remove(&entry.path())?;
+        }
+    }
+    Ok(folder)
+}
+
+/// Contact sheets of a scene's first event and of its first failure.
+fn draw(laboratory: &Laboratory, sheets: &Path, result: &SceneResult, scene: &Scene) -> Result<(), CliError> {
+    let part = &PARTS[result.part];
+    let first = result.trials.first().map(|trial| (trial, ""));
+    let failure = result.trials.iter().find(|trial| !trial.verdict.success).map(|trial| (trial, "-failure"));
+    for (trial, suffix) in first.into_iter().chain(failure) {
+        let name = format!("{}-{}{suffix}.png", trial::key(part), result.id);
+        sheet(laboratory, &sheets.join(name), part, &result.id, scene, trial)?;
+    }
+    Ok(())
+}
+
+fn sheet(
+    laboratory: &Laboratory,
+    path: &Path,
+    part: &rows::Part,
+    id: &str,
+    scene: &Scene,
+    trial: &Trial,
+) -> Result<(), CliError> {
+    let index = trial.seed as usize - 1;
+    let Some(event) = laboratory.event(part, id, scene, index)? else {
+        return Err(CliError::Interrupted(path.to_owned()));
+    };
+    let shots: Vec<Shot<'_>> =
+        event.frames().step_by(SUBSTEPS).map(|&state| Shot { state, mind: None }).collect();
+    picture::write_sheet(path, id, &event.scene.physique(), &shots, SHEET_FRAMES)
+}
+
+fn complete(arguments: &CheckBehaviour, folder: Folder, report: &Value) -> Result<(), CliError> {
+    let text = format!("{report:#}\n");
+    atomic::write(&folder.path().join(REPORT_FILE), text.as_bytes())?;
+    if let Some(path) = &arguments.json {
+        atomic::write(path, text.as_bytes()).map_err(CliError::Output)?;
+    }
+    Ok(folder.finish()?)
+}
+
+/// The folder of the scenes that come with the program.
+#[must_use]
+pub fn default_scenes() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new(".")).join("data/behaviour")
+}

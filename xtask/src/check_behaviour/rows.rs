@@ -1,0 +1,199 @@
+//! The table of what is checked.
+
+/// One line of the table: scenes in a file of their own, how they are played, and what counts as success.
+#[derive(Clone, Copy, Debug)]
+pub struct Part {
+    /// The row, from 1.
+    pub row: u8,
+    /// The file in `data/behaviour` without `.json`; begins with the row.
+    pub name: &'static str,
+    /// What is checked, in words.
+    pub title: &'static str,
+    /// An agent that does nothing because the scene is about the other alone.
+    pub idle: Option<usize>,
+    /// An agent that does nothing in the scene's counterfactual, if it has one.
+    pub control: Option<usize>,
+    /// The agent whose goal is timed, with and without the other's doing.
+    pub judged: usize,
+    /// λ of the subgoal value, if it is not the usual one.
+    pub lambda: Option<f64>,
+    /// Whether the event goes on to its greatest length however quiet it is.
+    pub lingers: bool,
+    /// What counts as success.
+    pub criterion: Criterion,
+}
+
+/// What an event has to show to count as a success.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Criterion {
+    /// Every agent that is not idle reaches its goal.
+    Reach,
+    /// The same; and at the end nothing is held and nothing moves.
+    Fetch,
+    /// Of two regions the agent first searches this one (0 the near, 1 the larger).
+    SearchFirst(usize),
+    /// The goal is reached, and the object was carried by both at once.
+    CarryTogether,
+    /// The goal is reached only with the helper, or at least a tenth sooner.
+    Help,
+    /// The goal is reached, not a tenth later than without the other, and the other did not touch anyone.
+    StayOut,
+    /// The goal is missed because of the hinderer, or reached at least a tenth later.
+    Hinder(Form),
+    /// The chaser goes for the other, which by fleeing is caught at least a tenth later or not at all.
+    Chase,
+    /// Both have touched the object, and it is decided or fought over.
+    Compete,
+    /// Everybody reaches its goal, lets go, and stays still to the end of a long event.
+    Rest,
+}
+
+/// How someone is hindered.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Form {
+    /// By standing in its way.
+    Block,
+    /// By taking the object.
+    Take,
+    /// By pulling at the object it holds.
+    Drag,
+    /// By putting the object where it does not fit.
+    Hide,
+    /// By not being touched.
+    Evade,
+}
+
+impl Criterion {
+    /// Success, in words.
+    #[must_use]
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::Reach => "goals reached",
+            Self::Fetch => "goal reached, nothing held and nothing moving at the end",
+            Self::SearchFirst(0) => "half of the near unseen region seen before half of the larger",
+            Self::SearchFirst(_) => "half of the larger unseen region seen before half of the near",
+            Self::CarryTogether => "goal reached, object carried by both at once over 1 u",
+            Self::Help => "goal reached only with the helper, or at least a tenth sooner",
+            Self::StayOut => "goal reached, not a tenth later, the other never touched",
+            Self::Hinder(_) => "goal missed only with the hinderer, or reached at least a tenth later",
+            Self::Chase => "chaser heads for the other, flight delays the catch by a tenth or prevents it",
+            Self::Compete => "both have had the object, and one won or both pulled for 5 steps",
+            Self::Rest => "goals reached, nothing held, everybody still from 8 steps later to the end",
+        }
+    }
+}
+
+const ALONE: Part = Part {
+    row: 0,
+    name: "",
+    title: "",
+    idle: Some(1),
+    control: None,
+    judged: 0,
+    lambda: None,
+    lingers: false,
+    criterion: Criterion::Reach,
+};
+const BOTH: Part = Part { idle: None, ..ALONE };
+const HELPING: Part = Part { row: 5, control: Some(0), judged: 1, criterion: Criterion::Help, ..BOTH };
+const HINDERING: Part = Part { row: 6, control: Some(0), judged: 1, ..BOTH };
+const SEARCHING: Part = Part { row: 2, name: "02-search", ..ALONE };
+
+/// Everything that is checked, in order.
+pub const PARTS: [Part; 19] = [
+    Part { row: 1, name: "01-landmark", title: "going to a landmark through doors", ..ALONE },
+    Part {
+        title: "searching at lambda 0.05: the near region first",
+        lambda: Some(0.05),
+        criterion: Criterion::SearchFirst(0),
+        ..SEARCHING
+    },
+    Part {
+        title: "searching at lambda 0: the larger region first",
+        lambda: Some(0.0),
+        criterion: Criterion::SearchFirst(1),
+        ..SEARCHING
+    },
+    Part {
+        row: 3,
+        name: "03-fetch",
+        title: "fetching an object through doors and letting go",
+        criterion: Criterion::Fetch,
+        ..ALONE
+    },
+    Part {
+        row: 4,
+        name: "04-together",
+        title: "carrying together",
+        control: Some(0),
+        criterion: Criterion::CarryTogether,
+        ..BOTH
+    },
+    Part { name: "05a-reach", title: "helping: an object out of reach", ..HELPING },
+    Part { name: "05b-carry", title: "helping: a load too heavy", ..HELPING },
+    Part { name: "05c-clear", title: "helping: a door to clear", ..HELPING },
+    Part { name: "05d-no-need", title: "helping: no help needed", criterion: Criterion::StayOut, ..HELPING },
+    Part {
+        name: "06a-block",
+        title: "hindering: blocking a door",
+        criterion: Criterion::Hinder(Form::Block),
+        ..HINDERING
+    },
+    Part {
+        name: "06b-take",
+        title: "hindering: taking the object away",
+        criterion: Criterion::Hinder(Form::Take),
+        ..HINDERING
+    },
+    Part {
+        name: "06c-drag",
+        title: "hindering: dragging against",
+        criterion: Criterion::Hinder(Form::Drag),
+        ..HINDERING
+    },
+    Part {
+        name: "06d-hide",
+        title: "hindering: hiding the object",
+        criterion: Criterion::Hinder(Form::Hide),
+        ..HINDERING
+    },
+    Part {
+        name: "06e-evade",
+        title: "hindering: not being touched",
+        criterion: Criterion::Hinder(Form::Evade),
+        ..HINDERING
+    },
+    Part {
+        row: 7,
+        name: "07-chase",
+        title: "chasing and fleeing",
+        control: Some(1),
+        criterion: Criterion::Chase,
+        ..BOTH
+    },
+    Part {
+        row: 8,
+        name: "08-compete",
+        title: "competing for an object",
+        control: Some(1),
+        criterion: Criterion::Compete,
+        ..BOTH
+    },
+    Part { row: 9, name: "09-doorway", title: "meeting in a doorway", ..BOTH },
+    Part {
+        row: 10,
+        name: "10-rest",
+        title: "resting once the goal is reached",
+        lingers: true,
+        criterion: Criterion::Rest,
+        ..ALONE
+    },
+    Part {
+        row: 10,
+        name: "10-rest-both",
+        title: "both resting once their goals are reached",
+        lingers: true,
+        criterion: Criterion::Rest,
+        ..BOTH
+    },
+];
