@@ -1,8 +1,8 @@
 //! Which scenes are refused, and what relations follow from goals and attitudes.
 
 use phase_model::{
-    AgentSpec, Attitude, Body, EventKind, Goal, Layout, ObjectSpec, Relation, Scene, SceneError, Sign, Size,
-    Strength, Vec2,
+    AgentSpec, Attitude, Body, EventKind, Flip, Goal, Layout, ObjectSpec, Relation, Scene, SceneError, Sign,
+    Size, Strength, Vec2,
 };
 
 const ON_0: Goal = Goal::AgentOnLandmark { agent: 1, landmark: 0, sign: Sign::Positive };
@@ -93,4 +93,28 @@ fn goals_are_written_as_the_recordings_write_them() {
     let json = serde_json::to_string(&object_on(0, 2).negated()).expect("plain data");
     assert_eq!(json, r#"{"kind":"object_on_landmark","object":0,"landmark":2,"sign":-1}"#);
     assert!(serde_json::from_str::<Goal>(&json.replace("-1", "0")).is_err());
+}
+
+#[test]
+fn a_mirror_turns_everything_over() {
+    let scene = scene();
+    let mirrored = scene.mirrored(Flip::LeftRight).expect("layout 0 is no reflection");
+    // x about 16; landmarks 0 and 1, 2 and 3 change places; turning left becomes turning right.
+    let positions = [mirrored.agents[0].start, mirrored.agents[1].start, mirrored.objects[0].start];
+    assert_eq!(positions.map(|body| body.position.x), [24.0, 8.0, 16.0]);
+    assert_eq!(positions.map(|body| body.position.y), [8.0, 8.0, 18.0]);
+    assert_eq!(
+        mirrored.goals(),
+        [object_on(0, 3), Goal::AgentOnLandmark { agent: 1, landmark: 1, sign: Sign::Positive }]
+    );
+    assert_eq!(mirrored.layout.flip(), Some(Flip::LeftRight));
+    assert_eq!(mirrored.mirrored(Flip::LeftRight), None);
+    for flip in Flip::ALL {
+        let mirrored = scene.mirrored(flip).expect("layout 0 is no reflection");
+        for (mirrored, agent) in mirrored.agents.iter().zip(&scene.agents) {
+            let (body, image) = (agent.start, mirrored.start);
+            assert!(image.forward().distance(flip.vector(body.forward())) < 1e-6, "{flip:?}");
+            assert!(flip.point(image.position).distance(body.position) < 1e-5, "{flip:?}");
+        }
+    }
 }

@@ -145,3 +145,23 @@ fn beliefs_are_recomputed_from_the_record() {
         }
     }
 }
+
+#[test]
+fn an_idle_agent_stays_and_leaves_the_other_its_own_chance() {
+    let scene = scene(EventKind::Independent);
+    let event = simulate(&scene, 3, &quick()).unwrap();
+    for idle in 0..2 {
+        let settings = Settings { idle: Some(idle), ..quick() };
+        let without = simulate(&scene, 3, &settings).unwrap();
+        assert!(without.steps.iter().all(|step| step.actions[idle] == phase_model::Action::Stop));
+        // Both decide on the same first observation with streams of their own.
+        let other = 1 - idle;
+        assert_eq!(without.steps[0].actions[other], event.steps[0].actions[other]);
+        assert_eq!(without.steps[0].thoughts[other], event.steps[0].thoughts[other]);
+        let start = without.initial.bodies[idle].position;
+        let end = without.steps[0].substeps[4].bodies[idle].position;
+        assert!(start.distance(end) < 0.01, "agent {idle} moved by itself");
+    }
+    let nobody = simulate(&scene, 3, &Settings { idle: Some(7), ..quick() }).unwrap();
+    assert_eq!(nobody, event);
+}

@@ -18,7 +18,7 @@ const VISIBLE: usize = 3;
 
 /// What was made of one event.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Verdict {
+pub(super) struct Verdict {
     /// Whether the row's criterion holds.
     pub success: bool,
     /// Whether the means the row is named for was seen; `None` where the row names none.
@@ -33,7 +33,7 @@ pub struct Verdict {
 
 /// Judges an event of a scene, beside its counterfactual if the part has one.
 #[must_use]
-pub fn judge(part: &Part, scene: &Scene, track: &Track, control: Option<&Track>) -> Verdict {
+pub(super) fn judge(part: &Part, scene: &Scene, track: &Track, control: Option<&Track>) -> Verdict {
     let case = Case { part, scene, track };
     let goal = scene.agents[part.judged].goal;
     let with = Outcome::of(track, goal);

@@ -22,7 +22,7 @@ use phase_dataset::{
 };
 use phase_model::{Scene, arena::SUBSTEPS};
 use report::{SceneResult, Trial};
-pub use rows::PARTS;
+use rows::PARTS;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use trial::Laboratory;

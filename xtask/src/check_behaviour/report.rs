@@ -12,11 +12,11 @@ use phase_model::Flip;
 use serde_json::{Value, json};
 
 /// The value of the field `format` of reports.
-pub const FORMAT: &str = "phase-behaviour/1";
+pub(super) const FORMAT: &str = "phase-behaviour/1";
 
 /// One event and what was made of it.
 #[derive(Clone, Debug)]
-pub struct Trial {
+pub(super) struct Trial {
     /// The seed of the event.
     pub seed: u64,
     /// The mirror the scene was seen in.
@@ -29,7 +29,7 @@ pub struct Trial {
 
 /// All events of one scene.
 #[derive(Clone, Debug)]
-pub struct SceneResult {
+pub(super) struct SceneResult {
     /// The part of the table it belongs to, an index into [`PARTS`].
     pub part: usize,
     /// The scene's id.
@@ -103,7 +103,7 @@ impl Reached {
 
 /// The whole report as JSON; `run` says how it was made.
 #[must_use]
-pub fn to_json(run: &Value, scenes: &[SceneResult]) -> Value {
+pub(super) fn to_json(run: &Value, scenes: &[SceneResult]) -> Value {
     let row = |(index, part): (usize, &Part)| {
         let own: Vec<&SceneResult> = scenes.iter().filter(|scene| scene.part == index).collect();
         (!own.is_empty()).then(|| {
@@ -120,9 +120,9 @@ pub fn to_json(run: &Value, scenes: &[SceneResult]) -> Value {
 
 /// The report as a table for people.
 #[must_use]
-pub fn table(scenes: &[SceneResult]) -> String {
+pub(super) fn table(scenes: &[SceneResult]) -> String {
     let mut text = format!(
-        "{:<46} {:>7} {:>10} {:>7} {:>13} {:>13}\n",
+        "{:<54} {:>7} {:>10} {:>7} {:>13} {:>13}\n",
         "row, scene", "success", "95 %", "shown", "goal, median", "without"
     );
     for (index, part) in PARTS.iter().enumerate() {
@@ -131,10 +131,18 @@ pub fn table(scenes: &[SceneResult]) -> String {
             continue;
         }
         let title = format!("{} {}", part.name.split('-').next().unwrap_or_default(), part.title);
-        text += &format!("{title:<46} {}\n", Rates::of(trials(&own)).cells());
+        text += &format!("{title:<54} {}\n", Rates::of(trials(&own)).cells());
         for scene in own {
             let name = format!("    {}", scene.id);
-            text += &format!("{name:<46} {}\n", Rates::of(scene.trials.iter()).cells());
+            text += &format!("{name:<54} {}\n", Rates::of(scene.trials.iter()).cells());
+        }
+    }
+    for scene in scenes {
+        let failures: Vec<&Trial> = scene.trials.iter().filter(|trial| !trial.verdict.success).collect();
+        if let Some(first) = failures.first() {
+            let (part, id, count) = (PARTS[scene.part].name, &scene.id, failures.len());
+            let (seed, notes) = (first.seed, &first.verdict.notes);
+            text += &format!("{part} {id} failed {count} times, first with seed {seed}: {notes}\n");
         }
     }
     if let Some(p) = search_p(scenes) {

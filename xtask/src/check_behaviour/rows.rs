@@ -2,7 +2,7 @@
 
 /// One line of the table: scenes in a file of their own, how they are played, and what counts as success.
 #[derive(Clone, Copy, Debug)]
-pub struct Part {
+pub(super) struct Part {
     /// The row, from 1.
     pub row: u8,
     /// The file in `data/behaviour` without `.json`; begins with the row.
@@ -25,7 +25,7 @@ pub struct Part {
 
 /// What an event has to show to count as a success.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Criterion {
+pub(super) enum Criterion {
     /// Every agent that is not idle reaches its goal.
     Reach,
     /// The same; and at the end nothing is held and nothing moves.
@@ -50,7 +50,7 @@ pub enum Criterion {
 
 /// How someone is hindered.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Form {
+pub(super) enum Form {
     /// By standing in its way.
     Block,
     /// By taking the object.
@@ -66,7 +66,7 @@ pub enum Form {
 impl Criterion {
     /// Success, in words.
     #[must_use]
-    pub const fn words(self) -> &'static str {
+    pub(super) const fn words(self) -> &'static str {
         match self {
             Self::Reach => "goals reached",
             Self::Fetch => "goal reached, nothing held and nothing moving at the end",
@@ -100,7 +100,7 @@ const HINDERING: Part = Part { row: 6, control: Some(0), judged: 1, ..BOTH };
 const SEARCHING: Part = Part { row: 2, name: "02-search", ..ALONE };
 
 /// Everything that is checked, in order.
-pub const PARTS: [Part; 19] = [
+pub(super) const PARTS: [Part; 19] = [
     Part { row: 1, name: "01-landmark", title: "going to a landmark through doors", ..ALONE },
     Part {
         title: "searching at lambda 0.05: the near region first",

@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod check_physics;
+mod check_behaviour;
 mod gen_dataset;
 mod interruption;
 mod render;
