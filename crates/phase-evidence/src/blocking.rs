@@ -17,14 +17,18 @@ pub fn steps_blocking_a_door(
 ) -> Vec<usize> {
     let blocked = other(blocker);
     let width = track.physique.agents[blocked].width();
-    let reach = |state: &State| state.position(Entity::agent(blocker));
     let in_the_way = |state: &State| {
         let from = state.position(Entity::agent(blocked));
         let route = target(state).and_then(|to| routes.best(from, to, width, routes.gaps()));
         let Some(route) = route else { return false };
         let radius = track.physique.agents[blocker].radius;
         let mut gaps = *routes.gaps();
-        obstruct(&mut gaps, reach(state), radius, radius + track.physique.agents[blocked].radius);
+        obstruct(
+            &mut gaps,
+            state.position(Entity::agent(blocker)),
+            radius,
+            radius + track.physique.agents[blocked].radius,
+        );
         route.doors().iter().any(|&(slot, _)| {
             let slot = usize::from(slot);
             routes.gaps().width(slot) >= width && gaps.width(slot) < width

@@ -13,7 +13,7 @@ pub struct Rest {
     pub travelled: f32,
     /// Greatest distance from where it was at the beginning of them (u).
     pub strayed: f32,
-    /// Sum of all turning, either way (rad).
+    /// Sum of all turning, either way (rad); 0 for objects, since a disc that turns looks like one that does not.
     pub turned: f32,
     /// Steps in which it moved more than 0.02 u or turned more than 0.02 rad.
     pub restless: usize,
@@ -32,7 +32,10 @@ impl Rest {
         for pair in states.windows(2) {
             let (before, after) = (pair[0].body(entity), pair[1].body(entity));
             let moved = before.position.distance(after.position);
-            let turned = (after.angle - before.angle).abs();
+            let turned = match entity {
+                Entity::Agent(_) => (after.angle - before.angle).abs(),
+                Entity::Object(_) => 0.0,
+            };
             rest.steps += 1;
             rest.travelled += moved;
             rest.turned += turned;

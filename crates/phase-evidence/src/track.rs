@@ -1,6 +1,6 @@
 //! One state for each step: what all judgements are made on.
 
-use phase_model::{AGENT_COUNT, Body, Contacts, Entity, MAX_ENTITIES, Physique, State, arena::SUBSTEPS};
+use phase_model::{Body, Contacts, Entity, MAX_ENTITIES, Physique, State, arena::SUBSTEPS};
 use phase_sim::{Event, Step};
 
 /// Where everybody was at every step of one event.
@@ -60,9 +60,9 @@ pub fn mean_state(step: &Step) -> State {
     state
 }
 
-/// The two agents in either order: (who, the other).
+/// The other agent.
 pub(crate) const fn other(agent: usize) -> usize {
-    AGENT_COUNT - 1 - if agent < AGENT_COUNT { agent } else { AGENT_COUNT - 1 }
+    if agent == 0 { 1 } else { 0 }
 }
 
 fn mean(bodies: [Body; SUBSTEPS]) -> Body {

@@ -37,3 +37,13 @@ fn quiet_is_staying_facing_and_not_trembling() {
 fn past_the_end_everything_is_quiet() {
     assert!(Rest::after(&event(&[(8.0, 0.0)]), Entity::Agent(0), 5).is_quiet());
 }
+
+#[test]
+fn nobody_sees_a_disc_turn() {
+    let mut track = track([(); 5].map(|()| Move { objects: vec![(12.0, 12.0)], ..Move::default() }));
+    for (t, state) in track.states.iter_mut().enumerate() {
+        state.bodies[2].angle = t as f32;
+    }
+    let rest = Rest::after(&track, Entity::Object(0), 0);
+    assert!(rest.is_quiet() && rest.turned == 0.0, "{rest:?}");
+}
