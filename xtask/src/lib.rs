@@ -14,8 +14,8 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
-pub mod check_physics;
 pub mod check_behaviour;
+pub mod check_physics;
 pub mod cli;
 pub mod console;
 pub mod engine;

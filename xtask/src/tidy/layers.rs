@@ -4,7 +4,7 @@ use super::Workspace;
 use std::path::{Path, PathBuf};
 
 /// The crates from the ground floor up. A crate may use those before it, never those after it.
-pub const LAYERS: [&str; 14] = [
+pub const LAYERS: [&str; 15] = [
     "phase-model",
     "phase-calibration",
     "phase-world",

@@ -1,8 +1,8 @@
 //! The command line, run as a program.
 
 mod bad_input;
-mod check_physics;
 mod check_behaviour;
+mod check_physics;
 mod gen_dataset;
 mod interruption;
 mod render;
