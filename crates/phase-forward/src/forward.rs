@@ -195,13 +195,11 @@ impl Forward {
         let before = world.outlines.boxes;
         world.solve(busy, touching);
         world.outline(busy);
-        for body in 0..self.count {
-            if busy & 1 << body != 0 {
-                if reach::may_meet_wall(world, body, before[body]) {
-                    let walls = reach::walls_swept(world, body);
-                    world.impacts(body, walls);
-                    world.contain(body, walls);
-                }
+        for (body, start) in before.into_iter().enumerate() {
+            if busy & 1 << body != 0 && reach::may_meet_wall(world, body, start) {
+                let walls = reach::walls_swept(world, body);
+                world.impacts(body, walls);
+                world.contain(body, walls);
             }
         }
     }
