@@ -23,7 +23,7 @@ pub fn median(numbers: &[usize]) -> Option<f64> {
     let mut sorted = numbers.to_vec();
     sorted.sort_unstable();
     let upper = *sorted.get(sorted.len() / 2)?;
-    let lower = if sorted.len() % 2 == 0 { sorted[sorted.len() / 2 - 1] } else { upper };
+    let lower = if sorted.len().is_multiple_of(2) { sorted[sorted.len() / 2 - 1] } else { upper };
     Some((lower as f64 + upper as f64) / 2.0)
 }
 
