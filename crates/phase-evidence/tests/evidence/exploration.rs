@@ -10,10 +10,13 @@ fn turning(angles: &[f32]) -> phase_evidence::Track {
     track(angles.iter().map(one))
 }
 
+/// The region that was searched first, and the step.
+type Found = Option<(usize, usize)>;
+
 #[test]
 fn the_first_region_half_seen_counts() {
     // Down: neither region. Up: room 1. Left: room 3.
-    let cases: [(&[f32], Option<(usize, usize)>); 4] = [
+    let cases: [(&[f32], Found); 4] = [
         (&[PI, PI], None),
         (&[PI, 0.0, FRAC_PI_2], Some((0, 1))),
         (&[PI, PI, FRAC_PI_2, 0.0], Some((1, 2))),
