@@ -57,7 +57,7 @@ fn play(kind: EventKind, index: u64, random: &mut Pcg64Mcg) -> (Forward, Vec<Sta
     let mut world = World::new(&physique, &scene.initial_state());
     let mut actions = draw(random);
     let mut step = |k: usize| {
-        if k % HELD == 0 {
+        if k.is_multiple_of(HELD) {
             actions = draw(random);
         }
         let [.., after] = world.step(actions);
