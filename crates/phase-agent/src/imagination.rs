@@ -121,6 +121,12 @@ impl Imagined {
         let (distance, course) = objective.look(&state);
         Self { state, distance, course }
     }
+
+    /// The state itself.
+    #[must_use]
+    pub const fn state(&self) -> &State {
+        &self.state
+    }
 }
 
 impl<D: Dynamics> GenerativeModel for Imagination<'_, D> {

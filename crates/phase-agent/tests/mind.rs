@@ -2,7 +2,7 @@
 
 use phase_agent::{
     Agent, Settings, guidance,
-    imagination::Imagination,
+    imagination::{Imagination, Imagined},
     objective::{LONGEST, Objective},
     repertoire,
 };
@@ -127,11 +127,11 @@ fn rewards_follow_equation_1() {
                 discount: 0.95,
                 guidance: 0.0,
             };
-            let mut after = state;
+            let mut after = Imagined::new(&objective, state);
             let reward = model.rollout_step(&mut after, 0, &mut stream(1, Purpose::Search, 0)).reward;
             let mut by_hand = state;
             forward.step(&mut by_hand, [action, Action::NoForce]);
-            assert_eq!(after, by_hand);
+            assert_eq!(*after.state(), by_hand);
             let distance = objective.distance(&by_hand);
             assert!((distance - 15.0).abs() < 0.7, "landmark 1 is 15 u above landmark 2: {distance}");
             let expected = social - cost - f64::from(distance / LONGEST);

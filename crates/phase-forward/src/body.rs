@@ -4,8 +4,8 @@ use crate::{
     tuning::{GREATEST_TURN, GRIP_OF_GROUND, H, LONGEST_WAY, SKIN},
     turn::{cos_sin, turned},
 };
+use glam::Vec3;
 use phase_model::{Action, AgentBody, Body, Vec2, physique};
-use wide::f32x4;
 
 /// Index of the one body that stands for everything that does not move.
 pub(crate) const STATIC: usize = 4;
@@ -16,7 +16,7 @@ pub(crate) struct Shape {
     pub(crate) inverse_mass: f32,
     pub(crate) inverse_inertia: f32,
     /// Inverse mass (twice) and inverse inertia, to go with a [`Twist`].
-    pub(crate) yielding: f32x4,
+    pub(crate) yielding: Vec3,
     pub(crate) mass: f32,
     /// How much less than the mass a sideways push at the origin has to move (kg).
     pub(crate) yielding_mass: f32,
@@ -52,7 +52,7 @@ impl Shape {
         Self {
             inverse_mass,
             inverse_inertia,
-            yielding: f32x4::new([inverse_mass, inverse_mass, inverse_inertia, 0.0]),
+            yielding: Vec3::new(inverse_mass, inverse_mass, inverse_inertia),
             mass: agent.mass(),
             yielding_mass: agent.mass() - 1.0 / (inverse_mass + origin * origin * inverse_inertia),
             origin,
@@ -73,7 +73,7 @@ impl Shape {
         Self {
             inverse_mass,
             inverse_inertia,
-            yielding: f32x4::new([inverse_mass, inverse_mass, inverse_inertia, 0.0]),
+            yielding: Vec3::new(inverse_mass, inverse_mass, inverse_inertia),
             mass,
             yielding_mass: 0.0,
             radius,
@@ -88,7 +88,7 @@ impl Shape {
         Self {
             inverse_mass: 0.0,
             inverse_inertia: 0.0,
-            yielding: f32x4::ZERO,
+            yielding: Vec3::ZERO,
             mass: 0.0,
             yielding_mass: 0.0,
             origin: 0.0,
@@ -227,7 +227,7 @@ impl Motion {
     /// The velocity in one vector.
     #[inline]
     pub(crate) fn twist(&self) -> Twist {
-        Twist(f32x4::new([self.velocity.x, self.velocity.y, self.spin, 0.0]))
+        Twist(Vec3::new(self.velocity.x, self.velocity.y, self.spin))
     }
 
     /// Sets the velocity.
@@ -256,29 +256,27 @@ impl Motion {
 /// A velocity (x, y and spin), or an impulse in the same three directions, in one vector that is read and
 /// written as a whole: the velocity solver does little else.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Twist(pub(crate) f32x4);
+pub(crate) struct Twist(pub(crate) Vec3);
 
 impl Twist {
-    pub(crate) const ZERO: Self = Self(f32x4::ZERO);
+    pub(crate) const ZERO: Self = Self(Vec3::ZERO);
 
     /// The velocity (or the impulse) and the spin in it.
     #[inline]
     pub(crate) fn parts(self) -> (Vec2, f32) {
-        let [x, y, turn, _] = self.0.to_array();
-        (Vec2::new(x, y), turn)
+        (Vec2::new(self.0.x, self.0.y), self.0.z)
     }
 
     /// What a unit impulse in a direction at an offset from the centre of mass is.
     #[inline]
     pub(crate) fn of_impulse(direction: Vec2, offset: Vec2) -> Self {
-        Self(f32x4::new([direction.x, direction.y, offset.perp_dot(direction), 0.0]))
+        Self(Vec3::new(direction.x, direction.y, offset.perp_dot(direction)))
     }
 
     /// The velocity along an impulse's direction.
     #[inline]
     pub(crate) fn dot(self, other: Self) -> f32 {
-        let [x, y, turn, _] = (self.0 * other.0).to_array();
-        x + y + turn
+        self.0.dot(other.0)
     }
 
     /// The velocity along this impulse's direction that a unit of another impulse gives a body.
@@ -315,6 +313,6 @@ impl Twist {
     #[inline]
     pub(crate) fn rub_by(&mut self, shape: &Shape, right: Vec2, impulse: Vec2) {
         let twist = -right.dot(impulse) * shape.origin;
-        self.0 += f32x4::new([impulse.x, impulse.y, twist, 0.0]) * shape.yielding;
+        self.0 += Vec3::new(impulse.x, impulse.y, twist) * shape.yielding;
     }
 }

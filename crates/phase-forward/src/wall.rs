@@ -82,8 +82,8 @@ impl Boxes {
     /// The walls whose boxes overlap a box.
     #[inline]
     pub(crate) fn near(&self, min: Vec2, max: Vec2) -> WallSet {
-        let [min_x, min_y] = [min.x, min.y].map(f32x4::splat);
-        let [max_x, max_y] = [max.x, max.y].map(f32x4::splat);
+        let (min_x, min_y) = (f32x4::splat(min.x), f32x4::splat(min.y));
+        let (max_x, max_y) = (f32x4::splat(max.x), f32x4::splat(max.y));
         let mut near = 0;
         for group in 0..GROUPS {
             let overlaps = self.min_x[group].simd_le(max_x)

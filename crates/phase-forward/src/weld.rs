@@ -4,8 +4,8 @@ use crate::{
     body::{Motion, Shape, Twist},
     tuning::{ANGULAR_SLOP, SLOP},
 };
+use glam::Vec3;
 use phase_model::{Grip, Vec2};
-use wide::f32x4;
 
 /// An agent's hold of an object and all that its solution needs.
 #[derive(Clone, Copy, Debug)]
@@ -74,9 +74,9 @@ impl Weld {
 
     #[inline]
     fn apply(&self, shapes: &[Shape; 5], twists: &mut [Twist; 5], impulse: Vec2, twist: f32) {
-        let on_agent = f32x4::new([impulse.x, impulse.y, self.offset.perp_dot(impulse) + twist, 0.0]);
+        let on_agent = Vec3::new(impulse.x, impulse.y, self.offset.perp_dot(impulse) + twist);
         twists[self.agent].push(Twist(on_agent), -1.0, &shapes[self.agent]);
-        let on_object = f32x4::new([impulse.x, impulse.y, twist, 0.0]);
+        let on_object = Vec3::new(impulse.x, impulse.y, twist);
         twists[self.object].push(Twist(on_object), 1.0, &shapes[self.object]);
     }
 }
