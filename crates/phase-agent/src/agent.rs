@@ -82,7 +82,8 @@ impl<D: Dynamics> Agent<D> {
     /// As POMCP's search.
     pub fn decide(&mut self, random: &mut impl Rng) -> Result<(Action, Thought), PomcpError> {
         let particles = self.belief.particles();
-        let (plans, plan_of) = self.plans(particles);
+        let known = self.observed.union(known_places(&self.physique, particles));
+        let (plans, plan_of) = self.plans(particles, known);
         let by_particle: Vec<&Plan> = plan_of.iter().map(|&plan| &plans[plan]).collect();
         let candidates = value::candidates(&by_particle, self.settings.lambda);
         let Some(best) = candidates.first() else {
@@ -98,15 +99,15 @@ impl<D: Dynamics> Agent<D> {
 
     /// One plan for each different particle, and which plan belongs to each particle. Once everything is in
     /// view all particles are the same world, and planning once is enough.
-    fn plans(&self, particles: &[State]) -> (Vec<Plan>, Vec<usize>) {
+    fn plans(&self, particles: &[State], known: EntitySet) -> (Vec<Plan>, Vec<usize>) {
         let mut different: Vec<usize> = Vec::new();
         let mut plans = Vec::new();
         let mut plan_of = Vec::with_capacity(particles.len());
         for (k, particle) in particles.iter().enumerate() {
-            let known = different.iter().position(|&other| particles[other] == *particle);
-            plan_of.push(known.unwrap_or_else(|| {
+            let seen = different.iter().position(|&other| particles[other] == *particle);
+            plan_of.push(seen.unwrap_or_else(|| {
                 different.push(k);
-                plans.push(self.planner.plan(particle, self.observed));
+                plans.push(self.planner.plan(particle, known));
                 plans.len() - 1
             }));
         }
@@ -149,4 +150,20 @@ impl<D: Dynamics> Agent<D> {
 
 fn summary(candidate: &Candidate) -> SubgoalValue {
     SubgoalValue { subgoal: candidate.subgoal, value: candidate.value, particles: candidate.particles.len() }
+}
+
+/// Entities that all particles believe to be in the same place. Nobody need go and look whether an object lies
+/// where it has just been put.
+fn known_places(physique: &Physique, particles: &[State]) -> EntitySet {
+    /// Greatest distance between places that count as the same (u).
+    const SAME: f32 = 0.5;
+    let mut known = EntitySet::EMPTY;
+    let Some(first) = particles.first() else { return known };
+    for entity in physique.entities() {
+        let place = first.position(entity);
+        if particles.iter().all(|particle| particle.position(entity).distance(place) <= SAME) {
+            known.insert(entity);
+        }
+    }
+    known
 }

@@ -9,8 +9,12 @@ const TIGHT: f32 = 1.2;
 const LINE_UP: f32 = 1.8;
 /// Distance from a door, and to its side, at which one waits for it to be free (u).
 const WAITING_ROOM: f32 = 1.5;
+/// Two that are this much nearer or farther count as equally near (u).
+const AS_NEAR: f32 = 0.25;
 /// A body nearer to a door's crossing than this takes the door (u).
 const DOORWAY: f32 = 2.5;
+/// Nearer to a crossing than this one heads for what lies past it (u).
+const AT_CROSSING: f32 = 0.6;
 /// How far beyond a room's border counts as being in it (u).
 const INSIDE: f32 = 1.5;
 
@@ -63,21 +67,23 @@ fn wait(slot: usize, crossing: Vec2, from: Vec2, width: f32) -> Vec2 {
 }
 
 /// Lets another body through first: if the other is in the first door on the way, and nearer to it, the course
-/// leads to a place beside that door instead.
+/// leads to a place beside that door instead. Of two that are as near, the one that is `polite` waits.
 #[must_use]
-pub fn give_way(way: &Way<'_>, other: Vec2) -> Option<Course> {
+pub fn give_way(way: &Way<'_>, other: Vec2, polite: bool) -> Option<Course> {
     let Way { routes, from, width, route, .. } = *way;
     let route = route?;
     let &(slot, crossing) = route.doors().first()?;
     let slot = usize::from(slot);
     let (mine, theirs) = (from.distance(crossing), other.distance(crossing));
     let is_taken = theirs < DOORWAY
-        && theirs < mine
+        && theirs < if polite { mine + AS_NEAR } else { mine - AS_NEAR }
         && mine < 2.0 * DOORWAY
         && routes.gaps().width(slot) < 2.0 * width + TIGHT;
     is_taken.then(|| {
         let place = wait(slot, crossing, from, width);
-        Course { heading_for: place, remaining: route.length + from.distance(place) }
+        // By way of that place, so that every step towards it gains.
+        let by_way = from.distance(place) + place.distance(crossing);
+        Course { heading_for: place, remaining: route.length - mine + by_way }
     })
 }
 
@@ -150,14 +156,16 @@ pub fn into_room(way: &Way<'_>) -> Course {
 
 /// The point to head for before a door, and how much longer than the straight way to the crossing that is (u).
 fn through(gaps: &Gaps, slot: usize, crossing: Vec2, from: Vec2, width: f32) -> (Vec2, f32) {
-    if gaps.width(slot) > width + TIGHT {
-        return (crossing, 0.0);
-    }
     let along = SLOT_DIRECTIONS[slot];
     let offset = from - crossing;
     let lateral = along.dot(offset).abs();
     let across = along.perp_dot(offset);
     let straight = offset.length();
+    if gaps.width(slot) > width + TIGHT {
+        // At the crossing itself there is no direction any more: on, and past it.
+        let on = crossing - along.perp() * across.signum();
+        return (if straight < AT_CROSSING { on } else { crossing }, 0.0);
+    }
     if across.abs() <= LINE_UP {
         // Beside the door already: sideways first, then on; just before it, on and through.
         let on = crossing - along.perp() * across.signum();

@@ -13,10 +13,16 @@ const GOOD_HEADING: f32 = 0.6;
 const SLOW: f32 = 1.0;
 
 /// The action that a simple mover would take: grab or let go where that is the subgoal; brake before
-/// overshooting; push whichever way leads most directly along the course; or, when only forward pushes are
-/// on offer, turn until the heading is good. `course` is the state's, if it has been laid already.
+/// overshooting; push whichever way leads most directly along the course; or, when sideways pushes are not
+/// among the `actions` on offer, turn until the heading is good, stepping back where that is on offer and the
+/// way leads back. `course` is the state's, if it has been laid already.
 #[must_use]
-pub fn action(objective: &Objective<'_>, state: &State, course: Option<Course>, sideways: bool) -> Action {
+pub fn action(
+    objective: &Objective<'_>,
+    state: &State,
+    course: Option<Course>,
+    actions: &[Action],
+) -> Action {
     let agent = objective.agent;
     if let Subgoal::Achieve(Literal { predicate: Predicate::Attach(who, object), holds }) = objective.subgoal
         && usize::from(who) == agent
@@ -42,13 +48,15 @@ pub fn action(objective: &Objective<'_>, state: &State, course: Option<Course>, 
     }
     let direction = way / distance;
     let forward = body.forward();
-    if sideways {
+    if actions.contains(&Action::Left) {
         let right = Vec2::new(forward.y, -forward.x);
         return nearest_push(Vec2::new(direction.dot(right), direction.dot(forward)));
     }
     let off = libm::atan2f(forward.perp_dot(direction), forward.dot(direction));
     if off.abs() < GOOD_HEADING {
         Action::Up
+    } else if off.abs() > core::f32::consts::FRAC_PI_2 && actions.contains(&Action::Down) {
+        Action::Down
     } else if off > 0.0 {
         Action::TurnLeft
     } else {

@@ -60,7 +60,7 @@ impl<'a, D> Imagination<'a, D> {
         let agent = self.objective.agent;
         match (state.held_object(agent), state.held_object(1 - agent)) {
             (Some(mine), Some(theirs)) if mine == theirs => {
-                guidance::action(&self.other_objective, state, None, true)
+                guidance::action(&self.other_objective, state, None, &Action::ALL)
             }
             _ => Action::NoForce,
         }
@@ -68,8 +68,7 @@ impl<'a, D> Imagination<'a, D> {
 
     /// What the rule of thumb would do.
     fn guided(&self, imagined: &Imagined) -> Action {
-        let sideways = self.actions.contains(&Action::Left);
-        guidance::action(&self.objective, &imagined.state, imagined.course, sideways)
+        guidance::action(&self.objective, &imagined.state, imagined.course, self.actions)
     }
 
     fn reward(&self, imagined: &Imagined, action: Action) -> f64 {

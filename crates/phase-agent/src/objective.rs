@@ -222,7 +222,7 @@ impl Objective<'_> {
         if about_other || (mine.is_some() && mine == state.held_object(1 - self.agent)) {
             return None;
         }
-        course::give_way(way, state.position(other))
+        course::give_way(way, state.position(other), self.agent > 0)
     }
 
     /// The way between two points, with room kept for as much as the agent, what it holds and who else

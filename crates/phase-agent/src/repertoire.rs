@@ -6,6 +6,9 @@ use phase_predicates::{Literal, Place, Predicate};
 
 /// For getting oneself somewhere: people see purpose in bodies that move the way they face.
 const WALKING: [Action; 5] = [Action::TurnLeft, Action::TurnRight, Action::Up, Action::Stop, Action::NoForce];
+/// The same with a step back, for whom another body holds up: face to face there is no room to turn.
+const BACKING_OFF: [Action; 6] =
+    [Action::TurnLeft, Action::TurnRight, Action::Up, Action::Stop, Action::NoForce, Action::Down];
 /// For letting go: first come to rest, so that the object stays where it is put.
 const RELEASING: [Action; 3] = [Action::Stop, Action::NoForce, Action::Detach];
 /// Number of leading actions of [`Action::ALL`] without grabbing and letting go.
@@ -19,14 +22,16 @@ pub fn actions(agent: usize, subgoal: Subgoal, state: &State) -> &'static [Actio
     let Subgoal::Achieve(Literal { predicate, holds }) = subgoal else { return &[Action::Stop] };
     let free = state.grips[agent].is_none();
     let me = Entity::agent(agent);
+    let held_up = state.contacts.touching(me, Entity::agent(1 - agent));
+    let walking: &'static [Action] = if held_up { &BACKING_OFF } else { &WALKING };
     match (predicate, holds) {
         (Predicate::Attach(..), false) => &RELEASING,
         (Predicate::Attach(..), true) => &Action::ALL[..WITHOUT_RELEASE],
         (Predicate::On(who, _) | Predicate::Close(who, Place::Landmark(_)), true) if who == me && free => {
-            &WALKING
+            walking
         }
-        (Predicate::Close(who, Place::Entity(_)), _) if who == me && free => &WALKING,
-        (Predicate::Touch(..), _) if free => &WALKING,
+        (Predicate::Close(who, Place::Entity(_)), _) if who == me && free => walking,
+        (Predicate::Touch(..), _) if free => walking,
         _ => &Action::ALL[..WITHOUT_HANDS],
     }
 }

@@ -50,16 +50,32 @@ fn who_does_not_fit_waits_beside_the_door() {
 #[test]
 fn one_gives_way_to_who_is_in_the_door() {
     let (from, to) = (Vec2::new(7.3, 15.0), Vec2::new(8.0, 6.0));
-    let yields = |other| give_way(&Way::find(&narrow(), from, to, 2.4), other).is_some();
+    let yields = |other| give_way(&Way::find(&narrow(), from, to, 2.4), other, false).is_some();
     assert!(yields(Vec2::new(7.3, 11.8)));
     assert!(!yields(Vec2::new(14.0, 8.0)));
     // A wide opening has room for both.
     assert!(
         give_way(
             &Way::find(&half(), Vec2::new(20.0, 15.0), Vec2::new(20.0, 8.0), 2.4),
-            Vec2::new(20.0, 12.0)
+            Vec2::new(20.0, 12.0),
+            true
         )
         .is_none()
+    );
+}
+
+#[test]
+fn of_two_that_are_as_near_to_a_door_the_polite_one_goes_back() {
+    let (from, facing) = (Vec2::new(7.2, 13.4), Vec2::new(7.2, 10.6));
+    let routes = narrow();
+    let way = |from| Way::find(&routes, from, Vec2::new(7.2, 4.5), 2.4);
+    assert!(give_way(&way(from), facing, false).is_none());
+    let course = give_way(&way(from), facing, true).expect("it waits");
+    let nearer = from + (course.heading_for - from).normalize() * 0.5;
+    let later = give_way(&way(nearer), facing, true).expect("it still waits");
+    assert!(
+        later.remaining < course.remaining - 0.3,
+        "every step towards the place gains: {course:?} {later:?}"
     );
 }
 

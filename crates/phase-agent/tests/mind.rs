@@ -41,15 +41,14 @@ fn achieve(predicate: Predicate) -> Subgoal {
     Subgoal::Achieve(Literal::is(predicate))
 }
 
+/// What an agent does to walk.
+const WALKING: [Action; 3] = [Action::TurnLeft, Action::TurnRight, Action::Up];
+
 /// The rule of thumb's action for a subgoal of agent 0.
-fn thumb(scene: &Scene, state: &State, subgoal: Subgoal, sideways: bool) -> Action {
+fn thumb(scene: &Scene, state: &State, subgoal: Subgoal, actions: &[Action]) -> Action {
     let (physique, routes) = (scene.physique(), Routes::new(scene.layout));
-    guidance::action(
-        &Objective { physique: &physique, routes: &routes, agent: 0, subgoal },
-        state,
-        None,
-        sideways,
-    )
+    let objective = Objective { physique: &physique, routes: &routes, agent: 0, subgoal };
+    guidance::action(&objective, state, None, actions)
 }
 
 #[test]
@@ -63,23 +62,23 @@ fn the_rule_of_thumb_turns_goes_and_brakes() {
         (core::f32::consts::PI + 1.2, Action::TurnRight),
     ] {
         let scene = scene(above, angle);
-        assert_eq!(thumb(&scene, &scene.initial_state(), to_landmark, false), expected, "{angle}");
+        assert_eq!(thumb(&scene, &scene.initial_state(), to_landmark, &WALKING), expected, "{angle}");
     }
     let near = scene(Vec2::new(23.5, 5.5), core::f32::consts::PI);
     let mut fast = near.initial_state();
     fast.bodies[0].velocity = Vec2::new(0.0, -20.0);
-    assert_eq!(thumb(&near, &fast, to_landmark, false), Action::Stop);
+    assert_eq!(thumb(&near, &fast, to_landmark, &WALKING), Action::Stop);
 }
 
 #[test]
 fn the_rule_of_thumb_uses_its_hands() {
     let beside = scene(Vec2::new(9.0, 12.3), 0.0);
     let attach = achieve(Predicate::Attach(0, 0));
-    assert_eq!(thumb(&beside, &beside.initial_state(), attach, true), Action::Attach);
+    assert_eq!(thumb(&beside, &beside.initial_state(), attach, &Action::ALL), Action::Attach);
     let mut holding = beside.initial_state();
     holding.grips[0] = Some(Grip { object: 0, side: Side::Head, relative_angle: 0.0 });
     let release = Subgoal::Achieve(Literal::not(Predicate::Attach(0, 0)));
-    assert_eq!(thumb(&beside, &holding, release, true), Action::Detach);
+    assert_eq!(thumb(&beside, &holding, release, &Action::ALL), Action::Detach);
 }
 
 #[test]
