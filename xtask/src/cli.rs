@@ -96,7 +96,7 @@ pub struct Render {
     /// Folder for the results, or for a single event a file ending in .mp4 (.png with --contact-sheet)
     #[arg(long, value_name = "DIR|FILE", default_value = "out/render")]
     pub out: PathBuf,
-    /// Draw what agent 0 or 1 sees and believes too (simulated events only)
+    /// Draw too what agent 0 or 1 sees and believes, and write below why it acts as it does (simulated events only)
     #[arg(long, value_name = "AGENT", value_parser = value_parser!(u8).range(0..=1))]
     pub belief: Option<u8>,
     /// Instead of a video, one picture of N frames spread evenly over the event

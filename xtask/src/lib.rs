@@ -14,6 +14,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod captions;
 pub mod check_behaviour;
 pub mod check_physics;
 pub mod cli;

@@ -4,13 +4,13 @@ use crate::error::CliError;
 use phase_dataset::atomic;
 use phase_model::{Physique, State, arena::FRAMES_PER_SECOND};
 use phase_perception::CellSet;
-use phase_render::{Frame, Overlay, RenderError, Stage, Style, VideoEncoder, contact_sheet};
+use phase_render::{Caption, Frame, Overlay, RenderError, Stage, Style, VideoEncoder, contact_sheet};
 use std::path::Path;
 
 /// Side of each frame of a contact sheet (pixels).
 const SHEET_SIDE: u32 = 320;
 /// Lines of text below frames that show a mind at work.
-const CAPTION_LINES: u32 = 3;
+const CAPTION_LINES: u32 = crate::captions::COUNT as u32;
 
 /// One agent's mind at one frame.
 #[derive(Clone, Debug)]
@@ -22,7 +22,7 @@ pub struct Mind {
     /// What it holds possible.
     pub particles: Vec<State>,
     /// What to write below.
-    pub captions: Vec<String>,
+    pub captions: Vec<Caption>,
 }
 
 /// A state to draw and the mind to draw over it, if any. Several frames may share a mind.

@@ -1,6 +1,7 @@
 //! `render`: events as videos, or as pictures of their key frames.
 
 use crate::{
+    captions,
     cli::Render,
     console::tell,
     engine,
@@ -116,18 +117,14 @@ fn minds(simulation: &Simulation, agent: usize) -> Vec<Mind> {
     let steps = event.steps.iter().enumerate();
     let mind = |((t, step), snapshot): ((usize, &phase_sim::Step), phase_sim::BeliefSnapshot)| {
         let thought = &step.thoughts[agent];
-        let value = thought.subgoals.iter().find(|proposed| proposed.subgoal == thought.subgoal);
-        let value =
-            value.map_or_else(String::new, |it| format!("V {:.2}, {} particles", it.value, it.particles));
         Mind {
             agent,
             visible: snapshot.visible,
             particles: snapshot.particles,
-            captions: vec![
+            captions: captions::lines(
                 format!("agent {agent} ({colour}), step {t}: {}", step.actions[agent].name()),
-                thought.subgoal.to_string(),
-                value,
-            ],
+                thought,
+            ),
         }
     };
     steps.zip(snapshots).map(mind).collect()

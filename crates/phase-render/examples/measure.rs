@@ -25,8 +25,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         let state = event(k);
         let visible = cone(&state.bodies[0]);
         let captions = [
-            format!("agent 0: {}", if k < 250 { "get object 1" } else { "put object 1 on landmark 2" }),
-            format!("V = {:+.3} ({} of 400 cells seen)", 0.9 - k as f32 / 1000.0, visible.len()),
+            format!("agent 0: {}", if k < 250 { "get object 1" } else { "put object 1 on landmark 2" })
+                .into(),
+            format!("V = {:+.3} ({} of 400 cells seen)", 0.9 - k as f32 / 1000.0, visible.len()).into(),
         ];
         let particles: Vec<State> = (0..50).map(|particle| guess(&state, particle)).collect();
         let overlay = Overlay { agent: 0, visible: &visible, particles: &particles, captions: &captions };

@@ -47,7 +47,7 @@ mod text;
 
 pub use error::RenderError;
 pub use frame::Frame;
-pub use overlay::Overlay;
+pub use overlay::{Caption, Overlay};
 pub use sheet::contact_sheet;
 pub use stage::Stage;
 pub use style::{Colour, Palette, Style};

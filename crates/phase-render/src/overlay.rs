@@ -13,9 +13,25 @@ pub struct Overlay<'a> {
     pub visible: &'a CellSet,
     /// The states it holds possible, each drawn faintly; where many agree the picture becomes solid.
     pub particles: &'a [State],
-    /// Lines of printable ASCII below the arena, such as the subgoal and its value. Lines past
-    /// [`crate::Style::caption_lines`] and characters past the picture's edge are left out.
-    pub captions: &'a [String],
+    /// Lines below the arena, such as the subgoal and its value. Lines past [`crate::Style::caption_lines`]
+    /// and characters past [`crate::Style::caption_columns`] are left out.
+    pub captions: &'a [Caption],
+}
+
+/// One line below the arena.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Caption {
+    /// What is written, in printable ASCII.
+    pub text: String,
+    /// A pale bar behind the text, as a share of the arena's width: 0 or less for none, 1 for all of it.
+    pub bar: f32,
+}
+
+impl From<String> for Caption {
+    /// A line without a bar.
+    fn from(text: String) -> Self {
+        Self { text, bar: 0.0 }
+    }
 }
 
 /// Opacity of the cover over cells out of sight, and of the tint of cells in sight.

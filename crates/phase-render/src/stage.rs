@@ -1,7 +1,7 @@
 //! The stage on which an event plays: what does not change, and the frames of what does.
 
 use crate::{
-    Frame, Overlay, RenderError, Style, bodies, overlay,
+    Caption, Frame, Overlay, RenderError, Style, bodies, overlay,
     painter::{Painter, View},
     text,
 };
@@ -82,11 +82,17 @@ impl Stage {
         View::of(&self.style).pixel(point)
     }
 
-    fn write_captions(&self, pixmap: &mut Pixmap, captions: &[String]) {
+    fn write_captions(&self, pixmap: &mut Pixmap, captions: &[Caption]) {
         let style = &self.style;
+        let (scale, left) = (style.text_scale(), style.margin);
+        let full = style.side.saturating_sub(2 * left);
         let mut top = style.side;
-        for line in captions.iter().take(style.caption_lines as usize) {
-            text::write(pixmap, (style.margin, top), style.text_scale(), line, style.palette.ink);
+        for caption in captions.iter().take(style.caption_lines as usize) {
+            // The cast takes what is not a number for nothing. The two dots left free tell bars apart.
+            let across = (caption.bar.clamp(0.0, 1.0) * full as f32).round() as u32;
+            let down = style.line_height() - 2 * scale;
+            text::fill(pixmap, (left, top), (across, down), style.palette.bar);
+            text::write(pixmap, (left, top), scale, &caption.text, style.palette.ink);
             top += style.line_height();
         }
     }

@@ -24,6 +24,8 @@ pub struct Palette {
     pub unseen: Colour,
     /// What is seen in an overlay is tinted with this colour, slightly.
     pub seen: Colour,
+    /// Bars behind captions; pale, since text is written over them.
+    pub bar: Colour,
 }
 
 impl Default for Palette {
@@ -43,6 +45,7 @@ impl Default for Palette {
             outline: [40, 40, 40],
             unseen: [110, 110, 120],
             seen: [255, 240, 150],
+            bar: [185, 212, 245],
         }
     }
 }
@@ -54,7 +57,7 @@ pub struct Style {
     pub side: u32,
     /// White space on each side between the picture's edge and the arena (pixels), below a quarter of `side`.
     pub margin: u32,
-    /// Lines of text below the square, 0 to 8.
+    /// Lines of text below the square, 0 to 16.
     pub caption_lines: u32,
     /// The colours.
     pub palette: Palette,
@@ -99,6 +102,13 @@ impl Style {
         (font::GLYPH_HEIGHT as u32 + 3) * self.text_scale()
     }
 
+    /// Characters that fit into a line of text.
+    #[must_use]
+    pub const fn caption_columns(&self) -> usize {
+        let advance = (font::GLYPH_WIDTH as u32 + 1) * self.text_scale();
+        (self.side.saturating_sub(self.margin) / advance) as usize
+    }
+
     /// Height of the strip with the captions (pixels).
     #[must_use]
     pub const fn caption_height(&self) -> u32 {
@@ -119,7 +129,7 @@ impl Style {
         };
         check("side", 64, 2000, self.side)?;
         check("margin", 0, self.side / 4, self.margin)?;
-        check("caption_lines", 0, 8, self.caption_lines)
+        check("caption_lines", 0, 16, self.caption_lines)
     }
 }
 

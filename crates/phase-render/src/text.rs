@@ -1,4 +1,4 @@
-//! Captions, dot by dot.
+//! Captions, dot by dot, and the bars behind them.
 
 use crate::{
     Colour,
@@ -15,18 +15,24 @@ pub(crate) fn write(pixmap: &mut Pixmap, corner: (u32, u32), scale: u32, line: &
     for (x, character) in (left..).step_by(advance.max(1) as usize).zip(line.chars().take(fits)) {
         for (row, bits) in (0..).zip(font::glyph(character)) {
             for column in (0..GLYPH_WIDTH as u32).filter(|column| bits & (0b10000 >> column) != 0) {
-                dot(pixmap, x + column * scale, corner.1 + row * scale, scale, colour);
+                fill(pixmap, (x + column * scale, corner.1 + row * scale), (scale, scale), colour);
             }
         }
     }
 }
 
-/// Fills a square of `scale` pixels a side, as far as it lies in the picture.
-fn dot(pixmap: &mut Pixmap, left: u32, top: u32, scale: u32, [red, green, blue]: Colour) {
+/// Fills a rectangle with its upper left corner at a pixel and so many pixels wide and high, as far as it lies
+/// in the picture.
+pub(crate) fn fill(
+    pixmap: &mut Pixmap,
+    (left, top): (u32, u32),
+    (across, down): (u32, u32),
+    [red, green, blue]: Colour,
+) {
     let (width, height) = (pixmap.width(), pixmap.height());
     let Some(colour) = PremultipliedColorU8::from_rgba(red, green, blue, 255) else { return };
-    for y in top..(top + scale).min(height) {
-        for x in left..(left + scale).min(width) {
+    for y in top..(top + down).min(height) {
+        for x in left..(left + across).min(width) {
             pixmap.pixels_mut()[(y * width + x) as usize] = colour;
         }
     }

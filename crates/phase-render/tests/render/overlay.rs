@@ -3,7 +3,7 @@
 use crate::common::{RADII, at, physique, state};
 use phase_model::{Body, State, Vec2};
 use phase_perception::{Cell, CellSet};
-use phase_render::{Frame, Overlay, Palette, Stage, Style, font};
+use phase_render::{Caption, Frame, Overlay, Palette, Stage, Style, font};
 
 fn stage(caption_lines: u32) -> Stage {
     Stage::new(&physique(), Style { caption_lines, ..Style::default() }).expect("a valid style")
@@ -14,7 +14,7 @@ fn upper_right() -> CellSet {
     Cell::all().filter(|&cell| Cell::min(cell).x >= 12.0 && Cell::min(cell).y >= 14.0).collect()
 }
 
-fn draw(stage: &Stage, visible: &CellSet, particles: &[State], captions: &[String]) -> Frame {
+fn draw(stage: &Stage, visible: &CellSet, particles: &[State], captions: &[Caption]) -> Frame {
     stage.frame(&state(), Some(&Overlay { agent: 0, visible, particles, captions }))
 }
 
@@ -110,11 +110,12 @@ fn the_true_state_is_on_top_of_beliefs() {
 fn captions_are_written_dot_by_dot() {
     let stage = stage(2);
     let style = Style { caption_lines: 2, ..Style::default() };
-    let captions = ["get object 1".to_owned(), "V = -0.25".to_owned(), "one line too many".to_owned()];
+    let captions =
+        ["get object 1", "V = -0.25", "one line too many"].map(|text| Caption::from(text.to_owned()));
     let frame = draw(&stage, &CellSet::EMPTY, &[], &captions);
     let scale = style.text_scale();
     for (line, caption) in (0..).zip(&captions[..2]) {
-        for (position, character) in (0..).zip(caption.chars()) {
+        for (position, character) in (0..).zip(caption.text.chars()) {
             for (row, bits) in (0..).zip(font::glyph(character)) {
                 for column in 0..5 {
                     let x = style.margin + (position * 6 + column) * scale;
@@ -132,7 +133,7 @@ fn captions_are_written_dot_by_dot() {
 #[test]
 fn captions_that_do_not_fit_are_cut_off() {
     let stage = stage(1);
-    let long = |text: &str| draw(&stage, &CellSet::EMPTY, &[], &[text.repeat(300)]);
+    let long = |text: &str| draw(&stage, &CellSet::EMPTY, &[], &[text.repeat(300).into()]);
     let frame = long("#");
     let last_column = (0..frame.height()).filter(|&y| frame.pixel(479, y) != Some([255; 3])).count();
     assert_eq!(last_column, 0, "the margin stays free");
@@ -140,7 +141,50 @@ fn captions_that_do_not_fit_are_cut_off() {
     assert_eq!(long("\u{3bb}"), long("?"), "what the font lacks is a question mark");
     let no_room = self::stage(0);
     let none = draw(&no_room, &CellSet::EMPTY, &[], &[]);
-    assert_eq!(draw(&no_room, &CellSet::EMPTY, &[], &["unseen".to_owned()]), none);
+    assert_eq!(draw(&no_room, &CellSet::EMPTY, &[], &["unseen".to_owned().into()]), none);
+}
+
+#[test]
+fn as_many_characters_are_written_as_there_are_columns() {
+    for side in [64, 320, 359, 480, 721] {
+        let style = Style { caption_lines: 1, ..Style::with_side(side) };
+        let stage = Stage::new(&physique(), style).unwrap();
+        let written = |count| draw(&stage, &CellSet::EMPTY, &[], &["#".repeat(count).into()]);
+        let columns = style.caption_columns();
+        assert_ne!(written(columns - 1), written(columns), "side {side}: the last column is written");
+        assert_eq!(written(columns), written(columns + 1), "side {side}: nothing is written past it");
+    }
+}
+
+#[test]
+fn bars_are_as_long_as_their_share_of_the_arena() {
+    let stage = stage(3);
+    let bar = Palette::default().bar;
+    // The arena is 440 pixels wide and begins at 20; a line is 24 pixels high.
+    for (share, length) in [
+        (0.0, 0),
+        (0.25, 110),
+        (0.5, 220),
+        (1.0, 440),
+        (7.0, 440),
+        (-1.0, 0),
+        (f32::NAN, 0),
+        (f32::INFINITY, 440),
+    ] {
+        let lines = [Caption::default(), Caption { text: String::new(), bar: share }, Caption::default()];
+        let frame = draw(&stage, &CellSet::EMPTY, &[], &lines);
+        let coloured = |y: u32| (0..480).filter(|&x| frame.pixel(x, y) == Some(bar)).collect::<Vec<_>>();
+        assert_eq!(coloured(480 + 24 + 3), (20..20 + length).collect::<Vec<_>>(), "share {share}");
+        for y in [480 + 3, 480 + 23, 480 + 46, 480 + 48] {
+            assert!(
+                coloured(y).is_empty(),
+                "share {share}: other lines and the gap below stay free, row {y}"
+            );
+        }
+    }
+    let lined = |bar| draw(&stage, &CellSet::EMPTY, &[], &[Caption { text: "#".into(), bar }]);
+    let ink = |frame: &Frame| frame.rgba().chunks(4).filter(|pixel| pixel[..3] == [0; 3]).count();
+    assert_eq!(ink(&lined(0.0)), ink(&lined(1.0)), "text stays on top");
 }
 
 #[test]

@@ -183,7 +183,7 @@ fn sizes_out_of_range_are_refused() {
         (style(u32::MAX, 20, 0), "side"),
         (style(480, 121, 0), "margin"),
         (style(480, u32::MAX, 0), "margin"),
-        (style(480, 20, 9), "caption_lines"),
+        (style(480, 20, 17), "caption_lines"),
         (style(480, 20, u32::MAX), "caption_lines"),
     ] {
         match Stage::new(&physique(), style) {
