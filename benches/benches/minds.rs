@@ -1,9 +1,9 @@
-//! Seeing, believing, planning and deciding, with a plain workload beside them by which the machine's noise
-//! can be told.
+//! Seeing, believing, planning and deciding, a whole event, and how thinking grows with its settings; with a plain
+//! workload beside them by which the machine's noise can be told.
 
 use core::hint::black_box;
-use criterion::Criterion;
-use phase_agent::Agent;
+use criterion::{BenchmarkId, Criterion, SamplingMode};
+use phase_agent::{Agent, Settings};
 use phase_belief::Belief;
 use phase_forward::Forward;
 use phase_model::{
@@ -65,11 +65,57 @@ fn main() {
     });
     criterion.bench_function("agent/one decision at the paper's settings", |bencher| {
         let mut random = stream(1, Purpose::Belief, 0);
-        let mut agent =
-            Agent::new(&scene, 0, forward(), phase_agent::Settings::default(), &observation, &mut random)
-                .expect("good settings");
+        let mut agent = Agent::new(&scene, 0, forward(), Settings::default(), &observation, &mut random)
+            .expect("good settings");
         let mut search = stream(1, Purpose::Search, 0);
         bencher.iter(|| agent.decide(&mut search));
     });
+    scaling(&mut criterion, &scene);
+    whole_event(&mut criterion, &scene);
     criterion.final_summary();
+}
+
+/// One decision and one belief update, one setting varied at a time, the others as in the paper but where named.
+fn scaling(criterion: &mut Criterion, scene: &Scene) {
+    let (physique, state) = (scene.physique(), scene.initial_state());
+    let observation = observe(&physique, &state, 0);
+    let paper = Settings::default();
+    let with_simulations = |simulations| (simulations, Settings { simulations, ..paper });
+    // One simulation, since the search does not grow with particles, but what they agree to search may change.
+    let with_particles = |particles| (particles, Settings { particles, simulations: 1, ..paper });
+    let with_rollout = |rollout_steps| (rollout_steps, Settings { rollout_steps, ..paper });
+    for (name, settings) in [
+        ("simulations", [250, 500, 1000, 2000].map(with_simulations).to_vec()),
+        ("particles, one simulation", [25, 50, 100, 200].map(with_particles).to_vec()),
+        ("rollout steps", [5, 10, 20].map(with_rollout).to_vec()),
+    ] {
+        let mut group = criterion.benchmark_group(format!("scaling/{name}"));
+        for (count, settings) in settings {
+            let mut random = stream(1, Purpose::Belief, 0);
+            let mut search = stream(1, Purpose::Search, 0);
+            let forward = Forward::new(&physique);
+            let mut agent =
+                Agent::new(scene, 0, forward, settings, &observation, &mut random).expect("good settings");
+            group.bench_function(BenchmarkId::from_parameter(count), |bencher| {
+                bencher.iter(|| {
+                    let decision = agent.decide(&mut search);
+                    // Nobody moves, so that every round thinks about the same.
+                    agent.perceive(Action::NoForce, &observation, &mut random);
+                    decision
+                });
+            });
+        }
+        group.finish();
+    }
+}
+
+/// The whole scene at the paper's settings, made to last exactly 100 steps.
+fn whole_event(criterion: &mut Criterion, scene: &Scene) {
+    let settings = phase_sim::Settings { min_steps: 100, max_steps: 100, ..phase_sim::Settings::default() };
+    let mut group = criterion.benchmark_group("event");
+    group.sample_size(10).sampling_mode(SamplingMode::Flat);
+    group.bench_function("one event of 100 steps, helping, seed 1", |bencher| {
+        bencher.iter(|| phase_sim::simulate(scene, 1, &settings));
+    });
+    group.finish();
 }

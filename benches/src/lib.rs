@@ -6,4 +6,6 @@
 //!   and actions drawn evenly. The states come from scenes of every kind, played by the true world under random held
 //!   actions; and, if the environment variable `PHASE_EVENTS` names a `phase-events/1` file, also from the rows of
 //!   its recordings, each start stepped ten times.
-//! - `minds`: field of view, observing, belief updates, planning, deciding; and a yardstick.
+//! - `minds`: field of view, observing, belief updates, planning, deciding; deciding and believing with more or
+//!   fewer simulations, particles and rollout steps; one event of 100 steps (the sampler's first helping scene of seed
+//!   1); and a yardstick.
