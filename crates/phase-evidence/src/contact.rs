@@ -28,7 +28,14 @@ pub fn gap(physique: &Physique, state: &State, a: Entity, b: Entity) -> f32 {
 /// Whether two entities touch in a state: physically, or by outlines no farther apart than [`TOUCH_GAP`].
 #[must_use]
 pub fn touching(physique: &Physique, state: &State, a: Entity, b: Entity) -> bool {
-    state.touching(a, b) || gap(physique, state, a, b) <= TOUCH_GAP
+    state.touching(a, b) || near(physique, state, a, b)
+}
+
+/// Whether the outlines of two entities are no farther apart than [`TOUCH_GAP`]: touching as far as recordings
+/// tell it.
+#[must_use]
+pub fn near(physique: &Physique, state: &State, a: Entity, b: Entity) -> bool {
+    gap(physique, state, a, b) <= TOUCH_GAP
 }
 
 /// The steps (0 for the initial state) at which two entities touch, in order.

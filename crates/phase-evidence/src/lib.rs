@@ -2,8 +2,8 @@
 //!
 //! A [`Track`] is one state for each step. From it [`Outcome`] tells whether and when a goal was reached,
 //! [`mod@holding`] who held what when, [`mod@contact`] who touched whom, [`mod@blocking`] who stood in whose
-//! way, [`mod@pursuit`] who went after whom, [`mod@exploration`] where someone looked first and [`mod@rest`]
-//! how quietly an event ended. [`Effect`] compares an event with the same one in which an agent did nothing,
+//! way, [`mod@pursuit`] who went after whom, [`mod@exploration`] where someone looked first, [`mod@motion`] how
+//! fast and how far someone moved and [`mod@rest`] how quietly an event ended. [`Effect`] compares an event with the same one in which an agent did nothing,
 //! which is what tells help from company. [`mod@statistics`] says how sure one may be after some events.
 //!
 //! The key design decision is that nobody's thoughts are asked: an event in which help was meant and nothing
@@ -19,6 +19,7 @@ pub mod contact;
 pub mod effect;
 pub mod exploration;
 pub mod holding;
+pub mod motion;
 pub mod outcome;
 pub mod pursuit;
 pub mod rest;
@@ -26,6 +27,8 @@ pub mod statistics;
 pub mod track;
 
 pub use effect::Effect;
+pub use motion::Motion;
 pub use outcome::Outcome;
 pub use rest::Rest;
+pub use statistics::Quartiles;
 pub use track::Track;

@@ -49,7 +49,7 @@ pub fn condition(physique: &Physique, state: &State, goal: Goal) -> bool {
         Goal::AgentOnLandmark { agent, landmark, .. } => near(Entity::Agent(agent), landmark, ON_AGENT),
         Goal::ObjectOnLandmark { object, landmark, .. } => near(Entity::Object(object), landmark, ON_OBJECT),
         Goal::Touch { agent, other, .. } => {
-            contact::gap(physique, state, Entity::Agent(agent), Entity::Agent(other)) <= contact::TOUCH_GAP
+            contact::near(physique, state, Entity::Agent(agent), Entity::Agent(other))
         }
     }
 }

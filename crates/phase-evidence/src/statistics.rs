@@ -1,4 +1,7 @@
-//! How sure one may be after a few events.
+//! How sure one may be after a few events, and how numbers spread.
+
+use phase_calibration::percentile;
+use serde::{Deserialize, Serialize};
 
 /// 97.5 % quantile of the normal distribution.
 const NORMAL_QUANTILE: f64 = 1.959_963_984_540_054;
@@ -25,6 +28,30 @@ pub fn median(numbers: &[usize]) -> Option<f64> {
     let upper = *sorted.get(sorted.len() / 2)?;
     let lower = if sorted.len().is_multiple_of(2) { sorted[sorted.len() / 2 - 1] } else { upper };
     Some((lower as f64 + upper as f64) / 2.0)
+}
+
+/// The quartiles of some numbers, by nearest rank: each is one of the numbers.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Quartiles {
+    /// 25th percentile: a quarter of the numbers are no greater.
+    pub p25: f32,
+    /// 50th percentile; of an even number the lower of the two in the middle.
+    pub median: f32,
+    /// 75th percentile.
+    pub p75: f32,
+}
+
+impl Quartiles {
+    /// Of some numbers; `None` of none.
+    #[must_use]
+    pub fn of(numbers: &[f32]) -> Option<Self> {
+        Some(Self {
+            p25: percentile(numbers, 25)?,
+            median: percentile(numbers, 50)?,
+            p75: percentile(numbers, 75)?,
+        })
+    }
 }
 
 /// Fisher's exact test, one-sided: how likely it is that the first of two groups has so many successes or more

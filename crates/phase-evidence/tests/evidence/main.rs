@@ -4,6 +4,7 @@ mod contact;
 mod effect;
 mod exploration;
 mod holding;
+mod motion;
 mod outcome;
 mod pursuit;
 mod rest;

@@ -1,6 +1,6 @@
 //! Against published and hand-computed values.
 
-use phase_evidence::statistics::{fisher, median, wilson};
+use phase_evidence::statistics::{Quartiles, fisher, median, wilson};
 use proptest::prelude::*;
 
 #[test]
@@ -29,6 +29,15 @@ fn medians() {
     assert_eq!(median(&[7]), Some(7.0));
     assert_eq!(median(&[9, 1, 4]), Some(4.0));
     assert_eq!(median(&[9, 1, 4, 5]), Some(4.5));
+}
+
+#[test]
+fn quartiles_are_numbers_of_the_list() {
+    let quartiles = |numbers: &[f32]| Quartiles::of(numbers).map(|it| (it.p25, it.median, it.p75));
+    assert_eq!(quartiles(&[]), None);
+    assert_eq!(quartiles(&[7.0]), Some((7.0, 7.0, 7.0)));
+    assert_eq!(quartiles(&[4.0, 1.0, 3.0, 2.0]), Some((1.0, 2.0, 3.0)));
+    assert_eq!(quartiles(&[5.0, 9.0, 1.0, 7.0, 3.0]), Some((3.0, 5.0, 7.0)));
 }
 
 proptest! {
