@@ -70,6 +70,9 @@ pub struct Simulate {
     /// Seed of all chance in the simulations
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub seed: u64,
+    /// Simulate every scene with the seeds S to S + N - 1; with more than one, ids end in -seedK
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = value_parser!(u16).range(1..=10_000))]
+    pub seeds: u16,
     /// Make no videos
     #[arg(long)]
     pub no_video: bool,

@@ -93,3 +93,55 @@ fn a_start_alone_is_enough() {
     let all = told.lines().find(|line| line.starts_with("all")).expect("a line for all");
     assert!(all.contains("0 of   0"), "there is nothing to compare with: {told}");
 }
+
+#[test]
+fn several_seeds_are_pooled_and_resumed() {
+    let folder = folder();
+    let path = folder.path();
+    let two = ["--no-video", "--seed", "7", "--seeds", "2"];
+    let told = succeed(path, &simulate("out", &two));
+    let names: Vec<String> = tree(&path.join("out")).keys().map(|name| name.display().to_string()).collect();
+    let scenes = ["apart-seed7", "apart-seed8", "overlapping-seed7", "overlapping-seed8"];
+    assert_eq!(names[..4], scenes.map(|id| format!("{id}.json")));
+    let summary = Summary::read(&path.join("out/summary.json")).expect("a summary");
+    let made: Vec<(&str, &str, u64)> = summary
+        .events
+        .iter()
+        .map(|event| (event.id.as_str(), event.source.id.as_str(), event.source.seed))
+        .collect();
+    let sources = [("apart", 7), ("apart", 8), ("overlapping", 7), ("overlapping", 8)];
+    assert_eq!(made, [0, 1, 2, 3].map(|k| (scenes[k], sources[k].0, sources[k].1)));
+    let all = summary.kinds.last().expect("a row for all");
+    assert_eq!((all.events, all.agents, all.own_agents), (4, 8, 8), "{told}");
+    // In the recordings nobody moves; compared are the four steps of both.
+    assert_eq!(summary.events[0].compared_steps, 4);
+    assert_eq!(all.recorded_motion.path.map(|path| path.p75), Some(0.0));
+    assert!(all.simulated_motion.path.is_some_and(|path| path.p75 > 0.0), "{told}");
+
+    // A seed makes the same event alone; only its id differs.
+    succeed(path, &simulate("alone", &["--no-video", "--seed", "8"]));
+    let rows = |file: &str| phase_events::read(&path.join(file)).expect("an event").remove(0).trajectory;
+    assert_eq!(rows("alone/apart.json"), rows("out/apart-seed8.json"));
+    assert_ne!(rows("out/apart-seed7.json"), rows("out/apart-seed8.json"));
+
+    let finished = tree(&path.join("out"));
+    assert!(succeed(path, &simulate("out", &two)).contains("holds these 4 simulated events already"));
+    let sentence = refuse(path, &simulate("out", &["--no-video", "--seed", "7", "--seeds", "3"]));
+    assert!(sentence.contains("seeds 2 instead of 3"), "{sentence}");
+    assert!(tree(&path.join("out")) == finished);
+}
+
+#[test]
+fn seeds_and_ids_must_leave_room() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    let long = "x".repeat(95);
+    write_events(&path.join("events.json"), &[recording(&long)]);
+    let sentence = refuse(path, &simulate("out", &["--seeds", "2"]));
+    assert!(sentence.contains("field `id` must leave room for the seed"), "{sentence}");
+    let greatest = u64::MAX.to_string();
+    let sentence = refuse(path, &simulate("out", &["--seed", &greatest, "--seeds", "2"]));
+    assert!(sentence.contains("leaves no room for --seeds 2"), "{sentence}");
+    refuse(path, &simulate("out", &["--seeds", "0"]));
+    assert!(!path.join("out").exists());
+}

@@ -12,7 +12,7 @@ mod subgoals;
 mod write;
 
 pub(crate) use read::check_format;
-pub use read::{parse, read};
+pub use read::{LONGEST_ID, parse, read};
 pub use recording::{COLUMNS, Recording, Recovered, Row, SUBSTEP_COLUMNS, Simulation, Trajectory};
 pub use subgoals::subgoal_of;
 pub use write::{FILE_FORMAT, NotFinite, to_json};

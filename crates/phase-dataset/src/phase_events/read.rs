@@ -17,6 +17,9 @@ use phase_model::{
 use serde_json::Value;
 use std::{collections::BTreeSet, path::Path};
 
+/// The most letters an id may have.
+pub const LONGEST_ID: usize = 100;
+
 /// Reads all events of a `phase-events/1` file and checks each.
 ///
 /// # Errors
@@ -113,16 +116,16 @@ fn recording(k: usize, event: &Field<'_>) -> Result<Recording, Problem> {
 
 /// An id becomes a file name, so it must be one on every system.
 fn id_of(event: &Field<'_>) -> Result<String, FieldError> {
-    const LONGEST: usize = 100;
     let field = event.required("id")?;
     let id = field.text()?;
     let plain = |letter: char| letter.is_ascii_alphanumeric() || "-_.".contains(letter);
-    let good = (1..=LONGEST).contains(&id.len()) && id.chars().all(plain) && !id.starts_with(['.', '-']);
+    let good = (1..=LONGEST_ID).contains(&id.len()) && id.chars().all(plain) && !id.starts_with(['.', '-']);
     if good {
         Ok(id.into())
     } else {
-        let rule = "1 to 100 letters, digits, `-`, `_` and `.`, beginning with a letter or digit";
-        Err(field.must_be(rule))
+        let rule =
+            format!("1 to {LONGEST_ID} letters, digits, `-`, `_` and `.`, beginning with a letter or digit");
+        Err(field.must_be(&rule))
     }
 }
 

@@ -1,0 +1,149 @@
+//! One event, recorded and simulated.
+
+use crate::{FileError, checksum::FileEntry, phase_events::Recording};
+use phase_evidence::{Motion, Outcome, Quartiles, Track, motion::common_steps};
+use phase_model::{AGENT_COUNT, EventKind, Goal, Sign};
+use phase_sim::Event;
+use serde::{Deserialize, Serialize};
+use std::path::Path;
+
+/// One event, recorded and simulated, as the summary keeps it.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Comparison {
+    /// The simulated event's id.
+    pub id: String,
+    /// Which recording it started from, and with what seed.
+    pub source: Source,
+    /// Its kind.
+    pub kind: EventKind,
+    /// Steps of the recording (0 if the input had the start alone).
+    pub recorded_steps: usize,
+    /// Steps of the simulation.
+    pub simulated_steps: usize,
+    /// Steps over which motion is compared: the first ones, as many as both have.
+    pub compared_steps: usize,
+    /// The agents.
+    pub agents: [AgentComparison; AGENT_COUNT],
+    /// The simulated event.
+    pub event: FileEntry,
+    /// Its video, if one was made.
+    pub video: Option<FileEntry>,
+}
+
+/// Where a simulated event comes from.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Source {
+    /// The recording's id in the input.
+    pub id: String,
+    /// The seed of the run that the event's own seed is derived from.
+    pub seed: u64,
+}
+
+/// What became of one agent's goal in both, and how it moved.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AgentComparison {
+    /// The goal.
+    pub goal: Goal,
+    /// Social utility weight.
+    pub alpha: i8,
+    /// In the recording.
+    pub recorded: Outcome,
+    /// In the simulation.
+    pub simulated: Outcome,
+    /// How it moved in the recording; null if there are no steps to compare.
+    pub recorded_motion: Option<Measures>,
+    /// How it moved in the simulation; likewise.
+    pub simulated_motion: Option<Measures>,
+}
+
+/// One agent's motion in one event, over the steps compared.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Measures {
+    /// Quartiles of its speed over the steps (u per second of physics).
+    pub speed: Quartiles,
+    /// Length of its path (u).
+    pub path: f32,
+    /// Share of the steps in which it touched another entity, 0 to 1.
+    pub contact: f32,
+}
+
+/// A comparison with the motion of both agents step by step, which the file does not keep but pooling needs.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Pair {
+    /// What the file keeps.
+    pub comparison: Comparison,
+    /// How both agents moved in the recording, over the steps compared.
+    pub recorded: [Motion; AGENT_COUNT],
+    /// How both agents moved in the simulation.
+    pub simulated: [Motion; AGENT_COUNT],
+}
+
+impl AgentComparison {
+    /// Whether the goal is the agent's own and positive: it neither helps nor hinders, and there is something to
+    /// bring about rather than to avoid.
+    #[must_use]
+    pub fn own_positive(&self) -> bool {
+        self.alpha == 0 && self.goal.sign() == Sign::Positive
+    }
+
+    /// Whether the goal was reached in both or in neither.
+    #[must_use]
+    pub const fn matched(&self) -> bool {
+        self.recorded.reached == self.simulated.reached
+    }
+}
+
+impl Measures {
+    fn of(motion: &Motion) -> Option<Self> {
+        let (speed, contact) = (Quartiles::of(&motion.speeds)?, motion.contact_share()?);
+        Some(Self { speed, path: motion.path, contact })
+    }
+}
+
+impl Pair {
+    /// Compares a recording with the simulation of this id and seed, whose files are in a folder already.
+    ///
+    /// # Errors
+    /// If a file cannot be read.
+    pub fn of(
+        folder: &Path,
+        recording: &Recording,
+        id: String,
+        seed: u64,
+        event: &Event,
+        video: bool,
+    ) -> Result<Self, FileError> {
+        let track = Track { physique: recording.scene.physique(), states: recording.trajectory.states() };
+        let ours = Track::of_event(event);
+        let steps = common_steps(&track, &ours);
+        let recorded = core::array::from_fn(|agent| Motion::of(&track, agent, steps));
+        let simulated = core::array::from_fn(|agent| Motion::of(&ours, agent, steps));
+        let agents = core::array::from_fn(|i| {
+            let agent = &recording.scene.agents[i];
+            AgentComparison {
+                goal: agent.goal,
+                alpha: agent.attitude.alpha(),
+                recorded: Outcome::of(&track, agent.goal),
+                simulated: Outcome::of(&ours, agent.goal),
+                recorded_motion: Measures::of(&recorded[i]),
+                simulated_motion: Measures::of(&simulated[i]),
+            }
+        });
+        let comparison = Comparison {
+            kind: recording.scene.kind,
+            recorded_steps: recording.trajectory.steps(),
+            simulated_steps: event.steps.len(),
+            compared_steps: steps,
+            agents,
+            event: FileEntry::of(folder, format!("{id}.json"))?,
+            video: video.then(|| FileEntry::of(folder, format!("{id}.mp4"))).transpose()?,
+            source: Source { id: recording.id.clone(), seed },
+            id,
+        };
+        Ok(Self { comparison, recorded, simulated })
+    }
+}

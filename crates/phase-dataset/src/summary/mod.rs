@@ -1,0 +1,81 @@
+//! Simulations against the recordings they started from: `summary.json` and its table.
+//!
+//! A [`Pair`] is one recording and one simulation of its scene, measured; a [`Comparison`] is what the file keeps
+//! of it; a [`KindRow`] pools the pairs of one kind of event.
+
+mod comparison;
+mod rows;
+mod table;
+
+pub use comparison::{AgentComparison, Comparison, Measures, Pair, Source};
+pub use rows::{KindRow, Spreads, tabulate};
+pub use table::{OWN_SHARE_TARGET, TIME_RATIO_TARGET};
+
+use crate::{FileError, Problem, json, phase_events};
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use std::path::Path;
+
+/// The value of the field `format` of summaries.
+pub const SUMMARY_FORMAT: &str = "phase-simulation/2";
+/// The summary's file name. It is written last: a folder with a summary is complete.
+pub const SUMMARY_FILE: &str = "summary.json";
+
+/// What came out of simulating the scenes of a file.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Summary {
+    /// Always [`SUMMARY_FORMAT`].
+    pub format: String,
+    /// The run: program, input, seeds, settings.
+    pub run: Value,
+    /// One line for each kind of event, and one for all.
+    pub kinds: Vec<KindRow>,
+    /// The simulated events, in the order of the input; those of one scene by seed.
+    pub events: Vec<Comparison>,
+}
+
+impl Summary {
+    /// Puts the comparisons of a run together.
+    #[must_use]
+    pub fn new(run: Value, pairs: Vec<Pair>) -> Self {
+        let kinds = tabulate(&pairs);
+        let events = pairs.into_iter().map(|pair| pair.comparison).collect();
+        Self { format: SUMMARY_FORMAT.into(), run, kinds, events }
+    }
+
+    /// Reads a summary.
+    ///
+    /// # Errors
+    /// If it is no JSON, of another format, or incomplete.
+    pub fn read(path: &Path) -> Result<Self, FileError> {
+        let fail = |problem| FileError { file: path.to_owned(), problem };
+        let value = json::read(path)?;
+        phase_events::check_format(&value, SUMMARY_FORMAT).map_err(fail)?;
+        serde_json::from_value(value)
+            .map_err(|error| fail(Problem::Shape { what: "summary", rule: error.to_string() }))
+    }
+
+    /// The summary as a file's text.
+    #[must_use]
+    pub fn to_json(&self) -> String {
+        // Writing plain data of ours to a string cannot fail.
+        let text = serde_json::to_string_pretty(self).unwrap_or_default();
+        format!("{text}\n")
+    }
+
+    /// Checks that every file is there and unchanged.
+    ///
+    /// # Errors
+    /// Names the first file that is not.
+    pub fn verify(&self, folder: &Path) -> Result<(), FileError> {
+        let files = self.events.iter().flat_map(|event| [Some(&event.event), event.video.as_ref()]);
+        files.flatten().try_for_each(|file| file.verify(folder))
+    }
+
+    /// The tables for people: outcomes and motion, each with a line for each kind and one for all.
+    #[must_use]
+    pub fn table(&self) -> String {
+        table::text(&self.kinds)
+    }
+}
