@@ -54,15 +54,16 @@ impl<'a, D> Imagination<'a, D> {
         Objective { physique, routes, agent: 1 - agent, subgoal }
     }
 
-    /// The other coasts, except when both hold the same object: then it goes on pulling for its own goal.
-    /// Without that a weak agent could not imagine what two can carry.
+    /// The other coasts, except when both hold the same object or the two touch: then it goes on pulling or
+    /// pushing for its own goal. Without that a weak agent could not imagine what two can carry, and two who
+    /// meet face to face would each believe that the other can be pushed away.
     fn other_action(&self, state: &State) -> Action {
-        let agent = self.objective.agent;
-        match (state.held_object(agent), state.held_object(1 - agent)) {
-            (Some(mine), Some(theirs)) if mine == theirs => {
-                guidance::action(&self.other_objective, state, None, &Action::ALL)
-            }
-            _ => Action::NoForce,
+        let (me, other) = (self.objective.agent, 1 - self.objective.agent);
+        let together = state.held_object(me).is_some() && state.held_object(me) == state.held_object(other);
+        if together || state.contacts.touching(Entity::agent(me), Entity::agent(other)) {
+            guidance::action(&self.other_objective, state, None, &Action::ALL)
+        } else {
+            Action::NoForce
         }
     }
 
