@@ -185,9 +185,17 @@ fn a_helper_too_big_for_the_door_passes_the_object_through() {
 
 #[test]
 fn helpers_stay_out_of_the_way_when_not_needed() {
-    let walking =
-        Setup { goals: [agent_on(1, 0); 2], attitudes: [Attitude::Help, Attitude::Neutral], ..plain() };
-    assert_eq!(walking.plan(0).first(), Subgoal::Stay);
+    let walking = |at: Vec2| Setup {
+        agents: [(Small, Strong, at), (Small, Strong, Vec2::new(9.0, 6.0))],
+        goals: [agent_on(1, 0); 2],
+        attitudes: [Attitude::Help, Attitude::Neutral],
+        ..plain()
+    };
+    assert_eq!(walking(Vec2::new(23.0, 15.0)).plan(0).first(), Subgoal::Stay);
+    // Nor does one stay where the other wants to be.
+    let in_the_way = walking(Vec2::new(8.5, 19.0)).plan(0).first();
+    assert_ne!(in_the_way, Subgoal::Stay);
+    assert!(!in_the_way.to_string().contains("landmark 0"), "{in_the_way}");
     let carrying = Setup {
         agents: [(Small, Strong, Vec2::new(8.0, 4.0)), (Small, Mighty, Vec2::new(23.0, 14.0))],
         objects: vec![(Small, Vec2::new(23.0, 12.4))],
