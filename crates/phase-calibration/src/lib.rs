@@ -5,10 +5,11 @@
 //! Any [`Engine`] can be held against them with [`probes_report`], [`run_reports`], [`replay_reports`] and
 //! [`ahead`]; what comes out is a [`Report`] of medians and percentiles.
 //!
-//! The key design decision is that this crate knows no engine: an engine is whatever can be set up in a state,
-//! settle, and be stepped. So the command line and the tests of every engine measure with the same reader, the
-//! same replay and the same statistics, and numbers from different places can be held side by side. The price
-//! is a small adapter wherever an engine meets it.
+//! The key design decision is that an engine is whatever can be set up in a state, settle, and be stepped. So
+//! the command line and the tests of every engine measure with the same reader, the same replay and the same
+//! statistics, and numbers from different places can be held side by side. The price is a small adapter for
+//! each engine; those of the project's own, [`WorldEngine`], [`WarmForward`] and [`ColdForward`], are here, so
+//! that the command line and the tests drive them alike, and the engines use this crate in their tests only.
 //!
 //! # What is measured
 //!
@@ -25,6 +26,7 @@
 
 mod deviation;
 mod engine;
+mod engines;
 mod error;
 mod family;
 mod measure;
@@ -37,6 +39,7 @@ mod statistics;
 
 pub use deviation::Deviation;
 pub use engine::Engine;
+pub use engines::{ColdForward, WarmForward, WorldEngine};
 pub use error::ReadError;
 pub use family::family;
 pub use measure::{ahead, probes_report, replay_reports, run_reports};

@@ -2,8 +2,8 @@
 
 mod records;
 
-use phase_calibration::{Probe, Spread};
-use records::{Cold, Warm, text};
+use phase_calibration::{ColdForward, Probe, Spread, WarmForward};
+use records::text;
 use std::collections::BTreeMap;
 
 /// The families of probes by the start of their names, with the position errors (u) that nine in ten substeps
@@ -37,7 +37,7 @@ fn probes_are_replayed() {
     for probe in &probes {
         let family = FAMILIES.into_iter().find(|(family, ..)| probe.name.starts_with(family));
         let family = family.unwrap_or_else(|| panic!("{} is of no family", probe.name)).0;
-        let (warm, cold) = (probe.follow::<Warm>(), probe.follow::<Cold>());
+        let (warm, cold) = (probe.follow::<WarmForward>(), probe.follow::<ColdForward>());
         assert!(warm.start.position < 1e-5, "{}: {:?} after the idle substep", probe.name, warm.start);
         assert_eq!(warm.grip_mismatches, 0, "{}", probe.name);
         for (errors, followed) in errors.entry(family).or_default().iter_mut().zip([warm, cold]) {

@@ -2,9 +2,11 @@
 
 mod records;
 
-use phase_calibration::{Ahead, Deviation, Engine, Run, ahead, percentile, replay_reports};
+use phase_calibration::{
+    Ahead, ColdForward, Deviation, Engine, Run, WarmForward, ahead, percentile, replay_reports,
+};
 use phase_dataset::phase_events::{self, Recording};
-use records::{Cold, Warm, path, text};
+use records::{path, text};
 
 /// For some steps ahead, what nine in ten and 99 in 100 predictions stay under (u): from a state alone, and with
 /// the memory of a world freshly set up in it.
@@ -20,8 +22,8 @@ fn predictions_from_recorded_states_hold() {
             println!("{horizon} steps ahead {how}: {found:.6?}");
             assert!(found.p90 < p90 && found.p99 < p99, "{horizon} steps ahead {how}");
         };
-        check(ahead::<Cold>(&runs, horizon), alone, "from a state alone");
-        check(ahead::<Warm>(&runs, horizon), remembered, "with fresh memory");
+        check(ahead::<ColdForward>(&runs, horizon), alone, "from a state alone");
+        check(ahead::<WarmForward>(&runs, horizon), remembered, "with fresh memory");
     }
 }
 
@@ -32,7 +34,7 @@ fn long_runs_are_followed() {
     let Some(runs) = runs() else { return };
     let mut errors = Vec::new();
     for run in &runs {
-        let mut kernel = Warm::set_up(&run.physique, &run.states[0]);
+        let mut kernel = WarmForward::set_up(&run.physique, &run.states[0]);
         kernel.settle();
         // The memory goes on from step to step while the bodies are put back onto the record.
         for (&actions, recorded) in run.actions.iter().zip(&run.states[1..]) {
@@ -56,7 +58,7 @@ fn real_recordings_are_replayed() {
     let replays: Vec<_> = recordings.iter().filter_map(Recording::replay).collect();
     let known = recordings.iter().filter(|recording| recording.recovered_actions.is_some()).count();
     assert!(!replays.is_empty() && replays.len() == known, "{} of {known} recordings", replays.len());
-    for report in replay_reports::<Warm>(&replays) {
+    for report in replay_reports::<WarmForward>(&replays) {
         println!("{}: {} steps, {:.6?}", report.id, report.steps, report.position);
         assert!(report.position.max < LIMIT, "{}", report.id);
     }

@@ -1,14 +1,12 @@
 //! `check-physics`: how far an engine comes out from recorded motion.
 
-mod engines;
 mod table;
 mod targets;
 
 use crate::{cli::CheckPhysics, console::tell, error::CliError};
-use engines::{ColdForward, WarmForward, WorldEngine};
 use phase_calibration::{
-    Engine, Probe, ReadError, Replay, Report, Run, StateAlone, ahead, probes_report, replay_reports,
-    run_reports,
+    ColdForward, Engine, Probe, ReadError, Replay, Report, Run, StateAlone, WarmForward, WorldEngine, ahead,
+    probes_report, replay_reports, run_reports,
 };
 use phase_dataset::{atomic, json, phase_events};
 use serde::Serialize;

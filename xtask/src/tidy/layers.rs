@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 /// The crates from the ground floor up. A crate may use those before it, never those after it.
 pub const LAYERS: [&str; 15] = [
     "phase-model",
-    "phase-calibration",
     "phase-world",
     "phase-forward",
+    "phase-calibration",
     "phase-perception",
     "phase-belief",
     "phase-predicates",

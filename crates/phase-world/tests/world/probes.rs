@@ -1,40 +1,6 @@
 //! Probes and runs of the published simulator, if they are at hand.
 
-use phase_calibration::{Engine, Probe, Run, ahead, probes_report};
-use phase_model::{AGENT_COUNT, Action, Physique, State, Vec2, arena::SUBSTEPS};
-use phase_world::World;
-
-/// The true world as something that can be held against records.
-struct Recorded {
-    physique: Physique,
-    world: World,
-}
-
-impl Engine for Recorded {
-    const THROUGH_IDLE: bool = false;
-
-    fn set_up(physique: &Physique, state: &State) -> Self {
-        Self { physique: physique.clone(), world: World::new(physique, state) }
-    }
-
-    fn settle(&mut self) {
-        self.world.settle();
-    }
-
-    fn set_velocity(&mut self, body: usize, velocity: Vec2) {
-        let mut state = self.world.state();
-        state.bodies[body].velocity = velocity;
-        *self = Self::set_up(&self.physique, &state);
-    }
-
-    fn state(&self) -> State {
-        self.world.state()
-    }
-
-    fn step(&mut self, actions: [Action; AGENT_COUNT]) -> [State; SUBSTEPS] {
-        self.world.step(actions)
-    }
-}
+use phase_calibration::{Probe, Run, WorldEngine, ahead, probes_report};
 
 fn text(file: &str) -> Option<String> {
     let path = format!(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/reference/{}"), file);
@@ -48,7 +14,7 @@ fn text(file: &str) -> Option<String> {
 #[test]
 fn probes_are_reproduced() {
     let Some(text) = text("probes.json") else { return };
-    let report = probes_report::<Recorded>(&Probe::parse(&text).expect("good probes"));
+    let report = probes_report::<WorldEngine>(&Probe::parse(&text).expect("good probes"));
     for (name, family) in &report.families {
         println!(
             "{name:15} {:3} steps; {:.4?} u, {:.4?} rad; within 0.01: {:.3}, within 0.1: {:.3}",
@@ -75,7 +41,7 @@ fn one_step_ahead_the_world_is_near_the_record() {
     const P99: f32 = 0.2;
     let Some(text) = text("runs.json") else { return };
     let runs = Run::parse(&text).expect("good runs");
-    let one = ahead::<Recorded>(&runs, 1).expect("runs that are long enough");
-    println!("one step ahead: {one:.5?}; ten: {:.5?}", ahead::<Recorded>(&runs, 10));
+    let one = ahead::<WorldEngine>(&runs, 1).expect("runs that are long enough");
+    println!("one step ahead: {one:.5?}; ten: {:.5?}", ahead::<WorldEngine>(&runs, 10));
     assert!(one.p90 <= P90 && one.p99 <= P99);
 }

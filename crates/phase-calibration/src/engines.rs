@@ -1,12 +1,12 @@
-//! The project's two engines as `phase_calibration` wants them.
+//! The project's two engines as something that can be held against records.
 
-use phase_calibration::Engine;
+use crate::Engine;
 use phase_forward::{Forward, Memory};
 use phase_model::{AGENT_COUNT, Action, Physique, State, Vec2, arena::SUBSTEPS};
 use phase_world::World;
 
 /// The true world.
-pub(super) struct WorldEngine {
+pub struct WorldEngine {
     physique: Physique,
     world: World,
 }
@@ -39,10 +39,13 @@ impl Engine for WorldEngine {
 }
 
 /// The kernel with its memory from step to step, which is its faithful mode.
-pub(super) struct WarmForward {
-    forward: Forward,
-    state: State,
-    memory: Memory,
+pub struct WarmForward {
+    /// The kernel.
+    pub forward: Forward,
+    /// The state it is in; a replay may put it back onto the record.
+    pub state: State,
+    /// What it remembers from step to step.
+    pub memory: Memory,
 }
 
 impl Engine for WarmForward {
@@ -72,7 +75,7 @@ impl Engine for WarmForward {
 }
 
 /// The kernel from the state alone, as planners and beliefs step it.
-pub(super) struct ColdForward {
+pub struct ColdForward {
     forward: Forward,
     state: State,
 }
