@@ -8,6 +8,7 @@ use crate::{
     thought::{ActionValue, SubgoalValue},
 };
 use phase_belief::Belief;
+use phase_model::random::{Purpose, stream};
 use phase_model::{AGENT_COUNT, Action, Attitude, Dynamics, EntitySet, Goal, Physique, Scene, State};
 use phase_perception::Observation;
 use phase_planner::{Candidate, Plan, Planner, Subgoal, value};
@@ -48,6 +49,7 @@ impl<D: Dynamics> Agent<D> {
             rollout_steps: settings.rollout_steps,
             c_init: settings.c_init,
             c_base: settings.c_base,
+            stop_when_decided: true,
             ..PomcpSettings::default()
         })?;
         let attitude = scene.agents[index].attitude;
@@ -138,7 +140,9 @@ impl<D: Dynamics> Agent<D> {
         };
         let imagined: Vec<Imagined> =
             roots.iter().map(|&state| Imagined::new(&model.objective, state)).collect();
-        let decision = self.pomcp.search(&model, &imagined, random)?;
+        // A generator of its own for every decision: how long a search takes changes nothing that comes later.
+        let mut random = stream(random.next_u64(), Purpose::Search, 0);
+        let decision = self.pomcp.search(&model, &imagined, &mut random)?;
         let evidence = actions
             .iter()
             .zip(&decision.actions)

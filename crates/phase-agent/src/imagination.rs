@@ -152,7 +152,7 @@ impl<D: Dynamics> GenerativeModel for Imagination<'_, D> {
         let action = self.actions[action];
         let mut actions = [self.other_action(state); AGENT_COUNT];
         actions[agent] = action;
-        self.dynamics.step(state, actions);
+        self.dynamics.imagine(state, actions);
         (imagined.distance, imagined.course) = self.objective.look(state);
         Outcome { observation: (), reward: self.reward(imagined, action), terminal: false }
     }

@@ -2,9 +2,11 @@
 
 use crate::{
     body::{Motion, STATIC, Shape, Twist},
+    group::Groups,
     manifold::Manifold,
     tuning::{LONGEST_CORRECTION, SLOP},
 };
+use phase_model::Vec2;
 
 /// Two points whose effective masses differ by more than this are solved as one.
 const WORST_CONDITION: f32 = 1000.0;
@@ -18,6 +20,8 @@ pub(crate) struct Contact {
     pub(crate) a: usize,
     /// Second body, never static.
     pub(crate) b: usize,
+    /// The groups that it acts on: the bodies themselves, unless they are solved as part of something rigid.
+    pub(crate) groups: (usize, usize),
     pub(crate) manifold: Manifold,
     /// Impulse so far at each point (N s).
     pub(crate) impulses: [f32; 2],
@@ -37,6 +41,7 @@ impl Contact {
         key: 0,
         a: STATIC,
         b: 0,
+        groups: (STATIC, 0),
         manifold: Manifold::NONE,
         impulses: [0.0; 2],
         skins: 0.0,
@@ -48,24 +53,42 @@ impl Contact {
 
     /// A contact of two bodies that starts without impulses.
     pub(crate) fn new(key: u8, (a, b): (usize, usize), manifold: Manifold) -> Self {
-        Self { key, a, b, manifold, ..Self::NONE }
+        Self { key, a, b, groups: (a, b), manifold, ..Self::NONE }
     }
 
     /// Works out where impulses act and what they do, at the present poses.
     pub(crate) fn prepare(&mut self, shapes: &[Shape; 5], motions: &[Motion; 5]) {
-        self.prepare_between((&shapes[self.a], &motions[self.a]), (&shapes[self.b], &motions[self.b]), false);
+        let (a, b) = (&motions[self.a], &motions[self.b]);
+        self.place(&shapes[self.a], &shapes[self.b], a, b, [a.centre, b.centre], false);
+        self.respond(&shapes[self.a], &shapes[self.b], false);
+    }
+
+    /// The same for bodies in rigid groups.
+    pub(crate) fn prepare_groups(&mut self, groups: &Groups, shapes: &[Shape; 5], motions: &[Motion; 5]) {
+        self.groups = (groups.names[self.a], groups.names[self.b]);
+        let (first, second) = self.groups;
+        let centres = [groups.centres[first], groups.centres[second]];
+        let (a, b) = (&motions[self.a], &motions[self.b]);
+        self.place(&shapes[self.a], &shapes[self.b], a, b, centres, self.a == STATIC);
+        self.respond(&groups.shapes[first], &groups.shapes[second], self.a == STATIC);
     }
 
     /// The same for a contact with a wall, of which only the second body has a say.
     pub(crate) fn prepare_alone(&mut self, shapes: &[Shape; 5], motion: &Motion) {
-        self.prepare_between((&shapes[STATIC], &Motion::STILL), (&shapes[self.b], motion), true);
+        let (wall, shape) = (&shapes[STATIC], &shapes[self.b]);
+        self.place(wall, shape, &Motion::STILL, motion, [Vec2::ZERO, motion.centre], true);
+        self.respond(wall, shape, true);
     }
 
+    /// Works out where impulses act, and so what a unit of them is to each side, about its centre of mass.
     #[inline(always)]
-    fn prepare_between(
+    fn place(
         &mut self,
-        (shape_a, a): (&Shape, &Motion),
-        (shape_b, b): (&Shape, &Motion),
+        shape_a: &Shape,
+        shape_b: &Shape,
+        a: &Motion,
+        b: &Motion,
+        centres: [Vec2; 2],
         alone: bool,
     ) {
         self.skins = shape_a.skin + shape_b.skin;
@@ -73,10 +96,15 @@ impl Contact {
         self.count = self.manifold.count;
         for (row, middle) in self.rows.iter_mut().zip(middles).take(self.count) {
             if !alone {
-                row.0 = Twist::of_impulse(-normal, middle - a.centre);
+                row.0 = Twist::of_impulse(-normal, middle - centres[0]);
             }
-            row.1 = Twist::of_impulse(normal, middle - b.centre);
+            row.1 = Twist::of_impulse(normal, middle - centres[1]);
         }
+    }
+
+    /// Works out what impulses do to both sides, of which the first may be a wall.
+    #[inline(always)]
+    fn respond(&mut self, shape_a: &Shape, shape_b: &Shape, alone: bool) {
         let rows = &self.rows;
         let respond = |i: usize, j: usize| {
             let on_b = rows[i].1.through(rows[j].1, shape_b);
@@ -114,7 +142,7 @@ impl Contact {
     /// One iteration of the velocity solver. Returns the greatest change of an impulse (N s).
     #[inline]
     pub(crate) fn solve(&mut self, shapes: &[Shape; 5], twists: &mut [Twist; 5]) -> f32 {
-        let changes = self.changes(|(row_a, row_b)| row_a.dot(twists[self.a]) + row_b.dot(twists[self.b]));
+        let changes = self.changes(|(row_a, row_b)| row_a.dot(twists[self.groups.0]) + row_b.dot(twists[self.groups.1]));
         for (point, &change) in changes.iter().enumerate().take(self.count) {
             if change != 0.0 {
                 self.impulses[point] += change;
@@ -152,6 +180,16 @@ impl Contact {
             speed(&self.rows[1]) - cross * before[0] - second * before[1],
         ];
         self.complementary(bare).map_or([0.0; 2], |after| [after[0] - before[0], after[1] - before[1]])
+    }
+
+    /// The normal at one of the points, where that lies, and the gap there, negative where shapes overlap (u).
+    #[inline]
+    pub(crate) fn gap(&self, motions: &[Motion; 5], point: usize) -> (Vec2, Vec2, f32) {
+        if self.a == STATIC {
+            self.manifold.gap_to_wall(&motions[self.b], self.skins, point)
+        } else {
+            self.manifold.gap(&motions[self.a], &motions[self.b], self.skins, point)
+        }
     }
 
     /// One iteration of the position solver, which takes back a share of the overlap. Returns the gap found
@@ -203,8 +241,9 @@ impl Contact {
     #[inline]
     fn apply(&self, shapes: &[Shape; 5], twists: &mut [Twist; 5], point: usize, impulse: f32) {
         let (row_a, row_b) = self.rows[point];
-        twists[self.a].push(row_a, impulse, &shapes[self.a]);
-        twists[self.b].push(row_b, impulse, &shapes[self.b]);
+        let (a, b) = self.groups;
+        twists[a].push(row_a, impulse, &shapes[a]);
+        twists[b].push(row_b, impulse, &shapes[b]);
     }
 
     /// Impulses at both points such that nothing approaches, nothing pulls, and no impulse acts where the
@@ -235,6 +274,6 @@ impl Contact {
 
 /// How far one iteration of the position solver takes bodies apart that overlap (u).
 #[inline]
-fn correction(share: f32, gap: f32) -> f32 {
+pub(crate) fn correction(share: f32, gap: f32) -> f32 {
     (-share * (gap + SLOP)).min(LONGEST_CORRECTION)
 }

@@ -7,7 +7,7 @@ use crate::{
     key::{KeySet, bit, descending, wall_key},
     manifold::Polygon,
     tuning::{
-        H, IMPACT_CORRECTION, IMPACT_POSITION_ITERATIONS, MOST_IMPACTS, SETTLED_IMPULSE, SLOP,
+        IMPACT_CORRECTION, IMPACT_POSITION_ITERATIONS, MOST_IMPACTS, SETTLED_IMPULSE, SLOP,
         VELOCITY_ITERATIONS,
     },
     wall::MAX_WALLS,
@@ -125,7 +125,7 @@ impl World<'_> {
             }
         }
         motion.set_twist(twist);
-        motion.advance(shape, (1.0 - spent) * H);
+        motion.advance(shape, (1.0 - spent) * self.seconds);
         way.to = motion.centre;
         way.to_angle = motion.angle;
         self.moved(body);

@@ -107,7 +107,7 @@ impl Forward {
         self.stop_turning(state);
     }
 
-    fn everyone(&self) -> BodySet {
+    pub(crate) fn everyone(&self) -> BodySet {
         (1 << self.count) - 1
     }
 
@@ -223,7 +223,7 @@ impl Forward {
     }
 
     /// Writes bodies, grips and contacts into a state. Only pairs among the candidates can touch.
-    fn finish(&self, world: &mut World<'_>, state: &mut State, candidates: KeySet) {
+    pub(crate) fn finish(&self, world: &mut World<'_>, state: &mut State, candidates: KeySet) {
         world.write(state);
         state.contacts = Contacts::NONE;
         let near = reach::pairs_near(world, self.everyone()) & candidates & !world.apart;
@@ -236,7 +236,7 @@ impl Forward {
     }
 
     /// Agents do not go on turning from one step to the next.
-    fn stop_turning(&self, state: &mut State) {
+    pub(crate) fn stop_turning(&self, state: &mut State) {
         for body in &mut state.bodies[..AGENT_COUNT] {
             body.angular_velocity = 0.0;
         }
@@ -247,5 +247,10 @@ impl Dynamics for Forward {
     /// One step from a state alone: impulses of contacts and grips start from nothing.
     fn step(&self, state: &mut State, actions: [Action; AGENT_COUNT]) {
         self.step_cold::<false>(state, actions, |_, _| {});
+    }
+
+    /// [`Forward::step_coarse`].
+    fn imagine(&self, state: &mut State, actions: [Action; AGENT_COUNT]) {
+        self.step_coarse(state, actions);
     }
 }

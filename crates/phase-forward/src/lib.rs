@@ -48,10 +48,12 @@
 #![deny(missing_docs)]
 
 mod body;
+mod coarse;
 mod contact;
 mod contain;
 mod continuous;
 mod forward;
+mod group;
 mod impact;
 mod key;
 mod let_go;

@@ -1,6 +1,7 @@
 //! What can touch what: coarse tests that spare the exact ones.
 
 use crate::{
+    group::Groups,
     impact,
     key::{KeySet, PAIRS, bit, pair_key},
     outline::Aabb,
@@ -36,6 +37,7 @@ pub(crate) fn members(world: &mut World<'_>) -> BodySet {
         world.walls[body] = forward.boxes.near_point(motion.centre, shape.bound + way + LEEWAY);
         members |= u8::from(world.walls[body] != 0) << body;
     }
+    world.ways = ways;
     let (mut grouped, mut stretch): (BodySet, f32) = (0, 0.0);
     for agent in 0..AGENT_COUNT {
         if let Some(held) = world.held(agent) {
@@ -77,6 +79,24 @@ pub(crate) fn members(world: &mut World<'_>) -> BodySet {
         }
     }
     members | grouped
+}
+
+/// Whether bodies of different groups may meet in the coming step.
+pub(crate) fn strangers_meet(world: &World<'_>, groups: &Groups) -> bool {
+    let forward = world.forward;
+    let way = |body: usize| {
+        groups.bodies_of(groups.names[body]).map(|member| world.ways[member]).fold(0.0, f32::max)
+    };
+    PAIRS.into_iter().any(|(a, b)| {
+        let apart = groups.names[a] != groups.names[b] && b < forward.count;
+        let reach = forward.shapes[a].bound + forward.shapes[b].bound + LEEWAY;
+        let (first, second) = (&world.motions[a], &world.motions[b]);
+        let distance_squared = first.centre.distance_squared(second.centre);
+        apart && {
+            let reach = reach + way(a) + way(b);
+            distance_squared < reach * reach
+        }
+    })
 }
 
 /// The bodies that belong to some pairs.

@@ -2,7 +2,7 @@
 
 use crate::{
     Forward, body::Motion, contact::Contact, contain::MARGIN, key::KeySet, outline::Outlines,
-    tuning::VELOCITY_ITERATIONS, wall::WallSet, weld::held_body,
+    tuning::{H, VELOCITY_ITERATIONS}, wall::WallSet, weld::held_body,
 };
 use phase_model::{AGENT_COUNT, Action, Body, Grip, State, Vec2, arena};
 
@@ -132,6 +132,10 @@ pub(crate) struct World<'a> {
     pub(crate) at_ease: u8,
     /// Iterations of the velocity solver in the coming substep.
     pub(crate) iterations: usize,
+    /// How far each body may come in the step by itself (u).
+    pub(crate) ways: [f32; 4],
+    /// Duration of the substep (s).
+    pub(crate) seconds: f32,
 }
 
 impl<'a> World<'a> {
@@ -169,6 +173,8 @@ impl<'a> World<'a> {
             let_go_room: [0.0; 4],
             at_ease: 0,
             iterations: VELOCITY_ITERATIONS,
+            ways: [0.0; 4],
+            seconds: H,
         }
     }
 

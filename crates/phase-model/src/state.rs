@@ -229,4 +229,10 @@ impl State {
 pub trait Dynamics {
     /// Advances the state by one step: five substeps of 1/60 s under the two agents' actions.
     fn step(&self, state: &mut State, actions: [Action; AGENT_COUNT]);
+
+    /// Advances the state by one step as roughly as is good enough for weighing actions against each other,
+    /// thousands of steps to a decision. Like [`step`](Self::step) unless there is something cheaper.
+    fn imagine(&self, state: &mut State, actions: [Action; AGENT_COUNT]) {
+        self.step(state, actions);
+    }
 }

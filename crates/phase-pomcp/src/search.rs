@@ -69,9 +69,12 @@ impl<O: Eq> Pomcp<O> {
             depth: 0,
             steps: 0,
         };
-        for _ in 0..self.settings.simulations {
+        for left in (0..self.settings.simulations).rev() {
             state.clone_from(&roots[random.random_range(0..roots.len())]);
             simulation.run(&mut state, random)?;
+            if self.settings.stop_when_decided && simulation.tree.is_decided(left) {
+                break;
+            }
         }
         let (depth, steps) = (simulation.depth, simulation.steps);
         let effort = SearchEffort { histories: self.tree.history_count(), depth, steps };

@@ -8,7 +8,8 @@ use crate::PomcpError;
 /// c_base 1000.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PomcpSettings {
-    /// Simulations per search, one or more; each grows the tree by at most one history.
+    /// Simulations per search, one or more; each grows the tree by at most one history. Fewer are run where
+    /// `stop_when_decided` allows it.
     pub simulations: usize,
     /// Steps of the default policy played from a newly grown leaf. Zero values a leaf by
     /// [`value_estimate`](crate::GenerativeModel::value_estimate) alone.
@@ -32,6 +33,10 @@ pub struct PomcpSettings {
     /// The price: a rare disaster anywhere in the tree sets the scale for all other values. Where returns
     /// range far wider than the differences that matter, take a smaller `c_init` or more simulations.
     pub normalise_values: bool,
+    /// Whether a search ends as soon as the simulations left could not make any other action the most
+    /// visited, even if all of them began with it. The action chosen is the one that all simulations would
+    /// have chosen; visits and values are those of the simulations that were run.
+    pub stop_when_decided: bool,
 }
 
 impl Default for PomcpSettings {
@@ -43,6 +48,7 @@ impl Default for PomcpSettings {
             c_base: 1000.0,
             horizon: usize::MAX,
             normalise_values: true,
+            stop_when_decided: false,
         }
     }
 }

@@ -178,6 +178,19 @@ impl<O: Eq> Tree<O> {
         actions.iter().map(|action| (action.visits, action.value))
     }
 
+    /// Whether the most visited action at the root stays that whatever the next `left` simulations do.
+    pub(crate) fn is_decided(&self, left: usize) -> bool {
+        let (mut most, mut second) = (0, 0);
+        for (visits, _) in self.evidence(HistoryId::ROOT) {
+            if visits > most {
+                (most, second) = (visits, most);
+            } else {
+                second = second.max(visits);
+            }
+        }
+        (most - second) as usize > left
+    }
+
     fn actions_of(&self, node: &History) -> &[Action] {
         let first = node.first_action as usize;
         &self.actions[first..first + node.action_count as usize]

@@ -55,6 +55,7 @@ fn settings() -> impl Strategy<Value = PomcpSettings> {
     let horizon = prop_oneof![1..20_usize, Just(usize::MAX)];
     (1..300_usize, 0..15_usize, 0.0..3.0_f64, 1.0..1e4_f64, horizon, any::<bool>()).prop_map(
         |(simulations, rollout_steps, c_init, c_base, horizon, normalise_values)| PomcpSettings {
+            stop_when_decided: false,
             simulations,
             rollout_steps,
             c_init,
@@ -66,6 +67,26 @@ fn settings() -> impl Strategy<Value = PomcpSettings> {
 }
 
 proptest! {
+    #[test]
+    fn stopping_early_decides_the_same(problem in problem(), settings in settings(), seed: u64) {
+        let roots: Vec<u64> = (0..problem.states).collect();
+        let search = |stop_when_decided| {
+            let settings = PomcpSettings { stop_when_decided, ..settings };
+            let mut random = Pcg64Mcg::seed_from_u64(seed);
+            Pomcp::new(settings).unwrap().search(&problem, &roots, &mut random).unwrap()
+        };
+        let (whole, early) = (search(false), search(true));
+        prop_assert_eq!(early.action, whole.action);
+        // Whatever was left out could not have changed the order.
+        let run: usize = early.actions.iter().map(|action| action.visits).sum();
+        let mut visits: Vec<usize> = early.actions.iter().map(|action| action.visits).collect();
+        visits.sort_unstable_by(|a, b| b.cmp(a));
+        let lead = visits[0] - visits.get(1).copied().unwrap_or(0);
+        prop_assert!(run == settings.simulations || lead > settings.simulations - run);
+        // And not a simulation more was run than needed.
+        prop_assert!(run == settings.simulations || lead <= settings.simulations - run + 2);
+    }
+
     #[test]
     fn evidence_adds_up(problem in problem(), settings in settings(), seed: u64, other_seed: u64) {
         let roots: Vec<u64> = (0..problem.states).collect();

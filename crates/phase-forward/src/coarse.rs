@@ -1,0 +1,262 @@
+//! Steps for imagination: fewer and longer substeps, and grips that do not give.
+
+use crate::{
+    Forward,
+    group::{Ground, Groups},
+    impact::{Ends, Way, impact},
+    key::descending,
+    reach,
+    substep::BodySet,
+    tuning::{H, SETTLED_IMPULSE, SLOP},
+    world::{Touching, World},
+};
+use phase_model::{AGENT_COUNT, Action, State, Vec2, arena::SUBSTEPS};
+
+/// How a step is divided, in substeps of 1/60 s, where bodies may run into each other.
+const AMONG_BODIES: &[u8] = &[2, 2, 1];
+/// The same where nothing but walls can be met; impacts on walls are found in time.
+const AMONG_WALLS: &[u8] = &[SUBSTEPS as u8];
+/// Most iterations of the velocity solver.
+const ITERATIONS: usize = 10;
+/// Impulses that change by less than this many times the exact solver's measure are settled.
+const LENIENCE: f32 = 10.0;
+/// Iterations of the position solver, and the share of an overlap that each takes back.
+const POSITION_ITERATIONS: usize = 3;
+const CORRECTION: f32 = 0.5;
+
+impl Forward {
+    /// One step as a planner imagines it: as [`phase_model::Dynamics::step`], at a fraction of its cost.
+    pub fn step_coarse(&self, state: &mut State, actions: [Action; AGENT_COUNT]) {
+        let mut world = World::new(self, state, actions);
+        let let_go = world.grab(state);
+        world.part(state, let_go);
+        let members = reach::members(&mut world);
+        let mut groups = Groups::new(&world);
+        let mut touching = Touching::NONE;
+        let alone = self.everyone() & !members;
+        if alone != 0 {
+            self.substep_coarse(&mut world, &mut groups, alone, &mut touching, SUBSTEPS as u8);
+        }
+        if members != 0 {
+            let strangers = reach::strangers_meet(&world, &groups);
+            for &substeps in if strangers { AMONG_BODIES } else { AMONG_WALLS } {
+                self.substep_coarse(&mut world, &mut groups, members, &mut touching, substeps);
+                if world.let_go != 0 {
+                    world.reunite();
+                }
+            }
+        }
+        self.finish(&mut world, state, if members == 0 { 0 } else { !0 });
+        self.stop_turning(state);
+    }
+
+    /// One long substep of some bodies, whole groups of them.
+    fn substep_coarse(
+        &self,
+        world: &mut World<'_>,
+        groups: &mut Groups,
+        members: BodySet,
+        touching: &mut Touching,
+        substeps: u8,
+    ) {
+        let pairs = reach::pairs_near(world, members) & !world.apart & !groups.within;
+        let busy = world.busy(members, pairs);
+        if busy == 0 {
+            return;
+        }
+        let mut candidates = pairs;
+        world.outline(busy);
+        for body in 0..self.count {
+            if busy & 1 << body != 0 {
+                candidates |= reach::walls_near(world, body);
+            }
+        }
+        world.find_contacts(candidates, touching);
+        let before = world.outlines.boxes;
+        world.solve_coarse(groups, busy, touching, substeps);
+        world.outline(busy);
+        let mut met: BodySet = 0;
+        for (body, start) in before.into_iter().enumerate() {
+            if busy & 1 << body != 0 && reach::may_meet_wall(world, body, start) {
+                met |= 1 << body;
+            }
+        }
+        for name in 0..self.count {
+            let bodies = groups.bodies[name] & met;
+            if bodies != 0 {
+                world.meet_walls(groups, name, bodies, f32::from(substeps) * H);
+            }
+        }
+    }
+}
+
+impl World<'_> {
+    /// Lets forces, friction and contacts act and moves all given bodies.
+    fn solve_coarse(
+        &mut self,
+        groups: &mut Groups,
+        busy: BodySet,
+        touching: &mut Touching,
+        substeps: u8,
+    ) {
+        let seconds = f32::from(substeps) * H;
+        // The exact kernel moves bodies with the speed at the end of each short substep. Of speed gained
+        // evenly, that is this share of a long one.
+        let share = f32::from(substeps + 1) / f32::from(2 * substeps);
+        let named = groups.names_of(busy);
+        let mut still: BodySet = 0;
+        for name in bodies(named) {
+            groups.gather(name, self);
+        }
+        for body in bodies(busy) {
+            let motion = &self.motions[body];
+            self.starts[body] = (motion.centre, motion.angle, motion.right);
+            still |= u8::from(motion.is_still()) << body;
+            if body < AGENT_COUNT && self.actions[body] == Action::Stop {
+                groups.stop(body, self, substeps);
+            }
+        }
+        let earlier = groups.twists;
+        let mut grounds = [Ground::NONE; 4];
+        for body in bodies(busy) {
+            if body < AGENT_COUNT && Groups::acts(self.actions[body]) {
+                groups.act(body, self, seconds);
+                still &= !(1 << body);
+            }
+            grounds[body] =
+                Ground::new(body, groups, &self.forward.shapes[body], &self.motions[body], seconds);
+        }
+        let mut touched: BodySet = 0;
+        for contact in touching.found_mut() {
+            contact.prepare_groups(groups, &self.forward.shapes, &self.motions);
+            touched |= 1 << contact.groups.0 | 1 << contact.groups.1;
+        }
+        for _ in 0..ITERATIONS {
+            let mut change = 0.0_f32;
+            for body in bodies(busy) {
+                let name = groups.names[body];
+                change = change.max(grounds[body].rub(&mut groups.twists[name], &groups.shapes[name]));
+            }
+            for contact in touching.found_mut() {
+                change = change.max(contact.solve(&groups.shapes, &mut groups.twists));
+            }
+            if change < LENIENCE * SETTLED_IMPULSE {
+                break;
+            }
+        }
+        for name in bodies(named) {
+            groups.limit(name);
+            let (velocity, spin) = groups.twists[name].parts();
+            let (earlier_velocity, earlier_spin) = earlier[name].parts();
+            let share = if touched & 1 << name == 0 { share } else { 1.0 };
+            let mean_velocity = earlier_velocity + (velocity - earlier_velocity) * share;
+            let mean_spin = earlier_spin + (spin - earlier_spin) * share;
+            if mean_velocity != Vec2::ZERO || mean_spin != 0.0 {
+                groups.shift(name, self, mean_velocity * seconds, mean_spin * seconds);
+            }
+        }
+        self.separate_coarse(groups, touching);
+        for name in bodies(named) {
+            groups.spread(name, self);
+        }
+        for body in bodies(busy & still) {
+            let (motion, (centre, angle, _)) = (&self.motions[body], self.starts[body]);
+            if motion.is_still() && motion.centre == centre && motion.angle == angle {
+                self.at_ease |= 1 << body;
+            }
+        }
+    }
+
+    fn separate_coarse(&mut self, groups: &mut Groups, touching: &Touching) {
+        for _ in 0..POSITION_ITERATIONS {
+            let mut settled = true;
+            for contact in touching.found() {
+                settled &= groups.separate(contact, self, CORRECTION) >= -3.0 * SLOP;
+            }
+            if settled {
+                break;
+            }
+        }
+    }
+
+    /// Resolves impacts of a group on walls: it stops at the first wall that one of the given bodies of it
+    /// reaches, loses its speed into it, and goes on from there for the time left.
+    fn meet_walls(&mut self, groups: &mut Groups, name: usize, met: BodySet, seconds: f32) {
+        if groups.bodies[name].count_ones() < 2 {
+            let walls = reach::walls_swept(self, name);
+            self.seconds = seconds;
+            self.impacts(name, walls);
+            self.contain(name, walls);
+            return;
+        }
+        let mut first = 1.0_f32;
+        let mut walls = [0; 4];
+        for body in bodies(met) {
+            walls[body] = reach::walls_swept(self, body);
+            let way = self.way(body);
+            let shape = &self.forward.shapes[body];
+            let ends = Ends::new(shape, &way);
+            for key in descending(walls[body]) {
+                let wall = &self.forward.walls[key / 4];
+                if !ends.clear_of(wall) && let Some(share) = impact(shape, &way, wall) {
+                    first = first.min(share);
+                }
+            }
+        }
+        if first < 1.0 {
+            self.go_back(groups, name, first);
+            let mut touching = Touching::NONE;
+            self.outline(groups.bodies[name]);
+            self.find_contacts(walls.into_iter().fold(0, |all, keys| all | keys), &mut touching);
+            for contact in touching.found_mut() {
+                contact.prepare_groups(groups, &self.forward.shapes, &self.motions);
+            }
+            for _ in 0..ITERATIONS {
+                let mut change = 0.0_f32;
+                for contact in touching.found_mut() {
+                    change = change.max(contact.solve(&groups.shapes, &mut groups.twists));
+                }
+                if change < LENIENCE * SETTLED_IMPULSE {
+                    break;
+                }
+            }
+            let (velocity, spin) = groups.twists[name].parts();
+            let left = seconds * (1.0 - first);
+            groups.shift(name, self, velocity * left, spin * left);
+            self.separate_coarse(groups, &touching);
+            groups.spread(name, self);
+        }
+        for body in bodies(met) {
+            self.contain(body, walls[body]);
+        }
+    }
+
+    /// A body's way through the substep.
+    fn way(&self, body: usize) -> Way {
+        let (from, from_angle, right) = self.starts[body];
+        let motion = &self.motions[body];
+        Way { from, to: motion.centre, from_angle, to_angle: motion.angle, right }
+    }
+
+    /// Takes a group back to where it was after a share of the substep.
+    fn go_back(&mut self, groups: &mut Groups, name: usize, share: f32) {
+        let mut turn = 0.0;
+        let centre = groups.centres[name];
+        let (mut mass, mut from) = (0.0, Vec2::ZERO);
+        for body in groups.bodies_of(name) {
+            let (start, angle, right) = self.starts[body];
+            let (shape, motion) = (&self.forward.shapes[body], &mut self.motions[body]);
+            turn = motion.angle - angle;
+            (motion.centre, motion.angle, motion.right) = (start, angle, right);
+            mass += shape.mass;
+            from += start * shape.mass;
+        }
+        groups.centres[name] = from / mass;
+        let way = centre - groups.centres[name];
+        groups.shift(name, self, way * share, turn * share);
+    }
+}
+
+fn bodies(set: BodySet) -> impl Iterator<Item = usize> + Clone {
+    (0..4).filter(move |body| set & 1 << body != 0)
+}

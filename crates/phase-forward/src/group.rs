@@ -1,0 +1,274 @@
+//! Bodies that hold each other, taken as one rigid body.
+
+use crate::{
+    body::{Motion, STATIC, Shape, Twist},
+    contact::{Contact, correction},
+    key::{KeySet, PAIRS, bit, pair_key},
+    substep::BodySet,
+    tuning::{GREATEST_TURN, H, LONGEST_WAY, SLOP},
+    world::World,
+};
+use glam::Vec3;
+use phase_model::{AGENT_COUNT, Action, Vec2, physique::GROUND_FRICTION};
+
+/// Fastest that anything goes (u/s) and turns (rad/s), as in the exact kernel.
+const FASTEST: f32 = LONGEST_WAY / H;
+const FASTEST_TURN: f32 = GREATEST_TURN / H;
+
+/// All bodies of a step in rigid groups. A body that neither holds nor is held is a group of one.
+#[derive(Clone, Debug)]
+pub(crate) struct Groups {
+    /// For each body, the body that its group is named after: the one of lowest index in it.
+    pub(crate) names: [usize; 5],
+    /// The bodies of each group, by name.
+    pub(crate) bodies: [BodySet; 5],
+    /// Pairs of bodies that belong to the same group, and so cannot touch.
+    pub(crate) within: KeySet,
+    /// Inverse masses and moments of inertia of groups, in the shapes of the bodies they are named after.
+    pub(crate) shapes: [Shape; 5],
+    /// Centres of mass of groups, by name (u).
+    pub(crate) centres: [Vec2; 5],
+    /// Velocities of groups, by name.
+    pub(crate) twists: [Twist; 5],
+}
+
+impl Groups {
+    /// The groups that grips make.
+    pub(crate) fn new(world: &World<'_>) -> Self {
+        let mut names = [0, 1, 2, 3, STATIC];
+        for agent in 0..AGENT_COUNT {
+            if let Some(held) = world.held(agent) {
+                let (kept, given_up) = (names[agent].min(names[held]), names[agent].max(names[held]));
+                for name in &mut names {
+                    if *name == given_up {
+                        *name = kept;
+                    }
+                }
+            }
+        }
+        let mut bodies = [0; 5];
+        for (body, &name) in names.iter().enumerate() {
+            bodies[name] |= 1 << body;
+        }
+        let mut within = 0;
+        for (pair, (a, b)) in PAIRS.into_iter().enumerate() {
+            if names[a] == names[b] {
+                within |= bit(pair_key(pair));
+            }
+        }
+        let mut groups = Self {
+            names,
+            bodies,
+            within,
+            shapes: world.forward.shapes,
+            centres: [Vec2::ZERO; 5],
+            twists: [Twist::ZERO; 5],
+        };
+        for name in 0..world.forward.count {
+            groups.weigh(name, world);
+        }
+        groups
+    }
+
+    /// The indices of a group's bodies.
+    pub(crate) fn bodies_of(&self, name: usize) -> impl Iterator<Item = usize> + use<> {
+        let bodies = self.bodies[name];
+        (0..4).filter(move |body| bodies & 1 << body != 0)
+    }
+
+    /// The names of the groups that some bodies belong to, as a set.
+    pub(crate) fn names_of(&self, bodies: BodySet) -> BodySet {
+        (0..4).filter(|body| bodies & 1 << body != 0).fold(0, |names, body| names | 1 << self.names[body])
+    }
+
+    /// Works out mass, centre and moment of inertia of a group of several.
+    fn weigh(&mut self, name: usize, world: &World<'_>) {
+        if self.bodies[name].count_ones() < 2 {
+            return;
+        }
+        let shapes = &world.forward.shapes;
+        let (mut mass, mut moment) = (0.0, Vec2::ZERO);
+        for body in self.bodies_of(name) {
+            mass += shapes[body].mass;
+            moment += world.motions[body].centre * shapes[body].mass;
+        }
+        let centre = moment / mass;
+        let mut inertia = 0.0;
+        for body in self.bodies_of(name) {
+            let arm = world.motions[body].centre.distance_squared(centre);
+            inertia += 1.0 / shapes[body].inverse_inertia + shapes[body].mass * arm;
+        }
+        self.centres[name] = centre;
+        let shape = &mut self.shapes[name];
+        (shape.mass, shape.inverse_mass, shape.inverse_inertia) = (mass, 1.0 / mass, 1.0 / inertia);
+        shape.yielding = Vec3::new(shape.inverse_mass, shape.inverse_mass, shape.inverse_inertia);
+    }
+
+    /// Takes over the velocities of a group's bodies: their momentum and angular momentum stay what they are.
+    pub(crate) fn gather(&mut self, name: usize, world: &World<'_>) {
+        if self.bodies[name].count_ones() < 2 {
+            let motion = &world.motions[name];
+            self.centres[name] = motion.centre;
+            self.twists[name] = motion.twist();
+            return;
+        }
+        let mut sum = Twist::ZERO;
+        for body in self.bodies_of(name) {
+            let (shape, motion) = (&world.forward.shapes[body], &world.motions[body]);
+            let momentum = motion.velocity * shape.mass;
+            sum.0 += Twist::of_impulse(momentum, motion.centre - self.centres[name]).0;
+            sum.0.z += motion.spin / shape.inverse_inertia;
+        }
+        self.twists[name] = Twist(sum.0 * self.shapes[name].yielding);
+    }
+
+    /// Gives a group's bodies the group's velocity.
+    pub(crate) fn spread(&self, name: usize, world: &mut World<'_>) {
+        let (velocity, spin) = self.twists[name].parts();
+        for body in self.bodies_of(name) {
+            let motion = &mut world.motions[body];
+            motion.velocity = velocity + (motion.centre - self.centres[name]).perp() * spin;
+            motion.spin = spin;
+        }
+    }
+
+    /// Lets `stop` act on a body for some substeps. It takes an agent's own speed away in every substep, and
+    /// what it holds gives it some of its own back each time.
+    pub(crate) fn stop(&mut self, body: usize, world: &World<'_>, substeps: u8) {
+        let name = self.names[body];
+        let (shape, motion) = (&world.forward.shapes[body], &world.motions[body]);
+        let share = shape.mass * self.shapes[name].inverse_mass;
+        let mut left = 1.0;
+        for _ in 0..substeps {
+            left *= 1.0 - share;
+        }
+        let arm = motion.centre - self.centres[name];
+        let (velocity, spin) = self.twists[name].parts();
+        let own = velocity + arm.perp() * spin;
+        let impulse = own * (-shape.mass * (1.0 - left) / share);
+        self.twists[name].push(Twist::of_impulse(impulse, arm), 1.0, &self.shapes[name]);
+    }
+
+    /// Lets an agent's push or turn act for some seconds.
+    pub(crate) fn act(&mut self, body: usize, world: &World<'_>, seconds: f32) {
+        let (action, name) = (world.actions[body], self.names[body]);
+        let (shape, motion) = (&world.forward.shapes[body], &world.motions[body]);
+        let impulse = if let Some(push) = action.push() {
+            let at = motion.place(Vec2::new(0.0, shape.push_point));
+            Twist::of_impulse(motion.turn(push * (shape.max_force * seconds)), at - self.centres[name])
+        } else {
+            Twist(Vec3::new(0.0, 0.0, action.turn() * shape.turn_torque * seconds))
+        };
+        self.twists[name].push(impulse, 1.0, &self.shapes[name]);
+    }
+
+    /// Whether a body's action moves anything.
+    pub(crate) fn acts(action: Action) -> bool {
+        action.push().is_some() || action.turn() != 0.0
+    }
+
+    /// Limits a group's velocity.
+    pub(crate) fn limit(&mut self, name: usize) {
+        let (velocity, spin) = self.twists[name].parts();
+        let velocity = velocity.clamp_length_max(FASTEST);
+        self.twists[name] = Twist(velocity.extend(spin.clamp(-FASTEST_TURN, FASTEST_TURN)));
+    }
+
+    /// Moves and turns a group.
+    pub(crate) fn shift(&mut self, name: usize, world: &mut World<'_>, way: Vec2, turn: f32) {
+        let centre = self.centres[name];
+        let alone = self.bodies[name].count_ones() < 2;
+        let turned = if alone { Vec2::X } else { crate::turn::turned(Vec2::X, turn) };
+        for body in self.bodies_of(name) {
+            let (shape, motion) = (&world.forward.shapes[body], &mut world.motions[body]);
+            motion.centre = if alone {
+                motion.centre + way
+            } else {
+                centre + way + turned.rotate(motion.centre - centre)
+            };
+            motion.rotate(turn, shape);
+            world.moved(body);
+        }
+        self.centres[name] += way;
+    }
+
+    /// Takes back a share of the overlap at a contact. Returns the gap found before, negative where shapes
+    /// overlap (u).
+    pub(crate) fn separate(&mut self, contact: &Contact, world: &mut World<'_>, share: f32) -> f32 {
+        let (a, b) = contact.groups;
+        let mut least = f32::MAX;
+        for point in 0..contact.manifold.count {
+            let (normal, at, gap) = contact.gap(&world.motions, point);
+            least = least.min(gap);
+            if gap >= -SLOP {
+                continue;
+            }
+            let arms = [a, b].map(|name| Twist::of_impulse(normal, at - self.centres[name]));
+            let response =
+                arms[0].through(arms[0], &self.shapes[a]) + arms[1].through(arms[1], &self.shapes[b]);
+            // Where two centres coincide there is no way apart.
+            if response <= 0.0 {
+                continue;
+            }
+            let impulse = correction(share, gap) / response;
+            for (name, arm, sign) in [(a, arms[0], -1.0), (b, arms[1], 1.0)] {
+                if name != STATIC {
+                    let (way, turn) = Twist(arm.0 * self.shapes[name].yielding * (sign * impulse)).parts();
+                    self.shift(name, world, way, turn);
+                }
+            }
+        }
+        least
+    }
+}
+
+/// Ground friction on one body of a group, which acts at the body's origin.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Ground {
+    /// From the group's centre of mass to the body's origin (u).
+    offset: Vec2,
+    /// The impulse that a unit of slip takes: (xx, xy, yy).
+    mass: [f32; 3],
+    impulse: Vec2,
+    greatest: f32,
+}
+
+impl Ground {
+    pub(crate) const NONE: Self =
+        Self { offset: Vec2::ZERO, mass: [0.0; 3], impulse: Vec2::ZERO, greatest: 0.0 };
+
+    /// Friction on a body for some seconds.
+    pub(crate) fn new(body: usize, groups: &Groups, shape: &Shape, motion: &Motion, seconds: f32) -> Self {
+        let name = groups.names[body];
+        let offset = motion.place(Vec2::new(0.0, shape.origin)) - groups.centres[name];
+        let (m, i) = (groups.shapes[name].inverse_mass, groups.shapes[name].inverse_inertia);
+        let (xx, xy, yy) =
+            (m + i * offset.y * offset.y, -i * offset.x * offset.y, m + i * offset.x * offset.x);
+        let scale = 1.0 / (xx * yy - xy * xy);
+        Self {
+            offset,
+            mass: [yy * scale, -xy * scale, xx * scale],
+            impulse: Vec2::ZERO,
+            greatest: GROUND_FRICTION * seconds,
+        }
+    }
+
+    /// One iteration. Returns the greatest change of the impulse (N s).
+    #[inline]
+    pub(crate) fn rub(&mut self, twist: &mut Twist, shape: &Shape) -> f32 {
+        let (velocity, spin) = twist.parts();
+        let slip = velocity + self.offset.perp() * spin;
+        let [xx, xy, yy] = self.mass;
+        let wanted = self.impulse - Vec2::new(xx * slip.x + xy * slip.y, xy * slip.x + yy * slip.y);
+        let length_squared = wanted.length_squared();
+        let given = if length_squared > self.greatest * self.greatest {
+            wanted * (self.greatest / length_squared.sqrt())
+        } else {
+            wanted
+        };
+        let change = given - self.impulse;
+        self.impulse = given;
+        twist.push(Twist::of_impulse(change, self.offset), 1.0, shape);
+        change.abs().max_element()
+    }
+}
