@@ -281,14 +281,14 @@ impl Twist {
 
     /// The velocity along this impulse's direction that a unit of another impulse gives a body.
     #[inline]
-    pub(crate) fn through(self, other: Self, shape: &Shape) -> f32 {
-        self.dot(Self(other.0 * shape.yielding))
+    pub(crate) fn through(self, other: Self, yielding: Vec3) -> f32 {
+        self.dot(Self(other.0 * yielding))
     }
 
     /// Adds what a multiple of an impulse does to a body.
     #[inline]
-    pub(crate) fn push(&mut self, impulse: Self, times: f32, shape: &Shape) {
-        self.0 += impulse.0 * shape.yielding * times;
+    pub(crate) fn push(&mut self, impulse: Self, times: f32, yielding: Vec3) {
+        self.0 += impulse.0 * yielding * times;
     }
 
     /// One iteration of ground friction, which acts at the body's origin and gives at most 100 N. Takes and

@@ -2,14 +2,16 @@
 
 use crate::{
     Forward,
+    contact::Contact,
     group::{Ground, Groups},
     impact::{Ends, Way, impact},
     key::descending,
     reach,
     substep::BodySet,
     tuning::{H, SETTLED_IMPULSE, SLOP},
-    world::{Touching, World},
+    world::{MAX_CONTACTS, World},
 };
+use arrayvec::ArrayVec;
 use phase_model::{AGENT_COUNT, Action, State, Vec2, arena::SUBSTEPS};
 
 /// How a step is divided, in substeps of 1/60 s, where bodies may run into each other.
@@ -24,6 +26,9 @@ const LENIENCE: f32 = 10.0;
 const POSITION_ITERATIONS: usize = 3;
 const CORRECTION: f32 = 0.5;
 
+/// The contacts of a substep.
+type Touches = ArrayVec<Contact, MAX_CONTACTS>;
+
 impl Forward {
     /// One step as a planner imagines it: as [`phase_model::Dynamics::step`], at a fraction of its cost.
     pub fn step_coarse(&self, state: &mut State, actions: [Action; AGENT_COUNT]) {
@@ -32,7 +37,7 @@ impl Forward {
         world.part(state, let_go);
         let members = reach::members(&mut world);
         let mut groups = Groups::new(&world);
-        let mut touching = Touching::NONE;
+        let mut touching = Touches::new();
         let alone = self.everyone() & !members;
         if alone != 0 {
             self.substep_coarse(&mut world, &mut groups, alone, &mut touching, SUBSTEPS as u8);
@@ -56,7 +61,7 @@ impl Forward {
         world: &mut World<'_>,
         groups: &mut Groups,
         members: BodySet,
-        touching: &mut Touching,
+        touching: &mut Touches,
         substeps: u8,
     ) {
         let pairs = reach::pairs_near(world, members) & !world.apart & !groups.within;
@@ -71,7 +76,8 @@ impl Forward {
                 candidates |= reach::walls_near(world, body);
             }
         }
-        world.find_contacts(candidates, touching);
+        touching.clear();
+        touching.extend(world.contacts(candidates).take(MAX_CONTACTS));
         let before = world.outlines.boxes;
         world.solve_coarse(groups, busy, touching, substeps);
         world.outline(busy);
@@ -96,7 +102,7 @@ impl World<'_> {
         &mut self,
         groups: &mut Groups,
         busy: BodySet,
-        touching: &mut Touching,
+        touching: &mut Touches,
         substeps: u8,
     ) {
         let seconds = f32::from(substeps) * H;
@@ -127,7 +133,7 @@ impl World<'_> {
                 Ground::new(body, groups, &self.forward.shapes[body], &self.motions[body], seconds);
         }
         let mut touched: BodySet = 0;
-        for contact in touching.found_mut() {
+        for contact in touching.iter_mut() {
             contact.prepare_groups(groups, &self.forward.shapes, &self.motions);
             touched |= 1 << contact.groups.0 | 1 << contact.groups.1;
         }
@@ -135,10 +141,10 @@ impl World<'_> {
             let mut change = 0.0_f32;
             for body in bodies(busy) {
                 let name = groups.names[body];
-                change = change.max(grounds[body].rub(&mut groups.twists[name], &groups.shapes[name]));
+                change = change.max(grounds[body].rub(&mut groups.twists[name], groups.yielding[name]));
             }
-            for contact in touching.found_mut() {
-                change = change.max(contact.solve(&groups.shapes, &mut groups.twists));
+            for contact in touching.iter_mut() {
+                change = change.max(contact.solve(|name| groups.yielding[name], &mut groups.twists));
             }
             if change < LENIENCE * SETTLED_IMPULSE {
                 break;
@@ -167,10 +173,10 @@ impl World<'_> {
         }
     }
 
-    fn separate_coarse(&mut self, groups: &mut Groups, touching: &Touching) {
+    fn separate_coarse(&mut self, groups: &mut Groups, touching: &[Contact]) {
         for _ in 0..POSITION_ITERATIONS {
             let mut settled = true;
-            for contact in touching.found() {
+            for contact in touching {
                 settled &= groups.separate(contact, self, CORRECTION) >= -3.0 * SLOP;
             }
             if settled {
@@ -205,16 +211,17 @@ impl World<'_> {
         }
         if first < 1.0 {
             self.go_back(groups, name, first);
-            let mut touching = Touching::NONE;
+            let mut touching = Touches::new();
             self.outline(groups.bodies[name]);
-            self.find_contacts(walls.into_iter().fold(0, |all, keys| all | keys), &mut touching);
-            for contact in touching.found_mut() {
+            let walls = walls.into_iter().fold(0, |all, keys| all | keys);
+            touching.extend(self.contacts(walls).take(MAX_CONTACTS));
+            for contact in touching.iter_mut() {
                 contact.prepare_groups(groups, &self.forward.shapes, &self.motions);
             }
             for _ in 0..ITERATIONS {
                 let mut change = 0.0_f32;
-                for contact in touching.found_mut() {
-                    change = change.max(contact.solve(&groups.shapes, &mut groups.twists));
+                for contact in touching.iter_mut() {
+                    change = change.max(contact.solve(|name| groups.yielding[name], &mut groups.twists));
                 }
                 if change < LENIENCE * SETTLED_IMPULSE {
                     break;

@@ -6,6 +6,7 @@ use crate::{
     manifold::Manifold,
     tuning::{LONGEST_CORRECTION, SLOP},
 };
+use glam::Vec3;
 use phase_model::Vec2;
 
 /// Two points whose effective masses differ by more than this are solved as one.
@@ -60,7 +61,7 @@ impl Contact {
     pub(crate) fn prepare(&mut self, shapes: &[Shape; 5], motions: &[Motion; 5]) {
         let (a, b) = (&motions[self.a], &motions[self.b]);
         self.place(&shapes[self.a], &shapes[self.b], a, b, [a.centre, b.centre], false);
-        self.respond(&shapes[self.a], &shapes[self.b], false);
+        self.respond(shapes[self.a].yielding, shapes[self.b].yielding, false);
     }
 
     /// The same for bodies in rigid groups.
@@ -70,14 +71,14 @@ impl Contact {
         let centres = [groups.centres[first], groups.centres[second]];
         let (a, b) = (&motions[self.a], &motions[self.b]);
         self.place(&shapes[self.a], &shapes[self.b], a, b, centres, self.a == STATIC);
-        self.respond(&groups.shapes[first], &groups.shapes[second], self.a == STATIC);
+        self.respond(groups.yielding[first], groups.yielding[second], self.a == STATIC);
     }
 
     /// The same for a contact with a wall, of which only the second body has a say.
     pub(crate) fn prepare_alone(&mut self, shapes: &[Shape; 5], motion: &Motion) {
         let (wall, shape) = (&shapes[STATIC], &shapes[self.b]);
         self.place(wall, shape, &Motion::STILL, motion, [Vec2::ZERO, motion.centre], true);
-        self.respond(wall, shape, true);
+        self.respond(wall.yielding, shape.yielding, true);
     }
 
     /// Works out where impulses act, and so what a unit of them is to each side, about its centre of mass.
@@ -104,11 +105,11 @@ impl Contact {
 
     /// Works out what impulses do to both sides, of which the first may be a wall.
     #[inline(always)]
-    fn respond(&mut self, shape_a: &Shape, shape_b: &Shape, alone: bool) {
+    fn respond(&mut self, yielding_a: Vec3, yielding_b: Vec3, alone: bool) {
         let rows = &self.rows;
         let respond = |i: usize, j: usize| {
-            let on_b = rows[i].1.through(rows[j].1, shape_b);
-            if alone { on_b } else { rows[i].0.through(rows[j].0, shape_a) + on_b }
+            let on_b = rows[i].1.through(rows[j].1, yielding_b);
+            if alone { on_b } else { rows[i].0.through(rows[j].0, yielding_a) + on_b }
         };
         self.response[0] = respond(0, 0);
         if self.count == 2 {
@@ -127,7 +128,7 @@ impl Contact {
     /// Applies the impulses so far, those of the substep before as a first guess.
     pub(crate) fn warm_start(&self, shapes: &[Shape; 5], twists: &mut [Twist; 5]) {
         for point in 0..self.count {
-            self.apply(shapes, twists, point, self.impulses[point]);
+            self.apply(|body| shapes[body].yielding, twists, point, self.impulses[point]);
         }
     }
 
@@ -135,18 +136,19 @@ impl Contact {
     #[inline]
     pub(crate) fn warm_start_alone(&self, shape: &Shape, twist: &mut Twist) {
         for point in 0..self.count {
-            twist.push(self.rows[point].1, self.impulses[point], shape);
+            twist.push(self.rows[point].1, self.impulses[point], shape.yielding);
         }
     }
 
-    /// One iteration of the velocity solver. Returns the greatest change of an impulse (N s).
+    /// One iteration of the velocity solver, for bodies or groups that yield as told ([`Shape::yielding`]).
+    /// Returns the greatest change of an impulse (N s).
     #[inline]
-    pub(crate) fn solve(&mut self, shapes: &[Shape; 5], twists: &mut [Twist; 5]) -> f32 {
+    pub(crate) fn solve(&mut self, yielding: impl Fn(usize) -> Vec3, twists: &mut [Twist; 5]) -> f32 {
         let changes = self.changes(|(row_a, row_b)| row_a.dot(twists[self.groups.0]) + row_b.dot(twists[self.groups.1]));
         for (point, &change) in changes.iter().enumerate().take(self.count) {
             if change != 0.0 {
                 self.impulses[point] += change;
-                self.apply(shapes, twists, point, change);
+                self.apply(&yielding, twists, point, change);
             }
         }
         changes[0].abs().max(changes[1].abs())
@@ -159,7 +161,7 @@ impl Contact {
         for (point, &change) in changes.iter().enumerate().take(self.count) {
             if change != 0.0 {
                 self.impulses[point] += change;
-                twist.push(self.rows[point].1, change, shape);
+                twist.push(self.rows[point].1, change, shape.yielding);
             }
         }
         changes[0].abs().max(changes[1].abs())
@@ -239,11 +241,17 @@ impl Contact {
     }
 
     #[inline]
-    fn apply(&self, shapes: &[Shape; 5], twists: &mut [Twist; 5], point: usize, impulse: f32) {
+    fn apply(
+        &self,
+        yielding: impl Fn(usize) -> Vec3,
+        twists: &mut [Twist; 5],
+        point: usize,
+        impulse: f32,
+    ) {
         let (row_a, row_b) = self.rows[point];
         let (a, b) = self.groups;
-        twists[a].push(row_a, impulse, &shapes[a]);
-        twists[b].push(row_b, impulse, &shapes[b]);
+        twists[a].push(row_a, impulse, yielding(a));
+        twists[b].push(row_b, impulse, yielding(b));
     }
 
     /// Impulses at both points such that nothing approaches, nothing pulls, and no impulse acts where the

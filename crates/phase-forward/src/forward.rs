@@ -191,7 +191,7 @@ impl Forward {
                 candidates |= reach::walls_near(world, body);
             }
         }
-        world.find_contacts(candidates, touching);
+        touching.replace(world.contacts(candidates));
         let before = world.outlines.boxes;
         world.solve(busy, touching);
         world.outline(busy);
@@ -208,7 +208,7 @@ impl Forward {
         memory.drop_dead(world);
         world.all_moved();
         world.outline(self.everyone());
-        world.find_contacts(memory.alive(), &mut memory.touching);
+        memory.touching.replace(world.contacts(memory.alive()));
         memory.newest_first();
         world.solve(self.everyone(), &mut memory.touching);
         memory.follow(world);

@@ -24,8 +24,8 @@ pub(crate) struct Groups {
     pub(crate) bodies: [BodySet; 5],
     /// Pairs of bodies that belong to the same group, and so cannot touch.
     pub(crate) within: KeySet,
-    /// Inverse masses and moments of inertia of groups, in the shapes of the bodies they are named after.
-    pub(crate) shapes: [Shape; 5],
+    /// How groups yield, by name; see [`Shape::yielding`].
+    pub(crate) yielding: [Vec3; 5],
     /// Centres of mass of groups, by name (u).
     pub(crate) centres: [Vec2; 5],
     /// Velocities of groups, by name.
@@ -60,7 +60,7 @@ impl Groups {
             names,
             bodies,
             within,
-            shapes: world.forward.shapes,
+            yielding: world.forward.shapes.each_ref().map(|shape| shape.yielding),
             centres: [Vec2::ZERO; 5],
             twists: [Twist::ZERO; 5],
         };
@@ -99,9 +99,7 @@ impl Groups {
             inertia += 1.0 / shapes[body].inverse_inertia + shapes[body].mass * arm;
         }
         self.centres[name] = centre;
-        let shape = &mut self.shapes[name];
-        (shape.mass, shape.inverse_mass, shape.inverse_inertia) = (mass, 1.0 / mass, 1.0 / inertia);
-        shape.yielding = Vec3::new(shape.inverse_mass, shape.inverse_mass, shape.inverse_inertia);
+        self.yielding[name] = Vec3::new(1.0 / mass, 1.0 / mass, 1.0 / inertia);
     }
 
     /// Takes over the velocities of a group's bodies: their momentum and angular momentum stay what they are.
@@ -119,7 +117,7 @@ impl Groups {
             sum.0 += Twist::of_impulse(momentum, motion.centre - self.centres[name]).0;
             sum.0.z += motion.spin / shape.inverse_inertia;
         }
-        self.twists[name] = Twist(sum.0 * self.shapes[name].yielding);
+        self.twists[name] = Twist(sum.0 * self.yielding[name]);
     }
 
     /// Gives a group's bodies the group's velocity.
@@ -137,7 +135,7 @@ impl Groups {
     pub(crate) fn stop(&mut self, body: usize, world: &World<'_>, substeps: u8) {
         let name = self.names[body];
         let (shape, motion) = (&world.forward.shapes[body], &world.motions[body]);
-        let share = shape.mass * self.shapes[name].inverse_mass;
+        let share = shape.mass * self.yielding[name].x;
         let mut left = 1.0;
         for _ in 0..substeps {
             left *= 1.0 - share;
@@ -146,7 +144,7 @@ impl Groups {
         let (velocity, spin) = self.twists[name].parts();
         let own = velocity + arm.perp() * spin;
         let impulse = own * (-shape.mass * (1.0 - left) / share);
-        self.twists[name].push(Twist::of_impulse(impulse, arm), 1.0, &self.shapes[name]);
+        self.twists[name].push(Twist::of_impulse(impulse, arm), 1.0, self.yielding[name]);
     }
 
     /// Lets an agent's push or turn act for some seconds.
@@ -159,7 +157,7 @@ impl Groups {
         } else {
             Twist(Vec3::new(0.0, 0.0, action.turn() * shape.turn_torque * seconds))
         };
-        self.twists[name].push(impulse, 1.0, &self.shapes[name]);
+        self.twists[name].push(impulse, 1.0, self.yielding[name]);
     }
 
     /// Whether a body's action moves anything.
@@ -205,7 +203,7 @@ impl Groups {
             }
             let arms = [a, b].map(|name| Twist::of_impulse(normal, at - self.centres[name]));
             let response =
-                arms[0].through(arms[0], &self.shapes[a]) + arms[1].through(arms[1], &self.shapes[b]);
+                arms[0].through(arms[0], self.yielding[a]) + arms[1].through(arms[1], self.yielding[b]);
             // Where two centres coincide there is no way apart.
             if response <= 0.0 {
                 continue;
@@ -213,7 +211,7 @@ impl Groups {
             let impulse = correction(share, gap) / response;
             for (name, arm, sign) in [(a, arms[0], -1.0), (b, arms[1], 1.0)] {
                 if name != STATIC {
-                    let (way, turn) = Twist(arm.0 * self.shapes[name].yielding * (sign * impulse)).parts();
+                    let (way, turn) = Twist(arm.0 * self.yielding[name] * (sign * impulse)).parts();
                     self.shift(name, world, way, turn);
                 }
             }
@@ -241,7 +239,7 @@ impl Ground {
     pub(crate) fn new(body: usize, groups: &Groups, shape: &Shape, motion: &Motion, seconds: f32) -> Self {
         let name = groups.names[body];
         let offset = motion.place(Vec2::new(0.0, shape.origin)) - groups.centres[name];
-        let (m, i) = (groups.shapes[name].inverse_mass, groups.shapes[name].inverse_inertia);
+        let Vec3 { x: m, z: i, .. } = groups.yielding[name];
         let (xx, xy, yy) =
             (m + i * offset.y * offset.y, -i * offset.x * offset.y, m + i * offset.x * offset.x);
         let scale = 1.0 / (xx * yy - xy * xy);
@@ -255,7 +253,7 @@ impl Ground {
 
     /// One iteration. Returns the greatest change of the impulse (N s).
     #[inline]
-    pub(crate) fn rub(&mut self, twist: &mut Twist, shape: &Shape) -> f32 {
+    pub(crate) fn rub(&mut self, twist: &mut Twist, yielding: Vec3) -> f32 {
         let (velocity, spin) = twist.parts();
         let slip = velocity + self.offset.perp() * spin;
         let [xx, xy, yy] = self.mass;
@@ -268,7 +266,7 @@ impl Ground {
         };
         let change = given - self.impulse;
         self.impulse = given;
-        twist.push(Twist::of_impulse(change, self.offset), 1.0, shape);
+        twist.push(Twist::of_impulse(change, self.offset), 1.0, yielding);
         change.abs().max_element()
     }
 }

@@ -22,14 +22,11 @@ type Joint = u8;
 impl World<'_> {
     /// Finds which of the pairs of shapes in a set touch, newest first. The outlines of the bodies must be
     /// up to date.
-    pub(crate) fn find_contacts(&self, candidates: KeySet, touching: &mut Touching) {
-        touching.count = 0;
-        for key in descending(candidates) {
+    pub(crate) fn contacts(&self, candidates: KeySet) -> impl Iterator<Item = Contact> {
+        descending(candidates).filter_map(|key| {
             let (bodies, manifold) = self.collide(key, &self.outlines.polygons);
-            if manifold.count > 0 {
-                touching.add(Contact::new(key as u8, bodies, manifold));
-            }
-        }
+            (manifold.count > 0).then(|| Contact::new(key as u8, bodies, manifold))
+        })
     }
 
     /// Applies forces and solves all given bodies, group by group.
@@ -284,7 +281,7 @@ impl World<'_> {
                 }
             }
             for &index in contacts {
-                change = change.max(all[usize::from(index)].solve(shapes, &mut twists));
+                change = change.max(all[usize::from(index)].solve(|body| shapes[body].yielding, &mut twists));
             }
             if change < SETTLED_IMPULSE {
                 break;

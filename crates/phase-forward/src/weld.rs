@@ -75,9 +75,9 @@ impl Weld {
     #[inline]
     fn apply(&self, shapes: &[Shape; 5], twists: &mut [Twist; 5], impulse: Vec2, twist: f32) {
         let on_agent = Vec3::new(impulse.x, impulse.y, self.offset.perp_dot(impulse) + twist);
-        twists[self.agent].push(Twist(on_agent), -1.0, &shapes[self.agent]);
+        twists[self.agent].push(Twist(on_agent), -1.0, shapes[self.agent].yielding);
         let on_object = Vec3::new(impulse.x, impulse.y, twist);
-        twists[self.object].push(Twist(on_object), 1.0, &shapes[self.object]);
+        twists[self.object].push(Twist(on_object), 1.0, shapes[self.object].yielding);
     }
 }
 

@@ -44,11 +44,13 @@ impl Touching {
         &mut self.contacts[..self.count]
     }
 
-    /// Adds a contact, with the impulses its points had in the last substep. Drops it if there are too many.
-    pub(crate) fn add(&mut self, mut contact: Contact) {
-        if self.count < MAX_CONTACTS {
+    /// Takes over what has been found now, with the impulses the points had in the last substep. Drops what is
+    /// too many.
+    pub(crate) fn replace(&mut self, found: impl Iterator<Item = Contact>) {
+        self.count = 0;
+        for (place, mut contact) in self.contacts.iter_mut().zip(found) {
             self.traces.recall(&mut contact);
-            self.contacts[self.count] = contact;
+            *place = contact;
             self.count += 1;
         }
     }

@@ -105,6 +105,9 @@ impl Routes {
     pub fn best(&self, from: Vec2, to: Vec2, width: f32, gaps: &Gaps) -> Option<Route> {
         let mut best: Option<Route> = None;
         for sequence in &self.sequences[room_of(from)][room_of(to)] {
+            if best.is_some_and(|best| self.at_least(sequence, from, to) >= best.cost()) {
+                continue;
+            }
             let route = self.along(sequence, from, to, width, gaps);
             if best.is_none_or(|best| route.cost() < best.cost()) {
                 best = Some(route);
@@ -126,6 +129,20 @@ impl Routes {
     pub fn beyond(slot: usize, room: Room) -> Room {
         let (a, b) = SLOT_ROOMS[slot];
         if a == room { b } else { a }
+    }
+
+    /// A length that no way along some doors falls short of (u), at little cost.
+    fn at_least(&self, sequence: &[u8], from: Vec2, to: Vec2) -> f32 {
+        let near = |slot: &u8, point: Vec2| {
+            let (low, high) = self.gaps.0[usize::from(*slot)].unwrap_or((0.0, 0.0));
+            let along = (point - arena::CENTRE).dot(SLOT_DIRECTIONS[usize::from(*slot)]);
+            point.distance(point_in(*slot, along.max(low).min(high)))
+        };
+        match sequence {
+            [] => from.distance(to),
+            [only] => near(only, from).max(near(only, to)),
+            [first, .., last] => near(first, from) + near(last, to),
+        }
     }
 
     fn along(&self, sequence: &[u8], from: Vec2, to: Vec2, width: f32, gaps: &Gaps) -> Route {
