@@ -138,8 +138,10 @@ impl<D: Dynamics> Agent<D> {
             discount: self.settings.discount,
             guidance: self.settings.guidance,
         };
+        // Where all particles are the same world, one of them says it all, and the search need not redo its steps.
+        let different = if roots.iter().all(|root| root == &roots[0]) { &roots[..1] } else { roots };
         let imagined: Vec<Imagined> =
-            roots.iter().map(|&state| Imagined::new(&model.objective, state)).collect();
+            different.iter().map(|&state| Imagined::new(&model.objective, state)).collect();
         // A generator of its own for every decision: how long a search takes changes nothing that comes later.
         let mut random = stream(random.next_u64(), Purpose::Search, 0);
         let decision = self.pomcp.search(&model, &imagined, &mut random)?;

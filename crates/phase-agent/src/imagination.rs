@@ -171,6 +171,10 @@ impl<D: Dynamics> GenerativeModel for Imagination<'_, D> {
         if self.actions[action] == self.guided(imagined) { GUIDED_WEIGHT } else { 1.0 }
     }
 
+    fn is_deterministic(&self) -> bool {
+        true
+    }
+
     fn value_estimate(&self, imagined: &Imagined) -> f64 {
         self.reward(imagined, Action::NoForce) * STEPS_BEYOND
     }

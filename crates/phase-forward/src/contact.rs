@@ -144,7 +144,8 @@ impl Contact {
     /// Returns the greatest change of an impulse (N s).
     #[inline]
     pub(crate) fn solve(&mut self, yielding: impl Fn(usize) -> Vec3, twists: &mut [Twist; 5]) -> f32 {
-        let changes = self.changes(|(row_a, row_b)| row_a.dot(twists[self.groups.0]) + row_b.dot(twists[self.groups.1]));
+        let changes = self
+            .changes(|(row_a, row_b)| row_a.dot(twists[self.groups.0]) + row_b.dot(twists[self.groups.1]));
         for (point, &change) in changes.iter().enumerate().take(self.count) {
             if change != 0.0 {
                 self.impulses[point] += change;
@@ -241,13 +242,7 @@ impl Contact {
     }
 
     #[inline]
-    fn apply(
-        &self,
-        yielding: impl Fn(usize) -> Vec3,
-        twists: &mut [Twist; 5],
-        point: usize,
-        impulse: f32,
-    ) {
+    fn apply(&self, yielding: impl Fn(usize) -> Vec3, twists: &mut [Twist; 5], point: usize, impulse: f32) {
         let (row_a, row_b) = self.rows[point];
         let (a, b) = self.groups;
         twists[a].push(row_a, impulse, yielding(a));

@@ -1,8 +1,15 @@
 //! The bodies at work: a state taken apart for solving, and put together again.
 
 use crate::{
-    Forward, body::Motion, contact::Contact, contain::MARGIN, key::KeySet, outline::Outlines,
-    tuning::{H, VELOCITY_ITERATIONS}, wall::WallSet, weld::held_body,
+    Forward,
+    body::Motion,
+    contact::Contact,
+    contain::MARGIN,
+    key::KeySet,
+    outline::Outlines,
+    tuning::{H, VELOCITY_ITERATIONS},
+    wall::WallSet,
+    weld::held_body,
 };
 use phase_model::{AGENT_COUNT, Action, Body, Grip, State, Vec2, arena};
 

@@ -54,6 +54,7 @@ impl Problem for Tiger {
 /// The tiger's worst return sets the scale of values, some −130 to 20, on which a listening that pays is but a
 /// hundredth better than one that does not; a small exploration rate tells them apart.
 const SETTINGS: PomcpSettings = PomcpSettings {
+    stop_when_decided: false,
     simulations: 1000,
     rollout_steps: 10,
     c_init: 0.6,

@@ -57,6 +57,15 @@ pub trait GenerativeModel {
         1.0
     }
 
+    /// Whether no step of this model involves chance: a state and an action decide what happens, and nothing is
+    /// drawn from the generator.
+    ///
+    /// The search then takes every step of the tree once and remembers where it led, if it has a single root.
+    /// It decides the same with fewer steps.
+    fn is_deterministic(&self) -> bool {
+        false
+    }
+
     /// What is still to be earned from `state` on, where a simulation stops before the problem has ended.
     ///
     /// Zero unless overridden. It must be finite, in the reward's unit, discounted to `state`'s own time.

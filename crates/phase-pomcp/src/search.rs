@@ -12,7 +12,8 @@ use crate::{ActionValue, Decision, GenerativeModel, PomcpError, PomcpSettings, S
 ///
 /// Every search starts from an empty tree, and its result depends on the settings, the model, the particles
 /// and the generator alone: not on what was searched before. Only the memory is kept, so that from the first
-/// few searches on a search allocates its [`Decision`] and one copy of a state, and nothing per simulation.
+/// few searches on a search allocates its [`Decision`] and one copy of a state, and nothing per simulation; of a
+/// [deterministic](GenerativeModel::is_deterministic) model, a copy of every state in the tree.
 #[derive(Debug, Clone)]
 pub struct Pomcp<O> {
     settings: PomcpSettings,
@@ -65,6 +66,7 @@ impl<O: Eq> Pomcp<O> {
             discount,
             tree: &mut self.tree,
             path: &mut self.path,
+            known: (model.is_deterministic() && roots.len() == 1).then(|| vec![(state.clone(), 0.0)]),
             range: ValueRange::EMPTY,
             depth: 0,
             steps: 0,

@@ -14,6 +14,8 @@ pub(crate) struct Simulation<'a, M: GenerativeModel> {
     pub(crate) discount: f64,
     pub(crate) tree: &'a mut Tree<M::Observation>,
     pub(crate) path: &'a mut Vec<PathStep>,
+    /// Where every history of the tree leads and what its last step earned, if that is always the same.
+    pub(crate) known: Option<Vec<(M::State, f64)>>,
     pub(crate) range: ValueRange,
     /// The longest path so far.
     pub(crate) depth: usize,
@@ -46,11 +48,24 @@ impl<M: GenerativeModel> Simulation<'_, M> {
         let mut history = HistoryId::ROOT;
         loop {
             if !self.tree.has_actions(history) {
-                let weights = (0..self.action_count).map(|action| self.model.prior_weight(state, action));
+                let here = self.known.as_ref().map_or(&*state, |known| &known[history.index()].0);
+                let weights = (0..self.action_count).map(|action| self.model.prior_weight(here, action));
                 self.tree.add_actions(history, weights)?;
             }
             let chosen = self.tree.select(history, self.settings, &self.range, random);
             let action = self.tree.action(history, chosen);
+            if let Some(known) = &self.known {
+                if let Some(child) = self.tree.newest_child(action) {
+                    let (there, reward) = &known[child.index()];
+                    self.path.push(PathStep { history, action, reward: *reward });
+                    if self.path.len() >= self.settings.horizon {
+                        return self.estimate(there);
+                    }
+                    history = child;
+                    continue;
+                }
+                state.clone_from(&known[history.index()].0);
+            }
             let outcome = self.model.step(state, chosen, random);
             self.check(chosen, outcome.reward)?;
             self.path.push(PathStep { history, action, reward: outcome.reward });
@@ -61,6 +76,9 @@ impl<M: GenerativeModel> Simulation<'_, M> {
                 return self.estimate(state);
             }
             let (child, is_new) = self.tree.child(action, outcome.observation);
+            if let Some(known) = &mut self.known {
+                known.push((state.clone(), outcome.reward));
+            }
             if is_new {
                 return self.roll_out(state, random);
             }

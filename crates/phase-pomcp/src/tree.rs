@@ -16,6 +16,11 @@ pub(crate) struct ActionId(u32);
 impl HistoryId {
     /// The history of nothing done and nothing seen yet.
     pub(crate) const ROOT: Self = Self(0);
+
+    /// Histories are numbered from 0 in the order in which they are grown.
+    pub(crate) fn index(self) -> usize {
+        self.0 as usize
+    }
 }
 
 /// Histories of own actions and observations, with what was earned after them.
@@ -157,6 +162,12 @@ impl<O: Eq> Tree<O> {
         self.actions[action.0 as usize].branch = self.branches.len() as u32;
         self.branches.push(Branch { observation, child, next: newest });
         (HistoryId(child), true)
+    }
+
+    /// The history grown last after an action.
+    pub(crate) fn newest_child(&self, action: ActionId) -> Option<HistoryId> {
+        let branch = self.branches.get(self.actions[action.0 as usize].branch as usize)?;
+        Some(HistoryId(branch.child))
     }
 
     /// Counts one more visit that earned `value` from here on, and returns the action's new mean.

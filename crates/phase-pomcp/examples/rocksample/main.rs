@@ -11,6 +11,7 @@ use problem::RockSample;
 
 /// Checking pays by hundredths of what the best rock earns, so it takes a small exploration rate to tell.
 const SETTINGS: PomcpSettings = PomcpSettings {
+    stop_when_decided: false,
     simulations: 1000,
     rollout_steps: 30,
     c_init: 0.5,

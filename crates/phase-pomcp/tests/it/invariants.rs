@@ -42,6 +42,34 @@ impl GenerativeModel for Arbitrary {
     }
 }
 
+/// A problem without chance, which says so or keeps it to itself.
+#[derive(Debug, Clone)]
+struct Certain {
+    problem: Arbitrary,
+    says_so: bool,
+}
+
+impl GenerativeModel for Certain {
+    type State = u64;
+    type Observation = u64;
+
+    fn action_count(&self) -> usize {
+        self.problem.actions
+    }
+
+    fn discount(&self) -> f64 {
+        self.problem.discount
+    }
+
+    fn step(&self, state: &mut u64, action: usize, _random: &mut impl rand::Rng) -> Outcome<u64> {
+        self.problem.step(state, action, &mut Pcg64Mcg::seed_from_u64(0))
+    }
+
+    fn is_deterministic(&self) -> bool {
+        self.says_so
+    }
+}
+
 fn problem() -> impl Strategy<Value = Arbitrary> {
     let sizes = (any::<u64>(), 1..5_u64, 1..6_usize, 1..6_u64);
     let rewards = (-100.0..100.0_f64, 0.0..100.0_f64);
@@ -85,6 +113,21 @@ proptest! {
         prop_assert!(run == settings.simulations || lead > settings.simulations - run);
         // And not a simulation more was run than needed.
         prop_assert!(run == settings.simulations || lead <= settings.simulations - run + 2);
+    }
+
+    #[test]
+    fn remembered_steps_change_nothing(problem in problem(), settings in settings(), seed: u64) {
+        let search = |says_so| {
+            let mut random = Pcg64Mcg::seed_from_u64(seed);
+            let model = Certain { problem: problem.clone(), says_so };
+            (Pomcp::new(settings).unwrap().search(&model, &[0], &mut random).unwrap(), random)
+        };
+        let ((plain, left), (remembered, also_left)) = (search(false), search(true));
+        prop_assert_eq!(&remembered.actions, &plain.actions);
+        prop_assert_eq!(remembered.action, plain.action);
+        prop_assert_eq!(also_left, left);
+        prop_assert_eq!(remembered.effort.histories, plain.effort.histories);
+        prop_assert!(remembered.effort.steps <= plain.effort.steps);
     }
 
     #[test]

@@ -16,6 +16,7 @@ const FOREVER: usize = 300;
 /// on which a listening that pays is but a hundredth better than one that does not, and with the constants
 /// meant for games it takes tens of thousands of simulations to tell.
 const SHARP: PomcpSettings = PomcpSettings {
+    stop_when_decided: false,
     simulations: 2000,
     rollout_steps: 10,
     c_init: 0.6,
