@@ -8,11 +8,14 @@ use crate::{
     thought::{ActionValue, SubgoalValue},
 };
 use phase_belief::Belief;
-use phase_model::random::{Purpose, stream};
-use phase_model::{AGENT_COUNT, Action, Attitude, Dynamics, EntitySet, Goal, Physique, Scene, State};
+use phase_model::{
+    AGENT_COUNT, Action, Attitude, Dynamics, Entity, EntitySet, Goal, Physique, Scene, State,
+    random::{Purpose, stream},
+};
 use phase_perception::Observation;
 use phase_planner::{Candidate, Plan, Planner, Subgoal, value};
 use phase_pomcp::{Pomcp, PomcpError, PomcpSettings};
+use phase_predicates::{Literal, Place, Predicate};
 use rand::Rng;
 
 /// One agent's mind: its belief, its goals and its planners. The dynamics are its own model of the world.
@@ -91,8 +94,9 @@ impl<D: Dynamics> Agent<D> {
         let Some(best) = candidates.first() else {
             return Ok((Action::Stop, Thought::IDLE));
         };
-        let roots: Vec<State> = best.particles.iter().map(|&particle| particles[particle]).collect();
-        let plan = by_particle[best.particles[0]].subgoals.clone();
+        let attended = self.attended(best, &by_particle);
+        let roots: Vec<State> = attended.iter().map(|&particle| particles[particle]).collect();
+        let plan = by_particle[attended[0]].subgoals.clone();
         let subgoal = best.subgoal;
         let (action, actions) = self.search(subgoal, &roots, random)?;
         let subgoals = candidates.iter().map(summary).collect();
@@ -116,6 +120,31 @@ impl<D: Dynamics> Agent<D> {
         (plans, plan_of)
     }
 
+    /// The particles to search an action in. If the subgoal is to get to something unseen, these are the ones
+    /// that put it near where the shortest plan has it: one looks in one place after the other. Drawn to all
+    /// places at once, one would turn to and fro between them and never see any.
+    fn attended(&self, candidate: &Candidate, plans: &[&Plan]) -> Vec<usize> {
+        /// Greatest distance between places that are looked at together (u).
+        const TOGETHER: f32 = 3.0;
+        let all = &candidate.particles;
+        let Some(unseen) = self.unseen(candidate.subgoal) else { return all.clone() };
+        let shortest = all.iter().min_by(|&&a, &&b| plans[a].distance.total_cmp(&plans[b].distance));
+        let Some(&first) = shortest else { return all.clone() };
+        let place = |particle: usize| self.belief.particles()[particle].position(unseen);
+        let near = |&&particle: &&usize| place(particle).distance(place(first)) <= TOGETHER;
+        // A place that is not a number is near nothing, not even itself.
+        let mut attended: Vec<usize> = all.iter().filter(near).copied().collect();
+        if attended.is_empty() {
+            attended.push(first);
+        }
+        attended
+    }
+
+    /// The entity that a subgoal sends the agent to, if it does not see it.
+    fn unseen(&self, subgoal: Subgoal) -> Option<Entity> {
+        sought(subgoal, self.index).filter(|&entity| !self.observed.contains(entity))
+    }
+
     /// LP(B̃, h*) of Algorithm 1: the best action for a subgoal in the worlds that agree on it.
     fn search(
         &mut self,
@@ -134,6 +163,7 @@ impl<D: Dynamics> Agent<D> {
             other_objective: Imagination::<D>::other(&self.physique, routes, self.index, self.goals),
             actions,
             goals: self.goals,
+            goals_count: !matches!(self.unseen(subgoal), Some(Entity::Object(_))),
             attitude: self.attitude,
             discount: self.settings.discount,
             guidance: self.settings.guidance,
@@ -151,6 +181,17 @@ impl<D: Dynamics> Agent<D> {
             .map(|(&action, found)| ActionValue { action, visits: found.visits as u32, value: found.value })
             .collect();
         Ok((actions[decision.action], evidence))
+    }
+}
+
+/// The entity that a subgoal sends an agent to.
+fn sought(subgoal: Subgoal, agent: usize) -> Option<Entity> {
+    let Subgoal::Achieve(Literal { predicate, holds: true }) = subgoal else { return None };
+    match predicate {
+        Predicate::Close(who, Place::Entity(entity)) if who == Entity::agent(agent) => Some(entity),
+        Predicate::Touch(_, entity) => Some(entity),
+        Predicate::Attach(_, object) => Some(Entity::Object(object)),
+        _ => None,
     }
 }
 

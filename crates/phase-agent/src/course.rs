@@ -77,7 +77,6 @@ pub fn give_way(way: &Way<'_>, other: Vec2, polite: bool) -> Option<Course> {
     let (mine, theirs) = (from.distance(crossing), other.distance(crossing));
     let is_taken = theirs < DOORWAY
         && theirs < if polite { mine + AS_NEAR } else { mine - AS_NEAR }
-        && mine < 2.0 * DOORWAY
         && routes.gaps().width(slot) < 2.0 * width + TIGHT;
     is_taken.then(|| {
         let place = wait(slot, crossing, from, width);

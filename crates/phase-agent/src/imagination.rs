@@ -33,6 +33,9 @@ pub struct Imagination<'a, D> {
     pub actions: &'a [Action],
     /// Both agents' goals.
     pub goals: [Goal; AGENT_COUNT],
+    /// Whether goals that hold count. While an agent goes and looks whether one does, the mere hope must not
+    /// make it shy of going near.
+    pub goals_count: bool,
     /// The agent's attitude.
     pub attitude: Attitude,
     /// Discount a step.
@@ -75,7 +78,10 @@ impl<'a, D> Imagination<'a, D> {
     fn reward(&self, imagined: &Imagined, action: Action) -> f64 {
         let state = &imagined.state;
         let agent = self.objective.agent;
-        let satisfied = |goal| f64::from(u8::from(achieved(self.objective.physique, state, goal)));
+        let satisfied = |goal| {
+            let holds = self.goals_count && achieved(self.objective.physique, state, goal);
+            f64::from(u8::from(holds))
+        };
         let shaping = -f64::from(imagined.distance / LONGEST);
         reward::social_reward(
             self.attitude,

@@ -1,8 +1,11 @@
 //! A subgoal as the low level sees it: a distance to bring down, and a direction that does.
 
 use crate::course::{self, Course, Way};
-use phase_model::{Entity, Physique, Side, State, Vec2, arena, layout::room_of};
-use phase_planner::{Routes, Subgoal};
+use phase_model::{Entity, Physique, Segment, Side, State, Vec2, arena, layout::room_of, physique};
+use phase_planner::{
+    Routes, Subgoal,
+    aside::{self, Intrusion},
+};
 use phase_predicates::{Literal, Place, Predicate};
 
 /// Longest straight distance in the arena (u); distances are scaled by it in rewards.
@@ -11,6 +14,8 @@ pub const LONGEST: f32 = 28.284;
 const NOT_IN_HAND: f32 = 2.0;
 /// Half of what turning one's back on what one is to get close to costs (u).
 const FACING: f32 = 0.5;
+/// What facing an entity costs at the edge of the field of view, 55° off (u).
+const IN_VIEW: f32 = 0.42 * FACING;
 /// What a carrier's own way round a corner counts for beside the way of what it carries.
 const CARRIERS_SHARE: f32 = 0.5;
 /// Room kept between bodies that pass each other (u).
@@ -50,8 +55,8 @@ impl Objective<'_> {
                 let held = state.holds(usize::from(agent), usize::from(object));
                 match (holds, held) {
                     (true, false) => remaining() + NOT_IN_HAND,
-                    (false, true) => 1.0,
-                    _ => 0.0,
+                    (true, true) => 0.0,
+                    (false, _) => f32::from(u8::from(held)) + self.slide(state, usize::from(object)),
                 }
             }
             Subgoal::Achieve(Literal { predicate: Predicate::Touch(..), holds: false })
@@ -70,15 +75,31 @@ impl Objective<'_> {
         (distance, course)
     }
 
+    /// How far an object would slide on if it were let go of now (u): what is let go of is to stay there.
+    fn slide(&self, state: &State, object: usize) -> f32 {
+        let mass = physique::object_mass(self.physique.object_radii[object]);
+        let speed = state.body(Entity::object(object)).velocity.length();
+        (0.5 * mass * speed * speed / physique::GROUND_FRICTION).min(LONGEST)
+    }
+
     /// What not facing the entity one is to get close to adds (u). It makes agents look where they are going,
     /// and turn to where they believe something unseen to be; that is how they find it, or find it gone.
     fn averted(&self, state: &State, literal: Literal) -> f32 {
-        let Literal { predicate: Predicate::Close(who, Place::Entity(target)), holds: true } = literal else {
-            return 0.0;
+        let (who, target) = match literal {
+            Literal { predicate: Predicate::Close(who, Place::Entity(target)), holds: true } => (who, target),
+            Literal { predicate: Predicate::Touch(who, target @ Entity::Object(_)), holds: true } => {
+                (Entity::Agent(who), target)
+            }
+            _ => return 0.0,
         };
-        let body = state.body(who);
+        if who == Entity::agent(self.agent) { self.turned_away(state, target) } else { 0.0 }
+    }
+
+    /// What not facing an entity costs (u).
+    fn turned_away(&self, state: &State, target: Entity) -> f32 {
+        let body = state.body(Entity::agent(self.agent));
         let way = (state.position(target) - body.position).normalize_or_zero();
-        if who == Entity::agent(self.agent) { FACING * (1.0 - way.dot(body.forward())) } else { 0.0 }
+        FACING * (1.0 - way.dot(body.forward()))
     }
 
     /// The entity whose place the subgoal is about and that the agent can move: itself or what it holds.
@@ -108,7 +129,24 @@ impl Objective<'_> {
             .entities()
             .filter(|&entity| self.is_in_the_way(state, entity))
             .map(|entity| (state.position(entity), self.physique.radius(entity) + clearance));
-        course::around(course, state.position(mover), discs)
+        let from = state.position(mover);
+        let bent = course::around(course, from, discs);
+        // In a door one has to go on before one can turn off.
+        let heading_for = if self.grazes(from, bent.heading_for, self.physique.radius(mover)) {
+            course.heading_for
+        } else {
+            bent.heading_for
+        };
+        Course { heading_for, ..bent }
+    }
+
+    /// Whether a round body that moves straight from a point to another meets a wall or the end of one.
+    fn grazes(&self, from: Vec2, to: Vec2, radius: f32) -> bool {
+        let way = Segment { a: from, b: to };
+        self.physique
+            .walls
+            .iter()
+            .any(|&wall| way.crosses(wall) || way.distance(wall.a).min(way.distance(wall.b)) < radius)
     }
 
     /// The distance left for a held object, with a share for its carrier: whoever carries something through a
@@ -194,6 +232,12 @@ impl Objective<'_> {
             (Predicate::Close(entity, Place::Landmark(landmark)), false) => {
                 self.blocking(state, entity, usize::from(landmark))
             }
+            (Predicate::On(entity, landmark), false) if entity == Entity::agent(self.agent) => {
+                aside::intrusion(self.physique, self.routes, state, self.agent, landmark).map_or(
+                    here,
+                    |Intrusion { place, .. }| Course { heading_for: place, remaining: from.distance(place) },
+                )
+            }
             (Predicate::On(entity, landmark), false) => {
                 let target = arena::LANDMARKS[usize::from(landmark)];
                 let reach = self.physique.radius(entity) + self.physique.agents[self.agent].radius;
@@ -222,7 +266,10 @@ impl Objective<'_> {
         if about_other || (mine.is_some() && mine == state.held_object(1 - self.agent)) {
             return None;
         }
-        course::give_way(way, state.position(other), self.agent > 0)
+        let mut course = course::give_way(way, state.position(other), self.agent > 0)?;
+        // Whoever waits looks at whom it waits for, or it will not see that the door is free again.
+        course.remaining += (self.turned_away(state, other) - IN_VIEW).max(0.0);
+        Some(course)
     }
 
     /// The way between two points, with room kept for as much as the agent, what it holds and who else

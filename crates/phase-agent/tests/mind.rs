@@ -122,6 +122,7 @@ fn rewards_follow_equation_1() {
                 other_objective: Imagination::<Forward>::other(&physique, &routes, 0, goals),
                 actions: &actions,
                 goals,
+                goals_count: true,
                 attitude,
                 discount: 0.95,
                 guidance: 0.0,

@@ -38,6 +38,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod aside;
 pub mod flight;
 pub mod hindrance;
 pub mod plan;

@@ -1,14 +1,14 @@
 //! One agent's plan from one physical state.
 
 use crate::{
-    Subgoal, flight, hindrance,
+    Subgoal, aside, flight, hindrance,
     routes::{Route, Routes},
     search::{self, SymbolicPlan},
-    situation::{self, Situation, Spot},
+    situation::{Situation, Spot},
     task::{Node, Operator, Task},
 };
 use phase_model::{
-    AGENT_COUNT, Attitude, Entity, EntitySet, Goal, Layout, Physique, Sign, State, arena, layout::room_of,
+    AGENT_COUNT, Attitude, Entity, EntitySet, Goal, Layout, Physique, Sign, State, layout::room_of,
 };
 use phase_predicates::{Literal, Place, Predicate, achieved};
 
@@ -121,7 +121,9 @@ impl Planner {
         let unseen = [goal.subject(), Entity::agent(1 - self.agent)];
         match unseen.into_iter().find(|&entity| !observed.contains(entity)) {
             Some(entity) if plan.subgoals.is_empty() => {
-                Plan { distance: plan.distance, ..visit(situation, self.agent, entity) }
+                // Where one cannot go and look, the hope that all is well elsewhere must cost no less than that.
+                let visit = visit(situation, self.agent, entity);
+                Plan { distance: plan.distance.max(visit.distance), ..visit }
             }
             _ => plan,
         }
@@ -137,43 +139,10 @@ impl Planner {
             return plan;
         }
         let plan = self.cooperate(situation, goal, HELPERS_EFFORT, observed);
-        match self.aside(situation, goal) {
+        match aside::subgoal(situation, self.agent, goal) {
             Some(subgoal) if plan.subgoals.is_empty() => Plan { subgoals: vec![subgoal], ..plan },
             _ => plan,
         }
-    }
-
-    /// Where an agent with nothing to do gets out of the other's way, if it stands in it: out of the room of
-    /// the landmark that the other wants to be on, or away from a door that the other would fit through.
-    fn aside(&self, situation: &Situation<'_>, goal: Goal) -> Option<Subgoal> {
-        let me = Entity::agent(self.agent);
-        let here = situation.state.position(me);
-        if let Goal::AgentOnLandmark { landmark, .. } = goal {
-            let room = 0.5 * (situation.width(self.agent, None) + situation.width(1 - self.agent, None));
-            if here.distance(situation.position(Spot::Landmark(landmark))) < room {
-                let width = situation.width(self.agent, None);
-                let cost = |landmark: u8| {
-                    let there = situation.position(Spot::Landmark(landmark));
-                    situation.routes.cost(here, there, width, situation.gaps(self.agent, 0b11))
-                };
-                let others = (0..arena::LANDMARKS.len() as u8).filter(|&other| other != landmark);
-                let nearest = others.min_by(|&a, &b| cost(a).total_cmp(&cost(b)))?;
-                return Some(is(Predicate::Close(me, Place::Landmark(nearest))));
-            }
-        }
-        self.stands_in_a_door(situation).then(|| is(Predicate::On(me, room_of(here) as u8)))
-    }
-
-    /// Whether the agent's own body keeps the other from a door that it would fit through.
-    fn stands_in_a_door(&self, situation: &Situation<'_>) -> bool {
-        let (me, other) = (self.agent, 1 - self.agent);
-        let radius = |agent: usize| self.physique.agents[agent].radius;
-        let open = situation.routes.gaps();
-        let mut gaps = *open;
-        let here = situation.state.position(Entity::agent(me));
-        situation::obstruct(&mut gaps, here, radius(me), radius(me) + radius(other));
-        let width = situation.width(other, None);
-        (0..gaps.0.len()).any(|slot| open.width(slot) >= width && gaps.width(slot) < width)
     }
 
     /// Who wants to be left alone is helped by keeping away; other negated goals by undoing them.

@@ -59,6 +59,23 @@ impl Route {
     pub fn first_crossing(&self) -> Option<Vec2> {
         self.doors().first().map(|&(_, point)| point)
     }
+
+    /// The point of this way, which leads between two ends, that is nearest to some point (u).
+    #[must_use]
+    pub fn nearest(&self, from: Vec2, to: Vec2, point: Vec2) -> Vec2 {
+        let mut nearest = from;
+        let mut start = from;
+        for end in self.doors().iter().map(|&(_, crossing)| crossing).chain([to]) {
+            let leg = end - start;
+            let share = (point - start).dot(leg) / leg.length_squared().max(f32::MIN_POSITIVE);
+            let foot = start + leg * share.clamp(0.0, 1.0);
+            if foot.distance(point) < nearest.distance(point) {
+                nearest = foot;
+            }
+            start = end;
+        }
+        nearest
+    }
 }
 
 /// The sequences of doors between any two rooms of a layout.

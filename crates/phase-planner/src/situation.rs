@@ -50,7 +50,10 @@ impl<'a> Situation<'a> {
                 let mut gaps = *routes.gaps();
                 for object in physique.objects().filter(|object| mask & (1 << object) != 0) {
                     let radius = physique.object_radii[object];
-                    let reach = radius + physique.agents[agent].radius;
+                    // What is in hand is not put down before there is room to turn between it and the door.
+                    let in_hand = (0..AGENT_COUNT).any(|holder| state.holds(holder, object));
+                    let own = physique.agents[agent];
+                    let reach = radius + if in_hand { own.width() } else { own.radius };
                     obstruct(&mut gaps, state.position(Entity::object(object)), radius, reach);
                 }
                 gaps
@@ -98,6 +101,12 @@ impl<'a> Situation<'a> {
     pub fn width(&self, agent: usize, held: Option<usize>) -> f32 {
         let own = self.physique.agents[agent].width();
         held.map_or(own, |object| own.max(2.0 * self.physique.object_radii[object]))
+    }
+
+    /// Distance between the centres of an agent and an object that touch (u).
+    #[must_use]
+    pub fn arm(&self, agent: usize, object: u8) -> f32 {
+        self.physique.agents[agent].radius + self.physique.radius(Entity::Object(object))
     }
 
     /// Force left over for moving an object when these agents hold it and pull the same way, each body's

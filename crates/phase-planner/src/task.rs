@@ -201,7 +201,11 @@ impl Task<'_> {
         let extra = if holders == [true; AGENT_COUNT] { radius(0).min(radius(1)) } else { 0.0 };
         (0..AGENT_COUNT)
             .filter(|&holder| holders[holder] || holder == agent)
-            .map(|holder| cost(node.agents[holder], situation.width(holder, None) + extra))
+            .map(|holder| {
+                // Where the load comes to lie its holder is still an arm's length away.
+                let way = cost(node.agents[holder], situation.width(holder, None) + extra);
+                way - situation.arm(holder, object)
+            })
             .fold(cost(node.objects[usize::from(object)], diameter), f32::max)
     }
 
@@ -218,7 +222,9 @@ impl Task<'_> {
                 successors.push((Operator::Grab { agent, object }, after, HANDLING_COST));
             } else {
                 after.agents[agent] = spot;
-                let cost = self.travel_cost(node, agent, None, spot, Some(object));
+                let way = self.travel_cost(node, agent, None, spot, Some(object));
+                let spared = self.effort[agent] * self.situation.arm(agent, object);
+                let cost = (way - spared).max(0.0);
                 successors.push((Operator::Approach { agent, object }, after, cost));
             }
         }

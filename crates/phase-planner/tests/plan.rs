@@ -3,7 +3,7 @@
 mod support;
 
 use phase_model::{Attitude, Size::*, Strength::*, Vec2};
-use phase_planner::Subgoal;
+use phase_planner::{Routes, Subgoal, aside};
 use support::{Setup, agent_on, approach, everything, layout, object_on};
 
 /// Agent 0 at the top left, agent 1 at the bottom right, no walls, no objects.
@@ -193,9 +193,14 @@ fn helpers_stay_out_of_the_way_when_not_needed() {
     };
     assert_eq!(walking(Vec2::new(23.0, 15.0)).plan(0).first(), Subgoal::Stay);
     // Nor does one stay where the other wants to be.
-    let in_the_way = walking(Vec2::new(8.5, 19.0)).plan(0).first();
-    assert_ne!(in_the_way, Subgoal::Stay);
-    assert!(!in_the_way.to_string().contains("landmark 0"), "{in_the_way}");
+    for on_its_way in [Vec2::new(8.5, 19.0), Vec2::new(9.5, 16.0), Vec2::new(8.0, 9.0)] {
+        let first = walking(on_its_way).plan(0).first();
+        assert_eq!(first.to_string(), "not On(agent 0, landmark 0)", "{on_its_way}");
+    }
+    // Behind the other, or well beside its way, one is in nobody's way.
+    for elsewhere in [Vec2::new(9.0, 3.5), Vec2::new(12.5, 17.0)] {
+        assert_eq!(walking(elsewhere).plan(0).first(), Subgoal::Stay, "{elsewhere}");
+    }
     let carrying = Setup {
         agents: [(Small, Strong, Vec2::new(8.0, 4.0)), (Small, Mighty, Vec2::new(23.0, 14.0))],
         objects: vec![(Small, Vec2::new(23.0, 12.4))],
@@ -205,6 +210,33 @@ fn helpers_stay_out_of_the_way_when_not_needed() {
         ..plain()
     };
     assert_eq!(carrying.plan(0).first(), Subgoal::Stay);
+}
+
+#[test]
+fn one_steps_beside_the_others_way() {
+    let setup = Setup {
+        agents: [(Small, Strong, Vec2::new(9.0, 12.0)), (Small, Strong, Vec2::new(8.5, 6.0))],
+        goals: [agent_on(1, 0); 2],
+        ..plain()
+    };
+    let (physique, routes, state) = (setup.physique(), Routes::new(setup.layout), setup.state());
+    let found = aside::intrusion(&physique, &routes, &state, 0, 0).expect("in the way");
+    // The other goes straight up at x = 8.5; both are 2.4 u wide.
+    assert!((found.nearest.x - 8.5).abs() < 1e-3 && found.nearest.distance(Vec2::new(9.0, 12.0)) < 0.6);
+    assert!(found.place.x > 8.5 + 2.4, "to the side it is on: {found:?}");
+}
+
+/// Holding what does not fit nearer than its arm is long must not look like a reason to let go and take it anew.
+#[test]
+fn whoever_holds_an_object_carries_it() {
+    let setup = Setup {
+        agents: [(Small, Fair, Vec2::new(13.4, 16.2)), (Small, Weak, Vec2::new(23.0, 4.0))],
+        objects: vec![(Large, Vec2::new(15.6, 16.2))],
+        goals: [object_on(0, 1), agent_on(1, 3)],
+        holds: [Some(0), None],
+        ..plain()
+    };
+    assert_eq!(setup.words(0)[0], "On(object 0, landmark 1)");
 }
 
 /// Each kind of hindrance: what the hinderer (agent 0) does first.

@@ -1,0 +1,85 @@
+//! Getting out of the other agent's way.
+
+use crate::{
+    Subgoal,
+    plan::{is, not},
+    routes::Routes,
+    situation::{self, Situation},
+};
+use phase_model::{AGENT_COUNT, Entity, Goal, Physique, State, Vec2, arena, layout::room_of};
+use phase_predicates::Predicate;
+
+/// Room left beside the other on its way (u).
+const CLEARANCE: f32 = 0.4;
+
+/// Where an agent stands too near to the way that the other has to a landmark.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Intrusion {
+    /// The nearest point of the other's way (u).
+    pub nearest: Vec2,
+    /// The place beside that way to step to (u).
+    pub place: Vec2,
+}
+
+/// Whether an agent stands in the way that the other, or what it holds, has to a landmark, so that the two
+/// bodies could not pass each other; `None` if it stands beside that way, or behind the other.
+#[must_use]
+pub fn intrusion(
+    physique: &Physique,
+    routes: &Routes,
+    state: &State,
+    agent: usize,
+    landmark: u8,
+) -> Option<Intrusion> {
+    let other = 1 - agent;
+    let here = state.position(Entity::agent(agent));
+    let mover = state.held_object(other).map_or(Entity::agent(other), Entity::object);
+    let (from, to) = (state.position(mover), arena::LANDMARKS[usize::from(landmark)]);
+    let width = physique.agents[other].width().max(2.0 * physique.radius(mover));
+    let room = 0.5 * (physique.agents[agent].width() + width) + CLEARANCE;
+    let nearest = routes.best(from, to, width, routes.gaps())?.nearest(from, to, here);
+    if nearest == from || nearest.distance(here) >= room {
+        return None;
+    }
+    let away = (here - nearest).normalize_or((to - from).perp().normalize_or(Vec2::X));
+    let inset = Vec2::splat(physique.agents[agent].radius);
+    let is_free = |place: Vec2| {
+        arena::contains(place - inset) && arena::contains(place + inset) && room_of(place) == room_of(here)
+    };
+    // A little farther than need be, so as not to stop on the brink.
+    let beside = [away, -away].map(|side| nearest + side * (room + CLEARANCE));
+    let place = beside.into_iter().find(|&place| is_free(place)).unwrap_or(beside[0]);
+    Some(Intrusion { nearest, place })
+}
+
+/// What an agent with nothing to do for the other's goal brings about if it stands in the other's way: it
+/// leaves a door that the other would fit through, then the way to the landmark that the other, or what it
+/// holds, is to be on.
+#[must_use]
+pub(crate) fn subgoal(situation: &Situation<'_>, agent: usize, goal: Goal) -> Option<Subgoal> {
+    let me = Entity::agent(agent);
+    if stands_in_a_door(situation, agent) {
+        let here = room_of(situation.state.position(me));
+        return Some(is(Predicate::On(me, here as u8)));
+    }
+    let held = situation.state.held_object(1 - agent);
+    let landmark = match goal {
+        Goal::AgentOnLandmark { landmark, .. } => landmark,
+        Goal::ObjectOnLandmark { object, landmark, .. } if held == Some(usize::from(object)) => landmark,
+        _ => return None,
+    };
+    intrusion(situation.physique, situation.routes, situation.state, agent, landmark)
+        .map(|_| not(Predicate::On(me, landmark)))
+}
+
+/// Whether the agent's own body keeps the other from a door that it would fit through.
+fn stands_in_a_door(situation: &Situation<'_>, agent: usize) -> bool {
+    let other = (agent + 1) % AGENT_COUNT;
+    let radius = |agent: usize| situation.physique.agents[agent].radius;
+    let open = situation.routes.gaps();
+    let mut gaps = *open;
+    let here = situation.state.position(Entity::agent(agent));
+    situation::obstruct(&mut gaps, here, radius(agent), radius(agent) + radius(other));
+    let width = situation.width(other, None);
+    (0..gaps.0.len()).any(|slot| open.width(slot) >= width && gaps.width(slot) < width)
+}
