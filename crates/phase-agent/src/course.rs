@@ -1,7 +1,7 @@
 //! From a point to another through doors: how far it still is, and which way to move now.
 
 use phase_model::{Vec2, arena, layout::SLOT_DIRECTIONS};
-use phase_planner::{Gaps, Route, Routes, routes::IMPASSABLE_COST};
+use phase_planner::{Gaps, Route, Routes};
 
 /// A door with less room to spare than this is entered straight on (u).
 const TIGHT: f32 = 1.2;
@@ -15,6 +15,9 @@ const AS_NEAR: f32 = 0.25;
 const DOORWAY: f32 = 2.5;
 /// Nearer to a crossing than this one heads for what lies past it (u).
 const AT_CROSSING: f32 = 0.6;
+/// What a door that the body does not fit through adds to a way (u): that it is there cannot be helped, and the
+/// planner's cost of it would drown all that a search can tell apart.
+pub const BARRED: f32 = 10.0;
 /// How far beyond a room's border counts as being in it (u).
 const INSIDE: f32 = 1.5;
 
@@ -23,7 +26,7 @@ const INSIDE: f32 = 1.5;
 pub struct Course {
     /// The point to head for now (u).
     pub heading_for: Vec2,
-    /// Length of the whole way (u), with penalties for doors that the body does not fit through.
+    /// Length of the whole way (u), with [`BARRED`] for doors that the body does not fit through.
     pub remaining: f32,
 }
 
@@ -48,6 +51,13 @@ impl<'a> Way<'a> {
     #[must_use]
     pub fn fits(&self) -> bool {
         self.route.is_some_and(|route| route.impassable == 0)
+    }
+
+    /// Where the way crosses its first door, if the body does not fit through that.
+    #[must_use]
+    pub fn barred(&self) -> Option<Vec2> {
+        let &(slot, crossing) = self.route?.doors().first()?;
+        (self.routes.gaps().width(usize::from(slot)) < self.width).then_some(crossing)
     }
 
     /// The course where no door leads there at all.
@@ -121,15 +131,15 @@ pub fn to_point(way: &Way<'_>) -> Course {
     let gaps = routes.gaps();
     let Some(route) = route else { return way.blind() };
     let Some(&(slot, crossing)) = route.doors().first() else {
-        return Course { heading_for: to, remaining: route.cost() };
+        return Course { heading_for: to, remaining: left(&route) };
     };
     if gaps.width(usize::from(slot)) < width {
         // It does not fit: it waits before the door instead of getting stuck in it.
         let place = wait(usize::from(slot), crossing, from, width);
-        return Course { heading_for: place, remaining: IMPASSABLE_COST + from.distance(place) };
+        return Course { heading_for: place, remaining: BARRED + from.distance(place) };
     }
     let (heading_for, detour) = through(gaps, usize::from(slot), crossing, from, width);
-    Course { heading_for, remaining: route.cost() + detour }
+    Course { heading_for, remaining: left(&route) + detour }
 }
 
 /// The course along a way to a room's centre, but only just past the room's border.
@@ -143,14 +153,19 @@ pub fn into_room(way: &Way<'_>) -> Course {
     };
     if gaps.width(usize::from(slot)) < width {
         let place = wait(usize::from(slot), crossing, from, width);
-        return Course { heading_for: place, remaining: IMPASSABLE_COST + from.distance(place) };
+        return Course { heading_for: place, remaining: BARRED + from.distance(place) };
     }
     let (mut heading_for, detour) = through(gaps, usize::from(slot), crossing, from, width);
     if route.doors().len() == 1 && heading_for == crossing {
         heading_for += (crossing - from).normalize_or_zero() * INSIDE;
     }
-    let remaining = (route.cost() - last.distance(centre) + detour).max(0.0) + INSIDE;
+    let remaining = (left(&route) - last.distance(centre) + detour).max(0.0) + INSIDE;
     Course { heading_for, remaining }
+}
+
+/// What is left of a route (u).
+fn left(route: &Route) -> f32 {
+    route.length + BARRED * f32::from(route.impassable)
 }
 
 /// The point to head for before a door, and how much longer than the straight way to the crossing that is (u).

@@ -92,13 +92,13 @@ impl Objective<'_> {
             }
             _ => return 0.0,
         };
-        if who == Entity::agent(self.agent) { self.turned_away(state, target) } else { 0.0 }
+        if who == Entity::agent(self.agent) { self.turned_away(state, state.position(target)) } else { 0.0 }
     }
 
-    /// What not facing an entity costs (u).
-    fn turned_away(&self, state: &State, target: Entity) -> f32 {
+    /// What not facing a point costs (u).
+    fn turned_away(&self, state: &State, target: Vec2) -> f32 {
         let body = state.body(Entity::agent(self.agent));
-        let way = (state.position(target) - body.position).normalize_or_zero();
+        let way = (target - body.position).normalize_or_zero();
         FACING * (1.0 - way.dot(body.forward()))
     }
 
@@ -123,11 +123,16 @@ impl Objective<'_> {
         if let Entity::Object(_) = mover {
             course.remaining = self.with_carrier(state, mover, course.remaining);
         }
+        // What its carrier cannot bring through a door has to go first: round the carrier, if that is before it.
+        let leads = matches!(mover, Entity::Object(_))
+            && self.landmark().is_some_and(|target| !self.fits_along(state, target));
         let clearance = self.physique.radius(mover) + CLEARANCE;
         let discs = self
             .physique
             .entities()
-            .filter(|&entity| self.is_in_the_way(state, entity))
+            .filter(|&entity| {
+                self.is_in_the_way(state, entity) || (leads && entity == Entity::agent(self.agent))
+            })
             .map(|entity| (state.position(entity), self.physique.radius(entity) + clearance));
         let from = state.position(mover);
         let bent = course::around(course, from, discs);
@@ -153,27 +158,34 @@ impl Objective<'_> {
     /// door has to come through it too, and may have to turn first.
     fn with_carrier(&self, state: &State, mover: Entity, remaining: f32) -> f32 {
         let me = Entity::agent(self.agent);
-        let target = match self.subgoal {
-            Subgoal::Achieve(Literal {
-                predicate: Predicate::On(_, landmark) | Predicate::Close(_, Place::Landmark(landmark)),
-                ..
-            }) => arena::LANDMARKS[usize::from(landmark)],
-            _ => return remaining,
-        };
+        let Some(target) = self.landmark() else { return remaining };
         let to_target = |entity: Entity| {
             let from = state.position(entity);
             self.routes.best(from, target, 0.0, self.routes.gaps()).map_or(0.0, |route| route.length)
         };
         let arm = self.physique.radius(me) + self.physique.radius(mover);
         let lag = to_target(me) - to_target(mover) - arm;
-        let own_width = self.physique.agents[self.agent].width();
-        let from = state.position(me);
-        let fits = self
-            .routes
-            .best(from, target, own_width, self.routes.gaps())
-            .is_some_and(|route| route.impassable == 0);
         // Who has to push the load through a door alone must get behind it.
-        remaining + CARRIERS_SHARE * if fits { lag.max(0.0) } else { lag.abs() }
+        let fits = self.fits_along(state, target);
+        remaining + if fits { CARRIERS_SHARE * lag.max(0.0) } else { lag.abs() }
+    }
+
+    /// The centre of the landmark that the subgoal is about.
+    fn landmark(&self) -> Option<Vec2> {
+        match self.subgoal {
+            Subgoal::Achieve(Literal {
+                predicate: Predicate::On(_, landmark) | Predicate::Close(_, Place::Landmark(landmark)),
+                ..
+            }) => Some(arena::LANDMARKS[usize::from(landmark)]),
+            _ => None,
+        }
+    }
+
+    /// Whether the agent fits through every door on its way to a point.
+    fn fits_along(&self, state: &State, target: Vec2) -> bool {
+        let from = state.position(Entity::agent(self.agent));
+        let width = self.physique.agents[self.agent].width();
+        Way::find(self.routes, from, target, width).fits()
     }
 
     /// Whether an entity is to be walked round: it is neither the agent nor what the subgoal is about, and
@@ -219,7 +231,7 @@ impl Objective<'_> {
                     here
                 } else {
                     let way = self.way(state, from, arena::LANDMARKS[room]);
-                    self.give_way(state, &way).unwrap_or_else(|| course::into_room(&way))
+                    self.along(state, &way, course::into_room)
                 }
             }
             (Predicate::Attach(_, object), true) => self.within_reach_of(state, object),
@@ -250,7 +262,17 @@ impl Objective<'_> {
 
     fn towards(&self, state: &State, from: Vec2, to: Vec2) -> Course {
         let way = self.way(state, from, to);
-        self.give_way(state, &way).unwrap_or_else(|| course::to_point(&way))
+        self.along(state, &way, course::to_point)
+    }
+
+    /// The course along a way, if nobody has to be let through first.
+    fn along(&self, state: &State, way: &Way<'_>, course: fn(&Way<'_>) -> Course) -> Course {
+        let mut course = self.give_way(state, way).unwrap_or_else(|| course(way));
+        if let Some(door) = way.barred().filter(|_| state.grips[self.agent].is_none()) {
+            // Whoever cannot go on watches for what may come through the door.
+            course.remaining += self.turned_away(state, door);
+        }
+        course
     }
 
     /// The course to a place to wait at while the other agent is in the door, unless the two carry something
@@ -268,7 +290,7 @@ impl Objective<'_> {
         }
         let mut course = course::give_way(way, state.position(other), self.agent > 0)?;
         // Whoever waits looks at whom it waits for, or it will not see that the door is free again.
-        course.remaining += (self.turned_away(state, other) - IN_VIEW).max(0.0);
+        course.remaining += (self.turned_away(state, state.position(other)) - IN_VIEW).max(0.0);
         Some(course)
     }
 

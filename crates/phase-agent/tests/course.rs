@@ -1,8 +1,8 @@
 //! Courses by hand.
 
-use phase_agent::course::{Course, Way, around, give_way, into_room, to_point};
+use phase_agent::course::{BARRED, Course, Way, around, give_way, into_room, to_point};
 use phase_model::{Layout, Vec2, arena};
-use phase_planner::{Routes, routes::IMPASSABLE_COST};
+use phase_planner::Routes;
 
 /// A narrow door (x 6 to 8.5) between rooms 0 and 3, a full wall between 0 and 1, the rest open.
 fn narrow() -> Routes {
@@ -43,7 +43,7 @@ fn who_does_not_fit_waits_beside_the_door() {
     ] {
         let place = course.heading_for;
         assert!(place.y > 14.0 && place.x > 8.5, "{course:?}");
-        assert!(course.remaining > IMPASSABLE_COST, "{course:?}");
+        assert!(course.remaining > BARRED, "{course:?}");
     }
 }
 
