@@ -13,6 +13,7 @@ pub mod agent;
 pub mod course;
 pub mod guidance;
 pub mod imagination;
+mod load;
 pub mod objective;
 pub mod repertoire;
 pub mod settings;

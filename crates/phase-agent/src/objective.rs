@@ -1,7 +1,7 @@
 //! A subgoal as the low level sees it: a distance to bring down, and a direction that does.
 
 use crate::course::{self, Course, Way};
-use phase_model::{Entity, Physique, Segment, Side, State, Vec2, arena, layout::room_of, physique};
+use phase_model::{Entity, Physique, Segment, Side, State, Vec2, arena, layout::room_of};
 use phase_planner::{
     Routes, Subgoal,
     aside::{self, Intrusion},
@@ -16,8 +16,6 @@ const NOT_IN_HAND: f32 = 2.0;
 const FACING: f32 = 0.5;
 /// What facing an entity costs at the edge of the field of view, 55° off (u).
 const IN_VIEW: f32 = 0.42 * FACING;
-/// What a carrier's own way round a corner counts for beside the way of what it carries.
-const CARRIERS_SHARE: f32 = 0.5;
 /// Room kept between bodies that pass each other (u).
 const CLEARANCE: f32 = 0.4;
 /// What the other agent's being where it should not adds to the distance of keeping it out (u).
@@ -75,13 +73,6 @@ impl Objective<'_> {
         (distance, course)
     }
 
-    /// How far an object would slide on if it were let go of now (u): what is let go of is to stay there.
-    fn slide(&self, state: &State, object: usize) -> f32 {
-        let mass = physique::object_mass(self.physique.object_radii[object]);
-        let speed = state.body(Entity::object(object)).velocity.length();
-        (0.5 * mass * speed * speed / physique::GROUND_FRICTION).min(LONGEST)
-    }
-
     /// What not facing the entity one is to get close to adds (u). It makes agents look where they are going,
     /// and turn to where they believe something unseen to be; that is how they find it, or find it gone.
     fn averted(&self, state: &State, literal: Literal) -> f32 {
@@ -120,12 +111,10 @@ impl Objective<'_> {
     pub fn course(&self, state: &State) -> Course {
         let mut course = self.open_course(state);
         let mover = self.mover(state);
+        let leads = self.load_leads(state, mover);
         if let Entity::Object(_) = mover {
-            course.remaining = self.with_carrier(state, mover, course.remaining);
+            course.remaining = self.with_carrier(state, mover, leads, course.remaining);
         }
-        // What its carrier cannot bring through a door has to go first: round the carrier, if that is before it.
-        let leads = matches!(mover, Entity::Object(_))
-            && self.landmark().is_some_and(|target| !self.fits_along(state, target));
         let clearance = self.physique.radius(mover) + CLEARANCE;
         let discs = self
             .physique
@@ -152,40 +141,6 @@ impl Objective<'_> {
             .walls
             .iter()
             .any(|&wall| way.crosses(wall) || way.distance(wall.a).min(way.distance(wall.b)) < radius)
-    }
-
-    /// The distance left for a held object, with a share for its carrier: whoever carries something through a
-    /// door has to come through it too, and may have to turn first.
-    fn with_carrier(&self, state: &State, mover: Entity, remaining: f32) -> f32 {
-        let me = Entity::agent(self.agent);
-        let Some(target) = self.landmark() else { return remaining };
-        let to_target = |entity: Entity| {
-            let from = state.position(entity);
-            self.routes.best(from, target, 0.0, self.routes.gaps()).map_or(0.0, |route| route.length)
-        };
-        let arm = self.physique.radius(me) + self.physique.radius(mover);
-        let lag = to_target(me) - to_target(mover) - arm;
-        // Who has to push the load through a door alone must get behind it.
-        let fits = self.fits_along(state, target);
-        remaining + if fits { CARRIERS_SHARE * lag.max(0.0) } else { lag.abs() }
-    }
-
-    /// The centre of the landmark that the subgoal is about.
-    fn landmark(&self) -> Option<Vec2> {
-        match self.subgoal {
-            Subgoal::Achieve(Literal {
-                predicate: Predicate::On(_, landmark) | Predicate::Close(_, Place::Landmark(landmark)),
-                ..
-            }) => Some(arena::LANDMARKS[usize::from(landmark)]),
-            _ => None,
-        }
-    }
-
-    /// Whether the agent fits through every door on its way to a point.
-    fn fits_along(&self, state: &State, target: Vec2) -> bool {
-        let from = state.position(Entity::agent(self.agent));
-        let width = self.physique.agents[self.agent].width();
-        Way::find(self.routes, from, target, width).fits()
     }
 
     /// Whether an entity is to be walked round: it is neither the agent nor what the subgoal is about, and

@@ -136,6 +136,11 @@ fn rewards_follow_equation_1() {
             assert!((distance - 15.0).abs() < 0.7, "landmark 1 is 15 u above landmark 2: {distance}");
             let expected = social - cost - f64::from(distance / LONGEST);
             assert!((reward - expected).abs() < 1e-6, "{attitude:?} {action:?}: {reward} {expected}");
+            // Going to see whether a goal holds, an agent counts none.
+            let looking = Imagination { goals_count: false, ..model };
+            let mut after = Imagined::new(&objective, state);
+            let reward = looking.rollout_step(&mut after, 0, &mut stream(1, Purpose::Search, 0)).reward;
+            assert!((reward - (expected - social)).abs() < 1e-6, "{attitude:?} {action:?}: {reward}");
         }
     }
 }

@@ -1,0 +1,114 @@
+//! Objectives in hand-made states: where to look, how to carry, how to let go, when to stand aside.
+
+use phase_agent::objective::Objective;
+use phase_model::{
+    Body, Entity, Grip, Layout, Physique, Side, Size, State, Strength, Vec2, physique::AgentBody,
+};
+use phase_planner::{Routes, Subgoal};
+use phase_predicates::{Literal, Place, Predicate};
+
+/// A narrow door (x 6 to 8.5, y 12) between rooms 0 (above) and 3; agent 0 of some size, a small agent 1, a small
+/// object.
+fn physique(size: Size) -> Physique {
+    Physique {
+        walls: layout().walls(),
+        agents: [size, Size::Small]
+            .map(|size| AgentBody { radius: size.radius(), max_force: Strength::Strong.max_force() }),
+        object_radii: [Size::Small.radius(), 0.0],
+        object_count: 1,
+    }
+}
+
+fn layout() -> Layout {
+    Layout::new(4, None).expect("layout 4")
+}
+
+/// Both agents and the object at rest, with agent 0's heading.
+fn state(agent: Vec2, angle: f32, other: Vec2, object: Vec2) -> State {
+    State::new([
+        Body::at_rest(agent, angle),
+        Body::at_rest(other, 0.0),
+        Body::at_rest(object, 0.0),
+        Body::default(),
+    ])
+}
+
+/// Distance and point headed for, of agent 0.
+fn look(size: Size, state: &State, literal: Literal) -> (f32, Vec2) {
+    let (physique, routes) = (physique(size), Routes::new(layout()));
+    let objective =
+        Objective { physique: &physique, routes: &routes, agent: 0, subgoal: Subgoal::Achieve(literal) };
+    (objective.distance(state), objective.course(state).heading_for)
+}
+
+const FAR: Vec2 = Vec2::new(24.0, 4.0);
+const DOWN: f32 = core::f32::consts::PI;
+
+#[test]
+fn who_does_not_fit_through_a_door_faces_it() {
+    let to_room = Literal::is(Predicate::Close(Entity::Agent(0), Place::Landmark(3)));
+    let at = Vec2::new(10.0, 14.0);
+    let facing = |angle| look(Size::Large, &state(at, angle, FAR, FAR), to_room).0;
+    assert!(facing(DOWN) < facing(0.0) - 0.5);
+    // Whoever fits has no need to.
+    let facing = |angle| look(Size::Small, &state(at, angle, FAR, FAR), to_room).0;
+    assert!((facing(DOWN) - facing(0.0)).abs() < 1e-3);
+}
+
+#[test]
+fn a_load_goes_first_where_its_carrier_cannot_follow() {
+    let bring = Literal::is(Predicate::Close(Entity::Object(0), Place::Landmark(3)));
+    let holding = |size: Size, agent: Vec2, object: Vec2| {
+        let mut state = state(agent, 0.0, FAR, object);
+        state.grips[0] = Some(Grip { object: 0, side: Side::Head, relative_angle: 0.0 });
+        look(size, &state, bring)
+    };
+    let (above, below) = (Vec2::new(10.0, 18.0), Vec2::new(10.0, 16.0));
+    let (pulled, heading) = holding(Size::Large, below, above);
+    let (pushed, _) = holding(Size::Large, above, below);
+    assert!(pulled > pushed + 4.0, "behind its carrier it has farther to go than 2 u: {pulled} {pushed}");
+    // Not straight at the door, for there its carrier stands.
+    let (straight, round) = ((Vec2::new(7.25, 12.0) - above).normalize(), (heading - above).normalize());
+    assert!(straight.dot(round) < 0.95, "{heading}");
+    // A carrier that fits may go before it.
+    let difference = holding(Size::Small, below, above).0 - holding(Size::Small, above, below).0;
+    assert!(difference < 4.0, "{difference}");
+}
+
+#[test]
+fn what_is_let_go_of_is_to_stay_there() {
+    let release = Literal::not(Predicate::Attach(0, 0));
+    let mut held = state(Vec2::new(20.0, 8.0), 0.0, FAR, Vec2::new(20.0, 9.6));
+    held.grips[0] = Some(Grip { object: 0, side: Side::Head, relative_angle: 0.0 });
+    let mut thrown = held;
+    thrown.grips[0] = None;
+    thrown.body_mut(Entity::Object(0)).velocity = Vec2::new(0.0, 10.0);
+    let distance = |state: &State| look(Size::Small, state, release).0;
+    // Mass 2.01 kg at 10 u/s against 100 N: 1.005 u.
+    assert!((distance(&thrown) - 1.005).abs() < 0.01, "{}", distance(&thrown));
+    assert!(distance(&held) < distance(&thrown));
+    thrown.body_mut(Entity::Object(0)).velocity = Vec2::ZERO;
+    assert!(distance(&thrown).abs() < 1e-6);
+}
+
+#[test]
+fn one_does_not_turn_off_in_a_door() {
+    let onward = Literal::is(Predicate::On(Entity::Agent(0), 0));
+    let in_the_door = Vec2::new(7.25, 12.2);
+    let open = look(Size::Small, &state(in_the_door, 0.0, FAR, FAR), onward).1;
+    let obstructed = look(Size::Small, &state(in_the_door, 0.0, FAR, Vec2::new(7.7, 13.8)), onward).1;
+    assert_eq!(obstructed, open);
+    let past_it = Vec2::new(8.4, 15.0);
+    let bent = look(Size::Small, &state(past_it, 0.0, FAR, Vec2::new(8.5, 17.5)), onward).1;
+    assert!((bent.x - 8.5).abs() > 1.0, "{bent}");
+}
+
+#[test]
+fn aside_is_beside_the_others_way() {
+    let aside = Literal::not(Predicate::On(Entity::Agent(0), 0));
+    let other = Vec2::new(7.25, 13.5);
+    let distance = |at: Vec2| look(Size::Small, &state(at, 0.0, other, FAR), aside).0;
+    assert!(distance(Vec2::new(9.0, 17.0)) > 1.0);
+    assert!(distance(Vec2::new(10.0, 17.0)) < distance(Vec2::new(9.0, 17.0)));
+    assert!(distance(Vec2::new(13.0, 17.0)).abs() < 1e-6);
+}
