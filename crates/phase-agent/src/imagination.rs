@@ -59,11 +59,13 @@ impl<'a, D> Imagination<'a, D> {
 
     /// The other coasts, except when both hold the same object or the two touch: then it goes on pulling or
     /// pushing for its own goal. Without that a weak agent could not imagine what two can carry, and two who
-    /// meet face to face would each believe that the other can be pushed away.
+    /// meet face to face would each believe that the other can be pushed away. Who hinders is to try just that.
     fn other_action(&self, state: &State) -> Action {
         let (me, other) = (self.objective.agent, 1 - self.objective.agent);
         let together = state.held_object(me).is_some() && state.held_object(me) == state.held_object(other);
-        if together || state.contacts.touching(Entity::agent(me), Entity::agent(other)) {
+        let resists = self.attitude != Attitude::Hinder
+            && state.contacts.touching(Entity::agent(me), Entity::agent(other));
+        if together || resists {
             guidance::action(&self.other_objective, state, None, &Action::ALL)
         } else {
             Action::NoForce

@@ -18,6 +18,10 @@ const FACING: f32 = 0.5;
 const IN_VIEW: f32 = 0.42 * FACING;
 /// Room kept between bodies that pass each other (u).
 const CLEARANCE: f32 = 0.4;
+/// How far from the landmark that it is kept off the other agent is not minded any more (u).
+const KEPT_OFF: f32 = 6.0;
+/// How far from a landmark its guard goes at most (u).
+const GREATEST_REACH: f32 = 4.0;
 /// What the other agent's being where it should not adds to the distance of keeping it out (u).
 const TRESPASS: f32 = 8.0;
 
@@ -62,7 +66,7 @@ impl Objective<'_> {
                 LONGEST - self.apart(state).min(LONGEST)
             }
             Subgoal::Achieve(literal) => {
-                let distance = remaining() + self.averted(state, literal);
+                let distance = remaining() + self.averted(state, literal) + self.nearness(state, literal);
                 if literal.holds || literal.is_true(self.physique, state) {
                     distance
                 } else {
@@ -73,17 +77,19 @@ impl Objective<'_> {
         (distance, course)
     }
 
-    /// What not facing the entity one is to get close to adds (u). It makes agents look where they are going,
-    /// and turn to where they believe something unseen to be; that is how they find it, or find it gone.
+    /// What not facing the entity one is to get close to or keep off adds (u). It makes agents look
+    /// where they are going, and turn to where they believe something unseen to be; that is how they find it, or
+    /// find it gone.
     fn averted(&self, state: &State, literal: Literal) -> f32 {
-        let (who, target) = match literal {
-            Literal { predicate: Predicate::Close(who, Place::Entity(target)), holds: true } => (who, target),
-            Literal { predicate: Predicate::Touch(who, target @ Entity::Object(_)), holds: true } => {
-                (Entity::Agent(who), target)
-            }
+        let me = Entity::agent(self.agent);
+        let other = Entity::agent(1 - self.agent);
+        let target = match (literal.predicate, literal.holds) {
+            (Predicate::Close(who, Place::Entity(target)), true) if who == me => target,
+            (Predicate::Touch(who, target @ Entity::Object(_)), true) if Entity::Agent(who) == me => target,
+            (Predicate::On(who, _), false) if who == other => other,
             _ => return 0.0,
         };
-        if who == Entity::agent(self.agent) { self.turned_away(state, state.position(target)) } else { 0.0 }
+        self.turned_away(state, state.position(target))
     }
 
     /// What not facing a point costs (u).
@@ -91,6 +97,19 @@ impl Objective<'_> {
         let body = state.body(Entity::agent(self.agent));
         let way = (target - body.position).normalize_or_zero();
         FACING * (1.0 - way.dot(body.forward()))
+    }
+
+    /// What the other agent's being near to the landmark that it is to be kept off adds (u): its guard pushes it
+    /// back rather than just stand there.
+    fn nearness(&self, state: &State, literal: Literal) -> f32 {
+        let other = Entity::agent(1 - self.agent);
+        match (literal.predicate, literal.holds) {
+            (Predicate::On(who, landmark), false) if who == other => {
+                let centre = arena::LANDMARKS[usize::from(landmark)];
+                (KEPT_OFF - state.position(other).distance(centre)).max(0.0)
+            }
+            _ => 0.0,
+        }
     }
 
     /// The entity whose place the subgoal is about and that the agent can move: itself or what it holds.
@@ -208,8 +227,10 @@ impl Objective<'_> {
             (Predicate::On(entity, landmark), false) => {
                 let target = arena::LANDMARKS[usize::from(landmark)];
                 let reach = self.physique.radius(entity) + self.physique.agents[self.agent].radius;
-                let between = target + (state.position(entity) - target).clamp_length_max(reach);
-                self.towards(state, from, between)
+                let offset = state.position(entity) - target;
+                // Half-way, so that whoever has been pushed back is pushed on.
+                let most = (0.5 * offset.length()).min(GREATEST_REACH).max(reach);
+                self.towards(state, from, target + offset.clamp_length_max(most))
             }
             (Predicate::Attach(..), false) => here,
         }

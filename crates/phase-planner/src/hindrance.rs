@@ -11,7 +11,7 @@ use crate::{
     situation::{Situation, Spot, obstruct},
     task::{Node, Task},
 };
-use phase_model::{Entity, Goal, Vec2, arena, layout::room_of};
+use phase_model::{Entity, Goal, Sign, Vec2, arena, layout::room_of};
 use phase_predicates::{Place, Predicate, achieved};
 
 /// How much of its own way the hinderer sets against the other's cost.
@@ -28,6 +28,10 @@ const LATE: f32 = 1.0;
 #[must_use]
 pub fn plan(situation: &Situation<'_>, agent: usize, goal: Goal) -> Plan {
     let mut candidates = match goal {
+        Goal::AgentOnLandmark { sign: Sign::Negative, .. }
+        | Goal::ObjectOnLandmark { sign: Sign::Negative, .. } => {
+            return bring_about(situation, agent, goal);
+        }
         Goal::AgentOnLandmark { landmark, .. } => keep_agent_off(situation, agent, goal, landmark),
         Goal::ObjectOnLandmark { object, landmark, .. } => {
             keep_object_off(situation, agent, goal, object, landmark)
@@ -44,8 +48,27 @@ pub fn plan(situation: &Situation<'_>, agent: usize, goal: Goal) -> Plan {
     best.map_or(Plan::STAY, |(_, plan)| plan)
 }
 
-fn evade_or_pursue(situation: &Situation<'_>, agent: usize, sign: phase_model::Sign) -> (f32, Plan) {
-    if sign == phase_model::Sign::Positive {
+/// What the other wants not to be. An agent that is to be on a landmark against its will has to be pushed there.
+fn bring_about(situation: &Situation<'_>, agent: usize, goal: Goal) -> Plan {
+    let task = lone_task(situation, agent, goal, None);
+    let subject = goal.subject();
+    if let Some(plan) = search::solve(&task, Node::start(situation)) {
+        let mut plan = plan::express(&task, &plan, agent);
+        if let Entity::Object(object) = subject {
+            // Against the other's will, things stay only where they are held.
+            plan.subgoals.retain(|&subgoal| subgoal != plan::not(Predicate::Attach(agent as u8, object)));
+        }
+        return plan;
+    }
+    let Some(landmark) = goal.landmark() else { return Plan::STAY };
+    let mut subgoals = let_go_first(situation, agent);
+    subgoals.push(plan::is(Predicate::On(subject, landmark as u8)));
+    plan::skip_done(situation, &mut subgoals);
+    Plan { subgoals, distance: way(situation, agent, situation.state.position(subject)) }
+}
+
+fn evade_or_pursue(situation: &Situation<'_>, agent: usize, sign: Sign) -> (f32, Plan) {
+    if sign == Sign::Positive {
         return (0.0, crate::flight::plan(situation, agent));
     }
     let here = situation.state.position(Entity::agent(agent));
@@ -62,7 +85,7 @@ fn evade_or_pursue(situation: &Situation<'_>, agent: usize, sign: phase_model::S
 /// Block a door on the other's way, or stand between it and its landmark.
 fn keep_agent_off(situation: &Situation<'_>, agent: usize, goal: Goal, landmark: u8) -> Vec<(f32, Plan)> {
     let victim = 1 - agent;
-    let base = other_cost(situation, victim, goal, Node::start(situation), None);
+    let base = other_cost(situation, victim, goal, hands_free(situation, agent), None);
     let target = situation.position(Spot::Landmark(landmark));
     let there = situation.state.position(Entity::agent(victim));
     let mut candidates = block_doors(situation, agent, goal, there, target, base);
@@ -100,7 +123,7 @@ fn block_doors(
         let Some((low, high)) = gap else { continue };
         let middle = crate::routes::point_in(slot, 0.5 * (low + high));
         let gaps = closed_by(situation, agent, victim, middle);
-        let effect = other_cost(situation, victim, goal, Node::start(situation), Some(gaps));
+        let effect = other_cost(situation, victim, goal, hands_free(situation, agent), Some(gaps));
         let own_way = way(situation, agent, middle);
         if effect <= base + 1.0 || own_way > from.distance(middle) + LATE {
             continue;
@@ -133,7 +156,8 @@ fn keep_object_off(
 ) -> Vec<(f32, Plan)> {
     let victim = 1 - agent;
     let start = Node::start(situation);
-    let base = other_cost(situation, victim, goal, start, None);
+    let free = hands_free(situation, agent);
+    let base = other_cost(situation, victim, goal, free, None);
     let task = lone_task(situation, agent, goal, None);
     let me = Entity::agent(agent);
     let spot = Spot::Now(Entity::Object(object));
@@ -142,7 +166,7 @@ fn keep_object_off(
     let fetch = if holding { 0.0 } else { task.distance(&start, agent, None, spot) };
     let mut candidates = Vec::new();
     for refuge in (0..arena::LANDMARKS.len() as u8).filter(|&refuge| refuge != landmark) {
-        let mut after = start;
+        let mut after = free;
         after.objects[usize::from(object)] = Spot::Landmark(refuge);
         after.holds[victim] = None;
         let effect = other_cost(situation, victim, goal, after, None).min(base + GREATEST_EFFECT);
@@ -155,6 +179,12 @@ fn keep_object_off(
             approach_rooms(situation, agent, situation.position(spot), &mut subgoals);
             subgoals.push(plan::is(Predicate::Close(me, Place::Entity(Entity::Object(object)))));
             subgoals.push(plan::is(Predicate::Attach(agent as u8, object)));
+        }
+        let (from, to) = (situation.position(spot), situation.position(Spot::Landmark(refuge)));
+        let width = situation.width(agent, Some(usize::from(object)));
+        let gaps = task.gaps(&carrying, agent, Some(object));
+        if let Some(route) = situation.routes.best(from, to, width, &gaps) {
+            plan::rooms(&route, from, to, Entity::Object(object), &mut subgoals);
         }
         subgoals.push(plan::is(Predicate::On(Entity::Object(object), refuge)));
         plan::skip_done(situation, &mut subgoals);
@@ -179,6 +209,14 @@ fn keep_object_off(
         candidates.push((0.0, Plan { subgoals, distance: way(situation, agent, target) }));
     }
     candidates
+}
+
+/// The present symbolic state, but for what the hinderer holds: letting go must not look harmful only because
+/// holding on is.
+fn hands_free(situation: &Situation<'_>, agent: usize) -> Node {
+    let mut node = Node::start(situation);
+    node.holds[agent] = None;
+    node
 }
 
 /// What the other's best plan costs from a symbolic state, acting alone.

@@ -4,6 +4,7 @@ use super::rows::{Criterion, Form, Part};
 use phase_evidence::{
     Effect, Outcome, Rest, Track, blocking, contact, exploration,
     holding::{self, Carrying},
+    outcome,
     pursuit::Pursuit,
 };
 use phase_model::{AGENT_COUNT, Entity, Goal, Scene, State, Vec2, arena, layout::Room};
@@ -157,6 +158,11 @@ impl Case<'_> {
             Form::Hide => {
                 let hidden = self.out_of_reach(self.part.judged, object);
                 (hidden, format!("hidden: {hidden}, held alone {} steps", alone.steps))
+            }
+            Form::Undo => {
+                let undone = |state: &&State| outcome::condition(&self.track.physique, state, goal);
+                let steps = self.track.states.iter().filter(undone).count();
+                (steps >= VISIBLE, format!("so for {steps} steps"))
             }
             Form::Evade => {
                 let flight = Pursuit::of(self.track, hinderer);

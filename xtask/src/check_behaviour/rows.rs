@@ -61,6 +61,8 @@ pub(super) enum Form {
     Hide,
     /// By not being touched.
     Evade,
+    /// By bringing about what the other wants not to be.
+    Undo,
 }
 
 impl Criterion {
@@ -100,7 +102,7 @@ const HINDERING: Part = Part { row: 6, control: Some(0), judged: 1, ..BOTH };
 const SEARCHING: Part = Part { row: 2, name: "02-search", ..ALONE };
 
 /// Everything that is checked, in order.
-pub(super) const PARTS: [Part; 19] = [
+pub(super) const PARTS: [Part; 20] = [
     Part { row: 1, name: "01-landmark", title: "going to a landmark through doors", ..ALONE },
     Part {
         title: "searching at lambda 0.05: the near region first",
@@ -161,6 +163,12 @@ pub(super) const PARTS: [Part; 19] = [
         name: "06e-evade",
         title: "hindering: not being touched",
         criterion: Criterion::Hinder(Form::Evade),
+        ..HINDERING
+    },
+    Part {
+        name: "06f-undo",
+        title: "hindering: bringing about what is not to be",
+        criterion: Criterion::Hinder(Form::Undo),
         ..HINDERING
     },
     Part {
