@@ -12,7 +12,7 @@ use crate::{
     world::{MAX_CONTACTS, World},
 };
 use arrayvec::ArrayVec;
-use phase_model::{AGENT_COUNT, Action, State, Vec2, arena::SUBSTEPS};
+use phase_model::{AGENT_COUNT, Action, State, Vec2, arena, arena::SUBSTEPS};
 
 /// How a step is divided, in substeps of 1/60 s, where bodies may run into each other.
 const AMONG_BODIES: &[u8] = &[3, 2];
@@ -88,9 +88,16 @@ impl Forward {
             }
         }
         for name in 0..self.count {
-            let bodies = groups.bodies[name] & met;
-            if bodies != 0 {
-                world.meet_walls(groups, name, bodies, f32::from(substeps) * H);
+            let meeting = groups.bodies[name] & met;
+            if meeting != 0 {
+                world.meet_walls(groups, name, meeting, f32::from(substeps) * H);
+                world.leave_walls(groups, name, meeting);
+            }
+        }
+        for body in bodies(busy) {
+            // Bodies deep inside each other can be thrown anywhere.
+            if !arena::contains(world.motions[body].centre) {
+                world.contain(body, 0);
             }
         }
     }
@@ -234,6 +241,28 @@ impl World<'_> {
         for body in bodies(met) {
             self.contain(body, walls[body]);
         }
+    }
+
+    /// Takes the given bodies of a group out of walls that they have turned or been pushed into, and their speed
+    /// into those walls with it.
+    fn leave_walls(&mut self, groups: &mut Groups, name: usize, met: BodySet) {
+        self.outline(met);
+        let near = bodies(met).fold(0, |keys, body| keys | reach::walls_near(self, body));
+        let mut touching: Touches = self.contacts(near).take(MAX_CONTACTS).collect();
+        if touching.is_empty() {
+            return;
+        }
+        groups.gather(name, self);
+        for contact in &mut touching {
+            contact.prepare_groups(groups, &self.forward.shapes, &self.motions);
+        }
+        for _ in 0..POSITION_ITERATIONS {
+            for contact in &mut touching {
+                contact.solve(|name| groups.yielding[name], &mut groups.twists);
+            }
+        }
+        self.separate_coarse(groups, &touching);
+        groups.spread(name, self);
     }
 
     /// A body's way through the substep.

@@ -36,6 +36,8 @@ fn steps_allocate_nothing() {
                 black_box(forward.step_substeps(&mut same, actions));
             });
             allocated("step", &mut || forward.step(&mut cold, actions));
+            let mut imagined = cold;
+            allocated("step_coarse", &mut || forward.step_coarse(&mut imagined, actions));
             allocated("step_warm", &mut || {
                 black_box(forward.step_warm(&mut warm, &mut memory, actions));
             });

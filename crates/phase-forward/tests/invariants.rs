@@ -111,7 +111,7 @@ proptest! {
     ) {
         let forward = Forward::new(&physique);
         let mut state = State::new(bodies);
-        let (mut warm, mut memory) = (state, forward.remember(&state));
+        let (mut coarse, mut warm, mut memory) = (state, state, forward.remember(&state));
         for actions in actions {
             let (mut before, mut again) = (state, state);
             let substeps = forward.step_substeps(&mut state, actions);
@@ -126,6 +126,8 @@ proptest! {
                 check(&physique, &before, &after)?;
                 before = after;
             }
+            forward.step_coarse(&mut coarse, actions);
+            prop_assert!(coarse.is_finite(&physique), "{coarse:?}");
         }
     }
 
@@ -205,11 +207,13 @@ proptest! {
         }
         let forward = Forward::new(&physique);
         let (mut settled, mut warm, mut memory) = (state, state, forward.remember(&state));
+        let mut coarse = state;
         forward.settle(&mut settled);
         for actions in actions {
             forward.step(&mut state, actions);
+            forward.step_coarse(&mut coarse, actions);
             forward.step_warm(&mut warm, &mut memory, actions);
-            for state in [&state, &warm, &settled] {
+            for state in [&state, &coarse, &warm, &settled] {
                 prop_assert!(state.is_finite(&physique), "{state:?}");
                 for entity in physique.entities() {
                     // The origin lies ahead of the centre of mass, and nearer than this.

@@ -1,0 +1,137 @@
+//! Steps for imagination, held against exact steps from the same states.
+
+mod scenes;
+
+use phase_forward::Forward;
+use phase_model::{Action, Contacts, Dynamics, Entity, Physique, Segment, State, Vec2, arena};
+use proptest::{prelude::*, strategy::ValueTree, test_runner::TestRunner};
+use scenes::{actions, apart, clear_of_walls};
+
+/// Scenes of the statistics, and runs of held actions in each.
+const SCENES: usize = 300;
+const RUNS: usize = 12;
+/// What of all steps of a kind stays under which distance of the exact step (u): percent and limit. A body goes
+/// about 1 u in a step.
+const MOVING: [(usize, f32); 2] = [(50, 0.1), (90, 0.4)];
+const CARRYING: [(usize, f32); 2] = [(50, 0.1), (90, 0.35)];
+const TOUCHING: [(usize, f32); 2] = [(50, 0.15), (90, 0.5)];
+/// How deep a corner or rim may be in a wall after a coarse step (u).
+const SUNK: f32 = 0.5;
+
+#[test]
+fn coarse_steps_are_near_exact_ones() {
+    let mut runner = TestRunner::deterministic();
+    let strategy = (apart(), actions(RUNS));
+    let mut kinds: [Vec<f32>; 3] = Default::default();
+    for _ in 0..SCENES {
+        let ((physique, mut state), actions) = strategy.new_tree(&mut runner).expect("a scene").current();
+        let forward = Forward::new(&physique);
+        for actions in actions {
+            let (before, mut coarse) = (state, state);
+            forward.step(&mut state, actions);
+            forward.step_coarse(&mut coarse, actions);
+            assert_eq!(
+                coarse.grips.map(|grip| grip.map(|grip| grip.object)),
+                state.grips.map(|grip| grip.map(|grip| grip.object))
+            );
+            let distance = physique
+                .entities()
+                .map(|entity| coarse.position(entity).distance(state.position(entity)))
+                .fold(0.0, f32::max);
+            let kind = if before.grips.iter().chain(&state.grips).any(Option::is_some) {
+                1
+            } else if before.contacts != Contacts::NONE || state.contacts != Contacts::NONE {
+                2
+            } else {
+                0
+            };
+            kinds[kind].push(distance);
+        }
+    }
+    let named = [("moving", MOVING), ("carrying", CARRYING), ("touching", TOUCHING)];
+    for (mut distances, (name, limits)) in kinds.into_iter().zip(named) {
+        distances.sort_by(f32::total_cmp);
+        let at = |percent: usize| distances[distances.len() * percent / 100];
+        println!("{name}, {} steps: p50 {} p90 {} p99 {} u", distances.len(), at(50), at(90), at(99));
+        assert!(distances.len() > 300, "too few steps of {name}");
+        for (percent, limit) in limits {
+            assert!(at(percent) <= limit, "{name}: p{percent} is {} u, not {limit}", at(percent));
+        }
+    }
+}
+
+/// Where nothing is near, a long substep gains as much way from a steady push ahead as five short ones.
+#[test]
+fn a_push_in_the_open_takes_bodies_as_far() {
+    let physique = Physique {
+        walls: Vec::new(),
+        agents: [phase_model::AgentBody { radius: 0.8, max_force: 300.0 }; 2],
+        object_radii: [0.8, 0.8],
+        object_count: 0,
+    };
+    let forward = Forward::new(&physique);
+    let mut exact = State::new(
+        [[12.0, 6.0], [24.0, 19.0], [24.0, 6.0], [8.0, 19.0]]
+            .map(|[x, y]| phase_model::Body::at_rest(Vec2::new(x, y), 0.0)),
+    );
+    let mut coarse = exact;
+    for action in [Action::Up, Action::Up, Action::NoForce] {
+        forward.step(&mut exact, [action, Action::Stop]);
+        forward.step_coarse(&mut coarse, [action, Action::Stop]);
+        let (a, b) = (exact.bodies[0], coarse.bodies[0]);
+        assert!(a.velocity.distance(b.velocity) < 1e-3, "{action:?}: {} and {}", a.velocity, b.velocity);
+        assert!(a.position.distance(b.position) < 0.02, "{action:?}: {} and {}", a.position, b.position);
+    }
+    assert!(exact.bodies[0].position.distance(Vec2::new(12.0, 6.0)) > 1.0, "it went somewhere");
+}
+
+/// Whether a way crosses a wall for good.
+fn passes(from: Vec2, to: Vec2, wall: Segment) -> bool {
+    let normal = (wall.b - wall.a).perp().normalize();
+    let sides = [from, to].map(|point| normal.dot(point - wall.a));
+    sides[0] * sides[1] < 0.0
+        && sides.iter().all(|side| side.abs() > 1e-3)
+        && Segment { a: from, b: to }.crosses(wall)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// Nothing goes through walls, and nothing sinks deep into them.
+    #[test]
+    fn walls_hold((physique, mut state) in apart(), actions in actions(16)) {
+        let forward = Forward::new(&physique);
+        for actions in actions {
+            let before = state;
+            forward.step_coarse(&mut state, actions);
+            for entity in physique.entities() {
+                let (from, to) = (before.position(entity), state.position(entity));
+                prop_assert!(arena::contains(to), "{entity:?} left the arena: {from} -> {to}");
+                if matches!(entity, Entity::Object(_)) {
+                    prop_assert!(!physique.walls.iter().any(|&wall| passes(from, to, wall)), "{entity:?}: {from} -> {to}");
+                }
+                prop_assert!(clear_of_walls(&physique, &state, entity, -SUNK), "{entity:?} {actions:?}: {before:?} {state:?}");
+            }
+        }
+    }
+
+    /// What is held stays exactly where it is held.
+    #[test]
+    fn grips_do_not_give((physique, mut state) in apart(), actions in actions(16)) {
+        let forward = Forward::new(&physique);
+        for actions in actions {
+            let before = state;
+            forward.step_coarse(&mut state, actions);
+            for agent in 0..2 {
+                let (Some(old), Some(new)) = (before.grips[agent], state.grips[agent]) else { continue };
+                let object = usize::from(new.object);
+                let held_by_both = before.grips[1 - agent].is_some() || state.grips[1 - agent].is_some();
+                if old.object != new.object || actions[agent] == Action::Attach || held_by_both {
+                    continue;
+                }
+                let arm = |state: &State| state.bodies[agent].position.distance(state.bodies[2 + object].position);
+                prop_assert!((arm(&state) - arm(&before)).abs() < 0.05, "{} -> {}", arm(&before), arm(&state));
+            }
+        }
+    }
+}
