@@ -63,6 +63,20 @@ fn main() {
         let planner = Planner::new(physique.clone(), scene.layout, 0, scene.goals(), scene.attitudes()[0]);
         bencher.iter(|| planner.plan(black_box(&state), observation.observed));
     });
+    criterion.bench_function("planner/plans of 50 particles that differ", |bencher| {
+        let planner = Planner::new(physique.clone(), scene.layout, 0, scene.goals(), scene.attitudes()[0]);
+        let mut random = stream(1, Purpose::Belief, 0);
+        let mut turned = state;
+        // Turned away from everybody, so that every particle has them elsewhere.
+        turned.bodies[0].angle += core::f32::consts::PI;
+        let blind = observe(&physique, &turned, 0);
+        let belief = Belief::new(&physique, &blind, 50, &mut random);
+        bencher.iter(|| {
+            let plans: Vec<_> =
+                belief.particles().iter().map(|particle| planner.plan(particle, blind.observed)).collect();
+            plans
+        });
+    });
     criterion.bench_function("agent/one decision at the paper's settings", |bencher| {
         let mut random = stream(1, Purpose::Belief, 0);
         let mut agent = Agent::new(&scene, 0, forward(), Settings::default(), &observation, &mut random)
@@ -71,7 +85,7 @@ fn main() {
         bencher.iter(|| agent.decide(&mut search));
     });
     scaling(&mut criterion, &scene);
-    whole_event(&mut criterion, &scene);
+    whole_events(&mut criterion);
     criterion.final_summary();
 }
 
@@ -109,13 +123,17 @@ fn scaling(criterion: &mut Criterion, scene: &Scene) {
     }
 }
 
-/// The whole scene at the paper's settings, made to last exactly 100 steps.
-fn whole_event(criterion: &mut Criterion, scene: &Scene) {
+/// The sampler's first scene of each kind at the paper's settings, made to last exactly 100 steps.
+fn whole_events(criterion: &mut Criterion) {
     let settings = phase_sim::Settings { min_steps: 100, max_steps: 100, ..phase_sim::Settings::default() };
     let mut group = criterion.benchmark_group("event");
     group.sample_size(10).sampling_mode(SamplingMode::Flat);
-    group.bench_function("one event of 100 steps, helping, seed 1", |bencher| {
-        bencher.iter(|| phase_sim::simulate(scene, 1, &settings));
-    });
+    for kind in EventKind::ALL {
+        let scene =
+            phase_sampler::sample(kind, &mut stream(1, Purpose::Scene, 0)).expect("a scene of every kind");
+        group.bench_function(format!("100 steps, {}, seed 1", kind.name()), |bencher| {
+            bencher.iter(|| phase_sim::simulate(&scene, 1, &settings));
+        });
+    }
     group.finish();
 }

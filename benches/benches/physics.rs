@@ -1,4 +1,4 @@
-//! One step of the true world and of the forward model: free, pushing an object, carrying it.
+//! Four steps of the true world and of the forward model, exact and coarse: free, pushing an object, carrying it.
 
 use core::hint::black_box;
 use criterion::Criterion;
@@ -34,6 +34,15 @@ fn main() {
                 let mut state = black_box(start);
                 for &action in actions {
                     forward.step(&mut state, [action, Action::NoForce]);
+                }
+                state
+            });
+        });
+        criterion.bench_function(&format!("forward, coarse/four steps/{name}"), |bencher| {
+            bencher.iter(|| {
+                let mut state = black_box(start);
+                for &action in actions {
+                    forward.imagine(&mut state, [action, Action::NoForce]);
                 }
                 state
             });

@@ -20,6 +20,7 @@ const HELD: usize = 4;
 const AHEAD: usize = 10;
 
 type Actions = [Action; 2];
+type Step = fn(&Forward, &mut State, Actions);
 
 /// A state to start from, with the dynamics of its scene and the actions to come.
 struct Start<'a> {
@@ -89,22 +90,25 @@ fn bench(
     let starts: Vec<Start<'_>> = all
         .map(|(forward, state)| Start { forward, state, actions: (0..ahead).map(|_| draw(random)).collect() })
         .collect();
-    criterion.bench_function(name, |bencher| {
-        bencher.iter_custom(|iterations| {
-            let mut steps = starts.iter().cycle().flat_map(|start| {
-                let mut state = start.state;
-                start.actions.iter().map(move |&actions| {
-                    start.forward.step(&mut state, black_box(actions));
-                    black_box(&state);
-                })
+    let steps: [(&str, Step); 2] = [("exact", Forward::step), ("coarse", Forward::imagine)];
+    for (how, step) in steps {
+        criterion.bench_function(&format!("{name}, {how}"), |bencher| {
+            bencher.iter_custom(|iterations| {
+                let mut steps = starts.iter().cycle().flat_map(|start| {
+                    let mut state = start.state;
+                    start.actions.iter().map(move |&actions| {
+                        step(start.forward, &mut state, black_box(actions));
+                        black_box(&state);
+                    })
+                });
+                let begun = std::time::Instant::now();
+                for _ in 0..iterations {
+                    steps.next();
+                }
+                begun.elapsed()
             });
-            let begun = std::time::Instant::now();
-            for _ in 0..iterations {
-                steps.next();
-            }
-            begun.elapsed()
         });
-    });
+    }
 }
 
 /// An action of each agent, drawn evenly.

@@ -122,11 +122,11 @@ proptest! {
         for actions in actions {
             let before = state;
             forward.step_coarse(&mut state, actions);
-            for agent in 0..2 {
+            for (agent, &action) in actions.iter().enumerate() {
                 let (Some(old), Some(new)) = (before.grips[agent], state.grips[agent]) else { continue };
                 let object = usize::from(new.object);
                 let held_by_both = before.grips[1 - agent].is_some() || state.grips[1 - agent].is_some();
-                if old.object != new.object || actions[agent] == Action::Attach || held_by_both {
+                if old.object != new.object || action == Action::Attach || held_by_both {
                     continue;
                 }
                 let arm = |state: &State| state.bodies[agent].position.distance(state.bodies[2 + object].position);

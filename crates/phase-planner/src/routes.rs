@@ -42,6 +42,12 @@ pub struct Route {
 }
 
 impl Route {
+    /// The way between two points of a room.
+    fn straight(from: Vec2, to: Vec2) -> Self {
+        let doors = [(0, Vec2::ZERO); MAX_DOORS];
+        Self { length: from.distance(to), impassable: 0, doors, door_count: 0 }
+    }
+
     /// Length, with [`IMPASSABLE_COST`] for each door that the body does not fit through (u).
     #[must_use]
     pub fn cost(&self) -> f32 {
@@ -104,7 +110,7 @@ impl Routes {
         }
         let sequences = core::array::from_fn(|from| {
             core::array::from_fn(|to| {
-                if from == to { vec![vec![]] } else { door_sequences(&graph, rooms[from], rooms[to]) }
+                if from == to { Vec::new() } else { door_sequences(&graph, rooms[from], rooms[to]) }
             })
         });
         Self { gaps, sequences }
@@ -120,8 +126,12 @@ impl Routes {
     /// separate the two points altogether.
     #[must_use]
     pub fn best(&self, from: Vec2, to: Vec2, width: f32, gaps: &Gaps) -> Option<Route> {
+        let (here, there) = (room_of(from), room_of(to));
+        if here == there {
+            return Some(Route::straight(from, to));
+        }
         let mut best: Option<Route> = None;
-        for sequence in &self.sequences[room_of(from)][room_of(to)] {
+        for sequence in &self.sequences[here][there] {
             if best.is_some_and(|best| self.at_least(sequence, from, to) >= best.cost()) {
                 continue;
             }
@@ -148,7 +158,7 @@ impl Routes {
         if a == room { b } else { a }
     }
 
-    /// A length that no way along some doors falls short of (u), at little cost.
+    /// A length that no way through several doors falls short of (u), at little cost.
     fn at_least(&self, sequence: &[u8], from: Vec2, to: Vec2) -> f32 {
         let near = |slot: &u8, point: Vec2| {
             let (low, high) = self.gaps.0[usize::from(*slot)].unwrap_or((0.0, 0.0));
@@ -156,9 +166,8 @@ impl Routes {
             point.distance(point_in(*slot, along.max(low).min(high)))
         };
         match sequence {
-            [] => from.distance(to),
-            [only] => near(only, from).max(near(only, to)),
             [first, .., last] => near(first, from) + near(last, to),
+            _ => 0.0,
         }
     }
 
@@ -174,9 +183,14 @@ impl Routes {
             }
             let margin = (0.5 * width + CLEARANCE).min(0.5 * (gap.1 - gap.0));
             ranges[k] = (gap.0 + margin, gap.1 - margin);
-            doors[k] = (slot, point_in(slot, 0.5 * (ranges[k].0 + ranges[k].1)));
+            doors[k].0 = slot;
         }
         let count = sequence.len().min(MAX_DOORS);
+        if count > 1 {
+            for (door, range) in doors.iter_mut().zip(ranges).take(count) {
+                door.1 = point_in(door.0, 0.5 * (range.0 + range.1));
+            }
+        }
         let passes = if count > 1 { 3 } else { 1 };
         for _ in 0..passes {
             for k in 0..count {
