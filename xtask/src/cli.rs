@@ -6,6 +6,7 @@ use clap::{
     error::ErrorKind,
     value_parser,
 };
+use phase_agent::Foresight;
 use phase_sim::{Engine, Settings};
 use std::path::PathBuf;
 
@@ -179,6 +180,10 @@ pub struct Effort {
     /// imagine with, nearest to the published simulator) [default: world]
     #[arg(long, value_name = "ENGINE", hide_possible_values = true, value_parser = engines())]
     pub engine: Option<Engine>,
+    /// How exactly agents work out the futures they imagine: `coarse` or `exact`, which takes several times as
+    /// long [default: coarse]
+    #[arg(long, value_name = "HOW", hide_possible_values = true, value_parser = foresights())]
+    pub foresight: Option<Foresight>,
     /// Belief particles of each agent [default: 50]
     #[arg(long, value_name = "K", value_parser = value_parser!(u32).range(1..=100_000))]
     pub particles: Option<u32>,
@@ -195,6 +200,9 @@ impl Effort {
     #[must_use]
     pub fn settings(&self) -> Settings {
         let mut settings = Settings { engine: self.engine.unwrap_or_default(), ..Settings::default() };
+        if let Some(foresight) = self.foresight {
+            settings.minds.foresight = foresight;
+        }
         if let Some(particles) = self.particles {
             settings.minds.particles = particles as usize;
         }
@@ -213,8 +221,9 @@ impl Effort {
         let options =
             [("particles", self.particles), ("simulations", self.simulations), ("max-steps", self.max_steps)];
         let engine = self.engine.map(|engine| format!(" --engine {}", engine.name()));
+        let foresight = self.foresight.map(|foresight| format!(" --foresight {}", foresight.name()));
         let given = options.into_iter().filter_map(|(name, value)| Some(format!(" --{name} {}", value?)));
-        engine.into_iter().chain(given).collect()
+        engine.into_iter().chain(foresight).chain(given).collect()
     }
 }
 
@@ -222,6 +231,14 @@ impl Effort {
 fn engines() -> impl TypedValueParser<Value = Engine> {
     let names = PossibleValuesParser::new(Engine::ALL.map(Engine::name));
     names.try_map(|name| Engine::ALL.into_iter().find(|engine| engine.name() == name).ok_or("no such engine"))
+}
+
+/// Reads by its name how exactly to imagine.
+fn foresights() -> impl TypedValueParser<Value = Foresight> {
+    let names = PossibleValuesParser::new(Foresight::ALL.map(Foresight::name));
+    names.try_map(|name| {
+        Foresight::ALL.into_iter().find(|foresight| foresight.name() == name).ok_or("no such foresight")
+    })
 }
 
 /// What is wrong with a command line, on one line; the whole help for a line without a command.

@@ -9,6 +9,7 @@ use crate::{
     parallel::make_all,
     production::{Order, Production, settings_value},
 };
+use phase_agent::Foresight;
 use phase_dataset::{
     atomic,
     card::card,
@@ -89,7 +90,11 @@ impl Plan {
             Engine::World => String::new(),
             other => format!("-{}", other.name()),
         };
-        Path::new("out").join(format!("{}-seed{}{count}{engine}", self.preset.name, self.seed))
+        let foresight = match self.settings.minds.foresight {
+            Foresight::Coarse => String::new(),
+            other => format!("-{}", other.name()),
+        };
+        Path::new("out").join(format!("{}-seed{}{count}{engine}{foresight}", self.preset.name, self.seed))
     }
 
     fn run(&self) -> Value {
@@ -170,6 +175,9 @@ pub fn check_same(out: &Path, state: &'static str, other: &Value, run: &Value) -
     if let Some(settings) = other.get_mut("settings").and_then(Value::as_object_mut) {
         // Runs from before there was a choice.
         settings.entry("engine").or_insert_with(|| Engine::default().name().into());
+        if let Some(minds) = settings.get_mut("minds").and_then(Value::as_object_mut) {
+            minds.entry("foresight").or_insert_with(|| Foresight::Exact.name().into());
+        }
     }
     match difference(&other, run) {
         None => Ok(()),

@@ -167,6 +167,7 @@ impl<D: Dynamics> Agent<D> {
             attitude: self.attitude,
             discount: self.settings.discount,
             guidance: self.settings.guidance,
+            foresight: self.settings.foresight,
         };
         // Where all particles are the same world, one of them says it all, and the search need not redo its steps.
         let different = if roots.iter().all(|root| root == &roots[0]) { &roots[..1] } else { roots };

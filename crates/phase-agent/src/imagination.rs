@@ -1,6 +1,7 @@
 //! The agent's own model of the world, as POMCP searches it.
 
 use crate::{
+    Foresight,
     course::Course,
     guidance,
     objective::{LONGEST, Objective},
@@ -42,6 +43,8 @@ pub struct Imagination<'a, D> {
     pub discount: f64,
     /// Share of informed rollout actions.
     pub guidance: f64,
+    /// How exactly steps are worked out.
+    pub foresight: Foresight,
 }
 
 impl<'a, D> Imagination<'a, D> {
@@ -160,7 +163,10 @@ impl<D: Dynamics> GenerativeModel for Imagination<'_, D> {
         let action = self.actions[action];
         let mut actions = [self.other_action(state); AGENT_COUNT];
         actions[agent] = action;
-        self.dynamics.imagine(state, actions);
+        match self.foresight {
+            Foresight::Coarse => self.dynamics.imagine(state, actions),
+            Foresight::Exact => self.dynamics.step(state, actions),
+        }
         (imagined.distance, imagined.course) = self.objective.look(state);
         Outcome { observation: (), reward: self.reward(imagined, action), terminal: false }
     }

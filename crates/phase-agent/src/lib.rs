@@ -20,5 +20,5 @@ pub mod settings;
 pub mod thought;
 
 pub use agent::Agent;
-pub use settings::Settings;
+pub use settings::{Foresight, Settings};
 pub use thought::{ActionValue, SubgoalValue, Thought};

@@ -2,6 +2,32 @@
 
 use serde::{Deserialize, Serialize};
 
+/// How exactly an agent works out the futures that it imagines while it searches. Its belief is always moved on
+/// exactly.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Foresight {
+    /// By [`Dynamics::imagine`](phase_model::Dynamics::imagine), at a fraction of the cost.
+    #[default]
+    Coarse,
+    /// By [`Dynamics::step`](phase_model::Dynamics::step), as the world itself moves.
+    Exact,
+}
+
+impl Foresight {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Coarse, Self::Exact];
+
+    /// The name used in files and options.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Coarse => "coarse",
+            Self::Exact => "exact",
+        }
+    }
+}
+
 /// How an agent thinks. The defaults are the paper's.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Settings {
@@ -21,6 +47,14 @@ pub struct Settings {
     pub discount: f64,
     /// Share of rollout actions that head for the subgoal instead of being drawn evenly, 0 to 1.
     pub guidance: f64,
+    /// How exactly futures are worked out. Files written before there was a choice say nothing, and meant
+    /// `exact`.
+    #[serde(default = "before_there_was_a_choice")]
+    pub foresight: Foresight,
+}
+
+const fn before_there_was_a_choice() -> Foresight {
+    Foresight::Exact
 }
 
 impl Default for Settings {
@@ -34,6 +68,7 @@ impl Default for Settings {
             c_base: 1000.0,
             discount: 0.95,
             guidance: 0.5,
+            foresight: Foresight::Coarse,
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Guidance, repertoire, reward and decisions in hand-made states.
 
 use phase_agent::{
-    Agent, Settings, guidance,
+    Agent, Foresight, Settings, guidance,
     imagination::{Imagination, Imagined},
     objective::{LONGEST, Objective},
     repertoire,
@@ -126,6 +126,7 @@ fn rewards_follow_equation_1() {
                 attitude,
                 discount: 0.95,
                 guidance: 0.0,
+                foresight: Foresight::Exact,
             };
             let mut after = Imagined::new(&objective, state);
             let reward = model.rollout_step(&mut after, 0, &mut stream(1, Purpose::Search, 0)).reward;
