@@ -64,18 +64,8 @@ impl Forward {
         touching: &mut Touches,
         substeps: u8,
     ) {
-        let pairs = reach::pairs_near(world, members) & !world.apart & !groups.within;
-        let busy = world.busy(members, pairs);
-        if busy == 0 {
-            return;
-        }
-        let mut candidates = pairs;
-        world.outline(busy);
-        for body in 0..self.count {
-            if busy & 1 << body != 0 {
-                candidates |= reach::walls_near(world, body);
-            }
-        }
+        let apart = world.apart | groups.within;
+        let Some((busy, candidates)) = reach::at_work(world, members, apart) else { return };
         touching.clear();
         touching.extend(world.contacts(candidates).take(MAX_CONTACTS));
         let before = world.outlines.boxes;

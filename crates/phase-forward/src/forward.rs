@@ -179,18 +179,7 @@ impl Forward {
 
     /// One substep of bodies that may touch each other and walls.
     fn substep_cold(&self, world: &mut World<'_>, members: BodySet, touching: &mut Touching) {
-        let pairs = reach::pairs_near(world, members) & !world.apart;
-        let busy = world.busy(members, pairs);
-        if busy == 0 {
-            return;
-        }
-        let mut candidates = pairs;
-        world.outline(busy);
-        for body in 0..self.count {
-            if busy & 1 << body != 0 {
-                candidates |= reach::walls_near(world, body);
-            }
-        }
+        let Some((busy, candidates)) = reach::at_work(world, members, world.apart) else { return };
         touching.replace(world.contacts(candidates));
         let before = world.outlines.boxes;
         world.solve(busy, touching);

@@ -112,6 +112,21 @@ pub(crate) fn bodies_of(pairs: KeySet) -> BodySet {
     bodies
 }
 
+/// Those of the given bodies that the coming substep can change, and all pairs of shapes that may touch in it, but
+/// for those that are kept apart. `None` if nothing can change. Their outlines are up to date afterwards.
+pub(crate) fn at_work(world: &mut World<'_>, members: BodySet, apart: KeySet) -> Option<(BodySet, KeySet)> {
+    let pairs = pairs_near(world, members) & !apart;
+    let busy = world.busy(members, pairs);
+    if busy == 0 {
+        return None;
+    }
+    world.outline(busy);
+    let walls = (0..world.forward.count)
+        .filter(|body| busy & 1 << body != 0)
+        .fold(0, |keys, body| keys | walls_near(world, body));
+    Some((busy, pairs | walls))
+}
+
 /// The pairs of bodies in a set whose circles overlap now.
 pub(crate) fn pairs_near(world: &World<'_>, members: BodySet) -> KeySet {
     let forward = world.forward;

@@ -1,11 +1,13 @@
 //! Steps for imagination, held against exact steps from the same states.
 
 mod scenes;
+mod walls;
 
 use phase_forward::Forward;
-use phase_model::{Action, Contacts, Dynamics, Entity, Physique, Segment, State, Vec2, arena};
+use phase_model::{Action, Contacts, Dynamics, Entity, Physique, State, Vec2, arena};
 use proptest::{prelude::*, strategy::ValueTree, test_runner::TestRunner};
 use scenes::{actions, apart, clear_of_walls};
+use walls::passes;
 
 /// Scenes of the statistics, and runs of held actions in each.
 const SCENES: usize = 300;
@@ -83,15 +85,6 @@ fn a_push_in_the_open_takes_bodies_as_far() {
         assert!(a.position.distance(b.position) < 0.02, "{action:?}: {} and {}", a.position, b.position);
     }
     assert!(exact.bodies[0].position.distance(Vec2::new(12.0, 6.0)) > 1.0, "it went somewhere");
-}
-
-/// Whether a way crosses a wall for good.
-fn passes(from: Vec2, to: Vec2, wall: Segment) -> bool {
-    let normal = (wall.b - wall.a).perp().normalize();
-    let sides = [from, to].map(|point| normal.dot(point - wall.a));
-    sides[0] * sides[1] < 0.0
-        && sides.iter().all(|side| side.abs() > 1e-3)
-        && Segment { a: from, b: to }.crosses(wall)
 }
 
 proptest! {

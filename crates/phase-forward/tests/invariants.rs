@@ -1,6 +1,7 @@
 //! What holds in every state and under all actions.
 
 mod scenes;
+mod walls;
 
 use phase_forward::Forward;
 use phase_model::{
@@ -11,6 +12,7 @@ use phase_model::{
 };
 use proptest::{prelude::*, strategy::ValueTree, test_runner::TestRunner};
 use scenes::{actions, apart, clear_of_walls, physiques};
+use walls::passes;
 
 /// How deep a corner or rim may be in a wall (u): 0.02 nearly always, more where a fast body is hit into it.
 const SUNK: f32 = 0.3;
@@ -77,15 +79,6 @@ fn energy(physique: &Physique, state: &State) -> f32 {
 /// Momentum of all bodies together (N s).
 fn momentum(physique: &Physique, state: &State) -> Vec2 {
     state.bodies.iter().zip(inertias(physique)).map(|(body, (mass, _))| body.velocity * mass).sum()
-}
-
-/// Whether a way crosses a wall for good: from clearly on one side to clearly on the other.
-fn passes(from: Vec2, to: Vec2, wall: Segment) -> bool {
-    let normal = (wall.b - wall.a).perp().normalize();
-    let sides = [from, to].map(|point| normal.dot(point - wall.a));
-    sides[0] * sides[1] < 0.0
-        && sides.iter().all(|side| side.abs() > 1e-3)
-        && Segment { a: from, b: to }.crosses(wall)
 }
 
 /// A check of what one substep did.

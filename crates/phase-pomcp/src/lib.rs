@@ -40,7 +40,8 @@
 //!
 //! The tree branches on histories of own actions **and observations**, compared by equality, and holds no
 //! states. So a plan can react to what it will see, which is what makes looking worth its cost, and the whole
-//! tree is three flat vectors of a few words per node that are reused from search to search.
+//! tree is three flat vectors of a few words per node that are reused from search to search. Only where a model says
+//! that nothing in it is left to chance does a search keep the states it came to, and takes no step of the tree twice.
 //!
 //! The price: the model must give observations coarse enough for simulations to meet again, for the tree
 //! cannot tell near from far; branches of an action are searched one after another, fine for dozens and slow
@@ -55,7 +56,8 @@
 //! # Where it departs from the sources
 //!
 //! PUCT is undefined for actions never tried while the parent has no visits: here every action of a history
-//! is tried once, in random order, before they are compared. Values are mapped to 0..1 by the extremes in the
+//! is tried once, in random order, before they are compared. A search may end once it is decided, see
+//! [`PomcpSettings::stop_when_decided`]. Values are mapped to 0..1 by the extremes in the
 //! tree before they are compared, see [`PomcpSettings::normalise_values`].
 
 #![forbid(unsafe_code)]

@@ -6,8 +6,8 @@
 //!
 //! The key design decision is that every random stream belongs to one agent and one purpose. The same seed
 //! makes the same event bit for bit, and what an agent believed can be recomputed from the recorded
-//! trajectory without planning ([`beliefs()`]). The price is that a change in how often one stream is drawn from
-//! changes every later draw of that stream.
+//! trajectory without planning ([`beliefs()`]). From its search stream an agent draws once a decision, for a generator
+//! of that decision's own. The price is that a change in how often a belief draws changes all its later draws.
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
