@@ -5,8 +5,7 @@ mod walls;
 
 use phase_forward::Forward;
 use phase_model::{
-    Action, AgentBody, Body, Dynamics, Entity, Grip, Layout, Physique, Segment, Side, Size, State, Vec2,
-    arena,
+    Action, AgentBody, Body, Dynamics, Entity, Grip, Layout, Physique, Side, Size, State, Vec2, arena,
     geometry::Outline,
     physique::{GROUND_FRICTION, object_inertia, object_mass},
 };
