@@ -109,7 +109,7 @@ impl Planner {
     }
 
     /// The own part of the cheapest way in which both together reach a goal; the own travel counts for
-    /// `effort` beside the other's.
+    /// `own_effort` beside the other's. Who has no part in it gets out of the other's way.
     fn cooperate(&self, situation: &Situation<'_>, goal: Goal, own_effort: f32, observed: EntitySet) -> Plan {
         let mut effort = [1.0; AGENT_COUNT];
         effort[self.agent] = own_effort;
@@ -125,6 +125,10 @@ impl Planner {
                 let visit = visit(situation, self.agent, entity);
                 Plan { distance: plan.distance.max(visit.distance), ..visit }
             }
+            None if plan.subgoals.is_empty() => {
+                let aside = aside::subgoal(situation, self.agent, goal);
+                Plan { subgoals: aside.into_iter().collect(), ..plan }
+            }
             _ => plan,
         }
     }
@@ -138,11 +142,7 @@ impl Planner {
         if let Some(plan) = self.finish(situation, goal, observed) {
             return plan;
         }
-        let plan = self.cooperate(situation, goal, HELPERS_EFFORT, observed);
-        match aside::subgoal(situation, self.agent, goal) {
-            Some(subgoal) if plan.subgoals.is_empty() => Plan { subgoals: vec![subgoal], ..plan },
-            _ => plan,
-        }
+        self.cooperate(situation, goal, HELPERS_EFFORT, observed)
     }
 
     /// Who wants to be left alone is helped by keeping away; other negated goals by undoing them.
