@@ -6,10 +6,8 @@ use crate::{
 };
 use phase_model::{Entity, State, Vec2, arena, physique};
 use phase_planner::Subgoal;
-use phase_predicates::{Literal, Place, Predicate, threshold};
+use phase_predicates::{Literal, Place, Predicate};
 
-/// How far from the centre of a landmark a load may stay to be on it safely (u).
-const NEAR_ENOUGH: f32 = threshold::ON_OBJECT - 0.2;
 /// What a carrier's own way round a corner counts for beside the way of what it carries.
 const CARRIERS_SHARE: f32 = 0.5;
 
@@ -36,22 +34,11 @@ impl Objective<'_> {
         remaining + if leads { lag.abs() } else { CARRIERS_SHARE * lag.max(0.0) }
     }
 
-    /// Whether what moves is a load that has to go first, round the carrier if that is before it: its carrier does
-    /// not fit through a door, or would have to be outside the arena for the load to be at the landmark.
+    /// Whether what moves is a load that its carrier does not fit through a door with, so that it has to go first:
+    /// round the carrier, if that is before it.
     pub(crate) fn load_leads(&self, state: &State, mover: Entity) -> bool {
         matches!(mover, Entity::Object(_))
-            && self.landmark().is_some_and(|target| {
-                !self.fits_along(state, target) || !self.has_room_beyond(state, mover, target)
-            })
-    }
-
-    /// Whether the carrier would be inside the arena if it carried its load to a landmark, or near enough, as it
-    /// holds it now.
-    fn has_room_beyond(&self, state: &State, load: Entity, landmark: Vec2) -> bool {
-        let me = Entity::agent(self.agent);
-        let place = landmark + state.position(me) - state.position(load);
-        let inset = Vec2::splat(self.physique.radius(me));
-        place.distance(place.clamp(arena::MIN + inset, arena::MAX - inset)) <= NEAR_ENOUGH
+            && self.landmark().is_some_and(|target| !self.fits_along(state, target))
     }
 
     /// The centre of the landmark that the subgoal is about.
