@@ -1,7 +1,8 @@
 //! From a point to another through doors: how far it still is, and which way to move now.
 
+use crate::convoy::{Convoy, Entrance};
 use phase_model::{Vec2, arena, layout::SLOT_DIRECTIONS};
-use phase_planner::{Gaps, Route, Routes};
+use phase_planner::{Route, Routes};
 
 /// A door with less room to spare than this is entered straight on (u).
 const TIGHT: f32 = 1.2;
@@ -38,13 +39,20 @@ pub struct Way<'a> {
     to: Vec2,
     width: f32,
     route: Option<Route>,
+    convoy: Option<Convoy>,
 }
 
 impl<'a> Way<'a> {
     /// Finds the way for a width (u), through doors as the layout has them.
     #[must_use]
     pub fn find(routes: &'a Routes, from: Vec2, to: Vec2, width: f32) -> Self {
-        Self { routes, from, to, width, route: routes.best(from, to, width, routes.gaps()) }
+        Self { routes, from, to, width, route: routes.best(from, to, width, routes.gaps()), convoy: None }
+    }
+
+    /// The same way, gone by an object and its holders.
+    #[must_use]
+    pub const fn with_convoy(self, convoy: Convoy) -> Self {
+        Self { convoy: Some(convoy), ..self }
     }
 
     /// Whether the body fits through every door on the way.
@@ -127,7 +135,7 @@ pub fn around(course: Course, from: Vec2, discs: impl Iterator<Item = (Vec2, f32
 /// The course along a way to its end.
 #[must_use]
 pub fn to_point(way: &Way<'_>) -> Course {
-    let Way { routes, from, to, width, route } = *way;
+    let Way { routes, from, to, width, route, .. } = *way;
     let gaps = routes.gaps();
     let Some(route) = route else { return way.blind() };
     let Some(&(slot, crossing)) = route.doors().first() else {
@@ -138,14 +146,14 @@ pub fn to_point(way: &Way<'_>) -> Course {
         let place = wait(usize::from(slot), crossing, from, width);
         return Course { heading_for: place, remaining: BARRED + from.distance(place) };
     }
-    let (heading_for, detour) = through(gaps, usize::from(slot), crossing, from, width);
+    let (heading_for, detour) = through(way, usize::from(slot), crossing);
     Course { heading_for, remaining: left(&route) + detour }
 }
 
 /// The course along a way to a room's centre, but only just past the room's border.
 #[must_use]
 pub fn into_room(way: &Way<'_>) -> Course {
-    let Way { routes, from, to: centre, width, route } = *way;
+    let Way { routes, from, to: centre, width, route, .. } = *way;
     let gaps = routes.gaps();
     let Some(route) = route else { return way.blind() };
     let (Some(&(slot, crossing)), Some(&(_, last))) = (route.doors().first(), route.doors().last()) else {
@@ -155,7 +163,7 @@ pub fn into_room(way: &Way<'_>) -> Course {
         let place = wait(usize::from(slot), crossing, from, width);
         return Course { heading_for: place, remaining: BARRED + from.distance(place) };
     }
-    let (mut heading_for, detour) = through(gaps, usize::from(slot), crossing, from, width);
+    let (mut heading_for, detour) = through(way, usize::from(slot), crossing);
     if route.doors().len() == 1 && heading_for == crossing {
         heading_for += (crossing - from).normalize_or_zero() * INSIDE;
     }
@@ -169,7 +177,13 @@ fn left(route: &Route) -> f32 {
 }
 
 /// The point to head for before a door, and how much longer than the straight way to the crossing that is (u).
-fn through(gaps: &Gaps, slot: usize, crossing: Vec2, from: Vec2, width: f32) -> (Vec2, f32) {
+fn through(way: &Way<'_>, slot: usize, crossing: Vec2) -> (Vec2, f32) {
+    let Way { routes, from, width, convoy, .. } = *way;
+    let gaps = routes.gaps();
+    let entrance = convoy.zip(gaps.0[slot]).and_then(|(convoy, gap)| convoy.entrance(slot, gap));
+    if let Some(Entrance { heading_for, remaining }) = entrance {
+        return (heading_for, remaining - from.distance(crossing));
+    }
     let along = SLOT_DIRECTIONS[slot];
     let offset = from - crossing;
     let lateral = along.dot(offset).abs();

@@ -10,6 +10,7 @@
 #![deny(missing_docs)]
 
 pub mod agent;
+pub mod convoy;
 pub mod course;
 pub mod guidance;
 pub mod imagination;

@@ -1,6 +1,9 @@
 //! A subgoal as the low level sees it: a distance to bring down, and a direction that does.
 
-use crate::course::{self, Course, Way};
+use crate::{
+    convoy::Convoy,
+    course::{self, Course, Way},
+};
 use phase_model::{Entity, Physique, Segment, Side, State, Vec2, arena, layout::room_of};
 use phase_planner::{
     Routes, Subgoal,
@@ -192,7 +195,8 @@ impl Objective<'_> {
             (Predicate::On(entity, landmark), true) => {
                 let centre = arena::LANDMARKS[usize::from(landmark)];
                 if entity == mover {
-                    self.towards(state, from, centre)
+                    let way = self.way_of(state, mover, centre);
+                    self.along(state, &way, course::to_point)
                 } else {
                     self.escort(state, entity, centre)
                 }
@@ -204,7 +208,7 @@ impl Objective<'_> {
                 } else if room_of(from) == room {
                     here
                 } else {
-                    let way = self.way(state, from, arena::LANDMARKS[room]);
+                    let way = self.way_of(state, mover, arena::LANDMARKS[room]);
                     self.along(state, &way, course::into_room)
                 }
             }
@@ -268,6 +272,17 @@ impl Objective<'_> {
         // Whoever waits looks at whom it waits for, or it will not see that the door is free again.
         course.remaining += (self.turned_away(state, state.position(other)) - IN_VIEW).max(0.0);
         Some(course)
+    }
+
+    /// The way of what moves to a point. A load that its carrier fits through all doors with goes there with it.
+    fn way_of(&self, state: &State, mover: Entity, to: Vec2) -> Way<'_> {
+        let way = self.way(state, state.position(mover), to);
+        match mover {
+            Entity::Object(object) if !self.load_leads(state, mover) => {
+                way.with_convoy(Convoy::of(self.physique, state, usize::from(object)))
+            }
+            _ => way,
+        }
     }
 
     /// The way between two points, with room kept for as much as the agent, what it holds and who else

@@ -2,7 +2,7 @@
 
 use phase_agent::objective::Objective;
 use phase_model::{
-    Body, Entity, Grip, Layout, Physique, Side, Size, State, Strength, Vec2, physique::AgentBody,
+    Body, Entity, Grip, Layout, Physique, Side, Size, State, Strength, Vec2, arena, physique::AgentBody,
 };
 use phase_planner::{Routes, Subgoal};
 use phase_predicates::{Literal, Place, Predicate};
@@ -73,6 +73,41 @@ fn a_load_goes_first_where_its_carrier_cannot_follow() {
     // A carrier that fits may go before it.
     let difference = holding(Size::Small, below, above).0 - holding(Size::Small, above, below).0;
     assert!(difference < 4.0, "{difference}");
+}
+
+/// Agent 0 holding the object that lies in some direction from it.
+fn carrying(agent: Vec2, towards: Vec2) -> State {
+    let heading = libm::atan2f(-towards.x, towards.y);
+    let mut state = state(agent, heading, FAR, agent + towards.normalize() * 2.0 * Size::Small.radius());
+    state.grips[0] = Some(Grip { object: 0, side: Side::Head, relative_angle: 0.0 });
+    state
+}
+
+#[test]
+fn a_load_and_its_carrier_get_in_line_before_a_narrow_door() {
+    let bring = Literal::is(Predicate::On(Entity::Object(0), 3));
+    // Jammed at the door's corner, the load in the door; back; turned; into the door; through it.
+    let way = [
+        carrying(Vec2::new(8.7, 12.9), Vec2::new(-1.0, -0.3)),
+        carrying(Vec2::new(8.5, 14.0), Vec2::new(-1.0, -0.3)),
+        carrying(Vec2::new(8.3, 14.9), Vec2::new(-1.0, -0.3)),
+        carrying(Vec2::new(7.25, 15.3), Vec2::new(0.0, -1.0)),
+        carrying(Vec2::new(7.25, 13.7), Vec2::new(0.0, -1.0)),
+        carrying(Vec2::new(7.25, 12.3), Vec2::new(0.0, -1.0)),
+    ];
+    let left = way.map(|state| look(Size::Small, &state, bring).0);
+    assert!(left.is_sorted_by(|earlier, later| earlier > later), "{left:?}");
+    let jammed = way[0].position(Entity::Object(0));
+    let back = look(Size::Small, &way[0], bring).1 - jammed;
+    assert!(back.y > 1.0, "away from the door: {back}");
+    // From where there is room enough one goes straight on, side by side or not.
+    let ways = [Vec2::NEG_X, Vec2::NEG_Y].map(|towards| {
+        let state = carrying(Vec2::new(20.0, 8.0), towards);
+        look(Size::Small, &state, Literal::is(Predicate::On(Entity::Object(0), 2)))
+    });
+    for (_, heading) in ways {
+        assert!(heading.distance(arena::LANDMARKS[2]) < 1e-3, "{heading}");
+    }
 }
 
 #[test]
