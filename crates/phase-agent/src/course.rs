@@ -84,6 +84,16 @@ fn wait(slot: usize, crossing: Vec2, from: Vec2, width: f32) -> Vec2 {
     crossing + side * (0.5 * width + WAITING_ROOM) - along * WAITING_ROOM
 }
 
+/// A place before the wall beside a door, so far from it that who comes through need not push one aside.
+fn let_by(slot: usize, (low, high): (f32, f32), from: Vec2, width: f32) -> Vec2 {
+    let along = SLOT_DIRECTIONS[slot];
+    let side = along.perp() * along.perp_dot(from - arena::CENTRE).signum();
+    let room = 0.5 * width + WAITING_ROOM;
+    // Where there is more of the wall.
+    let beside = if low > 0.5 * arena::SIDE - high { low - 0.5 * width } else { high + 0.5 * width };
+    arena::CENTRE + along * beside + side * room
+}
+
 /// Lets another body through first: if the other is in the first door on the way, and nearer to it, the course
 /// leads to a place beside that door instead. Of two that are as near, the one that is `polite` waits.
 #[must_use]
@@ -97,7 +107,7 @@ pub fn give_way(way: &Way<'_>, other: Vec2, polite: bool) -> Option<Course> {
         && theirs < if polite { mine + AS_NEAR } else { mine - AS_NEAR }
         && routes.gaps().width(slot) < 2.0 * width + TIGHT;
     is_taken.then(|| {
-        let place = wait(slot, crossing, from, width);
+        let place = let_by(slot, routes.gaps().0[slot].unwrap_or_default(), from, width);
         // By way of that place, so that every step towards it gains.
         let by_way = from.distance(place) + place.distance(crossing);
         Course { heading_for: place, remaining: route.length - mine + by_way }

@@ -65,6 +65,20 @@ fn one_gives_way_to_who_is_in_the_door() {
 }
 
 #[test]
+fn who_gives_way_leaves_the_door_free() {
+    let way_of = |from, to| (from, to, Vec2::new(7.3, 11.8));
+    for (from, to, other) in [
+        way_of(Vec2::new(7.3, 15.0), Vec2::new(8.0, 6.0)),
+        way_of(Vec2::new(10.0, 9.0), Vec2::new(8.0, 18.0)),
+    ] {
+        let routes = narrow();
+        let course = give_way(&Way::find(&routes, from, to, 2.4), other, true).expect("the door is taken");
+        let place = course.heading_for;
+        assert!(place.x >= 8.5 + 1.2 && (place.y - 12.0).signum() == (from.y - 12.0).signum(), "{place}");
+    }
+}
+
+#[test]
 fn of_two_that_are_as_near_to_a_door_the_polite_one_goes_back() {
     let (from, facing) = (Vec2::new(7.2, 13.4), Vec2::new(7.2, 10.6));
     let routes = narrow();
