@@ -4,6 +4,7 @@ use crate::{
     Settings, Thought,
     imagination::{Imagination, Imagined},
     objective::Objective,
+    patience::Patience,
     repertoire,
     thought::{ActionValue, SubgoalValue},
 };
@@ -31,6 +32,7 @@ pub struct Agent<D> {
     pomcp: Pomcp<u16>,
     belief: Belief,
     observed: EntitySet,
+    patience: Patience,
 }
 
 impl<D: Dynamics> Agent<D> {
@@ -66,6 +68,7 @@ impl<D: Dynamics> Agent<D> {
             pomcp,
             belief: Belief::new(&physique, observation, settings.particles, random),
             observed: observation.observed,
+            patience: Patience::default(),
             physique,
         })
     }
@@ -152,14 +155,17 @@ impl<D: Dynamics> Agent<D> {
         roots: &[State],
         random: &mut impl Rng,
     ) -> Result<(Action, Vec<ActionValue>), PomcpError> {
-        let actions = repertoire::actions(self.index, subgoal, &roots[0]);
+        let routes = self.planner.routes();
+        let objective =
+            Objective { physique: &self.physique, routes, agent: self.index, subgoal, retreat: None };
+        let retreat = self.patience.lose(&objective, &roots[0], random);
+        let actions = repertoire::actions(self.index, subgoal, &roots[0], retreat.is_some());
         if let [only] = actions {
             return Ok((*only, Vec::new()));
         }
-        let routes = self.planner.routes();
         let model = Imagination {
             dynamics: &self.dynamics,
-            objective: Objective { physique: &self.physique, routes, agent: self.index, subgoal },
+            objective: Objective { retreat, ..objective },
             other_objective: Imagination::<D>::other(&self.physique, routes, self.index, self.goals),
             actions,
             goals: self.goals,

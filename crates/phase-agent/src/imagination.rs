@@ -57,7 +57,7 @@ impl<'a, D> Imagination<'a, D> {
         goals: [Goal; AGENT_COUNT],
     ) -> Objective<'a> {
         let subgoal = Subgoal::Achieve(Literal::from(goals[1 - agent]));
-        Objective { physique, routes, agent: 1 - agent, subgoal }
+        Objective { physique, routes, agent: 1 - agent, subgoal, retreat: None }
     }
 
     /// The other coasts, except when both hold the same object or the two touch: then it goes on pulling or

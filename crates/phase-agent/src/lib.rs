@@ -16,6 +16,7 @@ pub mod guidance;
 pub mod imagination;
 mod load;
 pub mod objective;
+pub mod patience;
 pub mod repertoire;
 pub mod settings;
 pub mod thought;

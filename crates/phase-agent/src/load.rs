@@ -1,6 +1,7 @@
 //! What carrying and letting go add to an objective.
 
 use crate::{
+    convoy::Convoy,
     course::Way,
     objective::{LONGEST, Objective},
 };
@@ -10,6 +11,9 @@ use phase_predicates::{Literal, Place, Predicate};
 
 /// What a carrier's own way round a corner counts for beside the way of what it carries.
 const CARRIERS_SHARE: f32 = 0.5;
+/// What the way round the end of a wall that a carrier and its load have between them counts for: more than the
+/// load loses by going back along that wall.
+const PARTED: f32 = 2.0;
 
 impl Objective<'_> {
     /// How far an object would slide on if it were let go of now (u): what is let go of is to stay there.
@@ -30,8 +34,46 @@ impl Objective<'_> {
         };
         let arm = self.physique.radius(me) + self.physique.radius(mover);
         let lag = to_target(me) - to_target(mover) - arm;
+        let remaining = remaining + PARTED * self.parted(state, mover);
         // Who has to push the load through a door alone must get behind it.
         remaining + if leads { lag.abs() } else { CARRIERS_SHARE * lag.max(0.0) }
+    }
+
+    /// How much longer than straight the way from the agent to what it holds is (u): with a wall between them
+    /// neither can go on before both have slid along it to the door.
+    fn parted(&self, state: &State, load: Entity) -> f32 {
+        let (me, load) = (state.position(Entity::agent(self.agent)), state.position(load));
+        let way = self.routes.best(me, load, 0.0, self.routes.gaps());
+        way.map_or(0.0, |route| (route.length - me.distance(load)).max(0.0))
+    }
+
+    /// The way of what moves to a point. A load that its carrier fits through all doors with goes there with it.
+    pub(crate) fn way_of(&self, state: &State, mover: Entity, to: Vec2) -> Way<'_> {
+        let way = self.way(state, state.position(mover), to);
+        match mover {
+            Entity::Object(object) if !self.load_leads(state, mover) => {
+                way.with_convoy(Convoy::of(self.physique, state, usize::from(object)))
+            }
+            _ => way,
+        }
+    }
+
+    /// The way between two points, with room kept for as much as the agent, what it holds and who else
+    /// holds that take side by side, if the doors allow it, or else what just passes, be it the object alone.
+    pub(crate) fn way(&self, state: &State, from: Vec2, to: Vec2) -> Way<'_> {
+        let find = |width| Way::find(self.routes, from, to, width);
+        let own = self.physique.agents[self.agent].width();
+        let Some(object) = state.held_object(self.agent) else { return find(own) };
+        let tight = own.max(2.0 * self.physique.object_radii[object]);
+        let mut radii = self.physique.object_radii[object] + self.physique.agents[self.agent].radius;
+        if state.holds(1 - self.agent, object) {
+            radii += self.physique.agents[1 - self.agent].radius;
+        }
+        let wide = tight.max(2.0 * radii);
+        // What does not fit itself may still push through what it holds.
+        let object_alone = 2.0 * self.physique.object_radii[object];
+        let mut ways = [wide, tight, object_alone].into_iter().map(find);
+        ways.find(Way::fits).unwrap_or_else(|| find(tight))
     }
 
     /// Whether what moves is a load that its carrier does not fit through a door with, so that it has to go first:

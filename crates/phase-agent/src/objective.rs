@@ -1,9 +1,6 @@
 //! A subgoal as the low level sees it: a distance to bring down, and a direction that does.
 
-use crate::{
-    convoy::Convoy,
-    course::{self, Course, Way},
-};
+use crate::course::{self, Course, Way};
 use phase_model::{Entity, Physique, Segment, Side, State, Vec2, arena, layout::room_of};
 use phase_planner::{
     Routes, Subgoal,
@@ -39,6 +36,8 @@ pub struct Objective<'a> {
     pub agent: usize,
     /// What is pursued.
     pub subgoal: Subgoal,
+    /// Where to go first to make room for another try, if the agent does not get on (u).
+    pub retreat: Option<Vec2>,
 }
 
 impl Objective<'_> {
@@ -52,6 +51,10 @@ impl Objective<'_> {
     /// same course twice.
     #[must_use]
     pub fn look(&self, state: &State) -> (f32, Option<Course>) {
+        if let Some(place) = self.retreat {
+            let course = self.back_to(state, place);
+            return (course.remaining, Some(course));
+        }
         let mut course = None;
         let mut remaining = || course.insert(self.course(state)).remaining;
         let distance = match self.subgoal {
@@ -157,7 +160,7 @@ impl Objective<'_> {
     }
 
     /// Whether a round body that moves straight from a point to another meets a wall or the end of one.
-    fn grazes(&self, from: Vec2, to: Vec2, radius: f32) -> bool {
+    pub(crate) fn grazes(&self, from: Vec2, to: Vec2, radius: f32) -> bool {
         let way = Segment { a: from, b: to };
         self.physique
             .walls
@@ -272,35 +275,6 @@ impl Objective<'_> {
         // Whoever waits looks at whom it waits for, or it will not see that the door is free again.
         course.remaining += (self.turned_away(state, state.position(other)) - IN_VIEW).max(0.0);
         Some(course)
-    }
-
-    /// The way of what moves to a point. A load that its carrier fits through all doors with goes there with it.
-    fn way_of(&self, state: &State, mover: Entity, to: Vec2) -> Way<'_> {
-        let way = self.way(state, state.position(mover), to);
-        match mover {
-            Entity::Object(object) if !self.load_leads(state, mover) => {
-                way.with_convoy(Convoy::of(self.physique, state, usize::from(object)))
-            }
-            _ => way,
-        }
-    }
-
-    /// The way between two points, with room kept for as much as the agent, what it holds and who else
-    /// holds that take side by side, if the doors allow it, or else what just passes, be it the object alone.
-    fn way(&self, state: &State, from: Vec2, to: Vec2) -> Way<'_> {
-        let find = |width| Way::find(self.routes, from, to, width);
-        let own = self.physique.agents[self.agent].width();
-        let Some(object) = state.held_object(self.agent) else { return find(own) };
-        let tight = own.max(2.0 * self.physique.object_radii[object]);
-        let mut radii = self.physique.object_radii[object] + self.physique.agents[self.agent].radius;
-        if state.holds(1 - self.agent, object) {
-            radii += self.physique.agents[1 - self.agent].radius;
-        }
-        let wide = tight.max(2.0 * radii);
-        // What does not fit itself may still push through what it holds.
-        let object_alone = 2.0 * self.physique.object_radii[object];
-        let mut ways = [wide, tight, object_alone].into_iter().map(find);
-        ways.find(Way::fits).unwrap_or_else(|| find(tight))
     }
 
     /// Until the surfaces meet.

@@ -16,13 +16,13 @@ const WITHOUT_HANDS: usize = 12;
 /// Number of leading actions of [`Action::ALL`] without letting go.
 const WITHOUT_RELEASE: usize = 13;
 
-/// The actions to search, never empty; a single one needs no search.
+/// The actions to search, never empty; a single one needs no search. Who `retreats` may step back.
 #[must_use]
-pub fn actions(agent: usize, subgoal: Subgoal, state: &State) -> &'static [Action] {
+pub fn actions(agent: usize, subgoal: Subgoal, state: &State, retreats: bool) -> &'static [Action] {
     let Subgoal::Achieve(Literal { predicate, holds }) = subgoal else { return &[Action::Stop] };
     let free = state.grips[agent].is_none();
     let me = Entity::agent(agent);
-    let held_up = state.contacts.touching(me, Entity::agent(1 - agent));
+    let held_up = retreats || state.contacts.touching(me, Entity::agent(1 - agent));
     let walking: &'static [Action] = if held_up { &BACKING_OFF } else { &WALKING };
     match (predicate, holds) {
         (Predicate::Attach(..), false) => &RELEASING,

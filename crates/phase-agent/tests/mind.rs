@@ -47,7 +47,7 @@ const WALKING: [Action; 3] = [Action::TurnLeft, Action::TurnRight, Action::Up];
 /// The rule of thumb's action for a subgoal of agent 0.
 fn thumb(scene: &Scene, state: &State, subgoal: Subgoal, actions: &[Action]) -> Action {
     let (physique, routes) = (scene.physique(), Routes::new(scene.layout));
-    let objective = Objective { physique: &physique, routes: &routes, agent: 0, subgoal };
+    let objective = Objective { physique: &physique, routes: &routes, agent: 0, subgoal, retreat: None };
     guidance::action(&objective, state, None, actions)
 }
 
@@ -97,7 +97,7 @@ fn every_subgoal_has_its_actions() {
         (carry, &holding, 12),
         (release, &holding, 3),
     ] {
-        assert_eq!(repertoire::actions(0, subgoal, state).len(), count, "{subgoal}");
+        assert_eq!(repertoire::actions(0, subgoal, state, false).len(), count, "{subgoal}");
     }
 }
 
@@ -111,7 +111,7 @@ fn rewards_follow_equation_1() {
     let (physique, routes, state) = (scene.physique(), Routes::new(scene.layout), scene.initial_state());
     let forward = Forward::new(&physique);
     let subgoal = achieve(Predicate::On(Entity::Agent(0), 1));
-    let objective = Objective { physique: &physique, routes: &routes, agent: 0, subgoal };
+    let objective = Objective { physique: &physique, routes: &routes, agent: 0, subgoal, retreat: None };
     let goals = [ON_2, OTHER_ON_0];
     for (attitude, social) in [(Attitude::Neutral, 1.0), (Attitude::Help, 1.0), (Attitude::Hinder, -1.0)] {
         for (action, cost) in [(Action::Stop, 0.0), (Action::Left, 0.02)] {
@@ -131,7 +131,7 @@ fn rewards_follow_equation_1() {
             let mut after = Imagined::new(&objective, state);
             let reward = model.rollout_step(&mut after, 0, &mut stream(1, Purpose::Search, 0)).reward;
             let mut by_hand = state;
-            forward.step(&mut by_hand, [action, Action::NoForce]);
+            forward.imagine(&mut by_hand, [action, Action::NoForce]);
             assert_eq!(*after.state(), by_hand);
             let distance = objective.distance(&by_hand);
             assert!((distance - 15.0).abs() < 0.7, "landmark 1 is 15 u above landmark 2: {distance}");

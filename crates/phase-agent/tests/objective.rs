@@ -36,8 +36,13 @@ fn state(agent: Vec2, angle: f32, other: Vec2, object: Vec2) -> State {
 /// Distance and point headed for, of agent 0.
 fn look(size: Size, state: &State, literal: Literal) -> (f32, Vec2) {
     let (physique, routes) = (physique(size), Routes::new(layout()));
-    let objective =
-        Objective { physique: &physique, routes: &routes, agent: 0, subgoal: Subgoal::Achieve(literal) };
+    let objective = Objective {
+        physique: &physique,
+        routes: &routes,
+        agent: 0,
+        subgoal: Subgoal::Achieve(literal),
+        retreat: None,
+    };
     (objective.distance(state), objective.course(state).heading_for)
 }
 
@@ -108,6 +113,16 @@ fn a_load_and_its_carrier_get_in_line_before_a_narrow_door() {
     for (_, heading) in ways {
         assert!(heading.distance(arena::LANDMARKS[2]) < 1e-3, "{heading}");
     }
+}
+
+#[test]
+fn with_a_wall_between_them_carrier_and_load_slide_to_the_door() {
+    let bring = Literal::is(Predicate::On(Entity::Object(0), 0));
+    let left = [10.5, 9.5, 8.5, 8.0].map(|x| {
+        let state = carrying(Vec2::new(x, 11.2), Vec2::Y);
+        look(Size::Small, &state, bring).0
+    });
+    assert!(left.is_sorted_by(|earlier, later| earlier > later), "{left:?}");
 }
 
 #[test]
