@@ -210,6 +210,16 @@ fn helpers_stay_out_of_the_way_when_not_needed() {
         ..plain()
     };
     assert_eq!(carrying.plan(0).first(), Subgoal::Stay);
+    // Who wants the very same and can do nothing for it leaves the door to the other.
+    let met = Setup {
+        layout: layout(4, None),
+        agents: [(Large, Weak, Vec2::new(7.25, 11.4)), (Small, Mighty, Vec2::new(8.0, 17.0))],
+        objects: vec![(Small, Vec2::new(8.0, 15.4))],
+        goals: [object_on(0, 3); 2],
+        holds: [None, Some(0)],
+        ..plain()
+    };
+    assert_eq!(met.plan(0).first().to_string(), "On(agent 0, landmark 3)");
 }
 
 #[test]
