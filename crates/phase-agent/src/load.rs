@@ -35,8 +35,21 @@ impl Objective<'_> {
         let arm = self.physique.radius(me) + self.physique.radius(mover);
         let lag = to_target(me) - to_target(mover) - arm;
         let remaining = remaining + PARTED * self.parted(state, mover);
+        let remaining = remaining + self.no_room_behind(state, mover, target);
         // Who has to push the load through a door alone must get behind it.
         remaining + if leads { lag.abs() } else { CARRIERS_SHARE * lag.max(0.0) }
+    }
+
+    /// How far outside the arena the agent would be with its load on a landmark if it held it on the side that it
+    /// does (u): a load pulled there by one who comes up against the wall behind does not arrive.
+    fn no_room_behind(&self, state: &State, load: Entity, target: Vec2) -> f32 {
+        let Subgoal::Achieve(Literal { predicate: Predicate::On(..), holds: true }) = self.subgoal else {
+            return 0.0;
+        };
+        let me = Entity::agent(self.agent);
+        let inset = Vec2::splat(self.physique.radius(me));
+        let place = target + state.position(me) - state.position(load);
+        place.distance(place.max(arena::MIN + inset).min(arena::MAX - inset))
     }
 
     /// How much longer than straight the way from the agent to what it holds is (u): with a wall between them

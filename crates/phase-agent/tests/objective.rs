@@ -126,6 +126,20 @@ fn with_a_wall_between_them_carrier_and_load_slide_to_the_door() {
 }
 
 #[test]
+fn a_load_is_not_pulled_to_its_place_from_where_there_is_no_room() {
+    let bring = Literal::is(Predicate::On(Entity::Object(0), 2));
+    // Landmark 2 is 2.5 u from the walls: a huge agent, 1.6 u, has no room beyond a load of 0.8 u.
+    let holding = |direction: Vec2| {
+        let load = arena::LANDMARKS[2] - Vec2::new(3.0, -3.0);
+        let mut state = state(load + direction * 2.4, 0.0, FAR, load);
+        state.grips[0] = Some(Grip { object: 0, side: Side::Head, relative_angle: 0.0 });
+        look(Size::Huge, &state, bring).0
+    };
+    let (before, beyond) = (holding(Vec2::Y), holding(Vec2::NEG_Y));
+    assert!((beyond - before - 1.5).abs() < 1e-3, "4.5 - 2.4 is 1.5 u short of 2 + 1.6: {before} {beyond}");
+}
+
+#[test]
 fn what_is_let_go_of_is_to_stay_there() {
     let release = Literal::not(Predicate::Attach(0, 0));
     let mut held = state(Vec2::new(20.0, 8.0), 0.0, FAR, Vec2::new(20.0, 9.6));
