@@ -126,7 +126,7 @@ fn rewards_follow_equation_1() {
                 attitude,
                 discount: 0.95,
                 guidance: 0.0,
-                foresight: Foresight::Exact,
+                foresight: Foresight::Coarse,
             };
             let mut after = Imagined::new(&objective, state);
             let reward = model.rollout_step(&mut after, 0, &mut stream(1, Purpose::Search, 0)).reward;
