@@ -26,6 +26,8 @@ pub enum Command {
     GenDataset(GenDataset),
     /// Simulate the scenes of a phase-events/1 file, each from its first row
     Simulate(Simulate),
+    /// Check that a dataset is whole: every checksum, no file too many, and that its files agree
+    Verify(Verify),
     /// Turn events into videos, or into pictures of their key frames
     Render(Render),
     /// Hold an engine of the physics against recorded motion
@@ -57,6 +59,14 @@ pub struct GenDataset {
     /// How many events at once.
     #[command(flatten)]
     pub jobs: Jobs,
+}
+
+/// Options of `verify`.
+#[derive(Args, Debug)]
+pub struct Verify {
+    /// Folder of a finished dataset
+    #[arg(value_name = "DIR")]
+    pub folder: PathBuf,
 }
 
 /// Options of `simulate`.

@@ -1,7 +1,9 @@
 //! Every way in which a command can fail, and its exit code.
 
 use phase_calibration::ReadError;
-use phase_dataset::{FileError, WriteError, folder::FolderError, phase_events::NotFinite};
+use phase_dataset::{
+    FileError, WriteError, folder::FolderError, parquet::ExportError, phase_events::NotFinite,
+};
 use phase_render::RenderError;
 use phase_sampler::SampleError;
 use phase_sim::SimulationError;
@@ -101,12 +103,32 @@ pub enum CliError {
         /// Why.
         reason: String,
     },
+    /// A dataset is not what its manifest says; the problems have been told.
+    #[error("{}: {problems} problem(s)", folder.display())]
+    NotWhole {
+        /// The dataset.
+        folder: PathBuf,
+        /// How many.
+        problems: usize,
+    },
+    /// A dataset has no manifest because its run was broken off.
+    #[error("{}: is unfinished; the command that began it goes on from there", .0.display())]
+    Unfinished(PathBuf),
     /// Tidy found something.
     #[error("{0} rule(s) broken")]
     Untidy(usize),
     /// The user broke off.
     #[error("interrupted; what is finished is kept in {}, and the same command goes on from there", .0.display())]
     Interrupted(PathBuf),
+}
+
+impl From<ExportError> for CliError {
+    fn from(error: ExportError) -> Self {
+        match error {
+            ExportError::Read(error) => Self::ReadBack(error),
+            ExportError::Write(error) => Self::Write(error),
+        }
+    }
 }
 
 impl CliError {
@@ -123,6 +145,8 @@ impl CliError {
             | Self::UnknownPreset { .. }
             | Self::UnknownId { .. }
             | Self::NotADataset(_)
+            | Self::NotWhole { .. }
+            | Self::Unfinished(_)
             | Self::Usage(_) => 2,
             Self::Interrupted(_) => 130,
             Self::Simulation { .. }

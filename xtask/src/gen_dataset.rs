@@ -12,11 +12,13 @@ use crate::{
 use phase_agent::Foresight;
 use phase_dataset::{
     atomic,
-    card::card,
+    card::{self, CARD_FILE, card},
     checksum::FileEntry,
+    croissant::{CROISSANT_FILE, croissant},
     folder::{self, Contents, Folder},
-    gallery::{self, Timeline},
+    gallery::{self, PAGE_FILE, Timeline},
     manifest::{DATASET_FORMAT, EventEntry, MANIFEST_FILE, Manifest, event_path, video_path},
+    parquet,
     preset::Preset,
 };
 use phase_sim::{Engine, Settings};
@@ -25,8 +27,6 @@ use std::path::{Path, PathBuf};
 
 /// The presets that come with the program.
 const PRESETS: [(&str, &str); 1] = [("demo", include_str!("../../data/presets/demo.json"))];
-const PAGE_FILE: &str = "index.html";
-const CARD_FILE: &str = "README.md";
 
 /// Runs the command.
 ///
@@ -47,11 +47,14 @@ pub fn run(arguments: &GenDataset) -> Result<(), CliError> {
     let folder = Folder::claim(&out, &plan.run())?;
     folder.subfolder("events")?;
     folder.subfolder("videos")?;
+    folder.subfolder(parquet::FOLDER)?;
     let production = Production::new(&folder, plan.settings, plan.count);
     let made = make_all(&arguments.jobs, plan.count, |index| plan.make(&production, folder.path(), index))?;
     drop(production);
     let Some(made) = made else { return Err(CliError::Interrupted(out)) };
-    plan.complete(&folder, made)?;
+    if !plan.complete(&folder, made)? {
+        return Err(CliError::Interrupted(out));
+    }
     folder.finish()?;
     tell(format!("{} events in {}", plan.count, out.display()));
     tell(format!("open {} to watch them", out.join(PAGE_FILE).display()));
@@ -136,8 +139,9 @@ impl Plan {
         Ok(Some((entry, Timeline::of(&event))))
     }
 
-    /// Writes what describes the whole; the manifest last, since with it the dataset is complete.
-    fn complete(&self, folder: &Folder, made: Vec<(EventEntry, Timeline)>) -> Result<(), CliError> {
+    /// Writes what belongs to no single event; the manifest last, since with it the dataset is complete. False if it
+    /// was interrupted.
+    fn complete(&self, folder: &Folder, made: Vec<(EventEntry, Timeline)>) -> Result<bool, CliError> {
         let (events, timelines): (Vec<EventEntry>, Vec<Timeline>) = made.into_iter().unzip();
         let mut manifest = Manifest {
             format: DATASET_FORMAT.into(),
@@ -149,14 +153,26 @@ impl Plan {
             files: Vec::new(),
         };
         let out = folder.path();
-        let described =
-            [(PAGE_FILE, gallery::page(&manifest, &timelines)), (CARD_FILE, card(&manifest, &self.command))];
-        for (name, text) in described {
-            atomic::write(&out.join(name), text.as_bytes())?;
-            manifest.files.push(FileEntry::of(out, name).map_err(CliError::ReadBack)?);
-        }
-        Ok(atomic::write(&out.join(MANIFEST_FILE), manifest.to_json().as_bytes())?)
+        let Some(files) = parquet::export(out, &manifest.events, &interrupt::requested)? else {
+            return Ok(false);
+        };
+        manifest.files = files;
+        let page = gallery::page(&manifest, &timelines);
+        describe(out, &mut manifest, PAGE_FILE, &page)?;
+        let text = card(&manifest, &self.command);
+        describe(out, &mut manifest, CARD_FILE, &text)?;
+        let text = croissant(&manifest, card::about());
+        describe(out, &mut manifest, CROISSANT_FILE, &text)?;
+        atomic::write(&out.join(MANIFEST_FILE), manifest.to_json().as_bytes())?;
+        Ok(true)
     }
+}
+
+/// Writes a file that belongs to no single event, and has the manifest name it.
+fn describe(out: &Path, manifest: &mut Manifest, name: &str, text: &str) -> Result<(), CliError> {
+    atomic::write(&out.join(name), text.as_bytes())?;
+    manifest.files.push(FileEntry::of(out, name).map_err(CliError::ReadBack)?);
+    Ok(())
 }
 
 fn run_value(preset: &str, events: usize, seed: u64, generator: &str, settings: &Value) -> Value {

@@ -1,6 +1,7 @@
 //! The PHASE command line.
 //!
 //! - `gen-dataset` makes social events from a preset and a seed,
+//! - `verify` checks that a dataset is whole,
 //! - `simulate` plays the scenes of a `phase-events/1` file,
 //! - `render` turns events into videos and pictures,
 //! - `check-physics` holds an engine against recorded motion,
@@ -31,6 +32,7 @@ pub mod render;
 pub mod simulate;
 pub mod source;
 pub mod tidy;
+pub mod verify;
 
 use clap::Parser;
 use cli::{Cli, Command};
@@ -67,6 +69,7 @@ pub fn main_with(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 pub fn run(command: Command) -> Result<(), CliError> {
     match command {
         Command::GenDataset(arguments) => gen_dataset::run(&arguments),
+        Command::Verify(arguments) => verify::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Render(arguments) => render::run(&arguments),
         Command::CheckPhysics(arguments) => check_physics::run(&arguments),

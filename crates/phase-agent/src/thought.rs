@@ -43,4 +43,17 @@ impl Thought {
     /// The thought of an agent that does nothing.
     pub const IDLE: Self =
         Self { subgoal: Subgoal::Stay, subgoals: Vec::new(), plan: Vec::new(), actions: Vec::new() };
+
+    /// What the particles say about the subgoal pursued; `None` if none of them proposed it.
+    #[must_use]
+    pub fn pursued(&self) -> Option<&SubgoalValue> {
+        self.subgoals.iter().find(|proposed| proposed.subgoal == self.subgoal)
+    }
+
+    /// The share of particles that propose the subgoal pursued, 0 to 1.
+    #[must_use]
+    pub fn share(&self) -> f32 {
+        let particles: usize = self.subgoals.iter().map(|proposed| proposed.particles).sum();
+        self.pursued().map_or(0.0, |proposed| proposed.particles as f32 / particles.max(1) as f32)
+    }
 }

@@ -69,9 +69,29 @@ pub enum Problem {
     /// Its size or checksum is not the one in the manifest.
     #[error("differs in {0} from what its manifest says")]
     Altered(&'static str),
+    /// It is no Parquet file, or a damaged one.
+    #[error("is no whole Parquet file: {0}")]
+    Parquet(String),
+    /// A Parquet file says something else than the event's own file or the manifest.
+    #[error("event {event}: column `{column}` differs from the event's own file or the manifest")]
+    Disagrees {
+        /// The event's `id`.
+        event: String,
+        /// The first column that differs.
+        column: &'static str,
+    },
     /// A manifest names a path that leads out of its folder.
     #[error("lies outside of the dataset's folder")]
     OutsideFolder,
+    /// A finished dataset must have it, but its manifest does not name it.
+    #[error("is not in the manifest, but every dataset has it")]
+    Unlisted,
+    /// It lies in a dataset's folder, but the manifest does not name it.
+    #[error("is not in the manifest")]
+    Extra,
+    /// A manifest names a file twice.
+    #[error("names {0} more than once")]
+    DuplicatePath(String),
     /// There is nothing in it to work on.
     #[error("field `events` must hold at least one event")]
     NoEvents,

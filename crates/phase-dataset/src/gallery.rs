@@ -12,6 +12,8 @@ use phase_sim::Event;
 use serde_json::json;
 use std::fmt::Write as _;
 
+/// The page's file name.
+pub const PAGE_FILE: &str = "index.html";
 /// How long a step is shown (s).
 const SECONDS_PER_STEP: f64 = SUBSTEPS as f64 / FRAMES_PER_SECOND as f64;
 const PAGE: &str = include_str!("../assets/page.html");

@@ -3,6 +3,7 @@
 //! - [`phase_events`] reads and writes the exchange format `phase-events/1`, of measured recordings and of
 //!   simulated events alike.
 //! - [`manifest`], [`gallery`] and [`card`] describe a generated dataset to programs and to people.
+//! - [`parquet`] and [`croissant`] are for everyone else's tools; [`mod@verify`] checks that all of it agrees.
 //! - [`summary`] compares simulations with recordings.
 //! - [`atomic`], [`folder`] and [`cache`] let a run be interrupted at any moment and nothing be half-written.
 //!
@@ -20,14 +21,18 @@ pub mod atomic;
 pub mod cache;
 pub mod card;
 pub mod checksum;
+pub mod croissant;
 pub mod error;
 pub mod folder;
 pub mod gallery;
 pub mod json;
 pub mod manifest;
+pub mod parquet;
 pub mod phase_events;
 pub mod preset;
+pub mod split;
 pub mod summary;
+pub mod verify;
 pub mod words;
 
 pub use error::{FieldError, FileError, Problem, WriteError};

@@ -1,6 +1,6 @@
 //! `manifest.json`: what a dataset holds, how it was made, and the checksum of every file.
 
-use crate::{FileError, Problem, checksum::FileEntry, json, phase_events};
+use crate::{FileError, Problem, checksum::FileEntry, json, phase_events, split::Split};
 use phase_evidence::{Outcome, Track};
 use phase_model::{AGENT_COUNT, EventKind, Goal, Relation};
 use phase_sim::Event;
@@ -43,6 +43,9 @@ pub struct EventEntry {
     pub kind: EventKind,
     /// The relation that follows from goals and attitudes.
     pub relation: Relation,
+    /// Which part of the dataset it is in, if the dataset is divided.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub split: Option<Split>,
     /// The event's own seed.
     pub seed: u64,
     /// Where the walls stand.
@@ -93,6 +96,13 @@ impl EventEntry {
     /// # Errors
     /// If a file cannot be read.
     pub fn of(folder: &Path, id: &str, event: &Event) -> Result<Self, FileError> {
+        let files = [FileEntry::of(folder, event_path(id))?, FileEntry::of(folder, video_path(id))?];
+        Ok(Self::with_files(id, event, files))
+    }
+
+    /// Describes an event whose files, its JSON and its video, are described already.
+    #[must_use]
+    pub fn with_files(id: &str, event: &Event, files: [FileEntry; 2]) -> Self {
         let scene = &event.scene;
         let track = Track::of_event(event);
         let agent = |k: usize| {
@@ -107,18 +117,26 @@ impl EventEntry {
                 steps_to_goal: outcome.steps,
             }
         };
-        Ok(Self {
+        let [json, video] = files;
+        Self {
             id: id.into(),
             kind: scene.kind,
             relation: scene.relation(),
+            split: None,
             seed: event.seed,
             layout: LayoutEntry { base: scene.layout.base(), flip: scene.layout.flip().map(u8::from) },
             agents: core::array::from_fn(agent),
             object_size_levels: scene.objects.iter().map(|object| object.size.level()).collect(),
             steps: event.steps.len(),
-            event: FileEntry::of(folder, event_path(id))?,
-            video: FileEntry::of(folder, video_path(id))?,
-        })
+            event: json,
+            video,
+        }
+    }
+
+    /// The part of the dataset it is in; a dataset that is not divided is all for training.
+    #[must_use]
+    pub fn split(&self) -> Split {
+        self.split.unwrap_or(Split::Train)
     }
 }
 

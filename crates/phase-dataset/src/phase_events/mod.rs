@@ -13,6 +13,8 @@ mod write;
 
 pub(crate) use read::check_format;
 pub use read::{LONGEST_ID, parse, read};
+pub(crate) use recording::substep_row;
 pub use recording::{COLUMNS, Recording, Recovered, Row, SUBSTEP_COLUMNS, Simulation, Trajectory};
 pub use subgoals::subgoal_of;
+pub(crate) use write::pairs_in_contact;
 pub use write::{FILE_FORMAT, NotFinite, to_json};

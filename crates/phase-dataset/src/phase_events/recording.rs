@@ -13,6 +13,9 @@ pub const SUBSTEP_COLUMNS: [&str; 6] = ["x", "y", "vx", "vy", "angle", "angular_
 /// Position (u), velocity (u/s) and angle (rad) of one entity at one step, in the order of [`COLUMNS`].
 pub type Row = [f32; COLUMNS.len()];
 
+/// The same and the angular velocity (rad/s), in the order of [`SUBSTEP_COLUMNS`].
+pub(crate) type SubstepRow = [f32; SUBSTEP_COLUMNS.len()];
+
 /// Where every entity was: `agents[i][t]` and `objects[k][t]`, all of one length, which is at least 1.
 /// Row 0 is the initial state; row t ≥ 1 is the mean over the five substeps of step t.
 #[derive(Clone, PartialEq, Debug, Default)]
@@ -129,6 +132,12 @@ impl Recording {
 /// The columns of a body.
 fn row_of(body: &Body) -> Row {
     [body.position.x, body.position.y, body.velocity.x, body.velocity.y, body.angle]
+}
+
+/// The columns of a body in a substep.
+pub(crate) fn substep_row(body: &Body) -> SubstepRow {
+    let [x, y, vx, vy, angle] = row_of(body);
+    [x, y, vx, vy, angle, body.angular_velocity]
 }
 
 /// The body of a row; its angular velocity is unknown and taken to be 0.

@@ -1,6 +1,9 @@
 //! From recordings to a file.
 
-use super::{COLUMNS, Recording, Row, SUBSTEP_COLUMNS, Simulation};
+use super::{
+    COLUMNS, Recording, Row, SUBSTEP_COLUMNS, Simulation,
+    recording::{SubstepRow, substep_row},
+};
 use phase_agent::Thought;
 use phase_model::{
     AGENT_COUNT, AgentSpec, Contacts, Entity, Goal, MAX_ENTITIES, ObjectSpec, State, arena,
@@ -87,18 +90,14 @@ fn add_simulation(lines: &mut Lines, simulation: &Simulation) {
     let subgoals: Vec<_> =
         each_thought().map(|pair| pair.map(|thought| thought.subgoal.to_string())).collect();
     lines.add("subgoals", &subgoals);
-    lines.add("values", &each_thought().map(|pair| pair.map(value_of)).collect::<Vec<_>>());
+    lines.add(
+        "values",
+        &each_thought()
+            .map(|pair| pair.map(|thought| thought.pursued().map(|proposed| proposed.value)))
+            .collect::<Vec<_>>(),
+    );
     lines.add("substeps", &Substeps::of(simulation));
     lines.add("thoughts", &each_thought().map(|pair| pair.map(ThoughtFields::of)).collect::<Vec<_>>());
-}
-
-/// V of the subgoal pursued, if any particle proposed it.
-fn value_of(thought: &Thought) -> Option<f64> {
-    thought
-        .subgoals
-        .iter()
-        .find(|proposed| proposed.subgoal == thought.subgoal)
-        .map(|proposed| proposed.value)
 }
 
 fn is_finite(recording: &Recording) -> bool {
@@ -184,8 +183,8 @@ impl ThoughtFields {
 #[derive(Serialize)]
 struct Substeps {
     columns: [&'static str; SUBSTEP_COLUMNS.len()],
-    agents: Vec<Vec<[f32; SUBSTEP_COLUMNS.len()]>>,
-    objects: Vec<Vec<[f32; SUBSTEP_COLUMNS.len()]>>,
+    agents: Vec<Vec<SubstepRow>>,
+    objects: Vec<Vec<SubstepRow>>,
     grips: Vec<(usize, [Option<phase_model::Grip>; AGENT_COUNT])>,
     contacts: Vec<(usize, Vec<[usize; 2]>)>,
 }
@@ -193,15 +192,7 @@ struct Substeps {
 impl Substeps {
     fn of(simulation: &Simulation) -> Self {
         let event = &simulation.event;
-        let track = |entity: usize| {
-            let bodies = event.frames().map(|state| state.bodies[entity]);
-            bodies
-                .map(|body| {
-                    let (position, velocity) = (body.position, body.velocity);
-                    [position.x, position.y, velocity.x, velocity.y, body.angle, body.angular_velocity]
-                })
-                .collect()
-        };
+        let track = |entity: usize| event.frames().map(|state| substep_row(&state.bodies[entity])).collect();
         let count = event.scene.physique().entity_count();
         Self {
             columns: SUBSTEP_COLUMNS,
@@ -224,7 +215,8 @@ fn changes<T: PartialEq>(values: impl Iterator<Item = T>) -> Vec<(usize, T)> {
     changes
 }
 
-fn pairs_in_contact(state: &State) -> Vec<[usize; 2]> {
+/// The pairs in contact, entities by their index.
+pub(crate) fn pairs_in_contact(state: &State) -> Vec<[usize; 2]> {
     let contacts: Contacts = state.contacts;
     let pairs = (0..MAX_ENTITIES).flat_map(|a| (a + 1..MAX_ENTITIES).map(move |b| [a, b]));
     pairs.filter(|pair| contacts.touching(Entity::from_index(pair[0]), Entity::from_index(pair[1]))).collect()

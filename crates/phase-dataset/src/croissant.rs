@@ -1,0 +1,114 @@
+//! `croissant.json`: the dataset in the vocabulary Croissant 1.0, for search engines and loaders.
+
+use crate::{
+    checksum::FileEntry,
+    manifest::Manifest,
+    parquet::{self, Description, Part},
+};
+use serde_json::{Value, json};
+
+/// The file's name.
+pub const CROISSANT_FILE: &str = "croissant.json";
+
+/// The description of a dataset whose Parquet files are described in its manifest: every file that belongs to no single
+/// event with its checksum, and a record set for each Parquet file. The manifest itself, which is written
+/// later, has the checksums of the events' own files.
+#[must_use]
+pub fn croissant(manifest: &Manifest, about: &str) -> String {
+    let parts = parquet::parts(&manifest.events);
+    let columns = parquet::descriptions();
+    let value = json!({
+        "@context": context(),
+        "@type": "sc:Dataset",
+        "conformsTo": "http://mlcommons.org/croissant/1.0",
+        "name": name(manifest),
+        "description": about,
+        "license": ["https://spdx.org/licenses/MIT", "https://spdx.org/licenses/Apache-2.0"],
+        "version": "1.0.0",
+        "citeAs": "Netanyahu, Shu, Katz, Barbu and Tenenbaum: PHASE: PHysically-grounded Abstract Social Events \
+                   for Machine Social Perception. AAAI 2021.",
+        "creator": {"@type": "sc:Organization", "name": manifest.generator},
+        "distribution": manifest.files.iter().map(file).collect::<Vec<_>>(),
+        "recordSet": parts.iter().map(|part| record_set(part, &parts, &columns)).collect::<Vec<_>>(),
+    });
+    // Writing plain data of ours to a string cannot fail.
+    let text = serde_json::to_string_pretty(&value).unwrap_or_default();
+    format!("{text}\n")
+}
+
+/// The files with checksums in a description, for checking them against the manifest.
+#[must_use]
+pub fn checksums(description: &Value) -> Vec<(&str, &str)> {
+    let files = description.get("distribution").and_then(Value::as_array).into_iter().flatten();
+    files
+        .filter_map(|file| Some((file.get("contentUrl")?.as_str()?, file.get("sha256")?.as_str()?)))
+        .collect()
+}
+
+fn name(manifest: &Manifest) -> String {
+    format!("{}-seed{}", manifest.preset, manifest.seed)
+}
+
+fn file(entry: &FileEntry) -> Value {
+    let format = match entry.path.rsplit('.').next() {
+        Some("parquet") => "application/x-parquet",
+        Some("html") => "text/html",
+        Some("md") => "text/markdown",
+        Some("json") => "application/json",
+        _ => "application/octet-stream",
+    };
+    json!({
+        "@type": "cr:FileObject", "@id": entry.path, "name": entry.path, "contentUrl": entry.path,
+        "contentSize": format!("{} B", entry.bytes), "encodingFormat": format, "sha256": entry.sha256,
+    })
+}
+
+/// The events of one file; named after the split, and the file's number if the split has several.
+fn record_set(part: &Part<'_>, parts: &[Part<'_>], columns: &[Description]) -> Value {
+    let same: Vec<&Part<'_>> = parts.iter().filter(|other| other.split == part.split).collect();
+    let number = same.iter().position(|other| other.path == part.path).unwrap_or_default();
+    let split = part.split.name();
+    let name = if same.len() == 1 { split.to_owned() } else { format!("{split}-{number:05}") };
+    let field = |column: &Description| field(&name, &part.path, column);
+    json!({
+        "@type": "cr:RecordSet", "@id": name, "name": name, "key": {"@id": format!("{name}/id")},
+        "description": format!("{} events, one a record", part.events.len()),
+        "field": columns.iter().map(field).collect::<Vec<_>>(),
+    })
+}
+
+fn field(record_set: &str, path: &str, column: &Description) -> Value {
+    let data_type = match column.kind {
+        "string" => "sc:Text",
+        "bool" => "sc:Boolean",
+        "float32" | "float64" => "sc:Float",
+        _ => "sc:Integer",
+    };
+    let id = format!("{record_set}/{}", column.name);
+    let mut field = json!({
+        "@type": "cr:Field", "@id": id, "name": id, "description": column.sentence(), "dataType": data_type,
+        "source": {"fileObject": {"@id": path}, "extract": {"column": column.name}},
+    });
+    if !column.shape.is_empty() {
+        field["repeated"] = true.into();
+    }
+    field
+}
+
+/// The context that the standard prescribes.
+fn context() -> Value {
+    json!({
+        "@language": "en", "@vocab": "https://schema.org/", "citeAs": "cr:citeAs", "column": "cr:column",
+        "conformsTo": "dct:conformsTo", "cr": "http://mlcommons.org/croissant/",
+        "rai": "http://mlcommons.org/croissant/RAI/", "data": {"@id": "cr:data", "@type": "@json"},
+        "dataType": {"@id": "cr:dataType", "@type": "@vocab"}, "dct": "http://purl.org/dc/terms/",
+        "examples": {"@id": "cr:examples", "@type": "@json"}, "extract": "cr:extract", "field": "cr:field",
+        "fileProperty": "cr:fileProperty", "fileObject": "cr:fileObject", "fileSet": "cr:fileSet",
+        "format": "cr:format", "includes": "cr:includes", "isLiveDataset": "cr:isLiveDataset",
+        "jsonPath": "cr:jsonPath", "key": "cr:key", "md5": "cr:md5", "parentField": "cr:parentField",
+        "path": "cr:path", "recordSet": "cr:recordSet", "references": "cr:references", "regex": "cr:regex",
+        "repeated": "cr:repeated", "replace": "cr:replace", "sc": "https://schema.org/",
+        "separator": "cr:separator", "source": "cr:source", "subField": "cr:subField",
+        "transform": "cr:transform",
+    })
+}

@@ -1,0 +1,53 @@
+//! Checking that a file still says what the event files say.
+
+use super::{Part, columns, push, read, schema};
+use crate::{FileError, Problem, error::plain_reason};
+use parquet::{
+    errors::ParquetError,
+    file::reader::{FileReader, SerializedFileReader},
+};
+use std::{fs::File, path::Path};
+
+/// Compares a Parquet file with the event files it was made from, column by column.
+///
+/// # Errors
+/// If a file cannot be read, if the Parquet file has other columns or another number of rows, or if a value in it
+/// differs; then the event and the column are named.
+pub fn compare(folder: &Path, part: &Part<'_>) -> Result<(), FileError> {
+    let path = folder.join(&part.path);
+    let fail = |problem| FileError { file: path.clone(), problem };
+    let broken = |error: ParquetError| fail(Problem::Parquet(error.to_string()));
+    let file = File::open(&path).map_err(|error| fail(Problem::Unreadable(plain_reason(&error))))?;
+    let reader = SerializedFileReader::new(file).map_err(broken)?;
+    let mut columns = columns::all();
+    let expected = schema(&columns).map_err(broken)?;
+    let about = reader.metadata().file_metadata();
+    if about.schema() != expected.as_ref() {
+        return Err(fail(Problem::Shape { what: "Parquet file", rule: "its columns are others".into() }));
+    }
+    let other_count = |found: &dyn core::fmt::Display| {
+        let rule = format!("it holds {found} events instead of {}", part.events.len());
+        fail(Problem::Shape { what: "Parquet file", rule })
+    };
+    if usize::try_from(about.num_rows()) != Ok(part.events.len()) {
+        return Err(other_count(&about.num_rows()));
+    }
+    let mut first = 0;
+    for k in 0..reader.num_row_groups() {
+        let group = reader.get_row_group(k).map_err(broken)?;
+        let count = usize::try_from(group.metadata().num_rows()).unwrap_or_default();
+        for index in first..(first + count).min(part.events.len()) {
+            let entry = part.events[index];
+            push(&mut columns, folder, entry, &read(folder, entry)?)?;
+        }
+        for (c, column) in columns.iter_mut().enumerate() {
+            let reader = group.get_column_reader(c).map_err(broken)?;
+            if let Some(event) = column.compare(reader).map_err(broken)? {
+                let event = part.events.get(first + event).map_or_else(String::new, |entry| entry.id.clone());
+                return Err(fail(Problem::Disagrees { event, column: column.description().name }));
+            }
+        }
+        first += count;
+    }
+    if first == part.events.len() { Ok(()) } else { Err(other_count(&first)) }
+}

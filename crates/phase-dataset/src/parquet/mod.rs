@@ -1,0 +1,98 @@
+//! A dataset's events as Parquet, one row an event, for pandas, `datasets` and whatever else reads columns.
+//!
+//! [`export`] writes them from the event files, [`compare`] checks that they still say the same, and
+//! [`descriptions`] says what every column holds. `docs/formats.md` has the same table.
+//!
+//! The key design decision is that a column's type is a Rust type: lists within lists of numbers become both the
+//! file's schema and its levels, without a library of arrays in between, and comparing is writing without a
+//! file. The price is that only what [`cell`] knows can be a column.
+
+mod cell;
+mod column;
+mod columns;
+mod compare;
+mod export;
+mod row;
+
+pub use column::Description;
+pub use columns::descriptions;
+pub use compare::compare;
+pub use export::{ExportError, export};
+
+use crate::{FieldError, FileError, Problem, manifest::EventEntry, phase_events, split::Split};
+use ::parquet::{errors::Result, schema::types::Type};
+use column::Column;
+use phase_events::Recording;
+use row::Row;
+use std::{path::Path, sync::Arc};
+
+/// Folder of the files within a dataset.
+pub const FOLDER: &str = "data";
+/// The most events in a file; more make more files. With all columns that is about 200 MB.
+pub const EVENTS_PER_FILE: usize = 5000;
+/// Events that are written, and held in memory, at once.
+const EVENTS_PER_GROUP: usize = 50;
+
+/// One file and the events in it, in order.
+#[derive(Debug)]
+pub struct Part<'a> {
+    /// Path relative to the dataset's folder, with `/`, such as `data/train-00000-of-00001.parquet`.
+    pub path: String,
+    /// Which part of the dataset.
+    pub split: Split,
+    /// The events, at least one and at most [`EVENTS_PER_FILE`].
+    pub events: Vec<&'a EventEntry>,
+}
+
+/// The files that a dataset's events go to: by split, and in the manifest's order within it.
+#[must_use]
+pub fn parts(events: &[EventEntry]) -> Vec<Part<'_>> {
+    let mut parts = Vec::new();
+    for split in Split::ALL {
+        let chosen: Vec<&EventEntry> = events.iter().filter(|event| event.split() == split).collect();
+        let files = chosen.len().div_ceil(EVENTS_PER_FILE);
+        for (k, events) in chosen.chunks(EVENTS_PER_FILE).enumerate() {
+            let path = format!("{FOLDER}/{}-{k:05}-of-{files:05}.parquet", split.name());
+            parts.push(Part { path, split, events: events.to_vec() });
+        }
+    }
+    parts
+}
+
+/// The schema of a file with these columns.
+fn schema(columns: &[Box<dyn Column>]) -> Result<Arc<Type>> {
+    let fields = columns.iter().map(|column| Ok(Arc::new(column.schema()?))).collect::<Result<Vec<_>>>()?;
+    Ok(Arc::new(Type::group_type_builder("schema").with_fields(fields).build()?))
+}
+
+/// Reads the event of an entry.
+pub(crate) fn read(folder: &Path, entry: &EventEntry) -> std::result::Result<Recording, FileError> {
+    let file = folder.join(&entry.event.path);
+    let recordings = phase_events::read(&file)?;
+    let count = recordings.len();
+    match <[Recording; 1]>::try_from(recordings) {
+        Ok([recording]) => Ok(recording),
+        Err(_) => Err(not_whole(file, None, "events", format!("must hold one event, not {count}"))),
+    }
+}
+
+/// Takes an event up into all columns.
+fn push(
+    columns: &mut [Box<dyn Column>],
+    folder: &Path,
+    entry: &EventEntry,
+    recording: &Recording,
+) -> std::result::Result<(), FileError> {
+    let Some(simulation) = &recording.simulation else {
+        let file = folder.join(&entry.event.path);
+        return Err(not_whole(file, Some(&recording.id), "substeps", "is missing".into()));
+    };
+    let row = Row { entry, recording, simulation };
+    columns.iter_mut().for_each(|column| column.push(&row));
+    Ok(())
+}
+
+fn not_whole(file: std::path::PathBuf, event: Option<&str>, field: &str, rule: String) -> FileError {
+    let problem = FieldError { field: field.into(), rule };
+    FileError { file, problem: Problem::Field { event: event.map(String::from), problem } }
+}

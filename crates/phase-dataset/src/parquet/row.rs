@@ -1,0 +1,98 @@
+//! One event as the values of its columns.
+
+use crate::{
+    manifest::EventEntry,
+    phase_events::{Recording, Simulation, pairs_in_contact, substep_row},
+    words,
+};
+use phase_model::{AGENT_COUNT, AgentSpec, Goal, State};
+use phase_sim::{Event, Step};
+
+/// An event, with what the manifest says beside its file.
+pub(super) struct Row<'a> {
+    pub(super) entry: &'a EventEntry,
+    pub(super) recording: &'a Recording,
+    pub(super) simulation: &'a Simulation,
+}
+
+impl Row<'_> {
+    pub(super) const fn event(&self) -> &Event {
+        &self.simulation.event
+    }
+
+    fn entities(&self) -> usize {
+        AGENT_COUNT + self.recording.scene.objects.len()
+    }
+
+    pub(super) fn of_agents<T>(&self, get: impl Fn(&AgentSpec) -> T) -> Vec<T> {
+        self.recording.scene.agents.iter().map(get).collect()
+    }
+
+    /// The goals as the end of the sentence "it wants to …".
+    pub(super) fn goal_words(&self) -> Vec<String> {
+        let goals = self.recording.scene.goals().into_iter().enumerate();
+        goals.map(|(agent, goal)| words::plain(&words::goal(agent, goal))).collect()
+    }
+
+    pub(super) fn walls(&self) -> Vec<Vec<f32>> {
+        let walls = self.recording.scene.layout.walls().into_iter();
+        walls.map(|wall| vec![wall.a.x, wall.a.y, wall.b.x, wall.b.y]).collect()
+    }
+
+    /// Rows by step, then entity.
+    pub(super) fn trajectory(&self) -> Vec<Vec<Vec<f32>>> {
+        let trajectory = &self.recording.trajectory;
+        let at =
+            |t: usize| trajectory.entities().filter_map(|rows| rows.get(t)).map(|row| row.to_vec()).collect();
+        (0..=trajectory.steps()).map(at).collect()
+    }
+
+    pub(super) fn of_steps<T>(&self, get: impl Fn(&Step, usize) -> T) -> Vec<Vec<T>> {
+        let both = |step: &Step| (0..AGENT_COUNT).map(|agent| get(step, agent)).collect();
+        self.event().steps.iter().map(both).collect()
+    }
+
+    /// Bodies by frame, then entity.
+    pub(super) fn substeps(&self) -> Vec<Vec<Vec<f32>>> {
+        let entities = self.entities();
+        let rows =
+            |state: &State| state.bodies[..entities].iter().map(|body| substep_row(body).to_vec()).collect();
+        self.event().frames().map(rows).collect()
+    }
+
+    /// What each agent holds, by frame.
+    pub(super) fn held(&self) -> Vec<Vec<Option<i32>>> {
+        let held = |state: &State| (0..AGENT_COUNT).map(|agent| number(state.held_object(agent))).collect();
+        self.event().frames().map(held).collect()
+    }
+
+    /// Pairs in contact by frame.
+    pub(super) fn contacts(&self) -> Vec<Vec<Vec<i32>>> {
+        let pairs = |state: &State| pairs_in_contact(state).into_iter();
+        let of_frame =
+            |state: &State| pairs(state).map(|pair| pair.map(|entity| entity as i32).to_vec()).collect();
+        self.event().frames().map(of_frame).collect()
+    }
+}
+
+/// The kind of a goal as in `phase-events/1`.
+pub(super) const fn goal_kind(goal: Goal) -> &'static str {
+    match goal {
+        Goal::AgentOnLandmark { .. } => "agent_on_landmark",
+        Goal::ObjectOnLandmark { .. } => "object_on_landmark",
+        Goal::Touch { .. } => "touch",
+    }
+}
+
+/// Whom the subject of a goal is to touch.
+pub(super) fn goal_other(goal: Goal) -> Option<i32> {
+    match goal {
+        Goal::Touch { other, .. } => Some(other.into()),
+        _ => None,
+    }
+}
+
+/// A number of something, which is always small.
+pub(super) fn number(index: Option<usize>) -> Option<i32> {
+    index.and_then(|index| i32::try_from(index).ok())
+}

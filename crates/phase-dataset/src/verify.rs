@@ -1,0 +1,162 @@
+//! Whether a dataset's folder holds what its manifest says, no more and no less, and whether its files agree with
+//! each other.
+
+use crate::{
+    FieldError, FileError, Problem,
+    card::CARD_FILE,
+    checksum::FileEntry,
+    croissant::{CROISSANT_FILE, checksums},
+    gallery::PAGE_FILE,
+    json,
+    manifest::{EventEntry, MANIFEST_FILE, Manifest},
+    parquet::{self, Part},
+};
+use serde_json::Value;
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    fs, io,
+    path::Path,
+};
+
+/// Everything that is wrong with a finished dataset, one error for each problem: files that are missing, changed or
+/// extra, and event files, Parquet files and descriptions that say something else than the manifest. What a
+/// file that is not whole says is not looked at. Files are read one after the other; besides the manifest, one
+/// group of events is in memory.
+#[must_use]
+pub fn verify(folder: &Path, manifest: &Manifest) -> Vec<FileError> {
+    let mut problems = Vec::new();
+    let files = listed(folder, manifest, &mut problems);
+    let mut broken: BTreeSet<&str> = BTreeSet::new();
+    for entry in files.values() {
+        if let Err(problem) = entry.verify(folder) {
+            broken.insert(&entry.path);
+            problems.push(problem);
+        }
+    }
+    extra(folder, folder, &files, &mut problems);
+    for entry in &manifest.events {
+        if !broken.contains(entry.event.path.as_str()) {
+            if let Err(problem) = event(folder, entry) {
+                broken.insert(&entry.event.path);
+                problems.push(problem);
+            }
+        }
+    }
+    let parts = parquet::parts(&manifest.events);
+    let described = [PAGE_FILE, CARD_FILE, CROISSANT_FILE].into_iter();
+    for path in described.chain(parts.iter().map(|part| part.path.as_str())) {
+        if !files.contains_key(path) {
+            problems.push(FileError { file: folder.join(path), problem: Problem::Unlisted });
+        }
+    }
+    let readable = |path: &str| files.contains_key(path) && !broken.contains(path);
+    if readable(CROISSANT_FILE) {
+        problems.extend(croissant(folder, &files).err());
+    }
+    let whole = |part: &&Part<'_>| {
+        readable(&part.path) && part.events.iter().all(|entry| readable(&entry.event.path))
+    };
+    problems.extend(parts.iter().filter(whole).filter_map(|part| parquet::compare(folder, part).err()));
+    problems
+}
+
+/// The files that the manifest names, by path; every path and every id may be named once.
+fn listed<'a>(
+    folder: &Path,
+    manifest: &'a Manifest,
+    problems: &mut Vec<FileError>,
+) -> BTreeMap<&'a str, &'a FileEntry> {
+    let mut fail = |problem| problems.push(FileError { file: folder.join(MANIFEST_FILE), problem });
+    let mut ids = BTreeSet::new();
+    for event in &manifest.events {
+        if !ids.insert(&event.id) {
+            fail(Problem::DuplicateId(event.id.clone()));
+        }
+    }
+    let mut files = BTreeMap::new();
+    let of_events = manifest.events.iter().flat_map(|event| [&event.event, &event.video]);
+    for file in of_events.chain(&manifest.files) {
+        if files.insert(file.path.as_str(), file).is_some() {
+            fail(Problem::DuplicatePath(file.path.clone()));
+        }
+    }
+    files
+}
+
+/// Files below a folder that the manifest does not name. Links are files here, so nothing outside is looked at.
+fn extra(root: &Path, folder: &Path, files: &BTreeMap<&str, &FileEntry>, problems: &mut Vec<FileError>) {
+    let entries = match fs::read_dir(folder).and_then(Iterator::collect::<io::Result<Vec<_>>>) {
+        Ok(entries) => entries,
+        Err(error) => {
+            let problem = Problem::Unreadable(crate::error::plain_reason(&error));
+            return problems.push(FileError { file: folder.to_owned(), problem });
+        }
+    };
+    let mut paths: Vec<_> = entries.iter().map(|entry| (entry.path(), entry.file_type())).collect();
+    paths.sort_by(|a, b| a.0.cmp(&b.0));
+    for (path, kind) in paths {
+        if kind.is_ok_and(|kind| kind.is_dir()) {
+            extra(root, &path, files, problems);
+            continue;
+        }
+        let parts = path.strip_prefix(root).unwrap_or(&path).components();
+        let name = parts.map(|part| part.as_os_str().to_string_lossy()).collect::<Vec<_>>().join("/");
+        if name != MANIFEST_FILE && !files.contains_key(name.as_str()) {
+            problems.push(FileError { file: path, problem: Problem::Extra });
+        }
+    }
+}
+
+/// Checks that an event's file says what the manifest says.
+fn event(folder: &Path, entry: &EventEntry) -> Result<(), FileError> {
+    let file = folder.join(&entry.event.path);
+    let recording = parquet::read(folder, entry)?;
+    let fail = |field: &str, rule: String| {
+        let problem = FieldError { field: field.into(), rule };
+        FileError {
+            file: file.clone(),
+            problem: Problem::Field { event: Some(recording.id.clone()), problem },
+        }
+    };
+    let Some(simulation) = &recording.simulation else {
+        return Err(fail("substeps", "is missing".into()));
+    };
+    let files = [entry.event.clone(), entry.video.clone()];
+    let mut found = EventEntry::with_files(&recording.id, &simulation.event, files);
+    found.relation = recording.relation;
+    found.split = entry.split;
+    let (Ok(found), Ok(expected)) = (serde_json::to_value(found), serde_json::to_value(entry)) else {
+        return Ok(());
+    };
+    let members = expected.as_object().into_iter().flatten();
+    match members.into_iter().find(|(key, value)| found.get(key.as_str()) != Some(value)) {
+        Some((key, value)) => {
+            let found = found.get(key).map_or_else(String::new, json::shown);
+            Err(fail(key, format!("is {found}, but the manifest says {}", json::shown(value))))
+        }
+        None => Ok(()),
+    }
+}
+
+/// Checks that the description's checksums are the manifest's.
+fn croissant(folder: &Path, files: &BTreeMap<&str, &FileEntry>) -> Result<(), FileError> {
+    let file = folder.join(CROISSANT_FILE);
+    let description: Value = json::read(&file)?;
+    let named = checksums(&description);
+    let differs = |path: &str, sum: &str| files.get(path).is_none_or(|entry| entry.sha256 != sum);
+    let wrong = named.iter().find(|(path, sum)| differs(path, sum)).map(|(path, _)| *path);
+    let is_data = |path: &&str| path.ends_with(".parquet") && !named.iter().any(|(named, _)| named == path);
+    match wrong.or_else(|| files.keys().copied().find(is_data)) {
+        Some(path) => {
+            let problem = Problem::Field {
+                event: None,
+                problem: FieldError {
+                    field: "distribution".into(),
+                    rule: format!("does not give the checksum of {path} that the manifest gives"),
+                },
+            };
+            Err(FileError { file, problem })
+        }
+        None => Ok(()),
+    }
+}
