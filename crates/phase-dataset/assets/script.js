@@ -1,7 +1,7 @@
 "use strict";
 const FRAMES_PER_SECOND = 20;
 const FRAMES_PER_STEP = 5;
-const subgoals = JSON.parse(document.getElementById("subgoals").textContent);
+const { texts, events } = JSON.parse(document.getElementById("timelines").textContent);
 const cards = [...document.querySelectorAll(".card")];
 const NAMES = {
   "agent 0": "red agent", "agent 1": "green agent", "object 0": "blue object", "object 1": "pink object",
@@ -23,34 +23,81 @@ function write(place, text) {
   place.replaceChildren(...pieces);
 }
 
-// Frame 0 is the start; each step takes the five frames after it.
-function show(card) {
-  const time = card.querySelector("video").currentTime;
-  const frame = Math.floor(time * FRAMES_PER_SECOND + 0.01);
-  const step = Math.max(0, Math.floor((frame - 1) / FRAMES_PER_STEP));
-  const timeline = subgoals[card.dataset.id] || [];
-  timeline.forEach((changes, agent) => {
-    const now = changes.filter(([from]) => from <= step).pop();
-    const place = card.querySelector(`[data-agent="${agent}"] .subgoal`);
-    if (place) write(place, now ? now[1] : "–");
+// A track of the table as one entry a step: the subgoal's place in the texts and the share of particles.
+function unroll([changes, shares]) {
+  let text = 0;
+  return [...shares].map((digit, step) => {
+    for (let k = 0; k < changes.length; k += 2) if (changes[k] === step) text = changes[k + 1];
+    return { text, share: parseInt(digit, 36) / 35 };
   });
-  card.querySelector(".player input").value = time;
-  card.querySelector(".player output").textContent = `${time.toFixed(1)} s`;
+}
+
+// Frame 0 is the start; each step takes the five frames after it.
+const frameOf = (video) => Math.floor(video.currentTime * FRAMES_PER_SECOND + 0.01);
+const stepOf = (frame) => Math.max(0, Math.floor((frame - 1) / FRAMES_PER_STEP));
+
+// Bars for both agents; subgoals that are the same have the same colour.
+function draw(card, tracks, frame) {
+  const canvas = card.querySelector(".timeline");
+  const scale = window.devicePixelRatio || 1;
+  const [width, height] = [canvas.clientWidth, canvas.clientHeight];
+  if (!width) return;
+  if (canvas.width !== Math.round(width * scale)) [canvas.width, canvas.height] = [width * scale, height * scale];
+  const pen = canvas.getContext("2d");
+  pen.setTransform(scale, 0, 0, scale, 0, 0);
+  pen.clearRect(0, 0, width, height);
+  const steps = Number(card.dataset.steps);
+  const row = height / tracks.length;
+  tracks.forEach((track, agent) => {
+    const bottom = (agent + 1) * row - 2;
+    pen.fillStyle = agent === 0 ? "rgb(235 20 20)" : "rgb(20 190 20)";
+    pen.fillRect(0, bottom - row + 4, 3, row - 4);
+    track.forEach(({ text, share }, step) => {
+      const [left, right] = [5 + (step / steps) * (width - 5), 5 + ((step + 1) / steps) * (width - 5)];
+      const tall = Math.max(2, share * (row - 4));
+      pen.fillStyle = `hsl(${(text * 137.5) % 360} 45% 58%)`;
+      pen.fillRect(left, bottom - tall, right - left + 0.3, tall);
+    });
+    const done = card.querySelector(`[data-agent="${agent}"]`).dataset.done;
+    if (done !== undefined) {
+      pen.fillStyle = "#000";
+      pen.fillRect(5 + (Number(done) / steps) * (width - 5) - 1, bottom - row + 4, 2, row - 4);
+    }
+  });
+  pen.fillStyle = getComputedStyle(card).color;
+  pen.fillRect(5 + (frame / (steps * FRAMES_PER_STEP)) * (width - 5), 0, 1, height);
+}
+
+function show(card, tracks) {
+  const video = card.querySelector("video");
+  const frame = frameOf(video);
+  const step = stepOf(frame);
+  tracks.forEach((track, agent) => {
+    const now = track[step];
+    const place = card.querySelector(`[data-agent="${agent}"]`);
+    write(place.querySelector(".subgoal"), now ? texts[now.text] : "–");
+    place.querySelector(".share").textContent = now ? `${Math.round(now.share * 100)} % of particles` : "";
+  });
+  card.querySelector("output").textContent = `${video.currentTime.toFixed(2)} s · step ${step} · frame ${frame}`;
+  draw(card, tracks, frame);
 }
 
 const play = (video) => { const started = video.play(); if (started) started.catch(() => {}); };
 
-// The browser's own controls lie over the picture; ours lie below it.
+// Cards get their controls when they first come near the window, so that five hundred cost nothing at once.
 function control(card) {
   const video = card.querySelector("video");
-  const player = card.querySelector(".player");
-  const toggle = player.querySelector(".toggle");
-  const seek = (time) => {
+  const toggle = card.querySelector(".toggle");
+  const tracks = (events[card.dataset.id] || []).map(unroll);
+  const last = Number(card.dataset.steps) * FRAMES_PER_STEP;
+  // The middle of a frame: its edge may show the one before.
+  const seek = (frame) => {
     video.pause();
-    video.currentTime = Math.min(Math.max(time, 0), video.duration || 0);
+    video.currentTime = (Math.min(Math.max(frame, 0), last) + 0.5) / FRAMES_PER_SECOND;
   };
+  const move = (frames) => seek(frameOf(video) + frames);
   const follow = () => {
-    show(card);
+    show(card, tracks);
     const running = !video.paused && !video.ended;
     toggle.textContent = running ? "❚❚" : "▶";
     toggle.setAttribute("aria-label", running ? "pause" : "play");
@@ -60,17 +107,25 @@ function control(card) {
   const playOrPause = () => (video.paused || video.ended ? play(video) : video.pause());
   toggle.addEventListener("click", playOrPause);
   video.addEventListener("click", playOrPause);
-  const step = FRAMES_PER_STEP / FRAMES_PER_SECOND;
-  player.querySelector(".back").addEventListener("click", () => seek(video.currentTime - step));
-  player.querySelector(".next").addEventListener("click", () => seek(video.currentTime + step));
-  player.querySelector("input").addEventListener("input", (event) => seek(Number(event.target.value)));
-  video.controls = false;
-  player.hidden = false;
-  show(card);
+  const moves = { back: -1, next: 1, "step-back": -FRAMES_PER_STEP, "step-next": FRAMES_PER_STEP };
+  for (const [name, frames] of Object.entries(moves)) {
+    card.querySelector("." + name).addEventListener("click", () => move(frames));
+  }
+  card.querySelector(".timeline").addEventListener("click", (event) => {
+    seek(Math.floor(((event.offsetX - 5) / (event.target.clientWidth - 5)) * last));
+  });
+  card.addEventListener("keydown", (event) => {
+    if (event.target !== card) return;
+    const frames = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+    if (frames) move(event.shiftKey ? frames * FRAMES_PER_STEP : frames);
+    else if (event.key === " ") playOrPause();
+    else return;
+    event.preventDefault();
+  });
+  follow();
 }
-cards.forEach(control);
 
-// Videos load their first picture when they come near the window, so that five hundred cost nothing at once.
+// Videos are loaded near the window and let go of far from it: browsers keep only so many at a time.
 const playButton = document.getElementById("play");
 const inView = new Set();
 const playing = () => playButton.getAttribute("aria-pressed") === "true";
@@ -79,13 +134,22 @@ const observer = new IntersectionObserver((entries) => {
     const video = target.querySelector("video");
     if (isIntersecting) {
       inView.add(video);
-      if (video.preload === "none") video.preload = "metadata";
+      if (!target.dataset.ready) {
+        target.dataset.ready = "yes";
+        control(target);
+      }
+      if (!video.hasAttribute("src")) {
+        video.preload = "metadata";
+        video.src = video.dataset.src;
+      }
       if (playing()) play(video);
-    } else if (inView.delete(video) && playing()) {
+    } else if (inView.delete(video)) {
       video.pause();
+      video.removeAttribute("src");
+      video.load();
     }
   }
-}, { rootMargin: "100px" });
+}, { rootMargin: "300px" });
 cards.forEach((card) => observer.observe(card));
 
 playButton.addEventListener("click", () => {
@@ -94,14 +158,15 @@ playButton.addEventListener("click", () => {
 });
 
 const filters = [...document.querySelectorAll("[data-filter]")];
-function filter(kind) {
-  for (const button of filters) button.setAttribute("aria-pressed", String(button.dataset.filter === kind));
-  for (const card of cards) {
-    card.hidden = kind !== "all" && card.dataset.kind !== kind;
-    if (card.hidden) card.querySelector("video").pause();
-  }
+function filter() {
+  const fits = (card, { dataset, value }) => !value || card.dataset[dataset.filter].split("|").includes(value);
+  for (const card of cards) card.hidden = !filters.every((choice) => fits(card, choice));
   const count = cards.filter((card) => !card.hidden).length;
   document.getElementById("shown").textContent = `${count} of ${cards.length} events shown`;
 }
-filters.forEach((button) => button.addEventListener("click", () => filter(button.dataset.filter)));
-filter("all");
+filters.forEach((choice) => choice.addEventListener("change", filter));
+document.getElementById("reset").addEventListener("click", () => {
+  for (const choice of filters) choice.value = "";
+  filter();
+});
+filter();

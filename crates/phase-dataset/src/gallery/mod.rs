@@ -1,71 +1,52 @@
-//! `index.html`: a page that opens offline and shows every video of a dataset with its labels.
+//! `index.html`: a page that opens offline and shows every video of a dataset with its labels, and what its agents
+//! were after at every moment.
+
+mod timeline;
+
+pub use timeline::Timeline;
 
 use crate::{
     manifest::{AgentEntry, EventEntry, Manifest},
     words::{self, Piece},
 };
 use phase_model::{
-    AGENT_COUNT, Attitude, Entity, EventKind, Sign, Size, Strength,
+    AGENT_COUNT, Attitude, Entity, Goal, Sign, Size, Strength,
     arena::{FRAMES_PER_SECOND, SUBSTEPS},
 };
-use phase_sim::Event;
-use serde_json::json;
-use std::fmt::Write as _;
+use std::{collections::BTreeMap, fmt::Write as _};
 
 /// The page's file name.
 pub const PAGE_FILE: &str = "index.html";
 /// How long a step is shown (s).
 const SECONDS_PER_STEP: f64 = SUBSTEPS as f64 / FRAMES_PER_SECOND as f64;
-const PAGE: &str = include_str!("../assets/page.html");
-const STYLE: &str = include_str!("../assets/style.css");
-const SCRIPT: &str = include_str!("../assets/script.js");
+const PAGE: &str = include_str!("../../assets/page.html");
+const STYLE: &str = include_str!("../../assets/style.css");
+const SCRIPT: &str = include_str!("../../assets/script.js");
 
-/// What both agents were after, as it changed: steps (from 0) and the subgoal's text from then on.
-#[derive(Clone, PartialEq, Eq, Debug, Default)]
-pub struct Timeline(pub [Vec<(usize, String)>; AGENT_COUNT]);
-
-impl Timeline {
-    /// The timeline of an event.
-    #[must_use]
-    pub fn of(event: &Event) -> Self {
-        Self(core::array::from_fn(|agent| {
-            let mut changes: Vec<(usize, String)> = Vec::new();
-            for (t, step) in event.steps.iter().enumerate() {
-                let text = step.thoughts[agent].subgoal.to_string();
-                if changes.last().is_none_or(|(_, last)| *last != text) {
-                    changes.push((t, text));
-                }
-            }
-            changes
-        }))
-    }
-}
+/// The most events on a page; browsers get slow beyond. The page says so if there are more.
+pub const MOST_SHOWN: usize = 2000;
 
 /// The page for a dataset; one timeline for each of the manifest's events.
 #[must_use]
 pub fn page(manifest: &Manifest, timelines: &[Timeline]) -> String {
-    let cards: String = manifest.events.iter().map(card).collect();
-    let subgoals: serde_json::Map<String, serde_json::Value> = manifest
-        .events
-        .iter()
-        .zip(timelines)
-        .map(|(event, timeline)| (event.id.clone(), json!(timeline.0)))
-        .collect();
+    let shown = &manifest.events[..manifest.events.len().min(MOST_SHOWN)];
     let heading = format!("PHASE: {}", manifest.preset);
+    let count = match manifest.events.len() {
+        all if all > MOST_SHOWN => format!("The first {MOST_SHOWN} of {all} events"),
+        all => format!("{all} events"),
+    };
     let intro = format!(
-        "{} events by {}, seed {}. Two agents see, believe, plan and act; what they want of each other shows \
-         in how they move.",
-        manifest.events.len(),
-        manifest.generator,
-        manifest.seed
+        "{count} by {}, seed {}. Two agents see, believe, plan and act; what they want of each other shows in how \
+         they move.",
+        manifest.generator, manifest.seed
     );
     let parts = [
         ("title", escape(&heading)),
         ("intro", escape(&intro)),
         ("style", STYLE.to_owned()),
-        ("filters", filters(manifest)),
-        ("cards", cards),
-        ("subgoals", escape_script(&serde_json::Value::Object(subgoals).to_string())),
+        ("filters", filters(shown)),
+        ("cards", shown.iter().map(card).collect()),
+        ("timelines", escape_script(&timeline::table(shown, timelines).to_string())),
         ("script", SCRIPT.to_owned()),
     ];
     fill(PAGE, &parts)
@@ -110,21 +91,45 @@ pub fn escape_script(json: &str) -> String {
     json.replace('<', "\\u003c").replace('\u{2028}', "\\u2028").replace('\u{2029}', "\\u2029")
 }
 
-fn filters(manifest: &Manifest) -> String {
-    let button = |kind: &str, count: usize, pressed: bool| {
-        format!(
-            "<button type=\"button\" data-filter=\"{kind}\" aria-pressed=\"{pressed}\">{kind} \
-             <span class=\"count\">{count}</span></button>\n"
-        )
-    };
-    let mut buttons = button("all", manifest.events.len(), true);
-    for kind in EventKind::ALL {
-        let count = manifest.events.iter().filter(|event| event.kind == kind).count();
-        if count > 0 {
-            buttons.push_str(&button(kind.name(), count, false));
+/// A choice for each thing that events can be told apart by, with how many there are of each.
+fn filters(events: &[EventEntry]) -> String {
+    let keys: [(&str, fn(&EventEntry) -> Vec<String>); 4] = [
+        ("kind", |event| vec![event.kind.name().into()]),
+        ("relation", |event| vec![words::relation(event.relation).into()]),
+        ("goal", |event| goals(event)),
+        ("split", |event| vec![event.split().name().into()]),
+    ];
+    let mut selects = String::new();
+    for (name, of) in keys {
+        let mut counts: BTreeMap<String, usize> = BTreeMap::new();
+        for value in events.iter().flat_map(of) {
+            *counts.entry(value).or_default() += 1;
         }
+        let _ =
+            write!(selects, "<label>{name} <select data-filter=\"{name}\"><option value=\"\">all</option>");
+        for (value, count) in counts {
+            let _ = write!(selects, "<option value=\"{0}\">{0} ({count})</option>", escape(&value));
+        }
+        selects.push_str("</select></label>\n");
     }
-    buttons
+    selects
+}
+
+/// What the agents of an event want, whoever wants it: each goal once.
+fn goals(event: &EventEntry) -> Vec<String> {
+    let text = |agent: &AgentEntry| {
+        let landmark = agent.goal.landmark().map_or("", |number| words::landmark(number as u8));
+        let on = if agent.goal.sign() == Sign::Positive { "on" } else { "off" };
+        match agent.goal {
+            Goal::AgentOnLandmark { .. } => format!("agent {on} {landmark}"),
+            Goal::ObjectOnLandmark { .. } => format!("object {on} {landmark}"),
+            Goal::Touch { sign: Sign::Positive, .. } => "catch the other".into(),
+            Goal::Touch { sign: Sign::Negative, .. } => "get away from the other".into(),
+        }
+    };
+    let mut texts: Vec<String> = event.agents.iter().map(text).collect();
+    texts.dedup();
+    texts
 }
 
 fn card(event: &EventEntry) -> String {
@@ -136,21 +141,37 @@ fn card(event: &EventEntry) -> String {
         let _ = write!(things, "{} {size} · ", chip(Piece::Entity(Entity::object(k))));
     }
     let flip = event.layout.flip.map_or_else(String::new, |flip| format!(", flip {flip}"));
+    let button = |class: &str, label: &str, sign: &str| {
+        format!(
+            "<button type=\"button\" class=\"{class}\" aria-label=\"{label}\" title=\"{label}\">{sign}</button>"
+        )
+    };
+    let buttons = [
+        button("toggle", "play", "▶"),
+        button("step-back", "one step back", "«"),
+        button("back", "one frame back", "‹"),
+        button("next", "one frame on", "›"),
+        button("step-next", "one step on", "»"),
+    ];
     format!(
-        "<article class=\"card\" data-kind=\"{kind}\" data-id=\"{id}\" aria-label=\"{kind}, {id}\">\n\
-         <header><h2>{kind}</h2><span class=\"tag {relation}\">{relation}</span><code>{id}</code></header>\n\
-         <video controls muted playsinline preload=\"none\" src=\"{video}\" title=\"{what}\"></video>\n\
-         <div class=\"player\" hidden><button type=\"button\" class=\"toggle\" aria-label=\"play\">▶</button>\
-         <button type=\"button\" class=\"back\" aria-label=\"one step back\">‹</button>\
-         <button type=\"button\" class=\"next\" aria-label=\"one step on\">›</button>\
-         <input type=\"range\" min=\"0\" max=\"{seconds}\" step=\"0.05\" value=\"0\" aria-label=\"time\">\
-         <output>0.0 s</output></div>\n\
+        "<article class=\"card\" tabindex=\"0\" data-id=\"{id}\" data-kind=\"{kind}\" \
+         data-relation=\"{relation}\" data-split=\"{split}\" data-goal=\"{goals}\" data-steps=\"{steps}\" \
+         aria-label=\"{kind}, {id}\">\n\
+         <header><h2>{kind}</h2><span class=\"tag {relation}\">{relation}</span><span class=\"tag\">{split}</span>\
+         <code>{id}</code></header>\n\
+         <video muted playsinline preload=\"none\" data-src=\"{video}\" title=\"{what}\"></video>\n\
+         <div class=\"player\">{buttons}<output>0.0 s</output></div>\n\
+         <canvas class=\"timeline\" title=\"subgoals over time; the height is the share of belief particles \
+         behind them\"></canvas>\n\
          <ul class=\"agents\">\n{agents}</ul>\n\
          <p class=\"meta\">{things}layout {base}{flip} · {steps} steps, {seconds:.1} s · \
          <a href=\"{json}\">data</a></p>\n</article>\n",
         relation = words::relation(event.relation),
+        split = event.split().name(),
+        goals = escape(&goals(event).join("|")),
         what = escape(words::kind(event.kind)),
         video = escape(&event.video.path),
+        buttons = buttons.concat(),
         json = escape(&event.event.path),
         base = event.layout.base,
         steps = event.steps,
@@ -180,8 +201,9 @@ fn agent(k: usize, agent: &AgentEntry) -> String {
     };
     format!(
         "<li>{me} <span class=\"body\">{size}, {strength}</span>{stance} wants to {goal} {outcome}\
-         <div class=\"now\" data-agent=\"{k}\"><span class=\"label\">now</span> <span class=\"subgoal\">–</span>\
-         </div></li>\n",
+         <div class=\"now\" data-agent=\"{k}\"{done}><span class=\"label\">now</span> \
+         <span class=\"subgoal\">–</span> <span class=\"share\"></span></div></li>\n",
+        done = agent.steps_to_goal.map_or_else(String::new, |steps| format!(" data-done=\"{steps}\"")),
         me = chip(Piece::Entity(Entity::agent(k))),
     )
 }
