@@ -2,14 +2,19 @@
 
 mod atomic;
 mod cache;
+mod card;
 mod checksum;
+mod croissant;
 mod folder;
 mod gallery;
+mod import_pik;
 mod manifest;
+mod parquet;
 mod phase_events_read;
 mod phase_events_real;
 mod phase_events_round_trip;
 mod preset;
 mod summary;
 mod support;
+mod verify;
 mod words;

@@ -1,0 +1,205 @@
+//! Whole datasets, and damaged ones.
+
+use phase_dataset::{
+    atomic,
+    checksum::FileEntry,
+    croissant::croissant,
+    manifest::{MANIFEST_FILE, Manifest, event_path, video_path},
+    parquet::export,
+    verify::verify,
+};
+use std::{fs, path::Path};
+
+const DATA: &str = "data/train-00000-of-00001.parquet";
+
+/// A whole dataset of three events.
+fn dataset(folder: &Path) -> Manifest {
+    let mut manifest = crate::manifest::dataset(folder, "made-up-0");
+    manifest.events = crate::parquet::events(folder, &[2, 3, 1]);
+    manifest.files = export(folder, &manifest.events, &|| false).expect("written").expect("whole");
+    for name in ["index.html", "README.md", "croissant.json"] {
+        let text = if name == "croissant.json" { croissant(&manifest, "about") } else { name.into() };
+        describe(folder, &mut manifest, name, &text);
+    }
+    fs::write(folder.join(MANIFEST_FILE), manifest.to_json()).expect("written");
+    manifest
+}
+
+fn describe(folder: &Path, manifest: &mut Manifest, name: &str, text: &str) {
+    atomic::write(&folder.join(name), text.as_bytes()).expect("written");
+    manifest.files.push(FileEntry::of(folder, name).expect("there"));
+}
+
+fn sentences(folder: &Path, manifest: &Manifest) -> Vec<String> {
+    let problems = verify(folder, manifest);
+    problems
+        .iter()
+        .map(|problem| problem.to_string().replace(&format!("{}/", folder.display()), ""))
+        .collect()
+}
+
+/// The manifest's entry of a file, to be told a new checksum.
+fn renew(folder: &Path, manifest: &mut Manifest, path: &str) {
+    let of_events = manifest.events.iter_mut().flat_map(|event| [&mut event.event, &mut event.video]);
+    for entry in of_events.chain(&mut manifest.files).filter(|entry| entry.path == path) {
+        *entry = FileEntry::of(folder, path).expect("there");
+    }
+}
+
+#[test]
+fn a_whole_dataset_has_no_problem() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let manifest = dataset(folder.path());
+    assert_eq!(sentences(folder.path(), &manifest), [""; 0]);
+}
+
+/// Each damage is named in one sentence with its file.
+#[test]
+fn damage_is_named() {
+    type Damage = fn(&Path);
+    let event = event_path("made-up-1");
+    let video = video_path("made-up-1");
+    let cases: [(&str, Damage, &str, &str); 8] = [
+        (
+            "missing",
+            |root| fs::remove_file(root.join(video_path("made-up-1"))).expect("gone"),
+            &video,
+            "cannot be read",
+        ),
+        ("cut", |root| fs::write(root.join(event_path("made-up-1")), "{").expect("written"), &event, "size"),
+        ("empty", |root| fs::write(root.join(DATA), "").expect("written"), DATA, "size"),
+        (
+            "same size",
+            |root| fs::write(root.join("README.md"), "readme.md").expect("written"),
+            "README.md",
+            "checksum",
+        ),
+        (
+            "extra",
+            |root| fs::write(root.join("videos/more.mp4"), "").expect("written"),
+            "videos/more.mp4",
+            "not in the manifest",
+        ),
+        (
+            "leftover",
+            |root| fs::write(root.join(".phase-lock"), "").expect("written"),
+            ".phase-lock",
+            "not in the manifest",
+        ),
+        (
+            "extra folder",
+            |root| {
+                fs::create_dir(root.join("more")).expect("made");
+                fs::write(root.join("more/file"), "").expect("written");
+            },
+            "more/file",
+            "not in the manifest",
+        ),
+        (
+            "folder for a file",
+            |root| {
+                fs::remove_file(root.join("index.html")).expect("gone");
+                fs::create_dir(root.join("index.html")).expect("made");
+            },
+            "index.html",
+            "cannot be read",
+        ),
+    ];
+    for (name, damage, file, rule) in cases {
+        let folder = tempfile::tempdir().expect("a folder");
+        let manifest = dataset(folder.path());
+        damage(folder.path());
+        let found = sentences(folder.path(), &manifest);
+        assert_eq!(found.len(), 1, "{name}: {found:?}");
+        assert!(found[0].starts_with(&format!("{file}: ")) && found[0].contains(rule), "{name}: {found:?}");
+    }
+}
+
+/// Whoever changes a file and its checksum too is still found out by what other files say.
+#[test]
+fn tampering_is_named() {
+    let event = event_path("made-up-1");
+    for (from, to, problem) in [
+        (
+            "\"event\":\"helping\"",
+            "\"event\":\"chasing\"",
+            "field `kind` is \"chasing\", but the manifest says \"helping\"",
+        ),
+        ("\"seed\":18446744073709551612", "\"seed\":5", "field `seed` is 5"),
+        ("\"base\":20", "\"base\":19", "field `walls`"),
+        ("\"id\":\"made-up-1\"", "\"id\":\"made-up-9\"", "field `id` is \"made-up-9\""),
+    ] {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path();
+        let mut manifest = dataset(path);
+        let text = fs::read_to_string(path.join(&event)).expect("an event").replacen(from, to, 1);
+        fs::write(path.join(&event), text).expect("written");
+        renew(path, &mut manifest, &event);
+        let found = sentences(path, &manifest);
+        assert_eq!(found.len(), 1, "{from}: {found:?}");
+        assert!(found[0].starts_with(&format!("{event}: ")) && found[0].contains(problem), "{found:?}");
+    }
+
+    // A position in an event that the manifest knows nothing of.
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    let mut manifest = dataset(path);
+    let text = fs::read_to_string(path.join(&event)).expect("an event");
+    let changed = text.replacen("[[0,[null,null]],[8,", "[[0,[null,null]],[7,", 1);
+    assert_ne!(text, changed);
+    fs::write(path.join(&event), changed).expect("written");
+    renew(path, &mut manifest, &event);
+    let found = sentences(path, &manifest);
+    assert_eq!(
+        found,
+        [format!("{DATA}: event made-up-1: column `held` differs from the event's own file or the manifest")]
+    );
+}
+
+#[test]
+fn manifests_that_lie_are_found_out() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    let manifest = dataset(path);
+
+    let mut fewer = manifest.clone();
+    fewer.events.pop();
+    let found = sentences(path, &fewer).join("\n");
+    assert!(found.contains("events/made-up-2.json: is not in the manifest"), "{found}");
+    assert!(found.contains("data/test-00000-of-00001.parquet: "), "{found}");
+
+    let mut reached = manifest.clone();
+    reached.events[0].agents[1].reached ^= true;
+    let found = sentences(path, &reached);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert!(found[0].contains("field `agents`"), "{found:?}");
+
+    let mut twice = manifest.clone();
+    twice.events[1] = twice.events[0].clone();
+    let found = sentences(path, &twice).join("\n");
+    assert!(found.contains("manifest.json: event made-up-0: field `id` must differ"), "{found}");
+    assert!(found.contains("manifest.json: names events/made-up-0.json more than once"), "{found}");
+
+    let mut moved = manifest.clone();
+    moved.events[0].split = Some(phase_dataset::split::Split::Test);
+    let found = sentences(path, &moved).join("\n");
+    assert!(found.contains("it holds 2 events instead of 1"), "{found}");
+
+    let mut outside = manifest.clone();
+    outside.files[0].path = "../elsewhere".into();
+    let found = sentences(path, &outside).join("\n");
+    assert!(found.contains("lies outside"), "{found}");
+
+    let mut other = manifest.clone();
+    let sum = other.files[0].sha256.clone();
+    let text = fs::read_to_string(path.join("croissant.json")).expect("there").replace(&sum, &"0".repeat(64));
+    fs::write(path.join("croissant.json"), text).expect("written");
+    renew(path, &mut other, "croissant.json");
+    let found = sentences(path, &other);
+    assert_eq!(
+        found,
+        [format!(
+            "croissant.json: field `distribution` does not give the checksum of {DATA} that the manifest gives"
+        )]
+    );
+}
