@@ -19,7 +19,7 @@ fn results_do_not_depend_on_the_number_of_jobs() {
     succeed(path, &generate("one", &["--jobs", "1"]));
     succeed(path, &generate("two", &["--jobs", "2"]));
     let (one, two) = (tree(&path.join("one")), tree(&path.join("two")));
-    assert_eq!(one.len(), 3 + 2 * 3);
+    assert_eq!(one.len(), 5 + 2 * 3);
     assert!(
         one == two,
         "{:?}",
@@ -55,6 +55,7 @@ fn the_folder_holds_what_it_promises() {
     let page = fs::read_to_string(out.join("index.html")).expect("a page");
     assert_eq!(page.matches("<video").count(), 3);
     let card = fs::read_to_string(out.join("README.md")).expect("a card");
+    assert!(card.starts_with("---\n") && card.contains("path: data/train-*.parquet"), "{card}");
     assert!(card.contains("--events 3") && card.contains("--simulations 20"), "{card}");
 }
 

@@ -10,3 +10,4 @@ mod render;
 mod simulate;
 mod support;
 mod tidy;
+mod verify;
