@@ -89,6 +89,9 @@ pub enum Problem {
     /// It lies in a dataset's folder, but the manifest does not name it.
     #[error("is not in the manifest")]
     Extra,
+    /// The manifest names it, but there are no events for it.
+    #[error("is in the manifest, but none of its events belongs into it")]
+    Eventless,
     /// A manifest names a file twice.
     #[error("names {0} more than once")]
     DuplicatePath(String),

@@ -49,6 +49,11 @@ pub fn verify(folder: &Path, manifest: &Manifest) -> Vec<FileError> {
             problems.push(FileError { file: folder.join(path), problem: Problem::Unlisted });
         }
     }
+    let is_part = |path: &str| parts.iter().any(|part| part.path == path);
+    let in_data = |path: &&str| path.starts_with(&format!("{}/", parquet::FOLDER));
+    for path in files.keys().copied().filter(in_data).filter(|path| !is_part(path)) {
+        problems.push(FileError { file: folder.join(path), problem: Problem::Eventless });
+    }
     let readable = |path: &str| files.contains_key(path) && !broken.contains(path);
     if readable(CROISSANT_FILE) {
         problems.extend(croissant(folder, &files).err());

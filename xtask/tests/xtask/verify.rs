@@ -16,11 +16,14 @@ fn problems_are_told_one_a_line_with_exit_code_2() {
     assert_eq!(output.status.code(), Some(2));
     let told = text(&output.stderr);
     let lines: Vec<&str> = told.lines().collect();
-    assert_eq!(lines, [
-        "out/videos/demo-0001.mp4: cannot be read: no such file or directory",
-        "out/notes.txt: is not in the manifest",
-        "error: out: 2 problem(s)",
-    ]);
+    assert_eq!(
+        lines,
+        [
+            "out/videos/demo-0001.mp4: cannot be read: no such file or directory",
+            "out/notes.txt: is not in the manifest",
+            "error: out: 2 problem(s)",
+        ]
+    );
     assert!(output.stdout.is_empty());
 }
 
@@ -28,12 +31,13 @@ fn problems_are_told_one_a_line_with_exit_code_2() {
 fn what_is_no_finished_dataset_is_refused() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path();
-    assert!(refuse(path, &["verify", "nowhere"]).contains("nowhere: "));
+    assert!(refuse(path, &["verify", "nowhere"]).contains("nowhere: holds no manifest.json"));
     fs::create_dir(path.join("empty")).expect("made");
-    assert!(refuse(path, &["verify", "empty"]).contains("without manifest.json"));
+    assert!(refuse(path, &["verify", "empty"]).contains("empty: holds no manifest.json"));
 
     fs::create_dir(path.join("begun")).expect("made");
-    fs::write(path.join("begun/.phase-run.json"), r#"{"format": "phase-run/1", "run": {}}"#).expect("written");
+    fs::write(path.join("begun/.phase-run.json"), r#"{"format": "phase-run/1", "run": {}}"#)
+        .expect("written");
     assert!(refuse(path, &["verify", "begun"]).contains("begun: is unfinished"));
 
     fs::create_dir(path.join("cut")).expect("made");
