@@ -35,11 +35,11 @@ pub fn verify(folder: &Path, manifest: &Manifest) -> Vec<FileError> {
     }
     extra(folder, folder, &files, &mut problems);
     for entry in &manifest.events {
-        if !broken.contains(entry.event.path.as_str()) {
-            if let Err(problem) = event(folder, entry) {
-                broken.insert(&entry.event.path);
-                problems.push(problem);
-            }
+        if !broken.contains(entry.event.path.as_str())
+            && let Err(problem) = event(folder, entry)
+        {
+            broken.insert(&entry.event.path);
+            problems.push(problem);
         }
     }
     let parts = parquet::parts(&manifest.events);

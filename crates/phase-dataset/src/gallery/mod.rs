@@ -93,10 +93,11 @@ pub fn escape_script(json: &str) -> String {
 
 /// A choice for each thing that events can be told apart by, with how many there are of each.
 fn filters(events: &[EventEntry]) -> String {
-    let keys: [(&str, fn(&EventEntry) -> Vec<String>); 4] = [
+    type Values = fn(&EventEntry) -> Vec<String>;
+    let keys: [(&str, Values); 4] = [
         ("kind", |event| vec![event.kind.name().into()]),
         ("relation", |event| vec![words::relation(event.relation).into()]),
-        ("goal", |event| goals(event)),
+        ("goal", goals),
         ("split", |event| vec![event.split().name().into()]),
     ];
     let mut selects = String::new();
