@@ -5,7 +5,7 @@
 //!
 //! The key design decision is that a column's type is a Rust type: lists within lists of numbers become both the
 //! file's schema and its levels, without a library of arrays in between, and comparing is writing without a
-//! file. The price is that only what [`cell`] knows can be a column.
+//! file. The price is that only what the module `cell` knows can be a column.
 
 mod cell;
 mod column;
