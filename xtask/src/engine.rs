@@ -17,7 +17,7 @@ pub const GENERATOR: &str = concat!("phase ", env!("CARGO_PKG_VERSION"));
 /// [`CliError::Sample`].
 pub fn scene(kind: EventKind, dataset_seed: u64, index: usize) -> Result<Scene, CliError> {
     let mut random = random::stream(dataset_seed, Purpose::Scene, index as u64);
-    Ok(phase_sampler::sample(kind, &mut random)?)
+    Ok(phase_sampler::sample_kind(kind, &mut random)?)
 }
 
 /// The seed of one event of a dataset or of a file of scenes.
