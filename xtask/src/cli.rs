@@ -23,6 +23,8 @@ pub struct Cli {
 pub enum Command {
     /// Make a dataset of social events, with videos and a page to look at them
     GenDataset(GenDataset),
+    /// Put the shards of a dataset together
+    Merge(Merge),
     /// Simulate the scenes of a phase-events/1 file, each from its first row
     Simulate(Simulate),
     /// Turn events into videos, or into pictures of their key frames
@@ -38,7 +40,8 @@ pub enum Command {
 /// Options of `gen-dataset`.
 #[derive(Args, Debug)]
 pub struct GenDataset {
-    /// What to make: demo (twelve events, two of each kind)
+    /// What to make: demo (twelve events, two of each kind, as they come), phase-500 (the paper's composition,
+    /// selected), or a file in the format phase-preset/2 whose name ends in .json
     #[arg(long, default_value = "demo")]
     pub preset: String,
     /// Number of events [default: the preset's]
@@ -50,12 +53,26 @@ pub struct GenDataset {
     /// Folder for the dataset; new, empty, or of this very run [default: out/PRESET-seedS]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// Make only the events K, K + N, K + 2 N … of the dataset, to be merged with the other shards by merge
+    #[arg(long, value_name = "K/N", value_parser = shard)]
+    pub shard: Option<(usize, usize)>,
     /// How the agents think.
     #[command(flatten)]
     pub effort: Effort,
     /// How many events at once.
     #[command(flatten)]
     pub jobs: Jobs,
+}
+
+/// Options of `merge`.
+#[derive(Args, Debug)]
+pub struct Merge {
+    /// The folders of all shards, in any order
+    #[arg(value_name = "DIR", required = true)]
+    pub shards: Vec<PathBuf>,
+    /// Folder for the dataset; new, empty, or of this very merge
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
 }
 
 /// Options of `simulate`.
@@ -215,6 +232,15 @@ impl Effort {
         let engine = self.engine.map(|engine| format!(" --engine {}", engine.name()));
         let given = options.into_iter().filter_map(|(name, value)| Some(format!(" --{name} {}", value?)));
         engine.into_iter().chain(given).collect()
+    }
+}
+
+/// Reads a shard such as `3/16`.
+fn shard(text: &str) -> Result<(usize, usize), String> {
+    let numbers = text.split_once('/').and_then(|(k, n)| Some((k.parse().ok()?, n.parse().ok()?)));
+    match numbers {
+        Some((k, n)) if 1 <= k && k <= n => Ok((k, n)),
+        _ => Err("a shard is K/N with K from 1 to N, such as 3/16".into()),
     }
 }
 

@@ -3,7 +3,7 @@
 use phase_calibration::ReadError;
 use phase_dataset::{FileError, WriteError, folder::FolderError, phase_events::NotFinite};
 use phase_render::RenderError;
-use phase_sampler::SampleError;
+use phase_sampler::{SampleError, Variant};
 use phase_sim::SimulationError;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -76,6 +76,16 @@ pub enum CliError {
     /// No scene could be drawn.
     #[error(transparent)]
     Sample(#[from] SampleError),
+    /// No scene of a slot showed its label.
+    #[error("event {id}: no scene ({}) showed its label ({reasons}); the preset's selection.attempts is the limit", variant.name())]
+    Exhausted {
+        /// The event.
+        id: String,
+        /// What was tried.
+        variant: Variant,
+        /// Why the scenes were refused, with numbers.
+        reasons: String,
+    },
     /// Writing broke off, with the disk full for example.
     #[error("{0}; what is finished is kept, and the same command goes on from there")]
     Write(#[from] WriteError),
@@ -127,6 +137,7 @@ impl CliError {
             Self::Interrupted(_) => 130,
             Self::Simulation { .. }
             | Self::Sample(_)
+            | Self::Exhausted { .. }
             | Self::Write(_)
             | Self::ReadBack(_)
             | Self::NotFinite(_)

@@ -1,6 +1,7 @@
 //! The PHASE command line.
 //!
 //! - `gen-dataset` makes social events from a preset and a seed,
+//! - `merge` puts the shards of a dataset together,
 //! - `simulate` plays the scenes of a `phase-events/1` file,
 //! - `render` turns events into videos and pictures,
 //! - `check-physics` holds an engine against recorded motion,
@@ -67,6 +68,7 @@ pub fn main_with(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 pub fn run(command: Command) -> Result<(), CliError> {
     match command {
         Command::GenDataset(arguments) => gen_dataset::run(&arguments),
+        Command::Merge(arguments) => gen_dataset::merge::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Render(arguments) => render::run(&arguments),
         Command::CheckPhysics(arguments) => check_physics::run(&arguments),

@@ -3,6 +3,8 @@
 //! - [`phase_events`] reads and writes the exchange format `phase-events/1`, of measured recordings and of
 //!   simulated events alike.
 //! - [`manifest`], [`gallery`] and [`card`] describe a generated dataset to programs and to people.
+//! - [`preset`] says what a dataset is composed of, [`splits`] how it is divided, [`record`] and [`shard`] what was
+//!   tried for each of its events.
 //! - [`summary`] compares simulations with recordings.
 //! - [`atomic`], [`folder`] and [`cache`] let a run be interrupted at any moment and nothing be half-written.
 //!
@@ -24,9 +26,13 @@ pub mod error;
 pub mod folder;
 pub mod gallery;
 pub mod json;
+pub mod labels;
 pub mod manifest;
 pub mod phase_events;
 pub mod preset;
+pub mod record;
+pub mod shard;
+pub mod splits;
 pub mod summary;
 pub mod words;
 

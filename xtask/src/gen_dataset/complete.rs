@@ -1,0 +1,72 @@
+//! What is written once all events of a dataset are there: everything that describes the whole.
+//!
+//! Events are read back from the folder one at a time, so memory grows with the number of events by their entries
+//! in the manifest alone. Further files of a dataset have their place here.
+
+use crate::error::CliError;
+use phase_dataset::{
+    FileError, Problem, atomic,
+    card::card,
+    checksum::FileEntry,
+    gallery::{self, Timeline},
+    manifest::{DATASET_FORMAT, EventEntry, MANIFEST_FILE, Manifest},
+    phase_events,
+    record::{Record, Tally},
+    shard::Whole,
+};
+use phase_sim::Event;
+use std::path::Path;
+
+/// The page to look at a dataset with.
+pub const PAGE_FILE: &str = "index.html";
+const CARD_FILE: &str = "README.md";
+
+/// Writes what describes the whole; the manifest last, since with it the dataset is complete. `records` are those of
+/// all slots, in order.
+///
+/// # Errors
+/// If an event cannot be read back, or a file cannot be written.
+pub fn complete(
+    out: &Path,
+    whole: &Whole,
+    records: impl Iterator<Item = Record>,
+) -> Result<Manifest, CliError> {
+    let (mut events, mut timelines, mut tally) = (Vec::new(), Vec::new(), Tally::default());
+    for record in records {
+        let Some(entry) = record.entry else { continue };
+        if let Some(variant) = entry.variant {
+            tally.add(variant, &record.refused);
+        }
+        timelines.push(Timeline::of(&read_back(out, &entry)?));
+        events.push(entry);
+    }
+    let mut manifest = Manifest {
+        format: DATASET_FORMAT.into(),
+        generator: whole.generator.clone(),
+        preset: whole.preset.clone(),
+        seed: whole.seed,
+        settings: whole.settings.clone(),
+        selection: if whole.selected { tally.rows() } else { Vec::new() },
+        events,
+        files: Vec::new(),
+    };
+    let described =
+        [(PAGE_FILE, gallery::page(&manifest, &timelines)), (CARD_FILE, card(&manifest, &whole.command))];
+    for (name, text) in described {
+        atomic::write(&out.join(name), text.as_bytes())?;
+        manifest.files.push(FileEntry::of(out, name).map_err(CliError::ReadBack)?);
+    }
+    atomic::write(&out.join(MANIFEST_FILE), manifest.to_json().as_bytes())?;
+    Ok(manifest)
+}
+
+/// The event of an entry, from its file.
+fn read_back(out: &Path, entry: &EventEntry) -> Result<Event, CliError> {
+    let file = out.join(&entry.event.path);
+    let recordings = phase_events::read(&file).map_err(CliError::ReadBack)?;
+    let simulation = recordings.into_iter().find_map(|recording| recording.simulation);
+    simulation.map(|simulation| simulation.event).ok_or(CliError::ReadBack(FileError {
+        file,
+        problem: Problem::Shape { what: "event of a dataset", rule: "it was not simulated".into() },
+    }))
+}
