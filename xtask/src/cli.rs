@@ -25,6 +25,10 @@ pub enum Command {
     GenDataset(GenDataset),
     /// Put the shards of a dataset together
     Merge(Merge),
+    /// Check how a dataset is divided into train, validation and test, or divide it
+    Splits(Splits),
+    /// Show the figures of the paper's dataset beside those of another, and plot them
+    Stats(Stats),
     /// Simulate the scenes of a phase-events/1 file, each from its first row
     Simulate(Simulate),
     /// Turn events into videos, or into pictures of their key frames
@@ -73,6 +77,34 @@ pub struct Merge {
     /// Folder for the dataset; new, empty, or of this very merge
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
+}
+
+/// Options of `splits`.
+#[derive(Args, Debug)]
+pub struct Splits {
+    /// The folder of a dataset, or a file in the format phase-events/1
+    #[arg(value_name = "DIR|FILE")]
+    pub events: PathBuf,
+    /// Check this split (phase-splits/1) instead of the dataset's own
+    #[arg(long, value_name = "FILE", conflicts_with = "make")]
+    pub splits: Option<PathBuf>,
+    /// Divide the events and write the split (phase-splits/1) here
+    #[arg(long, value_name = "FILE")]
+    pub make: Option<PathBuf>,
+    /// Seed of what the rules leave open, with --make
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    pub seed: u64,
+}
+
+/// Options of `stats`.
+#[derive(Args, Debug)]
+pub struct Stats {
+    /// The folder of a dataset
+    #[arg(value_name = "DIR")]
+    pub dataset: PathBuf,
+    /// Also write the figures and plots (SVG) into this folder
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
 }
 
 /// Options of `simulate`.

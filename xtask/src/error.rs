@@ -111,6 +111,14 @@ pub enum CliError {
         /// Why.
         reason: String,
     },
+    /// A split breaks rules.
+    #[error("{}: its split breaks {broken} rule(s)", events.display())]
+    RulesBroken {
+        /// The dataset.
+        events: PathBuf,
+        /// How many.
+        broken: usize,
+    },
     /// Tidy found something.
     #[error("{0} rule(s) broken")]
     Untidy(usize),
@@ -133,6 +141,7 @@ impl CliError {
             | Self::UnknownPreset { .. }
             | Self::UnknownId { .. }
             | Self::NotADataset(_)
+            | Self::RulesBroken { .. }
             | Self::Usage(_) => 2,
             Self::Interrupted(_) => 130,
             Self::Simulation { .. }

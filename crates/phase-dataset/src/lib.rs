@@ -3,7 +3,7 @@
 //! - [`phase_events`] reads and writes the exchange format `phase-events/1`, of measured recordings and of
 //!   simulated events alike.
 //! - [`manifest`], [`gallery`] and [`card`] describe a generated dataset to programs and to people.
-//! - [`preset`] says what a dataset is composed of, [`splits`] how it is divided, [`record`] and [`shard`] what was
+//! - [`preset`] says what a dataset is composed of, [`splits`] how it is divided, [`mod@statistics`] what came of it, [`record`] and [`shard`] what was
 //!   tried for each of its events.
 //! - [`summary`] compares simulations with recordings.
 //! - [`atomic`], [`folder`] and [`cache`] let a run be interrupted at any moment and nothing be half-written.
@@ -29,10 +29,13 @@ pub mod json;
 pub mod labels;
 pub mod manifest;
 pub mod phase_events;
+pub mod plot;
 pub mod preset;
 pub mod record;
 pub mod shard;
+pub mod split_list;
 pub mod splits;
+pub mod statistics;
 pub mod summary;
 pub mod words;
 

@@ -8,9 +8,9 @@
 mod common;
 mod kinds;
 
-use crate::{Effect, Outcome, Track};
+use crate::{Effect, Outcome, Track, contact};
 use core::ops::RangeInclusive;
-use phase_model::{Attitude, Scene};
+use phase_model::{Attitude, Entity, Goal, Scene, Sign};
 use serde::{Deserialize, Serialize};
 
 /// Why an event does not show its label.
@@ -89,7 +89,8 @@ impl Refusal {
 pub enum Change {
     /// Reached only thanks to it, or at least a tenth sooner.
     Helped,
-    /// Missed because of it, or reached at least a tenth later.
+    /// Missed because of it, or reached at least a tenth later; or, of a touch, from the first one on kept up for at
+    /// most half as much of the time.
     Hindered,
 }
 
@@ -124,7 +125,7 @@ impl Comparison {
         let effect = Effect { with: Outcome::of(event, goal), without: Outcome::of(without, goal) };
         let shown = match self.change {
             Change::Helped => effect.helped(),
-            Change::Hindered => effect.hindered(),
+            Change::Hindered => effect.hindered() || gets_loose(goal, event, without),
         };
         if shown { Ok(()) } else { Err(Refusal::NoEffect) }
     }
@@ -149,4 +150,16 @@ pub fn first_look(
     }
     common::tidy(scene, track)?;
     kinds::judge(scene, track)
+}
+
+/// Whether whoever is touched gets away again: a chase in which one is caught and escapes is one all the same.
+fn gets_loose(goal: Goal, event: &Track, without: &Track) -> bool {
+    if !matches!(goal, Goal::Touch { sign: Sign::Positive, .. }) {
+        return false;
+    }
+    let [(held, left), (held_without, left_without)] = [event, without].map(|track| {
+        let touches = contact::steps_touching(track, Entity::Agent(0), Entity::Agent(1));
+        (touches.len(), touches.first().map_or(0, |first| track.states.len() - first))
+    });
+    held > 0 && 2 * held * left_without <= held_without * left
 }

@@ -133,6 +133,25 @@ fn hindrance_needs_a_victim_after_something_and_somebody_in_its_way() {
     assert_eq!(refusal(&scene, &aloof), Some(Refusal::NoContact));
 }
 
+/// Caught at once and holding still, or getting loose half of the time.
+#[test]
+fn who_gets_loose_was_chased() {
+    let scene = scene(EventKind::Chasing, [TOUCH, TOUCH.negated()], Attitude::Neutral);
+    let comparison = Comparison { idle: 1, judged: 0, change: Change::Hindered };
+    let touching = |share: usize| {
+        event(move |t| {
+            let apart = if t >= 10 && t % 10 < share { 2.0 } else { 6.0 };
+            let agents = [(8.0, 6.0, 0.0), (8.0, 6.0 + apart, 0.0)];
+            Move { agents, objects: vec![(12.0, 18.0)], held: [None, None] }
+        })
+    };
+    let without = touching(10);
+    assert_eq!(comparison.judge(&scene, &touching(5), &without), Ok(()));
+    assert_eq!(comparison.judge(&scene, &touching(6), &without), Err(Refusal::NoEffect));
+    let helped = Comparison { change: Change::Helped, ..comparison };
+    assert_eq!(helped.judge(&scene, &touching(5), &without), Err(Refusal::NoEffect));
+}
+
 /// Agent 0 runs after agent 1, which gets away from step 5 on and is caught at step 36, unless it is faster.
 fn hunt(t: usize, speed: f32) -> Move {
     let fleer = 14.0 + speed * t.saturating_sub(5) as f32;
