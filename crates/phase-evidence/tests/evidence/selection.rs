@@ -76,7 +76,8 @@ fn help_needs_a_goal_reached_in_time_a_hand_and_a_quiet_end() {
     assert_eq!(first_look(&scene, &good, 41..=100), Err(Refusal::TooShort));
     assert_eq!(first_look(&scene, &good, 10..=39), Err(Refusal::TooLong));
 
-    let cases: [(&str, fn(usize, &mut Move), Refusal); 5] = [
+    type Spoil = fn(usize, &mut Move);
+    let cases: [(&str, Spoil, Refusal); 5] = [
         ("left on the way", |_, it| it.objects[0].0 = it.objects[0].0.min(15.0), Refusal::GoalMissed),
         ("never in hand", |_, it| it.held = [None, None], Refusal::NoContact),
         (
