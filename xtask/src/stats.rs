@@ -16,6 +16,9 @@ const LENGTH_STEP: usize = 1;
 /// Steps of a second of video.
 const STEPS_PER_SECOND: usize = 4;
 
+/// File name, title, unit, and the bars.
+type Plot = (&'static str, &'static str, &'static str, Vec<(String, f64)>);
+
 /// Runs the command.
 ///
 /// # Errors
@@ -62,7 +65,7 @@ fn write(
     }
     let seconds = |at: usize| format!("{} to {} s", at * LENGTH_STEP, (at + 1) * LENGTH_STEP);
     let number = |count: usize| count as f64;
-    let plots: [(&str, &str, &str, Vec<(String, f64)>); 5] = [
+    let plots: [Plot; 5] = [
         (
             "lengths.svg",
             "Events by length",

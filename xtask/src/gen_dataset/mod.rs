@@ -2,7 +2,7 @@
 //!
 //! A dataset is a list of slots, each of which tries scenes until one shows its label ([`slot`]). What a slot comes
 //! to depends on the dataset's seed and the slot's number alone, so threads, interruptions and shards leave no
-//! trace. When all slots are filled, [`complete`] writes what describes the whole.
+//! trace. When all slots are filled, [`mod@complete`] writes what describes the whole.
 
 pub mod complete;
 pub mod merge;
