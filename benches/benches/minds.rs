@@ -14,7 +14,8 @@ use phase_perception::{field_of_view, observe, observed_set};
 use phase_planner::Planner;
 
 fn scene() -> Scene {
-    phase_sampler::sample_kind(EventKind::Helping, &mut stream(1, Purpose::Scene, 0)).expect("a helping scene")
+    phase_sampler::sample_kind(EventKind::Helping, &mut stream(1, Purpose::Scene, 0))
+        .expect("a helping scene")
 }
 
 fn main() {
