@@ -14,7 +14,8 @@ use phase_perception::{field_of_view, observe, observed_set};
 use phase_planner::Planner;
 
 fn scene() -> Scene {
-    phase_sampler::sample(EventKind::Helping, &mut stream(1, Purpose::Scene, 0)).expect("a helping scene")
+    phase_sampler::sample_kind(EventKind::Helping, &mut stream(1, Purpose::Scene, 0))
+        .expect("a helping scene")
 }
 
 fn main() {
@@ -129,8 +130,8 @@ fn whole_events(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("event");
     group.sample_size(10).sampling_mode(SamplingMode::Flat);
     for kind in EventKind::ALL {
-        let scene =
-            phase_sampler::sample(kind, &mut stream(1, Purpose::Scene, 0)).expect("a scene of every kind");
+        let scene = phase_sampler::sample_kind(kind, &mut stream(1, Purpose::Scene, 0))
+            .expect("a scene of every kind");
         group.bench_function(format!("100 steps, {}, seed 1", kind.name()), |bencher| {
             bencher.iter(|| phase_sim::simulate(&scene, 1, &settings));
         });

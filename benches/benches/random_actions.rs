@@ -52,8 +52,8 @@ fn main() {
 
 /// The states of a scene after each step of random held actions in the true world.
 fn play(kind: EventKind, index: u64, random: &mut Pcg64Mcg) -> (Forward, Vec<State>) {
-    let scene =
-        phase_sampler::sample(kind, &mut stream(1, Purpose::Scene, index)).expect("a scene of every kind");
+    let scene = phase_sampler::sample_kind(kind, &mut stream(1, Purpose::Scene, index))
+        .expect("a scene of every kind");
     let physique = scene.physique();
     let mut world = World::new(&physique, &scene.initial_state());
     let mut actions = draw(random);

@@ -24,6 +24,12 @@ pub struct Cli {
 pub enum Command {
     /// Make a dataset of social events, with videos and a page to look at them
     GenDataset(GenDataset),
+    /// Put the shards of a dataset together
+    Merge(Merge),
+    /// Check how a dataset is divided into train, validation and test, or divide it
+    Splits(Splits),
+    /// Show the figures of the paper's dataset beside those of another, and plot them
+    Stats(Stats),
     /// Simulate the scenes of a phase-events/1 file, each from its first row
     Simulate(Simulate),
     /// Check that a dataset is whole: every checksum, no file too many, and that its files agree
@@ -41,7 +47,8 @@ pub enum Command {
 /// Options of `gen-dataset`.
 #[derive(Args, Debug)]
 pub struct GenDataset {
-    /// What to make: demo (twelve events, two of each kind)
+    /// What to make: demo (twelve events, two of each kind, as they come), phase-500 (the paper's composition,
+    /// selected), or a file in the format phase-preset/2 whose name ends in .json
     #[arg(long, default_value = "demo")]
     pub preset: String,
     /// Number of events [default: the preset's]
@@ -53,6 +60,9 @@ pub struct GenDataset {
     /// Folder for the dataset; new, empty, or of this very run [default: out/PRESET-seedS]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// Make only the events K, K + N, K + 2 N … of the dataset, to be merged with the other shards by merge
+    #[arg(long, value_name = "K/N", value_parser = shard)]
+    pub shard: Option<(usize, usize)>,
     /// How the agents think.
     #[command(flatten)]
     pub effort: Effort,
@@ -67,6 +77,45 @@ pub struct Verify {
     /// Folder of a finished dataset
     #[arg(value_name = "DIR")]
     pub folder: PathBuf,
+}
+
+/// Options of `merge`.
+#[derive(Args, Debug)]
+pub struct Merge {
+    /// The folders of all shards, in any order
+    #[arg(value_name = "DIR", required = true)]
+    pub shards: Vec<PathBuf>,
+    /// Folder for the dataset; new, empty, or of this very merge
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+}
+
+/// Options of `splits`.
+#[derive(Args, Debug)]
+pub struct Splits {
+    /// The folder of a dataset, or a file in the format phase-events/1
+    #[arg(value_name = "DIR|FILE")]
+    pub events: PathBuf,
+    /// Check this split (phase-splits/1) instead of the dataset's own
+    #[arg(long, value_name = "FILE", conflicts_with = "make")]
+    pub splits: Option<PathBuf>,
+    /// Divide the events and write the split (phase-splits/1) here
+    #[arg(long, value_name = "FILE")]
+    pub make: Option<PathBuf>,
+    /// Seed of what the rules leave open, with --make
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    pub seed: u64,
+}
+
+/// Options of `stats`.
+#[derive(Args, Debug)]
+pub struct Stats {
+    /// The folder of a dataset
+    #[arg(value_name = "DIR")]
+    pub dataset: PathBuf,
+    /// Also write the figures and plots (SVG) into this folder
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
 }
 
 /// Options of `simulate`.
@@ -234,6 +283,15 @@ impl Effort {
         let foresight = self.foresight.map(|foresight| format!(" --foresight {}", foresight.name()));
         let given = options.into_iter().filter_map(|(name, value)| Some(format!(" --{name} {}", value?)));
         engine.into_iter().chain(foresight).chain(given).collect()
+    }
+}
+
+/// Reads a shard such as `3/16`.
+fn shard(text: &str) -> Result<(usize, usize), String> {
+    let numbers = text.split_once('/').and_then(|(k, n)| Some((k.parse().ok()?, n.parse().ok()?)));
+    match numbers {
+        Some((k, n)) if 1 <= k && k <= n => Ok((k, n)),
+        _ => Err("a shard is K/N with K from 1 to N, such as 3/16".into()),
     }
 }
 

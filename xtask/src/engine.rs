@@ -3,7 +3,7 @@
 use crate::error::CliError;
 use core::ops::ControlFlow;
 use phase_model::{
-    EventKind, Scene,
+    Scene,
     random::{self, Purpose},
 };
 use phase_sim::{BeliefSnapshot, Event, Settings, Step};
@@ -11,19 +11,16 @@ use phase_sim::{BeliefSnapshot, Event, Settings, Step};
 /// Name and version of this program, as files bear it.
 pub const GENERATOR: &str = concat!("phase ", env!("CARGO_PKG_VERSION"));
 
-/// The scene of one event of a dataset.
-///
-/// # Errors
-/// [`CliError::Sample`].
-pub fn scene(kind: EventKind, dataset_seed: u64, index: usize) -> Result<Scene, CliError> {
-    let mut random = random::stream(dataset_seed, Purpose::Scene, index as u64);
-    Ok(phase_sampler::sample(kind, &mut random)?)
-}
-
-/// The seed of one event of a dataset or of a file of scenes.
+/// The seed of one event of a file of scenes.
 #[must_use]
 pub fn event_seed(seed: u64, index: usize) -> u64 {
     random::derive_seed(seed, Purpose::Event, index as u64)
+}
+
+/// The seed of an attempt at one slot of a dataset, from which its scene and all chance in its event are derived.
+#[must_use]
+pub fn attempt_seed(dataset_seed: u64, slot: usize, attempt: usize) -> u64 {
+    random::derive_seed(event_seed(dataset_seed, slot), Purpose::Attempt, attempt as u64)
 }
 
 /// Simulates an event; `None` if `on_step` broke it off.

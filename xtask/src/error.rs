@@ -5,7 +5,7 @@ use phase_dataset::{
     FileError, WriteError, folder::FolderError, parquet::ExportError, phase_events::NotFinite,
 };
 use phase_render::RenderError;
-use phase_sampler::SampleError;
+use phase_sampler::{SampleError, Variant};
 use phase_sim::SimulationError;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -78,6 +78,16 @@ pub enum CliError {
     /// No scene could be drawn.
     #[error(transparent)]
     Sample(#[from] SampleError),
+    /// No scene of a slot showed its label.
+    #[error("event {id}: no scene ({}) showed its label ({reasons}); the preset's selection.attempts is the limit", variant.name())]
+    Exhausted {
+        /// The event.
+        id: String,
+        /// What was tried.
+        variant: Variant,
+        /// Why the scenes were refused, with numbers.
+        reasons: String,
+    },
     /// Writing broke off, with the disk full for example.
     #[error("{0}; what is finished is kept, and the same command goes on from there")]
     Write(#[from] WriteError),
@@ -114,6 +124,14 @@ pub enum CliError {
     /// A dataset has no manifest because its run was broken off.
     #[error("{}: is unfinished; the command that began it goes on from there", .0.display())]
     Unfinished(PathBuf),
+    /// A split breaks rules.
+    #[error("{}: its split breaks {broken} rule(s)", events.display())]
+    RulesBroken {
+        /// The dataset.
+        events: PathBuf,
+        /// How many.
+        broken: usize,
+    },
     /// Tidy found something.
     #[error("{0} rule(s) broken")]
     Untidy(usize),
@@ -147,10 +165,12 @@ impl CliError {
             | Self::NotADataset(_)
             | Self::NotWhole { .. }
             | Self::Unfinished(_)
+            | Self::RulesBroken { .. }
             | Self::Usage(_) => 2,
             Self::Interrupted(_) => 130,
             Self::Simulation { .. }
             | Self::Sample(_)
+            | Self::Exhausted { .. }
             | Self::Write(_)
             | Self::ReadBack(_)
             | Self::NotFinite(_)

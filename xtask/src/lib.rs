@@ -2,6 +2,9 @@
 //!
 //! - `gen-dataset` makes social events from a preset and a seed,
 //! - `verify` checks that a dataset is whole,
+//! - `merge` puts the shards of a dataset together,
+//! - `splits` checks how a dataset is divided, or divides it,
+//! - `stats` shows the paper's figures beside a dataset's own,
 //! - `simulate` plays the scenes of a `phase-events/1` file,
 //! - `render` turns events into videos and pictures,
 //! - `check-physics` holds an engine against recorded motion,
@@ -31,6 +34,8 @@ pub mod progress;
 pub mod render;
 pub mod simulate;
 pub mod source;
+pub mod splits;
+pub mod stats;
 pub mod tidy;
 pub mod verify;
 
@@ -70,6 +75,9 @@ pub fn run(command: Command) -> Result<(), CliError> {
     match command {
         Command::GenDataset(arguments) => gen_dataset::run(&arguments),
         Command::Verify(arguments) => verify::run(&arguments),
+        Command::Merge(arguments) => gen_dataset::merge::run(&arguments),
+        Command::Splits(arguments) => splits::run(&arguments),
+        Command::Stats(arguments) => stats::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Render(arguments) => render::run(&arguments),
         Command::CheckPhysics(arguments) => check_physics::run(&arguments),

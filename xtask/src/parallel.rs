@@ -2,10 +2,13 @@
 
 use crate::{cli::Jobs, error::CliError, interrupt};
 use rayon::{
-    ThreadPoolBuilder,
+    ThreadPool, ThreadPoolBuilder,
     iter::{IntoParallelIterator, ParallelIterator},
 };
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{
+    Mutex, PoisonError,
+    atomic::{AtomicBool, AtomicUsize, Ordering},
+};
 
 /// Makes `count` things on as many threads as asked for. `make` returns `None` when it was interrupted; then,
 /// and after the first failure, no new thing is begun.
@@ -17,10 +20,7 @@ pub fn make_all<T: Send>(
     count: usize,
     make: impl Fn(usize) -> Result<Option<T>, CliError> + Sync,
 ) -> Result<Option<Vec<T>>, CliError> {
-    let cores = std::thread::available_parallelism().map_or(1, Into::into);
-    let threads = jobs.jobs.map_or(cores, usize::from).min(count.max(1));
-    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
-    let pool = pool.map_err(|error| CliError::Threads { jobs: threads, reason: error.to_string() })?;
+    let pool = pool(jobs, count)?;
     let failed = AtomicBool::new(false);
     let results: Vec<Result<Option<T>, CliError>> = pool.install(|| {
         let one = |index| {
@@ -45,4 +45,58 @@ pub fn make_all<T: Send>(
         }
     }
     Ok((!interrupted).then_some(made))
+}
+
+/// Does `count` things on as many threads as asked for and keeps nothing of them. `act` returns `None` when it was
+/// interrupted; then, and after the first failure, no new thing is begun. Whether all were done.
+///
+/// # Errors
+/// The failure of the thing with the lowest number of those that failed, or [`CliError::Threads`].
+pub fn for_all(
+    jobs: &Jobs,
+    count: usize,
+    act: impl Fn(usize) -> Result<Option<()>, CliError> + Sync,
+) -> Result<bool, CliError> {
+    let pool = pool(jobs, count)?;
+    let (done, failure) = (AtomicUsize::new(0), Mutex::new(None::<(usize, CliError)>));
+    let failed = || failure.lock().unwrap_or_else(PoisonError::into_inner);
+    let one = |index| {
+        if interrupt::requested() || failed().is_some() {
+            return;
+        }
+        match act(index) {
+            Ok(Some(())) => {
+                done.fetch_add(1, Ordering::Relaxed);
+            }
+            Ok(None) => {}
+            Err(error) => {
+                let mut first = failed();
+                if first.as_ref().is_none_or(|(number, _)| index < *number) {
+                    *first = Some((index, error));
+                }
+            }
+        }
+    };
+    // In order, one at a time for each thread: what is finished is then nearly a beginning of the whole.
+    let next = AtomicUsize::new(0);
+    pool.broadcast(|_| {
+        loop {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            if index >= count {
+                return;
+            }
+            one(index);
+        }
+    });
+    match failure.into_inner().unwrap_or_else(PoisonError::into_inner) {
+        Some((_, error)) => Err(error),
+        None => Ok(done.into_inner() == count),
+    }
+}
+
+fn pool(jobs: &Jobs, count: usize) -> Result<ThreadPool, CliError> {
+    let cores = std::thread::available_parallelism().map_or(1, Into::into);
+    let threads = jobs.jobs.map_or(cores, usize::from).min(count.max(1));
+    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+    pool.map_err(|error| CliError::Threads { jobs: threads, reason: error.to_string() })
 }

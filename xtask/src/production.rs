@@ -89,14 +89,28 @@ impl Production {
                 event
             }
         };
-        self.write_json(order, &event)?;
-        if let Some(path) = order.video.as_ref().filter(|path| fresh || !path.exists()) {
-            write_video(path, id, &event)?;
-        }
+        self.write(order, &event, fresh)?;
         let (kind, length) = (event.scene.kind.name(), event.steps.len());
         let how = if fresh { format!("{:.1} s", begun.elapsed().as_secs_f64()) } else { "kept".into() };
-        self.progress.event(steps, &format!("{id} {kind}: {length} steps ({how})"));
+        self.finished(steps, &format!("{id} {kind}: {length} steps ({how})"));
         Ok(Some(event))
+    }
+
+    /// Writes the files of an event; its video if the event is new or the video is not there.
+    ///
+    /// # Errors
+    /// If drawing or writing fails.
+    pub fn write(&self, order: &Order, event: &Event, fresh: bool) -> Result<(), CliError> {
+        self.write_json(order, event)?;
+        match &order.video {
+            Some(path) if fresh || !path.exists() => write_video(path, &order.id, event),
+            _ => Ok(()),
+        }
+    }
+
+    /// An event is done; see [`Progress::event`].
+    pub fn finished(&self, counted: usize, line: &str) {
+        self.progress.event(counted, line);
     }
 
     fn write_json(&self, order: &Order, event: &Event) -> Result<(), CliError> {

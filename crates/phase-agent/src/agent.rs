@@ -158,7 +158,11 @@ impl<D: Dynamics> Agent<D> {
         let routes = self.planner.routes();
         let objective =
             Objective { physique: &self.physique, routes, agent: self.index, subgoal, retreat: None };
-        let retreat = self.patience.lose(&objective, &roots[0], random);
+        // Whoever hinders has nothing to gain by making room.
+        let retreat = match self.attitude {
+            Attitude::Hinder => None,
+            _ => self.patience.lose(&objective, &roots[0], random),
+        };
         let actions = repertoire::actions(self.index, subgoal, &roots[0], retreat.is_some());
         if let [only] = actions {
             return Ok((*only, Vec::new()));

@@ -4,7 +4,7 @@
 use crate::{
     manifest::Manifest,
     parquet::{self, FOLDER},
-    split::Split,
+    splits::Split,
     words,
 };
 use phase_model::EventKind;

@@ -1,8 +1,9 @@
 //! `manifest.json`: what a dataset holds, how it was made, and the checksum of every file.
 
-use crate::{FileError, Problem, checksum::FileEntry, json, phase_events, split::Split};
+use crate::{FileError, Problem, checksum::FileEntry, json, phase_events, record::Acceptance, splits::Split};
 use phase_evidence::{Outcome, Track};
 use phase_model::{AGENT_COUNT, EventKind, Goal, Relation};
+use phase_sampler::Variant;
 use phase_sim::Event;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -27,6 +28,9 @@ pub struct Manifest {
     pub seed: u64,
     /// Settings of simulation and minds.
     pub settings: Value,
+    /// How many scenes were tried and why most were refused, by variant; empty where nothing was selected.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub selection: Vec<Acceptance>,
     /// The events, in order.
     pub events: Vec<EventEntry>,
     /// The files that belong to no single event.
@@ -41,11 +45,14 @@ pub struct EventEntry {
     pub id: String,
     /// What kind of event it was made to show.
     pub kind: EventKind,
-    /// The relation that follows from goals and attitudes.
-    pub relation: Relation,
-    /// Which part of the dataset it is in, if the dataset is divided.
+    /// How its kind was to come about; not known of other programs' events.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub variant: Option<Variant>,
+    /// The part of the dataset it belongs to, if the dataset is divided.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub split: Option<Split>,
+    /// The relation that follows from goals and attitudes.
+    pub relation: Relation,
     /// The event's own seed.
     pub seed: u64,
     /// Where the walls stand.
@@ -121,8 +128,9 @@ impl EventEntry {
         Self {
             id: id.into(),
             kind: scene.kind,
-            relation: scene.relation(),
+            variant: None,
             split: None,
+            relation: scene.relation(),
             seed: event.seed,
             layout: LayoutEntry { base: scene.layout.base(), flip: scene.layout.flip().map(u8::from) },
             agents: core::array::from_fn(agent),

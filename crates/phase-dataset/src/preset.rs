@@ -1,12 +1,16 @@
 //! What a generated dataset is made of.
 
-use crate::{FileError, Problem};
-use phase_model::EventKind;
+use crate::{FileError, Problem, splits::Split};
+use phase_model::{Layout, layout::USED_BASES};
+use phase_sampler::Variant;
 use serde::Deserialize;
-use std::path::Path;
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    path::Path,
+};
 
 /// The value of the field `format` of preset files.
-pub const PRESET_FORMAT: &str = "phase-preset/1";
+pub const PRESET_FORMAT: &str = "phase-preset/2";
 
 /// A recipe for a dataset.
 #[derive(Clone, PartialEq, Eq, Debug, Deserialize)]
@@ -16,43 +20,153 @@ pub struct Preset {
     pub format: String,
     /// Name; the ids of events begin with it.
     pub name: String,
-    /// Number of events unless another is asked for.
-    pub events: usize,
     /// Seed unless another is given.
     pub seed: u64,
-    /// Kinds of the first events; later ones repeat them in turn.
-    pub kinds: Vec<EventKind>,
+    /// Names for sets of base layouts; each is used as it is and in its four reflections.
+    pub layouts: BTreeMap<String, Vec<u8>>,
+    /// What an event has to satisfy; without it the first scene drawn is taken.
+    pub selection: Option<Selection>,
+    /// What the dataset is composed of.
+    pub groups: Vec<Group>,
+}
+
+/// Which events are let in.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Selection {
+    /// The shortest event (steps).
+    pub min_steps: usize,
+    /// The longest event (steps).
+    pub max_steps: usize,
+    /// Scenes tried for an event before the run is given up.
+    pub attempts: usize,
+}
+
+/// Events that have everything in common but their goals.
+#[derive(Clone, PartialEq, Eq, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Group {
+    /// The variant, and with it the kind.
+    pub variant: Variant,
+    /// The part of the dataset, if it is divided.
+    pub split: Option<Split>,
+    /// One of the names in `layouts`.
+    pub layouts: String,
+    /// How many.
+    pub events: usize,
+}
+
+/// What one event of a dataset is to be.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Slot {
+    /// The variant.
+    pub variant: Variant,
+    /// Whose goals' turn it is; see [`Variant::goals`].
+    pub turn: usize,
+    /// The part of the dataset, if it is divided.
+    pub split: Option<Split>,
+    /// The name of its layouts.
+    pub layouts: String,
+}
+
+/// The slots of a preset: its groups in even proportion from the first slot to the last, and from the beginning
+/// again for datasets that are larger. Goals go on by turns, so that they stay balanced.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Composition {
+    slots: Vec<Slot>,
+    turns: BTreeMap<Variant, usize>,
 }
 
 impl Preset {
     /// Reads a preset from text; `name` stands for it in messages.
     ///
     /// # Errors
-    /// If the text is no preset or lists no kinds.
+    /// If the text is no preset, lists no events, or names layouts that there are not.
     pub fn parse(name: &str, text: &str) -> Result<Self, FileError> {
         let fail = |rule: String| FileError {
             file: Path::new(name).to_owned(),
             problem: Problem::Shape { what: "preset", rule },
         };
         let preset: Self = serde_json::from_str(text).map_err(|error| fail(error.to_string()))?;
-        if preset.format != PRESET_FORMAT {
-            return Err(fail(format!("field `format` must be {PRESET_FORMAT:?}")));
-        }
-        if preset.kinds.is_empty() || preset.events == 0 {
-            return Err(fail("fields `kinds` and `events` must not be empty".into()));
-        }
+        preset.check().map_err(fail)?;
         Ok(preset)
     }
 
-    /// The kind of the event with this number.
+    fn check(&self) -> Result<(), String> {
+        if self.format != PRESET_FORMAT {
+            return Err(format!("field `format` must be {PRESET_FORMAT:?}"));
+        }
+        let plain = |letter: char| letter.is_ascii_alphanumeric() || "-_.".contains(letter);
+        if self.name.is_empty() || self.name.len() > 60 || !self.name.chars().all(plain) {
+            return Err("field `name` must be 1 to 60 letters, digits, `-`, `_`, `.`".into());
+        }
+        if self.groups.is_empty() || self.groups.iter().any(|group| group.events == 0) {
+            return Err("fields `groups` and `events` must not be empty".into());
+        }
+        for (name, bases) in &self.layouts {
+            if let Some(base) = bases.iter().find(|base| !USED_BASES.contains(base)) {
+                return Err(format!("layouts.{name} names base {base}, which no event is made in"));
+            }
+        }
+        let empty = |group: &&Group| self.layouts.get(&group.layouts).is_none_or(Vec::is_empty);
+        if let Some(group) = self.groups.iter().find(empty) {
+            return Err(format!("there are no layouts of the name {:?}", group.layouts));
+        }
+        if self.selection.is_some_and(|it| it.attempts == 0 || it.min_steps > it.max_steps) {
+            return Err("selection needs an attempt, and min_steps no greater than max_steps".into());
+        }
+        Ok(())
+    }
+
+    /// How many events there are unless told otherwise.
     #[must_use]
-    pub fn kind(&self, index: usize) -> EventKind {
-        self.kinds[index % self.kinds.len()]
+    pub fn events(&self) -> usize {
+        self.groups.iter().map(|group| group.events).sum()
+    }
+
+    /// The layouts of a name.
+    #[must_use]
+    pub fn pool(&self, name: &str) -> Vec<Layout> {
+        let bases: BTreeSet<u8> = self.layouts.get(name).into_iter().flatten().copied().collect();
+        Layout::all_used().filter(|layout| bases.contains(&layout.base())).collect()
+    }
+
+    /// The slots.
+    #[must_use]
+    pub fn composition(&self) -> Composition {
+        // The place of event j of n is (2 j + 1) / 2 n of the way; equal places keep the groups' order.
+        let places = self.groups.iter().flat_map(|group| (0..group.events).map(move |j| (j, group)));
+        let mut places: Vec<(usize, &Group)> = places.collect();
+        places.sort_by(|(a, one), (b, other)| ((2 * a + 1) * other.events).cmp(&((2 * b + 1) * one.events)));
+        let mut turns: BTreeMap<Variant, usize> = BTreeMap::new();
+        let slot = |(_, group): (usize, &Group)| {
+            let next = turns.entry(group.variant).or_default();
+            *next += 1;
+            Slot {
+                variant: group.variant,
+                turn: *next - 1,
+                split: group.split,
+                layouts: group.layouts.clone(),
+            }
+        };
+        let slots = places.into_iter().map(slot).collect();
+        Composition { slots, turns }
     }
 
     /// The id of the event with this number.
     #[must_use]
     pub fn id(&self, index: usize) -> String {
         format!("{}-{index:04}", self.name)
+    }
+}
+
+impl Composition {
+    /// What the event with this number is to be.
+    #[must_use]
+    pub fn slot(&self, index: usize) -> Slot {
+        let slot = &self.slots[index % self.slots.len()];
+        let round = index / self.slots.len();
+        let turns = self.turns.get(&slot.variant).copied().unwrap_or_default();
+        Slot { turn: slot.turn + round * turns, ..slot.clone() }
     }
 }

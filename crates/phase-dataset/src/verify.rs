@@ -129,7 +129,7 @@ fn event(folder: &Path, entry: &EventEntry) -> Result<(), FileError> {
     let files = [entry.event.clone(), entry.video.clone()];
     let mut found = EventEntry::with_files(&recording.id, &simulation.event, files);
     found.relation = recording.relation;
-    found.split = entry.split;
+    (found.variant, found.split) = (entry.variant, entry.split);
     let (Ok(found), Ok(expected)) = (serde_json::to_value(found), serde_json::to_value(entry)) else {
         return Ok(());
     };

@@ -1,7 +1,7 @@
 //! Who stood in whose way.
 
 use crate::{Track, track::other};
-use phase_model::{Entity, State, Vec2, layout::SLOT_DIRECTIONS};
+use phase_model::{AGENT_COUNT, Entity, Goal, State, Vec2, arena, layout::SLOT_DIRECTIONS};
 use phase_planner::{Routes, routes::point_in, situation::obstruct};
 
 /// Steps in which an agent's body narrowed a door on another's cheapest way to a point, so much that the other
@@ -65,4 +65,18 @@ pub fn door_of(track: &Track, routes: &Routes, state: &State, agent: usize) -> O
             line.distance(position) < radius
         })
     })
+}
+
+/// Where an agent with a goal has to go: to the object that nobody has hold of yet, else to the goal's end.
+#[must_use]
+pub fn next_place(goal: Goal, state: &State) -> Option<Vec2> {
+    match goal {
+        Goal::ObjectOnLandmark { object, .. }
+            if !(0..AGENT_COUNT).any(|agent| state.holds(agent, usize::from(object))) =>
+        {
+            Some(state.position(Entity::Object(object)))
+        }
+        Goal::Touch { other, .. } => Some(state.position(Entity::Agent(other))),
+        _ => goal.landmark().and_then(|landmark| arena::LANDMARKS.get(landmark).copied()),
+    }
 }

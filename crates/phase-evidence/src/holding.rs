@@ -54,6 +54,13 @@ pub fn carried_together(track: &Track, object: usize) -> Carrying {
     carrying(track, object, |holders| holders == [true; AGENT_COUNT])
 }
 
+/// Steps in which an agent (0 or 1) held an object and the other did not, and how far it went in them.
+#[must_use]
+pub fn carried_alone(track: &Track, agent: usize, object: usize) -> Carrying {
+    let agent = agent.min(AGENT_COUNT - 1);
+    carrying(track, object, |holders| holders[agent] && !holders[crate::track::other(agent)])
+}
+
 /// For how long an object was held in some way, and how far it went.
 #[derive(Clone, Copy, PartialEq, Debug, Default, Serialize, Deserialize)]
 pub struct Carrying {

@@ -15,6 +15,8 @@ pub enum Purpose {
     Search = 3,
     /// Seeds of the events of a dataset.
     Event = 4,
+    /// Attempts at one event of a dataset.
+    Attempt = 5,
 }
 
 /// A generator for one purpose and one index (an event's number, an agent's number, a step …).

@@ -1,7 +1,7 @@
 //! Drawing the parts of a scene.
 
 use phase_model::{
-    Attitude, Body, Goal, Layout, Sign, Size, Strength, Vec2, arena,
+    Attitude, Body, Entity, EventKind, Goal, Layout, Scene, Sign, Size, Strength, Vec2, arena,
     layout::{Room, SLOT_ROOMS},
     scene::{AgentSpec, ObjectSpec},
 };
@@ -11,6 +11,47 @@ use rand::{Rng, RngExt};
 const JITTER: f32 = 0.6;
 /// Width of the narrow doors (u).
 const NARROW: f32 = 2.5;
+/// Strengths of agents that can move objects alone.
+pub const CAPABLE: [Strength; 3] = [Strength::Fair, Strength::Strong, Strength::Mighty];
+/// Sizes that do not fit through narrow doors.
+pub const BIG: [Size; 3] = [Size::Large, Size::Huge, Size::Medium];
+
+/// Agents and objects, not yet in an arena.
+#[derive(Clone, Debug)]
+pub struct Draft {
+    /// Roles 0 and 1.
+    pub agents: [AgentSpec; 2],
+    /// The objects that goals are about.
+    wanted: Vec<ObjectSpec>,
+    /// The first of them has this number; the others follow.
+    first_wanted: u8,
+}
+
+impl Draft {
+    /// Agents and the objects that their goals are about, in the order of the goals. `None` if the goals are
+    /// about more or other objects.
+    #[must_use]
+    pub fn about(goals: [Goal; 2], agents: [AgentSpec; 2], wanted: Vec<ObjectSpec>) -> Option<Self> {
+        let numbers: Vec<u8> = goals.into_iter().filter_map(object_of).collect();
+        let first_wanted = numbers.iter().copied().min().unwrap_or(0);
+        // An object that merely stands in the way is nobody's goal.
+        let count = numbers.iter().max().map_or(wanted.len(), |&last| usize::from(last - first_wanted) + 1);
+        (count == wanted.len()).then_some(Self { agents, wanted, first_wanted })
+    }
+
+    /// The scene. Objects that nobody wants come first where goals are about a later one; else one lies about in
+    /// half of the cases.
+    pub fn into_scene(self, kind: EventKind, layout: Layout, random: &mut impl Rng) -> Scene {
+        let mut stray = |_| object(any_size(random), any_room(random), random);
+        let mut objects: Vec<ObjectSpec> = (0..self.first_wanted).map(&mut stray).collect();
+        objects.extend(self.wanted);
+        let another = stray(0);
+        if objects.len() < 2 && random.random_bool(0.5) {
+            objects.push(another);
+        }
+        Scene { layout, agents: self.agents, objects, kind }
+    }
+}
 
 /// One of several equally likely things. The slice must not be empty.
 pub fn choose<T: Copy>(options: &[T], random: &mut impl Rng) -> T {
@@ -23,22 +64,27 @@ pub fn other_room(taken: &[Room], random: &mut impl Rng) -> Option<Room> {
     (!free.is_empty()).then(|| choose(&free, random))
 }
 
-/// One of the paper's 90 layouts.
-pub fn layout(random: &mut impl Rng) -> Layout {
-    let all: Vec<Layout> = Layout::all_used().collect();
-    choose(&all, random)
+/// Any of the four rooms.
+pub fn any_room(random: &mut impl Rng) -> Room {
+    random.random_range(0..4)
 }
 
-/// The doors (slots) of a layout that are narrow: only the smallest agents fit.
-#[must_use]
-pub fn narrow_doors(layout: Layout) -> Vec<usize> {
-    (0..4).filter(|&slot| layout.opening(slot).is_some_and(|opening| opening.length() <= NARROW)).collect()
+/// Any of the four sizes.
+pub fn any_size(random: &mut impl Rng) -> Size {
+    choose(&Size::ALL, random)
 }
 
-/// The two rooms at a slot in random order.
-pub fn sides(slot: usize, random: &mut impl Rng) -> (Room, Room) {
-    let (a, b) = SLOT_ROOMS[slot];
-    if random.random_bool(0.5) { (a, b) } else { (b, a) }
+/// A narrow door of a room, which only the smallest agents fit through, and the room beyond it.
+pub fn narrow_door_of(layout: Layout, room: Room, random: &mut impl Rng) -> Option<(usize, Room)> {
+    let narrow = |slot: usize| layout.opening(slot).is_some_and(|opening| opening.length() <= NARROW);
+    let beyond = |slot: usize| match SLOT_ROOMS[slot] {
+        (a, b) if a == room => Some((slot, b)),
+        (a, b) if b == room => Some((slot, a)),
+        _ => None,
+    };
+    let doors: Vec<(usize, Room)> =
+        (0..SLOT_ROOMS.len()).filter(|&slot| narrow(slot)).filter_map(beyond).collect();
+    (!doors.is_empty()).then(|| choose(&doors, random))
 }
 
 /// A body at rest near one of a room's start points, facing anywhere.
@@ -52,6 +98,18 @@ pub fn start_in(room: Room, random: &mut impl Rng) -> Body {
 /// A neutral agent.
 pub fn agent(size: Size, strength: Strength, goal: Goal, room: Room, random: &mut impl Rng) -> AgentSpec {
     AgentSpec { size, strength, goal, attitude: Attitude::Neutral, start: start_in(room, random) }
+}
+
+/// The same agent with the wish to help.
+#[must_use]
+pub const fn helping(agent: AgentSpec) -> AgentSpec {
+    AgentSpec { attitude: Attitude::Help, ..agent }
+}
+
+/// The same agent with the wish to hinder.
+#[must_use]
+pub const fn hindering(agent: AgentSpec) -> AgentSpec {
+    AgentSpec { attitude: Attitude::Hinder, ..agent }
 }
 
 /// An object.
@@ -71,4 +129,13 @@ pub const fn agent_on(agent: u8, landmark: Room) -> Goal {
 #[must_use]
 pub const fn object_on(object: u8, landmark: Room) -> Goal {
     Goal::ObjectOnLandmark { object, landmark: landmark as u8, sign: Sign::Positive }
+}
+
+/// The number of the object that a goal is about.
+#[must_use]
+pub const fn object_of(goal: Goal) -> Option<u8> {
+    match goal.subject() {
+        Entity::Object(object) => Some(object),
+        Entity::Agent(_) => None,
+    }
 }

@@ -1,49 +1,143 @@
 //! Every kind of scene keeps its promises.
 
 use phase_model::{
-    Attitude, EventKind, Layout, Relation, Sign,
+    Attitude, EventKind, Goal, Layout, Relation, Sign,
     random::{Purpose, stream},
 };
 use phase_predicates::achieved;
-use phase_sampler::sample;
+use phase_sampler::{Request, SampleError, Variant, sample, sample_kind};
+use proptest::prelude::*;
+use std::collections::BTreeSet;
 
-/// Scenes drawn of each kind.
-const SCENES: u64 = 40;
+fn all_layouts() -> Vec<Layout> {
+    Layout::all_used().collect()
+}
+
+fn relation_of(kind: EventKind) -> (Relation, Attitude) {
+    match kind {
+        EventKind::Helping => (Relation::Friendly, Attitude::Help),
+        EventKind::Hindering => (Relation::Adversarial, Attitude::Hinder),
+        EventKind::Chasing | EventKind::Competing => (Relation::Adversarial, Attitude::Neutral),
+        EventKind::Collaborating => (Relation::Friendly, Attitude::Neutral),
+        EventKind::Independent => (Relation::Neutral, Attitude::Neutral),
+    }
+}
+
+/// A goal whoever has it: an agent's own number does not matter.
+fn anonymous(goal: Goal) -> Goal {
+    match goal {
+        Goal::AgentOnLandmark { landmark, sign, .. } => Goal::AgentOnLandmark { agent: 0, landmark, sign },
+        Goal::Touch { sign, .. } => Goal::Touch { agent: 0, other: 1, sign },
+        object => object,
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    /// Nothing overlaps, nothing is solved, and labels are those of the variant, whatever the seed.
+    #[test]
+    fn scenes_keep_the_promises_of_their_variant(seed: u64, which in 0..Variant::ALL.len(), turn in 0_usize..48) {
+        let variant = Variant::ALL[which];
+        let layouts = all_layouts();
+        let request = Request { variant, turn, layouts: &layouts };
+        let scene = sample(&request, &mut stream(seed, Purpose::Scene, 0)).unwrap();
+        prop_assert_eq!(scene.kind, variant.kind());
+        prop_assert_eq!(scene.validate_apart(), Ok(()));
+        prop_assert!(layouts.contains(&scene.layout));
+        let (physique, state) = (scene.physique(), scene.initial_state());
+        for goal in scene.goals() {
+            let wanted = if goal.sign() == Sign::Positive { goal } else { goal.negated() };
+            prop_assert!(!achieved(&physique, &state, wanted), "starts solved");
+        }
+        let (relation, attitude) = relation_of(scene.kind);
+        prop_assert_eq!(scene.relation(), relation);
+        let mut attitudes = scene.attitudes();
+        attitudes.sort_by_key(|attitude| *attitude == Attitude::Neutral);
+        prop_assert_eq!(attitudes, [attitude, Attitude::Neutral]);
+        let [mut wanted, mut found] = [variant.goals(turn), scene.goals()].map(|goals| goals.map(anonymous));
+        wanted.sort_unstable();
+        found.sort_unstable();
+        prop_assert_eq!(wanted, found);
+    }
+}
 
 #[test]
-fn scenes_keep_the_promises_of_their_kind() {
-    let used: Vec<Layout> = Layout::all_used().collect();
-    for kind in EventKind::ALL {
-        let mut layouts = std::collections::BTreeSet::new();
-        for index in 0..SCENES {
-            let scene = sample(kind, &mut stream(7, Purpose::Scene, index)).unwrap();
-            assert_eq!(scene.kind, kind);
-            assert_eq!(scene.validate_apart(), Ok(()), "{kind:?} {index}");
-            assert!(used.contains(&scene.layout));
-            layouts.insert(scene.layout);
-            let (physique, state) = (scene.physique(), scene.initial_state());
-            for goal in scene.goals() {
-                let wanted = if goal.sign() == Sign::Positive { goal } else { goal.negated() };
-                assert!(!achieved(&physique, &state, wanted), "{kind:?} {index} starts solved");
+fn all_values_of_every_variable_occur() {
+    let layouts = all_layouts();
+    let (mut used, mut sizes, mut strengths, mut objects) =
+        (BTreeSet::new(), BTreeSet::new(), BTreeSet::new(), BTreeSet::new());
+    let mut social = [0; 2];
+    for variant in Variant::ALL {
+        for index in 0..60 {
+            let request = Request { variant, turn: index as usize, layouts: &layouts };
+            let scene = sample(&request, &mut stream(7, Purpose::Scene, index)).unwrap();
+            used.insert(scene.layout);
+            objects.insert(scene.objects.len());
+            for (k, agent) in scene.agents.iter().enumerate() {
+                sizes.insert(agent.size);
+                strengths.insert(agent.strength);
+                social[k] += usize::from(agent.attitude != Attitude::Neutral);
             }
-            let (relation, attitude) = match kind {
-                EventKind::Helping => (Relation::Friendly, Attitude::Help),
-                EventKind::Hindering => (Relation::Adversarial, Attitude::Hinder),
-                EventKind::Chasing | EventKind::Competing => (Relation::Adversarial, Attitude::Neutral),
-                EventKind::Collaborating => (Relation::Friendly, Attitude::Neutral),
-                EventKind::Independent => (Relation::Neutral, Attitude::Neutral),
-            };
-            assert_eq!(scene.relation(), relation, "{kind:?} {index}");
-            assert_eq!(scene.attitudes(), [attitude, Attitude::Neutral], "{kind:?} {index}");
         }
-        assert!(layouts.len() > 12, "{kind:?} uses only {} layouts", layouts.len());
     }
+    assert_eq!(used.len(), 90);
+    assert_eq!((sizes.len(), strengths.len()), (4, 4));
+    assert_eq!(objects.into_iter().collect::<Vec<_>>(), [0, 1, 2]);
+    // Seven variants of 60 have a social agent, which is as often the one as the other.
+    assert_eq!(social[0] + social[1], 420);
+    assert!(social[0].abs_diff(social[1]) < 80, "{social:?}");
+}
+
+#[test]
+fn turns_name_all_goals_equally_often() {
+    let mut physical = BTreeSet::new();
+    for variant in Variant::ALL {
+        let pairs: BTreeSet<[Goal; 2]> = (0..variant.goal_count()).map(|turn| variant.goals(turn)).collect();
+        assert_eq!(pairs.len(), variant.goal_count(), "{variant:?}");
+        assert_eq!(variant.goals(3), variant.goals(3 + variant.goal_count()));
+        let landmarks = |role: usize, landmark: usize| {
+            let turns = (0..variant.goal_count()).map(|turn| variant.goals(turn)[role]);
+            turns.filter(|goal| goal.landmark() == Some(landmark)).count()
+        };
+        for role in 0..2 {
+            assert!((1..4).all(|landmark| landmarks(role, landmark) == landmarks(role, 0)), "{variant:?}");
+        }
+        let own = if relation_of(variant.kind()).1 == Attitude::Neutral { 0 } else { 1 };
+        for turn in 0..variant.goal_count() {
+            physical.extend(variant.goals(turn)[own..].iter().copied().map(anonymous));
+        }
+    }
+    assert_eq!(physical.len(), 14, "the paper's physical goals");
+}
+
+#[test]
+fn layouts_come_from_the_pool_alone() {
+    let pool = [Layout::new(13, None).unwrap(), Layout::new(6, None).unwrap()];
+    for variant in Variant::ALL {
+        let drawn: BTreeSet<Layout> = (0..12)
+            .filter_map(|index| {
+                let request = Request { variant, turn: index as usize, layouts: &pool };
+                sample(&request, &mut stream(1, Purpose::Scene, index)).ok()
+            })
+            .map(|scene| scene.layout)
+            .collect();
+        assert!(!drawn.is_empty() && drawn.iter().all(|layout| pool.contains(layout)), "{variant:?}");
+    }
+    // Without a narrow door nobody is kept out by one.
+    let open = [Layout::new(0, None).unwrap()];
+    let request = Request { variant: Variant::Blocked, turn: 0, layouts: &open };
+    let refused = sample(&request, &mut stream(1, Purpose::Scene, 0));
+    assert_eq!(refused, Err(SampleError(Variant::Blocked)));
+    let none = Request { variant: Variant::Chase, turn: 0, layouts: &[] };
+    assert!(sample(&none, &mut stream(1, Purpose::Scene, 0)).is_err());
 }
 
 #[test]
 fn one_stream_one_scene() {
     for kind in EventKind::ALL {
-        let draw = |index| sample(kind, &mut stream(3, Purpose::Scene, index)).unwrap();
+        let draw = |index| sample_kind(kind, &mut stream(3, Purpose::Scene, index)).unwrap();
+        assert_eq!(draw(0).kind, kind);
         assert_eq!(draw(0), draw(0));
         assert_ne!(draw(0), draw(1));
     }

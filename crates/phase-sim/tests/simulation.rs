@@ -10,7 +10,7 @@ use phase_perception::observe;
 use phase_sim::{Engine, Settings, SimulationError, beliefs, simulate, simulate_with};
 
 fn scene(kind: EventKind) -> Scene {
-    phase_sampler::sample(kind, &mut stream(5, Purpose::Scene, 0)).expect("a scene of every kind")
+    phase_sampler::sample_kind(kind, &mut stream(5, Purpose::Scene, 0)).expect("a scene of every kind")
 }
 
 /// Small minds and short events, so that a test takes a moment.

@@ -2,12 +2,9 @@
 
 use super::rows::{Criterion, Form, Part};
 use phase_evidence::{
-    Effect, Outcome, Rest, Track, blocking, contact, exploration,
-    holding::{self, Carrying},
-    outcome,
-    pursuit::Pursuit,
+    Effect, Outcome, Rest, Track, blocking, contact, exploration, holding, outcome, pursuit::Pursuit,
 };
-use phase_model::{AGENT_COUNT, Entity, Goal, Scene, State, Vec2, arena, layout::Room};
+use phase_model::{AGENT_COUNT, Entity, Goal, Scene, State, layout::Room};
 use phase_planner::Routes;
 
 /// Steps an agent may take to let go and come to rest after its goal is reached.
@@ -134,11 +131,11 @@ impl Case<'_> {
     fn hindrance(&self, form: Form, goal: Goal) -> (bool, String) {
         let hinderer = 1 - self.part.judged;
         let object = object_of(goal).unwrap_or(0);
-        let alone = self.held_by_alone(hinderer, object);
+        let alone = holding::carried_alone(self.track, hinderer, object);
         match form {
             Form::Block => {
                 let routes = Routes::new(self.scene.layout);
-                let target = |state: &State| way_of(goal, state);
+                let target = |state: &State| blocking::next_place(goal, state);
                 let door = blocking::steps_blocking_a_door(self.track, &routes, hinderer, target).len();
                 let between = blocking::steps_between(self.track, hinderer, target).len();
                 (door.max(between) >= VISIBLE, format!("blocked a door {door} steps, between {between}"))
@@ -221,17 +218,6 @@ impl Case<'_> {
         self.track.states.iter().filter(|state| state.grips[agent].is_some()).count()
     }
 
-    /// What an agent did with an object while the other had no hold of it.
-    fn held_by_alone(&self, agent: usize, object: usize) -> Carrying {
-        let all = holding::carried(self.track, agent, object);
-        let together = holding::carried_together(self.track, object);
-        Carrying {
-            steps: all.steps - together.steps,
-            distance: all.distance - together.distance,
-            approach: core::array::from_fn(|k| all.approach[k] - together.approach[k]),
-        }
-    }
-
     /// Whether in the end an object lies where an agent does not fit through the doors.
     fn out_of_reach(&self, agent: usize, object: usize) -> bool {
         let Some(state) = self.track.states.last() else { return false };
@@ -246,18 +232,5 @@ const fn object_of(goal: Goal) -> Option<usize> {
     match goal.subject() {
         Entity::Object(object) => Some(object as usize),
         Entity::Agent(_) => None,
-    }
-}
-
-/// Where an agent with a goal has to go: to the object it has no hold of yet, else to the goal's end.
-fn way_of(goal: Goal, state: &State) -> Option<Vec2> {
-    match goal {
-        Goal::ObjectOnLandmark { object, .. }
-            if !(0..AGENT_COUNT).any(|agent| state.holds(agent, usize::from(object))) =>
-        {
-            Some(state.position(Entity::Object(object)))
-        }
-        Goal::Touch { other, .. } => Some(state.position(Entity::Agent(other))),
-        _ => goal.landmark().and_then(|landmark| arena::LANDMARKS.get(landmark).copied()),
     }
 }

@@ -77,11 +77,24 @@ fn a_damaged_cache_is_made_again() {
     let mut child = start(path, "out");
     signal(&child, "-KILL");
     child.wait().expect("it ends");
-    std::fs::write(path.join("out/.cache/demo-0000.bin"), "rubbish").expect("written");
+    std::fs::write(path.join("out/.cache/demo-0000.json"), "rubbish").expect("written");
     std::fs::write(path.join("out/events/demo-0000.json"), "rubbish").expect("written");
     let output = xtask(path).args(generate("out")).output().expect("the program starts");
     assert!(output.status.success(), "{}", text(&output.stderr));
     assert!(!text(&output.stderr).contains("kept"), "{}", text(&output.stderr));
+    assert!(tree(&path.join("out")) == tree(&path.join("straight")));
+}
+
+#[test]
+fn a_damaged_video_is_made_again() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    succeed(path, &generate("straight"));
+    let mut child = start(path, "out");
+    signal(&child, "-KILL");
+    child.wait().expect("it ends");
+    std::fs::write(path.join("out/videos/demo-0000.mp4"), "rubbish").expect("written");
+    succeed(path, &generate("out"));
     assert!(tree(&path.join("out")) == tree(&path.join("straight")));
 }
 

@@ -7,6 +7,7 @@ mod check_physics;
 mod gen_dataset;
 mod interruption;
 mod render;
+mod selection;
 mod simulate;
 mod support;
 mod tidy;

@@ -19,7 +19,7 @@ pub use columns::descriptions;
 pub use compare::compare;
 pub use export::{ExportError, export};
 
-use crate::{FieldError, FileError, Problem, manifest::EventEntry, phase_events, split::Split};
+use crate::{FieldError, FileError, Problem, manifest::EventEntry, phase_events, splits::Split};
 use ::parquet::{errors::Result, schema::types::Type};
 use column::Column;
 use phase_events::Recording;

@@ -1,6 +1,6 @@
 //! The card that people and loaders read.
 
-use phase_dataset::{card::card, parquet::descriptions, split::Split};
+use phase_dataset::{card::card, parquet::descriptions, splits::Split};
 use std::collections::BTreeSet;
 
 fn example() -> phase_dataset::manifest::Manifest {

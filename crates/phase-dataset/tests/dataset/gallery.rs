@@ -4,7 +4,7 @@ use crate::support::plain_event;
 use phase_dataset::{
     gallery::{MOST_SHOWN, Timeline, escape, escape_script, page},
     manifest::EventEntry,
-    split::Split,
+    splits::Split,
 };
 use serde_json::{Value, json};
 

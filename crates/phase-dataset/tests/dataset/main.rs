@@ -14,6 +14,8 @@ mod phase_events_read;
 mod phase_events_real;
 mod phase_events_round_trip;
 mod preset;
+mod record;
+mod splits;
 mod summary;
 mod support;
 mod verify;

@@ -22,6 +22,7 @@ pub(crate) fn dataset(folder: &Path, id: &str) -> Manifest {
         preset: "demo".into(),
         seed: u64::MAX,
         settings: json!({"max_steps": 2}),
+        selection: Vec::new(),
         events: vec![entry],
         files: vec![],
     }

@@ -9,7 +9,7 @@ use phase_dataset::{
     manifest::{EventEntry, event_path, video_path},
     parquet::{EVENTS_PER_FILE, ExportError, compare, descriptions, export, parts},
     phase_events::{Recording, to_json},
-    split::Split,
+    splits::Split,
 };
 use serde_json::{Value, json};
 use std::{fs, path::Path};

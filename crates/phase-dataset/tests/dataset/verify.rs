@@ -181,7 +181,7 @@ fn manifests_that_lie_are_found_out() {
     assert!(found.contains("manifest.json: names events/made-up-0.json more than once"), "{found}");
 
     let mut moved = manifest.clone();
-    moved.events[0].split = Some(phase_dataset::split::Split::Test);
+    moved.events[0].split = Some(phase_dataset::splits::Split::Test);
     let found = sentences(path, &moved).join("\n");
     assert!(found.contains("it holds 2 events instead of 1"), "{found}");
 

@@ -8,6 +8,7 @@ mod motion;
 mod outcome;
 mod pursuit;
 mod rest;
+mod selection;
 mod statistics;
 mod support;
 mod way;

@@ -1,0 +1,82 @@
+//! `shard.json`: one part of a dataset that is made in several places.
+
+use crate::{FileError, Problem, json, phase_events, record::Record};
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use std::path::Path;
+
+/// The value of the field `format` of shards.
+pub const SHARD_FORMAT: &str = "phase-shard/1";
+/// The shard's file name. It is written last: a folder with it is complete.
+pub const SHARD_FILE: &str = "shard.json";
+
+/// What a dataset is, apart from its events: the same for all of its shards.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Whole {
+    /// Name of the preset.
+    pub preset: String,
+    /// Number of events.
+    pub events: usize,
+    /// The seed from which all chance is derived.
+    pub seed: u64,
+    /// Name and version of the program.
+    pub generator: String,
+    /// Settings of simulation and minds.
+    pub settings: Value,
+    /// Whether events were selected.
+    pub selected: bool,
+    /// The command that makes the whole.
+    pub command: String,
+}
+
+/// One shard: the slots k − 1, k − 1 + n, k − 1 + 2 n … of the dataset.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Shard {
+    /// Always [`SHARD_FORMAT`].
+    pub format: String,
+    /// Which one, from 1.
+    pub shard: usize,
+    /// Of how many.
+    pub of: usize,
+    /// The dataset it is a part of.
+    pub whole: Whole,
+    /// What became of its slots, in order.
+    pub slots: Vec<Record>,
+}
+
+impl Shard {
+    /// Reads a shard and checks that it has an event for each of its slots.
+    ///
+    /// # Errors
+    /// If it is no JSON, of another format, or incomplete.
+    pub fn read(path: &Path) -> Result<Self, FileError> {
+        let fail = |problem| FileError { file: path.to_owned(), problem };
+        let shape = |rule: String| Problem::Shape { what: "shard of a dataset", rule };
+        let value = json::read(path)?;
+        phase_events::check_format(&value, SHARD_FORMAT).map_err(fail)?;
+        let shard: Self = serde_json::from_value(value).map_err(|error| fail(shape(error.to_string())))?;
+        if shard.shard == 0 || shard.shard > shard.of {
+            return Err(fail(shape(format!("there is no shard {} of {}", shard.shard, shard.of))));
+        }
+        let expected = slots(shard.shard, shard.of, shard.whole.events).count();
+        if shard.slots.len() != expected || shard.slots.iter().any(|slot| slot.entry.is_none()) {
+            let found = shard.slots.iter().filter(|slot| slot.entry.is_some()).count();
+            return Err(fail(shape(format!("it holds {found} events instead of {expected}"))));
+        }
+        Ok(shard)
+    }
+
+    /// The shard as a file's text.
+    #[must_use]
+    pub fn to_json(&self) -> String {
+        // Writing plain data of ours to a string cannot fail.
+        format!("{}\n", serde_json::to_string(self).unwrap_or_default())
+    }
+}
+
+/// The slots of shard `shard` (from 1) of `of`, out of `events`.
+pub fn slots(shard: usize, of: usize, events: usize) -> impl Iterator<Item = usize> {
+    (shard.saturating_sub(1)..events).step_by(of.max(1))
+}

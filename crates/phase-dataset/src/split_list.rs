@@ -1,0 +1,85 @@
+//! `phase-splits/1`: a split as lists of ids.
+
+use crate::{
+    FileError, Problem, json, phase_events,
+    splits::{Item, Split},
+};
+use serde::{Deserialize, Serialize};
+use std::{collections::BTreeMap, path::Path};
+
+/// The value of the field `format` of split files.
+pub const SPLITS_FORMAT: &str = "phase-splits/1";
+
+/// Which events belong to which part.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SplitList {
+    /// Always [`SPLITS_FORMAT`].
+    pub format: String,
+    /// Ids of the events to learn from.
+    pub train: Vec<String>,
+    /// Ids of the events to choose by.
+    pub validation: Vec<String>,
+    /// Ids of the events to be judged by.
+    pub test: Vec<String>,
+}
+
+impl SplitList {
+    /// The list of a split; one part for each event.
+    #[must_use]
+    pub fn of(items: &[Item], parts: &[Split]) -> Self {
+        let ids = |wanted: Split| {
+            let of_part = items.iter().zip(parts).filter(|(_, part)| **part == wanted);
+            of_part.map(|(item, _)| item.id.clone()).collect()
+        };
+        let [train, validation, test] = Split::ALL.map(ids);
+        Self { format: SPLITS_FORMAT.into(), train, validation, test }
+    }
+
+    /// Reads a list.
+    ///
+    /// # Errors
+    /// If it is no JSON, of another format, or incomplete.
+    pub fn read(path: &Path) -> Result<Self, FileError> {
+        let fail = |problem| FileError { file: path.to_owned(), problem };
+        let value = json::read(path)?;
+        phase_events::check_format(&value, SPLITS_FORMAT).map_err(fail)?;
+        serde_json::from_value(value).map_err(|error| fail(shape(error.to_string())))
+    }
+
+    /// The part of each event.
+    ///
+    /// # Errors
+    /// [`Problem::Shape`] if an event is named twice or not at all, or something is named that is no event.
+    pub fn parts(&self, items: &[Item]) -> Result<Vec<Split>, Problem> {
+        let mut parts: BTreeMap<&str, Split> = BTreeMap::new();
+        for (split, ids) in Split::ALL.into_iter().zip([&self.train, &self.validation, &self.test]) {
+            for id in ids {
+                if parts.insert(id, split).is_some() {
+                    return Err(shape(format!("{id:?} is named twice")));
+                }
+            }
+        }
+        let found: Result<Vec<Split>, Problem> = items
+            .iter()
+            .map(|item| {
+                parts.remove(item.id.as_str()).ok_or_else(|| shape(format!("{:?} is in no part", item.id)))
+            })
+            .collect();
+        match parts.keys().next() {
+            Some(id) if found.is_ok() => Err(shape(format!("{id:?} is no event of the dataset"))),
+            _ => found,
+        }
+    }
+
+    /// The list as a file's text.
+    #[must_use]
+    pub fn to_json(&self) -> String {
+        // Writing plain data of ours to a string cannot fail.
+        format!("{}\n", serde_json::to_string_pretty(self).unwrap_or_default())
+    }
+}
+
+const fn shape(rule: String) -> Problem {
+    Problem::Shape { what: "list of splits", rule }
+}

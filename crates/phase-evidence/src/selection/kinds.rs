@@ -1,0 +1,130 @@
+//! What each kind of event demands.
+
+use super::{
+    Change, Comparison, Refusal,
+    common::{VISIBLE, object_of, pursued, reached, touches},
+};
+use crate::{Outcome, Track, blocking, contact, holding, pursuit::Pursuit, track::other};
+use phase_model::{Attitude, Entity, EventKind, Goal, Scene, Sign};
+use phase_planner::Routes;
+
+/// An object both pull at for so long is fought over (steps).
+const FOUGHT: usize = 5;
+/// An object was carried if it went so far (u).
+const CARRIED: f32 = 1.0;
+/// A pursuit takes so many steps of motion.
+const PURSUIT: usize = 8;
+/// Of so many steps, independent agents may touch each other in one.
+const CROSSING: usize = 5;
+
+pub(super) fn judge(scene: &Scene, track: &Track) -> Result<Option<Comparison>, Refusal> {
+    match scene.kind {
+        EventKind::Helping => helping(scene, track).map(Some),
+        EventKind::Hindering => hindering(scene, track).map(Some),
+        EventKind::Chasing => chasing(scene, track).map(Some),
+        EventKind::Competing => competing(scene, track).map(Some),
+        EventKind::Collaborating => collaborating(scene, track).map(|()| None),
+        EventKind::Independent => independent(scene, track).map(|()| None),
+    }
+}
+
+/// The helpee's goal is reached, and the helper has had something in hand.
+fn helping(scene: &Scene, track: &Track) -> Result<Comparison, Refusal> {
+    let helper = social(scene);
+    let helpee = other(helper);
+    reached(scene, track, helpee)?;
+    let held = track.states.iter().filter(|state| state.grips[helper].is_some()).count();
+    demand(held >= VISIBLE, Refusal::NoContact)?;
+    Ok(Comparison { idle: helper, judged: helpee, change: Change::Helped })
+}
+
+/// The victim is after its goal, and the hinderer is at it, in its way or at its object; where the goal is about
+/// touching, one goes after the other, which gets away.
+fn hindering(scene: &Scene, track: &Track) -> Result<Comparison, Refusal> {
+    let hinderer = social(scene);
+    let victim = other(hinderer);
+    match scene.agents[victim].goal {
+        Goal::Touch { sign: Sign::Positive, .. } => chase(track, victim)?,
+        Goal::Touch { sign: Sign::Negative, .. } => chase(track, hinderer)?,
+        goal => {
+            pursued(scene, track, victim)?;
+            demand(is_in_the_way(scene, track, hinderer, goal), Refusal::NoContact)?;
+        }
+    }
+    Ok(Comparison { idle: hinderer, judged: victim, change: Change::Hindered })
+}
+
+fn chasing(scene: &Scene, track: &Track) -> Result<Comparison, Refusal> {
+    let chases = |agent: &usize| scene.agents[*agent].goal.sign() == Sign::Positive;
+    let chaser = (0..scene.agents.len()).find(chases).unwrap_or(0);
+    if Outcome::of(track, scene.agents[chaser].goal).reached {
+        reached(scene, track, chaser)?;
+    }
+    chase(track, chaser)?;
+    Ok(Comparison { idle: other(chaser), judged: chaser, change: Change::Hindered })
+}
+
+/// Both get to the object; one wins, or they fight over it. Without the winner the loser would have won.
+fn competing(scene: &Scene, track: &Track) -> Result<Comparison, Refusal> {
+    let object = object_of(scene.agents[0].goal).unwrap_or(0);
+    for agent in 0..scene.agents.len() {
+        pursued(scene, track, agent)?;
+        demand(touches(track, agent, object) > 0, Refusal::Uncontested)?;
+    }
+    let winner = (0..scene.agents.len()).find(|&it| Outcome::of(track, scene.agents[it].goal).reached);
+    let fought = holding::carried_together(track, object.into()).steps;
+    demand(winner.is_some() || fought >= FOUGHT, Refusal::Uncontested)?;
+    let winner = winner.unwrap_or(1);
+    Ok(Comparison { idle: winner, judged: other(winner), change: Change::Hindered })
+}
+
+/// The object gets there, carried by both at once or by one after the other.
+fn collaborating(scene: &Scene, track: &Track) -> Result<(), Refusal> {
+    reached(scene, track, 0)?;
+    let object = usize::from(object_of(scene.agents[0].goal).unwrap_or(0));
+    let much = |it: holding::Carrying| it.steps >= VISIBLE && it.distance >= CARRIED;
+    let together = much(holding::carried_together(track, object));
+    let in_turn = (0..scene.agents.len()).all(|agent| much(holding::carried_alone(track, agent, object)));
+    demand(together || in_turn, Refusal::NotTogether)
+}
+
+/// Both reach their goals and keep out of each other's business; that they meet on the way is fine.
+fn independent(scene: &Scene, track: &Track) -> Result<(), Refusal> {
+    for agent in 0..scene.agents.len() {
+        reached(scene, track, agent)?;
+        if let Some(object) = object_of(scene.agents[other(agent)].goal) {
+            let meddled = holding::carried(track, agent, object.into()).steps;
+            demand(meddled == 0, Refusal::Interference)?;
+        }
+    }
+    let met = contact::steps_touching(track, Entity::Agent(0), Entity::Agent(1)).len();
+    demand(met * CROSSING <= track.steps(), Refusal::Interference)
+}
+
+/// One goes after the other most of the time that it moves, and the other gets away for a while.
+fn chase(track: &Track, chaser: usize) -> Result<(), Refusal> {
+    let (after, away) = (Pursuit::of(track, chaser), Pursuit::of(track, other(chaser)));
+    demand(after.moving >= PURSUIT && 2 * after.towards >= after.moving, Refusal::NoPursuit)?;
+    demand(away.away >= VISIBLE && away.away > away.towards, Refusal::NoFlight)
+}
+
+/// Whether a hinderer was seen at the victim, at its object, or in its way.
+fn is_in_the_way(scene: &Scene, track: &Track, hinderer: usize, goal: Goal) -> bool {
+    let victim = other(hinderer);
+    let target = |state: &phase_model::State| blocking::next_place(goal, state);
+    let met = contact::steps_touching(track, Entity::agent(hinderer), Entity::agent(victim)).len();
+    let handled = object_of(goal).map_or(0, |object| holding::carried(track, hinderer, object.into()).steps);
+    let in_door =
+        || blocking::steps_blocking_a_door(track, &Routes::new(scene.layout), hinderer, target).len();
+    let between = || blocking::steps_between(track, hinderer, target).len();
+    met >= VISIBLE || handled >= VISIBLE || in_door() >= VISIBLE || between() >= VISIBLE
+}
+
+/// The agent with a social utility weight.
+fn social(scene: &Scene) -> usize {
+    scene.agents.iter().position(|agent| agent.attitude != Attitude::Neutral).unwrap_or(0)
+}
+
+const fn demand(holds: bool, otherwise: Refusal) -> Result<(), Refusal> {
+    if holds { Ok(()) } else { Err(otherwise) }
+}

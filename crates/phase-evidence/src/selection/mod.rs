@@ -1,0 +1,165 @@
+//! Whether an event shows its label.
+//!
+//! [`first_look`] applies every test that needs the event alone: its length, its end, whether the goals can be
+//! read off it, and what its kind demands to be seen. Where the label speaks of what one agent does to the other,
+//! it names the [`Comparison`] that is still to be made: the same scene and seed with that agent neutral and
+//! idle, which is as dear as the event itself and so comes last.
+
+mod common;
+mod kinds;
+
+use crate::{Effect, Outcome, Track, contact};
+use core::ops::RangeInclusive;
+use phase_model::{Attitude, Entity, Goal, Scene, Sign};
+use serde::{Deserialize, Serialize};
+
+/// Why an event does not show its label.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Refusal {
+    /// It ends before the shortest length.
+    TooShort,
+    /// It lasts beyond the greatest length.
+    TooLong,
+    /// Something still moves or is still held at the end, and nobody is at odds with anybody.
+    Restless,
+    /// A goal that the label needs reached was missed.
+    GoalMissed,
+    /// A goal was reached before one could see it being pursued.
+    TooSoon,
+    /// An agent did nothing that would tell its goal.
+    Aimless,
+    /// The social agent had nothing to do with the other or with what the other wants.
+    NoContact,
+    /// Two who want the same did not do it together.
+    NotTogether,
+    /// Two who are at odds about an object did not both get to it, or nothing came of it.
+    Uncontested,
+    /// Nobody went after the other.
+    NoPursuit,
+    /// Nobody got away from the other.
+    NoFlight,
+    /// Two who should mind their own business were in each other's way.
+    Interference,
+    /// Without the agent that is to make a difference it would have come out alike.
+    NoEffect,
+}
+
+impl Refusal {
+    /// All reasons, in the order in which they are looked for.
+    pub const ALL: [Self; 13] = [
+        Self::TooShort,
+        Self::TooLong,
+        Self::Restless,
+        Self::GoalMissed,
+        Self::TooSoon,
+        Self::Aimless,
+        Self::NoContact,
+        Self::NotTogether,
+        Self::Uncontested,
+        Self::NoPursuit,
+        Self::NoFlight,
+        Self::Interference,
+        Self::NoEffect,
+    ];
+
+    /// The name used in files.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::TooShort => "too-short",
+            Self::TooLong => "too-long",
+            Self::Restless => "restless",
+            Self::GoalMissed => "goal-missed",
+            Self::TooSoon => "too-soon",
+            Self::Aimless => "aimless",
+            Self::NoContact => "no-contact",
+            Self::NotTogether => "not-together",
+            Self::Uncontested => "uncontested",
+            Self::NoPursuit => "no-pursuit",
+            Self::NoFlight => "no-flight",
+            Self::Interference => "interference",
+            Self::NoEffect => "no-effect",
+        }
+    }
+}
+
+/// What an agent is to have done to the other's goal.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Change {
+    /// Reached only thanks to it, or at least a tenth sooner.
+    Helped,
+    /// Missed because of it, or reached at least a tenth later; or, of a touch, from the first one on kept up for at
+    /// most half as much of the time.
+    Hindered,
+}
+
+/// A comparison with the same event in which one agent does nothing.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Comparison {
+    /// The agent that is to do nothing: `idle` of the simulation's settings.
+    pub idle: usize,
+    /// The agent whose goal is looked at.
+    pub judged: usize,
+    /// What has to come out.
+    pub change: Change,
+}
+
+impl Comparison {
+    /// The scene to simulate, with the event's own seed: the idle agent is neutral.
+    #[must_use]
+    pub fn scene(&self, scene: &Scene) -> Scene {
+        let mut scene = scene.clone();
+        if let Some(agent) = scene.agents.get_mut(self.idle) {
+            agent.attitude = Attitude::Neutral;
+        }
+        scene
+    }
+
+    /// Judges the event beside the one in which the agent did nothing. Goals are the event's own.
+    ///
+    /// # Errors
+    /// [`Refusal::NoEffect`].
+    pub fn judge(&self, scene: &Scene, event: &Track, without: &Track) -> Result<(), Refusal> {
+        let goal = scene.agents[self.judged].goal;
+        let effect = Effect { with: Outcome::of(event, goal), without: Outcome::of(without, goal) };
+        let shown = match self.change {
+            Change::Helped => effect.helped(),
+            Change::Hindered => effect.hindered() || gets_loose(goal, event, without),
+        };
+        if shown { Ok(()) } else { Err(Refusal::NoEffect) }
+    }
+}
+
+/// Everything that can be said of an event by itself; `lengths` are those allowed (steps). `Ok(None)` means that it
+/// shows its label.
+///
+/// # Errors
+/// The first reason against it.
+pub fn first_look(
+    scene: &Scene,
+    track: &Track,
+    lengths: RangeInclusive<usize>,
+) -> Result<Option<Comparison>, Refusal> {
+    let steps = track.steps();
+    if steps < *lengths.start() {
+        return Err(Refusal::TooShort);
+    }
+    if steps > *lengths.end() {
+        return Err(Refusal::TooLong);
+    }
+    common::tidy(scene, track)?;
+    kinds::judge(scene, track)
+}
+
+/// Whether whoever is touched gets away again: a chase in which one is caught and escapes is one all the same.
+fn gets_loose(goal: Goal, event: &Track, without: &Track) -> bool {
+    if !matches!(goal, Goal::Touch { sign: Sign::Positive, .. }) {
+        return false;
+    }
+    let [(held, left), (held_without, left_without)] = [event, without].map(|track| {
+        let touches = contact::steps_touching(track, Entity::Agent(0), Entity::Agent(1));
+        (touches.len(), touches.first().map_or(0, |first| track.states.len() - first))
+    });
+    held > 0 && 2 * held * left_without <= held_without * left
+}

@@ -1,0 +1,250 @@
+//! Which made-up events show their label, and why the others do not.
+
+use crate::support::{Move, track};
+use phase_evidence::{
+    Track,
+    selection::{Change, Comparison, Refusal, first_look},
+};
+use phase_model::{
+    AgentSpec, Attitude, Body, EventKind, Goal, Layout, ObjectSpec, Scene, Sign, Size, Strength,
+};
+
+/// Steps of the made-up events.
+const STEPS: usize = 40;
+
+const fn place(agent: u8, landmark: u8) -> Goal {
+    Goal::AgentOnLandmark { agent, landmark, sign: Sign::Positive }
+}
+
+/// Object 0 on landmark 2, whose centre is (23.5, 4.5).
+const THING: Goal = Goal::ObjectOnLandmark { object: 0, landmark: 2, sign: Sign::Positive };
+const TOUCH: Goal = Goal::Touch { agent: 0, other: 1, sign: Sign::Positive };
+
+fn scene(kind: EventKind, goals: [Goal; 2], first: Attitude) -> Scene {
+    let agent = |goal, attitude| AgentSpec {
+        size: Size::Small,
+        strength: Strength::Fair,
+        goal,
+        attitude,
+        start: Body::default(),
+    };
+    let object = ObjectSpec { size: Size::Small, start: Body::default() };
+    Scene {
+        layout: Layout::new(0, None).expect("a layout"),
+        agents: [agent(goals[0], first), agent(goals[1], Attitude::Neutral)],
+        objects: vec![object],
+        kind,
+    }
+}
+
+/// Somewhere on the way from one point to another, from one step to another.
+fn on_way(t: usize, from: (f32, f32), to: (f32, f32), steps: core::ops::Range<usize>) -> (f32, f32) {
+    let share = (t.saturating_sub(steps.start) as f32 / (steps.end - steps.start) as f32).min(1.0);
+    (from.0 + share * (to.0 - from.0), from.1 + share * (to.1 - from.1))
+}
+
+fn event(at: impl Fn(usize) -> Move) -> Track {
+    track((0..=STEPS).map(at))
+}
+
+fn facing((x, y): (f32, f32)) -> (f32, f32, f32) {
+    (x, y, 0.0)
+}
+
+/// Agent 0 fetches the object at (12, 4.5), lets go of it at step 30 and stays; agent 1 stands by.
+fn fetch(t: usize) -> Move {
+    let agent = if t < 10 {
+        on_way(t, (8.0, 8.0), (10.0, 4.5), 0..10)
+    } else {
+        on_way(t, (10.0, 4.5), (21.5, 4.5), 10..30)
+    };
+    let object = on_way(t, (12.0, 4.5), (23.5, 4.5), 10..30);
+    let held = (10..30).contains(&t).then_some(0);
+    Move { agents: [facing(agent), (8.0, 18.0, 0.0)], objects: vec![object], held: [held, None] }
+}
+
+fn refusal(scene: &Scene, track: &Track) -> Option<Refusal> {
+    first_look(scene, track, STEPS..=100).err()
+}
+
+#[test]
+fn help_needs_a_goal_reached_in_time_a_hand_and_a_quiet_end() {
+    let scene = scene(EventKind::Helping, [THING, THING], Attitude::Help);
+    let good = event(fetch);
+    let comparison = Comparison { idle: 0, judged: 1, change: Change::Helped };
+    assert_eq!(first_look(&scene, &good, STEPS..=100), Ok(Some(comparison)));
+    assert_eq!(first_look(&scene, &good, 41..=100), Err(Refusal::TooShort));
+    assert_eq!(first_look(&scene, &good, 10..=39), Err(Refusal::TooLong));
+
+    type Spoil = fn(usize, &mut Move);
+    let cases: [(&str, Spoil, Refusal); 5] = [
+        ("left on the way", |_, it| it.objects[0].0 = it.objects[0].0.min(15.0), Refusal::GoalMissed),
+        ("never in hand", |_, it| it.held = [None, None], Refusal::NoContact),
+        (
+            "there at once",
+            |t, it| {
+                if t > 2 {
+                    it.objects[0] = (23.5, 4.5)
+                }
+            },
+            Refusal::TooSoon,
+        ),
+        ("still in hand", |t, it| it.held[0] = (t >= 10).then_some(0), Refusal::Restless),
+        ("turning to the end", |t, it| it.agents[1].2 = t as f32, Refusal::Restless),
+    ];
+    for (what, change, reason) in cases {
+        let changed = |t| {
+            let mut step = fetch(t);
+            change(t, &mut step);
+            step
+        };
+        assert_eq!(refusal(&scene, &event(changed)), Some(reason), "{what}");
+    }
+}
+
+#[test]
+fn an_effect_is_a_difference_to_the_event_without_the_agent() {
+    let scene = scene(EventKind::Helping, [THING, THING], Attitude::Help);
+    let comparison = Comparison { idle: 0, judged: 1, change: Change::Helped };
+    let (with, without) = (event(fetch), event(|_| fetch(0)));
+    assert_eq!(comparison.judge(&scene, &with, &without), Ok(()));
+    assert_eq!(comparison.judge(&scene, &with, &with), Err(Refusal::NoEffect));
+    let hindered = Comparison { change: Change::Hindered, ..comparison };
+    assert_eq!(hindered.judge(&scene, &with, &without), Err(Refusal::NoEffect));
+    assert_eq!(hindered.judge(&scene, &without, &with), Ok(()));
+    assert_eq!(comparison.scene(&scene).attitudes(), [Attitude::Neutral; 2]);
+    assert_eq!(comparison.scene(&scene).goals(), scene.goals());
+}
+
+/// Agent 1 walks to within 3 u of landmark 1 (23.5, 19.5) and finds agent 0 there.
+fn stopped(t: usize) -> Move {
+    let victim = on_way(t, (8.0, 19.5), (20.5, 19.5), 0..20);
+    Move { agents: [(22.4, 19.5, 0.0), facing(victim)], objects: vec![(10.0, 6.0)], held: [None, None] }
+}
+
+#[test]
+fn hindrance_needs_a_victim_after_something_and_somebody_in_its_way() {
+    let goals = [place(1, 1).negated(), place(1, 1)];
+    let scene = scene(EventKind::Hindering, goals, Attitude::Hinder);
+    let comparison = Comparison { idle: 0, judged: 1, change: Change::Hindered };
+    assert_eq!(first_look(&scene, &event(stopped), STEPS..=100), Ok(Some(comparison)));
+    let lazy = event(|t| Move { agents: [(22.4, 19.5, 0.0), (8.0, 19.5, t as f32)], ..stopped(t) });
+    assert_eq!(refusal(&scene, &lazy), Some(Refusal::Aimless));
+    let aloof = event(|t| Move { agents: [(8.0, 4.0, 0.0), stopped(t).agents[1]], ..stopped(t) });
+    assert_eq!(refusal(&scene, &aloof), Some(Refusal::NoContact));
+}
+
+/// Touched in 13 of the 31 steps from the first touch on, in 16, and in all.
+#[test]
+fn who_gets_loose_was_chased() {
+    let scene = scene(EventKind::Chasing, [TOUCH, TOUCH.negated()], Attitude::Neutral);
+    let comparison = Comparison { idle: 1, judged: 0, change: Change::Hindered };
+    let touching = |share: usize| {
+        event(move |t| {
+            let apart = if t >= 10 && t % 10 < share { 2.0 } else { 6.0 };
+            let agents = [(8.0, 6.0, 0.0), (8.0, 6.0 + apart, 0.0)];
+            Move { agents, objects: vec![(12.0, 18.0)], held: [None, None] }
+        })
+    };
+    let without = touching(10);
+    assert_eq!(comparison.judge(&scene, &touching(4), &without), Ok(()));
+    assert_eq!(comparison.judge(&scene, &touching(5), &without), Err(Refusal::NoEffect));
+    let helped = Comparison { change: Change::Helped, ..comparison };
+    assert_eq!(helped.judge(&scene, &touching(4), &without), Err(Refusal::NoEffect));
+}
+
+/// Agent 0 runs after agent 1, which gets away from step 5 on and is caught at step 36, unless it is faster.
+fn hunt(t: usize, speed: f32) -> Move {
+    let fleer = 14.0 + speed * t.saturating_sub(5) as f32;
+    let chaser = (7.0 + 0.35 * t as f32).min(fleer - 2.5);
+    Move { agents: [(chaser, 6.0, 0.0), (fleer, 6.0, 0.0)], objects: vec![(10.0, 18.0)], held: [None, None] }
+}
+
+#[test]
+fn a_chase_needs_pursuit_and_flight() {
+    let scene = scene(EventKind::Chasing, [TOUCH, TOUCH.negated()], Attitude::Neutral);
+    let comparison = Comparison { idle: 1, judged: 0, change: Change::Hindered };
+    let good = event(|t| hunt(t, 0.2));
+    assert_eq!(first_look(&scene, &good, STEPS..=100), Ok(Some(comparison)));
+    assert_eq!(refusal(&scene, &event(|t| hunt(t, 0.0))), Some(Refusal::NoFlight));
+    let idle = event(|t| Move { agents: [(7.0, 6.0, 0.0), hunt(t, 0.2).agents[1]], ..hunt(t, 0.2) });
+    assert_eq!(refusal(&scene, &idle), Some(Refusal::NoPursuit));
+    // The same between one who evades and one who is kept from touching it, agent 1 being the one that evades.
+    let mut evading = scene.clone();
+    evading.kind = EventKind::Hindering;
+    evading.agents[1].attitude = Attitude::Hinder;
+    let comparison = Comparison { idle: 1, judged: 0, change: Change::Hindered };
+    assert_eq!(first_look(&evading, &good, STEPS..=100), Ok(Some(comparison)));
+}
+
+#[test]
+fn a_contest_needs_two_at_the_object_and_an_issue() {
+    let other = Goal::ObjectOnLandmark { object: 0, landmark: 0, sign: Sign::Positive };
+    let scene = scene(EventKind::Competing, [THING, other], Attitude::Neutral);
+    // Agent 1 has been at the object, where agent 0 then takes it from.
+    let met = |t| {
+        let mut step = fetch(t);
+        step.agents[1] = facing(on_way(t, (12.0, 12.0), (12.0, 6.4), 0..6));
+        step
+    };
+    let comparison = Comparison { idle: 0, judged: 1, change: Change::Hindered };
+    assert_eq!(first_look(&scene, &event(met), STEPS..=100), Ok(Some(comparison)));
+    assert_eq!(refusal(&scene, &event(fetch)), Some(Refusal::Aimless));
+    let near_miss =
+        |t| Move { agents: [met(t).agents[0], facing(on_way(t, (12.0, 14.0), (12.0, 9.0), 0..6))], ..met(t) };
+    assert_eq!(refusal(&scene, &event(near_miss)), Some(Refusal::Uncontested));
+    // They pull at it, and it stays where it is.
+    let tug = |pulling: usize| {
+        move |t: usize| {
+            let held = (10..10 + pulling).contains(&t).then_some(0);
+            let first = met(t.min(9)).agents[0];
+            Move { agents: [first, met(t).agents[1]], objects: vec![(12.0, 4.5)], held: [held, held] }
+        }
+    };
+    assert!(first_look(&scene, &event(tug(5)), STEPS..=100).is_ok());
+    assert_eq!(refusal(&scene, &event(tug(4))), Some(Refusal::Uncontested));
+}
+
+#[test]
+fn collaborating_is_carrying_together_or_by_turns() {
+    let scene = scene(EventKind::Collaborating, [THING, THING], Attitude::Neutral);
+    let holding = |first: core::ops::Range<usize>, second: core::ops::Range<usize>| {
+        move |t: usize| {
+            let held = [first.contains(&t).then_some(0), second.contains(&t).then_some(0)];
+            Move { held, ..fetch(t) }
+        }
+    };
+    let cases = [
+        (10..30, 10..30, None),
+        (10..30, 26..29, None),
+        (10..20, 20..30, None),
+        (10..30, 28..30, Some(Refusal::NotTogether)),
+        (10..30, 0..0, Some(Refusal::NotTogether)),
+    ];
+    for (first, second, expected) in cases {
+        let track = event(holding(first.clone(), second.clone()));
+        assert_eq!(refusal(&scene, &track), expected, "{first:?} {second:?}");
+    }
+}
+
+#[test]
+fn independent_agents_reach_their_goals_and_leave_each_other_alone() {
+    let scene = scene(EventKind::Independent, [THING, place(1, 1)], Attitude::Neutral);
+    let walk = |t: usize| {
+        let mut step = fetch(t);
+        step.agents[1] = facing(on_way(t, (8.0, 19.5), (23.5, 19.5), 0..20));
+        step
+    };
+    assert_eq!(first_look(&scene, &event(walk), STEPS..=100), Ok(None));
+    assert_eq!(refusal(&scene, &event(fetch)), Some(Refusal::GoalMissed));
+    let meddling = event(|t| Move { held: [walk(t).held[0], (t == 3).then_some(0)], ..walk(t) });
+    assert_eq!(refusal(&scene, &meddling), Some(Refusal::Interference));
+    let entangled = |t: usize| {
+        let mut step = walk(t);
+        if t < 10 {
+            step.agents[1] = (step.agents[0].0, step.agents[0].1 + 1.5, 0.0);
+        }
+        step
+    };
+    assert_eq!(refusal(&scene, &event(entangled)), Some(Refusal::Interference));
+}

@@ -1,0 +1,23 @@
+//! Independent agents.
+
+use crate::draft::{self, CAPABLE, Draft, agent, any_room, any_size, choose, object, object_of};
+use phase_model::{Goal, Strength};
+use rand::Rng;
+
+/// Each agent has a goal of its own; goals about different objects, each in another room than its landmark.
+pub(crate) fn independent(goals: [Goal; 2], random: &mut impl Rng) -> Option<Draft> {
+    let mut objects = Vec::new();
+    let mut agents = Vec::new();
+    for goal in goals {
+        let strengths = match object_of(goal) {
+            Some(_) => {
+                let room = draft::other_room(&[goal.landmark()?], random)?;
+                objects.push(object(any_size(random), room, random));
+                &CAPABLE[..]
+            }
+            None => &Strength::ALL[..],
+        };
+        agents.push(agent(any_size(random), choose(strengths, random), goal, any_room(random), random));
+    }
+    Draft::about(goals, agents.try_into().ok()?, objects)
+}
