@@ -22,7 +22,7 @@ const PRESET: &str = r#"{
 }"#;
 
 fn generate<'a>(out: &'a str, more: &[&'a str]) -> Vec<&'a str> {
-    let options = ["gen-dataset", "--preset", "tiny.json", "--simulations", "30", "--particles", "8"];
+    let options = ["gen-dataset", "--preset", "tiny.json", "--simulations", "10", "--particles", "4"];
     [&options[..], &["--out", out], more].concat()
 }
 
