@@ -45,8 +45,8 @@ pub fn card(manifest: &Manifest, command: &str) -> String {
          - Everything here is simulated; no person acted or was recorded.\n\
          - There are never more than two agents and two objects, in a square arena with four landmarks.\n\
          - At most one agent helps or hinders; the other minds its own goal.\n\
-         - `kind`, `relation` and goals are what a scene was set up for. An agent need not get what it wants: \
-         see `reached`.\n\
+         - `kind`, `relation` and goals are what a scene was set up for. {selected} An agent need not get what it \
+         wants: see `reached`.\n\
          - Beliefs are in it as far as they show in subgoals and their shares; the particles themselves are \
          recomputed from an event file.\n\n\
          ## Licence\n\nMIT OR Apache-2.0, as the program's.\n",
@@ -57,8 +57,19 @@ pub fn card(manifest: &Manifest, command: &str) -> String {
         kinds = kinds(manifest),
         splits = splits(manifest),
         columns = columns(),
+        selected = selected(manifest),
         generator = manifest.generator,
     )
+}
+
+/// Whether anything has checked that events show their labels.
+const fn selected(manifest: &Manifest) -> &'static str {
+    if manifest.selection.is_empty() {
+        "Nothing has checked that it shows."
+    } else {
+        "Events in which a program did not find it shown were left out; how many, and why, is in `selection` of \
+         `manifest.json`."
+    }
 }
 
 /// What the events are, in two sentences.
