@@ -1,7 +1,7 @@
 //! One event of a `phase-events/1` file, in memory.
 
 use phase_evidence::Track;
-use phase_model::{AGENT_COUNT, Action, Body, Relation, Scene, State};
+use phase_model::{AGENT_COUNT, Action, Body, ObservedError, ObservedEvent, Relation, Scene, State};
 use phase_sim::Event;
 use serde_json::Value;
 
@@ -126,6 +126,16 @@ impl Recording {
             recovered_actions: None,
             simulation: Some(Simulation { event, generator, settings }),
         }
+    }
+
+    /// What a viewer has of the event: none of its labels, and no more of a simulated event than of a measured one.
+    ///
+    /// # Errors
+    /// [`ObservedError`] for recordings that no file can hold.
+    pub fn observed(&self) -> Result<ObservedEvent, ObservedError> {
+        let rows = self.trajectory.states().iter().map(|state| state.bodies).collect();
+        let objects = self.scene.objects.iter().map(|object| object.size).collect();
+        ObservedEvent::new(self.scene.layout, self.scene.agents.map(|agent| agent.size), objects, rows)
     }
 }
 

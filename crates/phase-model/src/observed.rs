@@ -1,0 +1,122 @@
+//! An event as a viewer has it: walls, sizes and motion, and nothing that would answer the viewer's questions.
+
+use crate::{AGENT_COUNT, AgentBody, Body, Entity, Layout, MAX_ENTITIES, MAX_OBJECTS, Physique, Size, State};
+use thiserror::Error;
+
+/// Why something cannot be an observed event.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Error)]
+pub enum ObservedError {
+    /// There is nothing to look at.
+    #[error("an observed event needs at least one row")]
+    Empty,
+    /// More objects than a scene can have.
+    #[error("an observed event has at most {MAX_OBJECTS} objects")]
+    TooManyObjects,
+    /// A position, velocity or angle is no number.
+    #[error("row {0} of an observed event has a number that is not finite")]
+    NotFinite(usize),
+}
+
+/// What can be seen of an event up to some moment: the layout with its landmarks, the sizes of all bodies, and
+/// where everything was. Goals, attitudes, strengths, the kind of event and how long it goes on are not in it, so
+/// whatever is inferred from it alone is inferred.
+#[derive(Clone, PartialEq, Debug)]
+pub struct ObservedEvent {
+    layout: Layout,
+    agent_sizes: [Size; AGENT_COUNT],
+    object_sizes: Vec<Size>,
+    rows: Vec<[Body; MAX_ENTITIES]>,
+}
+
+impl ObservedEvent {
+    /// An event of which rows 0 to t have been seen. Row 0 is the initial state, row t ≥ 1 the mean over the
+    /// substeps of step t, bodies by [`Entity::index`]. Bodies past the last object mean nothing.
+    ///
+    /// # Errors
+    /// [`ObservedError`] for no rows, too many objects, or numbers that are not finite.
+    pub fn new(
+        layout: Layout,
+        agent_sizes: [Size; AGENT_COUNT],
+        object_sizes: Vec<Size>,
+        rows: Vec<[Body; MAX_ENTITIES]>,
+    ) -> Result<Self, ObservedError> {
+        if rows.is_empty() {
+            return Err(ObservedError::Empty);
+        }
+        if object_sizes.len() > MAX_OBJECTS {
+            return Err(ObservedError::TooManyObjects);
+        }
+        let bodies = AGENT_COUNT + object_sizes.len();
+        match rows.iter().position(|row| !row[..bodies].iter().all(Body::is_finite)) {
+            Some(row) => Err(ObservedError::NotFinite(row)),
+            None => Ok(Self { layout, agent_sizes, object_sizes, rows }),
+        }
+    }
+
+    /// The event as it is known after its first steps; all of it if it has no more.
+    #[must_use]
+    pub fn watched_for(&self, steps: usize) -> Self {
+        let rows = self.rows.iter().take(steps.saturating_add(1)).copied().collect();
+        Self { rows, object_sizes: self.object_sizes.clone(), ..*self }
+    }
+
+    /// Where the walls stand.
+    #[must_use]
+    pub const fn layout(&self) -> Layout {
+        self.layout
+    }
+
+    /// Sizes of the two agents.
+    #[must_use]
+    pub const fn agent_sizes(&self) -> [Size; AGENT_COUNT] {
+        self.agent_sizes
+    }
+
+    /// Sizes of the objects.
+    #[must_use]
+    pub fn object_sizes(&self) -> &[Size] {
+        &self.object_sizes
+    }
+
+    /// The bodies at row 0 and after each step, by [`Entity::index`]; never empty. Angular velocities are 0 where
+    /// nobody measured them.
+    #[must_use]
+    pub fn rows(&self) -> &[[Body; MAX_ENTITIES]] {
+        &self.rows
+    }
+
+    /// Steps after row 0.
+    #[must_use]
+    pub fn steps(&self) -> usize {
+        self.rows.len() - 1
+    }
+
+    /// The entities present, agents first.
+    pub fn entities(&self) -> impl Iterator<Item = Entity> + use<> {
+        (0..AGENT_COUNT + self.object_sizes.len()).map(Entity::from_index)
+    }
+
+    /// The physics of the event if its agents had these greatest forces (N).
+    #[must_use]
+    pub fn physique(&self, max_forces: [f32; AGENT_COUNT]) -> Physique {
+        let mut object_radii = [0.0; MAX_OBJECTS];
+        for (radius, size) in object_radii.iter_mut().zip(&self.object_sizes) {
+            *radius = size.radius();
+        }
+        Physique {
+            walls: self.layout.walls(),
+            agents: core::array::from_fn(|agent| AgentBody {
+                radius: self.agent_sizes[agent].radius(),
+                max_force: max_forces[agent],
+            }),
+            object_radii,
+            object_count: self.object_sizes.len(),
+        }
+    }
+
+    /// Row `t` as a state without grips and contacts, which no trajectory tells; `None` past the last row.
+    #[must_use]
+    pub fn state(&self, t: usize) -> Option<State> {
+        self.rows.get(t).copied().map(State::new)
+    }
+}
