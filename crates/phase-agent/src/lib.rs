@@ -1,7 +1,8 @@
 //! One PHASE agent's mind: from belief to subgoal to action (paper, Algorithm 1).
 //!
 //! [`Agent::perceive`] updates the belief, [`Agent::decide`] plans from every particle, weighs the subgoals,
-//! and searches an action for the best of them with the particles that agree on it.
+//! and searches an action for the best of them with the particles that agree on it. The latter is [`Mind::decide`],
+//! which inference uses with beliefs that it has estimated.
 //!
 //! The key design decision is that a mind owns its model of the world ([`phase_model::Dynamics`]) and never
 //! sees the true one: whatever it knows it has perceived. The price is a second simulation of the physics.
@@ -15,6 +16,7 @@ pub mod course;
 pub mod guidance;
 pub mod imagination;
 mod load;
+pub mod mind;
 pub mod objective;
 pub mod patience;
 pub mod repertoire;
@@ -22,5 +24,6 @@ pub mod settings;
 pub mod thought;
 
 pub use agent::Agent;
+pub use mind::{Mind, Outlook};
 pub use settings::{Foresight, Settings};
 pub use thought::{ActionValue, SubgoalValue, Thought};

@@ -142,9 +142,9 @@ fn seen_or_covered(physique: &Physique, observation: &Observation) -> CellSet {
     cells
 }
 
-/// Replaces what is observed by the truth, and drops what cannot be true beside it: an unobserved agent's
+/// Replaces what is observed by the truth in a particle, and drops what cannot be true beside it: an unobserved agent's
 /// hold of an observed object, and contacts between what is observed and what is not.
-fn overwrite(particle: &mut State, observation: &Observation) {
+pub fn overwrite(particle: &mut State, observation: &Observation) {
     let observed = observation.observed;
     for entity in observed.iter() {
         if let Some(body) = observation.body(entity) {

@@ -43,5 +43,5 @@ mod place;
 mod predict;
 mod weights;
 
-pub use belief::{Belief, PARTICLE_COUNT};
+pub use belief::{Belief, PARTICLE_COUNT, overwrite};
 pub use memory::{AGENT_FORGETTING, CellMemory, OBJECT_FORGETTING, hiding_weight};

@@ -17,6 +17,8 @@ pub enum Purpose {
     Event = 4,
     /// Attempts at one event of a dataset.
     Attempt = 5,
+    /// Proposals of an inference.
+    Inference = 6,
 }
 
 /// A generator for one purpose and one index (an event's number, an agent's number, a step …).

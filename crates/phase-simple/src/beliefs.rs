@@ -1,0 +1,60 @@
+//! What the agents of an observed event believed, estimated from what they can have observed.
+
+use phase_belief::{Belief, overwrite};
+use phase_forward::Forward;
+use phase_model::{
+    AGENT_COUNT, Action, EntitySet, ObservedEvent, Physique, State,
+    random::{self, Purpose},
+};
+use phase_perception::{Observation, observe};
+
+/// One agent's belief at the end of every step, from bottom up: it is made once for an event and shared by all
+/// hypotheses. Forces play no part in it, for what an agent does itself it observes.
+#[derive(Clone, Debug)]
+pub struct EstimatedBeliefs {
+    particles: Vec<Vec<State>>,
+    last: Belief,
+}
+
+impl EstimatedBeliefs {
+    /// The beliefs of agent 0 or 1 along the states of an event ([`crate::reconstruction::states`]), by so many
+    /// particles at least.
+    #[must_use]
+    pub fn new(
+        observed: &ObservedEvent,
+        states: &[State],
+        agent: usize,
+        particle_count: usize,
+        seed: u64,
+    ) -> Self {
+        let physique = observed.physique([0.0; AGENT_COUNT]);
+        let dynamics = Forward::new(&physique);
+        let mut random = random::stream(seed, Purpose::Belief, agent as u64);
+        let seen: Vec<Observation> = states.iter().map(|state| observe(&physique, state, agent)).collect();
+        let mut last = Belief::new(&physique, &seen[0], particle_count, &mut random);
+        let mut particles = vec![last.particles().to_vec()];
+        for observation in &seen[1..] {
+            // Which action it was does not matter: its outcome is observed.
+            last.update(&dynamics, &physique, Action::NoForce, observation, &mut random);
+            particles.push(last.particles().to_vec());
+        }
+        Self { particles, last }
+    }
+
+    /// What the agent believes after so many steps if the world is in this state: what it has observed until then
+    /// in the event, and what it observes now. The particles, and the entities that it observes.
+    #[must_use]
+    pub fn outlook(&self, physique: &Physique, step: usize, state: &State) -> (Vec<State>, EntitySet) {
+        let observation = observe(physique, state, self.last.agent());
+        let known = &self.particles[step.min(self.particles.len() - 1)];
+        let mut particles = known.clone();
+        particles.iter_mut().for_each(|particle| overwrite(particle, &observation));
+        (particles, observation.observed)
+    }
+
+    /// The belief after the last step watched, to go on from.
+    #[must_use]
+    pub const fn last(&self) -> &Belief {
+        &self.last
+    }
+}

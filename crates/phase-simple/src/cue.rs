@@ -1,0 +1,51 @@
+//! Q(g | S): what a stretch of motion by itself says about goals (appendix, "Bottom-up Proposals").
+
+use phase_model::{Body, Entity, Goal, MAX_ENTITIES, Sign, State, arena};
+use phase_predicates::threshold::ON_OBJECT;
+
+/// How far whoever gets away means to be from the other at least (u).
+const AWAY: f32 = 14.0;
+
+/// γ of the goal proposal's exponent, per unit of distance (1/u).
+///
+/// The paper has γ = 10 and does not say of which unit. Ten per world unit would make every proposal the same:
+/// that of the goal whose distance shrank most. Over the side of the arena it is a cue that leaves room for doubt.
+pub const GAMMA: f64 = 10.0 / arena::SIDE as f64;
+
+/// ‖s − s_g‖ of the proposal: how far an agent (0 or 1) has to go until the goal holds, in straight lines (u). What
+/// has to be moved must be got to first; once it is in place nobody need be near. Of getting away it is what is
+/// missing to a safe distance.
+#[must_use]
+pub fn distance_left(goal: Goal, agent: usize, state: &State) -> f32 {
+    let apart = goal.distance(state);
+    match goal {
+        Goal::Touch { sign: Sign::Negative, .. } => (AWAY - apart).max(0.0),
+        Goal::ObjectOnLandmark { .. } if apart >= ON_OBJECT => {
+            apart + state.position(Entity::agent(agent)).distance(state.position(goal.subject()))
+        }
+        _ => apart,
+    }
+}
+
+/// ln Q(g | S) for each of some goals of an agent, from the rows of a stretch of motion; not empty. The probabilities
+/// add up to 1. Printed is e^{γ(2‖s^t2 − s_g‖ − ‖s^t1 − s_g‖)}, under which the goal farthest away would be the
+/// likeliest; the sentence below it has it the other way round, and so have we.
+#[must_use]
+pub fn log_proposal(goals: &[Goal], agent: usize, rows: &[[Body; MAX_ENTITIES]], gamma: f64) -> Vec<f64> {
+    let (Some(first), Some(last)) = (rows.first(), rows.last()) else {
+        return vec![-libm::log(goals.len() as f64); goals.len()];
+    };
+    let (before, after) = (State::new(*first), State::new(*last));
+    let left = |goal: &Goal, state: &State| f64::from(distance_left(*goal, agent, state));
+    let logs = goals.iter().map(|goal| -gamma * (2.0 * left(goal, &after) - left(goal, &before))).collect();
+    normalised(logs)
+}
+
+/// Logarithms of numbers in proportion, as those of probabilities.
+pub(crate) fn normalised(mut logs: Vec<f64>) -> Vec<f64> {
+    let greatest = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let sum: f64 = logs.iter().map(|log| libm::exp(log - greatest)).sum();
+    let whole = greatest + libm::log(sum);
+    logs.iter_mut().for_each(|log| *log -= whole);
+    logs
+}

@@ -1,0 +1,111 @@
+//! What might explain an event: Y = ⟨g_i, g_j, α_ij, α_ji, f_i, f_j⟩ of the paper.
+
+use phase_model::{
+    AGENT_COUNT, AgentSpec, Attitude, EventKind, Goal, ObjectSpec, ObservedEvent, Relation, Scene, Sign,
+    Strength,
+};
+use serde::{Deserialize, Serialize};
+
+/// Goals, attitudes and strengths of both agents.
+///
+/// The goal of an agent that helps or hinders is the other's, negated for a hinderer: that is how labels have it,
+/// and an own goal of a social agent would make no difference (Equation 1).
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
+pub struct Hypothesis {
+    /// Goal of each agent.
+    pub goals: [Goal; AGENT_COUNT],
+    /// α of each agent towards the other.
+    pub attitudes: [Attitude; AGENT_COUNT],
+    /// Strength of each agent. The paper's f is a force; ours is one of its four levels, for there are no others.
+    pub strengths: [Strength; AGENT_COUNT],
+}
+
+impl Hypothesis {
+    /// A hypothesis in which a social agent bears the goal that goes with its attitude, whatever was given for it.
+    #[must_use]
+    pub fn new(
+        goals: [Goal; AGENT_COUNT],
+        attitudes: [Attitude; AGENT_COUNT],
+        strengths: [Strength; AGENT_COUNT],
+    ) -> Self {
+        let goal = |agent: usize| match attitudes[agent] {
+            Attitude::Neutral => goals[agent],
+            Attitude::Help => goals[1 - agent],
+            Attitude::Hinder => goals[1 - agent].negated(),
+        };
+        Self { goals: [goal(0), goal(1)], attitudes, strengths }
+    }
+
+    /// The agent with a social goal, if there is one.
+    #[must_use]
+    pub fn social_agent(&self) -> Option<usize> {
+        self.attitudes.iter().position(|&attitude| attitude != Attitude::Neutral)
+    }
+
+    /// The relation that it amounts to.
+    #[must_use]
+    pub fn relation(&self) -> Relation {
+        Relation::of(self.goals, self.attitudes)
+    }
+
+    /// The greatest forces of both (N).
+    #[must_use]
+    pub fn max_forces(&self) -> [f32; AGENT_COUNT] {
+        self.strengths.map(Strength::max_force)
+    }
+
+    /// The observed event's scene if the hypothesis is true.
+    #[must_use]
+    pub fn scene(&self, observed: &ObservedEvent) -> Scene {
+        let [first, ..] = observed.rows() else { unreachable!("an observed event has a row") };
+        let sizes = observed.agent_sizes();
+        let agents = core::array::from_fn(|agent| AgentSpec {
+            size: sizes[agent],
+            strength: self.strengths[agent],
+            goal: self.goals[agent],
+            attitude: self.attitudes[agent],
+            start: first[agent],
+        });
+        let objects = observed.object_sizes().iter().zip(&first[AGENT_COUNT..]);
+        Scene {
+            layout: observed.layout(),
+            agents,
+            objects: objects.map(|(&size, &start)| ObjectSpec { size, start }).collect(),
+            kind: self.kind(),
+        }
+    }
+
+    fn kind(&self) -> EventKind {
+        match (self.attitudes, self.relation()) {
+            (attitudes, _) if attitudes.contains(&Attitude::Help) => EventKind::Helping,
+            (attitudes, _) if attitudes.contains(&Attitude::Hinder) => EventKind::Hindering,
+            (_, Relation::Friendly) => EventKind::Collaborating,
+            (_, Relation::Adversarial) if matches!(self.goals[0], Goal::Touch { .. }) => EventKind::Chasing,
+            (_, Relation::Adversarial) => EventKind::Competing,
+            (_, Relation::Neutral) => EventKind::Independent,
+        }
+    }
+}
+
+/// The physical goals that an agent (0 or 1) can have in an event with so many objects: being on each landmark,
+/// each object on each landmark, approaching the other and getting away from it. Fourteen with two objects.
+#[must_use]
+pub fn physical_goals(agent: usize, objects: usize) -> Vec<Goal> {
+    let (me, other) = (agent as u8, 1 - agent as u8);
+    let landmarks = 0..phase_model::arena::LANDMARKS.len() as u8;
+    let mut goals: Vec<Goal> = landmarks
+        .clone()
+        .map(|landmark| Goal::AgentOnLandmark { agent: me, landmark, sign: Sign::Positive })
+        .collect();
+    goals.extend((0..objects as u8).flat_map(|object| {
+        landmarks.clone().map(move |landmark| Goal::ObjectOnLandmark {
+            object,
+            landmark,
+            sign: Sign::Positive,
+        })
+    }));
+    goals.push(Goal::Touch { agent: me, other, sign: Sign::Positive });
+    // In a chase both goals name the chaser first.
+    goals.push(Goal::Touch { agent: other, other: me, sign: Sign::Negative });
+    goals
+}

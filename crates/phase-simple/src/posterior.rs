@@ -1,0 +1,73 @@
+//! From weighted hypotheses to what they say of goals, attitudes and relations.
+
+use crate::Hypothesis;
+use phase_model::{AGENT_COUNT, Attitude, Goal, Judgement, Relation, RelationProbabilities};
+use std::collections::BTreeMap;
+
+/// Weighted hypotheses; the weights are not negative and add up to 1 unless there are none.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Posterior {
+    /// Different hypotheses with their weights, heaviest first.
+    pub hypotheses: Vec<(Hypothesis, f64)>,
+}
+
+impl Posterior {
+    /// w_m = P(s | Y_m) / Σ_k P(s | Y_k), from ln P(s | Y_m). Weights of equal hypotheses add up.
+    #[must_use]
+    pub fn new(particles: impl IntoIterator<Item = (Hypothesis, f64)>) -> Self {
+        let particles: Vec<_> = particles.into_iter().collect();
+        let logs = crate::cue::normalised(particles.iter().map(|(_, log)| *log).collect());
+        let mut weights: BTreeMap<Hypothesis, f64> = BTreeMap::new();
+        for ((hypothesis, _), log) in particles.iter().zip(logs) {
+            *weights.entry(*hypothesis).or_default() += libm::exp(log);
+        }
+        let mut hypotheses: Vec<_> = weights.into_iter().collect();
+        hypotheses.sort_by(|a, b| b.1.total_cmp(&a.1));
+        Self { hypotheses }
+    }
+
+    /// P(g_i | s) of an agent (0 or 1), likeliest first, without those of no weight.
+    #[must_use]
+    pub fn goals(&self, agent: usize) -> Vec<(Goal, f64)> {
+        let mut goals: BTreeMap<Goal, f64> = BTreeMap::new();
+        for (hypothesis, weight) in &self.hypotheses {
+            *goals.entry(hypothesis.goals[agent]).or_default() += weight;
+        }
+        let mut goals: Vec<_> = goals.into_iter().collect();
+        goals.sort_by(|a, b| b.1.total_cmp(&a.1));
+        goals
+    }
+
+    /// P(α_ij | s) of an agent (0 or 1).
+    #[must_use]
+    pub fn attitude(&self, agent: usize, attitude: Attitude) -> f64 {
+        self.sum(|hypothesis| hypothesis.attitudes[agent] == attitude)
+    }
+
+    /// P(friendly | s), P(adversarial | s) and P(neutral | s). The paper multiplies P(g_i = g_j | s) by
+    /// P(α_ij = 0, α_ji = 0 | s), which holds if goals and attitudes are independent given the event. They are
+    /// known jointly here, so their joint probability stands in place of the product.
+    #[must_use]
+    pub fn relation(&self) -> RelationProbabilities {
+        if self.hypotheses.is_empty() {
+            return RelationProbabilities::default();
+        }
+        let of = |relation: Relation| self.sum(|hypothesis| hypothesis.relation() == relation);
+        RelationProbabilities {
+            friendly: of(Relation::Friendly),
+            adversarial: of(Relation::Adversarial),
+            neutral: of(Relation::Neutral),
+        }
+    }
+
+    /// Everything that Task 1 asks for.
+    #[must_use]
+    pub fn judgement(&self) -> Judgement {
+        let goals: [Vec<(Goal, f64)>; AGENT_COUNT] = core::array::from_fn(|agent| self.goals(agent));
+        Judgement { goals, relation: self.relation() }
+    }
+
+    fn sum(&self, counts: impl Fn(&Hypothesis) -> bool) -> f64 {
+        self.hypotheses.iter().filter(|(hypothesis, _)| counts(hypothesis)).map(|(_, weight)| weight).sum()
+    }
+}

@@ -1,0 +1,78 @@
+//! Q(Y | S): where hypotheses come from (appendix, "Bottom-up Proposals").
+
+use crate::{Hypothesis, cue, hypothesis::physical_goals, strength::StrengthCue};
+use core::ops::RangeInclusive;
+use phase_model::{AGENT_COUNT, Attitude, Goal, ObservedEvent, Strength};
+use rand::{Rng, RngExt};
+
+/// The distribution of hypotheses that a stretch of an observed event suggests: goals and strengths of both agents
+/// each by themselves, attitudes evenly from nobody, one helping and one hindering, either of the two.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Proposal {
+    goals: [Vec<Goal>; AGENT_COUNT],
+    goal_logs: [Vec<f64>; AGENT_COUNT],
+    strength_logs: [[f64; Strength::ALL.len()]; AGENT_COUNT],
+}
+
+impl Proposal {
+    /// What the rows of a range suggest; the part of the range that the event has not got does not count.
+    #[must_use]
+    pub fn new(
+        observed: &ObservedEvent,
+        range: RangeInclusive<usize>,
+        gamma: f64,
+        strengths: &dyn StrengthCue,
+    ) -> Self {
+        let last = observed.steps();
+        let (from, to) = ((*range.start()).min(last), (*range.end()).min(last));
+        let rows = observed.rows().get(from..=to).unwrap_or_default();
+        let goals: [Vec<Goal>; AGENT_COUNT] =
+            core::array::from_fn(|agent| physical_goals(agent, observed.object_sizes().len()));
+        let goal_logs = core::array::from_fn(|agent| cue::log_proposal(&goals[agent], agent, rows, gamma));
+        let sizes = observed.agent_sizes();
+        let strength_logs = core::array::from_fn(|agent| strengths.log_proposal(rows, agent, sizes[agent]));
+        Self { goals, goal_logs, strength_logs }
+    }
+
+    /// Draws a hypothesis.
+    pub fn sample(&self, random: &mut impl Rng) -> Hypothesis {
+        let goals = core::array::from_fn(|agent| self.goals[agent][drawn(&self.goal_logs[agent], random)]);
+        let mut attitudes = [Attitude::Neutral; AGENT_COUNT];
+        let social = [Attitude::Hinder, Attitude::Neutral, Attitude::Help][random.random_range(0..3)];
+        if social != Attitude::Neutral {
+            attitudes[random.random_range(0..AGENT_COUNT)] = social;
+        }
+        let strengths =
+            core::array::from_fn(|agent| Strength::ALL[drawn(&self.strength_logs[agent], random)]);
+        Hypothesis::new(goals, attitudes, strengths)
+    }
+
+    /// ln Q(Y | S), −∞ for what is never drawn. The goal of a social agent counts for nothing: it follows.
+    #[must_use]
+    pub fn log_probability(&self, hypothesis: &Hypothesis) -> f64 {
+        let strength =
+            |agent: usize| self.strength_logs[agent][usize::from(hypothesis.strengths[agent].level())];
+        let goal = |agent: usize| {
+            let place = self.goals[agent].iter().position(|&goal| goal == hypothesis.goals[agent]);
+            place.map_or(f64::NEG_INFINITY, |place| self.goal_logs[agent][place])
+        };
+        let (attitudes, goals) = match hypothesis.social_agent() {
+            None => (1.0 / 3.0, goal(0) + goal(1)),
+            Some(social) => (1.0 / 6.0, goal(1 - social)),
+        };
+        libm::log(attitudes) + goals + strength(0) + strength(1)
+    }
+}
+
+/// A place drawn by logarithms of probabilities that add up to 1.
+pub(crate) fn drawn(logs: &[f64], random: &mut impl Rng) -> usize {
+    let mut left = random.random::<f64>();
+    for (place, log) in logs.iter().enumerate() {
+        left -= libm::exp(*log);
+        if left < 0.0 {
+            return place;
+        }
+    }
+    // Rounding may leave a trifle over.
+    logs.len().saturating_sub(1)
+}
