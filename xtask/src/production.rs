@@ -41,6 +41,8 @@ pub struct Order {
     pub seed: u64,
     /// The relation it is to show, if that is not the scene's own.
     pub relation: Option<Relation>,
+    /// Its greatest length, if that is not the run's (steps).
+    pub max_steps: Option<usize>,
     /// Where its JSON goes.
     pub json: PathBuf,
     /// Where its video goes, if there is to be one.
@@ -114,7 +116,10 @@ impl Production {
     }
 
     fn write_json(&self, order: &Order, event: &Event) -> Result<(), CliError> {
-        let (generator, settings) = (GENERATOR.into(), self.settings_value.clone());
+        let (generator, mut settings) = (GENERATOR.into(), self.settings_value.clone());
+        if let Some(steps) = order.max_steps {
+            settings["max_steps"] = steps.into();
+        }
         let mut recording = Recording::of_event(order.id.clone(), event.clone(), generator, settings);
         if let Some(relation) = order.relation {
             recording.relation = relation;

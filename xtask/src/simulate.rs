@@ -72,6 +72,7 @@ fn make(
         // By its place in the file, so that the same event comes out with or without the others.
         seed: engine::event_seed(seed, index),
         relation: Some(recording.relation),
+        max_steps: None,
         json: out.join(format!("{id}.json")),
         video: video.then(|| out.join(format!("{id}.mp4"))),
     };

@@ -1,7 +1,11 @@
 //! What a generated dataset is made of.
 
 use crate::{FileError, Problem, splits::Split};
-use phase_model::{Layout, layout::USED_BASES};
+use phase_model::{
+    Layout, Relation,
+    layout::USED_BASES,
+    random::{self, Purpose},
+};
 use phase_sampler::Variant;
 use serde::Deserialize;
 use std::{
@@ -40,6 +44,21 @@ pub struct Selection {
     pub max_steps: usize,
     /// Scenes tried for an event before the run is given up.
     pub attempts: usize,
+    /// Whether adversarial events, which may go on for ever, end at a step drawn evenly from `min_steps` to
+    /// `max_steps`. Else all of them last as long as can be, and their length tells the relation.
+    #[serde(default)]
+    pub draw_ends: bool,
+}
+
+impl Selection {
+    /// The step at which an event of this relation and seed ends at the latest, if that is drawn.
+    #[must_use]
+    pub fn drawn_end(&self, relation: Relation, seed: u64) -> Option<usize> {
+        let ends = self.max_steps.saturating_sub(self.min_steps) as u64 + 1;
+        // So few ends that the remainder favours none of them noticeably.
+        let drawn = random::derive_seed(seed, Purpose::Length, 0) % ends;
+        (self.draw_ends && relation == Relation::Adversarial).then_some(self.min_steps + drawn as usize)
+    }
 }
 
 /// Events that have everything in common but their goals.

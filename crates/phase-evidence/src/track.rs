@@ -30,6 +30,13 @@ impl Track {
         self.states.len().saturating_sub(1)
     }
 
+    /// The track as it was up to a step, that included.
+    #[must_use]
+    pub fn until(&self, step: usize) -> Self {
+        let states = self.states.iter().take(step.saturating_add(1)).copied().collect();
+        Self { physique: self.physique.clone(), states }
+    }
+
     /// Distance an entity travelled in the steps of a range, from state to state (u). What lies past the end
     /// counts nothing.
     #[must_use]

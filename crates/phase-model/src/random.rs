@@ -17,6 +17,8 @@ pub enum Purpose {
     Event = 4,
     /// Attempts at one event of a dataset.
     Attempt = 5,
+    /// How long an event may last.
+    Length = 7,
     /// Proposals of an inference.
     Inference = 6,
 }

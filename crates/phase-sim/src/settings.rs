@@ -39,12 +39,20 @@ pub struct Settings {
     pub min_steps: usize,
     /// An event ends once, for this many steps in a row, neither agent had anything to do and nothing moved.
     pub rest_steps: usize,
+    /// Nor does it go on, whatever its agents are after, once nothing has moved for this many steps in a row.
+    #[serde(default = "for_ever")]
+    pub still_steps: usize,
     /// An agent (0 or 1) that stops and stays whatever its goal, so that an event can be compared with what
     /// would have happened without it; usually none. Any other number names nobody.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub idle: Option<usize>,
     /// How both agents think.
     pub minds: phase_agent::Settings,
+}
+
+/// Files written before there was a limit.
+const fn for_ever() -> usize {
+    usize::MAX
 }
 
 impl Default for Settings {
@@ -54,6 +62,7 @@ impl Default for Settings {
             max_steps: 100,
             min_steps: 40,
             rest_steps: 8,
+            still_steps: 24,
             idle: None,
             minds: phase_agent::Settings::default(),
         }

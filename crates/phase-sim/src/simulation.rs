@@ -16,6 +16,9 @@ use thiserror::Error;
 /// Below this speed a body counts as being at rest (u/s).
 const AT_REST: f32 = 0.05;
 
+/// A body that moves or turns by less than this in a step is not seen to (u; rad).
+const UNMOVED: f32 = 0.02;
+
 /// Why a scene could not be simulated.
 #[derive(Clone, PartialEq, Debug, Error)]
 pub enum SimulationError {
@@ -59,11 +62,12 @@ pub fn simulate_with(
     let mut world = Truth::new(settings.engine, &physique, &initial);
     let mut minds = Minds::new(scene, &physique, &initial, seed, settings)?;
     let mut event = Event { scene: scene.clone(), seed, initial, steps: Vec::new() };
-    let mut resting = 0;
+    let (mut resting, mut still) = (0, 0);
     let mut state = initial;
     while event.steps.len() < settings.max_steps {
         let (actions, thoughts) = minds.decide()?;
         let idle = thoughts.iter().all(|thought| thought.subgoal == Subgoal::Stay);
+        let before = state;
         let substeps = world.step(actions);
         state = substeps[SUBSTEPS - 1];
         let step = Step { actions, thoughts, substeps };
@@ -73,13 +77,23 @@ pub fn simulate_with(
             return Ok((event, false));
         }
         resting = if idle && is_at_rest(&physique, &state) { resting + 1 } else { 0 };
-        if resting >= settings.rest_steps && event.steps.len() >= settings.min_steps {
+        still = if is_unmoved(&physique, &before, &state) { still + 1 } else { 0 };
+        let over = resting >= settings.rest_steps || still >= settings.still_steps;
+        if over && event.steps.len() >= settings.min_steps {
             break;
         }
         minds.perceive(&physique, &state, actions);
     }
     debug_assert!(state.is_finite(&physique));
     Ok((event, true))
+}
+
+/// Whether a viewer would say that nothing has moved in a step.
+fn is_unmoved(physique: &Physique, before: &State, after: &State) -> bool {
+    physique.entities().all(|entity| {
+        let (before, after) = (before.body(entity), after.body(entity));
+        before.position.distance(after.position) < UNMOVED && (before.angle - after.angle).abs() < UNMOVED
+    })
 }
 
 fn is_at_rest(physique: &Physique, state: &State) -> bool {

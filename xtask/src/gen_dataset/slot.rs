@@ -97,7 +97,7 @@ impl<'a> Slots<'a> {
         let request = Request { variant: slot.variant, turn: slot.turn, layouts };
         let mut random = random::stream(seed, random::Purpose::Scene, 0);
         let scene = phase_sampler::sample(&request, &mut random)?;
-        let Some(event) = self.simulate(id, &scene, seed, &self.plan.settings)? else {
+        let Some(event) = self.simulate(id, &scene, seed, &self.settings(&scene, seed))? else {
             return Ok(Attempt::Interrupted);
         };
         let Some(selection) = &self.plan.preset.selection else { return Ok(accepted(event)) };
@@ -112,13 +112,22 @@ impl<'a> Slots<'a> {
             Ok(None) => return Ok(accepted(event)),
             Ok(Some(comparison)) => comparison,
         };
-        let settings = Settings { idle: Some(comparison.idle), ..self.plan.settings };
+        let settings = Settings { idle: Some(comparison.idle), ..self.settings(scene, event.seed) };
         let without = self.simulate(id, &comparison.scene(scene), event.seed, &settings)?;
         let Some(without) = without else { return Ok(Attempt::Interrupted) };
         Ok(match comparison.judge(scene, &track, &Track::of_event(&without)) {
             Err(reason) => Attempt::Refused(reason),
             Ok(()) => accepted(event),
         })
+    }
+
+    /// The run's settings, with an end drawn for those who are at odds if the preset wants it so.
+    fn settings(&self, scene: &Scene, seed: u64) -> Settings {
+        let mut settings = self.plan.settings;
+        if let Some(end) = self.plan.preset.selection.and_then(|it| it.drawn_end(scene.relation(), seed)) {
+            settings.max_steps = end;
+        }
+        settings
     }
 
     fn simulate(
@@ -141,6 +150,7 @@ impl<'a> Slots<'a> {
             id: id.into(),
             seed: event.seed,
             relation: None,
+            max_steps: Some(self.settings(&event.scene, event.seed).max_steps),
             json: out.join(event_path(id)),
             video: Some(out.join(video_path(id))),
         };

@@ -2,7 +2,7 @@
 
 use phase_dataset::{
     labels::goal_counts,
-    preset::{Preset, Slot},
+    preset::{Preset, Selection, Slot},
     splits::Split,
 };
 use phase_model::{AGENT_COUNT, EventKind, Relation};
@@ -114,6 +114,23 @@ fn groups_are_spread_evenly() {
     }
 }
 
+/// Every length is as likely as any other, and only for those whose events would not end by themselves.
+#[test]
+fn ends_are_drawn_for_those_at_odds() {
+    let selection = Preset::parse("phase-500", PHASE_500).expect("a preset").selection.expect("selects");
+    let mut ends = [0; 101];
+    for seed in 0..6100 {
+        assert_eq!(selection.drawn_end(Relation::Friendly, seed), None);
+        assert_eq!(selection.drawn_end(Relation::Neutral, seed), None);
+        ends[selection.drawn_end(Relation::Adversarial, seed).expect("is drawn")] += 1;
+    }
+    assert!(ends[..40].iter().all(|&count| count == 0));
+    // A hundred each, give or take five standard deviations.
+    assert!(ends[40..].iter().all(|count| (50..=150).contains(count)), "{ends:?}");
+    let undrawn = Selection { draw_ends: false, ..selection };
+    assert_eq!(undrawn.drawn_end(Relation::Adversarial, 1), None);
+}
+
 #[test]
 fn what_is_no_preset_is_refused() {
     let nothing = DEMO.split("\"groups\"").next().unwrap_or_default().to_owned() + "\"groups\": []}";
@@ -128,7 +145,7 @@ fn what_is_no_preset_is_refused() {
         (&DEMO.replace("{\"all\"", "{\"most\""), "all"),
         (&DEMO.replace("[0, 2", "[1, 2"), "base 1"),
         (&DEMO.replace("\"demo\"", "\"../demo\""), "name"),
-        (&PHASE_500.replace("400}", "0}"), "attempt"),
+        (&PHASE_500.replace("400,", "0,"), "attempt"),
         (&PHASE_500.replace("\"max_steps\": 100", "\"max_steps\": 10"), "min_steps"),
         (&PHASE_500.replace("\"validation\"", "\"holdout\""), "holdout"),
     ];

@@ -28,13 +28,18 @@ pub(super) fn judge(scene: &Scene, track: &Track) -> Result<Option<Comparison>, 
     }
 }
 
-/// The helpee's goal is reached, and the helper has had something in hand.
+/// The helpee's goal is reached, and the helper has had something in hand. Before it took it, the helpee was seen to be
+/// after it, if it is the helpee's: else one sees somebody move an object and somebody stand about.
 fn helping(scene: &Scene, track: &Track) -> Result<Comparison, Refusal> {
     let helper = social(scene);
     let helpee = other(helper);
     reached(scene, track, helpee)?;
     let held = track.states.iter().filter(|state| state.grips[helper].is_some()).count();
     demand(held >= VISIBLE, Refusal::NoContact)?;
+    if let Some(object) = object_of(scene.agents[helpee].goal) {
+        let taken = track.states.iter().position(|state| state.holds(helper, object.into()));
+        pursued(scene, &track.until(taken.unwrap_or(track.steps())), helpee)?;
+    }
     Ok(Comparison { idle: helper, judged: helpee, change: Change::Helped })
 }
 
@@ -101,11 +106,14 @@ fn independent(scene: &Scene, track: &Track) -> Result<(), Refusal> {
     demand(met * CROSSING <= track.steps(), Refusal::Interference)
 }
 
-/// One goes after the other most of the time that it moves, and the other gets away for a while.
+/// One goes after the other most of the time that it moves, and the other gets away for a while and is not in its grasp for
+/// more than half of the event.
 fn chase(track: &Track, chaser: usize) -> Result<(), Refusal> {
     let (after, away) = (Pursuit::of(track, chaser), Pursuit::of(track, other(chaser)));
     demand(after.moving >= PURSUIT && 2 * after.towards >= after.moving, Refusal::NoPursuit)?;
-    demand(away.away >= VISIBLE && away.away > away.towards, Refusal::NoFlight)
+    demand(away.away >= VISIBLE && away.away > away.towards, Refusal::NoFlight)?;
+    let caught = contact::steps_touching(track, Entity::Agent(0), Entity::Agent(1)).len();
+    demand(2 * caught <= track.steps(), Refusal::NoFlight)
 }
 
 /// Whether a hinderer was seen at the victim, at its object, or in its way.

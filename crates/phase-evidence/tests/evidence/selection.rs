@@ -70,14 +70,26 @@ fn refusal(scene: &Scene, track: &Track) -> Option<Refusal> {
 #[test]
 fn help_needs_a_goal_reached_in_time_a_hand_and_a_quiet_end() {
     let scene = scene(EventKind::Helping, [THING, THING], Attitude::Help);
-    let good = event(fetch);
+    // Agent 1 starts out for it before it is taken.
+    let helped = |t| {
+        let helpee = on_way(t, (8.0, 18.0), (8.0, 14.0), 0..8);
+        let fetched = fetch(t);
+        Move { agents: [fetched.agents[0], facing(helpee)], ..fetched }
+    };
+    let good = event(helped);
     let comparison = Comparison { idle: 0, judged: 1, change: Change::Helped };
     assert_eq!(first_look(&scene, &good, STEPS..=100), Ok(Some(comparison)));
     assert_eq!(first_look(&scene, &good, 41..=100), Err(Refusal::TooShort));
     assert_eq!(first_look(&scene, &good, 10..=39), Err(Refusal::TooLong));
 
     type Spoil = fn(usize, &mut Move);
-    let cases: [(&str, Spoil, Refusal); 5] = [
+    let cases: [(&str, Spoil, Refusal); 7] = [
+        ("not wanted by anybody else", |_, it| it.agents[1] = (8.0, 18.0, 0.0), Refusal::Aimless),
+        (
+            "wanted once it is gone",
+            |t, it| it.agents[1] = facing(on_way(t, (8.0, 18.0), (18.0, 5.0), 12..30)),
+            Refusal::Aimless,
+        ),
         ("left on the way", |_, it| it.objects[0].0 = it.objects[0].0.min(15.0), Refusal::GoalMissed),
         ("never in hand", |_, it| it.held = [None, None], Refusal::NoContact),
         (
@@ -94,7 +106,7 @@ fn help_needs_a_goal_reached_in_time_a_hand_and_a_quiet_end() {
     ];
     for (what, change, reason) in cases {
         let changed = |t| {
-            let mut step = fetch(t);
+            let mut step = helped(t);
             change(t, &mut step);
             step
         };
@@ -153,10 +165,10 @@ fn who_gets_loose_was_chased() {
     assert_eq!(helped.judge(&scene, &touching(4), &without), Err(Refusal::NoEffect));
 }
 
-/// Agent 0 runs after agent 1, which gets away from step 5 on and is caught at step 36, unless it is faster.
+/// Agent 0 runs after agent 1, which gets away from step 5 on, and follows on its heels.
 fn hunt(t: usize, speed: f32) -> Move {
     let fleer = 14.0 + speed * t.saturating_sub(5) as f32;
-    let chaser = (7.0 + 0.35 * t as f32).min(fleer - 2.5);
+    let chaser = (7.0 + 0.35 * t as f32).min(fleer - 3.5);
     Move { agents: [(chaser, 6.0, 0.0), (fleer, 6.0, 0.0)], objects: vec![(10.0, 18.0)], held: [None, None] }
 }
 
@@ -167,6 +179,17 @@ fn a_chase_needs_pursuit_and_flight() {
     let good = event(|t| hunt(t, 0.2));
     assert_eq!(first_look(&scene, &good, STEPS..=100), Ok(Some(comparison)));
     assert_eq!(refusal(&scene, &event(|t| hunt(t, 0.0))), Some(Refusal::NoFlight));
+    // Whoever flees for a while and is then held down was not chased but caught.
+    let pinned = |since: usize| {
+        event(move |t| {
+            let fleer = hunt(t, 0.2).agents[1];
+            let caught = t >= since;
+            let chaser = if caught { (fleer.0 - 2.5, 6.0, 0.0) } else { hunt(t, 0.2).agents[0] };
+            Move { agents: [chaser, fleer], ..hunt(t, 0.2) }
+        })
+    };
+    assert_eq!(refusal(&scene, &pinned(22)), None);
+    assert_eq!(refusal(&scene, &pinned(18)), Some(Refusal::NoFlight));
     let idle = event(|t| Move { agents: [(7.0, 6.0, 0.0), hunt(t, 0.2).agents[1]], ..hunt(t, 0.2) });
     assert_eq!(refusal(&scene, &idle), Some(Refusal::NoPursuit));
     // The same between one who evades and one who is kept from touching it, agent 1 being the one that evades.
