@@ -77,6 +77,9 @@ pub struct Verify {
     /// Folder of a finished dataset
     #[arg(value_name = "DIR")]
     pub folder: PathBuf,
+    /// How many files at once.
+    #[command(flatten)]
+    pub jobs: Jobs,
 }
 
 /// Options of `merge`.

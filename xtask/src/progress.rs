@@ -21,8 +21,16 @@ impl Progress {
     /// Nothing done yet.
     #[must_use]
     pub fn new(events: usize, steps_each: usize) -> Self {
+        let mut progress = Self::over(events * steps_each, events);
+        progress.steps_each = steps_each;
+        progress
+    }
+
+    /// Nothing done yet of so many steps that belong to no event in particular.
+    #[must_use]
+    pub fn over(steps: usize, events: usize) -> Self {
         let bar = std::io::stderr().is_terminal().then(|| {
-            let bar = ProgressBar::new((events * steps_each) as u64);
+            let bar = ProgressBar::new(steps as u64);
             let style = ProgressStyle::with_template(
                 "{bar:30} {percent:>3} % of {msg} · {elapsed} gone, about {eta} left",
             );
@@ -31,13 +39,18 @@ impl Progress {
             bar.enable_steady_tick(Duration::from_millis(500));
             bar
         });
-        Self { bar, events, steps_each, finished: AtomicUsize::new(0) }
+        Self { bar, events, steps_each: 0, finished: AtomicUsize::new(0) }
     }
 
     /// One step of some event is done.
     pub fn step(&self) {
+        self.steps(1);
+    }
+
+    /// So many steps are done.
+    pub fn steps(&self, count: usize) {
         if let Some(bar) = &self.bar {
-            bar.inc(1);
+            bar.inc(count as u64);
         }
     }
 

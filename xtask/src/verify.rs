@@ -4,18 +4,20 @@ use crate::{
     cli::Verify,
     console::{remark, tell},
     error::CliError,
+    parallel::make_all,
+    progress::Progress,
 };
 use phase_dataset::{
     folder::{self, Contents},
     manifest::{MANIFEST_FILE, Manifest},
-    verify::verify,
+    verify::{Check, verify_with, work},
 };
 
 /// Runs the command: a sentence for each problem, or one that there is none.
 ///
 /// # Errors
 /// [`CliError::NotWhole`] if there is a problem; [`CliError::Usage`], [`CliError::Unfinished`] or a
-/// [`CliError::File`] if there is no manifest to check against.
+/// [`CliError::File`] if there is no manifest to check against; [`CliError::Threads`].
 pub fn run(arguments: &Verify) -> Result<(), CliError> {
     let folder = &arguments.folder;
     match folder::inspect(folder, MANIFEST_FILE) {
@@ -31,8 +33,16 @@ pub fn run(arguments: &Verify) -> Result<(), CliError> {
     // panics are not to be seen.
     let hook = std::panic::take_hook();
     std::panic::set_hook(Box::new(|_| {}));
-    let problems = verify(folder, &manifest);
+    let progress = Progress::over(work(&manifest), manifest.events.len());
+    let run = |count: usize, check: &Check<'_>| {
+        let answers = make_all(&arguments.jobs, count, |k| Ok(Some(check(k))))?;
+        // There is always an answer: only who listens for interruptions stops early, and nothing is written here.
+        Ok::<_, CliError>(answers.unwrap_or_default())
+    };
+    let problems = verify_with(folder, &manifest, &|steps| progress.steps(steps), run);
+    drop(progress);
     std::panic::set_hook(hook);
+    let problems = problems?;
     for problem in &problems {
         remark(problem);
     }

@@ -11,6 +11,7 @@ use crate::{
     manifest::{EventEntry, MANIFEST_FILE, Manifest},
     parquet::{self, Part},
 };
+use core::convert::Infallible;
 use serde_json::Value;
 use std::{
     collections::{BTreeMap, BTreeSet},
@@ -18,29 +19,56 @@ use std::{
     path::Path,
 };
 
+/// One of several checks that do not depend on each other, by its number; the answer is what is wrong, if anything.
+pub type Check<'a> = dyn Fn(usize) -> Option<FileError> + Sync + 'a;
+
 /// Everything that is wrong with a finished dataset, one error for each problem: files that are missing, changed or
 /// extra, and event files, Parquet files and descriptions that say something else than the manifest. What a
 /// file that is not whole says is not looked at. Files are read one after the other; besides the manifest, one
 /// group of events is in memory.
 #[must_use]
 pub fn verify(folder: &Path, manifest: &Manifest) -> Vec<FileError> {
+    let in_order =
+        |count: usize, check: &Check<'_>| Ok::<_, Infallible>((0..count).map(check).collect::<Vec<_>>());
+    let Ok(problems) = verify_with(folder, manifest, &|_| {}, in_order);
+    problems
+}
+
+/// As [`verify`], with somebody else to see to the work: `run` carries out so many checks, numbered from 0, in any
+/// order and on any threads, and returns the answers by number. `done` is told how much of [`work`] a check was.
+///
+/// # Errors
+/// Those of `run`.
+pub fn verify_with<E>(
+    folder: &Path,
+    manifest: &Manifest,
+    done: &(dyn Fn(usize) + Sync),
+    run: impl Fn(usize, &Check<'_>) -> Result<Vec<Option<FileError>>, E>,
+) -> Result<Vec<FileError>, E> {
     let mut problems = Vec::new();
     let files = listed(folder, manifest, &mut problems);
+    let entries: Vec<&FileEntry> = files.values().copied().collect();
+    let answers = run(entries.len(), &|k| {
+        let answer = entries[k].verify(folder).err();
+        done(1);
+        answer
+    })?;
     let mut broken: BTreeSet<&str> = BTreeSet::new();
-    for entry in files.values() {
-        if let Err(problem) = entry.verify(folder) {
-            broken.insert(&entry.path);
-            problems.push(problem);
-        }
+    for (entry, problem) in entries.iter().zip(answers) {
+        broken.extend(problem.is_some().then_some(entry.path.as_str()));
+        problems.extend(problem);
     }
     extra(folder, folder, &files, &mut problems);
-    for entry in &manifest.events {
-        if !broken.contains(entry.event.path.as_str())
-            && let Err(problem) = event(folder, entry)
-        {
-            broken.insert(&entry.event.path);
-            problems.push(problem);
-        }
+    let answers = run(manifest.events.len(), &|k| {
+        let entry = &manifest.events[k];
+        let whole = !broken.contains(entry.event.path.as_str());
+        let answer = whole.then(|| event(folder, entry).err()).flatten();
+        done(1);
+        answer
+    })?;
+    for (entry, problem) in manifest.events.iter().zip(answers) {
+        broken.extend(problem.is_some().then_some(entry.event.path.as_str()));
+        problems.extend(problem);
     }
     let parts = parquet::parts(&manifest.events);
     let described = [PAGE_FILE, CARD_FILE, CROISSANT_FILE].into_iter();
@@ -61,8 +89,38 @@ pub fn verify(folder: &Path, manifest: &Manifest) -> Vec<FileError> {
     let whole = |part: &&Part<'_>| {
         readable(&part.path) && part.events.iter().all(|entry| readable(&entry.event.path))
     };
-    problems.extend(parts.iter().filter(whole).filter_map(|part| parquet::compare(folder, part).err()));
-    problems
+    problems.extend(compare(folder, &parts.iter().filter(whole).collect::<Vec<_>>(), done, run)?);
+    Ok(problems)
+}
+
+/// How much there is to verify: every file, every event's file again, and every event's row.
+#[must_use]
+pub fn work(manifest: &Manifest) -> usize {
+    4 * manifest.events.len() + manifest.files.len()
+}
+
+/// Compares Parquet files with the event files, share by share; one error for each file.
+fn compare<E>(
+    folder: &Path,
+    parts: &[&Part<'_>],
+    done: &(dyn Fn(usize) + Sync),
+    run: impl Fn(usize, &Check<'_>) -> Result<Vec<Option<FileError>>, E>,
+) -> Result<Vec<FileError>, E> {
+    let of_part = |number: usize| (0..parquet::shares(parts[number])).map(move |share| (number, share));
+    let shares: Vec<(usize, usize)> = (0..parts.len()).flat_map(of_part).collect();
+    let answers = run(shares.len(), &|k| {
+        let (number, share) = shares[k];
+        let answer = parquet::compare_share(folder, parts[number], share).err();
+        done(parts[number].events.len() / parquet::shares(parts[number]));
+        answer
+    })?;
+    let mut found: BTreeMap<usize, FileError> = BTreeMap::new();
+    for ((number, _), problem) in shares.iter().zip(answers) {
+        if let Some(problem) = problem {
+            found.entry(*number).or_insert(problem);
+        }
+    }
+    Ok(found.into_values().collect())
 }
 
 /// The files that the manifest names, by path; every path and every id may be named once.

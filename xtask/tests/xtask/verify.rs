@@ -25,6 +25,10 @@ fn problems_are_told_one_a_line_with_exit_code_2() {
         ]
     );
     assert!(output.stdout.is_empty());
+    for jobs in ["1", "3"] {
+        let again = run(path, &["verify", "out", "--jobs", jobs]);
+        assert_eq!((again.status.code(), text(&again.stderr)), (Some(2), told.clone()), "--jobs {jobs}");
+    }
 }
 
 #[test]

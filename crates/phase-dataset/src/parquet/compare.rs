@@ -1,6 +1,6 @@
 //! Checking that a file still says what the event files say.
 
-use super::{Part, columns, push, read, schema};
+use super::{EVENTS_PER_GROUP, Part, columns, push, read, schema};
 use crate::{FileError, Problem, error::plain_reason};
 use parquet::{
     errors::ParquetError,
@@ -18,14 +18,27 @@ use std::{
 /// If a file cannot be read, if the Parquet file has other columns or another number of rows, or if a value in it
 /// differs; then the event and the column are named.
 pub fn compare(folder: &Path, part: &Part<'_>) -> Result<(), FileError> {
+    (0..shares(part)).try_for_each(|share| compare_share(folder, part, share))
+}
+
+/// Into how many shares, about a row group each, the comparison of a file is divided.
+pub(crate) fn shares(part: &Part<'_>) -> usize {
+    part.events.len().div_ceil(EVENTS_PER_GROUP)
+}
+
+/// One share of [`compare`]; all of them together are the whole, however the file is divided into row groups.
+///
+/// # Errors
+/// As [`compare`]; what concerns the whole file is noticed in every share.
+pub(crate) fn compare_share(folder: &Path, part: &Part<'_>, share: usize) -> Result<(), FileError> {
     // The library panics on some files that were damaged on purpose; nothing that it has seen is used afterwards.
-    catch_unwind(AssertUnwindSafe(|| compare_columns(folder, part))).unwrap_or_else(|_| {
+    catch_unwind(AssertUnwindSafe(|| compare_columns(folder, part, share))).unwrap_or_else(|_| {
         let problem = Problem::Parquet("its pages cannot be decoded".into());
         Err(FileError { file: folder.join(&part.path), problem })
     })
 }
 
-fn compare_columns(folder: &Path, part: &Part<'_>) -> Result<(), FileError> {
+fn compare_columns(folder: &Path, part: &Part<'_>, share: usize) -> Result<(), FileError> {
     let path = folder.join(&part.path);
     let fail = |problem| FileError { file: path.clone(), problem };
     let broken = |error: ParquetError| fail(Problem::Parquet(error.to_string()));
@@ -48,6 +61,10 @@ fn compare_columns(folder: &Path, part: &Part<'_>) -> Result<(), FileError> {
     for k in 0..reader.num_row_groups() {
         let group = reader.get_row_group(k).map_err(broken)?;
         let count = usize::try_from(group.metadata().num_rows()).unwrap_or_default();
+        if k % shares(part) != share {
+            first += count;
+            continue;
+        }
         for index in first..(first + count).min(part.events.len()) {
             let entry = part.events[index];
             push(&mut columns, folder, entry, &read(folder, entry)?)?;

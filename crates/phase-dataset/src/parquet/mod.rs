@@ -17,6 +17,7 @@ mod row;
 pub use column::Description;
 pub use columns::descriptions;
 pub use compare::compare;
+pub(crate) use compare::{compare_share, shares};
 pub use export::{ExportError, export};
 
 use crate::{FieldError, FileError, Problem, manifest::EventEntry, phase_events, splits::Split};

@@ -6,9 +6,13 @@ use phase_dataset::{
     croissant::croissant,
     manifest::{MANIFEST_FILE, Manifest, event_path, video_path},
     parquet::export,
-    verify::verify,
+    verify::{Check, verify, verify_with, work},
 };
-use std::{fs, path::Path};
+use std::{
+    fs,
+    path::Path,
+    sync::atomic::{AtomicUsize, Ordering::Relaxed},
+};
 
 const DATA: &str = "data/train-00000-of-00001.parquet";
 
@@ -154,6 +158,51 @@ fn tampering_is_named() {
         found,
         [format!("{DATA}: event made-up-1: column `held` differs from the event's own file or the manifest")]
     );
+}
+
+/// Files of several row groups and many damages: whoever runs the checks, in whatever order, the answer is the same.
+#[test]
+fn the_order_of_checks_does_not_matter() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    let mut manifest = crate::manifest::dataset(path, "made-up-0");
+    manifest.events = crate::parquet::events(path, &[1; 160]);
+    manifest.files = export(path, &manifest.events, &|| false).expect("written").expect("whole");
+    // The first two are in different row groups of one file, of which the first problem is told.
+    for number in [99, 150, 158] {
+        let event = event_path(&format!("made-up-{number}"));
+        let text = fs::read_to_string(path.join(&event)).expect("an event");
+        let changed = text.replacen("\"contacts\":[[0,[]],[4,", "\"contacts\":[[0,[]],[5,", 1);
+        assert_ne!(text, changed);
+        fs::write(path.join(&event), changed).expect("written");
+        renew(path, &mut manifest, &event);
+    }
+    fs::write(path.join(video_path("made-up-7")), "").expect("written");
+    let expected: Vec<String> = verify(path, &manifest).iter().map(ToString::to_string).collect();
+    let told = expected.join("\n");
+    assert!(told.contains("event made-up-99: column `contacts`"), "{told}");
+    assert!(told.contains("event made-up-158: column `contacts`") && !told.contains("made-up-150"), "{told}");
+    assert!(told.contains("made-up-7.mp4: differs in size"), "{told}");
+
+    let told = AtomicUsize::new(0);
+    let backwards = |count: usize, check: &Check<'_>| {
+        let mut answers: Vec<_> = (0..count).rev().map(check).collect();
+        answers.reverse();
+        Ok::<_, ()>(answers)
+    };
+    let found = verify_with(
+        path,
+        &manifest,
+        &|steps| {
+            told.fetch_add(steps, Relaxed);
+        },
+        backwards,
+    );
+    let found: Vec<String> = found.expect("checked").iter().map(ToString::to_string).collect();
+    assert_eq!(found, expected);
+    assert!(told.into_inner() <= work(&manifest));
+    let failing = |_: usize, _: &Check<'_>| Err("no threads");
+    assert_eq!(verify_with(path, &manifest, &|_| {}, failing).expect_err("passed on"), "no threads");
 }
 
 #[test]
