@@ -17,6 +17,10 @@ pub enum Purpose {
     Event = 4,
     /// Attempts at one event of a dataset.
     Attempt = 5,
+    /// What a method of perception draws on one event, by the hash of its id.
+    Evaluation = 6,
+    /// Resampling events for an interval.
+    Bootstrap = 7,
 }
 
 /// A generator for one purpose and one index (an event's number, an agent's number, a step …).

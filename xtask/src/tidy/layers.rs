@@ -4,7 +4,7 @@ use super::Workspace;
 use std::path::{Path, PathBuf};
 
 /// The crates from the ground floor up. A crate may use those before it, never those after it.
-pub const LAYERS: [&str; 15] = [
+pub const LAYERS: [&str; 16] = [
     "phase-model",
     "phase-world",
     "phase-forward",
@@ -20,6 +20,7 @@ pub const LAYERS: [&str; 15] = [
     "phase-sampler",
     "phase-dataset",
     "phase-render",
+    "phase-eval",
 ];
 
 const MAP: &str = "docs/ARCHITECTURE.md";
