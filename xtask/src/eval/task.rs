@@ -88,7 +88,7 @@ pub(super) fn run<T: Task>(task: &T, input: &Input, arguments: &Common) -> Resul
     let out = arguments.out.clone().unwrap_or_else(|| default_folder(task, input));
     let run = json!({
         "command": format!("eval {}", T::NAME), "generator": crate::engine::GENERATOR, "method": task.method(),
-        "settings": task.settings(), "seed": arguments.seed, "n_events": input.events.len(),
+        "method_settings": task.settings(), "seed": arguments.seed, "n_events": input.events.len(),
         "events_sha256": input.sha256,
     });
     let subject = Subject { method: task.method(), events: &input.words, seed: arguments.seed };

@@ -4,6 +4,7 @@ mod bad_input;
 mod captions;
 mod check_behaviour;
 mod check_physics;
+mod eval;
 mod gen_dataset;
 mod interruption;
 mod render;
