@@ -6,8 +6,8 @@ use phase_model::{AGENT_COUNT, Goal, Judgement, RelationProbabilities};
 use serde_json::Value;
 use std::collections::BTreeMap;
 
-/// Reads predictions by the ids of their events: `{"events": [{"id", "goals": [[{"goal", "p"}…], [⋯]], "relation":
-/// {"friendly", "adversarial", "neutral"}}⋯]}`. Other members are left to whoever put them there, so results of
+/// Reads predictions by the ids of their events: `{"events": [{"id", "goals": [[{"goal", "p"}…], […]], "relation":
+/// {"friendly", "adversarial", "neutral"}}…]}`. Other members are left to whoever put them there, so results of
 /// ours are predictions too.
 ///
 /// # Errors

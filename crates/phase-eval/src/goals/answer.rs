@@ -60,8 +60,8 @@ impl Answer {
                     return Err(AnswerError::Goal { agent, place });
                 }
                 match ranked.iter_mut().find(|share| canonical(share.goal) == canonical(goal)) {
-                    Some(share) => share.p += p,
-                    None => ranked.push(Share { goal, p }),
+                    Some(share) => share.p = (share.p + p).min(1.0),
+                    None => ranked.push(Share { goal, p: p.min(1.0) }),
                 }
             }
             if ranked.iter().map(|share| share.p).sum::<f64>() > 1.0 + TOLERANCE {
@@ -74,7 +74,9 @@ impl Answer {
         if !three.into_iter().all(probable) || (three.iter().sum::<f64>() - 1.0).abs() > TOLERANCE {
             return Err(AnswerError::Relation);
         }
-        Ok(Self { goals, relation })
+        // What is certain may come out of an addition a rounding error above 1.
+        let [friendly, adversarial, neutral] = three.map(|p| p.min(1.0));
+        Ok(Self { goals, relation: RelationProbabilities { friendly, adversarial, neutral } })
     }
 
     /// The place of the right goal of an agent among those named, from 0; `None` if it was not named or there

@@ -47,7 +47,8 @@ pub fn goals(subject: Subject<'_>, summary: &Summary) -> Document {
     if !summary.watched.is_empty() {
         blocks.push(Block::Heading("By seconds watched".into()));
         blocks.push(Block::Text("Events that end earlier count with all of them.".into()));
-        blocks.push(groups("watched", &summary.watched));
+        let whole = Group { name: "to the end".into(), scores: summary.all.clone() };
+        blocks.push(groups("watched", &[&summary.watched[..], &[whole]].concat()));
         blocks.push(watched_plot(&summary.watched));
     }
     blocks.push(Block::Heading("Relations taken for one another".into()));

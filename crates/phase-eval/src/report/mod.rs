@@ -38,7 +38,10 @@ fn length(estimate: &Estimate) -> String {
 /// CPU time of an event, in words.
 fn cost(seconds: Option<f64>) -> String {
     match seconds {
-        Some(seconds) => format!("CPU time for an event: {seconds:.3} s on average, of one thread."),
+        Some(seconds) if seconds < 0.1 => {
+            format!("CPU time for an event: {:.3} ms on average, of one thread.", 1000.0 * seconds)
+        }
+        Some(seconds) => format!("CPU time for an event: {seconds:.1} s on average, of one thread."),
         None => "CPU time is not known.".into(),
     }
 }

@@ -35,7 +35,7 @@ pub fn trajectories(subject: Subject<'_>, summary: &Summary) -> Document {
         kinds(summary),
         Block::Heading("As the prediction grows".into()),
     ];
-    blocks.push(by_step(&ours, summary));
+    blocks.push(by_step(summary));
     Document { title: format!("Trajectories predicted by {}", subject.method), blocks }
 }
 
@@ -88,7 +88,7 @@ fn kinds(summary: &Summary) -> Block {
     Block::Table { head: head(&columns), rows: rows.collect() }
 }
 
-fn by_step(ours: &str, summary: &Summary) -> Block {
+fn by_step(summary: &Summary) -> Block {
     let points: Vec<(f64, f64)> =
         summary.by_step.iter().enumerate().map(|(k, &error)| ((k + 1) as f64, error)).collect();
     let highest = points.iter().map(|(_, error)| error.ceil()).fold(1.0, f64::max);
@@ -97,6 +97,6 @@ fn by_step(ours: &str, summary: &Summary) -> Block {
         Axis { name: "steps ahead", to: points.len().max(1) as f64 },
         Axis { name: "error (u)", to: highest },
     ];
-    let series = [Series { name: ours, points }];
+    let series = [Series { name: "agents", points }];
     Block::Plot { file: "by-step.svg", title: title.into(), svg: curves(title, axes, &series) }
 }
