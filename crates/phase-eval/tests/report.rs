@@ -1,5 +1,6 @@
 //! Reports: two forms of the same, and nothing of an id or name becomes markup.
 
+use phase_dataset::plot::{Axis, Series, curves};
 use phase_eval::{
     published,
     report::{Block, Document},
@@ -27,4 +28,17 @@ fn published_rows_are_shares_and_in_order() {
         let [independent, social, all] = row.ade;
         assert!(independent <= all && all <= social && row.fde[2] >= all, "{row:?}");
     }
+}
+
+#[test]
+fn curves_leave_out_what_is_no_number_and_stay_in_the_field() {
+    let points = vec![(0.0, 0.0), (f64::NAN, 1.0), (5.0, f64::INFINITY), (20.0, 2.0), (10.0, 1.0)];
+    let axes = [Axis { name: "x <s>", to: 10.0 }, Axis { name: "y", to: 1.0 }];
+    let svg = curves("A & B", axes, &[Series { name: "ours", points }]);
+    let [low, high] =
+        [svg.find("points=\"").expect("a line") + 8, svg.find("\" fill=\"none\"").expect("its end")];
+    let drawn: Vec<&str> = svg[low..high].split(' ').collect();
+    // The origin below left, then twice the far corner.
+    assert_eq!(drawn, ["64.0,384.0", "544.0,64.0", "544.0,64.0"]);
+    assert!(svg.contains("A &amp; B") && svg.contains("x &lt;s&gt;") && !svg.contains("NaN"), "{svg}");
 }
