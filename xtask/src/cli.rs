@@ -1,5 +1,6 @@
 //! The commands and their options.
 
+use crate::eval::options::Eval;
 use clap::{
     Args, Parser, Subcommand,
     builder::{PossibleValuesParser, TypedValueParser},
@@ -40,6 +41,9 @@ pub enum Command {
     CheckPhysics(CheckPhysics),
     /// Show how reliably agents do what they are planned to do
     CheckBehaviour(CheckBehaviour),
+    /// Measure how well a method perceives events: recognises goals and relations, or predicts trajectories
+    #[command(subcommand)]
+    Eval(Eval),
     /// Check the rules of the house that the compiler cannot
     Tidy,
 }

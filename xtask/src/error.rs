@@ -4,6 +4,7 @@ use phase_calibration::ReadError;
 use phase_dataset::{
     FileError, WriteError, folder::FolderError, parquet::ExportError, phase_events::NotFinite,
 };
+use phase_eval::MethodError;
 use phase_render::RenderError;
 use phase_sampler::{SampleError, Variant};
 use phase_sim::SimulationError;
@@ -74,6 +75,14 @@ pub enum CliError {
         id: String,
         /// Why.
         source: SimulationError,
+    },
+    /// A method of perception has no answer.
+    #[error("event {id}: {source}")]
+    Method {
+        /// The event.
+        id: String,
+        /// Why.
+        source: MethodError,
     },
     /// No scene could be drawn.
     #[error(transparent)]
@@ -169,6 +178,7 @@ impl CliError {
             | Self::Usage(_) => 2,
             Self::Interrupted(_) => 130,
             Self::Simulation { .. }
+            | Self::Method { .. }
             | Self::Sample(_)
             | Self::Exhausted { .. }
             | Self::Write(_)

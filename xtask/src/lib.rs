@@ -9,6 +9,7 @@
 //! - `render` turns events into videos and pictures,
 //! - `check-physics` holds an engine against recorded motion,
 //! - `check-behaviour` shows how reliably agents do what they are planned to do,
+//! - `eval` measures how well a method perceives events,
 //! - `tidy` checks what the compiler cannot.
 //!
 //! The key design decision is that a command says what is wrong in one plain sentence and an exit code: 0 done,
@@ -25,6 +26,7 @@ pub mod cli;
 pub mod console;
 pub mod engine;
 pub mod error;
+pub mod eval;
 pub mod gen_dataset;
 pub mod interrupt;
 pub mod parallel;
@@ -82,6 +84,7 @@ pub fn run(command: Command) -> Result<(), CliError> {
         Command::Render(arguments) => render::run(&arguments),
         Command::CheckPhysics(arguments) => check_physics::run(&arguments),
         Command::CheckBehaviour(arguments) => check_behaviour::run(&arguments),
+        Command::Eval(arguments) => eval::run(&arguments),
         Command::Tidy => tidy::run(),
     }
 }

@@ -60,6 +60,15 @@ impl Source {
         self.len() == 0
     }
 
+    /// The id of an event.
+    #[must_use]
+    pub fn id(&self, index: usize) -> &str {
+        match self {
+            Self::Loaded(recordings) => &recordings[index].id,
+            Self::Files(files) => &files[index].0,
+        }
+    }
+
     /// Loads one event.
     ///
     /// # Errors

@@ -1,6 +1,7 @@
 //! What a model of social perception answers: Task 1 and Task 2 of the paper.
 
 use crate::{AGENT_COUNT, Goal, Relation, Vec2};
+use serde::{Deserialize, Serialize};
 
 /// Task 1, joint inference of goals and relations: how likely each answer is to a viewer.
 #[derive(Clone, PartialEq, Debug, Default)]
@@ -13,7 +14,8 @@ pub struct Judgement {
 }
 
 /// How likely each relation is; the three add up to 1.
-#[derive(Clone, Copy, PartialEq, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct RelationProbabilities {
     /// One helps the other, or both want the same.
     pub friendly: f64,

@@ -17,10 +17,14 @@ pub enum Purpose {
     Event = 4,
     /// Attempts at one event of a dataset.
     Attempt = 5,
-    /// How long an event may last.
-    Length = 7,
     /// Proposals of an inference.
     Inference = 6,
+    /// How long an event may last.
+    Length = 7,
+    /// What a method of perception draws on one event, by the hash of its id.
+    Evaluation = 8,
+    /// Resampling events for an interval.
+    Bootstrap = 9,
 }
 
 /// A generator for one purpose and one index (an event's number, an agent's number, a step …).

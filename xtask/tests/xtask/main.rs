@@ -5,6 +5,7 @@ mod captions;
 mod check_behaviour;
 mod check_physics;
 mod damage;
+mod eval;
 mod gen_dataset;
 mod interruption;
 mod render;

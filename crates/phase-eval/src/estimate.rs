@@ -1,0 +1,46 @@
+//! Means over events, with intervals.
+
+use phase_model::random::{Purpose, stream};
+use rand::RngExt;
+use serde::{Deserialize, Serialize};
+
+/// How often events are drawn anew for an interval.
+pub const RESAMPLES: usize = 10_000;
+/// The share of resampled means that lies in an interval.
+pub const CONFIDENCE: f64 = 0.95;
+
+/// A mean over events and its 95 % interval.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+pub struct Estimate {
+    /// The mean.
+    pub value: f64,
+    /// Lower end of the interval.
+    pub low: f64,
+    /// Upper end of the interval.
+    pub high: f64,
+}
+
+impl Estimate {
+    /// The mean of one number for each event, and the percentile bootstrap interval over events: as many events are
+    /// drawn with replacement as there are, [`RESAMPLES`] times. `None` without events. The numbers must be finite.
+    #[must_use]
+    pub fn of(values: &[f64], seed: u64) -> Option<Self> {
+        if values.is_empty() {
+            return None;
+        }
+        let count = values.len();
+        let mut random = stream(seed, Purpose::Bootstrap, 0);
+        let mut draw = || (0..count).map(|_| values[random.random_range(0..count)]).sum::<f64>();
+        let mut means: Vec<f64> = (0..RESAMPLES).map(|_| draw() / count as f64).collect();
+        means.sort_by(f64::total_cmp);
+        let outside = ((1.0 - CONFIDENCE) / 2.0 * RESAMPLES as f64).round() as usize;
+        let value = values.iter().sum::<f64>() / count as f64;
+        Some(Self { value, low: means[outside], high: means[RESAMPLES - 1 - outside] })
+    }
+
+    /// The interval as a pair, as files have it beside the mean.
+    #[must_use]
+    pub const fn interval(&self) -> [f64; 2] {
+        [self.low, self.high]
+    }
+}

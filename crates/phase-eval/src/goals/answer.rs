@@ -1,0 +1,138 @@
+//! What a method said of an event, and what would have been right.
+
+use super::canonical;
+use phase_model::{AGENT_COUNT, EventKind, Goal, Judgement, Relation, RelationProbabilities};
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use thiserror::Error;
+
+/// By how much probabilities may miss 1 when they are added up.
+const TOLERANCE: f64 = 1e-3;
+
+/// Why numbers are no answer. The text reads on from the field's name.
+#[derive(Clone, PartialEq, Eq, Debug, Error)]
+pub enum AnswerError {
+    /// A probability of a goal is no probability.
+    #[error("`goals[{agent}][{place}].p` must be a number from 0 to 1")]
+    Goal {
+        /// Whose goal.
+        agent: usize,
+        /// Its place in the list.
+        place: usize,
+    },
+    /// An agent's goals are together more than certain.
+    #[error("`goals[{0}]` must have probabilities of at most 1 in all")]
+    Goals(usize),
+    /// The relations' probabilities are none.
+    #[error("`relation` must have three numbers from 0 to 1 that add up to 1")]
+    Relation,
+}
+
+/// A goal and how likely it is.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Share {
+    /// The goal.
+    pub goal: Goal,
+    /// Its probability, 0 to 1.
+    pub p: f64,
+}
+
+/// What a method said of an event.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+pub struct Answer {
+    /// Goals of each agent, most likely first, no goal twice; those of equal probability as the method had them.
+    pub goals: [Vec<Share>; AGENT_COUNT],
+    /// The relations' probabilities.
+    pub relation: RelationProbabilities,
+}
+
+impl Answer {
+    /// Checks and orders a judgement. Probabilities of goals that are [the same](canonical) are added up.
+    ///
+    /// # Errors
+    /// If a number is no probability.
+    pub fn of(judgement: &Judgement) -> Result<Self, AnswerError> {
+        let mut goals: [Vec<Share>; AGENT_COUNT] = Default::default();
+        for (agent, (ranked, given)) in goals.iter_mut().zip(&judgement.goals).enumerate() {
+            for (place, &(goal, p)) in given.iter().enumerate() {
+                if !probable(p) {
+                    return Err(AnswerError::Goal { agent, place });
+                }
+                match ranked.iter_mut().find(|share| canonical(share.goal) == canonical(goal)) {
+                    Some(share) => share.p = (share.p + p).min(1.0),
+                    None => ranked.push(Share { goal, p: p.min(1.0) }),
+                }
+            }
+            if ranked.iter().map(|share| share.p).sum::<f64>() > 1.0 + TOLERANCE {
+                return Err(AnswerError::Goals(agent));
+            }
+            ranked.sort_by(|a, b| b.p.total_cmp(&a.p));
+        }
+        let relation = judgement.relation;
+        let three = [relation.friendly, relation.adversarial, relation.neutral];
+        if !three.into_iter().all(probable) || (three.iter().sum::<f64>() - 1.0).abs() > TOLERANCE {
+            return Err(AnswerError::Relation);
+        }
+        // What is certain may come out of an addition a rounding error above 1.
+        let [friendly, adversarial, neutral] = three.map(|p| p.min(1.0));
+        Ok(Self { goals, relation: RelationProbabilities { friendly, adversarial, neutral } })
+    }
+
+    /// The place of the right goal of an agent among those named, from 0; `None` if it was not named or there
+    /// is no such agent.
+    #[must_use]
+    pub fn place(&self, agent: usize, right: Goal) -> Option<usize> {
+        let right = canonical(right);
+        self.goals.get(agent)?.iter().position(|share| canonical(share.goal) == right)
+    }
+}
+
+/// The right answers to an event.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+pub struct Label {
+    /// What kind of event it is.
+    pub kind: EventKind,
+    /// The goals, with a helper's or hinderer's as labels have it.
+    pub goals: [Goal; AGENT_COUNT],
+    /// The relation the event was made to show.
+    pub relation: Relation,
+    /// The relation that people saw, where they were asked.
+    pub relation_human: Option<Relation>,
+    /// Whether the base layout occurs in the training or validation events too; `None` where nobody knows.
+    pub layout_seen: Option<bool>,
+}
+
+/// What a method said after a part of an event.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+pub struct Glimpse {
+    /// How much it had seen (s of video).
+    pub seconds: f64,
+    /// What it said.
+    #[serde(flatten)]
+    pub answer: Answer,
+}
+
+/// One event with what a method said of it.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+pub struct RecognisedEvent {
+    /// The event's name.
+    pub id: String,
+    /// What the method said after all of the event.
+    #[serde(flatten)]
+    pub answer: Answer,
+    /// What would have been right.
+    pub label: Label,
+    /// What it said after parts of the event, in the order in which they were asked for.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub watched: Vec<Glimpse>,
+    /// CPU time for the answer to the whole event (s), where it was measured.
+    pub cpu_seconds: Option<f64>,
+    /// What the method wanted to have kept.
+    #[serde(default, skip_serializing_if = "Value::is_null")]
+    pub details: Value,
+}
+
+fn probable(p: f64) -> bool {
+    (0.0..=1.0 + TOLERANCE).contains(&p)
+}

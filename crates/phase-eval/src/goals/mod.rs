@@ -1,0 +1,11 @@
+//! Task 1, joint inference of goals and relations: what counts as right, and how right a method is.
+
+mod answer;
+mod calibration;
+mod matching;
+mod summary;
+
+pub use answer::{Answer, AnswerError, Glimpse, Label, RecognisedEvent, Share};
+pub use calibration::{BINS, Bin, Calibration};
+pub use matching::canonical;
+pub use summary::{Group, RELATIONS, Scores, Summary};

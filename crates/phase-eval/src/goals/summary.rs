@@ -1,0 +1,159 @@
+//! How right a method is over many events.
+
+use super::{Answer, Calibration, Label, RecognisedEvent};
+use crate::Estimate;
+use phase_model::{AGENT_COUNT, EventKind, Relation};
+use serde::{Deserialize, Serialize};
+
+/// The relations in the order of the confusion matrix.
+pub const RELATIONS: [Relation; 3] = [Relation::Friendly, Relation::Adversarial, Relation::Neutral];
+
+/// Accuracies over some events.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+pub struct Scores {
+    /// Number of events; goals are two for each.
+    pub n: usize,
+    /// The right goal is the most likely one.
+    pub top1: Estimate,
+    /// It is among the two most likely.
+    pub top2: Estimate,
+    /// It is among the three most likely.
+    pub top3: Estimate,
+    /// The most likely relation is the one the event was made to show.
+    pub relation: Estimate,
+    /// It is the one people saw, over the events they were asked about.
+    pub relation_human: Option<Estimate>,
+}
+
+impl Scores {
+    /// Scores some answers; `None` without any.
+    fn of(answers: &[(&Answer, &Label)], seed: u64) -> Option<Self> {
+        let top = |k: usize| {
+            let right = |&(answer, label): &(&Answer, &Label)| {
+                let among =
+                    |&agent: &usize| answer.place(agent, label.goals[agent]).is_some_and(|place| place < k);
+                (0..AGENT_COUNT).filter(among).count() as f64 / AGENT_COUNT as f64
+            };
+            Estimate::of(&answers.iter().map(right).collect::<Vec<f64>>(), seed)
+        };
+        let related = |wanted: fn(&Label) -> Option<Relation>| {
+            let right = |&(answer, label): &(&Answer, &Label)| {
+                Some(f64::from(u8::from(answer.relation.most_likely() == wanted(label)?)))
+            };
+            Estimate::of(&answers.iter().filter_map(right).collect::<Vec<f64>>(), seed)
+        };
+        Some(Self {
+            n: answers.len(),
+            top1: top(1)?,
+            top2: top(2)?,
+            top3: top(3)?,
+            relation: related(|label| Some(label.relation))?,
+            relation_human: related(|label| label.relation_human),
+        })
+    }
+}
+
+/// Scores of the events that have something in common.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+pub struct Group {
+    /// What they have in common.
+    pub name: String,
+    /// Their scores.
+    #[serde(flatten)]
+    pub scores: Scores,
+}
+
+/// How right a method is.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+pub struct Summary {
+    /// Over all events.
+    pub all: Scores,
+    /// By kind of event.
+    pub kinds: Vec<Group>,
+    /// In layouts that are in the training or validation events too, and in others; empty where nobody knows.
+    pub layouts: Vec<Group>,
+    /// By how much had been seen, if that was asked for. Events that end earlier count with all of them.
+    pub watched: Vec<Group>,
+    /// How often (number of events) which relation was taken for which: `confusion[right][said]`, both in the
+    /// order of [`RELATIONS`].
+    pub confusion: [[usize; RELATIONS.len()]; RELATIONS.len()],
+    /// Reliability of the most likely goals. An agent for which nothing was named counts as wrong with probability 0.
+    pub goal_calibration: Calibration,
+    /// Reliability of the most likely relations.
+    pub relation_calibration: Calibration,
+    /// CPU time for an event (s), the mean over those for which it was measured.
+    pub cpu_seconds_per_event: Option<f64>,
+}
+
+impl Summary {
+    /// Sums up what was said; `None` without events. The seed is that of the intervals.
+    #[must_use]
+    pub fn of(events: &[RecognisedEvent], seed: u64) -> Option<Self> {
+        let group = |name: &str, chosen: &dyn Fn(&RecognisedEvent) -> bool| {
+            let answers: Vec<(&Answer, &Label)> = events
+                .iter()
+                .filter(|event| chosen(event))
+                .map(|event| (&event.answer, &event.label))
+                .collect();
+            Some(Group { name: name.into(), scores: Scores::of(&answers, seed)? })
+        };
+        let kinds = EventKind::ALL.into_iter();
+        let kinds = kinds.filter_map(|kind| group(kind.name(), &|event| event.label.kind == kind)).collect();
+        let layouts = [("seen", true), ("unseen", false)].into_iter();
+        let layouts = layouts
+            .filter_map(|(name, seen)| group(name, &|event| event.label.layout_seen == Some(seen)))
+            .collect();
+        let cpu: Vec<f64> = events.iter().filter_map(|event| event.cpu_seconds).collect();
+        Some(Self {
+            all: group("all", &|_| true)?.scores,
+            kinds,
+            layouts,
+            watched: watched(events, seed),
+            confusion: confusion(events),
+            goal_calibration: Calibration::of(&goal_answers(events)),
+            relation_calibration: Calibration::of(&relation_answers(events)),
+            cpu_seconds_per_event: (!cpu.is_empty()).then(|| cpu.iter().sum::<f64>() / cpu.len() as f64),
+        })
+    }
+}
+
+/// Scores of the answers to the first parts of events; which parts there are the first event says.
+fn watched(events: &[RecognisedEvent], seed: u64) -> Vec<Group> {
+    let parts = events.first().map_or(0, |event| event.watched.len());
+    let part = |k: usize| {
+        let seconds = events.first()?.watched.get(k)?.seconds;
+        let glimpses = events.iter().filter_map(|event| Some((&event.watched.get(k)?.answer, &event.label)));
+        let scores = Scores::of(&glimpses.collect::<Vec<_>>(), seed)?;
+        Some(Group { name: format!("{seconds} s"), scores })
+    };
+    (0..parts).filter_map(part).collect()
+}
+
+fn confusion(events: &[RecognisedEvent]) -> [[usize; RELATIONS.len()]; RELATIONS.len()] {
+    let mut counts = [[0; RELATIONS.len()]; RELATIONS.len()];
+    for event in events {
+        let said = event.answer.relation.most_likely();
+        for (row, right) in counts.iter_mut().zip(RELATIONS) {
+            for (count, column) in row.iter_mut().zip(RELATIONS) {
+                *count += usize::from(event.label.relation == right && said == column);
+            }
+        }
+    }
+    counts
+}
+
+fn goal_answers(events: &[RecognisedEvent]) -> Vec<(f64, bool)> {
+    let of_agent = |event: &RecognisedEvent, agent: usize| {
+        let p = event.answer.goals[agent].first().map_or(0.0, |share| share.p);
+        (p, event.answer.place(agent, event.label.goals[agent]) == Some(0))
+    };
+    events.iter().flat_map(|event| (0..AGENT_COUNT).map(move |agent| of_agent(event, agent))).collect()
+}
+
+fn relation_answers(events: &[RecognisedEvent]) -> Vec<(f64, bool)> {
+    let of_event = |event: &RecognisedEvent| {
+        let said = event.answer.relation.most_likely();
+        (event.answer.relation.of(said), said == event.label.relation)
+    };
+    events.iter().map(of_event).collect()
+}

@@ -1,0 +1,47 @@
+//! Reports for people: tables and plots, as Markdown and as a page that opens offline.
+
+mod document;
+mod goals;
+mod trajectories;
+
+pub use document::{Block, Document};
+pub use goals::goals;
+pub use trajectories::trajectories;
+
+use crate::Estimate;
+
+/// What a report is about.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Subject<'a> {
+    /// The method's name.
+    pub method: &'a str,
+    /// The events, in words.
+    pub events: &'a str,
+    /// The run's seed.
+    pub seed: u64,
+}
+
+/// Which way round numbers are to be read, said below the first table.
+const BESIDE: &str = "Square brackets hold the 95 % bootstrap interval over events. Published figures are of the 100 \
+                      test recordings of the published simulator; beside other events they only give an idea of size.";
+
+/// A share of 1 with its interval.
+fn share(estimate: &Estimate) -> String {
+    format!("{:.3} [{:.3}, {:.3}]", estimate.value, estimate.low, estimate.high)
+}
+
+/// A length with its interval.
+fn length(estimate: &Estimate) -> String {
+    format!("{:.2} [{:.2}, {:.2}]", estimate.value, estimate.low, estimate.high)
+}
+
+/// CPU time of an event, in words.
+fn cost(seconds: Option<f64>) -> String {
+    match seconds {
+        Some(seconds) if seconds < 0.1 => {
+            format!("CPU time for an event: {:.3} ms on average, of one thread.", 1000.0 * seconds)
+        }
+        Some(seconds) => format!("CPU time for an event: {seconds:.1} s on average, of one thread."),
+        None => "CPU time is not known.".into(),
+    }
+}

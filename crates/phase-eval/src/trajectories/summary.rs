@@ -1,0 +1,98 @@
+//! How far off a method is over many events.
+
+use super::{Errors, ForecastEvent, PREDICTED_STEPS};
+use crate::Estimate;
+use phase_model::{EventKind, Relation};
+use serde::{Deserialize, Serialize};
+
+/// Displacement errors over some events, each of which counts alike (u).
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+pub struct Scores {
+    /// Number of events.
+    pub n: usize,
+    /// Average displacement error of the agents.
+    pub ade: Estimate,
+    /// Final displacement error of the agents.
+    pub fde: Estimate,
+    /// Average displacement error of agents and objects.
+    pub ade_entities: Estimate,
+    /// Final displacement error of agents and objects.
+    pub fde_entities: Estimate,
+}
+
+impl Scores {
+    fn of(events: &[&ForecastEvent], seed: u64) -> Option<Self> {
+        let mean = |of: fn(&ForecastEvent) -> f64| {
+            Estimate::of(&events.iter().map(|event| of(event)).collect::<Vec<f64>>(), seed)
+        };
+        Some(Self {
+            n: events.len(),
+            ade: mean(|event| event.agents.ade)?,
+            fde: mean(|event| event.agents.fde)?,
+            ade_entities: mean(|event| event.entities.ade)?,
+            fde_entities: mean(|event| event.entities.fde)?,
+        })
+    }
+}
+
+/// Scores of the events that have something in common.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+pub struct Group {
+    /// What they have in common.
+    pub name: String,
+    /// Their scores.
+    #[serde(flatten)]
+    pub scores: Scores,
+}
+
+/// How far off a method is.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+pub struct Summary {
+    /// Events with a neutral relation; `None` if there are none.
+    pub independent: Option<Scores>,
+    /// Events with a friendly or adversarial relation; `None` if there are none.
+    pub social: Option<Scores>,
+    /// All events.
+    pub all: Scores,
+    /// By kind of event.
+    pub kinds: Vec<Group>,
+    /// The agents' error after 1, 2, 3 … steps, the mean over the events that have so many (u).
+    pub by_step: Vec<f64>,
+    /// Events that end before the last step to predict; their last step is the one before.
+    pub shorter: usize,
+    /// CPU time for an event (s), the mean over those for which it was measured.
+    pub cpu_seconds_per_event: Option<f64>,
+}
+
+impl Summary {
+    /// Sums up what was predicted; `None` without events. The seed is that of the intervals.
+    #[must_use]
+    pub fn of(events: &[ForecastEvent], seed: u64) -> Option<Self> {
+        let scores = |chosen: &dyn Fn(&ForecastEvent) -> bool| {
+            Scores::of(&events.iter().filter(|event| chosen(event)).collect::<Vec<_>>(), seed)
+        };
+        let kind = |kind: EventKind| {
+            Some(Group { name: kind.name().into(), scores: scores(&|event| event.kind == kind)? })
+        };
+        let longest = events.iter().map(|event| event.steps).max().unwrap_or_default();
+        let after = |step: usize| {
+            let errors = events.iter().filter_map(|event| step_error(&event.agents, step));
+            let errors: Vec<f64> = errors.collect();
+            errors.iter().sum::<f64>() / errors.len().max(1) as f64
+        };
+        let cpu: Vec<f64> = events.iter().filter_map(|event| event.cpu_seconds).collect();
+        Some(Self {
+            independent: scores(&|event| event.relation == Relation::Neutral),
+            social: scores(&|event| event.relation != Relation::Neutral),
+            all: scores(&|_| true)?,
+            kinds: EventKind::ALL.into_iter().filter_map(kind).collect(),
+            by_step: (0..longest).map(after).collect(),
+            shorter: events.iter().filter(|event| event.steps < PREDICTED_STEPS).count(),
+            cpu_seconds_per_event: (!cpu.is_empty()).then(|| cpu.iter().sum::<f64>() / cpu.len() as f64),
+        })
+    }
+}
+
+fn step_error(errors: &Errors, step: usize) -> Option<f64> {
+    errors.by_step.get(step).copied()
+}

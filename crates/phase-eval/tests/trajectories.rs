@@ -1,0 +1,108 @@
+//! Scores of Task 2 and the plain methods, held against numbers worked out by hand.
+
+use core::ops::ControlFlow;
+use phase_eval::{
+    Forecaster,
+    plain::{ConstantVelocity, Still},
+    trajectories::{Errors, ForecastError, ForecastEvent, Summary},
+};
+use phase_model::{Body, EventKind, Layout, MAX_ENTITIES, ObservedEvent, Relation, Size, Vec2};
+use serde_json::Value;
+
+/// A path along x at this height.
+fn path(y: f32, steps: usize) -> Vec<Vec2> {
+    (0..steps).map(|step| Vec2::new(step as f32, y)).collect()
+}
+
+#[test]
+fn errors_by_hand() {
+    // Agent 0 is hit exactly, agent 1 missed by 3 and 4 (5 u) throughout, the object by 0, then 6.
+    let truth = vec![path(0.0, 2), path(0.0, 2), path(0.0, 2)];
+    let off: Vec<Vec2> = path(0.0, 2).into_iter().map(|point| point + Vec2::new(3.0, 4.0)).collect();
+    let late = vec![Vec2::new(0.0, 0.0), Vec2::new(1.0, 6.0)];
+    let [agents, entities] = Errors::of(&vec![path(0.0, 2), off, late], &truth).expect("errors");
+    assert_eq!((agents.ade, agents.fde), (2.5, 2.5));
+    assert_eq!(agents.by_step, [2.5, 2.5]);
+    // (0 + 5 + 0) / 3, then (0 + 5 + 6) / 3
+    for (found, expected) in [(entities.ade, 8.0 / 3.0), (entities.fde, 11.0 / 3.0)] {
+        assert!((found - expected).abs() < 1e-12, "{found} {expected}");
+    }
+}
+
+#[test]
+fn what_is_no_prediction_is_refused() {
+    let truth = vec![path(0.0, 3); 3];
+    let nan = vec![path(0.0, 3), path(0.0, 3), vec![Vec2::NAN; 3]];
+    let shape = ForecastError::Shape { entities: 3, steps: 3 };
+    let cases = [
+        (Vec::new(), truth.clone(), shape.clone()),
+        (vec![path(0.0, 3); 2], truth.clone(), shape.clone()),
+        (vec![path(0.0, 2); 3], truth.clone(), shape),
+        (nan, truth, ForecastError::NotFinite { entity: 2 }),
+        (vec![Vec::new(); 2], vec![Vec::new(); 2], ForecastError::NoSteps),
+        (Vec::new(), Vec::new(), ForecastError::NoSteps),
+    ];
+    for (forecast, truth, expected) in cases {
+        assert_eq!(Errors::of(&forecast, &truth), Err(expected), "{forecast:?}");
+    }
+}
+
+fn event(relation: Relation, errors: &[f64]) -> ForecastEvent {
+    let ade = errors.iter().sum::<f64>() / errors.len() as f64;
+    let fde = errors.last().copied().unwrap_or_default();
+    let errors = Errors { ade, fde, by_step: errors.to_vec() };
+    ForecastEvent {
+        id: "x".into(),
+        kind: EventKind::Independent,
+        relation,
+        steps: errors.by_step.len(),
+        agents: errors.clone(),
+        entities: errors,
+        forecast: Vec::new(),
+        cpu_seconds: None,
+        details: Value::Null,
+    }
+}
+
+#[test]
+fn events_count_alike_and_are_told_apart_by_relation() {
+    let mut events = vec![event(Relation::Neutral, &[1.0; 20]), event(Relation::Friendly, &[2.0, 4.0])];
+    events.push(event(Relation::Adversarial, &[7.0; 20]));
+    let summary = Summary::of(&events, 1).expect("events");
+    let of = |scores: Option<&phase_eval::trajectories::Scores>| {
+        scores.map(|scores| (scores.n, scores.ade.value, scores.fde.value))
+    };
+    assert_eq!(of(summary.independent.as_ref()), Some((1, 1.0, 1.0)));
+    assert_eq!(of(summary.social.as_ref()), Some((2, 5.0, 5.5)));
+    assert_eq!(of(Some(&summary.all)), Some((3, 11.0 / 3.0, 4.0)));
+    assert_eq!(summary.shorter, 1);
+    // From the third step on the second event has nothing to say.
+    assert_eq!(summary.by_step[..3], [10.0 / 3.0, 4.0, 4.0]);
+    assert_eq!(Summary::of(&events[..1], 1).expect("an event").social, None);
+    assert_eq!(Summary::of(&[], 1), None);
+}
+
+#[test]
+fn plain_methods_go_straight_on_or_stay() {
+    let body = |x: f32, vx: f32| Body {
+        position: Vec2::new(x, 10.0),
+        velocity: Vec2::new(vx, 0.0),
+        ..Body::default()
+    };
+    let mut row = [Body::default(); MAX_ENTITIES];
+    (row[0], row[1], row[2]) = (body(10.0, 6.0), body(25.0, 6.0), body(8.0, 0.0));
+    let layout = Layout::new(0, None).expect("a layout");
+    let observed =
+        ObservedEvent::new(layout, [Size::ALL[0]; 2], vec![Size::ALL[1]], vec![row]).expect("an event");
+    let forecast = |method: &dyn Forecaster| {
+        let mut tick = || ControlFlow::Continue(());
+        let (forecast, _) = method.forecast(&observed, 4, 1, &mut tick).expect("an answer").expect("whole");
+        forecast.iter().map(|path| path.iter().map(|point| point.x).collect()).collect::<Vec<Vec<f32>>>()
+    };
+    assert_eq!(forecast(&Still), [[10.0; 4], [25.0; 4], [8.0; 4]]);
+    // Half a unit a step, as far as the arena goes.
+    let expected = [[10.5, 11.0, 11.5, 12.0], [25.5, 26.0, 26.0, 26.0], [8.0; 4]];
+    for (found, expected) in forecast(&ConstantVelocity).iter().flatten().zip(expected.iter().flatten()) {
+        assert!((found - expected).abs() < 1e-5, "{found} {expected}");
+    }
+}

@@ -1,0 +1,25 @@
+//! `eval`: how well a method perceives events.
+//!
+//! [`methods`] knows the methods by name, `task` asks one of them event by event and keeps what it said, so that a
+//! run can be broken off; `goals` and `trajectories` are the two tasks.
+
+mod goals;
+mod input;
+pub mod methods;
+pub mod options;
+mod task;
+mod trajectories;
+
+use crate::error::CliError;
+use options::Eval;
+
+/// Runs the command.
+///
+/// # Errors
+/// Any [`CliError`].
+pub fn run(arguments: &Eval) -> Result<(), CliError> {
+    match arguments {
+        Eval::Goals(arguments) => goals::run(arguments),
+        Eval::Trajectories(arguments) => trajectories::run(arguments),
+    }
+}

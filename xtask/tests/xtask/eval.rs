@@ -1,0 +1,208 @@
+//! `eval`, with the plain methods.
+
+use crate::support::{recording, refuse, run, succeed, text, tree, write_events};
+use phase_dataset::folder::Folder;
+use serde_json::{Value, json};
+use std::{fs, path::Path};
+
+/// A recording of `steps` steps in which agent 0 goes along x at 0.6 u/s and nothing else moves.
+fn moving(id: &str, steps: usize) -> Value {
+    let mut event = recording(id);
+    let still = |x: f64, y: f64| vec![json!([x, y, 0.0, 0.0, 0.5]); steps + 1];
+    let going = |t: usize| json!([8.5 + 0.05 * t as f64, 19.5, 0.6, 0.0, 0.5]);
+    event["trajectory"]["agents"] = json!([(0..=steps).map(going).collect::<Vec<_>>(), still(20.0, 8.0)]);
+    event["trajectory"]["objects"] = json!([still(12.0, 8.0)]);
+    event
+}
+
+fn events_of(path: &Path) {
+    let events: Vec<Value> = (0..6).map(|k| moving(&format!("event-{k}"), 30 + 3 * k)).collect();
+    write_events(&path.join("events.json"), &events);
+}
+
+/// Results without what two runs cannot share: the CPU time.
+fn results(file: &Path) -> Value {
+    let mut results = serde_json::from_slice(&fs::read(file).expect("results")).expect("JSON");
+    strip(&mut results);
+    results
+}
+
+fn strip(value: &mut Value) {
+    match value {
+        Value::Object(members) => {
+            members.retain(|name, _| !name.starts_with("cpu_seconds"));
+            members.values_mut().for_each(strip);
+        }
+        Value::Array(items) => items.iter_mut().for_each(strip),
+        _ => {}
+    }
+}
+
+const GOALS: [&str; 6] = ["eval", "goals", "--method", "chance", "--events", "events.json"];
+
+#[test]
+fn trajectories_by_hand() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    events_of(path);
+    let common = ["--events", "events.json", "--json", "out.json", "--method"];
+    let eval = |method| succeed(path, &[&["eval", "trajectories"], &common[..], &[method]].concat());
+    let table = eval("constant-velocity");
+    assert!(table.contains("STGAT") && table.contains("constant-velocity (ours), agents"), "{table}");
+    // It keeps its velocity, so that is where it goes.
+    let exact = results(&path.join("out.json"));
+    assert!(exact["ade"]["all"].as_f64().expect("a number") < 1e-4, "{}", exact["ade"]);
+    assert_eq!((&exact["n_events"], &exact["shorter"]), (&json!(6), &json!(4)));
+    assert_eq!((&exact["ade"]["social"], &exact["intervals"]["ade"]["social"]), (&Value::Null, &Value::Null));
+    eval("still");
+    // After n steps agent 0 is 0.05 n away from where it was, agent 1 not at all; events have 10, 13, 16, 19, 20, 20.
+    let still = results(&path.join("out.json"));
+    let lengths = [10.0, 13.0, 16.0, 19.0, 20.0, 20.0];
+    let fde = lengths.iter().map(|n| 0.05 * n / 2.0).sum::<f64>() / 6.0;
+    let ade = lengths.iter().map(|n| 0.05 * (n + 1.0) / 4.0).sum::<f64>() / 6.0;
+    for (found, expected) in [("fde", fde), ("ade", ade)] {
+        let found = still[found]["independent"].as_f64().expect("a number");
+        assert!((found - expected).abs() < 1e-5, "{found} {expected}");
+    }
+    for file in ["report.md", "report.html", "by-step.svg", "events/event-0.json", "results.json"] {
+        assert!(path.join("out/eval/trajectories-still-events").join(file).is_file(), "{file}");
+    }
+}
+
+#[test]
+fn threads_and_company_change_nothing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    events_of(path);
+    for (out, more) in
+        [("one", &["--jobs", "1", "--watched", "5"][..]), ("two", &["--jobs", "2", "--watched", "5"])]
+    {
+        succeed(path, &[&GOALS[..], more, &["--out", out]].concat());
+    }
+    let one = results(&path.join("one/results.json"));
+    assert_eq!(one, results(&path.join("two/results.json")));
+    assert_eq!(one["watched"][0]["n"], 6);
+    assert_eq!(one["events"][0]["watched"][0]["seconds"], 5.0);
+    // The seed of an event is its own.
+    succeed(path, &[&GOALS[..], &["--limit", "2", "--watched", "5", "--out", "few"]].concat());
+    let few = results(&path.join("few/results.json"));
+    assert_eq!((&few["n_events"], &few["events"][1]), (&json!(2), &one["events"][1]));
+    succeed(path, &[&GOALS[..], &["--seed", "2", "--watched", "5", "--out", "other"]].concat());
+    assert_ne!(results(&path.join("other/results.json"))["events"], one["events"]);
+    // Ten goals of an agent's own, all as likely.
+    let goals = one["events"][0]["goals"][0].as_array().expect("goals");
+    assert!(goals.len() == 10 && goals.iter().all(|share| share["p"] == 0.1), "{goals:?}");
+}
+
+#[test]
+fn a_run_broken_off_goes_on_to_the_same_results() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    events_of(path);
+    succeed(path, &[&GOALS[..], &["--out", "straight"]].concat());
+    let straight = results(&path.join("straight/results.json"));
+    // What a run leaves that was stopped after some events, one of whose files was damaged since.
+    drop(Folder::claim(&path.join("stopped"), &straight["run"]).expect("a folder"));
+    fs::create_dir(path.join("stopped/events")).expect("a folder");
+    for name in ["events/event-0.json", "events/event-3.json"] {
+        fs::copy(path.join("straight").join(name), path.join("stopped").join(name)).expect("copied");
+    }
+    fs::write(path.join("stopped/events/event-4.json"), "{\"program\"").expect("written");
+    let sentence = refuse(path, &[&GOALS[..], &["--out", "stopped", "--seed", "2"]].concat());
+    assert!(sentence.contains("unfinished") && sentence.contains("seed 1 instead of 2"), "{sentence}");
+    let output = run(path, &[&GOALS[..], &["--out", "stopped"]].concat());
+    let said = text(&output.stderr);
+    assert!(output.status.success() && said.matches("(kept)").count() == 2, "{said}");
+    assert_eq!(results(&path.join("stopped/results.json")), straight);
+
+    // A finished one is taken as it is, unless it is another one or was changed.
+    let before = tree(&path.join("stopped"));
+    let told = succeed(path, &[&GOALS[..], &["--out", "stopped", "--json", "again.json"]].concat());
+    assert!(told.contains("holds this evaluation already"), "{told}");
+    assert_eq!(results(&path.join("again.json")), straight);
+    let sentence = refuse(path, &[&GOALS[..], &["--out", "stopped", "--watched", "5"]].concat());
+    assert!(sentence.contains("finished") && sentence.contains("watched"), "{sentence}");
+    assert!(tree(&path.join("stopped")) == before);
+    let file = path.join("stopped/results.json");
+    let changed = fs::read_to_string(&file).expect("text").replacen("\"n_events\": 6", "\"n_events\": 7", 1);
+    fs::write(&file, changed).expect("written");
+    refuse(path, &[&GOALS[..], &["--out", "stopped"]].concat());
+}
+
+#[test]
+fn predictions_of_others_are_scored() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    events_of(path);
+    let goal =
+        |agent: u8| json!({ "kind": "agent_on_landmark", "agent": agent, "landmark": agent, "sign": 1 });
+    let event = |k: usize| {
+        // Agent 0 is always right, agent 1 never; the relation of every other event.
+        let relation =
+            json!({ "friendly": (k % 2) as f64, "adversarial": 0.0, "neutral": (1 - k % 2) as f64 });
+        let goals = json!([[{ "goal": goal(0), "p": 0.9 }], [{ "goal": goal(0), "p": 0.9 }]]);
+        json!({ "id": format!("event-{k}"), "goals": goals, "relation": relation })
+    };
+    let predictions = json!({ "events": (0..6).map(event).collect::<Vec<_>>() });
+    fs::write(path.join("theirs.json"), predictions.to_string()).expect("written");
+    let command =
+        ["eval", "goals", "--predictions", "theirs.json", "--events", "events.json", "--json", "out.json"];
+    succeed(path, &command);
+    let found = results(&path.join("out.json"));
+    assert_eq!(found["goal"], json!({ "top1": 0.5, "top2": 0.5, "top3": 0.5 }));
+    assert_eq!(found["relation"], json!({ "accuracy": 0.5, "human_accuracy": null }));
+    assert_eq!(found["method"], "theirs");
+    // Results are predictions too.
+    let command =
+        ["eval", "goals", "--predictions", "out.json", "--events", "events.json", "--json", "b.json"];
+    succeed(path, &command);
+    assert_eq!(results(&path.join("b.json"))["goal"], found["goal"]);
+    let fewer = json!({ "events": (1..6).map(event).collect::<Vec<_>>() });
+    fs::write(path.join("fewer.json"), fewer.to_string()).expect("written");
+    let sentence = refuse(path, &["eval", "goals", "--predictions", "fewer.json", "--events", "events.json"]);
+    assert!(sentence.contains("fewer.json") && sentence.contains("event-0"), "{sentence}");
+}
+
+#[test]
+fn rubbish_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    events_of(path);
+    write_events(&path.join("short.json"), &[moving("short", 20)]);
+    fs::write(path.join("rubbish.json"), "{\"events\": 3}").expect("written");
+    fs::create_dir(path.join("empty")).expect("a folder");
+    let goals = |events: &'static str| ["eval", "goals", "--method", "chance", "--events", events];
+    let theirs = ["eval", "goals", "--events", "events.json", "--predictions"];
+    let cases: &[(&[&str], &[&str])] = &[
+        (&goals("missing.json"), &["missing.json", "no such file"]),
+        (&goals("rubbish.json"), &["rubbish.json", "format"]),
+        (&goals("empty"), &["empty", "manifest.json"]),
+        (&[&goals("events.json")[..], &["--split", "test"]].concat(), &["events.json", "--split"]),
+        (&[&goals("events.json")[..], &["--split", "exam"]].concat(), &["exam", "validation"]),
+        (&[&goals("events.json")[..], &["--watched", "5,1.1"]].concat(), &["--watched", "1.1"]),
+        (&[&goals("events.json")[..], &["--watched", "NaN"]].concat(), &["--watched", "NaN"]),
+        (&[&goals("events.json")[..], &["--limit", "0"]].concat(), &["--limit"]),
+        (&[&goals("events.json")[..], &["--json", "no/such.json"]].concat(), &["no/such.json", "folder"]),
+        (&[&goals("events.json")[..], &["--json", "empty"]].concat(), &["empty", "--json"]),
+        (&[&goals("events.json")[..], &["--out", "events.json"]].concat(), &["events.json", "is a file"]),
+        (&["eval", "goals", "--events", "events.json"], &["--method"]),
+        (&["eval", "goals", "--method", "guess", "--events", "events.json"], &["guess", "chance"]),
+        (&["eval", "trajectories", "--method", "chance", "--events", "events.json"], &["chance", "still"]),
+        (
+            &["eval", "trajectories", "--method", "still", "--events", "short.json"],
+            &["short.json", "event short has 20 steps"],
+        ),
+        (&[&theirs[..], &["missing.json"]].concat(), &["missing.json", "no such file"]),
+        (&[&theirs[..], &["rubbish.json"]].concat(), &["rubbish.json", "`events`"]),
+        (&[&theirs[..], &["events.json"]].concat(), &["events.json", "event-0", "`goals`"]),
+        (&[&theirs[..], &["events.json", "--watched", "5"]].concat(), &["--watched"]),
+    ];
+    let before = tree(path);
+    for (arguments, expected) in cases {
+        let sentence = refuse(path, arguments);
+        for part in *expected {
+            assert!(sentence.contains(part), "{arguments:?}: {part:?} is not in {sentence:?}");
+        }
+        assert_eq!(tree(path), before, "{arguments:?}");
+    }
+}
