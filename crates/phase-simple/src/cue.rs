@@ -44,8 +44,9 @@ pub fn log_proposal(goals: &[Goal], agent: usize, rows: &[[Body; MAX_ENTITIES]],
 /// Logarithms of numbers in proportion, as those of probabilities.
 pub(crate) fn normalised(mut logs: Vec<f64>) -> Vec<f64> {
     let greatest = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let sum: f64 = logs.iter().map(|log| libm::exp(log - greatest)).sum();
-    let whole = greatest + libm::log(sum);
+    // The greatest first: beside thousands a logarithm of a few would lose its digits.
+    logs.iter_mut().for_each(|log| *log -= greatest);
+    let whole = libm::log(logs.iter().map(|log| libm::exp(*log)).sum());
     logs.iter_mut().for_each(|log| *log -= whole);
     logs
 }

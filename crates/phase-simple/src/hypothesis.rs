@@ -42,6 +42,16 @@ impl Hypothesis {
         self.attitudes.iter().position(|&attitude| attitude != Attitude::Neutral)
     }
 
+    /// ln P(g_i)P(g_j)P(α_ij, α_ji)P(f_i)P(f_j) of Equation 2, everything evenly: so many goals an agent, nobody, one
+    /// helping or one hindering, either of the two, and four strengths each. A social agent's own goal, which makes no
+    /// difference, is summed over.
+    #[must_use]
+    pub fn log_prior(&self, goals: usize) -> f64 {
+        let (attitudes, free_goals) = if self.social_agent().is_some() { (6.0, 1.0) } else { (3.0, 2.0) };
+        let strengths = libm::log(Strength::ALL.len() as f64) * AGENT_COUNT as f64;
+        -libm::log(attitudes) - free_goals * libm::log(goals as f64) - strengths
+    }
+
     /// The relation that it amounts to.
     #[must_use]
     pub fn relation(&self) -> Relation {

@@ -4,17 +4,21 @@
 #![deny(missing_docs)]
 
 pub mod beliefs;
-pub mod chain;
 pub mod cue;
+pub mod forecast;
 pub mod generative;
 pub mod hypothesis;
 pub mod inference;
+pub mod metropolis;
 pub mod posterior;
 pub mod proposal;
 pub mod reconstruction;
 pub mod settings;
+pub mod simulations;
 pub mod strength;
+mod sweep;
 
+pub use forecast::{ForecastSettings, forecast};
 pub use generative::Stage;
 pub use hypothesis::{Hypothesis, physical_goals};
 pub use inference::{Inference, explain, infer};

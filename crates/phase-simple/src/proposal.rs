@@ -36,7 +36,7 @@ impl Proposal {
 
     /// Draws a hypothesis.
     pub fn sample(&self, random: &mut impl Rng) -> Hypothesis {
-        let goals = core::array::from_fn(|agent| self.goals[agent][drawn(&self.goal_logs[agent], random)]);
+        let goals = core::array::from_fn(|agent| self.sample_goal(agent, random));
         let mut attitudes = [Attitude::Neutral; AGENT_COUNT];
         let social = [Attitude::Hinder, Attitude::Neutral, Attitude::Help][random.random_range(0..3)];
         if social != Attitude::Neutral {
@@ -45,6 +45,17 @@ impl Proposal {
         let strengths =
             core::array::from_fn(|agent| Strength::ALL[drawn(&self.strength_logs[agent], random)]);
         Hypothesis::new(goals, attitudes, strengths)
+    }
+
+    /// Draws a goal of an agent (0 or 1).
+    pub fn sample_goal(&self, agent: usize, random: &mut impl Rng) -> Goal {
+        self.goals[agent][drawn(&self.goal_logs[agent], random)]
+    }
+
+    /// The goals that an agent (0 or 1) can have.
+    #[must_use]
+    pub fn goals(&self, agent: usize) -> &[Goal] {
+        &self.goals[agent]
     }
 
     /// ln Q(Y | S), −∞ for what is never drawn. The goal of a social agent counts for nothing: it follows.

@@ -12,8 +12,10 @@ pub enum Update {
     /// From the whole event (SIMPLE (Global)).
     Global,
     /// From a short stretch where simulation and observation are at odds (SIMPLE (Full)).
-    #[default]
     Local,
+    /// Part by part, each from all it could be ([`crate::sweep`]). Not in the paper.
+    #[default]
+    Sweep,
 }
 
 /// How to infer. The defaults are the paper's wherever it gives a number.

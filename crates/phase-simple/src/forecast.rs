@@ -1,0 +1,91 @@
+//! Task 2: where everything will be, by the hypotheses that explain best what has been watched.
+
+use crate::{Inference, generative::Stage};
+use core::ops::ControlFlow;
+use phase_model::{
+    Forecast, Vec2,
+    random::{self, Purpose},
+};
+use phase_pomcp::PomcpError;
+
+/// Hypotheses of less than this share of the best one's weight are not played on.
+const NEGLIGIBLE: f64 = 0.05;
+/// Rounds of the search for a median.
+const ROUNDS: usize = 30;
+
+/// How the future is put together.
+#[derive(Clone, Copy, PartialEq, Debug, serde::Serialize, serde::Deserialize)]
+pub struct ForecastSettings {
+    /// How many of the most likely hypotheses are played on; at least 1.
+    pub hypotheses: usize,
+    /// How often each, with chance of its own; at least 1.
+    pub repeats: usize,
+}
+
+impl Default for ForecastSettings {
+    fn default() -> Self {
+        Self { hypotheses: 4, repeats: 2 }
+    }
+}
+
+/// Plays the most likely hypotheses on for so many steps and takes, for every entity and step, the point nearest to
+/// all places that they lead to, weighted by how likely they are: the displacement to expect is least there. `None`
+/// if `tick` broke it off.
+///
+/// # Errors
+/// Settings of minds that cannot be searched with.
+pub fn forecast(
+    stage: &Stage<'_>,
+    inference: &Inference,
+    steps: usize,
+    seed: u64,
+    settings: &ForecastSettings,
+    tick: &mut dyn FnMut() -> ControlFlow<()>,
+) -> Result<Option<Forecast>, PomcpError> {
+    let hypotheses = &inference.posterior.hypotheses;
+    let best = hypotheses.first().map_or(0.0, |(_, weight)| *weight);
+    let likely =
+        hypotheses.iter().take(settings.hypotheses.max(1)).filter(|(_, weight)| *weight >= best * NEGLIGIBLE);
+    let mut futures: Vec<(Forecast, f64)> = Vec::new();
+    for (hypothesis, weight) in likely {
+        for repeat in 0..settings.repeats.max(1) {
+            if tick().is_break() {
+                return Ok(None);
+            }
+            let seed = random::derive_seed(seed, Purpose::Inference, repeat as u64);
+            futures.push((stage.go_on(hypothesis, steps, seed)?, *weight));
+        }
+    }
+    let place = |entity: usize, step: usize| {
+        let places: Vec<(Vec2, f64)> = futures
+            .iter()
+            .filter_map(|(future, weight)| Some((*future.get(entity)?.get(step)?, *weight)))
+            .collect();
+        geometric_median(&places)
+    };
+    let entities = stage.observed().entities().count();
+    Ok(Some((0..entities).map(|entity| (0..steps).map(|step| place(entity, step)).collect()).collect()))
+}
+
+/// The point with the least weighted sum of distances to some places (Weiszfeld's algorithm from their mean); the
+/// origin if there are none.
+#[must_use]
+pub fn geometric_median(places: &[(Vec2, f64)]) -> Vec2 {
+    /// Nearer than this to a place the search has arrived at it (u).
+    const AT: f64 = 1e-4;
+    let mean = |weights: &dyn Fn(&(Vec2, f64)) -> f64| {
+        let (mut x, mut y, mut sum) = (0.0, 0.0, 0.0);
+        for place in places {
+            let weight = weights(place);
+            x += weight * f64::from(place.0.x);
+            y += weight * f64::from(place.0.y);
+            sum += weight;
+        }
+        if sum > 0.0 { Vec2::new((x / sum) as f32, (y / sum) as f32) } else { Vec2::ZERO }
+    };
+    let mut median = mean(&|place| place.1);
+    for _ in 0..ROUNDS {
+        median = mean(&|place| place.1 / f64::from(place.0.distance(median)).max(AT));
+    }
+    median
+}

@@ -1,0 +1,84 @@
+//! Algorithm 2 of the paper: Metropolis–Hastings chains whose proposals come from short stretches of the event.
+
+use crate::{
+    Hypothesis, Proposal, Settings, Update, cue::normalised, generative::Stage, proposal::drawn,
+    simulations::Simulations, strength::StrengthCue,
+};
+use core::ops::{ControlFlow, RangeInclusive};
+use phase_model::random::Pcg64Mcg;
+use phase_pomcp::PomcpError;
+use rand::RngExt;
+
+/// The log likelihood that a proposal must exceed to be accepted, known before it has been simulated:
+/// ln P(s | Y′) > ln u + ln P(s | Y) + ln Q(Y′ | S′) − ln Q(Y | S′) for u drawn evenly from 0 to 1.
+///
+/// The paper prints min{1, Q(Y′)P(s | Y′) / Q(Y)P(s | Y)}, with the proposals' ratio upside down: a chain by that
+/// rule favours what is proposed often twice over. The rule of Metropolis and Hastings, which it names, divides by how
+/// often a hypothesis is proposed, so that the chain comes to the posterior whatever proposes.
+#[must_use]
+pub fn threshold(log_u: f64, log_likelihood: f64, log_proposed: f64, log_current: f64) -> f64 {
+    log_u + log_likelihood + log_proposed - log_current
+}
+
+/// What all chains of an event share.
+#[derive(Clone, Copy)]
+pub(crate) struct Chains<'a, 's> {
+    pub(crate) stage: &'a Stage<'a>,
+    pub(crate) initial: &'a Proposal,
+    pub(crate) strengths: &'s dyn StrengthCue,
+    pub(crate) settings: &'a Settings,
+}
+
+impl Chains<'_, '_> {
+    /// Runs one chain: its last hypothesis with ln P(s | Y), and which iterations accepted their proposal; `None`
+    /// if `tick` broke it off.
+    pub(crate) fn run(
+        &self,
+        simulations: &mut Simulations<'_>,
+        random: &mut Pcg64Mcg,
+        tick: &mut dyn FnMut() -> ControlFlow<()>,
+    ) -> Result<Option<(Hypothesis, f64, Vec<bool>)>, PomcpError> {
+        let mut current = self.initial.sample(random);
+        let mut likelihood = simulations.log_likelihood(&current)?;
+        let iterations = if self.settings.update == Update::Initial { 0 } else { self.settings.iterations };
+        let mut accepted = vec![false; iterations];
+        for accepted in &mut accepted {
+            if tick().is_break() {
+                return Ok(None);
+            }
+            let local = self.stretch(&current, simulations, random).map(|stretch| {
+                Proposal::new(self.stage.observed(), stretch, self.settings.gamma, self.strengths)
+            });
+            let proposal = local.as_ref().unwrap_or(self.initial);
+            let candidate = proposal.sample(random);
+            let threshold = threshold(
+                libm::log(random.random()),
+                likelihood,
+                proposal.log_probability(&candidate),
+                proposal.log_probability(&current),
+            );
+            if let Some(likelihood_of_candidate) = simulations.above(&candidate, threshold)? {
+                (current, likelihood) = (candidate, likelihood_of_candidate);
+                *accepted = true;
+            }
+        }
+        Ok(Some((current, likelihood, accepted)))
+    }
+
+    /// The stretch of ΔT steps to propose from next, drawn by e^{η Σ ‖ŝ − s‖₂}; `None` for the whole event.
+    fn stretch(
+        &self,
+        current: &Hypothesis,
+        simulations: &Simulations<'_>,
+        random: &mut Pcg64Mcg,
+    ) -> Option<RangeInclusive<usize>> {
+        if self.settings.update != Update::Local {
+            return None;
+        }
+        let (window, deviations) = (self.settings.window, simulations.deviations(current)?);
+        let starts = deviations.len().saturating_sub(window) + 1;
+        let sums = (0..starts).map(|start| deviations.iter().skip(start).take(window).sum::<f64>());
+        let start = drawn(&normalised(sums.map(|sum| self.settings.eta * sum).collect()), random);
+        Some(start..=start + window)
+    }
+}
