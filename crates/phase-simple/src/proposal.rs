@@ -1,6 +1,6 @@
 //! Q(Y | S): where hypotheses come from (appendix, "Bottom-up Proposals").
 
-use crate::{Hypothesis, cue, hypothesis::physical_goals, strength::StrengthCue};
+use crate::{Hypothesis, Posterior, cue, hypothesis::physical_goals, strength::StrengthCue};
 use core::ops::RangeInclusive;
 use phase_model::{AGENT_COUNT, Attitude, Goal, ObservedEvent, Strength};
 use rand::{Rng, RngExt};
@@ -56,6 +56,32 @@ impl Proposal {
     #[must_use]
     pub fn goals(&self, agent: usize) -> &[Goal] {
         &self.goals[agent]
+    }
+
+    /// Every hypothesis as likely as it is to be drawn; strengths, which say nothing of goals and relations, are left
+    /// at the lowest.
+    #[must_use]
+    pub fn posterior(&self) -> Posterior {
+        let strengths = [Strength::Weak; AGENT_COUNT];
+        let mut hypotheses = Vec::new();
+        for &first in &self.goals[0] {
+            for &second in &self.goals[1] {
+                hypotheses.push(Hypothesis::new(
+                    [first, second],
+                    [Attitude::Neutral; AGENT_COUNT],
+                    strengths,
+                ));
+            }
+        }
+        for social in 0..AGENT_COUNT {
+            for attitude in [Attitude::Help, Attitude::Hinder] {
+                let mut attitudes = [Attitude::Neutral; AGENT_COUNT];
+                attitudes[social] = attitude;
+                let all = self.goals[1 - social].iter();
+                hypotheses.extend(all.map(|&goal| Hypothesis::new([goal; 2], attitudes, strengths)));
+            }
+        }
+        Posterior::new(hypotheses.iter().map(|hypothesis| (*hypothesis, self.log_probability(hypothesis))))
     }
 
     /// ln Q(Y | S), −∞ for what is never drawn. The goal of a social agent counts for nothing: it follows.

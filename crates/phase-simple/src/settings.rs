@@ -4,7 +4,7 @@ use crate::cue::GAMMA;
 use serde::{Deserialize, Serialize};
 
 /// From what hypotheses are proposed anew.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Update {
     /// Not at all: the initial proposals stand (SIMPLE (Initial) of the ablation).
@@ -14,16 +14,15 @@ pub enum Update {
     /// From a short stretch where simulation and observation are at odds (SIMPLE (Full)).
     Local,
     /// Part by part, each from all it could be ([`crate::sweep`]). Not in the paper.
-    #[default]
     Sweep,
 }
 
-/// How to infer. The defaults are the paper's wherever it gives a number.
+/// How to infer. The defaults are what serves best; [`Settings::published`] is the paper's.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Settings {
     /// Which proposals there are after the first.
     pub update: Update,
-    /// L, iterations after the initial proposals.
+    /// L, iterations after the initial proposals; of sweeps, how many.
     pub iterations: usize,
     /// M, particles, each a chain of its own; at least 1.
     pub particles: usize,
@@ -41,18 +40,47 @@ pub struct Settings {
     pub minds: phase_agent::Settings,
 }
 
+/// POMCP simulations a decision within an inference.
+const SIMULATIONS: usize = 50;
+
+impl Settings {
+    /// The paper's: Algorithm 2 with M = 15, L = 6, β = 0.05, η = 0.1 and ΔT = 10, over simulations that go their own
+    /// way from the start. Only γ is not the printed one (see [`GAMMA`]), and agents search with fewer simulations.
+    #[must_use]
+    pub fn published() -> Self {
+        Self { anchor: None, beta: 0.05, ..Self::algorithm_2() }
+    }
+
+    /// Algorithm 2 over simulations that are put back to the event.
+    #[must_use]
+    pub fn algorithm_2() -> Self {
+        Self { update: Update::Local, iterations: 6, particles: 15, ..Self::default() }
+    }
+
+    /// About how many hypotheses are simulated for an event.
+    #[must_use]
+    pub const fn simulations_about(&self) -> usize {
+        match self.update {
+            Update::Initial => self.particles,
+            Update::Global | Update::Local => self.particles * (self.iterations + 1),
+            // A sweep looks at some ninety, of which later ones find most done.
+            Update::Sweep => 90 * self.iterations * self.particles,
+        }
+    }
+}
+
 impl Default for Settings {
     fn default() -> Self {
         Self {
-            update: Update::default(),
-            iterations: 6,
-            particles: 15,
-            beta: 0.05,
+            update: Update::Sweep,
+            iterations: 2,
+            particles: 1,
+            beta: 0.5,
             eta: 0.1,
             window: 10,
             gamma: GAMMA,
-            anchor: None,
-            minds: phase_agent::Settings::default(),
+            anchor: Some(10),
+            minds: phase_agent::Settings { simulations: SIMULATIONS, ..phase_agent::Settings::default() },
         }
     }
 }

@@ -55,17 +55,31 @@ impl Parts {
         options
     }
 
-    /// Who may be social towards whom.
-    fn relations(&self) -> Vec<Self> {
-        const NEUTRAL: Attitude = Attitude::Neutral;
-        let attitudes = [
-            [NEUTRAL, NEUTRAL],
-            [Attitude::Help, NEUTRAL],
-            [Attitude::Hinder, NEUTRAL],
-            [NEUTRAL, Attitude::Help],
-            [NEUTRAL, Attitude::Hinder],
-        ];
-        attitudes.map(|attitudes| Self { attitudes, ..*self }).to_vec()
+    /// Who may be social towards whom, and about what: nobody, or either helping or hindering the other with any of
+    /// its goals. Only with the right goal does it look right that somebody helps or hinders, and the other way
+    /// round, so that these two are drawn together.
+    fn relations(&self, goals: [&[Goal]; AGENT_COUNT]) -> Vec<Self> {
+        let mut options = vec![*self, Self { attitudes: [Attitude::Neutral; AGENT_COUNT], ..*self }];
+        for (social, attitude) in [0, 1]
+            .into_iter()
+            .flat_map(|agent| [Attitude::Help, Attitude::Hinder].map(|attitude| (agent, attitude)))
+        {
+            options.extend(goals[1 - social].iter().map(|goal| {
+                let mut parts = *self;
+                parts.goals[1 - social] = *goal;
+                parts.attitudes = [Attitude::Neutral; AGENT_COUNT];
+                parts.attitudes[social] = attitude;
+                parts
+            }));
+        }
+        // Each once.
+        let mut different: Vec<Self> = Vec::with_capacity(options.len());
+        for option in options {
+            if !different.contains(&option) {
+                different.push(option);
+            }
+        }
+        different
     }
 
     /// How strong an agent can be.
@@ -90,7 +104,7 @@ pub(crate) fn sweep(
     for block in 0..5 {
         let options = match block {
             0 | 1 => parts.wants(block, proposal.goals(block)),
-            2 => parts.relations(),
+            2 => parts.relations([proposal.goals(0), proposal.goals(1)]),
             _ => parts.strengths(block - 3),
         };
         let mut logs = Vec::with_capacity(options.len());

@@ -12,7 +12,7 @@ const PROPOSED: [f64; 4] = [0.55, 0.1, 0.3, 0.05];
 fn chains_come_to_the_posterior_whatever_proposes() {
     let mut random = stream(3, Purpose::Inference, 0);
     let mut draw = move || -> f64 { random.random() };
-    let mut propose = |u: f64| {
+    let propose = |u: f64| {
         let mut left = u;
         PROPOSED
             .iter()

@@ -7,6 +7,7 @@ mod goals;
 mod input;
 pub mod methods;
 pub mod options;
+pub mod simple;
 mod task;
 mod trajectories;
 
