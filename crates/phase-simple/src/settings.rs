@@ -13,7 +13,7 @@ pub enum Update {
     Global,
     /// From a short stretch where simulation and observation are at odds (SIMPLE (Full)).
     Local,
-    /// Part by part, each from all it could be ([`crate::sweep`]). Not in the paper.
+    /// Part by part, each from all it could be (Gibbs sweeps). Not in the paper.
     Sweep,
 }
 
