@@ -43,9 +43,14 @@ pub fn log_proposal(goals: &[Goal], agent: usize, rows: &[[Body; MAX_ENTITIES]],
 
 /// Logarithms of numbers in proportion, as those of probabilities.
 pub(crate) fn normalised(mut logs: Vec<f64>) -> Vec<f64> {
+    normalise(&mut logs);
+    logs
+}
+
+/// The same where they are.
+pub(crate) fn normalise(logs: &mut [f64]) {
     let greatest = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let sum: f64 = logs.iter().map(|log| libm::exp(log - greatest)).sum();
     let whole = greatest + libm::log(sum);
     logs.iter_mut().for_each(|log| *log -= whole);
-    logs
 }
