@@ -15,6 +15,9 @@ pub struct StrengthRegressor {
 /// What `cargo train strength` learnt; `docs/networks.md` says from what.
 const SHIPPED: &[u8] = include_bytes!("../../../../data/strength.safetensors");
 
+/// The middle of the levels (N).
+const MIDDLE: f64 = 0.5 * (Strength::Weak.max_force() + Strength::Mighty.max_force()) as f64;
+
 impl StrengthRegressor {
     /// The regressor that comes with the program, trained on the training events of a PHASE-500 dataset.
     ///
@@ -72,10 +75,11 @@ impl StrengthCue for StrengthRegressor {
         if !estimate.is_finite() {
             return AnyStrength.log_proposal(rows, agent, size);
         }
-        let spread = f64::from(self.weights.rmse);
+        let variance = f64::from(self.weights.rmse) * f64::from(self.weights.rmse);
+        // The exponents less that of the middle, so that nothing is lost however far off the estimate is.
         let mut logs = Strength::ALL.map(|strength| {
-            let off = (f64::from(strength.max_force()) - estimate) / spread;
-            -0.5 * off * off
+            let force = f64::from(strength.max_force());
+            (force - MIDDLE) * (2.0 * estimate - force - MIDDLE) / (2.0 * variance)
         });
         crate::cue::normalise(&mut logs);
         logs
