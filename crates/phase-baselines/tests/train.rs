@@ -4,8 +4,9 @@ use std::{fs, process::Command};
 
 /// Exit code and what stands on stderr.
 fn train(arguments: &[&str]) -> (Option<i32>, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_train")).args(arguments).output().unwrap();
-    (output.status.code(), String::from_utf8(output.stderr).unwrap())
+    let output =
+        Command::new(env!("CARGO_BIN_EXE_train")).args(arguments).output().expect("the program starts");
+    (output.status.code(), String::from_utf8(output.stderr).expect("text"))
 }
 
 #[test]
