@@ -17,8 +17,8 @@ fn event(strengths: [Strength; AGENT_COUNT], variety: u8) -> ObservedEvent {
         }
         row
     });
-    let layout = Layout::new(0, None).unwrap();
-    ObservedEvent::new(layout, [Size::Small, Size::Huge], Vec::new(), rows.collect()).unwrap()
+    let layout = Layout::new(0, None).expect("a layout");
+    ObservedEvent::new(layout, [Size::Small, Size::Huge], Vec::new(), rows.collect()).expect("an event")
 }
 
 /// Events of all pairs of strengths.
@@ -34,8 +34,8 @@ fn small() -> Settings {
 /// Trains and also returns what was told.
 fn trained(training: &[Motion], seed: u64, settings: &Settings) -> (StrengthRegressor, Vec<Epoch>) {
     let mut epochs = Vec::new();
-    let regressor = train(training, &motions(3), seed, settings, &mut |epoch| epochs.push(*epoch)).unwrap();
-    (regressor, epochs)
+    let regressor = train(training, &motions(3), seed, settings, &mut |epoch| epochs.push(*epoch));
+    (regressor.expect("weights"), epochs)
 }
 
 #[test]
