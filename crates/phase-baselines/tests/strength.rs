@@ -69,6 +69,15 @@ fn the_error_becomes_small() {
 }
 
 #[test]
+fn what_is_trained_is_what_is_evaluated_later() {
+    // Without learning, the error that training sees is that of the regressor in plain Rust on the same samples.
+    let settings = Settings { learning_rate: 0.0, windows: 0, patience: 1, ..small() };
+    let (_, epochs) = trained(&motions(3), 1, &settings);
+    let Epoch { training, whole, .. } = epochs[0];
+    assert!((training - whole).abs() < 1e-3, "{training} is not {whole}");
+}
+
+#[test]
 fn one_seed_one_result() {
     let settings = Settings { epochs: 3, ..small() };
     let file = |seed| trained(&motions(0), seed, &settings).0.to_safetensors().unwrap();
