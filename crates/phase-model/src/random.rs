@@ -25,6 +25,8 @@ pub enum Purpose {
     Evaluation = 8,
     /// Resampling events for an interval.
     Bootstrap = 9,
+    /// First weights of a network (index 0) and what each epoch of its training draws (the epoch, from 1).
+    Training = 10,
 }
 
 /// A generator for one purpose and one index (an event's number, an agent's number, a step …).

@@ -43,10 +43,15 @@ pub fn log_proposal(goals: &[Goal], agent: usize, rows: &[[Body; MAX_ENTITIES]],
 
 /// Logarithms of numbers in proportion, as those of probabilities.
 pub(crate) fn normalised(mut logs: Vec<f64>) -> Vec<f64> {
+    normalise(&mut logs);
+    logs
+}
+
+/// The same where they are.
+pub(crate) fn normalise(logs: &mut [f64]) {
     let greatest = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     // The greatest first: beside thousands a logarithm of a few would lose its digits.
     logs.iter_mut().for_each(|log| *log -= greatest);
     let whole = libm::log(logs.iter().map(|log| libm::exp(*log)).sum());
     logs.iter_mut().for_each(|log| *log -= whole);
-    logs
 }

@@ -36,4 +36,4 @@ pub use inference::{Inference, explain, infer};
 pub use posterior::Posterior;
 pub use proposal::Proposal;
 pub use settings::{Settings, Update};
-pub use strength::{AnyStrength, StrengthCue};
+pub use strength::{AnyStrength, StrengthCue, StrengthRegressor};

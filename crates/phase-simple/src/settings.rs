@@ -63,8 +63,8 @@ impl Settings {
         match self.update {
             Update::Initial => self.particles,
             Update::Global | Update::Local => self.particles * (self.iterations + 1),
-            // A sweep looks at some ninety, of which later ones find most done.
-            Update::Sweep => 90 * self.iterations * self.particles,
+            // A sweep looks at about a hundred; those it has in common with others are simulated once, but count.
+            Update::Sweep => 100 * self.iterations * self.particles,
         }
     }
 }
@@ -74,7 +74,7 @@ impl Default for Settings {
         Self {
             update: Update::Sweep,
             iterations: 2,
-            particles: 1,
+            particles: 3,
             beta: 0.5,
             eta: 0.1,
             window: 10,

@@ -6,7 +6,8 @@ use phase_eval::{
 };
 use phase_model::{Forecast, Judgement, ObservedEvent};
 use phase_simple::{
-    AnyStrength, ForecastSettings, Inference, Proposal, Settings, Stage, Update, forecast, infer,
+    AnyStrength, ForecastSettings, Inference, Proposal, Settings, Stage, StrengthRegressor, Update, forecast,
+    infer,
 };
 use serde_json::{Value, json};
 
@@ -14,9 +15,10 @@ use serde_json::{Value, json};
 const KEPT: usize = 12;
 
 /// SIMPLE with some settings.
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug)]
 pub struct Simple {
     settings: Settings,
+    strengths: StrengthRegressor,
     forecast: ForecastSettings,
 }
 
@@ -35,11 +37,13 @@ impl Simple {
             "simple-published" => Settings::published(),
             _ => return None,
         };
-        Some(Self { settings, forecast: ForecastSettings::default() })
+        let strengths = StrengthRegressor::shipped().ok()?;
+        Some(Self { settings, strengths, forecast: ForecastSettings::default() })
     }
 
     fn infer(&self, stage: &Stage<'_>, seed: u64, tick: Tick<'_>) -> Result<Option<Inference>, MethodError> {
-        infer(stage, &AnyStrength, seed, &self.settings, tick).map_err(|error| MethodError(error.to_string()))
+        infer(stage, &self.strengths, seed, &self.settings, tick)
+            .map_err(|error| MethodError(error.to_string()))
     }
 }
 

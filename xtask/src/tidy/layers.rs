@@ -4,7 +4,7 @@ use super::Workspace;
 use std::path::{Path, PathBuf};
 
 /// The crates from the ground floor up. A crate may use those before it, never those after it.
-pub const LAYERS: [&str; 17] = [
+pub const LAYERS: [&str; 18] = [
     "phase-model",
     "phase-world",
     "phase-forward",
@@ -21,6 +21,7 @@ pub const LAYERS: [&str; 17] = [
     "phase-dataset",
     "phase-render",
     "phase-simple",
+    "phase-baselines",
     "phase-eval",
 ];
 

@@ -1,4 +1,16 @@
 //! Q(f | S): what a stretch of motion says about an agent's strength.
+//!
+//! [`AnyStrength`] says nothing; [`StrengthRegressor`] is the paper's network, whose weights `phase-baselines` trains.
+
+mod features;
+mod file;
+mod regressor;
+mod weights;
+
+pub use features::{FEATURES, features};
+pub use file::STRENGTH_FORMAT;
+pub use regressor::StrengthRegressor;
+pub use weights::{Dense, Weights, WeightsError};
 
 use phase_model::{Body, MAX_ENTITIES, Size, Strength};
 

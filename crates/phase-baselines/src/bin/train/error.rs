@@ -1,0 +1,67 @@
+//! Every way in which training can fail, and its exit code.
+
+use phase_baselines::strength::TrainingError;
+use phase_dataset::{FileError, WriteError};
+use phase_model::ObservedError;
+use phase_simple::strength::WeightsError;
+use std::path::PathBuf;
+use thiserror::Error;
+
+/// Why a command failed. The text is one plain sentence.
+#[derive(Debug, Error)]
+pub(crate) enum TrainError {
+    /// A file of the dataset cannot be used.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// The folder is no finished dataset.
+    #[error("{}: is no finished dataset; give a folder with manifest.json", .0.display())]
+    NotADataset(PathBuf),
+    /// The dataset has no events to learn from, or none to validate on.
+    #[error("{}: has no {split} events", folder.display())]
+    NoEvents {
+        /// The dataset.
+        folder: PathBuf,
+        /// What it lacks.
+        split: &'static str,
+    },
+    /// A file does not hold the event it should.
+    #[error("{}: has no event {id:?}", file.display())]
+    UnknownId {
+        /// The file.
+        file: PathBuf,
+        /// What the manifest says is in it.
+        id: String,
+    },
+    /// An event cannot be looked at.
+    #[error("event {id}: {source}")]
+    Observed {
+        /// The event.
+        id: String,
+        /// Why.
+        source: ObservedError,
+    },
+    /// The weights cannot be written.
+    #[error(transparent)]
+    Output(#[from] WriteError),
+    /// Nothing could be learnt.
+    #[error(transparent)]
+    Training(#[from] TrainingError),
+    /// What was learnt cannot be kept.
+    #[error("the weights: {0}")]
+    Weights(#[from] WeightsError),
+}
+
+impl TrainError {
+    /// 2 for something about the dataset or the output file, 1 for everything else.
+    pub(crate) const fn exit_code(&self) -> u8 {
+        match self {
+            Self::File(_)
+            | Self::NotADataset(_)
+            | Self::NoEvents { .. }
+            | Self::UnknownId { .. }
+            | Self::Observed { .. }
+            | Self::Output(_) => 2,
+            Self::Training(_) | Self::Weights(_) => 1,
+        }
+    }
+}

@@ -1,0 +1,74 @@
+//! Trains what PHASE learns from data: `cargo train strength --data DIR --out FILE`.
+//!
+//! As with `cargo xtask`, what goes wrong is one plain sentence and an exit code: 0 done, 1 a failure of the program or
+//! the machine, 2 something about the input or the output file.
+
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+
+mod error;
+mod events;
+mod strength;
+
+use clap::{Args, Parser, Subcommand};
+use std::{
+    io::{self, Write},
+    path::PathBuf,
+    process::ExitCode,
+};
+
+/// Train the neural networks of PHASE on a dataset
+#[derive(Parser, Debug)]
+#[command(name = "cargo train", bin_name = "cargo train", version)]
+struct Cli {
+    /// What to train.
+    #[command(subcommand)]
+    command: Command,
+}
+
+/// What to train.
+#[derive(Subcommand, Debug)]
+enum Command {
+    /// SIMPLE's guess at the agents' strengths
+    Strength(Options),
+}
+
+/// On what, and where to.
+#[derive(Args, Debug)]
+struct Options {
+    /// Folder of a finished dataset that is divided into train, validation and test
+    #[arg(long, value_name = "DIR")]
+    data: PathBuf,
+    /// File for the weights (safetensors)
+    #[arg(long, value_name = "FILE")]
+    out: PathBuf,
+    /// Seed of all chance in the training
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    seed: u64,
+    /// Also measure what was learnt on the test events, once, at the end
+    #[arg(long)]
+    test: bool,
+}
+
+fn main() -> ExitCode {
+    let result = match Cli::parse().command {
+        Command::Strength(options) => strength::run(&options),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            remark(format!("error: {error}"));
+            ExitCode::from(error.exit_code())
+        }
+    }
+}
+
+/// Writes a result to stdout, on a line of its own. That nobody listens any more is no failure.
+fn tell(line: impl core::fmt::Display) {
+    let _ = writeln!(io::stdout(), "{line}");
+}
+
+/// Writes a remark to stderr, on a line of its own.
+fn remark(line: impl core::fmt::Display) {
+    let _ = writeln!(io::stderr(), "{line}");
+}

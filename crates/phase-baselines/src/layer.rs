@@ -1,0 +1,52 @@
+//! Layers whose first weights come from our own generators.
+
+use candle_core::{Device, Module, Result, Tensor, Var};
+use candle_nn::Linear;
+use phase_model::random::Pcg64Mcg;
+use rand::RngExt;
+
+/// A fully connected layer in training.
+#[derive(Clone, Debug)]
+pub struct Layer {
+    weight: Var,
+    bias: Var,
+    linear: Linear,
+}
+
+impl Layer {
+    /// A layer from `inputs` numbers (at least 1) to `outputs`; weights and biases are drawn evenly from
+    /// ±1/√inputs, the custom of the field.
+    ///
+    /// # Errors
+    /// If there is no memory for it.
+    pub fn new(inputs: usize, outputs: usize, random: &mut Pcg64Mcg) -> Result<Self> {
+        let bound = 1.0 / (inputs.max(1) as f32).sqrt();
+        let mut draw = |count: usize| -> Vec<f32> {
+            (0..count).map(|_| bound * (2.0 * random.random::<f32>() - 1.0)).collect()
+        };
+        let weight = Var::from_vec(draw(outputs * inputs), (outputs, inputs), &Device::Cpu)?;
+        let bias = Var::from_vec(draw(outputs), outputs, &Device::Cpu)?;
+        let linear = Linear::new(weight.as_tensor().clone(), Some(bias.as_tensor().clone()));
+        Ok(Self { weight, bias, linear })
+    }
+
+    /// What is to be learnt, for an optimiser.
+    #[must_use]
+    pub fn variables(&self) -> [Var; 2] {
+        [self.weight.clone(), self.bias.clone()]
+    }
+
+    /// The weights row by row, one row for each output, and the biases, as they are now.
+    ///
+    /// # Errors
+    /// If they cannot be read.
+    pub fn numbers(&self) -> Result<(Vec<f32>, Vec<f32>)> {
+        Ok((self.weight.flatten_all()?.to_vec1()?, self.bias.to_vec1()?))
+    }
+}
+
+impl Module for Layer {
+    fn forward(&self, inputs: &Tensor) -> Result<Tensor> {
+        self.linear.forward(inputs)
+    }
+}

@@ -1,0 +1,43 @@
+//! What there is to learn strengths from.
+
+use phase_model::{AGENT_COUNT, ObservedEvent, Strength};
+use phase_simple::strength::{FEATURES, features};
+
+/// Length of the stretches (steps), ΔT of SIMPLE.
+pub const WINDOW: usize = 10;
+
+/// A stretch of motion and the strength of who moved.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Sample {
+    /// The stretch's [`features`].
+    pub features: [f64; FEATURES],
+    /// The answer.
+    pub strength: Strength,
+}
+
+/// One agent in one event.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Motion {
+    /// The whole event.
+    pub whole: Sample,
+    /// Every stretch of [`WINDOW`] steps in order; the whole event alone if it is shorter than that.
+    pub windows: Vec<Sample>,
+}
+
+impl Motion {
+    /// Both agents of an event, with their strengths.
+    #[must_use]
+    pub fn of_event(event: &ObservedEvent, strengths: [Strength; AGENT_COUNT]) -> [Self; AGENT_COUNT] {
+        let rows = event.rows();
+        core::array::from_fn(|agent| {
+            let (size, strength) = (event.agent_sizes()[agent], strengths[agent]);
+            let sample = |rows| Sample { features: features(rows, agent, size), strength };
+            let whole = sample(rows);
+            let mut windows: Vec<Sample> = rows.windows(WINDOW + 1).map(sample).collect();
+            if windows.is_empty() {
+                windows.push(whole);
+            }
+            Self { whole, windows }
+        })
+    }
+}

@@ -1,0 +1,149 @@
+//! Learning strengths: Adam on the squared error, until events not trained on are estimated no better.
+
+use super::{
+    Motion, Sample, commonest,
+    network::{Network, Standard},
+    score,
+};
+use candle_nn::{AdamW, Optimizer, ParamsAdamW};
+use phase_model::random::{self, Pcg64Mcg, Purpose};
+use phase_simple::{StrengthRegressor, strength::WeightsError};
+use rand::{RngExt, seq::SliceRandom};
+use thiserror::Error;
+
+/// How to train. The paper gives the hidden layers' size; the rest is the custom of the field.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Settings {
+    /// Size of both hidden layers, at least 1.
+    pub hidden: usize,
+    /// Samples between two changes of the weights, at least 1.
+    pub batch: usize,
+    /// Adam's rate of learning.
+    pub learning_rate: f64,
+    /// Stretches drawn from each agent's motion in each epoch, beside the whole of it.
+    pub windows: usize,
+    /// Epochs without any progress on the validation events after which training ends.
+    pub patience: usize,
+    /// Epochs at most, at least 1.
+    pub epochs: usize,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { hidden: 64, batch: 64, learning_rate: 1e-3, windows: 4, patience: 30, epochs: 500 }
+    }
+}
+
+/// How far training has come. All errors are root mean squared, in N.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Epoch {
+    /// The epoch, from 1.
+    pub number: usize,
+    /// On the epoch's training samples, while they were learnt from.
+    pub training: f64,
+    /// On whole validation events.
+    pub whole: f64,
+    /// On all stretches of validation events.
+    pub windows: f64,
+    /// Over both, each alike: what has to become better.
+    pub validation: f64,
+    /// Whether it is the best yet.
+    pub best: bool,
+}
+
+/// Why nothing could be learnt.
+#[derive(Debug, Error)]
+pub enum TrainingError {
+    /// There is nothing to learn from, or to validate on.
+    #[error("there are no {0} events to learn strengths from")]
+    NoMotion(&'static str),
+    /// The library for neural networks gave up.
+    #[error("the network cannot be trained: {0}")]
+    Network(#[from] candle_core::Error),
+    /// Numbers grew beyond all bounds.
+    #[error("training came apart in epoch {epoch}: {source}")]
+    Apart {
+        /// The epoch, from 1.
+        epoch: usize,
+        /// What is wrong with the weights.
+        source: WeightsError,
+    },
+}
+
+/// Trains a regressor; the weights are those of the best epoch. The same seed and motion give the same weights.
+/// `told` hears of every epoch.
+///
+/// # Errors
+/// [`TrainingError`].
+pub fn train(
+    training: &[Motion],
+    validation: &[Motion],
+    seed: u64,
+    settings: &Settings,
+    told: &mut dyn FnMut(&Epoch),
+) -> Result<StrengthRegressor, TrainingError> {
+    for (name, motions) in [("training", training), ("validation", validation)] {
+        if motions.is_empty() {
+            return Err(TrainingError::NoMotion(name));
+        }
+    }
+    let standard =
+        Standard::of(training.iter().flat_map(|motion| motion.windows.iter().chain([&motion.whole])));
+    let network = Network::new(settings.hidden.max(1), &mut random::stream(seed, Purpose::Training, 0))?;
+    // Without decay of weights, AdamW is Adam.
+    let adam = ParamsAdamW { lr: settings.learning_rate, weight_decay: 0.0, ..ParamsAdamW::default() };
+    let mut optimiser = AdamW::new(network.variables(), adam)?;
+    let mut best: Option<(f64, usize, StrengthRegressor)> = None;
+    for number in 1..=settings.epochs.max(1) {
+        let mut random = random::stream(seed, Purpose::Training, number as u64);
+        let samples = drawn(training, settings.windows, &mut random);
+        let mut squares = 0.0;
+        for batch in samples.chunks(settings.batch.max(1)) {
+            let loss = network.loss(batch, &standard)?;
+            optimiser.backward_step(&loss)?;
+            squares += f64::from(loss.to_scalar::<f32>()?) * batch.len() as f64;
+        }
+        let apart = |source| TrainingError::Apart { epoch: number, source };
+        let mut weights = network.weights(&standard)?;
+        let regressor = StrengthRegressor::new(weights.clone()).map_err(apart)?;
+        let (whole, windows) = validated(&regressor, validation);
+        let error = (0.5 * (whole * whole + windows * windows)).sqrt();
+        let better = best.as_ref().is_none_or(|(least, _, _)| error < *least);
+        told(&Epoch {
+            number,
+            training: (squares / samples.len() as f64).sqrt() * standard.force_deviation(),
+            whole,
+            windows,
+            validation: error,
+            best: better,
+        });
+        if better {
+            weights.rmse = error as f32;
+            best = Some((error, number, StrengthRegressor::new(weights).map_err(apart)?));
+        } else if best.as_ref().is_some_and(|(_, then, _)| number - then >= settings.patience) {
+            break;
+        }
+    }
+    best.map(|(_, _, regressor)| regressor).ok_or(TrainingError::NoMotion("training"))
+}
+
+/// The samples of an epoch: each motion as a whole and some stretches of it, in random order.
+fn drawn(motions: &[Motion], windows: usize, random: &mut Pcg64Mcg) -> Vec<Sample> {
+    let mut samples = Vec::with_capacity(motions.len() * (1 + windows));
+    for motion in motions {
+        samples.push(motion.whole);
+        for _ in 0..windows {
+            samples.extend(motion.windows.get(random.random_range(0..motion.windows.len().max(1))));
+        }
+    }
+    samples.shuffle(random);
+    samples
+}
+
+/// Errors on whole motions and on stretches (N).
+fn validated(regressor: &StrengthRegressor, motions: &[Motion]) -> (f64, f64) {
+    let guess = commonest(motions.iter().map(|motion| &motion.whole));
+    let whole = motions.iter().map(|motion| core::slice::from_ref(&motion.whole));
+    let windows = motions.iter().map(|motion| &*motion.windows);
+    (score(regressor, whole, guess).rmse, score(regressor, windows, guess).rmse)
+}

@@ -1,0 +1,58 @@
+//! What the network is told of an agent's motion.
+
+use phase_model::{
+    Body, MAX_ENTITIES, Size, Vec2,
+    arena::{SUBSTEP_SECONDS, SUBSTEPS},
+};
+
+/// How many numbers [`features`] gives.
+pub const FEATURES: usize = 7;
+
+/// Time between rows (s).
+const STEP_SECONDS: f64 = SUBSTEPS as f64 * SUBSTEP_SECONDS as f64;
+
+/// Mean, greatest and least speed (u/s) of an agent (0 or 1), the same of its acceleration (u/s²), and its radius (u),
+/// from the rows of a stretch of motion.
+///
+/// Acceleration is the change of velocity from row to row. What there are too few rows for is 0: one for accelerations,
+/// none for speeds. The paper has no radius; but it is seen, and the same push moves a big body less.
+#[must_use]
+pub fn features(rows: &[[Body; MAX_ENTITIES]], agent: usize, size: Size) -> [f64; FEATURES] {
+    let velocities = || rows.iter().filter_map(|row| row.get(agent)).map(|body| wide(body.velocity));
+    let speeds = summary(velocities().map(length));
+    let changes = velocities().zip(velocities().skip(1));
+    let accelerations =
+        summary(changes.map(|(from, to)| length([to[0] - from[0], to[1] - from[1]]) / STEP_SECONDS));
+    let [mean_speed, greatest_speed, least_speed] = speeds;
+    let [mean_acceleration, greatest_acceleration, least_acceleration] = accelerations;
+    let radius = f64::from(size.radius());
+    [
+        mean_speed,
+        greatest_speed,
+        least_speed,
+        mean_acceleration,
+        greatest_acceleration,
+        least_acceleration,
+        radius,
+    ]
+}
+
+fn wide(vector: Vec2) -> [f64; 2] {
+    [f64::from(vector.x), f64::from(vector.y)]
+}
+
+fn length([x, y]: [f64; 2]) -> f64 {
+    (x * x + y * y).sqrt()
+}
+
+/// Mean, greatest and least of some numbers that are not negative; zeros of none.
+fn summary(numbers: impl Iterator<Item = f64>) -> [f64; 3] {
+    let (mut sum, mut greatest, mut least, mut count) = (0.0, 0.0_f64, f64::INFINITY, 0_usize);
+    for number in numbers {
+        sum += number;
+        greatest = greatest.max(number);
+        least = least.min(number);
+        count += 1;
+    }
+    if count == 0 { [0.0; 3] } else { [sum / count as f64, greatest, least] }
+}

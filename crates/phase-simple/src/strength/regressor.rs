@@ -1,0 +1,103 @@
+//! The paper's guess at strengths: a network with two hidden layers (appendix, "Bottom-up Proposals").
+
+use super::{AnyStrength, Dense, FEATURES, StrengthCue, Weights, WeightsError, features};
+use phase_model::{Body, MAX_ENTITIES, Size, Strength};
+
+/// Estimates an agent's greatest force from its speeds and accelerations.
+///
+/// The network is evaluated here, in order and in doubles, so a proposal needs no library for neural networks and is
+/// the same everywhere, bit for bit.
+#[derive(Clone, PartialEq, Debug)]
+pub struct StrengthRegressor {
+    weights: Weights,
+}
+
+/// What `cargo train strength` learnt; `docs/networks.md` says from what.
+const SHIPPED: &[u8] = include_bytes!("../../../../data/strength.safetensors");
+
+/// The middle of the levels (N).
+const MIDDLE: f64 = 0.5 * (Strength::Weak.max_force() + Strength::Mighty.max_force()) as f64;
+
+impl StrengthRegressor {
+    /// The regressor that comes with the program, trained on the training events of a PHASE-500 dataset.
+    ///
+    /// # Errors
+    /// [`WeightsError`] if the program was built with a damaged file.
+    pub fn shipped() -> Result<Self, WeightsError> {
+        Self::from_safetensors(SHIPPED)
+    }
+
+    /// A regressor of these weights.
+    ///
+    /// # Errors
+    /// As [`Weights::check`].
+    pub fn new(weights: Weights) -> Result<Self, WeightsError> {
+        weights.check()?;
+        Ok(Self { weights })
+    }
+
+    /// The numbers it is made of.
+    #[must_use]
+    pub const fn weights(&self) -> &Weights {
+        &self.weights
+    }
+
+    /// The greatest force (N) of an agent (0 or 1) of a size, from the rows of a stretch of motion. A best guess:
+    /// it may lie between the levels, or beyond them for motion unlike any trained on.
+    #[must_use]
+    pub fn estimate(&self, rows: &[[Body; MAX_ENTITIES]], agent: usize, size: Size) -> f32 {
+        self.estimate_from(&features(rows, agent, size)) as f32
+    }
+
+    /// The same from the [`features`].
+    #[must_use]
+    pub fn estimate_from(&self, features: &[f64; FEATURES]) -> f64 {
+        let Weights { mean, scale, hidden: [first, second], output, .. } = &self.weights;
+        let standardised = features.iter().zip(mean).zip(scale);
+        let inputs: Vec<f64> = standardised
+            .map(|((feature, &mean), &scale)| (feature - f64::from(mean)) / f64::from(scale))
+            .collect();
+        let hidden = rectified(first.apply(&inputs));
+        let hidden = rectified(second.apply(&hidden));
+        output.apply(&hidden).into_iter().sum()
+    }
+}
+
+impl StrengthCue for StrengthRegressor {
+    /// The levels under a normal distribution around the estimate, as wide as estimates of unknown events are wrong.
+    fn log_proposal(
+        &self,
+        rows: &[[Body; MAX_ENTITIES]],
+        agent: usize,
+        size: Size,
+    ) -> [f64; Strength::ALL.len()] {
+        let estimate = f64::from(self.estimate(rows, agent, size));
+        if !estimate.is_finite() {
+            return AnyStrength.log_proposal(rows, agent, size);
+        }
+        let variance = f64::from(self.weights.rmse) * f64::from(self.weights.rmse);
+        // The exponents less that of the middle, so that nothing is lost however far off the estimate is.
+        let mut logs = Strength::ALL.map(|strength| {
+            let force = f64::from(strength.max_force());
+            (force - MIDDLE) * (2.0 * estimate - force - MIDDLE) / (2.0 * variance)
+        });
+        crate::cue::normalise(&mut logs);
+        logs
+    }
+}
+
+impl Dense {
+    /// What goes out for what comes in, summed up in order.
+    fn apply(&self, inputs: &[f64]) -> Vec<f64> {
+        let rows = self.weight.chunks_exact(self.inputs.max(1));
+        let sum = |row: &[f32]| -> f64 {
+            row.iter().zip(inputs).map(|(&weight, input)| f64::from(weight) * input).sum()
+        };
+        self.bias.iter().zip(rows).map(|(&bias, row)| f64::from(bias) + sum(row)).collect()
+    }
+}
+
+fn rectified(mut numbers: Vec<f64>) -> Vec<f64> {
+    numbers.iter_mut().for_each(|number| *number = number.max(0.0));
+    numbers
+}
