@@ -15,10 +15,9 @@ use serde_json::{Value, json};
 const KEPT: usize = 12;
 
 /// SIMPLE with some settings.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Simple {
     settings: Settings,
-    strengths: StrengthRegressor,
     forecast: ForecastSettings,
 }
 
@@ -37,13 +36,12 @@ impl Simple {
             "simple-published" => Settings::published(),
             _ => return None,
         };
-        let strengths = StrengthRegressor::shipped().ok()?;
-        Some(Self { settings, strengths, forecast: ForecastSettings::default() })
+        Some(Self { settings, forecast: ForecastSettings::default() })
     }
 
     fn infer(&self, stage: &Stage<'_>, seed: u64, tick: Tick<'_>) -> Result<Option<Inference>, MethodError> {
-        infer(stage, &self.strengths, seed, &self.settings, tick)
-            .map_err(|error| MethodError(error.to_string()))
+        let strengths = StrengthRegressor::shipped().map_err(|error| MethodError(error.to_string()))?;
+        infer(stage, &strengths, seed, &self.settings, tick).map_err(|error| MethodError(error.to_string()))
     }
 }
 
