@@ -28,8 +28,9 @@ pub(super) fn judge(scene: &Scene, track: &Track) -> Result<Option<Comparison>, 
     }
 }
 
-/// The helpee's goal is reached, and the helper has had something in hand. Before it took it, the helpee was seen to be
-/// after it, if it is the helpee's: else one sees somebody move an object and somebody stand about.
+/// The helpee's goal is reached, and the helper has had something in hand. If the goal is about an object, the helpee was
+/// seen to be after it before the helper took it, and has had it in hand as well: else one sees somebody move an object
+/// and somebody stand about.
 fn helping(scene: &Scene, track: &Track) -> Result<Comparison, Refusal> {
     let helper = social(scene);
     let helpee = other(helper);
@@ -39,6 +40,8 @@ fn helping(scene: &Scene, track: &Track) -> Result<Comparison, Refusal> {
     if let Some(object) = object_of(scene.agents[helpee].goal) {
         let taken = track.states.iter().position(|state| state.holds(helper, object.into()));
         pursued(scene, &track.until(taken.unwrap_or(track.steps())), helpee)?;
+        let lent_a_hand = holding::carried(track, helpee, object.into()).steps;
+        demand(lent_a_hand >= VISIBLE, Refusal::Aimless)?;
     }
     Ok(Comparison { idle: helper, judged: helpee, change: Change::Helped })
 }

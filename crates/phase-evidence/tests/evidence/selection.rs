@@ -70,11 +70,12 @@ fn refusal(scene: &Scene, track: &Track) -> Option<Refusal> {
 #[test]
 fn help_needs_a_goal_reached_in_time_a_hand_and_a_quiet_end() {
     let scene = scene(EventKind::Helping, [THING, THING], Attitude::Help);
-    // Agent 1 starts out for it before it is taken.
+    // Agent 1 starts out for it before it is taken, and lends a hand on the way.
     let helped = |t| {
         let helpee = on_way(t, (8.0, 18.0), (8.0, 14.0), 0..8);
         let fetched = fetch(t);
-        Move { agents: [fetched.agents[0], facing(helpee)], ..fetched }
+        let held = [fetched.held[0], (20..25).contains(&t).then_some(0)];
+        Move { agents: [fetched.agents[0], facing(helpee)], held, ..fetched }
     };
     let good = event(helped);
     let comparison = Comparison { idle: 0, judged: 1, change: Change::Helped };
@@ -83,7 +84,7 @@ fn help_needs_a_goal_reached_in_time_a_hand_and_a_quiet_end() {
     assert_eq!(first_look(&scene, &good, 10..=39), Err(Refusal::TooLong));
 
     type Spoil = fn(usize, &mut Move);
-    let cases: [(&str, Spoil, Refusal); 7] = [
+    let cases: [(&str, Spoil, Refusal); 8] = [
         ("not wanted by anybody else", |_, it| it.agents[1] = (8.0, 18.0, 0.0), Refusal::Aimless),
         (
             "wanted once it is gone",
@@ -101,6 +102,7 @@ fn help_needs_a_goal_reached_in_time_a_hand_and_a_quiet_end() {
             },
             Refusal::TooSoon,
         ),
+        ("never in its own hand", |_, it| it.held[1] = None, Refusal::Aimless),
         ("still in hand", |t, it| it.held[0] = (t >= 10).then_some(0), Refusal::Restless),
         ("turning to the end", |t, it| it.agents[1].2 = t as f32, Refusal::Restless),
     ];
