@@ -1,10 +1,10 @@
 //! G(Y): what would have happened if a hypothesis were true.
 
-use crate::{Hypothesis, beliefs::EstimatedBeliefs, reconstruction};
-use phase_agent::{Mind, Outlook};
+use crate::{Hypothesis, InverseDynamics, beliefs::EstimatedBeliefs};
+use phase_agent::{Mind, Outlook, Thought};
 use phase_forward::{Forward, Memory};
 use phase_model::{
-    AGENT_COUNT, Action, Entity, ObservedEvent, Physique, State, Vec2,
+    AGENT_COUNT, Action, Body, Entity, EntitySet, MAX_ENTITIES, ObservedEvent, Physique, State, Vec2,
     arena::SUBSTEPS,
     random::{self, Pcg64Mcg, Purpose},
 };
@@ -15,7 +15,7 @@ use phase_pomcp::PomcpError;
 #[derive(Clone, Debug)]
 pub struct Stage<'a> {
     observed: &'a ObservedEvent,
-    states: Vec<State>,
+    motion: InverseDynamics,
     beliefs: [EstimatedBeliefs; AGENT_COUNT],
     minds: phase_agent::Settings,
     seed: u64,
@@ -26,15 +26,15 @@ pub struct Stage<'a> {
 pub type Deviations = Vec<f64>;
 
 impl<'a> Stage<'a> {
-    /// Estimates who held what and who believed what in an event. All hypotheses draw the same random numbers,
+    /// Estimates what was done and who believed what in an event. All hypotheses draw the same random numbers,
     /// so that they differ in nothing but what they say.
     #[must_use]
     pub fn new(observed: &'a ObservedEvent, minds: phase_agent::Settings, seed: u64) -> Self {
-        let states = reconstruction::states(observed);
+        let motion = InverseDynamics::new(observed);
         let beliefs = core::array::from_fn(|agent| {
-            EstimatedBeliefs::new(observed, &states, agent, minds.particles, seed)
+            EstimatedBeliefs::new(observed, &motion.states, agent, minds.particles, seed)
         });
-        Self { observed, states, beliefs, minds, seed }
+        Self { observed, motion, beliefs, minds, seed }
     }
 
     /// The event.
@@ -43,10 +43,10 @@ impl<'a> Stage<'a> {
         self.observed
     }
 
-    /// The states between the steps, as far as rows tell them.
+    /// What was done in it, and the states between its steps.
     #[must_use]
-    pub fn states(&self) -> &[State] {
-        &self.states
+    pub const fn motion(&self) -> &InverseDynamics {
+        &self.motion
     }
 
     /// Simulates the event under a hypothesis and returns how far it deviates. Every `anchor` steps the simulation
@@ -62,21 +62,18 @@ impl<'a> Stage<'a> {
         limit: f64,
     ) -> Result<Deviations, PomcpError> {
         let rows = self.observed.rows();
-        let mut run = Run::new(self.observed, hypothesis, self.minds, self.seed, self.states[0])?;
+        let mut run = Run::new(self.observed, hypothesis, self.minds, self.seed, self.motion.states[0])?;
         let mut deviations = Deviations::with_capacity(self.observed.steps());
         let mut sum = 0.0;
         for (step, row) in rows.iter().enumerate().skip(1) {
             if anchor.is_some_and(|anchor| step > 1 && (step - 1) % anchor.max(1) == 0) {
-                run.put(self.states[step - 1]);
+                run.put(self.motion.states[step - 1]);
             }
             let outlooks = core::array::from_fn(|agent| {
                 self.beliefs[agent].outlook(&run.physique, step - 1, &run.state)
             });
             let (means, _) = run.step(&outlooks)?;
-            let square = |entity: Entity| {
-                f64::from(means[entity.index()].distance_squared(row[entity.index()].position))
-            };
-            let deviation = libm::sqrt(self.observed.entities().map(square).sum());
+            let deviation = self.deviation(&means, row);
             deviations.push(deviation);
             sum += deviation;
             if sum > limit {
@@ -84,6 +81,41 @@ impl<'a> Stage<'a> {
             }
         }
         Ok(deviations)
+    }
+
+    /// ‖sᵗ − ŝᵗ‖₂ over the positions of all entities (u).
+    fn deviation(&self, means: &[Vec2; MAX_ENTITIES], row: &[Body; MAX_ENTITIES]) -> f64 {
+        let square =
+            |entity: Entity| f64::from(means[entity.index()].distance_squared(row[entity.index()].position));
+        libm::sqrt(self.observed.entities().map(square).sum())
+    }
+
+    /// Lets one agent (0 or 1) decide as a hypothesis has it, while the other does what it was found to do. Every
+    /// `anchor` steps the simulation is put back to where the observed event is.
+    ///
+    /// # Errors
+    /// Settings of minds that cannot be searched with.
+    pub fn simulate_one(
+        &self,
+        hypothesis: &Hypothesis,
+        agent: usize,
+        anchor: usize,
+    ) -> Result<Vec<Decided>, PomcpError> {
+        let rows = self.observed.rows();
+        let mut run = Run::new(self.observed, hypothesis, self.minds, self.seed, self.motion.states[0])?;
+        let mut decided = Vec::with_capacity(self.observed.steps());
+        for (step, (row, found)) in rows[1..].iter().zip(&self.motion.actions).enumerate() {
+            if step > 0 && step % anchor.max(1) == 0 {
+                run.put(self.motion.states[step]);
+            }
+            let outlook = self.beliefs[agent].outlook(&run.physique, step, &run.state);
+            let (action, thought) = run.decide(agent, &outlook)?;
+            let mut actions = *found;
+            actions[agent] = action;
+            let means = run.act(actions);
+            decided.push(Decided { action, thought, deviation: self.deviation(&means, row) });
+        }
+        Ok(decided)
     }
 
     /// Goes on from the last state watched for so many steps: where every entity will be after each, if the
@@ -97,7 +129,7 @@ impl<'a> Stage<'a> {
         steps: usize,
         seed: u64,
     ) -> Result<phase_model::Forecast, PomcpError> {
-        let last = self.states[self.states.len() - 1];
+        let last = self.motion.states[self.observed.steps()];
         let mut run = Run::new(self.observed, hypothesis, self.minds, seed, last)?;
         let mut beliefs = self.beliefs.each_ref().map(|belief| belief.last().clone());
         let mut random: [Pcg64Mcg; AGENT_COUNT] =
@@ -122,6 +154,17 @@ impl<'a> Stage<'a> {
     }
 }
 
+/// What an agent decided in one step, and what came of it.
+#[derive(Clone, Debug)]
+pub struct Decided {
+    /// The action.
+    pub action: Action,
+    /// Why.
+    pub thought: Thought,
+    /// As [`Deviations`] have it (u).
+    pub deviation: f64,
+}
+
 /// A simulation under way.
 struct Run {
     physique: Physique,
@@ -133,7 +176,7 @@ struct Run {
 }
 
 /// What an agent believes possible, and the entities that it observes.
-type Outlooks = [(Vec<State>, phase_model::EntitySet); AGENT_COUNT];
+type Outlooks = [(Vec<State>, EntitySet); AGENT_COUNT];
 
 impl Run {
     fn new(
@@ -163,18 +206,31 @@ impl Run {
     fn step(
         &mut self,
         outlooks: &Outlooks,
-    ) -> Result<([Vec2; phase_model::MAX_ENTITIES], [Action; AGENT_COUNT]), PomcpError> {
+    ) -> Result<([Vec2; MAX_ENTITIES], [Action; AGENT_COUNT]), PomcpError> {
         let mut actions = [Action::NoForce; AGENT_COUNT];
-        for (agent, (particles, observed)) in outlooks.iter().enumerate() {
-            let outlook = Outlook { particles, observed: *observed };
-            let (action, _) = self.minds[agent].decide(outlook, &mut self.random[agent])?;
-            actions[agent] = action;
+        for (agent, outlook) in outlooks.iter().enumerate() {
+            (actions[agent], _) = self.decide(agent, outlook)?;
         }
+        Ok((self.act(actions), actions))
+    }
+
+    /// One agent decides.
+    fn decide(
+        &mut self,
+        agent: usize,
+        (particles, observed): &(Vec<State>, EntitySet),
+    ) -> Result<(Action, Thought), PomcpError> {
+        let outlook = Outlook { particles, observed: *observed };
+        self.minds[agent].decide(outlook, &mut self.random[agent])
+    }
+
+    /// Both act: the mean positions of all bodies over the step.
+    fn act(&mut self, actions: [Action; AGENT_COUNT]) -> [Vec2; MAX_ENTITIES] {
         let substeps = self.forward.step_warm(&mut self.state, &mut self.memory, actions);
         let mean = |entity: usize| {
             let sum = substeps.iter().fold(Vec2::ZERO, |sum, substep| sum + substep.bodies[entity].position);
             sum / SUBSTEPS as f32
         };
-        Ok((core::array::from_fn(mean), actions))
+        core::array::from_fn(mean)
     }
 }

@@ -1,12 +1,8 @@
 //! From an observed event to weighted hypotheses.
 
 use crate::{
-    Posterior, Proposal, Settings, Update,
-    generative::Stage,
-    metropolis::Chains,
-    simulations::Simulations,
-    strength::StrengthCue,
-    sweep::{self, Parts},
+    Algorithm, ChainSettings, Posterior, Proposal, Settings, generative::Stage, inverse_planning,
+    metropolis::Chains, simulations::Simulations, strength::StrengthCue,
 };
 use core::ops::ControlFlow;
 use phase_model::{
@@ -20,9 +16,10 @@ use phase_pomcp::PomcpError;
 pub struct Inference {
     /// What it comes to.
     pub posterior: Posterior,
-    /// How many chains accepted their proposal, for each iteration of Algorithm 2.
+    /// How many chains accepted their proposal, for each iteration of Algorithm 2; empty for inverse planning.
     pub accepted: Vec<usize>,
-    /// Hypotheses that were simulated, to the end or until they could not matter any more.
+    /// Hypotheses that Algorithm 2 simulated, to the end or until they could not matter any more; 0 for inverse
+    /// planning.
     pub simulated: usize,
 }
 
@@ -38,10 +35,26 @@ pub fn infer(
     settings: &Settings,
     tick: &mut dyn FnMut() -> ControlFlow<()>,
 ) -> Result<Option<Inference>, PomcpError> {
+    match &settings.algorithm {
+        Algorithm::InversePlanning(planning) => {
+            let posterior = inverse_planning::posterior(stage, planning, settings.gamma, tick)?;
+            Ok(posterior.map(|posterior| Inference { posterior, accepted: Vec::new(), simulated: 0 }))
+        }
+        Algorithm::Chains(chains) => by_chains(stage, strengths, seed, settings.gamma, chains, tick),
+    }
+}
+
+fn by_chains(
+    stage: &Stage<'_>,
+    strengths: &dyn StrengthCue,
+    seed: u64,
+    gamma: f64,
+    settings: &ChainSettings,
+    tick: &mut dyn FnMut() -> ControlFlow<()>,
+) -> Result<Option<Inference>, PomcpError> {
     let mut simulations = Simulations::new(stage, settings.anchor, settings.beta);
-    let whole = 0..=stage.observed().steps();
-    let initial = Proposal::new(stage.observed(), whole, settings.gamma, strengths);
-    let chains = Chains { stage, initial: &initial, strengths, settings };
+    let initial = Proposal::new(stage.observed(), 0..=stage.observed().steps(), gamma, strengths);
+    let chains = Chains { stage, initial: &initial, strengths, gamma, settings };
     let mut accepted = vec![0; settings.iterations];
     let mut particles = Vec::with_capacity(settings.particles);
     for particle in 0..settings.particles.max(1) {
@@ -49,29 +62,12 @@ pub fn infer(
         if tick().is_break() {
             return Ok(None);
         }
-        if settings.update == Update::Sweep {
-            let mut parts = Parts::guess(&initial, &mut random);
-            for _ in 0..settings.iterations {
-                let swept = sweep::sweep(parts, &initial, &mut simulations, &mut random, tick)?;
-                let Some(swept) = swept else { return Ok(None) };
-                parts = swept;
-            }
-        } else {
-            let chain = chains.run(&mut simulations, &mut random, tick)?;
-            let Some((hypothesis, likelihood, accepts)) = chain else { return Ok(None) };
-            particles.push((hypothesis, likelihood));
-            accepted.iter_mut().zip(accepts).for_each(|(count, accept)| *count += usize::from(accept));
-        }
+        let chain = chains.run(&mut simulations, &mut random, tick)?;
+        let Some((hypothesis, likelihood, accepts)) = chain else { return Ok(None) };
+        particles.push((hypothesis, likelihood));
+        accepted.iter_mut().zip(accepts).for_each(|(count, accept)| *count += usize::from(accept));
     }
-    let goals = initial.goals(0).len();
-    let posterior = match settings.update {
-        // All that was ever simulated is known, so nothing is gained by looking at the chains' last states alone.
-        Update::Sweep => Posterior::new(
-            simulations.complete().map(|(hypothesis, log)| (hypothesis, log + hypothesis.log_prior(goals))),
-        ),
-        _ => Posterior::new(particles),
-    };
-    Ok(Some(Inference { posterior, accepted, simulated: simulations.count() }))
+    Ok(Some(Inference { posterior: Posterior::new(particles), accepted, simulated: simulations.count() }))
 }
 
 /// Prepares an event and infers what explains it.

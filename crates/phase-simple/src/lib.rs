@@ -1,13 +1,14 @@
 //! SIMPLE (SIMulation, Planning and Local Estimation): what explains the motion of a social event, and how it goes on.
 //!
-//! An event is first prepared ([`Stage`]): who held what, and what each agent can have observed and so believed. A
-//! [`Hypothesis`] is then simulated by the very minds and physics that make events, and is the likelier the nearer it
-//! stays to what was observed. [`infer`] searches hypotheses and returns a [`Posterior`]; [`forecast()`] plays the
-//! likeliest on.
+//! An event is first prepared ([`Stage`]): what was done ([`InverseDynamics`]), and what each agent can have observed
+//! and so believed. Each [`Hypothesis`] is then put to the very minds and physics that make events, and is the
+//! likelier the better they do what was observed. [`infer`] weighs hypotheses, either all of them by what each
+//! agent would do next at every step (`inverse_planning`), or as Algorithm 2 of the paper some of them by simulations of
+//! whole events ([`metropolis`]), and returns a [`Posterior`]; [`forecast()`] plays the likeliest on.
 //!
 //! The key design decision is that everything starts from an [`ObservedEvent`](phase_model::ObservedEvent), a type
-//! without labels: what is inferred cannot have been read. The price is that grips and contacts, which trajectories do
-//! not tell, have to be guessed ([`reconstruction`]).
+//! without labels: what is inferred cannot have been read. The price is that actions and grips, which trajectories do
+//! not tell, have to be found out.
 //!
 //! `docs/simple.md` says where the paper's formulas were settled and where this goes beyond them.
 
@@ -20,20 +21,23 @@ pub mod forecast;
 pub mod generative;
 pub mod hypothesis;
 pub mod inference;
+pub mod inverse_dynamics;
+mod inverse_planning;
 pub mod metropolis;
 pub mod posterior;
 pub mod proposal;
-pub mod reconstruction;
 pub mod settings;
 pub mod simulations;
 pub mod strength;
-mod sweep;
+pub mod want;
 
 pub use forecast::{ForecastSettings, forecast};
 pub use generative::Stage;
 pub use hypothesis::{Hypothesis, physical_goals};
 pub use inference::{Inference, explain, infer};
+pub use inverse_dynamics::InverseDynamics;
 pub use posterior::Posterior;
 pub use proposal::Proposal;
-pub use settings::{Settings, Update};
+pub use settings::{Algorithm, ChainSettings, PlanningSettings, Settings, Update};
 pub use strength::{AnyStrength, StrengthCue, StrengthRegressor};
+pub use want::Want;

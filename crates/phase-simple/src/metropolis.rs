@@ -1,7 +1,7 @@
 //! Algorithm 2 of the paper: Metropolis–Hastings chains whose proposals come from short stretches of the event.
 
 use crate::{
-    Hypothesis, Proposal, Settings, Update, cue::normalised, generative::Stage, proposal::drawn,
+    ChainSettings, Hypothesis, Proposal, Update, cue::normalised, generative::Stage, proposal::drawn,
     simulations::Simulations, strength::StrengthCue,
 };
 use core::ops::{ControlFlow, RangeInclusive};
@@ -26,7 +26,8 @@ pub(crate) struct Chains<'a, 's> {
     pub(crate) stage: &'a Stage<'a>,
     pub(crate) initial: &'a Proposal,
     pub(crate) strengths: &'s dyn StrengthCue,
-    pub(crate) settings: &'a Settings,
+    pub(crate) gamma: f64,
+    pub(crate) settings: &'a ChainSettings,
 }
 
 impl Chains<'_, '_> {
@@ -46,9 +47,9 @@ impl Chains<'_, '_> {
             if tick().is_break() {
                 return Ok(None);
             }
-            let local = self.stretch(&current, simulations, random).map(|stretch| {
-                Proposal::new(self.stage.observed(), stretch, self.settings.gamma, self.strengths)
-            });
+            let local = self
+                .stretch(&current, simulations, random)
+                .map(|stretch| Proposal::new(self.stage.observed(), stretch, self.gamma, self.strengths));
             let proposal = local.as_ref().unwrap_or(self.initial);
             let candidate = proposal.sample(random);
             let threshold = threshold(

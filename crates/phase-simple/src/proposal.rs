@@ -47,6 +47,14 @@ impl Proposal {
         Hypothesis::new(goals, attitudes, strengths)
     }
 
+    /// The goal that an agent (0 or 1) pursues most likely.
+    #[must_use]
+    pub fn likeliest_goal(&self, agent: usize) -> Goal {
+        let goals = self.goals[agent].iter().zip(&self.goal_logs[agent]);
+        let best = goals.max_by(|a, b| a.1.total_cmp(b.1));
+        best.map_or_else(|| unreachable!("there are landmarks to go to"), |(goal, _)| *goal)
+    }
+
     /// Draws a goal of an agent (0 or 1).
     pub fn sample_goal(&self, agent: usize, random: &mut impl Rng) -> Goal {
         self.goals[agent][drawn(&self.goal_logs[agent], random)]

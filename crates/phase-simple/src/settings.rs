@@ -1,6 +1,7 @@
 //! The numbers of an inference.
 
 use crate::cue::GAMMA;
+use phase_model::AGENT_COUNT;
 use serde::{Deserialize, Serialize};
 
 /// From what hypotheses are proposed anew.
@@ -13,16 +14,51 @@ pub enum Update {
     Global,
     /// From a short stretch where simulation and observation are at odds (SIMPLE (Full)).
     Local,
-    /// Part by part, each from all it could be (Gibbs sweeps). Not in the paper.
-    Sweep,
+}
+
+/// How hypotheses are found and weighed.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Algorithm {
+    /// All hypotheses, by what each agent would do at every step if it wanted this or that. Not in the paper.
+    InversePlanning(PlanningSettings),
+    /// Some hypotheses, by simulations of whole events: the paper's Algorithm 2.
+    Chains(ChainSettings),
 }
 
 /// How to infer. The defaults are what serves best; [`Settings::published`] is the paper's.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Settings {
+    /// How hypotheses are found and weighed.
+    pub algorithm: Algorithm,
+    /// γ of the goal proposal (1/u).
+    pub gamma: f64,
+    /// How the agents of a simulation think.
+    pub minds: phase_agent::Settings,
+}
+
+/// The numbers of [`inverse_planning`](crate::inverse_planning), chosen on the validation events of PHASE-500.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+pub struct PlanningSettings {
+    /// ε: how often an agent does something else than its mind is for, any action alike.
+    pub slips: f64,
+    /// σ: an action that leaves so much more unexplained than another (u) is e times less likely to have been done.
+    pub tolerance: f64,
+    /// κ: how much the choice of actions counts. Less than 1, for what a simulated mind gets wrong once it gets wrong
+    /// again.
+    pub temper: f64,
+    /// After how many steps a simulation is put back to the event to see how far it strays; at least 1.
+    pub anchor: usize,
+    /// β of straying (1/u).
+    pub beta: f64,
+}
+
+/// The numbers of Algorithm 2.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+pub struct ChainSettings {
     /// Which proposals there are after the first.
     pub update: Update,
-    /// L, iterations after the initial proposals; of sweeps, how many.
+    /// L, iterations after the initial proposals.
     pub iterations: usize,
     /// M, particles, each a chain of its own; at least 1.
     pub particles: usize,
@@ -32,54 +68,59 @@ pub struct Settings {
     pub eta: f64,
     /// ΔT, length of a stretch (steps).
     pub window: usize,
-    /// γ of the goal proposal (1/u).
-    pub gamma: f64,
     /// After how many steps a simulation is put back to the observed event; never in the paper.
     pub anchor: Option<usize>,
-    /// How the agents of a simulation think.
-    pub minds: phase_agent::Settings,
 }
 
 /// POMCP simulations a decision within an inference.
 const SIMULATIONS: usize = 50;
+/// What an agent can want in an event with two objects.
+const WANTS: usize = 42;
 
 impl Settings {
     /// The paper's: Algorithm 2 with M = 15, L = 6, β = 0.05, η = 0.1 and ΔT = 10, over simulations that go their own
     /// way from the start. Only γ is not the printed one (see [`GAMMA`]), and agents search with fewer simulations.
     #[must_use]
     pub fn published() -> Self {
-        Self { anchor: None, beta: 0.05, ..Self::algorithm_2() }
+        Self::chains(ChainSettings { beta: 0.05, anchor: None, ..ChainSettings::anchored(Update::Local) })
     }
 
-    /// Algorithm 2 over simulations that are put back to the event.
+    /// Algorithm 2.
     #[must_use]
-    pub fn algorithm_2() -> Self {
-        Self { update: Update::Local, iterations: 6, particles: 15, ..Self::default() }
+    pub fn chains(chains: ChainSettings) -> Self {
+        Self { algorithm: Algorithm::Chains(chains), ..Self::default() }
     }
 
-    /// About how many hypotheses are simulated for an event.
+    /// About how often an inference ticks.
     #[must_use]
-    pub const fn simulations_about(&self) -> usize {
-        match self.update {
-            Update::Initial => self.particles,
-            Update::Global | Update::Local => self.particles * (self.iterations + 1),
-            // A sweep looks at about a hundred; those it has in common with others are simulated once, but count.
-            Update::Sweep => 100 * self.iterations * self.particles,
+    pub const fn ticks(&self) -> usize {
+        match self.algorithm {
+            Algorithm::InversePlanning(_) => WANTS * AGENT_COUNT,
+            Algorithm::Chains(ChainSettings { update: Update::Initial, particles, .. }) => particles,
+            Algorithm::Chains(ChainSettings { iterations, particles, .. }) => particles * (iterations + 1),
         }
+    }
+}
+
+impl ChainSettings {
+    /// The paper's numbers over simulations that are put back to the event.
+    #[must_use]
+    pub const fn anchored(update: Update) -> Self {
+        Self { update, iterations: 6, particles: 15, beta: 0.2, eta: 0.1, window: 10, anchor: Some(10) }
+    }
+}
+
+impl Default for PlanningSettings {
+    fn default() -> Self {
+        Self { slips: 0.05, tolerance: 0.03, temper: 0.3, anchor: 10, beta: 0.1 }
     }
 }
 
 impl Default for Settings {
     fn default() -> Self {
         Self {
-            update: Update::Sweep,
-            iterations: 2,
-            particles: 3,
-            beta: 0.5,
-            eta: 0.1,
-            window: 10,
+            algorithm: Algorithm::InversePlanning(PlanningSettings::default()),
             gamma: GAMMA,
-            anchor: Some(10),
             minds: phase_agent::Settings { simulations: SIMULATIONS, ..phase_agent::Settings::default() },
         }
     }

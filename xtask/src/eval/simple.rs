@@ -6,8 +6,8 @@ use phase_eval::{
 };
 use phase_model::{Forecast, Judgement, ObservedEvent};
 use phase_simple::{
-    AnyStrength, ForecastSettings, Inference, Proposal, Settings, Stage, StrengthRegressor, Update, forecast,
-    infer,
+    AnyStrength, ChainSettings, ForecastSettings, Inference, Proposal, Settings, Stage, StrengthRegressor,
+    Update, forecast, infer,
 };
 use serde_json::{Value, json};
 
@@ -27,7 +27,7 @@ impl Simple {
     /// never put back to the event. `None` for other names.
     #[must_use]
     pub fn of(name: &str) -> Option<Self> {
-        let algorithm_2 = |update| Settings { update, ..Settings::algorithm_2() };
+        let algorithm_2 = |update| Settings::chains(ChainSettings::anchored(update));
         let settings = match name {
             "simple" => Settings::default(),
             "simple-initial" => algorithm_2(Update::Initial),
@@ -51,7 +51,7 @@ impl Recogniser for Simple {
     }
 
     fn ticks(&self) -> usize {
-        self.settings.simulations_about()
+        self.settings.ticks()
     }
 
     fn judge(&self, observed: &ObservedEvent, seed: u64, tick: Tick<'_>) -> Answered<Judgement> {
@@ -67,7 +67,7 @@ impl Forecaster for Simple {
     }
 
     fn ticks(&self) -> usize {
-        self.settings.simulations_about() + self.forecast.hypotheses * self.forecast.repeats
+        self.settings.ticks() + self.forecast.hypotheses * self.forecast.repeats
     }
 
     fn forecast(

@@ -1,0 +1,293 @@
+//! One step of an event, imagined under all that its agents can have done.
+
+use super::path::{Path, least};
+use phase_forward::{Forward, Memory};
+use phase_model::{
+    AGENT_COUNT, Action, Body, Entity, MAX_ENTITIES, ObservedEvent, State, Strength, Vec2,
+    arena::{SUBSTEP_SECONDS, SUBSTEPS},
+};
+
+/// How many strengths there are.
+pub(super) const LEVELS: usize = Strength::ALL.len();
+/// What physics leaves unexplained of a step that it explains (u).
+const SCALE: f64 = 0.02;
+/// A body that is this far (u, rad) from where it was imagined was not understood.
+const LOST: f32 = 0.4;
+/// Nearer than this (u, rad), what a simulation knows of contacts still holds.
+const SAME: f32 = 0.02;
+/// How long a step lasts (s).
+const STEP_SECONDS: f32 = SUBSTEP_SECONDS * SUBSTEPS as f32;
+/// What grabbing or letting go costs beside its residual, in logarithms: it is rare.
+const CHANGE: f64 = 2.0;
+/// Rounds in which agents are explained by turns, for what one does may show in where the other goes.
+const ROUNDS: usize = 3;
+/// Actions that change no grip.
+const CALM: [Action; 12] = [
+    Action::TurnLeft,
+    Action::TurnRight,
+    Action::Up,
+    Action::Down,
+    Action::Left,
+    Action::Right,
+    Action::UpLeft,
+    Action::UpRight,
+    Action::DownLeft,
+    Action::DownRight,
+    Action::Stop,
+    Action::NoForce,
+];
+
+/// A state to step from.
+#[derive(Clone, Debug)]
+pub(super) struct Moment {
+    pub(super) state: State,
+    pub(super) memory: Memory,
+    /// Whether a substep of the step has passed already.
+    pub(super) late: bool,
+}
+
+/// A step as imagined, beside the row that was observed.
+pub(super) struct Imagined {
+    end: Moment,
+    differences: [Difference; MAX_ENTITIES],
+    pub(super) residual: f32,
+}
+
+/// What has to be added to an imagined body to get the observed one.
+#[derive(Clone, Copy, Default)]
+struct Difference {
+    position: Vec2,
+    velocity: Vec2,
+    angle: f32,
+}
+
+/// What it takes to follow an event.
+pub(super) struct Tracker<'a> {
+    observed: &'a ObservedEvent,
+    /// By both agents' strengths.
+    worlds: Vec<Forward>,
+    radii: [f32; MAX_ENTITIES],
+}
+
+impl<'a> Tracker<'a> {
+    pub(super) fn new(observed: &'a ObservedEvent) -> Self {
+        let forces = Strength::ALL.map(Strength::max_force);
+        let pairs = forces.into_iter().flat_map(|first| forces.map(|second| [first, second]));
+        let worlds = pairs.map(|pair| Forward::new(&observed.physique(pair))).collect();
+        let physique = observed.physique([0.0; AGENT_COUNT]);
+        let mut radii = [0.0; MAX_ENTITIES];
+        for entity in observed.entities() {
+            radii[entity.index()] = match entity {
+                Entity::Agent(agent) => physique.agents[usize::from(agent)].radius,
+                Entity::Object(object) => physique.object_radii[usize::from(object)],
+            };
+        }
+        Self { observed, worlds, radii }
+    }
+
+    /// The beginning of an event.
+    pub(super) fn path(&self, state: State, late: bool) -> Path {
+        let moment = Moment { state, memory: self.remember(&state), late };
+        Path {
+            moment,
+            late_start: late,
+            cost: 0.0,
+            strength_costs: [[0.0; LEVELS]; AGENT_COUNT],
+            trail: Vec::new(),
+        }
+    }
+
+    /// What a state by itself tells of contacts; strengths play no part in it.
+    pub(super) fn remember(&self, state: &State) -> Memory {
+        self.worlds[0].remember(state)
+    }
+
+    /// A step of agents of these strengths, beside what was observed.
+    pub(super) fn step(
+        &self,
+        moment: &Moment,
+        row: &[Body; MAX_ENTITIES],
+        levels: [usize; AGENT_COUNT],
+        actions: [Action; AGENT_COUNT],
+    ) -> Imagined {
+        let mut end = moment.clone();
+        let world = &self.worlds[levels[0] * LEVELS + levels[1]];
+        let mut substeps = world.step_warm(&mut end.state, &mut end.memory, actions);
+        if moment.late {
+            // The first substep is where it starts, and the last does not belong to it any more.
+            substeps.rotate_right(1);
+            substeps[0] = moment.state;
+            end.state = substeps[SUBSTEPS - 1];
+            end.state.bodies.iter_mut().for_each(|body| body.angular_velocity = 0.0);
+            end.memory = self.remember(&end.state);
+            end.late = false;
+        }
+        let mut differences = [Difference::default(); MAX_ENTITIES];
+        let mut squares = 0.0;
+        for entity in self.observed.entities().map(Entity::index) {
+            let difference = Difference::between(&mean(&substeps, entity), &row[entity]);
+            squares += difference.square(self.radii[entity]);
+            differences[entity] = difference;
+        }
+        Imagined { end, differences, residual: squares.sqrt() }
+    }
+
+    /// The ways in which a path can go on to a row: the best without a change of grips, and the best with one.
+    pub(super) fn continuations(
+        &self,
+        path: &Path,
+        row: &[Body; MAX_ENTITIES],
+        between: &State,
+    ) -> Vec<Path> {
+        // What has to do with grips comes further down.
+        let mut actions = path.last_actions().map(|action| match action {
+            Action::Attach | Action::Detach => Action::NoForce,
+            action => action,
+        });
+        let mut levels = path.strength_costs.map(|costs| least(&costs));
+        let mut costs = [[0.0; LEVELS]; AGENT_COUNT];
+        for _ in 0..ROUNDS {
+            let before = (actions, levels);
+            for agent in 0..AGENT_COUNT {
+                let (by_level, best) = self.by_level(&path.moment, row, agent, levels, actions);
+                let sums: [f64; LEVELS] =
+                    core::array::from_fn(|level| path.strength_costs[agent][level] + by_level[level]);
+                levels[agent] = least(&sums);
+                actions[agent] = best[levels[agent]];
+                costs[agent] = by_level;
+            }
+            if before == (actions, levels) {
+                break;
+            }
+        }
+        let imagined = self.step(&path.moment, row, levels, actions);
+        let mut paths = vec![self.extended(path, actions, imagined, between, 0.0, Some(costs))];
+        for agent in 0..AGENT_COUNT {
+            let held = path.moment.state.grips[agent].is_some();
+            let mut actions = actions;
+            actions[agent] = if held { Action::Detach } else { Action::Attach };
+            let imagined = self.step(&path.moment, row, levels, actions);
+            if imagined.end.state.grips != path.moment.state.grips {
+                paths.push(self.extended(path, actions, imagined, between, CHANGE, None));
+            }
+        }
+        paths
+    }
+
+    /// What it costs at best to explain an agent for each of its strengths, and by which action.
+    fn by_level(
+        &self,
+        moment: &Moment,
+        row: &[Body; MAX_ENTITIES],
+        agent: usize,
+        levels: [usize; AGENT_COUNT],
+        actions: [Action; AGENT_COUNT],
+    ) -> ([f64; LEVELS], [Action; LEVELS]) {
+        let mut costs = [f64::INFINITY; LEVELS];
+        let mut best = [Action::NoForce; LEVELS];
+        for action in CALM {
+            let mut known = None;
+            for level in 0..LEVELS {
+                // Only pushing and turning need strength.
+                let forceless = action.push().is_none() && action.turn() == 0.0;
+                let cost = known.filter(|_| forceless).unwrap_or_else(|| {
+                    let (mut levels, mut actions) = (levels, actions);
+                    (levels[agent], actions[agent]) = (level, action);
+                    cost(self.step(moment, row, levels, actions).residual)
+                });
+                known = Some(cost);
+                if cost < costs[level] {
+                    (costs[level], best[level]) = (cost, action);
+                }
+            }
+        }
+        (costs, best)
+    }
+
+    /// A path with one more step, put right by what was observed. Where nothing tells strengths apart, all have
+    /// to bear the cost of the step.
+    fn extended(
+        &self,
+        path: &Path,
+        actions: [Action; AGENT_COUNT],
+        imagined: Imagined,
+        between: &State,
+        extra: f64,
+        costs: Option<[[f64; LEVELS]; AGENT_COUNT]>,
+    ) -> Path {
+        let Imagined { mut end, differences, residual } = imagined;
+        let cost = cost(residual);
+        let mut furthest = 0.0_f32;
+        for entity in self.observed.entities().map(Entity::index) {
+            let difference = &differences[entity];
+            let off = difference.position.length().max(difference.angle.abs());
+            furthest = furthest.max(off);
+            let body = &mut end.state.bodies[entity];
+            *body = if off > LOST {
+                Body { angular_velocity: body.angular_velocity, ..between.bodies[entity] }
+            } else {
+                difference.added_to(body)
+            };
+        }
+        if furthest > SAME {
+            end.memory = self.remember(&end.state);
+        }
+        let mut strength_costs = path.strength_costs;
+        for (agent, sums) in strength_costs.iter_mut().enumerate() {
+            for (level, sum) in sums.iter_mut().enumerate() {
+                *sum += costs.map_or(cost, |costs| costs[agent][level]);
+            }
+        }
+        let mut trail = path.trail.clone();
+        trail.push((end.state, (actions, residual)));
+        Path {
+            moment: end,
+            late_start: path.late_start,
+            cost: path.cost + cost + extra,
+            strength_costs,
+            trail,
+        }
+    }
+}
+
+impl Difference {
+    fn between(imagined: &Body, observed: &Body) -> Self {
+        Self {
+            position: observed.position - imagined.position,
+            velocity: observed.velocity - imagined.velocity,
+            angle: libm::remainderf(observed.angle - imagined.angle, core::f32::consts::TAU),
+        }
+    }
+
+    /// How much it is, squared (u²): velocities count by how far they lead in a step, angles by how far the rim moves.
+    fn square(&self, radius: f32) -> f32 {
+        let turned = self.angle * radius;
+        self.position.length_squared() + (self.velocity * STEP_SECONDS).length_squared() + turned * turned
+    }
+
+    fn added_to(&self, body: &Body) -> Body {
+        Body {
+            position: body.position + self.position,
+            velocity: body.velocity + self.velocity,
+            angle: body.angle + self.angle,
+            angular_velocity: body.angular_velocity,
+        }
+    }
+}
+
+/// What a residual costs, in logarithms: a heavy-tailed distribution, for what cannot be explained happens.
+fn cost(residual: f32) -> f64 {
+    let scaled = f64::from(residual) / SCALE;
+    libm::log1p(scaled * scaled)
+}
+
+fn mean(substeps: &[State; SUBSTEPS], entity: usize) -> Body {
+    let mut mean = Body::default();
+    for substep in substeps {
+        let body = &substep.bodies[entity];
+        mean.position += body.position / SUBSTEPS as f32;
+        mean.velocity += body.velocity / SUBSTEPS as f32;
+        mean.angle += body.angle / SUBSTEPS as f32;
+    }
+    mean
+}
