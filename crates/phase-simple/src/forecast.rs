@@ -8,23 +8,23 @@ use phase_model::{
 };
 use phase_pomcp::PomcpError;
 
-/// Hypotheses of less than this share of the best one's weight are not played on.
-const NEGLIGIBLE: f64 = 0.05;
 /// Rounds of the search for a median.
 const ROUNDS: usize = 30;
 
-/// How the future is put together.
+/// How the future is put together; the defaults were chosen on the validation events of PHASE-500.
 #[derive(Clone, Copy, PartialEq, Debug, serde::Serialize, serde::Deserialize)]
 pub struct ForecastSettings {
     /// How many of the most likely hypotheses are played on; at least 1.
     pub hypotheses: usize,
     /// How often each, with chance of its own; at least 1.
     pub repeats: usize,
+    /// Power to which their weights are raised: after 20 steps the likeliest are rarely as likely as they seem.
+    pub temper: f64,
 }
 
 impl Default for ForecastSettings {
     fn default() -> Self {
-        Self { hypotheses: 4, repeats: 2 }
+        Self { hypotheses: 5, repeats: 6, temper: 0.4 }
     }
 }
 
@@ -42,10 +42,7 @@ pub fn forecast(
     settings: &ForecastSettings,
     tick: &mut dyn FnMut() -> ControlFlow<()>,
 ) -> Result<Option<Forecast>, PomcpError> {
-    let hypotheses = &inference.posterior.hypotheses;
-    let best = hypotheses.first().map_or(0.0, |(_, weight)| *weight);
-    let likely =
-        hypotheses.iter().take(settings.hypotheses.max(1)).filter(|(_, weight)| *weight >= best * NEGLIGIBLE);
+    let likely = inference.posterior.hypotheses.iter().take(settings.hypotheses.max(1));
     let mut futures: Vec<(Forecast, f64)> = Vec::new();
     for (hypothesis, weight) in likely {
         for repeat in 0..settings.repeats.max(1) {
@@ -53,7 +50,7 @@ pub fn forecast(
                 return Ok(None);
             }
             let seed = random::derive_seed(seed, Purpose::Inference, repeat as u64);
-            futures.push((stage.go_on(hypothesis, steps, seed)?, *weight));
+            futures.push((stage.go_on(hypothesis, steps, seed)?, libm::pow(*weight, settings.temper)));
         }
     }
     let place = |entity: usize, step: usize| {
