@@ -11,13 +11,19 @@ use crate::{
     want::Want,
 };
 use core::ops::ControlFlow;
-use phase_model::{AGENT_COUNT, Action, Attitude, ObservedEvent};
+use phase_model::{AGENT_COUNT, Action, Attitude, Goal, Strength};
 use phase_pomcp::PomcpError;
 
 /// How often the search tried an action stands for how likely it is to be taken. Which way an agent turns says
 /// little about what it wants, and nothing in recordings of the published simulator, where all turns go one way:
 /// turning left stands for both.
 const CHOICES: usize = Action::ALL.len() - 1;
+
+/// What an agent may want, with ln P(motion | want) of its part of the motion.
+type Weighed = Vec<(Want, f64)>;
+
+/// How often wants are weighed again after another answer to what the other is after.
+const SECOND_THOUGHTS: usize = 2;
 
 /// P(Y | motion) of every hypothesis, strengths being those that the physics tells; `None` if `tick`, which is
 /// called once a want, broke it off.
@@ -32,54 +38,94 @@ pub(crate) fn posterior(
 ) -> Result<Option<Posterior>, PomcpError> {
     let observed = stage.observed();
     let objects = observed.object_sizes().len();
-    let strengths = stage.motion().strengths();
-    let likely_actions = found(observed, stage, settings.tolerance);
-    let guess = Proposal::new(observed, 0..=observed.steps(), gamma, &AnyStrength);
-    let mut logs: [Vec<(Want, f64)>; AGENT_COUNT] = [Vec::new(), Vec::new()];
-    for (agent, logs) in logs.iter_mut().enumerate() {
-        let others = guess.likeliest_goal(1 - agent);
+    let evidence = Evidence {
+        stage,
+        settings,
+        found: found(stage, settings.tolerance),
+        strengths: stage.motion().strengths(),
+    };
+    let cue = Proposal::new(observed, 0..=observed.steps(), gamma, &AnyStrength);
+    // What either seems to be after, as the other takes it who is not social.
+    let mut seeming: [Goal; AGENT_COUNT] = core::array::from_fn(|agent| cue.likeliest_goal(agent));
+    let mut weighed: [Weighed; AGENT_COUNT] = [Vec::new(), Vec::new()];
+    for (agent, weighed) in weighed.iter_mut().enumerate() {
         for want in Want::all(agent, objects) {
             if tick().is_break() {
                 return Ok(None);
             }
-            let hypothesis = want.hypothesis(agent, others, strengths);
-            let decided = stage.simulate_one(&hypothesis, agent, 1)?;
-            let chosen: f64 = decided
-                .iter()
-                .zip(&likely_actions)
-                .map(|(decided, found)| chance(decided, &found[agent], settings.slips))
-                .sum();
-            let strayed: f64 = stage
-                .simulate_one(&hypothesis, agent, settings.anchor)?
-                .iter()
-                .map(|step| step.deviation)
-                .sum();
-            logs.push((want, settings.temper * chosen - settings.beta * strayed));
+            weighed.push((want, evidence.log_likelihood(agent, &want, seeming[1 - agent])?));
         }
     }
-    let goals = guess.goals(0).len();
+    let goals = cue.goals(0).len();
+    let mut posterior = joint(&weighed, evidence.strengths, goals);
+    for _ in 0..SECOND_THOUGHTS {
+        let likeliest = posterior.hypotheses.first().map_or(seeming, |(hypothesis, _)| hypothesis.goals);
+        for (agent, weighed) in weighed.iter_mut().enumerate() {
+            let other = 1 - agent;
+            if likeliest[other] == seeming[other] {
+                continue;
+            }
+            for (want, log) in weighed.iter_mut().filter(|(want, _)| want.attitude == Attitude::Neutral) {
+                if tick().is_break() {
+                    return Ok(None);
+                }
+                *log = evidence.log_likelihood(agent, want, likeliest[other])?;
+            }
+        }
+        if likeliest == seeming {
+            break;
+        }
+        seeming = likeliest;
+        posterior = joint(&weighed, evidence.strengths, goals);
+    }
+    Ok(Some(posterior))
+}
+
+/// What wants are weighed by.
+struct Evidence<'a> {
+    stage: &'a Stage<'a>,
+    settings: &'a PlanningSettings,
+    found: Vec<[[f64; CHOICES]; AGENT_COUNT]>,
+    strengths: [Strength; AGENT_COUNT],
+}
+
+impl Evidence<'_> {
+    /// ln P(motion | want) of an agent's part of the motion, the other being after `others`.
+    fn log_likelihood(&self, agent: usize, want: &Want, others: Goal) -> Result<f64, PomcpError> {
+        let hypothesis = want.hypothesis(agent, others, self.strengths);
+        let every_step = self.stage.simulate_one(&hypothesis, agent, 1)?;
+        let chosen = every_step.iter().zip(&self.found);
+        let chosen: f64 =
+            chosen.map(|(decided, found)| log_chance(decided, &found[agent], self.settings.slips)).sum();
+        let now_and_then = self.stage.simulate_one(&hypothesis, agent, self.settings.anchor)?;
+        let strayed: f64 = now_and_then.iter().map(|step| step.deviation).sum();
+        Ok(self.settings.temper * chosen - self.settings.beta * strayed)
+    }
+}
+
+/// Every hypothesis, weighed by its prior and by both agents' parts in the motion.
+fn joint(weighed: &[Weighed; AGENT_COUNT], strengths: [Strength; AGENT_COUNT], goals: usize) -> Posterior {
     let weigh = |hypothesis: Hypothesis, log: f64| (hypothesis, log + hypothesis.log_prior(goals));
-    let neutral = |agent: usize| logs[agent].iter().filter(|(want, _)| want.attitude == Attitude::Neutral);
-    let mut particles = Vec::new();
+    let neutral = |agent: usize| weighed[agent].iter().filter(|(want, _)| want.attitude == Attitude::Neutral);
+    let mut hypotheses = Vec::new();
     for (first, first_log) in neutral(0) {
         for (second, second_log) in neutral(1) {
-            let hypothesis = first.hypothesis(0, second.goal, strengths);
-            particles.push(weigh(hypothesis, first_log + second_log));
+            hypotheses.push(weigh(first.hypothesis(0, second.goal, strengths), first_log + second_log));
         }
     }
     for social in 0..AGENT_COUNT {
-        for (want, log) in logs[social].iter().filter(|(want, _)| want.attitude != Attitude::Neutral) {
+        for (want, log) in weighed[social].iter().filter(|(want, _)| want.attitude != Attitude::Neutral) {
             let other = neutral(1 - social).find(|(other, _)| other.goal == want.goal);
             let Some((_, other_log)) = other else { continue };
-            particles.push(weigh(want.hypothesis(social, want.goal, strengths), log + other_log));
+            hypotheses.push(weigh(want.hypothesis(social, want.goal, strengths), log + other_log));
         }
     }
-    Ok(Some(Posterior::new(particles)))
+    Posterior::new(hypotheses)
 }
 
 /// How likely each choice is to be what an agent did, for each step and agent: e^{−residual/σ}, adding up to 1.
-fn found(observed: &ObservedEvent, stage: &Stage<'_>, tolerance: f64) -> Vec<[[f64; CHOICES]; AGENT_COUNT]> {
-    let alternatives = stage.motion().alternatives(observed);
+fn found(stage: &Stage<'_>, tolerance: f64) -> Vec<[[f64; CHOICES]; AGENT_COUNT]> {
+    let alternatives = stage.motion().alternatives(stage.observed());
     let one = |residuals: &[f32; Action::ALL.len()]| {
         let mut least = [f64::INFINITY; CHOICES];
         for action in Action::ALL {
@@ -95,7 +141,7 @@ fn found(observed: &ObservedEvent, stage: &Stage<'_>, tolerance: f64) -> Vec<[[f
 }
 
 /// ln of the chance that a mind's choice and what was done are the same.
-fn chance(decided: &Decided, found: &[f64; CHOICES], slips: f64) -> f64 {
+fn log_chance(decided: &Decided, found: &[f64; CHOICES], slips: f64) -> f64 {
     let mut policy = [0.0; CHOICES];
     let visits: f64 = decided.thought.actions.iter().map(|value| f64::from(value.visits)).sum();
     if visits > 0.0 {
