@@ -113,8 +113,8 @@ fn joint(weighed: &[Weighed; AGENT_COUNT], strengths: [Strength; AGENT_COUNT], g
             hypotheses.push(weigh(first.hypothesis(0, second.goal, strengths), first_log + second_log));
         }
     }
-    for social in 0..AGENT_COUNT {
-        for (want, log) in weighed[social].iter().filter(|(want, _)| want.attitude != Attitude::Neutral) {
+    for (social, wants) in weighed.iter().enumerate() {
+        for (want, log) in wants.iter().filter(|(want, _)| want.attitude != Attitude::Neutral) {
             let other = neutral(1 - social).find(|(other, _)| other.goal == want.goal);
             let Some((_, other_log)) = other else { continue };
             hypotheses.push(weigh(want.hypothesis(social, want.goal, strengths), log + other_log));

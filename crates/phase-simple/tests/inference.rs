@@ -125,10 +125,10 @@ fn actions_strengths_and_grips_are_found_again() {
         assert!(!motion.late_start, "row 0 is the initial state");
         let found = motion.states[1..].iter().zip(&motion.actions);
         for (step, (state, actions)) in event.steps.iter().zip(found) {
-            for agent in 0..2 {
-                let shows = step.actions[agent].push().is_some();
+            for (agent, (action, found)) in step.actions.iter().zip(actions).enumerate() {
+                let shows = action.push().is_some();
                 pushes += usize::from(shows);
-                pushes_found += usize::from(shows && step.actions[agent] == actions[agent]);
+                pushes_found += usize::from(shows && action == found);
                 let truth = step.substeps[4].held_object(agent);
                 held += usize::from(truth.is_some());
                 held_found += usize::from(truth.is_some() && truth == state.held_object(agent));
