@@ -22,9 +22,9 @@ pub struct Simple {
 }
 
 impl Simple {
-    /// The variant of a name: `simple` is the default; `simple-initial`, `simple-global` and `simple-local` are the
-    /// ablation of the paper over the same simulations; `simple-published` is Algorithm 2 with simulations that are
-    /// never put back to the event. `None` for other names.
+    /// The variant of a name: `simple` is inverse planning, the default; `simple-initial`, `simple-global` and
+    /// `simple-local` are Algorithm 2 of the paper and its ablation, over simulations that are put back to the event now
+    /// and then; `simple-published` is Algorithm 2 with simulations that never are. `None` for other names.
     #[must_use]
     pub fn of(name: &str) -> Option<Self> {
         let algorithm_2 = |update| Settings::chains(ChainSettings::anchored(update));
