@@ -1,7 +1,10 @@
 //! What is learnt from data: training of neural networks on social events.
 //!
 //! - [`strength`] trains SIMPLE's guess at agents' strengths, which `phase_simple::StrengthRegressor` evaluates,
-//! - [`layer`] is what networks are put together from.
+//! - [`two_level_lstm`] and [`arg`] are the paper's baselines for Task 1,
+//! - [`nodes`] is what those see of an event, [`goals`] what they tell apart, [`recognition`] what they have in common,
+//! - [`training`] trains any of them,
+//! - [`layer`], [`perceptron`], [`lstm`] and attention are what networks are put together from.
 //!
 //! The key design decision is that all chance (first weights, order of samples, what is drawn from an event) comes from
 //! one seed through `phase_model::random`, none from the library for neural networks, and that matrices are small
@@ -14,5 +17,15 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod arg;
+mod attention;
+pub mod goals;
 pub mod layer;
+pub mod lstm;
+pub mod nodes;
+pub mod parameters;
+pub mod perceptron;
+pub mod recognition;
 pub mod strength;
+pub mod training;
+pub mod two_level_lstm;

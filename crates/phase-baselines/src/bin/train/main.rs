@@ -8,6 +8,8 @@
 
 mod error;
 mod events;
+mod network;
+mod recognition;
 mod strength;
 
 use clap::{Args, Parser, Subcommand};
@@ -31,6 +33,10 @@ struct Cli {
 enum Command {
     /// SIMPLE's guess at the agents' strengths
     Strength(Options),
+    /// 2-Level LSTM, a baseline for goals and relations
+    TwoLevelLstm(Options),
+    /// Actor relation graph, a baseline for goals and relations
+    Arg(Options),
 }
 
 /// On what, and where to.
@@ -53,6 +59,8 @@ struct Options {
 fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Strength(options) => strength::run(&options),
+        Command::TwoLevelLstm(options) => recognition::two_level_lstm(&options),
+        Command::Arg(options) => recognition::arg(&options),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -1,0 +1,7 @@
+//! The paper's neural baselines, with small sizes.
+
+mod goals;
+mod learning;
+mod lstm;
+mod masks;
+mod support;
