@@ -2,7 +2,9 @@
 //!
 //! - [`strength`] trains SIMPLE's guess at agents' strengths, which `phase_simple::StrengthRegressor` evaluates,
 //! - [`two_level_lstm`] and [`arg`] are the paper's baselines for Task 1,
-//! - [`nodes`] is what those see of an event, [`goals`] what they tell apart, [`recognition`] what they have in common,
+//! - [`social_lstm`] and [`stgat`] are those for Task 2,
+//! - [`nodes`] is what they all see of an event; [`recognition`] with [`goals`], and [`forecasting`], are what those for one
+//!   task have in common,
 //! - [`training`] trains any of them,
 //! - [`layer`], [`perceptron`], [`lstm`] and attention are what networks are put together from.
 //!
@@ -19,6 +21,7 @@
 
 pub mod arg;
 mod attention;
+pub mod forecasting;
 pub mod goals;
 pub mod layer;
 pub mod lstm;
@@ -26,6 +29,8 @@ pub mod nodes;
 pub mod parameters;
 pub mod perceptron;
 pub mod recognition;
+pub mod social_lstm;
+pub mod stgat;
 pub mod strength;
 pub mod training;
 pub mod two_level_lstm;

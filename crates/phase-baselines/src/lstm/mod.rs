@@ -49,7 +49,7 @@ impl Lstm {
     /// # Errors
     /// If the state is not of this LSTM.
     pub fn output(&self, state: &Tensor) -> Result<Tensor> {
-        state.narrow(1, 0, self.size)
+        state.narrow(1, 0, self.size)?.contiguous()
     }
 
     /// What is to be learnt, named.

@@ -42,7 +42,7 @@ impl NodeEmbedding {
             fixed = self.memory.step(&fixed_features, &fixed, None)?;
             let features = self.features.forward(features)?.relu()?;
             moving = self.memory.step(&features, &moving, batch.alive(row, MOVING))?;
-            let placed = self.memory.output(&fixed)?.contiguous()?.index_select(&batch.fixed_places, 0)?;
+            let placed = self.memory.output(&fixed)?.index_select(&batch.fixed_places, 0)?;
             let moved = self.memory.output(&moving)?;
             embeddings.push(Tensor::cat(&[by_event(&moved, MOVING)?, by_event(&placed, FIXED)?], 1)?);
         }

@@ -8,6 +8,7 @@
 
 mod error;
 mod events;
+mod forecasting;
 mod network;
 mod recognition;
 mod strength;
@@ -37,6 +38,10 @@ enum Command {
     TwoLevelLstm(Options),
     /// Actor relation graph, a baseline for goals and relations
     Arg(Options),
+    /// Social-LSTM, a baseline for trajectories
+    SocialLstm(Options),
+    /// Spatial-temporal graph attention, a baseline for trajectories
+    Stgat(Options),
 }
 
 /// On what, and where to.
@@ -61,6 +66,8 @@ fn main() -> ExitCode {
         Command::Strength(options) => strength::run(&options),
         Command::TwoLevelLstm(options) => recognition::two_level_lstm(&options),
         Command::Arg(options) => recognition::arg(&options),
+        Command::SocialLstm(options) => forecasting::social_lstm(&options),
+        Command::Stgat(options) => forecasting::stgat(&options),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
