@@ -8,7 +8,7 @@ use crate::{
     parameters::Parameter,
     perceptron::Perceptron,
     recognition::{self, Answers, LabelledEvent, RELATIONS, Recognition},
-    training::{Loss, Measure, Network},
+    training::{Loss, Measure, Network, Published},
 };
 use candle_core::{D, Device, Module, Result, Tensor};
 use phase_model::{AGENT_COUNT, random::Pcg64Mcg};
@@ -45,15 +45,6 @@ struct Window {
 }
 
 impl Arg {
-    /// The paper's network, with 64 numbers in every layer; it knows nothing yet. How many graphs there are is not said;
-    /// we have four.
-    ///
-    /// # Errors
-    /// If there is no memory for it.
-    pub fn published(random: &mut Pcg64Mcg) -> Result<Self> {
-        Self::new(64, 4, random)
-    }
-
     /// A network with so many numbers in every layer and so many graphs over the same nodes.
     ///
     /// # Errors
@@ -162,6 +153,15 @@ impl Network for Arg {
 
     fn shortcoming(measure: &Measure) -> f64 {
         recognition::shortcoming(measure)
+    }
+}
+
+impl Published for Arg {
+    const SHIPPED: &'static [u8] = include_bytes!("../../../data/arg.safetensors");
+
+    /// How many graphs there are the paper does not say; we have four.
+    fn published(random: &mut Pcg64Mcg) -> Result<Self> {
+        Self::new(64, 4, random)
     }
 }
 

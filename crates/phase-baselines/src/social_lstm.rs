@@ -6,7 +6,7 @@ use crate::{
     lstm::Lstm,
     nodes::{Batch, FEATURES, FIXED, MOVING, NODES, Nodes},
     parameters::Parameter,
-    training::{Loss, Network},
+    training::{Loss, Network, Published},
 };
 use candle_core::{Device, Module, Result, Tensor};
 use phase_model::{Vec2, random::Pcg64Mcg};
@@ -30,15 +30,6 @@ pub struct SocialLstm {
 }
 
 impl SocialLstm {
-    /// The network with 64 numbers in every layer; it knows nothing yet. The paper does not say how many; it is what the
-    /// other networks have.
-    ///
-    /// # Errors
-    /// If there is no memory for it.
-    pub fn published(random: &mut Pcg64Mcg) -> Result<Self> {
-        Self::new(64, random)
-    }
-
     /// A network with so many numbers in every layer.
     ///
     /// # Errors
@@ -98,6 +89,15 @@ impl Network for SocialLstm {
 
     fn loss(&self, events: &[&Nodes], chance: Option<&mut Pcg64Mcg>) -> Result<Loss> {
         forecasting::loss(self, events, chance)
+    }
+}
+
+impl Published for SocialLstm {
+    const SHIPPED: &'static [u8] = include_bytes!("../../../data/social-lstm.safetensors");
+
+    /// How many numbers the paper does not say; it is as many as the other networks have.
+    fn published(random: &mut Pcg64Mcg) -> Result<Self> {
+        Self::new(64, random)
     }
 }
 

@@ -7,7 +7,7 @@ use crate::{
     lstm::Lstm,
     nodes::{Batch, FEATURES, FIXED, MOVING, NODES, Nodes},
     parameters::Parameter,
-    training::{Loss, Network},
+    training::{Loss, Network, Published},
 };
 use candle_core::{Device, Module, Result, Tensor};
 use phase_model::{
@@ -51,15 +51,6 @@ struct Head {
 }
 
 impl Stgat {
-    /// The network with 64 numbers in every layer and four heads; it knows nothing yet. The paper does not say how many;
-    /// it is what the other networks have.
-    ///
-    /// # Errors
-    /// If there is no memory for it.
-    pub fn published(random: &mut Pcg64Mcg) -> Result<Self> {
-        Self::new(64, 4, random)
-    }
-
     /// A network with so many numbers in every layer, a multiple of the number of heads.
     ///
     /// # Errors
@@ -184,5 +175,14 @@ impl Network for Stgat {
 
     fn loss(&self, events: &[&Nodes], chance: Option<&mut Pcg64Mcg>) -> Result<Loss> {
         forecasting::loss(self, events, chance)
+    }
+}
+
+impl Published for Stgat {
+    const SHIPPED: &'static [u8] = include_bytes!("../../../data/stgat.safetensors");
+
+    /// How many numbers and heads the paper does not say; of numbers it is as many as the other networks have.
+    fn published(random: &mut Pcg64Mcg) -> Result<Self> {
+        Self::new(64, 4, random)
     }
 }

@@ -8,7 +8,7 @@ use crate::{
     parameters::Parameter,
     perceptron::Perceptron,
     recognition::{self, Answers, LabelledEvent, RELATIONS, Recognition},
-    training::{Loss, Measure, Network},
+    training::{Loss, Measure, Network, Published},
 };
 use candle_core::{D, Module, Result};
 use phase_model::{AGENT_COUNT, random::Pcg64Mcg};
@@ -24,14 +24,6 @@ pub struct TwoLevelLstm {
 }
 
 impl TwoLevelLstm {
-    /// The paper's network, with 64 numbers in every layer; it knows nothing yet.
-    ///
-    /// # Errors
-    /// If there is no memory for it.
-    pub fn published(random: &mut Pcg64Mcg) -> Result<Self> {
-        Self::new(64, random)
-    }
-
     /// A network with so many numbers in every layer.
     ///
     /// # Errors
@@ -83,5 +75,13 @@ impl Network for TwoLevelLstm {
 
     fn shortcoming(measure: &Measure) -> f64 {
         recognition::shortcoming(measure)
+    }
+}
+
+impl Published for TwoLevelLstm {
+    const SHIPPED: &'static [u8] = include_bytes!("../../../data/two-level-lstm.safetensors");
+
+    fn published(random: &mut Pcg64Mcg) -> Result<Self> {
+        Self::new(64, random)
     }
 }

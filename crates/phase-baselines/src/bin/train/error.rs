@@ -8,7 +8,7 @@ use phase_baselines::{
 use phase_dataset::{FileError, WriteError};
 use phase_model::ObservedError;
 use phase_simple::strength::WeightsError;
-use std::{io, path::PathBuf};
+use std::path::PathBuf;
 use thiserror::Error;
 
 /// Why a command failed. The text is one plain sentence.
@@ -55,14 +55,6 @@ pub(crate) enum TrainError {
         /// Why.
         source: LabelError,
     },
-    /// A file that is there cannot be read.
-    #[error("{}: cannot be read: {source}", file.display())]
-    Unreadable {
-        /// The file.
-        file: PathBuf,
-        /// Why.
-        source: io::Error,
-    },
     /// What was kept of a training cannot be used.
     #[error("{}: {source}; give the options of that training, choose another file or remove this one", file.display())]
     Checkpoint {
@@ -95,7 +87,6 @@ impl TrainError {
             | Self::UnknownId { .. }
             | Self::Observed { .. }
             | Self::Label { .. }
-            | Self::Unreadable { .. }
             | Self::Checkpoint { .. }
             | Self::Output(_) => 2,
             Self::Strength(_) | Self::Training(_) | Self::Tensors(_) | Self::Weights(_) => 1,

@@ -8,7 +8,7 @@ use phase_baselines::{forecasting::SETTINGS, nodes::Nodes, social_lstm::SocialLs
 /// # Errors
 /// Those of [`network::run`].
 pub(crate) fn social_lstm(options: &Options) -> Result<(), TrainError> {
-    network::run(options, SETTINGS, SocialLstm::published, |_, observed| Ok(Nodes::of(observed)))
+    network::run::<SocialLstm>(options, SETTINGS, |_, observed| Ok(Nodes::of(observed)))
 }
 
 /// Trains a spatial-temporal graph attention network.
@@ -16,5 +16,5 @@ pub(crate) fn social_lstm(options: &Options) -> Result<(), TrainError> {
 /// # Errors
 /// Those of [`network::run`].
 pub(crate) fn stgat(options: &Options) -> Result<(), TrainError> {
-    network::run(options, SETTINGS, Stgat::published, |_, observed| Ok(Nodes::of(observed)))
+    network::run::<Stgat>(options, SETTINGS, |_, observed| Ok(Nodes::of(observed)))
 }

@@ -2,30 +2,29 @@
 
 use crate::{Options, error::TrainError, events::Dataset, remark, tell};
 use phase_baselines::training::{
-    Epoch, Measure, Network, Run, Settings, TensorsError, measure, to_safetensors,
+    Epoch, Measure, Network, Published, Run, Settings, TensorsError, measure, to_safetensors,
 };
 use phase_dataset::{
     atomic,
     checksum::{hexadecimal, sha256},
+    json,
     phase_events::Recording,
     splits::Split,
 };
-use phase_model::{ObservedEvent, random::Pcg64Mcg};
+use phase_model::ObservedEvent;
 use std::{
     ffi::OsString,
-    fs, io,
     path::{Path, PathBuf},
     time::Instant,
 };
 
-/// Trains a network that `new` makes from a generator, on what `sample` makes of events.
+/// Trains a network on what `sample` makes of events.
 ///
 /// # Errors
 /// If the dataset cannot be used, nothing can be learnt or a file cannot be written.
-pub(crate) fn run<N: Network>(
+pub(crate) fn run<N: Published>(
     options: &Options,
     settings: Settings,
-    new: impl Fn(&mut Pcg64Mcg) -> candle_core::Result<N>,
     sample: impl Fn(&Recording, &ObservedEvent) -> Result<N::Sample, TrainError>,
 ) -> Result<(), TrainError> {
     let dataset = Dataset::open(&options.data)?;
@@ -40,7 +39,7 @@ pub(crate) fn run<N: Network>(
         dataset.events(split)?.map(each).collect()
     };
     let (training, validation) = (samples(Split::Train)?, samples(Split::Validation)?);
-    let network = new(&mut Run::<N>::first_weights(options.seed)).map_err(TensorsError::from)?;
+    let network = N::published(&mut Run::<N>::first_weights(options.seed)).map_err(TensorsError::from)?;
     let mut run = Run::new(network, options.seed, settings);
     let data = hexadecimal(&sha256(dataset.id().as_bytes()));
     let kept = beside(&options.out, ".checkpoint");
@@ -84,16 +83,13 @@ pub(crate) fn run<N: Network>(
 /// Takes up a training that was broken off, or keeps the new one: where nothing can be written is to be known before
 /// the work.
 fn go_on<N: Network>(run: &mut Run<N>, kept: &Path, data: &str) -> Result<(), TrainError> {
-    match fs::read(kept) {
-        Ok(bytes) => {
-            let file = kept.to_owned();
-            run.resume(&bytes, data).map_err(|source| TrainError::Checkpoint { file, source })?;
-            remark(format!("going on after epoch {}", run.epochs().len()));
-            Ok(())
-        }
-        Err(error) if error.kind() == io::ErrorKind::NotFound => keep(run, kept, data),
-        Err(source) => Err(TrainError::Unreadable { file: kept.to_owned(), source }),
+    if !kept.exists() {
+        return keep(run, kept, data);
     }
+    let file = kept.to_owned();
+    run.resume(&json::bytes(kept)?, data).map_err(|source| TrainError::Checkpoint { file, source })?;
+    remark(format!("going on after epoch {}", run.epochs().len()));
+    Ok(())
 }
 
 fn keep<N: Network>(run: &Run<N>, kept: &Path, data: &str) -> Result<(), TrainError> {

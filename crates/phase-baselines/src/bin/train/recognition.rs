@@ -14,7 +14,7 @@ use phase_model::ObservedEvent;
 /// # Errors
 /// Those of [`network::run`].
 pub(crate) fn two_level_lstm(options: &Options) -> Result<(), TrainError> {
-    network::run(options, SETTINGS, TwoLevelLstm::published, sample)
+    network::run::<TwoLevelLstm>(options, SETTINGS, sample)
 }
 
 /// Trains an actor relation graph.
@@ -22,7 +22,7 @@ pub(crate) fn two_level_lstm(options: &Options) -> Result<(), TrainError> {
 /// # Errors
 /// Those of [`network::run`].
 pub(crate) fn arg(options: &Options) -> Result<(), TrainError> {
-    network::run(options, SETTINGS, Arg::published, sample)
+    network::run::<Arg>(options, SETTINGS, sample)
 }
 
 fn sample(recording: &Recording, observed: &ObservedEvent) -> Result<LabelledEvent, TrainError> {
