@@ -9,9 +9,11 @@
 //! - [`layer`], [`perceptron`], [`lstm`] and attention are what networks are put together from.
 //!
 //! The key design decision is that all chance (first weights, order of samples, what is drawn from an event) comes from
-//! one seed through `phase_model::random`, none from the library for neural networks, and that matrices are small
-//! enough to be multiplied on one thread. So the same seed and samples give the same weights, bit for bit. The price is
-//! speed, and that the promise ends where processors have different instructions for multiplying matrices.
+//! one seed through `phase_model::random`, none from the library for neural networks. So the same seed and samples give
+//! the same weights, bit for bit, and a training that was broken off goes on as if it had not been. The price is that the
+//! optimiser and the LSTM are our own, and that the promise ends where processors have different instructions for
+//! multiplying matrices. Those of the strengths are small enough for one thread; those of the baselines take as many as
+//! `RAYON_NUM_THREADS` says, and whether that changes a digit has not been measured.
 //!
 //! Nothing here reads a file, looks at a clock or prints; the program `train` beside it does. No other crate of the
 //! library uses this one: the library for neural networks takes long to build.
