@@ -1,5 +1,6 @@
 //! Layers whose first weights come from our own generators.
 
+use crate::parameters::Parameter;
 use candle_core::{Device, Module, Result, Tensor, Var};
 use candle_nn::Linear;
 use phase_model::random::Pcg64Mcg;
@@ -34,6 +35,12 @@ impl Layer {
     #[must_use]
     pub fn variables(&self) -> [Var; 2] {
         [self.weight.clone(), self.bias.clone()]
+    }
+
+    /// The same, named.
+    #[must_use]
+    pub fn parameters(&self, name: &str) -> Vec<Parameter> {
+        vec![(format!("{name}.weight"), self.weight.clone()), (format!("{name}.bias"), self.bias.clone())]
     }
 
     /// The weights row by row, one row for each output, and the biases, as they are now.

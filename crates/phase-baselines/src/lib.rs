@@ -1,12 +1,19 @@
 //! What is learnt from data: training of neural networks on social events.
 //!
 //! - [`strength`] trains SIMPLE's guess at agents' strengths, which `phase_simple::StrengthRegressor` evaluates,
-//! - [`layer`] is what networks are put together from.
+//! - [`two_level_lstm`] and [`arg`] are the paper's baselines for Task 1,
+//! - [`social_lstm`] and [`stgat`] are those for Task 2,
+//! - [`nodes`] is what they all see of an event; [`recognition`] with [`goals`], and [`forecasting`], are what those for one
+//!   task have in common,
+//! - [`training`] trains any of them,
+//! - [`layer`], [`perceptron`], [`lstm`] and attention are what networks are put together from.
 //!
 //! The key design decision is that all chance (first weights, order of samples, what is drawn from an event) comes from
-//! one seed through `phase_model::random`, none from the library for neural networks, and that matrices are small
-//! enough to be multiplied on one thread. So the same seed and samples give the same weights, bit for bit. The price is
-//! speed, and that the promise ends where processors have different instructions for multiplying matrices.
+//! one seed through `phase_model::random`, none from the library for neural networks. So the same seed and samples give
+//! the same weights, bit for bit, and a training that was broken off goes on as if it had not been. The price is that the
+//! optimiser and the LSTM are our own, and that the promise ends where processors have different instructions for
+//! multiplying matrices. Those of the strengths are small enough for one thread; those of the baselines take as many as
+//! `RAYON_NUM_THREADS` says, and whether that changes a digit has not been measured.
 //!
 //! Nothing here reads a file, looks at a clock or prints; the program `train` beside it does. No other crate of the
 //! library uses this one: the library for neural networks takes long to build.
@@ -14,5 +21,18 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod arg;
+mod attention;
+pub mod forecasting;
+pub mod goals;
 pub mod layer;
+pub mod lstm;
+pub mod nodes;
+pub mod parameters;
+pub mod perceptron;
+pub mod recognition;
+pub mod social_lstm;
+pub mod stgat;
 pub mod strength;
+pub mod training;
+pub mod two_level_lstm;

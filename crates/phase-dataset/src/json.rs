@@ -12,17 +12,24 @@ use std::{io, path::Path};
 /// # Errors
 /// Any of [`Problem::IsFolder`], [`Problem::Unreadable`] and those of [`parse`].
 pub fn read(path: &Path) -> Result<Value, FileError> {
+    parse(&bytes(path)?).map_err(|problem| FileError { file: path.to_owned(), problem })
+}
+
+/// Reads a whole file, whatever is in it.
+///
+/// # Errors
+/// [`Problem::IsFolder`] or [`Problem::Unreadable`].
+pub fn bytes(path: &Path) -> Result<Vec<u8>, FileError> {
     let fail = |problem| FileError { file: path.to_owned(), problem };
     if path.is_dir() {
         return Err(fail(Problem::IsFolder));
     }
-    let bytes = std::fs::read(path).map_err(|error| {
+    std::fs::read(path).map_err(|error| {
         fail(match error.kind() {
             io::ErrorKind::NotFound => Problem::Unreadable("no such file".into()),
             _ => Problem::Unreadable(plain_reason(&error)),
         })
-    })?;
-    parse(&bytes).map_err(fail)
+    })
 }
 
 /// Parses bytes as JSON.

@@ -35,8 +35,7 @@ pub(super) fn run(arguments: &EvalGoals) -> Result<(), CliError> {
         (Some(file), _) => Goals::given(file, &input)?,
         (None, method) => {
             let name = method.clone().unwrap_or_default();
-            let recogniser = methods::recogniser(&name)
-                .ok_or_else(|| CliError::Usage(format!("--method: there is no method {name:?}")))?;
+            let recogniser = methods::recogniser(&name, arguments.weights.as_deref())?;
             let mut watched = arguments.watched.clone();
             watched.sort_by(f64::total_cmp);
             watched.dedup();

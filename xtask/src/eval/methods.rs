@@ -1,33 +1,72 @@
 //! The methods there are, by name. Whoever has a new one adds its name and a line here.
 
-use super::simple::{Cue, Simple};
+use super::{
+    networks,
+    simple::{Cue, Simple},
+};
+use crate::error::CliError;
 use phase_eval::{
     Forecaster, Recogniser,
     plain::{Chance, ConstantVelocity, Still},
 };
+use std::path::Path;
 
 /// Names of the methods for goals and relations.
-pub const RECOGNISERS: [&str; 7] =
-    ["simple", "simple-initial", "simple-global", "simple-local", "simple-published", "cue", "chance"];
+pub const RECOGNISERS: [&str; 9] = [
+    "simple",
+    "simple-initial",
+    "simple-global",
+    "simple-local",
+    "simple-published",
+    "cue",
+    "two-level-lstm",
+    "arg",
+    "chance",
+];
 /// Names of the methods for trajectories.
-pub const FORECASTERS: [&str; 4] = ["simple", "simple-published", "constant-velocity", "still"];
+pub const FORECASTERS: [&str; 6] =
+    ["simple", "simple-published", "social-lstm", "stgat", "constant-velocity", "still"];
 
-/// A method for goals and relations; `None` if there is none of this name.
-#[must_use]
-pub fn recogniser(name: &str) -> Option<Box<dyn Recogniser>> {
+/// A method for goals and relations, networks with the weights of a file or, without one, those that come with the
+/// program.
+///
+/// # Errors
+/// If there is none of this name in this build, or the file cannot be used.
+pub fn recogniser(name: &str, weights: Option<&Path>) -> Result<Box<dyn Recogniser>, CliError> {
+    if let Some(network) = networks::recogniser(name, weights)? {
+        return Ok(network);
+    }
+    no_weights(name, weights)?;
     match name {
-        "chance" => Some(Box::new(Chance)),
-        "cue" => Some(Box::new(Cue)),
-        _ => Simple::of(name).map(|simple| Box::new(simple) as Box<dyn Recogniser>),
+        "chance" => Ok(Box::new(Chance)),
+        "cue" => Ok(Box::new(Cue)),
+        _ => Ok(Box::new(Simple::of(name).ok_or_else(|| no_such(name))?)),
     }
 }
 
-/// A method for trajectories; `None` if there is none of this name.
-#[must_use]
-pub fn forecaster(name: &str) -> Option<Box<dyn Forecaster>> {
-    match name {
-        "constant-velocity" => Some(Box::new(ConstantVelocity)),
-        "still" => Some(Box::new(Still)),
-        _ => Simple::of(name).map(|simple| Box::new(simple) as Box<dyn Forecaster>),
+/// A method for trajectories; see [`recogniser`].
+///
+/// # Errors
+/// If there is none of this name in this build, or the file cannot be used.
+pub fn forecaster(name: &str, weights: Option<&Path>) -> Result<Box<dyn Forecaster>, CliError> {
+    if let Some(network) = networks::forecaster(name, weights)? {
+        return Ok(network);
     }
+    no_weights(name, weights)?;
+    match name {
+        "constant-velocity" => Ok(Box::new(ConstantVelocity)),
+        "still" => Ok(Box::new(Still)),
+        _ => Ok(Box::new(Simple::of(name).ok_or_else(|| no_such(name))?)),
+    }
+}
+
+fn no_weights(name: &str, weights: Option<&Path>) -> Result<(), CliError> {
+    match weights {
+        Some(_) => Err(CliError::Usage(format!("--weights: method {name:?} is no neural network"))),
+        None => Ok(()),
+    }
+}
+
+fn no_such(name: &str) -> CliError {
+    CliError::Usage(format!("--method: there is no method {name:?}"))
 }

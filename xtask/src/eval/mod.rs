@@ -6,6 +6,7 @@
 mod goals;
 mod input;
 pub mod methods;
+pub mod networks;
 pub mod options;
 pub mod simple;
 mod task;

@@ -27,6 +27,10 @@ pub struct EvalGoals {
     #[arg(long, value_name = "METHOD", value_parser = PossibleValuesParser::new(methods::RECOGNISERS),
           required_unless_present = "predictions")]
     pub method: Option<String>,
+    /// The weights of a neural network (safetensors, as `cargo train` writes them) [default: those that come with the
+    /// program]
+    #[arg(long, value_name = "FILE", conflicts_with = "predictions")]
+    pub weights: Option<PathBuf>,
     /// Score the answers in this file instead (`events` as in results.json; see docs/formats.md)
     #[arg(long, value_name = "FILE", conflicts_with = "method")]
     pub predictions: Option<PathBuf>,
@@ -44,6 +48,10 @@ pub struct EvalTrajectories {
     /// The method to measure
     #[arg(long, value_name = "METHOD", value_parser = PossibleValuesParser::new(methods::FORECASTERS))]
     pub method: String,
+    /// The weights of a neural network (safetensors, as `cargo train` writes them) [default: those that come with the
+    /// program]
+    #[arg(long, value_name = "FILE")]
+    pub weights: Option<PathBuf>,
     /// On what, and where to.
     #[command(flatten)]
     pub common: Common,

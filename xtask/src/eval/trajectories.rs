@@ -25,8 +25,7 @@ use serde_json::{Value, json};
 pub(super) fn run(arguments: &EvalTrajectories) -> Result<(), CliError> {
     let input = Input::open(&arguments.common)?;
     let name = arguments.method.clone();
-    let method = methods::forecaster(&name)
-        .ok_or_else(|| CliError::Usage(format!("--method: there is no method {name:?}")))?;
+    let method = methods::forecaster(&name, arguments.weights.as_deref())?;
     let file = arguments.common.events.display().to_string();
     task::run(&Trajectories { name, method, file }, &input, &arguments.common)
 }

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use std::{fs, path::Path};
 
 /// A recording of `steps` steps in which agent 0 goes along x at 0.6 u/s and nothing else moves.
-fn moving(id: &str, steps: usize) -> Value {
+pub(crate) fn moving(id: &str, steps: usize) -> Value {
     let mut event = recording(id);
     let still = |x: f64, y: f64| vec![json!([x, y, 0.0, 0.0, 0.5]); steps + 1];
     let going = |t: usize| json!([8.5 + 0.05 * t as f64, 19.5, 0.6, 0.0, 0.5]);
@@ -21,7 +21,7 @@ fn events_of(path: &Path) {
 }
 
 /// Results without what two runs cannot share: the CPU time.
-fn results(file: &Path) -> Value {
+pub(crate) fn results(file: &Path) -> Value {
     let mut results = serde_json::from_slice(&fs::read(file).expect("results")).expect("JSON");
     strip(&mut results);
     results
@@ -192,6 +192,7 @@ fn rubbish_is_refused() {
             &["eval", "trajectories", "--method", "still", "--events", "short.json"],
             &["short.json", "event short has 20 steps"],
         ),
+        (&[&goals("events.json")[..], &["--weights", "rubbish.json"]].concat(), &["--weights", "chance"]),
         (&[&theirs[..], &["missing.json"]].concat(), &["missing.json", "no such file"]),
         (&[&theirs[..], &["rubbish.json"]].concat(), &["rubbish.json", "`events`"]),
         (&[&theirs[..], &["events.json"]].concat(), &["events.json", "event-0", "`goals`"]),

@@ -8,6 +8,7 @@ mod damage;
 mod eval;
 mod gen_dataset;
 mod interruption;
+mod networks;
 mod render;
 mod selection;
 mod simulate;

@@ -1,6 +1,10 @@
 //! Every way in which training can fail, and its exit code.
 
-use phase_baselines::strength::TrainingError;
+use phase_baselines::{
+    recognition::LabelError,
+    strength,
+    training::{CheckpointError, TensorsError, TrainingError},
+};
 use phase_dataset::{FileError, WriteError};
 use phase_model::ObservedError;
 use phase_simple::strength::WeightsError;
@@ -43,9 +47,31 @@ pub(crate) enum TrainError {
     /// The weights cannot be written.
     #[error(transparent)]
     Output(#[from] WriteError),
+    /// An event has a label that networks do not know.
+    #[error("event {id}: {source}")]
+    Label {
+        /// The event.
+        id: String,
+        /// Why.
+        source: LabelError,
+    },
+    /// What was kept of a training cannot be used.
+    #[error("{}: {source}; give the options of that training, choose another file or remove this one", file.display())]
+    Checkpoint {
+        /// The file.
+        file: PathBuf,
+        /// Why.
+        source: CheckpointError,
+    },
+    /// No strengths could be learnt.
+    #[error(transparent)]
+    Strength(#[from] strength::TrainingError),
     /// Nothing could be learnt.
     #[error(transparent)]
     Training(#[from] TrainingError),
+    /// What was learnt cannot be kept.
+    #[error("the weights: {0}")]
+    Tensors(#[from] TensorsError),
     /// What was learnt cannot be kept.
     #[error("the weights: {0}")]
     Weights(#[from] WeightsError),
@@ -60,8 +86,10 @@ impl TrainError {
             | Self::NoEvents { .. }
             | Self::UnknownId { .. }
             | Self::Observed { .. }
+            | Self::Label { .. }
+            | Self::Checkpoint { .. }
             | Self::Output(_) => 2,
-            Self::Training(_) | Self::Weights(_) => 1,
+            Self::Strength(_) | Self::Training(_) | Self::Tensors(_) | Self::Weights(_) => 1,
         }
     }
 }

@@ -28,6 +28,12 @@ impl Dataset {
         Ok(Self { folder: folder.to_owned(), manifest: Manifest::read(&path)? })
     }
 
+    /// Something that stands for all of it: every event's checksum is in it.
+    pub(crate) fn id(&self) -> String {
+        let entries = self.manifest.events.iter();
+        entries.map(|entry| format!("{} {:?} {}\n", entry.id, entry.split, entry.event.sha256)).collect()
+    }
+
     /// Reads the events of a split, in the manifest's order, each when it is asked for.
     ///
     /// # Errors

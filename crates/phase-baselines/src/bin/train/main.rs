@@ -8,6 +8,9 @@
 
 mod error;
 mod events;
+mod forecasting;
+mod network;
+mod recognition;
 mod strength;
 
 use clap::{Args, Parser, Subcommand};
@@ -31,6 +34,14 @@ struct Cli {
 enum Command {
     /// SIMPLE's guess at the agents' strengths
     Strength(Options),
+    /// 2-Level LSTM, a baseline for goals and relations
+    TwoLevelLstm(Options),
+    /// Actor relation graph, a baseline for goals and relations
+    Arg(Options),
+    /// Social-LSTM, a baseline for trajectories
+    SocialLstm(Options),
+    /// Spatial-temporal graph attention, a baseline for trajectories
+    Stgat(Options),
 }
 
 /// On what, and where to.
@@ -53,6 +64,10 @@ struct Options {
 fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Strength(options) => strength::run(&options),
+        Command::TwoLevelLstm(options) => recognition::two_level_lstm(&options),
+        Command::Arg(options) => recognition::arg(&options),
+        Command::SocialLstm(options) => forecasting::social_lstm(&options),
+        Command::Stgat(options) => forecasting::stgat(&options),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

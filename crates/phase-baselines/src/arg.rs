@@ -1,0 +1,182 @@
+//! ARG, after Wu et al. (2019): an actor relation graph over all nodes of a few frames.
+
+use crate::{
+    attention::{UNSEEN, attend},
+    goals::CLASSES,
+    layer::Layer,
+    nodes::{Batch, NODES, NodeEmbedding},
+    parameters::Parameter,
+    perceptron::Perceptron,
+    recognition::{self, Answers, LabelledEvent, RELATIONS, Recognition},
+    training::{Loss, Measure, Network, Published},
+};
+use candle_core::{D, Device, Module, Result, Tensor};
+use phase_model::{AGENT_COUNT, random::Pcg64Mcg};
+use rand::seq::SliceRandom;
+
+/// Frames in a graph.
+pub const FRAMES: usize = 10;
+/// Rows from one window of frames to the next when all of an event is looked at.
+pub const STRIDE: usize = 5;
+
+/// Node embeddings of ten frames, all tied to all by dot products; what the nodes take from each other is added to what
+/// they are. Goals from the agents, the relation from the greatest over the nodes, both for every frame; the answers
+/// of frames are averaged, and so are those of windows.
+#[derive(Clone, Debug)]
+pub struct Arg {
+    nodes: NodeEmbedding,
+    graphs: Vec<Graph>,
+    goals: Perceptron,
+    relation: Perceptron,
+}
+
+/// One way of being related: who looks, who is looked at, and what is taken from it.
+#[derive(Clone, Debug)]
+struct Graph {
+    from: Layer,
+    to: Layer,
+    taken: Layer,
+}
+
+/// The frames of one graph: rows of one event.
+struct Window {
+    event: usize,
+    rows: [usize; FRAMES],
+}
+
+impl Arg {
+    /// A network with so many numbers in every layer and so many graphs over the same nodes.
+    ///
+    /// # Errors
+    /// If there is no memory for it.
+    pub fn new(hidden: usize, graphs: usize, random: &mut Pcg64Mcg) -> Result<Self> {
+        let nodes = NodeEmbedding::new(hidden, random)?;
+        let mut layer = || Layer::new(hidden, hidden, random);
+        let graphs = (0..graphs).map(|_| Ok(Graph { from: layer()?, to: layer()?, taken: layer()? }));
+        Ok(Self {
+            nodes,
+            graphs: graphs.collect::<Result<_>>()?,
+            goals: Perceptron::head(hidden, CLASSES, random)?,
+            relation: Perceptron::head(hidden, RELATIONS.len(), random)?,
+        })
+    }
+
+    /// What it says of each event by [`FRAMES`] of its rows, in whatever order: nothing tells one frame from the next but
+    /// what the LSTM of the nodes has made of it.
+    ///
+    /// # Errors
+    /// If there are not that many events in the batch, or an event has no such row.
+    pub fn answers_at(&self, batch: &Batch, rows: &[[usize; FRAMES]]) -> Result<Answers> {
+        let windows = rows.iter().enumerate().map(|(event, rows)| Window { event, rows: *rows });
+        self.look(batch, &self.nodes.forward(batch)?, &windows.collect::<Vec<_>>())
+    }
+
+    /// The answers for windows: windows × 2 × [`CLASSES`] and windows × 3.
+    fn look(&self, batch: &Batch, embeddings: &[Tensor], windows: &[Window]) -> Result<Answers> {
+        let (events, count) = (batch.events(), windows.len());
+        let rows =
+            windows.iter().flat_map(|window| window.rows.iter().map(|row| row * events + window.event));
+        let rows = Tensor::from_iter(rows.map(|row| row as u32), &Device::Cpu)?;
+        let all = Tensor::cat(embeddings, 0)?;
+        let hidden = all.dim(D::Minus1)?;
+        let nodes = all.index_select(&rows, 0)?.reshape((count, FRAMES * NODES, hidden))?;
+        let there = windows.iter().flat_map(|window| {
+            (0..FRAMES * NODES).map(|place| if batch.has(window.event, place % NODES) { 0.0 } else { UNSEEN })
+        });
+        let unseen = Tensor::from_iter(there, &Device::Cpu)?.reshape((count, 1, FRAMES * NODES))?;
+        let mut related = nodes.clone();
+        for Graph { from, to, taken } in &self.graphs {
+            let scores = from.forward(&nodes)?.matmul(&to.forward(&nodes)?.t()?)?;
+            let scores = (scores / (hidden as f64).sqrt())?;
+            related = (related + attend(&scores, &unseen, &taken.forward(&nodes)?)?.relu()?)?;
+        }
+        let frames = related.reshape((count * FRAMES, NODES, hidden))?;
+        let agents = frames.narrow(1, 0, AGENT_COUNT)?.reshape(((), hidden))?;
+        let goals = self.goals.forward(&agents)?.reshape((count, FRAMES, AGENT_COUNT * CLASSES))?;
+        let unseen = unseen.reshape((count * FRAMES, NODES, 1))?;
+        let pooled = frames.broadcast_add(&unseen)?.max(1)?;
+        let relations = self.relation.forward(&pooled)?.reshape((count, FRAMES, RELATIONS.len()))?;
+        Ok(Answers {
+            goals: goals.mean(1)?.reshape((count, AGENT_COUNT, CLASSES))?,
+            relations: relations.mean(1)?,
+        })
+    }
+}
+
+impl Recognition for Arg {
+    fn answers(&self, batch: &Batch, chance: Option<&mut Pcg64Mcg>) -> Result<Answers> {
+        let lengths = batch.lengths();
+        if let Some(random) = chance {
+            let rows: Vec<_> = lengths.iter().map(|&length| drawn(length, random)).collect();
+            return self.answers_at(batch, &rows);
+        }
+        let embeddings = self.nodes.forward(batch)?;
+        let slid: Vec<Vec<[usize; FRAMES]>> = lengths.iter().map(|&length| slid(length).collect()).collect();
+        let each = slid.iter().enumerate();
+        let windows: Vec<Window> =
+            each.flat_map(|(event, all)| all.iter().map(move |&rows| Window { event, rows })).collect();
+        // Each event's mean over its windows, as a matrix.
+        let means = slid.iter().enumerate().flat_map(|(event, all)| {
+            let share = 1.0 / all.len() as f32;
+            windows.iter().map(move |window| if window.event == event { share } else { 0.0 })
+        });
+        let means = Tensor::from_iter(means, &Device::Cpu)?.reshape((batch.events(), windows.len()))?;
+        let Answers { goals, relations } = self.look(batch, &embeddings, &windows)?;
+        let goals = means.matmul(&goals.reshape((windows.len(), AGENT_COUNT * CLASSES))?)?;
+        Ok(Answers {
+            goals: goals.reshape((batch.events(), AGENT_COUNT, CLASSES))?,
+            relations: means.matmul(&relations)?,
+        })
+    }
+}
+
+impl Network for Arg {
+    type Sample = LabelledEvent;
+    const NAME: &'static str = "arg";
+    const SCORES: &'static [&'static str] = &recognition::SCORES;
+
+    fn parameters(&self) -> Vec<Parameter> {
+        let mut parameters = self.nodes.parameters("nodes");
+        for (k, graph) in self.graphs.iter().enumerate() {
+            parameters.extend(graph.from.parameters(&format!("graph.{k}.from")));
+            parameters.extend(graph.to.parameters(&format!("graph.{k}.to")));
+            parameters.extend(graph.taken.parameters(&format!("graph.{k}.taken")));
+        }
+        parameters.extend(self.goals.parameters("goals"));
+        parameters.extend(self.relation.parameters("relation"));
+        parameters
+    }
+
+    fn loss(&self, events: &[&LabelledEvent], chance: Option<&mut Pcg64Mcg>) -> Result<Loss> {
+        recognition::loss(self, events, chance)
+    }
+
+    fn shortcoming(measure: &Measure) -> f64 {
+        recognition::shortcoming(measure)
+    }
+}
+
+impl Published for Arg {
+    const SHIPPED: &'static [u8] = include_bytes!("../../../data/arg.safetensors");
+
+    /// How many graphs there are the paper does not say; we have four.
+    fn published(random: &mut Pcg64Mcg) -> Result<Self> {
+        Self::new(64, 4, random)
+    }
+}
+
+/// Ten rows of an event at random; of one that is shorter, all, some of them more than once.
+fn drawn(length: usize, random: &mut Pcg64Mcg) -> [usize; FRAMES] {
+    let mut rows: Vec<usize> = (0..length).collect();
+    if length >= FRAMES {
+        rows.shuffle(random);
+    }
+    core::array::from_fn(|k| rows[k % length])
+}
+
+/// Windows of ten rows through an event, the last of them at its end.
+fn slid(length: usize) -> impl Iterator<Item = [usize; FRAMES]> {
+    let last = length.saturating_sub(FRAMES);
+    let starts = (0..last).step_by(STRIDE).chain([last]);
+    starts.map(move |start| core::array::from_fn(|k| start + k % (length - start)))
+}

@@ -1,0 +1,131 @@
+//! What the networks for Task 2 have in common: what they are asked, loss, forecasts.
+
+use crate::{
+    nodes::{Batch, MOVING, Nodes},
+    training::{Loss, Settings},
+};
+use candle_core::{D, Device, Result, Tensor};
+use phase_model::{
+    AGENT_COUNT, Forecast, ObservedEvent, Vec2,
+    arena::{SUBSTEP_SECONDS, SUBSTEPS},
+    random::Pcg64Mcg,
+};
+
+/// Steps that the networks predict at a time.
+pub const HORIZON: usize = 10;
+/// How the networks are trained: batch and rate are the paper's.
+pub const SETTINGS: Settings =
+    Settings { batch: 8, learning_rate: 1e-2, longest_slope: 10.0, patience: 15, epochs: 200 };
+/// What is measured beside the loss: the same distance over agents alone (u).
+pub(crate) const SCORES: [&str; 1] = ["agents"];
+/// Keeps the slope of a distance finite where it is 0 (u²).
+const TINY: f64 = 1e-6;
+
+/// A moment of one of the events of a batch: all that comes after it is to be predicted from all before.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Moment {
+    /// The event's place in the batch.
+    pub event: usize,
+    /// The last row that is known.
+    pub row: usize,
+}
+
+/// A network that predicts trajectories.
+pub trait Forecasting {
+    /// How far everything that moves will have come [`HORIZON`] steps on from some moments (u), in that order:
+    /// (moments · [`MOVING`]) × [`HORIZON`] × 2. What it says of absent objects means nothing.
+    ///
+    /// # Errors
+    /// If there is no such moment, or no memory.
+    fn displacements(&self, batch: &Batch, moments: &[Moment]) -> Result<Tensor>;
+
+    /// The moments of a batch it learns from, and those it is measured at. All but the last row of each event, unless
+    /// that is too much.
+    fn moments(&self, batch: &Batch, _chance: Option<&mut Pcg64Mcg>) -> Vec<Moment> {
+        let each = batch.lengths().iter().enumerate();
+        each.flat_map(|(event, &length)| (0..length.saturating_sub(1)).map(move |row| Moment { event, row }))
+            .collect()
+    }
+
+    /// Where everything will be in the next `steps` steps. [`HORIZON`] of them are predicted; if there are more, the
+    /// network is shown what it predicted as if it had come, and asked again.
+    ///
+    /// # Errors
+    /// If there is no memory for it.
+    fn forecast(&self, event: &ObservedEvent, steps: usize) -> Result<Forecast> {
+        let entities = event.entities().count();
+        let mut forecast = vec![Vec::with_capacity(steps + HORIZON); entities];
+        let mut known = event.clone();
+        while forecast.first().is_some_and(|path| path.len() < steps) {
+            let nodes = Nodes::of(&known);
+            let batch = Batch::new(&[&nodes])?;
+            let moment = Moment { event: 0, row: nodes.rows() - 1 };
+            let moved: Vec<Vec<Vec<f32>>> = self.displacements(&batch, &[moment])?.to_vec3()?;
+            let Some(last) = known.rows().last() else { break };
+            for ((path, body), moved) in forecast.iter_mut().zip(last).zip(&moved) {
+                path.extend(moved.iter().map(|by| body.position + Vec2::new(by[0], by[1])));
+            }
+            let Some(longer) = continued(&known, &forecast) else { break };
+            known = longer;
+        }
+        forecast.iter_mut().for_each(|path| path.truncate(steps));
+        Ok(forecast)
+    }
+}
+
+/// The event as it goes on if the last [`HORIZON`] positions of a forecast come true: velocities are those between
+/// positions, and nothing turns, for only positions are predicted. `None` if a number is none.
+fn continued(event: &ObservedEvent, forecast: &Forecast) -> Option<ObservedEvent> {
+    let mut rows = event.rows().to_vec();
+    for step in (0..HORIZON).rev() {
+        let mut row = *rows.last()?;
+        for (body, path) in row.iter_mut().zip(forecast) {
+            let position = *path.get(path.len().checked_sub(1 + step)?)?;
+            body.velocity = (position - body.position) / (SUBSTEPS as f32 * SUBSTEP_SECONDS);
+            body.position = position;
+        }
+        rows.push(row);
+    }
+    ObservedEvent::new(event.layout(), event.agent_sizes(), event.object_sizes().to_vec(), rows).ok()
+}
+
+/// Mean distance between predicted and true positions (u), over everything that is there and every step that comes.
+pub(crate) fn loss(
+    network: &impl Forecasting,
+    events: &[&Nodes],
+    chance: Option<&mut Pcg64Mcg>,
+) -> Result<Loss> {
+    let batch = Batch::new(events)?;
+    let moments = network.moments(&batch, chance);
+    let displacements = network.displacements(&batch, &moments)?;
+    let mut truth = Vec::with_capacity(moments.len() * MOVING * HORIZON * 2);
+    let (mut agents, mut all) = (Vec::new(), Vec::new());
+    for &Moment { event, row } in &moments {
+        for node in 0..MOVING {
+            for step in 1..=HORIZON {
+                let path = batch.positions(event, row).zip(batch.positions(event, row + step));
+                let path = path.filter(|_| batch.has(event, node));
+                truth.extend(path.map_or([0.0; 2], |(now, then)| (then[node] - now[node]).to_array()));
+                let counts = if path.is_some() { 1.0_f32 } else { 0.0 };
+                all.push(counts);
+                agents.push(if node < AGENT_COUNT { counts } else { 0.0 });
+            }
+        }
+    }
+    let truth = Tensor::from_vec(truth, displacements.shape(), &Device::Cpu)?;
+    let off = ((displacements - truth)?.sqr()?.sum(D::Minus1)? + TINY)?.sqrt()?;
+    let mean = |counts: Vec<f32>| -> Result<Tensor> {
+        let count = f64::from(counts.iter().sum::<f32>()).max(1.0);
+        (&off * Tensor::from_vec(counts, off.shape(), &Device::Cpu)?)?.sum_all()? / count
+    };
+    let agents = f64::from(mean(agents)?.to_scalar::<f32>()?);
+    Ok(Loss { loss: mean(all)?, scores: vec![agents] })
+}
+
+/// The rows of stacked numbers (rows of the event, events of the batch, what moves) that belong to some moments.
+pub(crate) fn places(batch: &Batch, moments: &[Moment]) -> Result<Tensor> {
+    let rows = moments.iter().flat_map(|&Moment { event, row }| {
+        (0..MOVING).map(move |node| ((row * batch.events() + event) * MOVING + node) as u32)
+    });
+    Tensor::from_iter(rows, &Device::Cpu)
+}

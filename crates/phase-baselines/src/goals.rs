@@ -1,0 +1,57 @@
+//! The goals that a network tells apart: one list of classes, said of an agent rather than of agent 0 or 1.
+
+use phase_model::{AGENT_COUNT, Goal, MAX_OBJECTS, Sign, arena::LANDMARKS};
+
+/// Number of goals told apart.
+pub const CLASSES: usize = PLACES + 2 * PLACES + MAX_OBJECTS * 2 * PLACES + 2;
+
+/// Number of landmarks.
+const PLACES: usize = LANDMARKS.len();
+
+/// The goals of an agent (0 or 1) in the order of the classes: itself on each landmark (4); the other on each landmark,
+/// then kept off each, as helpers and hinderers have it (8); each object on each landmark, then kept off each (8 an
+/// object); approaching the other, getting away from it (2).
+///
+/// "The other" makes the list the same for both agents, so that one network speaks for both. These are the goals of
+/// `phase_simple::physical_goals` with what becomes of the other's own if one helps or hinders it. Oneself kept off
+/// a landmark is not among them: an agent that hinders itself does not exist.
+#[must_use]
+pub fn classes(agent: usize) -> [Goal; CLASSES] {
+    let (me, other) = (agent as u8, (AGENT_COUNT - 1 - agent) as u8);
+    let places = |agent: u8, sign: Sign| {
+        (0..PLACES as u8).map(move |landmark| Goal::AgentOnLandmark { agent, landmark, sign })
+    };
+    let things = |object: u8, sign: Sign| {
+        (0..PLACES as u8).map(move |landmark| Goal::ObjectOnLandmark { object, landmark, sign })
+    };
+    let approach = Goal::Touch { agent: me, other, sign: Sign::Positive };
+    // In a chase both goals name the chaser first.
+    let get_away = Goal::Touch { agent: other, other: me, sign: Sign::Negative };
+    let mut goals = places(me, Sign::Positive)
+        .chain(places(other, Sign::Positive))
+        .chain(places(other, Sign::Negative))
+        .chain(
+            (0..MAX_OBJECTS as u8)
+                .flat_map(|object| things(object, Sign::Positive).chain(things(object, Sign::Negative))),
+        )
+        .chain([approach, get_away]);
+    core::array::from_fn(|_| goals.next().unwrap_or(approach))
+}
+
+/// The class of an agent's (0 or 1) goal; `None` if it is none of them. Of touching only the sign counts, since it is
+/// about both agents alike.
+#[must_use]
+pub fn class_of(agent: usize, goal: Goal) -> Option<usize> {
+    match goal {
+        Goal::Touch { sign: Sign::Positive, .. } => Some(CLASSES - 2),
+        Goal::Touch { sign: Sign::Negative, .. } => Some(CLASSES - 1),
+        _ => classes(agent).iter().position(|class| *class == goal),
+    }
+}
+
+/// Whether a class is about an object that an event with so many objects has not got.
+#[must_use]
+pub fn is_absent(class: usize, objects: usize) -> bool {
+    let first = 3 * PLACES;
+    (first + objects * 2 * PLACES..first + MAX_OBJECTS * 2 * PLACES).contains(&class)
+}

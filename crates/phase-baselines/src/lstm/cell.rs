@@ -1,0 +1,126 @@
+//! One step of an LSTM after the matrix, in one pass over the numbers.
+//!
+//! Put together from the library's own operations the same takes some twenty tensors forward and more than twice as
+//! many back, for every step of every event.
+
+use candle_core::{CpuStorage, CustomOp2, Layout, Result, Shape, Tensor, bail};
+use std::sync::Arc;
+
+/// From gates before their sigmoids (rows × 4·size: input, forget, new, output) and state (rows × 2·size: output,
+/// memory) to the next state.
+pub(super) struct Cell {
+    pub(super) size: usize,
+    /// Rows that have a next state; the others keep theirs.
+    pub(super) alive: Option<Arc<[bool]>>,
+}
+
+/// What becomes of one number of memory.
+struct Unit {
+    input: f32,
+    forget: f32,
+    new: f32,
+    output: f32,
+    memory: f32,
+    /// tanh of the memory.
+    shown: f32,
+}
+
+impl Cell {
+    fn is_alive(&self, row: usize) -> bool {
+        self.alive.as_ref().is_none_or(|alive| alive.get(row).copied().unwrap_or(false))
+    }
+
+    fn unit(&self, gates: &[f32], state: &[f32], k: usize) -> Unit {
+        let size = self.size;
+        let input = sigmoid(gates[k]);
+        // At first it remembers: the custom of the field, without which long events are forgotten.
+        let forget = sigmoid(gates[size + k] + 1.0);
+        let (new, output) = (tanh(gates[2 * size + k]), sigmoid(gates[3 * size + k]));
+        let memory = forget * state[size + k] + input * new;
+        Unit { input, forget, new, output, memory, shown: tanh(memory) }
+    }
+}
+
+impl CustomOp2 for Cell {
+    fn name(&self) -> &'static str {
+        "lstm-cell"
+    }
+
+    fn cpu_fwd(
+        &self,
+        gates: &CpuStorage,
+        gates_layout: &Layout,
+        state: &CpuStorage,
+        state_layout: &Layout,
+    ) -> Result<(CpuStorage, Shape)> {
+        let gates = numbers(gates, gates_layout)?;
+        let state = numbers(state, state_layout)?;
+        let size = self.size;
+        let rows = state.len() / (2 * size).max(1);
+        if gates.len() != rows * 4 * size {
+            bail!("an LSTM of {size} cannot take {} gates for {rows} rows", gates.len());
+        }
+        let mut next = state.to_vec();
+        let each = next.chunks_exact_mut(2 * size).zip(gates.chunks_exact(4 * size));
+        for (row, (next, gates)) in each.enumerate().filter(|&(row, _)| self.is_alive(row)) {
+            let state = &state[row * 2 * size..][..2 * size];
+            for k in 0..size {
+                let unit = self.unit(gates, state, k);
+                next[k] = unit.output * unit.shown;
+                next[size + k] = unit.memory;
+            }
+        }
+        Ok((CpuStorage::F32(next), Shape::from((rows, 2 * size))))
+    }
+
+    fn bwd(
+        &self,
+        gates: &Tensor,
+        state: &Tensor,
+        _next: &Tensor,
+        slope: &Tensor,
+    ) -> Result<(Option<Tensor>, Option<Tensor>)> {
+        let size = self.size;
+        let flat = |tensor: &Tensor| tensor.flatten_all()?.to_vec1::<f32>();
+        let (gate_numbers, state_numbers, slopes) = (flat(gates)?, flat(state)?, flat(slope)?);
+        let mut gate_slopes = vec![0.0; gate_numbers.len()];
+        // A row that is not alive hands its slope on as it is.
+        let mut state_slopes = slopes.clone();
+        let rows = gate_slopes.chunks_exact_mut(4 * size).zip(state_slopes.chunks_exact_mut(2 * size));
+        for (row, (gate_slopes, state_slopes)) in rows.enumerate().filter(|&(row, _)| self.is_alive(row)) {
+            let gates = &gate_numbers[row * 4 * size..][..4 * size];
+            let state = &state_numbers[row * 2 * size..][..2 * size];
+            let slopes = &slopes[row * 2 * size..][..2 * size];
+            for k in 0..size {
+                let Unit { input, forget, new, output, shown, .. } = self.unit(gates, state, k);
+                let memory_slope = slopes[size + k] + slopes[k] * output * (1.0 - shown * shown);
+                gate_slopes[k] = memory_slope * new * input * (1.0 - input);
+                gate_slopes[size + k] = memory_slope * state[size + k] * forget * (1.0 - forget);
+                gate_slopes[2 * size + k] = memory_slope * input * (1.0 - new * new);
+                gate_slopes[3 * size + k] = slopes[k] * shown * output * (1.0 - output);
+                state_slopes[k] = 0.0;
+                state_slopes[size + k] = memory_slope * forget;
+            }
+        }
+        let shaped =
+            |numbers: Vec<f32>, like: &Tensor| Tensor::from_vec(numbers, like.shape(), like.device());
+        Ok((Some(shaped(gate_slopes, gates)?), Some(shaped(state_slopes, state)?)))
+    }
+}
+
+/// The numbers of a tensor that lie one after the other.
+fn numbers<'a>(storage: &'a CpuStorage, layout: &Layout) -> Result<&'a [f32]> {
+    let all = storage.as_slice::<f32>()?;
+    let Some((from, to)) = layout.contiguous_offsets() else {
+        bail!("an LSTM needs numbers that lie one after the other");
+    };
+    Ok(&all[from..to])
+}
+
+fn sigmoid(number: f32) -> f32 {
+    1.0 / (1.0 + libm::expf(-number))
+}
+
+fn tanh(number: f32) -> f32 {
+    2.0 * sigmoid(2.0 * number) - 1.0
+}

@@ -1,0 +1,154 @@
+//! Some events side by side, step by step.
+
+use super::{FEATURES, FIXED, MOVING, NODES, Nodes};
+use candle_core::{Device, Result, Tensor};
+use phase_model::Vec2;
+use std::sync::Arc;
+
+/// Lower than any output of an LSTM once it is added to one.
+const OUT_OF_SIGHT: f32 = -4.0;
+
+/// Events side by side. What is not there, because an event is shorter or has fewer objects or walls, is filled up
+/// and masked.
+#[derive(Clone, Debug)]
+pub struct Batch {
+    /// Features of what moves, by row: (events · [`MOVING`]) × [`FEATURES`].
+    pub(crate) moving: Vec<Tensor>,
+    /// Features of every different landmark or wall, once: × [`FEATURES`].
+    pub(crate) fixed: Tensor,
+    /// Which of these stands where: events · [`FIXED`] places in [`fixed`](Self::fixed).
+    pub(crate) fixed_places: Tensor,
+    /// events × [`NODES`]: 0 for what is there, else so low that it is never the greatest.
+    pub(crate) out_of_sight: Tensor,
+    /// Rows of each event.
+    lengths: Vec<usize>,
+    /// Objects of each event.
+    objects: Vec<usize>,
+    /// events × [`NODES`]: what is there.
+    there: Vec<bool>,
+    /// Where everything that moves is (u), by event and row.
+    positions: Vec<Vec<[Vec2; MOVING]>>,
+    /// Where everything that does not move is (u), by event.
+    places: Vec<Vec<Vec2>>,
+}
+
+impl Batch {
+    /// Puts events side by side, at least one.
+    ///
+    /// # Errors
+    /// If there is no memory for it.
+    pub fn new(events: &[&Nodes]) -> Result<Self> {
+        Self::padded_with(events, 0.0)
+    }
+
+    /// The same with some number instead of zeros wherever nothing is. What networks say does not depend on it.
+    ///
+    /// # Errors
+    /// If there is no memory for it.
+    pub fn padded_with(events: &[&Nodes], padding: f32) -> Result<Self> {
+        let longest = events.iter().map(|nodes| nodes.rows()).max().unwrap_or(0);
+        let moving = (0..longest).map(|row| {
+            let mut features = Vec::with_capacity(events.len() * MOVING * FEATURES);
+            for nodes in events {
+                for node in 0..MOVING {
+                    match nodes.moving.get(row) {
+                        Some(all) if nodes.has_moving(node) => features.extend_from_slice(&all[node]),
+                        _ => features.extend_from_slice(&[padding; FEATURES]),
+                    }
+                }
+            }
+            Tensor::from_vec(features, (events.len() * MOVING, FEATURES), &Device::Cpu)
+        });
+        let (fixed, fixed_places) = fixed(events)?;
+        let there: Vec<bool> =
+            events.iter().flat_map(|nodes| (0..NODES).map(|node| nodes.has(node))).collect();
+        let out_of_sight: Vec<f32> =
+            there.iter().map(|there| if *there { 0.0 } else { OUT_OF_SIGHT }).collect();
+        Ok(Self {
+            moving: moving.collect::<Result<_>>()?,
+            fixed,
+            fixed_places,
+            out_of_sight: Tensor::from_vec(out_of_sight, (events.len(), NODES), &Device::Cpu)?,
+            lengths: events.iter().map(|nodes| nodes.rows()).collect(),
+            objects: events.iter().map(|nodes| nodes.objects).collect(),
+            there,
+            positions: events.iter().map(|nodes| nodes.positions.clone()).collect(),
+            places: events.iter().map(|nodes| nodes.places.clone()).collect(),
+        })
+    }
+
+    /// Number of events.
+    #[must_use]
+    pub fn events(&self) -> usize {
+        self.lengths.len()
+    }
+
+    /// Rows of each event.
+    #[must_use]
+    pub fn lengths(&self) -> &[usize] {
+        &self.lengths
+    }
+
+    /// Objects of each event.
+    #[must_use]
+    pub fn objects(&self) -> &[usize] {
+        &self.objects
+    }
+
+    /// Whether an event has a node.
+    #[must_use]
+    pub fn has(&self, event: usize, node: usize) -> bool {
+        self.there.get(event * NODES + node).copied().unwrap_or(false)
+    }
+
+    /// Where what moves is in a row of an event (u); `None` past its end.
+    #[must_use]
+    pub fn positions(&self, event: usize, row: usize) -> Option<&[Vec2; MOVING]> {
+        self.positions.get(event)?.get(row)
+    }
+
+    /// Where a node is in a row of an event (u); `None` if it is not there.
+    #[must_use]
+    pub fn position(&self, event: usize, node: usize, row: usize) -> Option<Vec2> {
+        if !self.has(event, node) {
+            None
+        } else if node < MOVING {
+            Some(self.positions(event, row)?[node])
+        } else {
+            self.places.get(event)?.get(node - MOVING).copied()
+        }
+    }
+
+    /// Which of so many rows of numbers an event go on at a row; `None` if all do.
+    pub(crate) fn alive(&self, row: usize, each: usize) -> Option<Arc<[bool]>> {
+        if self.lengths.iter().all(|&length| row < length) {
+            return None;
+        }
+        let rows = self.lengths.iter().flat_map(|&length| core::iter::repeat_n(row < length, each));
+        Some(rows.collect())
+    }
+}
+
+/// Every different landmark and wall once, in the order in which they come, and where each stands.
+fn fixed(events: &[&Nodes]) -> Result<(Tensor, Tensor)> {
+    let mut different: Vec<&[f32; FEATURES]> = Vec::new();
+    let mut places = Vec::with_capacity(events.len() * FIXED);
+    for nodes in events {
+        for k in 0..FIXED {
+            // What is not there may be anything: it is masked.
+            let place = nodes.fixed.get(k).map_or(0, |features| {
+                different.iter().position(|known| *known == features).unwrap_or_else(|| {
+                    different.push(features);
+                    different.len() - 1
+                })
+            });
+            places.push(place as u32);
+        }
+    }
+    let features: Vec<f32> = different.iter().flat_map(|features| features.iter().copied()).collect();
+    let count = places.len();
+    Ok((
+        Tensor::from_vec(features, (different.len(), FEATURES), &Device::Cpu)?,
+        Tensor::from_vec(places, count, &Device::Cpu)?,
+    ))
+}

@@ -1,0 +1,79 @@
+//! What all networks see: an event as nodes, one for each agent, object, landmark and inner wall (appendix, "Baseline
+//! Implementation").
+
+mod batch;
+mod embedding;
+mod features;
+
+pub use batch::Batch;
+pub use embedding::NodeEmbedding;
+pub use features::FEATURES;
+
+use features::{body, landmark, wall};
+use phase_model::{MAX_ENTITIES, ObservedEvent, Vec2, arena::LANDMARKS};
+
+/// Nodes that move: agents, then objects.
+pub const MOVING: usize = MAX_ENTITIES;
+/// Nodes that do not: landmarks, then inner walls, of which there are at most four.
+pub const FIXED: usize = LANDMARKS.len() + 4;
+/// All nodes, those that move first. Absent objects and walls keep their places.
+pub const NODES: usize = MOVING + FIXED;
+
+/// An event as numbers for networks. It is made of an [`ObservedEvent`], so no label can be in it.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Nodes {
+    /// Objects there are, 0 to 2.
+    objects: usize,
+    /// Features of agents and objects, by row.
+    moving: Vec<[[f32; FEATURES]; MOVING]>,
+    /// Features of landmarks and of the walls there are.
+    fixed: Vec<[f32; FEATURES]>,
+    /// Where agents and objects are (u), by row.
+    positions: Vec<[Vec2; MOVING]>,
+    /// Where landmarks and walls are (u), walls by their middles.
+    places: Vec<Vec2>,
+}
+
+impl Nodes {
+    /// The nodes of an event.
+    #[must_use]
+    pub fn of(event: &ObservedEvent) -> Self {
+        let mut radii = [0.0; MOVING];
+        let sizes = event.agent_sizes();
+        for (radius, size) in radii.iter_mut().zip(sizes.iter().chain(event.object_sizes())) {
+            *radius = size.radius();
+        }
+        let entities = event.entities().count();
+        let moving = event.rows().iter().map(|row| {
+            core::array::from_fn(|k| if k < entities { body(k, radii[k], &row[k]) } else { [0.0; FEATURES] })
+        });
+        let positions = event
+            .rows()
+            .iter()
+            .map(|row| core::array::from_fn(|k| if k < entities { row[k].position } else { Vec2::ZERO }));
+        let walls = event.layout().walls();
+        Self {
+            objects: event.object_sizes().len(),
+            moving: moving.collect(),
+            fixed: (0..LANDMARKS.len()).map(landmark).chain(walls.iter().map(wall)).collect(),
+            positions: positions.collect(),
+            places: LANDMARKS.into_iter().chain(walls.iter().map(|wall| (wall.a + wall.b) / 2.0)).collect(),
+        }
+    }
+
+    /// Rows of the event, at least 1.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.moving.len()
+    }
+
+    /// Whether there is such a node (0 to [`NODES`] − 1).
+    #[must_use]
+    pub fn has(&self, node: usize) -> bool {
+        if node < MOVING { self.has_moving(node) } else { node - MOVING < self.fixed.len() }
+    }
+
+    fn has_moving(&self, node: usize) -> bool {
+        node < phase_model::AGENT_COUNT + self.objects
+    }
+}

@@ -1,0 +1,47 @@
+//! Fully connected layers one after the other.
+
+use crate::{layer::Layer, parameters::Parameter};
+use candle_core::{Module, Result, Tensor};
+use phase_model::random::Pcg64Mcg;
+
+/// Layers with max(0, ·) after each but the last.
+#[derive(Clone, Debug)]
+pub struct Perceptron {
+    layers: Vec<Layer>,
+}
+
+impl Perceptron {
+    /// Layers between each two sizes that follow each other, at least two of them.
+    ///
+    /// # Errors
+    /// If there is no memory for it.
+    pub fn new(sizes: &[usize], random: &mut Pcg64Mcg) -> Result<Self> {
+        let layers = sizes.windows(2).map(|pair| Layer::new(pair[0], pair[1], random));
+        Ok(Self { layers: layers.collect::<Result<_>>()? })
+    }
+
+    /// The paper's head: three hidden layers of as many numbers as come in, then one for each answer.
+    ///
+    /// # Errors
+    /// If there is no memory for it.
+    pub fn head(hidden: usize, answers: usize, random: &mut Pcg64Mcg) -> Result<Self> {
+        Self::new(&[hidden, hidden, hidden, hidden, answers], random)
+    }
+
+    /// What is to be learnt, named.
+    #[must_use]
+    pub fn parameters(&self, name: &str) -> Vec<Parameter> {
+        let layers = self.layers.iter().enumerate();
+        layers.flat_map(|(k, layer)| layer.parameters(&format!("{name}.{k}"))).collect()
+    }
+}
+
+impl Module for Perceptron {
+    fn forward(&self, inputs: &Tensor) -> Result<Tensor> {
+        let mut numbers = inputs.clone();
+        for (k, layer) in self.layers.iter().enumerate() {
+            numbers = if k == 0 { layer.forward(&numbers)? } else { layer.forward(&numbers.relu()?)? };
+        }
+        Ok(numbers)
+    }
+}

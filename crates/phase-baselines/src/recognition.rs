@@ -1,0 +1,159 @@
+//! What the networks for Task 1 have in common: labels, loss, answers.
+
+use crate::{
+    goals::{CLASSES, class_of, classes, is_absent},
+    nodes::{Batch, Nodes},
+    training::{Loss, Measure, Settings},
+};
+use candle_core::{D, DType, Device, Result, Tensor};
+use candle_nn::ops::log_softmax;
+use phase_model::{
+    AGENT_COUNT, Goal, Judgement, ObservedEvent, Relation, RelationProbabilities, random::Pcg64Mcg,
+};
+use thiserror::Error;
+
+/// The relations in the order of the networks' answers.
+pub const RELATIONS: [Relation; 3] = [Relation::Friendly, Relation::Adversarial, Relation::Neutral];
+/// How the networks are trained: batch and rate are the paper's.
+pub const SETTINGS: Settings =
+    Settings { batch: 8, learning_rate: 1e-3, longest_slope: 10.0, patience: 25, epochs: 200 };
+/// What is measured beside the loss: shares of right goals and of right relations.
+pub(crate) const SCORES: [&str; 2] = ["goal", "relation"];
+/// Added to what cannot be: its probability is 0.
+const IMPOSSIBLE: f32 = -1e9;
+
+/// An event with its right answers, to learn from.
+#[derive(Clone, PartialEq, Debug)]
+pub struct LabelledEvent {
+    pub(crate) nodes: Nodes,
+    goals: [u32; AGENT_COUNT],
+    relation: u32,
+}
+
+/// A goal that is none of the [`classes`].
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Error)]
+#[error("the goal of agent {agent} is none that networks tell apart")]
+pub struct LabelError {
+    /// Whose goal.
+    pub agent: usize,
+}
+
+impl LabelledEvent {
+    /// An event and its labels.
+    ///
+    /// # Errors
+    /// If a goal has no class, or is about an object that is not there.
+    pub fn new(
+        event: &ObservedEvent,
+        goals: [Goal; AGENT_COUNT],
+        relation: Relation,
+    ) -> core::result::Result<Self, LabelError> {
+        let objects = event.object_sizes().len();
+        let mut labels = [0; AGENT_COUNT];
+        for (agent, (label, goal)) in labels.iter_mut().zip(goals).enumerate() {
+            let class = class_of(agent, goal).filter(|&class| !is_absent(class, objects));
+            *label = class.ok_or(LabelError { agent })? as u32;
+        }
+        let relation = RELATIONS.iter().position(|known| *known == relation).unwrap_or(0) as u32;
+        Ok(Self { nodes: Nodes::of(event), goals: labels, relation })
+    }
+}
+
+/// What a network says of some events, before the softmax.
+#[derive(Clone, Debug)]
+pub struct Answers {
+    /// events × 2 × [`CLASSES`].
+    pub goals: Tensor,
+    /// events × 3, in the order of [`RELATIONS`].
+    pub relations: Tensor,
+}
+
+impl Answers {
+    /// The logarithms of the probabilities, those of goals about absent objects so low that they are 0.
+    ///
+    /// # Errors
+    /// If shapes do not fit to the events.
+    pub fn log_probabilities(&self, batch: &Batch) -> Result<Self> {
+        let possible = batch.objects().iter().flat_map(|&objects| {
+            (0..CLASSES).map(move |class| if is_absent(class, objects) { IMPOSSIBLE } else { 0.0 })
+        });
+        let shape = (batch.events(), 1, CLASSES);
+        let possible = Tensor::from_vec(possible.collect::<Vec<f32>>(), shape, &Device::Cpu)?;
+        Ok(Self {
+            goals: log_softmax(&self.goals.broadcast_add(&possible)?, D::Minus1)?,
+            relations: log_softmax(&self.relations, D::Minus1)?,
+        })
+    }
+}
+
+/// A network that recognises goals and relations.
+pub trait Recognition {
+    /// What it says of some events. Networks that look at a part of what they are shown draw it while they learn; without
+    /// a generator they look at everything.
+    ///
+    /// # Errors
+    /// If there is no memory for it.
+    fn answers(&self, batch: &Batch, chance: Option<&mut Pcg64Mcg>) -> Result<Answers>;
+
+    /// The answer to one event, goals most likely first.
+    ///
+    /// # Errors
+    /// If there is no memory for it.
+    fn judge(&self, event: &ObservedEvent) -> Result<Judgement> {
+        let nodes = Nodes::of(event);
+        let batch = Batch::new(&[&nodes])?;
+        let Answers { goals, relations } = self.answers(&batch, None)?.log_probabilities(&batch)?;
+        let objects = event.object_sizes().len();
+        let mut judgement = Judgement::default();
+        for (agent, ranked) in judgement.goals.iter_mut().enumerate() {
+            let logs: Vec<f32> = goals.get(0)?.get(agent)?.to_vec1()?;
+            let shares = probabilities(&logs);
+            let all = classes(agent).into_iter().zip(shares).enumerate();
+            *ranked = all.filter(|(class, _)| !is_absent(*class, objects)).map(|(_, share)| share).collect();
+            ranked.sort_by(|a, b| b.1.total_cmp(&a.1));
+        }
+        let shares = probabilities(&relations.get(0)?.to_vec1()?);
+        if let [friendly, adversarial, neutral] = shares[..] {
+            judgement.relation = RelationProbabilities { friendly, adversarial, neutral };
+        }
+        Ok(judgement)
+    }
+}
+
+/// Cross-entropy of goals, a mean over the agents, and of relations, added up.
+pub(crate) fn loss(
+    network: &impl Recognition,
+    events: &[&LabelledEvent],
+    chance: Option<&mut Pcg64Mcg>,
+) -> Result<Loss> {
+    let nodes: Vec<&Nodes> = events.iter().map(|event| &event.nodes).collect();
+    let batch = Batch::new(&nodes)?;
+    let said = network.answers(&batch, chance)?.log_probabilities(&batch)?;
+    let goals: Vec<u32> = events.iter().flat_map(|event| event.goals).collect();
+    let relations: Vec<u32> = events.iter().map(|event| event.relation).collect();
+    let (goal_loss, goal_score) = held_against(&said.goals.reshape(((), CLASSES))?, goals)?;
+    let (relation_loss, relation_score) = held_against(&said.relations, relations)?;
+    Ok(Loss { loss: (goal_loss + relation_loss)?, scores: vec![goal_score, relation_score] })
+}
+
+/// The shares of goals and of relations that are wrong, added up. The loss soon grows again for being too sure of what is
+/// wrong, while more and more comes out right.
+pub(crate) fn shortcoming(measure: &Measure) -> f64 {
+    measure.scores.iter().map(|right| 1.0 - right).sum()
+}
+
+/// Mean surprise at the right classes, and the share of them that were thought likeliest.
+fn held_against(logs: &Tensor, right: Vec<u32>) -> Result<(Tensor, f64)> {
+    let count = right.len();
+    let right = Tensor::from_vec(right, (count, 1), &Device::Cpu)?;
+    let loss = logs.gather(&right, 1)?.mean_all()?.neg()?;
+    let hits = logs.argmax_keepdim(1)?.eq(&right)?.to_dtype(DType::F32)?.mean_all()?;
+    Ok((loss, f64::from(hits.to_scalar::<f32>()?)))
+}
+
+/// Probabilities that add up to 1, of their logarithms.
+fn probabilities(logs: &[f32]) -> Vec<f64> {
+    let shares: Vec<f64> = logs.iter().map(|&log| libm::exp(f64::from(log))).collect();
+    let sum: f64 = shares.iter().sum();
+    shares.into_iter().map(|share| share / sum).collect()
+}

@@ -1,0 +1,128 @@
+//! Social-LSTM, after Alahi et al. (2016): an LSTM for everything that moves, which sees what those near it remember.
+
+use crate::{
+    forecasting::{self, Forecasting, HORIZON, Moment, places},
+    layer::Layer,
+    lstm::Lstm,
+    nodes::{Batch, FEATURES, FIXED, MOVING, NODES, Nodes},
+    parameters::Parameter,
+    training::{Loss, Network, Published},
+};
+use candle_core::{Device, Module, Result, Tensor};
+use phase_model::{Vec2, random::Pcg64Mcg};
+
+/// Cells along each side of the grid around an agent or object.
+pub const CELLS: usize = 4;
+/// Side of a cell (u).
+pub const CELL: f32 = 4.0;
+
+/// What moves has an LSTM, whose input is its features and a grid of its neighbours: in each cell the sum of what those
+/// in it put out at the step before. Landmarks and walls, which have no LSTM, are in the grid with an embedding.
+/// After every step the next ten positions come straight from what the LSTM puts out.
+#[derive(Clone, Debug)]
+pub struct SocialLstm {
+    features: Layer,
+    fixed: Layer,
+    neighbours: Layer,
+    memory: Lstm,
+    displacement: Layer,
+    hidden: usize,
+}
+
+impl SocialLstm {
+    /// A network with so many numbers in every layer.
+    ///
+    /// # Errors
+    /// If there is no memory for it.
+    pub fn new(hidden: usize, random: &mut Pcg64Mcg) -> Result<Self> {
+        Ok(Self {
+            features: Layer::new(FEATURES, hidden, random)?,
+            fixed: Layer::new(FEATURES, hidden, random)?,
+            neighbours: Layer::new(CELLS * CELLS * hidden, hidden, random)?,
+            memory: Lstm::new(2 * hidden, hidden, random)?,
+            displacement: Layer::new(hidden, 2 * HORIZON, random)?,
+            hidden,
+        })
+    }
+}
+
+impl Forecasting for SocialLstm {
+    fn displacements(&self, batch: &Batch, moments: &[Moment]) -> Result<Tensor> {
+        let (events, hidden) = (batch.events(), self.hidden);
+        // Between −1 and 1, as what LSTMs put out.
+        let fixed = self.fixed.forward(&batch.fixed)?.tanh()?.index_select(&batch.fixed_places, 0)?;
+        let fixed = fixed.reshape((events, FIXED, hidden))?;
+        let mut state = self.memory.start(events * MOVING)?;
+        let mut outputs = Vec::with_capacity(batch.moving.len());
+        for (row, features) in batch.moving.iter().enumerate() {
+            let moving = self.memory.output(&state)?.reshape((events, MOVING, hidden))?;
+            let pooled = grids(batch, row)?.matmul(&Tensor::cat(&[moving, fixed.clone()], 1)?)?;
+            let pooled = pooled.reshape((events * MOVING, CELLS * CELLS * hidden))?;
+            let neighbours = self.neighbours.forward(&pooled)?.relu()?;
+            let features = self.features.forward(features)?.relu()?;
+            let input = Tensor::cat(&[features, neighbours], 1)?;
+            state = self.memory.step(&input, &state, batch.alive(row, MOVING))?;
+            outputs.push(self.memory.output(&state)?);
+        }
+        let chosen = Tensor::cat(&outputs, 0)?.index_select(&places(batch, moments)?, 0)?;
+        self.displacement.forward(&chosen)?.reshape((moments.len() * MOVING, HORIZON, 2))
+    }
+}
+
+impl Network for SocialLstm {
+    type Sample = Nodes;
+    const NAME: &'static str = "social-lstm";
+    const SCORES: &'static [&'static str] = &forecasting::SCORES;
+
+    fn parameters(&self) -> Vec<Parameter> {
+        let layers = [
+            ("features", &self.features),
+            ("fixed", &self.fixed),
+            ("neighbours", &self.neighbours),
+            ("displacement", &self.displacement),
+        ];
+        let mut parameters: Vec<Parameter> =
+            layers.into_iter().flat_map(|(name, layer)| layer.parameters(name)).collect();
+        parameters.extend(self.memory.parameters("memory"));
+        parameters
+    }
+
+    fn loss(&self, events: &[&Nodes], chance: Option<&mut Pcg64Mcg>) -> Result<Loss> {
+        forecasting::loss(self, events, chance)
+    }
+}
+
+impl Published for SocialLstm {
+    const SHIPPED: &'static [u8] = include_bytes!("../../../data/social-lstm.safetensors");
+
+    /// How many numbers the paper does not say; it is as many as the other networks have.
+    fn published(random: &mut Pcg64Mcg) -> Result<Self> {
+        Self::new(64, random)
+    }
+}
+
+/// Who is in which cell around everything that moves, 0 or 1: events × ([`MOVING`] · cells) × [`NODES`].
+fn grids(batch: &Batch, row: usize) -> Result<Tensor> {
+    let shape = (batch.events(), MOVING * CELLS * CELLS, NODES);
+    let mut grids = vec![0.0_f32; shape.0 * shape.1 * shape.2];
+    for event in 0..batch.events() {
+        for node in 0..MOVING {
+            let Some(centre) = batch.position(event, node, row) else { continue };
+            for other in (0..NODES).filter(|&other| other != node) {
+                let position = batch.position(event, other, row);
+                if let Some(cell) = position.and_then(|position| cell_of(position - centre)) {
+                    let place = (event * MOVING + node) * CELLS * CELLS + cell;
+                    grids[place * NODES + other] = 1.0;
+                }
+            }
+        }
+    }
+    Tensor::from_vec(grids, shape, &Device::Cpu)
+}
+
+/// The cell that a neighbour is in, `None` outside the grid.
+fn cell_of(offset: Vec2) -> Option<usize> {
+    let cell = offset / CELL + (CELLS / 2) as f32;
+    let inside = |number: f32| number >= 0.0 && number < CELLS as f32;
+    (inside(cell.x) && inside(cell.y)).then(|| cell.y as usize * CELLS + cell.x as usize)
+}

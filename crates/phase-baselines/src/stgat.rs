@@ -1,0 +1,188 @@
+//! STGAT, after Huang et al. (2019): how each moves, who looks at whom at every step, what comes of it.
+
+use crate::{
+    attention::{UNSEEN, attend},
+    forecasting::{self, Forecasting, HORIZON, Moment, places},
+    layer::Layer,
+    lstm::Lstm,
+    nodes::{Batch, FEATURES, FIXED, MOVING, NODES, Nodes},
+    parameters::Parameter,
+    training::{Loss, Network, Published},
+};
+use candle_core::{Device, Module, Result, Tensor};
+use phase_model::{
+    arena::{SUBSTEP_SECONDS, SUBSTEPS},
+    random::Pcg64Mcg,
+};
+use rand::seq::SliceRandom;
+
+/// Moments of each event from which futures are unrolled in one pass of training; all would take ten times as long.
+pub const DRAWN: usize = 8;
+/// Rows from one moment to the next at which it is measured.
+pub const STRIDE: usize = 5;
+/// How much of a negative score is left before the softmax, as in graph attention networks.
+const LEAK: f64 = 0.2;
+/// Velocities as features are a tenth of those in u/s.
+const SPEED: f64 = 10.0;
+
+/// A motion LSTM for everything that moves; at every step graph attention over all nodes (landmarks and walls with an
+/// embedding); a graph LSTM over what that gives; and a decoder LSTM that begins with what both remember and goes on
+/// for ten steps, each from the one before. Without the noise of the original: one future is asked for.
+#[derive(Clone, Debug)]
+pub struct Stgat {
+    features: Layer,
+    motion: Lstm,
+    fixed: Layer,
+    heads: Vec<Head>,
+    graph: Lstm,
+    step: Layer,
+    decoder: Lstm,
+    displacement: Layer,
+    hidden: usize,
+}
+
+/// One head of attention.
+#[derive(Clone, Debug)]
+struct Head {
+    /// From what a node is to what others take from it.
+    taken: Layer,
+    /// From that to how much it looks at others, and how much others look at it.
+    scores: Layer,
+}
+
+impl Stgat {
+    /// A network with so many numbers in every layer, a multiple of the number of heads.
+    ///
+    /// # Errors
+    /// If there is no memory for it.
+    pub fn new(hidden: usize, heads: usize, random: &mut Pcg64Mcg) -> Result<Self> {
+        let features = Layer::new(FEATURES, hidden, random)?;
+        let motion = Lstm::new(hidden, hidden, random)?;
+        let fixed = Layer::new(FEATURES, hidden, random)?;
+        let width = hidden / heads.max(1);
+        let heads = (0..heads).map(|_| {
+            Ok(Head { taken: Layer::new(hidden, width, random)?, scores: Layer::new(width, 2, random)? })
+        });
+        Ok(Self {
+            features,
+            motion,
+            fixed,
+            heads: heads.collect::<Result<_>>()?,
+            graph: Lstm::new(hidden, hidden, random)?,
+            step: Layer::new(2, hidden, random)?,
+            decoder: Lstm::new(hidden, 2 * hidden, random)?,
+            displacement: Layer::new(2 * hidden, 2, random)?,
+            hidden,
+        })
+    }
+
+    /// What moves after looking at all nodes: (events · [`MOVING`]) × hidden.
+    fn look(&self, nodes: &Tensor, unseen: &Tensor) -> Result<Tensor> {
+        let mut seen = Vec::with_capacity(self.heads.len());
+        for Head { taken, scores } in &self.heads {
+            let taken = taken.forward(nodes)?;
+            let scores = scores.forward(&taken)?;
+            let looking = scores.narrow(2, 0, 1)?.narrow(1, 0, MOVING)?;
+            let looked_at = scores.narrow(2, 1, 1)?.transpose(1, 2)?;
+            let scores = looking.broadcast_add(&looked_at)?;
+            // max(x, LEAK · x)
+            let scores = (scores.relu()? * (1.0 - LEAK))?.add(&(scores * LEAK)?)?;
+            seen.push(attend(&scores, unseen, &taken)?.elu(1.0)?);
+        }
+        let seen = Tensor::cat(&seen, 2)?;
+        seen.reshape((seen.dim(0)? * MOVING, seen.dim(2)?))
+    }
+
+    /// What motion and graph LSTM put out after each row: (events · [`MOVING`]) × 2·hidden.
+    fn encoded(&self, batch: &Batch) -> Result<Vec<Tensor>> {
+        let (events, hidden) = (batch.events(), self.hidden);
+        let fixed = self.fixed.forward(&batch.fixed)?.tanh()?.index_select(&batch.fixed_places, 0)?;
+        let fixed = fixed.reshape((events, FIXED, hidden))?;
+        let there = (0..events)
+            .flat_map(|event| (0..NODES).map(move |node| if batch.has(event, node) { 0.0 } else { UNSEEN }));
+        let unseen = Tensor::from_iter(there, &Device::Cpu)?.reshape((events, 1, NODES))?;
+        let mut motion = self.motion.start(events * MOVING)?;
+        let mut graph = self.graph.start(events * MOVING)?;
+        let mut encoded = Vec::with_capacity(batch.moving.len());
+        for (row, features) in batch.moving.iter().enumerate() {
+            let features = self.features.forward(features)?.relu()?;
+            motion = self.motion.step(&features, &motion, batch.alive(row, MOVING))?;
+            let moved = self.motion.output(&motion)?;
+            let nodes = Tensor::cat(&[moved.reshape((events, MOVING, hidden))?, fixed.clone()], 1)?;
+            graph = self.graph.step(&self.look(&nodes, &unseen)?, &graph, batch.alive(row, MOVING))?;
+            encoded.push(Tensor::cat(&[moved, self.graph.output(&graph)?], 1)?);
+        }
+        Ok(encoded)
+    }
+}
+
+impl Forecasting for Stgat {
+    fn displacements(&self, batch: &Batch, moments: &[Moment]) -> Result<Tensor> {
+        let places = places(batch, moments)?;
+        let known = Tensor::cat(&self.encoded(batch)?, 0)?.index_select(&places, 0)?;
+        let velocity = Tensor::cat(&batch.moving, 0)?.index_select(&places, 0)?.narrow(1, FEATURES - 2, 2)?;
+        // What was covered in the last step (u).
+        let mut covered = (velocity * (SPEED * f64::from(SUBSTEP_SECONDS) * SUBSTEPS as f64))?;
+        let mut state = Tensor::cat(&[&known, &known.zeros_like()?], 1)?;
+        let mut position = covered.zeros_like()?;
+        let mut positions = Vec::with_capacity(HORIZON);
+        for _ in 0..HORIZON {
+            state = self.decoder.step(&self.step.forward(&covered)?.relu()?, &state, None)?;
+            covered = self.displacement.forward(&self.decoder.output(&state)?)?;
+            position = (position + &covered)?;
+            positions.push(position.clone());
+        }
+        Tensor::stack(&positions, 1)
+    }
+
+    fn moments(&self, batch: &Batch, chance: Option<&mut Pcg64Mcg>) -> Vec<Moment> {
+        let each = batch.lengths().iter().enumerate();
+        let Some(random) = chance else {
+            let rows = |length: usize| (0..length.saturating_sub(1)).step_by(STRIDE);
+            return each
+                .flat_map(|(event, &length)| rows(length).map(move |row| Moment { event, row }))
+                .collect();
+        };
+        let mut moments = Vec::new();
+        for (event, &length) in each {
+            let mut rows: Vec<usize> = (0..length.saturating_sub(1)).collect();
+            rows.shuffle(random);
+            moments.extend(rows.into_iter().take(DRAWN).map(|row| Moment { event, row }));
+        }
+        moments
+    }
+}
+
+impl Network for Stgat {
+    type Sample = Nodes;
+    const NAME: &'static str = "stgat";
+    const SCORES: &'static [&'static str] = &forecasting::SCORES;
+
+    fn parameters(&self) -> Vec<Parameter> {
+        let mut parameters = self.features.parameters("features");
+        parameters.extend(self.motion.parameters("motion"));
+        parameters.extend(self.fixed.parameters("fixed"));
+        for (k, head) in self.heads.iter().enumerate() {
+            parameters.extend(head.taken.parameters(&format!("head.{k}.taken")));
+            parameters.extend(head.scores.parameters(&format!("head.{k}.scores")));
+        }
+        parameters.extend(self.graph.parameters("graph"));
+        parameters.extend(self.step.parameters("step"));
+        parameters.extend(self.decoder.parameters("decoder"));
+        parameters.extend(self.displacement.parameters("displacement"));
+        parameters
+    }
+
+    fn loss(&self, events: &[&Nodes], chance: Option<&mut Pcg64Mcg>) -> Result<Loss> {
+        forecasting::loss(self, events, chance)
+    }
+}
+
+impl Published for Stgat {
+    const SHIPPED: &'static [u8] = include_bytes!("../../../data/stgat.safetensors");
+
+    /// How many numbers and heads the paper does not say; of numbers it is as many as the other networks have.
+    fn published(random: &mut Pcg64Mcg) -> Result<Self> {
+        Self::new(64, 4, random)
+    }
+}

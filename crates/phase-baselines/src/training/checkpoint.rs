@@ -1,0 +1,117 @@
+//! A training between two epochs, at rest.
+
+use super::{
+    Epoch, Network, Run, Settings, TensorsError,
+    adam::Adam,
+    tensors::{File, Named, write},
+};
+use crate::parameters::{self, Parameter};
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+const FIELD: &str = "training";
+/// What stands before the names of parameters: as they are, Adam's two moments, and as they were in the best epoch.
+const PARTS: [&str; 4] = ["now.", "first.", "second.", "best."];
+
+/// What a training is of. Only one of the same goes on from a checkpoint.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Checkpoint {
+    /// The network's name.
+    pub network: String,
+    /// The seed.
+    pub seed: u64,
+    /// The settings.
+    pub settings: Settings,
+    /// Something that stands for the events: those of another dataset have another.
+    pub data: String,
+}
+
+/// What the metadata says.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Said {
+    of: Checkpoint,
+    steps: u32,
+    epochs: Vec<Epoch>,
+}
+
+/// Why a training cannot go on from some bytes.
+#[derive(Clone, PartialEq, Eq, Debug, Error)]
+pub enum CheckpointError {
+    /// They are no checkpoint of this network.
+    #[error(transparent)]
+    Tensors(#[from] TensorsError),
+    /// They are a checkpoint whose text cannot be read.
+    #[error("field `{FIELD}` cannot be read: {0}")]
+    Text(String),
+    /// They belong to another training.
+    #[error("belongs to a training with another {0}")]
+    Other(&'static str),
+}
+
+impl<N: Network> Run<N> {
+    /// What this is a training of, on data that this text stands for.
+    #[must_use]
+    pub fn checkpoint_of(&self, data: &str) -> Checkpoint {
+        let (seed, settings) = (self.seed, self.settings);
+        Checkpoint { network: N::NAME.into(), seed, settings, data: data.into() }
+    }
+
+    /// All that the next epoch depends on, as a safetensors file.
+    ///
+    /// # Errors
+    /// If it cannot be read or laid out in a file.
+    pub fn checkpoint(&self, data: &str) -> Result<Vec<u8>, CheckpointError> {
+        let parameters = self.network.parameters();
+        let now = parameters::numbers(&parameters).map_err(TensorsError::from)?;
+        let mut tensors = Vec::new();
+        let parts = [Some(&now), Some(&self.adam.first), Some(&self.adam.second), self.best.as_ref()];
+        for (part, numbers) in PARTS.into_iter().zip(parts) {
+            for ((name, variable), numbers) in parameters.iter().zip(numbers.into_iter().flatten()) {
+                let (name, shape) = (format!("{part}{name}"), variable.dims().into());
+                tensors.push(Named { name, shape, numbers: numbers.clone() });
+            }
+        }
+        let said = Said { of: self.checkpoint_of(data), steps: self.adam.steps, epochs: self.epochs.clone() };
+        let said = serde_json::to_string(&said).map_err(|error| CheckpointError::Text(error.to_string()))?;
+        Ok(write(&tensors, FIELD, &said)?)
+    }
+
+    /// Puts a new run where another one of the same kind left off.
+    ///
+    /// # Errors
+    /// [`CheckpointError`]; the run is then as it was.
+    pub fn resume(&mut self, bytes: &[u8], data: &str) -> Result<(), CheckpointError> {
+        let file = File::open(bytes, FIELD)?;
+        let missing = || TensorsError::Kind { field: FIELD, expected: "a training's state".into() };
+        let said = file.says().ok_or_else(missing)?;
+        let said: Said =
+            serde_json::from_str(said).map_err(|error| CheckpointError::Text(error.to_string()))?;
+        let (theirs, ours) = (&said.of, self.checkpoint_of(data));
+        let differences = [
+            (theirs.network != ours.network, "network"),
+            (theirs.seed != ours.seed, "seed"),
+            (theirs.settings != ours.settings, "settings"),
+            (theirs.data != ours.data, "dataset"),
+        ];
+        if let Some((_, what)) = differences.into_iter().find(|(differs, _)| *differs) {
+            return Err(CheckpointError::Other(what));
+        }
+        let parameters = self.network.parameters();
+        let [now, first, second, best] = PARTS.map(|part| part_of(&file, part, &parameters));
+        let has_best = parameters.first().is_some_and(|(name, _)| file.has(&format!("{}{name}", PARTS[3])));
+        let best = if has_best { Some(best?) } else { None };
+        let (now, first, second) = (now?, first?, second?);
+        parameters::set_numbers(&parameters, &now).map_err(TensorsError::from)?;
+        self.adam = Adam { steps: said.steps, first, second };
+        self.epochs = said.epochs;
+        self.best = best;
+        Ok(())
+    }
+}
+
+fn part_of(file: &File<'_>, part: &str, parameters: &[Parameter]) -> Result<Vec<Vec<f32>>, TensorsError> {
+    let numbers = |(name, variable): &Parameter| file.numbers(&format!("{part}{name}"), variable.dims());
+    parameters.iter().map(numbers).collect()
+}

@@ -1,0 +1,27 @@
+//! The networks as the paper has them, and as they come with the program.
+
+use super::{Network, Run, TensorsError, from_safetensors};
+use candle_core::Result;
+use phase_model::random::Pcg64Mcg;
+
+/// A network of the paper's size, whose weights come with the program.
+pub trait Published: Network + Sized {
+    /// What `cargo train` learnt; `docs/networks.md` says from what.
+    const SHIPPED: &'static [u8];
+
+    /// The network with 64 numbers in every layer; it knows nothing yet.
+    ///
+    /// # Errors
+    /// If there is no memory for it.
+    fn published(random: &mut Pcg64Mcg) -> Result<Self>;
+
+    /// The network with the weights in a file of [`to_safetensors`](super::to_safetensors), such as
+    /// [`SHIPPED`](Self::SHIPPED).
+    ///
+    /// # Errors
+    /// As [`from_safetensors`].
+    fn with_weights(bytes: &[u8]) -> core::result::Result<Self, TensorsError> {
+        // What is drawn is overwritten.
+        from_safetensors(Self::published(&mut Run::<Self>::first_weights(0))?, bytes)
+    }
+}

@@ -1,0 +1,87 @@
+//! 2-Level LSTM, after Ibrahim et al. (2016) as the paper has it: what each node does, then what all do together.
+
+use crate::{
+    goals::CLASSES,
+    layer::Layer,
+    lstm::Lstm,
+    nodes::{Batch, NodeEmbedding},
+    parameters::Parameter,
+    perceptron::Perceptron,
+    recognition::{self, Answers, LabelledEvent, RELATIONS, Recognition},
+    training::{Loss, Measure, Network, Published},
+};
+use candle_core::{D, Module, Result};
+use phase_model::{AGENT_COUNT, random::Pcg64Mcg};
+
+/// Node embeddings; from an agent's, its goal; from the greatest of all nodes' at every step, through another LSTM, the
+/// relation. Both are asked for after the last row.
+#[derive(Clone, Debug)]
+pub struct TwoLevelLstm {
+    nodes: NodeEmbedding,
+    goals: Perceptron,
+    context: Lstm,
+    relation: Layer,
+}
+
+impl TwoLevelLstm {
+    /// A network with so many numbers in every layer.
+    ///
+    /// # Errors
+    /// If there is no memory for it.
+    pub fn new(hidden: usize, random: &mut Pcg64Mcg) -> Result<Self> {
+        Ok(Self {
+            nodes: NodeEmbedding::new(hidden, random)?,
+            goals: Perceptron::head(hidden, CLASSES, random)?,
+            context: Lstm::new(hidden, hidden, random)?,
+            relation: Layer::new(hidden, RELATIONS.len(), random)?,
+        })
+    }
+}
+
+impl Recognition for TwoLevelLstm {
+    fn answers(&self, batch: &Batch, _chance: Option<&mut Pcg64Mcg>) -> Result<Answers> {
+        let embeddings = self.nodes.forward(batch)?;
+        let out_of_sight = batch.out_of_sight.unsqueeze(2)?;
+        let mut context = self.context.start(batch.events())?;
+        for (row, embedding) in embeddings.iter().enumerate() {
+            let pooled = embedding.broadcast_add(&out_of_sight)?.max(1)?;
+            context = self.context.step(&pooled, &context, batch.alive(row, 1))?;
+        }
+        let relations = self.relation.forward(&self.context.output(&context)?)?;
+        let Some(last) = embeddings.last() else { candle_core::bail!("there is no event to look at") };
+        let agents = last.narrow(1, 0, AGENT_COUNT)?;
+        let hidden = agents.dim(D::Minus1)?;
+        let goals = self.goals.forward(&agents.reshape(((), hidden))?)?;
+        Ok(Answers { goals: goals.reshape((batch.events(), AGENT_COUNT, CLASSES))?, relations })
+    }
+}
+
+impl Network for TwoLevelLstm {
+    type Sample = LabelledEvent;
+    const NAME: &'static str = "two-level-lstm";
+    const SCORES: &'static [&'static str] = &recognition::SCORES;
+
+    fn parameters(&self) -> Vec<Parameter> {
+        let mut parameters = self.nodes.parameters("nodes");
+        parameters.extend(self.goals.parameters("goals"));
+        parameters.extend(self.context.parameters("context"));
+        parameters.extend(self.relation.parameters("relation"));
+        parameters
+    }
+
+    fn loss(&self, events: &[&LabelledEvent], chance: Option<&mut Pcg64Mcg>) -> Result<Loss> {
+        recognition::loss(self, events, chance)
+    }
+
+    fn shortcoming(measure: &Measure) -> f64 {
+        recognition::shortcoming(measure)
+    }
+}
+
+impl Published for TwoLevelLstm {
+    const SHIPPED: &'static [u8] = include_bytes!("../../../data/two-level-lstm.safetensors");
+
+    fn published(random: &mut Pcg64Mcg) -> Result<Self> {
+        Self::new(64, random)
+    }
+}

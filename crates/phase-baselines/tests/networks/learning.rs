@@ -1,0 +1,187 @@
+//! Learning: slopes, learning by heart, determinism, going on after a break.
+
+use crate::support::{event, labelled, random, unlike, without_slope};
+use phase_baselines::{
+    arg::Arg,
+    nodes::Nodes,
+    recognition::LabelledEvent,
+    social_lstm::SocialLstm,
+    stgat::Stgat,
+    training::{
+        CheckpointError, Measure, Network, Run, Settings, TensorsError, TrainingError, from_safetensors,
+        measure, to_safetensors,
+    },
+    two_level_lstm::TwoLevelLstm,
+};
+use phase_model::random::Pcg64Mcg;
+
+const QUICK: Settings =
+    Settings { batch: 4, learning_rate: 4e-3, longest_slope: 10.0, patience: 100, epochs: 250 };
+
+fn lstm(random: &mut Pcg64Mcg) -> TwoLevelLstm {
+    TwoLevelLstm::new(16, random).expect("a network")
+}
+
+fn arg(random: &mut Pcg64Mcg) -> Arg {
+    Arg::new(16, 2, random).expect("a network")
+}
+
+fn run<N: Network>(new: fn(&mut Pcg64Mcg) -> N, seed: u64, settings: Settings) -> Run<N> {
+    Run::new(new(&mut Run::<N>::first_weights(seed)), seed, settings)
+}
+
+fn social(random: &mut Pcg64Mcg) -> SocialLstm {
+    SocialLstm::new(8, random).expect("a network")
+}
+
+fn stgat(random: &mut Pcg64Mcg) -> Stgat {
+    Stgat::new(8, 2, random).expect("a network")
+}
+
+fn every_parameter_has_a_slope<N: Network>(new: fn(&mut Pcg64Mcg) -> N, events: &[N::Sample]) {
+    let network = new(&mut random(3));
+    let events: Vec<&N::Sample> = events.iter().collect();
+    for chance in [None, Some(&mut random(4))] {
+        let loss = network.loss(&events, chance).expect("a loss");
+        assert_eq!(loss.loss.rank(), 0);
+        assert_eq!(loss.scores.len(), N::SCORES.len());
+        let without = without_slope(&network.parameters(), &loss.loss);
+        assert!(without.is_empty(), "{}: {without:?}", N::NAME);
+    }
+}
+
+fn learns_by_heart<N: Network>(
+    new: fn(&mut Pcg64Mcg) -> N,
+    events: &[N::Sample],
+    learnt: fn(&Measure, &Measure) -> bool,
+) {
+    let mut run = run(new, 1, QUICK);
+    while !run.is_finished() {
+        let validation = run.epoch(events, events).expect("an epoch").validation.clone();
+        if learnt(&run.epochs()[0].validation, &validation) {
+            break;
+        }
+    }
+    // One more may be worse.
+    run.epoch(events, events).expect("an epoch");
+    let (first, best) = (run.epochs()[0].validation.clone(), run.best_epoch().expect("a best one").clone());
+    assert!(learnt(&first, &best.validation), "{}: {first:?} {best:?}", N::NAME);
+    // What is kept is what was best, whatever came after it.
+    let again = measure(&run.into_best().expect("a network"), events, QUICK.batch).expect("a measure");
+    assert_eq!(again, best.validation);
+}
+
+fn goes_on_as_if_nothing_had_happened<N: Network>(new: fn(&mut Pcg64Mcg) -> N, events: &[N::Sample]) {
+    let settings = Settings { epochs: 4, ..QUICK };
+    let epochs = |run: &mut Run<N>, last: usize| {
+        while run.epochs().len() < last {
+            run.epoch(events, events).expect("an epoch");
+        }
+    };
+    let mut straight = run(new, 1, settings);
+    let mut stopped = run(new, 1, settings);
+    epochs(&mut stopped, 2);
+    let kept = stopped.checkpoint("data").expect("a checkpoint");
+    let mut later = run(new, 1, settings);
+    later.resume(&kept, "data").expect("the same training");
+    assert_eq!(later.checkpoint("data").expect("a checkpoint"), kept);
+    epochs(&mut straight, 4);
+    epochs(&mut later, 4);
+    assert!(straight.is_finished());
+    assert_eq!(straight.epochs(), later.epochs());
+    let bytes = |run: Run<N>| to_safetensors(&run.into_best().expect("a network")).expect("a file");
+    let straight = bytes(straight);
+    assert_eq!(straight, bytes(later));
+    // Another seed is another training.
+    let mut other = run(new, 2, settings);
+    epochs(&mut other, 1);
+    assert_ne!(straight, bytes(other));
+    // And the file gives the network back.
+    let read = from_safetensors(new(&mut random(9)), &straight).expect("a network");
+    assert_eq!(to_safetensors(&read).expect("a file"), straight);
+}
+
+#[test]
+fn slopes() {
+    every_parameter_has_a_slope(lstm, &labelled());
+    every_parameter_has_a_slope(arg, &labelled());
+    every_parameter_has_a_slope(social, &unlike());
+    every_parameter_has_a_slope(stgat, &unlike());
+}
+
+#[test]
+fn answers_by_heart() {
+    let all_right = |_: &Measure, best: &Measure| best.scores == [1.0, 1.0];
+    learns_by_heart(lstm, &labelled(), all_right);
+    learns_by_heart(arg, &labelled(), all_right);
+}
+
+#[test]
+fn ways_by_heart() {
+    let events: Vec<Nodes> = (0..8).map(|number| Nodes::of(&event(number, 12, number % 3, 0.0))).collect();
+    let near = |first: &Measure, best: &Measure| best.loss < 0.3 && best.loss < 0.2 * first.loss;
+    learns_by_heart(social, &events, near);
+    learns_by_heart(stgat, &events, near);
+}
+
+#[test]
+fn breaks() {
+    goes_on_as_if_nothing_had_happened(lstm, &labelled());
+    goes_on_as_if_nothing_had_happened(arg, &labelled());
+    goes_on_as_if_nothing_had_happened(social, &unlike());
+    goes_on_as_if_nothing_had_happened(stgat, &unlike());
+}
+
+#[test]
+fn training_stops_when_nothing_is_gained() {
+    let events = labelled();
+    let mut run = run(lstm, 1, Settings { learning_rate: 0.0, patience: 3, ..QUICK });
+    while !run.is_finished() {
+        run.epoch(&events, &events).unwrap();
+    }
+    assert_eq!(run.epochs().len(), 4);
+}
+
+#[test]
+fn what_cannot_be_learnt_from_is_refused() {
+    let events = labelled();
+    let outcome = |training: &[LabelledEvent], validation: &[LabelledEvent], learning_rate| {
+        let mut run = run(lstm, 1, Settings { learning_rate, ..QUICK });
+        run.epoch(training, validation).map(|_| ()).unwrap_err()
+    };
+    assert!(matches!(outcome(&[], &events, 0.1), TrainingError::NoEvents("training")));
+    assert!(matches!(outcome(&events, &[], 0.1), TrainingError::NoEvents("validation")));
+    assert!(matches!(outcome(&events, &events, f64::INFINITY), TrainingError::Apart(1)));
+}
+
+#[test]
+fn files_of_others_are_refused() {
+    let lstm_run = run(lstm, 1, QUICK);
+    let kept = lstm_run.checkpoint("data").unwrap();
+    let resumed = |seed, settings, data| run(lstm, seed, settings).resume(&kept, data).unwrap_err();
+    assert_eq!(resumed(2, QUICK, "data"), CheckpointError::Other("seed"));
+    assert_eq!(resumed(1, Settings { batch: 5, ..QUICK }, "data"), CheckpointError::Other("settings"));
+    assert_eq!(resumed(1, QUICK, "others"), CheckpointError::Other("dataset"));
+    assert_eq!(run(arg, 1, QUICK).resume(&kept, "data").unwrap_err(), CheckpointError::Other("network"));
+    let weights = to_safetensors(&lstm(&mut random(0))).unwrap();
+    for length in [0, 1, 8, 100, weights.len() - 1] {
+        let error = from_safetensors(lstm(&mut random(0)), &weights[..length]).unwrap_err();
+        assert!(matches!(error, TensorsError::Container(_)), "{error}");
+        assert!(run(lstm, 1, QUICK).resume(&kept[..length], "data").is_err());
+    }
+    let refused = |bytes: &[u8]| from_safetensors(arg(&mut random(0)), bytes).map(|_| ()).unwrap_err();
+    assert!(matches!(refused(&weights), TensorsError::Kind { field: "format", .. }));
+    assert!(matches!(refused(&kept), TensorsError::Kind { field: "format", .. }));
+    // A network of another size.
+    let large = to_safetensors(&Arg::new(17, 2, &mut random(0)).unwrap()).unwrap();
+    assert!(matches!(refused(&large), TensorsError::Shape { .. }));
+    let many = to_safetensors(&Arg::new(16, 3, &mut random(0)).unwrap()).unwrap();
+    assert!(matches!(refused(&many), TensorsError::Unknown(_)));
+    let few = to_safetensors(&Arg::new(16, 1, &mut random(0)).unwrap()).unwrap();
+    assert!(matches!(refused(&few), TensorsError::Missing(_)));
+    // The last number is made one that is none.
+    let mut broken = to_safetensors(&arg(&mut random(0))).unwrap();
+    let end = broken.len() - 4;
+    broken[end..].copy_from_slice(&f32::NAN.to_le_bytes());
+    assert!(matches!(refused(&broken), TensorsError::NotFinite(_)));
+}

@@ -1,0 +1,8 @@
+//! The paper's neural baselines, with small sizes.
+
+mod forecasting;
+mod goals;
+mod learning;
+mod lstm;
+mod masks;
+mod support;

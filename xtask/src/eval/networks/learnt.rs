@@ -1,0 +1,104 @@
+//! The networks themselves.
+
+use crate::error::CliError;
+use candle_core::Result as NetworkResult;
+use phase_baselines::{
+    arg::Arg,
+    forecasting::Forecasting,
+    recognition::Recognition,
+    social_lstm::SocialLstm,
+    stgat::Stgat,
+    training::{Published, TensorsError},
+    two_level_lstm::TwoLevelLstm,
+};
+use phase_dataset::{
+    FileError, Problem,
+    checksum::{hexadecimal, sha256},
+    json,
+};
+use phase_eval::{
+    Forecaster, Recogniser,
+    method::{Answered, MethodError, Tick},
+};
+use phase_model::{Forecast, Judgement, ObservedEvent};
+use serde_json::{Value, json};
+use std::path::Path;
+
+/// A network for goals and relations, with the weights of a file or those that come with the program; `None` if there
+/// is none of this name.
+///
+/// # Errors
+/// If the file cannot be used.
+pub fn recogniser(name: &str, weights: Option<&Path>) -> Result<Option<Box<dyn Recogniser>>, CliError> {
+    Ok(match name {
+        "two-level-lstm" => Some(Box::new(Learnt::<TwoLevelLstm>::open(weights)?)),
+        "arg" => Some(Box::new(Learnt::<Arg>::open(weights)?)),
+        _ => None,
+    })
+}
+
+/// A network for trajectories; see [`recogniser`].
+///
+/// # Errors
+/// If the file cannot be used.
+pub fn forecaster(name: &str, weights: Option<&Path>) -> Result<Option<Box<dyn Forecaster>>, CliError> {
+    Ok(match name {
+        "social-lstm" => Some(Box::new(Learnt::<SocialLstm>::open(weights)?)),
+        "stgat" => Some(Box::new(Learnt::<Stgat>::open(weights)?)),
+        _ => None,
+    })
+}
+
+/// A network that has learnt something.
+struct Learnt<N> {
+    network: N,
+    /// Stands for its weights.
+    sha256: String,
+}
+
+impl<N: Published> Learnt<N> {
+    fn open(weights: Option<&Path>) -> Result<Self, CliError> {
+        let given = weights.map(json::bytes).transpose()?;
+        let bytes = given.as_deref().unwrap_or(N::SHIPPED);
+        let wrong = |error: TensorsError| FileError {
+            file: weights.map_or_else(|| format!("data/{}.safetensors", N::NAME).into(), Path::to_owned),
+            problem: Problem::Shape { what: "file of weights", rule: error.to_string() },
+        };
+        let network = N::with_weights(bytes).map_err(wrong)?;
+        Ok(Self { network, sha256: hexadecimal(&sha256(bytes)) })
+    }
+
+    fn settings(&self) -> Value {
+        json!({ "weights_sha256": self.sha256 })
+    }
+}
+
+impl<N: Published + Recognition + Sync> Recogniser for Learnt<N> {
+    fn settings(&self) -> Value {
+        self.settings()
+    }
+
+    fn judge(&self, observed: &ObservedEvent, _seed: u64, _tick: Tick<'_>) -> Answered<Judgement> {
+        answered(self.network.judge(observed))
+    }
+}
+
+impl<N: Published + Forecasting + Sync> Forecaster for Learnt<N> {
+    fn settings(&self) -> Value {
+        self.settings()
+    }
+
+    fn forecast(
+        &self,
+        observed: &ObservedEvent,
+        steps: usize,
+        _seed: u64,
+        _tick: Tick<'_>,
+    ) -> Answered<Forecast> {
+        answered(self.network.forecast(observed, steps))
+    }
+}
+
+fn answered<T>(answer: NetworkResult<T>) -> Answered<T> {
+    answer.map(|answer| Some((answer, Value::Null))).map_err(|error| MethodError(error.to_string()))
+}
