@@ -17,7 +17,7 @@ pub struct EstimatedBeliefs {
 }
 
 impl EstimatedBeliefs {
-    /// The beliefs of agent 0 or 1 along the states of an event ([`crate::reconstruction::states`]), by so many
+    /// The beliefs of agent 0 or 1 along the states of an event ([`InverseDynamics::states`](crate::InverseDynamics::states)), by so many
     /// particles at least.
     #[must_use]
     pub fn new(
