@@ -17,8 +17,8 @@ pub struct EstimatedBeliefs {
 }
 
 impl EstimatedBeliefs {
-    /// The beliefs of agent 0 or 1 along the states of an event ([`InverseDynamics::states`](crate::InverseDynamics::states)), by so many
-    /// particles at least.
+    /// The beliefs of agent 0 or 1 along the states of an event (those of
+    /// [`InverseDynamics`](crate::InverseDynamics)), by so many particles at least.
     #[must_use]
     pub fn new(
         observed: &ObservedEvent,
