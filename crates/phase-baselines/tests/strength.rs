@@ -4,7 +4,7 @@ use phase_baselines::strength::{
     Epoch, Motion, Sample, Settings, TrainingError, WINDOW, commonest, nearest, score, train,
 };
 use phase_model::{AGENT_COUNT, Body, Layout, MAX_ENTITIES, ObservedEvent, Size, Strength, Vec2};
-use phase_simple::{StrengthRegressor, strength::features};
+use phase_simple::{ChainSettings, StrengthRegressor, Update, strength::features};
 
 /// Two agents that push in a straight line until friction holds them at a speed: 2 u/s for each level of strength.
 /// `variety` makes one event unlike the next.
@@ -54,7 +54,7 @@ fn a_motion_is_cut_into_all_its_windows() {
 
 #[test]
 fn windows_are_as_long_as_those_of_inference() {
-    assert_eq!(phase_simple::Settings::default().window, WINDOW);
+    assert_eq!(ChainSettings::anchored(Update::Local).window, WINDOW);
 }
 
 #[test]
