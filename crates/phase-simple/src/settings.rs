@@ -37,7 +37,7 @@ pub struct Settings {
     pub minds: phase_agent::Settings,
 }
 
-/// The numbers of [`inverse_planning`](crate::inverse_planning), chosen on the validation events of PHASE-500.
+/// The numbers of inverse planning, chosen on the validation events of PHASE-500.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 pub struct PlanningSettings {
     /// ε: how often an agent does something else than its mind is for, any action alike.
