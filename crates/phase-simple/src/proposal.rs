@@ -56,7 +56,7 @@ impl Proposal {
     }
 
     /// Draws a goal of an agent (0 or 1).
-    pub fn sample_goal(&self, agent: usize, random: &mut impl Rng) -> Goal {
+    fn sample_goal(&self, agent: usize, random: &mut impl Rng) -> Goal {
         self.goals[agent][drawn(&self.goal_logs[agent], random)]
     }
 

@@ -53,11 +53,6 @@ impl<'a> Simulations<'a> {
         self.done.get(hypothesis)
     }
 
-    /// Every hypothesis that was simulated to the end of the event, with ln P(s | Y).
-    pub fn complete(&self) -> impl Iterator<Item = (Hypothesis, f64)> {
-        self.done.keys().filter_map(|hypothesis| Some((*hypothesis, self.known(hypothesis)?)))
-    }
-
     /// How many hypotheses were simulated, to the end or not.
     #[must_use]
     pub fn count(&self) -> usize {
