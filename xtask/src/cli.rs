@@ -64,6 +64,9 @@ pub struct GenDataset {
     /// Folder for the dataset; new, empty, or of this very run [default: out/PRESET-seedS]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// Make no videos and no page, for training data
+    #[arg(long)]
+    pub no_video: bool,
     /// Make only the events K, K + N, K + 2 N … of the dataset, to be merged with the other shards by merge
     #[arg(long, value_name = "K/N", value_parser = shard)]
     pub shard: Option<(usize, usize)>,

@@ -12,9 +12,13 @@ use phase_model::EventKind;
 /// The file's name.
 pub const CARD_FILE: &str = "README.md";
 
+const PAGE: &str = "| `index.html` | opens in a browser, offline, and shows every video with its labels |\n";
+const VIDEOS: &str = "| `videos/<id>.mp4` | H.264, 20 frames a second, five frames a step |\n";
+
 /// The dataset's file for people: what it is, how it was made, what is in it, and its licence.
 #[must_use]
 pub fn card(manifest: &Manifest, command: &str) -> String {
+    let has_videos = manifest.events.iter().any(|event| event.video.is_some());
     format!(
         "{front}# {preset}: {count} PHASE events\n\n\
          {about}\n\n\
@@ -23,11 +27,9 @@ pub fn card(manifest: &Manifest, command: &str) -> String {
          | kind | events | what it is meant to show |\n|---|---|---|\n{kinds}\n\
          {splits}\
          | file | what it is |\n|---|---|\n\
-         | `index.html` | opens in a browser, offline, and shows every video with its labels |\n\
-         | `{FOLDER}/*.parquet` | every event as a row, by split; the columns are below |\n\
+         {page}| `{FOLDER}/*.parquet` | every event as a row, by split; the columns are below |\n\
          | `events/<id>.json` | format `phase-events/1`: the same and every thought of the agents |\n\
-         | `videos/<id>.mp4` | H.264, 20 frames a second, five frames a step |\n\
-         | `croissant.json` | the dataset in the vocabulary Croissant 1.0 |\n\
+         {videos}| `croissant.json` | the dataset in the vocabulary Croissant 1.0 |\n\
          | `manifest.json` | format `phase-dataset/1`: settings, seeds, and the checksum of every file |\n\n\
          ## Columns\n\n\
          Lengths are in world units u (the arena is 20 u wide, x from 6 to 26, y from 2 to 22), angles in \
@@ -51,6 +53,8 @@ pub fn card(manifest: &Manifest, command: &str) -> String {
          recomputed from an event file.\n\n\
          ## Licence\n\nMIT OR Apache-2.0, as the program's.\n",
         front = front_matter(manifest),
+        page = if has_videos { PAGE } else { "" },
+        videos = if has_videos { VIDEOS } else { "" },
         preset = manifest.preset,
         count = manifest.events.len(),
         about = about(),

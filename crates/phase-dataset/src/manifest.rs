@@ -65,8 +65,9 @@ pub struct EventEntry {
     pub steps: usize,
     /// The event with everything known about it.
     pub event: FileEntry,
-    /// The video.
-    pub video: FileEntry,
+    /// The video, unless the dataset was made without.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub video: Option<FileEntry>,
 }
 
 /// A layout by its numbers.
@@ -98,18 +99,18 @@ pub struct AgentEntry {
 }
 
 impl EventEntry {
-    /// Describes an event whose files are in a dataset's folder already.
+    /// Describes an event whose files, its JSON and perhaps its video, are in a dataset's folder already.
     ///
     /// # Errors
     /// If a file cannot be read.
-    pub fn of(folder: &Path, id: &str, event: &Event) -> Result<Self, FileError> {
-        let files = [FileEntry::of(folder, event_path(id))?, FileEntry::of(folder, video_path(id))?];
-        Ok(Self::with_files(id, event, files))
+    pub fn of(folder: &Path, id: &str, event: &Event, has_video: bool) -> Result<Self, FileError> {
+        let video = has_video.then(|| FileEntry::of(folder, video_path(id))).transpose()?;
+        Ok(Self::with_files(id, event, FileEntry::of(folder, event_path(id))?, video))
     }
 
-    /// Describes an event whose files, its JSON and its video, are described already.
+    /// Describes an event whose files are described already.
     #[must_use]
-    pub fn with_files(id: &str, event: &Event, files: [FileEntry; 2]) -> Self {
+    pub fn with_files(id: &str, event: &Event, json: FileEntry, video: Option<FileEntry>) -> Self {
         let scene = &event.scene;
         let track = Track::of_event(event);
         let agent = |k: usize| {
@@ -124,7 +125,6 @@ impl EventEntry {
                 steps_to_goal: outcome.steps,
             }
         };
-        let [json, video] = files;
         Self {
             id: id.into(),
             kind: scene.kind,
@@ -139,6 +139,11 @@ impl EventEntry {
             event: json,
             video,
         }
+    }
+
+    /// The event's files.
+    pub fn files(&self) -> impl Iterator<Item = &FileEntry> {
+        core::iter::once(&self.event).chain(&self.video)
     }
 
     /// The part of the dataset it is in; a dataset that is not divided is all for training.
@@ -188,7 +193,7 @@ impl Manifest {
     /// # Errors
     /// Names the first file that is not.
     pub fn verify(&self, folder: &Path) -> Result<(), FileError> {
-        let of_events = self.events.iter().flat_map(|event| [&event.event, &event.video]);
+        let of_events = self.events.iter().flat_map(EventEntry::files);
         of_events.chain(&self.files).try_for_each(|file| file.verify(folder))
     }
 }

@@ -71,7 +71,9 @@ pub fn verify_with<E>(
         problems.extend(problem);
     }
     let parts = parquet::parts(&manifest.events);
-    let described = [PAGE_FILE, CARD_FILE, CROISSANT_FILE].into_iter();
+    // The page shows videos, and goes without saying where there are none.
+    let page = manifest.events.iter().any(|event| event.video.is_some()).then_some(PAGE_FILE);
+    let described = [CARD_FILE, CROISSANT_FILE].into_iter().chain(page);
     for path in described.chain(parts.iter().map(|part| part.path.as_str())) {
         if !files.contains_key(path) {
             problems.push(FileError { file: folder.join(path), problem: Problem::Unlisted });
@@ -137,7 +139,7 @@ fn listed<'a>(
         }
     }
     let mut files = BTreeMap::new();
-    let of_events = manifest.events.iter().flat_map(|event| [&event.event, &event.video]);
+    let of_events = manifest.events.iter().flat_map(EventEntry::files);
     for file in of_events.chain(&manifest.files) {
         if files.insert(file.path.as_str(), file).is_some() {
             fail(Problem::DuplicatePath(file.path.clone()));
@@ -184,8 +186,8 @@ fn event(folder: &Path, entry: &EventEntry) -> Result<(), FileError> {
     let Some(simulation) = &recording.simulation else {
         return Err(fail("substeps", "is missing".into()));
     };
-    let files = [entry.event.clone(), entry.video.clone()];
-    let mut found = EventEntry::with_files(&recording.id, &simulation.event, files);
+    let (json, video) = (entry.event.clone(), entry.video.clone());
+    let mut found = EventEntry::with_files(&recording.id, &simulation.event, json, video);
     found.relation = recording.relation;
     (found.variant, found.split) = (entry.variant, entry.split);
     let (Ok(found), Ok(expected)) = (serde_json::to_value(found), serde_json::to_value(entry)) else {

@@ -51,8 +51,10 @@ pub fn complete(
         return Err(CliError::Interrupted(out.to_owned()));
     };
     manifest.files = files;
-    let page = gallery::page(&manifest, &timelines);
-    describe(out, &mut manifest, PAGE_FILE, &page)?;
+    if whole.videos {
+        let page = gallery::page(&manifest, &timelines);
+        describe(out, &mut manifest, PAGE_FILE, &page)?;
+    }
     let text = card(&manifest, &whole.command);
     describe(out, &mut manifest, CARD_FILE, &text)?;
     let text = croissant(&manifest, card::about());

@@ -45,14 +45,16 @@ pub fn run(arguments: &Merge) -> Result<(), CliError> {
     interrupt::listen();
     let folder = Folder::claim(out, &run)?;
     folder.subfolder("events")?;
-    folder.subfolder("videos")?;
+    if shards.first().whole.videos {
+        folder.subfolder("videos")?;
+    }
     folder.subfolder(parquet::FOLDER)?;
     for (shard, from) in &shards.0 {
         for entry in shard.slots.iter().filter_map(|slot| slot.entry.as_ref()) {
             if interrupt::requested() {
                 return Err(CliError::Interrupted(out.clone()));
             }
-            for file in [&entry.event, &entry.video] {
+            for file in entry.files() {
                 copy(file, from, out)?;
             }
         }

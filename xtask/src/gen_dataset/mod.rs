@@ -22,7 +22,7 @@ use phase_dataset::{
     checksum::FileEntry,
     folder::{self, Contents, Folder},
     gallery::PAGE_FILE,
-    manifest::{MANIFEST_FILE, Manifest},
+    manifest::{EventEntry, MANIFEST_FILE, Manifest},
     parquet,
     record::{self, Record},
     shard::{SHARD_FILE, SHARD_FORMAT, Shard, Whole},
@@ -52,7 +52,9 @@ pub fn run(arguments: &GenDataset) -> Result<(), CliError> {
     interrupt::listen();
     let folder = Folder::claim(&out, &plan.run())?;
     folder.subfolder("events")?;
-    folder.subfolder("videos")?;
+    if plan.videos {
+        folder.subfolder("videos")?;
+    }
     folder.subfolder(parquet::FOLDER)?;
     let indices = plan.slots();
     let slots = Slots::new(&plan, &folder, indices.len());
@@ -81,7 +83,15 @@ fn announce(out: &Path, manifest: &Manifest) {
         tell(record::table(&manifest.selection).trim_end());
     }
     tell(format!("{} events in {}", manifest.events.len(), out.display()));
-    tell(format!("open {} to watch them", out.join(PAGE_FILE).display()));
+    tell_page(out);
+}
+
+/// Says where the events can be watched, if they have videos.
+fn tell_page(out: &Path) {
+    let page = out.join(PAGE_FILE);
+    if page.exists() {
+        tell(format!("open {} to watch them", page.display()));
+    }
 }
 
 /// A finished dataset or shard is taken as it is if it is the one asked for and whole.
@@ -89,7 +99,8 @@ fn check_finished(plan: &Plan, out: &Path) -> Result<(), CliError> {
     let (whole, files) = if plan.shard.is_some() {
         let shard = Shard::read(&out.join(SHARD_FILE))?;
         let entries = shard.slots.into_iter().filter_map(|slot| slot.entry);
-        let files: Vec<FileEntry> = entries.flat_map(|entry| [entry.event, entry.video]).collect();
+        let files: Vec<FileEntry> =
+            entries.flat_map(|entry| entry.files().cloned().collect::<Vec<_>>()).collect();
         (run_value(&shard.whole, Some((shard.shard, shard.of))), files)
     } else {
         let manifest = Manifest::read(&out.join(MANIFEST_FILE))?;
@@ -100,10 +111,11 @@ fn check_finished(plan: &Plan, out: &Path) -> Result<(), CliError> {
             generator: manifest.generator,
             settings: manifest.settings,
             selected: !manifest.selection.is_empty(),
+            videos: manifest.events.iter().all(|entry| entry.video.is_some()),
             command: String::new(),
         };
-        let of_events = manifest.events.into_iter().flat_map(|entry| [entry.event, entry.video]);
-        (run_value(&whole, None), of_events.chain(manifest.files).collect())
+        let of_events = manifest.events.iter().flat_map(EventEntry::files);
+        (run_value(&whole, None), of_events.chain(&manifest.files).cloned().collect())
     };
     check_same(out, "a finished", &whole, &plan.run())?;
     files.iter().try_for_each(|file| file.verify(out)).map_err(CliError::Altered)?;
@@ -112,9 +124,7 @@ fn check_finished(plan: &Plan, out: &Path) -> Result<(), CliError> {
     }
     let (count, what) = (plan.slots().len(), if plan.shard.is_some() { "shard" } else { "dataset" });
     tell(format!("{} holds this {what} already; all {count} events are whole", out.display()));
-    if plan.shard.is_none() {
-        tell(format!("open {} to watch them", out.join(PAGE_FILE).display()));
-    }
+    tell_page(out);
     Ok(())
 }
 
@@ -124,6 +134,9 @@ fn run_value(whole: &Whole, shard: Option<(usize, usize)>) -> Value {
         "command": "gen-dataset", "preset": whole.preset, "events": whole.events, "seed": whole.seed,
         "generator": whole.generator, "settings": whole.settings,
     });
+    if !whole.videos {
+        value["videos"] = false.into();
+    }
     if let Some((shard, of)) = shard {
         value["shard"] = format!("{shard}/{of}").into();
     }

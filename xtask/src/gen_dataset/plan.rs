@@ -17,9 +17,10 @@ use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 /// The presets that come with the program.
-const PRESETS: [(&str, &str); 2] = [
+const PRESETS: [(&str, &str); 3] = [
     ("demo", include_str!("../../../data/presets/demo.json")),
     ("phase-500", include_str!("../../../data/presets/phase-500.json")),
+    ("phase-training", include_str!("../../../data/presets/phase-training.json")),
 ];
 
 /// A preset with all that was asked for on the command line.
@@ -35,6 +36,8 @@ pub struct Plan {
     pub seed: u64,
     /// How events are simulated.
     pub settings: Settings,
+    /// Whether events get videos.
+    pub videos: bool,
     /// The shard to make (from 1) and of how many, if not the whole.
     pub shard: Option<(usize, usize)>,
     /// Stands for everything that decides an event besides its slot and the seed: this very program, its settings,
@@ -54,13 +57,15 @@ impl Plan {
         let count = arguments.events.map_or_else(|| preset.events(), |events| events as usize);
         let seed = arguments.seed.unwrap_or(preset.seed);
         let (name, effort) = (&arguments.preset, arguments.effort.as_given());
-        let command =
-            format!("cargo xtask gen-dataset --preset {name} --events {count} --seed {seed}{effort}");
+        let (videos, no_video) = (!arguments.no_video, if arguments.no_video { " --no-video" } else { "" });
+        let command = format!(
+            "cargo xtask gen-dataset --preset {name} --events {count} --seed {seed}{effort}{no_video}"
+        );
         let settings = arguments.effort.settings();
         let facts = format!("{} {seed} {text}", settings_value(&settings));
         let fingerprint = hexadecimal(&sha256(&[&program()[..], facts.as_bytes()].concat()));
         let (composition, shard) = (preset.composition(), arguments.shard);
-        Ok(Self { preset, composition, count, seed, settings, shard, fingerprint, command })
+        Ok(Self { preset, composition, count, seed, settings, videos, shard, fingerprint, command })
     }
 
     /// A folder that differs with everything a user is likely to vary.
@@ -93,6 +98,7 @@ impl Plan {
             generator: GENERATOR.into(),
             settings: settings_value(&self.settings),
             selected: self.preset.selection.is_some(),
+            videos: self.videos,
             command: self.command.clone(),
         }
     }

@@ -64,7 +64,7 @@ impl<'a> Slots<'a> {
         let (kind, variant) = (slot.variant.kind().name(), slot.variant.name());
         let mut record = self.record(index);
         if let Some(entry) = &record.entry
-            && [&entry.event, &entry.video].iter().all(|file| file.verify(self.folder.path()).is_ok())
+            && entry.files().all(|file| file.verify(self.folder.path()).is_ok())
         {
             let length = entry.steps;
             self.production.finished(0, &format!("{id} {kind}: {length} steps (kept)"));
@@ -152,10 +152,10 @@ impl<'a> Slots<'a> {
             relation: None,
             max_steps: Some(self.settings(&event.scene, event.seed).max_steps),
             json: out.join(event_path(id)),
-            video: Some(out.join(video_path(id))),
+            video: self.plan.videos.then(|| out.join(video_path(id))),
         };
         self.production.write(&order, event, true)?;
-        let mut entry = EventEntry::of(out, id, event).map_err(CliError::ReadBack)?;
+        let mut entry = EventEntry::of(out, id, event, self.plan.videos).map_err(CliError::ReadBack)?;
         (entry.variant, entry.split) = (Some(slot.variant), slot.split);
         Ok(entry)
     }

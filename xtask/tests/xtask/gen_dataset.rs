@@ -49,7 +49,8 @@ fn the_folder_holds_what_it_promises() {
         assert_eq!((events[0].id.as_str(), simulation.event.seed), (entry.id.as_str(), entry.seed));
         assert_eq!(simulation.event.steps.len(), 4);
         events[0].scene.validate_apart().expect("nothing overlaps at the start");
-        let video = fs::read(out.join(&entry.video.path)).expect("a video");
+        let video = entry.video.as_ref().expect("a video");
+        let video = fs::read(out.join(&video.path)).expect("its file");
         assert_eq!(&video[4..8], b"ftyp");
     }
     let page = fs::read_to_string(out.join("index.html")).expect("a page");
@@ -57,6 +58,32 @@ fn the_folder_holds_what_it_promises() {
     let card = fs::read_to_string(out.join("README.md")).expect("a card");
     assert!(card.starts_with("---\n") && card.contains("path: data/train-*.parquet"), "{card}");
     assert!(card.contains("--events 3") && card.contains("--simulations 20"), "{card}");
+}
+
+/// Without videos, everything else is as it is with them.
+#[test]
+fn videos_can_be_left_out() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    succeed(path, &generate("with", &[]));
+    let told = succeed(path, &generate("without", &["--no-video"]));
+    assert!(!told.contains("index.html"), "{told}");
+    let (with, without) = (tree(&path.join("with")), tree(&path.join("without")));
+    let left_out = |name: &&Path| name.starts_with("videos") || name.ends_with("index.html");
+    let names: Vec<&Path> = with.keys().map(AsRef::as_ref).filter(|name| !left_out(name)).collect();
+    assert_eq!(without.keys().map(AsRef::as_ref).collect::<Vec<&Path>>(), names);
+    assert!(names.iter().filter(|name| name.starts_with("events")).all(|&name| with[name] == without[name]));
+    let card = text(&without[Path::new("README.md")]);
+    assert!(card.contains("--no-video") && !card.contains("index.html"), "{card}");
+    succeed(path, &["verify", "without"]);
+    assert!(succeed(path, &generate("without", &["--no-video"])).contains("already"));
+    let sentence = refuse(path, &generate("without", &[]));
+    assert!(sentence.contains("videos"), "{sentence}");
+
+    succeed(path, &generate("one", &["--no-video", "--shard", "1/2"]));
+    succeed(path, &generate("two", &["--no-video", "--shard", "2/2"]));
+    succeed(path, &["merge", "one", "two", "--out", "merged"]);
+    assert!(tree(&path.join("merged")) == without);
 }
 
 #[test]

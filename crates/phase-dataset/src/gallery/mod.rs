@@ -171,7 +171,7 @@ fn card(event: &EventEntry) -> String {
         split = event.split().name(),
         goals = escape(&goals(event).join("|")),
         what = escape(words::kind(event.kind)),
-        video = escape(&event.video.path),
+        video = event.video.as_ref().map_or_else(String::new, |video| escape(&video.path)),
         buttons = buttons.concat(),
         json = escape(&event.event.path),
         base = event.layout.base,

@@ -45,8 +45,8 @@ fn scene() -> Vec<Box<dyn Column>> {
         ("video", "", "string", "", "path of the video in the dataset's folder", |row| row
             .entry
             .video
-            .path
-            .clone()),
+            .as_ref()
+            .map_or_else(String::new, |video| video.path.clone())),
         ("layout_base", "", "int32", "", "which walls, 0 to 21", |row| i32::from(
             row.recording.scene.layout.base()
         )),

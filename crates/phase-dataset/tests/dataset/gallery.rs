@@ -104,7 +104,7 @@ fn nothing_breaks_out_of_its_place() {
     manifest.preset = nasty.into();
     manifest.generator = nasty.into();
     manifest.events[0].id = nasty.into();
-    manifest.events[0].video.path = nasty.into();
+    manifest.events[0].video.as_mut().expect("a video").path = nasty.into();
     manifest.events[0].event.path = nasty.into();
     timelines[0].0[0].subgoals[0].1 = nasty.into();
     let page = page(&manifest, &timelines);

@@ -25,7 +25,7 @@ pub(crate) fn events(folder: &Path, lengths: &[usize]) -> Vec<EventEntry> {
         fs::write(folder.join(event_path(&id)), to_json(&[recording]).expect("finite")).expect("written");
         fs::write(folder.join(video_path(&id)), "a video").expect("written");
         let split = if k % 3 == 2 { Split::Test } else { Split::Train };
-        EventEntry { split: Some(split), ..EventEntry::of(folder, &id, &event).expect("described") }
+        EventEntry { split: Some(split), ..EventEntry::of(folder, &id, &event, true).expect("described") }
     };
     lengths.iter().enumerate().map(entry).collect()
 }

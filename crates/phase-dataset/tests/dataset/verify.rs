@@ -44,7 +44,8 @@ fn sentences(folder: &Path, manifest: &Manifest) -> Vec<String> {
 
 /// The manifest's entry of a file, to be told a new checksum.
 fn renew(folder: &Path, manifest: &mut Manifest, path: &str) {
-    let of_events = manifest.events.iter_mut().flat_map(|event| [&mut event.event, &mut event.video]);
+    let of_events =
+        manifest.events.iter_mut().flat_map(|event| [Some(&mut event.event), event.video.as_mut()]).flatten();
     for entry in of_events.chain(&mut manifest.files).filter(|entry| entry.path == path) {
         *entry = FileEntry::of(folder, path).expect("there");
     }
