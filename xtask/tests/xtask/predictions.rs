@@ -5,7 +5,7 @@ use crate::{
     support::{refuse, run, succeed, text, write_events},
 };
 use serde_json::{Value, json};
-use std::{fs, path::Path};
+use std::{fs, path::Path, process::Command};
 
 /// Scores a file on `events.json`; the results without CPU times.
 fn score(path: &Path, task: &str, file: &str) -> Value {
@@ -250,5 +250,74 @@ fn rubbish_is_refused_in_one_sentence() {
     ] {
         fs::write(path.join("bad.json"), contents).expect("written");
         assert_eq!(say("trajectories").trim_end(), format!("error: bad.json: {rule}"));
+    }
+}
+
+/// The worked example of docs/benchmark.md. Its rules are those of its own text; what they come to here is worked out by
+/// hand.
+#[test]
+fn the_example_in_python_is_accepted() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/examples/external_method.py");
+    let python = |arguments: &[&str]| {
+        Command::new("python3").arg("-B").arg(&script).args(arguments).current_dir(path).output()
+    };
+    if !python(&["--help"]).is_ok_and(|output| output.status.success()) {
+        eprintln!("skipped: there is no python3");
+        return;
+    }
+    let write_predictions = |arguments: &[&str], out: &str| {
+        let output = python(&[arguments, &["--out", out]].concat()).expect("python3 starts");
+        assert!(output.status.success(), "{arguments:?}: {}", text(&output.stderr));
+        ["goals.json", "trajectories.json"].map(|file| fs::read(path.join(out).join(file)).expect("a file"))
+    };
+    events_of(path);
+    let said = write_predictions(&["events.json"], "said");
+    // Agent 0 stays by landmark 0, which it wants; agent 1 stands nearest to landmark 2 but wants 1. Nobody meddles.
+    let goals = score(path, "goals", "said/goals.json");
+    assert_eq!((&goals["method"], &goals["goal"]["top1"]), (&json!("goals"), &json!(0.5)));
+    assert_eq!(goals["relation"]["accuracy"], 1.0);
+    // Agent 0 goes 0.05 u a step, but is forecast to keep 0.85 of that from step to step.
+    let off = |steps: u8| 0.05 * (1..=i32::from(steps)).map(|step| 1.0 - 0.85_f64.powi(step)).sum::<f64>();
+    let fde = [10, 13, 16, 19, 20, 20].map(|steps| off(steps) / 2.0).iter().sum::<f64>() / 6.0;
+    let trajectories = score(path, "trajectories", "said/trajectories.json");
+    let found = trajectories["fde"]["all"].as_f64().expect("a number");
+    assert!((found - fde).abs() < 1e-5, "{found} {fde}");
+
+    // It must not look at the answers: with others in the file it says the same.
+    let mut file: Value =
+        serde_json::from_slice(&fs::read(path.join("events.json")).expect("events")).expect("JSON");
+    for event in file["events"].as_array_mut().expect("events") {
+        event["event"] = json!("hindering");
+        event["relation"] = json!("adversarial");
+        for agent in [0, 1] {
+            event["agents"][agent]["goal"] = json!({ "kind": "touch", "agent": 1, "other": 0, "sign": -1 });
+            event["agents"][agent]["alpha"] = json!(-1);
+        }
+    }
+    write(path, "others.json", &file);
+    assert!(write_predictions(&["others.json"], "others") == said);
+    // For Task 2 it must not look beyond row 20.
+    for event in file["events"].as_array_mut().expect("events") {
+        for rows in event["trajectory"]["agents"].as_array_mut().expect("agents") {
+            rows.as_array_mut().expect("rows").truncate(21);
+        }
+    }
+    write(path, "begun.json", &file);
+    assert!(write_predictions(&["begun.json"], "begun")[1] == said[1]);
+
+    // A dataset is read by its manifest, as far as one split goes.
+    let entry = |id: &str, split: &str| {
+        write_events(&path.join(format!("{id}.json")), &[moving(id, 30)]);
+        json!({ "id": id, "split": split, "event": { "path": format!("{id}.json") } })
+    };
+    write(path, "manifest.json", &json!({ "events": [entry("a", "train"), entry("b", "test")] }));
+    for file in write_predictions(&[".", "--split", "test"], "split") {
+        let file: Value = serde_json::from_slice(&file).expect("JSON");
+        assert_eq!(
+            (file["events"].as_array().map(Vec::len), &file["events"][0]["id"]),
+            (Some(1), &json!("b"))
+        );
     }
 }
