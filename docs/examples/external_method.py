@@ -2,9 +2,10 @@
 
     python3 docs/examples/external_method.py EVENTS [--split SPLIT] [--out FOLDER]
 
-EVENTS is the folder of a generated dataset or a file in the format phase-events/1 (docs/formats.md). Written are
-goals.json (Task 1: what does each agent want, and how do the two stand to each other?) and trajectories.json (Task 2:
-where will everyone be in the 20 steps after the first 20?).
+EVENTS is the folder of a generated dataset or a file in the format phase-events/1 (docs/formats.md). Two files are
+written, both called after the method: goals/rules-of-thumb.json (Task 1: what does each agent want, and how do the two
+stand to each other?) and trajectories/rules-of-thumb.json (Task 2: where will everyone be in the 20 steps after the
+first 20?).
 
 The method is deliberately small. It has no physics, no planning and no idea of beliefs, only rules of thumb about
 motion: whoever ends at a landmark wanted to be there, whoever moved an object wanted it where it ended, whoever kept
@@ -25,8 +26,8 @@ WATCHED, PREDICTED = 20, 20  # steps of Task 2; row 0 of a trajectory is before 
 REACH = 3.0  # an agent moves an object if it is as near as this, centre to centre (u)
 SURENESS = 0.8  # of the softmax over goals (per u)
 PUSHED_ENOUGH = 2.0  # an object moved less than this was only bumped into (u)
-HEADING = 0.15  # what a u of heading for or away from the other counts against a u of distance
-CHASE = 4.0  # what heading has to make up for before it is chasing or fleeing (u)
+HEADING = 0.25  # what a u of heading for or away from the other counts against a u of distance
+CHASE = 6.0  # what heading has to make up for before it is chasing or fleeing (u)
 DAMPING = 0.85  # share of the velocity that is left after each step
 
 
@@ -141,7 +142,7 @@ def forecast(agents, objects):
 
 
 def main():
-    options = argparse.ArgumentParser(description="Writes goals.json and trajectories.json for `cargo xtask eval`.")
+    options = argparse.ArgumentParser(description="Writes predictions for `cargo xtask eval`.")
     options.add_argument("events", type=Path, help="folder of a generated dataset, or a phase-events/1 file")
     options.add_argument("--split", choices=["train", "validation", "test"], help="only this part of a dataset")
     options.add_argument("--out", type=Path, default=Path("."), help="folder to write into")
@@ -153,9 +154,10 @@ def main():
         # Only the first 20 steps are shown for Task 2.
         watched = [[rows[: WATCHED + 1] for rows in paths] for paths in (agents, objects)]
         forecasts.append({"id": event["id"], "forecast": forecast(*watched)})
-    options.out.mkdir(parents=True, exist_ok=True)
-    for name, events in (("goals.json", answers), ("trajectories.json", forecasts)):
-        (options.out / name).write_text(json.dumps({"events": events}), encoding="utf-8")
+    for task, events in (("goals", answers), ("trajectories", forecasts)):
+        file = options.out / task / "rules-of-thumb.json"
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(json.dumps({"events": events}), encoding="utf-8")
 
 
 if __name__ == "__main__":

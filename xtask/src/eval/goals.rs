@@ -68,6 +68,10 @@ impl Task for Goals {
         &self.name
     }
 
+    fn is_given(&self) -> bool {
+        matches!(self.answers, Answers::Given(_))
+    }
+
     fn settings(&self) -> Value {
         match &self.answers {
             Answers::Method(method) => json!({ "method": method.settings(), "watched": self.watched }),

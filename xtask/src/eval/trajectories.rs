@@ -67,6 +67,10 @@ impl Task for Trajectories {
         &self.name
     }
 
+    fn is_given(&self) -> bool {
+        matches!(self.answers, Answers::Given(_))
+    }
+
     fn settings(&self) -> Value {
         match &self.answers {
             Answers::Method(method) => json!({ "method": method.settings() }),

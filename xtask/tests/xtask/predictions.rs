@@ -10,7 +10,8 @@ use std::{fs, path::Path, process::Command};
 /// Scores a file on `events.json`; the results without CPU times.
 fn score(path: &Path, task: &str, file: &str) -> Value {
     let events = ["--events", "events.json", "--json", "scored.json", "--predictions", file];
-    succeed(path, &[&["eval", task], &events[..]].concat());
+    let table = succeed(path, &[&["eval", task], &events[..]].concat());
+    assert!(table.contains(" (predictions)") && !table.contains("(ours)"), "{table}");
     results(&path.join("scored.json"))
 }
 
@@ -42,22 +43,15 @@ fn answers_of_others_are_scored() {
         let goals = json!([[{ "goal": goal(0), "p": 0.9 }], [{ "goal": goal(0), "p": 0.9 }]]);
         json!({ "id": format!("event-{k}"), "goals": goals, "relation": relation })
     };
-    let predictions = json!({ "events": (0..6).map(event).collect::<Vec<_>>() });
-    fs::write(path.join("theirs.json"), predictions.to_string()).expect("written");
-    let command =
-        ["eval", "goals", "--predictions", "theirs.json", "--events", "events.json", "--json", "out.json"];
-    succeed(path, &command);
-    let found = results(&path.join("out.json"));
+    write(path, "theirs.json", &json!({ "events": (0..6).map(event).collect::<Vec<_>>() }));
+    let found = score(path, "goals", "theirs.json");
     assert_eq!(found["goal"], json!({ "top1": 0.5, "top2": 0.5, "top3": 0.5 }));
     assert_eq!(found["relation"], json!({ "accuracy": 0.5, "human_accuracy": null }));
     assert_eq!(found["method"], "theirs");
     // Results are predictions too.
-    let command =
-        ["eval", "goals", "--predictions", "out.json", "--events", "events.json", "--json", "b.json"];
-    succeed(path, &command);
-    assert_eq!(results(&path.join("b.json"))["goal"], found["goal"]);
-    let fewer = json!({ "events": (1..6).map(event).collect::<Vec<_>>() });
-    fs::write(path.join("fewer.json"), fewer.to_string()).expect("written");
+    write(path, "results.json", &found);
+    assert_eq!(score(path, "goals", "results.json")["goal"], found["goal"]);
+    write(path, "fewer.json", &json!({ "events": (1..6).map(event).collect::<Vec<_>>() }));
     let sentence = refuse(path, &["eval", "goals", "--predictions", "fewer.json", "--events", "events.json"]);
     assert!(sentence.contains("fewer.json") && sentence.contains("event-0"), "{sentence}");
 }
@@ -70,7 +64,7 @@ fn forecasts_of_others_are_scored() {
     // Events have 10, 13, 16, 19, 20, 20 steps to predict; half of the forecasts go on to step 40.
     let lengths = [10, 13, 16, 19, 20, 20];
     let event = |k: usize, shift: f64| {
-        let mut forecast = came(if k % 2 == 0 { 20 } else { lengths[k] });
+        let mut forecast = came(if k.is_multiple_of(2) { 20 } else { lengths[k] });
         for at in forecast[0].as_array_mut().expect("a path") {
             at[1] = json!(19.5 + shift);
         }
@@ -270,18 +264,19 @@ fn the_example_in_python_is_accepted() {
     let write_predictions = |arguments: &[&str], out: &str| {
         let output = python(&[arguments, &["--out", out]].concat()).expect("python3 starts");
         assert!(output.status.success(), "{arguments:?}: {}", text(&output.stderr));
-        ["goals.json", "trajectories.json"].map(|file| fs::read(path.join(out).join(file)).expect("a file"))
+        ["goals", "trajectories"]
+            .map(|task| fs::read(path.join(out).join(task).join("rules-of-thumb.json")).expect("a file"))
     };
     events_of(path);
     let said = write_predictions(&["events.json"], "said");
     // Agent 0 stays by landmark 0, which it wants; agent 1 stands nearest to landmark 2 but wants 1. Nobody meddles.
-    let goals = score(path, "goals", "said/goals.json");
-    assert_eq!((&goals["method"], &goals["goal"]["top1"]), (&json!("goals"), &json!(0.5)));
+    let goals = score(path, "goals", "said/goals/rules-of-thumb.json");
+    assert_eq!((&goals["method"], &goals["goal"]["top1"]), (&json!("rules-of-thumb"), &json!(0.5)));
     assert_eq!(goals["relation"]["accuracy"], 1.0);
     // Agent 0 goes 0.05 u a step, but is forecast to keep 0.85 of that from step to step.
     let off = |steps: u8| 0.05 * (1..=i32::from(steps)).map(|step| 1.0 - 0.85_f64.powi(step)).sum::<f64>();
     let fde = [10, 13, 16, 19, 20, 20].map(|steps| off(steps) / 2.0).iter().sum::<f64>() / 6.0;
-    let trajectories = score(path, "trajectories", "said/trajectories.json");
+    let trajectories = score(path, "trajectories", "said/trajectories/rules-of-thumb.json");
     let found = trajectories["fde"]["all"].as_f64().expect("a number");
     assert!((found - fde).abs() < 1e-5, "{found} {fde}");
 
