@@ -22,7 +22,8 @@ LANDMARKS = [(8.5, 19.5), (23.5, 19.5), (23.5, 4.5), (8.5, 4.5)]  # centres, by 
 STEP_SECONDS = 5 / 60  # of physics; a step is shown for 0.25 s of video
 WATCHED, PREDICTED = 20, 20  # steps of Task 2; row 0 of a trajectory is before the first step
 
-# Chosen on the training events of a generated dataset. Nothing was chosen on test events.
+# REACH, HEADING, CHASE and DAMPING were chosen on the training events of a generated dataset, the others are guesses.
+# Nothing was chosen on test events.
 REACH = 3.0  # an agent moves an object if it is as near as this, centre to centre (u)
 SURENESS = 0.8  # of the softmax over goals (per u)
 PUSHED_ENOUGH = 2.0  # an object moved less than this was only bumped into (u)
