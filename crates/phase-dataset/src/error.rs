@@ -121,9 +121,9 @@ pub enum Problem {
 
 /// A field that breaks a rule.
 #[derive(Clone, PartialEq, Eq, Debug, Error)]
-#[error("field `{field}` {rule}")]
+#[error("{}{rule}", field_prefix(field))]
 pub struct FieldError {
-    /// Where in the file, such as `agents[0].radius`.
+    /// Where in the file, such as `agents[0].radius`; empty for the file or event as a whole.
     pub field: String,
     /// What it breaks, such as `must be a finite number, not null`.
     pub rule: String,
@@ -147,6 +147,10 @@ pub struct WriteError {
 pub fn plain_reason(error: &io::Error) -> String {
     let text = error.to_string();
     text.split(" (os error").next().unwrap_or_default().to_lowercase()
+}
+
+fn field_prefix(field: &str) -> String {
+    if field.is_empty() { String::new() } else { format!("field `{field}` ") }
 }
 
 fn event_prefix(event: &Option<String>) -> String {

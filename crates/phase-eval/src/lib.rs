@@ -3,7 +3,7 @@
 //! - [`method`] is what a method has to be: a [`Recogniser`] for Task 1 (goals and relations), a [`Forecaster`] for
 //!   Task 2 (trajectories); [`plain`] has the plainest of both, below which no method should fall.
 //! - [`goals`] and [`trajectories`] score answers; [`estimate`] puts intervals around every score.
-//! - [`results`] is what programs read, and [`predictions`] the answers of somebody else's method.
+//! - [`results`] is what programs read, and [`predictions`] the answers of somebody else's method to either task.
 //! - [`published`] has the paper's rows, [`report`] puts them beside ours, as Markdown and as a page.
 //!
 //! The key design decision is that every score is a mean over events of one number for each event. So one bootstrap

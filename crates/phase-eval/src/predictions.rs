@@ -1,38 +1,104 @@
-//! The answers of somebody else's method to Task 1, from a file.
+//! The answers of somebody else's method to either task, from a file.
 
-use crate::goals::{Answer, canonical};
-use phase_dataset::{FieldError, Problem, json::Field};
-use phase_model::{AGENT_COUNT, Goal, Judgement, RelationProbabilities};
+use crate::{
+    goals::{Answer, canonical},
+    trajectories::PREDICTED_STEPS,
+};
+use phase_dataset::{
+    FieldError, Problem,
+    json::{Field, finite},
+};
+use phase_model::{AGENT_COUNT, Forecast, Goal, Judgement, RelationProbabilities, Vec2};
 use serde_json::Value;
 use std::collections::BTreeMap;
 
-/// Reads predictions by the ids of their events: `{"events": [{"id", "goals": [[{"goal", "p"}…], […]], "relation":
+/// Reads answers to Task 1 by the ids of their events: `{"events": [{"id", "goals": [[{"goal", "p"}…], […]], "relation":
 /// {"friendly", "adversarial", "neutral"}}…]}`. Other members are left to whoever put them there, so results of
 /// ours are predictions too.
 ///
 /// # Errors
 /// If there is no event, one comes twice, a field is missing or of the wrong type, or a number is no probability.
-pub fn parse(value: &Value) -> Result<BTreeMap<String, Answer>, Problem> {
+pub fn goals(value: &Value) -> Result<BTreeMap<String, Answer>, Problem> {
+    by_id(value, |event, id| {
+        let judgement = judgement(event).map_err(|problem| of_event(id, problem))?;
+        Answer::of(&judgement)
+            .map_err(|error| Problem::Scene { event: id.into(), rule: format!("field {error}") })
+    })
+}
+
+/// Reads answers to Task 2 by the ids of their events: `{"events": [{"id", "forecast": [[[x, y], …steps] …entities]}…]}`,
+/// positions in u. Other members are left to whoever put them there, so results of ours are predictions too. Whether a
+/// forecast has the shape of its event is for [`fit`] to say.
+///
+/// # Errors
+/// If there is no event, one comes twice, a field is missing or of the wrong type, or a number is not finite.
+pub fn forecasts(value: &Value) -> Result<BTreeMap<String, Forecast>, Problem> {
+    by_id(value, |event, id| forecast(event).map_err(|problem| of_event(id, problem)))
+}
+
+/// What a forecast says of an event with so many entities and steps to predict, at most [`PREDICTED_STEPS`]. It may go on
+/// after the event's end, up to that many, for a method need not know how long an event is; what is beyond is dropped.
+/// More would be positions of something else, such as the whole event.
+///
+/// # Errors
+/// If there are more or fewer entities, or some entity has too few or too many positions.
+pub fn fit(forecast: &Forecast, entities: usize, steps: usize) -> Result<Forecast, FieldError> {
+    let field = "forecast".to_owned();
+    if forecast.len() != entities {
+        let rule = format!(
+            "must hold {entities} lists, one for each agent and then for each object, not {}",
+            forecast.len()
+        );
+        return Err(FieldError { field, rule });
+    }
+    let wanted = steps..=PREDICTED_STEPS;
+    if let Some(entity) = forecast.iter().position(|path| !wanted.contains(&path.len())) {
+        let found = forecast.get(entity).map_or(0, Vec::len);
+        let rule = if steps == PREDICTED_STEPS {
+            format!("must hold {steps} positions, not {found}")
+        } else {
+            format!("must hold {steps} to {PREDICTED_STEPS} positions, not {found}")
+        };
+        return Err(FieldError { field: format!("{field}[{entity}]"), rule });
+    }
+    Ok(forecast.iter().map(|path| path.iter().take(steps).copied().collect()).collect())
+}
+
+/// Reads the events of a file, each of them with `read`, which is told its id.
+fn by_id<A>(
+    value: &Value,
+    read: impl Fn(&Field<'_>, &str) -> Result<A, Problem>,
+) -> Result<BTreeMap<String, A>, Problem> {
     let of_file = |problem| Problem::Field { event: None, problem };
     let events = Field::root(value).required("events").map_err(of_file)?;
     let mut answers = BTreeMap::new();
     for (k, event) in events.array().map_err(of_file)?.iter().enumerate() {
         let event = Field::root(event);
-        let id = event.required("id").and_then(|id| id.text().map(ToOwned::to_owned));
-        let name = || id.clone().unwrap_or_else(|_| format!("number {}", k + 1));
-        let of_event = |problem| Problem::Field { event: Some(name()), problem };
-        let id = id.clone().map_err(of_event)?;
-        let judgement = judgement(&event).map_err(of_event)?;
-        let rule = |error: crate::goals::AnswerError| Problem::Scene {
-            event: id.clone(),
-            rule: format!("field {error}"),
-        };
-        let answer = Answer::of(&judgement).map_err(rule)?;
-        if answers.insert(id.clone(), answer).is_some() {
-            return Err(Problem::DuplicateId(id));
+        let id = event.required("id").and_then(|id| id.text());
+        let id = id.map_err(|problem| of_event(&format!("number {}", k + 1), problem))?;
+        if answers.insert(id.to_owned(), read(&event, id)?).is_some() {
+            return Err(Problem::DuplicateId(id.into()));
         }
     }
     if answers.is_empty() { Err(Problem::NoEvents) } else { Ok(answers) }
+}
+
+fn of_event(id: &str, problem: FieldError) -> Problem {
+    Problem::Field { event: Some(id.into()), problem }
+}
+
+fn forecast(event: &Field<'_>) -> Result<Forecast, FieldError> {
+    let paths = event.required("forecast")?;
+    paths.items()?.map(|path| path.items()?.map(|at| position(&at)).collect()).collect()
+}
+
+fn position(field: &Field<'_>) -> Result<Vec2, FieldError> {
+    let numbers = field.array()?;
+    let [x, y] = numbers.as_slice() else { return Err(field.must_be("[x, y]")) };
+    match (finite(x), finite(y)) {
+        (Some(x), Some(y)) => Ok(Vec2::new(x, y)),
+        _ => Err(field.must_be("two finite numbers")),
+    }
 }
 
 fn judgement(event: &Field<'_>) -> Result<Judgement, FieldError> {

@@ -169,7 +169,7 @@ fn kept_events_and_predictions_read_back_as_they_were() {
     let events = two_events();
     let text = serde_json::to_string(&events).expect("JSON");
     assert_eq!(serde_json::from_str::<Vec<RecognisedEvent>>(&text).expect("events"), events);
-    let read = predictions::parse(&json!({ "events": events })).expect("predictions");
+    let read = predictions::goals(&json!({ "events": events })).expect("predictions");
     assert_eq!(read.len(), 2);
     assert_eq!(read["one"], events[0].answer);
 }
@@ -180,7 +180,7 @@ fn predictions_that_will_not_do() {
         "id": "a", "goals": [[{ "goal": place(0, 0, PLUS), "p": 0.5 }], []],
         "relation": { "friendly": 1.0, "adversarial": 0.0, "neutral": 0.0 },
     }] });
-    assert!(predictions::parse(&good).is_ok());
+    assert!(predictions::goals(&good).is_ok());
     let cases = [
         ("/events", json!([]), "at least one event"),
         ("/events", json!(3), "`events` must be an array"),
@@ -195,11 +195,11 @@ fn predictions_that_will_not_do() {
     for (pointer, to, part) in cases {
         let mut bad = good.clone();
         *bad.pointer_mut(pointer).expect(pointer) = to;
-        let problem = predictions::parse(&bad).expect_err(pointer).to_string();
+        let problem = predictions::goals(&bad).expect_err(pointer).to_string();
         assert!(problem.contains(part), "{pointer}: {problem}");
     }
     let twice = json!({ "events": [good["events"][0], good["events"][0]] });
-    assert!(predictions::parse(&twice).expect_err("twice").to_string().contains("must differ"));
+    assert!(predictions::goals(&twice).expect_err("twice").to_string().contains("must differ"));
 }
 
 proptest! {

@@ -4,10 +4,12 @@ use core::ops::ControlFlow;
 use phase_eval::{
     Forecaster,
     plain::{ConstantVelocity, Still},
+    predictions,
     trajectories::{Errors, ForecastError, ForecastEvent, Summary},
 };
 use phase_model::{Body, EventKind, Layout, MAX_ENTITIES, ObservedEvent, Relation, Size, Vec2};
-use serde_json::Value;
+use proptest::prelude::*;
+use serde_json::{Value, json};
 
 /// A path along x at this height.
 fn path(y: f32, steps: usize) -> Vec<Vec2> {
@@ -104,5 +106,63 @@ fn plain_methods_go_straight_on_or_stay() {
     let expected = [[10.5, 11.0, 11.5, 12.0], [25.5, 26.0, 26.0, 26.0], [8.0; 4]];
     for (found, expected) in forecast(&ConstantVelocity).iter().flatten().zip(expected.iter().flatten()) {
         assert!((found - expected).abs() < 1e-5, "{found} {expected}");
+    }
+}
+
+#[test]
+fn a_forecast_is_cut_to_its_event() {
+    let forecast = |lengths: &[usize]| lengths.iter().map(|&steps| path(0.0, steps)).collect::<Vec<_>>();
+    // Lengths of the paths, entities and steps of the event, and the rule that is broken.
+    let cases: [(&[usize], usize, usize, Option<&str>); 9] = [
+        (&[20, 20], 2, 20, None),
+        (&[20, 7, 8], 3, 7, None),
+        (&[1, 1], 2, 1, None),
+        (&[20, 20], 3, 20, Some("field `forecast` must hold 3 lists")),
+        (&[20, 20, 20], 2, 20, Some("field `forecast` must hold 2 lists")),
+        (&[], 2, 20, Some("field `forecast` must hold 2 lists")),
+        (&[20, 19], 2, 20, Some("field `forecast[1]` must hold 20 positions, not 19")),
+        (&[6, 20], 2, 7, Some("field `forecast[0]` must hold 7 to 20 positions, not 6")),
+        (&[20, 21], 2, 7, Some("field `forecast[1]` must hold 7 to 20 positions, not 21")),
+    ];
+    for (lengths, entities, steps, rule) in cases {
+        match (predictions::fit(&forecast(lengths), entities, steps), rule) {
+            (Ok(cut), None) => assert_eq!(cut, forecast(&vec![steps; entities]), "{lengths:?}"),
+            (Err(error), Some(rule)) => assert!(error.to_string().starts_with(rule), "{error}"),
+            (found, _) => panic!("{lengths:?}: {found:?}, not {rule:?}"),
+        }
+    }
+}
+
+fn position() -> impl Strategy<Value = Vec2> {
+    let number = || prop_oneof![-30.0..30.0_f32, prop::num::f32::NORMAL, prop::num::f32::SUBNORMAL];
+    (number(), number()).prop_map(|(x, y)| Vec2::new(x, y))
+}
+
+proptest! {
+    /// What is kept of a forecast reads back to the same bits, and is as far off as any finite numbers are.
+    #[test]
+    fn forecasts_read_back(paths in prop::collection::vec(prop::collection::vec(position(), 20), 2..=4)) {
+        let kept = ForecastEvent {
+            forecast: paths.iter().map(|path| path.iter().map(|at| at.to_array()).collect()).collect(),
+            ..event(Relation::Neutral, &[0.0; 20])
+        };
+        let text = json!({ "events": [kept] }).to_string();
+        let read = predictions::forecasts(&serde_json::from_str(&text).expect("JSON")).expect("forecasts");
+        prop_assert_eq!(&read["x"], &paths);
+        let truth = vec![path(0.0, 20); paths.len()];
+        for errors in Errors::of(&paths, &truth).expect("errors") {
+            prop_assert!(errors.by_step.iter().chain([&errors.ade, &errors.fde]).all(|error| error.is_finite()));
+        }
+    }
+
+    /// Whatever stands where a forecast should be, it is refused in a sentence that names the event.
+    #[test]
+    fn rubbish_is_no_forecast(depth in 0..5_usize, leaf in prop_oneof![
+        Just(Value::Null), Just(json!(true)), Just(json!("1")), Just(json!({})), any::<f64>().prop_map(|x| json!(x)),
+    ]) {
+        let forecast = (0..depth).fold(leaf, |inner, _| json!([inner]));
+        let told = predictions::forecasts(&json!({ "events": [{ "id": "a", "forecast": forecast }] }));
+        let told = told.expect_err("no forecast").to_string();
+        prop_assert!(told.starts_with("event a: field `forecast"), "{}", told);
     }
 }

@@ -1,19 +1,15 @@
 //! Task 1: how often goals and relations are recognised.
 
 use super::{
+    given::Given,
     input::{Event, Input},
     methods,
     options::{EvalGoals, steps_of},
     task::{self, Task},
 };
-use crate::{console::remark, error::CliError};
+use crate::error::CliError;
 use cpu_time::ThreadTime;
-use phase_dataset::{
-    FileError,
-    checksum::{hexadecimal, sha256},
-    json,
-    phase_events::Recording,
-};
+use phase_dataset::phase_events::Recording;
 use phase_eval::{
     MethodError, Recogniser, Tick,
     goals::{Answer, Glimpse, Label, RecognisedEvent, Summary},
@@ -23,7 +19,6 @@ use phase_eval::{
 };
 use phase_model::ObservedEvent;
 use serde_json::{Value, json};
-use std::{collections::BTreeMap, path::Path};
 
 /// Runs the command.
 ///
@@ -31,8 +26,11 @@ use std::{collections::BTreeMap, path::Path};
 /// Any [`CliError`].
 pub(super) fn run(arguments: &EvalGoals) -> Result<(), CliError> {
     let input = Input::open(&arguments.common)?;
-    let goals = match (&arguments.predictions, &arguments.method) {
-        (Some(file), _) => Goals::given(file, &input)?,
+    let goals = match (&arguments.common.predictions, &arguments.method) {
+        (Some(file), _) => {
+            let given = Given::read(file, &input, predictions::goals, |_, answer| Ok(answer))?;
+            Goals { name: given.name.clone(), answers: Answers::Given(given), watched: Vec::new() }
+        }
         (None, method) => {
             let name = method.clone().unwrap_or_default();
             let recogniser = methods::recogniser(&name, arguments.weights.as_deref())?;
@@ -57,27 +55,8 @@ struct Goals {
 enum Answers {
     /// A method of ours.
     Method(Box<dyn Recogniser>),
-    /// Somebody else's, by id, from a file with this checksum.
-    Given(BTreeMap<String, Answer>, String),
-}
-
-impl Goals {
-    /// The answers of a file; there has to be one to each event.
-    fn given(file: &Path, input: &Input) -> Result<Self, CliError> {
-        let value = json::read(file)?;
-        let fail = |problem| FileError { file: file.to_owned(), problem };
-        let answers = predictions::parse(&value).map_err(fail)?;
-        if let Some(event) = input.events.iter().find(|event| !answers.contains_key(&event.id)) {
-            return Err(CliError::unknown_id(file, &event.id, answers.keys().map(String::as_str)));
-        }
-        let others = answers.len() - input.events.len();
-        if others > 0 {
-            remark(format!("note: {}: {others} of its events are not asked for", file.display()));
-        }
-        let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let sha256 = hexadecimal(&sha256(value.to_string().as_bytes()));
-        Ok(Self { name, answers: Answers::Given(answers, sha256), watched: Vec::new() })
-    }
+    /// Somebody else's.
+    Given(Given<Answer>),
 }
 
 impl Task for Goals {
@@ -89,17 +68,21 @@ impl Task for Goals {
         &self.name
     }
 
+    fn is_given(&self) -> bool {
+        matches!(self.answers, Answers::Given(_))
+    }
+
     fn settings(&self) -> Value {
         match &self.answers {
             Answers::Method(method) => json!({ "method": method.settings(), "watched": self.watched }),
-            Answers::Given(_, sha256) => json!({ "predictions_sha256": sha256 }),
+            Answers::Given(given) => given.settings(),
         }
     }
 
     fn ticks(&self) -> usize {
         match &self.answers {
             Answers::Method(method) => method.ticks() * (1 + self.watched.len()),
-            Answers::Given(..) => 1,
+            Answers::Given(_) => 1,
         }
     }
 
@@ -115,11 +98,7 @@ impl Task for Goals {
         tick: Tick<'_>,
     ) -> Result<Option<RecognisedEvent>, MethodError> {
         let (answer, details, cpu_seconds, watched) = match &self.answers {
-            Answers::Given(answers, _) => {
-                let answer = answers.get(&event.id).cloned();
-                let missing = || MethodError("has no prediction".into());
-                (answer.ok_or_else(missing)?, Value::Null, None, Vec::new())
-            }
+            Answers::Given(given) => (given.answer(event)?, Value::Null, None, Vec::new()),
             Answers::Method(method) => {
                 let observed = recording.observed().map_err(|error| MethodError(error.to_string()))?;
                 let begun = ThreadTime::now();

@@ -8,6 +8,7 @@ use phase_dataset::{
     phase_events::Recording,
     splits::Split,
 };
+use phase_model::AGENT_COUNT;
 use std::{collections::BTreeSet, path::Path};
 
 /// The events of a run, loaded one at a time.
@@ -31,6 +32,8 @@ pub(super) struct Event {
     pub id: String,
     /// Its length (steps).
     pub steps: usize,
+    /// Its agents and objects, how many.
+    pub entities: usize,
     /// Whether its base layout is in the training or validation events too, if the dataset is divided.
     pub layout_seen: Option<bool>,
     index: usize,
@@ -89,6 +92,7 @@ fn of_manifest(manifest: &Manifest, split: Option<Split>) -> Vec<Event> {
     let event = chosen.map(|(index, entry)| Event {
         id: entry.id.clone(),
         steps: entry.steps,
+        entities: AGENT_COUNT + entry.object_size_levels.len(),
         layout_seen: divided.then(|| learnt.contains(&entry.layout.base)),
         index,
         contents: entry.event.sha256.clone(),
@@ -103,6 +107,7 @@ fn of_recording(index: usize, recording: &Recording) -> Result<Event, CliError> 
     Ok(Event {
         id: recording.id.clone(),
         steps: rows.steps(),
+        entities: AGENT_COUNT + scene.objects.len(),
         layout_seen: None,
         index,
         contents: hexadecimal(&sha256(format!("{relations:?} {scene:?} {rows:?}").as_bytes())),

@@ -1,8 +1,9 @@
 //! `eval`: how well a method perceives events.
 //!
 //! [`methods`] knows the methods by name, `task` asks one of them event by event and keeps what it said, so that a
-//! run can be broken off; `goals` and `trajectories` are the two tasks.
+//! run can be broken off; `goals` and `trajectories` are the two tasks, `given` the answers of somebody else's method.
 
+mod given;
 mod goals;
 mod input;
 pub mod methods;

@@ -31,9 +31,6 @@ pub struct EvalGoals {
     /// program]
     #[arg(long, value_name = "FILE", conflicts_with = "predictions")]
     pub weights: Option<PathBuf>,
-    /// Score the answers in this file instead (`events` as in results.json; see docs/formats.md)
-    #[arg(long, value_name = "FILE", conflicts_with = "method")]
-    pub predictions: Option<PathBuf>,
     /// Also ask the method after so many seconds of each event, such as 5,10,15,20; each takes as long again
     #[arg(long, value_name = "SECONDS", value_delimiter = ',', value_parser = seconds, conflicts_with = "predictions")]
     pub watched: Vec<f64>,
@@ -46,11 +43,12 @@ pub struct EvalGoals {
 #[derive(Args, Debug)]
 pub struct EvalTrajectories {
     /// The method to measure
-    #[arg(long, value_name = "METHOD", value_parser = PossibleValuesParser::new(methods::FORECASTERS))]
-    pub method: String,
+    #[arg(long, value_name = "METHOD", value_parser = PossibleValuesParser::new(methods::FORECASTERS),
+          required_unless_present = "predictions")]
+    pub method: Option<String>,
     /// The weights of a neural network (safetensors, as `cargo train` writes them) [default: those that come with the
     /// program]
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", conflicts_with = "predictions")]
     pub weights: Option<PathBuf>,
     /// On what, and where to.
     #[command(flatten)]
@@ -60,6 +58,9 @@ pub struct EvalTrajectories {
 /// Options of both.
 #[derive(Args, Debug)]
 pub struct Common {
+    /// Score the answers in this file instead of asking a method (`events` as in results.json; see docs/formats.md)
+    #[arg(long, value_name = "FILE", conflicts_with = "method")]
+    pub predictions: Option<PathBuf>,
     /// A file in the format phase-events/1 or the folder of a finished dataset
     #[arg(long, value_name = "FILE|DATASET")]
     pub events: PathBuf,

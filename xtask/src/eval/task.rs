@@ -45,6 +45,9 @@ pub(super) trait Task: Sync {
     /// The method's name.
     fn method(&self) -> &str;
 
+    /// Whether the method is somebody else's, whose answers came from a file.
+    fn is_given(&self) -> bool;
+
     /// What decides the answers beside events and seed.
     fn settings(&self) -> Value;
 
@@ -91,7 +94,8 @@ pub(super) fn run<T: Task>(task: &T, input: &Input, arguments: &Common) -> Resul
         "method_settings": task.settings(), "seed": arguments.seed, "n_events": input.events.len(),
         "events_sha256": input.sha256,
     });
-    let subject = Subject { method: task.method(), events: &input.words, seed: arguments.seed };
+    let subject =
+        Subject { method: task.method(), given: task.is_given(), events: &input.words, seed: arguments.seed };
     match folder::inspect(&out, RESULTS_FILE)? {
         Contents::Finished => return check_finished(task, &run, subject, &out, arguments),
         Contents::Unfinished(other) => {

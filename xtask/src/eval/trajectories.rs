@@ -1,6 +1,7 @@
 //! Task 2: how far predicted trajectories are off.
 
 use super::{
+    given::Given,
     input::{Event, Input},
     methods,
     options::EvalTrajectories,
@@ -10,7 +11,7 @@ use crate::error::CliError;
 use cpu_time::ThreadTime;
 use phase_dataset::phase_events::Recording;
 use phase_eval::{
-    Forecaster, MethodError, Tick,
+    Forecaster, MethodError, Tick, predictions,
     report::{self, Document, Subject},
     results,
     trajectories::{Errors, ForecastEvent, PREDICTED_STEPS, Summary, WATCHED_STEPS},
@@ -24,17 +25,37 @@ use serde_json::{Value, json};
 /// Any [`CliError`].
 pub(super) fn run(arguments: &EvalTrajectories) -> Result<(), CliError> {
     let input = Input::open(&arguments.common)?;
-    let name = arguments.method.clone();
-    let method = methods::forecaster(&name, arguments.weights.as_deref())?;
+    let (name, answers) = match (&arguments.common.predictions, &arguments.method) {
+        (Some(file), _) => {
+            let fit = |event: &Event, forecast| {
+                predictions::fit(&forecast, event.entities, steps_to_predict(event.steps))
+            };
+            let given = Given::read(file, &input, predictions::forecasts, fit)?;
+            (given.name.clone(), Answers::Given(given))
+        }
+        (None, method) => {
+            let name = method.clone().unwrap_or_default();
+            let forecaster = methods::forecaster(&name, arguments.weights.as_deref())?;
+            (name, Answers::Method(forecaster))
+        }
+    };
     let file = arguments.common.events.display().to_string();
-    task::run(&Trajectories { name, method, file }, &input, &arguments.common)
+    task::run(&Trajectories { name, answers, file }, &input, &arguments.common)
 }
 
 /// The task.
 struct Trajectories {
     name: String,
-    method: Box<dyn Forecaster>,
+    answers: Answers,
     file: String,
+}
+
+/// Where answers come from.
+enum Answers {
+    /// A method of ours.
+    Method(Box<dyn Forecaster>),
+    /// Somebody else's.
+    Given(Given<Forecast>),
 }
 
 impl Task for Trajectories {
@@ -46,12 +67,22 @@ impl Task for Trajectories {
         &self.name
     }
 
+    fn is_given(&self) -> bool {
+        matches!(self.answers, Answers::Given(_))
+    }
+
     fn settings(&self) -> Value {
-        json!({ "method": self.method.settings() })
+        match &self.answers {
+            Answers::Method(method) => json!({ "method": method.settings() }),
+            Answers::Given(given) => given.settings(),
+        }
     }
 
     fn ticks(&self) -> usize {
-        self.method.ticks()
+        match &self.answers {
+            Answers::Method(method) => method.ticks(),
+            Answers::Given(_) => 1,
+        }
     }
 
     fn check(&self, event: &Event) -> Result<(), CliError> {
@@ -74,10 +105,16 @@ impl Task for Trajectories {
         let observed = recording.observed().map_err(|error| MethodError(error.to_string()))?;
         let truth: Forecast = observed.entities().map(|entity| path(&observed, entity.index())).collect();
         let steps = truth.first().map_or(0, Vec::len);
-        let begun = ThreadTime::now();
-        let forecast = self.method.forecast(&observed.watched_for(WATCHED_STEPS), steps, seed, tick)?;
-        let cpu_seconds = begun.elapsed().as_secs_f64();
-        let Some((forecast, details)) = forecast else { return Ok(None) };
+        let (forecast, details, cpu_seconds) = match &self.answers {
+            Answers::Given(given) => (given.answer(event)?, Value::Null, None),
+            Answers::Method(method) => {
+                let begun = ThreadTime::now();
+                let forecast = method.forecast(&observed.watched_for(WATCHED_STEPS), steps, seed, tick)?;
+                let cpu_seconds = begun.elapsed().as_secs_f64();
+                let Some((forecast, details)) = forecast else { return Ok(None) };
+                (forecast, details, Some(cpu_seconds))
+            }
+        };
         let [agents, entities] =
             Errors::of(&forecast, &truth).map_err(|error| MethodError(error.to_string()))?;
         Ok(Some(ForecastEvent {
@@ -91,7 +128,7 @@ impl Task for Trajectories {
                 .iter()
                 .map(|path| path.iter().map(|point| point.to_array()).collect())
                 .collect(),
-            cpu_seconds: Some(cpu_seconds),
+            cpu_seconds,
             details,
         }))
     }
@@ -105,6 +142,11 @@ impl Task for Trajectories {
         let summary = Summary::of(events, subject.seed)?;
         Some((results::trajectories(run, &summary, events), report::trajectories(subject, &summary)))
     }
+}
+
+/// How many steps there are to predict in an event of so many.
+fn steps_to_predict(steps: usize) -> usize {
+    steps.saturating_sub(WATCHED_STEPS).min(PREDICTED_STEPS)
 }
 
 /// Where an entity went in the steps to be predicted.

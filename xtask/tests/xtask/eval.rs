@@ -15,7 +15,7 @@ pub(crate) fn moving(id: &str, steps: usize) -> Value {
     event
 }
 
-fn events_of(path: &Path) {
+pub(crate) fn events_of(path: &Path) {
     let events: Vec<Value> = (0..6).map(|k| moving(&format!("event-{k}"), 30 + 3 * k)).collect();
     write_events(&path.join("events.json"), &events);
 }
@@ -130,40 +130,6 @@ fn a_run_broken_off_goes_on_to_the_same_results() {
 }
 
 #[test]
-fn predictions_of_others_are_scored() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path();
-    events_of(path);
-    let goal =
-        |agent: u8| json!({ "kind": "agent_on_landmark", "agent": agent, "landmark": agent, "sign": 1 });
-    let event = |k: usize| {
-        // Agent 0 is always right, agent 1 never; the relation of every other event.
-        let relation =
-            json!({ "friendly": (k % 2) as f64, "adversarial": 0.0, "neutral": (1 - k % 2) as f64 });
-        let goals = json!([[{ "goal": goal(0), "p": 0.9 }], [{ "goal": goal(0), "p": 0.9 }]]);
-        json!({ "id": format!("event-{k}"), "goals": goals, "relation": relation })
-    };
-    let predictions = json!({ "events": (0..6).map(event).collect::<Vec<_>>() });
-    fs::write(path.join("theirs.json"), predictions.to_string()).expect("written");
-    let command =
-        ["eval", "goals", "--predictions", "theirs.json", "--events", "events.json", "--json", "out.json"];
-    succeed(path, &command);
-    let found = results(&path.join("out.json"));
-    assert_eq!(found["goal"], json!({ "top1": 0.5, "top2": 0.5, "top3": 0.5 }));
-    assert_eq!(found["relation"], json!({ "accuracy": 0.5, "human_accuracy": null }));
-    assert_eq!(found["method"], "theirs");
-    // Results are predictions too.
-    let command =
-        ["eval", "goals", "--predictions", "out.json", "--events", "events.json", "--json", "b.json"];
-    succeed(path, &command);
-    assert_eq!(results(&path.join("b.json"))["goal"], found["goal"]);
-    let fewer = json!({ "events": (1..6).map(event).collect::<Vec<_>>() });
-    fs::write(path.join("fewer.json"), fewer.to_string()).expect("written");
-    let sentence = refuse(path, &["eval", "goals", "--predictions", "fewer.json", "--events", "events.json"]);
-    assert!(sentence.contains("fewer.json") && sentence.contains("event-0"), "{sentence}");
-}
-
-#[test]
 fn rubbish_is_refused() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path();
@@ -186,6 +152,7 @@ fn rubbish_is_refused() {
         (&[&goals("events.json")[..], &["--json", "empty"]].concat(), &["empty", "--json"]),
         (&[&goals("events.json")[..], &["--out", "events.json"]].concat(), &["events.json", "is a file"]),
         (&["eval", "goals", "--events", "events.json"], &["--method"]),
+        (&["eval", "trajectories", "--events", "events.json"], &["--method"]),
         (&["eval", "goals", "--method", "guess", "--events", "events.json"], &["guess", "chance"]),
         (&["eval", "trajectories", "--method", "chance", "--events", "events.json"], &["chance", "still"]),
         (
@@ -193,10 +160,9 @@ fn rubbish_is_refused() {
             &["short.json", "event short has 20 steps"],
         ),
         (&[&goals("events.json")[..], &["--weights", "rubbish.json"]].concat(), &["--weights", "chance"]),
-        (&[&theirs[..], &["missing.json"]].concat(), &["missing.json", "no such file"]),
-        (&[&theirs[..], &["rubbish.json"]].concat(), &["rubbish.json", "`events`"]),
-        (&[&theirs[..], &["events.json"]].concat(), &["events.json", "event-0", "`goals`"]),
         (&[&theirs[..], &["events.json", "--watched", "5"]].concat(), &["--watched"]),
+        (&[&theirs[..], &["events.json", "--method", "chance"]].concat(), &["--predictions", "--method"]),
+        (&[&theirs[..], &["events.json", "--weights", "w.safetensors"]].concat(), &["--weights"]),
     ];
     let before = tree(path);
     for (arguments, expected) in cases {

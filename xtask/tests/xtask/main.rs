@@ -9,6 +9,7 @@ mod eval;
 mod gen_dataset;
 mod interruption;
 mod networks;
+mod predictions;
 mod render;
 mod selection;
 mod simulate;

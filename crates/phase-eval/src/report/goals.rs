@@ -13,7 +13,7 @@ use phase_dataset::{
 /// How well goals and relations are recognised.
 #[must_use]
 pub fn goals(subject: Subject<'_>, summary: &Summary) -> Document {
-    let ours = format!("{} (ours)", subject.method);
+    let ours = subject.label();
     let mut blocks = vec![
         Block::Text(format!(
             "{}, seed {}: {} events. A goal counts as right if kind, entity, landmark and sign all match, over both \

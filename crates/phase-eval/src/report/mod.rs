@@ -15,10 +15,19 @@ use crate::Estimate;
 pub struct Subject<'a> {
     /// The method's name.
     pub method: &'a str,
+    /// Whether it is somebody else's, whose answers came from a file.
+    pub given: bool,
     /// The events, in words.
     pub events: &'a str,
     /// The run's seed.
     pub seed: u64,
+}
+
+impl Subject<'_> {
+    /// The method's name beside those of the published ones.
+    fn label(&self) -> String {
+        format!("{} ({})", self.method, if self.given { "predictions" } else { "ours" })
+    }
 }
 
 /// Which way round numbers are to be read, said below the first table.

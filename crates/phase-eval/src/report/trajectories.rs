@@ -10,7 +10,7 @@ use phase_dataset::plot::{Axis, Series, bars, curves};
 /// How well trajectories are predicted.
 #[must_use]
 pub fn trajectories(subject: Subject<'_>, summary: &Summary) -> Document {
-    let ours = format!("{} (ours)", subject.method);
+    let ours = subject.label();
     let shorter = match summary.shorter {
         0 => String::new(),
         count => format!(
