@@ -1,6 +1,6 @@
 //! The commands and their options.
 
-use crate::eval::options::Eval;
+use crate::{benchmark::options::Benchmark, eval::options::Eval};
 use clap::{
     Args, Parser, Subcommand,
     builder::{PossibleValuesParser, TypedValueParser},
@@ -44,6 +44,8 @@ pub enum Command {
     /// Measure how well a method perceives events: recognises goals and relations, or predicts trajectories
     #[command(subcommand)]
     Eval(Eval),
+    /// Measure all methods at both tasks and put them beside what is published, in one report
+    Benchmark(Benchmark),
     /// Check the rules of the house that the compiler cannot
     Tidy,
 }
@@ -52,7 +54,7 @@ pub enum Command {
 #[derive(Args, Debug)]
 pub struct GenDataset {
     /// What to make: demo (twelve events, two of each kind, as they come), phase-500 (the paper's composition,
-    /// selected), or a file in the format phase-preset/2 whose name ends in .json
+    /// selected), phase-training (as much of the same to learn from as is wanted), or a file in the format phase-preset/2 whose name ends in .json
     #[arg(long, default_value = "demo")]
     pub preset: String,
     /// Number of events [default: the preset's]
@@ -235,7 +237,7 @@ impl CheckBehaviour {
 }
 
 /// How many events at once.
-#[derive(Args, Debug)]
+#[derive(Args, Clone, Debug)]
 pub struct Jobs {
     /// Events to work on at once; results do not depend on it [default: all cores]
     #[arg(long, value_name = "J", value_parser = value_parser!(u16).range(1..=1024))]

@@ -10,6 +10,7 @@
 //! - `check-physics` holds an engine against recorded motion,
 //! - `check-behaviour` shows how reliably agents do what they are planned to do,
 //! - `eval` measures how well a method perceives events,
+//! - `benchmark` measures all methods and puts them beside what is published,
 //! - `tidy` checks what the compiler cannot.
 //!
 //! The key design decision is that a command says what is wrong in one plain sentence and an exit code: 0 done,
@@ -19,6 +20,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod benchmark;
 pub mod captions;
 pub mod check_behaviour;
 pub mod check_physics;
@@ -85,6 +87,7 @@ pub fn run(command: Command) -> Result<(), CliError> {
         Command::CheckPhysics(arguments) => check_physics::run(&arguments),
         Command::CheckBehaviour(arguments) => check_behaviour::run(&arguments),
         Command::Eval(arguments) => eval::run(&arguments),
+        Command::Benchmark(arguments) => benchmark::run(&arguments),
         Command::Tidy => tidy::run(),
     }
 }

@@ -43,13 +43,53 @@ pub fn bars(title: &str, unit: &str, rows: &[(String, f64)]) -> String {
     svg + "</svg>\n"
 }
 
-/// An axis from 0.
+/// An axis.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Axis<'a> {
-    /// What it shows, with the unit.
-    pub name: &'a str,
-    /// Where it ends; above 0.
-    pub to: f64,
+    name: &'a str,
+    scale: Scale,
+}
+
+/// How numbers lie along an axis.
+#[derive(Clone, Copy, PartialEq, Debug)]
+enum Scale {
+    Linear { to: f64 },
+    Doubling { from: f64, to: f64 },
+}
+
+impl<'a> Axis<'a> {
+    /// An axis from 0 to a number above 0, evenly; the name tells the unit too.
+    #[must_use]
+    pub const fn linear(name: &'a str, to: f64) -> Self {
+        Self { name, scale: Scale::Linear { to } }
+    }
+
+    /// An axis between two numbers above 0, on which doubling is always the same way.
+    #[must_use]
+    pub const fn doubling(name: &'a str, from: f64, to: f64) -> Self {
+        Self { name, scale: Scale::Doubling { from, to } }
+    }
+
+    /// Where a number lies, from 0 to 1.
+    fn place(&self, number: f64) -> f64 {
+        let place = match self.scale {
+            Scale::Linear { to } => number / to.max(f64::MIN_POSITIVE),
+            Scale::Doubling { from, to } => libm::log2(number / from) / libm::log2(to / from),
+        };
+        // With both ends alike everything lies at the one place there is.
+        if place.is_nan() { 0.0 } else { place.clamp(0.0, 1.0) }
+    }
+
+    /// The numbers written along it.
+    fn marks(&self) -> Vec<f64> {
+        match self.scale {
+            Scale::Linear { to } => (0..=MARKS).map(|k| to * k as f64 / MARKS as f64).collect(),
+            Scale::Doubling { from, to } => {
+                let doublings = if from > 0.0 && to >= from { libm::log2(to / from).min(16.0) } else { 0.0 };
+                (0..=doublings as u32).map(|k| from * f64::from(1_u32 << k)).collect()
+            }
+        }
+    }
 }
 
 /// A line through points.
@@ -65,19 +105,17 @@ pub struct Series<'a> {
 const FIELD: (f64, f64) = (480.0, 320.0);
 const MARGIN: f64 = 64.0;
 /// Colours of lines, which are told apart by people who see few colours too.
-const COLOURS: [&str; 4] = ["#4477aa", "#cc6677", "#888888", "#228833"];
-/// Marks along an axis.
+const COLOURS: [&str; 7] = ["#4477aa", "#cc6677", "#888888", "#228833", "#aa3377", "#66ccee", "#ccbb44"];
+/// Marks along an axis, beside that at 0.
 const MARKS: usize = 5;
 
-/// A chart with two axes, x and y, from 0 on and a line with dots for each series. Points that are not finite are
-/// left out; those beyond an axis are drawn at its end.
+/// A chart with two axes, x and y, and a line with dots for each series. Points that are not finite are left out; those
+/// beyond an axis are drawn at its end.
 #[must_use]
 pub fn curves(title: &str, [x_axis, y_axis]: [Axis<'_>; 2], series: &[Series<'_>]) -> String {
     let (width, height) = (FIELD.0 + 2.0 * MARGIN + 100.0, FIELD.1 + 2.0 * MARGIN);
-    let place = |number: f64, axis: &Axis<'_>| (number / axis.to.max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-    let at = |(x, y): (f64, f64)| {
-        (MARGIN + FIELD.0 * place(x, &x_axis), MARGIN + FIELD.1 * (1.0 - place(y, &y_axis)))
-    };
+    let at =
+        |(x, y): (f64, f64)| (MARGIN + FIELD.0 * x_axis.place(x), MARGIN + FIELD.1 * (1.0 - y_axis.place(y)));
     let (right, bottom, middle) = (MARGIN + FIELD.0, MARGIN + FIELD.1, MARGIN + FIELD.0 / 2.0);
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
@@ -92,19 +130,25 @@ pub fn curves(title: &str, [x_axis, y_axis]: [Axis<'_>; 2], series: &[Series<'_>
         MARGIN - 14.0,
         escape(y_axis.name),
     );
-    for k in 0..=MARKS {
-        let (x, y) = (x_axis.to * k as f64 / MARKS as f64, y_axis.to * k as f64 / MARKS as f64);
-        let ((left, _), (_, up)) = (at((x, 0.0)), at((0.0, y)));
-        let [x, y] = [x, y].map(|number| (number * 100.0).round() / 100.0);
-        // Writing to a string cannot fail.
+    let shown = |mark: f64| (mark * 100.0).round() / 100.0;
+    // Writing to a string cannot fail.
+    for mark in x_axis.marks() {
+        let (left, below) = (MARGIN + FIELD.0 * x_axis.place(mark), bottom + 20.0);
         let _ = writeln!(
             svg,
-            "<path d=\"M{left:.1} {MARGIN}V{bottom}M{MARGIN} {up:.1}H{right}\" stroke=\"#dddddd\"/>\
-             <text x=\"{left:.1}\" y=\"{}\" text-anchor=\"middle\">{x}</text>\
-             <text x=\"{}\" y=\"{:.1}\" text-anchor=\"end\">{y}</text>",
-            bottom + 20.0,
-            MARGIN - 8.0,
+            "<path d=\"M{left:.1} {MARGIN}V{bottom}\" stroke=\"#dddddd\"/>\
+             <text x=\"{left:.1}\" y=\"{below}\" text-anchor=\"middle\">{}</text>",
+            shown(mark),
+        );
+    }
+    for mark in y_axis.marks() {
+        let (up, beside) = (MARGIN + FIELD.1 * (1.0 - y_axis.place(mark)), MARGIN - 8.0);
+        let _ = writeln!(
+            svg,
+            "<path d=\"M{MARGIN} {up:.1}H{right}\" stroke=\"#dddddd\"/>\
+             <text x=\"{beside}\" y=\"{:.1}\" text-anchor=\"end\">{}</text>",
             up + 5.0,
+            shown(mark),
         );
     }
     for (k, line) in series.iter().enumerate() {

@@ -3,6 +3,7 @@
 //! - [`method`] is what a method has to be: a [`Recogniser`] for Task 1 (goals and relations), a [`Forecaster`] for
 //!   Task 2 (trajectories); [`plain`] has the plainest of both, below which no method should fall.
 //! - [`goals`] and [`trajectories`] score answers; [`estimate`] puts intervals around every score.
+//! - [`benchmark`] puts many methods on the same events side by side.
 //! - [`results`] is what programs read, and [`predictions`] the answers of somebody else's method to either task.
 //! - [`published`] has the paper's rows, [`report`] puts them beside ours, as Markdown and as a page.
 //!
@@ -15,6 +16,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod benchmark;
 pub mod estimate;
 pub mod goals;
 pub mod method;

@@ -33,7 +33,7 @@ fn published_rows_are_shares_and_in_order() {
 #[test]
 fn curves_leave_out_what_is_no_number_and_stay_in_the_field() {
     let points = vec![(0.0, 0.0), (f64::NAN, 1.0), (5.0, f64::INFINITY), (20.0, 2.0), (10.0, 1.0)];
-    let axes = [Axis { name: "x <s>", to: 10.0 }, Axis { name: "y", to: 1.0 }];
+    let axes = [Axis::linear("x <s>", 10.0), Axis::linear("y", 1.0)];
     let svg = curves("A & B", axes, &[Series { name: "ours", points }]);
     let [low, high] =
         [svg.find("points=\"").expect("a line") + 8, svg.find("\" fill=\"none\"").expect("its end")];

@@ -19,6 +19,7 @@ use phase_eval::{
 };
 use phase_model::ObservedEvent;
 use serde_json::{Value, json};
+use std::path::Path;
 
 /// Runs the command.
 ///
@@ -32,19 +33,18 @@ pub(super) fn run(arguments: &EvalGoals) -> Result<(), CliError> {
             Goals { name: given.name.clone(), answers: Answers::Given(given), watched: Vec::new() }
         }
         (None, method) => {
-            let name = method.clone().unwrap_or_default();
-            let recogniser = methods::recogniser(&name, arguments.weights.as_deref())?;
+            let method = method.as_deref().unwrap_or_default();
             let mut watched = arguments.watched.clone();
             watched.sort_by(f64::total_cmp);
             watched.dedup();
-            Goals { name, answers: Answers::Method(recogniser), watched }
+            Goals { watched, ..Goals::by_method(method, method, arguments.weights.as_deref())? }
         }
     };
     task::run(&goals, &input, &arguments.common)
 }
 
 /// The task.
-struct Goals {
+pub(crate) struct Goals {
     name: String,
     answers: Answers,
     /// Parts of each event to ask about too, by their lengths (s).
@@ -57,6 +57,17 @@ enum Answers {
     Method(Box<dyn Recogniser>),
     /// Somebody else's.
     Given(Given<Answer>),
+}
+
+impl Goals {
+    /// The task for one of our methods, under any name; see [`methods::recogniser`].
+    ///
+    /// # Errors
+    /// As there.
+    pub(crate) fn by_method(name: &str, method: &str, weights: Option<&Path>) -> Result<Self, CliError> {
+        let answers = Answers::Method(methods::recogniser(method, weights)?);
+        Ok(Self { name: name.into(), answers, watched: Vec::new() })
+    }
 }
 
 impl Task for Goals {

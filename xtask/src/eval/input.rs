@@ -9,11 +9,12 @@ use phase_dataset::{
     splits::Split,
 };
 use phase_model::AGENT_COUNT;
+use phase_sampler::Variant;
 use std::{collections::BTreeSet, path::Path};
 
 /// The events of a run, loaded one at a time.
 #[derive(Debug)]
-pub(super) struct Input {
+pub(crate) struct Input {
     /// What they are called in the name of a folder.
     pub name: String,
     /// What they are called in a report.
@@ -27,7 +28,7 @@ pub(super) struct Input {
 
 /// One event, before it is loaded.
 #[derive(Debug)]
-pub(super) struct Event {
+pub(crate) struct Event {
     /// Its name.
     pub id: String,
     /// Its length (steps).
@@ -36,6 +37,8 @@ pub(super) struct Event {
     pub entities: usize,
     /// Whether its base layout is in the training or validation events too, if the dataset is divided.
     pub layout_seen: Option<bool>,
+    /// Whether its type of interaction is in the training or validation events too, if the dataset is divided.
+    pub interaction_seen: Option<bool>,
     index: usize,
     contents: String,
 }
@@ -45,7 +48,7 @@ impl Input {
     ///
     /// # Errors
     /// If it cannot be used, or holds nothing of what was asked for.
-    pub(super) fn open(arguments: &Common) -> Result<Self, CliError> {
+    pub(crate) fn open(arguments: &Common) -> Result<Self, CliError> {
         let path = &arguments.events;
         let source = Source::open(path, &[])?;
         let manifest = path.join(MANIFEST_FILE);
@@ -74,26 +77,24 @@ impl Input {
     ///
     /// # Errors
     /// If its file cannot be used.
-    pub(super) fn load(&self, event: &Event) -> Result<Recording, CliError> {
+    pub(crate) fn load(&self, event: &Event) -> Result<Recording, CliError> {
         self.source.load(event.index)
     }
 }
 
 fn of_manifest(manifest: &Manifest, split: Option<Split>) -> Vec<Event> {
     let divided = manifest.events.iter().any(|entry| entry.split.is_some());
-    let learnt: BTreeSet<u8> = manifest
-        .events
-        .iter()
-        .filter(|entry| entry.split() != Split::Test)
-        .map(|entry| entry.layout.base)
-        .collect();
+    let learnt = || manifest.events.iter().filter(|entry| entry.split() != Split::Test);
+    let layouts: BTreeSet<u8> = learnt().map(|entry| entry.layout.base).collect();
+    let variants: BTreeSet<Variant> = learnt().filter_map(|entry| entry.variant).collect();
     let entries = manifest.events.iter().enumerate();
     let chosen = entries.filter(|(_, entry)| split.is_none_or(|split| entry.split() == split));
     let event = chosen.map(|(index, entry)| Event {
         id: entry.id.clone(),
         steps: entry.steps,
         entities: AGENT_COUNT + entry.object_size_levels.len(),
-        layout_seen: divided.then(|| learnt.contains(&entry.layout.base)),
+        layout_seen: divided.then(|| layouts.contains(&entry.layout.base)),
+        interaction_seen: entry.variant.filter(|_| divided).map(|variant| variants.contains(&variant)),
         index,
         contents: entry.event.sha256.clone(),
     });
@@ -109,6 +110,7 @@ fn of_recording(index: usize, recording: &Recording) -> Result<Event, CliError> 
         steps: rows.steps(),
         entities: AGENT_COUNT + scene.objects.len(),
         layout_seen: None,
+        interaction_seen: None,
         index,
         contents: hexadecimal(&sha256(format!("{relations:?} {scene:?} {rows:?}").as_bytes())),
     })

@@ -4,14 +4,14 @@
 //! run can be broken off; `goals` and `trajectories` are the two tasks, `given` the answers of somebody else's method.
 
 mod given;
-mod goals;
-mod input;
+pub(crate) mod goals;
+pub(crate) mod input;
 pub mod methods;
 pub mod networks;
 pub mod options;
 pub mod simple;
-mod task;
-mod trajectories;
+pub(crate) mod task;
+pub(crate) mod trajectories;
 
 use crate::error::CliError;
 use options::Eval;

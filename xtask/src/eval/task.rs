@@ -30,12 +30,14 @@ use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
 /// The results' file name; it is written last.
-pub(super) const RESULTS_FILE: &str = "results.json";
+const RESULTS_FILE: &str = "results.json";
+/// The report as a page.
+pub(crate) const REPORT_FILE: &str = "report.html";
 /// Where what was said of each event is kept.
 const EVENTS: &str = "events";
 
 /// A task and the method that does it.
-pub(super) trait Task: Sync {
+pub(crate) trait Task: Sync {
     /// One event with what the method said of it.
     type Answered: Serialize + DeserializeOwned + Send;
 
@@ -81,13 +83,43 @@ pub(super) trait Task: Sync {
     ) -> Option<(Value, Document)>;
 }
 
-/// Runs a task.
+/// A task that is done.
+pub(crate) struct Evaluation<A> {
+    /// Every event with what the method said of it.
+    pub events: Vec<A>,
+    results: Value,
+    document: Document,
+    out: PathBuf,
+    /// Whether it was done already.
+    was_there: bool,
+}
+
+/// Does a task and says what came of it.
 ///
 /// # Errors
 /// Any [`CliError`].
 pub(super) fn run<T: Task>(task: &T, input: &Input, arguments: &Common) -> Result<(), CliError> {
-    input.events.iter().try_for_each(|event| task.check(event))?;
     check_place(arguments)?;
+    let done = evaluate(task, input, arguments)?;
+    hand_over(arguments, &done.results, &done.document)?;
+    tell(if done.was_there {
+        format!("{} holds this evaluation already", done.out.display())
+    } else {
+        format!("{} events; report in {}", done.events.len(), done.out.join(REPORT_FILE).display())
+    });
+    Ok(())
+}
+
+/// Does a task, or takes it as done if it is.
+///
+/// # Errors
+/// Any [`CliError`].
+pub(crate) fn evaluate<T: Task>(
+    task: &T,
+    input: &Input,
+    arguments: &Common,
+) -> Result<Evaluation<T::Answered>, CliError> {
+    input.events.iter().try_for_each(|event| task.check(event))?;
     let out = arguments.out.clone().unwrap_or_else(|| default_folder(task, input));
     let run = json!({
         "command": format!("eval {}", T::NAME), "generator": crate::engine::GENERATOR, "method": task.method(),
@@ -97,7 +129,7 @@ pub(super) fn run<T: Task>(task: &T, input: &Input, arguments: &Common) -> Resul
     let subject =
         Subject { method: task.method(), given: task.is_given(), events: &input.words, seed: arguments.seed };
     match folder::inspect(&out, RESULTS_FILE)? {
-        Contents::Finished => return check_finished(task, &run, subject, &out, arguments),
+        Contents::Finished => return finished(task, &run, subject, out),
         Contents::Unfinished(other) => {
             check_same(&out, "an unfinished", &other, &run)?;
             remark(format!("going on in {}", out.display()));
@@ -116,11 +148,10 @@ pub(super) fn run<T: Task>(task: &T, input: &Input, arguments: &Common) -> Resul
     let Some((results, document)) = task.sum_up(&run, subject, &answered) else {
         return Err(no_events(&out));
     };
-    write(&out, &results, &document)?;
+    write_report(&out, &document)?;
+    atomic::write(&out.join(RESULTS_FILE), text_of(&results).as_bytes())?;
     folder.finish()?;
-    hand_over(arguments, &results, &document)?;
-    tell(format!("{} events; report in {}", input.events.len(), out.join("report.html").display()));
-    Ok(())
+    Ok(Evaluation { events: answered, results, document, out, was_there: false })
 }
 
 /// One event: taken from what was kept, or asked for and kept.
@@ -186,13 +217,16 @@ impl Kept {
     }
 }
 
-fn write(out: &Path, results: &Value, document: &Document) -> Result<(), CliError> {
+/// Writes a report as Markdown and as a page, and its plots.
+///
+/// # Errors
+/// If a file cannot be written.
+pub(crate) fn write_report(out: &Path, document: &Document) -> Result<(), CliError> {
     for (file, svg) in document.plots() {
         atomic::write(&out.join(file), svg.as_bytes())?;
     }
     atomic::write(&out.join("report.md"), document.to_markdown().as_bytes())?;
-    atomic::write(&out.join("report.html"), document.to_html().as_bytes())?;
-    Ok(atomic::write(&out.join(RESULTS_FILE), text_of(results).as_bytes())?)
+    Ok(atomic::write(&out.join(REPORT_FILE), document.to_html().as_bytes())?)
 }
 
 /// Prints the table and writes the results where else they were asked for.
@@ -205,32 +239,29 @@ fn hand_over(arguments: &Common, results: &Value, document: &Document) -> Result
 }
 
 /// A finished folder is taken as it is if it is of this very run.
-fn check_finished<T: Task>(
+fn finished<T: Task>(
     task: &T,
     run: &Value,
     subject: Subject<'_>,
-    out: &Path,
-    arguments: &Common,
-) -> Result<(), CliError> {
+    out: PathBuf,
+) -> Result<Evaluation<T::Answered>, CliError> {
     let file = out.join(RESULTS_FILE);
     let results = json::read(&file)?;
-    check_same(out, "a finished", &results["run"], run)?;
+    check_same(&out, "a finished", &results["run"], run)?;
     let altered = |rule: String| {
         let problem = Problem::Shape { what: "results file", rule };
         CliError::Altered(FileError { file: file.clone(), problem })
     };
     let events: Vec<T::Answered> =
         serde_json::from_value(results["events"].clone()).map_err(|error| altered(error.to_string()))?;
-    let Some((again, document)) = task.sum_up(run, subject, &events) else { return Err(no_events(out)) };
+    let Some((again, document)) = task.sum_up(run, subject, &events) else { return Err(no_events(&out)) };
     if again != results {
         return Err(altered("its figures are not those of its events".into()));
     }
-    if folder::has_leftovers(out) {
-        Folder::claim(out, run)?.finish()?;
+    if folder::has_leftovers(&out) {
+        Folder::claim(&out, run)?.finish()?;
     }
-    hand_over(arguments, &results, &document)?;
-    tell(format!("{} holds this evaluation already", out.display()));
-    Ok(())
+    Ok(Evaluation { events, results, document, out, was_there: true })
 }
 
 fn no_events(out: &Path) -> CliError {

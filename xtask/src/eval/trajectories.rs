@@ -18,6 +18,7 @@ use phase_eval::{
 };
 use phase_model::Forecast;
 use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
 
 /// Runs the command.
 ///
@@ -25,29 +26,29 @@ use serde_json::{Value, json};
 /// Any [`CliError`].
 pub(super) fn run(arguments: &EvalTrajectories) -> Result<(), CliError> {
     let input = Input::open(&arguments.common)?;
-    let (name, answers) = match (&arguments.common.predictions, &arguments.method) {
+    let events = &arguments.common.events;
+    let task = match (&arguments.common.predictions, &arguments.method) {
         (Some(file), _) => {
             let fit = |event: &Event, forecast| {
                 predictions::fit(&forecast, event.entities, steps_to_predict(event.steps))
             };
             let given = Given::read(file, &input, predictions::forecasts, fit)?;
-            (given.name.clone(), Answers::Given(given))
+            Trajectories { name: given.name.clone(), answers: Answers::Given(given), file: events.clone() }
         }
         (None, method) => {
-            let name = method.clone().unwrap_or_default();
-            let forecaster = methods::forecaster(&name, arguments.weights.as_deref())?;
-            (name, Answers::Method(forecaster))
+            let method = method.as_deref().unwrap_or_default();
+            Trajectories::by_method(method, method, arguments.weights.as_deref(), events)?
         }
     };
-    let file = arguments.common.events.display().to_string();
-    task::run(&Trajectories { name, answers, file }, &input, &arguments.common)
+    task::run(&task, &input, &arguments.common)
 }
 
 /// The task.
-struct Trajectories {
+pub(crate) struct Trajectories {
     name: String,
     answers: Answers,
-    file: String,
+    /// Where the events come from.
+    file: PathBuf,
 }
 
 /// Where answers come from.
@@ -56,6 +57,22 @@ enum Answers {
     Method(Box<dyn Forecaster>),
     /// Somebody else's.
     Given(Given<Forecast>),
+}
+
+impl Trajectories {
+    /// The task for one of our methods, under any name; see [`methods::forecaster`]. The file is that of the events.
+    ///
+    /// # Errors
+    /// As there.
+    pub(crate) fn by_method(
+        name: &str,
+        method: &str,
+        weights: Option<&Path>,
+        file: &Path,
+    ) -> Result<Self, CliError> {
+        let answers = Answers::Method(methods::forecaster(method, weights)?);
+        Ok(Self { name: name.into(), answers, file: file.to_owned() })
+    }
 }
 
 impl Task for Trajectories {
@@ -89,7 +106,7 @@ impl Task for Trajectories {
         if event.steps > WATCHED_STEPS {
             return Ok(());
         }
-        let (file, id, steps) = (&self.file, &event.id, event.steps);
+        let (file, id, steps) = (self.file.display(), &event.id, event.steps);
         Err(CliError::Usage(format!(
             "{file}: event {id} has {steps} steps; {WATCHED_STEPS} are watched and at least one more is to be predicted"
         )))

@@ -16,7 +16,7 @@ use phase_baselines::{
 use phase_model::random::Pcg64Mcg;
 
 const QUICK: Settings =
-    Settings { batch: 4, learning_rate: 4e-3, longest_slope: 10.0, round: 8, patience: 100, rounds: 250 };
+    Settings { batch: 4, learning_rate: 4e-3, longest_slope: 10.0, round: 8, patience: 100, rounds: 400 };
 
 fn lstm(random: &mut Pcg64Mcg) -> TwoLevelLstm {
     TwoLevelLstm::new(16, random).expect("a network")

@@ -10,6 +10,9 @@ use serde_json::{Value, json};
 const SETTINGS: Settings =
     Settings { batch: 4, learning_rate: 1e-3, longest_slope: 10.0, round: 5, patience: 9, rounds: 9 };
 
+/// Makes a record another one.
+type Change = fn(&mut Record);
+
 fn run(seed: u64) -> Run<TwoLevelLstm> {
     Run::new(TwoLevelLstm::new(4, &mut random(seed)).expect("a network"), seed, SETTINGS)
 }
@@ -73,12 +76,12 @@ fn records_of_others_are_refused() {
     let mut ours = run(1);
     let mut earlier = record(&ours);
     go_on(&mut ours, &mut earlier, 2);
-    let refused = |change: fn(&mut Record)| {
+    let refused = |change: Change| {
         let mut other = earlier.clone();
         change(&mut other);
         record(&ours).resume(other, &ours).expect_err("another training")
     };
-    let cases: [(fn(&mut Record), &str); 8] = [
+    let cases: [(Change, &str); 8] = [
         (|record| record.network = "arg".into(), "network"),
         (|record| record.seed = 2, "seed"),
         (|record| record.settings.rounds = 8, "settings"),

@@ -26,7 +26,7 @@ impl Network for Noting {
     }
 
     fn loss(&self, samples: &[&usize], chance: Option<&mut Pcg64Mcg>) -> Result<Loss> {
-        let mut target: f64 = samples.iter().map(|&&sample| sample as f64).sum();
+        let mut target: f64 = samples.iter().map(|&&sample| (7 * sample % 5) as f64 - 2.0).sum();
         if let Some(chance) = chance {
             target += chance.random_range(0.0..1.0);
             self.seen.borrow_mut().extend(samples.iter().copied());
@@ -40,7 +40,9 @@ const SETTINGS: Settings =
     Settings { batch: 4, learning_rate: 0.1, longest_slope: 10.0, round: 10, patience: 100, rounds: 100 };
 
 fn new(seed: u64, settings: Settings) -> Run<Noting> {
-    let weight = Var::from_tensor(&Tensor::zeros(1, candle_core::DType::F32, &Device::Cpu).unwrap()).unwrap();
+    let weight =
+        Var::from_tensor(&Tensor::zeros(1, candle_core::DType::F32, &Device::Cpu).expect("enough memory"))
+            .expect("enough memory");
     let network = Noting { weight, seen: RefCell::default(), batches: RefCell::default() };
     Run::new(network, seed, settings)
 }
@@ -50,7 +52,7 @@ fn shown(run: &mut Run<Noting>, samples: usize, rounds: usize) -> Vec<Vec<usize>
     let samples: Vec<usize> = (0..samples).collect();
     (0..rounds)
         .map(|_| {
-            run.round(&samples, &samples).unwrap();
+            run.round(&samples, &samples).expect("enough memory");
             run.network().seen.take()
         })
         .collect()

@@ -129,7 +129,7 @@ fn watched_plot(groups: &[Group]) -> Block {
         Series { name: "relation", points: line(|scores| scores.relation.value) },
     ];
     let title = "Share right by seconds watched";
-    let axes = [Axis { name: "watched (s)", to: longest }, Axis { name: "right", to: 1.0 }];
+    let axes = [Axis::linear("watched (s)", longest), Axis::linear("right", 1.0)];
     Block::Plot { file: "watched.svg", title: title.into(), svg: curves(title, axes, &series) }
 }
 
@@ -171,6 +171,6 @@ fn reliability_plot(summary: &Summary) -> Block {
         Series { name: "perfect", points: vec![(0.0, 0.0), (1.0, 1.0)] },
     ];
     let title = "Right as often as said?";
-    let axes = [Axis { name: "probability given", to: 1.0 }, Axis { name: "share right", to: 1.0 }];
+    let axes = [Axis::linear("probability given", 1.0), Axis::linear("share right", 1.0)];
     Block::Plot { file: "reliability.svg", title: title.into(), svg: curves(title, axes, &series) }
 }

@@ -1,9 +1,11 @@
 //! Reports for people: tables and plots, as Markdown and as a page that opens offline.
 
+mod benchmark;
 mod document;
 mod goals;
 mod trajectories;
 
+pub use benchmark::benchmark;
 pub use document::{Block, Document};
 pub use goals::goals;
 pub use trajectories::trajectories;

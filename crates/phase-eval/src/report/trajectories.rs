@@ -93,10 +93,7 @@ fn by_step(summary: &Summary) -> Block {
         summary.by_step.iter().enumerate().map(|(k, &error)| ((k + 1) as f64, error)).collect();
     let highest = points.iter().map(|(_, error)| error.ceil()).fold(1.0, f64::max);
     let title = "Error of the agents' positions by steps ahead";
-    let axes = [
-        Axis { name: "steps ahead", to: points.len().max(1) as f64 },
-        Axis { name: "error (u)", to: highest },
-    ];
+    let axes = [Axis::linear("steps ahead", points.len().max(1) as f64), Axis::linear("error (u)", highest)];
     let series = [Series { name: "agents", points }];
     Block::Plot { file: "by-step.svg", title: title.into(), svg: curves(title, axes, &series) }
 }

@@ -8,7 +8,7 @@ use phase_baselines::{
     recognition::Recognition,
     social_lstm::SocialLstm,
     stgat::Stgat,
-    training::{Published, TensorsError},
+    training::{NamedMeasure, Published, Record, RecordedRound, TensorsError},
     two_level_lstm::TwoLevelLstm,
 };
 use phase_dataset::{
@@ -18,11 +18,15 @@ use phase_dataset::{
 };
 use phase_eval::{
     Forecaster, Recogniser,
+    benchmark::{Curve, Training},
     method::{Answered, MethodError, Tick},
 };
 use phase_model::{Forecast, Judgement, ObservedEvent};
 use serde_json::{Value, json};
-use std::path::Path;
+use std::{
+    ffi::OsString,
+    path::{Path, PathBuf},
+};
 
 /// A network for goals and relations, with the weights of a file or those that come with the program; `None` if there
 /// is none of this name.
@@ -47,6 +51,73 @@ pub fn forecaster(name: &str, weights: Option<&Path>) -> Result<Option<Box<dyn F
         "stgat" => Some(Box::new(Learnt::<Stgat>::open(weights)?)),
         _ => None,
     })
+}
+
+/// How a network came by the weights that come with the program; `None` if there is none of this name.
+///
+/// # Errors
+/// If its record is damaged.
+pub fn training(name: &str) -> Result<Option<Training>, CliError> {
+    let record = match name {
+        "two-level-lstm" => TwoLevelLstm::RECORD,
+        "arg" => Arg::RECORD,
+        "social-lstm" => SocialLstm::RECORD,
+        "stgat" => Stgat::RECORD,
+        _ => return Ok(None),
+    };
+    record_of(Path::new(&format!("data/{name}.training.json")), record.as_bytes()).map(Some)
+}
+
+/// How the weights of a file came about, as the record beside it says.
+///
+/// # Errors
+/// If there is none or it cannot be used.
+pub fn training_of(file: &Path) -> Result<Training, CliError> {
+    let mut beside = OsString::from(file);
+    beside.push(".training.json");
+    let beside = PathBuf::from(beside);
+    record_of(&beside, &json::bytes(&beside)?)
+}
+
+/// Nothing to be done: this program has networks.
+///
+/// # Errors
+/// None.
+pub const fn or_elsewhere(_: &str) -> Result<(), CliError> {
+    Ok(())
+}
+
+fn record_of(file: &Path, bytes: &[u8]) -> Result<Training, CliError> {
+    let fail = |rule: String| {
+        let problem = Problem::Shape { what: "record of a training", rule };
+        CliError::File(FileError { file: file.to_owned(), problem })
+    };
+    let record = Record::parse(bytes).map_err(|error| fail(error.to_string()))?;
+    let measures = record.rounds.first().map(|round| round.validation.scores.keys().cloned().collect());
+    let curve = |measure: String| Curve {
+        training: values(&record, &measure, |round| &round.training),
+        validation: values(&record, &measure, |round| &round.validation),
+        measure,
+    };
+    let measures: Vec<String> = measures.unwrap_or_default();
+    Ok(Training {
+        curves: measures.into_iter().map(curve).collect(),
+        network: record.network,
+        weights: record.weights,
+        seed: record.seed,
+        dataset: record.data.folder,
+        events: record.data.events,
+        round: record.settings.round,
+        rounds: record.rounds.len(),
+        best_round: record.best_round,
+        cpu_seconds: record.cpu_seconds,
+    })
+}
+
+/// A score of every round.
+fn values(record: &Record, measure: &str, part: fn(&RecordedRound) -> &NamedMeasure) -> Vec<f64> {
+    let score = |round| part(round).scores.get(measure).copied().unwrap_or(f64::NAN);
+    record.rounds.iter().map(score).collect()
 }
 
 /// A network that has learnt something.

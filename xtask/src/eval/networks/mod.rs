@@ -9,6 +9,6 @@ mod absent;
 mod learnt;
 
 #[cfg(not(feature = "networks"))]
-pub use absent::{forecaster, recogniser};
+pub use absent::{forecaster, or_elsewhere, recogniser, training, training_of};
 #[cfg(feature = "networks")]
-pub use learnt::{forecaster, recogniser};
+pub use learnt::{forecaster, or_elsewhere, recogniser, training, training_of};

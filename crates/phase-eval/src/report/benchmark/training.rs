@@ -1,0 +1,92 @@
+//! What networks cost and how they learnt.
+
+use super::Block;
+use crate::{
+    benchmark::{Benchmark, Curve, Training},
+    report::document::head,
+};
+use phase_dataset::plot::{Axis, Series, curves};
+
+/// A table of all trainings, and the curves of those whose weights come with the program; nothing without networks.
+pub(super) fn blocks(benchmark: &Benchmark) -> Vec<Block> {
+    if benchmark.trainings.is_empty() {
+        return Vec::new();
+    }
+    let mut blocks = vec![
+        Block::Heading("Training".into()),
+        Block::Text(
+            "A round is 320 events, however many there are to learn from; after each the validation events are measured, \
+             and the weights of the best round are kept."
+                .into(),
+        ),
+        table(benchmark),
+    ];
+    // One network of each kind: the plots of learning curves' points would be many.
+    let mut shown: Vec<&str> = Vec::new();
+    for training in &benchmark.trainings {
+        if let (false, Some(file)) = (shown.contains(&training.network.as_str()), file(&training.network)) {
+            shown.push(&training.network);
+            blocks.push(plot(training, file));
+        }
+    }
+    blocks
+}
+
+fn table(benchmark: &Benchmark) -> Block {
+    let row = |training: &Training| {
+        vec![
+            training.network.clone(),
+            training.weights.to_string(),
+            format!("{}, seed {}", training.dataset, training.seed),
+            training.events.to_string(),
+            training.rounds.to_string(),
+            training.best_round.map_or_else(|| "–".into(), |round| round.to_string()),
+            format!("{:.1}", training.cpu_seconds / 60.0),
+        ]
+    };
+    let columns = ["network", "weights", "learnt from", "events", "rounds", "best", "CPU min"];
+    Block::Table { head: head(&columns), rows: benchmark.trainings.iter().map(row).collect() }
+}
+
+fn plot(training: &Training, file: &'static str) -> Block {
+    let points =
+        |values: &[f64]| values.iter().enumerate().map(|(k, &value)| ((k + 1) as f64, value)).collect();
+    let names: Vec<[String; 2]> = training
+        .curves
+        .iter()
+        .map(|curve| ["training", "validation"].map(|part| format!("{}, {part}", curve.measure)))
+        .collect();
+    let series: Vec<Series<'_>> = training
+        .curves
+        .iter()
+        .zip(&names)
+        .flat_map(|(curve, [learnt, validated])| {
+            [
+                Series { name: learnt, points: points(&curve.training) },
+                Series { name: validated, points: points(&curve.validation) },
+            ]
+        })
+        .collect();
+    let title = format!("How {} learnt", training.network);
+    let axes = [
+        Axis::linear("rounds", training.rounds.max(1) as f64),
+        Axis::linear("measure", highest(&training.curves)),
+    ];
+    Block::Plot { file, svg: curves(&title, axes, &series), title }
+}
+
+/// Shares go up to 1, lengths as far as they do.
+fn highest(curves: &[Curve]) -> f64 {
+    let all = curves.iter().flat_map(|curve| curve.training.iter().chain(&curve.validation));
+    all.copied().filter(|value| value.is_finite()).fold(1.0, |highest, value| f64::max(highest, value.ceil()))
+}
+
+fn file(network: &str) -> Option<&'static str> {
+    match network {
+        "two-level-lstm" => Some("training-two-level-lstm.svg"),
+        "arg" => Some("training-arg.svg"),
+        "social-lstm" => Some("training-social-lstm.svg"),
+        "stgat" => Some("training-stgat.svg"),
+        _ => None,
+    }
+}

@@ -1,0 +1,120 @@
+//! Which methods are measured at which task.
+
+use super::options::Benchmark;
+use crate::{error::CliError, eval::networks};
+use std::path::PathBuf;
+
+/// Every method of the benchmark. `simple-published` is left out: it differs from `simple-local` in one point only.
+pub const METHODS: [&str; 12] = [
+    "simple",
+    "simple-local",
+    "simple-global",
+    "simple-initial",
+    "two-level-lstm",
+    "arg",
+    "social-lstm",
+    "stgat",
+    "cue",
+    "chance",
+    "constant-velocity",
+    "still",
+];
+/// Those of them that do each task.
+const TASKS: [(Task, &[&str]); 2] = [
+    (
+        Task::Goals,
+        &[
+            "chance",
+            "cue",
+            "two-level-lstm",
+            "arg",
+            "simple-initial",
+            "simple-global",
+            "simple-local",
+            "simple",
+        ],
+    ),
+    (Task::Trajectories, &["still", "constant-velocity", "social-lstm", "stgat", "simple"]),
+];
+const NETWORKS: [&str; 4] = ["two-level-lstm", "arg", "social-lstm", "stgat"];
+
+/// The paper's two tasks.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Task {
+    /// Goals and relations.
+    Goals,
+    /// Trajectories.
+    Trajectories,
+}
+
+/// One method at one task.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Contestant {
+    /// The task.
+    pub task: Task,
+    /// What it is called in the report.
+    pub name: String,
+    /// The method's own name.
+    pub method: String,
+    /// Weights other than those that come with the program.
+    pub weights: Option<PathBuf>,
+}
+
+impl Contestant {
+    /// What it does, in words.
+    #[must_use]
+    pub fn words(&self) -> String {
+        format!("{} by {}", self.task.name(), self.name)
+    }
+}
+
+impl Task {
+    /// The name of its evaluations.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Goals => "goals",
+            Self::Trajectories => "trajectories",
+        }
+    }
+}
+
+/// Whether anything that was asked for is a neural network.
+#[must_use]
+pub fn needs_networks(arguments: &Benchmark) -> bool {
+    !arguments.trained.is_empty() || NETWORKS.iter().any(|name| wanted(arguments, name))
+}
+
+/// All that is to be measured, the quickest first, so that what is wrong shows early.
+///
+/// # Errors
+/// If a file of weights cannot be used.
+pub fn contestants(arguments: &Benchmark) -> Result<Vec<Contestant>, CliError> {
+    let mut contestants = Vec::new();
+    for file in &arguments.trained {
+        let method = networks::training_of(file)?.network;
+        let tasks = TASKS.iter().filter(|(_, methods)| methods.contains(&method.as_str()));
+        let name = file.file_stem().unwrap_or_default().to_string_lossy();
+        contestants.extend(tasks.map(|(task, _)| Contestant {
+            task: *task,
+            name: name.clone().into_owned(),
+            method: method.clone(),
+            weights: Some(file.clone()),
+        }));
+    }
+    let own = TASKS.iter().flat_map(|(task, methods)| methods.iter().map(move |method| (*task, *method)));
+    let own = own.filter(|(_, method)| wanted(arguments, method)).map(|(task, method)| Contestant {
+        task,
+        name: method.into(),
+        method: method.into(),
+        weights: None,
+    });
+    contestants.extend(own);
+    // The four ways of SIMPLE take seconds for an event, the others less than a tenth of one.
+    contestants.sort_by_key(|contestant| contestant.method.starts_with("simple"));
+    Ok(contestants)
+}
+
+fn wanted(arguments: &Benchmark, method: &str) -> bool {
+    arguments.methods.is_empty() || arguments.methods.iter().any(|name| name == method)
+}

@@ -1,0 +1,234 @@
+//! One method on one set of events after the other.
+
+use super::{
+    options::Benchmark,
+    plan::{Contestant, Task},
+};
+use crate::{
+    engine::GENERATOR,
+    error::CliError,
+    eval::{
+        goals::Goals,
+        input::{Event, Input},
+        options::Common,
+        task::evaluate,
+        trajectories::Trajectories,
+    },
+};
+use phase_dataset::{FileError, Problem, json, splits::Split};
+use phase_eval::{
+    benchmark::{self, BENCHMARK_FORMAT, EventSet, Familiarity, Origin, Part, Row, Training},
+    goals::{self, RecognisedEvent},
+    results::{GOALS_FORMAT, TRAJECTORIES_FORMAT},
+    trajectories::{self, ForecastEvent},
+};
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+use std::path::Path;
+
+/// The rows so far, and the events that they are about.
+pub(super) struct Rows<'a> {
+    arguments: &'a Benchmark,
+    inputs: Vec<(Input, Common)>,
+    benchmark: benchmark::Benchmark,
+}
+
+/// An event with what a method said of it.
+trait Answered: Sized + Clone + DeserializeOwned {
+    type Summary;
+
+    fn id(&self) -> &str;
+
+    fn sum_up(events: &[Self], seed: u64) -> Option<Self::Summary>;
+}
+
+impl<'a> Rows<'a> {
+    /// No rows yet.
+    ///
+    /// # Errors
+    /// If the events cannot be used.
+    pub(super) fn open(arguments: &'a Benchmark) -> Result<Self, CliError> {
+        let common = |events: &Path, split| Common {
+            predictions: None,
+            events: events.to_owned(),
+            split,
+            limit: arguments.limit,
+            seed: arguments.seed,
+            json: None,
+            out: None,
+            jobs: arguments.jobs.clone(),
+        };
+        let generated = ("generated", common(&arguments.data, Some(Split::Test)));
+        let real = arguments.real.as_deref().map(|file| ("recorded", common(file, None)));
+        let (mut inputs, mut sets) = (Vec::new(), Vec::new());
+        for (label, common) in [generated].into_iter().chain(real) {
+            let input = Input::open(&common)?;
+            let (name, label, sha256) = (input.words.clone(), label.into(), input.sha256.clone());
+            sets.push(EventSet { name, label, sha256, events: input.events.len() });
+            inputs.push((input, common));
+        }
+        let benchmark = benchmark::Benchmark {
+            format: BENCHMARK_FORMAT,
+            generator: GENERATOR.into(),
+            seed: arguments.seed,
+            sets,
+            goals: Vec::new(),
+            trajectories: Vec::new(),
+            trainings: Vec::new(),
+        };
+        Ok(Self { arguments, inputs, benchmark })
+    }
+
+    /// How many sets of events there are.
+    pub(super) const fn sets(&self) -> usize {
+        self.inputs.len()
+    }
+
+    /// A set in words.
+    pub(super) fn name(&self, set: usize) -> &str {
+        &self.benchmark.sets[set].name
+    }
+
+    /// Keeps a training and says where.
+    pub(super) fn add_training(&mut self, training: Training) -> usize {
+        let known = self.benchmark.trainings.iter().position(|other| *other == training);
+        known.unwrap_or_else(|| {
+            self.benchmark.trainings.push(training);
+            self.benchmark.trainings.len() - 1
+        })
+    }
+
+    /// Has a method evaluated, unless that is done already.
+    ///
+    /// # Errors
+    /// Any [`CliError`].
+    pub(super) fn add(
+        &mut self,
+        contestant: &Contestant,
+        training: Option<usize>,
+        set: usize,
+    ) -> Result<(), CliError> {
+        let Contestant { task, name, method, weights } = contestant;
+        let (input, common) = &mut self.inputs[set];
+        let mut folder = format!("{}-{name}-{}", task.name(), input.name);
+        if let Some(limit) = self.arguments.limit {
+            folder += &format!("-first{limit}");
+        }
+        common.out = Some(self.arguments.evaluations.join(folder));
+        let (weights, origin) =
+            (weights.as_deref(), if weights.is_some() { Origin::Trained } else { Origin::Ours });
+        let (name, seed) = (name.clone(), self.arguments.seed);
+        match task {
+            Task::Goals => {
+                let events = evaluate(&Goals::by_method(&name, method, weights)?, input, common)?.events;
+                self.benchmark.goals.extend(row(name, origin, set, training, input, &events, seed));
+            }
+            Task::Trajectories => {
+                let task = Trajectories::by_method(&name, method, weights, &common.events)?;
+                let events = evaluate(&task, input, common)?.events;
+                self.benchmark.trajectories.extend(row(name, origin, set, training, input, &events, seed));
+            }
+        }
+        Ok(())
+    }
+
+    /// Takes over a finished evaluation.
+    ///
+    /// # Errors
+    /// If it is none, or one of other events.
+    pub(super) fn add_results(&mut self, file: &Path) -> Result<(), CliError> {
+        let results = json::read(file)?;
+        let fail = |rule: String| {
+            let problem = Problem::Shape { what: "results file", rule };
+            CliError::File(FileError { file: file.to_owned(), problem })
+        };
+        let (format, sha256) = (results["format"].as_str(), results["run"]["events_sha256"].as_str());
+        let name = results["method"].as_str().unwrap_or_default().to_owned();
+        let set = self.benchmark.sets.iter().position(|set| Some(set.sha256.as_str()) == sha256);
+        let set = set.ok_or_else(|| fail("field `run.events_sha256` is not that of these events".into()))?;
+        let (input, seed) = (&self.inputs[set].0, self.arguments.seed);
+        match format {
+            Some(GOALS_FORMAT) => {
+                let events: Vec<RecognisedEvent> = events_of(&results, input).map_err(fail)?;
+                self.benchmark.goals.extend(row(name, Origin::Given, set, None, input, &events, seed));
+            }
+            Some(TRAJECTORIES_FORMAT) => {
+                let events: Vec<ForecastEvent> = events_of(&results, input).map_err(fail)?;
+                self.benchmark.trajectories.extend(row(name, Origin::Given, set, None, input, &events, seed));
+            }
+            _ => {
+                return Err(fail(format!(
+                    "field `format` must be {GOALS_FORMAT:?} or {TRAJECTORIES_FORMAT:?}"
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    /// All of it.
+    pub(super) fn finish(self) -> benchmark::Benchmark {
+        self.benchmark
+    }
+}
+
+/// The events of results, which have to be those of the input.
+fn events_of<A: Answered>(results: &Value, input: &Input) -> Result<Vec<A>, String> {
+    let events = serde_json::from_value(results["events"].clone());
+    let events: Vec<A> = events.map_err(|error| format!("field `events`: {error}"))?;
+    let ids = events.iter().map(Answered::id);
+    match ids.eq(input.events.iter().map(|event| event.id.as_str())) {
+        true => Ok(events),
+        false => Err("field `events` does not have the ids of these events, in order".into()),
+    }
+}
+
+fn row<A: Answered>(
+    method: String,
+    origin: Origin,
+    set: usize,
+    training: Option<usize>,
+    input: &Input,
+    events: &[A],
+    seed: u64,
+) -> Option<Row<A::Summary>> {
+    let part = |familiarity: Familiarity| {
+        let like = |(event, _): &(&Event, &A)| familiar(event, familiarity);
+        let events = input.events.iter().zip(events).filter(like).map(|(_, answered)| answered.clone());
+        Some(Part { familiarity, summary: A::sum_up(&events.collect::<Vec<A>>(), seed)? })
+    };
+    let parts = Familiarity::ALL.into_iter().filter_map(part).collect();
+    Some(Row { method, origin, set, training, summary: A::sum_up(events, seed)?, parts })
+}
+
+fn familiar(event: &Event, familiarity: Familiarity) -> bool {
+    match familiarity {
+        Familiarity::SeenLayout => event.layout_seen == Some(true),
+        Familiarity::UnseenLayout => event.layout_seen == Some(false),
+        Familiarity::SeenInteraction => event.interaction_seen == Some(true),
+        Familiarity::UnseenInteraction => event.interaction_seen == Some(false),
+    }
+}
+
+impl Answered for RecognisedEvent {
+    type Summary = goals::Summary;
+
+    fn id(&self) -> &str {
+        &self.id
+    }
+
+    fn sum_up(events: &[Self], seed: u64) -> Option<Self::Summary> {
+        goals::Summary::of(events, seed)
+    }
+}
+
+impl Answered for ForecastEvent {
+    type Summary = trajectories::Summary;
+
+    fn id(&self) -> &str {
+        &self.id
+    }
+
+    fn sum_up(events: &[Self], seed: u64) -> Option<Self::Summary> {
+        trajectories::Summary::of(events, seed)
+    }
+}
