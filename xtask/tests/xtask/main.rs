@@ -1,6 +1,7 @@
 //! The command line, run as a program.
 
 mod bad_input;
+mod benchmark;
 mod captions;
 mod check_behaviour;
 mod check_physics;
