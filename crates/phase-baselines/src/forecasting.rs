@@ -15,7 +15,7 @@ use phase_model::{
 pub const HORIZON: usize = 10;
 /// How the networks are trained: batch and rate are the paper's.
 pub const SETTINGS: Settings =
-    Settings { batch: 8, learning_rate: 1e-2, longest_slope: 10.0, patience: 15, epochs: 200 };
+    Settings { batch: 8, learning_rate: 1e-2, longest_slope: 10.0, round: 320, patience: 15, rounds: 200 };
 /// What is measured beside the loss: the same distance over agents alone (u).
 pub(crate) const SCORES: [&str; 1] = ["agents"];
 /// Keeps the slope of a distance finite where it is 0 (u²).

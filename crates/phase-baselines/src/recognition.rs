@@ -16,7 +16,7 @@ use thiserror::Error;
 pub const RELATIONS: [Relation; 3] = [Relation::Friendly, Relation::Adversarial, Relation::Neutral];
 /// How the networks are trained: batch and rate are the paper's.
 pub const SETTINGS: Settings =
-    Settings { batch: 8, learning_rate: 1e-3, longest_slope: 10.0, patience: 25, epochs: 200 };
+    Settings { batch: 8, learning_rate: 1e-3, longest_slope: 10.0, round: 320, patience: 25, rounds: 200 };
 /// What is measured beside the loss: shares of right goals and of right relations.
 pub(crate) const SCORES: [&str; 2] = ["goal", "relation"];
 /// Added to what cannot be: its probability is 0.

@@ -1,7 +1,7 @@
-//! A training between two epochs, at rest.
+//! A training between two rounds, at rest.
 
 use super::{
-    Epoch, Network, Run, Settings, TensorsError,
+    Network, Round, Run, Settings, TensorsError,
     adam::Adam,
     tensors::{File, Named, write},
 };
@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 const FIELD: &str = "training";
-/// What stands before the names of parameters: as they are, Adam's two moments, and as they were in the best epoch.
+/// What stands before the names of parameters: as they are, Adam's two moments, and as they were in the best round.
 const PARTS: [&str; 4] = ["now.", "first.", "second.", "best."];
 
 /// What a training is of. Only one of the same goes on from a checkpoint.
@@ -23,7 +23,7 @@ pub struct Checkpoint {
     pub seed: u64,
     /// The settings.
     pub settings: Settings,
-    /// Something that stands for the events: those of another dataset have another.
+    /// Something that stands for the events, to learn from and to validate on: others have another.
     pub data: String,
 }
 
@@ -33,7 +33,7 @@ pub struct Checkpoint {
 struct Said {
     of: Checkpoint,
     steps: u32,
-    epochs: Vec<Epoch>,
+    rounds: Vec<Round>,
 }
 
 /// Why a training cannot go on from some bytes.
@@ -58,7 +58,7 @@ impl<N: Network> Run<N> {
         Checkpoint { network: N::NAME.into(), seed, settings, data: data.into() }
     }
 
-    /// All that the next epoch depends on, as a safetensors file.
+    /// All that the next round depends on, as a safetensors file.
     ///
     /// # Errors
     /// If it cannot be read or laid out in a file.
@@ -73,7 +73,7 @@ impl<N: Network> Run<N> {
                 tensors.push(Named { name, shape, numbers: numbers.clone() });
             }
         }
-        let said = Said { of: self.checkpoint_of(data), steps: self.adam.steps, epochs: self.epochs.clone() };
+        let said = Said { of: self.checkpoint_of(data), steps: self.adam.steps, rounds: self.rounds.clone() };
         let said = serde_json::to_string(&said).map_err(|error| CheckpointError::Text(error.to_string()))?;
         Ok(write(&tensors, FIELD, &said)?)
     }
@@ -93,7 +93,7 @@ impl<N: Network> Run<N> {
             (theirs.network != ours.network, "network"),
             (theirs.seed != ours.seed, "seed"),
             (theirs.settings != ours.settings, "settings"),
-            (theirs.data != ours.data, "dataset"),
+            (theirs.data != ours.data, "data"),
         ];
         if let Some((_, what)) = differences.into_iter().find(|(differs, _)| *differs) {
             return Err(CheckpointError::Other(what));
@@ -105,7 +105,7 @@ impl<N: Network> Run<N> {
         let (now, first, second) = (now?, first?, second?);
         parameters::set_numbers(&parameters, &now).map_err(TensorsError::from)?;
         self.adam = Adam { steps: said.steps, first, second };
-        self.epochs = said.epochs;
+        self.rounds = said.rounds;
         self.best = best;
         Ok(())
     }

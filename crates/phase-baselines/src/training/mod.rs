@@ -1,10 +1,12 @@
-//! Training of any of the networks: epochs, batches, Adam, early stopping, and a checkpoint after which it goes on as if
+//! Training of any of the networks: rounds, batches, Adam, early stopping, and a checkpoint after which it goes on as if
 //! nothing had happened.
 
 mod adam;
 mod checkpoint;
 mod network;
+mod order;
 mod published;
+mod record;
 mod run;
 mod tensors;
 mod weights;
@@ -12,6 +14,7 @@ mod weights;
 pub use checkpoint::{Checkpoint, CheckpointError};
 pub use network::{Loss, Network};
 pub use published::Published;
-pub use run::{Epoch, Measure, Run, Settings, TrainingError, measure};
+pub use record::{Final, NamedMeasure, Record, RecordError, RecordedRound, Source};
+pub use run::{Measure, Round, Run, Settings, TrainingError, measure};
 pub use tensors::TensorsError;
 pub use weights::{from_safetensors, to_safetensors};

@@ -26,7 +26,7 @@ pub trait Network {
     /// If there is no memory for it.
     fn loss(&self, samples: &[&Self::Sample], chance: Option<&mut Pcg64Mcg>) -> Result<Loss>;
 
-    /// What has to become less on the validation events for an epoch to be better than others: the loss, unless there is
+    /// What has to become less on the validation events for a round to be better than others: the loss, unless there is
     /// something that is more what the network is for.
     #[must_use]
     fn shortcoming(measure: &Measure) -> f64 {

@@ -1,15 +1,16 @@
 //! The loop itself.
 
-use super::{Loss, Network, adam::Adam};
+use super::{Loss, Network, adam::Adam, order};
 use crate::parameters;
 use candle_core::Result;
 use phase_model::random::{self, Pcg64Mcg, Purpose};
-use rand::seq::SliceRandom;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// How to train.
+/// How to train. Learning goes on in rounds of equal size however many events there are, so that as many rounds are as much
+/// work, and patience means the same, whatever is learnt from.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Settings {
     /// Events between two changes of the weights, at least 1.
     pub batch: usize,
@@ -17,10 +18,12 @@ pub struct Settings {
     pub learning_rate: f64,
     /// Greatest length of the slope of all weights together; longer ones are shortened to it.
     pub longest_slope: f64,
-    /// Epochs without any progress on the validation events after which training ends.
+    /// Events in a round, at least 1. Events that are fewer come several times, of more it is the next part.
+    pub round: usize,
+    /// Rounds without any progress on the validation events after which training ends.
     pub patience: usize,
-    /// Epochs at most.
-    pub epochs: usize,
+    /// Rounds at most.
+    pub rounds: usize,
 }
 
 /// Means over some events.
@@ -32,9 +35,9 @@ pub struct Measure {
     pub scores: Vec<f64>,
 }
 
-/// One epoch.
+/// One round.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
-pub struct Epoch {
+pub struct Round {
     /// Its number, from 1.
     pub number: usize,
     /// On the training events while they were learnt from.
@@ -55,29 +58,30 @@ pub enum TrainingError {
     #[error("the network cannot be trained: {0}")]
     Network(#[from] candle_core::Error),
     /// Numbers grew beyond all bounds.
-    #[error("training came apart in epoch {0}: the loss is no number any more")]
+    #[error("training came apart in round {0}: the loss is no number any more")]
     Apart(usize),
 }
 
-/// A training under way. Everything it draws comes from (seed, epoch), so it can stop after any epoch and go on later.
+/// A training under way. Everything it draws comes from the seed and the number of the round or pass, so it can stop
+/// after any round and go on later.
 #[derive(Debug)]
 pub struct Run<N: Network> {
     pub(super) network: N,
     pub(super) adam: Adam,
     pub(super) seed: u64,
     pub(super) settings: Settings,
-    pub(super) epochs: Vec<Epoch>,
-    /// The weights of the best epoch.
+    pub(super) rounds: Vec<Round>,
+    /// The weights of the best round.
     pub(super) best: Option<Vec<Vec<f32>>>,
 }
 
 impl<N: Network> Run<N> {
-    /// A run before its first epoch, of a network with its first weights; those are drawn from
+    /// A run before its first round, of a network with its first weights; those are drawn from
     /// [`first_weights`](Self::first_weights).
     #[must_use]
     pub fn new(network: N, seed: u64, settings: Settings) -> Self {
         let adam = Adam::new(&network.parameters());
-        Self { network, adam, seed, settings, epochs: Vec::new(), best: None }
+        Self { network, adam, seed, settings, rounds: Vec::new(), best: None }
     }
 
     /// The generator of the first weights of a run.
@@ -86,44 +90,50 @@ impl<N: Network> Run<N> {
         random::stream(seed, Purpose::Training, 0)
     }
 
-    /// The epochs so far.
+    /// The network as it is now.
     #[must_use]
-    pub fn epochs(&self) -> &[Epoch] {
-        &self.epochs
+    pub const fn network(&self) -> &N {
+        &self.network
     }
 
-    /// The best epoch so far.
+    /// The rounds so far.
     #[must_use]
-    pub fn best_epoch(&self) -> Option<&Epoch> {
-        self.epochs.iter().rfind(|epoch| epoch.best)
+    pub fn rounds(&self) -> &[Round] {
+        &self.rounds
+    }
+
+    /// The best round so far.
+    #[must_use]
+    pub fn best_round(&self) -> Option<&Round> {
+        self.rounds.iter().rfind(|round| round.best)
     }
 
     /// Whether it has gone on for as long as it may, or as it is any use.
     #[must_use]
     pub fn is_finished(&self) -> bool {
-        let done = self.epochs.len();
-        let best = self.best_epoch().map_or(done, |epoch| epoch.number);
-        done >= self.settings.epochs || done - best >= self.settings.patience.max(1)
+        let done = self.rounds.len();
+        let best = self.best_round().map_or(done, |round| round.number);
+        done >= self.settings.rounds || done - best >= self.settings.patience.max(1)
     }
 
-    /// Learns from all training events once, in random order, and measures on the validation events.
+    /// Learns from the next training events of an endless sequence, in which all come once in random order before any comes
+    /// again, and measures on the validation events.
     ///
     /// # Errors
     /// [`TrainingError`].
-    pub fn epoch(
+    pub fn round(
         &mut self,
         training: &[N::Sample],
         validation: &[N::Sample],
-    ) -> core::result::Result<&Epoch, TrainingError> {
+    ) -> core::result::Result<&Round, TrainingError> {
         for (name, samples) in [("training", training), ("validation", validation)] {
             if samples.is_empty() {
                 return Err(TrainingError::NoEvents(name));
             }
         }
-        let number = self.epochs.len() + 1;
-        let mut random = random::stream(self.seed, Purpose::Training, number as u64);
-        let mut order: Vec<&N::Sample> = training.iter().collect();
-        order.shuffle(&mut random);
+        let number = self.rounds.len() + 1;
+        let mut random = order::random_of_round(self.seed, number);
+        let order = order::samples(training, self.seed, number, self.settings.round.max(1));
         let parameters = self.network.parameters();
         let mut learnt = Mean::default();
         for batch in order.chunks(self.settings.batch.max(1)) {
@@ -138,15 +148,15 @@ impl<N: Network> Run<N> {
             return Err(TrainingError::Apart(number));
         }
         let short = N::shortcoming(&validation);
-        let best = self.best_epoch().is_none_or(|epoch| short < N::shortcoming(&epoch.validation));
+        let best = self.best_round().is_none_or(|round| short < N::shortcoming(&round.validation));
         if best {
             self.best = Some(parameters::numbers(&parameters)?);
         }
-        self.epochs.push(Epoch { number, training, validation, best });
-        self.epochs.last().ok_or(TrainingError::NoEvents("training"))
+        self.rounds.push(Round { number, training, validation, best });
+        self.rounds.last().ok_or(TrainingError::NoEvents("training"))
     }
 
-    /// The network with the weights of its best epoch, or its first ones.
+    /// The network with the weights of its best round, or its first ones.
     ///
     /// # Errors
     /// If they cannot be put back.

@@ -16,7 +16,7 @@ use phase_baselines::{
 use phase_model::random::Pcg64Mcg;
 
 const QUICK: Settings =
-    Settings { batch: 4, learning_rate: 4e-3, longest_slope: 10.0, patience: 100, epochs: 250 };
+    Settings { batch: 4, learning_rate: 4e-3, longest_slope: 10.0, round: 8, patience: 100, rounds: 400 };
 
 fn lstm(random: &mut Pcg64Mcg) -> TwoLevelLstm {
     TwoLevelLstm::new(16, random).expect("a network")
@@ -57,14 +57,14 @@ fn learns_by_heart<N: Network>(
 ) {
     let mut run = run(new, 1, QUICK);
     while !run.is_finished() {
-        let validation = run.epoch(events, events).expect("an epoch").validation.clone();
-        if learnt(&run.epochs()[0].validation, &validation) {
+        let validation = run.round(events, events).expect("a round").validation.clone();
+        if learnt(&run.rounds()[0].validation, &validation) {
             break;
         }
     }
     // One more may be worse.
-    run.epoch(events, events).expect("an epoch");
-    let (first, best) = (run.epochs()[0].validation.clone(), run.best_epoch().expect("a best one").clone());
+    run.round(events, events).expect("a round");
+    let (first, best) = (run.rounds()[0].validation.clone(), run.best_round().expect("a best one").clone());
     assert!(learnt(&first, &best.validation), "{}: {first:?} {best:?}", N::NAME);
     // What is kept is what was best, whatever came after it.
     let again = measure(&run.into_best().expect("a network"), events, QUICK.batch).expect("a measure");
@@ -72,29 +72,29 @@ fn learns_by_heart<N: Network>(
 }
 
 fn goes_on_as_if_nothing_had_happened<N: Network>(new: fn(&mut Pcg64Mcg) -> N, events: &[N::Sample]) {
-    let settings = Settings { epochs: 4, ..QUICK };
-    let epochs = |run: &mut Run<N>, last: usize| {
-        while run.epochs().len() < last {
-            run.epoch(events, events).expect("an epoch");
+    let settings = Settings { rounds: 4, ..QUICK };
+    let rounds = |run: &mut Run<N>, last: usize| {
+        while run.rounds().len() < last {
+            run.round(events, events).expect("a round");
         }
     };
     let mut straight = run(new, 1, settings);
     let mut stopped = run(new, 1, settings);
-    epochs(&mut stopped, 2);
+    rounds(&mut stopped, 2);
     let kept = stopped.checkpoint("data").expect("a checkpoint");
     let mut later = run(new, 1, settings);
     later.resume(&kept, "data").expect("the same training");
     assert_eq!(later.checkpoint("data").expect("a checkpoint"), kept);
-    epochs(&mut straight, 4);
-    epochs(&mut later, 4);
+    rounds(&mut straight, 4);
+    rounds(&mut later, 4);
     assert!(straight.is_finished());
-    assert_eq!(straight.epochs(), later.epochs());
+    assert_eq!(straight.rounds(), later.rounds());
     let bytes = |run: Run<N>| to_safetensors(&run.into_best().expect("a network")).expect("a file");
     let straight = bytes(straight);
     assert_eq!(straight, bytes(later));
     // Another seed is another training.
     let mut other = run(new, 2, settings);
-    epochs(&mut other, 1);
+    rounds(&mut other, 1);
     assert_ne!(straight, bytes(other));
     // And the file gives the network back.
     let read = from_safetensors(new(&mut random(9)), &straight).expect("a network");
@@ -137,9 +137,9 @@ fn training_stops_when_nothing_is_gained() {
     let events = labelled();
     let mut run = run(lstm, 1, Settings { learning_rate: 0.0, patience: 3, ..QUICK });
     while !run.is_finished() {
-        run.epoch(&events, &events).unwrap();
+        run.round(&events, &events).unwrap();
     }
-    assert_eq!(run.epochs().len(), 4);
+    assert_eq!(run.rounds().len(), 4);
 }
 
 #[test]
@@ -147,7 +147,7 @@ fn what_cannot_be_learnt_from_is_refused() {
     let events = labelled();
     let outcome = |training: &[LabelledEvent], validation: &[LabelledEvent], learning_rate| {
         let mut run = run(lstm, 1, Settings { learning_rate, ..QUICK });
-        run.epoch(training, validation).map(|_| ()).unwrap_err()
+        run.round(training, validation).map(|_| ()).unwrap_err()
     };
     assert!(matches!(outcome(&[], &events, 0.1), TrainingError::NoEvents("training")));
     assert!(matches!(outcome(&events, &[], 0.1), TrainingError::NoEvents("validation")));
@@ -161,7 +161,7 @@ fn files_of_others_are_refused() {
     let resumed = |seed, settings, data| run(lstm, seed, settings).resume(&kept, data).unwrap_err();
     assert_eq!(resumed(2, QUICK, "data"), CheckpointError::Other("seed"));
     assert_eq!(resumed(1, Settings { batch: 5, ..QUICK }, "data"), CheckpointError::Other("settings"));
-    assert_eq!(resumed(1, QUICK, "others"), CheckpointError::Other("dataset"));
+    assert_eq!(resumed(1, QUICK, "others"), CheckpointError::Other("data"));
     assert_eq!(run(arg, 1, QUICK).resume(&kept, "data").unwrap_err(), CheckpointError::Other("network"));
     let weights = to_safetensors(&lstm(&mut random(0))).unwrap();
     for length in [0, 1, 8, 100, weights.len() - 1] {

@@ -5,4 +5,6 @@ mod goals;
 mod learning;
 mod lstm;
 mod masks;
+mod record;
+mod rounds;
 mod support;

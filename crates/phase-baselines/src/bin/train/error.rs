@@ -3,7 +3,7 @@
 use phase_baselines::{
     recognition::LabelError,
     strength,
-    training::{CheckpointError, TensorsError, TrainingError},
+    training::{CheckpointError, RecordError, TensorsError, TrainingError},
 };
 use phase_dataset::{FileError, WriteError};
 use phase_model::ObservedError;
@@ -27,6 +27,16 @@ pub(crate) enum TrainError {
         folder: PathBuf,
         /// What it lacks.
         split: &'static str,
+    },
+    /// The dataset has fewer events to learn from than are asked for.
+    #[error("{}: has {found} train events, fewer than the {asked} of --events", folder.display())]
+    TooFewEvents {
+        /// The dataset.
+        folder: PathBuf,
+        /// How many are asked for.
+        asked: usize,
+        /// How many it has.
+        found: usize,
     },
     /// A file does not hold the event it should.
     #[error("{}: has no event {id:?}", file.display())]
@@ -63,6 +73,16 @@ pub(crate) enum TrainError {
         /// Why.
         source: CheckpointError,
     },
+    /// The record of a training that was broken off cannot be used.
+    #[error("{}: {source}; remove {} to begin anew", file.display(), checkpoint.display())]
+    Record {
+        /// The file.
+        file: PathBuf,
+        /// What the training would go on from.
+        checkpoint: PathBuf,
+        /// Why.
+        source: RecordError,
+    },
     /// No strengths could be learnt.
     #[error(transparent)]
     Strength(#[from] strength::TrainingError),
@@ -84,10 +104,12 @@ impl TrainError {
             Self::File(_)
             | Self::NotADataset(_)
             | Self::NoEvents { .. }
+            | Self::TooFewEvents { .. }
             | Self::UnknownId { .. }
             | Self::Observed { .. }
             | Self::Label { .. }
             | Self::Checkpoint { .. }
+            | Self::Record { .. }
             | Self::Output(_) => 2,
             Self::Strength(_) | Self::Training(_) | Self::Tensors(_) | Self::Weights(_) => 1,
         }

@@ -9,6 +9,7 @@
 mod error;
 mod events;
 mod forecasting;
+mod kept;
 mod network;
 mod recognition;
 mod strength;
@@ -35,13 +36,13 @@ enum Command {
     /// SIMPLE's guess at the agents' strengths
     Strength(Options),
     /// 2-Level LSTM, a baseline for goals and relations
-    TwoLevelLstm(Options),
+    TwoLevelLstm(NetworkOptions),
     /// Actor relation graph, a baseline for goals and relations
-    Arg(Options),
+    Arg(NetworkOptions),
     /// Social-LSTM, a baseline for trajectories
-    SocialLstm(Options),
+    SocialLstm(NetworkOptions),
     /// Spatial-temporal graph attention, a baseline for trajectories
-    Stgat(Options),
+    Stgat(NetworkOptions),
 }
 
 /// On what, and where to.
@@ -50,6 +51,12 @@ struct Options {
     /// Folder of a finished dataset that is divided into train, validation and test
     #[arg(long, value_name = "DIR")]
     data: PathBuf,
+    /// Learn from the first N training events only
+    #[arg(long, value_name = "N", value_parser = at_least_one)]
+    events: Option<usize>,
+    /// Folder of the dataset to validate on, and to test with; by default the one to learn from
+    #[arg(long, value_name = "DIR")]
+    validation: Option<PathBuf>,
     /// File for the weights (safetensors)
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
@@ -59,6 +66,21 @@ struct Options {
     /// Also measure what was learnt on the test events, once, at the end
     #[arg(long)]
     test: bool,
+}
+
+/// The same, and how long.
+#[derive(Args, Debug)]
+struct NetworkOptions {
+    #[command(flatten)]
+    options: Options,
+    /// Rounds of learning at most
+    #[arg(long, value_name = "N", value_parser = at_least_one)]
+    rounds: Option<usize>,
+}
+
+/// A number of events or rounds.
+fn at_least_one(text: &str) -> Result<usize, String> {
+    text.parse().ok().filter(|number| *number > 0).ok_or_else(|| "must be a whole number above 0".into())
 }
 
 fn main() -> ExitCode {

@@ -1,6 +1,6 @@
 //! `strength`: trains SIMPLE's guess at the agents' strengths and says how good it is.
 
-use crate::{Options, error::TrainError, events::Dataset, remark, tell};
+use crate::{Options, error::TrainError, events::Events, remark, tell};
 use phase_baselines::strength::{Motion, Sample, Score, Settings, commonest, score, train};
 use phase_dataset::{atomic::AtomicFile, splits::Split};
 use phase_model::Strength;
@@ -12,11 +12,11 @@ use std::io::Write;
 /// # Errors
 /// If the dataset cannot be used, nothing can be learnt or the file cannot be written.
 pub(crate) fn run(options: &Options) -> Result<(), TrainError> {
-    let dataset = Dataset::open(&options.data)?;
+    let events = Events::open(options)?;
     // Where nothing can be written is to be known before the work.
     let mut file = AtomicFile::create(&options.out)?;
-    let training = motions(&dataset, Split::Train)?;
-    let validation = motions(&dataset, Split::Validation)?;
+    let training = motions(&events, Split::Train)?;
+    let validation = motions(&events, Split::Validation)?;
     remark("epoch  train  validation: whole  windows  together (RMSE in N)");
     let regressor = train(&training, &validation, options.seed, &Settings::default(), &mut |epoch| {
         remark(format!(
@@ -40,14 +40,14 @@ pub(crate) fn run(options: &Options) -> Result<(), TrainError> {
     report(&regressor, Split::Train, &training, guess);
     report(&regressor, Split::Validation, &validation, guess);
     if options.test {
-        report(&regressor, Split::Test, &motions(&dataset, Split::Test)?, guess);
+        report(&regressor, Split::Test, &motions(&events, Split::Test)?, guess);
     }
     Ok(())
 }
 
-fn motions(dataset: &Dataset, split: Split) -> Result<Vec<Motion>, TrainError> {
+fn motions(events: &Events, split: Split) -> Result<Vec<Motion>, TrainError> {
     let mut motions = Vec::new();
-    for recording in dataset.events(split)? {
+    for recording in events.of(split)? {
         let recording = recording?;
         let observed = recording
             .observed()
