@@ -13,7 +13,7 @@
 //! the same weights, bit for bit, and a training that was broken off goes on as if it had not been. The price is that the
 //! optimiser and the LSTM are our own, and that the promise ends where processors have different instructions for
 //! multiplying matrices. Those of the strengths are small enough for one thread; those of the baselines take as many as
-//! `RAYON_NUM_THREADS` says, and whether that changes a digit has not been measured.
+//! `RAYON_NUM_THREADS` says; one and two gave the same weights (`docs/networks.md`).
 //!
 //! Nothing here reads a file, looks at a clock or prints; the program `train` beside it does. No other crate of the
 //! library uses this one: the library for neural networks takes long to build.

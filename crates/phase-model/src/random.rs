@@ -25,7 +25,7 @@ pub enum Purpose {
     Evaluation = 8,
     /// Resampling events for an interval.
     Bootstrap = 9,
-    /// First weights of a network (index 0) and what each epoch of its training draws (the epoch, from 1).
+    /// First weights of a network (index 0) and what its training draws (by epoch, or by round and pass, from 1).
     Training = 10,
 }
 
