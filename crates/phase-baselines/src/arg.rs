@@ -158,6 +158,7 @@ impl Network for Arg {
 
 impl Published for Arg {
     const SHIPPED: &'static [u8] = include_bytes!("../../../data/arg.safetensors");
+    const RECORD: &'static str = include_str!("../../../data/arg.safetensors.training.json");
 
     /// How many graphs there are the paper does not say; we have four.
     fn published(random: &mut Pcg64Mcg) -> Result<Self> {

@@ -94,6 +94,7 @@ impl Network for SocialLstm {
 
 impl Published for SocialLstm {
     const SHIPPED: &'static [u8] = include_bytes!("../../../data/social-lstm.safetensors");
+    const RECORD: &'static str = include_str!("../../../data/social-lstm.safetensors.training.json");
 
     /// How many numbers the paper does not say; it is as many as the other networks have.
     fn published(random: &mut Pcg64Mcg) -> Result<Self> {

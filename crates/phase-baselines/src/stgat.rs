@@ -180,6 +180,7 @@ impl Network for Stgat {
 
 impl Published for Stgat {
     const SHIPPED: &'static [u8] = include_bytes!("../../../data/stgat.safetensors");
+    const RECORD: &'static str = include_str!("../../../data/stgat.safetensors.training.json");
 
     /// How many numbers and heads the paper does not say; of numbers it is as many as the other networks have.
     fn published(random: &mut Pcg64Mcg) -> Result<Self> {

@@ -80,6 +80,7 @@ impl Network for TwoLevelLstm {
 
 impl Published for TwoLevelLstm {
     const SHIPPED: &'static [u8] = include_bytes!("../../../data/two-level-lstm.safetensors");
+    const RECORD: &'static str = include_str!("../../../data/two-level-lstm.safetensors.training.json");
 
     fn published(random: &mut Pcg64Mcg) -> Result<Self> {
         Self::new(64, random)

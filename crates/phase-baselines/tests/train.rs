@@ -12,7 +12,7 @@ const NETWORKS: [&str; 4] = ["two-level-lstm", "arg", "social-lstm", "stgat"];
 /// One of them, for what is the same for all.
 const NETWORK: &str = "two-level-lstm";
 /// Rounds that a training goes on for.
-const ROUNDS: &str = "2";
+const ROUNDS: &str = "3";
 
 /// Exit code and what stands on stderr.
 fn train(arguments: &[&str]) -> (Option<i32>, String) {

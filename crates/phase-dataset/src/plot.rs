@@ -84,10 +84,12 @@ impl<'a> Axis<'a> {
     fn marks(&self) -> Vec<f64> {
         match self.scale {
             Scale::Linear { to } => (0..=MARKS).map(|k| to * k as f64 / MARKS as f64).collect(),
-            Scale::Doubling { from, to } => {
-                let doublings = if from > 0.0 && to >= from { libm::log2(to / from).min(16.0) } else { 0.0 };
-                (0..=doublings as u32).map(|k| from * f64::from(1_u32 << k)).collect()
+            // Between what is no number above 0 there is nothing to write.
+            Scale::Doubling { from, to } if from > 0.0 && to >= from => {
+                let doublings = libm::log2(to / from).min(16.0) as u32;
+                (0..=doublings).map(|k| from * f64::from(1_u32 << k)).collect()
             }
+            Scale::Doubling { .. } => Vec::new(),
         }
     }
 }

@@ -8,6 +8,8 @@ use phase_model::random::Pcg64Mcg;
 pub trait Published: Network + Sized {
     /// What `cargo train` learnt; `docs/networks.md` says from what.
     const SHIPPED: &'static [u8];
+    /// The [`Record`](super::Record) of that training, as a file.
+    const RECORD: &'static str;
 
     /// The network with 64 numbers in every layer; it knows nothing yet.
     ///

@@ -65,7 +65,7 @@ pub fn training(name: &str) -> Result<Option<Training>, CliError> {
         "stgat" => Stgat::RECORD,
         _ => return Ok(None),
     };
-    record_of(Path::new(&format!("data/{name}.training.json")), record.as_bytes()).map(Some)
+    record_of(Path::new(&format!("data/{name}.safetensors.training.json")), record.as_bytes()).map(Some)
 }
 
 /// How the weights of a file came about, as the record beside it says.
