@@ -132,6 +132,10 @@ impl Familiarity {
     pub const ALL: [Self; 4] =
         [Self::SeenLayout, Self::UnseenLayout, Self::SeenInteraction, Self::UnseenInteraction];
 
+    /// What is like and what is unlike, layouts and interactions apart.
+    pub const PAIRS: [[Self; 2]; 2] =
+        [[Self::SeenLayout, Self::UnseenLayout], [Self::SeenInteraction, Self::UnseenInteraction]];
+
     /// In words.
     #[must_use]
     pub const fn words(self) -> &'static str {

@@ -96,12 +96,7 @@ fn rows_stand_where_they_belong() {
         place(&ours("stgat (ours)", "4.00", "1.5 CPU min on 320 events")),
         place(&ours("mine (predictions)", "3.00", "–")),
         place("| method | ADE, seen layouts (2) | FDE, seen layouts (2) | ADE, unseen layouts (0) |"),
-        place(&format!(
-            "| mine (predictions) | {} | {} | – | – | – | – | {} |",
-            error("3.00"),
-            error("3.00"),
-            error("3.00")
-        )),
+        place(&format!("| mine (predictions) | {0} | {0} | – | – |", error("3.00"))),
         place("| stgat | 171658 | phase-training, seed 1 | 320 | 2 | 1 | 1.5 |"),
         place("(training-stgat.svg)"),
         place(&format!(

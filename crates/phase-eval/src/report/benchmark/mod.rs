@@ -51,15 +51,14 @@ pub fn benchmark(benchmark: &Benchmark) -> Document {
          others. Of methods that learn nothing the difference says how hard these events are."
             .into(),
     ));
-    blocks.push(tables::goal_parts(benchmark));
-    blocks.push(tables::trajectory_parts(benchmark));
+    blocks.extend(tables::parts(benchmark));
     blocks.extend(training::blocks(benchmark));
     blocks.extend(growth::blocks(benchmark));
     Document { title: "The PHASE benchmark".into(), blocks }
 }
 
 fn introduction(benchmark: &Benchmark) -> String {
-    let sets = benchmark.sets.iter().map(|set| format!("{} ({} events)", set.name, set.events));
+    let sets = benchmark.sets.iter().map(|set| format!("{} ({})", set.name, set.events));
     format!(
         "{}, seed {}. Measured on {}. CPU time is that of one thread.",
         benchmark.generator,

@@ -126,37 +126,46 @@ fn trajectory_row(benchmark: &Benchmark, row: &Row<trajectories::Summary>) -> Ve
         .collect()
 }
 
-/// Goals and relations of events like and unlike those learnt from.
-pub(super) fn goal_parts(benchmark: &Benchmark) -> Block {
-    parts(&benchmark.goals, ["goal top-1", "relation"], |summary| {
-        (summary.all.n, [share(&summary.all.top1), share(&summary.all.relation)])
-    })
+/// How methods do on events like and unlike those learnt from, task by task, in one way after the other.
+pub(super) fn parts(benchmark: &Benchmark) -> Vec<Block> {
+    let mut blocks = Vec::new();
+    for pair in Familiarity::PAIRS {
+        blocks.extend(part_table(&benchmark.goals, pair, ["goal top-1", "relation"], |summary| {
+            (summary.all.n, [share(&summary.all.top1), share(&summary.all.relation)])
+        }));
+        blocks.extend(part_table(&benchmark.trajectories, pair, ["ADE", "FDE"], |summary| {
+            (summary.all.n, [length(&summary.all.ade), length(&summary.all.fde)])
+        }));
+    }
+    blocks
 }
 
-/// Trajectories of events like and unlike those learnt from.
-pub(super) fn trajectory_parts(benchmark: &Benchmark) -> Block {
-    parts(&benchmark.trajectories, ["ADE", "FDE"], |summary| {
-        (summary.all.n, [length(&summary.all.ade), length(&summary.all.fde)])
-    })
-}
-
-fn parts<S>(rows: &[Row<S>], columns: [&str; 2], cells: impl Fn(&S) -> (usize, [String; 2])) -> Block {
-    let known = rows.iter().filter(|row| row.origin != Origin::Trained && !row.parts.is_empty());
-    let of_row = |row: &Row<S>| -> Vec<String> {
-        let part = |familiarity: Familiarity| -> [String; 2] {
-            let part = row.parts.iter().find(|part| part.familiarity == familiarity);
-            part.map_or_else(|| [NOTHING; 2].map(Into::into), |part| cells(&part.summary).1)
-        };
-        [name(row)].into_iter().chain(Familiarity::ALL.into_iter().flat_map(part)).collect()
+fn part_table<S>(
+    rows: &[Row<S>],
+    pair: [Familiarity; 2],
+    columns: [&str; 2],
+    cells: impl Fn(&S) -> (usize, [String; 2]),
+) -> Option<Block> {
+    let part = |row: &Row<S>, familiarity: Familiarity| {
+        let part = row.parts.iter().find(|part| part.familiarity == familiarity);
+        part.map(|part| cells(&part.summary))
     };
-    let counts = rows.iter().find(|row| !row.parts.is_empty()).map_or(&[][..], |row| &row.parts);
+    let shown = |row: &&Row<S>| {
+        row.origin != Origin::Trained && pair.iter().any(|&familiarity| part(row, familiarity).is_some())
+    };
+    let line = |row: &Row<S>| -> Vec<String> {
+        let cells =
+            |familiarity| part(row, familiarity).map_or_else(|| [NOTHING; 2].map(Into::into), |it| it.1);
+        [name(row)].into_iter().chain(pair.into_iter().flat_map(cells)).collect()
+    };
+    let lines: Vec<Vec<String>> = rows.iter().filter(shown).map(line).collect();
+    let first = rows.iter().find(shown)?;
     let column = |familiarity: Familiarity| {
-        let count = counts.iter().find(|part| part.familiarity == familiarity);
-        let count = count.map_or(0, |part| cells(&part.summary).0);
+        let count = part(first, familiarity).map_or(0, |it| it.0);
         columns.map(|column| format!("{column}, {} ({count})", familiarity.words()))
     };
-    let head = ["method".to_owned()].into_iter().chain(Familiarity::ALL.into_iter().flat_map(column));
-    Block::Table { head: head.collect(), rows: known.map(of_row).collect() }
+    let head = ["method".to_owned()].into_iter().chain(pair.into_iter().flat_map(column)).collect();
+    Some(Block::Table { head, rows: lines })
 }
 
 fn name<S>(row: &Row<S>) -> String {
