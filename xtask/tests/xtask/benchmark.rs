@@ -21,7 +21,7 @@ const PRESET: &str = r#"{
 const PLAIN: &str = "chance,cue,still,constant-velocity";
 
 /// A folder with the dataset `tiny` and the recordings `events.json`.
-fn folder() -> tempfile::TempDir {
+pub(crate) fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path();
     fs::write(path.join("tiny.json"), PRESET).expect("written");
@@ -31,12 +31,12 @@ fn folder() -> tempfile::TempDir {
     folder
 }
 
-fn figures(path: &Path) -> Value {
+pub(crate) fn figures(path: &Path) -> Value {
     serde_json::from_slice(&fs::read(path).expect("a benchmark")).expect("JSON")
 }
 
 /// The rows of a method, and what is found in each.
-fn found<'a>(figures: &'a Value, task: &str, method: &str, what: &str) -> Vec<&'a Value> {
+pub(crate) fn found<'a>(figures: &'a Value, task: &str, method: &str, what: &str) -> Vec<&'a Value> {
     let rows = figures[task].as_array().expect("rows").iter();
     rows.filter(|row| row["method"] == method).map(|row| row.pointer(what).expect("a figure")).collect()
 }

@@ -1,11 +1,15 @@
 //! `eval` with the neural baselines, in a program that has them and in one that has not.
 
+#[cfg(feature = "networks")]
+use crate::{
+    benchmark::{figures, folder, found},
+    eval::results,
+    support::succeed,
+};
 use crate::{
     eval::moving,
     support::{refuse, write_events},
 };
-#[cfg(feature = "networks")]
-use crate::{eval::results, support::succeed};
 use serde_json::Value;
 use std::{fs, path::Path};
 
@@ -72,6 +76,48 @@ fn answers_do_not_depend_on_threads() {
     }
 }
 
+/// The weights that come with the program.
+#[cfg(feature = "networks")]
+fn shipped(name: &str) -> String {
+    let data = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("a workspace").join("data");
+    data.join(format!("{name}.safetensors")).to_string_lossy().into_owned()
+}
+
+/// Weights from a file do what the same weights from the program do, and both have learnt alike.
+#[cfg(feature = "networks")]
+#[test]
+fn networks_in_the_benchmark() {
+    let folder = folder();
+    let path = folder.path();
+    let [arg, stgat] = ["arg", "stgat"].map(|name| {
+        let copy = path.join(format!("copy-of-{name}.safetensors"));
+        fs::copy(shipped(name), &copy).expect("copied");
+        copy.to_string_lossy().into_owned()
+    });
+    let arguments = ["benchmark", "--data", "tiny", "--methods", "arg,stgat", "--trained", &arg, &stgat];
+    let sentence = refuse(path, &arguments);
+    assert!(sentence.contains("copy-of-arg.safetensors.training.json: cannot be read"), "{sentence}");
+    for (name, copy) in [("arg", &arg), ("stgat", &stgat)] {
+        fs::copy(format!("{}.training.json", shipped(name)), format!("{copy}.training.json"))
+            .expect("copied");
+    }
+    succeed(path, &arguments);
+    let figures = figures(&path.join("out/benchmark/benchmark.json"));
+    for (task, name, what) in [
+        ("goals", "arg", "/summary/all"),
+        ("trajectories", "stgat", "/summary/all"),
+        ("goals", "arg", "/training"),
+    ] {
+        let copies = found(&figures, task, &format!("copy-of-{name}"), what);
+        assert_eq!((found(&figures, task, name, what), copies.len()), (copies, 1), "{name} {what}");
+    }
+    assert_eq!(figures["trainings"].as_array().map(Vec::len), Some(2));
+    assert_eq!(figures["trainings"][0]["events"], 320);
+    fs::write(format!("{arg}.training.json"), "{\"format\": \"phase-training/1\"}").expect("written");
+    let sentence = refuse(path, &arguments);
+    assert!(sentence.contains("training.json: is no record of a training: missing field"), "{sentence}");
+}
+
 #[cfg(feature = "networks")]
 #[test]
 fn weights_of_ones_own() {
@@ -79,10 +125,6 @@ fn weights_of_ones_own() {
     let path = folder.path();
     events_of(path);
     fs::write(path.join("rubbish"), "rubbish").expect("written");
-    let shipped = |name: &str| {
-        let data = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("a workspace").join("data");
-        data.join(format!("{name}.safetensors")).to_string_lossy().into_owned()
-    };
     for (task, name) in NETWORKS {
         let with = |weights: &str| {
             let options = ["--events", "events.json", "--weights", weights, "--out", name];

@@ -88,11 +88,8 @@ pub const fn or_elsewhere(_: &str) -> Result<(), CliError> {
 }
 
 fn record_of(file: &Path, bytes: &[u8]) -> Result<Training, CliError> {
-    let fail = |rule: String| {
-        let problem = Problem::Shape { what: "record of a training", rule };
-        CliError::File(FileError { file: file.to_owned(), problem })
-    };
-    let record = Record::parse(bytes).map_err(|error| fail(error.to_string()))?;
+    let record =
+        Record::parse(bytes).map_err(|error| CliError::Usage(format!("{}: {error}", file.display())))?;
     let measures = record.rounds.first().map(|round| round.validation.scores.keys().cloned().collect());
     let curve = |measure: String| Curve {
         training: values(&record, &measure, |round| &round.training),
