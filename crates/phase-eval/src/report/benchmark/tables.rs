@@ -25,12 +25,9 @@ const NOTHING: &str = "–";
 pub(super) fn goals(benchmark: &Benchmark) -> Block {
     let in_ablation = |method: &str| ABLATION.iter().any(|(name, _)| *name == method);
     let in_table = |method: &str| TABLE_1.iter().any(|(name, _)| *name == method);
-    let others = |row: &&Row<goals::Summary>| {
-        row.origin != Origin::Trained && !in_table(&row.method) && !in_ablation(&row.method)
-    };
     let rows = TABLE_1.iter().flat_map(|names| goal_rows(benchmark, names));
-    let others = benchmark.goals.iter().filter(others).map(|row| goal_row(benchmark, row));
-    goal_table(rows.chain(others).collect())
+    let others = others(&benchmark.goals, |method| in_table(method) || in_ablation(method));
+    goal_table(rows.chain(others.into_iter().map(|row| goal_row(benchmark, row))).collect())
 }
 
 /// The ablation: SIMPLE and what is left of it with one part or two taken out.
@@ -92,9 +89,8 @@ pub(super) fn trajectories(benchmark: &Benchmark) -> Block {
         let ours = ours.filter(|row| row.origin == Origin::Ours && row.method == names.0);
         theirs.chain(ours.map(|row| trajectory_row(benchmark, row))).collect()
     };
-    let others = benchmark.trajectories.iter();
-    let others = others.filter(|row| row.origin != Origin::Trained && !in_table(&row.method));
-    let others = others.map(|row| trajectory_row(benchmark, row));
+    let others = others(&benchmark.trajectories, in_table);
+    let others = others.into_iter().map(|row| trajectory_row(benchmark, row));
     let columns = [
         "method",
         "events",
@@ -168,6 +164,15 @@ fn part_table<S>(
     Some(Block::Table { head, rows: lines })
 }
 
+/// Methods that stand for themselves: nobody's published row is above them.
+fn others<S>(rows: &[Row<S>], has_place: impl Fn(&str) -> bool) -> Vec<&Row<S>> {
+    let placed = |row: &Row<S>| row.origin == Origin::Ours && has_place(&row.method);
+    let mut others: Vec<&Row<S>> =
+        rows.iter().filter(|row| row.origin != Origin::Trained && !placed(row)).collect();
+    others.sort_by(|a, b| (&a.method, a.set).cmp(&(&b.method, b.set)));
+    others
+}
+
 fn name<S>(row: &Row<S>) -> String {
     match row.origin {
         Origin::Ours => format!("{} (ours)", row.method),
@@ -182,6 +187,7 @@ fn events(benchmark: &Benchmark, set: usize, count: usize) -> String {
 
 fn seconds(seconds: Option<f64>) -> String {
     match seconds {
+        Some(seconds) if seconds < 0.0005 => "below 0.001".into(),
         Some(seconds) if seconds < 0.1 => format!("{seconds:.3}"),
         Some(seconds) => format!("{seconds:.1}"),
         None => NOTHING.into(),
