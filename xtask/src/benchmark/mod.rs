@@ -1,6 +1,6 @@
 //! `benchmark`: every method at both tasks, beside what is published, in one report.
 //!
-//! [`plan`] says who takes part, [`mod@rows`] has each of them evaluated, exactly as `eval` would, and what comes of it goes
+//! [`plan`] says who takes part, `rows` has each of them evaluated, exactly as `eval` would, and what comes of it goes
 //! into one report. Evaluations stay in their folders, so a benchmark can be broken off, and goes on where it was.
 
 pub mod options;
