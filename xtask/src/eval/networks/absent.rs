@@ -1,4 +1,4 @@
-//! What is said of networks by a program that was built without them.
+//! What a program does about networks that was built without them: it goes on in one that has them.
 
 use crate::{console::remark, error::CliError};
 use phase_eval::{Forecaster, Recogniser, benchmark::Training};
@@ -7,23 +7,23 @@ use std::{path::Path, process::Command};
 /// Nothing, unless the name is that of a network for goals and relations.
 ///
 /// # Errors
-/// For a network: that this program has none.
+/// For a network: as [`or_elsewhere`].
 pub fn recogniser(name: &str, _: Option<&Path>) -> Result<Option<Box<dyn Recogniser>>, CliError> {
-    if matches!(name, "two-level-lstm" | "arg") { Err(elsewhere(name, "goals")) } else { Ok(None) }
+    if matches!(name, "two-level-lstm" | "arg") {
+        or_elsewhere(&format!("eval goals --method {name}"))?;
+    }
+    Ok(None)
 }
 
 /// Nothing, unless the name is that of a network for trajectories.
 ///
 /// # Errors
-/// For a network: that this program has none.
+/// For a network: as [`or_elsewhere`].
 pub fn forecaster(name: &str, _: Option<&Path>) -> Result<Option<Box<dyn Forecaster>>, CliError> {
-    if matches!(name, "social-lstm" | "stgat") { Err(elsewhere(name, "trajectories")) } else { Ok(None) }
-}
-
-fn elsewhere(name: &str, task: &str) -> CliError {
-    CliError::Usage(format!(
-        "--method: {name} is a neural network, which this program was built without; use `cargo xtask-networks eval {task} --method {name} …`"
-    ))
+    if matches!(name, "social-lstm" | "stgat") {
+        or_elsewhere(&format!("eval trajectories --method {name}"))?;
+    }
+    Ok(None)
 }
 
 /// Nothing: no method of this program has learnt anything that the benchmark counts.
@@ -49,7 +49,7 @@ pub fn training_of(file: &Path) -> Result<Training, CliError> {
 /// there are two.
 ///
 /// # Errors
-/// If there is no cargo to build it with, or no way to go on in another program.
+/// If there is no cargo to build it with, or no way to go on in another program: how else to get there.
 pub fn or_elsewhere(command: &str) -> Result<(), CliError> {
     let instead = || {
         CliError::Usage(format!(

@@ -1,7 +1,7 @@
 //! The neural baselines as methods to be measured.
 //!
-//! Their library takes minutes to build, so they are there only in `cargo xtask-networks`; everywhere else their
-//! names are known, and the answer is how to get them.
+//! Their library takes minutes to build, so they are there only in a build with the feature `networks`, which is
+//! `cargo xtask-networks`; every other build knows their names and goes on there when one is asked for.
 
 #[cfg(not(feature = "networks"))]
 mod absent;
