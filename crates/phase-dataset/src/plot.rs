@@ -106,6 +106,9 @@ pub struct Series<'a> {
 /// Measures of a drawing with two axes (px): of the field between the axes, and of what is left, below and above it.
 const FIELD: (f64, f64) = (480.0, 320.0);
 const MARGIN: f64 = 64.0;
+/// Room for the names of lines beside the field (px): at least, and for each letter.
+const LEAST_NAMES: f64 = 100.0;
+const LETTER: f64 = 7.0;
 /// Colours of lines, which are told apart by people who see few colours too.
 const COLOURS: [&str; 7] = ["#4477aa", "#cc6677", "#888888", "#228833", "#aa3377", "#66ccee", "#ccbb44"];
 /// Marks along an axis, beside that at 0.
@@ -115,7 +118,9 @@ const MARKS: usize = 5;
 /// beyond an axis are drawn at its end.
 #[must_use]
 pub fn curves(title: &str, [x_axis, y_axis]: [Axis<'_>; 2], series: &[Series<'_>]) -> String {
-    let (width, height) = (FIELD.0 + 2.0 * MARGIN + 100.0, FIELD.1 + 2.0 * MARGIN);
+    let longest = series.iter().map(|line| line.name.chars().count()).max().unwrap_or_default() as f64;
+    let names = f64::max(LEAST_NAMES, LETTER * longest);
+    let (width, height) = (FIELD.0 + 2.0 * MARGIN + names, FIELD.1 + 2.0 * MARGIN);
     let at =
         |(x, y): (f64, f64)| (MARGIN + FIELD.0 * x_axis.place(x), MARGIN + FIELD.1 * (1.0 - y_axis.place(y)));
     let (right, bottom, middle) = (MARGIN + FIELD.0, MARGIN + FIELD.1, MARGIN + FIELD.0 / 2.0);
