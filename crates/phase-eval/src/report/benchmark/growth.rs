@@ -119,7 +119,10 @@ fn plot<S>(
     let simple = simple.map(|row| of(&row.summary));
     lines.extend(simple.map(|value| ("simple".into(), vec![(least, value), (most, value)])));
     let highest = lines.iter().flat_map(|(_, line)| line).map(|(_, value)| value.ceil()).fold(top, f64::max);
-    let axes = [Axis::doubling("events learnt from", least, most), Axis::linear(title, highest)];
+    let axes = [
+        Axis::doubling("events learnt from", least, most),
+        Axis::linear(if top > 0.0 { "share right" } else { "u" }, highest),
+    ];
     let series: Vec<Series<'_>> =
         lines.iter().map(|(name, points)| Series { name, points: points.clone() }).collect();
     Some(Block::Plot { file, title: title.into(), svg: curves(title, axes, &series) })

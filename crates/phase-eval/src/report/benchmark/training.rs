@@ -2,7 +2,7 @@
 
 use super::Block;
 use crate::{
-    benchmark::{Benchmark, Curve, Training},
+    benchmark::{Benchmark, Curve, Origin, Training},
     report::document::head,
 };
 use phase_dataset::plot::{Axis, Series, curves};
@@ -21,15 +21,19 @@ pub(super) fn blocks(benchmark: &Benchmark) -> Vec<Block> {
         ),
         table(benchmark),
     ];
-    // One network of each kind: the plots of learning curves' points would be many.
-    let mut shown: Vec<&str> = Vec::new();
-    for training in &benchmark.trainings {
-        if let (false, Some(file)) = (shown.contains(&training.network.as_str()), file(&training.network)) {
-            shown.push(&training.network);
+    for (index, training) in benchmark.trainings.iter().enumerate() {
+        if let (true, Some(file)) = (is_ours(benchmark, index), file(&training.network)) {
             blocks.push(plot(training, file));
         }
     }
     blocks
+}
+
+/// Whether the weights are those that come with the program; the plots of all others would be many.
+fn is_ours(benchmark: &Benchmark, training: usize) -> bool {
+    let ours = |origin, index| origin == Origin::Ours && index == Some(training);
+    benchmark.goals.iter().any(|row| ours(row.origin, row.training))
+        || benchmark.trajectories.iter().any(|row| ours(row.origin, row.training))
 }
 
 fn table(benchmark: &Benchmark) -> Block {
