@@ -26,8 +26,8 @@ pub struct Whole {
     pub settings: Value,
     /// Whether events were selected.
     pub selected: bool,
-    /// Whether events have videos, as they have unless told otherwise.
-    #[serde(default = "with_videos", skip_serializing_if = "is_with_videos")]
+    /// Whether events have videos, as they have unless told otherwise; then nothing is written of it.
+    #[serde(default = "with_videos", skip_serializing_if = "Clone::clone")]
     pub videos: bool,
     /// The command that makes the whole.
     pub command: String,
@@ -35,11 +35,6 @@ pub struct Whole {
 
 const fn with_videos() -> bool {
     true
-}
-
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes fields so")]
-const fn is_with_videos(videos: &bool) -> bool {
-    *videos
 }
 
 /// One shard: the slots k − 1, k − 1 + n, k − 1 + 2 n … of the dataset.
