@@ -5,6 +5,7 @@ use phase_simple::{
     StrengthCue, StrengthRegressor,
     strength::{Dense, FEATURES, STRENGTH_FORMAT, Weights, WeightsError, features},
 };
+use phase_tensors::TensorsError;
 use proptest::prelude::*;
 
 /// Rows in which agent 1 has these velocities and everybody else rests.
@@ -176,12 +177,15 @@ fn files_of_another_kind_are_refused() {
         bytes[at..at + to.len()].copy_from_slice(to.as_bytes());
         StrengthRegressor::from_safetensors(&bytes).unwrap_err()
     };
-    assert_eq!(replaced(STRENGTH_FORMAT, "phase-strength/9"), WeightsError::Format);
-    assert_eq!(replaced("hidden2.bias", "hidden9.bias"), WeightsError::Missing("hidden2.bias".into()));
-    assert_eq!(replaced("F32", "I32"), WeightsError::Type(first_tensor(&bytes)));
+    assert_eq!(
+        replaced(STRENGTH_FORMAT, "phase-strength/9"),
+        TensorsError::Kind { field: "format", expected: STRENGTH_FORMAT.into() }.into()
+    );
+    assert_eq!(replaced("hidden2.bias", "hidden9.bias"), TensorsError::Missing("hidden2.bias".into()).into());
+    assert_eq!(replaced("F32", "I32"), TensorsError::Type(first_tensor(&bytes)).into());
     for length in [0, 7, 8, 20, bytes.len() - 1] {
         let error = StrengthRegressor::from_safetensors(&bytes[..length]).unwrap_err();
-        assert!(matches!(error, WeightsError::Container(_)), "{length}: {error}");
+        assert!(matches!(error, WeightsError::Tensors(TensorsError::Container(_))), "{length}: {error}");
     }
 }
 

@@ -4,7 +4,7 @@ use super::Workspace;
 use std::path::{Path, PathBuf};
 
 /// The crates from the ground floor up. A crate may use those before it, never those after it.
-pub const LAYERS: [&str; 18] = [
+pub const LAYERS: [&str; 19] = [
     "phase-model",
     "phase-world",
     "phase-forward",
@@ -20,6 +20,7 @@ pub const LAYERS: [&str; 18] = [
     "phase-sampler",
     "phase-dataset",
     "phase-render",
+    "phase-tensors",
     "phase-simple",
     "phase-baselines",
     "phase-eval",

@@ -1,11 +1,8 @@
 //! A training between two rounds, at rest.
 
-use super::{
-    Network, Round, Run, Settings, TensorsError,
-    adam::Adam,
-    tensors::{File, Named, write},
-};
+use super::{Network, NetworkError, Round, Run, Settings, adam::Adam};
 use crate::parameters::{self, Parameter};
+use phase_tensors::{NamedTensor, TensorFile, TensorsError, write};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -41,13 +38,19 @@ struct Said {
 pub enum CheckpointError {
     /// They are no checkpoint of this network.
     #[error(transparent)]
-    Tensors(#[from] TensorsError),
+    Network(#[from] NetworkError),
     /// They are a checkpoint whose text cannot be read.
     #[error("field `{FIELD}` cannot be read: {0}")]
     Text(String),
     /// They belong to another training.
     #[error("belongs to a training with another {0}")]
     Other(&'static str),
+}
+
+impl From<TensorsError> for CheckpointError {
+    fn from(error: TensorsError) -> Self {
+        Self::Network(error.into())
+    }
 }
 
 impl<N: Network> Run<N> {
@@ -64,13 +67,13 @@ impl<N: Network> Run<N> {
     /// If it cannot be read or laid out in a file.
     pub fn checkpoint(&self, data: &str) -> Result<Vec<u8>, CheckpointError> {
         let parameters = self.network.parameters();
-        let now = parameters::numbers(&parameters).map_err(TensorsError::from)?;
+        let now = parameters::numbers(&parameters).map_err(NetworkError::from)?;
         let mut tensors = Vec::new();
         let parts = [Some(&now), Some(&self.adam.first), Some(&self.adam.second), self.best.as_ref()];
         for (part, numbers) in PARTS.into_iter().zip(parts) {
             for ((name, variable), numbers) in parameters.iter().zip(numbers.into_iter().flatten()) {
                 let (name, shape) = (format!("{part}{name}"), variable.dims().into());
-                tensors.push(Named { name, shape, numbers: numbers.clone() });
+                tensors.push(NamedTensor { name, shape, numbers: numbers.clone() });
             }
         }
         let said = Said { of: self.checkpoint_of(data), steps: self.adam.steps, rounds: self.rounds.clone() };
@@ -83,7 +86,7 @@ impl<N: Network> Run<N> {
     /// # Errors
     /// [`CheckpointError`]; the run is then as it was.
     pub fn resume(&mut self, bytes: &[u8], data: &str) -> Result<(), CheckpointError> {
-        let file = File::open(bytes, FIELD)?;
+        let file = TensorFile::open(bytes, FIELD)?;
         let missing = || TensorsError::Kind { field: FIELD, expected: "a training's state".into() };
         let said = file.says().ok_or_else(missing)?;
         let said: Said =
@@ -103,7 +106,7 @@ impl<N: Network> Run<N> {
         let has_best = parameters.first().is_some_and(|(name, _)| file.has(&format!("{}{name}", PARTS[3])));
         let best = if has_best { Some(best?) } else { None };
         let (now, first, second) = (now?, first?, second?);
-        parameters::set_numbers(&parameters, &now).map_err(TensorsError::from)?;
+        parameters::set_numbers(&parameters, &now).map_err(NetworkError::from)?;
         self.adam = Adam { steps: said.steps, first, second };
         self.rounds = said.rounds;
         self.best = best;
@@ -111,7 +114,11 @@ impl<N: Network> Run<N> {
     }
 }
 
-fn part_of(file: &File<'_>, part: &str, parameters: &[Parameter]) -> Result<Vec<Vec<f32>>, TensorsError> {
+fn part_of(
+    file: &TensorFile<'_>,
+    part: &str,
+    parameters: &[Parameter],
+) -> Result<Vec<Vec<f32>>, TensorsError> {
     let numbers = |(name, variable): &Parameter| file.numbers(&format!("{part}{name}"), variable.dims());
     parameters.iter().map(numbers).collect()
 }

@@ -8,7 +8,6 @@ mod order;
 mod published;
 mod record;
 mod run;
-mod tensors;
 mod weights;
 
 pub use checkpoint::{Checkpoint, CheckpointError};
@@ -16,5 +15,4 @@ pub use network::{Loss, Network};
 pub use published::Published;
 pub use record::{Final, NamedMeasure, Record, RecordError, RecordedRound, Source};
 pub use run::{Measure, Round, Run, Settings, TrainingError, measure};
-pub use tensors::TensorsError;
-pub use weights::{from_safetensors, to_safetensors};
+pub use weights::{NetworkError, from_safetensors, to_safetensors};

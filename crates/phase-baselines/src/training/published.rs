@@ -1,6 +1,6 @@
 //! The networks as the paper has them, and as they come with the program.
 
-use super::{Network, Run, TensorsError, from_safetensors};
+use super::{Network, NetworkError, Run, from_safetensors};
 use candle_core::Result;
 use phase_model::random::Pcg64Mcg;
 
@@ -22,7 +22,7 @@ pub trait Published: Network + Sized {
     ///
     /// # Errors
     /// As [`from_safetensors`].
-    fn with_weights(bytes: &[u8]) -> core::result::Result<Self, TensorsError> {
+    fn with_weights(bytes: &[u8]) -> core::result::Result<Self, NetworkError> {
         // What is drawn is overwritten.
         from_safetensors(Self::published(&mut Run::<Self>::first_weights(0))?, bytes)
     }

@@ -1,26 +1,42 @@
 //! A network at rest: a safetensors file.
 
-use super::{
-    Network, TensorsError,
-    tensors::{File, Named, write},
-};
+use super::Network;
 use crate::parameters;
+use phase_tensors::{NamedTensor, TensorFile, TensorsError, write};
+use thiserror::Error;
 
 const FIELD: &str = "format";
+
+/// Why a network cannot be kept, or cannot be what was kept.
+#[derive(Clone, PartialEq, Eq, Debug, Error)]
+pub enum NetworkError {
+    /// The file is no such file, or not of this network.
+    #[error(transparent)]
+    Tensors(#[from] TensorsError),
+    /// The network cannot be read or changed.
+    #[error("the network cannot be read or changed: {0}")]
+    Network(String),
+}
+
+impl From<candle_core::Error> for NetworkError {
+    fn from(error: candle_core::Error) -> Self {
+        Self::Network(error.to_string())
+    }
+}
 
 /// The network's weights as a file. The same weights always give the same bytes.
 ///
 /// # Errors
 /// If they cannot be read or laid out in a file.
-pub fn to_safetensors<N: Network>(network: &N) -> Result<Vec<u8>, TensorsError> {
+pub fn to_safetensors<N: Network>(network: &N) -> Result<Vec<u8>, NetworkError> {
     let parameters = network.parameters();
     let numbers = parameters::numbers(&parameters)?;
-    let named = parameters.into_iter().zip(numbers).map(|((name, variable), numbers)| Named {
+    let named = parameters.into_iter().zip(numbers).map(|((name, variable), numbers)| NamedTensor {
         name,
         shape: variable.dims().into(),
         numbers,
     });
-    write(&named.collect::<Vec<_>>(), FIELD, &format::<N>())
+    Ok(write(&named.collect::<Vec<_>>(), FIELD, &format::<N>())?)
 }
 
 /// Gives a network the weights that [`to_safetensors`] wrote; its own must have the same shapes.
@@ -28,15 +44,10 @@ pub fn to_safetensors<N: Network>(network: &N) -> Result<Vec<u8>, TensorsError> 
 /// # Errors
 /// For bytes that are no such file or one of another network, and for tensors that are missing, too many, of another
 /// shape or not finite. The network is then as it was.
-pub fn from_safetensors<N: Network>(network: N, bytes: &[u8]) -> Result<N, TensorsError> {
-    let file = File::open(bytes, FIELD)?;
-    if file.says() != Some(&format::<N>()) {
-        return Err(TensorsError::Kind { field: FIELD, expected: format::<N>() });
-    }
+pub fn from_safetensors<N: Network>(network: N, bytes: &[u8]) -> Result<N, NetworkError> {
+    let file = TensorFile::open_kind(bytes, FIELD, &format::<N>())?;
     let parameters = network.parameters();
-    if let Some(name) = file.names().find(|name| !parameters.iter().any(|(known, _)| known == name)) {
-        return Err(TensorsError::Unknown(name.into()));
-    }
+    file.check_names(|name| parameters.iter().any(|(known, _)| known == name))?;
     let numbers = parameters.iter().map(|(name, variable)| file.numbers(name, variable.dims()));
     let numbers = numbers.collect::<Result<Vec<_>, _>>()?;
     parameters::set_numbers(&parameters, &numbers)?;

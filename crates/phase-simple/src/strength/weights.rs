@@ -1,6 +1,7 @@
 //! The numbers of the strength regressor, and what they have to be.
 
 use super::FEATURES;
+use phase_tensors::{NamedTensor, TensorsError, check_shape};
 use thiserror::Error;
 
 /// One fully connected layer: output o is bias\[o\] + Σ weight\[o · inputs + i\] · input\[i\].
@@ -34,31 +35,9 @@ pub struct Weights {
 /// Why some numbers cannot be a strength regressor.
 #[derive(Clone, PartialEq, Eq, Debug, Error)]
 pub enum WeightsError {
-    /// The bytes are something else.
-    #[error("is no safetensors file: {0}")]
-    Container(String),
-    /// It is a file of tensors, but of another kind.
-    #[error("field `format` must be {:?}", super::STRENGTH_FORMAT)]
-    Format,
-    /// A tensor is not there.
-    #[error("tensor `{0}` is missing")]
-    Missing(String),
-    /// A tensor holds another type of numbers.
-    #[error("tensor `{0}` must hold 32-bit floats")]
-    Type(String),
-    /// A tensor does not fit to the others.
-    #[error("tensor `{name}` must have the shape {expected:?}, not {found:?}")]
-    Shape {
-        /// The tensor.
-        name: String,
-        /// What it must have.
-        expected: Vec<usize>,
-        /// What it has.
-        found: Vec<usize>,
-    },
-    /// A number is none.
-    #[error("tensor `{0}` must hold finite numbers")]
-    NotFinite(String),
+    /// The bytes are no such file, or a tensor is not what it has to be.
+    #[error(transparent)]
+    Tensors(#[from] TensorsError),
     /// A scale or error is not above 0.
     #[error("tensor `{0}` must hold numbers above 0")]
     NotPositive(String),
@@ -70,8 +49,8 @@ impl Weights {
     /// # Errors
     /// The first rule that is broken, with the tensor's name.
     pub fn check(&self) -> Result<(), WeightsError> {
-        shape("input.mean", &[FEATURES], &[self.mean.len()])?;
-        shape("input.scale", &[FEATURES], &[self.scale.len()])?;
+        check_shape("input.mean", &[FEATURES], &[self.mean.len()])?;
+        check_shape("input.scale", &[FEATURES], &[self.scale.len()])?;
         let [first, second] = &self.hidden;
         let layers = [
             ("hidden1", first, FEATURES, first.outputs.max(1)),
@@ -80,15 +59,15 @@ impl Weights {
         ];
         for (name, layer, inputs, outputs) in layers {
             let weight = format!("{name}.weight");
-            shape(&weight, &[outputs, inputs], &[layer.outputs, layer.inputs])?;
+            check_shape(&weight, &[outputs, inputs], &[layer.outputs, layer.inputs])?;
             // A product that overflows is no length of anything.
             let numbers = outputs.saturating_mul(inputs);
-            shape(&weight, &[numbers], &[layer.weight.len()])?;
-            shape(&format!("{name}.bias"), &[outputs], &[layer.bias.len()])?;
+            check_shape(&weight, &[numbers], &[layer.weight.len()])?;
+            check_shape(&format!("{name}.bias"), &[outputs], &[layer.bias.len()])?;
         }
-        for (name, _, data) in self.tensors() {
-            if !data.iter().all(|number| number.is_finite()) {
-                return Err(WeightsError::NotFinite(name.into()));
+        for NamedTensor { name, numbers, .. } in self.tensors() {
+            if !numbers.iter().all(|number| number.is_finite()) {
+                return Err(TensorsError::NotFinite(name).into());
             }
         }
         for (name, data) in [("input.scale", &*self.scale), ("validation.rmse", &[self.rmse])] {
@@ -99,27 +78,26 @@ impl Weights {
         Ok(())
     }
 
-    /// Name, shape and numbers of every tensor, as they stand in a file.
-    pub(super) fn tensors(&self) -> [(&'static str, Vec<usize>, &[f32]); 9] {
+    /// Every tensor, as it stands in a file.
+    pub(super) fn tensors(&self) -> [NamedTensor; 9] {
         let [first, second] = &self.hidden;
         let weight = |layer: &Dense| vec![layer.outputs, layer.inputs];
+        let tensor = |name: &str, shape: Vec<usize>, numbers: &[f32]| NamedTensor {
+            name: name.into(),
+            shape,
+            numbers: numbers.into(),
+        };
+        let vector = |name, numbers: &[f32]| tensor(name, vec![numbers.len()], numbers);
         [
-            ("input.mean", vec![self.mean.len()], &self.mean),
-            ("input.scale", vec![self.scale.len()], &self.scale),
-            ("hidden1.weight", weight(first), &first.weight),
-            ("hidden1.bias", vec![first.bias.len()], &first.bias),
-            ("hidden2.weight", weight(second), &second.weight),
-            ("hidden2.bias", vec![second.bias.len()], &second.bias),
-            ("output.weight", weight(&self.output), &self.output.weight),
-            ("output.bias", vec![self.output.bias.len()], &self.output.bias),
-            ("validation.rmse", vec![1], core::slice::from_ref(&self.rmse)),
+            vector("input.mean", &self.mean),
+            vector("input.scale", &self.scale),
+            tensor("hidden1.weight", weight(first), &first.weight),
+            vector("hidden1.bias", &first.bias),
+            tensor("hidden2.weight", weight(second), &second.weight),
+            vector("hidden2.bias", &second.bias),
+            tensor("output.weight", weight(&self.output), &self.output.weight),
+            vector("output.bias", &self.output.bias),
+            vector("validation.rmse", &[self.rmse]),
         ]
     }
-}
-
-pub(super) fn shape(name: &str, expected: &[usize], found: &[usize]) -> Result<(), WeightsError> {
-    if expected == found {
-        return Ok(());
-    }
-    Err(WeightsError::Shape { name: name.into(), expected: expected.into(), found: found.into() })
 }

@@ -8,7 +8,7 @@ use phase_baselines::{
     recognition::Recognition,
     social_lstm::SocialLstm,
     stgat::Stgat,
-    training::{NamedMeasure, Published, Record, RecordedRound, TensorsError},
+    training::{NamedMeasure, NetworkError, Published, Record, RecordedRound},
     two_level_lstm::TwoLevelLstm,
 };
 use phase_dataset::{
@@ -128,7 +128,7 @@ impl<N: Published> Learnt<N> {
     fn open(weights: Option<&Path>) -> Result<Self, CliError> {
         let given = weights.map(json::bytes).transpose()?;
         let bytes = given.as_deref().unwrap_or(N::SHIPPED);
-        let wrong = |error: TensorsError| FileError {
+        let wrong = |error: NetworkError| FileError {
             file: weights.map_or_else(|| format!("data/{}.safetensors", N::NAME).into(), Path::to_owned),
             problem: Problem::Shape { what: "file of weights", rule: error.to_string() },
         };

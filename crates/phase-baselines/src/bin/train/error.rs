@@ -3,7 +3,7 @@
 use phase_baselines::{
     recognition::LabelError,
     strength,
-    training::{CheckpointError, RecordError, TensorsError, TrainingError},
+    training::{CheckpointError, NetworkError, RecordError, TrainingError},
 };
 use phase_dataset::{FileError, WriteError};
 use phase_model::ObservedError;
@@ -91,7 +91,7 @@ pub(crate) enum TrainError {
     Training(#[from] TrainingError),
     /// What was learnt cannot be kept.
     #[error("the weights: {0}")]
-    Tensors(#[from] TensorsError),
+    Network(#[from] NetworkError),
     /// What was learnt cannot be kept.
     #[error("the weights: {0}")]
     Weights(#[from] WeightsError),
@@ -111,7 +111,7 @@ impl TrainError {
             | Self::Checkpoint { .. }
             | Self::Record { .. }
             | Self::Output(_) => 2,
-            Self::Strength(_) | Self::Training(_) | Self::Tensors(_) | Self::Weights(_) => 1,
+            Self::Strength(_) | Self::Training(_) | Self::Network(_) | Self::Weights(_) => 1,
         }
     }
 }

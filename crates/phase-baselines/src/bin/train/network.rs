@@ -2,7 +2,7 @@
 
 use crate::{NetworkOptions, error::TrainError, events::Events, kept::Kept, remark, tell};
 use phase_baselines::training::{
-    Final, Measure, NamedMeasure, Published, Round, Run, Settings, TensorsError, measure, to_safetensors,
+    Final, Measure, NamedMeasure, NetworkError, Published, Round, Run, Settings, measure, to_safetensors,
 };
 use phase_dataset::{atomic, phase_events::Recording, splits::Split};
 use phase_model::ObservedEvent;
@@ -30,7 +30,7 @@ pub(crate) fn run<N: Published>(
         events.of(split)?.map(each).collect()
     };
     let (training, validation) = (samples(Split::Train)?, samples(Split::Validation)?);
-    let network = N::published(&mut Run::<N>::first_weights(options.seed)).map_err(TensorsError::from)?;
+    let network = N::published(&mut Run::<N>::first_weights(options.seed)).map_err(NetworkError::from)?;
     let mut run = Run::new(network, options.seed, settings);
     let sources = (events.source(Split::Train), events.source(Split::Validation));
     let mut kept = Kept::open(&mut run, &options.out, sources.0, sources.1)?;
@@ -44,12 +44,12 @@ pub(crate) fn run<N: Published>(
         remark(format!("{said}  {seconds:.1} s, at most {left:.0} min left"));
     }
     let best = run.best_round().map_or(0, |round| round.number);
-    let network = run.into_best().map_err(TensorsError::from)?;
+    let network = run.into_best().map_err(NetworkError::from)?;
     tell(format!("the weights are those of round {best}"));
     tell(format!("| events | loss | {} |", N::SCORES.join(" | ")));
     tell(format!("|---|---|{}", "---|".repeat(N::SCORES.len())));
     let report = |split: Split, samples: &[N::Sample]| -> Result<NamedMeasure, TrainError> {
-        let measure = measure(&network, samples, settings.batch).map_err(TensorsError::from)?;
+        let measure = measure(&network, samples, settings.batch).map_err(NetworkError::from)?;
         let scores: Vec<String> = measure.scores.iter().map(|score| format!("{score:.3}")).collect();
         tell(format!("| {} | {:.3} | {} |", split.name(), measure.loss, scores.join(" | ")));
         Ok(NamedMeasure::of::<N>(&measure))

@@ -1,0 +1,48 @@
+//! What can be wrong with a file of tensors.
+
+use safetensors::SafeTensorError;
+use thiserror::Error;
+
+/// Why bytes are not the file they should be.
+#[derive(Clone, PartialEq, Eq, Debug, Error)]
+pub enum TensorsError {
+    /// The bytes are something else.
+    #[error("is no safetensors file: {0}")]
+    Container(String),
+    /// It is a file of tensors, but of another kind.
+    #[error("field `{field}` must be {expected:?}")]
+    Kind {
+        /// The entry of its metadata.
+        field: &'static str,
+        /// What it must say.
+        expected: String,
+    },
+    /// A tensor is not there.
+    #[error("tensor `{0}` is missing")]
+    Missing(String),
+    /// A tensor is none of those that belong there.
+    #[error("tensor `{0}` does not belong there")]
+    Unknown(String),
+    /// A tensor holds another type of numbers.
+    #[error("tensor `{0}` must hold 32-bit floats")]
+    Type(String),
+    /// A tensor has another shape than it must have.
+    #[error("tensor `{name}` must have the shape {expected:?}, not {found:?}")]
+    Shape {
+        /// The tensor.
+        name: String,
+        /// What it must have.
+        expected: Vec<usize>,
+        /// What it has.
+        found: Vec<usize>,
+    },
+    /// A number is none.
+    #[error("tensor `{0}` must hold finite numbers")]
+    NotFinite(String),
+}
+
+impl From<SafeTensorError> for TensorsError {
+    fn from(error: SafeTensorError) -> Self {
+        Self::Container(error.to_string())
+    }
+}

@@ -1,0 +1,130 @@
+//! Files of tensors: made and looked into.
+
+use crate::TensorsError;
+use safetensors::{Dtype, SafeTensors, tensor::TensorView};
+use std::collections::HashMap;
+
+/// A tensor as it stands in a file.
+#[derive(Clone, PartialEq, Debug)]
+pub struct NamedTensor {
+    /// Its name, one of a kind in its file.
+    pub name: String,
+    /// Its lengths, the outermost first.
+    pub shape: Vec<usize>,
+    /// Its numbers, row by row: as many as its lengths multiplied.
+    pub numbers: Vec<f32>,
+}
+
+/// The bytes of a file with these tensors, whose entry `field` says `says`. The same tensors always give the same bytes.
+///
+/// # Errors
+/// [`TensorsError::Container`] if a shape does not go with its numbers, or the tensors cannot be laid out.
+pub fn write(tensors: &[NamedTensor], field: &str, says: &str) -> Result<Vec<u8>, TensorsError> {
+    let bytes: Vec<Vec<u8>> = tensors
+        .iter()
+        .map(|tensor| tensor.numbers.iter().flat_map(|number| number.to_le_bytes()).collect())
+        .collect();
+    let views = tensors.iter().zip(&bytes).map(|(tensor, bytes)| {
+        Ok((&*tensor.name, TensorView::new(Dtype::F32, tensor.shape.clone(), bytes)?))
+    });
+    let views: Vec<_> = views.collect::<Result<_, TensorsError>>()?;
+    Ok(safetensors::serialize(views, Some(HashMap::from([(field.to_owned(), says.to_owned())])))?)
+}
+
+/// A file that has been looked into.
+#[derive(Debug)]
+pub struct TensorFile<'a> {
+    tensors: SafeTensors<'a>,
+    says: Option<String>,
+}
+
+impl<'a> TensorFile<'a> {
+    /// Opens bytes with the entry `field` in their metadata.
+    ///
+    /// # Errors
+    /// [`TensorsError::Container`] if they are no such file.
+    pub fn open(bytes: &'a [u8], field: &'static str) -> Result<Self, TensorsError> {
+        let (_, metadata) = SafeTensors::read_metadata(bytes)?;
+        let says = metadata.metadata().as_ref().and_then(|entries| entries.get(field)).cloned();
+        Ok(Self { tensors: SafeTensors::deserialize(bytes)?, says })
+    }
+
+    /// The same, and checks what the entry says.
+    ///
+    /// # Errors
+    /// As [`open`](Self::open), and [`TensorsError::Kind`] if it says something else or is not there.
+    pub fn open_kind(bytes: &'a [u8], field: &'static str, expected: &str) -> Result<Self, TensorsError> {
+        let file = Self::open(bytes, field)?;
+        if file.says() == Some(expected) {
+            Ok(file)
+        } else {
+            Err(TensorsError::Kind { field, expected: expected.into() })
+        }
+    }
+
+    /// What the entry says, if it is there.
+    #[must_use]
+    pub fn says(&self) -> Option<&str> {
+        self.says.as_deref()
+    }
+
+    /// Whether there is a tensor of this name.
+    #[must_use]
+    pub fn has(&self, name: &str) -> bool {
+        self.tensors.tensor(name).is_ok()
+    }
+
+    /// The names of all tensors.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.tensors.names().into_iter()
+    }
+
+    /// Checks that there are no tensors but known ones.
+    ///
+    /// # Errors
+    /// [`TensorsError::Unknown`] for one that is not.
+    pub fn check_names(&self, is_known: impl Fn(&str) -> bool) -> Result<(), TensorsError> {
+        match self.names().find(|name| !is_known(name)) {
+            Some(name) => Err(TensorsError::Unknown(name.into())),
+            None => Ok(()),
+        }
+    }
+
+    /// A tensor of any shape.
+    ///
+    /// # Errors
+    /// If there is none of this name, or its numbers are of another type or not finite.
+    pub fn tensor(&self, name: &str) -> Result<NamedTensor, TensorsError> {
+        let view = self.tensors.tensor(name).map_err(|_| TensorsError::Missing(name.into()))?;
+        if view.dtype() != Dtype::F32 {
+            return Err(TensorsError::Type(name.into()));
+        }
+        let (numbers, _) = view.data().as_chunks();
+        let numbers: Vec<f32> = numbers.iter().map(|&bytes| f32::from_le_bytes(bytes)).collect();
+        if !numbers.iter().all(|number| number.is_finite()) {
+            return Err(TensorsError::NotFinite(name.into()));
+        }
+        Ok(NamedTensor { name: name.into(), shape: view.shape().into(), numbers })
+    }
+
+    /// The numbers of a tensor of this shape.
+    ///
+    /// # Errors
+    /// As [`tensor`](Self::tensor), and [`TensorsError::Shape`] for another shape.
+    pub fn numbers(&self, name: &str, shape: &[usize]) -> Result<Vec<f32>, TensorsError> {
+        let NamedTensor { shape: found, numbers, .. } = self.tensor(name)?;
+        check_shape(name, shape, &found)?;
+        Ok(numbers)
+    }
+}
+
+/// Checks a tensor's shape.
+///
+/// # Errors
+/// [`TensorsError::Shape`] if it is another one.
+pub fn check_shape(name: &str, expected: &[usize], found: &[usize]) -> Result<(), TensorsError> {
+    if expected == found {
+        return Ok(());
+    }
+    Err(TensorsError::Shape { name: name.into(), expected: expected.into(), found: found.into() })
+}
