@@ -19,6 +19,7 @@
 pub mod benchmark;
 pub mod estimate;
 pub mod goals;
+mod group;
 pub mod method;
 pub mod plain;
 pub mod predictions;
@@ -28,4 +29,5 @@ pub mod results;
 pub mod trajectories;
 
 pub use estimate::Estimate;
+pub use group::Group;
 pub use method::{Forecaster, MethodError, Recogniser, Tick};

@@ -1,7 +1,8 @@
 //! Scores of Task 1, held against numbers worked out by hand.
 
 use phase_eval::{
-    goals::{Answer, AnswerError, Calibration, Glimpse, Label, RecognisedEvent, Summary, canonical},
+    Group,
+    goals::{Answer, AnswerError, Calibration, Glimpse, Label, RecognisedEvent, Scores, Summary, canonical},
     plain::own_goals,
     predictions,
 };
@@ -125,7 +126,7 @@ fn two_events_summed_up_by_hand() {
     assert_eq!(all.relation_human.map(|estimate| estimate.value), Some(0.0));
     assert_eq!(summary.confusion, [[1, 0, 0], [0, 0, 1], [0, 0, 0]]);
     assert_eq!(summary.cpu_seconds_per_event, Some(2.0));
-    let named = |groups: &[phase_eval::goals::Group]| -> Vec<(String, usize, f64)> {
+    let named = |groups: &[Group<Scores>]| -> Vec<(String, usize, f64)> {
         groups.iter().map(|it| (it.name.clone(), it.scores.n, it.scores.top1.value)).collect()
     };
     assert_eq!(named(&summary.kinds), [("helping".into(), 1, 0.5), ("chasing".into(), 1, 0.0)]);

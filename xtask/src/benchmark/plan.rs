@@ -36,7 +36,6 @@ const TASKS: [(Task, &[&str]); 2] = [
     ),
     (Task::Trajectories, &["still", "constant-velocity", "social-lstm", "stgat", "simple"]),
 ];
-const NETWORKS: [&str; 4] = ["two-level-lstm", "arg", "social-lstm", "stgat"];
 
 /// The paper's two tasks.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -82,7 +81,8 @@ impl Task {
 /// Whether anything that was asked for is a neural network.
 #[must_use]
 pub fn needs_networks(arguments: &Benchmark) -> bool {
-    !arguments.trained.is_empty() || NETWORKS.iter().any(|name| wanted(arguments, name))
+    let mut names = networks::RECOGNISING.iter().chain(&networks::FORECASTING);
+    !arguments.trained.is_empty() || names.any(|name| wanted(arguments, name))
 }
 
 /// All that is to be measured, the quickest first, so that what is wrong shows early.

@@ -1,4 +1,4 @@
-//! Answers of somebody else's method, from a file.
+//! Where answers come from: a method of ours, or somebody else's, from a file.
 
 use super::input::{Event, Input};
 use crate::{console::remark, error::CliError};
@@ -10,6 +10,14 @@ use phase_dataset::{
 use phase_eval::MethodError;
 use serde_json::{Value, json};
 use std::{collections::BTreeMap, path::Path};
+
+/// Where answers come from.
+pub(super) enum Answers<M: ?Sized, A> {
+    /// A method of ours.
+    Method(Box<M>),
+    /// Somebody else's.
+    Given(Given<A>),
+}
 
 /// The answers of a file, one to each event that is asked for.
 pub(super) struct Given<A> {

@@ -1,7 +1,7 @@
 //! Task 1: how often goals and relations are recognised.
 
 use super::{
-    given::Given,
+    given::{Answers, Given},
     input::{Event, Input},
     methods,
     options::{EvalGoals, steps_of},
@@ -46,17 +46,9 @@ pub(super) fn run(arguments: &EvalGoals) -> Result<(), CliError> {
 /// The task.
 pub(crate) struct Goals {
     name: String,
-    answers: Answers,
+    answers: Answers<dyn Recogniser, Answer>,
     /// Parts of each event to ask about too, by their lengths (s).
     watched: Vec<f64>,
-}
-
-/// Where answers come from.
-enum Answers {
-    /// A method of ours.
-    Method(Box<dyn Recogniser>),
-    /// Somebody else's.
-    Given(Given<Answer>),
 }
 
 impl Goals {

@@ -1,7 +1,7 @@
 //! Task 2: how far predicted trajectories are off.
 
 use super::{
-    given::Given,
+    given::{Answers, Given},
     input::{Event, Input},
     methods,
     options::EvalTrajectories,
@@ -46,17 +46,9 @@ pub(super) fn run(arguments: &EvalTrajectories) -> Result<(), CliError> {
 /// The task.
 pub(crate) struct Trajectories {
     name: String,
-    answers: Answers,
+    answers: Answers<dyn Forecaster, Forecast>,
     /// Where the events come from.
     file: PathBuf,
-}
-
-/// Where answers come from.
-enum Answers {
-    /// A method of ours.
-    Method(Box<dyn Forecaster>),
-    /// Somebody else's.
-    Given(Given<Forecast>),
 }
 
 impl Trajectories {

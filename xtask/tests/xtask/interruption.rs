@@ -69,14 +69,19 @@ fn an_interrupted_run_is_resumed_to_the_same_bytes() {
     }
 }
 
+/// A run that is killed once its first event is finished.
+fn kill(folder: &Path, out: &str) {
+    let mut child = start(folder, out);
+    signal(&child, "-KILL");
+    child.wait().expect("it ends");
+}
+
 #[test]
 fn a_damaged_cache_is_made_again() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path();
     succeed(path, &generate("straight"));
-    let mut child = start(path, "out");
-    signal(&child, "-KILL");
-    child.wait().expect("it ends");
+    kill(path, "out");
     std::fs::write(path.join("out/.cache/demo-0000.json"), "rubbish").expect("written");
     std::fs::write(path.join("out/events/demo-0000.json"), "rubbish").expect("written");
     let output = xtask(path).args(generate("out")).output().expect("the program starts");
@@ -90,9 +95,7 @@ fn a_damaged_video_is_made_again() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path();
     succeed(path, &generate("straight"));
-    let mut child = start(path, "out");
-    signal(&child, "-KILL");
-    child.wait().expect("it ends");
+    kill(path, "out");
     std::fs::write(path.join("out/videos/demo-0000.mp4"), "rubbish").expect("written");
     succeed(path, &generate("out"));
     assert!(tree(&path.join("out")) == tree(&path.join("straight")));

@@ -8,4 +8,4 @@ mod summary;
 pub use answer::{Answer, AnswerError, Glimpse, Label, RecognisedEvent, Share};
 pub use calibration::{BINS, Bin, Calibration};
 pub use matching::canonical;
-pub use summary::{Group, RELATIONS, Scores, Summary};
+pub use summary::{RELATIONS, Scores, Summary};

@@ -1,7 +1,7 @@
 //! How right a method is over many events.
 
 use super::{Answer, Calibration, Label, RecognisedEvent};
-use crate::Estimate;
+use crate::{Estimate, Group};
 use phase_model::{AGENT_COUNT, EventKind, Relation};
 use serde::{Deserialize, Serialize};
 
@@ -53,27 +53,17 @@ impl Scores {
     }
 }
 
-/// Scores of the events that have something in common.
-#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
-pub struct Group {
-    /// What they have in common.
-    pub name: String,
-    /// Their scores.
-    #[serde(flatten)]
-    pub scores: Scores,
-}
-
 /// How right a method is.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Summary {
     /// Over all events.
     pub all: Scores,
     /// By kind of event.
-    pub kinds: Vec<Group>,
+    pub kinds: Vec<Group<Scores>>,
     /// In layouts that are in the training or validation events too, and in others; empty where nobody knows.
-    pub layouts: Vec<Group>,
+    pub layouts: Vec<Group<Scores>>,
     /// By how much had been seen, if that was asked for. Events that end earlier count with all of them.
-    pub watched: Vec<Group>,
+    pub watched: Vec<Group<Scores>>,
     /// How often (number of events) which relation was taken for which: `confusion[right][said]`, both in the
     /// order of [`RELATIONS`].
     pub confusion: [[usize; RELATIONS.len()]; RELATIONS.len()],
@@ -118,7 +108,7 @@ impl Summary {
 }
 
 /// Scores of the answers to the first parts of events; which parts there are the first event says.
-fn watched(events: &[RecognisedEvent], seed: u64) -> Vec<Group> {
+fn watched(events: &[RecognisedEvent], seed: u64) -> Vec<Group<Scores>> {
     let parts = events.first().map_or(0, |event| event.watched.len());
     let part = |k: usize| {
         let seconds = events.first()?.watched.get(k)?.seconds;

@@ -2,7 +2,8 @@
 
 use super::{BESIDE, Block, Document, Subject, cost, document::head, share};
 use crate::{
-    goals::{Calibration, Group, RELATIONS, Scores, Summary},
+    Group,
+    goals::{Calibration, RELATIONS, Scores, Summary},
     published,
 };
 use phase_dataset::{
@@ -99,8 +100,8 @@ fn published_plot(
     Block::Plot { file, title: title.into(), svg: bars(title, " %", &rows) }
 }
 
-fn groups(what: &str, groups: &[Group]) -> Block {
-    let row = |group: &Group| {
+fn groups(what: &str, groups: &[Group<Scores>]) -> Block {
+    let row = |group: &Group<Scores>| {
         let scores = &group.scores;
         vec![
             group.name.clone(),
@@ -117,8 +118,8 @@ fn groups(what: &str, groups: &[Group]) -> Block {
     }
 }
 
-fn watched_plot(groups: &[Group]) -> Block {
-    let seconds = |group: &Group| group.name.trim_end_matches(" s").parse::<f64>().ok();
+fn watched_plot(groups: &[Group<Scores>]) -> Block {
+    let seconds = |group: &Group<Scores>| group.name.trim_end_matches(" s").parse::<f64>().ok();
     let line = |of: fn(&Scores) -> f64| -> Vec<(f64, f64)> {
         groups.iter().filter_map(|group| Some((seconds(group)?, of(&group.scores)))).collect()
     };

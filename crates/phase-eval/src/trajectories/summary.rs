@@ -1,7 +1,7 @@
 //! How far off a method is over many events.
 
 use super::{Errors, ForecastEvent, PREDICTED_STEPS};
-use crate::Estimate;
+use crate::{Estimate, Group};
 use phase_model::{EventKind, Relation};
 use serde::{Deserialize, Serialize};
 
@@ -35,16 +35,6 @@ impl Scores {
     }
 }
 
-/// Scores of the events that have something in common.
-#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
-pub struct Group {
-    /// What they have in common.
-    pub name: String,
-    /// Their scores.
-    #[serde(flatten)]
-    pub scores: Scores,
-}
-
 /// How far off a method is.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Summary {
@@ -55,7 +45,7 @@ pub struct Summary {
     /// All events.
     pub all: Scores,
     /// By kind of event.
-    pub kinds: Vec<Group>,
+    pub kinds: Vec<Group<Scores>>,
     /// The agents' error after 1, 2, 3 … steps, the mean over the events that have so many (u).
     pub by_step: Vec<f64>,
     /// Events that end before the last step to predict; their last step is the one before.

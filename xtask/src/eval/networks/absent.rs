@@ -1,5 +1,6 @@
 //! What a program does about networks that was built without them: it goes on in one that has them.
 
+use super::{FORECASTING, RECOGNISING};
 use crate::{console::remark, error::CliError};
 use phase_eval::{Forecaster, Recogniser, benchmark::Training};
 use std::{path::Path, process::Command};
@@ -9,7 +10,7 @@ use std::{path::Path, process::Command};
 /// # Errors
 /// For a network: as [`or_elsewhere`].
 pub fn recogniser(name: &str, _: Option<&Path>) -> Result<Option<Box<dyn Recogniser>>, CliError> {
-    if matches!(name, "two-level-lstm" | "arg") {
+    if RECOGNISING.contains(&name) {
         or_elsewhere(&format!("eval goals --method {name}"))?;
     }
     Ok(None)
@@ -20,7 +21,7 @@ pub fn recogniser(name: &str, _: Option<&Path>) -> Result<Option<Box<dyn Recogni
 /// # Errors
 /// For a network: as [`or_elsewhere`].
 pub fn forecaster(name: &str, _: Option<&Path>) -> Result<Option<Box<dyn Forecaster>>, CliError> {
-    if matches!(name, "social-lstm" | "stgat") {
+    if FORECASTING.contains(&name) {
         or_elsewhere(&format!("eval trajectories --method {name}"))?;
     }
     Ok(None)

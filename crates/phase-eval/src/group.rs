@@ -1,0 +1,13 @@
+//! Events that have something in common.
+
+use serde::{Deserialize, Serialize};
+
+/// Scores of the events that have something in common.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+pub struct Group<S> {
+    /// What they have in common.
+    pub name: String,
+    /// Their scores.
+    #[serde(flatten)]
+    pub scores: S,
+}
