@@ -1,13 +1,13 @@
 //! The report of Task 1.
 
-use super::{BESIDE, Block, Document, Subject, cost, document::head, share};
+use super::{BESIDE, Block, Document, Subject, bars_beside, cost, document::head, share};
 use crate::{
     Group,
     goals::{Calibration, RELATIONS, Scores, Summary},
     published,
 };
 use phase_dataset::{
-    plot::{Axis, Series, bars, curves},
+    plot::{Axis, Series, curves},
     words,
 };
 
@@ -88,6 +88,7 @@ fn beside_published(ours: &str, scores: &Scores) -> Block {
     Block::Table { head: head(&columns), rows }
 }
 
+/// Bars of shares, ours first.
 fn published_plot(
     file: &'static str,
     title: &str,
@@ -95,9 +96,8 @@ fn published_plot(
     value: f64,
     theirs: fn(&published::GoalRow) -> f64,
 ) -> Block {
-    let published = published::GOALS.iter().map(|row| (row.method.to_owned(), 100.0 * theirs(row)));
-    let rows: Vec<(String, f64)> = [(ours.to_owned(), 100.0 * value)].into_iter().chain(published).collect();
-    Block::Plot { file, title: title.into(), svg: bars(title, " %", &rows) }
+    let published = published::GOALS.iter().map(|row| (row.method, 100.0 * theirs(row)));
+    bars_beside(file, title, " %", (ours, 100.0 * value), published)
 }
 
 fn groups(what: &str, groups: &[Group<Scores>]) -> Block {

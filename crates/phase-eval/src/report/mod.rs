@@ -11,6 +11,7 @@ pub use goals::goals;
 pub use trajectories::trajectories;
 
 use crate::Estimate;
+use phase_dataset::plot::bars;
 
 /// What a report is about.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -44,6 +45,19 @@ fn share(estimate: &Estimate) -> String {
 /// A length with its interval.
 fn length(estimate: &Estimate) -> String {
     format!("{:.2} [{:.2}, {:.2}]", estimate.value, estimate.low, estimate.high)
+}
+
+/// Bars of one figure, ours above those that are published.
+fn bars_beside<'a>(
+    file: &'static str,
+    title: &str,
+    unit: &str,
+    ours: (&'a str, f64),
+    published: impl Iterator<Item = (&'a str, f64)>,
+) -> Block {
+    let rows = [ours].into_iter().chain(published).map(|(name, value)| (name.to_owned(), value));
+    let svg = bars(title, unit, &rows.collect::<Vec<_>>());
+    Block::Plot { file, title: title.into(), svg }
 }
 
 /// CPU time of an event, in words.

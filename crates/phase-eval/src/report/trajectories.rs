@@ -1,11 +1,11 @@
 //! The report of Task 2.
 
-use super::{BESIDE, Block, Document, Subject, cost, document::head, length};
+use super::{BESIDE, Block, Document, Subject, bars_beside, cost, document::head, length};
 use crate::{
     Estimate, published,
     trajectories::{PREDICTED_STEPS, Scores, Summary, WATCHED_STEPS},
 };
-use phase_dataset::plot::{Axis, Series, bars, curves};
+use phase_dataset::plot::{Axis, Series, curves};
 
 /// How well trajectories are predicted.
 #[must_use]
@@ -66,6 +66,7 @@ fn beside_published(ours: &str, summary: &Summary) -> Block {
     Block::Table { head: head(&columns), rows }
 }
 
+/// Bars of lengths, ours first.
 fn published_plot(
     file: &'static str,
     title: &str,
@@ -73,9 +74,8 @@ fn published_plot(
     value: f64,
     theirs: fn(&published::TrajectoryRow) -> f64,
 ) -> Block {
-    let published = published::TRAJECTORIES.iter().map(|row| (row.method.to_owned(), theirs(row)));
-    let rows: Vec<(String, f64)> = [(ours.to_owned(), value)].into_iter().chain(published).collect();
-    Block::Plot { file, title: title.into(), svg: bars(title, " u", &rows) }
+    let published = published::TRAJECTORIES.iter().map(|row| (row.method, theirs(row)));
+    bars_beside(file, title, " u", (ours, value), published)
 }
 
 fn kinds(summary: &Summary) -> Block {
