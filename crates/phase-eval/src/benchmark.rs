@@ -63,6 +63,9 @@ pub struct Row<S> {
     pub training: Option<usize>,
     /// How well it does.
     pub summary: S,
+    /// What its goals are taken for; of Task 1 alone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mistakes: Option<goals::Mistakes>,
     /// How well it does on events like and unlike those of the training and validation splits; empty where nobody
     /// knows.
     pub parts: Vec<Part<S>>,

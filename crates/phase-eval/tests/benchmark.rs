@@ -36,6 +36,7 @@ fn row(method: &str, origin: Origin, training: Option<usize>, error: f64) -> Row
         set: 0,
         training,
         summary: off_by(&[error; 3]),
+        mistakes: None,
         parts: [Familiarity::SeenLayout, Familiarity::UnseenInteraction].map(part).to_vec(),
     }
 }

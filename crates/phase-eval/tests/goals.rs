@@ -2,7 +2,10 @@
 
 use phase_eval::{
     Group,
-    goals::{Answer, AnswerError, Calibration, Glimpse, Label, RecognisedEvent, Scores, Summary, canonical},
+    goals::{
+        Answer, AnswerError, Calibration, Glimpse, Label, Mistakes, RecognisedEvent, Scores, Summary,
+        canonical,
+    },
     plain::own_goals,
     predictions,
 };
@@ -57,6 +60,35 @@ fn a_goal_is_right_only_if_everything_matches() {
         assert_eq!(answer.place(0, *label), *expected, "{label:?} among {named:?}");
         assert_eq!(answer.place(1, *label), None);
         assert_eq!(answer.place(2, *label), None);
+    }
+}
+
+#[test]
+fn mistakes_are_counted_by_what_is_wrong() {
+    let kinds = |right: usize, said: usize| {
+        let mut kinds = [[0; 3]; 3];
+        kinds[right][said] = 1;
+        Mistakes { kinds, ..Mistakes::default() }
+    };
+    let cases = [
+        (thing(0, 1), Some(thing(0, 1)), Mistakes { right: 1, ..kinds(1, 1) }),
+        (touch(1, 0, MINUS), Some(touch(0, 1, MINUS)), Mistakes { right: 1, ..kinds(2, 2) }),
+        (touch(1, 0, MINUS), Some(touch(1, 0, PLUS)), Mistakes { sign: 1, ..kinds(2, 2) }),
+        (place(1, 3, MINUS), Some(place(1, 3, PLUS)), Mistakes { sign: 1, ..kinds(0, 0) }),
+        (place(1, 3, MINUS), Some(place(1, 2, PLUS)), Mistakes { landmark: 1, ..kinds(0, 0) }),
+        (place(1, 3, MINUS), Some(place(0, 3, PLUS)), Mistakes { entity: 1, ..kinds(0, 0) }),
+        (thing(0, 1), Some(thing(1, 2)), Mistakes { both: 1, ..kinds(1, 1) }),
+        (thing(0, 1), Some(place(0, 1, PLUS)), kinds(1, 0)),
+        (place(0, 1, PLUS), Some(touch(0, 1, PLUS)), kinds(0, 2)),
+        (place(0, 1, PLUS), None, Mistakes { nothing: 1, ..Mistakes::default() }),
+    ];
+    for (right, said, expected) in cases {
+        // The other agent has named nothing.
+        let mut event = two_events().swap_remove(0);
+        event.label.goals = [right; 2];
+        event.answer = answer([&[], said.as_slice()], [1.0, 0.0, 0.0]);
+        let expected = Mistakes { nothing: expected.nothing + 1, ..expected };
+        assert_eq!(Mistakes::of(&[event]), expected, "{said:?} instead of {right:?}");
     }
 }
 

@@ -18,7 +18,7 @@ use crate::{
 use phase_dataset::{FileError, Problem, json, splits::Split};
 use phase_eval::{
     benchmark::{self, BENCHMARK_FORMAT, EventSet, Familiarity, Origin, Part, Row, Training},
-    goals::{self, RecognisedEvent},
+    goals::{self, Mistakes, RecognisedEvent},
     results::{GOALS_FORMAT, TRAJECTORIES_FORMAT},
     trajectories::{self, ForecastEvent},
 };
@@ -40,6 +40,9 @@ trait Answered: Sized + Clone + DeserializeOwned {
     fn id(&self) -> &str;
 
     fn sum_up(events: &[Self], seed: u64) -> Option<Self::Summary>;
+
+    /// What goals were taken for, if they were asked for.
+    fn mistakes(events: &[Self]) -> Option<Mistakes>;
 }
 
 impl<'a> Rows<'a> {
@@ -197,7 +200,8 @@ fn row<A: Answered>(
         Some(Part { familiarity, summary: A::sum_up(&events.collect::<Vec<A>>(), seed)? })
     };
     let parts = Familiarity::ALL.into_iter().filter_map(part).collect();
-    Some(Row { method, origin, set, training, summary: A::sum_up(events, seed)?, parts })
+    let (summary, mistakes) = (A::sum_up(events, seed)?, A::mistakes(events));
+    Some(Row { method, origin, set, training, summary, mistakes, parts })
 }
 
 fn familiar(event: &Event, familiarity: Familiarity) -> bool {
@@ -219,6 +223,10 @@ impl Answered for RecognisedEvent {
     fn sum_up(events: &[Self], seed: u64) -> Option<Self::Summary> {
         goals::Summary::of(events, seed)
     }
+
+    fn mistakes(events: &[Self]) -> Option<Mistakes> {
+        Some(Mistakes::of(events))
+    }
 }
 
 impl Answered for ForecastEvent {
@@ -230,5 +238,9 @@ impl Answered for ForecastEvent {
 
     fn sum_up(events: &[Self], seed: u64) -> Option<Self::Summary> {
         trajectories::Summary::of(events, seed)
+    }
+
+    fn mistakes(_: &[Self]) -> Option<Mistakes> {
+        None
     }
 }

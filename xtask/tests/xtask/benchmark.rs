@@ -82,6 +82,16 @@ fn all_figures_are_those_of_eval() {
         let whole = whole.as_f64().expect("a number");
         assert!((of(0) + of(1) - 2.0 * whole).abs() < 1e-9 && of(0) == of(2) && of(1) == of(3), "{parts:?}");
     }
+    // Every goal that is right is counted, on either set.
+    let right = found(&figures, "goals", "cue", "/mistakes/right");
+    let shares = found(&figures, "goals", "cue", "/summary/all/top1/value");
+    let events = found(&figures, "goals", "cue", "/summary/all/n");
+    for ((right, share), events) in right.into_iter().zip(shares).zip(events) {
+        let [right, share, events] = [right, share, events].map(|number| number.as_f64().expect("a number"));
+        assert!((right - 2.0 * events * share).abs() < 1e-9, "{right} of {events} events: {share}");
+    }
+    let report = fs::read_to_string(path.join("out/benchmark/report.md")).expect("a report");
+    assert!(report.contains("## What goals were taken for"), "{report}");
     for file in ["report.md", "report.html", "goals.svg", "relations.svg", "ade.svg"] {
         assert!(path.join("out/benchmark").join(file).is_file(), "{file}");
     }

@@ -3,9 +3,11 @@
 mod answer;
 mod calibration;
 mod matching;
+mod mistakes;
 mod summary;
 
 pub use answer::{Answer, AnswerError, Glimpse, Label, RecognisedEvent, Share};
 pub use calibration::{BINS, Bin, Calibration};
 pub use matching::canonical;
+pub use mistakes::{GOAL_KINDS, Mistakes};
 pub use summary::{RELATIONS, Scores, Summary};

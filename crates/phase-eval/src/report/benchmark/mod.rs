@@ -2,6 +2,7 @@
 //! measured, and how far methods carry over to what they have not seen.
 
 mod growth;
+mod mistakes;
 mod tables;
 mod training;
 
@@ -45,6 +46,7 @@ pub fn benchmark(benchmark: &Benchmark) -> Document {
     ));
     blocks.push(Block::Heading("Ablation of SIMPLE".into()));
     blocks.push(tables::ablation(benchmark));
+    blocks.extend(mistakes::blocks(benchmark));
     blocks.push(Block::Heading("What was seen in training and what was not".into()));
     blocks.push(Block::Text(
         "Layouts and types of interaction of the test events that the training and validation events have too, and \

@@ -173,7 +173,7 @@ fn others<S>(rows: &[Row<S>], has_place: impl Fn(&str) -> bool) -> Vec<&Row<S>> 
     others
 }
 
-fn name<S>(row: &Row<S>) -> String {
+pub(super) fn name<S>(row: &Row<S>) -> String {
     match row.origin {
         Origin::Ours => format!("{} (ours)", row.method),
         Origin::Trained => row.method.clone(),
@@ -181,7 +181,7 @@ fn name<S>(row: &Row<S>) -> String {
     }
 }
 
-fn events(benchmark: &Benchmark, set: usize, count: usize) -> String {
+pub(super) fn events(benchmark: &Benchmark, set: usize, count: usize) -> String {
     format!("{} ({count})", label(benchmark, set))
 }
 
