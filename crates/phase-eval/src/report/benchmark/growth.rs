@@ -58,7 +58,9 @@ fn trained<'a, S>(benchmark: &'a Benchmark, rows: &'a [Row<S>]) -> Vec<(&'a Trai
     let rows = rows.iter().filter(|row| row.origin == Origin::Trained);
     let with_training = |row: &'a Row<S>| Some((benchmark.trainings.get(row.training?)?, row));
     let mut rows: Vec<(&Training, &Row<S>)> = rows.filter_map(with_training).collect();
-    rows.sort_by_key(|(training, row)| (&training.network, &training.dataset, training.events, row.set));
+    rows.sort_by_key(|(training, row)| {
+        (&training.network, &training.dataset, training.events, training.seed, row.set)
+    });
     rows
 }
 

@@ -49,7 +49,9 @@ fn table(benchmark: &Benchmark) -> Block {
         ]
     };
     let columns = ["network", "weights", "learnt from", "events", "rounds", "best", "CPU min"];
-    Block::Table { head: head(&columns), rows: benchmark.trainings.iter().map(row).collect() }
+    let mut trainings: Vec<&Training> = benchmark.trainings.iter().collect();
+    trainings.sort_by_key(|training| (&training.network, &training.dataset, training.events, training.seed));
+    Block::Table { head: head(&columns), rows: trainings.into_iter().map(row).collect() }
 }
 
 fn plot(training: &Training, file: &'static str) -> Block {
