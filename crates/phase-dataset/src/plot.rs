@@ -53,15 +53,24 @@ pub struct Axis<'a> {
 /// How numbers lie along an axis.
 #[derive(Clone, Copy, PartialEq, Debug)]
 enum Scale {
-    Linear { to: f64 },
+    Linear { step: f64, steps: usize },
     Doubling { from: f64, to: f64 },
 }
 
 impl<'a> Axis<'a> {
-    /// An axis from 0 to a number above 0, evenly; the name tells the unit too.
+    /// An axis from 0 to a number above 0, or somewhat further to the next mark, evenly; marks are at round numbers. The
+    /// name tells the unit too.
     #[must_use]
-    pub const fn linear(name: &'a str, to: f64) -> Self {
-        Self { name, scale: Scale::Linear { to } }
+    pub fn linear(name: &'a str, to: f64) -> Self {
+        let to = if to.is_finite() && to > 0.0 { to } else { 1.0 };
+        let least = to / MARKS as f64;
+        let power = libm::pow(10.0, libm::log10(least).floor());
+        // A rounding error must not lead to the next step.
+        let reaches = |step: &f64| *step >= least * (1.0 - 1e-9);
+        let step = [1.0, 2.0, 5.0].map(|digit| digit * power).into_iter().find(reaches);
+        let step = step.unwrap_or(10.0 * power);
+        let steps = (to / step * (1.0 - 1e-9)).ceil() as usize;
+        Self { name, scale: Scale::Linear { step, steps } }
     }
 
     /// An axis between two numbers above 0, on which doubling is always the same way.
@@ -73,7 +82,7 @@ impl<'a> Axis<'a> {
     /// Where a number lies, from 0 to 1.
     fn place(&self, number: f64) -> f64 {
         let place = match self.scale {
-            Scale::Linear { to } => number / to.max(f64::MIN_POSITIVE),
+            Scale::Linear { step, steps } => number / (step * steps as f64),
             Scale::Doubling { from, to } => libm::log2(number / from) / libm::log2(to / from),
         };
         // With both ends alike everything lies at the one place there is.
@@ -83,7 +92,7 @@ impl<'a> Axis<'a> {
     /// The numbers written along it.
     fn marks(&self) -> Vec<f64> {
         match self.scale {
-            Scale::Linear { to } => (0..=MARKS).map(|k| to * k as f64 / MARKS as f64).collect(),
+            Scale::Linear { step, steps } => (0..=steps).map(|k| step * k as f64).collect(),
             // Between what is no number above 0 there is nothing to write.
             Scale::Doubling { from, to } if from > 0.0 && to >= from => {
                 let doublings = libm::log2(to / from).min(16.0) as u32;
@@ -111,7 +120,7 @@ const LEAST_NAMES: f64 = 100.0;
 const LETTER: f64 = 7.0;
 /// Colours of lines, which are told apart by people who see few colours too.
 const COLOURS: [&str; 7] = ["#4477aa", "#cc6677", "#888888", "#228833", "#aa3377", "#66ccee", "#ccbb44"];
-/// Marks along an axis, beside that at 0.
+/// Marks along an axis at the most, beside that at 0.
 const MARKS: usize = 5;
 
 /// A chart with two axes, x and y, and a line with dots for each series. Points that are not finite are left out; those

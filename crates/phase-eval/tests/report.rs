@@ -30,6 +30,30 @@ fn published_rows_are_shares_and_in_order() {
     }
 }
 
+/// From 0 to the first round step that is far enough.
+#[test]
+fn marks_are_round_numbers() {
+    for (to, expected) in [
+        (1.0, ["0", "0.2", "0.4", "0.6", "0.8", "1"].as_slice()),
+        (10.0, &["0", "2", "4", "6", "8", "10"]),
+        (79.0, &["0", "20", "40", "60", "80"]),
+        (4.0, &["0", "1", "2", "3", "4"]),
+        (0.3, &["0", "0.1", "0.2", "0.3"]),
+        (101.0, &["0", "50", "100", "150"]),
+        (f64::NAN, &["0", "0.2", "0.4", "0.6", "0.8", "1"]),
+        (-1.0, &["0", "0.2", "0.4", "0.6", "0.8", "1"]),
+    ] {
+        let axes = [Axis::linear("x", to), Axis::linear("y", 1.0)];
+        let svg = curves("Marks", axes, &[]);
+        let marks: Vec<&str> = svg
+            .lines()
+            .filter(|line| line.starts_with("<path") && line.contains("text-anchor=\"middle\""))
+            .filter_map(|line| line.strip_suffix("</text>")?.rsplit('>').next())
+            .collect();
+        assert_eq!(marks, expected, "{to}");
+    }
+}
+
 #[test]
 fn curves_leave_out_what_is_no_number_and_stay_in_the_field() {
     let points = vec![(0.0, 0.0), (f64::NAN, 1.0), (5.0, f64::INFINITY), (20.0, 2.0), (10.0, 1.0)];
