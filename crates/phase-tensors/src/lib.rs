@@ -1,6 +1,6 @@
 //! Weights at rest: named tensors of 32-bit floats in a safetensors file, with one entry of text that says what they are.
 //!
-//! [`write`] makes such a file, [`TensorFile`] looks into one, [`TensorsError`] says what is wrong with it.
+//! [`write()`] makes such a file, [`TensorFile`] looks into one, [`TensorsError`] says what is wrong with it.
 //!
 //! The key design decision is that there is one kind of number and one entry of metadata: it is all that our networks and
 //! their trainings need, more entries would stand in a file in an order that changes from run to run, and so the same
