@@ -62,7 +62,8 @@ impl<'a> Axis<'a> {
     /// name tells the unit too.
     #[must_use]
     pub fn linear(name: &'a str, to: f64) -> Self {
-        let to = if to.is_finite() && to > 0.0 { to } else { 1.0 };
+        // Steps of numbers beyond these are 0 or infinite.
+        let to = if to.is_finite() && to > 0.0 { to.clamp(1e-300, 1e300) } else { 1.0 };
         let least = to / MARKS as f64;
         let power = libm::pow(10.0, libm::log10(least).floor());
         // A rounding error must not lead to the next step.

@@ -3,10 +3,11 @@
 use phase_dataset::plot::{Axis, Series, curves};
 use phase_eval::{
     benchmark::{BENCHMARK_FORMAT, Benchmark, Curve, EventSet, Familiarity, Origin, Part, Row, Training},
+    goals::{self, Answer, Label, Mistakes, RecognisedEvent},
     report,
     trajectories::{Errors, ForecastEvent, Summary},
 };
-use phase_model::{EventKind, Relation};
+use phase_model::{EventKind, Goal, Relation, RelationProbabilities, Sign};
 use serde_json::{Value, json};
 
 /// Events in which the agents are always so far off.
@@ -117,6 +118,39 @@ fn rows_stand_where_they_belong() {
     assert!(!text.contains("stgat-80"), "{text}");
     // Two trainings of one kind, but one plot, of the one with the program's own weights.
     assert_eq!(text.matches("(training-stgat.svg)").count(), 1);
+}
+
+#[test]
+fn mistakes_stand_in_their_columns() {
+    let event = RecognisedEvent {
+        id: "event".into(),
+        answer: Answer { goals: Default::default(), relation: RelationProbabilities::default() },
+        label: Label {
+            kind: EventKind::Independent,
+            goals: [Goal::Touch { agent: 0, other: 1, sign: Sign::Positive }; 2],
+            relation: Relation::Neutral,
+            relation_human: None,
+            layout_seen: None,
+        },
+        watched: Vec::new(),
+        cpu_seconds: None,
+        details: Value::Null,
+    };
+    let kinds = [[0, 6, 7], [8, 0, 9], [10, 11, 0]];
+    let mistakes = Mistakes { right: 1, sign: 2, landmark: 3, entity: 4, both: 5, kinds, nothing: 12 };
+    let mut benchmark = benchmark();
+    benchmark.goals.push(Row {
+        method: "arg".into(),
+        origin: Origin::Ours,
+        set: 0,
+        training: None,
+        summary: goals::Summary::of(&[event], 1).expect("an event"),
+        mistakes: Some(mistakes),
+        parts: Vec::new(),
+    });
+    let text = report::benchmark(&benchmark).to_markdown();
+    let line = "| arg (ours) | generated (1) | 1 | 2 | 3 | 4 | 5 | 6 | 7 | 8 | 9 | 10 | 11 | 12 |";
+    assert!(text.contains(line), "{text}");
 }
 
 #[test]

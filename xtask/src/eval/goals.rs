@@ -1,7 +1,7 @@
 //! Task 1: how often goals and relations are recognised.
 
 use super::{
-    given::{Answers, Given},
+    answers::{Answers, Given},
     input::{Event, Input},
     methods,
     options::{EvalGoals, steps_of},

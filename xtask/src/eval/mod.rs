@@ -3,7 +3,7 @@
 //! [`methods`] knows the methods by name, `task` asks one of them event by event and keeps what it said, so that a
 //! run can be broken off; `goals` and `trajectories` are the two tasks, `given` the answers of somebody else's method.
 
-mod given;
+mod answers;
 pub(crate) mod goals;
 pub(crate) mod input;
 pub mod methods;

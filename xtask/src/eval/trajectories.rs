@@ -1,7 +1,7 @@
 //! Task 2: how far predicted trajectories are off.
 
 use super::{
-    given::{Answers, Given},
+    answers::{Answers, Given},
     input::{Event, Input},
     methods,
     options::EvalTrajectories,

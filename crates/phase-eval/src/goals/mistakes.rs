@@ -15,11 +15,11 @@ pub struct Mistakes {
     pub right: usize,
     /// The kind, who or what, and the landmark are right, and the sign is wrong.
     pub sign: usize,
-    /// The kind and who or what are right, and the landmark is wrong.
+    /// The kind and who or what are right, and the landmark is wrong, whatever the sign.
     pub landmark: usize,
-    /// The kind and the landmark are right, and it is another agent or object.
+    /// The kind and the landmark are right, and it is another agent or object, whatever the sign.
     pub entity: usize,
-    /// The kind is right, and it is another agent or object and another landmark.
+    /// The kind is right, and it is another agent or object and another landmark, whatever the sign.
     pub both: usize,
     /// Which kind was taken for which: `kinds[right][said]`, both in the order of [`GOAL_KINDS`]. The right kind is
     /// counted too.

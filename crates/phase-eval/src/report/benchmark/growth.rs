@@ -33,12 +33,17 @@ pub(super) fn blocks(benchmark: &Benchmark) -> Vec<Block> {
         goals,
         "growth-goals.svg",
         "Goals right (most likely one)",
-        1.0,
+        ("share right", 1.0),
         |summary| summary.all.top1.value,
     ));
-    blocks.extend(plot(benchmark, goals, "growth-relations.svg", "Relations right", 1.0, |summary| {
-        summary.all.relation.value
-    }));
+    blocks.extend(plot(
+        benchmark,
+        goals,
+        "growth-relations.svg",
+        "Relations right",
+        ("share right", 1.0),
+        |summary| summary.all.relation.value,
+    ));
     blocks.extend(table(benchmark, trajectories, ["ADE", "FDE"], |summary: &trajectories::Summary| {
         [length(&summary.all.ade), length(&summary.all.fde)]
     }));
@@ -46,8 +51,8 @@ pub(super) fn blocks(benchmark: &Benchmark) -> Vec<Block> {
         benchmark,
         trajectories,
         "growth-ade.svg",
-        "ADE over all events (u)",
-        0.0,
+        "ADE over all events",
+        ("u", 0.0),
         |summary| summary.all.ade.value,
     ));
     blocks
@@ -87,13 +92,14 @@ fn table<S>(
     (!rows.is_empty()).then_some(Block::Table { head, rows })
 }
 
-/// A line for each network and dataset, and one across for SIMPLE, which learns nothing from events.
+/// A line for each network and dataset, and one across for SIMPLE, which learns nothing from events. The axis up has a
+/// unit and goes at least so far.
 fn plot<S>(
     benchmark: &Benchmark,
     rows: &[Row<S>],
     file: &'static str,
     title: &str,
-    top: f64,
+    (unit, top): (&str, f64),
     of: fn(&S) -> f64,
 ) -> Option<Block> {
     let points: Vec<(&Training, f64)> = trained(benchmark, rows)
@@ -121,10 +127,7 @@ fn plot<S>(
     let simple = simple.map(|row| of(&row.summary));
     lines.extend(simple.map(|value| ("simple".into(), vec![(least, value), (most, value)])));
     let highest = lines.iter().flat_map(|(_, line)| line).map(|(_, value)| value.ceil()).fold(top, f64::max);
-    let axes = [
-        Axis::doubling("events learnt from", least, most),
-        Axis::linear(if top > 0.0 { "share right" } else { "u" }, highest),
-    ];
+    let axes = [Axis::doubling("events learnt from", least, most), Axis::linear(unit, highest)];
     let series: Vec<Series<'_>> =
         lines.iter().map(|(name, points)| Series { name, points: points.clone() }).collect();
     Some(Block::Plot { file, title: title.into(), svg: curves(title, axes, &series) })

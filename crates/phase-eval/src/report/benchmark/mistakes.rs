@@ -43,18 +43,19 @@ pub(super) fn blocks(benchmark: &Benchmark) -> Vec<Block> {
         Block::Heading("What goals were taken for".into()),
         Block::Text(
             "The goals thought likeliest, counted by agents, two to an event. The four columns after the right ones have \
-             the kind of goal right (an agent on a landmark, here called a place; an object on one; touching)."
+             the kind of goal right (an agent on a landmark, here called a place; an object on one; touching); where the \
+             landmark, the object or the agent is wrong, the sign may be too."
                 .into(),
         ),
         Block::Table { head: head(&columns), rows },
     ]
 }
 
+/// The counts in the order of the columns.
 fn cells(mistakes: &Mistakes) -> [usize; 12] {
-    let Mistakes { right, sign, landmark, entity, both, kinds, nothing } = *mistakes;
-    let [[_, place_object, place_touch], [object_place, _, object_touch], [touch_place, touch_object, _]] =
-        kinds;
-    let kinds = [place_object, place_touch, object_place, object_touch, touch_place, touch_object];
-    let [a, b, c, d, e, f] = kinds;
-    [right, sign, landmark, entity, both, a, b, c, d, e, f, nothing]
+    let Mistakes { right, sign, landmark, entity, both, kinds: [place, object, touch], nothing } = *mistakes;
+    [
+        right, sign, landmark, entity, both, place[1], place[2], object[0], object[2], touch[0], touch[1],
+        nothing,
+    ]
 }
