@@ -16,6 +16,7 @@ use phase_dataset::{
     phase_events::{self, Recording},
 };
 use phase_model::{Relation, Scene};
+use phase_render::Palette;
 use phase_sim::{Event, Settings};
 use serde_json::Value;
 use std::{
@@ -142,8 +143,8 @@ pub fn settings_value(settings: &Settings) -> Value {
 /// # Errors
 /// As [`picture::write_video`].
 pub fn write_video(path: &Path, id: &str, event: &Event) -> Result<(), CliError> {
-    let shots: Vec<Shot<'_>> = event.frames().map(|&state| Shot { state, mind: None }).collect();
-    picture::write_video(path, id, &event.scene.physique(), &shots)
+    let shots: Vec<Shot<'_>> = event.frames().map(|&state| Shot { state, minds: Vec::new() }).collect();
+    picture::write_video(path, id, &event.scene.physique(), Palette::PAPER, &shots)
 }
 
 /// Stands for everything that decides an event besides its scene and seed: the settings and this very program.

@@ -31,24 +31,32 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod caption;
 pub mod error;
 pub mod font;
 pub mod frame;
+pub mod layouts;
+pub mod legend;
 pub mod overlay;
+pub mod palette;
 pub mod sheet;
 pub mod stage;
 pub mod style;
+pub mod text;
 pub mod video;
 pub mod yuv;
 
 mod bodies;
 mod painter;
-mod text;
 
+pub use caption::Caption;
 pub use error::RenderError;
 pub use frame::Frame;
-pub use overlay::{Caption, Overlay};
-pub use sheet::contact_sheet;
+pub use layouts::layout_chart;
+pub use overlay::Overlay;
+pub use palette::{Colour, Palette, PaletteName};
+pub use sheet::{contact_sheet, side_by_side};
 pub use stage::Stage;
-pub use style::{Colour, Palette, Style};
+pub use style::Style;
+pub use text::SizedFont;
 pub use video::VideoEncoder;
