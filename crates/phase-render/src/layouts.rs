@@ -57,8 +57,8 @@ const NOTES: [&str; 12] = [
 /// larger one with the landmarks' coordinates.
 ///
 /// # Errors
-/// [`RenderError::Font`] if the embedded font cannot be parsed, which a test excludes; [`RenderError::Layout`] if there are
-/// fewer base layouts than that.
+/// [`RenderError::Font`] if the embedded font cannot be parsed, which a test excludes; [`RenderError::Layout`] if
+/// there are fewer base layouts than that.
 pub fn layout_chart(palette: &Palette) -> Result<Frame, RenderError> {
     let (width, height) = (BLOCKS * BLOCK, TOP + BASES.div_ceil(BLOCKS) * DOWN + BOTTOM);
     let mut pixmap = Pixmap::new(width, height).ok_or(RenderError::Sheet { frames: 110, columns: 10 })?;

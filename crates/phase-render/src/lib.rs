@@ -2,7 +2,8 @@
 //!
 //! A [`Stage`] knows what does not change in an event (walls, landmarks, radii, colours) and turns each
 //! [`phase_model::State`] into a [`Frame`]; a [`VideoEncoder`] turns frames into an H.264 .mp4 that browsers
-//! play and seek in. With an [`Overlay`] a frame also shows what one agent sees and believes.
+//! play and seek in. With an [`Overlay`] a frame also shows what one agent sees and believes, and
+//! [`side_by_side`] joins the views of both. Text is drawn in an embedded font ([`SizedFont`]); colours are a [`Palette`].
 //!
 //! The key design decision is that the pixels are the whole interface: drawing and encoding meet in a
 //! [`Frame`] and know nothing of each other, and neither touches a file or a clock. Everything is drawn and

@@ -71,8 +71,8 @@ impl Default for Palette {
 }
 
 impl Palette {
-    /// Blue, green, red and yellow landmarks; a red and a green agent; a light blue and a pink object. The landmarks are
-    /// paler than the published ones.
+    /// Blue, green, red and yellow landmarks; a red and a green agent; a light blue and a pink object. The
+    /// landmarks are paler than the published ones.
     pub const PAPER: Self = Self {
         background: [255, 255, 255],
         ink: [0, 0, 0],
@@ -95,9 +95,9 @@ impl Palette {
     /// Colours of Okabe and Ito ("Color Universal Design", 2008), some mixed with white or darkened: pale blue, grey,
     /// orange and pale yellow landmarks; a vermilion and a dark blue agent; a sky blue and a yellow object.
     ///
-    /// Bodies and landmarks differ from one another and from the ground by ΔE\*ab ≥ 18 for normal vision, protanopia and
-    /// deuteranopia (simulated after Machado et al. 2009), by ≥ 9 for tritanopia; agents, objects and landmarks differ within their kind also
-    /// by L\* ≥ 9. The test `palettes` computes both.
+    /// Bodies, landmarks, walls and floor differ from one another by ΔE\*ab ≥ 18 for normal vision, protanopia
+    /// and deuteranopia (simulated after Machado et al. 2009) and by ≥ 9 for tritanopia; agents, objects and
+    /// landmarks also differ within their kind by L\* ≥ 9. The test `palettes` computes all of it.
     pub const ACCESSIBLE: Self = Self {
         landmarks: [
             mix_with_white([0, 114, 178], 30),

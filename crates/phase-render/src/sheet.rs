@@ -18,8 +18,8 @@ pub fn contact_sheet(frames: &[Frame], columns: usize) -> Result<Frame, RenderEr
     compose(frames, columns, GAP)
 }
 
-/// Puts frames of one size beside each other, [`GAP`] apart, without a border: `n` frames `w` pixels wide make a picture
-/// `n · w + (n − 1) · GAP` wide.
+/// Puts frames of one size beside each other, [`GAP`] apart, without a border: `n` frames `w` pixels wide make a
+/// picture `n · w + (n − 1) · GAP` wide.
 ///
 /// # Errors
 /// As for [`contact_sheet`].
