@@ -57,7 +57,7 @@ pub(crate) fn draw(painter: &mut Painter, style: &Style, font: &SizedFont) {
         let sample = Sample {
             left: style.margin + k % COLUMNS * (style.text_width() / COLUMNS),
             top: style.legend_top() + k / COLUMNS * line + 1,
-            width: 3 * line / 2,
+            width: 5 * line / 4,
             height: line - 4,
         };
         draw_sample(painter, style, mark, &sample);

@@ -73,7 +73,7 @@ fn lines_fit_below_a_video_and_a_contact_sheet() {
         let (cell, line) = (style.cell_width() as f32, style.text_width() as f32);
         for Caption { cells, text, .. } in lines(&thought()) {
             assert!(cells.iter().all(|text| font.width(text) < cell), "{cells:?} in {cell} pixels");
-            let room = line - cells.len() as f32 * cell - style.text_size() as f32;
+            let room = line - cells.len() as f32 * cell - 0.5 * style.text_size() as f32;
             assert!(font.width(&text) <= room, "{text:?} in {room} pixels");
         }
     }

@@ -21,8 +21,8 @@ fn draw(style: Style, visible: &CellSet) -> Frame {
 fn colours(frame: &Frame, style: &Style, entry: u32) -> [Vec<[u8; 3]>; 2] {
     let (line, third) = (style.line_height(), style.text_width() / 3);
     let (left, top) = (style.margin + entry % 3 * third, style.legend_top() + entry / 3 * line);
-    let split = 3 * line / 2 + style.text_size() / 2;
-    [left..left + 3 * line / 2, left + split..left + third].map(|columns| {
+    let split = 5 * line / 4 + style.text_size() / 2;
+    [left..left + 5 * line / 4, left + split..left + third].map(|columns| {
         columns.flat_map(|x| (top..top + line).filter_map(move |y| frame.pixel(x, y))).collect()
     })
 }
@@ -62,7 +62,7 @@ fn labels_fit_at_the_sizes_in_use() {
     for side in [320, 480, 960] {
         let style = Style { legend: true, ..Style::with_side(side) };
         let font = SizedFont::new(style.text_size()).expect("the embedded font is a font");
-        let room = style.text_width() / 3 - 3 * style.line_height() / 2 - style.text_size() / 2;
+        let room = style.text_width() / 3 - 5 * style.line_height() / 4 - style.text_size() / 2;
         for (mark, label) in ENTRIES {
             assert!(font.width(label) <= room as f32, "{mark:?} in {room} pixels at {side}");
         }
