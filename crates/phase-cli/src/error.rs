@@ -1,6 +1,8 @@
 //! Every way in which a command can fail, and its exit code.
 
-use phase_calibration::ReadError;
+use crate::program::Failure;
+#[cfg(feature = "networks")]
+use crate::train::error::TrainError;
 use phase_dataset::{
     FileError, WriteError, folder::FolderError, parquet::ExportError, phase_events::NotFinite,
 };
@@ -17,14 +19,6 @@ pub enum CliError {
     /// An input file cannot be used.
     #[error(transparent)]
     File(#[from] FileError),
-    /// A file of probes or runs cannot be used.
-    #[error("{}: {problem}", file.display())]
-    Record {
-        /// The file.
-        file: PathBuf,
-        /// What is wrong with it.
-        problem: ReadError,
-    },
     /// The output folder cannot be used.
     #[error(transparent)]
     Folder(#[from] FolderError),
@@ -141,9 +135,16 @@ pub enum CliError {
         /// How many.
         broken: usize,
     },
-    /// Tidy found something.
-    #[error("{0} rule(s) broken")]
-    Untidy(usize),
+    /// A training failed.
+    #[cfg(feature = "networks")]
+    #[error(transparent)]
+    Train(#[from] TrainError),
+    /// A neural network was asked for in a program that has none.
+    #[error("neural networks are needed, which this program was built without; {hint}")]
+    NoNetworks {
+        /// What to do instead.
+        hint: &'static str,
+    },
     /// The user broke off.
     #[error("interrupted; what is finished is kept in {}, and the same command goes on from there", .0.display())]
     Interrupted(PathBuf),
@@ -158,13 +159,10 @@ impl From<ExportError> for CliError {
     }
 }
 
-impl CliError {
-    /// 2 for something about the input or output folder, 130 for an interruption, 1 for everything else.
-    #[must_use]
-    pub const fn exit_code(&self) -> u8 {
+impl Failure for CliError {
+    fn exit_code(&self) -> u8 {
         match self {
             Self::File(_)
-            | Self::Record { .. }
             | Self::Folder(_)
             | Self::Output(_)
             | Self::OtherRun { .. }
@@ -175,6 +173,7 @@ impl CliError {
             | Self::NotWhole { .. }
             | Self::Unfinished(_)
             | Self::RulesBroken { .. }
+            | Self::NoNetworks { .. }
             | Self::Usage(_) => 2,
             Self::Interrupted(_) => 130,
             Self::Simulation { .. }
@@ -185,11 +184,14 @@ impl CliError {
             | Self::ReadBack(_)
             | Self::NotFinite(_)
             | Self::Render { .. }
-            | Self::Threads { .. }
-            | Self::Untidy(_) => 1,
+            | Self::Threads { .. } => 1,
+            #[cfg(feature = "networks")]
+            Self::Train(error) => error.exit_code(),
         }
     }
+}
 
+impl CliError {
     /// An id that a file does not have, with those that come nearest to it.
     #[must_use]
     pub fn unknown_id<'a>(file: &Path, id: &str, ids: impl Iterator<Item = &'a str>) -> Self {

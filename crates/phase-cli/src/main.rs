@@ -1,4 +1,4 @@
-//! The PHASE command line: `cargo xtask gen-dataset`, `simulate`, `render`, `check-physics`, `tidy`.
+//! The program `phase`; see the library `phase_cli`.
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
@@ -6,5 +6,5 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    xtask::main_with(std::env::args_os())
+    phase_cli::main_with(std::env::args_os())
 }

@@ -1,6 +1,7 @@
 //! Many events at once, with results in order.
 
-use crate::{cli::Jobs, error::CliError, interrupt};
+use crate::{error::CliError, interrupt};
+use clap::{Args, value_parser};
 use rayon::{
     ThreadPool, ThreadPoolBuilder,
     iter::{IntoParallelIterator, ParallelIterator},
@@ -9,6 +10,14 @@ use std::sync::{
     Mutex, PoisonError,
     atomic::{AtomicBool, AtomicUsize, Ordering},
 };
+
+/// How many events at once.
+#[derive(Args, Clone, Debug)]
+pub struct Jobs {
+    /// Events to work on at once; results do not depend on it [default: all cores]
+    #[arg(long, value_name = "J", value_parser = value_parser!(u16).range(1..=1024))]
+    pub jobs: Option<u16>,
+}
 
 /// Makes `count` things on as many threads as asked for. `make` returns `None` when it was interrupted; then,
 /// and after the first failure, no new thing is begun.

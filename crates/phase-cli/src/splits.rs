@@ -1,6 +1,7 @@
 //! `splits`: makes or checks the split of a dataset.
 
-use crate::{cli::Splits, console::tell, error::CliError, source::Source};
+use crate::{console::tell, error::CliError, source::Source};
+use clap::Args;
 use phase_dataset::{
     FileError, atomic,
     manifest::{MANIFEST_FILE, Manifest},
@@ -8,6 +9,24 @@ use phase_dataset::{
     splits::{self, Item, Rule, Split},
     statistics,
 };
+use std::path::PathBuf;
+
+/// Options of `splits`.
+#[derive(Args, Debug)]
+pub struct Splits {
+    /// The folder of a dataset, or a file in the format phase-events/1
+    #[arg(value_name = "DIR|FILE")]
+    pub events: PathBuf,
+    /// Check this split (phase-splits/1) instead of the dataset's own
+    #[arg(long, value_name = "FILE", conflicts_with = "make")]
+    pub splits: Option<PathBuf>,
+    /// Divide the events and write the split (phase-splits/1) here
+    #[arg(long, value_name = "FILE")]
+    pub make: Option<PathBuf>,
+    /// Seed of what the rules leave open, with --make
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    pub seed: u64,
+}
 
 /// Runs the command.
 ///

@@ -1,6 +1,7 @@
 //! `stats`: the paper's figures beside a dataset's own, and plots of them.
 
-use crate::{cli::Stats, console::tell, error::CliError};
+use crate::{console::tell, error::CliError};
+use clap::Args;
 use phase_dataset::{
     WriteError, atomic,
     manifest::{MANIFEST_FILE, Manifest},
@@ -9,7 +10,22 @@ use phase_dataset::{
     statistics::{self, Statistics},
     words,
 };
-use std::{collections::BTreeMap, fs, path::Path};
+use std::{
+    collections::BTreeMap,
+    fs,
+    path::{Path, PathBuf},
+};
+
+/// Options of `stats`.
+#[derive(Args, Debug)]
+pub struct Stats {
+    /// The folder of a dataset
+    #[arg(value_name = "DIR")]
+    pub dataset: PathBuf,
+    /// Also write the figures and plots (SVG) into this folder
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+}
 
 /// Width of the bars in the plot of lengths (s).
 const LENGTH_STEP: usize = 1;

@@ -1,17 +1,29 @@
 //! `verify`: whether a dataset is whole and its files agree.
 
 use crate::{
-    cli::Verify,
     console::{remark, tell},
     error::CliError,
-    parallel::make_all,
+    parallel::{Jobs, make_all},
     progress::Progress,
 };
+use clap::Args;
 use phase_dataset::{
     folder::{self, Contents},
     manifest::{MANIFEST_FILE, Manifest},
     verify::{Check, verify_with, work},
 };
+use std::path::PathBuf;
+
+/// Options of `verify`.
+#[derive(Args, Debug)]
+pub struct Verify {
+    /// Folder of a finished dataset
+    #[arg(value_name = "DIR")]
+    pub folder: PathBuf,
+    /// How many files at once.
+    #[command(flatten)]
+    pub jobs: Jobs,
+}
 
 /// Runs the command: a sentence for each problem, or one that there is none.
 ///

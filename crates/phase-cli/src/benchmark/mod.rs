@@ -9,6 +9,7 @@ mod rows;
 
 use crate::{
     console::{remark, tell},
+    context::Context,
     error::CliError,
     eval::{networks, task},
     gen_dataset::check_same,
@@ -30,9 +31,9 @@ const BENCHMARK_FILE: &str = "benchmark.json";
 ///
 /// # Errors
 /// Any [`CliError`].
-pub fn run(arguments: &Benchmark) -> Result<(), CliError> {
+pub fn run(arguments: &Benchmark, context: &Context) -> Result<(), CliError> {
     if needs_networks(arguments) {
-        networks::or_elsewhere("benchmark")?;
+        networks::require(context)?;
     }
     let contestants = contestants(arguments)?;
     let mut rows = Rows::open(arguments)?;

@@ -1,7 +1,7 @@
 //! The options of `benchmark`.
 
 use super::plan::METHODS;
-use crate::cli::Jobs;
+use crate::parallel::Jobs;
 use clap::{Args, builder::PossibleValuesParser, value_parser};
 use std::path::PathBuf;
 
@@ -17,7 +17,7 @@ pub struct Benchmark {
     /// Only these methods, such as simple,arg,stgat [default: all]
     #[arg(long, value_name = "METHODS", value_delimiter = ',', value_parser = PossibleValuesParser::new(METHODS))]
     pub methods: Vec<String>,
-    /// Also measure networks with these weights, as `cargo train` writes them, and show how they grow with what they learnt
+    /// Also measure networks with these weights, as `train` writes them, and show how they grow with what they learnt
     /// from
     #[arg(long, value_name = "FILES", num_args = 1..)]
     pub trained: Vec<PathBuf>,

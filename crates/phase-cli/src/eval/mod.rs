@@ -13,14 +13,21 @@ pub mod simple;
 pub(crate) mod task;
 pub(crate) mod trajectories;
 
-use crate::error::CliError;
+use crate::{context::Context, error::CliError};
 use options::Eval;
 
 /// Runs the command.
 ///
 /// # Errors
 /// Any [`CliError`].
-pub fn run(arguments: &Eval) -> Result<(), CliError> {
+pub fn run(arguments: &Eval, context: &Context) -> Result<(), CliError> {
+    let method = match arguments {
+        Eval::Goals(arguments) => &arguments.method,
+        Eval::Trajectories(arguments) => &arguments.method,
+    };
+    if method.as_deref().is_some_and(networks::is_network) {
+        networks::require(context)?;
+    }
     match arguments {
         Eval::Goals(arguments) => goals::run(arguments),
         Eval::Trajectories(arguments) => trajectories::run(arguments),

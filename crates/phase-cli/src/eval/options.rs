@@ -1,7 +1,7 @@
 //! The options of `eval`.
 
 use super::methods;
-use crate::cli::Jobs;
+use crate::parallel::Jobs;
 use clap::{
     Args, Subcommand,
     builder::{PossibleValuesParser, TypedValueParser},
@@ -27,7 +27,7 @@ pub struct EvalGoals {
     #[arg(long, value_name = "METHOD", value_parser = PossibleValuesParser::new(methods::RECOGNISERS),
           required_unless_present = "predictions")]
     pub method: Option<String>,
-    /// The weights of a neural network (safetensors, as `cargo train` writes them) [default: those that come with the
+    /// The weights of a neural network (safetensors, as `train` writes them) [default: those that come with the
     /// program]
     #[arg(long, value_name = "FILE", conflicts_with = "predictions")]
     pub weights: Option<PathBuf>,
@@ -46,7 +46,7 @@ pub struct EvalTrajectories {
     #[arg(long, value_name = "METHOD", value_parser = PossibleValuesParser::new(methods::FORECASTERS),
           required_unless_present = "predictions")]
     pub method: Option<String>,
-    /// The weights of a neural network (safetensors, as `cargo train` writes them) [default: those that come with the
+    /// The weights of a neural network (safetensors, as `train` writes them) [default: those that come with the
     /// program]
     #[arg(long, value_name = "FILE", conflicts_with = "predictions")]
     pub weights: Option<PathBuf>,

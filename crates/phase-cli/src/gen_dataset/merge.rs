@@ -1,8 +1,7 @@
 //! `merge`: the shards of a dataset become the dataset.
 
-use super::{announce, complete::complete, run_value};
+use super::{announce, complete::complete, options::Merge, run_value};
 use crate::{
-    cli::Merge,
     console::{remark, tell},
     error::CliError,
     interrupt,

@@ -6,17 +6,18 @@
 
 pub mod complete;
 pub mod merge;
+pub mod options;
 pub mod plan;
 pub mod slot;
 
 use crate::{
-    cli::GenDataset,
     console::{remark, tell},
     error::CliError,
     interrupt,
     parallel::for_all,
 };
 use complete::complete;
+use options::GenDataset;
 use phase_dataset::{
     atomic,
     checksum::FileEntry,

@@ -1,8 +1,7 @@
 //! Everything that decides what a dataset holds.
 
-use super::run_value;
+use super::{options::GenDataset, run_value};
 use crate::{
-    cli::GenDataset,
     engine::GENERATOR,
     error::CliError,
     production::{program, settings_value},
@@ -18,9 +17,9 @@ use std::path::{Path, PathBuf};
 
 /// The presets that come with the program.
 const PRESETS: [(&str, &str); 3] = [
-    ("demo", include_str!("../../../data/presets/demo.json")),
-    ("phase-500", include_str!("../../../data/presets/phase-500.json")),
-    ("phase-training", include_str!("../../../data/presets/phase-training.json")),
+    ("demo", include_str!("../../../../data/presets/demo.json")),
+    ("phase-500", include_str!("../../../../data/presets/phase-500.json")),
+    ("phase-training", include_str!("../../../../data/presets/phase-training.json")),
 ];
 
 /// A preset with all that was asked for on the command line.

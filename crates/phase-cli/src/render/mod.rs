@@ -1,8 +1,9 @@
 //! `render`: events as videos, or as pictures of their key frames.
 
+pub mod options;
+
 use crate::{
     captions,
-    cli::Render,
     console::tell,
     engine,
     error::CliError,
@@ -11,6 +12,7 @@ use crate::{
     picture::{self, Mind, Shot},
     source::Source,
 };
+use options::Render;
 use phase_dataset::{
     WriteError,
     phase_events::{Recording, Row, Simulation, Trajectory},

@@ -1,7 +1,8 @@
 //! `simulate`: the scenes of a `phase-events/1` file, each from its first row and with one or several seeds.
 
+pub mod options;
+
 use crate::{
-    cli::Simulate,
     console::{remark, tell},
     engine::{self, GENERATOR},
     error::CliError,
@@ -11,6 +12,7 @@ use crate::{
     production::{Order, Production, settings_value},
     source,
 };
+use options::Simulate;
 use phase_dataset::{
     atomic,
     checksum::{hexadecimal, sha256},

@@ -13,7 +13,7 @@ use thiserror::Error;
 
 /// Why a command failed. The text is one plain sentence.
 #[derive(Debug, Error)]
-pub(crate) enum TrainError {
+pub enum TrainError {
     /// A file of the dataset cannot be used.
     #[error(transparent)]
     File(#[from] FileError),
@@ -99,7 +99,8 @@ pub(crate) enum TrainError {
 
 impl TrainError {
     /// 2 for something about the dataset or the output file, 1 for everything else.
-    pub(crate) const fn exit_code(&self) -> u8 {
+    #[must_use]
+    pub const fn exit_code(&self) -> u8 {
         match self {
             Self::File(_)
             | Self::NotADataset(_)

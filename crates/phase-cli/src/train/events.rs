@@ -1,6 +1,6 @@
 //! The events to learn from, to validate on and to test with.
 
-use crate::{Options, error::TrainError};
+use super::{error::TrainError, options::Options};
 use phase_baselines::training::Source;
 use phase_dataset::{
     checksum::{hexadecimal, sha256},
@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 
 /// What the options choose.
 #[derive(Debug)]
-pub(crate) struct Events {
+pub(super) struct Events {
     data: Dataset,
     /// Where validation and test events are from, if not from there.
     validation: Option<Dataset>,
@@ -25,7 +25,7 @@ impl Events {
     ///
     /// # Errors
     /// If one is none, its manifest cannot be used, or there are fewer training events than are asked for.
-    pub(crate) fn open(options: &Options) -> Result<Self, TrainError> {
+    pub(super) fn open(options: &Options) -> Result<Self, TrainError> {
         let data = Dataset::open(&options.data)?;
         let validation = options.validation.as_deref().map(Dataset::open).transpose()?;
         let found = data.entries(Split::Train).count();
@@ -40,7 +40,7 @@ impl Events {
     ///
     /// # Errors
     /// If there are none; each event's own if its file cannot be used.
-    pub(crate) fn of(
+    pub(super) fn of(
         &self,
         split: Split,
     ) -> Result<impl Iterator<Item = Result<Recording, TrainError>>, TrainError> {
@@ -56,7 +56,7 @@ impl Events {
     }
 
     /// What a record says of the events of a split.
-    pub(crate) fn source(&self, split: Split) -> Source {
+    pub(super) fn source(&self, split: Split) -> Source {
         let (dataset, count) = self.chosen(split);
         let events = dataset.entries(split).take(count).count();
         Source { folder: dataset.name(), sha256: hexadecimal(&sha256(dataset.id().as_bytes())), events }

@@ -1,13 +1,13 @@
 //! `social-lstm` and `stgat`: the baselines for Task 2.
 
-use crate::{NetworkOptions, error::TrainError, network};
+use super::{error::TrainError, network, options::NetworkOptions};
 use phase_baselines::{forecasting::SETTINGS, nodes::Nodes, social_lstm::SocialLstm, stgat::Stgat};
 
 /// Trains a Social-LSTM.
 ///
 /// # Errors
 /// Those of [`network::run`].
-pub(crate) fn social_lstm(options: &NetworkOptions) -> Result<(), TrainError> {
+pub(super) fn social_lstm(options: &NetworkOptions) -> Result<(), TrainError> {
     network::run::<SocialLstm>(options, SETTINGS, |_, observed| Ok(Nodes::of(observed)))
 }
 
@@ -15,6 +15,6 @@ pub(crate) fn social_lstm(options: &NetworkOptions) -> Result<(), TrainError> {
 ///
 /// # Errors
 /// Those of [`network::run`].
-pub(crate) fn stgat(options: &NetworkOptions) -> Result<(), TrainError> {
+pub(super) fn stgat(options: &NetworkOptions) -> Result<(), TrainError> {
     network::run::<Stgat>(options, SETTINGS, |_, observed| Ok(Nodes::of(observed)))
 }

@@ -1,6 +1,7 @@
 //! What is kept of a training beside its weights: the checkpoint that the same command goes on from, and the record.
 
-use crate::{error::TrainError, remark};
+use super::error::TrainError;
+use crate::console::remark;
 use cpu_time::ProcessTime;
 use phase_baselines::training::{Final, Network, Record, Run, Source};
 use phase_dataset::{atomic, json};
@@ -15,7 +16,7 @@ const KEPT_EVERY: Duration = Duration::from_secs(2);
 
 /// The files of a training under way.
 #[derive(Debug)]
-pub(crate) struct Kept {
+pub(super) struct Kept {
     checkpoint: PathBuf,
     file: PathBuf,
     record: Record,
@@ -31,7 +32,7 @@ impl Kept {
     ///
     /// # Errors
     /// If there is a checkpoint of another training, or a file cannot be read or written.
-    pub(crate) fn open<N: Network>(
+    pub(super) fn open<N: Network>(
         run: &mut Run<N>,
         out: &Path,
         training: Source,
@@ -63,7 +64,7 @@ impl Kept {
     ///
     /// # Errors
     /// If nothing can be learnt or written.
-    pub(crate) fn round<N: Network>(
+    pub(super) fn round<N: Network>(
         &mut self,
         run: &mut Run<N>,
         training: &[N::Sample],
@@ -85,7 +86,7 @@ impl Kept {
     ///
     /// # Errors
     /// If a file cannot be written or removed.
-    pub(crate) fn finish(mut self, finished: Final) -> Result<(), TrainError> {
+    pub(super) fn finish(mut self, finished: Final) -> Result<(), TrainError> {
         self.record.finished = Some(finished);
         atomic::write(&self.file, self.record.to_json().as_bytes())?;
         Ok(atomic::remove(&self.checkpoint)?)

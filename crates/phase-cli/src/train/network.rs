@@ -1,6 +1,7 @@
 //! Training a network of the baselines: round by round, so that the same command goes on after a break.
 
-use crate::{NetworkOptions, error::TrainError, events::Events, kept::Kept, remark, tell};
+use super::{error::TrainError, events::Events, kept::Kept, options::NetworkOptions};
+use crate::console::{remark, tell};
 use phase_baselines::training::{
     Final, Measure, NamedMeasure, NetworkError, Published, Round, Run, Settings, measure, to_safetensors,
 };
@@ -11,7 +12,7 @@ use phase_model::ObservedEvent;
 ///
 /// # Errors
 /// If the datasets cannot be used, nothing can be learnt or a file cannot be written.
-pub(crate) fn run<N: Published>(
+pub(super) fn run<N: Published>(
     options: &NetworkOptions,
     mut settings: Settings,
     sample: impl Fn(&Recording, &ObservedEvent) -> Result<N::Sample, TrainError>,

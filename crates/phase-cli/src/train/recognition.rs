@@ -1,6 +1,6 @@
 //! `two-level-lstm` and `arg`: the baselines for Task 1.
 
-use crate::{NetworkOptions, error::TrainError, network};
+use super::{error::TrainError, network, options::NetworkOptions};
 use phase_baselines::{
     arg::Arg,
     recognition::{LabelledEvent, SETTINGS},
@@ -13,7 +13,7 @@ use phase_model::ObservedEvent;
 ///
 /// # Errors
 /// Those of [`network::run`].
-pub(crate) fn two_level_lstm(options: &NetworkOptions) -> Result<(), TrainError> {
+pub(super) fn two_level_lstm(options: &NetworkOptions) -> Result<(), TrainError> {
     network::run::<TwoLevelLstm>(options, SETTINGS, sample)
 }
 
@@ -21,7 +21,7 @@ pub(crate) fn two_level_lstm(options: &NetworkOptions) -> Result<(), TrainError>
 ///
 /// # Errors
 /// Those of [`network::run`].
-pub(crate) fn arg(options: &NetworkOptions) -> Result<(), TrainError> {
+pub(super) fn arg(options: &NetworkOptions) -> Result<(), TrainError> {
     network::run::<Arg>(options, SETTINGS, sample)
 }
 

@@ -1,6 +1,7 @@
 //! `strength`: trains SIMPLE's guess at the agents' strengths and says how good it is.
 
-use crate::{Options, error::TrainError, events::Events, remark, tell};
+use super::{error::TrainError, events::Events, options::Options};
+use crate::console::{remark, tell};
 use phase_baselines::strength::{Motion, Sample, Score, Settings, commonest, score, train};
 use phase_dataset::{atomic::AtomicFile, splits::Split};
 use phase_model::Strength;
@@ -11,7 +12,7 @@ use std::io::Write;
 ///
 /// # Errors
 /// If the dataset cannot be used, nothing can be learnt or the file cannot be written.
-pub(crate) fn run(options: &Options) -> Result<(), TrainError> {
+pub(super) fn run(options: &Options) -> Result<(), TrainError> {
     let events = Events::open(options)?;
     // Where nothing can be written is to be known before the work.
     let mut file = AtomicFile::create(&options.out)?;

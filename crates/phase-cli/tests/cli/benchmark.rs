@@ -155,7 +155,7 @@ fn networks_are_built_in_or_asked_for() {
         [&[][..], &["--methods", "cue,arg"], &["--methods", "cue", "--trained", "mine.safetensors"]]
     {
         let sentence = refuse(path, &[&["benchmark", "--data", "tiny"], options].concat());
-        assert!(sentence.contains("use `cargo xtask-networks benchmark …`"), "{sentence}");
+        assert!(sentence.contains("`cargo install --path crates/phase-cli`"), "{sentence}");
     }
     assert_eq!(fs::read_dir(path).expect("a folder").count(), 0);
 }

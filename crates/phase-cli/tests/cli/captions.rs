@@ -1,11 +1,11 @@
 //! What is written below the picture of a mind.
 
 use phase_agent::{ActionValue, SubgoalValue, Thought};
+use phase_cli::captions::{COUNT, lines};
 use phase_model::{Action, Entity};
 use phase_planner::Subgoal;
 use phase_predicates::{Literal, Predicate};
 use phase_render::Style;
-use xtask::captions::{COUNT, lines};
 
 fn on(object: u8, landmark: u8, holds: bool) -> Subgoal {
     Subgoal::Achieve(Literal { predicate: Predicate::On(Entity::Object(object), landmark), holds })

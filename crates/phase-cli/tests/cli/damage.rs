@@ -1,7 +1,7 @@
 //! Damaged shards and full disks: nothing wrong is made of them, and what was made stays.
 #![cfg(unix)]
 
-use crate::support::{refuse, run, succeed, text, tree, xtask};
+use crate::support::{phase, refuse, run, succeed, text, tree};
 use std::{
     fs,
     path::Path,
@@ -48,7 +48,7 @@ fn run_short_of_space(folder: &Path, arguments: &[&str], bytes: usize) -> Output
     // In blocks of 512 bytes. Ignoring the signal makes writing fail as on a full disk; else it would kill.
     let script = format!("trap '' XFSZ; ulimit -f {}; exec \"$@\"", bytes.div_ceil(512));
     let mut command = Command::new("sh");
-    command.current_dir(folder).args(["-c", &script, "sh"]).arg(xtask(folder).get_program());
+    command.current_dir(folder).args(["-c", &script, "sh"]).arg(phase(folder).get_program());
     command.args(arguments).output().expect("a shell")
 }
 

@@ -1,7 +1,7 @@
 //! A run that is stopped goes on where it was, and nobody can tell afterwards.
 #![cfg(unix)]
 
-use crate::support::{refuse, succeed, text, tree, xtask};
+use crate::support::{phase, refuse, succeed, text, tree};
 use std::{
     io::{BufRead, BufReader},
     path::Path,
@@ -18,7 +18,7 @@ fn generate(out: &str) -> Vec<&str> {
 /// Starts a run and waits until its first event is finished.
 fn start(folder: &Path, out: &str) -> Child {
     let mut child =
-        xtask(folder).args(generate(out)).stderr(Stdio::piped()).spawn().expect("the program starts");
+        phase(folder).args(generate(out)).stderr(Stdio::piped()).spawn().expect("the program starts");
     let stderr = child.stderr.take().expect("a pipe");
     let line = BufReader::new(stderr).lines().next().expect("a line").expect("text");
     assert!(line.starts_with("1/3 "), "{line}");
@@ -58,7 +58,7 @@ fn an_interrupted_run_is_resumed_to_the_same_bytes() {
         let difference = r#"settings.engine "world" instead of "forward""#;
         assert!(sentence.contains("unfinished") && sentence.contains(difference), "{sentence}");
 
-        let output = xtask(path).args(generate(&out)).output().expect("the program starts");
+        let output = phase(path).args(generate(&out)).output().expect("the program starts");
         assert!(output.status.success(), "{name}: {}", text(&output.stderr));
         assert!(
             text(&output.stderr).contains("demo-0000 helping: 10 steps (kept)"),
@@ -84,7 +84,7 @@ fn a_damaged_cache_is_made_again() {
     kill(path, "out");
     std::fs::write(path.join("out/.cache/demo-0000.json"), "rubbish").expect("written");
     std::fs::write(path.join("out/events/demo-0000.json"), "rubbish").expect("written");
-    let output = xtask(path).args(generate("out")).output().expect("the program starts");
+    let output = phase(path).args(generate("out")).output().expect("the program starts");
     assert!(output.status.success(), "{}", text(&output.stderr));
     assert!(!text(&output.stderr).contains("kept"), "{}", text(&output.stderr));
     assert!(tree(&path.join("out")) == tree(&path.join("straight")));
@@ -108,7 +108,7 @@ fn two_runs_in_one_folder_do_not_mix() {
     let mut child = start(path, "out");
     let sentence = refuse(path, &["gen-dataset", "--events", "3", "--out", "out"]);
     assert!(sentence.contains("unfinished run of another kind"), "{sentence}");
-    let output = xtask(path).args(generate("out")).output().expect("the program starts");
+    let output = phase(path).args(generate("out")).output().expect("the program starts");
     assert_eq!(output.status.code(), Some(2));
     assert!(text(&output.stderr).contains("another run is writing"), "{}", text(&output.stderr));
     signal(&child, "-INT");

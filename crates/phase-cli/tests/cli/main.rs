@@ -3,8 +3,6 @@
 mod bad_input;
 mod benchmark;
 mod captions;
-mod check_behaviour;
-mod check_physics;
 mod damage;
 mod eval;
 mod gen_dataset;
@@ -15,5 +13,6 @@ mod render;
 mod selection;
 mod simulate;
 mod support;
-mod tidy;
+#[cfg(feature = "networks")]
+mod train;
 mod verify;

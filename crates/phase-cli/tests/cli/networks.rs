@@ -1,4 +1,4 @@
-//! `eval` with the neural baselines, in a program that has them and in one that has not.
+//! `eval` and `train` with the neural baselines, in a program that has them and in one that has not.
 
 #[cfg(feature = "networks")]
 use crate::{
@@ -34,8 +34,9 @@ fn a_program_without_networks_says_how_to_get_them() {
     events_of(path);
     for (task, name) in NETWORKS {
         let sentence = refuse(path, &["eval", task, "--method", name, "--events", "events.json"]);
-        let command = format!("`cargo xtask-networks eval {task} --method {name} …`");
-        assert!(sentence.contains(&command), "{sentence}");
+        assert!(sentence.contains("`cargo install --path crates/phase-cli`"), "{sentence}");
+        let train = ["train", name, "--data", "nowhere", "--out", "out"];
+        assert!(refuse(path, &train).contains("`cargo install --path crates/phase-cli`"));
     }
     assert!(results_missing(path));
 }
@@ -79,7 +80,7 @@ fn answers_do_not_depend_on_threads() {
 /// The weights that come with the program.
 #[cfg(feature = "networks")]
 fn shipped(name: &str) -> String {
-    let data = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("a workspace").join("data");
+    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data");
     data.join(format!("{name}.safetensors")).to_string_lossy().into_owned()
 }
 

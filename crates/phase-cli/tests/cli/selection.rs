@@ -1,6 +1,6 @@
 //! Selected datasets: attempts, resuming between them, shards, splits and figures.
 
-use crate::support::{refuse, run, succeed, text, tree, xtask};
+use crate::support::{phase, refuse, run, succeed, text, tree};
 use phase_dataset::manifest::Manifest;
 use std::{
     fs,
@@ -51,7 +51,7 @@ fn shards_interruptions_and_jobs_leave_no_trace() {
     assert!(tree(&path.join("merged")) == whole, "merged shards differ from one run");
 
     // Stopped after its first event, at whatever attempt it is at then.
-    let mut child = xtask(path)
+    let mut child = phase(path)
         .args(generate("stopped", &["--jobs", "1"]))
         .stderr(Stdio::piped())
         .spawn()

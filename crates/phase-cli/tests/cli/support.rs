@@ -11,16 +11,16 @@ use std::{
 /// Options that make events short and thinking quick.
 pub(crate) const QUICK: [&str; 6] = ["--simulations", "20", "--particles", "10", "--max-steps", "4"];
 
-/// The program, to be run in a folder. It knows of no cargo, so it cannot build itself anew with other features.
-pub(crate) fn xtask(folder: &Path) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_xtask"));
-    command.current_dir(folder).env_remove("CARGO");
+/// The program, to be run in a folder.
+pub(crate) fn phase(folder: &Path) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_phase"));
+    command.current_dir(folder);
     command
 }
 
 /// Runs the program to its end.
 pub(crate) fn run(folder: &Path, arguments: &[&str]) -> Output {
-    xtask(folder).args(arguments).output().expect("the program starts")
+    phase(folder).args(arguments).output().expect("the program starts")
 }
 
 /// Runs the program and checks that it is content.

@@ -1,11 +1,12 @@
-//! The program: what it says of input that it cannot use, what it leaves, and how it goes on after a break.
+//! `train`: what it says of input that it cannot use, what it leaves, and how it goes on after a break.
 
+use crate::support::phase;
 use serde_json::{Value, json};
 use std::{
     fs,
     io::{BufRead, BufReader},
     path::Path,
-    process::{Command, Stdio},
+    process::Stdio,
 };
 
 const NETWORKS: [&str; 4] = ["two-level-lstm", "arg", "social-lstm", "stgat"];
@@ -16,8 +17,7 @@ const ROUNDS: &str = "3";
 
 /// Exit code and what stands on stderr.
 fn train(arguments: &[&str]) -> (Option<i32>, String) {
-    let output =
-        Command::new(env!("CARGO_BIN_EXE_train")).args(arguments).output().expect("the program starts");
+    let output = phase(Path::new(".")).arg("train").args(arguments).output().expect("the program starts");
     (output.status.code(), String::from_utf8(output.stderr).expect("text"))
 }
 
@@ -116,7 +116,8 @@ fn a_training_that_was_broken_off_goes_on_to_the_same_weights() {
     let options = |out| [NETWORK, "--data", &data, "--out", out, "--rounds", ROUNDS];
     let (code, said) = train(&options(&straight));
     assert_eq!(code, Some(0), "{said}");
-    let mut child = Command::new(env!("CARGO_BIN_EXE_train"))
+    let mut child = phase(Path::new("."))
+        .arg("train")
         .args(options(&broken))
         .stdout(Stdio::null())
         .stderr(Stdio::piped())

@@ -1,6 +1,6 @@
 //! The networks themselves.
 
-use crate::error::CliError;
+use crate::{context::Context, error::CliError};
 use candle_core::Result as NetworkResult;
 use phase_baselines::{
     arg::Arg,
@@ -79,11 +79,11 @@ pub fn training_of(file: &Path) -> Result<Training, CliError> {
     record_of(&beside, &json::bytes(&beside)?)
 }
 
-/// Nothing to be done: this program has networks.
+/// Checks that this program has networks, which it does.
 ///
 /// # Errors
 /// None.
-pub const fn or_elsewhere(_: &str) -> Result<(), CliError> {
+pub const fn require(_: &Context) -> Result<(), CliError> {
     Ok(())
 }
 

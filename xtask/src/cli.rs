@@ -1,0 +1,46 @@
+//! The commands of `cargo xtask`.
+
+use crate::{
+    check_behaviour::{self, options::CheckBehaviour},
+    check_physics::{self, options::CheckPhysics},
+    error::XtaskError,
+    tidy,
+};
+use clap::{Parser, Subcommand};
+use phase_cli::{context::Context, program::Interface};
+
+/// The commands of phase, and the chores of this workspace
+#[derive(Parser, Debug)]
+#[command(version)]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// What to do.
+#[derive(Subcommand, Debug)]
+pub enum Command {
+    /// A command of `phase`.
+    #[command(flatten)]
+    Phase(phase_cli::cli::Command),
+    /// Compare an engine of the physics with recorded motion
+    CheckPhysics(CheckPhysics),
+    /// Show how reliably agents do what they are planned to do
+    CheckBehaviour(CheckBehaviour),
+    /// Check the rules of the house that the compiler cannot
+    Tidy,
+}
+
+impl Interface for Cli {
+    type Error = XtaskError;
+
+    fn run(&self, context: &Context) -> Result<(), XtaskError> {
+        match &self.command {
+            Command::Phase(command) => Ok(command.run(context)?),
+            Command::CheckPhysics(arguments) => check_physics::run(arguments),
+            Command::CheckBehaviour(arguments) => Ok(check_behaviour::run(arguments)?),
+            Command::Tidy => tidy::run(),
+        }
+    }
+}

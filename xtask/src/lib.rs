@@ -1,0 +1,29 @@
+//! `cargo xtask`: the commands of `phase` (the crate `phase_cli`), and the chores that need the source of this workspace.
+//!
+//! - `check-physics` compares an engine with recorded motion,
+//! - `check-behaviour` shows how reliably agents do what they are planned to do,
+//! - `tidy` checks what the compiler cannot.
+//!
+//! The key design decision is that chores are not installed: they are of use to nobody without the source. The price is a
+//! second program with the same commands.
+
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+
+pub mod check_behaviour;
+pub mod check_physics;
+pub mod cli;
+pub mod error;
+pub mod tidy;
+
+use phase_cli::{context::Program, program};
+use std::{ffi::OsString, process::ExitCode};
+
+/// The program `cargo xtask`.
+pub const XTASK: Program =
+    Program { name: "cargo xtask", networks_hint: "use `cargo xtask-networks` in place of `cargo xtask`" };
+
+/// Runs a command line, program name first, and returns its exit code.
+pub fn main_with(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    program::main_with::<cli::Cli>(XTASK, arguments)
+}

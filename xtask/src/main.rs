@@ -1,0 +1,10 @@
+//! `cargo xtask`: the commands of `phase`, and the chores of this workspace.
+
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    xtask::main_with(std::env::args_os())
+}

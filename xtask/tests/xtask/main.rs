@@ -1,0 +1,7 @@
+//! The chores of `cargo xtask`, run as a program.
+
+mod check_behaviour;
+mod check_physics;
+mod commands;
+mod support;
+mod tidy;
