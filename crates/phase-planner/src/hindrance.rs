@@ -11,8 +11,8 @@ use crate::{
     situation::{Situation, Spot, obstruct},
     task::{Node, Task},
 };
-use phase_model::{Entity, Goal, Sign, Vec2, arena, layout::room_of};
-use phase_predicates::{Place, Predicate, achieved};
+use phase_model::{Entity, Goal, Place, Predicate, Sign, Subgoal, Vec2, arena, layout::room_of};
+use phase_predicates::achieved;
 
 /// How much of its own way the hinderer sets against the other's cost.
 const EFFORT: f32 = 0.4;
@@ -252,7 +252,7 @@ fn way(situation: &Situation<'_>, agent: usize, to: Vec2) -> f32 {
     situation.routes.cost(from, to, situation.width(agent, None), situation.gaps(agent, 0b11))
 }
 
-fn approach_rooms(situation: &Situation<'_>, agent: usize, to: Vec2, subgoals: &mut Vec<crate::Subgoal>) {
+fn approach_rooms(situation: &Situation<'_>, agent: usize, to: Vec2, subgoals: &mut Vec<Subgoal>) {
     let from = situation.state.position(Entity::agent(agent));
     let width = situation.width(agent, None);
     if let Some(route) = situation.routes.best(from, to, width, situation.gaps(agent, 0b11)) {
@@ -260,6 +260,6 @@ fn approach_rooms(situation: &Situation<'_>, agent: usize, to: Vec2, subgoals: &
     }
 }
 
-fn let_go_first(situation: &Situation<'_>, agent: usize) -> Vec<crate::Subgoal> {
+fn let_go_first(situation: &Situation<'_>, agent: usize) -> Vec<Subgoal> {
     plan::let_go(situation, agent).subgoals
 }

@@ -1,16 +1,17 @@
 //! One agent's plan from one physical state.
 
 use crate::{
-    Subgoal, aside, flight, hindrance,
+    aside, flight, hindrance,
     routes::{Route, Routes},
     search::{self, SymbolicPlan},
     situation::{Situation, Spot},
     task::{Node, Operator, Task},
 };
 use phase_model::{
-    AGENT_COUNT, Attitude, Entity, EntitySet, Goal, Layout, Physique, Sign, State, layout::room_of,
+    AGENT_COUNT, Attitude, Entity, EntitySet, Goal, Layout, Literal, Physique, Place, Predicate, Sign, State,
+    Subgoal, layout::room_of,
 };
-use phase_predicates::{Literal, Place, Predicate, achieved};
+use phase_predicates::{achieved, is_true};
 
 /// What a helper's own travel counts for beside the helpee's: of two ways that are equally short it takes the
 /// one that spares the other.
@@ -199,7 +200,7 @@ pub(crate) fn skip_done(situation: &Situation<'_>, subgoals: &mut Vec<Subgoal>) 
         .iter()
         .take_while(|subgoal| {
             matches!(subgoal, Subgoal::Achieve(literal)
-                if literal.is_true(situation.physique, situation.state))
+                if is_true(situation.physique, situation.state, *literal))
         })
         .count();
     subgoals.drain(..done);
