@@ -39,16 +39,19 @@
 #![deny(missing_docs)]
 
 pub mod aside;
+mod express;
 pub mod flight;
 pub mod hindrance;
 pub mod plan;
+pub mod planner;
 pub mod routes;
 pub mod search;
 pub mod situation;
 pub mod task;
 pub mod value;
 
-pub use plan::{Plan, Planner};
+pub use plan::Plan;
+pub use planner::Planner;
 pub use routes::{Gaps, Route, Routes};
 pub use situation::{Situation, Spot};
 pub use value::Candidate;
