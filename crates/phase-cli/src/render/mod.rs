@@ -13,10 +13,8 @@ use crate::{
     source::Source,
 };
 use options::{Belief, Render};
-use phase_dataset::{
-    WriteError,
-    phase_events::{Recording, Row, Simulation, Trajectory},
-};
+use phase_dataset::WriteError;
+use phase_event::{Recording, Row, Simulation, Trajectory};
 use phase_model::{State, arena::SUBSTEPS};
 use phase_render::Palette;
 use phase_sim::Settings;
@@ -124,7 +122,7 @@ fn minds(simulation: &Simulation, agent: usize, palette: &Palette) -> Vec<Mind> 
     let snapshots = engine::beliefs(event, agent, &settings);
     let colour = palette.agent_names[agent];
     let steps = event.steps.iter().enumerate();
-    let mind = |((t, step), snapshot): ((usize, &phase_sim::Step), phase_sim::BeliefSnapshot)| {
+    let mind = |((t, step), snapshot): ((usize, &phase_event::Step), phase_sim::BeliefSnapshot)| {
         let thought = &step.thoughts[agent];
         Mind {
             agent,
