@@ -3,7 +3,7 @@
 use crate::error::CliError;
 use core::ops::ControlFlow;
 use phase_model::{
-    Scene,
+    AgentId, Scene,
     random::{self, Purpose},
 };
 use phase_sim::{BeliefSnapshot, Event, Settings, Step};
@@ -41,6 +41,6 @@ pub fn simulate(
 
 /// What an agent saw and believed before each step of a recorded event, and after the last.
 #[must_use]
-pub fn beliefs(event: &Event, agent: usize, settings: &Settings) -> Vec<BeliefSnapshot> {
+pub fn beliefs(event: &Event, agent: AgentId, settings: &Settings) -> Vec<BeliefSnapshot> {
     phase_sim::beliefs(event, agent, settings.minds.particles)
 }

@@ -15,7 +15,7 @@ use phase_dataset::{
     WriteError,
     phase_events::{Recording, Row, Simulation, Trajectory},
 };
-use phase_model::{State, arena::SUBSTEPS};
+use phase_model::{AgentId, State, arena::SUBSTEPS};
 use phase_sim::Settings;
 use std::path::{Path, PathBuf};
 
@@ -109,7 +109,7 @@ fn render(arguments: &Render, recording: &Recording, path: &Path) -> Result<&'st
 }
 
 /// What an agent saw, believed and was after at every step.
-fn minds(simulation: &Simulation, agent: usize) -> Vec<Mind> {
+fn minds(simulation: &Simulation, agent: AgentId) -> Vec<Mind> {
     let event = &simulation.event;
     let settings: Settings = serde_json::from_value(simulation.settings.clone()).unwrap_or_default();
     let snapshots = engine::beliefs(event, agent, &settings);

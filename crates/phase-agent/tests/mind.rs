@@ -8,8 +8,8 @@ use phase_agent::{
 };
 use phase_forward::Forward;
 use phase_model::{
-    Action, AgentSpec, Attitude, Body, Dynamics, Entity, EventKind, Goal, Grip, Layout, ObjectSpec, Scene,
-    Side, Sign, Size, State, Strength, Vec2,
+    Action, AgentId, AgentSpec, Attitude, Body, Dynamics, Entity, EventKind, Goal, Grip, Layout, ObjectId,
+    ObjectSpec, Scene, Side, Sign, Size, State, Strength, Vec2,
     random::{Purpose, stream},
 };
 use phase_perception::observe;
@@ -53,7 +53,7 @@ fn thumb(scene: &Scene, state: &State, subgoal: Subgoal, actions: &[Action]) -> 
 
 #[test]
 fn the_rule_of_thumb_turns_goes_and_brakes() {
-    let to_landmark = achieve(Predicate::On(Entity::Agent(0), 2));
+    let to_landmark = achieve(Predicate::On(Entity::Agent(AgentId::ZERO), 2));
     // Landmark 2 lies at (23.5, 4.5); heading π faces down.
     let above = Vec2::new(23.5, 14.0);
     for (angle, expected) in [
@@ -86,13 +86,13 @@ fn every_subgoal_has_its_actions() {
     let state = scene(Vec2::new(20.0, 15.0), 0.0).initial_state();
     let mut holding = state;
     holding.grips[0] = Some(Grip { object: 0, side: Side::Head, relative_angle: 0.0 });
-    let close = achieve(Predicate::Close(Entity::Agent(0), Place::Landmark(1)));
-    let carry = achieve(Predicate::On(Entity::Object(0), 1));
+    let close = achieve(Predicate::Close(Entity::Agent(AgentId::ZERO), Place::Landmark(1)));
+    let carry = achieve(Predicate::On(Entity::Object(ObjectId::ZERO), 1));
     let release = Subgoal::Achieve(Literal::not(Predicate::Attach(0, 0)));
     for (subgoal, state, count) in [
         (Subgoal::Stay, &state, 1),
         (close, &state, 5),
-        (achieve(Predicate::Touch(0, Entity::Agent(1))), &state, 5),
+        (achieve(Predicate::Touch(0, Entity::Agent(AgentId::ONE))), &state, 5),
         (achieve(Predicate::Attach(0, 0)), &state, 13),
         (carry, &holding, 12),
         (release, &holding, 3),
@@ -110,7 +110,7 @@ fn rewards_follow_equation_1() {
     scene.agents[0].strength = Strength::Weak;
     let (physique, routes, state) = (scene.physique(), Routes::new(scene.layout), scene.initial_state());
     let forward = Forward::new(&physique);
-    let subgoal = achieve(Predicate::On(Entity::Agent(0), 1));
+    let subgoal = achieve(Predicate::On(Entity::Agent(AgentId::ZERO), 1));
     let objective = Objective { physique: &physique, routes: &routes, agent: 0, subgoal, retreat: None };
     let goals = [ON_2, OTHER_ON_0];
     for (attitude, social) in [(Attitude::Neutral, 1.0), (Attitude::Help, 1.0), (Attitude::Hinder, -1.0)] {
@@ -163,7 +163,11 @@ fn decide(scene: &Scene, seed: u64) -> (Action, Subgoal) {
 fn a_landmark_straight_ahead_is_walked_to_and_then_stayed_on() {
     for seed in 0..5 {
         let ahead = scene(Vec2::new(23.5, 14.0), core::f32::consts::PI);
-        assert_eq!(decide(&ahead, seed), (Action::Up, achieve(Predicate::On(Entity::Agent(0), 2))), "{seed}");
+        assert_eq!(
+            decide(&ahead, seed),
+            (Action::Up, achieve(Predicate::On(Entity::Agent(AgentId::ZERO), 2))),
+            "{seed}"
+        );
         let there = scene(Vec2::new(23.5, 4.5), 0.0);
         assert_eq!(decide(&there, seed), (Action::Stop, Subgoal::Stay), "{seed}");
     }

@@ -9,7 +9,7 @@ use phase_eval::{
     plain::own_goals,
     predictions,
 };
-use phase_model::{EventKind, Goal, Judgement, Relation, RelationProbabilities, Sign};
+use phase_model::{AgentId, EventKind, Goal, Judgement, Relation, RelationProbabilities, Sign};
 use proptest::prelude::*;
 use serde_json::{Value, json};
 
@@ -186,7 +186,7 @@ fn a_reliability_table_by_hand() {
 #[test]
 fn an_agents_own_goals_are_all_different() {
     for (objects, count) in [(0, 6), (1, 10), (2, 14)] {
-        for agent in 0..2 {
+        for agent in AgentId::ALL {
             let mut goals: Vec<Goal> = own_goals(agent, objects).into_iter().map(canonical).collect();
             goals.sort();
             goals.dedup();

@@ -1,6 +1,6 @@
 //! One state for each step: what all judgements are made on.
 
-use phase_model::{Body, Contacts, Entity, MAX_ENTITIES, Physique, State, arena::SUBSTEPS};
+use phase_model::{Body, Contacts, Entity, Physique, State, arena::SUBSTEPS};
 use phase_sim::{Event, Step};
 
 /// Where everybody was at every step of one event.
@@ -60,16 +60,11 @@ impl Track {
 #[must_use]
 pub fn mean_state(step: &Step) -> State {
     let mut state = step.substeps[SUBSTEPS - 1];
-    for entity in 0..MAX_ENTITIES {
+    for entity in Entity::ALL {
         state.bodies[entity] = mean(step.substeps.map(|substep| substep.bodies[entity]));
     }
     state.contacts = step.substeps.iter().fold(Contacts::NONE, |all, substep| all.union(substep.contacts));
     state
-}
-
-/// The other agent.
-pub(crate) const fn other(agent: usize) -> usize {
-    if agent == 0 { 1 } else { 0 }
 }
 
 fn mean(bodies: [Body; SUBSTEPS]) -> Body {

@@ -118,7 +118,7 @@ proptest! {
             for (agent, &action) in actions.iter().enumerate() {
                 let (Some(old), Some(new)) = (before.grips[agent], state.grips[agent]) else { continue };
                 let object = usize::from(new.object);
-                let held_by_both = before.grips[1 - agent].is_some() || state.grips[1 - agent].is_some();
+                let held_by_both = before.grips[agent.other()].is_some() || state.grips[agent.other()].is_some();
                 if old.object != new.object || action == Action::Attach || held_by_both {
                     continue;
                 }

@@ -53,7 +53,7 @@ fn centre(physique: &Physique, state: &State, entity: Entity) -> Vec2 {
     let body = state.body(entity);
     match entity {
         Entity::Agent(agent) => {
-            body.position - body.forward() * physique.agents[usize::from(agent)].centre_of_mass_offset()
+            body.position - body.forward() * physique.agents[agent].centre_of_mass_offset()
         }
         Entity::Object(_) => body.position,
     }

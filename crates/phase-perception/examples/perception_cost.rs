@@ -1,7 +1,7 @@
 //! Measures what seeing costs: `cargo run --release -p phase-perception --example perception_cost`.
 
 use phase_model::{
-    AgentBody, Body, Entity, Layout, LayoutError, Physique, Size, State, Vec2,
+    AgentBody, AgentId, Body, Entity, Layout, LayoutError, ObjectId, Physique, Size, State, Vec2,
     random::{Pcg64Mcg, Purpose, stream},
 };
 use phase_perception::{field_of_view, observe, observed_set, sees};
@@ -31,8 +31,12 @@ fn main() -> Result<(), LayoutError> {
     measure("field_of_view", &states, |state| field_of_view(&physique, state, 0).len());
     measure("observe", &states, |state| observe(&physique, state, 0).visible.len());
     measure("observed_set", &states, |state| observed_set(&physique, state, 0).bits().into());
-    measure("sees (an agent)", &states, |state| sees(&physique, state, 0, Entity::agent(1)).into());
-    measure("sees (an object)", &states, |state| sees(&physique, state, 0, Entity::object(0)).into());
+    measure("sees (an agent)", &states, |state| {
+        sees(&physique, state, 0, Entity::Agent(AgentId::ONE)).into()
+    });
+    measure("sees (an object)", &states, |state| {
+        sees(&physique, state, 0, Entity::Object(ObjectId::ZERO)).into()
+    });
     Ok(())
 }
 

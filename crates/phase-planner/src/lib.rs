@@ -15,7 +15,7 @@
 //! way round:
 //!
 //! ```
-//! use phase_model::{AgentBody, Attitude, Body, EntitySet, Goal, Layout, Physique, Sign, State, Vec2};
+//! use phase_model::{AgentBody, Attitude, Body, BodySet, Goal, Layout, Physique, Sign, State, Vec2};
 //! use phase_planner::Planner;
 //!
 //! let layout = Layout::new(2, None)?;
@@ -27,7 +27,7 @@
 //! let goals = [(0, 1), (1, 0)]
 //!     .map(|(agent, landmark)| Goal::AgentOnLandmark { agent, landmark, sign: Sign::Positive });
 //! let planner = Planner::new(physique, layout, 0, goals, Attitude::Neutral);
-//! let plan = planner.plan(&state, EntitySet::EMPTY);
+//! let plan = planner.plan(&state, BodySet::EMPTY);
 //! let words: Vec<String> = plan.subgoals.iter().map(|subgoal| subgoal.to_string()).collect();
 //! assert_eq!(words[0], "Close(agent 0, landmark 3)"); // the next room on the way
 //! assert_eq!(words[3], "On(agent 0, landmark 1)");

@@ -8,7 +8,8 @@ use crate::{
     task::{Node, Operator, Task},
 };
 use phase_model::{
-    AGENT_COUNT, Attitude, Entity, EntitySet, Goal, Layout, Physique, Sign, State, layout::room_of,
+    AGENT_COUNT, AgentId, Attitude, BodySet, Entity, Goal, Layout, ObjectId, Physique, Sign, State,
+    layout::room_of,
 };
 use phase_predicates::{Literal, Place, Predicate, achieved};
 
@@ -46,19 +47,19 @@ impl Plan {
 pub struct Planner {
     physique: Physique,
     routes: Routes,
-    agent: usize,
+    agent: AgentId,
     goals: [Goal; AGENT_COUNT],
     attitude: Attitude,
 }
 
 impl Planner {
-    /// A planner for agent 0 or 1 with both agents' goals, which are common knowledge, and its own attitude
+    /// A planner for one agent with both agents' goals, which are common knowledge, and its own attitude
     /// towards the other.
     #[must_use]
     pub fn new(
         physique: Physique,
         layout: Layout,
-        agent: usize,
+        agent: AgentId,
         goals: [Goal; AGENT_COUNT],
         attitude: Attitude,
     ) -> Self {
@@ -74,10 +75,10 @@ impl Planner {
     /// HP(gᵢ, gⱼ, αᵢⱼ, b) of Algorithm 1: the agent's best plan if the world is in this state, of which it
     /// observes these entities.
     #[must_use]
-    pub fn plan(&self, state: &State, observed: EntitySet) -> Plan {
+    pub fn plan(&self, state: &State, observed: BodySet) -> Plan {
         let situation = Situation::new(&self.physique, &self.routes, state);
         let own = self.goals[self.agent];
-        let other = self.goals[1 - self.agent];
+        let other = self.goals[self.agent.other()];
         match self.attitude {
             Attitude::Help => self.help(&situation, other, observed),
             Attitude::Hinder => hindrance::plan(&situation, self.agent, other),
@@ -88,7 +89,7 @@ impl Planner {
 
     /// A neutral agent reaches for its own goal by its own means. Only when the other wants the very same, and
     /// it cannot do it alone, is the other counted on.
-    fn pursue(&self, situation: &Situation<'_>, own: Goal, other: Goal, observed: EntitySet) -> Plan {
+    fn pursue(&self, situation: &Situation<'_>, own: Goal, other: Goal, observed: BodySet) -> Plan {
         if let Some(plan) = self.finish(situation, own, observed) {
             return plan;
         }
@@ -110,7 +111,7 @@ impl Planner {
 
     /// The own part of the cheapest way in which both together reach a goal; the own travel counts for
     /// `own_effort` beside the other's. Who has no part in it gets out of the other's way.
-    fn cooperate(&self, situation: &Situation<'_>, goal: Goal, own_effort: f32, observed: EntitySet) -> Plan {
+    fn cooperate(&self, situation: &Situation<'_>, goal: Goal, own_effort: f32, observed: BodySet) -> Plan {
         let mut effort = [1.0; AGENT_COUNT];
         effort[self.agent] = own_effort;
         let actors = [true; AGENT_COUNT];
@@ -118,7 +119,7 @@ impl Planner {
         let plan = search::solve(&task, Node::start(situation))
             .map_or(Plan::STAY, |plan| express(&task, &plan, self.agent));
         // Not being needed is something to be seen.
-        let unseen = [goal.subject(), Entity::agent(1 - self.agent)];
+        let unseen = [goal.subject(), Entity::Agent(self.agent.other())];
         match unseen.into_iter().find(|&entity| !observed.contains(entity)) {
             Some(entity) if plan.subgoals.is_empty() => {
                 // Where one cannot go and look, the hope that all is well elsewhere must cost no less than that.
@@ -135,7 +136,7 @@ impl Planner {
 
     /// A helper looks for the cheapest way in which both together reach the other's goal, and does its own
     /// part of it; if the other does best alone, that part is nothing.
-    fn help(&self, situation: &Situation<'_>, goal: Goal, observed: EntitySet) -> Plan {
+    fn help(&self, situation: &Situation<'_>, goal: Goal, observed: BodySet) -> Plan {
         if goal.sign() == Sign::Negative {
             return self.help_to_avoid(situation, goal);
         }
@@ -163,7 +164,7 @@ impl Planner {
 
     /// What to do once the goal holds: let go of whatever is in hand, else nothing. An agent that believes an
     /// object to be where it should be without observing it goes and looks. `None` while the goal does not hold.
-    fn finish(&self, situation: &Situation<'_>, goal: Goal, observed: EntitySet) -> Option<Plan> {
+    fn finish(&self, situation: &Situation<'_>, goal: Goal, observed: BodySet) -> Option<Plan> {
         if !achieved(situation.physique, situation.state, goal) {
             return None;
         }
@@ -177,8 +178,8 @@ impl Planner {
 }
 
 /// The plan of going to an entity to see it.
-fn visit(situation: &Situation<'_>, agent: usize, entity: Entity) -> Plan {
-    let me = Entity::agent(agent);
+fn visit(situation: &Situation<'_>, agent: AgentId, entity: Entity) -> Plan {
+    let me = Entity::Agent(agent);
     let (from, to) = (situation.state.position(me), situation.state.position(entity));
     let mut subgoals = Vec::new();
     let width = situation.width(agent, None);
@@ -188,7 +189,7 @@ fn visit(situation: &Situation<'_>, agent: usize, entity: Entity) -> Plan {
     }
     subgoals.push(is(Predicate::Close(me, Place::Entity(entity))));
     // Near and yet unobserved, it is behind one's back: reaching for it means turning to it.
-    subgoals.push(is(Predicate::Touch(agent as u8, entity)));
+    subgoals.push(is(Predicate::Touch(agent, entity)));
     skip_done(situation, &mut subgoals);
     Plan { subgoals, distance: route.map_or(0.0, |route| route.cost()) }
 }
@@ -207,51 +208,51 @@ pub(crate) fn skip_done(situation: &Situation<'_>, subgoals: &mut Vec<Subgoal>) 
 
 /// The plan of letting go of whatever is in hand and then staying.
 #[must_use]
-pub(crate) fn let_go(situation: &Situation<'_>, agent: usize) -> Plan {
+pub(crate) fn let_go(situation: &Situation<'_>, agent: AgentId) -> Plan {
     situation.state.grips[agent].map_or(Plan::STAY, |grip| Plan {
-        subgoals: vec![not(Predicate::Attach(agent as u8, grip.object))],
+        subgoals: vec![not(Predicate::Attach(agent, grip.object))],
         distance: 0.0,
     })
 }
 
 /// One agent's own part of a symbolic plan in the words of the subgoal space, and how far all have to travel.
 #[must_use]
-pub(crate) fn express(task: &Task<'_>, plan: &SymbolicPlan, agent: usize) -> Plan {
+pub(crate) fn express(task: &Task<'_>, plan: &SymbolicPlan, agent: AgentId) -> Plan {
     let mut subgoals = Vec::with_capacity(8);
     let mut distance = 0.0;
     for (node, operator) in &plan.steps {
         distance += travel(task, node, *operator);
         match *operator {
             Operator::Approach { agent: who, object } if who == agent => {
-                let spot = node.objects[usize::from(object)];
+                let spot = node.objects[object];
                 go(task, node, agent, None, spot, &mut subgoals);
                 let target = Place::Entity(Entity::Object(object));
-                subgoals.push(is(Predicate::Close(Entity::agent(agent), target)));
+                subgoals.push(is(Predicate::Close(Entity::Agent(agent), target)));
             }
             Operator::Meet { agent: who } if who == agent => {
-                go(task, node, agent, None, node.agents[1 - agent], &mut subgoals);
-                subgoals.push(is(Predicate::Touch(agent as u8, Entity::agent(1 - agent))));
+                go(task, node, agent, None, node.agents[agent.other()], &mut subgoals);
+                subgoals.push(is(Predicate::Touch(agent, Entity::Agent(agent.other()))));
             }
             Operator::Go { agent: who, landmark } if who == agent => {
                 go(task, node, agent, None, Spot::Landmark(landmark), &mut subgoals);
-                subgoals.push(is(Predicate::On(Entity::agent(agent), landmark)));
+                subgoals.push(is(Predicate::On(Entity::Agent(agent), landmark)));
             }
             Operator::Grab { agent: who, object } if who == agent => {
-                subgoals.push(is(Predicate::Attach(agent as u8, object)));
+                subgoals.push(is(Predicate::Attach(agent, object)));
             }
             Operator::Carry { object, landmark, .. } if node.holds[agent] == Some(object) => {
                 go(task, node, agent, Some(object), Spot::Landmark(landmark), &mut subgoals);
                 subgoals.push(is(Predicate::On(Entity::Object(object), landmark)));
             }
             Operator::Pass { agent: who, object, slot, room } if who == agent => {
-                let near = Routes::beyond(usize::from(slot), usize::from(room)) as u8;
+                let near = Routes::beyond(slot, room);
                 go(task, node, agent, Some(object), Spot::Inside { slot, room: near }, &mut subgoals);
-                let place = Place::Landmark(room);
+                let place = Place::Landmark(room.landmark());
                 subgoals.push(is(Predicate::Close(Entity::Object(object), place)));
-                subgoals.push(not(Predicate::Attach(agent as u8, object)));
+                subgoals.push(not(Predicate::Attach(agent, object)));
             }
             Operator::Release { agent: who, object } if who == agent => {
-                subgoals.push(not(Predicate::Attach(agent as u8, object)));
+                subgoals.push(not(Predicate::Attach(agent, object)));
             }
             _ => {}
         }
@@ -263,16 +264,14 @@ pub(crate) fn express(task: &Task<'_>, plan: &SymbolicPlan, agent: usize) -> Pla
 /// Distance travelled in one operator, whoever travels (u).
 fn travel(task: &Task<'_>, node: &Node, operator: Operator) -> f32 {
     match operator {
-        Operator::Approach { agent, object } => {
-            task.distance(node, agent, None, node.objects[usize::from(object)])
-        }
-        Operator::Meet { agent } => task.distance(node, agent, None, node.agents[1 - agent]),
+        Operator::Approach { agent, object } => task.distance(node, agent, None, node.objects[object]),
+        Operator::Meet { agent } => task.distance(node, agent, None, node.agents[agent.other()]),
         Operator::Go { agent, landmark } => task.distance(node, agent, None, Spot::Landmark(landmark)),
         Operator::Carry { agent, object, landmark } => {
             task.distance(node, agent, Some(object), Spot::Landmark(landmark))
         }
         Operator::Pass { agent, object, slot, room } => {
-            let near = Routes::beyond(usize::from(slot), usize::from(room)) as u8;
+            let near = Routes::beyond(slot, room);
             task.distance(node, agent, Some(object), Spot::Inside { slot, room: near })
         }
         Operator::Grab { .. } | Operator::Release { .. } => 0.0,
@@ -281,12 +280,19 @@ fn travel(task: &Task<'_>, node: &Node, operator: Operator) -> f32 {
 
 /// The rooms on the way to a spot, as Close(·, landmark) subgoals for the agent or for what it carries. Rooms
 /// that the straight way passes through anyway are not worth a subgoal.
-fn go(task: &Task<'_>, node: &Node, agent: usize, held: Option<u8>, spot: Spot, subgoals: &mut Vec<Subgoal>) {
+fn go(
+    task: &Task<'_>,
+    node: &Node,
+    agent: AgentId,
+    held: Option<ObjectId>,
+    spot: Spot,
+    subgoals: &mut Vec<Subgoal>,
+) {
     let situation = task.situation;
-    let from_spot = held.map_or(node.agents[agent], |object| node.objects[usize::from(object)]);
+    let from_spot = held.map_or(node.agents[agent], |object| node.objects[object]);
     let (from, to) = (situation.position(from_spot), situation.position(spot));
-    let mover = held.map_or(Entity::agent(agent), Entity::Object);
-    let width = situation.width(agent, held.map(usize::from));
+    let mover = held.map_or(Entity::Agent(agent), Entity::Object);
+    let width = situation.width(agent, held);
     let gaps = task.gaps(node, agent, held);
     if let Some(route) = situation.routes.best(from, to, width, &gaps) {
         rooms(&route, from, to, mover, subgoals);
@@ -307,8 +313,8 @@ pub(crate) fn rooms(
     }
     let mut room = room_of(from);
     for &(slot, _) in route.doors() {
-        room = Routes::beyond(usize::from(slot), room);
-        subgoals.push(is(Predicate::Close(mover, Place::Landmark(room as u8))));
+        room = Routes::beyond(slot, room);
+        subgoals.push(is(Predicate::Close(mover, Place::Landmark(room.landmark()))));
     }
 }
 
@@ -326,6 +332,6 @@ pub(crate) const fn not(predicate: Predicate) -> Subgoal {
 
 /// The set of just one agent.
 #[must_use]
-pub(crate) fn only(agent: usize) -> [bool; AGENT_COUNT] {
-    core::array::from_fn(|who| who == agent)
+pub(crate) fn only(agent: AgentId) -> [bool; AGENT_COUNT] {
+    AgentId::ALL.map(|who| who == agent)
 }

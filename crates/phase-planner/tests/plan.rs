@@ -2,7 +2,7 @@
 
 mod support;
 
-use phase_model::{Attitude, Size::*, Strength::*, Vec2};
+use phase_model::{AgentId, Attitude, Size::*, Strength::*, Vec2};
 use phase_planner::{Routes, Subgoal, aside};
 use support::{Setup, agent_on, approach, everything, layout, object_on};
 
@@ -80,7 +80,7 @@ fn one_does_not_take_an_unseen_success_on_trust() {
     let believed = Setup {
         objects: vec![(Small, Vec2::new(23.0, 5.0))],
         goals: [object_on(0, 2), agent_on(1, 0)],
-        observed: [phase_model::Entity::Agent(0)].into_iter().collect(),
+        observed: [phase_model::Entity::Agent(AgentId::ZERO)].into_iter().collect(),
         ..plain()
     };
     assert_eq!(believed.words(0), ["Close(agent 0, object 0)", "Touch(agent 0, object 0)"]);

@@ -1,7 +1,7 @@
 //! The four predicates and their negations, as words.
 
 use core::fmt;
-use phase_model::Entity;
+use phase_model::{AgentId, Entity, LandmarkId, ObjectId};
 use serde::{Deserialize, Serialize};
 
 /// Something an entity can be close to.
@@ -10,21 +10,20 @@ use serde::{Deserialize, Serialize};
 pub enum Place {
     /// An agent or object.
     Entity(Entity),
-    /// A landmark, 0 to 3.
-    Landmark(u8),
+    /// A landmark.
+    Landmark(LandmarkId),
 }
 
-/// A predicate of the paper's table of definitions, with its arguments. Agents and objects are numbered 0
-/// and 1, landmarks 0 to 3.
+/// A predicate of the paper's table of definitions, with its arguments.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Predicate {
     /// An agent or object is on a landmark.
-    On(Entity, u8),
+    On(Entity, LandmarkId),
     /// An agent touches another agent or an object.
-    Touch(u8, Entity),
+    Touch(AgentId, Entity),
     /// An object is attached to an agent's body.
-    Attach(u8, u8),
+    Attach(AgentId, ObjectId),
     /// An agent or object is near something; near a landmark means in the landmark's room.
     Close(Entity, Place),
 }

@@ -1,6 +1,6 @@
 //! What weighted hypotheses say, by hand.
 
-use phase_model::{Attitude, Goal, Relation, Sign, Strength};
+use phase_model::{AgentId, Attitude, Goal, Relation, Sign, Strength};
 use phase_simple::{Hypothesis, Posterior, forecast::geometric_median, physical_goals};
 
 const fn place(agent: u8, landmark: u8) -> Goal {
@@ -32,7 +32,7 @@ fn a_social_agent_bears_the_others_goal() {
 #[test]
 fn there_are_fourteen_goals_with_two_objects() {
     for (objects, count) in [(0, 6), (1, 10), (2, 14)] {
-        for agent in 0..2 {
+        for agent in AgentId::ALL {
             let mut goals = physical_goals(agent, objects);
             assert_eq!(goals.len(), count);
             goals.sort();
@@ -105,7 +105,7 @@ fn the_prior_adds_up_to_one() {
         for &goal in goals {
             for attitude in [Attitude::Help, Attitude::Hinder] {
                 let mut attitudes = [Attitude::Neutral; 2];
-                attitudes[1 - agent] = attitude;
+                attitudes[agent.other()] = attitude;
                 let hypothesis = Hypothesis::new([goal; 2], attitudes, [Strength::Weak; 2]);
                 sum += hypothesis.log_prior(14).exp() * 16.0;
             }

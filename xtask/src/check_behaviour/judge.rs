@@ -4,7 +4,7 @@ use super::rows::{Criterion, Form, Part};
 use phase_evidence::{
     Effect, Outcome, Rest, Track, blocking, contact, exploration, holding, outcome, pursuit::Pursuit,
 };
-use phase_model::{AGENT_COUNT, Entity, Goal, Scene, State, layout::Room};
+use phase_model::{AgentId, Entity, Goal, ObjectId, Scene, State, layout::Room};
 use phase_planner::Routes;
 
 /// Steps an agent may take to let go and come to rest after its goal is reached.
@@ -74,7 +74,7 @@ type Judgement = (bool, Option<bool>, String);
 impl Case<'_> {
     /// The agents that the row is about, with their outcomes.
     fn active(&self) -> impl Iterator<Item = (usize, Outcome)> {
-        let who = (0..AGENT_COUNT).filter(|&agent| self.part.idle != Some(agent));
+        let who = AgentId::ALL.into_iter().filter(|&agent| self.part.idle != Some(agent));
         who.map(|agent| (agent, Outcome::of(self.track, self.scene.agents[agent].goal)))
     }
 
@@ -121,7 +121,7 @@ impl Case<'_> {
     }
 
     fn stay_out(&self, with: Outcome, effect: Option<Effect>) -> Judgement {
-        let (helper, helpee) = (Entity::agent(1 - self.part.judged), Entity::agent(self.part.judged));
+        let (helper, helpee) = (Entity::Agent(1 - self.part.judged), Entity::Agent(self.part.judged));
         let touched = contact::steps_touching(self.track, helper, helpee).len();
         let good = with.reached && touched == 0 && effect.is_some_and(|effect| !effect.hindered());
         let way = self.track.distance_travelled(helper, 0..self.track.states.len());
@@ -183,8 +183,8 @@ impl Case<'_> {
 
     fn compete(&self, goal: Goal) -> Judgement {
         let Some(object) = object_of(goal) else { return (false, None, String::new()) };
-        let touched = |agent: usize| {
-            !contact::steps_touching(self.track, Entity::agent(agent), Entity::object(object)).is_empty()
+        let touched = |agent: AgentId| {
+            !contact::steps_touching(self.track, Entity::Agent(agent), Entity::Object(object)).is_empty()
         };
         let engaged = touched(0) && touched(1);
         let fought = holding::carried_together(self.track, object).steps;
@@ -214,15 +214,15 @@ impl Case<'_> {
         (quiet && !held, None, notes)
     }
 
-    fn held_anything(&self, agent: usize) -> usize {
+    fn held_anything(&self, agent: AgentId) -> usize {
         self.track.states.iter().filter(|state| state.grips[agent].is_some()).count()
     }
 
     /// Whether in the end an object lies where an agent does not fit through the doors.
-    fn out_of_reach(&self, agent: usize, object: usize) -> bool {
+    fn out_of_reach(&self, agent: AgentId, object: ObjectId) -> bool {
         let Some(state) = self.track.states.last() else { return false };
         let routes = Routes::new(self.scene.layout);
-        let (from, to) = (state.position(Entity::agent(agent)), state.position(Entity::object(object)));
+        let (from, to) = (state.position(Entity::Agent(agent)), state.position(Entity::Object(object)));
         let width = self.track.physique.agents[agent].width();
         routes.best(from, to, width, routes.gaps()).is_none_or(|route| route.impassable > 0)
     }

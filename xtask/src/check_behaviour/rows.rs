@@ -10,7 +10,7 @@ pub(super) struct Part {
     /// What is checked, in words.
     pub title: &'static str,
     /// An agent that does nothing because the scene is about the other alone.
-    pub idle: Option<usize>,
+    pub idle: Option<AgentId>,
     /// An agent that does nothing in the scene's counterfactual, if it has one.
     pub control: Option<usize>,
     /// The agent whose goal is timed, with and without the other's doing.

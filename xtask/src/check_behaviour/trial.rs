@@ -11,7 +11,7 @@ use crate::{
 use core::ops::ControlFlow;
 use phase_dataset::{cache::Cache, checksum::sha256, folder::Folder};
 use phase_evidence::Track;
-use phase_model::{Attitude, Flip, Scene};
+use phase_model::{AgentId, Attitude, Flip, Scene};
 use phase_sim::{Event, Settings};
 use std::{path::PathBuf, time::Instant};
 
@@ -79,7 +79,7 @@ impl Laboratory {
         id: &str,
         scene: &Scene,
         index: usize,
-        agent: usize,
+        agent: AgentId,
     ) -> Result<Option<Event>, CliError> {
         let mut scene = mirrored(scene, index);
         scene.agents[agent].attitude = Attitude::Neutral;

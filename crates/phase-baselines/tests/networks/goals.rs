@@ -4,20 +4,20 @@ use phase_baselines::{
     goals::{CLASSES, class_of, classes, is_absent},
     recognition::LabelledEvent,
 };
-use phase_model::{Goal, Relation, Sign};
+use phase_model::{AgentId, Goal, Relation, Sign};
 use phase_simple::physical_goals;
 use std::collections::BTreeSet;
 
 #[test]
 fn every_goal_of_an_agent_has_one_class() {
-    for agent in 0..2 {
+    for agent in AgentId::ALL {
         let goals = classes(agent);
         assert_eq!(goals.iter().collect::<BTreeSet<_>>().len(), CLASSES);
         for (class, goal) in goals.into_iter().enumerate() {
             assert_eq!(class_of(agent, goal), Some(class));
         }
         // Own goals, the other's for a helper, and the other's negated for a hinderer.
-        let other = physical_goals(1 - agent, 2);
+        let other = physical_goals(agent.other(), 2);
         let labels = physical_goals(agent, 2).into_iter().chain(other.iter().copied());
         let all: BTreeSet<usize> = labels
             .chain(other.iter().map(|goal| goal.negated()))
@@ -41,7 +41,7 @@ fn classes_are_the_same_for_both_agents() {
 
 #[test]
 fn goals_about_absent_objects_are_known() {
-    for agent in 0..2 {
+    for agent in AgentId::ALL {
         for objects in 0..=2 {
             let there: BTreeSet<usize> = (0..CLASSES).filter(|&class| !is_absent(class, objects)).collect();
             let about = |goal: &Goal| matches!(goal, Goal::ObjectOnLandmark { object, .. } if usize::from(*object) >= objects);

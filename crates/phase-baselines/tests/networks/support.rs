@@ -41,7 +41,7 @@ pub(crate) fn labelled() -> Vec<LabelledEvent> {
         .map(|number| {
             let goal = |agent: u8, landmark: usize| Goal::AgentOnLandmark {
                 agent,
-                landmark: landmark as u8,
+                landmark: landmark,
                 sign: Sign::Positive,
             };
             let goals = [goal(0, number % 4), goal(1, (number / 2) % 4)];

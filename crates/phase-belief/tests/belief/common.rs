@@ -1,18 +1,18 @@
 //! Scenes to hold beliefs about, and ways for the world to go.
 
 use phase_model::{
-    AGENT_COUNT, Action, AgentBody, Body, Dynamics, Entity, Layout, MAX_ENTITIES, Physique, Segment, Size,
-    State, Vec2, arena,
+    AGENT_COUNT, Action, AgentBody, AgentId, Body, Dynamics, Entity, Layout, MAX_ENTITIES, ObjectId,
+    Physique, Segment, Size, State, Vec2, arena,
     geometry::Outline,
     random::{Pcg64Mcg, Purpose, stream},
 };
 use proptest::prelude::*;
 use rand::RngExt;
 
-pub(crate) const ME: Entity = Entity::Agent(0);
-pub(crate) const OTHER: Entity = Entity::Agent(1);
-pub(crate) const BALL: Entity = Entity::Object(0);
-pub(crate) const BOX: Entity = Entity::Object(1);
+pub(crate) const ME: Entity = Entity::Agent(AgentId::ZERO);
+pub(crate) const OTHER: Entity = Entity::Agent(AgentId::ONE);
+pub(crate) const BALL: Entity = Entity::Object(ObjectId::ZERO);
+pub(crate) const BOX: Entity = Entity::Object(ObjectId::ONE);
 
 pub(crate) fn random(seed: u64) -> Pcg64Mcg {
     stream(seed, Purpose::Belief, 0)

@@ -29,8 +29,8 @@ fn check(physique: &Physique, belief: &Belief, observation: &Observation) -> Res
             }
         }
         prop_assert_eq!(Some(particle.grips[agent]), observation.grip(agent));
-        if let Some(grip) = observation.grip(1 - agent) {
-            prop_assert_eq!(particle.grips[1 - agent], grip);
+        if let Some(grip) = observation.grip(agent.other()) {
+            prop_assert_eq!(particle.grips[agent.other()], grip);
         }
     }
     Ok(())

@@ -3,7 +3,7 @@
 use crate::common::{BALL, Lost, OTHER, clear_of_walls, physique, random, state};
 use core::f32::consts::PI;
 use phase_belief::Belief;
-use phase_model::{Action, Physique, Size, State, Vec2, geometry::Outline};
+use phase_model::{Action, AgentId, Physique, Size, State, Vec2, geometry::Outline};
 use phase_perception::{Cell, CellSet, Observation, footprint, observe};
 
 /// Agent 0 in a corner, its face to the wall; the others far away.
@@ -30,7 +30,7 @@ fn a_tight_hiding_place_is_found() {
     for (side, size) in cases {
         let physique = physique(Vec::new(), size, 1);
         let mut truth = truth();
-        truth.contacts.insert(phase_model::Entity::agent(0), OTHER);
+        truth.contacts.insert(phase_model::Entity::Agent(AgentId::ZERO), OTHER);
         let mut observation = observe(&physique, &truth, 0);
         observation.visible = all_but(&physique, (12.0, 17.0), side).visible;
         let belief = Belief::new(&physique, &observation, 200, &mut random(3));
@@ -47,7 +47,7 @@ fn a_tight_hiding_place_is_found_among_many_that_are_too_tight() {
     // A hundred single cells into which nothing fits, and one square of four into which the object does.
     let physique = physique(Vec::new(), Size::Small, 1);
     let mut truth = truth();
-    truth.contacts.insert(phase_model::Entity::agent(0), OTHER);
+    truth.contacts.insert(phase_model::Entity::Agent(AgentId::ZERO), OTHER);
     let mut observation = observe(&physique, &truth, 0);
     let square = |x: usize, y: usize| (10..12).contains(&x) && (14..16).contains(&y);
     let hidden = |cell: Cell| {

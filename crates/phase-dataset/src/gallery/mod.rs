@@ -10,7 +10,7 @@ use crate::{
     words::{self, Piece},
 };
 use phase_model::{
-    AGENT_COUNT, Attitude, Entity, Goal, Sign, Size, Strength,
+    AgentId, Attitude, Entity, Goal, Sign, Size, Strength,
     arena::{FRAMES_PER_SECOND, SUBSTEPS},
 };
 use std::{collections::BTreeMap, fmt::Write as _};
@@ -135,11 +135,11 @@ fn goals(event: &EventEntry) -> Vec<String> {
 
 fn card(event: &EventEntry) -> String {
     let (id, kind) = (escape(&event.id), event.kind.name());
-    let agents: String = (0..AGENT_COUNT).map(|k| agent(k, &event.agents[k])).collect();
+    let agents: String = AgentId::ALL.into_iter().map(|k| agent(k, &event.agents[k])).collect();
     let mut things = String::new();
     for (k, &level) in event.object_size_levels.iter().enumerate() {
         let size = Size::from_level(level).map_or("", words::size);
-        let _ = write!(things, "{} {size} · ", chip(Piece::Entity(Entity::object(k))));
+        let _ = write!(things, "{} {size} · ", chip(Piece::Entity(Entity::Object(k))));
     }
     let flip = event.layout.flip.map_or_else(String::new, |flip| format!(", flip {flip}"));
     let button = |class: &str, label: &str, sign: &str| {
@@ -183,7 +183,7 @@ fn card(event: &EventEntry) -> String {
 fn agent(k: usize, agent: &AgentEntry) -> String {
     let size = Size::from_level(agent.size_level).map_or("", words::size);
     let strength = Strength::from_level(agent.strength_level).map_or("", words::strength);
-    let other = chip(Piece::Entity(Entity::agent(1 - k)));
+    let other = chip(Piece::Entity(Entity::Agent(1 - k)));
     let attitude = Attitude::try_from(agent.alpha).unwrap_or_default();
     let stance = match attitude {
         Attitude::Neutral => String::new(),
@@ -205,7 +205,7 @@ fn agent(k: usize, agent: &AgentEntry) -> String {
          <div class=\"now\" data-agent=\"{k}\"{done}><span class=\"label\">now</span> \
          <span class=\"subgoal\">–</span> <span class=\"share\"></span></div></li>\n",
         done = agent.steps_to_goal.map_or_else(String::new, |steps| format!(" data-done=\"{steps}\"")),
-        me = chip(Piece::Entity(Entity::agent(k))),
+        me = chip(Piece::Entity(Entity::Agent(k))),
     )
 }
 

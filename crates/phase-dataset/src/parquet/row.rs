@@ -5,7 +5,7 @@ use crate::{
     phase_events::{Recording, Simulation, pairs_in_contact, substep_row},
     words,
 };
-use phase_model::{AGENT_COUNT, AgentSpec, Goal, State};
+use phase_model::{AGENT_COUNT, AgentId, AgentSpec, Goal, State};
 use phase_sim::{Event, Step};
 
 /// An event, with what the manifest says beside its file.
@@ -48,7 +48,7 @@ impl Row<'_> {
     }
 
     pub(super) fn of_steps<T>(&self, get: impl Fn(&Step, usize) -> T) -> Vec<Vec<T>> {
-        let both = |step: &Step| (0..AGENT_COUNT).map(|agent| get(step, agent)).collect();
+        let both = |step: &Step| AgentId::ALL.into_iter().map(|agent| get(step, agent)).collect();
         self.event().steps.iter().map(both).collect()
     }
 
@@ -62,7 +62,8 @@ impl Row<'_> {
 
     /// What each agent holds, by frame.
     pub(super) fn held(&self) -> Vec<Vec<Option<i32>>> {
-        let held = |state: &State| (0..AGENT_COUNT).map(|agent| number(state.held_object(agent))).collect();
+        let held =
+            |state: &State| AgentId::ALL.into_iter().map(|agent| number(state.held_object(agent))).collect();
         self.event().frames().map(held).collect()
     }
 

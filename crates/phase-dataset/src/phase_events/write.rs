@@ -6,7 +6,7 @@ use super::{
 };
 use phase_agent::Thought;
 use phase_model::{
-    AGENT_COUNT, AgentSpec, Contacts, Entity, Goal, MAX_ENTITIES, ObjectSpec, State, arena,
+    AGENT_COUNT, AgentId, AgentSpec, Contacts, Entity, Goal, MAX_ENTITIES, ObjectSpec, State, arena,
     arena::{FRAMES_PER_SECOND, SUBSTEPS},
 };
 use serde::Serialize;
@@ -196,7 +196,7 @@ impl Substeps {
         let count = event.scene.physique().entity_count();
         Self {
             columns: SUBSTEP_COLUMNS,
-            agents: (0..AGENT_COUNT).map(track).collect(),
+            agents: AgentId::ALL.into_iter().map(track).collect(),
             objects: (AGENT_COUNT..count).map(track).collect(),
             grips: changes(event.frames().map(|state| state.grips)),
             contacts: changes(event.frames().map(pairs_in_contact)),

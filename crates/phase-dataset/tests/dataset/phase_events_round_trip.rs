@@ -2,7 +2,7 @@
 
 use crate::support::{event, file, frames, plain_event};
 use phase_dataset::phase_events::{Recording, Trajectory, parse, subgoal_of, to_json};
-use phase_model::{Entity, arena::SUBSTEPS};
+use phase_model::{AgentId, Entity, ObjectId, arena::SUBSTEPS};
 use phase_planner::Subgoal;
 use phase_predicates::{Literal, Place, Predicate};
 use proptest::prelude::*;
@@ -138,12 +138,15 @@ fn a_simulation_that_does_not_fit_together_is_refused() {
 fn subgoals_are_read_as_they_are_written() {
     let all = [
         Subgoal::Stay,
-        Subgoal::Achieve(Literal::is(Predicate::On(Entity::agent(1), 3))),
-        Subgoal::Achieve(Literal::not(Predicate::On(Entity::object(0), 0))),
-        Subgoal::Achieve(Literal::is(Predicate::Touch(1, Entity::agent(0)))),
+        Subgoal::Achieve(Literal::is(Predicate::On(Entity::Agent(AgentId::ONE), 3))),
+        Subgoal::Achieve(Literal::not(Predicate::On(Entity::Object(ObjectId::ZERO), 0))),
+        Subgoal::Achieve(Literal::is(Predicate::Touch(1, Entity::Agent(AgentId::ZERO)))),
         Subgoal::Achieve(Literal::not(Predicate::Attach(0, 1))),
-        Subgoal::Achieve(Literal::is(Predicate::Close(Entity::agent(0), Place::Landmark(2)))),
-        Subgoal::Achieve(Literal::is(Predicate::Close(Entity::agent(0), Place::Entity(Entity::object(1))))),
+        Subgoal::Achieve(Literal::is(Predicate::Close(Entity::Agent(AgentId::ZERO), Place::Landmark(2)))),
+        Subgoal::Achieve(Literal::is(Predicate::Close(
+            Entity::Agent(AgentId::ZERO),
+            Place::Entity(Entity::Object(ObjectId::ONE)),
+        ))),
     ];
     for subgoal in all {
         assert_eq!(subgoal_of(&subgoal.to_string()), Some(subgoal));

@@ -2,8 +2,8 @@
 
 use phase_agent::{ActionValue, SubgoalValue, Thought};
 use phase_model::{
-    Action, AgentSpec, Attitude, Body, Entity, EventKind, Flip, Goal, Grip, Layout, ObjectSpec, Scene, Side,
-    Sign, Size, State, Strength, Vec2, arena::SUBSTEPS,
+    Action, AgentId, AgentSpec, Attitude, Body, Entity, EventKind, Flip, Goal, Grip, Layout, ObjectId,
+    ObjectSpec, Scene, Side, Sign, Size, State, Strength, Vec2, arena::SUBSTEPS,
 };
 use phase_planner::Subgoal;
 use phase_predicates::{Literal, Predicate};
@@ -44,7 +44,7 @@ pub(crate) fn event(steps: usize, mut number: impl FnMut() -> f32) -> Event {
                 state.grips[1] = Some(Grip { object: 1, side: Side::Tail, relative_angle });
             }
             if k == 3 {
-                state.contacts.insert(Entity::agent(0), Entity::object(t % 2));
+                state.contacts.insert(Entity::Agent(AgentId::ZERO), Entity::Object(t % 2));
             }
             state
         });
@@ -81,7 +81,7 @@ fn thought(t: usize, number: &mut impl FnMut() -> f32) -> Thought {
     let literal = if t.is_multiple_of(2) {
         Literal::is(Predicate::Attach(0, 1))
     } else {
-        Literal::not(Predicate::Touch(0, Entity::agent(1)))
+        Literal::not(Predicate::Touch(0, Entity::Agent(AgentId::ONE)))
     };
     let subgoal = Subgoal::Achieve(literal);
     let mut value = || f64::from(number()) / 3.0;
@@ -93,7 +93,7 @@ fn thought(t: usize, number: &mut impl FnMut() -> f32) -> Thought {
         ],
         plan: vec![
             subgoal,
-            Subgoal::Achieve(Literal::is(Predicate::On(Entity::object(1), 3))),
+            Subgoal::Achieve(Literal::is(Predicate::On(Entity::Object(ObjectId::ONE), 3))),
             Subgoal::Stay,
         ],
         actions: Action::ALL

@@ -2,6 +2,7 @@
 
 use crate::support::{Move, track};
 use phase_evidence::holding::{Hold, carried, carried_together, holds};
+use phase_model::ObjectId;
 
 /// Object 0 at x, held by some.
 fn at(x: f32, held: [Option<u8>; 2]) -> Move {
@@ -60,7 +61,7 @@ fn carrying_is_counted_with_its_way() {
 #[test]
 fn distances_add_up() {
     let event = event();
-    let object = phase_model::Entity::Object(0);
+    let object = phase_model::Entity::Object(ObjectId::ZERO);
     assert!((event.distance_travelled(object, 0..8) - 5.0).abs() < 1e-5);
     assert!((event.distance_travelled(object, 2..4) - 3.0).abs() < 1e-5);
     assert_eq!(event.distance_travelled(object, 8..100), 0.0);

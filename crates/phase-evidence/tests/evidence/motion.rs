@@ -2,7 +2,7 @@
 
 use crate::support::{Move, track};
 use phase_evidence::{Motion, Track, contact::TOUCH_GAP, motion::common_steps};
-use phase_model::{Contacts, Entity};
+use phase_model::{AgentId, Contacts, Entity, ObjectId};
 
 /// Agent 0 at these x, facing up; agent 1 far away; an object at (20, 10).
 fn walk(xs: &[f32]) -> Track {
@@ -61,7 +61,7 @@ fn both_agents_are_in_contact_with_each_other() {
 fn contacts_that_outlines_do_not_show_are_not_counted() {
     let mut track = walk(&[8.0, 8.0]);
     let mut contacts = Contacts::NONE;
-    contacts.insert(Entity::Agent(0), Entity::Object(0));
+    contacts.insert(Entity::Agent(AgentId::ZERO), Entity::Object(ObjectId::ZERO));
     track.states[1].contacts = contacts;
     assert_eq!(Motion::of(&track, 0, 1).contact_steps, 0);
 }

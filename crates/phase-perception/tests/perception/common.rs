@@ -1,14 +1,15 @@
 //! Scenes to look at.
 
 use phase_model::{
-    AgentBody, Body, Entity, Grip, Layout, MAX_ENTITIES, Physique, Segment, Side, Size, State, Vec2,
+    AgentBody, AgentId, Body, Entity, Grip, Layout, MAX_ENTITIES, ObjectId, Physique, Segment, Side, Size,
+    State, Vec2,
 };
 use proptest::prelude::*;
 
-pub(crate) const ME: Entity = Entity::Agent(0);
-pub(crate) const OTHER: Entity = Entity::Agent(1);
-pub(crate) const BALL: Entity = Entity::Object(0);
-pub(crate) const BOX: Entity = Entity::Object(1);
+pub(crate) const ME: Entity = Entity::Agent(AgentId::ZERO);
+pub(crate) const OTHER: Entity = Entity::Agent(AgentId::ONE);
+pub(crate) const BALL: Entity = Entity::Object(ObjectId::ZERO);
+pub(crate) const BOX: Entity = Entity::Object(ObjectId::ONE);
 
 /// Somewhere no cell is.
 pub(crate) const AWAY: Vec2 = Vec2::new(-500.0, -500.0);

@@ -1,7 +1,7 @@
 //! Who is observed: sight, touch and what follows from them.
 
 use crate::common::{BALL, BOX, ME, OTHER, any_physique, any_state, grip, looking, physique, with};
-use phase_model::{Entity, EntitySet, Size, State};
+use phase_model::{BodySet, Entity, Size, State};
 use phase_perception::{observe, observed_set, sees};
 use proptest::prelude::*;
 
@@ -51,7 +51,7 @@ fn sight_touch_and_what_touches_that() {
     let physique = physique(Vec::new(), Size::Small);
     for (name, state, observed, touched) in cases {
         let observation = observe(&physique, &state, 0);
-        let expected = observed.iter().copied().chain([ME]).collect::<EntitySet>();
+        let expected = observed.iter().copied().chain([ME]).collect::<BodySet>();
         assert_eq!(observation.observed, expected, "{name}");
         assert_eq!(observed_set(&physique, &state, 0), expected, "{name}");
         assert_eq!(observation.touched, touched.iter().copied().collect(), "{name}");
@@ -97,10 +97,10 @@ proptest! {
                 }
             }
         }
-        let own = Entity::agent(agent);
+        let own = Entity::Agent(agent);
         let sources: Vec<_> =
             entities().filter(|&entity| entity == own || sees(&physique, &state, agent, entity)).collect();
-        let expected: EntitySet = entities()
+        let expected: BodySet = entities()
             .filter(|entity| sources.iter().any(|source| linked[source.index()][entity.index()]))
             .collect();
         prop_assert_eq!(observation.observed, expected);
@@ -121,7 +121,7 @@ proptest! {
             }
         }
         for other in 0..2 {
-            let known = observation.observed.contains(Entity::agent(other));
+            let known = observation.observed.contains(Entity::Agent(other));
             prop_assert_eq!(observation.grip(other), known.then(|| state.grips[other]));
         }
         prop_assert_eq!(observation.grip(2), None);

@@ -1,7 +1,7 @@
 //! Hand-made situations.
 
 use phase_model::{
-    Attitude, Body, EntitySet, Flip, Goal, Layout, Physique, Sign, Size, State, Strength, Vec2,
+    Attitude, Body, BodySet, Flip, Goal, Layout, Physique, Sign, Size, State, Strength, Vec2,
     physique::AgentBody,
 };
 use phase_planner::{Plan, Planner};
@@ -14,7 +14,7 @@ pub(crate) struct Setup {
     pub(crate) goals: [Goal; 2],
     pub(crate) attitudes: [Attitude; 2],
     pub(crate) holds: [Option<u8>; 2],
-    pub(crate) observed: EntitySet,
+    pub(crate) observed: BodySet,
 }
 
 impl Setup {
@@ -81,6 +81,6 @@ pub(crate) fn approach() -> Goal {
 }
 
 /// Everything there can be.
-pub(crate) fn everything() -> EntitySet {
+pub(crate) fn everything() -> BodySet {
     (0..4).map(phase_model::Entity::from_index).collect()
 }
