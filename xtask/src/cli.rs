@@ -8,6 +8,7 @@ use clap::{
     value_parser,
 };
 use phase_agent::Foresight;
+use phase_model::AgentId;
 use phase_sim::{Engine, Settings};
 use std::path::PathBuf;
 
@@ -172,8 +173,8 @@ pub struct Render {
     #[arg(long, value_name = "DIR|FILE", default_value = "out/render")]
     pub out: PathBuf,
     /// Draw too what agent 0 or 1 sees and believes, and write below why it acts as it does (simulated events only)
-    #[arg(long, value_name = "AGENT", value_parser = value_parser!(u8).range(0..=1))]
-    pub belief: Option<u8>,
+    #[arg(long, value_name = "AGENT", value_parser = agent())]
+    pub belief: Option<AgentId>,
     /// Instead of a video, one picture of N frames spread evenly over the event
     #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=100))]
     pub contact_sheet: Option<u16>,
@@ -296,6 +297,11 @@ impl Effort {
         let given = options.into_iter().filter_map(|(name, value)| Some(format!(" --{name} {}", value?)));
         engine.into_iter().chain(foresight).chain(given).collect()
     }
+}
+
+/// An agent by its number.
+fn agent() -> impl TypedValueParser<Value = AgentId> {
+    value_parser!(u8).range(0..=1).try_map(AgentId::try_from)
 }
 
 /// Reads a shard such as `3/16`.

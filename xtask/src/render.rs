@@ -67,7 +67,7 @@ impl Target {
         Ok(if is_file { Self::File(out.to_owned()) } else { Self::Folder(out.to_owned()) })
     }
 
-    fn path(&self, id: &str, belief: Option<u8>, extension: &str) -> PathBuf {
+    fn path(&self, id: &str, belief: Option<AgentId>, extension: &str) -> PathBuf {
         match self {
             Self::File(path) => path.clone(),
             Self::Folder(folder) => {
@@ -83,7 +83,7 @@ fn render(arguments: &Render, recording: &Recording, path: &Path) -> Result<&'st
     let (id, physique) = (&recording.id, recording.scene.physique());
     let minds = match (arguments.belief, &recording.simulation) {
         (None, _) => Vec::new(),
-        (Some(agent), Some(simulation)) => minds(simulation, agent.into()),
+        (Some(agent), Some(simulation)) => minds(simulation, agent),
         (Some(_), None) => {
             let (file, rule) = (arguments.file.display(), "--belief needs a simulated event");
             let why = "a measured recording does not tell what its agents saw and did";

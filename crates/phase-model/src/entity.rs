@@ -39,6 +39,15 @@ impl Entity {
     }
 }
 
+impl core::fmt::Display for Entity {
+    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Agent(agent) => write!(formatter, "agent {agent}"),
+            Self::Object(object) => write!(formatter, "object {object}"),
+        }
+    }
+}
+
 impl<T> core::ops::Index<Entity> for [T; MAX_ENTITIES] {
     type Output = T;
 

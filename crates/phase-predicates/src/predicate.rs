@@ -51,29 +51,17 @@ impl Literal {
     }
 }
 
-/// An entity in words, such as `agent 0`.
-struct Named(Entity);
-
-impl fmt::Display for Named {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0 {
-            Entity::Agent(agent) => write!(formatter, "agent {agent}"),
-            Entity::Object(object) => write!(formatter, "object {object}"),
-        }
-    }
-}
-
 impl fmt::Display for Predicate {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
-            Self::On(entity, landmark) => write!(formatter, "On({}, landmark {landmark})", Named(entity)),
-            Self::Touch(agent, entity) => write!(formatter, "Touch(agent {agent}, {})", Named(entity)),
+            Self::On(entity, landmark) => write!(formatter, "On({entity}, landmark {landmark})"),
+            Self::Touch(agent, entity) => write!(formatter, "Touch(agent {agent}, {entity})"),
             Self::Attach(agent, object) => write!(formatter, "Attach(agent {agent}, object {object})"),
             Self::Close(entity, Place::Entity(other)) => {
-                write!(formatter, "Close({}, {})", Named(entity), Named(other))
+                write!(formatter, "Close({entity}, {other})")
             }
             Self::Close(entity, Place::Landmark(landmark)) => {
-                write!(formatter, "Close({}, landmark {landmark})", Named(entity))
+                write!(formatter, "Close({entity}, landmark {landmark})")
             }
         }
     }

@@ -1,7 +1,7 @@
 //! What the network is told of an agent's motion.
 
 use phase_model::{
-    AgentId, Body, MAX_ENTITIES, Size, Vec2,
+    AgentId, Body, Entity, MAX_ENTITIES, Size, Vec2,
     arena::{SUBSTEP_SECONDS, SUBSTEPS},
 };
 
