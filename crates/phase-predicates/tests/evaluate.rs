@@ -1,7 +1,8 @@
 //! Every predicate just below and just above its threshold.
 
 use phase_model::{
-    AgentBody, AgentId, Body, Entity, Goal, Grip, ObjectId, Physique, Side, Sign, State, Vec2, arena,
+    AgentBody, AgentId, Body, Entity, Goal, Grip, LandmarkId, ObjectId, Physique, Side, Sign, State, Vec2,
+    arena,
 };
 use phase_predicates::{Literal, Place, Predicate, SymbolicState, achieved, holds, threshold};
 
@@ -39,11 +40,11 @@ fn on() {
             positions[index] = centre + Vec2::from_angle(1.0) * distance;
             let state = state(positions);
             assert_eq!(
-                holds(&physique(), &state, Predicate::On(entity, 2)),
+                holds(&physique(), &state, Predicate::On(entity, LandmarkId::BOTTOM_RIGHT)),
                 expected,
                 "{entity:?} {distance}"
             );
-            assert!(!holds(&physique(), &state, Predicate::On(entity, 0)));
+            assert!(!holds(&physique(), &state, Predicate::On(entity, LandmarkId::TOP_LEFT)));
         }
     }
 }
@@ -69,7 +70,8 @@ fn close() {
     ] {
         let state = state([position, APART[1], APART[2]]);
         for landmark in 0..4 {
-            let predicate = Predicate::Close(Entity::Agent(AgentId::ZERO), Place::Landmark(landmark));
+            let predicate =
+                Predicate::Close(Entity::Agent(AgentId::ZERO), Place::Landmark(LandmarkId::ALL[landmark]));
             assert_eq!(holds(&physique(), &state, predicate), landmark == room);
         }
     }
@@ -79,16 +81,16 @@ fn close() {
 fn touch_and_attach() {
     let mut state = state(APART);
     let touch = |who, what| Predicate::Touch(who, what);
-    assert!(!holds(&physique(), &state, touch(0, Entity::Agent(AgentId::ONE))));
+    assert!(!holds(&physique(), &state, touch(AgentId::ZERO, Entity::Agent(AgentId::ONE))));
     state.contacts.insert(Entity::Agent(AgentId::ONE), Entity::Agent(AgentId::ZERO));
-    assert!(holds(&physique(), &state, touch(0, Entity::Agent(AgentId::ONE))));
-    assert!(holds(&physique(), &state, touch(1, Entity::Agent(AgentId::ZERO))));
-    assert!(!holds(&physique(), &state, touch(0, Entity::Object(ObjectId::ZERO))));
-    state.grips[1] = Some(Grip { object: 0, side: Side::Tail, relative_angle: 0.0 });
-    assert!(holds(&physique(), &state, Predicate::Attach(1, 0)));
-    assert!(!holds(&physique(), &state, Predicate::Attach(0, 0)));
+    assert!(holds(&physique(), &state, touch(AgentId::ZERO, Entity::Agent(AgentId::ONE))));
+    assert!(holds(&physique(), &state, touch(AgentId::ONE, Entity::Agent(AgentId::ZERO))));
+    assert!(!holds(&physique(), &state, touch(AgentId::ZERO, Entity::Object(ObjectId::ZERO))));
+    state.grips[1] = Some(Grip { object: ObjectId::ZERO, side: Side::Tail, relative_angle: 0.0 });
+    assert!(holds(&physique(), &state, Predicate::Attach(AgentId::ONE, ObjectId::ZERO)));
+    assert!(!holds(&physique(), &state, Predicate::Attach(AgentId::ZERO, ObjectId::ZERO)));
     // What is attached is felt.
-    assert!(holds(&physique(), &state, touch(1, Entity::Object(ObjectId::ZERO))));
+    assert!(holds(&physique(), &state, touch(AgentId::ONE, Entity::Object(ObjectId::ZERO))));
 }
 
 #[test]
@@ -96,10 +98,9 @@ fn the_absent_satisfies_nothing() {
     let state = state(APART);
     let absent = Entity::Object(ObjectId::ONE);
     for predicate in [
-        Predicate::On(absent, 0),
-        Predicate::On(Entity::Agent(AgentId::ZERO), 9),
-        Predicate::Touch(0, absent),
-        Predicate::Close(absent, Place::Landmark(3)),
+        Predicate::On(absent, LandmarkId::TOP_LEFT),
+        Predicate::Touch(AgentId::ZERO, absent),
+        Predicate::Close(absent, Place::Landmark(LandmarkId::BOTTOM_LEFT)),
         Predicate::Close(Entity::Agent(AgentId::ZERO), Place::Entity(absent)),
     ] {
         assert!(!holds(&physique(), &state, predicate), "{predicate}");
@@ -108,7 +109,11 @@ fn the_absent_satisfies_nothing() {
 
 #[test]
 fn goals_are_literals() {
-    let goal = Goal::AgentOnLandmark { agent: 0, landmark: 2, sign: Sign::Positive };
+    let goal = Goal::AgentOnLandmark {
+        agent: AgentId::ZERO,
+        landmark: LandmarkId::BOTTOM_RIGHT,
+        sign: Sign::Positive,
+    };
     let on = state([arena::LANDMARKS[2], APART[1], APART[2]]);
     assert!(achieved(&physique(), &on, goal) && !achieved(&physique(), &on, goal.negated()));
     assert!(
@@ -120,7 +125,7 @@ fn goals_are_literals() {
 #[test]
 fn symbolic_states_hold_exactly_what_is_true() {
     let mut physical = state([arena::LANDMARKS[0], Vec2::new(9.5, 17.0), APART[2]]);
-    physical.grips[0] = Some(Grip { object: 0, side: Side::Head, relative_angle: 0.0 });
+    physical.grips[0] = Some(Grip { object: ObjectId::ZERO, side: Side::Head, relative_angle: 0.0 });
     physical.contacts.insert(Entity::Agent(AgentId::ZERO), Entity::Agent(AgentId::ONE));
     let symbolic = SymbolicState::of(&physique(), &physical);
     let mut count = 0;

@@ -1,7 +1,6 @@
 //! `check-physics` on small files of our own, and against the recordings where they are at hand.
 
 use crate::support::{recording, refuse, succeed, tree, write_events};
-use phase_model::AgentId;
 use serde_json::{Value, json};
 use std::{fs, path::Path};
 
@@ -41,7 +40,7 @@ fn run(name: &str, steps: usize) -> Value {
 fn turned(id: &str, means: [f64; 2]) -> Value {
     let mut event = recording(id);
     event["recovered_actions"] = json!({"steps": [["turnright", "turnleft"], ["turnright", "turnright"]]});
-    for agent in AgentId::ALL {
+    for agent in 0..2 {
         for (k, mean) in means.into_iter().enumerate() {
             event["trajectory"]["agents"][agent][k + 1][4] = json!(0.5 + mean);
         }

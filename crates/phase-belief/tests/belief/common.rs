@@ -52,7 +52,7 @@ pub(crate) fn legal_state(physique: &Physique, random: &mut Pcg64Mcg) -> State {
     let mut state = State::new([Body::default(); MAX_ENTITIES]);
     let mut outlines: Vec<Outline> = Vec::new();
     while outlines.len() < physique.entity_count() {
-        let entity = Entity::from_index(outlines.len());
+        let entity = Entity::ALL[outlines.len()];
         let position = arena::MIN + arena::SIDE * Vec2::new(random.random(), random.random());
         let mut body = Body::at_rest(position, random.random_range(-3.0..3.0));
         let outline = Outline::of(physique, entity, &body);
@@ -113,7 +113,7 @@ impl Dynamics for Mad {
         }
         let grip = |number: f32, object: u8| {
             (number > 0.0).then_some(phase_model::Grip {
-                object,
+                object: ObjectId::ALL[usize::from(object)],
                 side: phase_model::Side::Tail,
                 relative_angle: number,
             })

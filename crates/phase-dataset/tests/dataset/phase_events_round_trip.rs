@@ -2,7 +2,7 @@
 
 use crate::support::{event, file, frames, plain_event};
 use phase_dataset::phase_events::{Recording, Trajectory, parse, subgoal_of, to_json};
-use phase_model::{AgentId, Entity, ObjectId, arena::SUBSTEPS};
+use phase_model::{AgentId, Entity, LandmarkId, ObjectId, arena::SUBSTEPS};
 use phase_planner::Subgoal;
 use phase_predicates::{Literal, Place, Predicate};
 use proptest::prelude::*;
@@ -138,11 +138,14 @@ fn a_simulation_that_does_not_fit_together_is_refused() {
 fn subgoals_are_read_as_they_are_written() {
     let all = [
         Subgoal::Stay,
-        Subgoal::Achieve(Literal::is(Predicate::On(Entity::Agent(AgentId::ONE), 3))),
-        Subgoal::Achieve(Literal::not(Predicate::On(Entity::Object(ObjectId::ZERO), 0))),
-        Subgoal::Achieve(Literal::is(Predicate::Touch(1, Entity::Agent(AgentId::ZERO)))),
-        Subgoal::Achieve(Literal::not(Predicate::Attach(0, 1))),
-        Subgoal::Achieve(Literal::is(Predicate::Close(Entity::Agent(AgentId::ZERO), Place::Landmark(2)))),
+        Subgoal::Achieve(Literal::is(Predicate::On(Entity::Agent(AgentId::ONE), LandmarkId::BOTTOM_LEFT))),
+        Subgoal::Achieve(Literal::not(Predicate::On(Entity::Object(ObjectId::ZERO), LandmarkId::TOP_LEFT))),
+        Subgoal::Achieve(Literal::is(Predicate::Touch(AgentId::ONE, Entity::Agent(AgentId::ZERO)))),
+        Subgoal::Achieve(Literal::not(Predicate::Attach(AgentId::ZERO, ObjectId::ONE))),
+        Subgoal::Achieve(Literal::is(Predicate::Close(
+            Entity::Agent(AgentId::ZERO),
+            Place::Landmark(LandmarkId::BOTTOM_RIGHT),
+        ))),
         Subgoal::Achieve(Literal::is(Predicate::Close(
             Entity::Agent(AgentId::ZERO),
             Place::Entity(Entity::Object(ObjectId::ONE)),

@@ -2,8 +2,8 @@
 
 use phase_agent::{ActionValue, SubgoalValue, Thought};
 use phase_model::{
-    Action, AgentId, AgentSpec, Attitude, Body, Entity, EventKind, Flip, Goal, Grip, Layout, ObjectId,
-    ObjectSpec, Scene, Side, Sign, Size, State, Strength, Vec2, arena::SUBSTEPS,
+    Action, AgentId, AgentSpec, Attitude, Body, Entity, EventKind, Flip, Goal, Grip, LandmarkId, Layout,
+    ObjectId, ObjectSpec, Scene, Side, Sign, Size, State, Strength, Vec2, arena::SUBSTEPS,
 };
 use phase_planner::Subgoal;
 use phase_predicates::{Literal, Predicate};
@@ -12,7 +12,11 @@ use serde_json::{Value, json};
 
 /// A scene in which agent 0 helps agent 1 to put object 0 on landmark 1.
 pub(crate) fn scene() -> Scene {
-    let goal = Goal::ObjectOnLandmark { object: 0, landmark: 1, sign: Sign::Positive };
+    let goal = Goal::ObjectOnLandmark {
+        object: ObjectId::ZERO,
+        landmark: LandmarkId::TOP_RIGHT,
+        sign: Sign::Positive,
+    };
     let agent = |attitude, x, angle| AgentSpec {
         size: Size::Medium,
         strength: Strength::Strong,
@@ -41,10 +45,10 @@ pub(crate) fn event(steps: usize, mut number: impl FnMut() -> f32) -> Event {
             advance(&mut state, &mut number);
             if (t, k) == (1, 2) {
                 let relative_angle = number();
-                state.grips[1] = Some(Grip { object: 1, side: Side::Tail, relative_angle });
+                state.grips[1] = Some(Grip { object: ObjectId::ONE, side: Side::Tail, relative_angle });
             }
             if k == 3 {
-                state.contacts.insert(Entity::Agent(AgentId::ZERO), Entity::Object(t % 2));
+                state.contacts.insert(Entity::Agent(AgentId::ZERO), Entity::Object(ObjectId::ALL[t % 2]));
             }
             state
         });
@@ -79,9 +83,9 @@ fn advance(state: &mut State, number: &mut impl FnMut() -> f32) {
 
 fn thought(t: usize, number: &mut impl FnMut() -> f32) -> Thought {
     let literal = if t.is_multiple_of(2) {
-        Literal::is(Predicate::Attach(0, 1))
+        Literal::is(Predicate::Attach(AgentId::ZERO, ObjectId::ONE))
     } else {
-        Literal::not(Predicate::Touch(0, Entity::Agent(AgentId::ONE)))
+        Literal::not(Predicate::Touch(AgentId::ZERO, Entity::Agent(AgentId::ONE)))
     };
     let subgoal = Subgoal::Achieve(literal);
     let mut value = || f64::from(number()) / 3.0;
@@ -93,7 +97,10 @@ fn thought(t: usize, number: &mut impl FnMut() -> f32) -> Thought {
         ],
         plan: vec![
             subgoal,
-            Subgoal::Achieve(Literal::is(Predicate::On(Entity::Object(ObjectId::ONE), 3))),
+            Subgoal::Achieve(Literal::is(Predicate::On(
+                Entity::Object(ObjectId::ONE),
+                LandmarkId::BOTTOM_LEFT,
+            ))),
             Subgoal::Stay,
         ],
         actions: Action::ALL

@@ -37,7 +37,7 @@ pub(crate) fn with(mut state: State, entity: Entity, position: (f32, f32)) -> St
 }
 
 pub(crate) fn grip(object: u8) -> Option<Grip> {
-    Some(Grip { object, side: Side::Head, relative_angle: 0.0 })
+    Some(Grip { object: ObjectId::ALL[usize::from(object)], side: Side::Head, relative_angle: 0.0 })
 }
 
 pub(crate) fn any_size() -> impl Strategy<Value = Size> {
@@ -69,7 +69,7 @@ pub(crate) fn any_state() -> impl Strategy<Value = State> {
     (prop::array::uniform4(any_body()), pairs, held(), held()).prop_map(|(bodies, pairs, first, second)| {
         let mut state = State::new(bodies);
         for (a, b) in pairs {
-            state.contacts.insert(Entity::from_index(a), Entity::from_index(b));
+            state.contacts.insert(Entity::ALL[a], Entity::ALL[b]);
         }
         state.grips = [first, second].map(|held| held.and_then(grip));
         state
