@@ -5,8 +5,11 @@
 //! knows of doors, widths and strengths.
 
 use crate::{
+    Subgoal,
+    express::express,
+    flight,
     plan::{self, Plan},
-    routes::Gaps,
+    routes::{Gaps, Routes, point_in},
     search,
     situation::{Situation, Spot, obstruct},
     task::{Node, Task},
@@ -53,7 +56,7 @@ fn bring_about(situation: &Situation<'_>, agent: AgentId, goal: Goal) -> Plan {
     let task = lone_task(situation, agent, goal, None);
     let subject = goal.subject();
     if let Some(plan) = search::solve(&task, Node::start(situation)) {
-        let mut plan = plan::express(&task, &plan, agent);
+        let mut plan = express(&task, &plan, agent);
         if let Entity::Object(object) = subject {
             // Against the other's will, things stay only where they are held.
             plan.subgoals.retain(|&subgoal| subgoal != plan::not(Predicate::Attach(agent, object)));
@@ -69,7 +72,7 @@ fn bring_about(situation: &Situation<'_>, agent: AgentId, goal: Goal) -> Plan {
 
 fn evade_or_pursue(situation: &Situation<'_>, agent: AgentId, sign: Sign) -> (f32, Plan) {
     if sign == Sign::Positive {
-        return (0.0, crate::flight::plan(situation, agent));
+        return (0.0, flight::plan(situation, agent));
     }
     let here = situation.state.position(Entity::Agent(agent));
     let there = situation.state.position(Entity::Agent(agent.other()));
@@ -127,11 +130,11 @@ fn block_doors(
     let mut candidates = Vec::new();
     let mut room = room_of(from);
     for &(slot, _) in route.doors() {
-        let next = crate::Routes::beyond(slot, room);
+        let next = Routes::beyond(slot, room);
         let gap = situation.routes.gaps().0[slot];
         room = next;
         let Some((low, high)) = gap else { continue };
-        let middle = crate::routes::point_in(slot, 0.5 * (low + high));
+        let middle = point_in(slot, 0.5 * (low + high));
         let gaps = closed_by(situation, agent, victim, middle);
         let effect = other_cost(situation, victim, goal, hands_free(situation, agent), Some(gaps));
         let own_way = way(situation, agent, middle);
@@ -267,7 +270,7 @@ fn way(situation: &Situation<'_>, agent: AgentId, to: Vec2) -> f32 {
     situation.routes.cost(from, to, situation.width(agent, None), situation.gaps(agent, BodySet::OBJECTS))
 }
 
-fn approach_rooms(situation: &Situation<'_>, agent: AgentId, to: Vec2, subgoals: &mut Vec<crate::Subgoal>) {
+fn approach_rooms(situation: &Situation<'_>, agent: AgentId, to: Vec2, subgoals: &mut Vec<Subgoal>) {
     let from = situation.state.position(Entity::Agent(agent));
     let width = situation.width(agent, None);
     if let Some(route) = situation.routes.best(from, to, width, situation.gaps(agent, BodySet::OBJECTS)) {
@@ -275,6 +278,6 @@ fn approach_rooms(situation: &Situation<'_>, agent: AgentId, to: Vec2, subgoals:
     }
 }
 
-fn let_go_first(situation: &Situation<'_>, agent: AgentId) -> Vec<crate::Subgoal> {
+fn let_go_first(situation: &Situation<'_>, agent: AgentId) -> Vec<Subgoal> {
     plan::let_go(situation, agent).subgoals
 }
