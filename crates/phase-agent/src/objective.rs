@@ -2,13 +2,14 @@
 
 use crate::course::{self, Course, Way};
 use phase_model::{
-    AgentId, Entity, ObjectId, Physique, RoomId, Segment, Side, State, Vec2, arena, layout::room_of,
+    AgentId, Entity, Literal, ObjectId, Physique, Place, Predicate, RoomId, Segment, Side, State, Subgoal,
+    Vec2, arena, layout::room_of,
 };
 use phase_planner::{
-    Routes, Subgoal,
+    Routes,
     aside::{self, Intrusion},
 };
-use phase_predicates::{Literal, Place, Predicate};
+use phase_predicates::is_true;
 
 /// Longest straight distance in the arena (u); distances are scaled by it in rewards.
 pub const LONGEST: f32 = 28.284;
@@ -75,7 +76,7 @@ impl Objective<'_> {
             }
             Subgoal::Achieve(literal) => {
                 let distance = remaining() + self.averted(state, literal) + self.nearness(state, literal);
-                if literal.holds || literal.is_true(self.physique, state) {
+                if literal.holds || is_true(self.physique, state, literal) {
                     distance
                 } else {
                     distance + TRESPASS

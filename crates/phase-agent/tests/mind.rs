@@ -9,13 +9,12 @@ use phase_agent::{
 use phase_forward::Forward;
 use phase_model::{
     Action, AgentId, AgentSpec, Attitude, Body, Dynamics, Entity, EventKind, Goal, Grip, LandmarkId, Layout,
-    ObjectId, ObjectSpec, Scene, Side, Sign, Size, State, Strength, Vec2,
+    Literal, ObjectId, ObjectSpec, Place, Predicate, Scene, Side, Sign, Size, State, Strength, Subgoal, Vec2,
     random::{Purpose, stream},
 };
 use phase_perception::observe;
-use phase_planner::{Routes, Subgoal};
+use phase_planner::Routes;
 use phase_pomcp::GenerativeModel;
-use phase_predicates::{Literal, Place, Predicate};
 
 const ON_2: Goal =
     Goal::AgentOnLandmark { agent: AgentId::ZERO, landmark: LandmarkId::BOTTOM_RIGHT, sign: Sign::Positive };

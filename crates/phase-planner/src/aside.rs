@@ -1,13 +1,14 @@
 //! Getting out of the other agent's way.
 
 use crate::{
-    Subgoal,
     plan::{is, not},
     routes::Routes,
     situation::{self, Situation},
 };
-use phase_model::{AgentId, Entity, Goal, LandmarkId, Physique, SlotId, State, Vec2, arena, layout::room_of};
-use phase_predicates::Predicate;
+use phase_model::{
+    AgentId, Entity, Goal, LandmarkId, Physique, Predicate, SlotId, State, Subgoal, Vec2, arena,
+    layout::room_of,
+};
 
 /// Room left beside the other on its way (u).
 const CLEARANCE: f32 = 0.4;

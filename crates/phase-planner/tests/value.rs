@@ -1,8 +1,7 @@
 //! V(B, h, g) by hand.
 
-use phase_model::{AgentId, Entity, LandmarkId};
-use phase_planner::{Plan, Subgoal, value::candidates};
-use phase_predicates::{Literal, Predicate};
+use phase_model::{AgentId, Entity, LandmarkId, Literal, Predicate, Subgoal};
+use phase_planner::{Plan, value::candidates};
 
 fn plan(landmark: u8, distance: f32) -> Plan {
     let subgoal = Subgoal::Achieve(Literal::is(Predicate::On(

@@ -2,7 +2,27 @@
 //!
 //! A physical [`State`](phase_model::State) becomes a [`SymbolicState`], the set of predicates true in it
 //! (paper, appendix "Predicates, Symbolic States, Goals, and Subgoals"). Goals and subgoals are
-//! [`Literal`]s: predicates or their negations.
+//! [`Literal`](phase_model::Literal)s: predicates or their negations.
+//! ```
+//! use phase_model::{
+//!     AgentBody, AgentId, Body, Entity, Goal, LandmarkId, Literal, Physique, Place, Predicate, Sign, State, Vec2,
+//!     arena,
+//! };
+//! use phase_predicates::{SymbolicState, achieved};
+//!
+//! let body = AgentBody { radius: 0.8, max_force: 450.0 };
+//! let physique = Physique { walls: Vec::new(), agents: [body; 2], object_radii: [0.0; 2], object_count: 0 };
+//! let (agent, landmark) = (AgentId::ZERO, LandmarkId::BOTTOM_RIGHT);
+//! let places = [arena::LANDMARKS[landmark], Vec2::new(8.0, 18.0), Vec2::ZERO, Vec2::ZERO];
+//! let state = State::new(places.map(|place| Body::at_rest(place, 0.0)));
+//!
+//! let goal = Goal::AgentOnLandmark { agent, landmark, sign: Sign::Positive };
+//! assert!(achieved(&physique, &state, goal));
+//! assert_eq!(Literal::from(goal).to_string(), "On(agent 0, landmark 2)");
+//! let symbolic = SymbolicState::of(&physique, &state);
+//! assert!(symbolic.holds(Predicate::Close(Entity::Agent(agent), Place::Landmark(landmark))));
+//! assert!(!symbolic.holds(Predicate::Touch(agent, Entity::Agent(agent.other()))));
+//! ```
 //!
 //! The key design decision is that *Close to a landmark* means *in the landmark's room*. The paper says "within
 //! a certain distance" and gives no number; with the room as that distance, going through a door is a change
@@ -13,10 +33,8 @@
 #![deny(missing_docs)]
 
 pub mod evaluate;
-pub mod predicate;
 pub mod symbolic;
 pub mod threshold;
 
-pub use evaluate::{achieved, holds};
-pub use predicate::{Literal, Place, Predicate};
+pub use evaluate::{achieved, holds, is_true};
 pub use symbolic::SymbolicState;

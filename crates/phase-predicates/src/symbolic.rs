@@ -1,7 +1,7 @@
 //! A physical state as the set of predicates that are true in it.
 
-use crate::{Place, Predicate, evaluate};
-use phase_model::{AgentId, Entity, LandmarkId, ObjectId, Physique, State};
+use crate::evaluate;
+use phase_model::{AgentId, Entity, LandmarkId, ObjectId, Physique, Place, Predicate, State};
 use serde::{Deserialize, Serialize};
 
 /// The truth value of every predicate of a scene, one bit each; all those not in it are negated.

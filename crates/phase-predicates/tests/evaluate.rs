@@ -1,10 +1,10 @@
 //! Every predicate just below and just above its threshold.
 
 use phase_model::{
-    AgentBody, AgentId, Body, Entity, Goal, Grip, LandmarkId, ObjectId, Physique, Side, Sign, State, Vec2,
-    arena,
+    AgentBody, AgentId, Body, Entity, Goal, Grip, LandmarkId, Literal, ObjectId, Physique, Place, Predicate,
+    Side, Sign, State, Vec2, arena,
 };
-use phase_predicates::{Literal, Place, Predicate, SymbolicState, achieved, holds, threshold};
+use phase_predicates::{SymbolicState, achieved, holds, threshold};
 
 fn physique() -> Physique {
     Physique {
