@@ -3,7 +3,7 @@
 //! With a directory as argument it leaves `plain.mp4`, `belief.mp4`, `plain.png`, `belief.png`, `both.png` (accessible
 //! palette) and `sheet.png` there, to look at.
 
-use phase_model::{AgentBody, Body, Grip, Layout, Physique, Side, State, Vec2, arena};
+use phase_model::{AgentBody, AgentId, Body, Grip, Layout, ObjectId, Physique, Side, State, Vec2, arena};
 use phase_perception::{Cell, CellSet};
 use phase_render::{
     Caption, Frame, Overlay, Palette, Stage, Style, VideoEncoder, contact_sheet, side_by_side,
@@ -25,7 +25,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let accessible = Stage::new(&physique, Style { palette: Palette::ACCESSIBLE, ..annotated })?;
 
     let (frames, mp4) = run("plain", &plain, |stage, k| stage.frame(&event(k), None))?;
-    let (beliefs, belief_mp4) = run("belief", &captioned, |stage, k| belief(stage, k, 0))?;
+    let (beliefs, belief_mp4) = run("belief", &captioned, |stage, k| belief(stage, k, AgentId::ZERO))?;
 
     if let Some(directory) = std::env::args().nth(1) {
         let directory = Path::new(&directory);
@@ -33,7 +33,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         std::fs::write(directory.join("belief.mp4"), belief_mp4)?;
         std::fs::write(directory.join("plain.png"), frames[320].png()?)?;
         std::fs::write(directory.join("belief.png"), beliefs[320].png()?)?;
-        let both = [belief(&accessible, 320, 0), belief(&accessible, 320, 1)];
+        let both = AgentId::ALL.map(|agent| belief(&accessible, 320, agent));
         std::fs::write(directory.join("both.png"), side_by_side(&both)?.png()?)?;
         let keys: Vec<Frame> = frames.iter().step_by(63).cloned().collect();
         std::fs::write(directory.join("sheet.png"), contact_sheet(&keys, 4)?.png()?)?;
@@ -42,9 +42,9 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 /// One frame with what an agent might see and believe.
-fn belief(stage: &Stage, frame: usize, agent: usize) -> Frame {
+fn belief(stage: &Stage, frame: usize, agent: AgentId) -> Frame {
     let state = event(frame);
-    let visible = cone(&state.bodies[agent]);
+    let visible = cone(&state.bodies[agent.index()]);
     let subgoal = if frame < 250 { "get object 1" } else { "put object 1 on landmark 2" };
     let line = |cells: [&str; 2], text: &str, bar| Caption {
         cells: cells.map(str::to_owned).to_vec(),
@@ -104,7 +104,7 @@ fn event(frame: usize) -> State {
     if frame >= 250 {
         let heading = state.bodies[0].forward();
         state.bodies[3].position = state.bodies[0].position + heading * (1.01 + 1.2);
-        state.grips[0] = Some(Grip { object: 1, side: Side::Head, relative_angle: 0.0 });
+        state.grips[0] = Some(Grip { object: ObjectId::ONE, side: Side::Head, relative_angle: 0.0 });
     }
     state
 }
@@ -121,12 +121,12 @@ fn cone(body: &Body) -> CellSet {
 }
 
 /// A made-up particle: the other agent and object 0 lie somewhere else.
-fn guess(state: &State, particle: usize, agent: usize) -> State {
+fn guess(state: &State, particle: usize, agent: AgentId) -> State {
     let mut guess = *state;
     let spread = particle as f32 * 2.399;
     let ring = 0.35 * (particle as f32).sqrt();
-    guess.bodies[1 - agent].position += Vec2::from_angle(spread) * ring;
-    guess.bodies[1 - agent].angle += particle as f32;
+    guess.bodies[agent.other().index()].position += Vec2::from_angle(spread) * ring;
+    guess.bodies[agent.other().index()].angle += particle as f32;
     guess.bodies[2].position += Vec2::from_angle(-spread) * ring;
     guess
 }

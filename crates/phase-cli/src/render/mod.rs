@@ -15,7 +15,7 @@ use crate::{
 use options::{Belief, Render};
 use phase_dataset::WriteError;
 use phase_event::{Recording, Row, Simulation, Trajectory};
-use phase_model::{State, arena::SUBSTEPS};
+use phase_model::{AgentId, State, arena::SUBSTEPS};
 use phase_render::Palette;
 use phase_sim::Settings;
 use std::path::{Path, PathBuf};
@@ -116,7 +116,7 @@ fn render(arguments: &Render, recording: &Recording, path: &Path) -> Result<&'st
 }
 
 /// What an agent saw, believed and was after at every step.
-fn minds(simulation: &Simulation, agent: usize, palette: &Palette) -> Vec<Mind> {
+fn minds(simulation: &Simulation, agent: AgentId, palette: &Palette) -> Vec<Mind> {
     let event = &simulation.event;
     let settings: Settings = serde_json::from_value(simulation.settings.clone()).unwrap_or_default();
     let snapshots = engine::beliefs(event, agent, &settings);

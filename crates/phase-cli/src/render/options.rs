@@ -6,6 +6,7 @@ use clap::{
     builder::{PossibleValuesParser, TypedValueParser},
     value_parser,
 };
+use phase_model::AgentId;
 use phase_render::PaletteName;
 use std::path::PathBuf;
 
@@ -53,11 +54,11 @@ pub enum Belief {
 impl Belief {
     /// The agents shown, from left to right.
     #[must_use]
-    pub const fn agents(self) -> &'static [usize] {
+    pub const fn agents(self) -> &'static [AgentId] {
         match self {
-            Self::First => &[0],
-            Self::Second => &[1],
-            Self::Both => &[0, 1],
+            Self::First => &[AgentId::ZERO],
+            Self::Second => &[AgentId::ONE],
+            Self::Both => &AgentId::ALL,
         }
     }
 

@@ -1,6 +1,7 @@
 //! Titles and captions stand where they belong and nowhere else.
 
 use crate::common::{physique, state};
+use phase_model::AgentId;
 use phase_perception::CellSet;
 use phase_render::{Caption, Frame, Overlay, Palette, Stage, Style};
 
@@ -10,7 +11,10 @@ fn stage(caption_lines: u32) -> Stage {
 
 fn draw(stage: &Stage, title: &str, captions: &[Caption]) -> Frame {
     let visible = CellSet::EMPTY;
-    stage.frame(&state(), Some(&Overlay { agent: 0, visible: &visible, particles: &[], title, captions }))
+    stage.frame(
+        &state(),
+        Some(&Overlay { agent: AgentId::ZERO, visible: &visible, particles: &[], title, captions }),
+    )
 }
 
 /// The rows in which two frames differ.

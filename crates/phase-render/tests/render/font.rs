@@ -1,6 +1,7 @@
 //! The embedded font is the one it is said to be, and text is measured, shortened and placed as it says.
 
 use crate::common::{physique, state};
+use phase_model::AgentId;
 use phase_perception::CellSet;
 use phase_render::{Caption, Frame, Overlay, SizedFont, Stage, Style, font::Font};
 
@@ -88,7 +89,10 @@ fn text_is_shortened_only_where_it_must_be_and_then_fits() {
 fn captioned(style: Style, captions: &[Caption]) -> Frame {
     let stage = Stage::new(&physique(), style).expect("a valid style");
     let visible = CellSet::EMPTY;
-    stage.frame(&state(), Some(&Overlay { agent: 0, visible: &visible, particles: &[], title: "", captions }))
+    stage.frame(
+        &state(),
+        Some(&Overlay { agent: AgentId::ZERO, visible: &visible, particles: &[], title: "", captions }),
+    )
 }
 
 /// The columns and rows of the first caption that are not white, as first and last of each.

@@ -1,7 +1,7 @@
 //! The legend shows a sample of each mark, with its meaning beside it.
 
 use crate::common::{physique, state};
-use phase_model::State;
+use phase_model::{AgentId, State};
 use phase_perception::{Cell, CellSet};
 use phase_render::{
     Frame, Overlay, Palette, SizedFont, Stage, Style,
@@ -14,7 +14,10 @@ fn style(caption_lines: u32) -> Style {
 
 fn draw(style: Style, visible: &CellSet) -> Frame {
     let stage = Stage::new(&physique(), style).expect("a valid style");
-    stage.frame(&state(), Some(&Overlay { agent: 0, visible, particles: &[], title: "", captions: &[] }))
+    stage.frame(
+        &state(),
+        Some(&Overlay { agent: AgentId::ZERO, visible, particles: &[], title: "", captions: &[] }),
+    )
 }
 
 /// The colours in an entry's third of its line: those of its sample, then those of its label.
@@ -88,6 +91,7 @@ fn the_legend_does_not_depend_on_what_is_shown() {
     let stage = Stage::new(&physique(), style(2)).expect("a valid style");
     let legend = |frame: Frame| frame.rgba()[480 * 480 * 4..].to_vec();
     let (state, visible): (State, CellSet) = (state(), Cell::all().collect());
-    let overlay = Overlay { agent: 1, visible: &visible, particles: &[state; 3], title: "", captions: &[] };
+    let overlay =
+        Overlay { agent: AgentId::ONE, visible: &visible, particles: &[state; 3], title: "", captions: &[] };
     assert!(legend(stage.frame(&state, None)) == legend(stage.frame(&state, Some(&overlay))));
 }

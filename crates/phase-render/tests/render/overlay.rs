@@ -1,7 +1,7 @@
 //! What an agent sees is light, what it does not see is dim, what it believes is faint.
 
 use crate::common::{RADII, at, physique, state};
-use phase_model::{Body, State, Vec2};
+use phase_model::{AgentId, Body, State, Vec2};
 use phase_perception::{Cell, CellSet};
 use phase_render::{Frame, Overlay, Palette, Stage, Style};
 
@@ -15,7 +15,10 @@ fn upper_right() -> CellSet {
 }
 
 fn draw(stage: &Stage, visible: &CellSet, particles: &[State]) -> Frame {
-    stage.frame(&state(), Some(&Overlay { agent: 0, visible, particles, title: "", captions: &[] }))
+    stage.frame(
+        &state(),
+        Some(&Overlay { agent: AgentId::ZERO, visible, particles, title: "", captions: &[] }),
+    )
 }
 
 fn lightness(colour: [u8; 3]) -> u32 {
@@ -57,7 +60,7 @@ fn no_seams_between_cells_at_any_size() {
         let none = CellSet::EMPTY;
         let frame = stage.frame(
             &gone,
-            Some(&Overlay { agent: 0, visible: &none, particles: &[], title: "", captions: &[] }),
+            Some(&Overlay { agent: AgentId::ZERO, visible: &none, particles: &[], title: "", captions: &[] }),
         );
         let inside = |x: f32, y: f32| stage.pixel(Vec2::new(x, y));
         let (from, to) = (inside(11.5, 16.5), inside(20.5, 7.5));
@@ -109,7 +112,7 @@ fn the_true_state_is_on_top_of_beliefs() {
 }
 
 #[test]
-fn an_overlay_of_nobody_draws_everybody() {
+fn an_agent_is_drawn_as_a_belief_of_the_other_only() {
     let stage = stage();
     let visible = CellSet::EMPTY;
     let mut particle = state();
@@ -121,6 +124,9 @@ fn an_overlay_of_nobody_draws_everybody() {
         title: "",
         captions: &[],
     };
-    let (own, other) = (stage.frame(&state(), Some(&overlay(0))), stage.frame(&state(), Some(&overlay(99))));
+    let (own, other) = (
+        stage.frame(&state(), Some(&overlay(AgentId::ZERO))),
+        stage.frame(&state(), Some(&overlay(AgentId::ONE))),
+    );
     assert_ne!(own, other);
 }
