@@ -1,18 +1,19 @@
 //! Playing one scene once, and once more without the agent that matters.
 
 use super::{judge, report::Trial, rows::Part};
-use crate::{
+use core::ops::ControlFlow;
+use phase_cli::{
     engine,
     error::CliError,
     interrupt,
     production::{self, settings_value},
     progress::Progress,
 };
-use core::ops::ControlFlow;
 use phase_dataset::{cache::Cache, checksum::sha256, folder::Folder};
+use phase_event::Event;
 use phase_evidence::Track;
 use phase_model::{Attitude, Flip, Scene};
-use phase_sim::{Event, Settings};
+use phase_sim::Settings;
 use std::{path::PathBuf, time::Instant};
 
 /// The mirrors that seeds take in turn.

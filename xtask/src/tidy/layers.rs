@@ -4,8 +4,9 @@ use super::Workspace;
 use std::path::{Path, PathBuf};
 
 /// The crates from the ground floor up. A crate may use those before it, never those after it.
-pub const LAYERS: [&str; 20] = [
+pub const LAYERS: [&str; 22] = [
     "phase-model",
+    "phase-event",
     "phase-golden",
     "phase-world",
     "phase-forward",
@@ -25,6 +26,7 @@ pub const LAYERS: [&str; 20] = [
     "phase-simple",
     "phase-baselines",
     "phase-eval",
+    "phase-cli",
 ];
 
 const MAP: &str = "docs/ARCHITECTURE.md";

@@ -1,0 +1,47 @@
+//! The one place where the command line meets sampler and simulation.
+
+use crate::error::CliError;
+use core::ops::ControlFlow;
+use phase_event::{Event, Step};
+use phase_model::{
+    Scene,
+    random::{self, Purpose},
+};
+use phase_sim::{BeliefSnapshot, Settings};
+
+/// Name and version of this program, as files bear it.
+pub const GENERATOR: &str = concat!("phase ", env!("CARGO_PKG_VERSION"));
+
+/// The seed of one event of a file of scenes.
+#[must_use]
+pub fn event_seed(seed: u64, index: usize) -> u64 {
+    random::derive_seed(seed, Purpose::Event, index as u64)
+}
+
+/// The seed of an attempt at one slot of a dataset, from which its scene and all chance in its event are derived.
+#[must_use]
+pub fn attempt_seed(dataset_seed: u64, slot: usize, attempt: usize) -> u64 {
+    random::derive_seed(event_seed(dataset_seed, slot), Purpose::Attempt, attempt as u64)
+}
+
+/// Simulates an event; `None` if `on_step` broke it off.
+///
+/// # Errors
+/// [`CliError::Simulation`].
+pub fn simulate(
+    id: &str,
+    scene: &Scene,
+    seed: u64,
+    settings: &Settings,
+    on_step: &mut dyn FnMut(&Step) -> ControlFlow<()>,
+) -> Result<Option<Event>, CliError> {
+    let (event, finished) = phase_sim::simulate_with(scene, seed, settings, on_step)
+        .map_err(|source| CliError::Simulation { id: id.into(), source })?;
+    Ok(finished.then_some(event))
+}
+
+/// What an agent saw and believed before each step of a recorded event, and after the last.
+#[must_use]
+pub fn beliefs(event: &Event, agent: usize, settings: &Settings) -> Vec<BeliefSnapshot> {
+    phase_sim::beliefs(event, agent, settings.minds.particles)
+}

@@ -1,0 +1,77 @@
+//! Where answers come from: a method of ours, or somebody else's, from a file.
+
+use super::input::{Event, Input};
+use crate::{console::remark, error::CliError};
+use phase_dataset::{
+    FileError, Problem,
+    checksum::{hexadecimal, sha256},
+    json,
+};
+use phase_eval::MethodError;
+use phase_event::EventReadError;
+use phase_model::json::FieldError;
+use serde_json::{Value, json};
+use std::{collections::BTreeMap, path::Path};
+
+/// Where answers come from.
+pub(super) enum Answers<M: ?Sized, A> {
+    /// A method of ours.
+    Method(Box<M>),
+    /// Somebody else's.
+    Given(Given<A>),
+}
+
+/// The answers of a file, one to each event that is asked for.
+pub(super) struct Given<A> {
+    /// What the method is called: the file's name without its ending.
+    pub name: String,
+    answers: BTreeMap<String, A>,
+    sha256: String,
+}
+
+impl<A> Given<A> {
+    /// Reads a file. `parse` finds the answers by the ids of their events, `fit` makes of each what goes with its event.
+    ///
+    /// # Errors
+    /// If the file cannot be used, or an event has no answer or one that does not go with it.
+    pub(super) fn read(
+        file: &Path,
+        input: &Input,
+        parse: impl Fn(&Value) -> Result<BTreeMap<String, A>, EventReadError>,
+        fit: impl Fn(&Event, A) -> Result<A, FieldError>,
+    ) -> Result<Self, CliError> {
+        let value = json::read(file)?;
+        let fail = |error: EventReadError| FileError { file: file.to_owned(), problem: Problem::from(error) };
+        let mut others = parse(&value).map_err(fail)?;
+        if let Some(event) = input.events.iter().find(|event| !others.contains_key(&event.id)) {
+            return Err(CliError::unknown_id(file, &event.id, others.keys().map(String::as_str)));
+        }
+        let mut answers = BTreeMap::new();
+        for event in &input.events {
+            let Some(answer) = others.remove(&event.id) else { continue };
+            let wrong = |problem| fail(EventReadError::Field { event: Some(event.id.clone()), problem });
+            answers.insert(event.id.clone(), fit(event, answer).map_err(wrong)?);
+        }
+        if !others.is_empty() {
+            let others = others.len();
+            remark(format!("note: {}: {others} of its events are not asked for", file.display()));
+        }
+        let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        Ok(Self { name, answers, sha256: hexadecimal(&sha256(value.to_string().as_bytes())) })
+    }
+
+    /// What decides the answers: what is in the file.
+    pub(super) fn settings(&self) -> Value {
+        json!({ "predictions_sha256": self.sha256 })
+    }
+}
+
+impl<A: Clone> Given<A> {
+    /// The answer to an event.
+    ///
+    /// # Errors
+    /// If there is none.
+    pub(super) fn answer(&self, event: &Event) -> Result<A, MethodError> {
+        self.answers.get(&event.id).cloned().ok_or_else(|| MethodError("has no prediction".into()))
+    }
+}

@@ -1,0 +1,156 @@
+//! Task 1: how often goals and relations are recognised.
+
+use super::{
+    answers::{Answers, Given},
+    input::{Event, Input},
+    methods,
+    options::{EvalGoals, steps_of},
+    task::{self, Task},
+};
+use crate::error::CliError;
+use cpu_time::ThreadTime;
+use phase_eval::{
+    MethodError, Recogniser, Tick,
+    goals::{Answer, Glimpse, Label, RecognisedEvent, Summary},
+    predictions,
+    report::{self, Document, Subject},
+    results,
+};
+use phase_event::Recording;
+use phase_model::ObservedEvent;
+use serde_json::{Value, json};
+use std::path::Path;
+
+/// Runs the command.
+///
+/// # Errors
+/// Any [`CliError`].
+pub(super) fn run(arguments: &EvalGoals) -> Result<(), CliError> {
+    let input = Input::open(&arguments.common)?;
+    let goals = match (&arguments.common.predictions, &arguments.method) {
+        (Some(file), _) => {
+            let given = Given::read(file, &input, predictions::goals, |_, answer| Ok(answer))?;
+            Goals { name: given.name.clone(), answers: Answers::Given(given), watched: Vec::new() }
+        }
+        (None, method) => {
+            let method = method.as_deref().unwrap_or_default();
+            let mut watched = arguments.watched.clone();
+            watched.sort_by(f64::total_cmp);
+            watched.dedup();
+            Goals { watched, ..Goals::by_method(method, method, arguments.weights.as_deref())? }
+        }
+    };
+    task::run(&goals, &input, &arguments.common)
+}
+
+/// The task.
+pub(crate) struct Goals {
+    name: String,
+    answers: Answers<dyn Recogniser, Answer>,
+    /// Parts of each event to ask about too, by their lengths (s).
+    watched: Vec<f64>,
+}
+
+impl Goals {
+    /// The task for one of our methods, under any name; see [`methods::recogniser`].
+    ///
+    /// # Errors
+    /// As there.
+    pub(crate) fn by_method(name: &str, method: &str, weights: Option<&Path>) -> Result<Self, CliError> {
+        let answers = Answers::Method(methods::recogniser(method, weights)?);
+        Ok(Self { name: name.into(), answers, watched: Vec::new() })
+    }
+}
+
+impl Task for Goals {
+    type Answered = RecognisedEvent;
+
+    const NAME: &'static str = "goals";
+
+    fn method(&self) -> &str {
+        &self.name
+    }
+
+    fn is_given(&self) -> bool {
+        matches!(self.answers, Answers::Given(_))
+    }
+
+    fn settings(&self) -> Value {
+        match &self.answers {
+            Answers::Method(method) => json!({ "method": method.settings(), "watched": self.watched }),
+            Answers::Given(given) => given.settings(),
+        }
+    }
+
+    fn ticks(&self) -> usize {
+        match &self.answers {
+            Answers::Method(method) => method.ticks() * (1 + self.watched.len()),
+            Answers::Given(_) => 1,
+        }
+    }
+
+    fn check(&self, _: &Event) -> Result<(), CliError> {
+        Ok(())
+    }
+
+    fn ask(
+        &self,
+        event: &Event,
+        recording: &Recording,
+        seed: u64,
+        tick: Tick<'_>,
+    ) -> Result<Option<RecognisedEvent>, MethodError> {
+        let (answer, details, cpu_seconds, watched) = match &self.answers {
+            Answers::Given(given) => (given.answer(event)?, Value::Null, None, Vec::new()),
+            Answers::Method(method) => {
+                let observed = recording.observed().map_err(|error| MethodError(error.to_string()))?;
+                let begun = ThreadTime::now();
+                let judged = judge(method.as_ref(), &observed, seed, tick)?;
+                let cpu_seconds = begun.elapsed().as_secs_f64();
+                let Some((answer, details)) = judged else { return Ok(None) };
+                let mut watched = Vec::with_capacity(self.watched.len());
+                for &seconds in &self.watched {
+                    let part = observed.watched_for(steps_of(seconds));
+                    let Some((answer, _)) = judge(method.as_ref(), &part, seed, tick)? else {
+                        return Ok(None);
+                    };
+                    watched.push(Glimpse { seconds, answer });
+                }
+                (answer, details, Some(cpu_seconds), watched)
+            }
+        };
+        let label = label(event, recording);
+        Ok(Some(RecognisedEvent { id: event.id.clone(), answer, label, watched, cpu_seconds, details }))
+    }
+
+    fn sum_up(
+        &self,
+        run: &Value,
+        subject: Subject<'_>,
+        events: &[RecognisedEvent],
+    ) -> Option<(Value, Document)> {
+        let summary = Summary::of(events, subject.seed)?;
+        Some((results::goals(run, &summary, events), report::goals(subject, &summary)))
+    }
+}
+
+fn judge(
+    method: &dyn Recogniser,
+    observed: &ObservedEvent,
+    seed: u64,
+    tick: Tick<'_>,
+) -> Result<Option<(Answer, Value)>, MethodError> {
+    let Some((judgement, details)) = method.judge(observed, seed, tick)? else { return Ok(None) };
+    let answer = Answer::of(&judgement).map_err(|error| MethodError(format!("the method's {error}")))?;
+    Ok(Some((answer, details)))
+}
+
+fn label(event: &Event, recording: &Recording) -> Label {
+    Label {
+        kind: recording.scene.kind,
+        goals: recording.scene.goals(),
+        relation: recording.relation,
+        relation_human: recording.relation_human,
+        layout_seen: event.layout_seen,
+    }
+}

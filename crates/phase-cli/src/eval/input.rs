@@ -1,0 +1,133 @@
+//! The events that a method is measured on.
+
+use super::options::Common;
+use crate::{error::CliError, source::Source};
+use phase_dataset::{
+    checksum::{hexadecimal, sha256},
+    manifest::{MANIFEST_FILE, Manifest},
+    splits::Split,
+};
+use phase_event::Recording;
+use phase_model::AGENT_COUNT;
+use phase_sampler::Variant;
+use std::{collections::BTreeSet, path::Path};
+
+/// The events of a run, loaded one at a time.
+#[derive(Debug)]
+pub(crate) struct Input {
+    /// What they are called in the name of a folder.
+    pub name: String,
+    /// What they are called in a report.
+    pub words: String,
+    /// Stands for everything that is in them.
+    pub sha256: String,
+    /// The events.
+    pub events: Vec<Event>,
+    source: Source,
+}
+
+/// One event, before it is loaded.
+#[derive(Debug)]
+pub(crate) struct Event {
+    /// Its name.
+    pub id: String,
+    /// Its length (steps).
+    pub steps: usize,
+    /// Its agents and objects, how many.
+    pub entities: usize,
+    /// Whether its base layout is in the training or validation events too, if the dataset is divided.
+    pub layout_seen: Option<bool>,
+    /// Whether its type of interaction is in the training or validation events too, if the dataset is divided.
+    pub interaction_seen: Option<bool>,
+    index: usize,
+    contents: String,
+}
+
+impl Input {
+    /// Opens a file or dataset and chooses what was asked for.
+    ///
+    /// # Errors
+    /// If it cannot be used, or holds nothing of what was asked for.
+    pub(crate) fn open(arguments: &Common) -> Result<Self, CliError> {
+        let path = &arguments.events;
+        let source = Source::open(path, &[])?;
+        let manifest = path.join(MANIFEST_FILE);
+        let mut events = if manifest.is_file() {
+            of_manifest(&Manifest::read(&manifest)?, arguments.split)
+        } else if arguments.split.is_some() {
+            let rule = "is no dataset, so --split chooses nothing";
+            return Err(CliError::Usage(format!("{}: {rule}", path.display())));
+        } else {
+            (0..source.len())
+                .map(|index| of_recording(index, &source.load(index)?))
+                .collect::<Result<_, _>>()?
+        };
+        if events.is_empty() {
+            let what = arguments.split.map_or("", Split::name);
+            return Err(CliError::Usage(format!("{}: has no {what} events", path.display())));
+        }
+        events.truncate(arguments.limit.map_or(usize::MAX, |limit| limit as usize));
+        let contents: String =
+            events.iter().map(|event| format!("{} {}\n", event.id, event.contents)).collect();
+        let (name, words) = names(path, arguments.split);
+        Ok(Self { name, words, sha256: hexadecimal(&sha256(contents.as_bytes())), events, source })
+    }
+
+    /// Loads one of the events.
+    ///
+    /// # Errors
+    /// If its file cannot be used.
+    pub(crate) fn load(&self, event: &Event) -> Result<Recording, CliError> {
+        self.source.load(event.index)
+    }
+}
+
+fn of_manifest(manifest: &Manifest, split: Option<Split>) -> Vec<Event> {
+    let divided = manifest.events.iter().any(|entry| entry.split.is_some());
+    let learnt = || manifest.events.iter().filter(|entry| entry.split() != Split::Test);
+    let layouts: BTreeSet<u8> = learnt().map(|entry| entry.layout.base).collect();
+    let variants: BTreeSet<Variant> = learnt().filter_map(|entry| entry.variant).collect();
+    let entries = manifest.events.iter().enumerate();
+    let chosen = entries.filter(|(_, entry)| split.is_none_or(|split| entry.split() == split));
+    let event = chosen.map(|(index, entry)| Event {
+        id: entry.id.clone(),
+        steps: entry.steps,
+        entities: AGENT_COUNT + entry.object_size_levels.len(),
+        layout_seen: divided.then(|| layouts.contains(&entry.layout.base)),
+        interaction_seen: entry.variant.filter(|_| divided).map(|variant| variants.contains(&variant)),
+        index,
+        contents: entry.event.sha256.clone(),
+    });
+    event.collect()
+}
+
+/// An event of a file; its contents are its labels and rows, however they are laid out in the file.
+fn of_recording(index: usize, recording: &Recording) -> Result<Event, CliError> {
+    let (scene, rows) = (&recording.scene, &recording.trajectory);
+    let relations = (recording.relation, recording.relation_human);
+    Ok(Event {
+        id: recording.id.clone(),
+        steps: rows.steps(),
+        entities: AGENT_COUNT + scene.objects.len(),
+        layout_seen: None,
+        interaction_seen: None,
+        index,
+        contents: hexadecimal(&sha256(format!("{relations:?} {scene:?} {rows:?}").as_bytes())),
+    })
+}
+
+/// What the events are called in the name of a folder, and in a report.
+fn names(path: &Path, split: Option<Split>) -> (String, String) {
+    // A folder may be given as `.` or end in `..`.
+    let whole = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+    let text = |name: Option<&std::ffi::OsStr>| name.unwrap_or_default().to_string_lossy().into_owned();
+    let (stem, file) = if path.is_dir() {
+        (text(whole.file_name()), text(whole.file_name()))
+    } else {
+        (text(whole.file_stem()), text(whole.file_name()))
+    };
+    match split {
+        Some(split) => (format!("{stem}-{}", split.name()), format!("{file}, {} events", split.name())),
+        None => (stem, file),
+    }
+}

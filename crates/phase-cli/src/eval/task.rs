@@ -1,0 +1,291 @@
+//! What the two tasks have in common: ask a method event by event, keep what it said, sum up, report.
+
+use super::{
+    input::{Event, Input},
+    options::Common,
+};
+use crate::{
+    console::{remark, tell},
+    error::CliError,
+    gen_dataset::check_same,
+    interrupt,
+    parallel::make_all,
+    production::program,
+    progress::Progress,
+};
+use phase_dataset::{
+    FileError, Problem, atomic,
+    checksum::{hexadecimal, sha256},
+    folder::{self, Contents, Folder},
+    json,
+};
+use phase_eval::{
+    MethodError, Tick,
+    report::{Document, Subject},
+};
+use phase_event::Recording;
+use phase_model::random::{Purpose, derive_seed};
+use serde::{Serialize, de::DeserializeOwned};
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
+
+/// The results' file name; it is written last.
+const RESULTS_FILE: &str = "results.json";
+/// The report as a page.
+pub(crate) const REPORT_FILE: &str = "report.html";
+/// Where what was said of each event is kept.
+const EVENTS: &str = "events";
+
+/// A task and the method that does it.
+pub(crate) trait Task: Sync {
+    /// One event with what the method said of it.
+    type Answered: Serialize + DeserializeOwned + Send;
+
+    /// The task's name.
+    const NAME: &'static str;
+
+    /// The method's name.
+    fn method(&self) -> &str;
+
+    /// Whether the method is somebody else's, whose answers came from a file.
+    fn is_given(&self) -> bool;
+
+    /// What decides the answers beside events and seed.
+    fn settings(&self) -> Value;
+
+    /// About how often a method ticks for an event.
+    fn ticks(&self) -> usize;
+
+    /// Whether an event can be asked about.
+    ///
+    /// # Errors
+    /// Says what is wrong with it, reading on from its name.
+    fn check(&self, event: &Event) -> Result<(), CliError>;
+
+    /// Asks the method; `None` if it was told to break.
+    ///
+    /// # Errors
+    /// If it has no answer, or one that is none.
+    fn ask(
+        &self,
+        event: &Event,
+        recording: &Recording,
+        seed: u64,
+        tick: Tick<'_>,
+    ) -> Result<Option<Self::Answered>, MethodError>;
+
+    /// Results and report; `None` without events.
+    fn sum_up(
+        &self,
+        run: &Value,
+        subject: Subject<'_>,
+        events: &[Self::Answered],
+    ) -> Option<(Value, Document)>;
+}
+
+/// A task that is done.
+pub(crate) struct Evaluation<A> {
+    /// Every event with what the method said of it.
+    pub events: Vec<A>,
+    results: Value,
+    document: Document,
+    out: PathBuf,
+    /// Whether it was done already.
+    was_there: bool,
+}
+
+/// Does a task and says what came of it.
+///
+/// # Errors
+/// Any [`CliError`].
+pub(super) fn run<T: Task>(task: &T, input: &Input, arguments: &Common) -> Result<(), CliError> {
+    check_place(arguments)?;
+    let done = evaluate(task, input, arguments)?;
+    hand_over(arguments, &done.results, &done.document)?;
+    tell(if done.was_there {
+        format!("{} holds this evaluation already", done.out.display())
+    } else {
+        format!("{} events; report in {}", done.events.len(), done.out.join(REPORT_FILE).display())
+    });
+    Ok(())
+}
+
+/// Does a task, or takes it as done if it is.
+///
+/// # Errors
+/// Any [`CliError`].
+pub(crate) fn evaluate<T: Task>(
+    task: &T,
+    input: &Input,
+    arguments: &Common,
+) -> Result<Evaluation<T::Answered>, CliError> {
+    input.events.iter().try_for_each(|event| task.check(event))?;
+    let out = arguments.out.clone().unwrap_or_else(|| default_folder(task, input));
+    let run = json!({
+        "command": format!("eval {}", T::NAME), "generator": crate::engine::GENERATOR, "method": task.method(),
+        "method_settings": task.settings(), "seed": arguments.seed, "n_events": input.events.len(),
+        "events_sha256": input.sha256,
+    });
+    let subject =
+        Subject { method: task.method(), given: task.is_given(), events: &input.words, seed: arguments.seed };
+    match folder::inspect(&out, RESULTS_FILE)? {
+        Contents::Finished => return finished(task, &run, subject, out),
+        Contents::Unfinished(other) => {
+            check_same(&out, "an unfinished", &other, &run)?;
+            remark(format!("going on in {}", out.display()));
+        }
+        Contents::Nothing => {}
+    }
+    interrupt::listen();
+    let folder = Folder::claim(&out, &run)?;
+    let kept = Kept { folder: folder.subfolder(EVENTS)?, program: hexadecimal(&program()) };
+    let progress = Progress::new(input.events.len(), task.ticks());
+    let answered = make_all(&arguments.jobs, input.events.len(), |k| {
+        one(task, input, &input.events[k], arguments.seed, &kept, &progress)
+    })?;
+    drop(progress);
+    let Some(answered) = answered else { return Err(CliError::Interrupted(out)) };
+    let Some((results, document)) = task.sum_up(&run, subject, &answered) else {
+        return Err(no_events(&out));
+    };
+    write_report(&out, &document)?;
+    atomic::write(&out.join(RESULTS_FILE), text_of(&results).as_bytes())?;
+    folder.finish()?;
+    Ok(Evaluation { events: answered, results, document, out, was_there: false })
+}
+
+/// One event: taken from what was kept, or asked for and kept.
+fn one<T: Task>(
+    task: &T,
+    input: &Input,
+    event: &Event,
+    seed: u64,
+    kept: &Kept,
+    progress: &Progress,
+) -> Result<Option<T::Answered>, CliError> {
+    if let Some(answered) = kept.load(&event.id) {
+        progress.event(0, &format!("{} (kept)", event.id));
+        return Ok(Some(answered));
+    }
+    let recording = input.load(event)?;
+    let mut counted = 0;
+    let mut tick = || {
+        counted += 1;
+        progress.step();
+        if interrupt::requested() {
+            core::ops::ControlFlow::Break(())
+        } else {
+            core::ops::ControlFlow::Continue(())
+        }
+    };
+    let asked = task.ask(event, &recording, event_seed(seed, &event.id), &mut tick);
+    let answered = asked.map_err(|source| CliError::Method { id: event.id.clone(), source })?;
+    let Some(answered) = answered else { return Ok(None) };
+    kept.store(&event.id, &answered)?;
+    progress.event(counted, &event.id);
+    Ok(Some(answered))
+}
+
+/// The seed of one event, by its name alone: it is the same whatever else is evaluated.
+fn event_seed(seed: u64, id: &str) -> u64 {
+    let hash = sha256(id.as_bytes());
+    let index = hash.iter().take(8).fold(0, |word: u64, &byte| word << 8 | u64::from(byte));
+    derive_seed(seed, Purpose::Evaluation, index)
+}
+
+/// What was said of each event, in a file each.
+struct Kept {
+    folder: PathBuf,
+    /// Stands for this very program; what another build said is not taken.
+    program: String,
+}
+
+impl Kept {
+    fn path(&self, id: &str) -> PathBuf {
+        self.folder.join(format!("{id}.json"))
+    }
+
+    fn load<A: DeserializeOwned>(&self, id: &str) -> Option<A> {
+        let mut value = json::read(&self.path(id)).ok()?;
+        let ours = value["program"] == *self.program && value["event"]["id"] == *id;
+        ours.then(|| serde_json::from_value(value["event"].take()).ok()).flatten()
+    }
+
+    fn store(&self, id: &str, answered: &impl Serialize) -> Result<(), CliError> {
+        let text = json!({ "program": self.program, "event": answered });
+        Ok(atomic::write(&self.path(id), format!("{text:#}\n").as_bytes())?)
+    }
+}
+
+/// Writes a report as Markdown and as a page, and its plots.
+///
+/// # Errors
+/// If a file cannot be written.
+pub(crate) fn write_report(out: &Path, document: &Document) -> Result<(), CliError> {
+    for (file, svg) in document.plots() {
+        atomic::write(&out.join(file), svg.as_bytes())?;
+    }
+    atomic::write(&out.join("report.md"), document.to_markdown().as_bytes())?;
+    Ok(atomic::write(&out.join(REPORT_FILE), document.to_html().as_bytes())?)
+}
+
+/// Prints the table and writes the results where else they were asked for.
+fn hand_over(arguments: &Common, results: &Value, document: &Document) -> Result<(), CliError> {
+    if let Some(path) = &arguments.json {
+        atomic::write(path, text_of(results).as_bytes()).map_err(CliError::Output)?;
+    }
+    tell(document.first_table().trim_end());
+    Ok(())
+}
+
+/// A finished folder is taken as it is if it is of this very run.
+fn finished<T: Task>(
+    task: &T,
+    run: &Value,
+    subject: Subject<'_>,
+    out: PathBuf,
+) -> Result<Evaluation<T::Answered>, CliError> {
+    let file = out.join(RESULTS_FILE);
+    let results = json::read(&file)?;
+    check_same(&out, "a finished", &results["run"], run)?;
+    let altered = |rule: String| {
+        let problem = Problem::Shape { what: "results file", rule };
+        CliError::Altered(FileError { file: file.clone(), problem })
+    };
+    let events: Vec<T::Answered> =
+        serde_json::from_value(results["events"].clone()).map_err(|error| altered(error.to_string()))?;
+    let Some((again, document)) = task.sum_up(run, subject, &events) else { return Err(no_events(&out)) };
+    if again != results {
+        return Err(altered("its figures are not those of its events".into()));
+    }
+    if folder::has_leftovers(&out) {
+        Folder::claim(&out, run)?.finish()?;
+    }
+    Ok(Evaluation { events, results, document, out, was_there: true })
+}
+
+fn no_events(out: &Path) -> CliError {
+    CliError::Usage(format!("{}: there are no events to sum up", out.display()))
+}
+
+fn default_folder<T: Task>(task: &T, input: &Input) -> PathBuf {
+    Path::new("out/eval").join(format!("{}-{}-{}", T::NAME, task.method(), input.name))
+}
+
+/// Checks before hours of work that there is a folder for the file to be written at their end.
+fn check_place(arguments: &Common) -> Result<(), CliError> {
+    let Some(path) = &arguments.json else { return Ok(()) };
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let rule = if path.is_dir() {
+        "is a folder; --json needs a file"
+    } else if !folder.is_dir() {
+        "--json: there is no such folder to write into"
+    } else {
+        return Ok(());
+    };
+    Err(CliError::Usage(format!("{}: {rule}", path.display())))
+}
+
+fn text_of(results: &Value) -> String {
+    format!("{results:#}\n")
+}

@@ -1,0 +1,82 @@
+//! What is written once all events of a dataset are there: everything that describes the whole.
+//!
+//! Events are read back from the folder one at a time, so memory grows with the number of events by their entries
+//! in the manifest alone. Further files of a dataset have their place here.
+
+use crate::{error::CliError, interrupt};
+use phase_dataset::{
+    FileError, Problem, atomic,
+    card::{self, CARD_FILE, card},
+    checksum::FileEntry,
+    croissant::{CROISSANT_FILE, croissant},
+    gallery::{self, PAGE_FILE, Timeline},
+    manifest::{DATASET_FORMAT, EventEntry, MANIFEST_FILE, Manifest},
+    parquet, phase_events,
+    record::{Record, Tally},
+    shard::Whole,
+};
+use phase_event::Event;
+use std::path::Path;
+
+/// Writes what describes the whole; the manifest last, since with it the dataset is complete. `records` are those of
+/// all slots, in order.
+///
+/// # Errors
+/// If an event cannot be read back, a file cannot be written, or the run was interrupted.
+pub fn complete(
+    out: &Path,
+    whole: &Whole,
+    records: impl Iterator<Item = Record>,
+) -> Result<Manifest, CliError> {
+    let (mut events, mut timelines, mut tally) = (Vec::new(), Vec::new(), Tally::default());
+    for record in records {
+        let Some(entry) = record.entry else { continue };
+        if let Some(variant) = entry.variant {
+            tally.add(variant, &record.refused);
+        }
+        timelines.push(Timeline::of(&read_back(out, &entry)?));
+        events.push(entry);
+    }
+    let mut manifest = Manifest {
+        format: DATASET_FORMAT.into(),
+        generator: whole.generator.clone(),
+        preset: whole.preset.clone(),
+        seed: whole.seed,
+        settings: whole.settings.clone(),
+        selection: if whole.selected { tally.rows() } else { Vec::new() },
+        events,
+        files: Vec::new(),
+    };
+    let Some(files) = parquet::export(out, &manifest.events, &interrupt::requested)? else {
+        return Err(CliError::Interrupted(out.to_owned()));
+    };
+    manifest.files = files;
+    if whole.videos {
+        let page = gallery::page(&manifest, &timelines);
+        describe(out, &mut manifest, PAGE_FILE, &page)?;
+    }
+    let text = card(&manifest, &whole.command);
+    describe(out, &mut manifest, CARD_FILE, &text)?;
+    let text = croissant(&manifest, card::about());
+    describe(out, &mut manifest, CROISSANT_FILE, &text)?;
+    atomic::write(&out.join(MANIFEST_FILE), manifest.to_json().as_bytes())?;
+    Ok(manifest)
+}
+
+/// Writes a file that belongs to no single event, and has the manifest name it.
+fn describe(out: &Path, manifest: &mut Manifest, name: &str, text: &str) -> Result<(), CliError> {
+    atomic::write(&out.join(name), text.as_bytes())?;
+    manifest.files.push(FileEntry::of(out, name).map_err(CliError::ReadBack)?);
+    Ok(())
+}
+
+/// The event of an entry, from its file.
+fn read_back(out: &Path, entry: &EventEntry) -> Result<Event, CliError> {
+    let file = out.join(&entry.event.path);
+    let recordings = phase_events::read(&file).map_err(CliError::ReadBack)?;
+    let simulation = recordings.into_iter().find_map(|recording| recording.simulation);
+    simulation.map(|simulation| simulation.event).ok_or(CliError::ReadBack(FileError {
+        file,
+        problem: Problem::Shape { what: "event of a dataset", rule: "it was not simulated".into() },
+    }))
+}

@@ -1,0 +1,155 @@
+//! Making the files of one event: simulate it or take it from the cache, write its JSON and its video.
+
+use crate::{
+    engine::{self, GENERATOR},
+    error::CliError,
+    interrupt,
+    picture::{self, Shot},
+    progress::Progress,
+};
+use core::ops::ControlFlow;
+use phase_dataset::{atomic, cache::Cache, checksum::sha256, folder::Folder};
+use phase_event::{Event, Recording};
+use phase_model::{Relation, Scene};
+use phase_sim::Settings;
+use serde_json::Value;
+use std::{
+    path::{Path, PathBuf},
+    time::Instant,
+};
+
+/// What all events of a run have in common.
+#[derive(Debug)]
+pub struct Production {
+    settings: Settings,
+    settings_value: Value,
+    cache: Cache,
+    progress: Progress,
+}
+
+/// What makes one event different from the others.
+#[derive(Debug)]
+pub struct Order {
+    /// Its id.
+    pub id: String,
+    /// Its seed.
+    pub seed: u64,
+    /// The relation it is to show, if that is not the scene's own.
+    pub relation: Option<Relation>,
+    /// Its greatest length, if that is not the run's (steps).
+    pub max_steps: Option<usize>,
+    /// Where its JSON goes.
+    pub json: PathBuf,
+    /// Where its video goes, if there is to be one.
+    pub video: Option<PathBuf>,
+}
+
+impl Production {
+    /// A production of `events` events in a folder.
+    #[must_use]
+    pub fn new(folder: &Folder, settings: Settings, events: usize) -> Self {
+        let settings_value = settings_value(&settings);
+        let cache = Cache::new(&folder.cache(), fingerprint(&settings_value));
+        Self { settings, settings_value, cache, progress: Progress::new(events, settings.max_steps) }
+    }
+
+    /// Makes one event and its files; `None` if it was interrupted. The scene is asked for only if the event is
+    /// not in the cache.
+    ///
+    /// # Errors
+    /// Any of [`CliError`]'s failures.
+    pub fn make(
+        &self,
+        order: &Order,
+        scene: impl FnOnce() -> Result<Scene, CliError>,
+    ) -> Result<Option<Event>, CliError> {
+        let id = &order.id;
+        let begun = Instant::now();
+        let mut steps = 0;
+        let cached = self.cache.load(id, order.seed);
+        let fresh = cached.is_none();
+        let event = match cached {
+            Some(event) => event,
+            None => {
+                let mut on_step = |_: &_| {
+                    steps += 1;
+                    self.progress.step();
+                    if interrupt::requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+                };
+                let simulated = engine::simulate(id, &scene()?, order.seed, &self.settings, &mut on_step)?;
+                let Some(event) = simulated else { return Ok(None) };
+                // A video of an earlier build must not outlive the event it showed, wherever we are stopped.
+                if let Some(video) = &order.video {
+                    atomic::remove(video)?;
+                }
+                self.cache.store(id, &event)?;
+                event
+            }
+        };
+        self.write(order, &event, fresh)?;
+        let (kind, length) = (event.scene.kind.name(), event.steps.len());
+        let how = if fresh { format!("{:.1} s", begun.elapsed().as_secs_f64()) } else { "kept".into() };
+        self.finished(steps, &format!("{id} {kind}: {length} steps ({how})"));
+        Ok(Some(event))
+    }
+
+    /// Writes the files of an event; its video if the event is new or the video is not there.
+    ///
+    /// # Errors
+    /// If drawing or writing fails.
+    pub fn write(&self, order: &Order, event: &Event, fresh: bool) -> Result<(), CliError> {
+        self.write_json(order, event)?;
+        match &order.video {
+            Some(path) if fresh || !path.exists() => write_video(path, &order.id, event),
+            _ => Ok(()),
+        }
+    }
+
+    /// An event is done; see [`Progress::event`].
+    pub fn finished(&self, counted: usize, line: &str) {
+        self.progress.event(counted, line);
+    }
+
+    fn write_json(&self, order: &Order, event: &Event) -> Result<(), CliError> {
+        let (generator, mut settings) = (GENERATOR.into(), self.settings_value.clone());
+        if let Some(steps) = order.max_steps {
+            settings["max_steps"] = steps.into();
+        }
+        let mut recording = Recording::of_event(order.id.clone(), event.clone(), generator, settings);
+        if let Some(relation) = order.relation {
+            recording.relation = relation;
+        }
+        let text = phase_event::to_json(&[recording])?;
+        let there = std::fs::read(&order.json).is_ok_and(|bytes| bytes == text.as_bytes());
+        if there { Ok(()) } else { Ok(atomic::write(&order.json, text.as_bytes())?) }
+    }
+}
+
+/// Settings as they stand in files.
+#[must_use]
+pub fn settings_value(settings: &Settings) -> Value {
+    // Plain numbers of ours always have a JSON form.
+    serde_json::to_value(settings).unwrap_or_default()
+}
+
+/// Writes the video of a simulated event, a frame for each substep.
+///
+/// # Errors
+/// As [`picture::write_video`].
+pub fn write_video(path: &Path, id: &str, event: &Event) -> Result<(), CliError> {
+    let shots: Vec<Shot<'_>> = event.frames().map(|&state| Shot { state, mind: None }).collect();
+    picture::write_video(path, id, &event.scene.physique(), &shots)
+}
+
+/// Stands for everything that decides an event besides its scene and seed: the settings and this very program.
+/// An event cached by another build is made again, so that no dataset mixes two.
+fn fingerprint(settings: &Value) -> [u8; 32] {
+    sha256(&[&program()[..], settings.to_string().as_bytes()].concat())
+}
+
+/// Stands for this very program.
+#[must_use]
+pub fn program() -> [u8; 32] {
+    let program = std::env::current_exe().and_then(std::fs::read).map(|bytes| sha256(&bytes));
+    program.unwrap_or_else(|_| sha256(GENERATOR.as_bytes()))
+}

@@ -1,0 +1,149 @@
+//! `gen-dataset`, with agents that think little.
+
+use crate::support::{QUICK, refuse, run, succeed, text, tree};
+use phase_dataset::manifest::Manifest;
+use phase_event::{Recording, parse};
+use std::{fs, path::Path};
+
+fn generate<'a>(out: &'a str, more: &[&'a str]) -> Vec<&'a str> {
+    [&["gen-dataset", "--events", "3", "--out", out], &QUICK[..], more].concat()
+}
+
+/// The same seed, one job and two: the same bytes in every file.
+#[test]
+fn results_do_not_depend_on_the_number_of_jobs() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    succeed(path, &generate("one", &["--jobs", "1"]));
+    succeed(path, &generate("two", &["--jobs", "2"]));
+    let (one, two) = (tree(&path.join("one")), tree(&path.join("two")));
+    assert_eq!(one.len(), 5 + 2 * 3);
+    assert!(
+        one == two,
+        "{:?}",
+        one.iter().filter(|(name, bytes)| two.get(*name) != Some(bytes)).map(|it| it.0).collect::<Vec<_>>()
+    );
+    succeed(path, &generate("three", &["--seed", "2"]));
+    let other = tree(&path.join("three"));
+    let event = Path::new("events/demo-0000.json");
+    assert!(one[event] != other[event], "another seed makes another event");
+}
+
+#[test]
+fn the_folder_holds_what_it_promises() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("out");
+    let told = succeed(folder.path(), &generate("out", &[]));
+    assert!(told.contains("out") && told.contains("index.html"), "{told}");
+    let manifest = Manifest::read(&out.join("manifest.json")).expect("a manifest");
+    manifest.verify(&out).expect("every checksum fits");
+    let kinds: Vec<&str> = manifest.events.iter().map(|event| event.kind.name()).collect();
+    assert_eq!(kinds, ["helping", "hindering", "chasing"]);
+    for entry in &manifest.events {
+        let bytes = fs::read(out.join(&entry.event.path)).expect("an event file");
+        let events: Vec<Recording> = parse(&bytes).expect("a good event file");
+        assert_eq!(events.len(), 1);
+        let simulation = events[0].simulation.as_ref().expect("a simulation");
+        assert_eq!((events[0].id.as_str(), simulation.event.seed), (entry.id.as_str(), entry.seed));
+        assert_eq!(simulation.event.steps.len(), 4);
+        events[0].scene.validate_apart().expect("nothing overlaps at the start");
+        let video = entry.video.as_ref().expect("a video");
+        let video = fs::read(out.join(&video.path)).expect("its file");
+        assert_eq!(&video[4..8], b"ftyp");
+    }
+    let page = fs::read_to_string(out.join("index.html")).expect("a page");
+    assert_eq!(page.matches("<video").count(), 3);
+    let card = fs::read_to_string(out.join("README.md")).expect("a card");
+    assert!(card.starts_with("---\n") && card.contains("path: data/train-*.parquet"), "{card}");
+    assert!(card.contains("--events 3") && card.contains("--simulations 20"), "{card}");
+}
+
+/// Without videos, everything else is as it is with them.
+#[test]
+fn videos_can_be_left_out() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    succeed(path, &generate("with", &[]));
+    let told = succeed(path, &generate("without", &["--no-video"]));
+    assert!(!told.contains("index.html"), "{told}");
+    let (with, without) = (tree(&path.join("with")), tree(&path.join("without")));
+    let left_out = |name: &&Path| name.starts_with("videos") || name.ends_with("index.html");
+    let names: Vec<&Path> = with.keys().map(AsRef::as_ref).filter(|name| !left_out(name)).collect();
+    assert_eq!(without.keys().map(AsRef::as_ref).collect::<Vec<&Path>>(), names);
+    assert!(names.iter().filter(|name| name.starts_with("events")).all(|&name| with[name] == without[name]));
+    let card = text(&without[Path::new("README.md")]);
+    assert!(card.contains("--no-video") && !card.contains("index.html"), "{card}");
+    succeed(path, &["verify", "without"]);
+    assert!(succeed(path, &generate("without", &["--no-video"])).contains("already"));
+    let sentence = refuse(path, &generate("without", &[]));
+    assert!(sentence.contains("videos"), "{sentence}");
+
+    succeed(path, &generate("one", &["--no-video", "--shard", "1/2"]));
+    succeed(path, &generate("two", &["--no-video", "--shard", "2/2"]));
+    succeed(path, &["merge", "one", "two", "--out", "merged"]);
+    assert!(tree(&path.join("merged")) == without);
+}
+
+#[test]
+fn a_finished_dataset_is_left_alone() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    succeed(path, &generate("out", &[]));
+    let before = tree(&path.join("out"));
+    let told = succeed(path, &generate("out", &["--jobs", "2"]));
+    assert!(told.contains("already"), "{told}");
+    assert!(tree(&path.join("out")) == before);
+
+    let sentence = refuse(path, &generate("out", &["--seed", "5"]));
+    assert!(sentence.contains("out: ") && sentence.contains("seed 1 instead of 5"), "{sentence}");
+    let sentence = refuse(path, &["simulate", "--events", "out/events/demo-0000.json", "--out", "out"]);
+    assert!(sentence.contains("holds something else"), "{sentence}");
+    assert!(tree(&path.join("out")) == before);
+
+    let video = path.join("out/videos/demo-0001.mp4");
+    fs::write(&video, "spoilt").expect("written");
+    let sentence = refuse(path, &generate("out", &[]));
+    assert!(sentence.contains("demo-0001.mp4") && sentence.contains("size"), "{sentence}");
+    assert_eq!(fs::read_to_string(&video).expect("still there"), "spoilt");
+}
+
+#[test]
+fn the_engine_is_recorded_and_kept_to() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    succeed(path, &generate("world", &[]));
+    succeed(path, &generate("forward", &["--engine", "forward"]));
+    let (world, forward) = (tree(&path.join("world")), tree(&path.join("forward")));
+    let event = Path::new("events/demo-0000.json");
+    assert!(world[event] != forward[event], "another engine makes another event");
+    let recorded = text(&forward[event]);
+    assert!(recorded.contains(r#""engine":"forward""#), "{recorded}");
+    assert!(text(&forward[Path::new("README.md")]).contains("--engine forward"));
+
+    let sentence = refuse(path, &generate("forward", &[]));
+    assert!(
+        sentence.contains(r#"a finished run of another kind (settings.engine "forward" instead of "world")"#)
+    );
+    assert!(tree(&path.join("forward")) == forward);
+
+    // Before there was a choice, nothing was recorded.
+    let file = path.join("world/manifest.json");
+    let mut manifest = Manifest::read(&file).expect("a manifest");
+    manifest.settings.as_object_mut().expect("settings").remove("engine").expect("an engine");
+    fs::write(&file, manifest.to_json()).expect("written");
+    assert!(succeed(path, &generate("world", &["--engine", "world"])).contains("already"));
+    refuse(path, &generate("world", &["--engine", "forward"]));
+}
+
+#[test]
+fn without_a_folder_it_names_its_own() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let arguments = [&["gen-dataset", "--events", "1", "--seed", "9"], &QUICK[..]].concat();
+    let output = run(folder.path(), &arguments);
+    assert!(output.status.success());
+    assert!(text(&output.stdout).contains("out/demo-seed9-1"), "{}", text(&output.stdout));
+    assert!(text(&output.stderr).contains("1/1 demo-0000 helping"), "{}", text(&output.stderr));
+    assert!(folder.path().join("out/demo-seed9-1/index.html").is_file());
+    let told = succeed(folder.path(), &[&arguments[..], &["--engine", "forward"]].concat());
+    assert!(told.contains("out/demo-seed9-1-forward"), "{told}");
+}

@@ -1,0 +1,41 @@
+//! A social event: what a simulation leaves behind.
+
+use crate::Thought;
+use phase_model::{AGENT_COUNT, Action, Scene, State, arena::SUBSTEPS};
+
+/// One step of an event: what both agents did and why, and what became of it.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Step {
+    /// The actions of both agents.
+    pub actions: [Action; AGENT_COUNT],
+    /// Why they chose them.
+    pub thoughts: [Thought; AGENT_COUNT],
+    /// The state after each substep of 1/60 s; the last is the state after the step.
+    pub substeps: [State; SUBSTEPS],
+}
+
+/// A social event: a scene and what happened in it.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Event {
+    /// The scene.
+    pub scene: Scene,
+    /// The seed from which all chance in the event was derived.
+    pub seed: u64,
+    /// The state before the first step.
+    pub initial: State,
+    /// The steps, in order.
+    pub steps: Vec<Step>,
+}
+
+impl Event {
+    /// The state after the last step (or the first state of an event without steps).
+    #[must_use]
+    pub fn last_state(&self) -> &State {
+        self.steps.last().map_or(&self.initial, |step| &step.substeps[SUBSTEPS - 1])
+    }
+
+    /// The initial state and the state after every substep: one frame of video each.
+    pub fn frames(&self) -> impl Iterator<Item = &State> {
+        core::iter::once(&self.initial).chain(self.steps.iter().flat_map(|step| &step.substeps))
+    }
+}

@@ -1,0 +1,271 @@
+//! From JSON to recordings.
+
+use crate::{
+    COLUMNS, Event, EventReadError, Recording, Recovered, Row, Trajectory,
+    read_simulation::{actions_of, event_of, simulation_of},
+    trajectory::body_of,
+    write::FILE_FORMAT,
+};
+use phase_model::{
+    AGENT_COUNT, Relation, Scene, Vec2,
+    arena::{self, FRAMES_PER_SECOND, SUBSTEPS},
+    json::{self, Field, FieldError, finite, shown},
+    scene_json::Starts,
+};
+use serde_json::Value;
+use std::collections::BTreeSet;
+
+/// The most letters an id may have.
+pub const LONGEST_ID: usize = 100;
+
+/// Reads all events of a `phase-events/1` file and checks each.
+///
+/// # Errors
+/// [`EventReadError`] names event, field and rule.
+pub fn from_json(text: &str) -> Result<Vec<Recording>, EventReadError> {
+    all_of(&json::parse_text(text)?)
+}
+
+/// The same for bytes, which may not be text.
+///
+/// # Errors
+/// [`EventReadError`] names event, field and rule.
+pub fn parse(bytes: &[u8]) -> Result<Vec<Recording>, EventReadError> {
+    all_of(&json::parse(bytes)?)
+}
+
+fn all_of(document: &Value) -> Result<Vec<Recording>, EventReadError> {
+    json::check_format(document, FILE_FORMAT)?;
+    let of_file = |problem| EventReadError::Field { event: None, problem };
+    let events = Field::root(document).required("events").map_err(of_file)?;
+    let events = events.array().map_err(of_file)?;
+    if events.is_empty() {
+        return Err(EventReadError::NoEvents);
+    }
+    let mut ids = BTreeSet::new();
+    let mut recordings = Vec::with_capacity(events.len());
+    for (k, value) in events.iter().enumerate() {
+        let number = || Some(format!("number {k}"));
+        let recording = recording(&Field::root(value), number)?;
+        if !ids.insert(recording.id.clone()) {
+            return Err(EventReadError::DuplicateId(recording.id));
+        }
+        recordings.push(recording);
+    }
+    Ok(recordings)
+}
+
+impl Recording {
+    /// Reads one event as it stands in the list `events` of a file.
+    ///
+    /// # Errors
+    /// [`EventReadError`] names field and rule.
+    pub fn from_json(text: &str) -> Result<Self, EventReadError> {
+        Self::from_value(&json::parse_text(text)?)
+    }
+
+    /// The same for JSON that is parsed already.
+    ///
+    /// # Errors
+    /// [`EventReadError`] names field and rule.
+    pub fn from_value(value: &Value) -> Result<Self, EventReadError> {
+        recording(&Field::root(value), || None)
+    }
+}
+
+impl Event {
+    /// Reads a simulated event as it stands in the list `events` of a file. What a [`Recording`] has beside (`id`,
+    /// `generator`, `settings`, labels) may be there or not.
+    ///
+    /// # Errors
+    /// [`EventReadError`] names field and rule.
+    pub fn from_json(text: &str) -> Result<Self, EventReadError> {
+        Self::from_value(&json::parse_text(text)?)
+    }
+
+    /// The same for JSON that is parsed already.
+    ///
+    /// # Errors
+    /// [`EventReadError`] names field and rule.
+    pub fn from_value(value: &Value) -> Result<Self, EventReadError> {
+        let event = Field::root(value);
+        let in_event = |problem| EventReadError::Field { event: None, problem };
+        let (mut scene, trajectory) = start_and_motion(&event, None)?;
+        let substeps = event.required("substeps").map_err(in_event)?;
+        event_of(&event, &substeps, &mut scene, &trajectory).map_err(in_event)
+    }
+}
+
+/// `name` is what to call an event that has no good `id`.
+fn recording(event: &Field<'_>, name: impl FnOnce() -> Option<String>) -> Result<Recording, EventReadError> {
+    let id = id_of(event).map_err(|problem| EventReadError::Field { event: name(), problem })?;
+    let in_event = |problem| EventReadError::Field { event: Some(id.clone()), problem };
+    let (mut scene, trajectory) = start_and_motion(event, Some(&id))?;
+    let labels = labels(event, trajectory.steps()).map_err(in_event)?;
+    let simulation = simulation_of(event, &mut scene, &trajectory).map_err(in_event)?;
+    Ok(Recording {
+        relation: labels.relation.unwrap_or_else(|| scene.relation()),
+        relation_human: labels.relation_human,
+        row_0: labels.row_0,
+        recorded_steps: labels.recorded_steps,
+        recovered_actions: labels.recovered_actions,
+        id,
+        scene,
+        trajectory,
+        simulation,
+    })
+}
+
+/// The scene, which starts at the first row of the trajectory, and the trajectory.
+fn start_and_motion(event: &Field<'_>, id: Option<&str>) -> Result<(Scene, Trajectory), EventReadError> {
+    let name = || id.map(String::from);
+    let in_event = |problem| EventReadError::Field { event: name(), problem };
+    let mut scene = Scene::from_members(event, Starts::Elsewhere).map_err(in_event)?;
+    let trajectory = trajectory(event, scene.objects.len()).map_err(in_event)?;
+    for (agent, rows) in scene.agents.iter_mut().zip(&trajectory.agents) {
+        agent.start = body_of(&rows[0]);
+    }
+    for (object, rows) in scene.objects.iter_mut().zip(&trajectory.objects) {
+        object.start = body_of(&rows[0]);
+    }
+    match scene.validate() {
+        Ok(()) => Ok((scene, trajectory)),
+        Err(source) => Err(EventReadError::Scene { event: name(), source }),
+    }
+}
+
+/// An id becomes a file name, so it must be one on every system.
+fn id_of(event: &Field<'_>) -> Result<String, FieldError> {
+    let field = event.required("id")?;
+    let id = field.text()?;
+    let plain = |letter: char| letter.is_ascii_alphanumeric() || "-_.".contains(letter);
+    let good = (1..=LONGEST_ID).contains(&id.len()) && id.chars().all(plain) && !id.starts_with(['.', '-']);
+    if good {
+        Ok(id.into())
+    } else {
+        let rule =
+            format!("1 to {LONGEST_ID} letters, digits, `-`, `_` and `.`, beginning with a letter or digit");
+        Err(field.must_be(&rule))
+    }
+}
+
+struct Labels {
+    relation: Option<Relation>,
+    relation_human: Option<Relation>,
+    row_0: Option<String>,
+    recorded_steps: Option<u32>,
+    recovered_actions: Option<Recovered>,
+}
+
+fn labels(event: &Field<'_>, rows: usize) -> Result<Labels, FieldError> {
+    const RELATIONS: [(&str, Relation); 3] = [
+        ("friendly", Relation::Friendly),
+        ("adversarial", Relation::Adversarial),
+        ("neutral", Relation::Neutral),
+    ];
+    if let Some(field) = event.optional("step_seconds")? {
+        let expected = SUBSTEPS as f32 / FRAMES_PER_SECOND as f32;
+        if (field.number()? - expected).abs() > 1e-4 {
+            return Err(field.must_be(&expected.to_string()));
+        }
+    }
+    let relation = |key| event.optional(key)?.map(|field| field.one_of(&RELATIONS)).transpose();
+    let steps = event.optional("recorded_steps")?;
+    Ok(Labels {
+        relation: relation("relation")?,
+        relation_human: relation("relation_human")?,
+        row_0: event.optional("row_0")?.map(|field| field.text().map(String::from)).transpose()?,
+        recorded_steps: steps.map(|field| field.whole(0, u32::MAX.into())).transpose()?.map(|n| n as u32),
+        recovered_actions: event
+            .optional("recovered_actions")?
+            .map(|field| recovered(&field, rows))
+            .transpose()?,
+    })
+}
+
+fn recovered(field: &Field<'_>, rows: usize) -> Result<Recovered, FieldError> {
+    field.only(&["steps", "note"])?;
+    let list = field.required("steps")?;
+    let steps = actions_of(&list)?;
+    if steps.len() > rows {
+        let rule = format!("must hold at most the {rows} steps of `trajectory`, not {}", steps.len());
+        return Err(list.error(rule));
+    }
+    Ok(Recovered {
+        steps,
+        note: field.optional("note")?.map(|note| note.text().map(String::from)).transpose()?,
+    })
+}
+
+fn trajectory(event: &Field<'_>, object_count: usize) -> Result<Trajectory, FieldError> {
+    let field = event.required("trajectory")?;
+    field.only(&["columns", "agents", "objects"])?;
+    columns(&field, &COLUMNS)?;
+    let agents = tracks(&field.required("agents")?, AGENT_COUNT, "agents")?;
+    let objects = tracks(&field.required("objects")?, object_count, "objects")?;
+    let mut agents = agents.into_iter();
+    let agents: [Vec<Row>; AGENT_COUNT] = core::array::from_fn(|_| agents.next().unwrap_or_default());
+    let length = agents[0].len();
+    let named = agents.iter().map(|rows| ("agents", rows)).enumerate();
+    let named = named.chain(objects.iter().map(|rows| ("objects", rows)).enumerate());
+    for (k, (group, rows)) in named {
+        if rows.len() != length {
+            let rows = rows.len();
+            let rule =
+                format!("has {rows} rows, but `trajectory.agents[0]` has {length}: all must have as many");
+            return Err(FieldError { field: format!("trajectory.{group}[{k}]"), rule });
+        }
+    }
+    Ok(Trajectory { agents, objects })
+}
+
+/// Checks the names of a table's columns.
+pub(crate) fn columns(table: &Field<'_>, expected: &[&str]) -> Result<(), FieldError> {
+    let field = table.required("columns")?;
+    let found: Vec<Option<&str>> = field.array()?.iter().map(Value::as_str).collect();
+    if found.iter().copied().eq(expected.iter().map(|name| Some(*name))) {
+        Ok(())
+    } else {
+        Err(field.must_be(&format!("{expected:?}")))
+    }
+}
+
+fn tracks(field: &Field<'_>, count: usize, group: &str) -> Result<Vec<Vec<Row>>, FieldError> {
+    let tracks = field.items()?;
+    if tracks.len() != count {
+        let rule = format!("must hold {count} tracks, one for each of `{group}`, not {}", tracks.len());
+        return Err(field.error(rule));
+    }
+    tracks.map(|track| rows(&track)).collect()
+}
+
+/// The rows of one entity: at least one, of finite numbers, inside the arena.
+pub(crate) fn rows<const N: usize>(track: &Field<'_>) -> Result<Vec<[f32; N]>, FieldError> {
+    let rows = track.array()?;
+    if rows.is_empty() {
+        return Err(track.error("must hold at least one row"));
+    }
+    let row = |(t, row): (usize, &Value)| {
+        let in_row = |error: FieldError| FieldError { field: format!("{}[{t}]", error.field), ..error };
+        let numbers = row.as_array().filter(|numbers| numbers.len() == N).ok_or_else(|| {
+            let found = row.as_array().map_or_else(|| shown(row), |numbers| numbers.len().to_string());
+            in_row(track.error(format!("must hold {N} numbers, not {found}")))
+        })?;
+        let mut result = [0.0; N];
+        for (column, (result, number)) in result.iter_mut().zip(numbers).enumerate() {
+            *result = finite(number).ok_or_else(|| {
+                let rule = format!("must be a finite number, not {}", shown(number));
+                let error = track.error(rule);
+                FieldError { field: format!("{}[{t}][{column}]", error.field), ..error }
+            })?;
+        }
+        let [x, y] = [result[0], result[1]];
+        if arena::contains(Vec2::new(x, y)) {
+            Ok(result)
+        } else {
+            let rule = format!("must lie inside the arena (x 6 to 26, y 2 to 22), not at ({x}, {y})");
+            Err(in_row(track.error(rule)))
+        }
+    };
+    rows.iter().enumerate().map(row).collect()
+}

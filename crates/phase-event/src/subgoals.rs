@@ -1,0 +1,35 @@
+//! Subgoals as texts, and back.
+
+use phase_model::{
+    AGENT_COUNT, Entity, Literal, MAX_ENTITIES, MAX_OBJECTS, Place, Predicate, Subgoal, arena,
+};
+use std::{collections::BTreeMap, sync::LazyLock};
+
+/// The subgoal that is displayed as a text, such as `not Attach(agent 0, object 1)`.
+#[must_use]
+pub fn subgoal_of(text: &str) -> Option<Subgoal> {
+    // There are so few subgoals that listing them all beats parsing, and cannot disagree with the display.
+    static BY_TEXT: LazyLock<BTreeMap<String, Subgoal>> =
+        LazyLock::new(|| all_subgoals().map(|subgoal| (subgoal.to_string(), subgoal)).collect());
+    BY_TEXT.get(text).copied()
+}
+
+fn all_subgoals() -> impl Iterator<Item = Subgoal> {
+    let entities = || (0..MAX_ENTITIES).map(Entity::from_index);
+    let landmarks = || 0..arena::LANDMARKS.len() as u8;
+    let agents = || 0..AGENT_COUNT as u8;
+    let on = entities().flat_map(move |entity| landmarks().map(move |to| Predicate::On(entity, to)));
+    let touch = agents().flat_map(move |agent| entities().map(move |entity| Predicate::Touch(agent, entity)));
+    let attach =
+        agents().flat_map(|agent| (0..MAX_OBJECTS as u8).map(move |object| Predicate::Attach(agent, object)));
+    let close = entities().flat_map(move |entity| {
+        let places = entities().map(Place::Entity).chain(landmarks().map(Place::Landmark));
+        places.map(move |place| Predicate::Close(entity, place))
+    });
+    let literals = on
+        .chain(touch)
+        .chain(attach)
+        .chain(close)
+        .flat_map(|predicate| [Literal::is(predicate), Literal::not(predicate)]);
+    literals.map(Subgoal::Achieve).chain([Subgoal::Stay])
+}

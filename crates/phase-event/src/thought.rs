@@ -1,0 +1,58 @@
+//! Why an agent did what it did, for the event record and for pictures.
+
+use phase_model::{Action, Subgoal};
+use serde::{Deserialize, Serialize};
+
+/// A subgoal that some particles proposed, and what the high level made of it.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+pub struct SubgoalValue {
+    /// The subgoal.
+    pub subgoal: Subgoal,
+    /// V(B, h, g) of the paper: share of particles minus λ times their mean cost.
+    pub value: f64,
+    /// How many particles propose it.
+    pub particles: usize,
+}
+
+/// What the low level found out about one action at the root of its search.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+pub struct ActionValue {
+    /// The action.
+    pub action: Action,
+    /// Simulations that began with it.
+    pub visits: u32,
+    /// Mean discounted return of those.
+    pub value: f64,
+}
+
+/// One decision of one agent, explained.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+pub struct Thought {
+    /// The subgoal pursued.
+    pub subgoal: Subgoal,
+    /// All subgoals proposed, the most valuable first.
+    pub subgoals: Vec<SubgoalValue>,
+    /// The symbolic plan of the first particle that agrees with the subgoal, own subgoals only, in order.
+    pub plan: Vec<Subgoal>,
+    /// Every action searched, in the order of the action set; empty where no search was needed.
+    pub actions: Vec<ActionValue>,
+}
+
+impl Thought {
+    /// The thought of an agent that does nothing.
+    pub const IDLE: Self =
+        Self { subgoal: Subgoal::Stay, subgoals: Vec::new(), plan: Vec::new(), actions: Vec::new() };
+
+    /// What the particles say about the subgoal pursued; `None` if none of them proposed it.
+    #[must_use]
+    pub fn pursued(&self) -> Option<&SubgoalValue> {
+        self.subgoals.iter().find(|proposed| proposed.subgoal == self.subgoal)
+    }
+
+    /// The share of particles that propose the subgoal pursued, 0 to 1.
+    #[must_use]
+    pub fn share(&self) -> f32 {
+        let particles: usize = self.subgoals.iter().map(|proposed| proposed.particles).sum();
+        self.pursued().map_or(0.0, |proposed| proposed.particles as f32 / particles.max(1) as f32)
+    }
+}

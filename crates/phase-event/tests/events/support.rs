@@ -1,0 +1,139 @@
+//! Made-up scenes, events and files.
+
+use phase_event::{ActionValue, Event, Step, SubgoalValue, Thought};
+use phase_model::{
+    Action, AgentSpec, Attitude, Body, Entity, EventKind, Flip, Goal, Grip, Layout, Literal, ObjectSpec,
+    Predicate, Scene, Side, Sign, Size, State, Strength, Subgoal, Vec2,
+};
+use serde_json::{Value, json};
+
+/// A scene in which agent 0 helps agent 1 to put object 0 on landmark 1.
+pub(crate) fn scene() -> Scene {
+    let goal = Goal::ObjectOnLandmark { object: 0, landmark: 1, sign: Sign::Positive };
+    let agent = |attitude, x, angle| AgentSpec {
+        size: Size::Medium,
+        strength: Strength::Strong,
+        goal,
+        attitude,
+        start: Body::at_rest(Vec2::new(x, 14.0), angle),
+    };
+    let object = |size, y| ObjectSpec { size, start: Body::at_rest(Vec2::new(18.0, y), 0.0) };
+    Scene {
+        layout: Layout::new(20, Some(Flip::AntiDiagonal)).expect("a layout"),
+        agents: [agent(Attitude::Help, 8.0, 0.5), agent(Attitude::Neutral, 24.0, -2.0)],
+        objects: vec![object(Size::Small, 4.0), object(Size::Huge, 8.0)],
+        kind: EventKind::Helping,
+    }
+}
+
+/// An event of `steps` steps in which everything that a file can tell changes somewhere. `number` gives the
+/// numbers in it.
+pub(crate) fn event(steps: usize, mut number: impl FnMut() -> f32) -> Event {
+    let scene = scene();
+    let initial = scene.initial_state();
+    let mut state = initial;
+    let mut recorded = Vec::new();
+    for t in 0..steps {
+        let substeps = core::array::from_fn(|k| {
+            advance(&mut state, &mut number);
+            if (t, k) == (1, 2) {
+                let relative_angle = number();
+                state.grips[1] = Some(Grip { object: 1, side: Side::Tail, relative_angle });
+            }
+            if k == 3 {
+                state.contacts.insert(Entity::agent(0), Entity::object(t % 2));
+            }
+            state
+        });
+        let actions = [Action::ALL[t % 14], Action::ALL[(t + 5) % 14]];
+        recorded.push(Step { actions, thoughts: [thought(t, &mut number), idle()], substeps });
+    }
+    Event { scene, seed: u64::MAX - 3, initial, steps: recorded }
+}
+
+/// An event with numbers that no two of are equal and few of which are short in decimal.
+pub(crate) fn plain_event(steps: usize) -> Event {
+    let mut k = 0_u32;
+    event(steps, || {
+        k += 1;
+        libm_free_noise(k)
+    })
+}
+
+fn libm_free_noise(k: u32) -> f32 {
+    (k.wrapping_mul(2_654_435_761) >> 8) as f32 / (1 << 24) as f32
+}
+
+/// Everybody present moves; positions stay inside the arena.
+fn advance(state: &mut State, number: &mut impl FnMut() -> f32) {
+    for body in &mut state.bodies {
+        body.position = Vec2::new(7.0 + 18.0 * number(), 3.0 + 18.0 * number());
+        body.velocity = Vec2::new(60.0 * number() - 30.0, 60.0 * number() - 30.0);
+        body.angle += 2.0 * number() - 1.0;
+        body.angular_velocity = number();
+    }
+}
+
+fn thought(t: usize, number: &mut impl FnMut() -> f32) -> Thought {
+    let literal = if t.is_multiple_of(2) {
+        Literal::is(Predicate::Attach(0, 1))
+    } else {
+        Literal::not(Predicate::Touch(0, Entity::agent(1)))
+    };
+    let subgoal = Subgoal::Achieve(literal);
+    let mut value = || f64::from(number()) / 3.0;
+    Thought {
+        subgoal,
+        subgoals: vec![
+            SubgoalValue { subgoal, value: value(), particles: 40 },
+            SubgoalValue { subgoal: Subgoal::Stay, value: -value(), particles: 10 },
+        ],
+        plan: vec![
+            subgoal,
+            Subgoal::Achieve(Literal::is(Predicate::On(Entity::object(1), 3))),
+            Subgoal::Stay,
+        ],
+        actions: Action::ALL
+            .into_iter()
+            .map(|action| ActionValue { action, visits: 71, value: value() })
+            .collect(),
+    }
+}
+
+fn idle() -> Thought {
+    Thought { subgoal: Subgoal::Stay, subgoals: vec![], plan: vec![], actions: vec![] }
+}
+
+/// A measured recording as its maker would write it, with every optional field.
+pub(crate) fn file() -> Value {
+    let row = |x: f64| json!([x, 14.0, 0.5, -0.25, 1.5]);
+    let track = |x: f64| json!([row(x), row(x + 0.125), row(x + 0.25)]);
+    json!({
+        "format": "phase-events/1",
+        "events": [{
+            "id": "made-up-1",
+            "layout": {"base": 4, "flip": 2},
+            "walls": [[[16.0, 12.0], [26.0, 12.0]], [[16.0, 12.0], [16.0, 4.5]]],
+            "landmarks": [[8.5, 19.5], [23.5, 19.5], [23.5, 4.5], [8.5, 4.5]],
+            "agents": [
+                {"radius": 0.8, "size_level": 0, "max_force": 450.0, "strength_level": 2,
+                 "goal": {"kind": "object_on_landmark", "object": 0, "landmark": 2, "sign": 1}, "alpha": 1},
+                {"radius": 1.01, "size_level": 3, "max_force": 150.0, "strength_level": 0,
+                 "goal": {"kind": "object_on_landmark", "object": 0, "landmark": 2, "sign": 1}, "alpha": 0},
+            ],
+            "objects": [{"radius": 1.2, "size_level": 1}],
+            "event": "helping",
+            "relation": "friendly",
+            "relation_human": "neutral",
+            "step_seconds": 0.25,
+            "row_0": "after 1/60 s",
+            "recorded_steps": 100,
+            "trajectory": {
+                "columns": ["x", "y", "vx", "vy", "angle"],
+                "agents": [track(8.0), track(12.0)],
+                "objects": [track(20.0)],
+            },
+            "recovered_actions": {"steps": [["up", "noforce"], ["attach", "turnleft"]], "note": "to the end"},
+        }],
+    })
+}

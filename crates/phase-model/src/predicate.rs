@@ -1,0 +1,104 @@
+//! The four predicates and their negations, as words.
+
+use crate::{Entity, Goal, Sign};
+use core::fmt;
+use serde::{Deserialize, Serialize};
+
+/// Something an entity can be close to.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Place {
+    /// An agent or object.
+    Entity(Entity),
+    /// A landmark, 0 to 3.
+    Landmark(u8),
+}
+
+/// A predicate of the paper's table of definitions, with its arguments. Agents and objects are numbered 0
+/// and 1, landmarks 0 to 3.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Predicate {
+    /// An agent or object is on a landmark.
+    On(Entity, u8),
+    /// An agent touches another agent or an object.
+    Touch(u8, Entity),
+    /// An object is attached to an agent's body.
+    Attach(u8, u8),
+    /// An agent or object is near something; near a landmark means in the landmark's room.
+    Close(Entity, Place),
+}
+
+/// A predicate or its negation.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
+pub struct Literal {
+    /// The predicate.
+    pub predicate: Predicate,
+    /// Whether it is to hold (`true`) or not to hold.
+    pub holds: bool,
+}
+
+impl Literal {
+    /// The predicate itself.
+    #[must_use]
+    pub const fn is(predicate: Predicate) -> Self {
+        Self { predicate, holds: true }
+    }
+
+    /// The predicate's negation.
+    #[must_use]
+    pub const fn not(predicate: Predicate) -> Self {
+        Self { predicate, holds: false }
+    }
+}
+
+impl From<Goal> for Literal {
+    /// The final goal state as a predicate or its negation.
+    fn from(goal: Goal) -> Self {
+        let predicate = match goal {
+            Goal::AgentOnLandmark { agent, landmark, .. } => Predicate::On(Entity::Agent(agent), landmark),
+            Goal::ObjectOnLandmark { object, landmark, .. } => {
+                Predicate::On(Entity::Object(object), landmark)
+            }
+            Goal::Touch { agent, other, .. } => Predicate::Touch(agent, Entity::Agent(other)),
+        };
+        Self { predicate, holds: goal.sign() == Sign::Positive }
+    }
+}
+
+/// An entity in words, such as `agent 0`.
+struct Named(Entity);
+
+impl fmt::Display for Named {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            Entity::Agent(agent) => write!(formatter, "agent {agent}"),
+            Entity::Object(object) => write!(formatter, "object {object}"),
+        }
+    }
+}
+
+impl fmt::Display for Predicate {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::On(entity, landmark) => write!(formatter, "On({}, landmark {landmark})", Named(entity)),
+            Self::Touch(agent, entity) => write!(formatter, "Touch(agent {agent}, {})", Named(entity)),
+            Self::Attach(agent, object) => write!(formatter, "Attach(agent {agent}, object {object})"),
+            Self::Close(entity, Place::Entity(other)) => {
+                write!(formatter, "Close({}, {})", Named(entity), Named(other))
+            }
+            Self::Close(entity, Place::Landmark(landmark)) => {
+                write!(formatter, "Close({}, landmark {landmark})", Named(entity))
+            }
+        }
+    }
+}
+
+impl fmt::Display for Literal {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if !self.holds {
+            formatter.write_str("not ")?;
+        }
+        self.predicate.fmt(formatter)
+    }
+}

@@ -1,0 +1,24 @@
+//! What the high level hands to the low level.
+
+use crate::Literal;
+use core::fmt;
+use serde::{Deserialize, Serialize};
+
+/// An element of the paper's subgoal space: a predicate to bring about, or nothing left to do.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Subgoal {
+    /// Bring about a predicate or its negation.
+    Achieve(Literal),
+    /// Nothing to do: stop and stay.
+    Stay,
+}
+
+impl fmt::Display for Subgoal {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Achieve(literal) => literal.fmt(formatter),
+            Self::Stay => formatter.write_str("Stay"),
+        }
+    }
+}
