@@ -4,6 +4,7 @@ use crate::{
     check_behaviour::{self, options::CheckBehaviour},
     check_physics::{self, options::CheckPhysics},
     error::XtaskError,
+    golden::{self, GoldenOptions},
     tidy,
 };
 use clap::{Parser, Subcommand};
@@ -34,6 +35,8 @@ pub enum Command {
     CheckPhysics(CheckPhysics),
     /// Show how reliably agents do what they are planned to do
     CheckBehaviour(CheckBehaviour),
+    /// Run the golden tests of all crates, or rewrite the values that they compare with
+    Golden(GoldenOptions),
     /// Check the rules of the house that the compiler cannot
     Tidy,
 }
@@ -50,6 +53,7 @@ impl Interface for Cli {
             Command::Phase(command) => Ok(command.run(context)?),
             Command::CheckPhysics(arguments) => check_physics::run(arguments, context),
             Command::CheckBehaviour(arguments) => Ok(check_behaviour::run(arguments, context)?),
+            Command::Golden(options) => golden::run(options),
             Command::Tidy => tidy::run(),
         }
     }

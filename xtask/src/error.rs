@@ -2,7 +2,7 @@
 
 use phase_calibration::ReadError;
 use phase_cli::{error::CliError, program::Failure};
-use std::path::PathBuf;
+use std::{io, path::PathBuf};
 use thiserror::Error;
 
 /// Why a command of `cargo xtask` failed. The text is one plain sentence.
@@ -19,6 +19,20 @@ pub enum XtaskError {
         /// What is wrong with it.
         source: ReadError,
     },
+    /// A file or folder of the workspace cannot be read.
+    #[error("{}: cannot be read: {source}", file.display())]
+    Unreadable {
+        /// The file or folder.
+        file: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// Cargo cannot be started.
+    #[error("cargo cannot be started: {0}")]
+    Cargo(#[source] io::Error),
+    /// A golden test failed; it has said what differs.
+    #[error("golden values differ from what is computed, or their tests cannot be built; see above")]
+    GoldenTests,
     /// Tidy found something.
     #[error("{0} rule(s) broken")]
     Untidy(usize),
@@ -29,7 +43,7 @@ impl Failure for XtaskError {
         match self {
             Self::Cli(error) => error.exit_code(),
             Self::Record { .. } => 2,
-            Self::Untidy(_) => 1,
+            Self::Unreadable { .. } | Self::Cargo(_) | Self::GoldenTests | Self::Untidy(_) => 1,
         }
     }
 }

@@ -2,6 +2,7 @@
 //!
 //! - `check-physics` compares an engine with recorded motion,
 //! - `check-behaviour` shows how reliably agents do what they are planned to do,
+//! - `golden` runs the golden tests, or rewrites what they compare with,
 //! - `tidy` checks what the compiler cannot.
 //!
 //! The key design decision is that chores are not installed: they are of use to nobody without the source. The price is a
@@ -14,6 +15,7 @@ pub mod check_behaviour;
 pub mod check_physics;
 pub mod cli;
 pub mod error;
+pub mod golden;
 pub mod tidy;
 
 use clap::CommandFactory;

@@ -3,10 +3,9 @@
 use crate::program::Failure;
 #[cfg(feature = "networks")]
 use crate::train::error::TrainError;
-use phase_dataset::{
-    FileError, WriteError, folder::FolderError, parquet::ExportError, phase_events::NotFinite,
-};
+use phase_dataset::{FileError, WriteError, folder::FolderError, parquet::ExportError};
 use phase_eval::MethodError;
+use phase_event::EventWriteError;
 use phase_model::EventKind;
 use phase_render::RenderError;
 use phase_sampler::{SampleError, Variant};
@@ -99,9 +98,9 @@ pub enum CliError {
     /// A file written a moment ago cannot be read back.
     #[error("{0}; what is finished is kept, and the same command goes on from there")]
     ReadBack(#[source] FileError),
-    /// An event holds numbers that cannot be written.
+    /// An event cannot be written.
     #[error(transparent)]
-    NotFinite(#[from] NotFinite),
+    EventWrite(#[from] EventWriteError),
     /// A picture or video could not be made.
     #[error("event {id}: {source}")]
     Render {
@@ -225,7 +224,7 @@ impl Failure for CliError {
             | Self::Exhausted { .. }
             | Self::Write(_)
             | Self::ReadBack(_)
-            | Self::NotFinite(_)
+            | Self::EventWrite(_)
             | Self::Render { .. }
             | Self::Serialise { .. }
             | Self::Threads { .. } => 1,

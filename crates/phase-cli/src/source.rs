@@ -3,10 +3,11 @@
 use crate::error::CliError;
 use phase_dataset::{
     manifest::{MANIFEST_FILE, Manifest},
-    phase_events::{self, Recording},
+    phase_events,
     shard::SHARD_FILE,
     summary::{SUMMARY_FILE, Summary},
 };
+use phase_event::Recording;
 use std::path::{Path, PathBuf};
 
 /// Events that can be loaded one at a time.

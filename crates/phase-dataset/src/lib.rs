@@ -1,7 +1,6 @@
 //! PHASE events at rest: files, formats, checksums, and folders that several runs may meet in.
 //!
-//! - [`phase_events`] reads and writes the exchange format `phase-events/1`, of measured recordings and of
-//!   simulated events alike.
+//! - [`phase_events`] reads files of the exchange format `phase-events/1`, whose events `phase-event` describes.
 //! - [`manifest`], [`gallery`] and [`card`] describe a generated dataset to programs and to people.
 //! - [`parquet`] and [`croissant`] are for everyone else's tools; [`mod@verify`] checks that all of it agrees.
 //! - [`preset`] says what a dataset is composed of, [`splits`] how it is divided, [`mod@statistics`] what came of it, [`record`] and [`shard`] what was
@@ -43,4 +42,4 @@ pub mod summary;
 pub mod verify;
 pub mod words;
 
-pub use error::{FieldError, FileError, Problem, WriteError};
+pub use error::{FileError, Problem, WriteError};

@@ -1,10 +1,10 @@
 //! `manifest.json`: what a dataset holds, how it was made, and the checksum of every file.
 
-use crate::{FileError, Problem, checksum::FileEntry, json, phase_events, record::Acceptance, splits::Split};
+use crate::{FileError, Problem, checksum::FileEntry, json, record::Acceptance, splits::Split};
+use phase_event::Event;
 use phase_evidence::{Outcome, Track};
-use phase_model::{AGENT_COUNT, EventKind, Goal, Relation};
+use phase_model::{AGENT_COUNT, EventKind, Goal, Relation, json::check_format};
 use phase_sampler::Variant;
-use phase_sim::Event;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::path::Path;
@@ -173,7 +173,7 @@ impl Manifest {
     pub fn read(path: &Path) -> Result<Self, FileError> {
         let fail = |problem| FileError { file: path.to_owned(), problem };
         let value = json::read(path)?;
-        phase_events::check_format(&value, DATASET_FORMAT).map_err(fail)?;
+        check_format(&value, DATASET_FORMAT).map_err(|error| fail(error.into()))?;
         serde_json::from_value(value).map_err(|error| {
             let rule = error.to_string();
             fail(Problem::Shape { what: "dataset manifest", rule })

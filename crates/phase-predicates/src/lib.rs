@@ -2,10 +2,12 @@
 //!
 //! A physical [`State`](phase_model::State) becomes a [`SymbolicState`], the set of predicates true in it
 //! (paper, appendix "Predicates, Symbolic States, Goals, and Subgoals"). Goals and subgoals are
-//! [`Literal`]s: predicates or their negations.
+//! [`Literal`](phase_model::Literal)s: predicates or their negations.
 //! ```
-//! use phase_model::{AgentBody, Body, Entity, Goal, Physique, Sign, State, Vec2, arena};
-//! use phase_predicates::{Literal, Place, Predicate, SymbolicState, achieved};
+//! use phase_model::{
+//!     AgentBody, Body, Entity, Goal, Literal, Physique, Place, Predicate, Sign, State, Vec2, arena,
+//! };
+//! use phase_predicates::{SymbolicState, achieved};
 //!
 //! let body = AgentBody { radius: 0.8, max_force: 450.0 };
 //! let physique = Physique { walls: Vec::new(), agents: [body; 2], object_radii: [0.0; 2], object_count: 0 };
@@ -29,10 +31,8 @@
 #![deny(missing_docs)]
 
 pub mod evaluate;
-pub mod predicate;
 pub mod symbolic;
 pub mod threshold;
 
-pub use evaluate::{achieved, holds};
-pub use predicate::{Literal, Place, Predicate};
+pub use evaluate::{achieved, holds, is_true};
 pub use symbolic::SymbolicState;

@@ -115,7 +115,7 @@ fn replays(file: &Path) -> Result<(Vec<Replay>, usize), CliError> {
     let source = Source::open(file, &[])?;
     let mut recordings = (0..source.len()).map(|k| source.load(k)).collect::<Result<Vec<_>, _>>()?;
     recordings.retain(|recording| recording.recovered_actions.is_some());
-    let replays: Vec<Replay> = recordings.iter().filter_map(phase_events::Recording::replay).collect();
+    let replays: Vec<Replay> = recordings.iter().filter_map(Replay::of_recording).collect();
     let mirrored = recordings.iter().filter(|recording| recording.scene.layout.flip().is_some()).count();
     if replays.is_empty() {
         let rule = "field `events` must hold an event with `recovered_actions` that is not mirrored";

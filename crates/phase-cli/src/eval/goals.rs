@@ -9,7 +9,6 @@ use super::{
 };
 use crate::{context::Context, error::CliError};
 use cpu_time::ThreadTime;
-use phase_dataset::phase_events::Recording;
 use phase_eval::{
     MethodError, Recogniser, Tick,
     goals::{Answer, Glimpse, Label, RecognisedEvent, Summary},
@@ -17,6 +16,7 @@ use phase_eval::{
     report::{self, Document, Subject},
     results,
 };
+use phase_event::Recording;
 use phase_model::ObservedEvent;
 use serde_json::{Value, json};
 use std::path::Path;

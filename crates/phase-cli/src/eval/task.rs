@@ -13,12 +13,12 @@ use phase_dataset::{
     checksum::{hexadecimal, sha256},
     folder::{self, Contents, Folder},
     json,
-    phase_events::Recording,
 };
 use phase_eval::{
     MethodError, Tick,
     report::{Document, Subject},
 };
+use phase_event::Recording;
 use phase_model::random::{Purpose, derive_seed};
 use serde::{Serialize, de::DeserializeOwned};
 use serde_json::{Value, json};

@@ -9,13 +9,13 @@ use super::{
 };
 use crate::{context::Context, error::CliError};
 use cpu_time::ThreadTime;
-use phase_dataset::phase_events::Recording;
 use phase_eval::{
     Forecaster, MethodError, Tick, predictions,
     report::{self, Document, Subject},
     results,
     trajectories::{Errors, ForecastEvent, PREDICTED_STEPS, Summary, WATCHED_STEPS},
 };
+use phase_event::Recording;
 use phase_model::Forecast;
 use serde_json::{Value, json};
 use std::path::Path;

@@ -15,7 +15,7 @@ use phase_dataset::{
     record::{Record, Tally},
     shard::Whole,
 };
-use phase_sim::Event;
+use phase_event::Event;
 use std::path::Path;
 
 /// Writes what describes the whole; the manifest last, since with it the dataset is complete. `records` are those of

@@ -7,12 +7,13 @@ use crate::{
     production::{program, settings_value},
 };
 use phase_dataset::{
-    FileError, Problem,
+    FileError,
     checksum::{hexadecimal, sha256},
     json,
     preset::{Composition, Preset},
     shard::{self, Whole},
 };
+use phase_model::json::JsonError;
 use phase_sim::{Engine, Settings};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -132,7 +133,7 @@ fn preset_text(name: &str) -> Result<String, CliError> {
     let file = Path::new(name);
     match json::bytes(file) {
         Ok(bytes) => String::from_utf8(bytes).map_err(|error| {
-            let problem = Problem::NotText(error.utf8_error().valid_up_to());
+            let problem = JsonError::NotText(error.utf8_error().valid_up_to()).into();
             FileError { file: file.to_owned(), problem }.into()
         }),
         Err(_) if !is_file => Err(CliError::UnknownPreset {

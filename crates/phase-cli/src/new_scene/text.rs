@@ -1,7 +1,7 @@
 //! A scene as the text of a `phase-events/1` file, laid out for people.
 
 use crate::error::CliError;
-use phase_dataset::phase_events::{COLUMNS, FILE_FORMAT};
+use phase_event::{COLUMNS, FILE_FORMAT};
 use phase_model::{AgentSpec, Body, ObjectSpec, Scene, Size, Strength, arena};
 use serde::Serialize;
 use serde_json::json;

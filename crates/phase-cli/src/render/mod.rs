@@ -13,10 +13,8 @@ use crate::{
     source::Source,
 };
 use options::Render;
-use phase_dataset::{
-    WriteError,
-    phase_events::{Recording, Row, Simulation, Trajectory},
-};
+use phase_dataset::WriteError;
+use phase_event::{Recording, Row, Simulation, Trajectory};
 use phase_model::{State, arena::SUBSTEPS};
 use phase_sim::Settings;
 use serde::Serialize;
@@ -158,7 +156,7 @@ fn minds(arguments: &Render, id: &str, simulation: &Simulation, agent: usize) ->
     let snapshots = engine::beliefs(event, agent, &settings);
     let colour = ["red", "green"][agent];
     let steps = event.steps.iter().enumerate();
-    let mind = |((t, step), snapshot): ((usize, &phase_sim::Step), phase_sim::BeliefSnapshot)| {
+    let mind = |((t, step), snapshot): ((usize, &phase_event::Step), phase_sim::BeliefSnapshot)| {
         let thought = &step.thoughts[agent];
         Mind {
             agent,

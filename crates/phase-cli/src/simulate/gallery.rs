@@ -7,7 +7,7 @@ use phase_dataset::{
     manifest::{DATASET_FORMAT, EventEntry, Manifest},
     summary::Comparison,
 };
-use phase_sim::Event;
+use phase_event::Event;
 use serde_json::Value;
 use std::path::Path;
 

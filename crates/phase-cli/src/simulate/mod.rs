@@ -21,9 +21,9 @@ use phase_dataset::{
     checksum::{hexadecimal, sha256},
     folder::{self, Contents, Folder},
     gallery::PAGE_FILE,
-    phase_events::{self, Recording},
     summary::{Pair, SUMMARY_FILE, Summary},
 };
+use phase_event::Recording;
 use phase_model::Relation;
 use serde_json::{Value, json};
 
@@ -127,10 +127,10 @@ fn check_ids(arguments: &Simulate, chosen: &[Input], seeds: &[u64]) -> Result<()
             let id = simulated_id(arguments, recording, seed);
             let rule = if id == SUMMARY_FILE.trim_end_matches(".json") {
                 "is taken: the summary is written under that name".into()
-            } else if id.len() > phase_events::LONGEST_ID {
+            } else if id.len() > phase_event::LONGEST_ID {
                 format!(
                     "must leave room for the seed: {id} has more than {} letters",
-                    phase_events::LONGEST_ID
+                    phase_event::LONGEST_ID
                 )
             } else {
                 continue;

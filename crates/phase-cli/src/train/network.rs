@@ -5,7 +5,8 @@ use crate::{context::Context, error::CliError};
 use phase_baselines::training::{
     Final, Measure, NamedMeasure, NetworkError, Published, Round, Run, Settings, measure, to_safetensors,
 };
-use phase_dataset::{atomic, phase_events::Recording, splits::Split};
+use phase_dataset::{atomic, splits::Split};
+use phase_event::Recording;
 use phase_model::ObservedEvent;
 use serde_json::json;
 
