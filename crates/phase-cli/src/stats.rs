@@ -1,15 +1,16 @@
 //! `stats`: the paper's figures beside a dataset's own, and plots of them.
 
-use crate::{console::tell, error::CliError};
+use crate::{context::Context, error::CliError, output::Output};
 use clap::Args;
 use phase_dataset::{
     WriteError, atomic,
     manifest::{MANIFEST_FILE, Manifest},
     plot::bars,
     record::{self, Acceptance},
-    statistics::{self, Statistics},
+    statistics::{self, Figure, Statistics},
     words,
 };
+use serde_json::{Value, json};
 use std::{
     collections::BTreeMap,
     fs,
@@ -25,6 +26,9 @@ pub struct Stats {
     /// Also write the figures and plots (SVG) into this folder
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// How the result is printed.
+    #[command(flatten)]
+    pub output: Output,
 }
 
 /// Width of the bars in the plot of lengths (s).
@@ -39,15 +43,28 @@ type Plot = (&'static str, &'static str, &'static str, Vec<(String, f64)>);
 ///
 /// # Errors
 /// If the manifest cannot be used or the plots cannot be written.
-pub fn run(arguments: &Stats) -> Result<(), CliError> {
+pub fn run(arguments: &Stats, context: &Context) -> Result<(), CliError> {
     let manifest = Manifest::read(&arguments.dataset.join(MANIFEST_FILE))?;
     let statistics = Statistics::of(&manifest);
     let text = report(&statistics, &manifest.selection);
-    tell(text.trim_end());
-    match &arguments.out {
-        Some(out) => write(out, &text, &statistics, &manifest.selection).map_err(CliError::Output),
-        None => Ok(()),
+    if let Some(out) = &arguments.out {
+        write(out, &text, &statistics, &manifest.selection).map_err(CliError::Output)?;
+        context.note(format!("figures and plots in {}", out.display()));
     }
+    arguments.output.print(text, &value(&statistics, &manifest.selection))
+}
+
+/// The figures for programs.
+fn value(statistics: &Statistics, selection: &[Acceptance]) -> Value {
+    let Statistics { events, lengths, goals, relations, kinds, layouts, .. } = statistics;
+    let figure =
+        |figure: &Figure| json!({ "figure": figure.what, "paper": figure.paper, "here": figure.ours });
+    let figures: Vec<Value> = statistics.figures().iter().map(figure).collect();
+    let kinds: BTreeMap<&str, usize> = kinds.iter().map(|(kind, &count)| (kind.name(), count)).collect();
+    json!({
+        "events": events, "figures": figures, "lengths": lengths, "goals": goals, "relations": relations,
+        "kinds": kinds, "layouts": layouts, "selection": selection,
+    })
 }
 
 fn report(statistics: &Statistics, selection: &[Acceptance]) -> String {

@@ -8,11 +8,11 @@ pub mod plan;
 mod rows;
 
 use crate::{
-    console::{remark, tell},
     context::Context,
     error::CliError,
     eval::{networks, task},
     gen_dataset::check_same,
+    output::json_text,
 };
 use options::Benchmark;
 use phase_dataset::{
@@ -54,18 +54,17 @@ pub fn run(arguments: &Benchmark, context: &Context) -> Result<(), CliError> {
         let training = training.map(|training| rows.add_training(training));
         for set in 0..rows.sets() {
             begun += 1;
-            remark(format!("{begun} of {all}: {}, {}", contestant.words(), rows.name(set)));
-            rows.add(contestant, training, set)?;
+            context.note(format!("{begun} of {all}: {}, {}", contestant.words(), rows.name(set)));
+            rows.add(contestant, training, set, context)?;
         }
     }
     let benchmark = rows.finish();
     let document = report::benchmark(&benchmark);
     task::write_report(out, &document)?;
-    // Plain data of ours always has a JSON form.
-    let text = serde_json::to_string_pretty(&benchmark).unwrap_or_default() + "\n";
+    let text = json_text(&benchmark, "the benchmark")?;
     atomic::write(&out.join(BENCHMARK_FILE), text.as_bytes())?;
     folder.finish()?;
-    tell(document.first_table().trim_end());
-    tell(format!("report in {}", out.join(task::REPORT_FILE).display()));
-    Ok(())
+    let report = out.join(task::REPORT_FILE);
+    let text = format!("{}\nreport in {}", document.first_table().trim_end(), report.display());
+    arguments.output.print(text, &benchmark)
 }

@@ -5,6 +5,7 @@ use super::{
     plan::{Contestant, Task},
 };
 use crate::{
+    context::Context,
     engine::GENERATOR,
     error::CliError,
     eval::{
@@ -110,6 +111,7 @@ impl<'a> Rows<'a> {
         contestant: &Contestant,
         training: Option<usize>,
         set: usize,
+        context: &Context,
     ) -> Result<(), CliError> {
         let Contestant { task, name, method, weights } = contestant;
         let (input, common) = &mut self.inputs[set];
@@ -123,12 +125,13 @@ impl<'a> Rows<'a> {
         let (name, seed) = (name.clone(), self.arguments.seed);
         match task {
             Task::Goals => {
-                let events = evaluate(&Goals::by_method(&name, method, weights)?, input, common)?.events;
+                let events =
+                    evaluate(&Goals::by_method(&name, method, weights)?, input, common, context)?.events;
                 self.benchmark.goals.extend(row(name, origin, set, training, input, &events, seed));
             }
             Task::Trajectories => {
-                let task = Trajectories::by_method(&name, method, weights, &common.events)?;
-                let events = evaluate(&task, input, common)?.events;
+                let task = Trajectories::by_method(&name, method, weights)?;
+                let events = evaluate(&task, input, common, context)?.events;
                 self.benchmark.trajectories.extend(row(name, origin, set, training, input, &events, seed));
             }
         }

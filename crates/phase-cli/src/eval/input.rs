@@ -55,7 +55,7 @@ impl Input {
         let mut events = if manifest.is_file() {
             of_manifest(&Manifest::read(&manifest)?, arguments.split)
         } else if arguments.split.is_some() {
-            let rule = "is no dataset, so --split chooses nothing";
+            let rule = "is not a dataset with a manifest: --split needs a dataset";
             return Err(CliError::Usage(format!("{}: {rule}", path.display())));
         } else {
             (0..source.len())
