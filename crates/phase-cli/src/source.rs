@@ -1,6 +1,6 @@
 //! Where events come from: a file, or the folder of a dataset.
 
-use crate::error::CliError;
+use crate::{console::remark, error::CliError};
 use phase_dataset::{
     manifest::{MANIFEST_FILE, Manifest},
     phase_events,
@@ -42,7 +42,9 @@ impl Source {
             check_ids(path, recordings.iter().map(|recording| recording.id.as_str()), ids)?;
             let chosen =
                 recordings.into_iter().enumerate().filter(|(_, recording)| wanted(&recording.id, ids));
-            return Ok(Self::Loaded(chosen.collect()));
+            let chosen: Vec<_> = chosen.collect();
+            warn(path, chosen.iter().map(|(_, recording)| recording));
+            return Ok(Self::Loaded(chosen));
         }
         let is_dataset = path.join(MANIFEST_FILE).is_file();
         if !is_dataset && path.join(SHARD_FILE).is_file() {
@@ -117,6 +119,15 @@ impl Source {
 
 fn wanted(id: &String, ids: &[String]) -> bool {
     ids.is_empty() || ids.contains(id)
+}
+
+/// Tells whoever runs the command what is odd about the events of a file.
+fn warn<'a>(file: &Path, recordings: impl Iterator<Item = &'a Recording>) {
+    for recording in recordings {
+        for warning in recording.warnings() {
+            remark(format!("warning: {}: event {}: {warning}", file.display(), recording.id));
+        }
+    }
 }
 
 fn check_ids<'a>(

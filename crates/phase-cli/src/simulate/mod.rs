@@ -86,11 +86,9 @@ fn make(
 ) -> Result<Option<(Pair, Shown)>, CliError> {
     let (id, out) = (simulated_id(arguments, recording, seed), &arguments.out);
     let video = !arguments.no_video;
-    // By its place in the file, so that the same event comes out with or without the others.
-    let place = if arguments.same_chance { 0 } else { index };
     let order = Order {
         id: id.clone(),
-        seed: engine::event_seed(seed, place),
+        seed: event_seed(arguments, index, recording, seed),
         relation: Some(recording.relation),
         max_steps: None,
         json: out.join(format!("{id}.json")),
@@ -113,6 +111,16 @@ fn seeds(arguments: &Simulate) -> Result<Vec<u64>, CliError> {
         ))
     })?;
     Ok((arguments.seed..=last).collect())
+}
+
+/// The seed of a simulated event. An event without a seed of its own gets one by its place in the file, so that the same
+/// event comes out with or without the others; with `--same-chance` all get that of the first. An own seed counts up with
+/// `--seeds`.
+fn event_seed(arguments: &Simulate, index: usize, recording: &Recording, seed: u64) -> u64 {
+    match recording.seed {
+        Some(own) => own.wrapping_add(seed - arguments.seed),
+        None => engine::event_seed(seed, if arguments.same_chance { 0 } else { index }),
+    }
 }
 
 /// The id of a simulated event: the recording's, told apart by seed if there are several.
@@ -157,11 +165,12 @@ fn run_value(arguments: &Simulate, chosen: &[Input]) -> Result<Value, CliError> 
     Ok(run)
 }
 
-/// Everything the results depend on in one event of the input: the scene, the labels and the recorded rows.
+/// Everything the results depend on in one event of the input: the scene, the labels, the seed and the recorded rows.
 fn input_of(index: usize, recording: &Recording) -> String {
     let (scene, rows) = (&recording.scene, &recording.trajectory);
     let relation: Relation = recording.relation;
-    format!("{index} {} {relation:?} {scene:?} {rows:?}\n", recording.id)
+    let seed = recording.seed.map_or_else(String::new, |seed| format!("seed {seed} "));
+    format!("{index} {} {seed}{relation:?} {scene:?} {rows:?}\n", recording.id)
 }
 
 fn check_finished(arguments: &Simulate, run: &Value) -> Result<(), CliError> {

@@ -67,7 +67,7 @@ fn what_is_optional_may_be_absent() {
         event.remove(key).expect("a field of the example");
     }
     event["agents"][0].as_object_mut().expect("an agent").remove("radius");
-    event.insert("added_by_someone".into(), json!({"else": true}));
+    event.insert("_added_by_someone".into(), json!({"else": true}));
     let recordings = parse_value(&value).expect("a good file");
     assert_eq!(recordings[0].relation, Relation::Friendly, "follows from the goals");
 }
