@@ -19,6 +19,7 @@ use phase_dataset::{
     summary::{Pair, SUMMARY_FILE, Summary},
 };
 use phase_model::Relation;
+use phase_report::summary;
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -53,7 +54,7 @@ pub fn run(arguments: &Simulate) -> Result<(), CliError> {
     let summary = Summary::new(run, pairs);
     atomic::write(&out.join(SUMMARY_FILE), summary.to_json().as_bytes())?;
     folder.finish()?;
-    tell(summary.table().trim_end());
+    tell(summary::table(&summary.kinds).trim_end());
     tell(format!("{} simulated events in {}", summary.events.len(), out.display()));
     Ok(())
 }
@@ -146,7 +147,7 @@ fn check_finished(out: &Path, run: &Value) -> Result<(), CliError> {
     if folder::has_leftovers(out) {
         Folder::claim(out, run)?.finish()?;
     }
-    tell(summary.table().trim_end());
+    tell(summary::table(&summary.kinds).trim_end());
     tell(format!("{} holds these {} simulated events already", out.display(), summary.events.len()));
     Ok(())
 }

@@ -6,7 +6,6 @@ use phase_dataset::{
     manifest::{MANIFEST_FILE, Manifest},
     split_list::SplitList,
     splits::{self, Item, Rule, Split},
-    statistics,
 };
 
 /// Runs the command.
@@ -46,7 +45,7 @@ fn events(arguments: &Splits) -> Result<(Vec<Item>, Option<Vec<Split>>), CliErro
     if manifest.is_file() {
         let manifest = Manifest::read(&manifest)?;
         let parts = manifest.events.iter().map(|event| event.split).collect();
-        return Ok((statistics::items(&manifest), parts));
+        return Ok((manifest.items(), parts));
     }
     let source = Source::open(&arguments.events, &[])?;
     let item = |index: usize| {

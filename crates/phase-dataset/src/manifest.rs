@@ -1,6 +1,12 @@
 //! `manifest.json`: what a dataset holds, how it was made, and the checksum of every file.
 
-use crate::{FileError, Problem, checksum::FileEntry, json, phase_events, record::Acceptance, splits::Split};
+use crate::{
+    FileError, Problem,
+    acceptance::Acceptance,
+    checksum::FileEntry,
+    json, phase_events,
+    splits::{Item, Split},
+};
 use phase_evidence::{Outcome, Track};
 use phase_model::{AGENT_COUNT, EventKind, Goal, Relation};
 use phase_sampler::Variant;
@@ -13,6 +19,10 @@ use std::path::Path;
 pub const DATASET_FORMAT: &str = "phase-dataset/1";
 /// The manifest's file name. It is written last: a folder with a manifest is complete.
 pub const MANIFEST_FILE: &str = "manifest.json";
+/// File name of the dataset card.
+pub const CARD_FILE: &str = "README.md";
+/// File name of the gallery, the page that shows every video; a dataset without videos has none.
+pub const PAGE_FILE: &str = "index.html";
 
 /// A whole dataset.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
@@ -186,6 +196,18 @@ impl Manifest {
         // Writing plain data of ours to a string cannot fail.
         let text = serde_json::to_string_pretty(self).unwrap_or_default();
         format!("{text}\n")
+    }
+
+    /// What of each event decides which part of the dataset it may belong to, in the events' order.
+    #[must_use]
+    pub fn items(&self) -> Vec<Item> {
+        let item = |event: &EventEntry| Item {
+            id: event.id.clone(),
+            kind: event.kind,
+            goals: event.agents.map(|agent| agent.goal),
+            base: event.layout.base,
+        };
+        self.events.iter().map(item).collect()
     }
 
     /// Checks that every file is there and unchanged.

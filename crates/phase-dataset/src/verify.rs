@@ -3,12 +3,10 @@
 
 use crate::{
     FieldError, FileError, Problem,
-    card::CARD_FILE,
     checksum::FileEntry,
     croissant::{CROISSANT_FILE, checksums},
-    gallery::PAGE_FILE,
     json,
-    manifest::{EventEntry, MANIFEST_FILE, Manifest},
+    manifest::{CARD_FILE, EventEntry, MANIFEST_FILE, Manifest, PAGE_FILE},
     parquet::{self, Part},
 };
 use core::convert::Infallible;

@@ -1,16 +1,13 @@
 //! The `README.md` inside a generated dataset, which is also a dataset card: its front matter tells
 //! `datasets.load_dataset` which files to read.
 
-use crate::{
+use phase_dataset::{
     manifest::Manifest,
     parquet::{self, FOLDER},
     splits::Split,
     words,
 };
 use phase_model::EventKind;
-
-/// The file's name.
-pub const CARD_FILE: &str = "README.md";
 
 const PAGE: &str = "| `index.html` | opens in a browser, offline, and shows every video with its labels |\n";
 const VIDEOS: &str = "| `videos/<id>.mp4` | H.264, 20 frames a second, five frames a step |\n";

@@ -1,6 +1,6 @@
 //! A text with tables and pictures, in two forms.
 
-use phase_dataset::gallery::escape;
+use crate::markup::escape;
 
 /// A part of a document.
 #[derive(Clone, PartialEq, Debug)]
@@ -98,7 +98,7 @@ impl Document {
 }
 
 /// Texts as the head of a table.
-pub(super) fn head(names: &[&str]) -> Vec<String> {
+pub(crate) fn head(names: &[&str]) -> Vec<String> {
     names.iter().map(|&name| name.into()).collect()
 }
 

@@ -1,6 +1,6 @@
 //! Bar charts and curves as SVG, which every browser shows and every paper takes.
 
-use crate::gallery::escape;
+use crate::markup::escape;
 use std::fmt::Write as _;
 
 /// Measures of the drawing (px).

@@ -1,9 +1,9 @@
 //! The paper's figures about its dataset (section "Dataset Statistics") beside those of another.
 
-use crate::{
+use phase_dataset::{
     labels::goal_counts,
     manifest::Manifest,
-    splits::{self, Item, Split},
+    splits::{self, Split},
 };
 use phase_model::{EventKind, Relation};
 use std::collections::{BTreeMap, BTreeSet};
@@ -18,7 +18,7 @@ pub struct Statistics {
     pub events: usize,
     /// How many events there are of each length (steps).
     pub lengths: BTreeMap<usize, usize>,
-    /// How many agents there are with each goal; see [`crate::labels::goal_label`].
+    /// How many agents there are with each goal; see [`phase_dataset::labels::goal_label`].
     pub goals: BTreeMap<String, usize>,
     /// How many events show each relation.
     pub relations: BTreeMap<Relation, usize>,
@@ -54,7 +54,7 @@ impl Statistics {
         let parts = parts.filter(|parts| !parts.is_empty());
         let parts = parts.and_then(|parts| {
             let found: Vec<usize> =
-                splits::check(&items(manifest), &parts).iter().map(|rule| rule.found).collect();
+                splits::check(&manifest.items(), &parts).iter().map(|rule| rule.found).collect();
             found.try_into().ok()
         });
         Self {
@@ -95,18 +95,6 @@ impl Statistics {
             figure("layouts", "90 to draw from", self.layouts.to_string()),
         ]
     }
-}
-
-/// What of a dataset's events decides where they may go.
-#[must_use]
-pub fn items(manifest: &Manifest) -> Vec<Item> {
-    let item = |event: &crate::manifest::EventEntry| Item {
-        id: event.id.clone(),
-        kind: event.kind,
-        goals: event.agents.map(|agent| agent.goal),
-        base: event.layout.base,
-    };
-    manifest.events.iter().map(item).collect()
 }
 
 /// The figures as a table in Markdown.

@@ -1,7 +1,6 @@
 //! The tables that `simulate` prints.
 
-use super::{KindRow, Spreads};
-use phase_evidence::Quartiles;
+use phase_dataset::summary::{KindRow, Quartiles, Spreads};
 use phase_model::EventKind;
 
 /// Least share of agents with positive goals of their own whose outcome should be the recorded one.
@@ -15,7 +14,8 @@ const MOTION: &str = "quartiles       speed (u/s): recorded        simulated   p
                       contact (%): recorded      simulated\n";
 
 /// Both tables and what they say of the targets, each line ended.
-pub(super) fn text(rows: &[KindRow]) -> String {
+#[must_use]
+pub fn table(rows: &[KindRow]) -> String {
     let lines = |line: fn(&KindRow) -> String| rows.iter().map(line).collect::<String>();
     let verdict = rows.last().map(verdict).unwrap_or_default();
     format!("{OUTCOMES}{}\n{MOTION}{}\n{verdict}", lines(outcomes), lines(motion))

@@ -18,7 +18,7 @@ use phase_dataset::{
     atomic,
     folder::{self, Contents, Folder},
 };
-use phase_eval::report;
+use phase_report::evaluation;
 use plan::{contestants, needs_networks};
 use rows::Rows;
 use serde_json::json;
@@ -58,7 +58,7 @@ pub fn run(arguments: &Benchmark) -> Result<(), CliError> {
         }
     }
     let benchmark = rows.finish();
-    let document = report::benchmark(&benchmark);
+    let document = evaluation::benchmark(&benchmark);
     task::write_report(out, &document)?;
     // Plain data of ours always has a JSON form.
     let text = serde_json::to_string_pretty(&benchmark).unwrap_or_default() + "\n";

@@ -13,11 +13,13 @@ use phase_dataset::phase_events::Recording;
 use phase_eval::{
     MethodError, Recogniser, Tick,
     goals::{Answer, Glimpse, Label, RecognisedEvent, Summary},
-    predictions,
-    report::{self, Document, Subject},
-    results,
+    predictions, results,
 };
 use phase_model::ObservedEvent;
+use phase_report::{
+    document::Document,
+    evaluation::{self, Subject},
+};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -130,7 +132,7 @@ impl Task for Goals {
         events: &[RecognisedEvent],
     ) -> Option<(Value, Document)> {
         let summary = Summary::of(events, subject.seed)?;
-        Some((results::goals(run, &summary, events), report::goals(subject, &summary)))
+        Some((results::goals(run, &summary, events), evaluation::goals(subject, &summary)))
     }
 }
 

@@ -20,11 +20,9 @@ use phase_dataset::{
     json,
     phase_events::Recording,
 };
-use phase_eval::{
-    MethodError, Tick,
-    report::{Document, Subject},
-};
+use phase_eval::{MethodError, Tick};
 use phase_model::random::{Purpose, derive_seed};
+use phase_report::{document::Document, evaluation::Subject};
 use serde::{Serialize, de::DeserializeOwned};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};

@@ -11,12 +11,14 @@ use crate::error::CliError;
 use cpu_time::ThreadTime;
 use phase_dataset::phase_events::Recording;
 use phase_eval::{
-    Forecaster, MethodError, Tick, predictions,
-    report::{self, Document, Subject},
-    results,
+    Forecaster, MethodError, Tick, predictions, results,
     trajectories::{Errors, ForecastEvent, PREDICTED_STEPS, Summary, WATCHED_STEPS},
 };
 use phase_model::Forecast;
+use phase_report::{
+    document::Document,
+    evaluation::{self, Subject},
+};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
@@ -149,7 +151,7 @@ impl Task for Trajectories {
         events: &[ForecastEvent],
     ) -> Option<(Value, Document)> {
         let summary = Summary::of(events, subject.seed)?;
-        Some((results::trajectories(run, &summary, events), report::trajectories(subject, &summary)))
+        Some((results::trajectories(run, &summary, events), evaluation::trajectories(subject, &summary)))
     }
 }
 

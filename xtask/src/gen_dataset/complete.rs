@@ -5,15 +5,19 @@
 
 use crate::{error::CliError, interrupt};
 use phase_dataset::{
-    FileError, Problem, atomic,
-    card::{self, CARD_FILE, card},
+    FileError, Problem,
+    acceptance::Tally,
+    atomic,
     checksum::FileEntry,
     croissant::{CROISSANT_FILE, croissant},
-    gallery::{self, PAGE_FILE, Timeline},
-    manifest::{DATASET_FORMAT, EventEntry, MANIFEST_FILE, Manifest},
+    manifest::{CARD_FILE, DATASET_FORMAT, EventEntry, MANIFEST_FILE, Manifest, PAGE_FILE},
     parquet, phase_events,
-    record::{Record, Tally},
+    record::Record,
     shard::Whole,
+};
+use phase_report::{
+    card::{self, card},
+    gallery::{self, Timeline},
 };
 use phase_sim::Event;
 use std::path::Path;

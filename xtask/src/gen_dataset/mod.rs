@@ -21,12 +21,12 @@ use phase_dataset::{
     atomic,
     checksum::FileEntry,
     folder::{self, Contents, Folder},
-    gallery::PAGE_FILE,
-    manifest::{EventEntry, MANIFEST_FILE, Manifest},
+    manifest::{EventEntry, MANIFEST_FILE, Manifest, PAGE_FILE},
     parquet,
-    record::{self, Record},
+    record::Record,
     shard::{SHARD_FILE, SHARD_FORMAT, Shard, Whole},
 };
+use phase_report::acceptance;
 use phase_sim::Engine;
 use plan::Plan;
 use serde_json::{Value, json};
@@ -80,7 +80,7 @@ pub fn run(arguments: &GenDataset) -> Result<(), CliError> {
 /// Says what a finished dataset holds, and how it came to it.
 fn announce(out: &Path, manifest: &Manifest) {
     if !manifest.selection.is_empty() {
-        tell(record::table(&manifest.selection).trim_end());
+        tell(acceptance::table(&manifest.selection).trim_end());
     }
     tell(format!("{} events in {}", manifest.events.len(), out.display()));
     tell_page(out);

@@ -4,8 +4,9 @@ use super::Workspace;
 use std::path::{Path, PathBuf};
 
 /// The crates from the ground floor up. A crate may use those before it, never those after it.
-pub const LAYERS: [&str; 19] = [
+pub const LAYERS: [&str; 21] = [
     "phase-model",
+    "phase-statistics",
     "phase-world",
     "phase-forward",
     "phase-calibration",
@@ -24,6 +25,7 @@ pub const LAYERS: [&str; 19] = [
     "phase-simple",
     "phase-baselines",
     "phase-eval",
+    "phase-report",
 ];
 
 const MAP: &str = "docs/ARCHITECTURE.md";

@@ -1,29 +1,6 @@
-use phase_calibration::{Ahead, Deviation, RunReport, Spread, percentile};
+//! Distributions of errors.
 
-#[test]
-fn percentiles_are_by_nearest_rank() {
-    let ten: Vec<f32> = (1..=10).rev().map(|k| k as f32).collect();
-    // (values, hundredths, the smallest value that so many do not exceed)
-    let cases: [(&[f32], usize, Option<f32>); 10] = [
-        (&[], 50, None),
-        (&[7.0], 0, Some(7.0)),
-        (&[7.0], 99, Some(7.0)),
-        (&[2.0, 1.0], 50, Some(1.0)),
-        (&[3.0, 1.0, 2.0], 50, Some(2.0)),
-        (&ten, 50, Some(5.0)),
-        (&ten, 90, Some(9.0)),
-        (&ten, 91, Some(10.0)),
-        (&ten, 100, Some(10.0)),
-        (&ten, 1000, Some(10.0)),
-    ];
-    for (values, hundredths, expected) in cases {
-        assert_eq!(percentile(values, hundredths), expected, "{hundredths} of {values:?}");
-    }
-    // Nine good values out of eleven are less than nine in ten.
-    let eleven = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0];
-    assert_eq!(percentile(&eleven, 90), Some(1.0));
-    assert!(percentile(&[f32::NAN, 1.0], 100).expect("a value").is_nan());
-}
+use phase_calibration::{Ahead, Deviation, RunReport, Spread};
 
 #[test]
 fn spreads_and_horizons() {

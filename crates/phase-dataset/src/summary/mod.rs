@@ -1,15 +1,15 @@
-//! Simulations against the recordings they started from: `summary.json` and its table.
+//! Simulations against the recordings they started from: `summary.json`.
 //!
 //! A [`Pair`] is one recording and one simulation of its scene, measured; a [`Comparison`] is what the file keeps
 //! of it; a [`KindRow`] pools the pairs of one kind of event.
 
 mod comparison;
+mod quartiles;
 mod rows;
-mod table;
 
 pub use comparison::{AgentComparison, Comparison, Measures, Pair, Source};
+pub use quartiles::Quartiles;
 pub use rows::{KindRow, Spreads, tabulate};
-pub use table::{OWN_SHARE_TARGET, TIME_RATIO_TARGET};
 
 use crate::{FileError, Problem, json, phase_events};
 use serde::{Deserialize, Serialize};
@@ -71,11 +71,5 @@ impl Summary {
     pub fn verify(&self, folder: &Path) -> Result<(), FileError> {
         let files = self.events.iter().flat_map(|event| [Some(&event.event), event.video.as_ref()]);
         files.flatten().try_for_each(|file| file.verify(folder))
-    }
-
-    /// The tables for people: outcomes and motion, each with a line for each kind and one for all.
-    #[must_use]
-    pub fn table(&self) -> String {
-        table::text(&self.kinds)
     }
 }

@@ -1,14 +1,15 @@
 //! The report of Task 1.
 
-use super::{BESIDE, Block, Document, Subject, bars_beside, cost, document::head, share};
+use super::{BESIDE, Subject, bars_beside, cost, share};
 use crate::{
-    Group,
-    goals::{Calibration, RELATIONS, Scores, Summary},
+    document::{Block, Document, head},
+    plot::{Axis, Series, curves},
     published,
 };
-use phase_dataset::{
-    plot::{Axis, Series, curves},
-    words,
+use phase_dataset::words;
+use phase_eval::{
+    Group,
+    goals::{Bin, Calibration, RELATIONS, Scores, Summary},
 };
 
 /// How well goals and relations are recognised.
@@ -147,7 +148,7 @@ fn confusion(summary: &Summary) -> Block {
 }
 
 fn reliability(calibration: &Calibration) -> Block {
-    let row = |bin: &crate::goals::Bin| {
+    let row = |bin: &Bin| {
         vec![
             format!("{:.1} to {:.1}", bin.from, bin.to),
             bin.n.to_string(),

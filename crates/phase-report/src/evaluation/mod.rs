@@ -1,17 +1,15 @@
-//! Reports for people: tables and plots, as Markdown and as a page that opens offline.
+//! Reports of evaluations: one method on one task, and the benchmark of many.
 
 mod benchmark;
-mod document;
 mod goals;
 mod trajectories;
 
 pub use benchmark::benchmark;
-pub use document::{Block, Document};
 pub use goals::goals;
 pub use trajectories::trajectories;
 
-use crate::Estimate;
-use phase_dataset::plot::bars;
+use crate::{document::Block, plot::bars};
+use phase_eval::Estimate;
 
 /// What a report is about.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

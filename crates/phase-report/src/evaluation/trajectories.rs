@@ -1,11 +1,15 @@
 //! The report of Task 2.
 
-use super::{BESIDE, Block, Document, Subject, bars_beside, cost, document::head, length};
+use super::{BESIDE, Subject, bars_beside, cost, length};
 use crate::{
-    Estimate, published,
+    document::{Block, Document, head},
+    plot::{Axis, Series, curves},
+    published,
+};
+use phase_eval::{
+    Estimate,
     trajectories::{PREDICTED_STEPS, Scores, Summary, WATCHED_STEPS},
 };
-use phase_dataset::plot::{Axis, Series, curves};
 
 /// How well trajectories are predicted.
 #[must_use]

@@ -5,7 +5,8 @@ mod timeline;
 
 pub use timeline::Timeline;
 
-use crate::{
+use crate::markup::{escape, escape_script};
+use phase_dataset::{
     manifest::{AgentEntry, EventEntry, Manifest},
     words::{self, Piece},
 };
@@ -15,8 +16,6 @@ use phase_model::{
 };
 use std::{collections::BTreeMap, fmt::Write as _};
 
-/// The page's file name.
-pub const PAGE_FILE: &str = "index.html";
 /// How long a step is shown (s).
 const SECONDS_PER_STEP: f64 = SUBSTEPS as f64 / FRAMES_PER_SECOND as f64;
 const PAGE: &str = include_str!("../../assets/page.html");
@@ -66,29 +65,6 @@ fn fill(template: &str, parts: &[(&str, String)]) -> String {
         rest = after;
     }
     page + rest
-}
-
-/// Text made safe between tags and inside quoted attributes.
-#[must_use]
-pub fn escape(text: &str) -> String {
-    let mut safe = String::with_capacity(text.len());
-    for letter in text.chars() {
-        match letter {
-            '&' => safe.push_str("&amp;"),
-            '<' => safe.push_str("&lt;"),
-            '>' => safe.push_str("&gt;"),
-            '"' => safe.push_str("&quot;"),
-            '\'' => safe.push_str("&#39;"),
-            letter => safe.push(letter),
-        }
-    }
-    safe
-}
-
-/// JSON made safe inside a script element: `<` occurs only within strings, where it may be spelled otherwise.
-#[must_use]
-pub fn escape_script(json: &str) -> String {
-    json.replace('<', "\\u003c").replace('\u{2028}', "\\u2028").replace('\u{2029}', "\\u2029")
 }
 
 /// A choice for each thing that events can be told apart by, with how many there are of each.

@@ -1,6 +1,6 @@
 //! What the agents of an event were after, step by step, in few bytes.
 
-use crate::manifest::EventEntry;
+use phase_dataset::manifest::EventEntry;
 use phase_model::AGENT_COUNT;
 use phase_sim::Event;
 use serde_json::{Map, Value, json};

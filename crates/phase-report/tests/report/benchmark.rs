@@ -1,13 +1,15 @@
 //! The benchmark's report, with figures that can be counted on fingers.
 
-use phase_dataset::plot::{Axis, Series, curves};
 use phase_eval::{
     benchmark::{BENCHMARK_FORMAT, Benchmark, Curve, EventSet, Familiarity, Origin, Part, Row, Training},
     goals::{self, Answer, Label, Mistakes, RecognisedEvent},
-    report,
     trajectories::{Errors, ForecastEvent, Summary},
 };
 use phase_model::{EventKind, Goal, Relation, RelationProbabilities, Sign};
+use phase_report::{
+    evaluation,
+    plot::{Axis, Series, curves},
+};
 use serde_json::{Value, json};
 
 /// Events in which the agents are always so far off.
@@ -81,7 +83,7 @@ fn benchmark() -> Benchmark {
 /// Published rows come first, ours below; networks trained to show a curve are in their own table, fewest events first.
 #[test]
 fn rows_stand_where_they_belong() {
-    let text = report::benchmark(&benchmark()).to_markdown();
+    let text = evaluation::benchmark(&benchmark()).to_markdown();
     let place = |line: &str| text.find(line).unwrap_or_else(|| panic!("{line} in {text}"));
     let error = |error: &str| format!("{error} [{error}, {error}]");
     let ours = |name: &str, value: &str, cost: &str| {
@@ -148,7 +150,7 @@ fn mistakes_stand_in_their_columns() {
         mistakes: Some(mistakes),
         parts: Vec::new(),
     });
-    let text = report::benchmark(&benchmark).to_markdown();
+    let text = evaluation::benchmark(&benchmark).to_markdown();
     let line = "| arg (ours) | generated (1) | 1 | 2 | 3 | 4 | 5 | 6 | 7 | 8 | 9 | 10 | 11 | 12 |";
     assert!(text.contains(line), "{text}");
 }
@@ -158,7 +160,7 @@ fn without_networks_nothing_is_said_of_training() {
     let mut benchmark = benchmark();
     benchmark.trainings.clear();
     benchmark.trajectories.truncate(1);
-    let text = report::benchmark(&benchmark).to_markdown();
+    let text = evaluation::benchmark(&benchmark).to_markdown();
     assert!(!text.contains("## Training") && !text.contains("As training data grows"), "{text}");
 }
 

@@ -1,11 +1,12 @@
 //! The card that people and loaders read.
 
-use phase_dataset::{card::card, parquet::descriptions, splits::Split};
+use phase_dataset::{parquet::descriptions, splits::Split};
+use phase_report::card::card;
 use std::collections::BTreeSet;
 
 fn example() -> phase_dataset::manifest::Manifest {
     let folder = tempfile::tempdir().expect("a folder");
-    crate::manifest::dataset(folder.path(), "demo-0000")
+    crate::support::dataset(folder.path(), "demo-0000")
 }
 
 #[test]

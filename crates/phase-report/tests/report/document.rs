@@ -1,9 +1,9 @@
 //! Reports: two forms of the same, and nothing of an id or name becomes markup.
 
-use phase_dataset::plot::{Axis, Series, curves};
-use phase_eval::{
+use phase_report::{
+    document::{Block, Document},
+    plot::{Axis, Series, curves},
     published,
-    report::{Block, Document},
 };
 
 #[test]

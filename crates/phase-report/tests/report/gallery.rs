@@ -1,16 +1,16 @@
 //! The page for people.
 
 use crate::support::plain_event;
-use phase_dataset::{
-    gallery::{MOST_SHOWN, Timeline, escape, escape_script, page},
-    manifest::EventEntry,
-    splits::Split,
+use phase_dataset::{manifest::EventEntry, splits::Split};
+use phase_report::{
+    gallery::{MOST_SHOWN, Timeline, page},
+    markup::{escape, escape_script},
 };
 use serde_json::{Value, json};
 
 fn example(id: &str) -> (phase_dataset::manifest::Manifest, Vec<Timeline>) {
     let folder = tempfile::tempdir().expect("a folder");
-    let manifest = crate::manifest::dataset(folder.path(), id);
+    let manifest = crate::support::dataset(folder.path(), id);
     (manifest, vec![Timeline::of(&plain_event(4))])
 }
 

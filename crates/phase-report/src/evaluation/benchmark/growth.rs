@@ -1,13 +1,14 @@
 //! How much better networks get with more to learn from.
 
-use super::Block;
+use super::super::{length, share};
 use crate::{
-    benchmark::{Benchmark, Origin, Row, Training},
-    goals,
-    report::{document::head, length, share},
-    trajectories,
+    document::{Block, head},
+    plot::{Axis, Series, curves},
 };
-use phase_dataset::plot::{Axis, Series, curves};
+use phase_eval::{
+    benchmark::{Benchmark, Origin, Row, Training},
+    goals, trajectories,
+};
 
 /// Tables and plots; nothing unless there are networks trained for it.
 pub(super) fn blocks(benchmark: &Benchmark) -> Vec<Block> {

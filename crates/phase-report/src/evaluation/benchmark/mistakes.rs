@@ -1,13 +1,10 @@
 //! What goals were taken for.
 
-use super::{
-    Block,
-    tables::{events, name},
-};
-use crate::{
+use super::tables::{events, name};
+use crate::document::{Block, head};
+use phase_eval::{
     benchmark::{Benchmark, Origin},
     goals::Mistakes,
-    report::document::head,
 };
 
 /// A table of all methods but those trained to show a curve; nothing without any.

@@ -6,9 +6,12 @@ mod mistakes;
 mod tables;
 mod training;
 
-use super::{BESIDE, Block, Document};
-use crate::benchmark::{Benchmark, Origin, Row};
-use phase_dataset::plot::bars;
+use super::BESIDE;
+use crate::{
+    document::{Block, Document},
+    plot::bars,
+};
+use phase_eval::benchmark::{Benchmark, Origin, Row};
 
 /// Everything the benchmark says.
 #[must_use]

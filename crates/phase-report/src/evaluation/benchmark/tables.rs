@@ -1,12 +1,17 @@
 //! The tables of the benchmark.
 
-use super::{Block, label};
+use super::{
+    super::{length, share},
+    label,
+};
 use crate::{
+    document::{Block, head},
+    published,
+};
+use phase_eval::{
     Estimate,
-    benchmark::{Benchmark, Familiarity, Origin, Row},
-    goals, published,
-    report::{document::head, length, share},
-    trajectories,
+    benchmark::{Benchmark, Familiarity, Origin, Row, Training},
+    goals, trajectories,
 };
 
 /// Methods of ours and what the paper calls them, in the paper's order; `simple` is the full method in each table.
@@ -196,7 +201,7 @@ fn seconds(seconds: Option<f64>) -> String {
 
 fn cost(benchmark: &Benchmark, training: Option<usize>) -> String {
     let training = training.and_then(|training| benchmark.trainings.get(training));
-    let words = |training: &crate::benchmark::Training| {
+    let words = |training: &Training| {
         format!("{:.1} CPU min on {} events", training.cpu_seconds / 60.0, training.events)
     };
     training.map_or_else(|| NOTHING.into(), words)

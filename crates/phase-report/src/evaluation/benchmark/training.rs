@@ -1,11 +1,10 @@
 //! What networks cost and how they learnt.
 
-use super::Block;
 use crate::{
-    benchmark::{Benchmark, Curve, Origin, Training},
-    report::document::head,
+    document::{Block, head},
+    plot::{Axis, Series, curves},
 };
-use phase_dataset::plot::{Axis, Series, curves};
+use phase_eval::benchmark::{Benchmark, Curve, Origin, Training};
 
 /// A table of all trainings, and the curves of those whose weights come with the program; nothing without networks.
 pub(super) fn blocks(benchmark: &Benchmark) -> Vec<Block> {
