@@ -1,15 +1,16 @@
 //! Steps for imagination: fewer and longer substeps, and grips that do not give.
 
 use crate::{
-    Forward,
     contact::Contact,
+    finish::stop_turning,
     group::{Ground, Groups},
     impact::{Ends, Way, impact},
-    key::descending,
+    key::{BodySet, descending},
+    model::Model,
     reach,
-    substep::BodySet,
+    touching::MAX_CONTACTS,
     tuning::{H, SETTLED_IMPULSE, SLOP},
-    world::{MAX_CONTACTS, World},
+    world::World,
 };
 use arrayvec::ArrayVec;
 use phase_model::{AGENT_COUNT, Action, State, Vec2, arena, arena::SUBSTEPS};
@@ -29,71 +30,68 @@ const CORRECTION: f32 = 0.5;
 /// The contacts of a substep.
 type Touches = ArrayVec<Contact, MAX_CONTACTS>;
 
-impl Forward {
-    /// One step as a planner imagines it: as [`phase_model::Dynamics::step`], at a fraction of its cost.
-    pub fn step_coarse(&self, state: &mut State, actions: [Action; AGENT_COUNT]) {
-        let mut world = World::new(self, state, actions);
-        let let_go = world.grab(state);
-        world.part(state, let_go);
-        let members = reach::members(&mut world);
-        let mut groups = Groups::new(&world);
-        let mut touching = Touches::new();
-        let alone = self.everyone() & !members;
-        if alone != 0 {
-            self.substep_coarse(&mut world, &mut groups, alone, &mut touching, SUBSTEPS as u8);
-        }
-        if members != 0 {
-            let strangers = reach::strangers_meet(&world, &groups);
-            for &substeps in if strangers { AMONG_BODIES } else { AMONG_WALLS } {
-                self.substep_coarse(&mut world, &mut groups, members, &mut touching, substeps);
-                if world.let_go != 0 {
-                    world.reunite();
-                }
+/// One step as a planner imagines it: as [`phase_model::Dynamics::step`], at a fraction of its cost.
+pub(crate) fn step(model: &Model, state: &mut State, actions: [Action; AGENT_COUNT]) {
+    let mut world = World::new(model, state, actions);
+    let let_go = world.grab(state);
+    world.part(state, let_go);
+    let members = reach::members(&mut world);
+    let mut groups = Groups::new(&world);
+    let mut touching = Touches::new();
+    let alone = model.everyone() & !members;
+    if alone != 0 {
+        world.substep_coarse(&mut groups, alone, &mut touching, SUBSTEPS as u8);
+    }
+    if members != 0 {
+        let strangers = reach::strangers_meet(&world, &groups);
+        for &substeps in if strangers { AMONG_BODIES } else { AMONG_WALLS } {
+            world.substep_coarse(&mut groups, members, &mut touching, substeps);
+            if world.let_go != 0 {
+                world.reunite();
             }
         }
-        self.finish(&mut world, state, if members == 0 { 0 } else { !0 });
-        self.stop_turning(state);
     }
+    world.finish(state, if members == 0 { 0 } else { !0 });
+    stop_turning(state);
+}
 
+impl World<'_> {
     /// One long substep of some bodies, whole groups of them.
     fn substep_coarse(
-        &self,
-        world: &mut World<'_>,
+        &mut self,
         groups: &mut Groups,
         members: BodySet,
         touching: &mut Touches,
         substeps: u8,
     ) {
-        let apart = world.apart | groups.within;
-        let Some((busy, candidates)) = reach::at_work(world, members, apart) else { return };
+        let apart = self.apart | groups.within;
+        let Some((busy, candidates)) = reach::at_work(self, members, apart) else { return };
         touching.clear();
-        touching.extend(world.contacts(candidates).take(MAX_CONTACTS));
-        let before = world.outlines.boxes;
-        world.solve_coarse(groups, busy, touching, substeps);
-        world.outline(busy);
+        touching.extend(self.contacts(candidates).take(MAX_CONTACTS));
+        let before = self.outlines.boxes;
+        self.solve_coarse(groups, busy, touching, substeps);
+        self.outline(busy);
         let mut met: BodySet = 0;
         for (body, start) in before.into_iter().enumerate() {
-            if busy & 1 << body != 0 && reach::may_meet_wall(world, body, start) {
+            if busy & 1 << body != 0 && reach::may_meet_wall(self, body, start) {
                 met |= 1 << body;
             }
         }
-        for name in 0..self.count {
+        for name in 0..self.model.count {
             let meeting = groups.bodies[name] & met;
             if meeting != 0 {
-                world.meet_walls(groups, name, meeting, f32::from(substeps) * H);
-                world.leave_walls(groups, name, meeting);
+                self.meet_walls(groups, name, meeting, f32::from(substeps) * H);
+                self.leave_walls(groups, name, meeting);
             }
         }
         for body in bodies(busy) {
             // Bodies deep inside each other can be thrown anywhere.
-            if !arena::contains(world.motions[body].centre) {
-                world.contain(body, 0);
+            if !arena::contains(self.motions[body].centre) {
+                self.contain(body, 0);
             }
         }
     }
-}
 
-impl World<'_> {
     /// Lets forces, friction and contacts act and moves all given bodies.
     fn solve_coarse(&mut self, groups: &mut Groups, busy: BodySet, touching: &mut Touches, substeps: u8) {
         let seconds = f32::from(substeps) * H;
@@ -120,14 +118,13 @@ impl World<'_> {
                 groups.act(body, self, seconds);
                 still &= !(1 << body);
             }
-            grounds[body] =
-                Ground::new(body, groups, &self.forward.shapes[body], &self.motions[body], seconds);
+            grounds[body] = Ground::new(body, groups, &self.model.shapes[body], &self.motions[body], seconds);
         }
         // Of a body that nothing but the ground touches, one iteration is exact.
         let one_by_one = touching.is_empty() && named == busy;
         let mut touched: BodySet = 0;
         for contact in touching.iter_mut() {
-            contact.prepare_groups(groups, &self.forward.shapes, &self.motions);
+            groups.prepare(contact, &self.model.shapes, &self.motions);
             touched |= 1 << contact.groups.0 | 1 << contact.groups.1;
         }
         for _ in 0..ITERATIONS {
@@ -193,10 +190,10 @@ impl World<'_> {
         for body in bodies(met) {
             walls[body] = reach::walls_swept(self, body);
             let way = self.way(body);
-            let shape = &self.forward.shapes[body];
+            let shape = &self.model.shapes[body];
             let ends = Ends::new(shape, &way);
             for key in descending(walls[body]) {
-                let wall = &self.forward.walls[key / 4];
+                let wall = &self.model.walls[key / 4];
                 if !ends.clear_of(wall)
                     && let Some(share) = impact(shape, &way, wall)
                 {
@@ -211,7 +208,7 @@ impl World<'_> {
             let walls = walls.into_iter().fold(0, |all, keys| all | keys);
             touching.extend(self.contacts(walls).take(MAX_CONTACTS));
             for contact in touching.iter_mut() {
-                contact.prepare_groups(groups, &self.forward.shapes, &self.motions);
+                groups.prepare(contact, &self.model.shapes, &self.motions);
             }
             for _ in 0..ITERATIONS {
                 let mut change = 0.0_f32;
@@ -244,7 +241,7 @@ impl World<'_> {
         }
         groups.gather(name, self);
         for contact in &mut touching {
-            contact.prepare_groups(groups, &self.forward.shapes, &self.motions);
+            groups.prepare(contact, &self.model.shapes, &self.motions);
         }
         for _ in 0..POSITION_ITERATIONS {
             for contact in &mut touching {
@@ -269,7 +266,7 @@ impl World<'_> {
         let (mut mass, mut from) = (0.0, Vec2::ZERO);
         for body in groups.bodies_of(name) {
             let (start, angle, right) = self.starts[body];
-            let (shape, motion) = (&self.forward.shapes[body], &mut self.motions[body]);
+            let (shape, motion) = (&self.model.shapes[body], &mut self.motions[body]);
             turn = motion.angle - angle;
             (motion.centre, motion.angle, motion.right) = (start, angle, right);
             mass += shape.mass;

@@ -2,7 +2,6 @@
 
 use crate::{
     body::{Motion, STATIC, Shape, Twist},
-    group::Groups,
     manifold::Manifold,
     tuning::{LONGEST_CORRECTION, SLOP},
 };
@@ -64,14 +63,21 @@ impl Contact {
         self.respond(shapes[self.a].yielding, shapes[self.b].yielding, false);
     }
 
-    /// The same for bodies in rigid groups.
-    pub(crate) fn prepare_groups(&mut self, groups: &Groups, shapes: &[Shape; 5], motions: &[Motion; 5]) {
-        self.groups = (groups.names[self.a], groups.names[self.b]);
-        let (first, second) = self.groups;
-        let centres = [groups.centres[first], groups.centres[second]];
+    /// The same where the two bodies are parts of rigid groups with these names, centres of mass (u) and
+    /// [`Shape::yielding`].
+    #[inline]
+    pub(crate) fn prepare_rigid(
+        &mut self,
+        names: (usize, usize),
+        centres: [Vec2; 2],
+        yielding: [Vec3; 2],
+        shapes: &[Shape; 5],
+        motions: &[Motion; 5],
+    ) {
+        self.groups = names;
         let (a, b) = (&motions[self.a], &motions[self.b]);
         self.place(&shapes[self.a], &shapes[self.b], a, b, centres, self.a == STATIC);
-        self.respond(groups.yielding[first], groups.yielding[second], self.a == STATIC);
+        self.respond(yielding[0], yielding[1], self.a == STATIC);
     }
 
     /// The same for a contact with a wall, of which only the second body has a say.

@@ -2,12 +2,10 @@
 
 use crate::{
     key::{KeySet, bit, wall_key},
+    tuning::BOUNDARY_MARGIN,
     world::World,
 };
 use phase_model::{Segment, Vec2, arena};
-
-/// Least distance of a centre of mass from the boundary (u).
-pub(crate) const MARGIN: f32 = 0.01;
 
 impl World<'_> {
     /// Brings a body back if its centre of mass crossed one of the candidate walls or left the arena. Deeply
@@ -22,7 +20,7 @@ impl World<'_> {
             motion.spin = 0.0;
             motion.centre = start;
         }
-        let inside = motion.centre.clamp(arena::MIN + MARGIN, arena::MAX - MARGIN);
+        let inside = motion.centre.clamp(arena::MIN + BOUNDARY_MARGIN, arena::MAX - BOUNDARY_MARGIN);
         if inside.x != motion.centre.x {
             motion.velocity.x = 0.0;
         }
@@ -30,7 +28,7 @@ impl World<'_> {
             motion.velocity.y = 0.0;
         }
         motion.centre = inside;
-        for (index, wall) in self.forward.walls[..self.forward.wall_count].iter().enumerate() {
+        for (index, wall) in self.model.walls[..self.model.wall_count].iter().enumerate() {
             if candidates & bit(wall_key(index, body)) == 0 {
                 continue;
             }

@@ -5,7 +5,7 @@ use crate::{
     contact::Contact,
     impact::{Ends, Way, impact},
     key::{KeySet, bit, descending, wall_key},
-    manifold::Polygon,
+    polygon::Polygon,
     tuning::{
         IMPACT_CORRECTION, IMPACT_POSITION_ITERATIONS, MOST_IMPACTS, SETTLED_IMPULSE, SLOP,
         VELOCITY_ITERATIONS,
@@ -23,7 +23,7 @@ impl World<'_> {
     /// with the body's centre at the last of them.
     pub(crate) fn impacts(&mut self, body: usize, candidates: KeySet) -> Option<Vec2> {
         let (start, start_angle, right) = self.starts[body];
-        let shape = &self.forward.shapes[body];
+        let shape = &self.model.shapes[body];
         let mut way = Way {
             from: start,
             to: self.motions[body].centre,
@@ -32,7 +32,7 @@ impl World<'_> {
             right,
         };
         let ends = Ends::new(shape, &way);
-        if descending(candidates).all(|key| ends.clear_of(&self.forward.walls[key / 4])) {
+        if descending(candidates).all(|key| ends.clear_of(&self.model.walls[key / 4])) {
             return None;
         }
         let mut spent = 0.0_f32;
@@ -41,15 +41,15 @@ impl World<'_> {
         let mut last = None;
         loop {
             let mut first: Option<(f32, usize)> = None;
-            for wall in (0..self.forward.wall_count).rev() {
+            for wall in (0..self.model.wall_count).rev() {
                 let key = bit(wall_key(wall, body));
                 if candidates & key == 0 || off & key != 0 || met[wall] > MOST_IMPACTS {
                     continue;
                 }
-                if last.is_none() && ends.clear_of(&self.forward.walls[wall]) {
+                if last.is_none() && ends.clear_of(&self.model.walls[wall]) {
                     continue;
                 }
-                if let Some(share) = impact(shape, &way, &self.forward.walls[wall]) {
+                if let Some(share) = impact(shape, &way, &self.model.walls[wall]) {
                     let time = (spent + (1.0 - spent) * share).min(1.0);
                     if first.is_none_or(|(earliest, _)| time < earliest) {
                         first = Some((time, wall));
@@ -76,7 +76,7 @@ impl World<'_> {
             spent = time;
             let mut contacts = [Contact::new(key as u8, bodies, manifold); TOGETHER];
             let mut count = 1;
-            for other in (0..self.forward.wall_count).rev() {
+            for other in (0..self.model.wall_count).rev() {
                 let key = wall_key(other, body);
                 if other == wall || candidates & bit(key) == 0 || count == TOGETHER {
                     continue;
@@ -95,7 +95,7 @@ impl World<'_> {
 
     /// Separates a body from walls it has just reached, takes away its speed into them, and moves it on.
     fn bounce(&mut self, body: usize, contacts: &mut [Contact], spent: f32, way: &mut Way) {
-        let shapes = &self.forward.shapes;
+        let shapes = &self.model.shapes;
         let (shape, motion) = (&shapes[body], &mut self.motions[body]);
         for contact in contacts.iter_mut() {
             debug_assert!(contact.a == STATIC && contact.b == body);

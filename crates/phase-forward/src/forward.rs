@@ -1,16 +1,10 @@
 //! The kernel: what never changes of a scene's physics, and steps from state to state.
 
 use crate::{
-    body::Shape,
-    key::{KeySet, PAIRS, bit, pair_key},
-    memory::Memory,
-    reach,
-    substep::BodySet,
-    tuning::VELOCITY_ITERATIONS,
-    wall::{Boxes, MAX_WALLS, Wall, walls},
-    world::{Touching, World},
+    coarse, finish::stop_turning, key::BodySet, memory::Memory, model::Model, reach, touching::Touching,
+    tuning::VELOCITY_ITERATIONS, world::World,
 };
-use phase_model::{AGENT_COUNT, Action, Contacts, Dynamics, Entity, Physique, State, arena::SUBSTEPS};
+use phase_model::{AGENT_COUNT, Action, Dynamics, Physique, State, arena::SUBSTEPS};
 
 /// Iterations of the velocity solver in a substep that starts without impulses.
 const COLD_ITERATIONS: usize = 20;
@@ -20,29 +14,14 @@ const COLD_ITERATIONS: usize = 20;
 /// At most two objects and four inner walls count, which is all that PHASE has; more are left out.
 #[derive(Clone, Debug)]
 pub struct Forward {
-    pub(crate) physique: Physique,
-    pub(crate) shapes: [Shape; 5],
-    pub(crate) walls: [Wall; MAX_WALLS],
-    pub(crate) wall_count: usize,
-    pub(crate) boxes: Boxes,
-    pub(crate) count: usize,
+    model: Model,
 }
 
 impl Forward {
     /// Prepares the dynamics of a scene.
     #[must_use]
     pub fn new(physique: &Physique) -> Self {
-        let mut shapes = [Shape::immovable(); 5];
-        for (shape, agent) in shapes.iter_mut().zip(&physique.agents) {
-            *shape = Shape::agent(agent);
-        }
-        for (shape, radius) in shapes[AGENT_COUNT..4].iter_mut().zip(physique.object_radii) {
-            *shape = Shape::object(radius);
-        }
-        let (walls, wall_count) = walls(&physique.walls);
-        let count = physique.entity_count().min(4);
-        let boxes = Boxes::new(&walls[..wall_count]);
-        Self { physique: physique.clone(), shapes, walls, wall_count, boxes, count }
+        Self { model: Model::new(physique) }
     }
 
     /// One step (five substeps) from a state alone, with the state after each substep. Impulses of contacts
@@ -50,7 +29,7 @@ impl Forward {
     pub fn step_substeps(&self, state: &mut State, actions: [Action; AGENT_COUNT]) -> [State; SUBSTEPS] {
         let mut substeps = [*state; SUBSTEPS];
         self.step_cold::<true>(state, actions, |world, substep| {
-            self.finish(world, &mut substeps[substep], !0);
+            world.finish(&mut substeps[substep], !0);
         });
         substeps[SUBSTEPS - 1] = *state;
         substeps
@@ -65,50 +44,51 @@ impl Forward {
         memory: &mut Memory,
         actions: [Action; AGENT_COUNT],
     ) -> [State; SUBSTEPS] {
-        let mut world = World::new(self, state, actions);
+        let mut world = World::new(&self.model, state, actions);
         memory.enter(&mut world);
         world.grab(state);
         let mut substeps = [*state; SUBSTEPS];
         for substep in &mut substeps {
             self.substep_warm(&mut world, memory);
-            self.finish(&mut world, state, memory.alive());
+            world.finish(state, memory.alive());
             *substep = *state;
         }
         memory.leave(&world);
-        self.stop_turning(state);
+        stop_turning(state);
         substeps[SUBSTEPS - 1] = *state;
         substeps
+    }
+
+    /// One step as a planner imagines it: as [`phase_model::Dynamics::step`], at a fraction of its cost.
+    pub fn step_coarse(&self, state: &mut State, actions: [Action; AGENT_COUNT]) {
+        coarse::step(&self.model, state, actions);
     }
 
     /// The memory of a world that has just been set up in a state: no impulses, every pair in reach ready
     /// to touch.
     #[must_use]
     pub fn remember(&self, state: &State) -> Memory {
-        Memory::new(&World::new(self, state, [Action::NoForce; AGENT_COUNT]))
+        Memory::new(&World::new(&self.model, state, [Action::NoForce; AGENT_COUNT]))
     }
 
     /// One substep of 1/60 s in which nobody acts. The original runs one before the first step, which pushes
     /// overlapping bodies apart.
     pub fn settle(&self, state: &mut State) {
-        let mut world = World::new(self, state, [Action::NoForce; AGENT_COUNT]);
+        let mut world = World::new(&self.model, state, [Action::NoForce; AGENT_COUNT]);
         let mut touching = Touching::NONE;
-        self.substep_cold(&mut world, self.everyone(), &mut touching);
-        self.finish(&mut world, state, !0);
-        self.stop_turning(state);
+        self.substep_cold(&mut world, self.model.everyone(), &mut touching);
+        world.finish(state, !0);
+        stop_turning(state);
     }
 
     /// [`Forward::settle`] with memory.
     pub fn settle_warm(&self, state: &mut State, memory: &mut Memory) {
-        let mut world = World::new(self, state, [Action::NoForce; AGENT_COUNT]);
+        let mut world = World::new(&self.model, state, [Action::NoForce; AGENT_COUNT]);
         memory.enter(&mut world);
         self.substep_warm(&mut world, memory);
         memory.leave(&world);
-        self.finish(&mut world, state, memory.alive());
-        self.stop_turning(state);
-    }
-
-    pub(crate) fn everyone(&self) -> BodySet {
-        (1 << self.count) - 1
+        world.finish(state, memory.alive());
+        stop_turning(state);
     }
 
     /// A step from a state alone. `observe` is shown the bodies after each substep if any of them may touch
@@ -119,12 +99,12 @@ impl Forward {
         actions: [Action; AGENT_COUNT],
         mut observe: impl FnMut(&mut World<'_>, usize),
     ) {
-        let mut world = World::new(self, state, actions);
+        let mut world = World::new(&self.model, state, actions);
         let let_go = world.grab(state);
         world.part(state, let_go);
         let members = reach::members(&mut world);
         if members == 0 && !ALL {
-            for body in AGENT_COUNT..self.count {
+            for body in AGENT_COUNT..self.model.count {
                 self.drift(&mut world, body, SUBSTEPS);
             }
             // Taking turns lets the processor work on both agents at once.
@@ -135,8 +115,8 @@ impl Forward {
         } else {
             self.step_together(&mut world, members, &mut observe);
         }
-        self.finish(&mut world, state, if members == 0 { 0 } else { !0 });
-        self.stop_turning(state);
+        world.finish(state, if members == 0 { 0 } else { !0 });
+        stop_turning(state);
     }
 
     /// The five substeps of a step in which the given bodies may touch something.
@@ -148,7 +128,7 @@ impl Forward {
     ) {
         let mut touching = Touching::NONE;
         for substep in 0..SUBSTEPS {
-            for body in 0..self.count {
+            for body in 0..self.model.count {
                 if members & 1 << body == 0 {
                     self.drift(world, body, 1);
                 }
@@ -165,7 +145,7 @@ impl Forward {
     /// Some substeps of a body that nothing can reach.
     #[inline]
     fn drift(&self, world: &mut World<'_>, body: usize, substeps: usize) {
-        let (shape, motion) = (&self.shapes[body], &mut world.motions[body]);
+        let (shape, motion) = (&self.model.shapes[body], &mut world.motions[body]);
         let action = if body < AGENT_COUNT { world.actions[body] } else { Action::NoForce };
         if motion.is_still() && action.push().is_none() && action.turn() == 0.0 {
             return;
@@ -196,12 +176,12 @@ impl Forward {
     fn substep_warm(&self, world: &mut World<'_>, memory: &mut Memory) {
         memory.drop_dead(world);
         world.all_moved();
-        world.outline(self.everyone());
+        world.outline(self.model.everyone());
         memory.touching.replace(world.contacts(memory.alive()));
         memory.newest_first();
-        world.solve(self.everyone(), &mut memory.touching);
+        world.solve(self.model.everyone(), &mut memory.touching);
         memory.follow(world);
-        for body in 0..self.count {
+        for body in 0..self.model.count {
             let walls = reach::walls_swept(world, body);
             if world.impacts(body, walls & memory.alive()).is_some() {
                 memory.follow_one(world, body);
@@ -209,26 +189,6 @@ impl Forward {
             world.contain(body, walls);
         }
         memory.find_new(world);
-    }
-
-    /// Writes bodies, grips and contacts into a state. Only pairs among the candidates can touch.
-    pub(crate) fn finish(&self, world: &mut World<'_>, state: &mut State, candidates: KeySet) {
-        world.write(state);
-        state.contacts = Contacts::NONE;
-        let near = reach::pairs_near(world, self.everyone()) & candidates & !world.apart;
-        let touching = world.touching(near);
-        for (pair, (a, b)) in PAIRS.into_iter().enumerate() {
-            if touching & bit(pair_key(pair)) != 0 {
-                state.contacts.insert(Entity::from_index(a), Entity::from_index(b));
-            }
-        }
-    }
-
-    /// Agents do not go on turning from one step to the next.
-    pub(crate) fn stop_turning(&self, state: &mut State) {
-        for body in &mut state.bodies[..AGENT_COUNT] {
-            body.angular_velocity = 0.0;
-        }
     }
 }
 

@@ -3,9 +3,9 @@
 use crate::{
     body::{Motion, STATIC, Shape, Twist},
     contact::{Contact, correction},
-    key::{KeySet, PAIRS, bit, pair_key},
-    substep::BodySet,
+    key::{BodySet, KeySet, PAIRS, bit, pair_key},
     tuning::{GREATEST_TURN, H, LONGEST_WAY, SLOP},
+    turn::turned,
     world::World,
 };
 use glam::Vec3;
@@ -60,11 +60,11 @@ impl Groups {
             names,
             bodies,
             within,
-            yielding: world.forward.shapes.each_ref().map(|shape| shape.yielding),
+            yielding: world.model.shapes.each_ref().map(|shape| shape.yielding),
             centres: [Vec2::ZERO; 5],
             twists: [Twist::ZERO; 5],
         };
-        for name in 0..world.forward.count {
+        for name in 0..world.model.count {
             groups.weigh(name, world);
         }
         groups
@@ -86,7 +86,7 @@ impl Groups {
         if self.bodies[name].count_ones() < 2 {
             return;
         }
-        let shapes = &world.forward.shapes;
+        let shapes = &world.model.shapes;
         let (mut mass, mut moment) = (0.0, Vec2::ZERO);
         for body in self.bodies_of(name) {
             mass += shapes[body].mass;
@@ -112,7 +112,7 @@ impl Groups {
         }
         let mut sum = Twist::ZERO;
         for body in self.bodies_of(name) {
-            let (shape, motion) = (&world.forward.shapes[body], &world.motions[body]);
+            let (shape, motion) = (&world.model.shapes[body], &world.motions[body]);
             let momentum = motion.velocity * shape.mass;
             sum.0 += Twist::of_impulse(momentum, motion.centre - self.centres[name]).0;
             sum.0.z += motion.spin / shape.inverse_inertia;
@@ -134,7 +134,7 @@ impl Groups {
     /// what it holds gives it some of its own back each time.
     pub(crate) fn stop(&mut self, body: usize, world: &World<'_>, substeps: u8) {
         let name = self.names[body];
-        let (shape, motion) = (&world.forward.shapes[body], &world.motions[body]);
+        let (shape, motion) = (&world.model.shapes[body], &world.motions[body]);
         let share = shape.mass * self.yielding[name].x;
         let mut left = 1.0;
         for _ in 0..substeps {
@@ -150,7 +150,7 @@ impl Groups {
     /// Lets an agent's push or turn act for some seconds.
     pub(crate) fn act(&mut self, body: usize, world: &World<'_>, seconds: f32) {
         let (action, name) = (world.actions[body], self.names[body]);
-        let (shape, motion) = (&world.forward.shapes[body], &world.motions[body]);
+        let (shape, motion) = (&world.model.shapes[body], &world.motions[body]);
         let impulse = if let Some(push) = action.push() {
             let at = motion.place(Vec2::new(0.0, shape.push_point));
             Twist::of_impulse(motion.turn(push * (shape.max_force * seconds)), at - self.centres[name])
@@ -176,18 +176,23 @@ impl Groups {
     pub(crate) fn shift(&mut self, name: usize, world: &mut World<'_>, way: Vec2, turn: f32) {
         let centre = self.centres[name];
         let alone = self.bodies[name].count_ones() < 2;
-        let turned = if alone { Vec2::X } else { crate::turn::turned(Vec2::X, turn) };
+        let right = if alone { Vec2::X } else { turned(Vec2::X, turn) };
         for body in self.bodies_of(name) {
-            let (shape, motion) = (&world.forward.shapes[body], &mut world.motions[body]);
-            motion.centre = if alone {
-                motion.centre + way
-            } else {
-                centre + way + turned.rotate(motion.centre - centre)
-            };
+            let (shape, motion) = (&world.model.shapes[body], &mut world.motions[body]);
+            motion.centre =
+                if alone { motion.centre + way } else { centre + way + right.rotate(motion.centre - centre) };
             motion.rotate(turn, shape);
             world.moved(body);
         }
         self.centres[name] += way;
+    }
+
+    /// Works out what impulses of a contact do to the groups that it acts on.
+    pub(crate) fn prepare(&self, contact: &mut Contact, shapes: &[Shape; 5], motions: &[Motion; 5]) {
+        let names = (self.names[contact.a], self.names[contact.b]);
+        let centres = [self.centres[names.0], self.centres[names.1]];
+        let yielding = [self.yielding[names.0], self.yielding[names.1]];
+        contact.prepare_rigid(names, centres, yielding, shapes, motions);
     }
 
     /// Takes back a share of the overlap at a contact. Returns the gap found before, negative where shapes

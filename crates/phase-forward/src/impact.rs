@@ -6,7 +6,7 @@
 
 use crate::{
     body::{Motion, Shape},
-    manifold::Polygon,
+    polygon::Polygon,
     tuning::{SKIN, SLOP},
     turn::turned,
     wall::Wall,

@@ -1,12 +1,15 @@
 //! Numbers for all pairs of shapes that can touch, in the order in which the original makes their contacts.
 
-use crate::wall::MAX_WALLS;
+use crate::wall::{MAX_WALLS, WallSet};
 
 /// Number of keys: each wall with each body, and each body with each later body.
 pub(crate) const KEYS: usize = 4 * MAX_WALLS + 6;
 
 /// The six pairs of bodies, by key past the walls'.
 pub(crate) const PAIRS: [(usize, usize); 6] = [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)];
+
+/// A set of bodies, one bit each.
+pub(crate) type BodySet = u8;
 
 /// A set of keys, one bit each.
 pub(crate) type KeySet = u64;
@@ -38,4 +41,28 @@ pub(crate) fn descending(mut set: KeySet) -> impl Iterator<Item = usize> {
         set &= !bit(key);
         Some(key)
     })
+}
+
+/// The keys of some walls with a body.
+#[inline]
+pub(crate) fn wall_keys(mut walls: WallSet, body: usize) -> KeySet {
+    let mut keys = 0;
+    while walls != 0 {
+        keys |= bit(wall_key(walls.trailing_zeros() as usize, body));
+        walls &= walls - 1;
+    }
+    keys
+}
+
+/// The bodies that belong to some pairs.
+pub(crate) fn bodies_of(pairs: KeySet) -> BodySet {
+    let mut bodies = 0;
+    if pairs != 0 {
+        for (pair, (a, b)) in PAIRS.into_iter().enumerate() {
+            if pairs & bit(pair_key(pair)) != 0 {
+                bodies |= 1 << a | 1 << b;
+            }
+        }
+    }
+    bodies
 }

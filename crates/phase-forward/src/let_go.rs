@@ -27,10 +27,10 @@ impl World<'_> {
             if let Some(held) = let_go {
                 self.let_go |= bit(pair_key(pair_of(agent, held)));
             }
-            for object in AGENT_COUNT..self.forward.count {
+            for object in AGENT_COUNT..self.model.count {
                 let (holder, held) = (&self.motions[agent], &self.motions[object]);
-                let reach = self.forward.shapes[agent].radius + self.forward.shapes[object].radius;
-                let between = held.centre - holder.place(Vec2::new(0.0, self.forward.shapes[agent].origin));
+                let reach = self.model.shapes[agent].radius + self.model.shapes[object].radius;
+                let between = held.centre - holder.place(Vec2::new(0.0, self.model.shapes[agent].origin));
                 if between.length_squared() > (reach + CLEAR) * (reach + CLEAR)
                     || state.contacts.touching(Entity::agent(agent), Entity::from_index(object))
                 {
@@ -45,7 +45,7 @@ impl World<'_> {
         }
         if self.let_go != 0 {
             self.apart |= self.let_go;
-            for body in 0..self.forward.count {
+            for body in 0..self.model.count {
                 let motion = &self.motions[body];
                 self.let_go_at[body] = motion.centre;
                 self.let_go_room[body] = CLEAR + CLEAR_SUBSTEPS * H * motion.velocity.length();

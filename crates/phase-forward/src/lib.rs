@@ -59,10 +59,13 @@
 #![deny(missing_docs)]
 
 mod body;
+mod clip;
 mod coarse;
+mod collide;
 mod contact;
 mod contain;
 mod continuous;
+mod finish;
 mod forward;
 mod group;
 mod impact;
@@ -70,9 +73,13 @@ mod key;
 mod let_go;
 mod manifold;
 mod memory;
+mod model;
+mod narrow;
 mod outline;
+mod polygon;
 mod reach;
 mod substep;
+mod touching;
 mod tuning;
 mod turn;
 mod wall;

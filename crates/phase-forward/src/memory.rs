@@ -3,9 +3,10 @@
 use crate::{
     body::{Motion, Shape},
     key::{KEYS, KeySet, PAIRS, bit, descending, pair_key, pair_of, wall_key},
-    manifold::Polygon,
+    polygon::Polygon,
+    touching::Touching,
     tuning::SKIN,
-    world::{Impulses, Touching, World},
+    world::{Impulses, World},
 };
 use phase_model::{AGENT_COUNT, Vec2};
 
@@ -43,8 +44,8 @@ impl Memory {
             moved: 0,
             latest_grip: 1,
         };
-        for body in 0..world.forward.count {
-            let (min, max) = bounds(&world.forward.shapes[body], &world.motions[body]);
+        for body in 0..world.model.count {
+            let (min, max) = bounds(&world.model.shapes[body], &world.motions[body]);
             memory.boxes[body] = (min - MARGIN, max + MARGIN);
             memory.moved |= 1 << body;
         }
@@ -86,10 +87,10 @@ impl Memory {
 
     /// Draws the boxes of bodies anew that have left theirs, and finds what has come up for contact.
     pub(crate) fn follow(&mut self, world: &World<'_>) {
-        for body in 0..world.forward.count {
+        for body in 0..world.model.count {
             let (centre, angle, right) = world.starts[body];
             let before = Motion { centre, angle, right, ..world.motions[body] };
-            self.redraw(&world.forward.shapes[body], body, &before, &world.motions[body]);
+            self.redraw(&world.model.shapes[body], body, &before, &world.motions[body]);
         }
         self.find_new(world);
     }
@@ -97,7 +98,7 @@ impl Memory {
     /// The same for one body, after an impact.
     pub(crate) fn follow_one(&mut self, world: &World<'_>, body: usize) {
         let now = world.motions[body];
-        self.redraw(&world.forward.shapes[body], body, &now, &now);
+        self.redraw(&world.model.shapes[body], body, &now, &now);
     }
 
     /// Brings up for contact whatever overlaps the boxes drawn anew.
@@ -108,10 +109,10 @@ impl Memory {
         let held = held_pairs(world);
         for key in 0..KEYS {
             let moved = if key < pair_key(0) {
-                key / 4 < world.forward.wall_count && self.moved & 1 << (key % 4) != 0
+                key / 4 < world.model.wall_count && self.moved & 1 << (key % 4) != 0
             } else {
                 let (a, b) = PAIRS[key - pair_key(0)];
-                b < world.forward.count && self.moved & (1 << a | 1 << b) != 0
+                b < world.model.count && self.moved & (1 << a | 1 << b) != 0
             };
             if moved && (self.alive | held) & bit(key) == 0 && self.boxes_overlap(world, key) {
                 self.alive |= bit(key);
@@ -137,7 +138,7 @@ impl Memory {
 
     fn boxes_overlap(&self, world: &World<'_>, key: usize) -> bool {
         let ((min_a, max_a), (min_b, max_b)) = if key < pair_key(0) {
-            let wall = &world.forward.walls[key / 4];
+            let wall = &world.model.walls[key / 4];
             debug_assert!(wall_key(key / 4, key % 4) == key);
             ((wall.min - MARGIN, wall.max + MARGIN), self.boxes[key % 4])
         } else {

@@ -1,6 +1,6 @@
 //! What bodies occupy where they are now, worked out once for every pose.
 
-use crate::{manifold::Polygon, substep::BodySet, world::World};
+use crate::{body::Motion, key::BodySet, model::Model, polygon::Polygon};
 use phase_model::{AGENT_COUNT, Vec2};
 
 /// A box with sides along the axes: lower left and upper right corner (u).
@@ -20,40 +20,38 @@ pub(crate) struct Outlines {
 impl Outlines {
     pub(crate) const NONE: Self =
         Self { polygons: [Polygon::NONE; AGENT_COUNT], boxes: [(Vec2::ZERO, Vec2::ZERO); 4], current: 0 };
-}
 
-impl World<'_> {
-    /// Brings the outlines of some bodies up to date.
+    /// Brings those of some bodies up to date.
     #[inline]
-    pub(crate) fn outline(&mut self, bodies: BodySet) {
-        let stale = bodies & !self.outlines.current;
+    pub(crate) fn update(&mut self, bodies: BodySet, model: &Model, motions: &[Motion; 5]) {
+        let stale = bodies & !self.current;
         if stale == 0 {
             return;
         }
-        for body in 0..self.forward.count {
+        for (body, motion) in motions.iter().enumerate().take(model.count) {
             if stale & 1 << body == 0 {
                 continue;
             }
-            let (shape, motion) = (&self.forward.shapes[body], &self.motions[body]);
-            self.outlines.boxes[body] = if body < AGENT_COUNT {
+            let shape = &model.shapes[body];
+            self.boxes[body] = if body < AGENT_COUNT {
                 let polygon = Polygon::new(shape, motion);
-                self.outlines.polygons[body] = polygon;
+                self.polygons[body] = polygon;
                 polygon.bounds()
             } else {
                 (motion.centre - shape.radius, motion.centre + shape.radius)
             };
         }
-        self.outlines.current |= stale;
+        self.current |= stale;
     }
 
     /// Notes that a body has another pose now.
     #[inline]
     pub(crate) fn moved(&mut self, body: usize) {
-        self.outlines.current &= !(1 << body);
+        self.current &= !(1 << body);
     }
 
     /// The same for all bodies.
     pub(crate) fn all_moved(&mut self) {
-        self.outlines.current = 0;
+        self.current = 0;
     }
 }

@@ -3,32 +3,18 @@
 use crate::{
     body::{STATIC, Twist},
     contact::Contact,
-    key::{KeySet, PAIRS, bit, descending, pair_key},
-    manifold::{self, Manifold, Polygon},
-    reach,
+    key::BodySet,
+    touching::{MAX_CONTACTS, Touching},
     tuning::{CORRECTION, H, POSITION_ITERATIONS, SETTLED_IMPULSE, SLOP},
-    wall::MAX_WALLS,
     weld::Weld,
-    world::{MAX_CONTACTS, Touching, World},
+    world::World,
 };
 use phase_model::AGENT_COUNT;
-
-/// A set of bodies, one bit each.
-pub(crate) type BodySet = u8;
 
 /// A joint: ground friction of one of four bodies (0 to 3), or the weld of an agent (4 and 5).
 type Joint = u8;
 
 impl World<'_> {
-    /// Finds which of the pairs of shapes in a set touch, newest first. The outlines of the bodies must be
-    /// up to date.
-    pub(crate) fn contacts(&self, candidates: KeySet) -> impl Iterator<Item = Contact> {
-        descending(candidates).filter_map(|key| {
-            let (bodies, manifold) = self.collide(key, &self.outlines.polygons);
-            (manifold.count > 0).then(|| Contact::new(key as u8, bodies, manifold))
-        })
-    }
-
     /// Applies forces and solves all given bodies, group by group.
     pub(crate) fn solve(&mut self, members: BodySet, touching: &mut Touching) {
         let mut welds: [Option<Weld>; AGENT_COUNT] = [None; AGENT_COUNT];
@@ -37,7 +23,7 @@ impl World<'_> {
         for (agent, weld) in welds.iter_mut().enumerate() {
             if let (Some(grip), Some(held)) = (&self.grips[agent], self.held(agent)) {
                 linked |= 1 << agent | 1 << held;
-                *weld = Some(Weld::new(agent, grip, &self.forward.shapes, self.impulses.welds[agent]));
+                *weld = Some(Weld::new(agent, grip, &self.model.shapes, self.impulses.welds[agent]));
             }
         }
         for contact in touching.found() {
@@ -48,11 +34,11 @@ impl World<'_> {
             }
         }
         let mut still: BodySet = 0;
-        for body in 0..self.forward.count {
+        for body in 0..self.model.count {
             if members & 1 << body == 0 {
                 continue;
             }
-            let (shape, motion) = (&self.forward.shapes[body], &mut self.motions[body]);
+            let (shape, motion) = (&self.model.shapes[body], &mut self.motions[body]);
             self.starts[body] = (motion.centre, motion.angle, motion.right);
             still |= u8::from(motion.is_still()) << body;
             if body < AGENT_COUNT {
@@ -69,7 +55,7 @@ impl World<'_> {
             }
         }
         let mut done = !(members & linked);
-        for seed in (0..self.forward.count).rev() {
+        for seed in (0..self.model.count).rev() {
             if done & 1 << seed == 0 {
                 let island = self.island(seed, touching.found(), &welds, &mut done);
                 self.solve_island(&island, &mut touching.contacts, &mut welds);
@@ -80,7 +66,7 @@ impl World<'_> {
                 *impulse = weld.impulse;
             }
         }
-        for body in 0..self.forward.count {
+        for body in 0..self.model.count {
             if members & 1 << body == 0 {
                 continue;
             }
@@ -92,60 +78,6 @@ impl World<'_> {
             }
         }
         touching.keep();
-    }
-
-    /// Those of the given bodies that the coming substep can change: all but those at ease that are near
-    /// nobody else. The others are at ease no more.
-    pub(crate) fn busy(&mut self, members: BodySet, pairs: KeySet) -> BodySet {
-        let mut busy = members & !self.at_ease;
-        if busy == members {
-            return busy;
-        }
-        let mut before = 0;
-        while busy != before {
-            before = busy;
-            let mut wake = |both: BodySet| {
-                if busy & both != 0 {
-                    busy |= both;
-                }
-            };
-            for (pair, (a, b)) in PAIRS.into_iter().enumerate() {
-                if pairs & bit(pair_key(pair)) != 0 {
-                    wake(1 << a | 1 << b);
-                }
-            }
-            for agent in 0..AGENT_COUNT {
-                if let Some(held) = self.held(agent) {
-                    wake(1 << agent | 1 << held);
-                }
-            }
-        }
-        self.at_ease &= !busy;
-        busy
-    }
-
-    /// The contact of a pair of shapes.
-    pub(crate) fn collide(&self, key: usize, polygons: &[Polygon; 2]) -> ((usize, usize), Manifold) {
-        let (motions, shapes) = (&self.motions, &self.forward.shapes);
-        if key < pair_key(0) {
-            let (wall, body) = (&self.forward.walls[key / 4], key % 4);
-            let manifold = if body < AGENT_COUNT {
-                manifold::wall_agent(wall, &motions[body], &polygons[body])
-            } else {
-                manifold::wall_disc(wall, &motions[body], shapes[STATIC].skin + shapes[body].skin)
-            };
-            return ((STATIC, body), manifold);
-        }
-        let (a, b) = PAIRS[key - 4 * MAX_WALLS];
-        let skins = shapes[a].skin + shapes[b].skin;
-        let manifold = if b < AGENT_COUNT {
-            manifold::agents((&motions[a], &polygons[a]), (&motions[b], &polygons[b]))
-        } else if a < AGENT_COUNT {
-            manifold::agent_disc(&shapes[a], &motions[a], &motions[b], skins)
-        } else {
-            manifold::discs(&motions[a], &motions[b], skins)
-        };
-        ((a, b), manifold)
     }
 
     /// Everything that hangs together with a body by contacts and grips, in the order of solution.
@@ -206,7 +138,7 @@ impl World<'_> {
 
     /// Solves a body that touches nothing but walls.
     fn solve_alone(&mut self, body: usize, all: &mut [Contact]) {
-        let shapes = &self.forward.shapes;
+        let shapes = &self.model.shapes;
         let (shape, motion) = (&shapes[body], &mut self.motions[body]);
         let mut twist = motion.twist();
         let mut ground = self.impulses.ground[body];
@@ -246,7 +178,7 @@ impl World<'_> {
         all: &mut [Contact; MAX_CONTACTS],
         welds: &mut [Option<Weld>; AGENT_COUNT],
     ) {
-        let shapes = &self.forward.shapes;
+        let shapes = &self.model.shapes;
         let motions = &mut self.motions;
         let bodies = &island.bodies[..island.body_count];
         let joints = &island.joints[..island.joint_count];
@@ -311,18 +243,6 @@ impl World<'_> {
                 break;
             }
         }
-    }
-
-    /// The pairs of bodies that touch as they are now, among the given keys.
-    pub(crate) fn touching(&mut self, candidates: KeySet) -> KeySet {
-        let pairs = candidates >> pair_key(0) << pair_key(0);
-        if pairs == 0 {
-            return 0;
-        }
-        self.outline(reach::bodies_of(pairs));
-        descending(pairs)
-            .filter(|&key| self.collide(key, &self.outlines.polygons).1.count > 0)
-            .fold(0, |set, key| set | bit(key))
     }
 }
 

@@ -30,3 +30,5 @@ pub(crate) const LONGEST_WAY: f32 = 2.0;
 pub(crate) const GREATEST_TURN: f32 = 0.5 * core::f32::consts::PI;
 /// Most impacts on one wall that one substep resolves.
 pub(crate) const MOST_IMPACTS: u8 = 8;
+/// Least distance of a centre of mass from the boundary (u).
+pub(crate) const BOUNDARY_MARGIN: f32 = 0.01;

@@ -1,9 +1,6 @@
 //! Walls: the arena's boundary, the inner walls, and the stray points at their ends.
 
-use crate::{
-    key::{KeySet, bit, wall_key},
-    tuning::SKIN,
-};
+use crate::tuning::SKIN;
 use phase_model::{Segment, Vec2, arena};
 use wide::f32x4;
 
@@ -94,17 +91,6 @@ impl Boxes {
         }
         near
     }
-}
-
-/// The keys of some walls with a body.
-#[inline]
-pub(crate) fn keys(mut walls: WallSet, body: usize) -> KeySet {
-    let mut keys = 0;
-    while walls != 0 {
-        keys |= bit(wall_key(walls.trailing_zeros() as usize, body));
-        walls &= walls - 1;
-    }
-    keys
 }
 
 /// All pieces of wall, in the order in which the original creates them, and their number.

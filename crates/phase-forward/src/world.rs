@@ -1,106 +1,15 @@
 //! The bodies at work: a state taken apart for solving, and put together again.
 
 use crate::{
-    Forward,
     body::Motion,
-    contact::Contact,
-    contain::MARGIN,
-    key::KeySet,
+    key::{BodySet, KeySet},
+    model::Model,
     outline::Outlines,
-    tuning::{H, VELOCITY_ITERATIONS},
+    tuning::{BOUNDARY_MARGIN, H, VELOCITY_ITERATIONS},
     wall::WallSet,
     weld::held_body,
 };
 use phase_model::{AGENT_COUNT, Action, Body, Grip, State, Vec2, arena};
-
-/// Most contacts that are solved at once; more than four bodies between walls ever have.
-pub(crate) const MAX_CONTACTS: usize = 16;
-
-/// What is kept of a contact for the next substep.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Trace {
-    pub(crate) key: u8,
-    pub(crate) count: u8,
-    pub(crate) names: [u16; 2],
-    pub(crate) impulses: [f32; 2],
-}
-
-impl Trace {
-    pub(crate) const NONE: Self = Self { key: u8::MAX, count: 0, names: [0; 2], impulses: [0.0; 2] };
-}
-
-/// The contacts found in a substep, newest first, and what is kept of those of the substep before.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Touching {
-    pub(crate) contacts: [Contact; MAX_CONTACTS],
-    pub(crate) count: usize,
-    pub(crate) traces: Traces,
-}
-
-impl Touching {
-    pub(crate) const NONE: Self =
-        Self { contacts: [Contact::NONE; MAX_CONTACTS], count: 0, traces: Traces::NONE };
-
-    /// The contacts found.
-    pub(crate) fn found(&self) -> &[Contact] {
-        &self.contacts[..self.count]
-    }
-
-    /// The contacts found, to be solved.
-    pub(crate) fn found_mut(&mut self) -> &mut [Contact] {
-        &mut self.contacts[..self.count]
-    }
-
-    /// Takes over what has been found now, with the impulses the points had in the last substep. Drops what is
-    /// too many.
-    pub(crate) fn replace(&mut self, found: impl Iterator<Item = Contact>) {
-        self.count = 0;
-        for (place, mut contact) in self.contacts.iter_mut().zip(found) {
-            self.traces.recall(&mut contact);
-            *place = contact;
-            self.count += 1;
-        }
-    }
-
-    /// Keeps what the next substep needs.
-    pub(crate) fn keep(&mut self) {
-        self.traces.count = self.count;
-        for (trace, contact) in self.traces.list.iter_mut().zip(&self.contacts[..self.count]) {
-            *trace = Trace {
-                key: contact.key,
-                count: contact.manifold.count as u8,
-                names: contact.manifold.names,
-                impulses: contact.impulses,
-            };
-        }
-    }
-}
-
-/// What is kept of all contacts of a substep.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Traces {
-    list: [Trace; MAX_CONTACTS],
-    count: usize,
-}
-
-impl Traces {
-    pub(crate) const NONE: Self = Self { list: [Trace::NONE; MAX_CONTACTS], count: 0 };
-
-    /// Gives a contact's points the impulses they had.
-    fn recall(&self, contact: &mut Contact) {
-        let Some(trace) = self.list[..self.count].iter().find(|trace| trace.key == contact.key) else {
-            return;
-        };
-        for point in 0..contact.manifold.count {
-            for old in 0..usize::from(trace.count) {
-                if trace.names[old] == contact.manifold.names[point] {
-                    contact.impulses[point] = trace.impulses[old];
-                    break;
-                }
-            }
-        }
-    }
-}
 
 /// Impulses of the last substep other than contacts', with which the next starts.
 #[derive(Clone, Copy, Debug)]
@@ -117,7 +26,7 @@ impl Impulses {
 
 /// Everything that one step works on.
 pub(crate) struct World<'a> {
-    pub(crate) forward: &'a Forward,
+    pub(crate) model: &'a Model,
     /// The four bodies and the one that stands for all walls.
     pub(crate) motions: [Motion; 5],
     /// Where each body was at the start of the substep: centre, angle, unit vector to its right.
@@ -149,25 +58,26 @@ pub(crate) struct World<'a> {
 
 impl<'a> World<'a> {
     /// Takes a state apart. Numbers that make no sense are mended, and centres of mass brought into the arena.
-    pub(crate) fn new(forward: &'a Forward, state: &State, actions: [Action; AGENT_COUNT]) -> Self {
+    pub(crate) fn new(model: &'a Model, state: &State, actions: [Action; AGENT_COUNT]) -> Self {
         let mut motions = [Motion::STILL; 5];
-        for (index, motion) in motions.iter_mut().enumerate().take(forward.count) {
+        for (index, motion) in motions.iter_mut().enumerate().take(model.count) {
             let mut body = state.bodies[index];
             if !is_sane(&body) {
                 body = mended(body);
             }
             *motion = if index < AGENT_COUNT {
-                Motion::of_agent(&body, &forward.shapes[index])
+                Motion::of_agent(&body, &model.shapes[index])
             } else {
                 Motion::of_object(&body)
             };
             if !arena::contains(motion.centre) {
-                motion.centre = motion.centre.clamp(arena::MIN + MARGIN, arena::MAX - MARGIN);
+                motion.centre =
+                    motion.centre.clamp(arena::MIN + BOUNDARY_MARGIN, arena::MAX - BOUNDARY_MARGIN);
             }
         }
         let grips = [0, 1].map(|agent| Some(mended_grip(state.grips[agent]?, agent, &motions)));
         Self {
-            forward,
+            model,
             motions,
             starts: [(Vec2::ZERO, 0.0, Vec2::X); 4],
             outlines: Outlines::NONE,
@@ -190,22 +100,22 @@ impl<'a> World<'a> {
     /// The held pair of each agent, as bodies.
     pub(crate) fn held(&self, agent: usize) -> Option<usize> {
         let body = held_body(self.grips[agent].as_ref()?);
-        (body < self.forward.count).then_some(body)
+        (body < self.model.count).then_some(body)
     }
 
     /// How far what an agent holds is from where it holds it (u).
     pub(crate) fn stretch(&self, agent: usize) -> Option<f32> {
         let (grip, held) = (self.grips[agent].as_ref()?, self.held(agent)?);
-        let (shape, holder) = (&self.forward.shapes[agent], &self.motions[agent]);
-        let reach = grip.side.direction() * (shape.radius + self.forward.shapes[held].radius);
+        let (shape, holder) = (&self.model.shapes[agent], &self.motions[agent]);
+        let reach = grip.side.direction() * (shape.radius + self.model.shapes[held].radius);
         let place = holder.place(reach + Vec2::new(0.0, shape.origin));
         Some(place.distance(self.motions[held].centre))
     }
 
     /// Writes the bodies and grips into a state, whose contacts stay as they are.
     pub(crate) fn write(&self, state: &mut State) {
-        for index in 0..self.forward.count {
-            state.bodies[index] = self.motions[index].body(&self.forward.shapes[index]);
+        for index in 0..self.model.count {
+            state.bodies[index] = self.motions[index].body(&self.model.shapes[index]);
         }
         state.grips = self.grips;
     }
@@ -217,7 +127,7 @@ impl<'a> World<'a> {
         for (agent, let_go) in let_go.iter_mut().enumerate() {
             match self.actions[agent] {
                 Action::Attach => {
-                    if let Some((object, side)) = state.attachable(&self.forward.physique, agent) {
+                    if let Some((object, side)) = state.attachable(&self.model.physique, agent) {
                         // Not the state's angles, which may have had to be mended.
                         let relative_angle =
                             self.motions[AGENT_COUNT + object].angle - self.motions[agent].angle;
@@ -234,6 +144,23 @@ impl<'a> World<'a> {
             }
         }
         let_go
+    }
+
+    /// Brings the outlines of some bodies up to date.
+    #[inline]
+    pub(crate) fn outline(&mut self, bodies: BodySet) {
+        self.outlines.update(bodies, self.model, &self.motions);
+    }
+
+    /// Notes that a body has another pose now.
+    #[inline]
+    pub(crate) fn moved(&mut self, body: usize) {
+        self.outlines.moved(body);
+    }
+
+    /// The same for all bodies.
+    pub(crate) fn all_moved(&mut self) {
+        self.outlines.all_moved();
     }
 }
 

@@ -5,8 +5,11 @@
 //! knows of doors, widths and strengths.
 
 use crate::{
+    Subgoal,
+    express::express,
+    flight,
     plan::{self, Plan},
-    routes::Gaps,
+    routes::{Gaps, Routes, point_in},
     search,
     situation::{Situation, Spot, obstruct},
     task::{Node, Task},
@@ -53,7 +56,7 @@ fn bring_about(situation: &Situation<'_>, agent: usize, goal: Goal) -> Plan {
     let task = lone_task(situation, agent, goal, None);
     let subject = goal.subject();
     if let Some(plan) = search::solve(&task, Node::start(situation)) {
-        let mut plan = plan::express(&task, &plan, agent);
+        let mut plan = express(&task, &plan, agent);
         if let Entity::Object(object) = subject {
             // Against the other's will, things stay only where they are held.
             plan.subgoals.retain(|&subgoal| subgoal != plan::not(Predicate::Attach(agent as u8, object)));
@@ -69,7 +72,7 @@ fn bring_about(situation: &Situation<'_>, agent: usize, goal: Goal) -> Plan {
 
 fn evade_or_pursue(situation: &Situation<'_>, agent: usize, sign: Sign) -> (f32, Plan) {
     if sign == Sign::Positive {
-        return (0.0, crate::flight::plan(situation, agent));
+        return (0.0, flight::plan(situation, agent));
     }
     let here = situation.state.position(Entity::agent(agent));
     let there = situation.state.position(Entity::agent(1 - agent));
@@ -117,11 +120,11 @@ fn block_doors(
     let mut candidates = Vec::new();
     let mut room = room_of(from);
     for &(slot, _) in route.doors() {
-        let next = crate::Routes::beyond(usize::from(slot), room);
+        let next = Routes::beyond(usize::from(slot), room);
         let gap = situation.routes.gaps().0[usize::from(slot)];
         room = next;
         let Some((low, high)) = gap else { continue };
-        let middle = crate::routes::point_in(slot, 0.5 * (low + high));
+        let middle = point_in(slot, 0.5 * (low + high));
         let gaps = closed_by(situation, agent, victim, middle);
         let effect = other_cost(situation, victim, goal, hands_free(situation, agent), Some(gaps));
         let own_way = way(situation, agent, middle);
@@ -252,7 +255,7 @@ fn way(situation: &Situation<'_>, agent: usize, to: Vec2) -> f32 {
     situation.routes.cost(from, to, situation.width(agent, None), situation.gaps(agent, 0b11))
 }
 
-fn approach_rooms(situation: &Situation<'_>, agent: usize, to: Vec2, subgoals: &mut Vec<crate::Subgoal>) {
+fn approach_rooms(situation: &Situation<'_>, agent: usize, to: Vec2, subgoals: &mut Vec<Subgoal>) {
     let from = situation.state.position(Entity::agent(agent));
     let width = situation.width(agent, None);
     if let Some(route) = situation.routes.best(from, to, width, situation.gaps(agent, 0b11)) {
@@ -260,6 +263,6 @@ fn approach_rooms(situation: &Situation<'_>, agent: usize, to: Vec2, subgoals: &
     }
 }
 
-fn let_go_first(situation: &Situation<'_>, agent: usize) -> Vec<crate::Subgoal> {
+fn let_go_first(situation: &Situation<'_>, agent: usize) -> Vec<Subgoal> {
     plan::let_go(situation, agent).subgoals
 }

@@ -39,9 +39,11 @@
 #![deny(missing_docs)]
 
 pub mod aside;
+mod express;
 pub mod flight;
 pub mod hindrance;
 pub mod plan;
+pub mod planner;
 pub mod routes;
 pub mod search;
 pub mod situation;
@@ -49,7 +51,8 @@ pub mod subgoal;
 pub mod task;
 pub mod value;
 
-pub use plan::{Plan, Planner};
+pub use plan::Plan;
+pub use planner::Planner;
 pub use routes::{Gaps, Route, Routes};
 pub use situation::{Situation, Spot};
 pub use subgoal::Subgoal;

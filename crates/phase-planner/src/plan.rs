@@ -1,24 +1,12 @@
-//! One agent's plan from one physical state.
+//! An agent's plan, and the parts that plans of all kinds are made of.
 
 use crate::{
-    Subgoal, aside, flight, hindrance,
+    Subgoal,
     routes::{Route, Routes},
-    search::{self, SymbolicPlan},
-    situation::{Situation, Spot},
-    task::{Node, Operator, Task},
+    situation::Situation,
 };
-use phase_model::{
-    AGENT_COUNT, Attitude, Entity, EntitySet, Goal, Layout, Physique, Sign, State, layout::room_of,
-};
-use phase_predicates::{Literal, Place, Predicate, achieved};
-
-/// What a helper's own travel counts for beside the helpee's: of two ways that are equally short it takes the
-/// one that spares the other.
-const HELPERS_EFFORT: f32 = 0.5;
-
-/// A plan that costs this much contains something nearly impossible (u): see
-/// [`crate::routes::IMPASSABLE_COST`] and the cost of a load too heavy.
-const HOPELESS: f32 = 60.0;
+use phase_model::{AGENT_COUNT, Entity, layout::room_of};
+use phase_predicates::{Literal, Place, Predicate};
 
 /// What an agent means to do, from one possible world.
 #[derive(Clone, PartialEq, Debug)]
@@ -41,143 +29,8 @@ impl Plan {
     }
 }
 
-/// The high-level planner of one agent: what it knows that does not change.
-#[derive(Clone, Debug)]
-pub struct Planner {
-    physique: Physique,
-    routes: Routes,
-    agent: usize,
-    goals: [Goal; AGENT_COUNT],
-    attitude: Attitude,
-}
-
-impl Planner {
-    /// A planner for agent 0 or 1 with both agents' goals, which are common knowledge, and its own attitude
-    /// towards the other.
-    #[must_use]
-    pub fn new(
-        physique: Physique,
-        layout: Layout,
-        agent: usize,
-        goals: [Goal; AGENT_COUNT],
-        attitude: Attitude,
-    ) -> Self {
-        Self { physique, routes: Routes::new(layout), agent, goals, attitude }
-    }
-
-    /// The ways between rooms.
-    #[must_use]
-    pub const fn routes(&self) -> &Routes {
-        &self.routes
-    }
-
-    /// HP(gᵢ, gⱼ, αᵢⱼ, b) of Algorithm 1: the agent's best plan if the world is in this state, of which it
-    /// observes these entities.
-    #[must_use]
-    pub fn plan(&self, state: &State, observed: EntitySet) -> Plan {
-        let situation = Situation::new(&self.physique, &self.routes, state);
-        let own = self.goals[self.agent];
-        let other = self.goals[1 - self.agent];
-        match self.attitude {
-            Attitude::Help => self.help(&situation, other, observed),
-            Attitude::Hinder => hindrance::plan(&situation, self.agent, other),
-            Attitude::Neutral if own.sign() == Sign::Negative => self.avoid(&situation, own),
-            Attitude::Neutral => self.pursue(&situation, own, other, observed),
-        }
-    }
-
-    /// A neutral agent reaches for its own goal by its own means. Only when the other wants the very same, and
-    /// it cannot do it alone, is the other counted on.
-    fn pursue(&self, situation: &Situation<'_>, own: Goal, other: Goal, observed: EntitySet) -> Plan {
-        if let Some(plan) = self.finish(situation, own, observed) {
-            return plan;
-        }
-        let task = Task {
-            situation,
-            goal: own,
-            actors: only(self.agent),
-            effort: [1.0; AGENT_COUNT],
-            allied: own == other,
-            narrowed: None,
-        };
-        let alone = search::solve(&task, Node::start(situation));
-        match alone {
-            Some(plan) if own != other || plan.cost < HOPELESS => express(&task, &plan, self.agent),
-            _ if own == other => self.cooperate(situation, own, 1.0, observed),
-            _ => Plan::STAY,
-        }
-    }
-
-    /// The own part of the cheapest way in which both together reach a goal; the own travel counts for
-    /// `own_effort` beside the other's. Who has no part in it gets out of the other's way.
-    fn cooperate(&self, situation: &Situation<'_>, goal: Goal, own_effort: f32, observed: EntitySet) -> Plan {
-        let mut effort = [1.0; AGENT_COUNT];
-        effort[self.agent] = own_effort;
-        let actors = [true; AGENT_COUNT];
-        let task = Task { situation, goal, actors, effort, allied: true, narrowed: None };
-        let plan = search::solve(&task, Node::start(situation))
-            .map_or(Plan::STAY, |plan| express(&task, &plan, self.agent));
-        // Not being needed is something to be seen.
-        let unseen = [goal.subject(), Entity::agent(1 - self.agent)];
-        match unseen.into_iter().find(|&entity| !observed.contains(entity)) {
-            Some(entity) if plan.subgoals.is_empty() => {
-                // Where one cannot go and look, the hope that all is well elsewhere must cost no less than that.
-                let visit = visit(situation, self.agent, entity);
-                Plan { distance: plan.distance.max(visit.distance), ..visit }
-            }
-            None if plan.subgoals.is_empty() => {
-                let aside = aside::subgoal(situation, self.agent, goal);
-                Plan { subgoals: aside.into_iter().collect(), ..plan }
-            }
-            _ => plan,
-        }
-    }
-
-    /// A helper looks for the cheapest way in which both together reach the other's goal, and does its own
-    /// part of it; if the other does best alone, that part is nothing.
-    fn help(&self, situation: &Situation<'_>, goal: Goal, observed: EntitySet) -> Plan {
-        if goal.sign() == Sign::Negative {
-            return self.help_to_avoid(situation, goal);
-        }
-        if let Some(plan) = self.finish(situation, goal, observed) {
-            return plan;
-        }
-        self.cooperate(situation, goal, HELPERS_EFFORT, observed)
-    }
-
-    /// Who wants to be left alone is helped by keeping away; other negated goals by undoing them.
-    fn help_to_avoid(&self, situation: &Situation<'_>, goal: Goal) -> Plan {
-        match goal {
-            Goal::Touch { .. } => flight::plan(situation, self.agent),
-            _ => hindrance::plan(situation, self.agent, goal.negated()),
-        }
-    }
-
-    /// A negated goal of one's own: flight from the other, or keeping something off a landmark.
-    fn avoid(&self, situation: &Situation<'_>, goal: Goal) -> Plan {
-        match goal {
-            Goal::Touch { .. } => flight::plan(situation, self.agent),
-            _ => hindrance::plan(situation, self.agent, goal.negated()),
-        }
-    }
-
-    /// What to do once the goal holds: let go of whatever is in hand, else nothing. An agent that believes an
-    /// object to be where it should be without observing it goes and looks. `None` while the goal does not hold.
-    fn finish(&self, situation: &Situation<'_>, goal: Goal, observed: EntitySet) -> Option<Plan> {
-        if !achieved(situation.physique, situation.state, goal) {
-            return None;
-        }
-        match goal.subject() {
-            object @ Entity::Object(_) if !observed.contains(object) => {
-                Some(visit(situation, self.agent, object))
-            }
-            _ => Some(let_go(situation, self.agent)),
-        }
-    }
-}
-
 /// The plan of going to an entity to see it.
-fn visit(situation: &Situation<'_>, agent: usize, entity: Entity) -> Plan {
+pub(crate) fn visit(situation: &Situation<'_>, agent: usize, entity: Entity) -> Plan {
     let me = Entity::agent(agent);
     let (from, to) = (situation.state.position(me), situation.state.position(entity));
     let mut subgoals = Vec::new();
@@ -212,85 +65,6 @@ pub(crate) fn let_go(situation: &Situation<'_>, agent: usize) -> Plan {
         subgoals: vec![not(Predicate::Attach(agent as u8, grip.object))],
         distance: 0.0,
     })
-}
-
-/// One agent's own part of a symbolic plan in the words of the subgoal space, and how far all have to travel.
-#[must_use]
-pub(crate) fn express(task: &Task<'_>, plan: &SymbolicPlan, agent: usize) -> Plan {
-    let mut subgoals = Vec::with_capacity(8);
-    let mut distance = 0.0;
-    for (node, operator) in &plan.steps {
-        distance += travel(task, node, *operator);
-        match *operator {
-            Operator::Approach { agent: who, object } if who == agent => {
-                let spot = node.objects[usize::from(object)];
-                go(task, node, agent, None, spot, &mut subgoals);
-                let target = Place::Entity(Entity::Object(object));
-                subgoals.push(is(Predicate::Close(Entity::agent(agent), target)));
-            }
-            Operator::Meet { agent: who } if who == agent => {
-                go(task, node, agent, None, node.agents[1 - agent], &mut subgoals);
-                subgoals.push(is(Predicate::Touch(agent as u8, Entity::agent(1 - agent))));
-            }
-            Operator::Go { agent: who, landmark } if who == agent => {
-                go(task, node, agent, None, Spot::Landmark(landmark), &mut subgoals);
-                subgoals.push(is(Predicate::On(Entity::agent(agent), landmark)));
-            }
-            Operator::Grab { agent: who, object } if who == agent => {
-                subgoals.push(is(Predicate::Attach(agent as u8, object)));
-            }
-            Operator::Carry { object, landmark, .. } if node.holds[agent] == Some(object) => {
-                go(task, node, agent, Some(object), Spot::Landmark(landmark), &mut subgoals);
-                subgoals.push(is(Predicate::On(Entity::Object(object), landmark)));
-            }
-            Operator::Pass { agent: who, object, slot, room } if who == agent => {
-                let near = Routes::beyond(usize::from(slot), usize::from(room)) as u8;
-                go(task, node, agent, Some(object), Spot::Inside { slot, room: near }, &mut subgoals);
-                let place = Place::Landmark(room);
-                subgoals.push(is(Predicate::Close(Entity::Object(object), place)));
-                subgoals.push(not(Predicate::Attach(agent as u8, object)));
-            }
-            Operator::Release { agent: who, object } if who == agent => {
-                subgoals.push(not(Predicate::Attach(agent as u8, object)));
-            }
-            _ => {}
-        }
-    }
-    skip_done(task.situation, &mut subgoals);
-    Plan { subgoals, distance }
-}
-
-/// Distance travelled in one operator, whoever travels (u).
-fn travel(task: &Task<'_>, node: &Node, operator: Operator) -> f32 {
-    match operator {
-        Operator::Approach { agent, object } => {
-            task.distance(node, agent, None, node.objects[usize::from(object)])
-        }
-        Operator::Meet { agent } => task.distance(node, agent, None, node.agents[1 - agent]),
-        Operator::Go { agent, landmark } => task.distance(node, agent, None, Spot::Landmark(landmark)),
-        Operator::Carry { agent, object, landmark } => {
-            task.distance(node, agent, Some(object), Spot::Landmark(landmark))
-        }
-        Operator::Pass { agent, object, slot, room } => {
-            let near = Routes::beyond(usize::from(slot), usize::from(room)) as u8;
-            task.distance(node, agent, Some(object), Spot::Inside { slot, room: near })
-        }
-        Operator::Grab { .. } | Operator::Release { .. } => 0.0,
-    }
-}
-
-/// The rooms on the way to a spot, as Close(·, landmark) subgoals for the agent or for what it carries. Rooms
-/// that the straight way passes through anyway are not worth a subgoal.
-fn go(task: &Task<'_>, node: &Node, agent: usize, held: Option<u8>, spot: Spot, subgoals: &mut Vec<Subgoal>) {
-    let situation = task.situation;
-    let from_spot = held.map_or(node.agents[agent], |object| node.objects[usize::from(object)]);
-    let (from, to) = (situation.position(from_spot), situation.position(spot));
-    let mover = held.map_or(Entity::agent(agent), Entity::Object);
-    let width = situation.width(agent, held.map(usize::from));
-    let gaps = task.gaps(node, agent, held);
-    if let Some(route) = situation.routes.best(from, to, width, &gaps) {
-        rooms(&route, from, to, mover, subgoals);
-    }
 }
 
 /// Close(mover, landmark) for each room of a route but the first.

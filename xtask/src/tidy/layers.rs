@@ -4,9 +4,10 @@ use super::Workspace;
 use std::path::{Path, PathBuf};
 
 /// The crates from the ground floor up. A crate may use those before it, never those after it.
-pub const LAYERS: [&str; 21] = [
+pub const LAYERS: [&str; 22] = [
     "phase-model",
     "phase-statistics",
+    "phase-golden",
     "phase-world",
     "phase-forward",
     "phase-calibration",

@@ -1,0 +1,43 @@
+//! What never changes of a scene: walls, shapes, masses and forces.
+
+use crate::{
+    body::Shape,
+    key::BodySet,
+    wall::{Boxes, MAX_WALLS, Wall, walls},
+};
+use phase_model::{AGENT_COUNT, Physique};
+
+/// The constants of one scene's dynamics, prepared for stepping.
+///
+/// At most two objects and four inner walls count, which is all that PHASE has; more are left out.
+#[derive(Clone, Debug)]
+pub(crate) struct Model {
+    pub(crate) physique: Physique,
+    pub(crate) shapes: [Shape; 5],
+    pub(crate) walls: [Wall; MAX_WALLS],
+    pub(crate) wall_count: usize,
+    pub(crate) boxes: Boxes,
+    pub(crate) count: usize,
+}
+
+impl Model {
+    /// Prepares the dynamics of a scene.
+    pub(crate) fn new(physique: &Physique) -> Self {
+        let mut shapes = [Shape::immovable(); 5];
+        for (shape, agent) in shapes.iter_mut().zip(&physique.agents) {
+            *shape = Shape::agent(agent);
+        }
+        for (shape, radius) in shapes[AGENT_COUNT..4].iter_mut().zip(physique.object_radii) {
+            *shape = Shape::object(radius);
+        }
+        let (walls, wall_count) = walls(&physique.walls);
+        let count = physique.entity_count().min(4);
+        let boxes = Boxes::new(&walls[..wall_count]);
+        Self { physique: physique.clone(), shapes, walls, wall_count, boxes, count }
+    }
+
+    /// All bodies of the scene.
+    pub(crate) fn everyone(&self) -> BodySet {
+        (1 << self.count) - 1
+    }
+}

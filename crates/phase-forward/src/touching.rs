@@ -1,0 +1,92 @@
+//! The contacts of a substep, and what the next substep keeps of them.
+
+use crate::contact::Contact;
+
+/// Most contacts that are solved at once; more than four bodies between walls ever have.
+pub(crate) const MAX_CONTACTS: usize = 16;
+
+/// What is kept of a contact for the next substep.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Trace {
+    pub(crate) key: u8,
+    pub(crate) count: u8,
+    pub(crate) names: [u16; 2],
+    pub(crate) impulses: [f32; 2],
+}
+
+impl Trace {
+    pub(crate) const NONE: Self = Self { key: u8::MAX, count: 0, names: [0; 2], impulses: [0.0; 2] };
+}
+
+/// The contacts found in a substep, newest first, and what is kept of those of the substep before.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Touching {
+    pub(crate) contacts: [Contact; MAX_CONTACTS],
+    pub(crate) count: usize,
+    pub(crate) traces: Traces,
+}
+
+impl Touching {
+    pub(crate) const NONE: Self =
+        Self { contacts: [Contact::NONE; MAX_CONTACTS], count: 0, traces: Traces::NONE };
+
+    /// The contacts found.
+    pub(crate) fn found(&self) -> &[Contact] {
+        &self.contacts[..self.count]
+    }
+
+    /// The contacts found, to be solved.
+    pub(crate) fn found_mut(&mut self) -> &mut [Contact] {
+        &mut self.contacts[..self.count]
+    }
+
+    /// Takes over what has been found now, with the impulses the points had in the last substep. Drops what is
+    /// too many.
+    pub(crate) fn replace(&mut self, found: impl Iterator<Item = Contact>) {
+        self.count = 0;
+        for (place, mut contact) in self.contacts.iter_mut().zip(found) {
+            self.traces.recall(&mut contact);
+            *place = contact;
+            self.count += 1;
+        }
+    }
+
+    /// Keeps what the next substep needs.
+    pub(crate) fn keep(&mut self) {
+        self.traces.count = self.count;
+        for (trace, contact) in self.traces.list.iter_mut().zip(&self.contacts[..self.count]) {
+            *trace = Trace {
+                key: contact.key,
+                count: contact.manifold.count as u8,
+                names: contact.manifold.names,
+                impulses: contact.impulses,
+            };
+        }
+    }
+}
+
+/// What is kept of all contacts of a substep.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Traces {
+    list: [Trace; MAX_CONTACTS],
+    count: usize,
+}
+
+impl Traces {
+    pub(crate) const NONE: Self = Self { list: [Trace::NONE; MAX_CONTACTS], count: 0 };
+
+    /// Gives a contact's points the impulses they had.
+    fn recall(&self, contact: &mut Contact) {
+        let Some(trace) = self.list[..self.count].iter().find(|trace| trace.key == contact.key) else {
+            return;
+        };
+        for point in 0..contact.manifold.count {
+            for old in 0..usize::from(trace.count) {
+                if trace.names[old] == contact.manifold.names[point] {
+                    contact.impulses[point] = trace.impulses[old];
+                    break;
+                }
+            }
+        }
+    }
+}

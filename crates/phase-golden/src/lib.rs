@@ -1,0 +1,30 @@
+//! Golden values: what one seed computes, pinned bit for bit by the ordinary tests.
+//!
+//! A test of any crate builds a [`Golden`] table from names and SHA-256 digests over raw bits ([`Digest`]) and
+//! compares it with a text file beside it. [`fixtures`] holds physical scenes and seeded random actions, so that
+//! both engines are pinned on the same material.
+//!
+//! The key design decision is that a digest covers the bits of every number, not its text or its memory layout:
+//! names and types may change, results may not. The price is that a digest says *that* something changed, not
+//! what; tables therefore have a line for each part.
+//!
+//! This crate is used by tests alone. `cargo xtask golden --bless` rewrites the files and prints what changed.
+//!
+//! ```
+//! use phase_golden::{Digest, fixtures};
+//!
+//! let (physique, state) = &fixtures::scenes()[0];
+//! let mut digest = Digest::new();
+//! digest.state(physique, state);
+//! assert_eq!(digest.hex().len(), 64);
+//! ```
+
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+
+pub mod digest;
+pub mod fixtures;
+pub mod table;
+
+pub use digest::Digest;
+pub use table::{BLESS, Golden};
