@@ -52,7 +52,7 @@ pub fn run(arguments: &Simulate) -> Result<(), CliError> {
     drop(production);
     let Some(pairs) = made else { return Err(CliError::Interrupted(out.clone())) };
     let summary = Summary::new(run, pairs);
-    atomic::write(&out.join(SUMMARY_FILE), summary.to_json().as_bytes())?;
+    summary.write(&out.join(SUMMARY_FILE))?;
     folder.finish()?;
     tell(summary::table(&summary.kinds).trim_end());
     tell(format!("{} simulated events in {}", summary.events.len(), out.display()));

@@ -18,7 +18,7 @@ pub fn run(arguments: &Splits) -> Result<(), CliError> {
         (Some(file), _) => {
             let parts = splits::make(&items, arguments.seed);
             let list = SplitList::of(&items, &parts);
-            atomic::write(file, list.to_json().as_bytes()).map_err(CliError::Output)?;
+            list.write(file).map_err(CliError::Output)?;
             tell(format!("{} made", file.display()));
             parts
         }

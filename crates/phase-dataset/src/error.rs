@@ -1,6 +1,9 @@
 //! What can be wrong with a file, in one plain sentence each.
 
-use std::{io, path::PathBuf};
+use std::{
+    io,
+    path::{Path, PathBuf},
+};
 use thiserror::Error;
 
 /// A file that cannot be used, and why. The text names the file first.
@@ -140,6 +143,14 @@ pub struct WriteError {
     /// The system's answer.
     #[source]
     pub source: io::Error,
+}
+
+impl WriteError {
+    /// A file whose contents cannot be written as JSON.
+    #[must_use]
+    pub fn json(path: &Path, error: serde_json::Error) -> Self {
+        Self { path: path.to_owned(), action: "encode the file as JSON", source: error.into() }
+    }
 }
 
 /// The system's answer in words, without its number.

@@ -1,8 +1,8 @@
 //! `manifest.json`: what a dataset holds, how it was made, and the checksum of every file.
 
 use crate::{
-    FileError, Problem,
-    acceptance::Acceptance,
+    FileError, Problem, WriteError,
+    acceptance::Acceptance, atomic,
     checksum::FileEntry,
     json, phase_events,
     splits::{Item, Split},
@@ -190,12 +190,12 @@ impl Manifest {
         })
     }
 
-    /// The manifest as a file's text.
-    #[must_use]
-    pub fn to_json(&self) -> String {
-        // Writing plain data of ours to a string cannot fail.
-        let text = serde_json::to_string_pretty(self).unwrap_or_default();
-        format!("{text}\n")
+    /// Writes the manifest whole or not at all.
+    ///
+    /// # Errors
+    /// If it cannot be written as JSON, or the file cannot be written.
+    pub fn write(&self, path: &Path) -> Result<(), WriteError> {
+        atomic::write_json(path, self)
     }
 
     /// What of each event decides which part of the dataset it may belong to, in the events' order.

@@ -32,9 +32,8 @@ impl Record {
     /// Writes the record whole or not at all.
     ///
     /// # Errors
-    /// If the file cannot be written.
+    /// If the record cannot be written as JSON, or the file cannot be written.
     pub fn save(&self, path: &Path) -> Result<(), WriteError> {
-        // Plain data of ours always has a JSON form.
-        atomic::write(path, serde_json::to_string(self).unwrap_or_default().as_bytes())
+        atomic::write_json_line(path, self)
     }
 }

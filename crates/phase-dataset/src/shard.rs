@@ -1,6 +1,6 @@
 //! `shard.json`: one part of a dataset that is made in several places.
 
-use crate::{FileError, Problem, json, phase_events, record::Record};
+use crate::{FileError, Problem, WriteError, atomic, json, phase_events, record::Record};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::path::Path;
@@ -75,11 +75,12 @@ impl Shard {
         Ok(shard)
     }
 
-    /// The shard as a file's text.
-    #[must_use]
-    pub fn to_json(&self) -> String {
-        // Writing plain data of ours to a string cannot fail.
-        format!("{}\n", serde_json::to_string(self).unwrap_or_default())
+    /// Writes the shard whole or not at all.
+    ///
+    /// # Errors
+    /// If it cannot be written as JSON, or the file cannot be written.
+    pub fn write(&self, path: &Path) -> Result<(), WriteError> {
+        atomic::write_json_line(path, self)
     }
 }
 

@@ -1,7 +1,7 @@
 //! `phase-splits/1`: a split as lists of ids.
 
 use crate::{
-    FileError, Problem, json, phase_events,
+    FileError, Problem, WriteError, atomic, json, phase_events,
     splits::{Item, Split},
 };
 use serde::{Deserialize, Serialize};
@@ -72,11 +72,12 @@ impl SplitList {
         }
     }
 
-    /// The list as a file's text.
-    #[must_use]
-    pub fn to_json(&self) -> String {
-        // Writing plain data of ours to a string cannot fail.
-        format!("{}\n", serde_json::to_string_pretty(self).unwrap_or_default())
+    /// Writes the list whole or not at all.
+    ///
+    /// # Errors
+    /// If it cannot be written as JSON, or the file cannot be written.
+    pub fn write(&self, path: &Path) -> Result<(), WriteError> {
+        atomic::write_json(path, self)
     }
 }
 

@@ -105,7 +105,7 @@ impl Task for Goals {
         let (answer, details, cpu_seconds, watched) = match &self.answers {
             Answers::Given(given) => (given.answer(event)?, Value::Null, None, Vec::new()),
             Answers::Method(method) => {
-                let observed = recording.observed().map_err(|error| MethodError(error.to_string()))?;
+                let observed = recording.observed().map_err(MethodError::new)?;
                 let begun = ThreadTime::now();
                 let judged = judge(method.as_ref(), &observed, seed, tick)?;
                 let cpu_seconds = begun.elapsed().as_secs_f64();
@@ -130,9 +130,9 @@ impl Task for Goals {
         run: &Value,
         subject: Subject<'_>,
         events: &[RecognisedEvent],
-    ) -> Option<(Value, Document)> {
+    ) -> Option<serde_json::Result<(Value, Document)>> {
         let summary = Summary::of(events, subject.seed)?;
-        Some((results::goals(run, &summary, events), evaluation::goals(subject, &summary)))
+        Some(results::goals(run, &summary, events).map(|results| (results, evaluation::goals(subject, &summary))))
     }
 }
 
@@ -143,7 +143,7 @@ fn judge(
     tick: Tick<'_>,
 ) -> Result<Option<(Answer, Value)>, MethodError> {
     let Some((judgement, details)) = method.judge(observed, seed, tick)? else { return Ok(None) };
-    let answer = Answer::of(&judgement).map_err(|error| MethodError(format!("the method's {error}")))?;
+    let answer = Answer::of(&judgement)?;
     Ok(Some((answer, details)))
 }
 

@@ -113,7 +113,7 @@ impl Task for Trajectories {
         seed: u64,
         tick: Tick<'_>,
     ) -> Result<Option<ForecastEvent>, MethodError> {
-        let observed = recording.observed().map_err(|error| MethodError(error.to_string()))?;
+        let observed = recording.observed().map_err(MethodError::new)?;
         let truth: Forecast = observed.entities().map(|entity| path(&observed, entity.index())).collect();
         let steps = truth.first().map_or(0, Vec::len);
         let (forecast, details, cpu_seconds) = match &self.answers {
@@ -127,7 +127,7 @@ impl Task for Trajectories {
             }
         };
         let [agents, entities] =
-            Errors::of(&forecast, &truth).map_err(|error| MethodError(error.to_string()))?;
+            Errors::of(&forecast, &truth)?;
         Ok(Some(ForecastEvent {
             id: event.id.clone(),
             kind: recording.scene.kind,
@@ -149,9 +149,9 @@ impl Task for Trajectories {
         run: &Value,
         subject: Subject<'_>,
         events: &[ForecastEvent],
-    ) -> Option<(Value, Document)> {
+    ) -> Option<serde_json::Result<(Value, Document)>> {
         let summary = Summary::of(events, subject.seed)?;
-        Some((results::trajectories(run, &summary, events), evaluation::trajectories(subject, &summary)))
+        Some(results::trajectories(run, &summary, events).map(|results| (results, evaluation::trajectories(subject, &summary))))
     }
 }
 

@@ -63,7 +63,7 @@ pub fn complete(
     describe(out, &mut manifest, CARD_FILE, &text)?;
     let text = croissant(&manifest, card::about());
     describe(out, &mut manifest, CROISSANT_FILE, &text)?;
-    atomic::write(&out.join(MANIFEST_FILE), manifest.to_json().as_bytes())?;
+    manifest.write(&out.join(MANIFEST_FILE))?;
     Ok(manifest)
 }
 

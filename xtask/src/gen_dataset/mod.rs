@@ -66,7 +66,7 @@ pub fn run(arguments: &GenDataset) -> Result<(), CliError> {
         let slots: Vec<Record> = records().collect();
         let (format, whole) = (SHARD_FORMAT.into(), plan.whole());
         let shard = Shard { format, shard, of, whole, slots };
-        atomic::write(&out.join(SHARD_FILE), shard.to_json().as_bytes())?;
+        shard.write(&out.join(SHARD_FILE))?;
         folder.finish()?;
         tell(format!("{} events in {}; merge all {of} shards with merge", indices.len(), out.display()));
         return Ok(());

@@ -11,7 +11,7 @@ pub use comparison::{AgentComparison, Comparison, Measures, Pair, Source};
 pub use quartiles::Quartiles;
 pub use rows::{KindRow, Spreads, tabulate};
 
-use crate::{FileError, Problem, json, phase_events};
+use crate::{FileError, Problem, WriteError, atomic, json, phase_events};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::path::Path;
@@ -56,12 +56,12 @@ impl Summary {
             .map_err(|error| fail(Problem::Shape { what: "summary", rule: error.to_string() }))
     }
 
-    /// The summary as a file's text.
-    #[must_use]
-    pub fn to_json(&self) -> String {
-        // Writing plain data of ours to a string cannot fail.
-        let text = serde_json::to_string_pretty(self).unwrap_or_default();
-        format!("{text}\n")
+    /// Writes the summary whole or not at all.
+    ///
+    /// # Errors
+    /// If it cannot be written as JSON, or the file cannot be written.
+    pub fn write(&self, path: &Path) -> Result<(), WriteError> {
+        atomic::write_json(path, self)
     }
 
     /// Checks that every file is there and unchanged.

@@ -89,7 +89,7 @@ fn a_summary_is_read_as_it_was_written() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("summary.json");
     let summary = Summary::new(json!({"seed": 1}), example());
-    fs::write(&path, summary.to_json()).expect("written");
+    summary.write(&path).expect("written");
     let read = Summary::read(&path).expect("our own summary");
     assert_eq!(read, summary);
     read.verify(folder.path()).expect_err("the events' files are missing");
