@@ -1,6 +1,6 @@
 //! Why an agent does what it does, in a few lines to be written below its picture.
 
-use phase_agent::{ActionValue, SubgoalValue, Thought};
+use phase_event::{ActionValue, SubgoalValue, Thought};
 use phase_render::Caption;
 
 /// Lines that [`lines`] returns.

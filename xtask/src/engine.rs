@@ -2,11 +2,12 @@
 
 use crate::error::CliError;
 use core::ops::ControlFlow;
+use phase_event::{Event, Step};
 use phase_model::{
     Scene,
     random::{self, Purpose},
 };
-use phase_sim::{BeliefSnapshot, Event, Settings, Step};
+use phase_sim::{BeliefSnapshot, Settings};
 
 /// Name and version of this program, as files bear it.
 pub const GENERATOR: &str = concat!("phase ", env!("CARGO_PKG_VERSION"));

@@ -1,10 +1,9 @@
 //! Every way in which a command can fail, and its exit code.
 
 use phase_calibration::ReadError;
-use phase_dataset::{
-    FileError, WriteError, folder::FolderError, parquet::ExportError, phase_events::NotFinite,
-};
+use phase_dataset::{FileError, WriteError, folder::FolderError, parquet::ExportError};
 use phase_eval::MethodError;
+use phase_event::EventWriteError;
 use phase_render::RenderError;
 use phase_sampler::{SampleError, Variant};
 use phase_sim::SimulationError;
@@ -103,9 +102,9 @@ pub enum CliError {
     /// A file written a moment ago cannot be read back.
     #[error("{0}; what is finished is kept, and the same command goes on from there")]
     ReadBack(FileError),
-    /// An event holds numbers that cannot be written.
+    /// An event cannot be written.
     #[error(transparent)]
-    NotFinite(#[from] NotFinite),
+    EventWrite(#[from] EventWriteError),
     /// A picture or video could not be made.
     #[error("event {id}: {source}")]
     Render {
@@ -183,7 +182,7 @@ impl CliError {
             | Self::Exhausted { .. }
             | Self::Write(_)
             | Self::ReadBack(_)
-            | Self::NotFinite(_)
+            | Self::EventWrite(_)
             | Self::Render { .. }
             | Self::Threads { .. }
             | Self::Untidy(_) => 1,

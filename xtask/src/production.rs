@@ -8,15 +8,10 @@ use crate::{
     progress::Progress,
 };
 use core::ops::ControlFlow;
-use phase_dataset::{
-    atomic,
-    cache::Cache,
-    checksum::sha256,
-    folder::Folder,
-    phase_events::{self, Recording},
-};
+use phase_dataset::{atomic, cache::Cache, checksum::sha256, folder::Folder};
+use phase_event::{Event, Recording};
 use phase_model::{Relation, Scene};
-use phase_sim::{Event, Settings};
+use phase_sim::Settings;
 use serde_json::Value;
 use std::{
     path::{Path, PathBuf},
@@ -124,7 +119,7 @@ impl Production {
         if let Some(relation) = order.relation {
             recording.relation = relation;
         }
-        let text = phase_events::to_json(&[recording])?;
+        let text = phase_event::to_json(&[recording])?;
         let there = std::fs::read(&order.json).is_ok_and(|bytes| bytes == text.as_bytes());
         if there { Ok(()) } else { Ok(atomic::write(&order.json, text.as_bytes())?) }
     }

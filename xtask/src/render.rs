@@ -11,10 +11,8 @@ use crate::{
     picture::{self, Mind, Shot},
     source::Source,
 };
-use phase_dataset::{
-    WriteError,
-    phase_events::{Recording, Row, Simulation, Trajectory},
-};
+use phase_dataset::WriteError;
+use phase_event::{Recording, Row, Simulation, Trajectory};
 use phase_model::{State, arena::SUBSTEPS};
 use phase_sim::Settings;
 use std::path::{Path, PathBuf};
@@ -115,7 +113,7 @@ fn minds(simulation: &Simulation, agent: usize) -> Vec<Mind> {
     let snapshots = engine::beliefs(event, agent, &settings);
     let colour = ["red", "green"][agent];
     let steps = event.steps.iter().enumerate();
-    let mind = |((t, step), snapshot): ((usize, &phase_sim::Step), phase_sim::BeliefSnapshot)| {
+    let mind = |((t, step), snapshot): ((usize, &phase_event::Step), phase_sim::BeliefSnapshot)| {
         let thought = &step.thoughts[agent];
         Mind {
             agent,

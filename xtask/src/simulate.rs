@@ -15,9 +15,10 @@ use phase_dataset::{
     atomic,
     checksum::{hexadecimal, sha256},
     folder::{self, Contents, Folder},
-    phase_events::{self, Recording},
+    phase_events,
     summary::{Pair, SUMMARY_FILE, Summary},
 };
+use phase_event::Recording;
 use phase_model::Relation;
 use phase_report::summary;
 use serde_json::{Value, json};
@@ -107,10 +108,10 @@ fn check_ids(arguments: &Simulate, chosen: &[(usize, Recording)], seeds: &[u64])
             let id = simulated_id(arguments, recording, seed);
             let rule = if id == SUMMARY_FILE.trim_end_matches(".json") {
                 "is taken: the summary is written under that name".into()
-            } else if id.len() > phase_events::LONGEST_ID {
+            } else if id.len() > phase_event::LONGEST_ID {
                 format!(
                     "must leave room for the seed: {id} has more than {} letters",
-                    phase_events::LONGEST_ID
+                    phase_event::LONGEST_ID
                 )
             } else {
                 continue;

@@ -3,9 +3,10 @@
 use crate::error::CliError;
 use phase_dataset::{
     manifest::{MANIFEST_FILE, Manifest},
-    phase_events::{self, Recording},
+    phase_events,
     summary::{SUMMARY_FILE, Summary},
 };
+use phase_event::Recording;
 use std::path::{Path, PathBuf};
 
 /// Events that can be loaded one at a time.

@@ -1,7 +1,8 @@
 //! Belief to subgoal to action: one agent of Algorithm 1.
 
-use crate::{Mind, Outlook, Settings, Thought};
+use crate::{Mind, Outlook, Settings};
 use phase_belief::Belief;
+use phase_event::Thought;
 use phase_model::{Action, Dynamics, EntitySet, Physique, Scene};
 use phase_perception::Observation;
 use phase_pomcp::PomcpError;

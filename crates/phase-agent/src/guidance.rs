@@ -1,9 +1,7 @@
 //! A rule of thumb for moving along a course: the informed half of the default policy.
 
 use crate::{course::Course, objective::Objective};
-use phase_model::{Action, Entity, State, Vec2, arena};
-use phase_planner::Subgoal;
-use phase_predicates::{Literal, Predicate};
+use phase_model::{Action, Entity, Literal, Predicate, State, Subgoal, Vec2, arena};
 
 /// Seconds of physics in one step.
 const STEP_SECONDS: f32 = arena::SUBSTEP_SECONDS * arena::SUBSTEPS as f32;

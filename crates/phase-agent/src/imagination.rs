@@ -6,11 +6,13 @@ use crate::{
     guidance,
     objective::{LONGEST, Objective},
 };
-use phase_model::{AGENT_COUNT, Action, Attitude, Dynamics, Entity, Goal, Physique, State, reward};
+use phase_model::{
+    AGENT_COUNT, Action, Attitude, Dynamics, Entity, Goal, Literal, Physique, State, Subgoal, reward,
+};
 use phase_perception::observed_set;
-use phase_planner::{Routes, Subgoal};
+use phase_planner::Routes;
 use phase_pomcp::{GenerativeModel, Outcome};
-use phase_predicates::{Literal, achieved};
+use phase_predicates::achieved;
 use rand::{Rng, RngExt};
 
 /// Steps for which the distance left at the end of an imagined future is taken to last: what a search of ten

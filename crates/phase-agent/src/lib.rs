@@ -21,9 +21,7 @@ pub mod objective;
 pub mod patience;
 pub mod repertoire;
 pub mod settings;
-pub mod thought;
 
 pub use agent::Agent;
 pub use mind::{Mind, Outlook};
 pub use settings::{Foresight, Settings};
-pub use thought::{ActionValue, SubgoalValue, Thought};

@@ -5,9 +5,7 @@ use crate::{
     course::Way,
     objective::{LONGEST, Objective},
 };
-use phase_model::{Entity, State, Vec2, arena, physique};
-use phase_planner::Subgoal;
-use phase_predicates::{Literal, Place, Predicate};
+use phase_model::{Entity, Literal, Place, Predicate, State, Subgoal, Vec2, arena, physique};
 
 /// What a carrier's own way round a corner counts for beside the way of what it carries.
 const CARRIERS_SHARE: f32 = 0.5;

@@ -1,20 +1,20 @@
 //! Particles to subgoal to action: what an agent of Algorithm 1 does with a belief, wherever that comes from.
 
 use crate::{
-    Settings, Thought,
+    Settings,
     imagination::{Imagination, Imagined},
     objective::Objective,
     patience::Patience,
     repertoire,
-    thought::{ActionValue, SubgoalValue},
 };
+use phase_event::{ActionValue, SubgoalValue, Thought};
 use phase_model::{
-    AGENT_COUNT, Action, Attitude, Dynamics, Entity, EntitySet, Goal, Physique, Scene, State,
+    AGENT_COUNT, Action, Attitude, Dynamics, Entity, EntitySet, Goal, Literal, Physique, Place, Predicate,
+    Scene, State, Subgoal,
     random::{Purpose, stream},
 };
-use phase_planner::{Candidate, Plan, Planner, Subgoal, value};
+use phase_planner::{Candidate, Plan, Planner, value};
 use phase_pomcp::{Pomcp, PomcpError, PomcpSettings};
-use phase_predicates::{Literal, Place, Predicate};
 use rand::Rng;
 
 /// One agent's goals and planners. The dynamics are its own model of the world. What it believes is shown to it at

@@ -1,12 +1,14 @@
 //! A subgoal as the low level sees it: a distance to bring down, and a direction that does.
 
 use crate::course::{self, Course, Way};
-use phase_model::{Entity, Physique, Segment, Side, State, Vec2, arena, layout::room_of};
+use phase_model::{
+    Entity, Literal, Physique, Place, Predicate, Segment, Side, State, Subgoal, Vec2, arena, layout::room_of,
+};
 use phase_planner::{
-    Routes, Subgoal,
+    Routes,
     aside::{self, Intrusion},
 };
-use phase_predicates::{Literal, Place, Predicate};
+use phase_predicates::is_true;
 
 /// Longest straight distance in the arena (u); distances are scaled by it in rewards.
 pub const LONGEST: f32 = 28.284;
@@ -73,7 +75,7 @@ impl Objective<'_> {
             }
             Subgoal::Achieve(literal) => {
                 let distance = remaining() + self.averted(state, literal) + self.nearness(state, literal);
-                if literal.holds || literal.is_true(self.physique, state) {
+                if literal.holds || is_true(self.physique, state, literal) {
                     distance
                 } else {
                     distance + TRESPASS

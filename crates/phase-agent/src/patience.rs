@@ -1,9 +1,7 @@
 //! Noticing that one does not get on, and making room for another try.
 
 use crate::{course::Course, objective::Objective};
-use phase_model::{Entity, State, Vec2, arena, physique::GROUND_FRICTION};
-use phase_planner::Subgoal;
-use phase_predicates::Literal;
+use phase_model::{Entity, Literal, State, Subgoal, Vec2, arena, physique::GROUND_FRICTION};
 use rand::{Rng, RngExt};
 
 /// Who has come no farther than this is where it was (u).

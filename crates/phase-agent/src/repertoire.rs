@@ -1,8 +1,6 @@
 //! Which actions the low level considers for a subgoal.
 
-use phase_model::{Action, Entity, State};
-use phase_planner::Subgoal;
-use phase_predicates::{Literal, Place, Predicate};
+use phase_model::{Action, Entity, Literal, Place, Predicate, State, Subgoal};
 
 /// For getting oneself somewhere: people see purpose in bodies that move the way they face.
 const WALKING: [Action; 5] = [Action::TurnLeft, Action::TurnRight, Action::Up, Action::Stop, Action::NoForce];

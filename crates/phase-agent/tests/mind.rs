@@ -8,14 +8,13 @@ use phase_agent::{
 };
 use phase_forward::Forward;
 use phase_model::{
-    Action, AgentSpec, Attitude, Body, Dynamics, Entity, EventKind, Goal, Grip, Layout, ObjectSpec, Scene,
-    Side, Sign, Size, State, Strength, Vec2,
+    Action, AgentSpec, Attitude, Body, Dynamics, Entity, EventKind, Goal, Grip, Layout, Literal, ObjectSpec,
+    Place, Predicate, Scene, Side, Sign, Size, State, Strength, Subgoal, Vec2,
     random::{Purpose, stream},
 };
 use phase_perception::observe;
-use phase_planner::{Routes, Subgoal};
+use phase_planner::Routes;
 use phase_pomcp::GenerativeModel;
-use phase_predicates::{Literal, Place, Predicate};
 
 const ON_2: Goal = Goal::AgentOnLandmark { agent: 0, landmark: 2, sign: Sign::Positive };
 const OTHER_ON_0: Goal = Goal::AgentOnLandmark { agent: 1, landmark: 0, sign: Sign::Positive };

@@ -2,10 +2,10 @@
 
 use phase_agent::objective::Objective;
 use phase_model::{
-    Body, Entity, Grip, Layout, Physique, Side, Size, State, Strength, Vec2, arena, physique::AgentBody,
+    Body, Entity, Grip, Layout, Literal, Physique, Place, Predicate, Side, Size, State, Strength, Subgoal,
+    Vec2, arena, physique::AgentBody,
 };
-use phase_planner::{Routes, Subgoal};
-use phase_predicates::{Literal, Place, Predicate};
+use phase_planner::Routes;
 
 /// A narrow door (x 6 to 8.5, y 12) between rooms 0 (above) and 3; agent 0 of some size, a small agent 1, a small
 /// object.

@@ -2,12 +2,11 @@
 
 use phase_agent::{objective::Objective, patience::Patience};
 use phase_model::{
-    Body, Entity, Grip, Layout, Physique, Side, State, Vec2,
+    Body, Entity, Grip, Layout, Literal, Physique, Predicate, Side, State, Subgoal, Vec2,
     physique::AgentBody,
     random::{Purpose, stream},
 };
-use phase_planner::{Routes, Subgoal};
-use phase_predicates::{Literal, Predicate};
+use phase_planner::Routes;
 
 /// No walls at all but the arena's own and a narrow door (x 6 to 8.5, y 12); agent 0 of some force; a small object.
 fn place_to_go_to(force: f32, state: &State, literal: Literal, moves: f32) -> Option<Vec2> {

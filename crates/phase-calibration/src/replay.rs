@@ -1,6 +1,7 @@
 //! Replays: real recordings whose actions are known.
 
 use crate::{Deviation, Engine, deviation::mean};
+use phase_event::Recording;
 use phase_model::{AGENT_COUNT, Action, Body, MAX_ENTITIES, Physique, State};
 
 /// One real recording. One idle substep lies between its initial state and its first step.
@@ -19,6 +20,29 @@ pub struct Replay {
 }
 
 impl Replay {
+    /// A recording with its recovered actions, as far as they are known.
+    ///
+    /// The recorder turned every agent counter-clockwise, whichever way it wanted to turn, so both turns are
+    /// left turns here. `None` without recovered actions, and for a mirrored recording: its row 0 lies within
+    /// the first step, so no engine can start from it.
+    #[must_use]
+    pub fn of_recording(recording: &Recording) -> Option<Self> {
+        let recovered =
+            recording.recovered_actions.as_ref().filter(|recovered| !recovered.steps.is_empty())?;
+        if recording.scene.layout.flip().is_some() {
+            return None;
+        }
+        let left_only = |action| if action == Action::TurnRight { Action::TurnLeft } else { action };
+        let rows = (1..=recovered.steps.len()).map(|t| Some(recording.trajectory.state(t)?.bodies));
+        Some(Self {
+            id: recording.id.clone(),
+            physique: recording.scene.physique(),
+            initial: recording.trajectory.state(0)?,
+            actions: recovered.steps.iter().map(|both| both.map(left_only)).collect(),
+            rows: rows.collect::<Option<_>>()?,
+        })
+    }
+
     /// How far the means over an engine's substeps come out from each row, as long as actions are known.
     #[must_use]
     pub fn follow<E: Engine>(&self) -> Vec<Deviation> {

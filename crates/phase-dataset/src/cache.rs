@@ -5,12 +5,11 @@
 //! no cache, and the event is made again.
 
 use crate::{WriteError, atomic, checksum::sha256};
-use phase_agent::Thought;
+use phase_event::{Event, Step, Thought};
 use phase_model::{
     AGENT_COUNT, Action, AgentSpec, Attitude, Body, EventKind, Flip, Goal, Layout, ObjectSpec, Scene, Sign,
     Size, State, Strength, arena::SUBSTEPS,
 };
-use phase_sim::{Event, Step};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 

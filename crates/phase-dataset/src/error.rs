@@ -1,5 +1,7 @@
 //! What can be wrong with a file, in one plain sentence each.
 
+use phase_event::EventReadError;
+use phase_model::json::JsonError;
 use std::{
     io,
     path::{Path, PathBuf},
@@ -25,42 +27,12 @@ pub enum Problem {
     /// It is a folder.
     #[error("is a folder; a file is needed")]
     IsFolder,
-    /// It holds nothing.
-    #[error("is empty")]
-    Empty,
-    /// It is not text at all: a picture, a video, an archive.
-    #[error("is not JSON text (byte {0} is no UTF-8)")]
-    NotText(usize),
-    /// It is text but not JSON.
-    #[error("is not JSON: {what} in line {line}")]
-    NotJson {
-        /// What stands there.
-        what: String,
-        /// Line of the mistake, from 1.
-        line: usize,
-    },
-    /// It ends in the middle.
-    #[error("is truncated: the JSON ends unfinished in line {0}")]
-    Truncated(usize),
-    /// A number is written as NaN or an infinity.
-    #[error("holds {token} in line {line}: numbers must be finite")]
-    NotANumber {
-        /// What stands there.
-        token: String,
-        /// Line, from 1.
-        line: usize,
-    },
-    /// A number is too large to be one.
-    #[error("holds a number in line {0} that is too large: numbers must be finite")]
-    NumberTooLarge(usize),
-    /// It is JSON of another kind.
-    #[error("field `format` must be {expected:?}, {found}")]
-    Format {
-        /// What it must be.
-        expected: &'static str,
-        /// What it is, in words.
-        found: String,
-    },
+    /// It is no JSON, or JSON of another format.
+    #[error(transparent)]
+    Json(#[from] JsonError),
+    /// An event in it is not as it has to be.
+    #[error(transparent)]
+    Event(EventReadError),
     /// It is JSON of the right format, but some of it is missing or of the wrong type.
     #[error("is no complete {what}: {rule}")]
     Shape {
@@ -98,38 +70,6 @@ pub enum Problem {
     /// A manifest names a file twice.
     #[error("names {0} more than once")]
     DuplicatePath(String),
-    /// There is nothing in it to work on.
-    #[error("field `events` must hold at least one event")]
-    NoEvents,
-    /// Two events have the same name.
-    #[error("event {0}: field `id` must differ from that of every other event")]
-    DuplicateId(String),
-    /// A field breaks a rule.
-    #[error("{}{problem}", event_prefix(event))]
-    Field {
-        /// The event it belongs to, by its `id` or its number.
-        event: Option<String>,
-        /// The field and the rule.
-        problem: FieldError,
-    },
-    /// A field breaks a rule of [`phase_model::validate`] or [`phase_model::layout`], whose text names both.
-    #[error("event {event}: {rule}")]
-    Scene {
-        /// The event's `id` or number.
-        event: String,
-        /// The field and the rule.
-        rule: String,
-    },
-}
-
-/// A field that breaks a rule.
-#[derive(Clone, PartialEq, Eq, Debug, Error)]
-#[error("{}{rule}", field_prefix(field))]
-pub struct FieldError {
-    /// Where in the file, such as `agents[0].radius`; empty for the file or event as a whole.
-    pub field: String,
-    /// What it breaks, such as `must be a finite number, not null`.
-    pub rule: String,
 }
 
 /// A file or folder that cannot be written. The text names it first.
@@ -160,10 +100,11 @@ pub fn plain_reason(error: &io::Error) -> String {
     text.split(" (os error").next().unwrap_or_default().to_lowercase()
 }
 
-fn field_prefix(field: &str) -> String {
-    if field.is_empty() { String::new() } else { format!("field `{field}` ") }
-}
-
-fn event_prefix(event: &Option<String>) -> String {
-    event.as_ref().map_or_else(String::new, |event| format!("event {event}: "))
+impl From<EventReadError> for Problem {
+    fn from(error: EventReadError) -> Self {
+        match error {
+            EventReadError::Json(error) => Self::Json(error),
+            error => Self::Event(error),
+        }
+    }
 }

@@ -1,18 +1,16 @@
-//! JSON as a tree of fields that know where in the file they stand.
-//!
-//! Deriving a reader would be shorter, but its errors name types and columns; a person wants the field and
-//! the rule.
+//! Files of JSON.
 
-use crate::{FieldError, FileError, Problem, error::plain_reason};
-use serde_json::{Map, Value, error::Category};
+use crate::{FileError, Problem, error::plain_reason};
+use phase_model::json::parse;
+use serde_json::Value;
 use std::{io, path::Path};
 
 /// Reads a whole file as JSON.
 ///
 /// # Errors
-/// Any of [`Problem::IsFolder`], [`Problem::Unreadable`] and those of [`parse`].
+/// Any of [`Problem::IsFolder`], [`Problem::Unreadable`] and [`Problem::Json`].
 pub fn read(path: &Path) -> Result<Value, FileError> {
-    parse(&bytes(path)?).map_err(|problem| FileError { file: path.to_owned(), problem })
+    parse(&bytes(path)?).map_err(|error| FileError { file: path.to_owned(), problem: error.into() })
 }
 
 /// Reads a whole file, whatever is in it.
@@ -30,190 +28,4 @@ pub fn bytes(path: &Path) -> Result<Vec<u8>, FileError> {
             _ => Problem::Unreadable(plain_reason(&error)),
         })
     })
-}
-
-/// Parses bytes as JSON.
-///
-/// # Errors
-/// [`Problem::Empty`], [`Problem::NotText`], [`Problem::NotJson`], [`Problem::Truncated`],
-/// [`Problem::NotANumber`] or [`Problem::NumberTooLarge`].
-pub fn parse(bytes: &[u8]) -> Result<Value, Problem> {
-    let text = std::str::from_utf8(bytes).map_err(|error| Problem::NotText(error.valid_up_to()))?;
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    if text.trim().is_empty() {
-        return Err(Problem::Empty);
-    }
-    serde_json::from_str(text).map_err(|error| {
-        let line = error.line();
-        if error.classify() == Category::Eof {
-            return Problem::Truncated(line);
-        }
-        let what = error.to_string();
-        if what.starts_with("number out of range") {
-            return Problem::NumberTooLarge(line);
-        }
-        match non_number(text, line, error.column()) {
-            Some(token) => Problem::NotANumber { token: token.into(), line },
-            None => Problem::NotJson { what: what.split(" at line").next().unwrap_or_default().into(), line },
-        }
-    })
-}
-
-/// The spelling of a number that is none, if one stands around the place of a mistake. The parser points
-/// at or one past the character that surprised it.
-fn non_number(text: &str, line: usize, column: usize) -> Option<&'static str> {
-    let line = text.lines().nth(line.checked_sub(1)?)?.as_bytes();
-    let from = column.saturating_sub(4).min(line.len());
-    let near = &line[from..line.len().min(column + 12)];
-    ["-Infinity", "Infinity", "NaN", "-inf", "inf", "nan"].into_iter().find(|token| {
-        near.windows(token.len()).position(|window| window == token.as_bytes()).is_some_and(|at| at <= 5)
-    })
-}
-
-/// A value in a JSON tree and the path that leads to it.
-#[derive(Clone, Debug)]
-pub struct Field<'a> {
-    value: &'a Value,
-    path: String,
-}
-
-impl<'a> Field<'a> {
-    /// The root of a tree, which has no path.
-    #[must_use]
-    pub const fn root(value: &'a Value) -> Self {
-        Self { value, path: String::new() }
-    }
-
-    /// The value.
-    #[must_use]
-    pub const fn value(&self) -> &'a Value {
-        self.value
-    }
-
-    /// An error about this field: `rule` reads on from the field's name.
-    #[must_use]
-    pub fn error(&self, rule: impl Into<String>) -> FieldError {
-        FieldError { field: self.path.clone(), rule: rule.into() }
-    }
-
-    /// An error that says what the field must be and what it is instead.
-    #[must_use]
-    pub fn must_be(&self, what: &str) -> FieldError {
-        self.error(format!("must be {what}, not {}", shown(self.value)))
-    }
-
-    /// A member of an object; `None` if it is absent or null.
-    ///
-    /// # Errors
-    /// If this is no object.
-    pub fn optional(&self, key: &str) -> Result<Option<Field<'a>>, FieldError> {
-        let value = self.object()?.get(key).filter(|value| !value.is_null());
-        Ok(value.map(|value| Field { value, path: self.path_of(key) }))
-    }
-
-    /// A member of an object that has to be there; it may be null.
-    ///
-    /// # Errors
-    /// If it is absent or this is no object.
-    pub fn required(&self, key: &str) -> Result<Field<'a>, FieldError> {
-        let path = self.path_of(key);
-        match self.object()?.get(key) {
-            Some(value) => Ok(Field { value, path }),
-            None => Err(FieldError { field: path, rule: "is missing".into() }),
-        }
-    }
-
-    /// Checks that an object has no members but these.
-    ///
-    /// # Errors
-    /// Names the first other member.
-    pub fn only(&self, keys: &[&str]) -> Result<(), FieldError> {
-        match self.object()?.keys().find(|key| !keys.contains(&key.as_str())) {
-            None => Ok(()),
-            Some(key) => {
-                let rule = format!("is unknown; expected are {}", keys.join(", "));
-                Err(FieldError { field: self.path_of(key), rule })
-            }
-        }
-    }
-
-    /// The elements of an array.
-    ///
-    /// # Errors
-    /// If this is no array.
-    pub fn items(&self) -> Result<impl ExactSizeIterator<Item = Field<'a>> + use<'a>, FieldError> {
-        let path = self.path.clone();
-        let items = self.array()?.iter().enumerate();
-        Ok(items.map(move |(k, value)| Field { value, path: format!("{path}[{k}]") }))
-    }
-
-    /// The array itself, for long ones whose elements need no path each.
-    ///
-    /// # Errors
-    /// If this is no array.
-    pub fn array(&self) -> Result<&'a Vec<Value>, FieldError> {
-        self.value.as_array().ok_or_else(|| self.must_be("an array"))
-    }
-
-    /// A text.
-    ///
-    /// # Errors
-    /// If this is none.
-    pub fn text(&self) -> Result<&'a str, FieldError> {
-        self.value.as_str().ok_or_else(|| self.must_be("a text"))
-    }
-
-    /// A number that single precision can hold.
-    ///
-    /// # Errors
-    /// If this is none.
-    pub fn number(&self) -> Result<f32, FieldError> {
-        finite(self.value).ok_or_else(|| self.must_be("a finite number"))
-    }
-
-    /// A whole number in a range.
-    ///
-    /// # Errors
-    /// If this is none.
-    pub fn whole(&self, from: i64, to: i64) -> Result<i64, FieldError> {
-        let number = self.value.as_i64().filter(|number| (from..=to).contains(number));
-        number.ok_or_else(|| self.must_be(&format!("a whole number from {from} to {to}")))
-    }
-
-    /// One of a few words, or whatever else has a name.
-    ///
-    /// # Errors
-    /// Lists the names if this is none of them.
-    pub fn one_of<T: Copy>(&self, choices: &[(&str, T)]) -> Result<T, FieldError> {
-        let found = self.value.as_str().and_then(|text| choices.iter().find(|(name, _)| *name == text));
-        found.map(|(_, choice)| *choice).ok_or_else(|| {
-            let names: Vec<&str> = choices.iter().map(|(name, _)| *name).collect();
-            self.must_be(&format!("one of {}", names.join(", ")))
-        })
-    }
-
-    fn object(&self) -> Result<&'a Map<String, Value>, FieldError> {
-        self.value.as_object().ok_or_else(|| self.must_be("an object"))
-    }
-
-    fn path_of(&self, key: &str) -> String {
-        if self.path.is_empty() { key.into() } else { format!("{}.{key}", self.path) }
-    }
-}
-
-/// A number that single precision can hold.
-#[must_use]
-pub fn finite(value: &Value) -> Option<f32> {
-    value.as_f64().map(|number| number as f32).filter(|number| number.is_finite())
-}
-
-/// A value as it stands in the file, cut short.
-#[must_use]
-pub fn shown(value: &Value) -> String {
-    const LONGEST: usize = 40;
-    let text = value.to_string();
-    match text.char_indices().nth(LONGEST) {
-        Some((end, _)) => format!("{}…", &text[..end]),
-        None => text,
-    }
 }

@@ -1,7 +1,6 @@
 //! PHASE events at rest: files, formats, checksums, and folders that several runs may meet in.
 //!
-//! - [`phase_events`] reads and writes the exchange format `phase-events/1`, of measured recordings and of
-//!   simulated events alike.
+//! - [`phase_events`] reads files of the exchange format `phase-events/1`, whose events `phase-event` describes.
 //! - [`manifest`] describes a generated dataset to programs; pages and tables for people are made elsewhere.
 //! - [`parquet`] and [`croissant`] are for everyone else's tools; [`mod@verify`] checks that all of it agrees.
 //! - [`preset`] says what a dataset is composed of, [`splits`] how it is divided, [`record`], [`acceptance`] and
@@ -40,4 +39,4 @@ pub mod summary;
 pub mod verify;
 pub mod words;
 
-pub use error::{FieldError, FileError, Problem, WriteError};
+pub use error::{FileError, Problem, WriteError};

@@ -2,15 +2,16 @@
 
 use crate::{
     FileError, Problem, WriteError,
-    acceptance::Acceptance, atomic,
+    acceptance::Acceptance,
+    atomic,
     checksum::FileEntry,
-    json, phase_events,
+    json,
     splits::{Item, Split},
 };
+use phase_event::Event;
 use phase_evidence::{Outcome, Track};
-use phase_model::{AGENT_COUNT, EventKind, Goal, Relation};
+use phase_model::{AGENT_COUNT, EventKind, Goal, Relation, json::check_format};
 use phase_sampler::Variant;
-use phase_sim::Event;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::path::Path;
@@ -183,7 +184,7 @@ impl Manifest {
     pub fn read(path: &Path) -> Result<Self, FileError> {
         let fail = |problem| FileError { file: path.to_owned(), problem };
         let value = json::read(path)?;
-        phase_events::check_format(&value, DATASET_FORMAT).map_err(fail)?;
+        check_format(&value, DATASET_FORMAT).map_err(|error| fail(error.into()))?;
         serde_json::from_value(value).map_err(|error| {
             let rule = error.to_string();
             fail(Problem::Shape { what: "dataset manifest", rule })

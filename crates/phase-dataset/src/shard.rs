@@ -1,6 +1,7 @@
 //! `shard.json`: one part of a dataset that is made in several places.
 
-use crate::{FileError, Problem, WriteError, atomic, json, phase_events, record::Record};
+use crate::{FileError, Problem, WriteError, atomic, json, record::Record};
+use phase_model::json::check_format;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::path::Path;
@@ -62,7 +63,7 @@ impl Shard {
         let fail = |problem| FileError { file: path.to_owned(), problem };
         let shape = |rule: String| Problem::Shape { what: "shard of a dataset", rule };
         let value = json::read(path)?;
-        phase_events::check_format(&value, SHARD_FORMAT).map_err(fail)?;
+        check_format(&value, SHARD_FORMAT).map_err(|error| fail(error.into()))?;
         let shard: Self = serde_json::from_value(value).map_err(|error| fail(shape(error.to_string())))?;
         if shard.shard == 0 || shard.shard > shard.of {
             return Err(fail(shape(format!("there is no shard {} of {}", shard.shard, shard.of))));

@@ -1,9 +1,10 @@
 //! `phase-splits/1`: a split as lists of ids.
 
 use crate::{
-    FileError, Problem, WriteError, atomic, json, phase_events,
+    FileError, Problem, WriteError, atomic, json,
     splits::{Item, Split},
 };
+use phase_model::json::check_format;
 use serde::{Deserialize, Serialize};
 use std::{collections::BTreeMap, path::Path};
 
@@ -43,7 +44,7 @@ impl SplitList {
     pub fn read(path: &Path) -> Result<Self, FileError> {
         let fail = |problem| FileError { file: path.to_owned(), problem };
         let value = json::read(path)?;
-        phase_events::check_format(&value, SPLITS_FORMAT).map_err(fail)?;
+        check_format(&value, SPLITS_FORMAT).map_err(|error| fail(error.into()))?;
         serde_json::from_value(value).map_err(|error| fail(shape(error.to_string())))
     }
 

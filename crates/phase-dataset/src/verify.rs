@@ -2,7 +2,7 @@
 //! each other.
 
 use crate::{
-    FieldError, FileError, Problem,
+    FileError, Problem,
     checksum::FileEntry,
     croissant::{CROISSANT_FILE, checksums},
     json,
@@ -10,6 +10,8 @@ use crate::{
     parquet::{self, Part},
 };
 use core::convert::Infallible;
+use phase_event::EventReadError;
+use phase_model::json::{FieldError, shown};
 use serde_json::Value;
 use std::{
     collections::{BTreeMap, BTreeSet},
@@ -133,7 +135,7 @@ fn listed<'a>(
     let mut ids = BTreeSet::new();
     for event in &manifest.events {
         if !ids.insert(&event.id) {
-            fail(Problem::DuplicateId(event.id.clone()));
+            fail(EventReadError::DuplicateId(event.id.clone()).into());
         }
     }
     let mut files = BTreeMap::new();
@@ -178,7 +180,7 @@ fn event(folder: &Path, entry: &EventEntry) -> Result<(), FileError> {
         let problem = FieldError { field: field.into(), rule };
         FileError {
             file: file.clone(),
-            problem: Problem::Field { event: Some(recording.id.clone()), problem },
+            problem: EventReadError::Field { event: Some(recording.id.clone()), problem }.into(),
         }
     };
     let Some(simulation) = &recording.simulation else {
@@ -194,8 +196,8 @@ fn event(folder: &Path, entry: &EventEntry) -> Result<(), FileError> {
     let members = expected.as_object().into_iter().flatten();
     match members.into_iter().find(|(key, value)| found.get(key.as_str()) != Some(value)) {
         Some((key, value)) => {
-            let found = found.get(key).map_or_else(String::new, json::shown);
-            Err(fail(key, format!("is {found}, but the manifest says {}", json::shown(value))))
+            let found = found.get(key).map_or_else(String::new, shown);
+            Err(fail(key, format!("is {found}, but the manifest says {}", shown(value))))
         }
         None => Ok(()),
     }
@@ -211,14 +213,14 @@ fn croissant(folder: &Path, files: &BTreeMap<&str, &FileEntry>) -> Result<(), Fi
     let is_data = |path: &&str| path.ends_with(".parquet") && !named.iter().any(|(named, _)| named == path);
     match wrong.or_else(|| files.keys().copied().find(is_data)) {
         Some(path) => {
-            let problem = Problem::Field {
+            let problem = EventReadError::Field {
                 event: None,
                 problem: FieldError {
                     field: "distribution".into(),
                     rule: format!("does not give the checksum of {path} that the manifest gives"),
                 },
             };
-            Err(FileError { file, problem })
+            Err(FileError { file, problem: problem.into() })
         }
         None => Ok(()),
     }

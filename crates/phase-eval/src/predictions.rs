@@ -4,11 +4,11 @@ use crate::{
     goals::{Answer, canonical},
     trajectories::PREDICTED_STEPS,
 };
-use phase_dataset::{
-    FieldError, Problem,
-    json::{Field, finite},
+use phase_event::EventReadError;
+use phase_model::{
+    AGENT_COUNT, Forecast, Goal, Judgement, RelationProbabilities, Vec2,
+    json::{Field, FieldError, finite},
 };
-use phase_model::{AGENT_COUNT, Forecast, Goal, Judgement, RelationProbabilities, Vec2};
 use serde_json::Value;
 use std::collections::BTreeMap;
 
@@ -18,11 +18,12 @@ use std::collections::BTreeMap;
 ///
 /// # Errors
 /// If there is no event, one comes twice, a field is missing or of the wrong type, or a number is no probability.
-pub fn goals(value: &Value) -> Result<BTreeMap<String, Answer>, Problem> {
+pub fn goals(value: &Value) -> Result<BTreeMap<String, Answer>, EventReadError> {
     by_id(value, |event, id| {
         let judgement = judgement(event).map_err(|problem| of_event(id, problem))?;
-        Answer::of(&judgement)
-            .map_err(|error| Problem::Scene { event: id.into(), rule: format!("field {error}") })
+        Answer::of(&judgement).map_err(|error| {
+            of_event(id, FieldError { field: String::new(), rule: format!("field {error}") })
+        })
     })
 }
 
@@ -32,7 +33,7 @@ pub fn goals(value: &Value) -> Result<BTreeMap<String, Answer>, Problem> {
 ///
 /// # Errors
 /// If there is no event, one comes twice, a field is missing or of the wrong type, or a number is not finite.
-pub fn forecasts(value: &Value) -> Result<BTreeMap<String, Forecast>, Problem> {
+pub fn forecasts(value: &Value) -> Result<BTreeMap<String, Forecast>, EventReadError> {
     by_id(value, |event, id| forecast(event).map_err(|problem| of_event(id, problem)))
 }
 
@@ -67,9 +68,9 @@ pub fn fit(forecast: &Forecast, entities: usize, steps: usize) -> Result<Forecas
 /// Reads the events of a file, each of them with `read`, which is told its id.
 fn by_id<A>(
     value: &Value,
-    read: impl Fn(&Field<'_>, &str) -> Result<A, Problem>,
-) -> Result<BTreeMap<String, A>, Problem> {
-    let of_file = |problem| Problem::Field { event: None, problem };
+    read: impl Fn(&Field<'_>, &str) -> Result<A, EventReadError>,
+) -> Result<BTreeMap<String, A>, EventReadError> {
+    let of_file = |problem| EventReadError::Field { event: None, problem };
     let events = Field::root(value).required("events").map_err(of_file)?;
     let mut answers = BTreeMap::new();
     for (k, event) in events.array().map_err(of_file)?.iter().enumerate() {
@@ -77,14 +78,14 @@ fn by_id<A>(
         let id = event.required("id").and_then(|id| id.text());
         let id = id.map_err(|problem| of_event(&format!("number {}", k + 1), problem))?;
         if answers.insert(id.to_owned(), read(&event, id)?).is_some() {
-            return Err(Problem::DuplicateId(id.into()));
+            return Err(EventReadError::DuplicateId(id.into()));
         }
     }
-    if answers.is_empty() { Err(Problem::NoEvents) } else { Ok(answers) }
+    if answers.is_empty() { Err(EventReadError::NoEvents) } else { Ok(answers) }
 }
 
-fn of_event(id: &str, problem: FieldError) -> Problem {
-    Problem::Field { event: Some(id.into()), problem }
+fn of_event(id: &str, problem: FieldError) -> EventReadError {
+    EventReadError::Field { event: Some(id.into()), problem }
 }
 
 fn forecast(event: &Field<'_>) -> Result<Forecast, FieldError> {

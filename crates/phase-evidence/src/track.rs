@@ -1,7 +1,7 @@
 //! One state for each step: what all judgements are made on.
 
-use phase_model::{Body, Contacts, Entity, MAX_ENTITIES, Physique, State, arena::SUBSTEPS};
-use phase_sim::{Event, Step};
+use phase_event::{Event, mean_state};
+use phase_model::{Entity, Physique, State};
 
 /// Where everybody was at every step of one event.
 #[derive(Clone, PartialEq, Debug)]
@@ -55,34 +55,7 @@ impl Track {
     }
 }
 
-/// What stands for a whole step: bodies are means over its five substeps (angles are unbounded, so theirs is
-/// plain), grips are those at its end, and contacts are all there were in it.
-#[must_use]
-pub fn mean_state(step: &Step) -> State {
-    let mut state = step.substeps[SUBSTEPS - 1];
-    for entity in 0..MAX_ENTITIES {
-        state.bodies[entity] = mean(step.substeps.map(|substep| substep.bodies[entity]));
-    }
-    state.contacts = step.substeps.iter().fold(Contacts::NONE, |all, substep| all.union(substep.contacts));
-    state
-}
-
 /// The other agent.
 pub(crate) const fn other(agent: usize) -> usize {
     if agent == 0 { 1 } else { 0 }
-}
-
-fn mean(bodies: [Body; SUBSTEPS]) -> Body {
-    let over = |number: fn(&Body) -> f32| {
-        let sum: f64 = bodies.iter().map(|body| f64::from(number(body))).sum();
-        (sum / SUBSTEPS as f64) as f32
-    };
-    let mut mean = Body::default();
-    mean.position.x = over(|body| body.position.x);
-    mean.position.y = over(|body| body.position.y);
-    mean.velocity.x = over(|body| body.velocity.x);
-    mean.velocity.y = over(|body| body.velocity.y);
-    mean.angle = over(|body| body.angle);
-    mean.angular_velocity = over(|body| body.angular_velocity);
-    mean
 }

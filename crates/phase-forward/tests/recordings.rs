@@ -2,8 +2,10 @@
 
 mod records;
 
-use phase_calibration::{Ahead, ColdForward, Deviation, Engine, Run, WarmForward, ahead, replay_reports};
-use phase_dataset::phase_events::{self, Recording};
+use phase_calibration::{
+    Ahead, ColdForward, Deviation, Engine, Replay, Run, WarmForward, ahead, replay_reports,
+};
+use phase_dataset::phase_events;
 use phase_statistics::percentile;
 use records::{path, text};
 
@@ -54,7 +56,7 @@ fn real_recordings_are_replayed() {
     const LIMIT: f32 = 0.02;
     let Some(path) = path("real-phase/dev.json") else { return };
     let recordings = phase_events::read(&path).expect("good recordings");
-    let replays: Vec<_> = recordings.iter().filter_map(Recording::replay).collect();
+    let replays: Vec<_> = recordings.iter().filter_map(Replay::of_recording).collect();
     let known = recordings.iter().filter(|recording| recording.recovered_actions.is_some()).count();
     assert!(!replays.is_empty() && replays.len() == known, "{} of {known} recordings", replays.len());
     for report in replay_reports::<WarmForward>(&replays) {

@@ -213,6 +213,16 @@ pub enum Relation {
 }
 
 impl Relation {
+    /// The name used in files and on screen.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Friendly => "friendly",
+            Self::Adversarial => "adversarial",
+            Self::Neutral => "neutral",
+        }
+    }
+
     /// The paper's definition on goals and attitudes (section "Inference" and appendix): an attitude that is
     /// not neutral decides; else equal goals are friendly; else the same object wanted on two landmarks, or
     /// one agent approaching another that gets away, are adversarial; else neutral.

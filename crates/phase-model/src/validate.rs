@@ -79,13 +79,11 @@ impl Scene {
         if self.objects.len() > MAX_OBJECTS {
             return Err(SceneError::TooManyObjects(self.objects.len()));
         }
+        self.check_finite()?;
         let state = self.initial_state();
         for entity in self.physique().entities() {
             let body = state.body(entity);
             let field = format!("{}.start", field_name(entity));
-            if !body.is_finite() {
-                return Err(SceneError::NotFinite { field });
-            }
             if !arena::contains(body.position) {
                 return Err(SceneError::OutsideArena { field, x: body.position.x, y: body.position.y });
             }
@@ -94,6 +92,15 @@ impl Scene {
             check_goal(agent, spec.goal, self.objects.len())?;
         }
         check_attitudes(&self.agents)
+    }
+
+    /// Checks that every number of the starts is finite.
+    pub(crate) fn check_finite(&self) -> Result<(), SceneError> {
+        let state = self.initial_state();
+        match self.physique().entities().find(|&entity| !state.body(entity).is_finite()) {
+            Some(entity) => Err(SceneError::NotFinite { field: format!("{}.start", field_name(entity)) }),
+            None => Ok(()),
+        }
     }
 
     /// The stricter check for scenes of our own making: [`Scene::validate`], and no body overlaps a wall,

@@ -1,13 +1,13 @@
 //! Getting out of the other agent's way.
 
 use crate::{
-    Subgoal,
     plan::{is, not},
     routes::Routes,
     situation::{self, Situation},
 };
-use phase_model::{AGENT_COUNT, Entity, Goal, Physique, State, Vec2, arena, layout::room_of};
-use phase_predicates::Predicate;
+use phase_model::{
+    AGENT_COUNT, Entity, Goal, Physique, Predicate, State, Subgoal, Vec2, arena, layout::room_of,
+};
 
 /// Room left beside the other on its way (u).
 const CLEARANCE: f32 = 0.4;

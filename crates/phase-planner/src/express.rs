@@ -1,15 +1,13 @@
 //! A symbolic plan in the words of the subgoal space.
 
 use crate::{
-    Subgoal,
     plan::{Plan, is, not, rooms, skip_done},
     routes::Routes,
     search::SymbolicPlan,
     situation::Spot,
     task::{Node, Operator, Task},
 };
-use phase_model::Entity;
-use phase_predicates::{Place, Predicate};
+use phase_model::{Entity, Place, Predicate, Subgoal};
 
 /// One agent's own part of a symbolic plan in the words of the subgoal space, and how far all have to travel.
 #[must_use]

@@ -4,8 +4,7 @@ use crate::{
     plan::{self, Plan},
     situation::{Situation, Spot},
 };
-use phase_model::{Entity, arena, layout::room_of};
-use phase_predicates::Predicate;
+use phase_model::{Entity, Predicate, arena, layout::room_of};
 
 /// What a room must offer over staying put before it is worth running for (u).
 const WORTHWHILE: f32 = 2.0;

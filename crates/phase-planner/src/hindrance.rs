@@ -5,7 +5,6 @@
 //! knows of doors, widths and strengths.
 
 use crate::{
-    Subgoal,
     express::express,
     flight,
     plan::{self, Plan},
@@ -14,8 +13,8 @@ use crate::{
     situation::{Situation, Spot, obstruct},
     task::{Node, Task},
 };
-use phase_model::{Entity, Goal, Sign, Vec2, arena, layout::room_of};
-use phase_predicates::{Place, Predicate, achieved};
+use phase_model::{Entity, Goal, Place, Predicate, Sign, Subgoal, Vec2, arena, layout::room_of};
+use phase_predicates::achieved;
 
 /// How much of its own way the hinderer sets against the other's cost.
 const EFFORT: f32 = 0.4;

@@ -3,7 +3,7 @@
 //! From one possible world (a belief particle) [`Planner::plan`] finds the agent's best plan: the physical
 //! state is reduced to a few named spots, doors, widths, forces and holds, A* searches the symbolic actions
 //! of one or both agents, and the agent's own part of the cheapest plan is put into predicates
-//! ([`Subgoal`]). [`value::candidates`] then weighs the first subgoals of all particles (V with λ = 0.05).
+//! ([`Subgoal`](phase_model::Subgoal)). [`value::candidates`] then weighs the first subgoals of all particles (V with λ = 0.05).
 //!
 //! The key design decision is that nothing is forbidden that could be tried: a door too narrow or a load too
 //! heavy costs more than any way round instead of cutting the search off. A weak agent without help still
@@ -47,7 +47,6 @@ pub mod planner;
 pub mod routes;
 pub mod search;
 pub mod situation;
-pub mod subgoal;
 pub mod task;
 pub mod value;
 
@@ -55,5 +54,4 @@ pub use plan::Plan;
 pub use planner::Planner;
 pub use routes::{Gaps, Route, Routes};
 pub use situation::{Situation, Spot};
-pub use subgoal::Subgoal;
 pub use value::Candidate;

@@ -1,12 +1,11 @@
 //! An agent's plan, and the parts that plans of all kinds are made of.
 
 use crate::{
-    Subgoal,
     routes::{Route, Routes},
     situation::Situation,
 };
-use phase_model::{AGENT_COUNT, Entity, layout::room_of};
-use phase_predicates::{Literal, Place, Predicate};
+use phase_model::{AGENT_COUNT, Entity, Literal, Place, Predicate, Subgoal, layout::room_of};
+use phase_predicates::is_true;
 
 /// What an agent means to do, from one possible world.
 #[derive(Clone, PartialEq, Debug)]
@@ -52,7 +51,7 @@ pub(crate) fn skip_done(situation: &Situation<'_>, subgoals: &mut Vec<Subgoal>) 
         .iter()
         .take_while(|subgoal| {
             matches!(subgoal, Subgoal::Achieve(literal)
-                if literal.is_true(situation.physique, situation.state))
+                if is_true(situation.physique, situation.state, *literal))
         })
         .count();
     subgoals.drain(..done);

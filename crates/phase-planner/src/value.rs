@@ -1,6 +1,7 @@
 //! Choosing one subgoal from the plans of all particles.
 
-use crate::{Plan, Subgoal};
+use crate::Plan;
+use phase_model::Subgoal;
 
 /// λ of the paper: weight of the cost against the share of particles.
 pub const LAMBDA: f64 = 0.05;

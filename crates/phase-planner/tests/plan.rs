@@ -2,8 +2,8 @@
 
 mod support;
 
-use phase_model::{Attitude, Size::*, Strength::*, Vec2};
-use phase_planner::{Routes, Subgoal, aside};
+use phase_model::{Attitude, Size::*, Strength::*, Subgoal, Vec2};
+use phase_planner::{Routes, aside};
 use support::{Setup, agent_on, approach, everything, layout, object_on};
 
 /// Agent 0 at the top left, agent 1 at the bottom right, no walls, no objects.

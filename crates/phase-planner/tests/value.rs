@@ -1,8 +1,7 @@
 //! V(B, h, g) by hand.
 
-use phase_model::Entity;
-use phase_planner::{Plan, Subgoal, value::candidates};
-use phase_predicates::{Literal, Predicate};
+use phase_model::{Entity, Literal, Predicate, Subgoal};
+use phase_planner::{Plan, value::candidates};
 
 fn plan(landmark: u8, distance: f32) -> Plan {
     let subgoal = Subgoal::Achieve(Literal::is(Predicate::On(Entity::Agent(0), landmark)));

@@ -1,7 +1,7 @@
 //! Whether a predicate holds in a physical state.
 
-use crate::{Literal, Place, Predicate, threshold};
-use phase_model::{Entity, Goal, Physique, Sign, State, arena, layout};
+use crate::threshold;
+use phase_model::{Entity, Goal, Literal, Physique, Place, Predicate, State, arena, layout};
 
 /// Whether a predicate holds. Numbers that name nothing in the scene make it false.
 #[must_use]
@@ -37,30 +37,14 @@ pub fn holds(physique: &Physique, state: &State, predicate: Predicate) -> bool {
     }
 }
 
-impl Literal {
-    /// Whether the literal is true in a state.
-    #[must_use]
-    pub fn is_true(self, physique: &Physique, state: &State) -> bool {
-        holds(physique, state, self.predicate) == self.holds
-    }
-}
-
-impl From<Goal> for Literal {
-    /// The final goal state as a predicate or its negation.
-    fn from(goal: Goal) -> Self {
-        let predicate = match goal {
-            Goal::AgentOnLandmark { agent, landmark, .. } => Predicate::On(Entity::Agent(agent), landmark),
-            Goal::ObjectOnLandmark { object, landmark, .. } => {
-                Predicate::On(Entity::Object(object), landmark)
-            }
-            Goal::Touch { agent, other, .. } => Predicate::Touch(agent, Entity::Agent(other)),
-        };
-        Self { predicate, holds: goal.sign() == Sign::Positive }
-    }
+/// Whether a literal is true in a state.
+#[must_use]
+pub fn is_true(physique: &Physique, state: &State, literal: Literal) -> bool {
+    holds(physique, state, literal.predicate) == literal.holds
 }
 
 /// Whether a goal's condition is satisfied in a state.
 #[must_use]
 pub fn achieved(physique: &Physique, state: &State, goal: Goal) -> bool {
-    Literal::from(goal).is_true(physique, state)
+    is_true(physique, state, goal.into())
 }

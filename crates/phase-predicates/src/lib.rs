@@ -2,7 +2,7 @@
 //!
 //! A physical [`State`](phase_model::State) becomes a [`SymbolicState`], the set of predicates true in it
 //! (paper, appendix "Predicates, Symbolic States, Goals, and Subgoals"). Goals and subgoals are
-//! [`Literal`]s: predicates or their negations.
+//! [`Literal`](phase_model::Literal)s: predicates or their negations.
 //!
 //! The key design decision is that *Close to a landmark* means *in the landmark's room*. The paper says "within
 //! a certain distance" and gives no number; with the room as that distance, going through a door is a change
@@ -13,10 +13,8 @@
 #![deny(missing_docs)]
 
 pub mod evaluate;
-pub mod predicate;
 pub mod symbolic;
 pub mod threshold;
 
-pub use evaluate::{achieved, holds};
-pub use predicate::{Literal, Place, Predicate};
+pub use evaluate::{achieved, holds, is_true};
 pub use symbolic::SymbolicState;

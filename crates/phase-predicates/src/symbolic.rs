@@ -1,7 +1,7 @@
 //! A physical state as the set of predicates that are true in it.
 
-use crate::{Place, Predicate, evaluate};
-use phase_model::{AGENT_COUNT, Entity, Physique, State, arena};
+use crate::evaluate;
+use phase_model::{AGENT_COUNT, Entity, Physique, Place, Predicate, State, arena};
 use serde::{Deserialize, Serialize};
 
 /// The truth value of every predicate of a scene, one bit each; all those not in it are negated.

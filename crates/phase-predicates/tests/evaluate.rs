@@ -1,7 +1,9 @@
 //! Every predicate just below and just above its threshold.
 
-use phase_model::{AgentBody, Body, Entity, Goal, Grip, Physique, Side, Sign, State, Vec2, arena};
-use phase_predicates::{Literal, Place, Predicate, SymbolicState, achieved, holds, threshold};
+use phase_model::{
+    AgentBody, Body, Entity, Goal, Grip, Literal, Physique, Place, Predicate, Side, Sign, State, Vec2, arena,
+};
+use phase_predicates::{SymbolicState, achieved, holds, threshold};
 
 fn physique() -> Physique {
     Physique {

@@ -1,7 +1,8 @@
 //! What an agent of a recorded event believed, recomputed.
 
-use crate::{Event, simulation::belief_stream};
+use crate::simulation::belief_stream;
 use phase_belief::Belief;
+use phase_event::Event;
 use phase_forward::Forward;
 use phase_model::{State, arena::SUBSTEPS};
 use phase_perception::{CellSet, observe};

@@ -1,6 +1,6 @@
 //! Two PHASE agents and a world make a social event (paper, Algorithm 1).
 //!
-//! [`simulate`] takes a scene and a seed and returns the [`Event`]: what both did at every step and why, and
+//! [`simulate`] takes a scene and a seed and returns the [`Event`](phase_event::Event): what both did at every step and why, and
 //! all substeps of what became of it. The event plays in `phase-world`, or on request in `phase-forward`
 //! ([`Engine`]); what agents perceive, believe and imagine is made in the same way for both.
 //!
@@ -13,12 +13,10 @@
 #![deny(missing_docs)]
 
 pub mod beliefs;
-pub mod event;
 pub mod settings;
 pub mod simulation;
 mod truth;
 
 pub use beliefs::{BeliefSnapshot, beliefs};
-pub use event::{Event, Step};
 pub use settings::{Engine, Settings};
 pub use simulation::{SimulationError, simulate, simulate_with};

@@ -1,16 +1,16 @@
 //! Algorithm 1 of the paper: both agents observe, update their beliefs, plan and act at once.
 
-use crate::{Event, Settings, Step, truth::Truth};
+use crate::{Settings, truth::Truth};
 use core::ops::ControlFlow;
-use phase_agent::{Agent, Thought};
+use phase_agent::Agent;
+use phase_event::{Event, Step, Thought};
 use phase_forward::Forward;
 use phase_model::{
-    AGENT_COUNT, Action, Physique, Scene, SceneError, State,
+    AGENT_COUNT, Action, Physique, Scene, SceneError, State, Subgoal,
     arena::SUBSTEPS,
     random::{self, Pcg64Mcg, Purpose},
 };
 use phase_perception::observe;
-use phase_planner::Subgoal;
 use thiserror::Error;
 
 /// Below this speed a body counts as being at rest (u/s).

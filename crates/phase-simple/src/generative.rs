@@ -1,7 +1,8 @@
 //! G(Y): what would have happened if a hypothesis were true.
 
 use crate::{Hypothesis, InverseDynamics, beliefs::EstimatedBeliefs};
-use phase_agent::{Mind, Outlook, Thought};
+use phase_agent::{Mind, Outlook};
+use phase_event::Thought;
 use phase_forward::{Forward, Memory};
 use phase_model::{
     AGENT_COUNT, Action, Body, Entity, EntitySet, MAX_ENTITIES, ObservedEvent, Physique, State, Vec2,

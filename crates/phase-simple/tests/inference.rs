@@ -1,12 +1,11 @@
 //! Whole inferences, on events whose labels are known to the test and to nobody else.
 
-use phase_dataset::phase_events::Recording;
+use phase_event::{Event, Recording};
 use phase_model::{
     Attitude, Goal, Layout, ObservedEvent, Relation,
     random::{Purpose, stream},
 };
 use phase_sampler::{Request, Variant, sample};
-use phase_sim::Event;
 use phase_simple::{
     AnyStrength, ChainSettings, Inference, InverseDynamics, Settings, Stage, Update, explain,
 };

@@ -101,7 +101,7 @@ fn read<T>(file: &Path, parse: impl Fn(&Value) -> Result<T, ReadError>) -> Resul
 fn replays(file: &Path) -> Result<(Vec<Replay>, usize), CliError> {
     let mut recordings = phase_events::read(file)?;
     recordings.retain(|recording| recording.recovered_actions.is_some());
-    let replays: Vec<Replay> = recordings.iter().filter_map(phase_events::Recording::replay).collect();
+    let replays: Vec<Replay> = recordings.iter().filter_map(Replay::of_recording).collect();
     let mirrored = recordings.iter().filter(|recording| recording.scene.layout.flip().is_some()).count();
     if replays.is_empty() {
         let rule = "field `events` must hold an event with `recovered_actions` that is not mirrored";

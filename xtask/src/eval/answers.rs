@@ -3,11 +3,13 @@
 use super::input::{Event, Input};
 use crate::{console::remark, error::CliError};
 use phase_dataset::{
-    FieldError, FileError, Problem,
+    FileError, Problem,
     checksum::{hexadecimal, sha256},
     json,
 };
 use phase_eval::MethodError;
+use phase_event::EventReadError;
+use phase_model::json::FieldError;
 use serde_json::{Value, json};
 use std::{collections::BTreeMap, path::Path};
 
@@ -35,11 +37,11 @@ impl<A> Given<A> {
     pub(super) fn read(
         file: &Path,
         input: &Input,
-        parse: impl Fn(&Value) -> Result<BTreeMap<String, A>, Problem>,
+        parse: impl Fn(&Value) -> Result<BTreeMap<String, A>, EventReadError>,
         fit: impl Fn(&Event, A) -> Result<A, FieldError>,
     ) -> Result<Self, CliError> {
         let value = json::read(file)?;
-        let fail = |problem| FileError { file: file.to_owned(), problem };
+        let fail = |error: EventReadError| FileError { file: file.to_owned(), problem: Problem::from(error) };
         let mut others = parse(&value).map_err(fail)?;
         if let Some(event) = input.events.iter().find(|event| !others.contains_key(&event.id)) {
             return Err(CliError::unknown_id(file, &event.id, others.keys().map(String::as_str)));
@@ -47,7 +49,7 @@ impl<A> Given<A> {
         let mut answers = BTreeMap::new();
         for event in &input.events {
             let Some(answer) = others.remove(&event.id) else { continue };
-            let wrong = |problem| fail(Problem::Field { event: Some(event.id.clone()), problem });
+            let wrong = |problem| fail(EventReadError::Field { event: Some(event.id.clone()), problem });
             answers.insert(event.id.clone(), fit(event, answer).map_err(wrong)?);
         }
         if !others.is_empty() {

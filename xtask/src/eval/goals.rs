@@ -9,12 +9,12 @@ use super::{
 };
 use crate::error::CliError;
 use cpu_time::ThreadTime;
-use phase_dataset::phase_events::Recording;
 use phase_eval::{
     MethodError, Recogniser, Tick,
     goals::{Answer, Glimpse, Label, RecognisedEvent, Summary},
     predictions, results,
 };
+use phase_event::Recording;
 use phase_model::ObservedEvent;
 use phase_report::{
     document::Document,

@@ -5,9 +5,9 @@ use crate::{error::CliError, source::Source};
 use phase_dataset::{
     checksum::{hexadecimal, sha256},
     manifest::{MANIFEST_FILE, Manifest},
-    phase_events::Recording,
     splits::Split,
 };
+use phase_event::Recording;
 use phase_model::AGENT_COUNT;
 use phase_sampler::Variant;
 use std::{collections::BTreeSet, path::Path};

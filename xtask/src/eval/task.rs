@@ -18,9 +18,9 @@ use phase_dataset::{
     checksum::{hexadecimal, sha256},
     folder::{self, Contents, Folder},
     json,
-    phase_events::Recording,
 };
 use phase_eval::{MethodError, Tick};
+use phase_event::Recording;
 use phase_model::random::{Purpose, derive_seed};
 use phase_report::{document::Document, evaluation::Subject};
 use serde::{Serialize, de::DeserializeOwned};

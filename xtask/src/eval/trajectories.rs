@@ -9,11 +9,11 @@ use super::{
 };
 use crate::error::CliError;
 use cpu_time::ThreadTime;
-use phase_dataset::phase_events::Recording;
 use phase_eval::{
     Forecaster, MethodError, Tick, predictions, results,
     trajectories::{Errors, ForecastEvent, PREDICTED_STEPS, Summary, WATCHED_STEPS},
 };
+use phase_event::Recording;
 use phase_model::Forecast;
 use phase_report::{
     document::Document,

@@ -15,11 +15,11 @@ use phase_dataset::{
     record::Record,
     shard::Whole,
 };
+use phase_event::Event;
 use phase_report::{
     card::{self, card},
     gallery::{self, Timeline},
 };
-use phase_sim::Event;
 use std::path::Path;
 
 /// Writes what describes the whole; the manifest last, since with it the dataset is complete. `records` are those of

@@ -14,13 +14,14 @@ use phase_dataset::{
     preset::{Selection, Slot},
     record::Record,
 };
+use phase_event::Event;
 use phase_evidence::{
     Track,
     selection::{Refusal, first_look},
 };
 use phase_model::{Layout, Scene, random};
 use phase_sampler::Request;
-use phase_sim::{Event, Settings};
+use phase_sim::Settings;
 use std::{collections::BTreeMap, path::PathBuf, time::Instant};
 
 /// The slots of a dataset that is being made in a folder.

@@ -4,8 +4,9 @@ use super::Workspace;
 use std::path::{Path, PathBuf};
 
 /// The crates from the ground floor up. A crate may use those before it, never those after it.
-pub const LAYERS: [&str; 22] = [
+pub const LAYERS: [&str; 23] = [
     "phase-model",
+    "phase-event",
     "phase-statistics",
     "phase-golden",
     "phase-world",

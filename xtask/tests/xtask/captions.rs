@@ -1,9 +1,7 @@
 //! What is written below the picture of a mind.
 
-use phase_agent::{ActionValue, SubgoalValue, Thought};
-use phase_model::{Action, Entity};
-use phase_planner::Subgoal;
-use phase_predicates::{Literal, Predicate};
+use phase_event::{ActionValue, SubgoalValue, Thought};
+use phase_model::{Action, Entity, Literal, Predicate, Subgoal};
 use phase_render::Style;
 use xtask::captions::{COUNT, lines};
 

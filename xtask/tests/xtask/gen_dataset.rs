@@ -1,10 +1,8 @@
 //! `gen-dataset`, with agents that think little.
 
 use crate::support::{QUICK, refuse, run, succeed, text, tree};
-use phase_dataset::{
-    manifest::Manifest,
-    phase_events::{Recording, parse},
-};
+use phase_dataset::manifest::Manifest;
+use phase_event::{Recording, parse};
 use std::{fs, path::Path};
 
 fn generate<'a>(out: &'a str, more: &[&'a str]) -> Vec<&'a str> {

@@ -20,10 +20,11 @@ pub use compare::compare;
 pub(crate) use compare::{compare_share, shares};
 pub use export::{ExportError, export};
 
-use crate::{FieldError, FileError, Problem, manifest::EventEntry, phase_events, splits::Split};
+use crate::{FileError, manifest::EventEntry, phase_events, splits::Split};
 use ::parquet::{errors::Result, schema::types::Type};
 use column::Column;
-use phase_events::Recording;
+use phase_event::{EventReadError, Recording};
+use phase_model::json::FieldError;
 use row::Row;
 use std::{path::Path, sync::Arc};
 
@@ -95,5 +96,5 @@ fn push(
 
 fn not_whole(file: std::path::PathBuf, event: Option<&str>, field: &str, rule: String) -> FileError {
     let problem = FieldError { field: field.into(), rule };
-    FileError { file, problem: Problem::Field { event: event.map(String::from), problem } }
+    FileError { file, problem: EventReadError::Field { event: event.map(String::from), problem }.into() }
 }

@@ -1,12 +1,8 @@
 //! One event as the values of its columns.
 
-use crate::{
-    manifest::EventEntry,
-    phase_events::{Recording, Simulation, pairs_in_contact, substep_row},
-    words,
-};
+use crate::{manifest::EventEntry, words};
+use phase_event::{Event, Recording, Simulation, Step, pairs_in_contact, substep_row};
 use phase_model::{AGENT_COUNT, AgentSpec, Goal, State};
-use phase_sim::{Event, Step};
 
 /// An event, with what the manifest says beside its file.
 pub(super) struct Row<'a> {

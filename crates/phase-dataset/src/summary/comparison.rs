@@ -1,10 +1,10 @@
 //! One event, recorded and simulated.
 
 use super::Quartiles;
-use crate::{FileError, checksum::FileEntry, phase_events::Recording};
+use crate::{FileError, checksum::FileEntry};
+use phase_event::{Event, Recording};
 use phase_evidence::{Motion, Outcome, Track, motion::common_steps};
 use phase_model::{AGENT_COUNT, EventKind, Goal, Sign};
-use phase_sim::Event;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 

@@ -11,7 +11,8 @@ pub use comparison::{AgentComparison, Comparison, Measures, Pair, Source};
 pub use quartiles::Quartiles;
 pub use rows::{KindRow, Spreads, tabulate};
 
-use crate::{FileError, Problem, WriteError, atomic, json, phase_events};
+use crate::{FileError, Problem, WriteError, atomic, json};
+use phase_model::json::check_format;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::path::Path;
@@ -51,7 +52,7 @@ impl Summary {
     pub fn read(path: &Path) -> Result<Self, FileError> {
         let fail = |problem| FileError { file: path.to_owned(), problem };
         let value = json::read(path)?;
-        phase_events::check_format(&value, SUMMARY_FORMAT).map_err(fail)?;
+        check_format(&value, SUMMARY_FORMAT).map_err(|error| fail(error.into()))?;
         serde_json::from_value(value)
             .map_err(|error| fail(Problem::Shape { what: "summary", rule: error.to_string() }))
     }

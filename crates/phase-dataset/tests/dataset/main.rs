@@ -8,13 +8,12 @@ mod folder;
 mod import_pik;
 mod manifest;
 mod parquet;
-mod phase_events_read;
-mod phase_events_real;
-mod phase_events_round_trip;
+mod phase_events;
 mod preset;
 mod record;
 mod splits;
 mod summary;
+#[path = "../../../phase-event/tests/events/support.rs"]
 mod support;
 mod verify;
 mod words;

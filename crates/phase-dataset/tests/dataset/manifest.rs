@@ -5,7 +5,7 @@ use phase_dataset::{
     Problem,
     manifest::{DATASET_FORMAT, EventEntry, MANIFEST_FILE, Manifest, event_path, video_path},
 };
-use phase_model::{EventKind, Relation};
+use phase_model::{EventKind, Relation, json::JsonError};
 use serde_json::{Value, json};
 use std::{fs, path::Path};
 
@@ -68,12 +68,12 @@ fn what_is_no_manifest_is_refused() {
         fs::write(&path, text).expect("written");
         Manifest::read(&path).expect_err(text).problem
     };
-    assert!(matches!(read("{}"), Problem::Format { .. }));
-    assert!(matches!(read("{\"format\":\"other\"}"), Problem::Format { .. }));
+    assert!(matches!(read("{}"), Problem::Json(JsonError::Format { .. })));
+    assert!(matches!(read("{\"format\":\"other\"}"), Problem::Json(JsonError::Format { .. })));
     let mut value = good.clone();
     value.as_object_mut().expect("an object").remove("seed");
     let problem = read(&value.to_string());
     assert!(problem.to_string().contains("seed"), "{problem}");
     let text = good.to_string();
-    assert!(matches!(read(&text[..text.len() - 9]), Problem::Truncated(_)));
+    assert!(matches!(read(&text[..text.len() - 9]), Problem::Json(JsonError::Truncated(_))));
 }

@@ -8,9 +8,9 @@ use parquet::{
 use phase_dataset::{
     manifest::{EventEntry, event_path, video_path},
     parquet::{EVENTS_PER_FILE, ExportError, compare, descriptions, export, parts},
-    phase_events::{Recording, to_json},
     splits::Split,
 };
+use phase_event::{Recording, to_json};
 use serde_json::{Value, json};
 use std::{fs, path::Path};
 

@@ -3,12 +3,11 @@
 use crate::support;
 use phase_dataset::{
     checksum::FileEntry,
-    phase_events::Recording,
     summary::{AgentComparison, Comparison, Pair, Quartiles, Source, Summary, tabulate},
 };
+use phase_event::{Event, Recording};
 use phase_evidence::{Motion, Outcome};
 use phase_model::{EventKind, Goal, Sign, arena::SUBSTEPS};
-use phase_sim::Event;
 use serde_json::{Value, json};
 use std::fs;
 

@@ -1,8 +1,8 @@
 //! What the agents of an event were after, step by step, in few bytes.
 
 use phase_dataset::manifest::EventEntry;
+use phase_event::Event;
 use phase_model::AGENT_COUNT;
-use phase_sim::Event;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
 

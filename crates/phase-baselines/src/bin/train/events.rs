@@ -5,9 +5,10 @@ use phase_baselines::training::Source;
 use phase_dataset::{
     checksum::{hexadecimal, sha256},
     manifest::{EventEntry, MANIFEST_FILE, Manifest},
-    phase_events::{self, Recording},
+    phase_events,
     splits::Split,
 };
+use phase_event::Recording;
 use std::path::{Path, PathBuf};
 
 /// What the options choose.

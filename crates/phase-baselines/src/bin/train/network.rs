@@ -4,7 +4,8 @@ use crate::{NetworkOptions, error::TrainError, events::Events, kept::Kept, remar
 use phase_baselines::training::{
     Final, Measure, NamedMeasure, NetworkError, Published, Round, Run, Settings, measure, to_safetensors,
 };
-use phase_dataset::{atomic, phase_events::Recording, splits::Split};
+use phase_dataset::{atomic, splits::Split};
+use phase_event::Recording;
 use phase_model::ObservedEvent;
 
 /// Trains a network on what `sample` makes of events.

@@ -6,7 +6,7 @@ use phase_baselines::{
     recognition::{LabelledEvent, SETTINGS},
     two_level_lstm::TwoLevelLstm,
 };
-use phase_dataset::phase_events::Recording;
+use phase_event::Recording;
 use phase_model::ObservedEvent;
 
 /// Trains a 2-Level LSTM.

@@ -1,7 +1,7 @@
 //! What the high level hands to the low level.
 
+use crate::Literal;
 use core::fmt;
-use phase_predicates::Literal;
 use serde::{Deserialize, Serialize};
 
 /// An element of the paper's subgoal space: a predicate to bring about, or nothing left to do.

@@ -1,14 +1,11 @@
 //! What a file must be, and what is said about one that is not.
 
 use crate::support::file;
-use phase_dataset::{
-    Problem,
-    phase_events::{parse, read},
-};
-use phase_model::{Action, Attitude, EventKind, Goal, Relation, Sign, Size, Strength, Vec2};
+use phase_event::{EventReadError, Recording, parse};
+use phase_model::{Action, Attitude, EventKind, Goal, Relation, Sign, Size, Strength, Vec2, json::JsonError};
 use serde_json::{Value, json};
 
-fn parse_value(value: &Value) -> Result<Vec<phase_dataset::phase_events::Recording>, Problem> {
+fn parse_value(value: &Value) -> Result<Vec<Recording>, EventReadError> {
     parse(value.to_string().as_bytes())
 }
 
@@ -41,27 +38,6 @@ fn every_field_arrives() {
     let recovered = recording.recovered_actions.as_ref().expect("recovered actions");
     assert_eq!(recovered.steps, [[Action::Up, Action::NoForce], [Action::Attach, Action::TurnLeft]]);
     assert!(recording.simulation.is_none());
-}
-
-#[test]
-fn recordings_with_known_actions_can_be_replayed() {
-    let mut value = file();
-    let event = &mut value["events"][0];
-    event["recovered_actions"]["steps"] = json!([["turnright", "turnleft"], ["up", "attach"]]);
-    assert_eq!(parse_value(&value).expect("a good file")[0].replay(), None, "mirrored");
-    let event = value["events"][0].as_object_mut().expect("an event");
-    event["layout"] = json!({"base": 4, "flip": null});
-    event.remove("walls").expect("the walls of another layout");
-    let recording = &parse_value(&value).expect("a good file")[0];
-    let replay = recording.replay().expect("a replay");
-    assert_eq!((replay.id.as_str(), &replay.physique), ("made-up-1", &recording.scene.physique()));
-    assert_eq!(replay.actions, [[Action::TurnLeft; 2], [Action::Up, Action::Attach]]);
-    assert_eq!(Some(replay.initial), recording.trajectory.state(0));
-    let rows = [1, 2].map(|t| recording.trajectory.state(t).expect("a row").bodies);
-    assert_eq!(replay.rows, rows);
-
-    value["events"][0]["recovered_actions"]["steps"] = json!([]);
-    assert_eq!(parse_value(&value).expect("a good file")[0].replay(), None, "nothing known");
 }
 
 #[test]
@@ -241,7 +217,7 @@ fn two_events_need_two_names() {
     let mut value = file();
     let event = value["events"][0].clone();
     value["events"].as_array_mut().expect("events").push(event);
-    assert_eq!(parse_value(&value), Err(Problem::DuplicateId("made-up-1".into())));
+    assert_eq!(parse_value(&value), Err(EventReadError::DuplicateId("made-up-1".into())));
 }
 
 #[test]
@@ -253,40 +229,29 @@ fn text_that_is_no_json_is_called_what_it_is() {
     };
     let line_of = |text: &str, part: &str| text[..text.find(part).expect(part)].lines().count();
     let truncated = &good[..good.len() / 2];
-    assert_eq!(parse(truncated.as_bytes()), Err(Problem::Truncated(truncated.lines().count())));
+    assert_eq!(parse(truncated.as_bytes()), Err(JsonError::Truncated(truncated.lines().count()).into()));
 
     for token in ["NaN", "Infinity", "-Infinity"] {
         let text = with("450.0", token);
         let line = line_of(&text, token);
-        assert_eq!(parse(text.as_bytes()), Err(Problem::NotANumber { token: token.into(), line }));
+        assert_eq!(parse(text.as_bytes()), Err(JsonError::NotANumber { token: token.into(), line }.into()));
     }
     let text = with("450.0", "1e999");
-    assert_eq!(parse(text.as_bytes()), Err(Problem::NumberTooLarge(line_of(&text, "1e999"))));
+    assert_eq!(parse(text.as_bytes()), Err(JsonError::NumberTooLarge(line_of(&text, "1e999")).into()));
 
-    assert_eq!(parse(b""), Err(Problem::Empty));
-    assert_eq!(parse(b" \n "), Err(Problem::Empty));
-    assert_eq!(parse(b"\0\0\0\x20ftypisom\xff\xfe"), Err(Problem::NotText(12)));
-    assert!(matches!(parse(b"id,x,y\n1,2,3\n"), Err(Problem::NotJson { line: 1, .. })));
-    assert!(matches!(parse(b"[]"), Err(Problem::Format { .. })));
-    assert!(matches!(parse(b"{}"), Err(Problem::Format { .. })));
+    assert_eq!(parse(b""), Err(JsonError::Empty.into()));
+    assert_eq!(parse(b" \n "), Err(JsonError::Empty.into()));
+    assert_eq!(parse(b"\0\0\0\x20ftypisom\xff\xfe"), Err(JsonError::NotText(12).into()));
+    assert!(matches!(
+        parse(b"id,x,y\n1,2,3\n"),
+        Err(EventReadError::Json(JsonError::NotJson { line: 1, .. }))
+    ));
+    assert!(matches!(parse(b"[]"), Err(EventReadError::Json(JsonError::Format { .. }))));
+    assert!(matches!(parse(b"{}"), Err(EventReadError::Json(JsonError::Format { .. }))));
 }
 
 #[test]
 fn a_deep_file_is_an_error_and_no_overflow() {
     let text = "[".repeat(1_000_000);
-    assert!(matches!(parse(text.as_bytes()), Err(Problem::NotJson { .. })));
-}
-
-#[test]
-fn files_that_cannot_be_read_are_named() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let missing = folder.path().join("missing.json");
-    let sentence = read(&missing).expect_err("missing").to_string();
-    assert!(sentence.contains("missing.json") && sentence.contains("no such file"), "{sentence}");
-    let error = read(folder.path()).expect_err("a folder");
-    assert_eq!(error.problem, Problem::IsFolder);
-    let path = folder.path().join("bad.json");
-    std::fs::write(&path, "{\"format\":").expect("written");
-    let error = read(&path).expect_err("truncated");
-    assert_eq!((error.file.as_path(), error.problem), (path.as_path(), Problem::Truncated(1)));
+    assert!(matches!(parse(text.as_bytes()), Err(EventReadError::Json(JsonError::NotJson { .. }))));
 }

@@ -1,6 +1,6 @@
-//! What a simulation leaves behind.
+//! A social event: what a simulation leaves behind.
 
-use phase_agent::Thought;
+use crate::Thought;
 use phase_model::{AGENT_COUNT, Action, Scene, State, arena::SUBSTEPS};
 
 /// One step of an event: what both agents did and why, and what became of it.

@@ -1,43 +1,32 @@
-//! The parts of a scene, each checked against its level.
+//! From JSON to a scene, every level checked against what repeats it.
 
-use crate::{FieldError, json::Field};
-use phase_model::{
-    AGENT_COUNT, AgentSpec, Attitude, Body, EventKind, Flip, Goal, Layout, MAX_OBJECTS, Segment, Sign, Size,
-    Strength, Vec2, arena,
+use super::Starts;
+use crate::{
+    AGENT_COUNT, AgentSpec, Attitude, Body, EventKind, Flip, Goal, Layout, MAX_OBJECTS, ObjectSpec, Scene,
+    Segment, Sign, Size, Strength, Vec2, arena,
+    json::{Field, FieldError},
 };
 
 /// How far a redundant number may lie from what it repeats.
 const TOLERANCE: f32 = 1e-3;
 
-/// A scene without start poses.
-pub(super) struct Parts {
-    pub(super) layout: Layout,
-    pub(super) agents: [AgentSpec; AGENT_COUNT],
-    pub(super) objects: Vec<Size>,
-    pub(super) kind: EventKind,
-}
-
-pub(super) fn parts(event: &Field<'_>) -> Result<Parts, FieldError> {
+pub(super) fn scene(event: &Field<'_>, starts: Starts) -> Result<Scene, FieldError> {
     let layout = layout(event)?;
     let agents = event.required("agents")?;
     let found = agents.items()?;
     if found.len() != AGENT_COUNT {
         return Err(agents.error(format!("must hold {AGENT_COUNT} agents, not {}", found.len())));
     }
-    let agents: Vec<AgentSpec> = found.map(|field| agent(&field)).collect::<Result<_, _>>()?;
+    let agents: Vec<AgentSpec> = found.map(|field| agent(&field, starts)).collect::<Result<_, _>>()?;
     let objects = event.required("objects")?;
     let found = objects.items()?;
     if found.len() > MAX_OBJECTS {
         return Err(objects.error(format!("must hold at most {MAX_OBJECTS} objects, not {}", found.len())));
     }
-    let object = |field: Field<'_>| {
-        field.only(&["radius", "size_level"])?;
-        size(&field)
-    };
-    Ok(Parts {
+    Ok(Scene {
         layout,
         agents: core::array::from_fn(|i| agents[i]),
-        objects: found.map(object).collect::<Result<_, _>>()?,
+        objects: found.map(|field| object(&field, starts)).collect::<Result<_, _>>()?,
         kind: event.required("event")?.one_of(&EventKind::ALL.map(|kind| (kind.name(), kind)))?,
     })
 }
@@ -72,8 +61,8 @@ fn layout(event: &Field<'_>) -> Result<Layout, FieldError> {
     Ok(layout)
 }
 
-fn agent(field: &Field<'_>) -> Result<AgentSpec, FieldError> {
-    field.only(&["radius", "size_level", "max_force", "strength_level", "goal", "alpha"])?;
+fn agent(field: &Field<'_>, starts: Starts) -> Result<AgentSpec, FieldError> {
+    only(field, &["radius", "size_level", "max_force", "strength_level", "goal", "alpha"], starts)?;
     let size = size(field)?;
     let level = field.required("strength_level")?.whole(0, 3)?;
     let strength = Strength::ALL[level as usize];
@@ -85,7 +74,34 @@ fn agent(field: &Field<'_>) -> Result<AgentSpec, FieldError> {
         _ => Attitude::Help,
     };
     let goal = goal(&field.required("goal")?)?;
-    Ok(AgentSpec { size, strength, goal, attitude, start: Body::default() })
+    Ok(AgentSpec { size, strength, goal, attitude, start: start(field, starts)? })
+}
+
+fn object(field: &Field<'_>, starts: Starts) -> Result<ObjectSpec, FieldError> {
+    only(field, &["radius", "size_level"], starts)?;
+    Ok(ObjectSpec { size: size(field)?, start: start(field, starts)? })
+}
+
+fn only(field: &Field<'_>, keys: &[&str], starts: Starts) -> Result<(), FieldError> {
+    match starts {
+        Starts::Elsewhere => field.only(keys),
+        Starts::Members => field.only(&[keys, &["start"]].concat()),
+    }
+}
+
+fn start(field: &Field<'_>, starts: Starts) -> Result<Body, FieldError> {
+    if starts == Starts::Elsewhere {
+        return Ok(Body::default());
+    }
+    let start = field.required("start")?;
+    start.only(&["x", "y", "vx", "vy", "angle", "angular_velocity"])?;
+    let or_zero = |key| start.optional(key)?.map_or(Ok(0.0), |number| number.number());
+    Ok(Body {
+        position: Vec2::new(start.required("x")?.number()?, start.required("y")?.number()?),
+        velocity: Vec2::new(or_zero("vx")?, or_zero("vy")?),
+        angle: or_zero("angle")?,
+        angular_velocity: or_zero("angular_velocity")?,
+    })
 }
 
 fn size(field: &Field<'_>) -> Result<Size, FieldError> {

@@ -1,13 +1,10 @@
 //! Made-up scenes, events and files.
 
-use phase_agent::{ActionValue, SubgoalValue, Thought};
+use phase_event::{ActionValue, Event, Step, SubgoalValue, Thought};
 use phase_model::{
-    Action, AgentSpec, Attitude, Body, Entity, EventKind, Flip, Goal, Grip, Layout, ObjectSpec, Scene, Side,
-    Sign, Size, State, Strength, Vec2, arena::SUBSTEPS,
+    Action, AgentSpec, Attitude, Body, Entity, EventKind, Flip, Goal, Grip, Layout, Literal, ObjectSpec,
+    Predicate, Scene, Side, Sign, Size, State, Strength, Subgoal, Vec2,
 };
-use phase_planner::Subgoal;
-use phase_predicates::{Literal, Predicate};
-use phase_sim::{Event, Step};
 use serde_json::{Value, json};
 
 /// A scene in which agent 0 helps agent 1 to put object 0 on landmark 1.
@@ -105,11 +102,6 @@ fn thought(t: usize, number: &mut impl FnMut() -> f32) -> Thought {
 
 fn idle() -> Thought {
     Thought { subgoal: Subgoal::Stay, subgoals: vec![], plan: vec![], actions: vec![] }
-}
-
-/// The number of frames of an event with this many steps.
-pub(crate) const fn frames(steps: usize) -> usize {
-    1 + steps * SUBSTEPS
 }
 
 /// A measured recording as its maker would write it, with every optional field.

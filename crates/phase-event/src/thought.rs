@@ -1,7 +1,6 @@
 //! Why an agent did what it did, for the event record and for pictures.
 
-use phase_model::Action;
-use phase_planner::Subgoal;
+use phase_model::{Action, Subgoal};
 use serde::{Deserialize, Serialize};
 
 /// A subgoal that some particles proposed, and what the high level made of it.

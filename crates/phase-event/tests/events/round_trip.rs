@@ -1,15 +1,18 @@
 //! Reading and writing undo each other, to the last bit.
 
-use crate::support::{event, file, frames, plain_event};
-use phase_dataset::phase_events::{Recording, Trajectory, parse, subgoal_of, to_json};
-use phase_model::{Entity, arena::SUBSTEPS};
-use phase_planner::Subgoal;
-use phase_predicates::{Literal, Place, Predicate};
+use crate::support::{event, file, plain_event};
+use phase_event::{Recording, Trajectory, parse, subgoal_of, to_json};
+use phase_model::{Entity, Literal, Place, Predicate, Subgoal, arena::SUBSTEPS};
 use proptest::prelude::*;
 use serde_json::{Value, json};
 
 fn recording(steps: usize) -> Recording {
     Recording::of_event("event-1", plain_event(steps), "phase test".into(), json!({"max_steps": 3}))
+}
+
+/// The number of frames of an event with this many steps.
+const fn frames(steps: usize) -> usize {
+    1 + steps * SUBSTEPS
 }
 
 #[test]

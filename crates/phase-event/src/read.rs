@@ -1,21 +1,19 @@
-//! From a file to recordings.
+//! From JSON to recordings.
 
-use super::{
-    COLUMNS, Recording, Recovered, Row, Trajectory, read_scene,
-    read_simulation::{actions_of, simulation_of},
-    recording::body_of,
+use crate::{
+    COLUMNS, Event, EventReadError, Recording, Recovered, Row, Trajectory,
+    read_simulation::{actions_of, event_of, simulation_of},
+    trajectory::body_of,
     write::FILE_FORMAT,
 };
-use crate::{
-    FieldError, FileError, Problem,
-    json::{self, Field, finite, shown},
-};
 use phase_model::{
-    AGENT_COUNT, AgentSpec, MAX_OBJECTS, ObjectSpec, Relation, Scene, SceneError, Vec2,
+    AGENT_COUNT, Relation, Scene, Vec2,
     arena::{self, FRAMES_PER_SECOND, SUBSTEPS},
+    json::{self, Field, FieldError, finite, shown},
+    scene_json::Starts,
 };
 use serde_json::Value;
-use std::{collections::BTreeSet, path::Path};
+use std::collections::BTreeSet;
 
 /// The most letters an id may have.
 pub const LONGEST_ID: usize = 100;
@@ -23,82 +21,86 @@ pub const LONGEST_ID: usize = 100;
 /// Reads all events of a `phase-events/1` file and checks each.
 ///
 /// # Errors
-/// A [`FileError`] that names file, event, field and rule.
-pub fn read(path: &Path) -> Result<Vec<Recording>, FileError> {
-    let value = json::read(path)?;
-    from_value(&value).map_err(|problem| FileError { file: path.to_owned(), problem })
+/// [`EventReadError`] names event, field and rule.
+pub fn from_json(text: &str) -> Result<Vec<Recording>, EventReadError> {
+    all_of(&json::parse_text(text)?)
 }
 
-/// The same for bytes in memory.
+/// The same for bytes, which may not be text.
 ///
 /// # Errors
-/// What is wrong, without a file's name.
-pub fn parse(bytes: &[u8]) -> Result<Vec<Recording>, Problem> {
-    from_value(&json::parse(bytes)?)
+/// [`EventReadError`] names event, field and rule.
+pub fn parse(bytes: &[u8]) -> Result<Vec<Recording>, EventReadError> {
+    all_of(&json::parse(bytes)?)
 }
 
-fn from_value(value: &Value) -> Result<Vec<Recording>, Problem> {
-    check_format(value, FILE_FORMAT)?;
-    let of_file = |problem| Problem::Field { event: None, problem };
-    let events = Field::root(value).required("events").map_err(of_file)?;
+fn all_of(document: &Value) -> Result<Vec<Recording>, EventReadError> {
+    json::check_format(document, FILE_FORMAT)?;
+    let of_file = |problem| EventReadError::Field { event: None, problem };
+    let events = Field::root(document).required("events").map_err(of_file)?;
     let events = events.array().map_err(of_file)?;
     if events.is_empty() {
-        return Err(Problem::NoEvents);
+        return Err(EventReadError::NoEvents);
     }
     let mut ids = BTreeSet::new();
     let mut recordings = Vec::with_capacity(events.len());
     for (k, value) in events.iter().enumerate() {
-        let recording = recording(k, &Field::root(value))?;
+        let number = || Some(format!("number {k}"));
+        let recording = recording(&Field::root(value), number)?;
         if !ids.insert(recording.id.clone()) {
-            return Err(Problem::DuplicateId(recording.id));
+            return Err(EventReadError::DuplicateId(recording.id));
         }
         recordings.push(recording);
     }
     Ok(recordings)
 }
 
-/// Checks the `format` field that every file of ours begins with.
-///
-/// # Errors
-/// [`Problem::Format`].
-pub(crate) fn check_format(value: &Value, expected: &'static str) -> Result<(), Problem> {
-    let found = match value {
-        Value::Object(members) => match members.get("format") {
-            Some(Value::String(format)) if format == expected => return Ok(()),
-            Some(other) => format!("not {}", shown(other)),
-            None => "and is missing".into(),
-        },
-        other => format!("but the file holds {} and no object", kind(other)),
-    };
-    Err(Problem::Format { expected, found })
-}
+impl Recording {
+    /// Reads one event as it stands in the list `events` of a file.
+    ///
+    /// # Errors
+    /// [`EventReadError`] names field and rule.
+    pub fn from_json(text: &str) -> Result<Self, EventReadError> {
+        Self::from_value(&json::parse_text(text)?)
+    }
 
-fn kind(value: &Value) -> &'static str {
-    match value {
-        Value::Null => "null",
-        Value::Bool(_) => "a truth value",
-        Value::Number(_) => "a number",
-        Value::String(_) => "a text",
-        Value::Array(_) => "an array",
-        Value::Object(_) => "an object",
+    /// The same for JSON that is parsed already.
+    ///
+    /// # Errors
+    /// [`EventReadError`] names field and rule.
+    pub fn from_value(value: &Value) -> Result<Self, EventReadError> {
+        recording(&Field::root(value), || None)
     }
 }
 
-fn recording(k: usize, event: &Field<'_>) -> Result<Recording, Problem> {
-    let number = format!("number {k}");
-    let id = id_of(event).map_err(|problem| Problem::Field { event: Some(number), problem })?;
-    let in_event = |problem| Problem::Field { event: Some(id.clone()), problem };
+impl Event {
+    /// Reads a simulated event as it stands in the list `events` of a file. What a [`Recording`] has beside (`id`,
+    /// `generator`, `settings`, labels) may be there or not.
+    ///
+    /// # Errors
+    /// [`EventReadError`] names field and rule.
+    pub fn from_json(text: &str) -> Result<Self, EventReadError> {
+        Self::from_value(&json::parse_text(text)?)
+    }
 
-    let parts = read_scene::parts(event).map_err(in_event)?;
-    let trajectory = trajectory(event, parts.objects.len()).map_err(in_event)?;
-    let start = |rows: &Vec<Row>| body_of(&rows[0]);
-    let agents =
-        core::array::from_fn(|i| AgentSpec { start: start(&trajectory.agents[i]), ..parts.agents[i] });
-    let objects = parts.objects.iter().zip(&trajectory.objects);
-    let objects = objects.map(|(&size, rows)| ObjectSpec { size, start: start(rows) }).collect();
-    let mut scene = Scene { layout: parts.layout, agents, objects, kind: parts.kind };
-    scene.validate().map_err(|error| scene_problem(&id, &error))?;
+    /// The same for JSON that is parsed already.
+    ///
+    /// # Errors
+    /// [`EventReadError`] names field and rule.
+    pub fn from_value(value: &Value) -> Result<Self, EventReadError> {
+        let event = Field::root(value);
+        let in_event = |problem| EventReadError::Field { event: None, problem };
+        let (mut scene, trajectory) = start_and_motion(&event, None)?;
+        let substeps = event.required("substeps").map_err(in_event)?;
+        event_of(&event, &substeps, &mut scene, &trajectory).map_err(in_event)
+    }
+}
 
+/// `name` is what to call an event that has no good `id`.
+fn recording(event: &Field<'_>, name: impl FnOnce() -> Option<String>) -> Result<Recording, EventReadError> {
+    let id = id_of(event).map_err(|problem| EventReadError::Field { event: name(), problem })?;
+    let in_event = |problem| EventReadError::Field { event: Some(id.clone()), problem };
+    let (mut scene, trajectory) = start_and_motion(event, Some(&id))?;
     let labels = labels(event, trajectory.steps()).map_err(in_event)?;
     let simulation = simulation_of(event, &mut scene, &trajectory).map_err(in_event)?;
     Ok(Recording {
@@ -114,6 +116,24 @@ fn recording(k: usize, event: &Field<'_>) -> Result<Recording, Problem> {
     })
 }
 
+/// The scene, which starts at the first row of the trajectory, and the trajectory.
+fn start_and_motion(event: &Field<'_>, id: Option<&str>) -> Result<(Scene, Trajectory), EventReadError> {
+    let name = || id.map(String::from);
+    let in_event = |problem| EventReadError::Field { event: name(), problem };
+    let mut scene = Scene::from_members(event, Starts::Elsewhere).map_err(in_event)?;
+    let trajectory = trajectory(event, scene.objects.len()).map_err(in_event)?;
+    for (agent, rows) in scene.agents.iter_mut().zip(&trajectory.agents) {
+        agent.start = body_of(&rows[0]);
+    }
+    for (object, rows) in scene.objects.iter_mut().zip(&trajectory.objects) {
+        object.start = body_of(&rows[0]);
+    }
+    match scene.validate() {
+        Ok(()) => Ok((scene, trajectory)),
+        Err(source) => Err(EventReadError::Scene { event: name(), source }),
+    }
+}
+
 /// An id becomes a file name, so it must be one on every system.
 fn id_of(event: &Field<'_>) -> Result<String, FieldError> {
     let field = event.required("id")?;
@@ -127,17 +147,6 @@ fn id_of(event: &Field<'_>) -> Result<String, FieldError> {
             format!("1 to {LONGEST_ID} letters, digits, `-`, `_` and `.`, beginning with a letter or digit");
         Err(field.must_be(&rule))
     }
-}
-
-/// The model's checks know a start pose where the file has a trajectory's first row.
-fn scene_problem(id: &str, error: &SceneError) -> Problem {
-    let rule = error.to_string();
-    let rule = ["agents", "objects"].into_iter().fold(rule, |rule, group| {
-        (0..MAX_OBJECTS.max(AGENT_COUNT)).fold(rule, |rule, k| {
-            rule.replace(&format!("{group}[{k}].start"), &format!("trajectory.{group}[{k}][0]"))
-        })
-    });
-    Problem::Scene { event: id.into(), rule }
 }
 
 struct Labels {
@@ -211,7 +220,7 @@ fn trajectory(event: &Field<'_>, object_count: usize) -> Result<Trajectory, Fiel
 }
 
 /// Checks the names of a table's columns.
-pub(super) fn columns(table: &Field<'_>, expected: &[&str]) -> Result<(), FieldError> {
+pub(crate) fn columns(table: &Field<'_>, expected: &[&str]) -> Result<(), FieldError> {
     let field = table.required("columns")?;
     let found: Vec<Option<&str>> = field.array()?.iter().map(Value::as_str).collect();
     if found.iter().copied().eq(expected.iter().map(|name| Some(*name))) {
@@ -231,7 +240,7 @@ fn tracks(field: &Field<'_>, count: usize, group: &str) -> Result<Vec<Vec<Row>>,
 }
 
 /// The rows of one entity: at least one, of finite numbers, inside the arena.
-pub(super) fn rows<const N: usize>(track: &Field<'_>) -> Result<Vec<[f32; N]>, FieldError> {
+pub(crate) fn rows<const N: usize>(track: &Field<'_>) -> Result<Vec<[f32; N]>, FieldError> {
     let rows = track.array()?;
     if rows.is_empty() {
         return Err(track.error("must hold at least one row"));

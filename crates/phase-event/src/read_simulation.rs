@@ -1,36 +1,43 @@
 //! What a simulated event keeps beside its trajectory.
 
-use super::{
-    Row, SUBSTEP_COLUMNS, Simulation, Trajectory,
+use crate::{
+    ActionValue, Event, Row, SUBSTEP_COLUMNS, Simulation, Step, SubgoalValue, Thought, Trajectory,
     read::{columns, rows},
     subgoals::subgoal_of,
 };
-use crate::{
-    FieldError,
-    json::{Field, shown},
-};
-use phase_agent::{ActionValue, SubgoalValue, Thought};
 use phase_model::{
-    AGENT_COUNT, Action, Body, Contacts, Entity, Grip, MAX_ENTITIES, Scene, Side, State, Vec2,
+    AGENT_COUNT, Action, Body, Contacts, Entity, Grip, MAX_ENTITIES, Scene, Side, State, Subgoal, Vec2,
     arena::SUBSTEPS,
+    json::{Field, FieldError, shown},
 };
-use phase_planner::Subgoal;
-use phase_sim::{Event, Step};
 use serde_json::Value;
 
 /// How far a mean row may lie from the substeps it is the mean of.
 const TOLERANCE: f32 = 1e-3;
 
-/// Reads the simulation of an event that has one (`substeps` is there). Its first substep completes the
-/// scene's start, of which a row leaves the angular velocity out.
-pub(super) fn simulation_of(
+/// Reads the simulation of an event that has one (`substeps` is there).
+pub(crate) fn simulation_of(
     event: &Field<'_>,
     scene: &mut Scene,
     trajectory: &Trajectory,
 ) -> Result<Option<Simulation>, FieldError> {
     let Some(substeps) = event.optional("substeps")? else { return Ok(None) };
+    Ok(Some(Simulation {
+        event: event_of(event, &substeps, scene, trajectory)?,
+        generator: event.required("generator")?.text()?.into(),
+        settings: event.required("settings")?.value().clone(),
+    }))
+}
+
+/// The whole event. Its first substep completes the scene's start, of which a row leaves the angular velocity out.
+pub(crate) fn event_of(
+    event: &Field<'_>,
+    substeps: &Field<'_>,
+    scene: &mut Scene,
+    trajectory: &Trajectory,
+) -> Result<Event, FieldError> {
     let steps = trajectory.steps();
-    let states = states(&substeps, scene.objects.len(), 1 + steps * SUBSTEPS)?;
+    let states = states(substeps, scene.objects.len(), 1 + steps * SUBSTEPS)?;
     let actions = actions_of(&of_length(event, "actions", steps)?)?;
     let subgoals = of_length(event, "subgoals", steps)?;
     let thoughts = of_length(event, "thoughts", steps)?.items()?;
@@ -59,15 +66,11 @@ pub(super) fn simulation_of(
         steps: recorded,
     };
     check_means(&event_read, trajectory)?;
-    Ok(Some(Simulation {
-        event: event_read,
-        generator: event.required("generator")?.text()?.into(),
-        settings: event.required("settings")?.value().clone(),
-    }))
+    Ok(event_read)
 }
 
 /// Pairs of actions, by step.
-pub(super) fn actions_of(field: &Field<'_>) -> Result<Vec<[Action; AGENT_COUNT]>, FieldError> {
+pub(crate) fn actions_of(field: &Field<'_>) -> Result<Vec<[Action; AGENT_COUNT]>, FieldError> {
     let names = Action::ALL.map(|action| (action.name(), action));
     let pair = |field: Field<'_>| {
         let pair = field.items()?.map(|action| action.one_of(&names)).collect::<Result<Vec<_>, _>>()?;

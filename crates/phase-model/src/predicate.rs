@@ -1,7 +1,7 @@
 //! The four predicates and their negations, as words.
 
+use crate::{Entity, Goal, Sign};
 use core::fmt;
-use phase_model::Entity;
 use serde::{Deserialize, Serialize};
 
 /// Something an entity can be close to.
@@ -49,6 +49,20 @@ impl Literal {
     #[must_use]
     pub const fn not(predicate: Predicate) -> Self {
         Self { predicate, holds: false }
+    }
+}
+
+impl From<Goal> for Literal {
+    /// The final goal state as a predicate or its negation.
+    fn from(goal: Goal) -> Self {
+        let predicate = match goal {
+            Goal::AgentOnLandmark { agent, landmark, .. } => Predicate::On(Entity::Agent(agent), landmark),
+            Goal::ObjectOnLandmark { object, landmark, .. } => {
+                Predicate::On(Entity::Object(object), landmark)
+            }
+            Goal::Touch { agent, other, .. } => Predicate::Touch(agent, Entity::Agent(other)),
+        };
+        Self { predicate, holds: goal.sign() == Sign::Positive }
     }
 }
 

@@ -1,7 +1,7 @@
 //! The published recordings, where they are at hand.
 
-use phase_dataset::phase_events::{parse, read, to_json};
-use std::path::Path;
+use phase_event::{from_json, to_json};
+use std::{fs, path::Path};
 
 #[test]
 fn real_recordings_are_read_and_written_back() {
@@ -10,12 +10,12 @@ fn real_recordings_are_read_and_written_back() {
         println!("skipped: the real recordings are not at hand");
         return;
     }
-    let recordings = read(&path).expect("the real recordings");
+    let recordings = from_json(&fs::read_to_string(&path).expect("a text")).expect("the real recordings");
     assert!(!recordings.is_empty());
     for recording in &recordings {
         assert_eq!(recording.relation, recording.scene.relation(), "{}", recording.id);
         assert!(recording.simulation.is_none());
     }
     let text = to_json(&recordings).expect("finite");
-    assert_eq!(parse(text.as_bytes()).expect("our own file"), recordings);
+    assert_eq!(from_json(&text).expect("our own file"), recordings);
 }

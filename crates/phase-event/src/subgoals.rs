@@ -1,8 +1,8 @@
 //! Subgoals as texts, and back.
 
-use phase_model::{AGENT_COUNT, Entity, MAX_ENTITIES, MAX_OBJECTS, arena};
-use phase_planner::Subgoal;
-use phase_predicates::{Literal, Place, Predicate};
+use phase_model::{
+    AGENT_COUNT, Entity, Literal, MAX_ENTITIES, MAX_OBJECTS, Place, Predicate, Subgoal, arena,
+};
 use std::{collections::BTreeMap, sync::LazyLock};
 
 /// The subgoal that is displayed as a text, such as `not Attach(agent 0, object 1)`.

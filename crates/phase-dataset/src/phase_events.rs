@@ -1,0 +1,14 @@
+//! Files of the format `phase-events/1`.
+
+use crate::{FileError, json};
+use phase_event::Recording;
+use std::path::Path;
+
+/// Reads all events of a `phase-events/1` file and checks each.
+///
+/// # Errors
+/// A [`FileError`] that names file, event, field and rule.
+pub fn read(path: &Path) -> Result<Vec<Recording>, FileError> {
+    let events = phase_event::parse(&json::bytes(path)?);
+    events.map_err(|error| FileError { file: path.to_owned(), problem: error.into() })
+}

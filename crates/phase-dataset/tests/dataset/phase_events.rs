@@ -1,0 +1,18 @@
+//! What is said about files of events that cannot be read.
+
+use phase_dataset::{Problem, phase_events::read};
+use phase_model::json::JsonError;
+
+#[test]
+fn files_that_cannot_be_read_are_named() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let missing = folder.path().join("missing.json");
+    let sentence = read(&missing).expect_err("missing").to_string();
+    assert!(sentence.contains("missing.json") && sentence.contains("no such file"), "{sentence}");
+    let error = read(folder.path()).expect_err("a folder");
+    assert_eq!(error.problem, Problem::IsFolder);
+    let path = folder.path().join("bad.json");
+    std::fs::write(&path, "{\"format\":").expect("written");
+    let error = read(&path).expect_err("truncated");
+    assert_eq!((error.file.as_path(), error.problem), (path.as_path(), JsonError::Truncated(1).into()));
+}

@@ -1,0 +1,67 @@
+//! What can be wrong with events, in one plain sentence each.
+
+use phase_model::{
+    AGENT_COUNT, MAX_OBJECTS, SceneError,
+    json::{FieldError, JsonError},
+};
+use thiserror::Error;
+
+/// Why a text is not `phase-events/1`, or an event of it cannot be used.
+#[derive(Clone, PartialEq, Debug, Error)]
+pub enum EventReadError {
+    /// It is no JSON, or JSON of another format.
+    #[error(transparent)]
+    Json(#[from] JsonError),
+    /// There is nothing in it to work on.
+    #[error("field `events` must hold at least one event")]
+    NoEvents,
+    /// Two events have the same name.
+    #[error("event {0}: field `id` must differ from that of every other event")]
+    DuplicateId(String),
+    /// A field breaks a rule.
+    #[error("{}{problem}", event_prefix(event))]
+    Field {
+        /// The event it belongs to, by its `id` or its number; `None` if it belongs to none, or to the only one.
+        event: Option<String>,
+        /// The field and the rule.
+        #[source]
+        problem: FieldError,
+    },
+    /// The scene breaks a rule of [`phase_model::validate`].
+    #[error("{}{}", event_prefix(event), in_trajectory(source))]
+    Scene {
+        /// The event's `id`; `None` if it has none.
+        event: Option<String>,
+        /// The rule.
+        source: SceneError,
+    },
+}
+
+/// Why events cannot be written.
+#[derive(Debug, Error)]
+pub enum EventWriteError {
+    /// An event holds a number that JSON cannot express.
+    #[error("event {0} holds a number that is not finite and cannot be written")]
+    NotFinite(String),
+    /// An event cannot be put into JSON for another reason.
+    #[error("event {event} cannot be written: {source}")]
+    Json {
+        /// The event's `id`.
+        event: String,
+        /// The reason.
+        source: serde_json::Error,
+    },
+}
+
+fn event_prefix(event: &Option<String>) -> String {
+    event.as_ref().map_or_else(String::new, |event| format!("event {event}: "))
+}
+
+/// The model's checks know a start pose where an event has a trajectory's first row.
+fn in_trajectory(error: &SceneError) -> String {
+    ["agents", "objects"].into_iter().fold(error.to_string(), |rule, group| {
+        (0..MAX_OBJECTS.max(AGENT_COUNT)).fold(rule, |rule, k| {
+            rule.replace(&format!("{group}[{k}].start"), &format!("trajectory.{group}[{k}][0]"))
+        })
+    })
+}

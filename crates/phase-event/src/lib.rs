@@ -1,0 +1,55 @@
+//! PHASE events in memory and as JSON of the format `phase-events/1`.
+//!
+//! A [`Recording`] is one event of such a file: its [`Scene`](phase_model::Scene), its labels, and the [`Trajectory`]
+//! of everybody in it. A simulated event has its whole [`Event`] beside: every substep, what both agents did
+//! ([`Step`]) and why ([`Thought`]). This is all that is needed to read a file of events:
+//!
+//! ```
+//! let text = r#"{"format": "phase-events/1", "events": [{"id": "chase", "layout": {"base": 0},
+//!     "agents": [{"size_level": 0, "strength_level": 2, "alpha": 0,
+//!                 "goal": {"kind": "touch", "agent": 0, "other": 1, "sign": 1}},
+//!                {"size_level": 0, "strength_level": 2, "alpha": 0,
+//!                 "goal": {"kind": "touch", "agent": 0, "other": 1, "sign": -1}}],
+//!     "objects": [], "event": "chasing",
+//!     "trajectory": {"columns": ["x", "y", "vx", "vy", "angle"], "objects": [],
+//!                    "agents": [[[8, 14, 0, 0, 0]], [[24, 14, 0, 0, 1.5]]]}}]}"#;
+//! for recording in phase_event::from_json(text)? {
+//!     let (kind, relation) = (recording.scene.kind.name(), recording.relation.name());
+//!     println!("{}: {kind}, {relation}, {} steps", recording.id, recording.trajectory.steps());
+//! }
+//! # Ok::<(), phase_event::EventReadError>(())
+//! ```
+//!
+//! `docs/formats.md` describes every field. Reading and writing are each other's inverse, to the bit. Every part can
+//! be read and written by itself too: [`Recording`], [`Event`] and [`Scene`](phase_model::Scene) have `from_json` and
+//! `to_json`, and implement serde's traits.
+//!
+//! The key design decision is that events are read by hand from a tree of JSON values instead of by derived readers:
+//! whoever made the file learns which field of which event breaks which rule. The price is a reader four times as
+//! long, and a file has to fit in memory twice.
+
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+
+mod error;
+mod event;
+mod line_formatter;
+mod mean;
+mod read;
+mod read_simulation;
+mod recording;
+mod serde_impls;
+mod subgoals;
+mod thought;
+mod trajectory;
+mod write;
+
+pub use error::{EventReadError, EventWriteError};
+pub use event::{Event, Step};
+pub use mean::mean_state;
+pub use read::{LONGEST_ID, from_json, parse};
+pub use recording::{Recording, Recovered, Simulation};
+pub use subgoals::subgoal_of;
+pub use thought::{ActionValue, SubgoalValue, Thought};
+pub use trajectory::{COLUMNS, Row, SUBSTEP_COLUMNS, SubstepRow, Trajectory, substep_row};
+pub use write::{FILE_FORMAT, pairs_in_contact, to_json};

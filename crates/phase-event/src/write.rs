@@ -1,0 +1,263 @@
+//! From recordings to JSON.
+
+use crate::{
+    COLUMNS, Event, EventWriteError, Recording, Recovered, Row, SUBSTEP_COLUMNS, SubstepRow, Thought,
+    Trajectory, line_formatter::LineFormatter, substep_row,
+};
+use phase_model::{
+    AGENT_COUNT, Action, Contacts, Entity, EventKind, Layout, MAX_ENTITIES, Relation, Scene, State, Vec2,
+    arena::{self, FRAMES_PER_SECOND, SUBSTEPS},
+    scene_json::{AgentMembers, ObjectMembers},
+};
+use serde::Serialize;
+use serde_json::Value;
+
+/// The value of the field `format` of these files.
+pub const FILE_FORMAT: &str = "phase-events/1";
+
+/// The text of a file with these events: one line for each field of an event, numbers in the shortest form
+/// that reads back to the same bits.
+///
+/// # Errors
+/// [`EventWriteError`] names the first event that cannot be written.
+pub fn to_json(recordings: &[Recording]) -> Result<String, EventWriteError> {
+    let events: Vec<String> = recordings.iter().map(Recording::to_json).collect::<Result<_, _>>()?;
+    Ok(format!("{{\"format\":\"{FILE_FORMAT}\",\"events\":[\n{}\n]}}\n", events.join(",\n")))
+}
+
+impl Recording {
+    /// The event as it stands in the list `events` of a file, one line for each field.
+    ///
+    /// # Errors
+    /// [`EventWriteError`] if the event holds a number that is not finite.
+    pub fn to_json(&self) -> Result<String, EventWriteError> {
+        if !is_recording_finite(self) {
+            return Err(EventWriteError::NotFinite(self.id.clone()));
+        }
+        lines(&EventMembers::of_recording(self))
+            .map_err(|source| EventWriteError::Json { event: self.id.clone(), source })
+    }
+}
+
+impl Event {
+    /// The event as it stands in the list `events` of a file, without the members that only a [`Recording`] has;
+    /// one line for each field.
+    ///
+    /// # Errors
+    /// If the event holds a number that is not finite.
+    pub fn to_json(&self) -> serde_json::Result<String> {
+        lines(self)
+    }
+}
+
+fn lines(value: &impl Serialize) -> serde_json::Result<String> {
+    let mut bytes = Vec::new();
+    let mut serializer = serde_json::Serializer::with_formatter(&mut bytes, LineFormatter::default());
+    value.serialize(&mut serializer)?;
+    String::from_utf8(bytes).map_err(serde::ser::Error::custom)
+}
+
+/// The members of an event, in the order of files.
+#[derive(Serialize)]
+pub(crate) struct EventMembers<'a> {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    id: Option<&'a str>,
+    layout: Layout,
+    walls: Vec<[Vec2; 2]>,
+    landmarks: [Vec2; arena::LANDMARKS.len()],
+    agents: Vec<AgentMembers>,
+    objects: Vec<ObjectMembers>,
+    event: EventKind,
+    relation: Relation,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    relation_human: Option<Relation>,
+    step_seconds: f32,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    row_0: Option<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    recorded_steps: Option<u32>,
+    trajectory: Table<'a>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    recovered_actions: Option<RecoveredMembers<'a>>,
+    #[serde(flatten)]
+    simulation: Option<SimulationMembers<'a>>,
+}
+
+impl<'a> EventMembers<'a> {
+    pub(crate) fn of_recording(recording: &'a Recording) -> Self {
+        let simulation = recording.simulation.as_ref();
+        Self {
+            id: Some(&recording.id),
+            relation: recording.relation,
+            relation_human: recording.relation_human,
+            row_0: recording.row_0.as_deref(),
+            recorded_steps: recording.recorded_steps,
+            recovered_actions: recording.recovered_actions.as_ref().map(RecoveredMembers::of),
+            simulation: simulation.map(|simulation| SimulationMembers {
+                generator: Some(&simulation.generator),
+                settings: Some(&simulation.settings),
+                ..SimulationMembers::of(&simulation.event)
+            }),
+            ..Self::of_scene(&recording.scene, &recording.trajectory)
+        }
+    }
+
+    /// `trajectory` is that of the event.
+    pub(crate) fn of_event(event: &'a Event, trajectory: &'a Trajectory) -> Self {
+        Self { simulation: Some(SimulationMembers::of(event)), ..Self::of_scene(&event.scene, trajectory) }
+    }
+
+    fn of_scene(scene: &Scene, trajectory: &'a Trajectory) -> Self {
+        Self {
+            id: None,
+            layout: scene.layout,
+            walls: scene.layout.walls().iter().map(|wall| [wall.a, wall.b]).collect(),
+            landmarks: arena::LANDMARKS,
+            agents: scene.agents.iter().map(AgentMembers::without_start).collect(),
+            objects: scene.objects.iter().map(ObjectMembers::without_start).collect(),
+            event: scene.kind,
+            relation: scene.relation(),
+            relation_human: None,
+            step_seconds: SUBSTEPS as f32 / FRAMES_PER_SECOND as f32,
+            row_0: None,
+            recorded_steps: None,
+            trajectory: Table { columns: &COLUMNS, agents: &trajectory.agents, objects: &trajectory.objects },
+            recovered_actions: None,
+            simulation: None,
+        }
+    }
+}
+
+/// What a simulated event has beside.
+#[derive(Serialize)]
+struct SimulationMembers<'a> {
+    seed: u64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    generator: Option<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    settings: Option<&'a Value>,
+    actions: Vec<[&'static str; AGENT_COUNT]>,
+    subgoals: Vec<[String; AGENT_COUNT]>,
+    values: Vec<[Option<f64>; AGENT_COUNT]>,
+    substeps: Substeps,
+    thoughts: Vec<[ThoughtMembers; AGENT_COUNT]>,
+}
+
+impl SimulationMembers<'_> {
+    fn of(event: &Event) -> Self {
+        let thoughts = || event.steps.iter().map(|step| step.thoughts.each_ref());
+        let value = |thought: &Thought| thought.pursued().map(|proposed| proposed.value);
+        Self {
+            seed: event.seed,
+            generator: None,
+            settings: None,
+            actions: event.steps.iter().map(|step| step.actions.map(Action::name)).collect(),
+            subgoals: thoughts().map(|pair| pair.map(|thought| thought.subgoal.to_string())).collect(),
+            values: thoughts().map(|pair| pair.map(value)).collect(),
+            substeps: Substeps::of(event),
+            thoughts: thoughts().map(|pair| pair.map(ThoughtMembers::of)).collect(),
+        }
+    }
+}
+
+pub(crate) fn is_recording_finite(recording: &Recording) -> bool {
+    let rows = recording.trajectory.entities().flatten().flatten().all(|number| number.is_finite());
+    rows && recording.simulation.as_ref().is_none_or(|simulation| is_event_finite(&simulation.event))
+}
+
+pub(crate) fn is_event_finite(event: &Event) -> bool {
+    let physique = event.scene.physique();
+    let mut grips = event.frames().flat_map(|state| state.grips).flatten();
+    let thoughts = event.steps.iter().flat_map(|step| &step.thoughts);
+    let mut values = thoughts.flat_map(|thought| {
+        let subgoals = thought.subgoals.iter().map(|proposed| proposed.value);
+        subgoals.chain(thought.actions.iter().map(|action| action.value))
+    });
+    event.frames().all(|state| state.is_finite(&physique))
+        && grips.all(|grip| grip.relative_angle.is_finite())
+        && values.all(f64::is_finite)
+}
+
+#[derive(Serialize)]
+struct Table<'a> {
+    columns: &'a [&'a str],
+    agents: &'a [Vec<Row>; AGENT_COUNT],
+    objects: &'a [Vec<Row>],
+}
+
+/// The members are in alphabetical order.
+#[derive(Serialize)]
+struct RecoveredMembers<'a> {
+    note: Option<&'a str>,
+    steps: Vec<[&'static str; AGENT_COUNT]>,
+}
+
+impl<'a> RecoveredMembers<'a> {
+    fn of(recovered: &'a Recovered) -> Self {
+        let steps = recovered.steps.iter().map(|pair| pair.map(Action::name)).collect();
+        Self { note: recovered.note.as_deref(), steps }
+    }
+}
+
+/// A subgoal's text, value and particles; an action's name, visits and value.
+#[derive(Serialize)]
+struct ThoughtMembers {
+    subgoals: Vec<(String, f64, usize)>,
+    plan: Vec<String>,
+    actions: Vec<(&'static str, u32, f64)>,
+}
+
+impl ThoughtMembers {
+    fn of(thought: &Thought) -> Self {
+        let proposed = thought.subgoals.iter();
+        let searched = thought.actions.iter();
+        Self {
+            subgoals: proposed.map(|it| (it.subgoal.to_string(), it.value, it.particles)).collect(),
+            plan: thought.plan.iter().map(ToString::to_string).collect(),
+            actions: searched.map(|it| (it.action.name(), it.visits, it.value)).collect(),
+        }
+    }
+}
+
+/// Every frame of an event; grips and contacts only where they change.
+#[derive(Serialize)]
+struct Substeps {
+    columns: [&'static str; SUBSTEP_COLUMNS.len()],
+    agents: Vec<Vec<SubstepRow>>,
+    objects: Vec<Vec<SubstepRow>>,
+    grips: Vec<(usize, [Option<phase_model::Grip>; AGENT_COUNT])>,
+    contacts: Vec<(usize, Vec<[usize; 2]>)>,
+}
+
+impl Substeps {
+    fn of(event: &Event) -> Self {
+        let track = |entity: usize| event.frames().map(|state| substep_row(&state.bodies[entity])).collect();
+        let count = event.scene.physique().entity_count();
+        Self {
+            columns: SUBSTEP_COLUMNS,
+            agents: (0..AGENT_COUNT).map(track).collect(),
+            objects: (AGENT_COUNT..count).map(track).collect(),
+            grips: changes(event.frames().map(|state| state.grips)),
+            contacts: changes(event.frames().map(pairs_in_contact)),
+        }
+    }
+}
+
+/// What holds from which frame on, where it differs from the frame before.
+fn changes<T: PartialEq>(values: impl Iterator<Item = T>) -> Vec<(usize, T)> {
+    let mut changes: Vec<(usize, T)> = Vec::new();
+    for (frame, value) in values.enumerate() {
+        if changes.last().is_none_or(|(_, last)| *last != value) {
+            changes.push((frame, value));
+        }
+    }
+    changes
+}
+
+/// The pairs in contact, entities by their index.
+#[must_use]
+pub fn pairs_in_contact(state: &State) -> Vec<[usize; 2]> {
+    let contacts: Contacts = state.contacts;
+    let pairs = (0..MAX_ENTITIES).flat_map(|a| (a + 1..MAX_ENTITIES).map(move |b| [a, b]));
+    pairs.filter(|pair| contacts.touching(Entity::from_index(pair[0]), Entity::from_index(pair[1]))).collect()
+}

@@ -1,0 +1,7 @@
+//! Events in memory and as JSON, tested module by module.
+
+mod read;
+mod real;
+mod round_trip;
+mod serde;
+mod support;

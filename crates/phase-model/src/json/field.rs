@@ -1,0 +1,152 @@
+//! The fields of a JSON document, each of which knows its path.
+
+use super::FieldError;
+use serde_json::{Map, Value};
+
+/// A value in a JSON tree and the path that leads to it.
+#[derive(Clone, Debug)]
+pub struct Field<'a> {
+    value: &'a Value,
+    path: String,
+}
+
+impl<'a> Field<'a> {
+    /// The root of a tree, which has no path.
+    #[must_use]
+    pub const fn root(value: &'a Value) -> Self {
+        Self { value, path: String::new() }
+    }
+
+    /// The value.
+    #[must_use]
+    pub const fn value(&self) -> &'a Value {
+        self.value
+    }
+
+    /// An error about this field: `rule` reads on from the field's name.
+    #[must_use]
+    pub fn error(&self, rule: impl Into<String>) -> FieldError {
+        FieldError { field: self.path.clone(), rule: rule.into() }
+    }
+
+    /// An error that says what the field must be and what it is instead.
+    #[must_use]
+    pub fn must_be(&self, what: &str) -> FieldError {
+        self.error(format!("must be {what}, not {}", shown(self.value)))
+    }
+
+    /// A member of an object; `None` if it is absent or null.
+    ///
+    /// # Errors
+    /// If this is no object.
+    pub fn optional(&self, key: &str) -> Result<Option<Field<'a>>, FieldError> {
+        let value = self.object()?.get(key).filter(|value| !value.is_null());
+        Ok(value.map(|value| Field { value, path: self.path_of(key) }))
+    }
+
+    /// A member of an object that has to be there; it may be null.
+    ///
+    /// # Errors
+    /// If it is absent or this is no object.
+    pub fn required(&self, key: &str) -> Result<Field<'a>, FieldError> {
+        let path = self.path_of(key);
+        match self.object()?.get(key) {
+            Some(value) => Ok(Field { value, path }),
+            None => Err(FieldError { field: path, rule: "is missing".into() }),
+        }
+    }
+
+    /// Checks that an object has no members but these.
+    ///
+    /// # Errors
+    /// Names the first other member.
+    pub fn only(&self, keys: &[&str]) -> Result<(), FieldError> {
+        match self.object()?.keys().find(|key| !keys.contains(&key.as_str())) {
+            None => Ok(()),
+            Some(key) => {
+                let rule = format!("is unknown; expected are {}", keys.join(", "));
+                Err(FieldError { field: self.path_of(key), rule })
+            }
+        }
+    }
+
+    /// The elements of an array.
+    ///
+    /// # Errors
+    /// If this is no array.
+    pub fn items(&self) -> Result<impl ExactSizeIterator<Item = Field<'a>> + use<'a>, FieldError> {
+        let path = self.path.clone();
+        let items = self.array()?.iter().enumerate();
+        Ok(items.map(move |(k, value)| Field { value, path: format!("{path}[{k}]") }))
+    }
+
+    /// The array itself, for long ones whose elements need no path each.
+    ///
+    /// # Errors
+    /// If this is no array.
+    pub fn array(&self) -> Result<&'a Vec<Value>, FieldError> {
+        self.value.as_array().ok_or_else(|| self.must_be("an array"))
+    }
+
+    /// A text.
+    ///
+    /// # Errors
+    /// If this is none.
+    pub fn text(&self) -> Result<&'a str, FieldError> {
+        self.value.as_str().ok_or_else(|| self.must_be("a text"))
+    }
+
+    /// A number that single precision can hold.
+    ///
+    /// # Errors
+    /// If this is none.
+    pub fn number(&self) -> Result<f32, FieldError> {
+        finite(self.value).ok_or_else(|| self.must_be("a finite number"))
+    }
+
+    /// A whole number in a range.
+    ///
+    /// # Errors
+    /// If this is none.
+    pub fn whole(&self, from: i64, to: i64) -> Result<i64, FieldError> {
+        let number = self.value.as_i64().filter(|number| (from..=to).contains(number));
+        number.ok_or_else(|| self.must_be(&format!("a whole number from {from} to {to}")))
+    }
+
+    /// One of a few words, or whatever else has a name.
+    ///
+    /// # Errors
+    /// Lists the names if this is none of them.
+    pub fn one_of<T: Copy>(&self, choices: &[(&str, T)]) -> Result<T, FieldError> {
+        let found = self.value.as_str().and_then(|text| choices.iter().find(|(name, _)| *name == text));
+        found.map(|(_, choice)| *choice).ok_or_else(|| {
+            let names: Vec<&str> = choices.iter().map(|(name, _)| *name).collect();
+            self.must_be(&format!("one of {}", names.join(", ")))
+        })
+    }
+
+    fn object(&self) -> Result<&'a Map<String, Value>, FieldError> {
+        self.value.as_object().ok_or_else(|| self.must_be("an object"))
+    }
+
+    fn path_of(&self, key: &str) -> String {
+        if self.path.is_empty() { key.into() } else { format!("{}.{key}", self.path) }
+    }
+}
+
+/// A number that single precision can hold.
+#[must_use]
+pub fn finite(value: &Value) -> Option<f32> {
+    value.as_f64().map(|number| number as f32).filter(|number| number.is_finite())
+}
+
+/// A value as it stands in the file, cut short.
+#[must_use]
+pub fn shown(value: &Value) -> String {
+    const LONGEST: usize = 40;
+    let text = value.to_string();
+    match text.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{}…", &text[..end]),
+        None => text,
+    }
+}

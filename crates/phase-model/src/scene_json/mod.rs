@@ -1,0 +1,115 @@
+//! Scenes as JSON.
+//!
+//! A scene is an object with the members `layout`, `agents`, `objects` and `event`, which mean what they mean in an
+//! event of the format `phase-events/1`. In an event the starts of all bodies are the first rows of its trajectory;
+//! in a scene by itself each agent and each object has a member `start` of `x`, `y` (u), `vx`, `vy` (u/s), `angle`
+//! (rad) and `angular_velocity` (rad/s), of which all but the position may be left out and are 0.
+
+mod read;
+mod write;
+
+use crate::{
+    Scene, SceneError,
+    json::{self, Field, FieldError, JsonError},
+};
+use serde::{Deserialize, Deserializer, Serialize, Serializer, de, ser};
+use serde_json::Value;
+use thiserror::Error;
+pub use write::{AgentMembers, ObjectMembers};
+
+/// Why a text is no scene.
+#[derive(Clone, PartialEq, Debug, Error)]
+pub enum SceneReadError {
+    /// It is no JSON.
+    #[error(transparent)]
+    Json(#[from] JsonError),
+    /// A member is missing, unknown, of the wrong type or out of its range.
+    #[error(transparent)]
+    Field(#[from] FieldError),
+    /// The scene breaks a rule of [`crate::validate`].
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+}
+
+/// Where the start pose of each body stands.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Starts {
+    /// In the member `start` of each agent and object.
+    Members,
+    /// Outside of the scene's members: there must be no `start`, and every body is read as [`crate::Body::default`].
+    Elsewhere,
+}
+
+impl Scene {
+    /// Reads a scene and validates it.
+    ///
+    /// # Errors
+    /// [`SceneReadError`] names the member and the rule that it breaks.
+    ///
+    /// # Examples
+    /// ```
+    /// use phase_model::{EventKind, Scene};
+    ///
+    /// let scene = Scene::from_json(
+    ///     r#"{
+    ///         "layout": {"base": 0},
+    ///         "agents": [
+    ///             {"size_level": 0, "strength_level": 2, "alpha": 0, "start": {"x": 8, "y": 14, "angle": 1.5},
+    ///              "goal": {"kind": "touch", "agent": 0, "other": 1, "sign": 1}},
+    ///             {"size_level": 0, "strength_level": 2, "alpha": 0, "start": {"x": 24, "y": 14},
+    ///              "goal": {"kind": "touch", "agent": 0, "other": 1, "sign": -1}}
+    ///         ],
+    ///         "objects": [],
+    ///         "event": "chasing"
+    ///     }"#,
+    /// )?;
+    /// assert_eq!(scene.kind, EventKind::Chasing);
+    /// assert_eq!(Scene::from_json(&scene.to_json()?)?, scene);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn from_json(text: &str) -> Result<Self, SceneReadError> {
+        Self::from_value(&json::parse_text(text)?)
+    }
+
+    /// The same for JSON that is parsed already.
+    ///
+    /// # Errors
+    /// [`SceneReadError`] names the member and the rule that it breaks.
+    pub fn from_value(value: &Value) -> Result<Self, SceneReadError> {
+        let field = Field::root(value);
+        field.only(&["layout", "walls", "landmarks", "agents", "objects", "event"])?;
+        let scene = Self::from_members(&field, Starts::Members)?;
+        scene.validate()?;
+        Ok(scene)
+    }
+
+    /// The scene that is in the members of an object, among others that are not looked at. It is not validated.
+    ///
+    /// # Errors
+    /// [`FieldError`] names the member and the rule that it breaks.
+    pub fn from_members(object: &Field<'_>, starts: Starts) -> Result<Self, FieldError> {
+        read::scene(object, starts)
+    }
+
+    /// The scene as JSON in one line; reading gives the same scene to the bit.
+    ///
+    /// # Errors
+    /// If a start holds a number that is not finite.
+    pub fn to_json(&self) -> serde_json::Result<String> {
+        serde_json::to_string(self)
+    }
+}
+
+impl Serialize for Scene {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.check_finite().map_err(ser::Error::custom)?;
+        write::SceneMembers::of(self).serialize(serializer)
+    }
+}
+
+/// For formats that describe themselves, such as JSON.
+impl<'de> Deserialize<'de> for Scene {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        Self::from_value(&Value::deserialize(deserializer)?).map_err(de::Error::custom)
+    }
+}
