@@ -185,10 +185,8 @@ impl Manifest {
         let fail = |problem| FileError { file: path.to_owned(), problem };
         let value = json::read(path)?;
         check_format(&value, DATASET_FORMAT).map_err(|error| fail(error.into()))?;
-        serde_json::from_value(value).map_err(|error| {
-            let rule = error.to_string();
-            fail(Problem::Shape { what: "dataset manifest", rule })
-        })
+        let what = "dataset manifest";
+        serde_json::from_value(value).map_err(|source| fail(Problem::Incomplete { what, source }))
     }
 
     /// Writes the manifest whole or not at all.

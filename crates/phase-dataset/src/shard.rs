@@ -61,10 +61,12 @@ impl Shard {
     /// If it is no JSON, of another format, or incomplete.
     pub fn read(path: &Path) -> Result<Self, FileError> {
         let fail = |problem| FileError { file: path.to_owned(), problem };
-        let shape = |rule: String| Problem::Shape { what: "shard of a dataset", rule };
+        let what = "shard of a dataset";
+        let shape = |rule: String| Problem::Shape { what, rule };
         let value = json::read(path)?;
         check_format(&value, SHARD_FORMAT).map_err(|error| fail(error.into()))?;
-        let shard: Self = serde_json::from_value(value).map_err(|error| fail(shape(error.to_string())))?;
+        let shard: Self =
+            serde_json::from_value(value).map_err(|source| fail(Problem::Incomplete { what, source }))?;
         if shard.shard == 0 || shard.shard > shard.of {
             return Err(fail(shape(format!("there is no shard {} of {}", shard.shard, shard.of))));
         }

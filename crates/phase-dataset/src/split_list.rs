@@ -11,6 +11,9 @@ use std::{collections::BTreeMap, path::Path};
 /// The value of the field `format` of split files.
 pub const SPLITS_FORMAT: &str = "phase-splits/1";
 
+/// What such a file is called in messages.
+const WHAT: &str = "list of splits";
+
 /// Which events belong to which part.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -45,7 +48,7 @@ impl SplitList {
         let fail = |problem| FileError { file: path.to_owned(), problem };
         let value = json::read(path)?;
         check_format(&value, SPLITS_FORMAT).map_err(|error| fail(error.into()))?;
-        serde_json::from_value(value).map_err(|error| fail(shape(error.to_string())))
+        serde_json::from_value(value).map_err(|source| fail(Problem::Incomplete { what: WHAT, source }))
     }
 
     /// The part of each event.
@@ -83,5 +86,5 @@ impl SplitList {
 }
 
 const fn shape(rule: String) -> Problem {
-    Problem::Shape { what: "list of splits", rule }
+    Problem::Shape { what: WHAT, rule }
 }

@@ -16,11 +16,7 @@ pub const TRAJECTORIES_FORMAT: &str = "phase-eval-trajectories/1";
 ///
 /// # Errors
 /// If a part of them cannot be written as JSON.
-pub fn goals(
-    run: &Value,
-    summary: &goals::Summary,
-    events: &[RecognisedEvent],
-) -> serde_json::Result<Value> {
+pub fn goals(run: &Value, summary: &goals::Summary, events: &[RecognisedEvent]) -> serde_json::Result<Value> {
     let all = &summary.all;
     let human = all.relation_human;
     Ok(json!({

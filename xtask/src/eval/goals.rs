@@ -132,7 +132,10 @@ impl Task for Goals {
         events: &[RecognisedEvent],
     ) -> Option<serde_json::Result<(Value, Document)>> {
         let summary = Summary::of(events, subject.seed)?;
-        Some(results::goals(run, &summary, events).map(|results| (results, evaluation::goals(subject, &summary))))
+        Some(
+            results::goals(run, &summary, events)
+                .map(|results| (results, evaluation::goals(subject, &summary))),
+        )
     }
 }
 

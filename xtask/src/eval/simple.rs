@@ -79,8 +79,8 @@ impl Forecaster for Simple {
     ) -> Answered<Forecast> {
         let stage = Stage::new(observed, self.settings.minds, seed);
         let Some(inference) = self.infer(&stage, seed, &mut *tick)? else { return Ok(None) };
-        let forecast = forecast(&stage, &inference, steps, seed, &self.forecast, tick)
-            .map_err(MethodError::new)?;
+        let forecast =
+            forecast(&stage, &inference, steps, seed, &self.forecast, tick).map_err(MethodError::new)?;
         Ok(forecast.map(|forecast| (forecast, details(&inference))))
     }
 }

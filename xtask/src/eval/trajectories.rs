@@ -126,8 +126,7 @@ impl Task for Trajectories {
                 (forecast, details, Some(cpu_seconds))
             }
         };
-        let [agents, entities] =
-            Errors::of(&forecast, &truth)?;
+        let [agents, entities] = Errors::of(&forecast, &truth)?;
         Ok(Some(ForecastEvent {
             id: event.id.clone(),
             kind: recording.scene.kind,
@@ -151,7 +150,10 @@ impl Task for Trajectories {
         events: &[ForecastEvent],
     ) -> Option<serde_json::Result<(Value, Document)>> {
         let summary = Summary::of(events, subject.seed)?;
-        Some(results::trajectories(run, &summary, events).map(|results| (results, evaluation::trajectories(subject, &summary))))
+        Some(
+            results::trajectories(run, &summary, events)
+                .map(|results| (results, evaluation::trajectories(subject, &summary))),
+        )
     }
 }
 

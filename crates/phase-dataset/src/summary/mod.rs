@@ -53,8 +53,7 @@ impl Summary {
         let fail = |problem| FileError { file: path.to_owned(), problem };
         let value = json::read(path)?;
         check_format(&value, SUMMARY_FORMAT).map_err(|error| fail(error.into()))?;
-        serde_json::from_value(value)
-            .map_err(|error| fail(Problem::Shape { what: "summary", rule: error.to_string() }))
+        serde_json::from_value(value).map_err(|source| fail(Problem::Incomplete { what: "summary", source }))
     }
 
     /// Writes the summary whole or not at all.

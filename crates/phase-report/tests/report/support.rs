@@ -1,14 +1,11 @@
 //! A dataset of one event.
 
-use phase_agent::{SubgoalValue, Thought};
 use phase_dataset::manifest::{DATASET_FORMAT, EventEntry, Manifest, event_path, video_path};
+use phase_event::{Event, Step, SubgoalValue, Thought};
 use phase_model::{
-    Action, AgentSpec, Attitude, Body, Entity, EventKind, Flip, Goal, Layout, ObjectSpec, Scene, Sign, Size,
-    Strength, Vec2, arena::SUBSTEPS,
+    Action, AgentSpec, Attitude, Body, Entity, EventKind, Flip, Goal, Layout, Literal, ObjectSpec, Predicate,
+    Scene, Sign, Size, Strength, Subgoal, Vec2, arena::SUBSTEPS,
 };
-use phase_planner::Subgoal;
-use phase_predicates::{Literal, Predicate};
-use phase_sim::{Event, Step};
 use serde_json::json;
 use std::{fs, path::Path};
 
