@@ -1,4 +1,4 @@
-//! The PHASE command line: `cargo xtask gen-dataset`, `simulate`, `render`, `check-physics`, `tidy`.
+//! `cargo xtask`: the commands of `phase`, and the chores of this workspace.
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]

@@ -15,8 +15,8 @@
 //! multiplying matrices. Those of the strengths are small enough for one thread; those of the baselines take as many as
 //! `RAYON_NUM_THREADS` says; one and two gave the same weights (`docs/networks.md`).
 //!
-//! Nothing here reads a file, looks at a clock or prints; the program `train` beside it does. No other crate of the
-//! library uses this one: the library for neural networks takes long to build.
+//! Nothing here reads a file, looks at a clock or prints; `train` in `phase-cli` does. No other crate of the library uses
+//! this one: the library for neural networks takes long to build.
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]

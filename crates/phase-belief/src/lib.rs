@@ -10,6 +10,28 @@
 //!
 //! A body contradicts the observation if it lies where the agent sees that nothing is, in a wall or out of
 //! the arena, or in another body, or if its numbers are not finite.
+//! An agent sees the other and not the object behind its back. Every particle has the other where it is, and the
+//! object in some place that the agent does not see:
+//!
+//! ```
+//! use phase_belief::{Belief, PARTICLE_COUNT};
+//! use phase_model::{AgentBody, Body, Entity, Physique, State, Vec2};
+//! use phase_perception::{observe, sees};
+//! use rand::SeedableRng;
+//! use rand_pcg::Pcg32;
+//!
+//! let body = AgentBody { radius: 0.8, max_force: 450.0 };
+//! let physique = Physique { walls: Vec::new(), agents: [body; 2], object_radii: [0.8; 2], object_count: 1 };
+//! let places = [Vec2::new(16.0, 9.0), Vec2::new(16.0, 15.0), Vec2::new(16.0, 4.0), Vec2::ZERO];
+//! let state = State::new(places.map(|place| Body::at_rest(place, 0.0)));
+//!
+//! let observation = observe(&physique, &state, 0);
+//! let belief = Belief::new(&physique, &observation, PARTICLE_COUNT, &mut Pcg32::seed_from_u64(1));
+//! for particle in belief.particles() {
+//!     assert_eq!(particle.position(Entity::agent(1)), places[1]);
+//!     assert!(!sees(&physique, particle, 0, Entity::object(0)));
+//! }
+//! ```
 //!
 //! # The one key decision
 //!

@@ -18,6 +18,29 @@
 //! pushes an object for ten steps, needs the same numbers. The price is that its oddities are kept too, and
 //! that nothing else than PHASE fits in: no more than four bodies, no friction between them, no bounce.
 //!
+//! An agent pushes forward for a step. A copy of the state before it, stepped again, ends in the same bits:
+//!
+//! ```
+//! use phase_forward::Forward;
+//! use phase_model::{Action, AgentBody, Body, Dynamics, Entity, Physique, State, Vec2};
+//!
+//! let body = AgentBody { radius: 0.8, max_force: 450.0 };
+//! let physique = Physique { walls: Vec::new(), agents: [body; 2], object_radii: [0.0; 2], object_count: 0 };
+//! let places = [Vec2::new(10.0, 6.0), Vec2::new(20.0, 16.0), Vec2::ZERO, Vec2::ZERO];
+//! let start = State::new(places.map(|place| Body::at_rest(place, 0.0))); // both face +y
+//! let forward = Forward::new(&physique);
+//!
+//! let mut state = start;
+//! forward.step(&mut state, [Action::Up, Action::NoForce]);
+//! let agent = Entity::agent(0);
+//! assert!(state.position(agent).y > 6.0 && state.position(agent).x == 10.0);
+//! assert_eq!(state.position(Entity::agent(1)), places[1]); // nothing acts on the other
+//!
+//! let mut again = start;
+//! forward.step(&mut again, [Action::Up, Action::NoForce]);
+//! assert_eq!(again, state); // bit for bit
+//! ```
+//!
 //! # One substep of 1/60 s
 //!
 //! 1. An agent's force or torque changes its velocity ([`phase_model::Action::push`] acts R/12 behind its

@@ -4,6 +4,21 @@
 //! Representation and Update"): itself, what it sees, what it touches, and whatever touches something it
 //! observes. [`observe`] answers in full and gives an [`Observation`]; [`observed_set`] answers only *which*
 //! bodies are observed, for the millions of states that a planner imagines.
+//! An agent that faces +y sees the other ahead of it, and not the object behind its back:
+//!
+//! ```
+//! use phase_model::{AgentBody, Body, Entity, Physique, State, Vec2};
+//! use phase_perception::observe;
+//!
+//! let body = AgentBody { radius: 0.8, max_force: 450.0 };
+//! let physique = Physique { walls: Vec::new(), agents: [body; 2], object_radii: [0.8; 2], object_count: 1 };
+//! let places = [Vec2::new(16.0, 9.0), Vec2::new(16.0, 15.0), Vec2::new(16.0, 4.0), Vec2::ZERO];
+//! let state = State::new(places.map(|place| Body::at_rest(place, 0.0)));
+//!
+//! let observation = observe(&physique, &state, 0);
+//! assert_eq!(observation.body(Entity::agent(1)), Some(state.body(Entity::agent(1))));
+//! assert_eq!(observation.body(Entity::object(0)), None);
+//! ```
 //!
 //! # What is seen
 //!

@@ -18,14 +18,18 @@ pub struct SymbolicPlan {
 
 /// The cheapest sequence of operators from a symbolic state to one where the task is done; `None` if there is
 /// none, as when nobody acts.
+///
+/// Where the heuristic is no lower bound, a second search without it finds out whether there is a cheaper plan.
+/// Of equally cheap plans the one that the heuristic leads to is taken.
 #[must_use]
 pub fn solve(task: &Task<'_>, start: Node) -> Option<SymbolicPlan> {
-    let (nodes, cost) = pathfinding::prelude::astar(
-        &start,
-        |node| task.successors(node).into_iter().map(|(_, after, cost)| (after, units(cost))),
-        |node| (task.lower_bound(node) * UNITS) as u32,
-        |node| task.is_done(node),
-    )?;
+    let (mut nodes, mut cost) = search(task, &start, |node| (task.heuristic(node) * UNITS) as u32)?;
+    if !task.heuristic_is_admissible()
+        && let Some((cheapest, least)) = search(task, &start, |_| 0)
+        && least < cost
+    {
+        (nodes, cost) = (cheapest, least);
+    }
     let steps = nodes
         .windows(2)
         .filter_map(|pair| {
@@ -40,7 +44,18 @@ pub fn solve(task: &Task<'_>, start: Node) -> Option<SymbolicPlan> {
     Some(SymbolicPlan { steps, end, cost: cost as f32 / UNITS })
 }
 
-/// A cost in A*'s units, rounded up so that the lower bound stays one. Not a number counts as very far.
+/// A* with a heuristic in its units: symbolic states on the way and the cost. A state is opened again when a
+/// cheaper way to it turns up, so the heuristic need not be consistent.
+fn search(task: &Task<'_>, start: &Node, heuristic: impl Fn(&Node) -> u32) -> Option<(Vec<Node>, u32)> {
+    pathfinding::prelude::astar(
+        start,
+        |node| task.successors(node).into_iter().map(|(_, after, cost)| (after, units(cost))),
+        heuristic,
+        |node| task.is_done(node),
+    )
+}
+
+/// A cost in A*'s units, rounded up so that a lower bound stays one. Not a number counts as very far.
 fn units(cost: f32) -> u32 {
     libm::ceilf(cost.clamp(0.0, 1e6) * UNITS) as u32
 }

@@ -1,11 +1,12 @@
 //! Whole events are pinned bit for bit: scene, actions, reasons and every substep.
 
+use phase_event::Event;
 use phase_golden::{Digest, Golden};
 use phase_model::{
     EventKind, Scene,
     random::{Purpose, stream},
 };
-use phase_sim::{Event, Settings, simulate};
+use phase_sim::{Settings, simulate};
 
 /// Seed of the scenes and of the events.
 const SEED: u64 = 2021;

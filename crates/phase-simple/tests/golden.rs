@@ -1,12 +1,12 @@
 //! The posterior that SIMPLE infers from a simulated event is pinned bit for bit.
 
+use phase_event::Event;
 use phase_golden::{Digest, Golden};
 use phase_model::{
     Body, EventKind, MAX_ENTITIES, ObservedEvent,
     arena::SUBSTEPS,
     random::{Purpose, stream},
 };
-use phase_sim::Event;
 use phase_simple::{Settings, StrengthRegressor, explain};
 
 /// Seed of the scene, of the event and of the inference.

@@ -1,12 +1,13 @@
 //! `check-behaviour`: whether agents do what they are planned to do, over seeds and mirrored scenes.
 
 mod judge;
+pub mod options;
 mod report;
 mod rows;
 mod trial;
 
-use crate::{
-    cli::CheckBehaviour,
+use options::CheckBehaviour;
+use phase_cli::{
     console::tell,
     engine::GENERATOR,
     error::CliError,

@@ -1,14 +1,14 @@
 //! Playing one scene once, and once more without the agent that matters.
 
 use super::{judge, report::Trial, rows::Part};
-use crate::{
+use core::ops::ControlFlow;
+use phase_cli::{
     engine,
     error::CliError,
     interrupt,
     production::{self, settings_value},
     progress::Progress,
 };
-use core::ops::ControlFlow;
 use phase_dataset::{cache::Cache, checksum::sha256, folder::Folder};
 use phase_event::Event;
 use phase_evidence::Track;

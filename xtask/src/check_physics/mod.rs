@@ -1,13 +1,16 @@
 //! `check-physics`: how far an engine comes out from recorded motion.
 
+pub mod options;
 mod table;
 mod targets;
 
-use crate::{cli::CheckPhysics, console::tell, error::CliError};
+use crate::error::XtaskError;
+use options::CheckPhysics;
 use phase_calibration::{
     ColdForward, Engine, Probe, ReadError, Replay, Report, Run, StateAlone, WarmForward, WorldEngine, ahead,
     probes_report, replay_reports, run_reports,
 };
+use phase_cli::{console::tell, error::CliError};
 use phase_dataset::{atomic, json, phase_events};
 use serde::Serialize;
 use serde_json::Value;
@@ -26,12 +29,12 @@ struct Records {
 /// Runs the command. That a target is missed is a result and no error.
 ///
 /// # Errors
-/// Any [`CliError`] about the files.
-pub fn run(arguments: &CheckPhysics) -> Result<(), CliError> {
+/// Any [`XtaskError`] about the files.
+pub fn run(arguments: &CheckPhysics) -> Result<(), XtaskError> {
     let files = [&arguments.probes, &arguments.runs, &arguments.events];
     if files.iter().all(|file| file.is_none()) {
         let rule = "check-physics needs at least one of --probes, --runs and --events";
-        return Err(CliError::Usage(rule.into()));
+        return Err(CliError::Usage(rule.into()).into());
     }
     if let Some(out) = &arguments.json {
         check_output(out, files.into_iter().flatten().map(|file| file.as_path()))?;
@@ -62,7 +65,7 @@ pub fn run(arguments: &CheckPhysics) -> Result<(), CliError> {
 }
 
 impl Records {
-    fn read(arguments: &CheckPhysics) -> Result<Self, CliError> {
+    fn read(arguments: &CheckPhysics) -> Result<Self, XtaskError> {
         let (replays, mirrored) = match &arguments.events {
             None => (None, 0),
             Some(file) => {
@@ -92,9 +95,9 @@ impl Records {
     }
 }
 
-fn read<T>(file: &Path, parse: impl Fn(&Value) -> Result<T, ReadError>) -> Result<T, CliError> {
-    let value = json::read(file)?;
-    parse(&value).map_err(|problem| CliError::Record { file: file.to_owned(), problem })
+fn read<T>(file: &Path, parse: impl Fn(&Value) -> Result<T, ReadError>) -> Result<T, XtaskError> {
+    let value = json::read(file).map_err(CliError::File)?;
+    parse(&value).map_err(|problem| XtaskError::Record { file: file.to_owned(), problem })
 }
 
 /// The events of a file that can be replayed, and the number of those that could be but for being mirrored.

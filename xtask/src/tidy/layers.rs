@@ -4,7 +4,7 @@ use super::Workspace;
 use std::path::{Path, PathBuf};
 
 /// The crates from the ground floor up. A crate may use those before it, never those after it.
-pub const LAYERS: [&str; 23] = [
+pub const LAYERS: [&str; 24] = [
     "phase-model",
     "phase-event",
     "phase-statistics",
@@ -28,6 +28,7 @@ pub const LAYERS: [&str; 23] = [
     "phase-baselines",
     "phase-eval",
     "phase-report",
+    "phase-cli",
 ];
 
 const MAP: &str = "docs/ARCHITECTURE.md";

@@ -6,8 +6,8 @@ mod texts;
 
 pub use layers::LAYERS;
 
-use crate::console::{remark, tell};
-use crate::error::CliError;
+use crate::error::XtaskError;
+use phase_cli::console::{remark, tell};
 use std::{
     fmt, fs, io,
     path::{Path, PathBuf},
@@ -33,8 +33,8 @@ impl fmt::Display for Finding {
 /// Runs the command on the workspace this program was built from.
 ///
 /// # Errors
-/// [`CliError::Untidy`] if a rule is broken.
-pub fn run() -> Result<(), CliError> {
+/// [`XtaskError::Untidy`] if a rule is broken.
+pub fn run() -> Result<(), XtaskError> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."));
     let findings = check(root);
     for finding in &findings {
@@ -44,7 +44,7 @@ pub fn run() -> Result<(), CliError> {
         tell("tidy");
         Ok(())
     } else {
-        Err(CliError::Untidy(findings.len()))
+        Err(XtaskError::Untidy(findings.len()))
     }
 }
 

@@ -1,19 +1,7 @@
-//! The command line, run as a program.
+//! The chores of `cargo xtask`, run as a program.
 
-mod bad_input;
-mod benchmark;
-mod captions;
 mod check_behaviour;
 mod check_physics;
-mod damage;
-mod eval;
-mod gen_dataset;
-mod interruption;
-mod networks;
-mod predictions;
-mod render;
-mod selection;
-mod simulate;
+mod commands;
 mod support;
 mod tidy;
-mod verify;

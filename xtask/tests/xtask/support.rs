@@ -11,10 +11,10 @@ use std::{
 /// Options that make events short and thinking quick.
 pub(crate) const QUICK: [&str; 6] = ["--simulations", "20", "--particles", "10", "--max-steps", "4"];
 
-/// The program, to be run in a folder. It knows of no cargo, so it cannot build itself anew with other features.
+/// The program, to be run in a folder.
 pub(crate) fn xtask(folder: &Path) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_xtask"));
-    command.current_dir(folder).env_remove("CARGO");
+    command.current_dir(folder);
     command
 }
 

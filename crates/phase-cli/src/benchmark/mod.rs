@@ -1,0 +1,71 @@
+//! `benchmark`: every method at both tasks, beside what is published, in one report.
+//!
+//! [`plan`] says who takes part, `rows` has each of them evaluated, exactly as `eval` would, and what comes of it goes
+//! into one report. Evaluations stay in their folders, so a benchmark can be broken off, and goes on where it was.
+
+pub mod options;
+pub mod plan;
+mod rows;
+
+use crate::{
+    console::{remark, tell},
+    context::Context,
+    error::CliError,
+    eval::{networks, task},
+    gen_dataset::check_same,
+};
+use options::Benchmark;
+use phase_dataset::{
+    atomic,
+    folder::{self, Contents, Folder},
+};
+use phase_report::evaluation;
+use plan::{contestants, needs_networks};
+use rows::Rows;
+use serde_json::json;
+
+/// The benchmark's figures; written last.
+const BENCHMARK_FILE: &str = "benchmark.json";
+
+/// Runs the command.
+///
+/// # Errors
+/// Any [`CliError`].
+pub fn run(arguments: &Benchmark, context: &Context) -> Result<(), CliError> {
+    if needs_networks(arguments) {
+        networks::require(context)?;
+    }
+    let contestants = contestants(arguments)?;
+    let mut rows = Rows::open(arguments)?;
+    for file in &arguments.results {
+        rows.add_results(file)?;
+    }
+    let (out, run) = (&arguments.out, json!({ "command": "benchmark" }));
+    if let Contents::Unfinished(other) = folder::inspect(out, BENCHMARK_FILE)? {
+        check_same(out, "an unfinished", &other, &run)?;
+    }
+    let folder = Folder::claim(out, &run)?;
+    let (mut begun, all) = (0, contestants.len() * rows.sets());
+    for contestant in &contestants {
+        let training = match &contestant.weights {
+            Some(file) => Some(networks::training_of(file)?),
+            None => networks::training(&contestant.method)?,
+        };
+        let training = training.map(|training| rows.add_training(training));
+        for set in 0..rows.sets() {
+            begun += 1;
+            remark(format!("{begun} of {all}: {}, {}", contestant.words(), rows.name(set)));
+            rows.add(contestant, training, set)?;
+        }
+    }
+    let benchmark = rows.finish();
+    let document = evaluation::benchmark(&benchmark);
+    task::write_report(out, &document)?;
+    // Plain data of ours always has a JSON form.
+    let text = serde_json::to_string_pretty(&benchmark).unwrap_or_default() + "\n";
+    atomic::write(&out.join(BENCHMARK_FILE), text.as_bytes())?;
+    folder.finish()?;
+    tell(document.first_table().trim_end());
+    tell(format!("report in {}", out.join(task::REPORT_FILE).display()));
+    Ok(())
+}

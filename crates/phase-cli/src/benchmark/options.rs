@@ -1,0 +1,42 @@
+//! The options of `benchmark`.
+
+use super::plan::METHODS;
+use crate::parallel::Jobs;
+use clap::{Args, builder::PossibleValuesParser, value_parser};
+use std::path::PathBuf;
+
+/// Options of `benchmark`.
+#[derive(Args, Debug)]
+pub struct Benchmark {
+    /// Folder of a finished dataset that is divided; its test events are what methods are measured on
+    #[arg(long, value_name = "DIR")]
+    pub data: PathBuf,
+    /// Measure on these recordings too (phase-events/1)
+    #[arg(long, value_name = "FILE")]
+    pub real: Option<PathBuf>,
+    /// Only these methods, such as simple,arg,stgat [default: all]
+    #[arg(long, value_name = "METHODS", value_delimiter = ',', value_parser = PossibleValuesParser::new(METHODS))]
+    pub methods: Vec<String>,
+    /// Also measure networks with these weights, as `train` writes them, and show how they grow with what they learnt
+    /// from
+    #[arg(long, value_name = "FILES", num_args = 1..)]
+    pub trained: Vec<PathBuf>,
+    /// Also show these results.json of `eval`, of the same events
+    #[arg(long, value_name = "FILES", num_args = 1..)]
+    pub results: Vec<PathBuf>,
+    /// Only the first N events of each
+    #[arg(long, value_name = "N", value_parser = value_parser!(u64).range(1..=1_000_000_000))]
+    pub limit: Option<u64>,
+    /// Seed of all chance in methods and intervals
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    pub seed: u64,
+    /// Folder with a folder for each method and task, as `eval` leaves them; what is there already is not done again
+    #[arg(long, value_name = "DIR", default_value = "out/eval")]
+    pub evaluations: PathBuf,
+    /// Folder for the report; new, empty, or of a benchmark, which is written over
+    #[arg(long, value_name = "DIR", default_value = "out/benchmark")]
+    pub out: PathBuf,
+    /// How many events at once.
+    #[command(flatten)]
+    pub jobs: Jobs,
+}

@@ -1,0 +1,25 @@
+//! The neural baselines as methods to be measured.
+//!
+//! Their library takes minutes to build, so they are there only in a build with the feature `networks`; every other build
+//! knows their names and says what to use instead.
+
+/// The networks for goals and relations.
+pub const RECOGNISING: [&str; 2] = ["two-level-lstm", "arg"];
+/// Those for trajectories.
+pub const FORECASTING: [&str; 2] = ["social-lstm", "stgat"];
+
+/// Whether a method is a neural network.
+#[must_use]
+pub fn is_network(method: &str) -> bool {
+    RECOGNISING.iter().chain(&FORECASTING).any(|name| *name == method)
+}
+
+#[cfg(not(feature = "networks"))]
+mod absent;
+#[cfg(feature = "networks")]
+mod learnt;
+
+#[cfg(not(feature = "networks"))]
+pub use absent::{forecaster, recogniser, require, training, training_of};
+#[cfg(feature = "networks")]
+pub use learnt::{forecaster, recogniser, require, training, training_of};

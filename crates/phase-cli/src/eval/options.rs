@@ -1,0 +1,105 @@
+//! The options of `eval`.
+
+use super::methods;
+use crate::parallel::Jobs;
+use clap::{
+    Args, Subcommand,
+    builder::{PossibleValuesParser, TypedValueParser},
+    value_parser,
+};
+use phase_dataset::splits::Split;
+use phase_model::arena::{FRAMES_PER_SECOND, SUBSTEPS};
+use std::path::PathBuf;
+
+/// What to measure.
+#[derive(Subcommand, Debug)]
+pub enum Eval {
+    /// Task 1 of the paper: how often goals and relations are recognised
+    Goals(EvalGoals),
+    /// Task 2 of the paper: how far predicted trajectories are off, 20 steps after the first 20
+    Trajectories(EvalTrajectories),
+}
+
+/// Options of `eval goals`.
+#[derive(Args, Debug)]
+pub struct EvalGoals {
+    /// The method to measure
+    #[arg(long, value_name = "METHOD", value_parser = PossibleValuesParser::new(methods::RECOGNISERS),
+          required_unless_present = "predictions")]
+    pub method: Option<String>,
+    /// The weights of a neural network (safetensors, as `train` writes them) [default: those that come with the
+    /// program]
+    #[arg(long, value_name = "FILE", conflicts_with = "predictions")]
+    pub weights: Option<PathBuf>,
+    /// Also ask the method after so many seconds of each event, such as 5,10,15,20; each takes as long again
+    #[arg(long, value_name = "SECONDS", value_delimiter = ',', value_parser = seconds, conflicts_with = "predictions")]
+    pub watched: Vec<f64>,
+    /// On what, and where to.
+    #[command(flatten)]
+    pub common: Common,
+}
+
+/// Options of `eval trajectories`.
+#[derive(Args, Debug)]
+pub struct EvalTrajectories {
+    /// The method to measure
+    #[arg(long, value_name = "METHOD", value_parser = PossibleValuesParser::new(methods::FORECASTERS),
+          required_unless_present = "predictions")]
+    pub method: Option<String>,
+    /// The weights of a neural network (safetensors, as `train` writes them) [default: those that come with the
+    /// program]
+    #[arg(long, value_name = "FILE", conflicts_with = "predictions")]
+    pub weights: Option<PathBuf>,
+    /// On what, and where to.
+    #[command(flatten)]
+    pub common: Common,
+}
+
+/// Options of both.
+#[derive(Args, Debug)]
+pub struct Common {
+    /// Score the answers in this file instead of asking a method (`events` as in results.json; see docs/formats.md)
+    #[arg(long, value_name = "FILE", conflicts_with = "method")]
+    pub predictions: Option<PathBuf>,
+    /// A file in the format phase-events/1 or the folder of a finished dataset
+    #[arg(long, value_name = "FILE|DATASET")]
+    pub events: PathBuf,
+    /// Only this part of a dataset: train, validation or test
+    #[arg(long, value_name = "SPLIT", hide_possible_values = true, value_parser = splits())]
+    pub split: Option<Split>,
+    /// Only the first N events
+    #[arg(long, value_name = "N", value_parser = value_parser!(u64).range(1..=1_000_000_000))]
+    pub limit: Option<u64>,
+    /// Seed of all chance in the method and in the intervals
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    pub seed: u64,
+    /// Also write the results, as JSON, here
+    #[arg(long, value_name = "OUT")]
+    pub json: Option<PathBuf>,
+    /// Folder for results and report; new, empty, or of this very run [default: out/eval/TASK-METHOD-EVENTS]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// How many events at once.
+    #[command(flatten)]
+    pub jobs: Jobs,
+}
+
+/// Seconds of video in steps; both are exact, for there are four steps in a second.
+#[must_use]
+pub fn steps_of(seconds: f64) -> usize {
+    (seconds * f64::from(FRAMES_PER_SECOND) / SUBSTEPS as f64) as usize
+}
+
+/// Reads a number of seconds after which an event has a row.
+fn seconds(text: &str) -> Result<f64, String> {
+    let rule = || format!("must be above 0, at most 3600 and a multiple of 0.25, not {text:?}");
+    let number: f64 = text.trim().parse().map_err(|_| rule())?;
+    let fits = number > 0.0 && number <= 3600.0 && (number * 4.0).fract() == 0.0;
+    fits.then_some(number).ok_or_else(rule)
+}
+
+/// Reads a split by its name.
+fn splits() -> impl TypedValueParser<Value = Split> {
+    let names = PossibleValuesParser::new(Split::ALL.map(Split::name));
+    names.try_map(|name| Split::ALL.into_iter().find(|split| split.name() == name).ok_or("no such split"))
+}

@@ -1,0 +1,145 @@
+//! `merge`: the shards of a dataset become the dataset.
+
+use super::{announce, complete::complete, options::Merge, run_value};
+use crate::{
+    console::{remark, tell},
+    error::CliError,
+    interrupt,
+};
+use phase_dataset::{
+    atomic,
+    checksum::FileEntry,
+    error::WriteError,
+    folder::{self, Contents, Folder},
+    manifest::MANIFEST_FILE,
+    parquet,
+    record::Record,
+    shard::{SHARD_FILE, Shard},
+};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
+
+/// Runs the command. The shards stay as they are; the result is the same, byte for byte, as that of a run in one
+/// piece.
+///
+/// # Errors
+/// Any [`CliError`].
+pub fn run(arguments: &Merge) -> Result<(), CliError> {
+    let (shards, out) = (Shards::read(&arguments.shards)?, &arguments.out);
+    let mut run = run_value(&shards.first().whole, None);
+    run["command"] = "merge".into();
+    match folder::inspect(out, MANIFEST_FILE)? {
+        Contents::Finished => {
+            let sentence = format!("{}: holds a finished dataset; choose a new folder", out.display());
+            return Err(CliError::Usage(sentence));
+        }
+        Contents::Unfinished(other) => {
+            super::check_same(out, "an unfinished", &other, &run)?;
+            remark(format!("going on in {}", out.display()));
+        }
+        Contents::Nothing => {}
+    }
+    interrupt::listen();
+    let folder = Folder::claim(out, &run)?;
+    folder.subfolder("events")?;
+    if shards.first().whole.videos {
+        folder.subfolder("videos")?;
+    }
+    folder.subfolder(parquet::FOLDER)?;
+    for (shard, from) in &shards.0 {
+        for entry in shard.slots.iter().filter_map(|slot| slot.entry.as_ref()) {
+            if interrupt::requested() {
+                return Err(CliError::Interrupted(out.clone()));
+            }
+            for file in entry.files() {
+                copy(file, from, out)?;
+            }
+        }
+    }
+    let whole = shards.first().whole.clone();
+    let manifest = complete(out, &whole, shards.records())?;
+    folder.finish()?;
+    announce(out, &manifest);
+    tell(format!("the {} shards are no longer needed", shards.0.len()));
+    Ok(())
+}
+
+/// All shards of one dataset, in order, with their folders; never empty.
+struct Shards(Vec<(Shard, PathBuf)>);
+
+impl Shards {
+    /// Reads shards in any order and checks that they are all there and belong together.
+    fn read(folders: &[PathBuf]) -> Result<Self, CliError> {
+        let mut shards = Vec::new();
+        for folder in folders {
+            let file = folder.join(SHARD_FILE);
+            if folder.is_dir() && !file.exists() {
+                let sentence = format!("{}: holds no finished shard (no {SHARD_FILE})", folder.display());
+                return Err(CliError::Usage(sentence));
+            }
+            shards.push((Shard::read(&file)?, folder.clone()));
+        }
+        shards.sort_by_key(|(shard, _)| shard.shard);
+        let Some((first, place)) = shards.first() else {
+            return Err(CliError::Usage("merge needs the folders of all shards".into()));
+        };
+        let print = |shard: &Shard| shard.slots.first().map(|slot| slot.fingerprint.clone());
+        for (shard, folder) in &shards {
+            // A shard without slots was made by nobody in particular.
+            let same_program = match (print(shard), print(first)) {
+                (Some(one), Some(other)) => one == other,
+                _ => true,
+            };
+            if shard.of != first.of || shard.whole != first.whole || !same_program {
+                return Err(CliError::Usage(format!(
+                    "{}: is no shard of the same run of the same program as {}",
+                    folder.display(),
+                    place.display()
+                )));
+            }
+        }
+        for number in 1..=first.of {
+            let found: Vec<&PathBuf> =
+                shards.iter().filter(|(shard, _)| shard.shard == number).map(|(_, folder)| folder).collect();
+            match found[..] {
+                [_] => {}
+                [] => return Err(CliError::Usage(format!("shard {number} of {} is missing", first.of))),
+                [one, other, ..] => {
+                    return Err(CliError::Usage(format!(
+                        "{} and {} are both shard {number}",
+                        one.display(),
+                        other.display()
+                    )));
+                }
+            }
+        }
+        Ok(Self(shards))
+    }
+
+    fn first(&self) -> &Shard {
+        &self.0[0].0
+    }
+
+    /// The records of all slots, in the order of the dataset.
+    fn records(&self) -> impl Iterator<Item = Record> {
+        let (events, of) = (self.first().whole.events, self.0.len());
+        (0..events).filter_map(move |slot| self.0[slot % of].0.slots.get(slot / of).cloned())
+    }
+}
+
+/// Copies a file that is what its shard says, unless it is there already.
+fn copy(file: &FileEntry, from: &Path, to: &Path) -> Result<(), CliError> {
+    if file.verify(to).is_ok() {
+        return Ok(());
+    }
+    file.verify(from)?;
+    let source = from.join(&file.path);
+    let bytes = fs::read(&source).map_err(|source_error| WriteError {
+        path: source,
+        action: "read the file",
+        source: source_error,
+    })?;
+    Ok(atomic::write(&to.join(&file.path), &bytes)?)
+}

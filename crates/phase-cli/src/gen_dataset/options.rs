@@ -1,0 +1,55 @@
+//! The options of `gen-dataset` and `merge`.
+
+use crate::{effort::Effort, parallel::Jobs};
+use clap::{Args, value_parser};
+use std::path::PathBuf;
+
+/// Options of `gen-dataset`.
+#[derive(Args, Debug)]
+pub struct GenDataset {
+    /// What to make: demo (twelve events, two of each kind, as they come), phase-500 (the paper's composition,
+    /// selected), phase-training (as much of the same to learn from as is wanted), or a file in the format phase-preset/2 whose name ends in .json
+    #[arg(long, default_value = "demo")]
+    pub preset: String,
+    /// Number of events [default: the preset's]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u64).range(1..=1_000_000))]
+    pub events: Option<u64>,
+    /// Seed of all chance in the dataset [default: the preset's]
+    #[arg(long, value_name = "S")]
+    pub seed: Option<u64>,
+    /// Folder for the dataset; new, empty, or of this very run [default: out/PRESET-seedS]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Make no videos and no page, for training data
+    #[arg(long)]
+    pub no_video: bool,
+    /// Make only the events K, K + N, K + 2 N … of the dataset, to be merged with the other shards by merge
+    #[arg(long, value_name = "K/N", value_parser = shard)]
+    pub shard: Option<(usize, usize)>,
+    /// How the agents think.
+    #[command(flatten)]
+    pub effort: Effort,
+    /// How many events at once.
+    #[command(flatten)]
+    pub jobs: Jobs,
+}
+
+/// Options of `merge`.
+#[derive(Args, Debug)]
+pub struct Merge {
+    /// The folders of all shards, in any order
+    #[arg(value_name = "DIR", required = true)]
+    pub shards: Vec<PathBuf>,
+    /// Folder for the dataset; new, empty, or of this very merge
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+}
+
+/// Reads a shard such as `3/16`.
+fn shard(text: &str) -> Result<(usize, usize), String> {
+    let numbers = text.split_once('/').and_then(|(k, n)| Some((k.parse().ok()?, n.parse().ok()?)));
+    match numbers {
+        Some((k, n)) if 1 <= k && k <= n => Ok((k, n)),
+        _ => Err("a shard is K/N with K from 1 to N, such as 3/16".into()),
+    }
+}

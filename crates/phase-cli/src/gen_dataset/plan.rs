@@ -1,0 +1,129 @@
+//! Everything that decides what a dataset holds.
+
+use super::{options::GenDataset, run_value};
+use crate::{
+    engine::GENERATOR,
+    error::CliError,
+    production::{program, settings_value},
+};
+use phase_dataset::{
+    checksum::{hexadecimal, sha256},
+    preset::{Composition, Preset},
+    shard::{self, Whole},
+};
+use phase_sim::{Engine, Settings};
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+
+/// The presets that come with the program.
+const PRESETS: [(&str, &str); 3] = [
+    ("demo", include_str!("../../../../data/presets/demo.json")),
+    ("phase-500", include_str!("../../../../data/presets/phase-500.json")),
+    ("phase-training", include_str!("../../../../data/presets/phase-training.json")),
+];
+
+/// A preset with all that was asked for on the command line.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// The recipe.
+    pub preset: Preset,
+    /// Its slots.
+    pub composition: Composition,
+    /// Number of events of the whole dataset.
+    pub count: usize,
+    /// Seed of the whole dataset.
+    pub seed: u64,
+    /// How events are simulated.
+    pub settings: Settings,
+    /// Whether events get videos.
+    pub videos: bool,
+    /// The shard to make (from 1) and of how many, if not the whole.
+    pub shard: Option<(usize, usize)>,
+    /// Stands for everything that decides an event besides its slot and the seed: this very program, its settings,
+    /// the preset.
+    pub fingerprint: String,
+    command: String,
+}
+
+impl Plan {
+    /// The plan of a command line.
+    ///
+    /// # Errors
+    /// [`CliError::UnknownPreset`], or if the preset's file cannot be used.
+    pub fn of(arguments: &GenDataset) -> Result<Self, CliError> {
+        let text = preset_text(&arguments.preset)?;
+        let preset = Preset::parse(&arguments.preset, &text)?;
+        let count = arguments.events.map_or_else(|| preset.events(), |events| events as usize);
+        let seed = arguments.seed.unwrap_or(preset.seed);
+        let (name, effort) = (&arguments.preset, arguments.effort.as_given());
+        let (videos, no_video) = (!arguments.no_video, if arguments.no_video { " --no-video" } else { "" });
+        let command = format!(
+            "cargo xtask gen-dataset --preset {name} --events {count} --seed {seed}{effort}{no_video}"
+        );
+        let settings = arguments.effort.settings();
+        let facts = format!("{} {seed} {text}", settings_value(&settings));
+        let fingerprint = hexadecimal(&sha256(&[&program()[..], facts.as_bytes()].concat()));
+        let (composition, shard) = (preset.composition(), arguments.shard);
+        Ok(Self { preset, composition, count, seed, settings, videos, shard, fingerprint, command })
+    }
+
+    /// A folder that differs with everything a user is likely to vary.
+    #[must_use]
+    pub fn default_folder(&self) -> PathBuf {
+        let count =
+            if self.count == self.preset.events() { String::new() } else { format!("-{}", self.count) };
+        let engine = match self.settings.engine {
+            Engine::World => String::new(),
+            other => format!("-{}", other.name()),
+        };
+        let shard = self.shard.map_or_else(String::new, |(shard, of)| format!("-shard{shard}of{of}"));
+        Path::new("out").join(format!("{}-seed{}{count}{engine}{shard}", self.preset.name, self.seed))
+    }
+
+    /// The numbers of the slots to fill.
+    #[must_use]
+    pub fn slots(&self) -> Vec<usize> {
+        let (shard, of) = self.shard.unwrap_or((1, 1));
+        shard::slots(shard, of, self.count).collect()
+    }
+
+    /// What the dataset is, apart from its events.
+    #[must_use]
+    pub fn whole(&self) -> Whole {
+        Whole {
+            preset: self.preset.name.clone(),
+            events: self.count,
+            seed: self.seed,
+            generator: GENERATOR.into(),
+            settings: settings_value(&self.settings),
+            selected: self.preset.selection.is_some(),
+            videos: self.videos,
+            command: self.command.clone(),
+        }
+    }
+
+    /// What this run is, for the folder it works in.
+    #[must_use]
+    pub fn run(&self) -> Value {
+        run_value(&self.whole(), self.shard)
+    }
+}
+
+/// The text of a preset: one that comes with the program, or a file.
+fn preset_text(name: &str) -> Result<String, CliError> {
+    if let Some((_, text)) = PRESETS.iter().find(|(known, _)| *known == name) {
+        return Ok((*text).into());
+    }
+    let is_file = Path::new(name).extension().is_some_and(|ending| ending == "json");
+    match std::fs::read_to_string(name) {
+        Ok(text) => Ok(text),
+        Err(_) if !is_file => Err(CliError::UnknownPreset {
+            name: name.into(),
+            known: PRESETS.map(|(name, _)| name).join(", "),
+        }),
+        Err(error) => Err(CliError::Usage(format!(
+            "{name}: cannot be read: {}",
+            phase_dataset::error::plain_reason(&error)
+        ))),
+    }
+}

@@ -1,0 +1,52 @@
+//! The commands of PHASE, and the program `phase` that runs them.
+//!
+//! - `gen-dataset` makes social events from a preset and a seed,
+//! - `verify` checks that a dataset is whole,
+//! - `merge` puts the shards of a dataset together,
+//! - `splits` checks how a dataset is divided, or divides it,
+//! - `stats` shows the paper's figures beside a dataset's own,
+//! - `simulate` plays the scenes of a `phase-events/1` file,
+//! - `render` turns events into videos and pictures,
+//! - `eval` measures how well a method perceives events,
+//! - `train` trains neural networks (feature `networks`),
+//! - `benchmark` measures all methods and puts them beside what is published.
+//!
+//! `cargo xtask` runs the same commands and those that need the source of this workspace.
+//!
+//! The key design decision is that a command says what is wrong in one plain sentence and an exit code: 0 done,
+//! 1 a failure of the program or the machine, 2 something about the input or the output folder, 130 interrupted.
+//! The price is an error type that lists every way to fail.
+
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+
+pub mod benchmark;
+pub mod captions;
+pub mod cli;
+pub mod console;
+pub mod context;
+pub mod effort;
+pub mod engine;
+pub mod error;
+pub mod eval;
+pub mod gen_dataset;
+pub mod interrupt;
+pub mod parallel;
+pub mod picture;
+pub mod production;
+pub mod program;
+pub mod progress;
+pub mod render;
+pub mod simulate;
+pub mod source;
+pub mod splits;
+pub mod stats;
+pub mod train;
+pub mod verify;
+
+use std::{ffi::OsString, process::ExitCode};
+
+/// Runs a command line of `phase`, program name first, and returns its exit code.
+pub fn main_with(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    program::main_with::<cli::Cli>(context::PHASE, arguments)
+}

@@ -1,0 +1,62 @@
+//! From a command line to an exit code.
+
+use crate::{
+    console::remark,
+    context::{Context, Program},
+};
+use clap::{Parser, error::ErrorKind};
+use std::{error::Error, ffi::OsString, process::ExitCode};
+
+/// The commands of a program.
+pub trait Interface: Parser {
+    /// Why a command fails.
+    type Error: Failure;
+
+    /// Runs the command that was parsed.
+    ///
+    /// # Errors
+    /// If it fails.
+    fn run(&self, context: &Context) -> Result<(), Self::Error>;
+}
+
+/// An error that decides the exit code of a program.
+pub trait Failure: Error {
+    /// 2 for something about the input or output folder, 130 for an interruption, 1 for everything else.
+    fn exit_code(&self) -> u8;
+}
+
+/// Runs a command line, program name first, and returns its exit code.
+pub fn main_with<I: Interface>(program: Program, arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let command = I::command().name(program.name).bin_name(program.name);
+    let parsed = command.try_get_matches_from(arguments);
+    match parsed.and_then(|matches| I::from_arg_matches(&matches)) {
+        Ok(interface) => match interface.run(&Context { program }) {
+            Ok(()) => ExitCode::SUCCESS,
+            Err(error) => {
+                remark(format!("error: {error}"));
+                ExitCode::from(error.exit_code())
+            }
+        },
+        Err(error) if !error.use_stderr() => {
+            // Help or version was asked for; a closed pipe is no reason to complain.
+            let _ = error.print();
+            ExitCode::SUCCESS
+        }
+        Err(error) => {
+            remark(one_sentence(&error));
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// What is wrong with a command line, on one line; the whole help for a line without a command.
+fn one_sentence(error: &clap::Error) -> String {
+    let text = error.render().to_string();
+    if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
+        return text;
+    }
+    let paragraphs = text.split("\n\n");
+    let about_it = paragraphs.take_while(|part| !part.starts_with("Usage") && !part.starts_with("For more"));
+    let lines = about_it.map(|part| part.split_whitespace().collect::<Vec<_>>().join(" "));
+    format!("{} (--help lists the options)", lines.collect::<Vec<_>>().join("; "))
+}

@@ -1,0 +1,156 @@
+//! `simulate`: the scenes of a `phase-events/1` file, each from its first row and with one or several seeds.
+
+pub mod options;
+
+use crate::{
+    console::{remark, tell},
+    engine::{self, GENERATOR},
+    error::CliError,
+    gen_dataset::check_same,
+    interrupt,
+    parallel::make_all,
+    production::{Order, Production, settings_value},
+    source,
+};
+use options::Simulate;
+use phase_dataset::{
+    atomic,
+    checksum::{hexadecimal, sha256},
+    folder::{self, Contents, Folder},
+    phase_events,
+    summary::{Pair, SUMMARY_FILE, Summary},
+};
+use phase_event::Recording;
+use phase_model::Relation;
+use phase_report::summary;
+use serde_json::{Value, json};
+use std::path::Path;
+
+/// Runs the command.
+///
+/// # Errors
+/// Any [`CliError`].
+pub fn run(arguments: &Simulate) -> Result<(), CliError> {
+    let recordings = phase_events::read(&arguments.events)?;
+    let chosen = source::choose(&arguments.events, recordings, &arguments.id)?;
+    let seeds = seeds(arguments)?;
+    check_ids(arguments, &chosen, &seeds)?;
+    let (run, out) = (run_value(arguments, &chosen), &arguments.out);
+    match folder::inspect(out, SUMMARY_FILE)? {
+        Contents::Finished => return check_finished(out, &run),
+        Contents::Unfinished(other) => {
+            check_same(out, "an unfinished", &other, &run)?;
+            remark(format!("going on in {}", out.display()));
+        }
+        Contents::Nothing => {}
+    }
+    interrupt::listen();
+    let folder = Folder::claim(out, &run)?;
+    let events = chosen.len() * seeds.len();
+    let production = Production::new(&folder, arguments.effort.settings(), events);
+    let made = make_all(&arguments.jobs, events, |k| {
+        let (index, recording) = &chosen[k / seeds.len()];
+        make(&production, arguments, *index, recording, seeds[k % seeds.len()])
+    })?;
+    drop(production);
+    let Some(pairs) = made else { return Err(CliError::Interrupted(out.clone())) };
+    let summary = Summary::new(run, pairs);
+    summary.write(&out.join(SUMMARY_FILE))?;
+    folder.finish()?;
+    tell(summary::table(&summary.kinds).trim_end());
+    tell(format!("{} simulated events in {}", summary.events.len(), out.display()));
+    Ok(())
+}
+
+fn make(
+    production: &Production,
+    arguments: &Simulate,
+    index: usize,
+    recording: &Recording,
+    seed: u64,
+) -> Result<Option<Pair>, CliError> {
+    let (id, out) = (simulated_id(arguments, recording, seed), &arguments.out);
+    let video = !arguments.no_video;
+    let order = Order {
+        id: id.clone(),
+        // By its place in the file, so that the same event comes out with or without the others.
+        seed: engine::event_seed(seed, index),
+        relation: Some(recording.relation),
+        max_steps: None,
+        json: out.join(format!("{id}.json")),
+        video: video.then(|| out.join(format!("{id}.mp4"))),
+    };
+    let Some(event) = production.make(&order, || Ok(recording.scene.clone()))? else { return Ok(None) };
+    let pair = Pair::of(out, recording, id, seed, &event, video);
+    Ok(Some(pair.map_err(CliError::ReadBack)?))
+}
+
+/// The seeds of the run, in order.
+fn seeds(arguments: &Simulate) -> Result<Vec<u64>, CliError> {
+    let last = arguments.seed.checked_add(u64::from(arguments.seeds) - 1).ok_or_else(|| {
+        CliError::Usage(format!(
+            "--seed {} leaves no room for --seeds {}: the last one would exceed {}",
+            arguments.seed,
+            arguments.seeds,
+            u64::MAX
+        ))
+    })?;
+    Ok((arguments.seed..=last).collect())
+}
+
+/// The id of a simulated event: the recording's, told apart by seed if there are several.
+fn simulated_id(arguments: &Simulate, recording: &Recording, seed: u64) -> String {
+    if arguments.seeds > 1 { format!("{}-seed{seed}", recording.id) } else { recording.id.clone() }
+}
+
+/// Ids of simulated events are names of files that are read again, so they must be usable as such.
+fn check_ids(arguments: &Simulate, chosen: &[(usize, Recording)], seeds: &[u64]) -> Result<(), CliError> {
+    for (_, recording) in chosen {
+        for &seed in seeds {
+            let id = simulated_id(arguments, recording, seed);
+            let rule = if id == SUMMARY_FILE.trim_end_matches(".json") {
+                "is taken: the summary is written under that name".into()
+            } else if id.len() > phase_event::LONGEST_ID {
+                format!(
+                    "must leave room for the seed: {id} has more than {} letters",
+                    phase_event::LONGEST_ID
+                )
+            } else {
+                continue;
+            };
+            let file = arguments.events.display();
+            return Err(CliError::Usage(format!("{file}: event {}: field `id` {rule}", recording.id)));
+        }
+    }
+    Ok(())
+}
+
+/// What decides the results: the events themselves and not the file they came in, the seeds, the settings.
+fn run_value(arguments: &Simulate, chosen: &[(usize, Recording)]) -> Value {
+    let events: Vec<Value> = chosen.iter().map(|(index, recording)| json!([index, recording.id])).collect();
+    let read: String = chosen.iter().map(|(index, recording)| input_of(*index, recording)).collect();
+    json!({
+        "command": "simulate", "generator": GENERATOR, "seed": arguments.seed, "seeds": arguments.seeds,
+        "videos": !arguments.no_video, "settings": settings_value(&arguments.effort.settings()),
+        "events": events, "input_sha256": hexadecimal(&sha256(read.as_bytes())),
+    })
+}
+
+/// Everything the results depend on in one event of the input: the scene, the labels and the recorded rows.
+fn input_of(index: usize, recording: &Recording) -> String {
+    let (scene, rows) = (&recording.scene, &recording.trajectory);
+    let relation: Relation = recording.relation;
+    format!("{index} {} {relation:?} {scene:?} {rows:?}\n", recording.id)
+}
+
+fn check_finished(out: &Path, run: &Value) -> Result<(), CliError> {
+    let summary = Summary::read(&out.join(SUMMARY_FILE))?;
+    check_same(out, "a finished", &summary.run, run)?;
+    summary.verify(out).map_err(CliError::Altered)?;
+    if folder::has_leftovers(out) {
+        Folder::claim(out, run)?.finish()?;
+    }
+    tell(summary::table(&summary.kinds).trim_end());
+    tell(format!("{} holds these {} simulated events already", out.display(), summary.events.len()));
+    Ok(())
+}

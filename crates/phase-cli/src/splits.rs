@@ -1,0 +1,82 @@
+//! `splits`: makes or checks the split of a dataset.
+
+use crate::{console::tell, error::CliError, source::Source};
+use clap::Args;
+use phase_dataset::{
+    FileError, atomic,
+    manifest::{MANIFEST_FILE, Manifest},
+    split_list::SplitList,
+    splits::{self, Item, Rule, Split},
+};
+use std::path::PathBuf;
+
+/// Options of `splits`.
+#[derive(Args, Debug)]
+pub struct Splits {
+    /// The folder of a dataset, or a file in the format phase-events/1
+    #[arg(value_name = "DIR|FILE")]
+    pub events: PathBuf,
+    /// Check this split (phase-splits/1) instead of the dataset's own
+    #[arg(long, value_name = "FILE", conflicts_with = "make")]
+    pub splits: Option<PathBuf>,
+    /// Divide the events and write the split (phase-splits/1) here
+    #[arg(long, value_name = "FILE")]
+    pub make: Option<PathBuf>,
+    /// Seed of what the rules leave open, with --make
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    pub seed: u64,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// Any [`CliError`]; [`CliError::RulesBroken`] if the split breaks a rule.
+pub fn run(arguments: &Splits) -> Result<(), CliError> {
+    let (items, own) = events(arguments)?;
+    let parts = match (&arguments.make, &arguments.splits) {
+        (Some(file), _) => {
+            let parts = splits::make(&items, arguments.seed);
+            let list = SplitList::of(&items, &parts);
+            list.write(file).map_err(CliError::Output)?;
+            tell(format!("{} made", file.display()));
+            parts
+        }
+        (None, Some(file)) => SplitList::read(file)?
+            .parts(&items)
+            .map_err(|problem| FileError { file: file.clone(), problem })?,
+        (None, None) => own.ok_or_else(|| {
+            let place = arguments.events.display();
+            CliError::Usage(format!("{place}: is not divided; give --make FILE or --splits FILE"))
+        })?,
+    };
+    let rules = splits::check(&items, &parts);
+    let lines = rules.iter().map(line).collect::<Vec<_>>().join("\n");
+    tell(format!("| rule | wanted | found | |\n|---|---|---|---|\n{lines}"));
+    match rules.iter().filter(|rule| !rule.met()).count() {
+        0 => Ok(()),
+        broken => Err(CliError::RulesBroken { events: arguments.events.clone(), broken }),
+    }
+}
+
+/// The events of a dataset or file, and the parts they are in if all are in one.
+fn events(arguments: &Splits) -> Result<(Vec<Item>, Option<Vec<Split>>), CliError> {
+    let manifest = arguments.events.join(MANIFEST_FILE);
+    if manifest.is_file() {
+        let manifest = Manifest::read(&manifest)?;
+        let parts = manifest.events.iter().map(|event| event.split).collect();
+        return Ok((manifest.items(), parts));
+    }
+    let source = Source::open(&arguments.events, &[])?;
+    let item = |index: usize| {
+        let recording = source.load(index)?;
+        let scene = &recording.scene;
+        let (kind, goals, base) = (scene.kind, scene.goals(), scene.layout.base());
+        Ok(Item { id: recording.id, kind, goals, base })
+    };
+    Ok(((0..source.len()).map(item).collect::<Result<_, CliError>>()?, None))
+}
+
+fn line(rule: &Rule) -> String {
+    let verdict = if rule.met() { "met" } else { "broken" };
+    format!("| {} | {} | {} | {verdict} |", rule.what, rule.wanted, rule.found)
+}

@@ -1,0 +1,80 @@
+//! Training a network of the baselines: round by round, so that the same command goes on after a break.
+
+use super::{error::TrainError, events::Events, kept::Kept, options::NetworkOptions};
+use crate::console::{remark, tell};
+use phase_baselines::training::{
+    Final, Measure, NamedMeasure, NetworkError, Published, Round, Run, Settings, measure, to_safetensors,
+};
+use phase_dataset::{atomic, splits::Split};
+use phase_event::Recording;
+use phase_model::ObservedEvent;
+
+/// Trains a network on what `sample` makes of events.
+///
+/// # Errors
+/// If the datasets cannot be used, nothing can be learnt or a file cannot be written.
+pub(super) fn run<N: Published>(
+    options: &NetworkOptions,
+    mut settings: Settings,
+    sample: impl Fn(&Recording, &ObservedEvent) -> Result<N::Sample, TrainError>,
+) -> Result<(), TrainError> {
+    let NetworkOptions { options, rounds } = options;
+    settings.rounds = rounds.unwrap_or(settings.rounds);
+    let events = Events::open(options)?;
+    let samples = |split| -> Result<Vec<N::Sample>, TrainError> {
+        let each = |recording: Result<Recording, TrainError>| {
+            let recording = recording?;
+            let observed = recording
+                .observed()
+                .map_err(|source| TrainError::Observed { id: recording.id.clone(), source })?;
+            sample(&recording, &observed)
+        };
+        events.of(split)?.map(each).collect()
+    };
+    let (training, validation) = (samples(Split::Train)?, samples(Split::Validation)?);
+    let network = N::published(&mut Run::<N>::first_weights(options.seed)).map_err(NetworkError::from)?;
+    let mut run = Run::new(network, options.seed, settings);
+    let sources = (events.source(Split::Train), events.source(Split::Validation));
+    let mut kept = Kept::open(&mut run, &options.out, sources.0, sources.1)?;
+
+    remark(head(N::SCORES));
+    run.rounds().iter().for_each(|round| remark(line(round)));
+    while !run.is_finished() {
+        let seconds = kept.round(&mut run, &training, &validation)?;
+        let left = settings.rounds.saturating_sub(run.rounds().len()) as f64 * seconds / 60.0;
+        let said = run.rounds().last().map_or_else(String::new, line);
+        remark(format!("{said}  {seconds:.1} s, at most {left:.0} min left"));
+    }
+    let best = run.best_round().map_or(0, |round| round.number);
+    let network = run.into_best().map_err(NetworkError::from)?;
+    tell(format!("the weights are those of round {best}"));
+    tell(format!("| events | loss | {} |", N::SCORES.join(" | ")));
+    tell(format!("|---|---|{}", "---|".repeat(N::SCORES.len())));
+    let report = |split: Split, samples: &[N::Sample]| -> Result<NamedMeasure, TrainError> {
+        let measure = measure(&network, samples, settings.batch).map_err(NetworkError::from)?;
+        let scores: Vec<String> = measure.scores.iter().map(|score| format!("{score:.3}")).collect();
+        tell(format!("| {} | {:.3} | {} |", split.name(), measure.loss, scores.join(" | ")));
+        Ok(NamedMeasure::of::<N>(&measure))
+    };
+    let finished = Final {
+        train: report(Split::Train, &training)?,
+        validation: report(Split::Validation, &validation)?,
+        test: if options.test { Some(report(Split::Test, &samples(Split::Test)?)?) } else { None },
+    };
+    atomic::write(&options.out, &to_safetensors(&network)?)?;
+    kept.finish(finished)
+}
+
+fn head(scores: &[&str]) -> String {
+    let columns: String = scores.iter().map(|score| format!(" {score:>9}")).collect();
+    format!("round      train{columns}   validation{columns}")
+}
+
+fn line(round: &Round) -> String {
+    let measure = |Measure { loss, scores }: &Measure| -> String {
+        let scores: String = scores.iter().map(|score| format!(" {score:9.3}")).collect();
+        format!("{loss:10.4}{scores}")
+    };
+    let star = if round.best { "*" } else { " " };
+    format!("{:5} {} {:>12}{star}", round.number, measure(&round.training), measure(&round.validation))
+}

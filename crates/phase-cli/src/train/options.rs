@@ -1,0 +1,58 @@
+//! The options of `train`.
+
+use clap::{Args, Subcommand};
+use std::path::PathBuf;
+
+/// What to train.
+#[derive(Subcommand, Debug)]
+pub enum Train {
+    /// SIMPLE's guess at the agents' strengths
+    Strength(Options),
+    /// 2-Level LSTM, a baseline for goals and relations
+    TwoLevelLstm(NetworkOptions),
+    /// Actor relation graph, a baseline for goals and relations
+    Arg(NetworkOptions),
+    /// Social-LSTM, a baseline for trajectories
+    SocialLstm(NetworkOptions),
+    /// Spatial-temporal graph attention, a baseline for trajectories
+    Stgat(NetworkOptions),
+}
+
+/// On what, and where to.
+#[derive(Args, Debug)]
+pub struct Options {
+    /// Folder of a finished dataset that is divided into train, validation and test
+    #[arg(long, value_name = "DIR")]
+    pub data: PathBuf,
+    /// Learn from the first N training events only
+    #[arg(long, value_name = "N", value_parser = at_least_one)]
+    pub events: Option<usize>,
+    /// Folder of the dataset to validate on, and to test with; by default the one to learn from
+    #[arg(long, value_name = "DIR")]
+    pub validation: Option<PathBuf>,
+    /// File for the weights (safetensors)
+    #[arg(long, value_name = "FILE")]
+    pub out: PathBuf,
+    /// Seed of all chance in the training
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    pub seed: u64,
+    /// Also measure what was learnt on the test events, once, at the end
+    #[arg(long)]
+    pub test: bool,
+}
+
+/// The same, and how long.
+#[derive(Args, Debug)]
+pub struct NetworkOptions {
+    /// On what, and where to.
+    #[command(flatten)]
+    pub options: Options,
+    /// Rounds of learning at most
+    #[arg(long, value_name = "N", value_parser = at_least_one)]
+    pub rounds: Option<usize>,
+}
+
+/// A number of events or rounds.
+fn at_least_one(text: &str) -> Result<usize, String> {
+    text.parse().ok().filter(|number| *number > 0).ok_or_else(|| "must be a whole number above 0".into())
+}

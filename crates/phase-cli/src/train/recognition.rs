@@ -1,0 +1,31 @@
+//! `two-level-lstm` and `arg`: the baselines for Task 1.
+
+use super::{error::TrainError, network, options::NetworkOptions};
+use phase_baselines::{
+    arg::Arg,
+    recognition::{LabelledEvent, SETTINGS},
+    two_level_lstm::TwoLevelLstm,
+};
+use phase_event::Recording;
+use phase_model::ObservedEvent;
+
+/// Trains a 2-Level LSTM.
+///
+/// # Errors
+/// Those of [`network::run`].
+pub(super) fn two_level_lstm(options: &NetworkOptions) -> Result<(), TrainError> {
+    network::run::<TwoLevelLstm>(options, SETTINGS, sample)
+}
+
+/// Trains an actor relation graph.
+///
+/// # Errors
+/// Those of [`network::run`].
+pub(super) fn arg(options: &NetworkOptions) -> Result<(), TrainError> {
+    network::run::<Arg>(options, SETTINGS, sample)
+}
+
+fn sample(recording: &Recording, observed: &ObservedEvent) -> Result<LabelledEvent, TrainError> {
+    LabelledEvent::new(observed, recording.scene.goals(), recording.relation)
+        .map_err(|source| TrainError::Label { id: recording.id.clone(), source })
+}

@@ -1,0 +1,132 @@
+//! Damaged shards and full disks: nothing wrong is made of them, and what was made stays.
+#![cfg(unix)]
+
+use crate::support::{phase, refuse, run, succeed, text, tree};
+use std::{
+    fs,
+    path::Path,
+    process::{Command, Output},
+};
+
+/// Two events whose files are small.
+const TINY: [&str; 9] =
+    ["gen-dataset", "--events", "2", "--simulations", "10", "--particles", "4", "--max-steps", "2"];
+
+fn generate<'a>(out: &'a str, more: &[&'a str]) -> Vec<&'a str> {
+    [&TINY[..], &["--out", out], more].concat()
+}
+
+/// A folder with the dataset in one piece, `whole`, and its two shards, `one` and `two`.
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    succeed(path, &generate("whole", &[]));
+    succeed(path, &generate("one", &["--shard", "1/2"]));
+    succeed(path, &generate("two", &["--shard", "2/2"]));
+    folder
+}
+
+/// Changes one byte in the middle of a file.
+fn flip(path: &Path) {
+    let mut bytes = fs::read(path).expect("a file");
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 1;
+    fs::write(path, bytes).expect("written");
+}
+
+fn cut(path: &Path) {
+    let bytes = fs::read(path).expect("a file");
+    fs::write(path, &bytes[..bytes.len() / 2]).expect("written");
+}
+
+fn remove(path: &Path) {
+    fs::remove_file(path).expect("gone");
+}
+
+/// The command, not allowed to make a file longer than so many bytes, which is how a full disk is had without one.
+fn run_short_of_space(folder: &Path, arguments: &[&str], bytes: usize) -> Output {
+    // In blocks of 512 bytes. Ignoring the signal makes writing fail as on a full disk; else it would kill.
+    let script = format!("trap '' XFSZ; ulimit -f {}; exec \"$@\"", bytes.div_ceil(512));
+    let mut command = Command::new("sh");
+    command.current_dir(folder).args(["-c", &script, "sh"]).arg(phase(folder).get_program());
+    command.args(arguments).output().expect("a shell")
+}
+
+#[test]
+fn merge_refuses_damaged_shards_and_goes_on_once_they_are_mended() {
+    type Damage = fn(&Path);
+    let folder = folder();
+    let path = folder.path();
+    let whole = tree(&path.join("whole"));
+    let cases: [(&str, Damage, &str); 6] = [
+        ("two/events/demo-0001.json", flip, "differs in checksum"),
+        ("two/events/demo-0001.json", remove, "cannot be read"),
+        ("two/videos/demo-0001.mp4", flip, "differs in checksum"),
+        ("two/videos/demo-0001.mp4", cut, "differs in size"),
+        ("two/shard.json", cut, "is truncated"),
+        ("two/shard.json", remove, "holds no finished shard"),
+    ];
+    for (k, (file, damage, rule)) in cases.into_iter().enumerate() {
+        let (out, good) = (format!("merged{k}"), fs::read(path.join(file)).expect("a file"));
+        damage(&path.join(file));
+        let shards = (tree(&path.join("one")), tree(&path.join("two")));
+        let sentence = refuse(path, &["merge", "one", "two", "--out", &out]);
+        assert!(sentence.contains(rule) && sentence.contains("two"), "{file}: {sentence}");
+        assert!(!path.join(&out).join("manifest.json").exists(), "{file}");
+        assert!((tree(&path.join("one")), tree(&path.join("two"))) == shards, "{file}: a shard was changed");
+
+        fs::write(path.join(file), good).expect("mended");
+        succeed(path, &["merge", "one", "two", "--out", &out]);
+        assert!(tree(&path.join(&out)) == whole, "{file}: merged otherwise once it was mended");
+    }
+    // A dataset that is there already is not written over.
+    let sentence = refuse(path, &["merge", "one", "two", "--out", "merged0"]);
+    assert!(sentence.contains("finished dataset") && tree(&path.join("merged0")) == whole, "{sentence}");
+}
+
+#[test]
+fn without_space_it_fails_and_goes_on_once_there_is_some() {
+    let folder = folder();
+    let path = folder.path();
+    let whole = tree(&path.join("whole"));
+    let size = |name: &str| whole[Path::new(name)].len();
+    let of_events = ["events/demo-0000.json", "events/demo-0001.json"];
+    let of_videos = ["videos/demo-0000.mp4", "videos/demo-0001.mp4"];
+    let longest = of_events.iter().chain(&of_videos).map(|name| size(name)).max().expect("four");
+    assert!(size("croissant.json") > longest + 512, "the limits below have to lie between them");
+
+    let merge = |out: &'static str| vec!["merge", "one", "two", "--out", out];
+    let cases: [(&str, Vec<&str>, usize, usize); 4] = [
+        ("nothing", generate("nothing", &[]), 1024, 0),
+        ("all-events", generate("all-events", &[]), longest, 4),
+        ("merge-nothing", merge("merge-nothing"), 1024, 0),
+        ("merge-all-events", merge("merge-all-events"), longest, 4),
+    ];
+    for (out, arguments, limit, kept) in cases {
+        let output = run_short_of_space(path, &arguments, limit);
+        let told = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{out}: {told}");
+        let sentence = told.lines().last().unwrap_or_default();
+        assert!(
+            sentence.starts_with("error: ") && sentence.contains("cannot write the file: "),
+            "{out}: {told}"
+        );
+        assert!(sentence.ends_with("the same command goes on from there"), "{out}: {told}");
+
+        let left = tree(&path.join(out));
+        let files =
+            || of_events.iter().chain(&of_videos).filter_map(|name| left.get_key_value(Path::new(name)));
+        assert!(files().all(|(name, bytes)| *bytes == whole[name]), "{out}: something is half-written");
+        assert_eq!(files().count(), kept, "{out}");
+        assert!(!left.contains_key(Path::new("manifest.json")), "{out}");
+        let part = |name: &Path| name.extension().is_some_and(|it| it == "part");
+        assert!(!left.keys().any(|name| part(name)), "{out}: {:?}", left.keys());
+
+        let output = run(path, &arguments);
+        let told = text(&output.stderr);
+        assert!(output.status.success(), "{out}: {told}");
+        let resumed = told.matches("(kept)").count();
+        assert_eq!(resumed, if out == "all-events" { 2 } else { 0 }, "{out}: {told}");
+        assert!(tree(&path.join(out)) == whole, "{out}: the resumed run differs");
+    }
+}

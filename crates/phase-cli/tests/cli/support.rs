@@ -1,0 +1,96 @@
+//! Running the program and looking at what it leaves.
+
+use serde_json::{Value, json};
+use std::{
+    collections::BTreeMap,
+    fs,
+    path::{Path, PathBuf},
+    process::{Command, Output},
+};
+
+/// Options that make events short and thinking quick.
+pub(crate) const QUICK: [&str; 6] = ["--simulations", "20", "--particles", "10", "--max-steps", "4"];
+
+/// The program, to be run in a folder.
+pub(crate) fn phase(folder: &Path) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_phase"));
+    command.current_dir(folder);
+    command
+}
+
+/// Runs the program to its end.
+pub(crate) fn run(folder: &Path, arguments: &[&str]) -> Output {
+    phase(folder).args(arguments).output().expect("the program starts")
+}
+
+/// Runs the program and checks that it is content.
+pub(crate) fn succeed(folder: &Path, arguments: &[&str]) -> String {
+    let output = run(folder, arguments);
+    assert!(output.status.success(), "{arguments:?}: {}", text(&output.stderr));
+    text(&output.stdout)
+}
+
+/// Runs the program and checks that it refuses with one plain sentence, which is returned.
+pub(crate) fn refuse(folder: &Path, arguments: &[&str]) -> String {
+    let output = run(folder, arguments);
+    let sentence = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {sentence}");
+    assert_eq!(sentence.lines().count(), 1, "{arguments:?}: {sentence}");
+    assert!(sentence.starts_with("error: "), "{arguments:?}: {sentence}");
+    for trace in ["panicked", "RUST_BACKTRACE", "Error {", "Os {", "os error"] {
+        assert!(!sentence.contains(trace), "{arguments:?}: {sentence}");
+    }
+    sentence
+}
+
+pub(crate) fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+/// Every file below a folder with its contents.
+pub(crate) fn tree(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+    let mut files = BTreeMap::new();
+    collect(folder, folder, &mut files);
+    files
+}
+
+fn collect(root: &Path, folder: &Path, files: &mut BTreeMap<PathBuf, Vec<u8>>) {
+    for entry in fs::read_dir(folder).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        if path.is_dir() {
+            collect(root, &path, files);
+        } else {
+            let name = path.strip_prefix(root).expect("below the root").to_owned();
+            files.insert(name, fs::read(&path).expect("readable"));
+        }
+    }
+}
+
+/// A recording of four steps in which both agents stand still, in the open; they want to go to landmarks.
+pub(crate) fn recording(id: &str) -> Value {
+    let still = |x: f64, y: f64| vec![json!([x, y, 0.0, 0.0, 0.5]); 5];
+    let agent = |number: u8, landmark: u8| {
+        json!({
+            "size_level": 0, "strength_level": 2, "alpha": 0,
+            "goal": {"kind": "agent_on_landmark", "agent": number, "landmark": landmark, "sign": 1},
+        })
+    };
+    json!({
+        "id": id,
+        "layout": {"base": 0, "flip": null},
+        "agents": [agent(0, 0), agent(1, 1)],
+        "objects": [{"size_level": 1}],
+        "event": "independent",
+        "trajectory": {
+            "columns": ["x", "y", "vx", "vy", "angle"],
+            "agents": [still(8.5, 19.5), still(20.0, 8.0)],
+            "objects": [still(12.0, 8.0)],
+        },
+    })
+}
+
+/// A file with these events.
+pub(crate) fn write_events(path: &Path, events: &[Value]) {
+    let file = json!({"format": "phase-events/1", "events": events});
+    fs::write(path, file.to_string()).expect("written");
+}

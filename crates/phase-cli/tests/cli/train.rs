@@ -1,0 +1,174 @@
+//! `train`: what it says of input that it cannot use, what it leaves, and how it goes on after a break.
+
+use crate::support::phase;
+use serde_json::{Value, json};
+use std::{
+    fs,
+    io::{BufRead, BufReader},
+    path::Path,
+    process::Stdio,
+};
+
+const NETWORKS: [&str; 4] = ["two-level-lstm", "arg", "social-lstm", "stgat"];
+/// One of them, for what is the same for all.
+const NETWORK: &str = "two-level-lstm";
+/// Rounds that a training goes on for.
+const ROUNDS: &str = "3";
+
+/// Exit code and what stands on stderr.
+fn train(arguments: &[&str]) -> (Option<i32>, String) {
+    let output = phase(Path::new(".")).arg("train").args(arguments).output().expect("the program starts");
+    (output.status.code(), String::from_utf8(output.stderr).expect("text"))
+}
+
+#[test]
+fn bad_input_is_one_sentence_and_exit_code_2() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let (nothing, torn, empty, out) = (path("nothing"), path("torn"), path("empty"), path("out.safetensors"));
+    for folder in [&torn, &empty] {
+        fs::create_dir(folder).unwrap();
+    }
+    fs::write(path("torn/manifest.json"), "{\"format\": ").unwrap();
+    let nowhere = path("nowhere/out.safetensors");
+    let manifest = r#"{"format": "phase-dataset/1", "generator": "g", "preset": "p", "seed": 1, "settings": {},
+        "selection": [], "events": [], "files": []}"#;
+    fs::write(path("empty/manifest.json"), manifest).unwrap();
+    let cases = [
+        (
+            &nothing,
+            &out,
+            format!("error: {nothing}: is no finished dataset; give a folder with manifest.json\n"),
+        ),
+        (
+            &torn,
+            &out,
+            format!("error: {torn}/manifest.json: is truncated: the JSON ends unfinished in line 1\n"),
+        ),
+        (&empty, &out, format!("error: {empty}: has no train events\n")),
+        (&empty, &nowhere, format!("error: {nowhere}: cannot write the file: no such file or directory\n")),
+    ];
+    for (data, out, expected) in &cases {
+        let (code, text) = train(&["strength", "--data", data, "--out", out]);
+        assert_eq!((code, &text), (Some(2), expected));
+    }
+    for network in NETWORKS {
+        for (data, out, expected) in &cases[..3] {
+            let (code, text) = train(&[network, "--data", data, "--out", out]);
+            assert_eq!((code, &text), (Some(2), expected));
+        }
+    }
+    let left: Vec<_> = fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    assert_eq!(left.len(), 2, "only the two datasets: {left:?}");
+}
+
+/// A dataset of three short events, one in each split.
+fn write_dataset(folder: &Path) {
+    let entries: Vec<Value> = ["train", "validation", "test"].into_iter().zip(0..).map(|(split, k)| {
+        let way = |x: f64| (0..=4).map(|t| json!([x + 0.1 * f64::from(k * t), 8.0, 0.5, 0.0, 0.5])).collect();
+        let (first, second): (Vec<Value>, Vec<Value>) = (way(9.0), way(20.0));
+        let goal = |agent: u8| json!({ "kind": "agent_on_landmark", "agent": agent, "landmark": agent, "sign": 1 });
+        let agent = |agent: u8| json!({ "size_level": 0, "strength_level": 2, "alpha": 0, "goal": goal(agent) });
+        let outcome = |number: u8| {
+            let mut entry = agent(number);
+            entry["reached"] = json!(false);
+            entry["steps_to_goal"] = Value::Null;
+            entry
+        };
+        let event = json!({
+            "id": split, "layout": { "base": 0, "flip": null }, "agents": [agent(0), agent(1)], "objects": [],
+            "event": "independent",
+            "trajectory": { "columns": ["x", "y", "vx", "vy", "angle"], "agents": [first, second], "objects": [] },
+        });
+        let file = json!({ "format": "phase-events/1", "events": [event] });
+        fs::write(folder.join(format!("{split}.json")), file.to_string()).expect("written");
+        let described = |name: String| json!({ "path": name, "bytes": 0, "sha256": "0".repeat(64) });
+        json!({
+            "id": split, "kind": "independent", "split": split, "relation": "neutral", "seed": 1,
+            "layout": { "base": 0, "flip": null }, "agents": [outcome(0), outcome(1)], "object_size_levels": [],
+            "steps": 4, "event": described(format!("{split}.json")), "video": described(format!("{split}.mp4")),
+        })
+    }).collect();
+    let manifest = json!({
+        "format": "phase-dataset/1", "generator": "g", "preset": "p", "seed": 1, "settings": {}, "selection": [],
+        "events": entries, "files": [],
+    });
+    fs::write(folder.join("manifest.json"), manifest.to_string()).expect("written");
+}
+
+/// A record without its times, which are no two trainings' the same.
+fn timeless(file: &str) -> Value {
+    let mut record: Value = serde_json::from_slice(&fs::read(file).expect("a record")).expect("JSON");
+    for field in ["cpu_seconds", "seconds"] {
+        assert!(record[field].take().as_f64() > Some(0.0));
+        let rounds = record["rounds"].as_array_mut().expect("rounds");
+        rounds.iter_mut().for_each(|round| round[field] = Value::Null);
+    }
+    record
+}
+
+#[test]
+fn a_training_that_was_broken_off_goes_on_to_the_same_weights() {
+    let folder = tempfile::tempdir().unwrap();
+    write_dataset(folder.path());
+    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let (data, straight, broken) = (path(""), path("straight"), path("broken"));
+    let options = |out| [NETWORK, "--data", &data, "--out", out, "--rounds", ROUNDS];
+    let (code, said) = train(&options(&straight));
+    assert_eq!(code, Some(0), "{said}");
+    let mut child = phase(Path::new("."))
+        .arg("train")
+        .args(options(&broken))
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    // The first round is kept before it is told of; only the head comes before it.
+    let told = BufReader::new(child.stderr.take().unwrap()).lines().take(2).count();
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert_eq!(told, 2);
+    let checkpoint = format!("{broken}.checkpoint");
+    let (code, text) = train(&[&options(&broken)[..], &["--seed", "2"]].concat());
+    let reason = "belongs to a training with another seed; give the options of that training, choose another \
+        file or remove this one";
+    assert_eq!((code, text), (Some(2), format!("error: {checkpoint}: {reason}\n")));
+    let (code, said) = train(&options(&broken));
+    assert!(code == Some(0) && said.starts_with("going on after round "), "{said}");
+    assert!(fs::read(&straight).unwrap() == fs::read(&broken).unwrap());
+    let record = timeless(&format!("{straight}.training.json"));
+    assert_eq!(record, timeless(&format!("{broken}.training.json")));
+    assert_eq!(record["rounds"].as_array().unwrap().len().to_string(), ROUNDS);
+    assert_eq!(record["data"], record["validation"]);
+    assert!(record["final"]["train"]["loss"].is_number(), "{record}");
+    assert!(!Path::new(&checkpoint).exists());
+}
+
+#[test]
+fn the_record_says_what_was_learnt_from() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    for name in ["first", "second"] {
+        fs::create_dir(path(name)).unwrap();
+        write_dataset(Path::new(&path(name)));
+    }
+    // Another one to validate on.
+    let changed = path("second/manifest.json");
+    let manifest = fs::read_to_string(&changed).unwrap().replace(&"0".repeat(64), &"1".repeat(64));
+    fs::write(&changed, manifest).unwrap();
+    let (first, second, out) = (path("first"), path("second/../second/"), path("out"));
+    let options = [NETWORK, "--data", &first, "--validation", &second, "--out", &out, "--rounds", "1"];
+    let (code, said) = train(&[&options[..], &["--events", "1", "--test"]].concat());
+    assert_eq!(code, Some(0), "{said}");
+    let record = timeless(&format!("{out}.training.json"));
+    assert!(record["final"]["test"]["scores"]["relation"].is_number(), "{record}");
+    let (data, validation) = (&record["data"], &record["validation"]);
+    assert_eq!((&data["folder"], &data["events"]), (&json!("first"), &json!(1)));
+    assert_eq!((&validation["folder"], &validation["events"]), (&json!("second"), &json!(1)));
+    assert_ne!(data["sha256"], validation["sha256"]);
+    for command in [NETWORK, "strength"] {
+        let (code, text) = train(&[command, "--data", &first, "--out", &out, "--events", "2"]);
+        let reason = "has 1 train events, fewer than the 2 of --events";
+        assert_eq!((code, text), (Some(2), format!("error: {first}: {reason}\n")));
+    }
+}

@@ -1,0 +1,110 @@
+//! Random problems of the symbolic search.
+
+use phase_model::{
+    AgentBody, Body, Goal, Grip, Layout, Physique, Segment, Side, Sign, Size, State, Strength, Vec2, arena,
+};
+use phase_planner::{Situation, situation::obstruct, task::Task};
+use proptest::prelude::*;
+
+/// One problem: a scene at some moment, a goal and who acts for it.
+#[derive(Clone, Debug)]
+pub(crate) struct Problem {
+    pub(crate) layout: Layout,
+    pub(crate) agents: [(Size, Strength); 2],
+    pub(crate) objects: Vec<Size>,
+    pub(crate) places: [Vec2; 4],
+    pub(crate) holds: [Option<u8>; 2],
+    pub(crate) goal: Goal,
+    pub(crate) actors: [bool; 2],
+    pub(crate) effort: [f32; 2],
+    pub(crate) allied: bool,
+    /// Where a round body narrows doors for one agent, which this says.
+    pub(crate) narrowed: Option<(usize, Vec2)>,
+}
+
+impl Problem {
+    pub(crate) fn physique(&self) -> Physique {
+        let mut object_radii = [0.0; 2];
+        for (radius, size) in object_radii.iter_mut().zip(&self.objects) {
+            *radius = size.radius();
+        }
+        let walls: Vec<Segment> = self.layout.walls();
+        let agents = self
+            .agents
+            .map(|(size, strength)| AgentBody { radius: size.radius(), max_force: strength.max_force() });
+        Physique { walls, agents, object_radii, object_count: self.objects.len() }
+    }
+
+    pub(crate) fn state(&self) -> State {
+        let mut state = State::new(self.places.map(|place| Body::at_rest(place, 0.0)));
+        for (grip, held) in state.grips.iter_mut().zip(self.holds) {
+            *grip = held.map(|object| Grip { object, side: Side::Head, relative_angle: 0.0 });
+        }
+        state
+    }
+
+    pub(crate) fn task<'a>(&self, situation: &'a Situation<'a>) -> Task<'a> {
+        let narrowed = self.narrowed.map(|(agent, place)| {
+            let mut gaps = *situation.gaps(agent, 0b11);
+            obstruct(&mut gaps, place, 1.0, 1.0);
+            (agent, gaps)
+        });
+        let (goal, actors, effort, allied) = (self.goal, self.actors, self.effort, self.allied);
+        Task { situation, goal, actors, effort, allied, narrowed }
+    }
+}
+
+/// A place anywhere, or in the middle of the arena where the doors are.
+fn place() -> impl Strategy<Value = Vec2> {
+    (0.0..1.0_f32, 0.0..1.0_f32, any::<bool>()).prop_map(|(x, y, near_doors)| {
+        let place = arena::MIN + arena::SIDE * Vec2::new(x, y);
+        if near_doors { arena::CENTRE + (place - arena::CENTRE) * 0.5 } else { place }
+    })
+}
+
+fn goal(object_count: usize) -> impl Strategy<Value = Goal> {
+    let sign = Sign::Positive;
+    (0..3_u8, 0..2_u8, 0..2_u8, 0..4_u8).prop_map(move |(kind, agent, object, landmark)| match kind {
+        0 => Goal::AgentOnLandmark { agent, landmark, sign },
+        1 if object_count > 0 => {
+            Goal::ObjectOnLandmark { object: object % object_count as u8, landmark, sign }
+        }
+        _ => Goal::Touch { agent, other: 1 - agent, sign },
+    })
+}
+
+/// Problems of all kinds: layouts, places, sizes, strengths, holds, goals, actors.
+pub(crate) fn problems() -> impl Strategy<Value = Problem> {
+    let layout = prop::sample::select(Layout::all_used().collect::<Vec<_>>());
+    let size = || prop::sample::select(Size::ALL.to_vec());
+    let body = || (size(), prop::sample::select(Strength::ALL.to_vec()));
+    let actors = prop::sample::select(vec![[true, false], [false, true], [true, true]]);
+    let effort = prop::sample::select(vec![[1.0, 1.0], [0.5, 1.0], [1.0, 0.5]]);
+    let scene = (layout, [body(), body()], prop::collection::vec(size(), 0..=2));
+    (scene, [place(), place(), place(), place()], actors, effort, any::<bool>())
+        .prop_flat_map(|(scene, places, actors, effort, allied)| {
+            let count = scene.2.len();
+            let held = || prop::option::weighted(0.3, 0..2_u8);
+            let narrowed = prop::option::weighted(0.2, (0..2_usize, place()));
+            (Just((scene, places, actors, effort, allied)), [held(), held()], goal(count), narrowed)
+        })
+        .prop_map(|(fixed, holds, goal, narrowed)| {
+            let ((layout, agents, objects), mut places, actors, effort, allied) = fixed;
+            let holds = holds.map(|held| held.filter(|&object| usize::from(object) < objects.len()));
+            // What is held touches its holder; of an object held by both, the first has it where it is.
+            for agent in [1, 0] {
+                if let Some(object) = holds[agent] {
+                    let object = usize::from(object);
+                    let arm = agents[agent].0.radius() + objects[object].radius();
+                    places[2 + object] = places[agent] + Vec2::new(0.0, arm);
+                }
+            }
+            if let [Some(a), Some(b)] = holds
+                && a == b
+            {
+                let arms = agents.map(|(size, _)| size.radius() + objects[usize::from(a)].radius());
+                places[1] = places[2 + usize::from(a)] + Vec2::new(0.0, arms[1]);
+            }
+            Problem { layout, agents, objects, places, holds, goal, actors, effort, allied, narrowed }
+        })
+}

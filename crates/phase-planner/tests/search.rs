@@ -1,0 +1,100 @@
+//! A* against Dijkstra's algorithm on random problems.
+//!
+//! `PHASE_SEARCH_PROBLEMS` sets how many problems are tried.
+
+mod problems;
+
+use petgraph::{
+    algo::dijkstra,
+    graph::{DiGraph, NodeIndex},
+    visit::{EdgeRef, Reversed},
+};
+use phase_planner::{
+    Routes, Situation,
+    search::solve,
+    task::{Node, Task},
+};
+use problems::problems;
+use proptest::{
+    strategy::{Strategy, ValueTree},
+    test_runner::TestRunner,
+};
+use std::collections::HashMap;
+
+/// Problems tried unless the environment says otherwise.
+const PROBLEMS: usize = 4000;
+/// Costs are compared in units of this many to one world unit, rounded up.
+const UNITS: f32 = 256.0;
+
+/// Every symbolic state that can be reached, by the cost of each operator, and a last node to which all states
+/// lead in which the task is done.
+struct Reachable {
+    graph: DiGraph<Option<Node>, u32>,
+    start: NodeIndex,
+    end: NodeIndex,
+}
+
+impl Reachable {
+    fn new(task: &Task<'_>, start: Node) -> Self {
+        let mut graph = DiGraph::new();
+        let end = graph.add_node(None);
+        let first = graph.add_node(Some(start));
+        let mut indices = HashMap::from([(start, first)]);
+        let mut open = vec![(start, first)];
+        while let Some((node, from)) = open.pop() {
+            if task.is_done(&node) {
+                graph.add_edge(from, end, 0);
+            }
+            for (_, after, cost) in task.successors(&node) {
+                let to = *indices.entry(after).or_insert_with(|| {
+                    let to = graph.add_node(Some(after));
+                    open.push((after, to));
+                    to
+                });
+                graph.add_edge(from, to, (cost.clamp(0.0, 1e6) * UNITS).ceil() as u32);
+            }
+        }
+        Self { graph, start: first, end }
+    }
+
+    /// The least cost from each state to the end.
+    fn remaining(&self) -> HashMap<NodeIndex, u32> {
+        dijkstra(Reversed(&self.graph), self.end, None, |edge| *edge.weight()).into_iter().collect()
+    }
+}
+
+#[test]
+fn no_plan_is_cheaper_and_admissible_heuristics_are_lower_bounds() {
+    let given = std::env::var("PHASE_SEARCH_PROBLEMS").ok();
+    let count = given.map_or(PROBLEMS, |text| text.parse().expect("a number of problems"));
+    let mut runner = TestRunner::deterministic();
+    let strategy = problems();
+    let (mut solved, mut misleading) = (0, 0);
+    for _ in 0..count {
+        let problem = strategy.new_tree(&mut runner).expect("a problem").current();
+        let (routes, physique, state) = (Routes::new(problem.layout), problem.physique(), problem.state());
+        let situation = Situation::new(&physique, &routes, &state);
+        let task = problem.task(&situation);
+        let start = Node::start(&situation);
+        let reachable = Reachable::new(&task, start);
+        let remaining = reachable.remaining();
+        let least = remaining.get(&reachable.start).map(|&cost| cost as f32 / UNITS);
+        let found = solve(&task, start);
+        assert_eq!(found.as_ref().map(|plan| plan.cost), least, "{problem:?}");
+        let Some(found) = found else { continue };
+        solved += 1;
+        assert!(task.is_done(&found.end), "{problem:?}");
+        for (index, &cost) in &remaining {
+            let Some(node) = reachable.graph[*index] else { continue };
+            if (task.heuristic(&node) * UNITS) as u32 > cost {
+                assert!(!task.heuristic_is_admissible(), "{node:?} of {problem:?}");
+                misleading += 1;
+            }
+        }
+    }
+    println!(
+        "{solved} of {count} problems have a plan; {misleading} states are nearer than the heuristic says"
+    );
+    // The problems are of the kind that the second search is for.
+    assert!(solved > count / 2 && misleading > 0);
+}

@@ -1,0 +1,39 @@
+//! The options of `check-behaviour`.
+
+use clap::{Args, value_parser};
+use phase_cli::{effort::Effort, parallel::Jobs};
+use std::path::PathBuf;
+
+/// Options of `check-behaviour`.
+#[derive(Args, Debug)]
+pub struct CheckBehaviour {
+    /// Also write the report, as JSON, here
+    #[arg(long, value_name = "OUT")]
+    pub json: Option<PathBuf>,
+    /// Only these rows of the table in docs/behaviour.md
+    #[arg(long, value_name = "N", num_args = 1.., value_parser = value_parser!(u8).range(1..=10))]
+    pub row: Vec<u8>,
+    /// Events of each scene: seeds 1 to N, which take the five mirrors in turn
+    #[arg(long, value_name = "N", default_value_t = 10, value_parser = value_parser!(u16).range(1..=10_000))]
+    pub seeds: u16,
+    /// Folder for report and contact sheets; new, empty, or of such a check, whose results are replaced
+    #[arg(long, value_name = "DIR", default_value = "out/behaviour")]
+    pub out: PathBuf,
+    /// Folder with the scenes [default: data/behaviour of the source]
+    #[arg(long, value_name = "DIR")]
+    pub scenes: Option<PathBuf>,
+    /// How the agents think.
+    #[command(flatten)]
+    pub effort: Effort,
+    /// How many events at once.
+    #[command(flatten)]
+    pub jobs: Jobs,
+}
+
+impl CheckBehaviour {
+    /// The folder with the scenes.
+    #[must_use]
+    pub fn scenes(&self) -> PathBuf {
+        self.scenes.clone().unwrap_or_else(super::default_scenes)
+    }
+}

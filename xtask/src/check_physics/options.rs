@@ -1,0 +1,26 @@
+//! The options of `check-physics`.
+
+use clap::Args;
+use phase_cli::effort::engines;
+use phase_sim::Engine;
+use std::path::PathBuf;
+
+/// Options of `check-physics`; at least one of the three files is needed.
+#[derive(Args, Debug)]
+pub struct CheckPhysics {
+    /// File of probes: a few steps of one effect each
+    #[arg(long, value_name = "FILE")]
+    pub probes: Option<PathBuf>,
+    /// File of runs: many steps of everything
+    #[arg(long, value_name = "FILE")]
+    pub runs: Option<PathBuf>,
+    /// File in the format phase-events/1; its events with recovered actions are replayed
+    #[arg(long, value_name = "FILE")]
+    pub events: Option<PathBuf>,
+    /// The engine to check
+    #[arg(long, value_name = "ENGINE", default_value = Engine::World.name(), value_parser = engines())]
+    pub engine: Engine,
+    /// Also write the numbers into this file
+    #[arg(long, value_name = "OUT")]
+    pub json: Option<PathBuf>,
+}
