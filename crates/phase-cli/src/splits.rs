@@ -3,7 +3,7 @@
 use crate::{console::tell, error::CliError, source::Source};
 use clap::Args;
 use phase_dataset::{
-    FileError, atomic,
+    FileError,
     manifest::{MANIFEST_FILE, Manifest},
     split_list::SplitList,
     splits::{self, Item, Rule, Split},

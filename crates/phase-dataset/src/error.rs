@@ -1,6 +1,5 @@
 //! What can be wrong with a file, in one plain sentence each.
 
-use parquet::errors::ParquetError;
 use phase_event::EventReadError;
 use phase_model::json::JsonError;
 use std::{
@@ -56,7 +55,7 @@ pub enum Problem {
     Altered(&'static str),
     /// It is no Parquet file, or a damaged one.
     #[error("is no whole Parquet file: {0}")]
-    Parquet(#[source] ParquetError),
+    Parquet(#[source] Box<dyn core::error::Error + Send + Sync>),
     /// It is a Parquet file whose pages are damaged.
     #[error("is no whole Parquet file: its pages cannot be decoded")]
     ParquetPages,

@@ -37,7 +37,7 @@ pub fn goals(run: &Value, summary: &goals::Summary, events: &[RecognisedEvent]) 
             },
         },
         "kinds": to_value(&summary.kinds)?, "layouts": to_value(&summary.layouts)?, "watched": to_value(&summary.watched)?,
-        "confusion": { "order": to_value(&goals::RELATIONS)?, "right_by_said": summary.confusion },
+        "confusion": { "order": to_value(goals::RELATIONS)?, "right_by_said": summary.confusion },
         "calibration": {
             "goal": to_value(&summary.goal_calibration)?, "relation": to_value(&summary.relation_calibration)?,
         },

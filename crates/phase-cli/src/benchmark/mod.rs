@@ -61,9 +61,7 @@ pub fn run(arguments: &Benchmark, context: &Context) -> Result<(), CliError> {
     let benchmark = rows.finish();
     let document = evaluation::benchmark(&benchmark);
     task::write_report(out, &document)?;
-    // Plain data of ours always has a JSON form.
-    let text = serde_json::to_string_pretty(&benchmark).unwrap_or_default() + "\n";
-    atomic::write(&out.join(BENCHMARK_FILE), text.as_bytes())?;
+    atomic::write_json(&out.join(BENCHMARK_FILE), &benchmark)?;
     folder.finish()?;
     tell(document.first_table().trim_end());
     tell(format!("report in {}", out.join(task::REPORT_FILE).display()));

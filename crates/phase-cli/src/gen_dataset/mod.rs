@@ -19,7 +19,6 @@ use crate::{
 use complete::complete;
 use options::GenDataset;
 use phase_dataset::{
-    atomic,
     checksum::FileEntry,
     folder::{self, Contents, Folder},
     manifest::{EventEntry, MANIFEST_FILE, Manifest, PAGE_FILE},

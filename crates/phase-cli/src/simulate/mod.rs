@@ -14,7 +14,6 @@ use crate::{
 };
 use options::Simulate;
 use phase_dataset::{
-    atomic,
     checksum::{hexadecimal, sha256},
     folder::{self, Contents, Folder},
     phase_events,

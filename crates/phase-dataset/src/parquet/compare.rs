@@ -39,7 +39,7 @@ pub(crate) fn compare_share(folder: &Path, part: &Part<'_>, share: usize) -> Res
 fn compare_columns(folder: &Path, part: &Part<'_>, share: usize) -> Result<(), FileError> {
     let path = folder.join(&part.path);
     let fail = |problem| FileError { file: path.clone(), problem };
-    let broken = |error: ParquetError| fail(Problem::Parquet(error));
+    let broken = |error: ParquetError| fail(Problem::Parquet(error.into()));
     let file = File::open(&path).map_err(|error| fail(Problem::Unreadable(error)))?;
     let reader = SerializedFileReader::new(file).map_err(broken)?;
     let mut columns = columns::all();
