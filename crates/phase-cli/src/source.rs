@@ -1,6 +1,6 @@
 //! Where events come from: a file, or the folder of a dataset.
 
-use crate::{console::remark, error::CliError};
+use crate::{context::Context, error::CliError};
 use phase_dataset::{
     manifest::{MANIFEST_FILE, Manifest},
     phase_events,
@@ -42,9 +42,7 @@ impl Source {
             check_ids(path, recordings.iter().map(|recording| recording.id.as_str()), ids)?;
             let chosen =
                 recordings.into_iter().enumerate().filter(|(_, recording)| wanted(&recording.id, ids));
-            let chosen: Vec<_> = chosen.collect();
-            warn(path, chosen.iter().map(|(_, recording)| recording));
-            return Ok(Self::Loaded(chosen));
+            return Ok(Self::Loaded(chosen.collect()));
         }
         let is_dataset = path.join(MANIFEST_FILE).is_file();
         if !is_dataset && path.join(SHARD_FILE).is_file() {
@@ -64,6 +62,17 @@ impl Source {
         let chosen = files.into_iter().enumerate().filter(|(_, (id, _))| wanted(id, ids));
         let events = chosen.map(|(place, (id, file))| EventFile { place, id, path: path.join(file) });
         Ok(Self::Files(events.collect()))
+    }
+
+    /// Notes what is doubtful about the events of a file, such as bodies that overlap at the start. Events of a folder
+    /// were written by this program and are not looked at.
+    pub fn note_warnings(&self, path: &Path, context: &Context) {
+        let Self::Loaded(recordings) = self else { return };
+        for (_, recording) in recordings {
+            for warning in recording.warnings() {
+                context.note(format!("warning: {}: event {}: {warning}", path.display(), recording.id));
+            }
+        }
     }
 
     /// Number of events.
@@ -119,15 +128,6 @@ impl Source {
 
 fn wanted(id: &String, ids: &[String]) -> bool {
     ids.is_empty() || ids.contains(id)
-}
-
-/// Tells whoever runs the command what is odd about the events of a file.
-fn warn<'a>(file: &Path, recordings: impl Iterator<Item = &'a Recording>) {
-    for recording in recordings {
-        for warning in recording.warnings() {
-            remark(format!("warning: {}: event {}: {warning}", file.display(), recording.id));
-        }
-    }
 }
 
 fn check_ids<'a>(

@@ -1,8 +1,8 @@
 //! Which scenes make sense, and what is wrong with the others.
 
 use crate::{
-    AGENT_COUNT, AgentId, Attitude, Entity, EventKind, Goal, MAX_OBJECTS, ObjectId, Scene, arena, geometry::Outline,
-    scene::AgentSpec,
+    AGENT_COUNT, AgentId, Attitude, Entity, EventKind, Goal, MAX_OBJECTS, ObjectId, Scene, arena,
+    geometry::Outline, scene::AgentSpec,
 };
 use thiserror::Error;
 

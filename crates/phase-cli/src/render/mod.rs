@@ -28,6 +28,7 @@ use std::path::{Path, PathBuf};
 /// Any [`CliError`].
 pub fn run(arguments: &Render, context: &Context) -> Result<(), CliError> {
     let source = Source::open(&arguments.file, &arguments.id)?;
+    source.note_warnings(&arguments.file, context);
     let extension = if arguments.contact_sheet.is_some() { "png" } else { "mp4" };
     let target = Target::of(&arguments.out, extension, source.len())?;
     interrupt::listen();

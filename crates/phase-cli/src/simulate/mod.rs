@@ -17,14 +17,14 @@ use crate::{
 use gallery::Shown;
 use options::Simulate;
 use phase_dataset::{
-    atomic,
     checksum::{hexadecimal, sha256},
     folder::{self, Contents, Folder},
-    gallery::PAGE_FILE,
+    manifest::PAGE_FILE,
     summary::{Pair, SUMMARY_FILE, Summary},
 };
 use phase_event::Recording;
 use phase_model::Relation;
+use phase_report::summary;
 use serde_json::{Value, json};
 
 /// An event of the input: its place there, and its recording without what an earlier simulation knows beyond it.
@@ -35,7 +35,7 @@ type Input = (usize, Recording);
 /// # Errors
 /// Any [`CliError`].
 pub fn run(arguments: &Simulate, context: &Context) -> Result<(), CliError> {
-    let chosen = inputs(arguments)?;
+    let chosen = inputs(arguments, context)?;
     let seeds = seeds(arguments)?;
     check_ids(arguments, &chosen, &seeds)?;
     let (run, out) = (run_value(arguments, &chosen)?, &arguments.out);
@@ -64,15 +64,16 @@ pub fn run(arguments: &Simulate, context: &Context) -> Result<(), CliError> {
         gallery::write(out, arguments.seed, shown)?;
     }
     let summary = Summary::new(run, pairs);
-    atomic::write(&out.join(SUMMARY_FILE), summary.to_json().as_bytes())?;
+    summary.write(&out.join(SUMMARY_FILE))?;
     folder.finish()?;
     let line = format!("{} simulated events in {}", summary.events.len(), out.display());
     print(arguments, &summary, &line, true)
 }
 
 /// The events to simulate, in the order of the input.
-fn inputs(arguments: &Simulate) -> Result<Vec<Input>, CliError> {
+fn inputs(arguments: &Simulate, context: &Context) -> Result<Vec<Input>, CliError> {
     let source = Source::open(&arguments.events, &arguments.id)?;
+    source.note_warnings(&arguments.events, context);
     let input = |k: usize| Ok((source.place(k), Recording { simulation: None, ..source.load(k)? }));
     (0..source.len()).map(input).collect()
 }
@@ -188,7 +189,7 @@ fn check_finished(arguments: &Simulate, run: &Value) -> Result<(), CliError> {
 /// Prints what came of the run: beside the recordings if there are any, else of the simulations alone.
 fn print(arguments: &Simulate, summary: &Summary, line: &str, new: bool) -> Result<(), CliError> {
     let recorded = summary.events.iter().any(|event| event.recorded_steps > 0);
-    let table = if recorded { summary.table() } else { outcomes::table(&summary.events) };
+    let table = if recorded { summary::table(&summary.kinds) } else { outcomes::table(&summary.events) };
     let page = Some(arguments.out.join(PAGE_FILE)).filter(|page| page.exists());
     let open = page.as_ref().map_or_else(String::new, |it| format!("\nopen {} to watch them", it.display()));
     let value = json!({
