@@ -7,7 +7,7 @@ use phase_eval::{
     report,
     trajectories::{Errors, ForecastEvent, Summary},
 };
-use phase_model::{EventKind, Goal, Relation, RelationProbabilities, Sign};
+use phase_model::{AgentId, EventKind, Goal, Relation, RelationProbabilities, Sign};
 use serde_json::{Value, json};
 
 /// Events in which the agents are always so far off.
@@ -127,7 +127,7 @@ fn mistakes_stand_in_their_columns() {
         answer: Answer { goals: Default::default(), relation: RelationProbabilities::default() },
         label: Label {
             kind: EventKind::Independent,
-            goals: [Goal::Touch { agent: 0, other: 1, sign: Sign::Positive }; 2],
+            goals: [Goal::Touch { agent: AgentId::ZERO, other: AgentId::ONE, sign: Sign::Positive }; 2],
             relation: Relation::Neutral,
             relation_human: None,
             layout_seen: None,
