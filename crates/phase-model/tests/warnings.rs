@@ -2,13 +2,17 @@
 
 use core::f32::consts::{FRAC_PI_2, PI};
 use phase_model::{
-    AgentSpec, Attitude, Body, EventKind, Goal, LandmarkId, Layout, ObjectId, ObjectSpec, Scene, SceneError, SceneWarning, Sign,
-    Size, Strength, Vec2, arena,
+    AgentSpec, Attitude, Body, EventKind, Goal, LandmarkId, Layout, ObjectId, ObjectSpec, Scene, SceneError,
+    SceneWarning, Sign, Size, Strength, Vec2, arena,
 };
 
 /// Two small agents that both want object 0, of radius 0.8, on landmark 1, all far from each other and from walls.
 fn scene() -> Scene {
-    let goal = Goal::ObjectOnLandmark { object: ObjectId::ZERO, landmark: LandmarkId::ALL[1], sign: Sign::Positive };
+    let goal = Goal::ObjectOnLandmark {
+        object: ObjectId::ZERO,
+        landmark: LandmarkId::TOP_RIGHT,
+        sign: Sign::Positive,
+    };
     let agent = |x| AgentSpec {
         size: Size::Small,
         strength: Strength::Strong,
