@@ -73,6 +73,15 @@ impl Source {
         }
     }
 
+    /// The events that are in memory already.
+    pub fn loaded(&self) -> impl Iterator<Item = &Recording> {
+        let recordings = match self {
+            Self::Loaded(recordings) => &recordings[..],
+            Self::Files(_) => &[],
+        };
+        recordings.iter().map(|(_, recording)| recording)
+    }
+
     /// Whether there is no event.
     #[must_use]
     pub const fn is_empty(&self) -> bool {

@@ -44,8 +44,8 @@ pub fn run(arguments: &CheckPhysics, context: &Context) -> Result<(), XtaskError
     if let Some(out) = arguments.json.as_ref().filter(|out| *out != Path::new(STDOUT)) {
         check_output(out, files.into_iter().flatten().map(|file| file.as_path()))?;
     }
-    context.note(format!("measuring the engine {}", arguments.engine.name()));
     let records = Records::read(arguments)?;
+    context.note(format!("measuring the engine {}", arguments.engine.name()));
     let (report, targets) = match arguments.engine {
         phase_sim::Engine::World => {
             let report = records.measure::<WorldEngine>("world");

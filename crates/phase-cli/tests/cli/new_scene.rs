@@ -90,6 +90,13 @@ fn folders_of_events_are_taken_like_files() {
     simulated(path, "from-file", "second-alone", &["--no-video", "--id", "second"]);
     assert!(tree(&path.join("second-alone"))[Path::new("second.json")] == file[Path::new("second.json")]);
     succeed(path, &["eval", "goals", "--method", "cue", "--events", "from-file"]);
+    for events in ["events.json", "from-file"] {
+        let figures = succeed(path, &["stats", events]);
+        assert!(
+            figures.contains("| videos | 500 | 2 |") && figures.contains("| independent | 2 |"),
+            "{figures}"
+        );
+    }
 }
 
 #[test]
