@@ -46,7 +46,7 @@ type Plot = (&'static str, &'static str, &'static str, Vec<(String, f64)>);
 /// # Errors
 /// If the events cannot be used or the plots cannot be written.
 pub fn run(arguments: &Stats, context: &Context) -> Result<(), CliError> {
-    let (statistics, selection) = statistics(&arguments.events)?;
+    let (statistics, selection) = statistics(&arguments.events, context)?;
     let text = report(&statistics, &selection);
     if let Some(out) = &arguments.out {
         write(out, &text, &statistics, &selection).map_err(CliError::Output)?;
@@ -56,13 +56,13 @@ pub fn run(arguments: &Stats, context: &Context) -> Result<(), CliError> {
 }
 
 /// The figures of a dataset, with what its manifest says of the selection; or those of other events, which are in no split.
-fn statistics(path: &Path) -> Result<(Statistics, Vec<Acceptance>), CliError> {
+fn statistics(path: &Path, context: &Context) -> Result<(Statistics, Vec<Acceptance>), CliError> {
     let manifest = path.join(MANIFEST_FILE);
     if manifest.is_file() {
         let manifest = Manifest::read(&manifest)?;
         return Ok((Statistics::of(&manifest), manifest.selection));
     }
-    let source = Source::open(path, &[])?;
+    let source = Source::open(path, &[], context)?;
     let (mut agents, mut layouts) = (Vec::new(), BTreeSet::new());
     let (mut lengths, mut relations, mut kinds) = (BTreeMap::new(), BTreeMap::new(), BTreeMap::new());
     for index in 0..source.len() {

@@ -25,7 +25,7 @@ use std::path::Path;
 /// # Errors
 /// Any [`CliError`].
 pub(super) fn run(arguments: &EvalTrajectories, context: &Context) -> Result<(), CliError> {
-    let input = Input::open(&arguments.common)?;
+    let input = Input::open(&arguments.common, context)?;
     let task = match (&arguments.common.predictions, &arguments.method) {
         (Some(file), _) => {
             let fit = |event: &Event, forecast| {

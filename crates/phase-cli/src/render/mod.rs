@@ -26,7 +26,7 @@ use std::path::{Path, PathBuf};
 /// # Errors
 /// Any [`CliError`].
 pub fn run(arguments: &Render, context: &Context) -> Result<(), CliError> {
-    let source = Source::open(&arguments.file, &arguments.id)?;
+    let source = Source::open(&arguments.file, &arguments.id, context)?;
     let extension = if arguments.contact_sheet.is_some() { "png" } else { "mp4" };
     let target = Target::of(&arguments.out, extension, source.len())?;
     // Known before the work of events in files that are read already; folders hold simulated events.

@@ -35,7 +35,7 @@ type Input = (usize, Recording);
 /// # Errors
 /// Any [`CliError`].
 pub fn run(arguments: &Simulate, context: &Context) -> Result<(), CliError> {
-    let chosen = inputs(arguments)?;
+    let chosen = inputs(arguments, context)?;
     let seeds = seeds(arguments)?;
     check_ids(arguments, &chosen, &seeds)?;
     let (run, out) = (run_value(arguments, &chosen)?, &arguments.out);
@@ -71,8 +71,8 @@ pub fn run(arguments: &Simulate, context: &Context) -> Result<(), CliError> {
 }
 
 /// The events to simulate, in the order of the input.
-fn inputs(arguments: &Simulate) -> Result<Vec<Input>, CliError> {
-    let source = Source::open(&arguments.events, &arguments.id)?;
+fn inputs(arguments: &Simulate, context: &Context) -> Result<Vec<Input>, CliError> {
+    let source = Source::open(&arguments.events, &arguments.id, context)?;
     let input = |k: usize| Ok((source.place(k), Recording { simulation: None, ..source.load(k)? }));
     (0..source.len()).map(input).collect()
 }
@@ -86,11 +86,9 @@ fn make(
 ) -> Result<Option<(Pair, Shown)>, CliError> {
     let (id, out) = (simulated_id(arguments, recording, seed), &arguments.out);
     let video = !arguments.no_video;
-    // By its place in the file, so that the same event comes out with or without the others.
-    let place = if arguments.same_chance { 0 } else { index };
     let order = Order {
         id: id.clone(),
-        seed: engine::event_seed(seed, place),
+        seed: event_seed(arguments, index, recording, seed),
         relation: Some(recording.relation),
         max_steps: None,
         json: out.join(format!("{id}.json")),
@@ -113,6 +111,17 @@ fn seeds(arguments: &Simulate) -> Result<Vec<u64>, CliError> {
         ))
     })?;
     Ok((arguments.seed..=last).collect())
+}
+
+/// The seed of a simulated event. That of an event without one of its own follows from its place in the file, so that
+/// the same event comes out with or without the others, unless all are to have the same; one's own counts on with
+/// `--seeds`.
+fn event_seed(arguments: &Simulate, index: usize, recording: &Recording, seed: u64) -> u64 {
+    match recording.seed {
+        Some(own) => own.wrapping_add(seed - arguments.seed),
+        None if arguments.same_chance => engine::event_seed(seed, 0),
+        None => engine::event_seed(seed, index),
+    }
 }
 
 /// The id of a simulated event: the recording's, told apart by seed if there are several.
@@ -157,11 +166,12 @@ fn run_value(arguments: &Simulate, chosen: &[Input]) -> Result<Value, CliError> 
     Ok(run)
 }
 
-/// Everything the results depend on in one event of the input: the scene, the labels and the recorded rows.
+/// Everything the results depend on in one event of the input: the scene, the labels, the seed and the recorded rows.
 fn input_of(index: usize, recording: &Recording) -> String {
     let (scene, rows) = (&recording.scene, &recording.trajectory);
     let relation: Relation = recording.relation;
-    format!("{index} {} {relation:?} {scene:?} {rows:?}\n", recording.id)
+    let seed = recording.seed.map_or_else(String::new, |seed| format!("seed {seed} "));
+    format!("{index} {} {seed}{relation:?} {scene:?} {rows:?}\n", recording.id)
 }
 
 fn check_finished(arguments: &Simulate, run: &Value) -> Result<(), CliError> {
