@@ -3,6 +3,8 @@
 use crate::program::Failure;
 #[cfg(feature = "networks")]
 use crate::train::error::TrainError;
+#[cfg(feature = "networks")]
+use phase_baselines::training::{NetworkError, RecordError};
 use phase_dataset::{FileError, WriteError, folder::FolderError, parquet::ExportError};
 use phase_eval::MethodError;
 use phase_event::EventWriteError;
@@ -178,6 +180,24 @@ pub enum CliError {
     #[cfg(feature = "networks")]
     #[error(transparent)]
     Train(#[from] TrainError),
+    /// A file of weights cannot be used.
+    #[cfg(feature = "networks")]
+    #[error("{}: is no complete file of weights: {source}", file.display())]
+    Weights {
+        /// The file.
+        file: PathBuf,
+        /// Why.
+        source: NetworkError,
+    },
+    /// The record of a training cannot be used.
+    #[cfg(feature = "networks")]
+    #[error("{}: {source}", file.display())]
+    TrainingRecord {
+        /// The file.
+        file: PathBuf,
+        /// Why.
+        source: RecordError,
+    },
     /// A neural network was asked for in a program that has none.
     #[error("neural networks are needed, which this program was built without; {hint}")]
     NoNetworks {
@@ -228,6 +248,8 @@ impl Failure for CliError {
             | Self::Render { .. }
             | Self::Serialise { .. }
             | Self::Threads { .. } => 1,
+            #[cfg(feature = "networks")]
+            Self::Weights { .. } | Self::TrainingRecord { .. } => 2,
             #[cfg(feature = "networks")]
             Self::Train(error) => error.exit_code(),
         }

@@ -36,13 +36,9 @@ impl Source {
     /// # Errors
     /// If there is nothing of the kind, or no event of one of the ids. Files of a folder are only looked at
     /// when they are loaded.
-    pub fn open(path: &Path, ids: &[String]) -> Result<Self, CliError> {
+    pub fn open(path: &Path, ids: &[String], context: &Context) -> Result<Self, CliError> {
         if !path.is_dir() {
-            let recordings = phase_events::read(path)?;
-            check_ids(path, recordings.iter().map(|recording| recording.id.as_str()), ids)?;
-            let chosen =
-                recordings.into_iter().enumerate().filter(|(_, recording)| wanted(&recording.id, ids));
-            return Ok(Self::Loaded(chosen.collect()));
+            return read(path, ids, context).map(Self::Loaded);
         }
         let is_dataset = path.join(MANIFEST_FILE).is_file();
         if !is_dataset && path.join(SHARD_FILE).is_file() {
@@ -64,17 +60,6 @@ impl Source {
         Ok(Self::Files(events.collect()))
     }
 
-    /// Notes what is doubtful about the events of a file, such as bodies that overlap at the start. Events of a folder
-    /// were written by this program and are not looked at.
-    pub fn note_warnings(&self, path: &Path, context: &Context) {
-        let Self::Loaded(recordings) = self else { return };
-        for (_, recording) in recordings {
-            for warning in recording.warnings() {
-                context.note(format!("warning: {}: event {}: {warning}", path.display(), recording.id));
-            }
-        }
-    }
-
     /// Number of events.
     #[must_use]
     pub const fn len(&self) -> usize {
@@ -82,6 +67,15 @@ impl Source {
             Self::Loaded(recordings) => recordings.len(),
             Self::Files(files) => files.len(),
         }
+    }
+
+    /// The events that are in memory already.
+    pub fn loaded(&self) -> impl Iterator<Item = &Recording> {
+        let recordings = match self {
+            Self::Loaded(recordings) => &recordings[..],
+            Self::Files(_) => &[],
+        };
+        recordings.iter().map(|(_, recording)| recording)
     }
 
     /// Whether there is no event.
@@ -128,6 +122,24 @@ impl Source {
 
 fn wanted(id: &String, ids: &[String]) -> bool {
     ids.is_empty() || ids.contains(id)
+}
+
+/// The events of a file with these ids (all, if there are none), each with its place in the file. What is odd about
+/// them is told to whoever runs the command.
+///
+/// # Errors
+/// If the file cannot be used, or [`CliError::UnknownId`].
+pub fn read(file: &Path, ids: &[String], context: &Context) -> Result<Vec<(usize, Recording)>, CliError> {
+    let recordings = phase_events::read(file)?;
+    check_ids(file, recordings.iter().map(|recording| recording.id.as_str()), ids)?;
+    let chosen: Vec<_> =
+        recordings.into_iter().enumerate().filter(|(_, recording)| wanted(&recording.id, ids)).collect();
+    for (_, recording) in &chosen {
+        for warning in recording.warnings() {
+            context.note(format!("warning: {}: event {}: {warning}", file.display(), recording.id));
+        }
+    }
+    Ok(chosen)
 }
 
 fn check_ids<'a>(

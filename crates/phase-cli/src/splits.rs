@@ -36,7 +36,7 @@ pub struct Splits {
 /// # Errors
 /// Any [`CliError`]; [`CliError::RulesBroken`] if the split breaks a rule.
 pub fn run(arguments: &Splits, context: &Context) -> Result<(), CliError> {
-    let (items, own) = events(arguments)?;
+    let (items, own) = events(arguments, context)?;
     let parts = match (&arguments.make, &arguments.splits) {
         (Some(file), _) => {
             let parts = splits::make(&items, arguments.seed);
@@ -70,14 +70,14 @@ pub fn run(arguments: &Splits, context: &Context) -> Result<(), CliError> {
 }
 
 /// The events of a dataset or file, and the parts they are in if all are in one.
-fn events(arguments: &Splits) -> Result<(Vec<Item>, Option<Vec<Split>>), CliError> {
+fn events(arguments: &Splits, context: &Context) -> Result<(Vec<Item>, Option<Vec<Split>>), CliError> {
     let manifest = arguments.events.join(MANIFEST_FILE);
     if manifest.is_file() {
         let manifest = Manifest::read(&manifest)?;
         let parts = manifest.events.iter().map(|event| event.split).collect();
         return Ok((manifest.items(), parts));
     }
-    let source = Source::open(&arguments.events, &[])?;
+    let source = Source::open(&arguments.events, &[], context)?;
     let item = |index: usize| {
         let recording = source.load(index)?;
         let scene = &recording.scene;

@@ -44,8 +44,8 @@ pub fn run(arguments: &CheckPhysics, context: &Context) -> Result<(), XtaskError
     if let Some(out) = arguments.json.as_ref().filter(|out| *out != Path::new(STDOUT)) {
         check_output(out, files.into_iter().flatten().map(|file| file.as_path()))?;
     }
+    let records = Records::read(arguments, context)?;
     context.note(format!("measuring the engine {}", arguments.engine.name()));
-    let records = Records::read(arguments)?;
     let (report, targets) = match arguments.engine {
         phase_sim::Engine::World => {
             let report = records.measure::<WorldEngine>("world");
@@ -75,11 +75,11 @@ pub fn run(arguments: &CheckPhysics, context: &Context) -> Result<(), XtaskError
 }
 
 impl Records {
-    fn read(arguments: &CheckPhysics) -> Result<Self, XtaskError> {
+    fn read(arguments: &CheckPhysics, context: &Context) -> Result<Self, XtaskError> {
         let (replays, mirrored) = match &arguments.events {
             None => (None, 0),
             Some(file) => {
-                let (replays, mirrored) = replays(file)?;
+                let (replays, mirrored) = replays(file, context)?;
                 (Some(replays), mirrored)
             }
         };
@@ -111,8 +111,8 @@ fn read<T>(file: &Path, parse: impl Fn(&Value) -> Result<T, ReadError>) -> Resul
 }
 
 /// The events of a file that can be replayed, and the number of those that could be but for being mirrored.
-fn replays(file: &Path) -> Result<(Vec<Replay>, usize), CliError> {
-    let source = Source::open(file, &[])?;
+fn replays(file: &Path, context: &Context) -> Result<(Vec<Replay>, usize), CliError> {
+    let source = Source::open(file, &[], context)?;
     let mut recordings = (0..source.len()).map(|k| source.load(k)).collect::<Result<Vec<_>, _>>()?;
     recordings.retain(|recording| recording.recovered_actions.is_some());
     let replays: Vec<Replay> = recordings.iter().filter_map(Replay::of_recording).collect();

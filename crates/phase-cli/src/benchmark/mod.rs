@@ -35,7 +35,7 @@ pub fn run(arguments: &Benchmark, context: &Context) -> Result<(), CliError> {
         networks::require(context)?;
     }
     let contestants = contestants(arguments)?;
-    let mut rows = Rows::open(arguments)?;
+    let mut rows = Rows::open(arguments, context)?;
     for file in &arguments.results {
         rows.add_results(file)?;
     }

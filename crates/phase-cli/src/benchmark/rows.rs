@@ -51,7 +51,7 @@ impl<'a> Rows<'a> {
     ///
     /// # Errors
     /// If the events cannot be used.
-    pub(super) fn open(arguments: &'a Benchmark) -> Result<Self, CliError> {
+    pub(super) fn open(arguments: &'a Benchmark, context: &Context) -> Result<Self, CliError> {
         let common = |events: &Path, split| Common {
             predictions: None,
             events: events.to_owned(),
@@ -66,7 +66,7 @@ impl<'a> Rows<'a> {
         let real = arguments.real.as_deref().map(|file| ("recorded", common(file, None)));
         let (mut inputs, mut sets) = (Vec::new(), Vec::new());
         for (label, common) in [generated].into_iter().chain(real) {
-            let input = Input::open(&common)?;
+            let input = Input::open(&common, context)?;
             let (name, label, sha256) = (input.words.clone(), label.into(), input.sha256.clone());
             sets.push(EventSet { name, label, sha256, events: input.events.len() });
             inputs.push((input, common));

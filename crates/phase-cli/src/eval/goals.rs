@@ -27,8 +27,7 @@ use std::path::Path;
 /// # Errors
 /// Any [`CliError`].
 pub(super) fn run(arguments: &EvalGoals, context: &Context) -> Result<(), CliError> {
-    let input = Input::open(&arguments.common)?;
-    input.source.note_warnings(&arguments.common.events, context);
+    let input = Input::open(&arguments.common, context)?;
     let goals = match (&arguments.common.predictions, &arguments.method) {
         (Some(file), _) => {
             let given = Given::read(file, &input, context, predictions::goals, |_, answer| Ok(answer))?;

@@ -27,8 +27,7 @@ use std::path::Path;
 /// # Errors
 /// Any [`CliError`].
 pub(super) fn run(arguments: &EvalTrajectories, context: &Context) -> Result<(), CliError> {
-    let input = Input::open(&arguments.common)?;
-    input.source.note_warnings(&arguments.common.events, context);
+    let input = Input::open(&arguments.common, context)?;
     let task = match (&arguments.common.predictions, &arguments.method) {
         (Some(file), _) => {
             let fit = |event: &Event, forecast| {

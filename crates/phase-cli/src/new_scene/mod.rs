@@ -1,6 +1,7 @@
 //! `new-scene`: a scene to start from, in a file with comments.
 //!
-//! JSON has no comments; the reader of `phase-events/1` ignores the member `comment` of an event, so that is where they are.
+//! JSON has no comments; the reader of `phase-events/1` ignores members whose names begin with `_`, so they are in one named
+//! `_comment`.
 
 pub mod options;
 mod text;

@@ -21,7 +21,7 @@ pub(super) fn file(id: &str, scene: &Scene, program: &str) -> Result<String, Cli
     let (id, layout) = (line(&id)?, line(&scene.layout)?);
     let (kind, columns) = (line(&scene.kind)?, line(&COLUMNS)?);
     Ok(format!(
-        "{{\n\"format\": \"{FILE_FORMAT}\",\n\"events\": [\n  {{\n    \"comment\": {comment},\n    \"id\": {id},\n    \
+        "{{\n\"format\": \"{FILE_FORMAT}\",\n\"events\": [\n  {{\n    \"_comment\": {comment},\n    \"id\": {id},\n    \
          \"event\": {kind},\n    \"layout\": {layout},\n    \"agents\": {agents},\n    \"objects\": {objects},\n    \
          \"trajectory\": {{\n      \"columns\": {columns},\n      \"agents\": {agent_rows},\n      \
          \"objects\": {object_rows}\n    }}\n  }}\n]\n}}\n"
@@ -37,7 +37,7 @@ fn comments(program: &str) -> Vec<String> {
     let landmarks: Vec<String> = landmarks.map(|(k, at)| format!("{k} at ({}, {})", at.x, at.y)).collect();
     vec![
         format!("A scene to start from: edit it, then {program} simulate --events FILE --out DIR."),
-        "Members named comment are ignored. docs/formats.md describes every other member.".into(),
+        "Members whose names begin with _ are ignored. docs/formats.md describes every other member.".into(),
         "id: letters, digits, - and _; files of this event are named after it. Further events may follow in the list \
          events, each with an id of its own."
             .into(),

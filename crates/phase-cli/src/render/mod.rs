@@ -27,10 +27,15 @@ use std::path::{Path, PathBuf};
 /// # Errors
 /// Any [`CliError`].
 pub fn run(arguments: &Render, context: &Context) -> Result<(), CliError> {
-    let source = Source::open(&arguments.file, &arguments.id)?;
-    source.note_warnings(&arguments.file, context);
+    let source = Source::open(&arguments.file, &arguments.id, context)?;
     let extension = if arguments.contact_sheet.is_some() { "png" } else { "mp4" };
     let target = Target::of(&arguments.out, extension, source.len())?;
+    // Known before the work of events in files that are read already; folders hold simulated events.
+    if arguments.belief.is_some()
+        && let Some(recording) = source.loaded().find(|recording| recording.simulation.is_none())
+    {
+        return Err(unsimulated(arguments, &recording.id));
+    }
     interrupt::listen();
     let progress = context.progress(&format!("rendering {} events", source.len()), source.len(), 1);
     let made = make_all(&arguments.jobs, source.len(), |index| {
@@ -131,11 +136,7 @@ fn render(arguments: &Render, recording: &Recording, path: &Path) -> Result<(), 
             .iter()
             .map(|&agent| minds(arguments, id, simulation, agent, &palette))
             .collect::<Result<_, _>>()?,
-        (Some(_), None) => {
-            let (file, rule) = (arguments.file.display(), "--belief needs a simulated event");
-            let why = "a measured recording does not tell what its agents saw and did";
-            return Err(CliError::Usage(format!("{file}: event {id}: {rule}; {why}")));
-        }
+        (Some(_), None) => return Err(unsimulated(arguments, id)),
     };
     let states = match &recording.simulation {
         Some(simulation) => simulation.event.frames().copied().collect(),
@@ -156,6 +157,13 @@ fn render(arguments: &Render, recording: &Recording, path: &Path) -> Result<(), 
         CliError::Write(error) => CliError::Output(error),
         other => other,
     })
+}
+
+/// An event that was not simulated does not tell what its agents believe.
+fn unsimulated(arguments: &Render, id: &str) -> CliError {
+    let (file, rule) = (arguments.file.display(), "--belief needs a simulated event");
+    let why = "a measured recording does not tell what its agents saw and did";
+    CliError::Usage(format!("{file}: event {id}: {rule}; {why}"))
 }
 
 /// What an agent saw, believed and was after at every step.

@@ -72,8 +72,7 @@ pub fn run(arguments: &Simulate, context: &Context) -> Result<(), CliError> {
 
 /// The events to simulate, in the order of the input.
 fn inputs(arguments: &Simulate, context: &Context) -> Result<Vec<Input>, CliError> {
-    let source = Source::open(&arguments.events, &arguments.id)?;
-    source.note_warnings(&arguments.events, context);
+    let source = Source::open(&arguments.events, &arguments.id, context)?;
     let input = |k: usize| Ok((source.place(k), Recording { simulation: None, ..source.load(k)? }));
     (0..source.len()).map(input).collect()
 }

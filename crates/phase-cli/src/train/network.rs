@@ -32,6 +32,7 @@ pub(super) fn run<N: Published>(
         };
         events.of(split)?.map(each).collect()
     };
+    events.check()?;
     context.note("reading the events");
     let (training, validation) = (samples(Split::Train)?, samples(Split::Validation)?);
     let network = N::published(&mut Run::<N>::first_weights(options.seed)).map_err(failed)?;

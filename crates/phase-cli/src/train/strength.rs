@@ -18,6 +18,7 @@ pub(super) fn run(options: &Options, context: &Context) -> Result<(), CliError> 
     let events = Events::open(options)?;
     // Where nothing can be written is to be known before the work.
     let mut file = AtomicFile::create(&options.out).map_err(TrainError::from)?;
+    events.check()?;
     context.note("reading the events");
     let training = motions(&events, Split::Train)?;
     let validation = motions(&events, Split::Validation)?;

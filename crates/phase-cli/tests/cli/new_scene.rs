@@ -22,7 +22,7 @@ fn a_new_scene_simulates_as_written() {
         let scene = phase_events::read(&path.join(&file)).expect("a scene").remove(0).scene;
         assert_eq!((scene.kind, scene.validate_apart()), (kind, Ok(())));
         let text = fs::read_to_string(path.join(&file)).expect("text");
-        assert!(text.contains("\"comment\"") && text.contains("docs/formats.md"), "{text}");
+        assert!(text.contains("\"_comment\"") && text.contains("docs/formats.md"), "{text}");
         let told = simulated(path, &file, &format!("out/{}", kind.name()), &["--no-video"]);
         assert!(told.contains(&format!("| {0} | {0} |", kind.name())), "{told}");
     }
@@ -90,6 +90,13 @@ fn folders_of_events_are_taken_like_files() {
     simulated(path, "from-file", "second-alone", &["--no-video", "--id", "second"]);
     assert!(tree(&path.join("second-alone"))[Path::new("second.json")] == file[Path::new("second.json")]);
     succeed(path, &["eval", "goals", "--method", "cue", "--events", "from-file"]);
+    for events in ["events.json", "from-file"] {
+        let figures = succeed(path, &["stats", events]);
+        assert!(
+            figures.contains("| videos | 500 | 2 |") && figures.contains("| independent | 2 |"),
+            "{figures}"
+        );
+    }
 }
 
 #[test]
