@@ -42,6 +42,7 @@ mod serde_impls;
 mod subgoals;
 mod thought;
 mod trajectory;
+mod warning;
 mod write;
 
 pub use error::{EventReadError, EventWriteError};
@@ -52,4 +53,5 @@ pub use recording::{Recording, Recovered, Simulation};
 pub use subgoals::subgoal_of;
 pub use thought::{ActionValue, SubgoalValue, Thought};
 pub use trajectory::{COLUMNS, Row, SUBSTEP_COLUMNS, SubstepRow, Trajectory, substep_row};
+pub use warning::EventWarning;
 pub use write::{FILE_FORMAT, pairs_in_contact, to_json};

@@ -81,18 +81,7 @@ impl Hypothesis {
             layout: observed.layout(),
             agents,
             objects: objects.map(|(&size, &start)| ObjectSpec { size, start }).collect(),
-            kind: self.kind(),
-        }
-    }
-
-    fn kind(&self) -> EventKind {
-        match (self.attitudes, self.relation()) {
-            (attitudes, _) if attitudes.contains(&Attitude::Help) => EventKind::Helping,
-            (attitudes, _) if attitudes.contains(&Attitude::Hinder) => EventKind::Hindering,
-            (_, Relation::Friendly) => EventKind::Collaborating,
-            (_, Relation::Adversarial) if matches!(self.goals[0], Goal::Touch { .. }) => EventKind::Chasing,
-            (_, Relation::Adversarial) => EventKind::Competing,
-            (_, Relation::Neutral) => EventKind::Independent,
+            kind: EventKind::of(self.goals, self.attitudes),
         }
     }
 }

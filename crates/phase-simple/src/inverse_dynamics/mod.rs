@@ -6,6 +6,8 @@
 
 mod interpolation;
 mod path;
+#[cfg(test)]
+mod tests;
 mod tracker;
 
 use path::Path;
