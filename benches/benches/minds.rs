@@ -7,7 +7,7 @@ use phase_agent::{Agent, Settings};
 use phase_belief::Belief;
 use phase_forward::Forward;
 use phase_model::{
-    Action, EventKind, Scene,
+    Action, AgentId, EventKind, Scene,
     random::{Purpose, stream},
 };
 use phase_perception::{field_of_view, observe, observed_set};
@@ -22,7 +22,7 @@ fn main() {
     let mut criterion = Criterion::default().configure_from_args();
     let scene = scene();
     let (physique, state) = (scene.physique(), scene.initial_state());
-    let observation = observe(&physique, &state, 0);
+    let observation = observe(&physique, &state, AgentId::ZERO);
     let forward = || Forward::new(&physique);
 
     let numbers: Vec<f64> = (0..10_000).map(f64::from).collect();
@@ -30,13 +30,13 @@ fn main() {
         bencher.iter(|| black_box(&numbers).iter().map(|number| number.sqrt()).sum::<f64>());
     });
     criterion.bench_function("perception/field of view", |bencher| {
-        bencher.iter(|| field_of_view(&physique, black_box(&state), 0));
+        bencher.iter(|| field_of_view(&physique, black_box(&state), AgentId::ZERO));
     });
     criterion.bench_function("perception/observed set", |bencher| {
-        bencher.iter(|| observed_set(&physique, black_box(&state), 0));
+        bencher.iter(|| observed_set(&physique, black_box(&state), AgentId::ZERO));
     });
     criterion.bench_function("perception/one observation", |bencher| {
-        bencher.iter(|| observe(&physique, black_box(&state), 0));
+        bencher.iter(|| observe(&physique, black_box(&state), AgentId::ZERO));
     });
     criterion.bench_function("belief/update of 50 particles", |bencher| {
         let dynamics = forward();
@@ -51,7 +51,7 @@ fn main() {
         let mut turned = (0..64).map(|k| {
             let mut turned = state;
             turned.bodies[0].angle = 0.1 * k as f32;
-            observe(&physique, &turned, 0)
+            observe(&physique, &turned, AgentId::ZERO)
         });
         let others = || physique.entities().skip(1);
         let blind = turned
@@ -61,16 +61,18 @@ fn main() {
         bencher.iter(|| belief.update(&dynamics, &physique, Action::NoForce, &blind, &mut random));
     });
     criterion.bench_function("planner/one plan", |bencher| {
-        let planner = Planner::new(physique.clone(), scene.layout, 0, scene.goals(), scene.attitudes()[0]);
+        let planner =
+            Planner::new(physique.clone(), scene.layout, AgentId::ZERO, scene.goals(), scene.attitudes()[0]);
         bencher.iter(|| planner.plan(black_box(&state), observation.observed));
     });
     criterion.bench_function("planner/plans of 50 particles that differ", |bencher| {
-        let planner = Planner::new(physique.clone(), scene.layout, 0, scene.goals(), scene.attitudes()[0]);
+        let planner =
+            Planner::new(physique.clone(), scene.layout, AgentId::ZERO, scene.goals(), scene.attitudes()[0]);
         let mut random = stream(1, Purpose::Belief, 0);
         let mut turned = state;
         // Turned away from everybody, so that every particle has them elsewhere.
         turned.bodies[0].angle += core::f32::consts::PI;
-        let blind = observe(&physique, &turned, 0);
+        let blind = observe(&physique, &turned, AgentId::ZERO);
         let belief = Belief::new(&physique, &blind, 50, &mut random);
         bencher.iter(|| {
             let plans: Vec<_> =
@@ -80,8 +82,9 @@ fn main() {
     });
     criterion.bench_function("agent/one decision at the paper's settings", |bencher| {
         let mut random = stream(1, Purpose::Belief, 0);
-        let mut agent = Agent::new(&scene, 0, forward(), Settings::default(), &observation, &mut random)
-            .expect("good settings");
+        let mut agent =
+            Agent::new(&scene, AgentId::ZERO, forward(), Settings::default(), &observation, &mut random)
+                .expect("good settings");
         let mut search = stream(1, Purpose::Search, 0);
         bencher.iter(|| agent.decide(&mut search));
     });
@@ -93,7 +96,7 @@ fn main() {
 /// One decision and one belief update, one setting varied at a time, the others as in the paper but where named.
 fn scaling(criterion: &mut Criterion, scene: &Scene) {
     let (physique, state) = (scene.physique(), scene.initial_state());
-    let observation = observe(&physique, &state, 0);
+    let observation = observe(&physique, &state, AgentId::ZERO);
     let paper = Settings::default();
     let with_simulations = |simulations| (simulations, Settings { simulations, ..paper });
     // One simulation, since the search does not grow with particles, but what they agree to search may change.
@@ -109,8 +112,8 @@ fn scaling(criterion: &mut Criterion, scene: &Scene) {
             let mut random = stream(1, Purpose::Belief, 0);
             let mut search = stream(1, Purpose::Search, 0);
             let forward = Forward::new(&physique);
-            let mut agent =
-                Agent::new(scene, 0, forward, settings, &observation, &mut random).expect("good settings");
+            let mut agent = Agent::new(scene, AgentId::ZERO, forward, settings, &observation, &mut random)
+                .expect("good settings");
             group.bench_function(BenchmarkId::from_parameter(count), |bencher| {
                 bencher.iter(|| {
                     let decision = agent.decide(&mut search);

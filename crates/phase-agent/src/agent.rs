@@ -3,7 +3,7 @@
 use crate::{Mind, Outlook, Settings};
 use phase_belief::Belief;
 use phase_event::Thought;
-use phase_model::{Action, Dynamics, EntitySet, Physique, Scene};
+use phase_model::{Action, AgentId, BodySet, Dynamics, Physique, Scene};
 use phase_perception::Observation;
 use phase_pomcp::PomcpError;
 use rand::Rng;
@@ -14,24 +14,24 @@ pub struct Agent<D> {
     mind: Mind<D>,
     physique: Physique,
     belief: Belief,
-    observed: EntitySet,
+    observed: BodySet,
 }
 
 impl<D: Dynamics> Agent<D> {
-    /// The mind of agent 0 or 1 of a scene, with a first belief from its first observation.
+    /// The mind of an agent of a scene, with a first belief from its first observation.
     ///
     /// # Errors
     /// Settings that cannot be searched with.
     pub fn new(
         scene: &Scene,
-        index: usize,
+        agent: AgentId,
         dynamics: D,
         settings: Settings,
         observation: &Observation,
         random: &mut impl Rng,
     ) -> Result<Self, PomcpError> {
         let physique = scene.physique();
-        let mind = Mind::new(scene, index, dynamics, settings)?;
+        let mind = Mind::new(scene, agent, dynamics, settings)?;
         let belief = Belief::new(&physique, observation, settings.particles, random);
         Ok(Self { mind, physique, belief, observed: observation.observed })
     }

@@ -1,7 +1,8 @@
 //! A load and all who hold it, as one rigid body that has to get through a door.
 
 use phase_model::{
-    AGENT_COUNT, Entity, Physique, State, Vec2, arena, geometry::Outline, layout::SLOT_DIRECTIONS,
+    AGENT_COUNT, AgentId, Entity, ObjectId, Physique, SlotId, State, Vec2, arena, geometry::Outline,
+    layout::SLOT_DIRECTIONS,
 };
 
 /// Most bodies of a convoy: an object and both agents.
@@ -37,13 +38,13 @@ pub struct Entrance {
 impl Convoy {
     /// The convoy of an object that somebody holds.
     #[must_use]
-    pub fn of(physique: &Physique, state: &State, object: usize) -> Self {
+    pub fn of(physique: &Physique, state: &State, object: ObjectId) -> Self {
         let body = |entity: Entity| {
             let body = state.body(entity);
             (body.position, Outline::of(physique, entity, body))
         };
-        let holder = |agent: usize| state.holds(agent, object).then(|| body(Entity::agent(agent)));
-        Self { bodies: [Some(body(Entity::object(object))), holder(0), holder(1)] }
+        let holder = |agent: AgentId| state.holds(agent, object).then(|| body(Entity::Agent(agent)));
+        Self { bodies: [Some(body(Entity::Object(object))), holder(AgentId::ZERO), holder(AgentId::ONE)] }
     }
 
     fn bodies(&self) -> impl Iterator<Item = &(Vec2, Outline)> {
@@ -69,7 +70,7 @@ impl Convoy {
     /// where it has room to, or what leads would be in the door with what follows held up at the corner, for
     /// good; if it does, it gets in line before it goes on.
     #[must_use]
-    pub fn entrance(&self, slot: usize, (low, high): (f32, f32)) -> Option<Entrance> {
+    pub fn entrance(&self, slot: SlotId, (low, high): (f32, f32)) -> Option<Entrance> {
         let along = SLOT_DIRECTIONS[slot];
         let reach = self.reach();
         if self.bodies().count() < 2 || high - low >= 2.0 * reach {

@@ -1,7 +1,7 @@
 //! From a point to another through doors: how far it still is, and which way to move now.
 
 use crate::convoy::{Convoy, Entrance};
-use phase_model::{Vec2, arena, layout::SLOT_DIRECTIONS};
+use phase_model::{SlotId, Vec2, arena, layout::SLOT_DIRECTIONS};
 use phase_planner::{Route, Routes};
 
 /// A door with less room to spare than this is entered straight on (u).
@@ -65,7 +65,7 @@ impl<'a> Way<'a> {
     #[must_use]
     pub fn barred(&self) -> Option<Vec2> {
         let &(slot, crossing) = self.route?.doors().first()?;
-        (self.routes.gaps().width(usize::from(slot)) < self.width).then_some(crossing)
+        (self.routes.gaps().width(slot) < self.width).then_some(crossing)
     }
 
     /// The course where no door leads there at all.
@@ -77,7 +77,7 @@ impl<'a> Way<'a> {
 
 /// What is left of a way when one has to wait before its first door: a place beside the door, out of the way of
 /// who comes through.
-fn wait(slot: usize, crossing: Vec2, from: Vec2, width: f32) -> Vec2 {
+fn wait(slot: SlotId, crossing: Vec2, from: Vec2, width: f32) -> Vec2 {
     let along = SLOT_DIRECTIONS[slot];
     let side = along.perp() * along.perp_dot(from - crossing).signum();
     // Towards the arena's centre there is always a wall to wait at.
@@ -85,7 +85,7 @@ fn wait(slot: usize, crossing: Vec2, from: Vec2, width: f32) -> Vec2 {
 }
 
 /// A place before the wall beside a door, so far from it that who comes through need not push one aside.
-fn let_by(slot: usize, (low, high): (f32, f32), from: Vec2, width: f32) -> Vec2 {
+fn let_by(slot: SlotId, (low, high): (f32, f32), from: Vec2, width: f32) -> Vec2 {
     let along = SLOT_DIRECTIONS[slot];
     let side = along.perp() * along.perp_dot(from - arena::CENTRE).signum();
     let room = 0.5 * width + WAITING_ROOM;
@@ -101,7 +101,6 @@ pub fn give_way(way: &Way<'_>, other: Vec2, polite: bool) -> Option<Course> {
     let Way { routes, from, width, route, .. } = *way;
     let route = route?;
     let &(slot, crossing) = route.doors().first()?;
-    let slot = usize::from(slot);
     let (mine, theirs) = (from.distance(crossing), other.distance(crossing));
     let is_taken = theirs < DOORWAY
         && theirs < if polite { mine + AS_NEAR } else { mine - AS_NEAR }
@@ -151,12 +150,12 @@ pub fn to_point(way: &Way<'_>) -> Course {
     let Some(&(slot, crossing)) = route.doors().first() else {
         return Course { heading_for: to, remaining: left(&route) };
     };
-    if gaps.width(usize::from(slot)) < width {
+    if gaps.width(slot) < width {
         // It does not fit: it waits before the door instead of getting stuck in it.
-        let place = wait(usize::from(slot), crossing, from, width);
+        let place = wait(slot, crossing, from, width);
         return Course { heading_for: place, remaining: BARRED + from.distance(place) };
     }
-    let (heading_for, detour) = through(way, usize::from(slot), crossing);
+    let (heading_for, detour) = through(way, slot, crossing);
     Course { heading_for, remaining: left(&route) + detour }
 }
 
@@ -169,11 +168,11 @@ pub fn into_room(way: &Way<'_>) -> Course {
     let (Some(&(slot, crossing)), Some(&(_, last))) = (route.doors().first(), route.doors().last()) else {
         return Course { heading_for: from, remaining: 0.0 };
     };
-    if gaps.width(usize::from(slot)) < width {
-        let place = wait(usize::from(slot), crossing, from, width);
+    if gaps.width(slot) < width {
+        let place = wait(slot, crossing, from, width);
         return Course { heading_for: place, remaining: BARRED + from.distance(place) };
     }
-    let (mut heading_for, detour) = through(way, usize::from(slot), crossing);
+    let (mut heading_for, detour) = through(way, slot, crossing);
     if route.doors().len() == 1 && heading_for == crossing {
         heading_for += (crossing - from).normalize_or_zero() * INSIDE;
     }
@@ -187,7 +186,7 @@ fn left(route: &Route) -> f32 {
 }
 
 /// The point to head for before a door, and how much longer than the straight way to the crossing that is (u).
-fn through(way: &Way<'_>, slot: usize, crossing: Vec2) -> (Vec2, f32) {
+fn through(way: &Way<'_>, slot: SlotId, crossing: Vec2) -> (Vec2, f32) {
     let Way { routes, from, width, convoy, .. } = *way;
     let gaps = routes.gaps();
     let entrance = convoy.zip(gaps.0[slot]).and_then(|(convoy, gap)| convoy.entrance(slot, gap));

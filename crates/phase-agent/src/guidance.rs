@@ -23,12 +23,11 @@ pub fn action(
 ) -> Action {
     let agent = objective.agent;
     if let Subgoal::Achieve(Literal { predicate: Predicate::Attach(who, object), holds }) = objective.subgoal
-        && usize::from(who) == agent
+        && who == agent
     {
-        let within_reach = state
-            .attachable(objective.physique, agent)
-            .is_some_and(|(nearest, _)| nearest == usize::from(object));
-        match (holds, state.holds(agent, usize::from(object))) {
+        let within_reach =
+            state.attachable(objective.physique, agent).is_some_and(|(nearest, _)| nearest == object);
+        match (holds, state.holds(agent, object)) {
             (true, false) if within_reach => return Action::Attach,
             (false, true) => return Action::Detach,
             (true, true) | (false, false) => return Action::Stop,
@@ -38,7 +37,7 @@ pub fn action(
     let course = course.unwrap_or_else(|| objective.course(state));
     let mover = state.body(objective.mover(state));
     let way = course.heading_for - mover.position;
-    let body = state.body(Entity::agent(agent));
+    let body = state.body(Entity::Agent(agent));
     let speed = body.velocity.length();
     let distance = way.length();
     if distance < 0.2 || (speed > SLOW && overshoots(body.velocity, way, speed, distance)) {

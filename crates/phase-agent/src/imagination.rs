@@ -7,7 +7,7 @@ use crate::{
     objective::{LONGEST, Objective},
 };
 use phase_model::{
-    AGENT_COUNT, Action, Attitude, Dynamics, Entity, Goal, Literal, Physique, State, Subgoal, reward,
+    AGENT_COUNT, Action, AgentId, Attitude, Dynamics, Entity, Goal, Literal, Physique, State, Subgoal, reward,
 };
 use phase_perception::observed_set;
 use phase_planner::Routes;
@@ -55,21 +55,21 @@ impl<'a, D> Imagination<'a, D> {
     pub fn other(
         physique: &'a Physique,
         routes: &'a Routes,
-        agent: usize,
+        agent: AgentId,
         goals: [Goal; AGENT_COUNT],
     ) -> Objective<'a> {
-        let subgoal = Subgoal::Achieve(Literal::from(goals[1 - agent]));
-        Objective { physique, routes, agent: 1 - agent, subgoal, retreat: None }
+        let subgoal = Subgoal::Achieve(Literal::from(goals[agent.other()]));
+        Objective { physique, routes, agent: agent.other(), subgoal, retreat: None }
     }
 
     /// The other coasts, except when both hold the same object or the two touch: then it goes on pulling or
     /// pushing for its own goal. Without that a weak agent could not imagine what two can carry, and two who
     /// meet face to face would each believe that the other can be pushed away. Who hinders is to try just that.
     fn other_action(&self, state: &State) -> Action {
-        let (me, other) = (self.objective.agent, 1 - self.objective.agent);
+        let (me, other) = (self.objective.agent, self.objective.agent.other());
         let together = state.held_object(me).is_some() && state.held_object(me) == state.held_object(other);
         let resists = self.attitude != Attitude::Hinder
-            && state.contacts.touching(Entity::agent(me), Entity::agent(other));
+            && state.contacts.touching(Entity::Agent(me), Entity::Agent(other));
         if together || resists {
             guidance::action(&self.other_objective, state, None, &Action::ALL)
         } else {
@@ -100,7 +100,7 @@ impl<'a, D> Imagination<'a, D> {
 
     /// The goal that the social part of the reward is about: the other's, as the other has it.
     const fn other_goal(&self) -> Goal {
-        self.goals[1 - self.objective.agent]
+        self.goals[self.objective.agent.other().index()]
     }
 
     /// What the agent notices, coarsely: who is observed, and who holds what of that.
@@ -108,10 +108,10 @@ impl<'a, D> Imagination<'a, D> {
         let agent = self.objective.agent;
         let observed = observed_set(self.objective.physique, state, agent);
         let mut code = u16::from(observed.bits());
-        for who in 0..AGENT_COUNT {
-            if observed.contains(Entity::agent(who)) {
-                let held = state.held_object(who).map_or(0, |object| object as u16 + 1);
-                code |= held << (4 + 2 * who);
+        for who in AgentId::ALL {
+            if observed.contains(Entity::Agent(who)) {
+                let held = state.held_object(who).map_or(0, |object| u16::from(object.number()) + 1);
+                code |= held << (4 + 2 * who.number());
             }
         }
         code

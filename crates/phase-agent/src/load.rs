@@ -5,7 +5,7 @@ use crate::{
     course::Way,
     objective::{LONGEST, Objective},
 };
-use phase_model::{Entity, Literal, Place, Predicate, State, Subgoal, Vec2, arena, physique};
+use phase_model::{Entity, Literal, ObjectId, Place, Predicate, State, Subgoal, Vec2, arena, physique};
 
 /// What a carrier's own way round a corner counts for beside the way of what it carries.
 const CARRIERS_SHARE: f32 = 0.5;
@@ -15,16 +15,16 @@ const PARTED: f32 = 2.0;
 
 impl Objective<'_> {
     /// How far an object would slide on if it were let go of now (u): what is let go of is to stay there.
-    pub(crate) fn slide(&self, state: &State, object: usize) -> f32 {
+    pub(crate) fn slide(&self, state: &State, object: ObjectId) -> f32 {
         let mass = physique::object_mass(self.physique.object_radii[object]);
-        let speed = state.body(Entity::object(object)).velocity.length();
+        let speed = state.body(Entity::Object(object)).velocity.length();
         (0.5 * mass * speed * speed / physique::GROUND_FRICTION).min(LONGEST)
     }
 
     /// The distance left for a held object, with a share for its carrier: whoever carries something through a
     /// door has to come through it too, and may have to turn first.
     pub(crate) fn with_carrier(&self, state: &State, mover: Entity, leads: bool, remaining: f32) -> f32 {
-        let me = Entity::agent(self.agent);
+        let me = Entity::Agent(self.agent);
         let Some(target) = self.landmark() else { return remaining };
         let to_target = |entity: Entity| {
             let from = state.position(entity);
@@ -44,7 +44,7 @@ impl Objective<'_> {
         let Subgoal::Achieve(Literal { predicate: Predicate::On(..), holds: true }) = self.subgoal else {
             return 0.0;
         };
-        let me = Entity::agent(self.agent);
+        let me = Entity::Agent(self.agent);
         let inset = Vec2::splat(self.physique.radius(me));
         let place = target + state.position(me) - state.position(load);
         place.distance(place.max(arena::MIN + inset).min(arena::MAX - inset))
@@ -53,7 +53,7 @@ impl Objective<'_> {
     /// How much longer than straight the way from the agent to what it holds is (u): with a wall between them
     /// neither can go on before both have slid along it to the door.
     fn parted(&self, state: &State, load: Entity) -> f32 {
-        let (me, load) = (state.position(Entity::agent(self.agent)), state.position(load));
+        let (me, load) = (state.position(Entity::Agent(self.agent)), state.position(load));
         let way = self.routes.best(me, load, 0.0, self.routes.gaps());
         way.map_or(0.0, |route| (route.length - me.distance(load)).max(0.0))
     }
@@ -63,7 +63,7 @@ impl Objective<'_> {
         let way = self.way(state, state.position(mover), to);
         match mover {
             Entity::Object(object) if !self.load_leads(state, mover) => {
-                way.with_convoy(Convoy::of(self.physique, state, usize::from(object)))
+                way.with_convoy(Convoy::of(self.physique, state, object))
             }
             _ => way,
         }
@@ -77,8 +77,8 @@ impl Objective<'_> {
         let Some(object) = state.held_object(self.agent) else { return find(own) };
         let tight = own.max(2.0 * self.physique.object_radii[object]);
         let mut radii = self.physique.object_radii[object] + self.physique.agents[self.agent].radius;
-        if state.holds(1 - self.agent, object) {
-            radii += self.physique.agents[1 - self.agent].radius;
+        if state.holds(self.agent.other(), object) {
+            radii += self.physique.agents[self.agent.other()].radius;
         }
         let wide = tight.max(2.0 * radii);
         // What does not fit itself may still push through what it holds.
@@ -100,14 +100,14 @@ impl Objective<'_> {
             Subgoal::Achieve(Literal {
                 predicate: Predicate::On(_, landmark) | Predicate::Close(_, Place::Landmark(landmark)),
                 ..
-            }) => Some(arena::LANDMARKS[usize::from(landmark)]),
+            }) => Some(arena::LANDMARKS[landmark]),
             _ => None,
         }
     }
 
     /// Whether the agent fits through every door on its way to a point.
     fn fits_along(&self, state: &State, target: Vec2) -> bool {
-        let from = state.position(Entity::agent(self.agent));
+        let from = state.position(Entity::Agent(self.agent));
         let width = self.physique.agents[self.agent].width();
         Way::find(self.routes, from, target, width).fits()
     }

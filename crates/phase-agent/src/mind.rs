@@ -9,8 +9,8 @@ use crate::{
 };
 use phase_event::{ActionValue, SubgoalValue, Thought};
 use phase_model::{
-    AGENT_COUNT, Action, Attitude, Dynamics, Entity, EntitySet, Goal, Literal, Physique, Place, Predicate,
-    Scene, State, Subgoal,
+    AGENT_COUNT, Action, AgentId, Attitude, BodySet, Dynamics, Entity, Goal, Literal, Physique, Place,
+    Predicate, Scene, State, Subgoal,
     random::{Purpose, stream},
 };
 use phase_planner::{Candidate, Plan, Planner, value};
@@ -21,7 +21,7 @@ use rand::Rng;
 /// every decision, so that it can also think on behalf of somebody whose beliefs are estimated.
 #[derive(Debug)]
 pub struct Mind<D> {
-    index: usize,
+    agent: AgentId,
     physique: Physique,
     goals: [Goal; AGENT_COUNT],
     attitude: Attitude,
@@ -38,15 +38,15 @@ pub struct Outlook<'a> {
     /// Possible states of the world, all equally likely; at least one.
     pub particles: &'a [State],
     /// The entities that the agent observes now, itself included.
-    pub observed: EntitySet,
+    pub observed: BodySet,
 }
 
 impl<D: Dynamics> Mind<D> {
-    /// The mind of agent 0 or 1 of a scene.
+    /// The mind of an agent of a scene.
     ///
     /// # Errors
     /// Settings that cannot be searched with.
-    pub fn new(scene: &Scene, index: usize, dynamics: D, settings: Settings) -> Result<Self, PomcpError> {
+    pub fn new(scene: &Scene, agent: AgentId, dynamics: D, settings: Settings) -> Result<Self, PomcpError> {
         let physique = scene.physique();
         let pomcp = Pomcp::new(PomcpSettings {
             simulations: settings.simulations,
@@ -56,14 +56,14 @@ impl<D: Dynamics> Mind<D> {
             stop_when_decided: true,
             ..PomcpSettings::default()
         })?;
-        let attitude = scene.agents[index].attitude;
+        let attitude = scene.agents[agent].attitude;
         Ok(Self {
-            index,
+            agent,
             goals: scene.goals(),
             attitude,
             settings,
             dynamics,
-            planner: Planner::new(physique.clone(), scene.layout, index, scene.goals(), attitude),
+            planner: Planner::new(physique.clone(), scene.layout, agent, scene.goals(), attitude),
             pomcp,
             patience: Patience::default(),
             physique,
@@ -103,7 +103,7 @@ impl<D: Dynamics> Mind<D> {
 
     /// One plan for each different particle, and which plan belongs to each particle. Once everything is in
     /// view all particles are the same world, and planning once is enough.
-    fn plans(&self, particles: &[State], known: EntitySet) -> (Vec<Plan>, Vec<usize>) {
+    fn plans(&self, particles: &[State], known: BodySet) -> (Vec<Plan>, Vec<usize>) {
         let mut different: Vec<usize> = Vec::new();
         let mut plans = Vec::new();
         let mut plan_of = Vec::with_capacity(particles.len());
@@ -140,7 +140,7 @@ impl<D: Dynamics> Mind<D> {
 
     /// The entity that a subgoal sends the agent to, if it does not see it.
     fn unseen(&self, outlook: Outlook<'_>, subgoal: Subgoal) -> Option<Entity> {
-        sought(subgoal, self.index).filter(|&entity| !outlook.observed.contains(entity))
+        sought(subgoal, self.agent).filter(|&entity| !outlook.observed.contains(entity))
     }
 
     /// LP(B̃, h*) of Algorithm 1: the best action for a subgoal in the worlds that agree on it.
@@ -153,20 +153,20 @@ impl<D: Dynamics> Mind<D> {
     ) -> Result<(Action, Vec<ActionValue>), PomcpError> {
         let routes = self.planner.routes();
         let objective =
-            Objective { physique: &self.physique, routes, agent: self.index, subgoal, retreat: None };
+            Objective { physique: &self.physique, routes, agent: self.agent, subgoal, retreat: None };
         // Whoever hinders has nothing to gain by making room.
         let retreat = match self.attitude {
             Attitude::Hinder => None,
             _ => self.patience.lose(&objective, &roots[0], random),
         };
-        let actions = repertoire::actions(self.index, subgoal, &roots[0], retreat.is_some());
+        let actions = repertoire::actions(self.agent, subgoal, &roots[0], retreat.is_some());
         if let [only] = actions {
             return Ok((*only, Vec::new()));
         }
         let model = Imagination {
             dynamics: &self.dynamics,
             objective: Objective { retreat, ..objective },
-            other_objective: Imagination::<D>::other(&self.physique, routes, self.index, self.goals),
+            other_objective: Imagination::<D>::other(&self.physique, routes, self.agent, self.goals),
             actions,
             goals: self.goals,
             goals_count: !matches!(self.unseen(outlook, subgoal), Some(Entity::Object(_))),
@@ -192,10 +192,10 @@ impl<D: Dynamics> Mind<D> {
 }
 
 /// The entity that a subgoal sends an agent to.
-fn sought(subgoal: Subgoal, agent: usize) -> Option<Entity> {
+fn sought(subgoal: Subgoal, agent: AgentId) -> Option<Entity> {
     let Subgoal::Achieve(Literal { predicate, holds: true }) = subgoal else { return None };
     match predicate {
-        Predicate::Close(who, Place::Entity(entity)) if who == Entity::agent(agent) => Some(entity),
+        Predicate::Close(who, Place::Entity(entity)) if who == Entity::Agent(agent) => Some(entity),
         Predicate::Touch(_, entity) => Some(entity),
         Predicate::Attach(_, object) => Some(Entity::Object(object)),
         _ => None,
@@ -208,10 +208,10 @@ fn summary(candidate: &Candidate) -> SubgoalValue {
 
 /// Entities that all particles believe to be in the same place. Nobody need go and look whether an object lies
 /// where it has just been put.
-fn known_places(physique: &Physique, particles: &[State]) -> EntitySet {
+fn known_places(physique: &Physique, particles: &[State]) -> BodySet {
     /// Greatest distance between places that count as the same (u).
     const SAME: f32 = 0.5;
-    let mut known = EntitySet::EMPTY;
+    let mut known = BodySet::EMPTY;
     let Some(first) = particles.first() else { return known };
     for entity in physique.entities() {
         let place = first.position(entity);

@@ -2,7 +2,8 @@
 
 use crate::course::{self, Course, Way};
 use phase_model::{
-    Entity, Literal, Physique, Place, Predicate, Segment, Side, State, Subgoal, Vec2, arena, layout::room_of,
+    AgentId, Entity, Literal, ObjectId, Physique, Place, Predicate, RoomId, Segment, Side, State, Subgoal,
+    Vec2, arena, layout::room_of,
 };
 use phase_planner::{
     Routes,
@@ -34,8 +35,8 @@ pub struct Objective<'a> {
     pub physique: &'a Physique,
     /// The ways between rooms.
     pub routes: &'a Routes,
-    /// Who pursues it, 0 or 1.
-    pub agent: usize,
+    /// Who pursues it.
+    pub agent: AgentId,
     /// What is pursued.
     pub subgoal: Subgoal,
     /// Where to go first to make room for another try, if the agent does not get on (u).
@@ -62,11 +63,11 @@ impl Objective<'_> {
         let distance = match self.subgoal {
             Subgoal::Stay => 0.0,
             Subgoal::Achieve(Literal { predicate: Predicate::Attach(agent, object), holds }) => {
-                let held = state.holds(usize::from(agent), usize::from(object));
+                let held = state.holds(agent, object);
                 match (holds, held) {
                     (true, false) => remaining() + NOT_IN_HAND,
                     (true, true) => 0.0,
-                    (false, _) => f32::from(u8::from(held)) + self.slide(state, usize::from(object)),
+                    (false, _) => f32::from(u8::from(held)) + self.slide(state, object),
                 }
             }
             Subgoal::Achieve(Literal { predicate: Predicate::Touch(..), holds: false })
@@ -89,8 +90,8 @@ impl Objective<'_> {
     /// where they are going, and turn to where they believe something unseen to be; that is how they find it, or
     /// find it gone.
     fn averted(&self, state: &State, literal: Literal) -> f32 {
-        let me = Entity::agent(self.agent);
-        let other = Entity::agent(1 - self.agent);
+        let me = Entity::Agent(self.agent);
+        let other = Entity::Agent(self.agent.other());
         let target = match (literal.predicate, literal.holds) {
             (Predicate::Close(who, Place::Entity(target)), true) if who == me => target,
             (Predicate::Touch(who, target @ Entity::Object(_)), true) if Entity::Agent(who) == me => target,
@@ -102,7 +103,7 @@ impl Objective<'_> {
 
     /// What not facing a point costs (u).
     fn turned_away(&self, state: &State, target: Vec2) -> f32 {
-        let body = state.body(Entity::agent(self.agent));
+        let body = state.body(Entity::Agent(self.agent));
         let way = (target - body.position).normalize_or_zero();
         FACING * (1.0 - way.dot(body.forward()))
     }
@@ -110,10 +111,10 @@ impl Objective<'_> {
     /// What the other agent's being near to the landmark that it is to be kept off adds (u): its guard pushes it
     /// back rather than just stand there.
     fn nearness(&self, state: &State, literal: Literal) -> f32 {
-        let other = Entity::agent(1 - self.agent);
+        let other = Entity::Agent(self.agent.other());
         match (literal.predicate, literal.holds) {
             (Predicate::On(who, landmark), false) if who == other => {
-                let centre = arena::LANDMARKS[usize::from(landmark)];
+                let centre = arena::LANDMARKS[landmark];
                 (KEPT_OFF - state.position(other).distance(centre)).max(0.0)
             }
             _ => 0.0,
@@ -128,8 +129,8 @@ impl Objective<'_> {
                 predicate:
                     Predicate::On(Entity::Object(object), _) | Predicate::Close(Entity::Object(object), _),
                 ..
-            }) if state.holds(self.agent, usize::from(object)) => Entity::Object(object),
-            _ => Entity::agent(self.agent),
+            }) if state.holds(self.agent, object) => Entity::Object(object),
+            _ => Entity::Agent(self.agent),
         }
     }
 
@@ -147,7 +148,7 @@ impl Objective<'_> {
             .physique
             .entities()
             .filter(|&entity| {
-                self.is_in_the_way(state, entity) || (leads && entity == Entity::agent(self.agent))
+                self.is_in_the_way(state, entity) || (leads && entity == Entity::Agent(self.agent))
             })
             .map(|entity| (state.position(entity), self.physique.radius(entity) + clearance));
         let from = state.position(mover);
@@ -173,7 +174,7 @@ impl Objective<'_> {
     /// Whether an entity is to be walked round: it is neither the agent nor what the subgoal is about, and
     /// neither of them holds it.
     fn is_in_the_way(&self, state: &State, entity: Entity) -> bool {
-        let me = Entity::agent(self.agent);
+        let me = Entity::Agent(self.agent);
         let about = match self.subgoal {
             Subgoal::Achieve(Literal { predicate, .. }) => match predicate {
                 Predicate::On(subject, _) | Predicate::Close(subject, Place::Landmark(_)) => subject,
@@ -182,8 +183,8 @@ impl Objective<'_> {
             },
             Subgoal::Stay => me,
         };
-        let held_with = |object: u8| match entity {
-            Entity::Agent(who) => state.holds(usize::from(who), usize::from(object)),
+        let held_with = |object: ObjectId| match entity {
+            Entity::Agent(who) => state.holds(who, object),
             Entity::Object(other) => other == object,
         };
         let mine = state.grips[self.agent].is_some_and(|grip| held_with(grip.object));
@@ -198,7 +199,7 @@ impl Objective<'_> {
         let Subgoal::Achieve(Literal { predicate, holds }) = self.subgoal else { return here };
         match (predicate, holds) {
             (Predicate::On(entity, landmark), true) => {
-                let centre = arena::LANDMARKS[usize::from(landmark)];
+                let centre = arena::LANDMARKS[landmark];
                 if entity == mover {
                     let way = self.way_of(state, mover, centre);
                     self.along(state, &way, course::to_point)
@@ -207,13 +208,12 @@ impl Objective<'_> {
                 }
             }
             (Predicate::Close(entity, Place::Landmark(landmark)), true) => {
-                let room = usize::from(landmark);
                 if entity != mover {
-                    self.escort(state, entity, arena::LANDMARKS[room])
-                } else if room_of(from) == room {
+                    self.escort(state, entity, arena::LANDMARKS[landmark])
+                } else if room_of(from) == landmark.room() {
                     here
                 } else {
-                    let way = self.way_of(state, mover, arena::LANDMARKS[room]);
+                    let way = self.way_of(state, mover, arena::LANDMARKS[landmark]);
                     self.along(state, &way, course::into_room)
                 }
             }
@@ -225,16 +225,16 @@ impl Objective<'_> {
                 self.away_from(state, other)
             }
             (Predicate::Close(entity, Place::Landmark(landmark)), false) => {
-                self.blocking(state, entity, usize::from(landmark))
+                self.blocking(state, entity, landmark.room())
             }
-            (Predicate::On(entity, landmark), false) if entity == Entity::agent(self.agent) => {
+            (Predicate::On(entity, landmark), false) if entity == Entity::Agent(self.agent) => {
                 aside::intrusion(self.physique, self.routes, state, self.agent, landmark).map_or(
                     here,
                     |Intrusion { place, .. }| Course { heading_for: place, remaining: from.distance(place) },
                 )
             }
             (Predicate::On(entity, landmark), false) => {
-                let target = arena::LANDMARKS[usize::from(landmark)];
+                let target = arena::LANDMARKS[landmark];
                 let reach = self.physique.radius(entity) + self.physique.agents[self.agent].radius;
                 let offset = state.position(entity) - target;
                 // Half-way, so that whoever has been pushed back is pushed on.
@@ -264,16 +264,16 @@ impl Objective<'_> {
     /// together or the other is what this is about.
     fn give_way(&self, state: &State, way: &Way<'_>) -> Option<Course> {
         let Subgoal::Achieve(Literal { predicate, holds: true }) = self.subgoal else { return None };
-        let other = Entity::agent(1 - self.agent);
+        let other = Entity::Agent(self.agent.other());
         let about_other = match predicate {
             Predicate::Touch(_, entity) | Predicate::Close(_, Place::Entity(entity)) => entity == other,
             _ => false,
         };
         let mine = state.held_object(self.agent);
-        if about_other || (mine.is_some() && mine == state.held_object(1 - self.agent)) {
+        if about_other || (mine.is_some() && mine == state.held_object(self.agent.other())) {
             return None;
         }
-        let mut course = course::give_way(way, state.position(other), self.agent > 0)?;
+        let mut course = course::give_way(way, state.position(other), self.agent == AgentId::ONE)?;
         // Whoever waits looks at whom it waits for, or it will not see that the door is free again.
         course.remaining += (self.turned_away(state, state.position(other)) - IN_VIEW).max(0.0);
         Some(course)
@@ -281,7 +281,7 @@ impl Objective<'_> {
 
     /// Until the surfaces meet.
     fn up_to(&self, state: &State, entity: Entity) -> Course {
-        let from = state.position(Entity::agent(self.agent));
+        let from = state.position(Entity::Agent(self.agent));
         let mut course = self.towards(state, from, state.position(entity));
         let reach = self.physique.radius(entity) + self.physique.agents[self.agent].radius;
         course.remaining = (course.remaining - reach).max(0.0);
@@ -289,9 +289,9 @@ impl Objective<'_> {
     }
 
     /// Until an object is within reach of the nearest of the four sides.
-    fn within_reach_of(&self, state: &State, object: u8) -> Course {
+    fn within_reach_of(&self, state: &State, object: ObjectId) -> Course {
         let entity = Entity::Object(object);
-        let body = state.body(Entity::agent(self.agent));
+        let body = state.body(Entity::Agent(self.agent));
         let mut course = self.up_to(state, entity);
         if room_of(body.position) == room_of(state.position(entity)) {
             let rotation = Vec2::from_angle(body.angle);
@@ -322,13 +322,13 @@ impl Objective<'_> {
 
     /// By way of doors, from the other agent to this one (u).
     fn apart(&self, state: &State) -> f32 {
-        let (me, other) = (Entity::agent(self.agent), Entity::agent(1 - self.agent));
-        let width = self.physique.agents[1 - self.agent].width();
+        let (me, other) = (Entity::Agent(self.agent), Entity::Agent(self.agent.other()));
+        let width = self.physique.agents[self.agent.other()].width();
         self.routes.cost(state.position(other), state.position(me), width, self.routes.gaps())
     }
 
     fn away_from(&self, state: &State, other: Entity) -> Course {
-        let from = state.position(Entity::agent(self.agent));
+        let from = state.position(Entity::Agent(self.agent));
         let direction = (from - state.position(other)).normalize_or(Vec2::Y);
         // Along the wall rather than into it.
         let heading_for = (from + direction * 4.0).clamp(arena::MIN + Vec2::ONE, arena::MAX - Vec2::ONE);
@@ -336,11 +336,11 @@ impl Objective<'_> {
     }
 
     /// Into the door through which an entity would enter a room, in front of it.
-    fn blocking(&self, state: &State, entity: Entity, room: usize) -> Course {
-        let from = state.position(Entity::agent(self.agent));
+    fn blocking(&self, state: &State, entity: Entity, room: RoomId) -> Course {
+        let from = state.position(Entity::Agent(self.agent));
         let there = state.position(entity);
         let width = 2.0 * self.physique.radius(entity);
-        let route = self.routes.best(there, arena::LANDMARKS[room], width, self.routes.gaps());
+        let route = self.routes.best(there, arena::LANDMARKS[room.landmark()], width, self.routes.gaps());
         let crossing = route.and_then(|route| route.doors().last().map(|&(_, point)| point));
         self.towards(state, from, crossing.unwrap_or(there))
     }

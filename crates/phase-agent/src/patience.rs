@@ -42,7 +42,7 @@ impl Patience {
             *self = Self::default();
             return None;
         };
-        let body = state.body(Entity::agent(objective.agent));
+        let body = state.body(Entity::Agent(objective.agent));
         let stays = self.since.is_some_and(|(place, angle)| {
             place.distance(body.position) < SAME_PLACE && (angle - body.angle).abs() < SAME_HEADING
         });
@@ -64,7 +64,7 @@ impl Patience {
 /// with a load that it cannot move, or that the other holds as well, all it can do is pull.
 fn onward(objective: &Objective<'_>, state: &State) -> Option<Vec2> {
     let Subgoal::Achieve(Literal { holds: true, .. }) = objective.subgoal else { return None };
-    let (me, other) = (objective.agent, 1 - objective.agent);
+    let (me, other) = (objective.agent, objective.agent.other());
     if let Some(object) = state.held_object(me) {
         let force = objective.physique.agents[me].max_force;
         if state.holds(other, object) || force <= 2.0 * GROUND_FRICTION {
@@ -90,7 +90,7 @@ fn back(objective: &Objective<'_>, from: Vec2, onward: Vec2) -> Vec2 {
 impl Objective<'_> {
     /// The course back to a place, and whatever is in hand with one.
     pub(crate) fn back_to(&self, state: &State, place: Vec2) -> Course {
-        let way = place - state.position(Entity::agent(self.agent));
+        let way = place - state.position(Entity::Agent(self.agent));
         Course { heading_for: state.position(self.mover(state)) + way, remaining: way.length() }
     }
 }

@@ -1,6 +1,6 @@
 //! Which actions the low level considers for a subgoal.
 
-use phase_model::{Action, Entity, Literal, Place, Predicate, State, Subgoal};
+use phase_model::{Action, AgentId, Entity, Literal, Place, Predicate, State, Subgoal};
 
 /// For getting oneself somewhere: people see purpose in bodies that move the way they face.
 const WALKING: [Action; 5] = [Action::TurnLeft, Action::TurnRight, Action::Up, Action::Stop, Action::NoForce];
@@ -16,11 +16,11 @@ const WITHOUT_RELEASE: usize = 13;
 
 /// The actions to search, never empty; a single one needs no search. Who `retreats` may step back.
 #[must_use]
-pub fn actions(agent: usize, subgoal: Subgoal, state: &State, retreats: bool) -> &'static [Action] {
+pub fn actions(agent: AgentId, subgoal: Subgoal, state: &State, retreats: bool) -> &'static [Action] {
     let Subgoal::Achieve(Literal { predicate, holds }) = subgoal else { return &[Action::Stop] };
     let free = state.grips[agent].is_none();
-    let me = Entity::agent(agent);
-    let held_up = retreats || state.contacts.touching(me, Entity::agent(1 - agent));
+    let me = Entity::Agent(agent);
+    let held_up = retreats || state.contacts.touching(me, Entity::Agent(agent.other()));
     let walking: &'static [Action] = if held_up { &BACKING_OFF } else { &WALKING };
     match (predicate, holds) {
         (Predicate::Attach(..), false) => &RELEASING,

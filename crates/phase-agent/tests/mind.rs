@@ -8,16 +8,18 @@ use phase_agent::{
 };
 use phase_forward::Forward;
 use phase_model::{
-    Action, AgentSpec, Attitude, Body, Dynamics, Entity, EventKind, Goal, Grip, Layout, Literal, ObjectSpec,
-    Place, Predicate, Scene, Side, Sign, Size, State, Strength, Subgoal, Vec2,
+    Action, AgentId, AgentSpec, Attitude, Body, Dynamics, Entity, EventKind, Goal, Grip, LandmarkId, Layout,
+    Literal, ObjectId, ObjectSpec, Place, Predicate, Scene, Side, Sign, Size, State, Strength, Subgoal, Vec2,
     random::{Purpose, stream},
 };
 use phase_perception::observe;
 use phase_planner::Routes;
 use phase_pomcp::GenerativeModel;
 
-const ON_2: Goal = Goal::AgentOnLandmark { agent: 0, landmark: 2, sign: Sign::Positive };
-const OTHER_ON_0: Goal = Goal::AgentOnLandmark { agent: 1, landmark: 0, sign: Sign::Positive };
+const ON_2: Goal =
+    Goal::AgentOnLandmark { agent: AgentId::ZERO, landmark: LandmarkId::BOTTOM_RIGHT, sign: Sign::Positive };
+const OTHER_ON_0: Goal =
+    Goal::AgentOnLandmark { agent: AgentId::ONE, landmark: LandmarkId::TOP_LEFT, sign: Sign::Positive };
 
 /// No walls; agent 0 at a point with a heading, agent 1 and the object out of the way.
 fn scene(position: Vec2, angle: f32) -> Scene {
@@ -46,13 +48,14 @@ const WALKING: [Action; 3] = [Action::TurnLeft, Action::TurnRight, Action::Up];
 /// The rule of thumb's action for a subgoal of agent 0.
 fn thumb(scene: &Scene, state: &State, subgoal: Subgoal, actions: &[Action]) -> Action {
     let (physique, routes) = (scene.physique(), Routes::new(scene.layout));
-    let objective = Objective { physique: &physique, routes: &routes, agent: 0, subgoal, retreat: None };
+    let objective =
+        Objective { physique: &physique, routes: &routes, agent: AgentId::ZERO, subgoal, retreat: None };
     guidance::action(&objective, state, None, actions)
 }
 
 #[test]
 fn the_rule_of_thumb_turns_goes_and_brakes() {
-    let to_landmark = achieve(Predicate::On(Entity::Agent(0), 2));
+    let to_landmark = achieve(Predicate::On(Entity::Agent(AgentId::ZERO), LandmarkId::BOTTOM_RIGHT));
     // Landmark 2 lies at (23.5, 4.5); heading π faces down.
     let above = Vec2::new(23.5, 14.0);
     for (angle, expected) in [
@@ -72,11 +75,11 @@ fn the_rule_of_thumb_turns_goes_and_brakes() {
 #[test]
 fn the_rule_of_thumb_uses_its_hands() {
     let beside = scene(Vec2::new(9.0, 12.3), 0.0);
-    let attach = achieve(Predicate::Attach(0, 0));
+    let attach = achieve(Predicate::Attach(AgentId::ZERO, ObjectId::ZERO));
     assert_eq!(thumb(&beside, &beside.initial_state(), attach, &Action::ALL), Action::Attach);
     let mut holding = beside.initial_state();
-    holding.grips[0] = Some(Grip { object: 0, side: Side::Head, relative_angle: 0.0 });
-    let release = Subgoal::Achieve(Literal::not(Predicate::Attach(0, 0)));
+    holding.grips[0] = Some(Grip { object: ObjectId::ZERO, side: Side::Head, relative_angle: 0.0 });
+    let release = Subgoal::Achieve(Literal::not(Predicate::Attach(AgentId::ZERO, ObjectId::ZERO)));
     assert_eq!(thumb(&beside, &holding, release, &Action::ALL), Action::Detach);
 }
 
@@ -84,19 +87,20 @@ fn the_rule_of_thumb_uses_its_hands() {
 fn every_subgoal_has_its_actions() {
     let state = scene(Vec2::new(20.0, 15.0), 0.0).initial_state();
     let mut holding = state;
-    holding.grips[0] = Some(Grip { object: 0, side: Side::Head, relative_angle: 0.0 });
-    let close = achieve(Predicate::Close(Entity::Agent(0), Place::Landmark(1)));
-    let carry = achieve(Predicate::On(Entity::Object(0), 1));
-    let release = Subgoal::Achieve(Literal::not(Predicate::Attach(0, 0)));
+    holding.grips[0] = Some(Grip { object: ObjectId::ZERO, side: Side::Head, relative_angle: 0.0 });
+    let close =
+        achieve(Predicate::Close(Entity::Agent(AgentId::ZERO), Place::Landmark(LandmarkId::TOP_RIGHT)));
+    let carry = achieve(Predicate::On(Entity::Object(ObjectId::ZERO), LandmarkId::TOP_RIGHT));
+    let release = Subgoal::Achieve(Literal::not(Predicate::Attach(AgentId::ZERO, ObjectId::ZERO)));
     for (subgoal, state, count) in [
         (Subgoal::Stay, &state, 1),
         (close, &state, 5),
-        (achieve(Predicate::Touch(0, Entity::Agent(1))), &state, 5),
-        (achieve(Predicate::Attach(0, 0)), &state, 13),
+        (achieve(Predicate::Touch(AgentId::ZERO, Entity::Agent(AgentId::ONE))), &state, 5),
+        (achieve(Predicate::Attach(AgentId::ZERO, ObjectId::ZERO)), &state, 13),
         (carry, &holding, 12),
         (release, &holding, 3),
     ] {
-        assert_eq!(repertoire::actions(0, subgoal, state, false).len(), count, "{subgoal}");
+        assert_eq!(repertoire::actions(AgentId::ZERO, subgoal, state, false).len(), count, "{subgoal}");
     }
 }
 
@@ -109,8 +113,9 @@ fn rewards_follow_equation_1() {
     scene.agents[0].strength = Strength::Weak;
     let (physique, routes, state) = (scene.physique(), Routes::new(scene.layout), scene.initial_state());
     let forward = Forward::new(&physique);
-    let subgoal = achieve(Predicate::On(Entity::Agent(0), 1));
-    let objective = Objective { physique: &physique, routes: &routes, agent: 0, subgoal, retreat: None };
+    let subgoal = achieve(Predicate::On(Entity::Agent(AgentId::ZERO), LandmarkId::TOP_RIGHT));
+    let objective =
+        Objective { physique: &physique, routes: &routes, agent: AgentId::ZERO, subgoal, retreat: None };
     let goals = [ON_2, OTHER_ON_0];
     for (attitude, social) in [(Attitude::Neutral, 1.0), (Attitude::Help, 1.0), (Attitude::Hinder, -1.0)] {
         for (action, cost) in [(Action::Stop, 0.0), (Action::Left, 0.02)] {
@@ -118,7 +123,7 @@ fn rewards_follow_equation_1() {
             let model = Imagination {
                 dynamics: &forward,
                 objective,
-                other_objective: Imagination::<Forward>::other(&physique, &routes, 0, goals),
+                other_objective: Imagination::<Forward>::other(&physique, &routes, AgentId::ZERO, goals),
                 actions: &actions,
                 goals,
                 goals_count: true,
@@ -148,12 +153,12 @@ fn rewards_follow_equation_1() {
 /// The first decision of agent 0 with a modest search.
 fn decide(scene: &Scene, seed: u64) -> (Action, Subgoal) {
     let (physique, state) = (scene.physique(), scene.initial_state());
-    let observation = observe(&physique, &state, 0);
+    let observation = observe(&physique, &state, AgentId::ZERO);
     let settings = Settings { simulations: 300, particles: 20, ..Settings::default() };
     let mut random = stream(seed, Purpose::Belief, 0);
     let forward = Forward::new(&physique);
-    let mut agent =
-        Agent::new(scene, 0, forward, settings, &observation, &mut random).expect("good settings");
+    let mut agent = Agent::new(scene, AgentId::ZERO, forward, settings, &observation, &mut random)
+        .expect("good settings");
     let (action, thought) = agent.decide(&mut stream(seed, Purpose::Search, 0)).expect("a decision");
     (action, thought.subgoal)
 }
@@ -162,7 +167,11 @@ fn decide(scene: &Scene, seed: u64) -> (Action, Subgoal) {
 fn a_landmark_straight_ahead_is_walked_to_and_then_stayed_on() {
     for seed in 0..5 {
         let ahead = scene(Vec2::new(23.5, 14.0), core::f32::consts::PI);
-        assert_eq!(decide(&ahead, seed), (Action::Up, achieve(Predicate::On(Entity::Agent(0), 2))), "{seed}");
+        assert_eq!(
+            decide(&ahead, seed),
+            (Action::Up, achieve(Predicate::On(Entity::Agent(AgentId::ZERO), LandmarkId::BOTTOM_RIGHT))),
+            "{seed}"
+        );
         let there = scene(Vec2::new(23.5, 4.5), 0.0);
         assert_eq!(decide(&there, seed), (Action::Stop, Subgoal::Stay), "{seed}");
     }
@@ -172,7 +181,15 @@ fn a_landmark_straight_ahead_is_walked_to_and_then_stayed_on() {
 fn an_object_within_reach_is_taken() {
     for seed in 0..5 {
         let mut beside = scene(Vec2::new(9.0, 12.3), 0.0);
-        beside.agents[0].goal = Goal::ObjectOnLandmark { object: 0, landmark: 1, sign: Sign::Positive };
-        assert_eq!(decide(&beside, seed), (Action::Attach, achieve(Predicate::Attach(0, 0))), "{seed}");
+        beside.agents[0].goal = Goal::ObjectOnLandmark {
+            object: ObjectId::ZERO,
+            landmark: LandmarkId::TOP_RIGHT,
+            sign: Sign::Positive,
+        };
+        assert_eq!(
+            decide(&beside, seed),
+            (Action::Attach, achieve(Predicate::Attach(AgentId::ZERO, ObjectId::ZERO))),
+            "{seed}"
+        );
     }
 }

@@ -2,8 +2,8 @@
 
 use phase_agent::objective::Objective;
 use phase_model::{
-    Body, Entity, Grip, Layout, Literal, Physique, Place, Predicate, Side, Size, State, Strength, Subgoal,
-    Vec2, arena, physique::AgentBody,
+    AgentId, Body, Entity, Grip, LandmarkId, Layout, Literal, ObjectId, Physique, Place, Predicate, Side,
+    Size, State, Strength, Subgoal, Vec2, arena, physique::AgentBody,
 };
 use phase_planner::Routes;
 
@@ -39,7 +39,7 @@ fn look(size: Size, state: &State, literal: Literal) -> (f32, Vec2) {
     let objective = Objective {
         physique: &physique,
         routes: &routes,
-        agent: 0,
+        agent: AgentId::ZERO,
         subgoal: Subgoal::Achieve(literal),
         retreat: None,
     };
@@ -51,7 +51,8 @@ const DOWN: f32 = core::f32::consts::PI;
 
 #[test]
 fn who_does_not_fit_through_a_door_faces_it() {
-    let to_room = Literal::is(Predicate::Close(Entity::Agent(0), Place::Landmark(3)));
+    let to_room =
+        Literal::is(Predicate::Close(Entity::Agent(AgentId::ZERO), Place::Landmark(LandmarkId::BOTTOM_LEFT)));
     let at = Vec2::new(10.0, 14.0);
     let facing = |angle| look(Size::Large, &state(at, angle, FAR, FAR), to_room).0;
     assert!(facing(DOWN) < facing(0.0) - 0.5);
@@ -62,10 +63,13 @@ fn who_does_not_fit_through_a_door_faces_it() {
 
 #[test]
 fn a_load_goes_first_where_its_carrier_cannot_follow() {
-    let bring = Literal::is(Predicate::Close(Entity::Object(0), Place::Landmark(3)));
+    let bring = Literal::is(Predicate::Close(
+        Entity::Object(ObjectId::ZERO),
+        Place::Landmark(LandmarkId::BOTTOM_LEFT),
+    ));
     let holding = |size: Size, agent: Vec2, object: Vec2| {
         let mut state = state(agent, 0.0, FAR, object);
-        state.grips[0] = Some(Grip { object: 0, side: Side::Head, relative_angle: 0.0 });
+        state.grips[0] = Some(Grip { object: ObjectId::ZERO, side: Side::Head, relative_angle: 0.0 });
         look(size, &state, bring)
     };
     let (above, below) = (Vec2::new(10.0, 18.0), Vec2::new(10.0, 16.0));
@@ -84,13 +88,13 @@ fn a_load_goes_first_where_its_carrier_cannot_follow() {
 fn carrying(agent: Vec2, towards: Vec2) -> State {
     let heading = libm::atan2f(-towards.x, towards.y);
     let mut state = state(agent, heading, FAR, agent + towards.normalize() * 2.0 * Size::Small.radius());
-    state.grips[0] = Some(Grip { object: 0, side: Side::Head, relative_angle: 0.0 });
+    state.grips[0] = Some(Grip { object: ObjectId::ZERO, side: Side::Head, relative_angle: 0.0 });
     state
 }
 
 #[test]
 fn a_load_and_its_carrier_get_in_line_before_a_narrow_door() {
-    let bring = Literal::is(Predicate::On(Entity::Object(0), 3));
+    let bring = Literal::is(Predicate::On(Entity::Object(ObjectId::ZERO), LandmarkId::BOTTOM_LEFT));
     // Jammed at the door's corner, the load in the door; back; turned; into the door; through it.
     let way = [
         carrying(Vec2::new(8.7, 12.9), Vec2::new(-1.0, -0.3)),
@@ -102,13 +106,17 @@ fn a_load_and_its_carrier_get_in_line_before_a_narrow_door() {
     ];
     let left = way.map(|state| look(Size::Small, &state, bring).0);
     assert!(left.is_sorted_by(|earlier, later| earlier > later), "{left:?}");
-    let jammed = way[0].position(Entity::Object(0));
+    let jammed = way[0].position(Entity::Object(ObjectId::ZERO));
     let back = look(Size::Small, &way[0], bring).1 - jammed;
     assert!(back.y > 1.0, "away from the door: {back}");
     // From where there is room enough one goes straight on, side by side or not.
     let ways = [Vec2::NEG_X, Vec2::NEG_Y].map(|towards| {
         let state = carrying(Vec2::new(20.0, 8.0), towards);
-        look(Size::Small, &state, Literal::is(Predicate::On(Entity::Object(0), 2)))
+        look(
+            Size::Small,
+            &state,
+            Literal::is(Predicate::On(Entity::Object(ObjectId::ZERO), LandmarkId::BOTTOM_RIGHT)),
+        )
     });
     for (_, heading) in ways {
         assert!(heading.distance(arena::LANDMARKS[2]) < 1e-3, "{heading}");
@@ -117,7 +125,7 @@ fn a_load_and_its_carrier_get_in_line_before_a_narrow_door() {
 
 #[test]
 fn with_a_wall_between_them_carrier_and_load_slide_to_the_door() {
-    let bring = Literal::is(Predicate::On(Entity::Object(0), 0));
+    let bring = Literal::is(Predicate::On(Entity::Object(ObjectId::ZERO), LandmarkId::TOP_LEFT));
     let left = [10.5, 9.5, 8.5, 8.0].map(|x| {
         let state = carrying(Vec2::new(x, 11.2), Vec2::Y);
         look(Size::Small, &state, bring).0
@@ -127,12 +135,12 @@ fn with_a_wall_between_them_carrier_and_load_slide_to_the_door() {
 
 #[test]
 fn a_load_is_not_pulled_to_its_place_from_where_there_is_no_room() {
-    let bring = Literal::is(Predicate::On(Entity::Object(0), 2));
+    let bring = Literal::is(Predicate::On(Entity::Object(ObjectId::ZERO), LandmarkId::BOTTOM_RIGHT));
     // Landmark 2 is 2.5 u from the walls: a huge agent, 1.6 u, has no room beyond a load of 0.8 u.
     let holding = |direction: Vec2| {
         let load = arena::LANDMARKS[2] - Vec2::new(3.0, -3.0);
         let mut state = state(load + direction * 2.4, 0.0, FAR, load);
-        state.grips[0] = Some(Grip { object: 0, side: Side::Head, relative_angle: 0.0 });
+        state.grips[0] = Some(Grip { object: ObjectId::ZERO, side: Side::Head, relative_angle: 0.0 });
         look(Size::Huge, &state, bring).0
     };
     let (before, beyond) = (holding(Vec2::Y), holding(Vec2::NEG_Y));
@@ -141,23 +149,23 @@ fn a_load_is_not_pulled_to_its_place_from_where_there_is_no_room() {
 
 #[test]
 fn what_is_let_go_of_is_to_stay_there() {
-    let release = Literal::not(Predicate::Attach(0, 0));
+    let release = Literal::not(Predicate::Attach(AgentId::ZERO, ObjectId::ZERO));
     let mut held = state(Vec2::new(20.0, 8.0), 0.0, FAR, Vec2::new(20.0, 9.6));
-    held.grips[0] = Some(Grip { object: 0, side: Side::Head, relative_angle: 0.0 });
+    held.grips[0] = Some(Grip { object: ObjectId::ZERO, side: Side::Head, relative_angle: 0.0 });
     let mut thrown = held;
     thrown.grips[0] = None;
-    thrown.body_mut(Entity::Object(0)).velocity = Vec2::new(0.0, 10.0);
+    thrown.body_mut(Entity::Object(ObjectId::ZERO)).velocity = Vec2::new(0.0, 10.0);
     let distance = |state: &State| look(Size::Small, state, release).0;
     // Mass 2.01 kg at 10 u/s against 100 N: 1.005 u.
     assert!((distance(&thrown) - 1.005).abs() < 0.01, "{}", distance(&thrown));
     assert!(distance(&held) < distance(&thrown));
-    thrown.body_mut(Entity::Object(0)).velocity = Vec2::ZERO;
+    thrown.body_mut(Entity::Object(ObjectId::ZERO)).velocity = Vec2::ZERO;
     assert!(distance(&thrown).abs() < 1e-6);
 }
 
 #[test]
 fn one_does_not_turn_off_in_a_door() {
-    let onward = Literal::is(Predicate::On(Entity::Agent(0), 0));
+    let onward = Literal::is(Predicate::On(Entity::Agent(AgentId::ZERO), LandmarkId::TOP_LEFT));
     let in_the_door = Vec2::new(7.25, 12.2);
     let open = look(Size::Small, &state(in_the_door, 0.0, FAR, FAR), onward).1;
     let obstructed = look(Size::Small, &state(in_the_door, 0.0, FAR, Vec2::new(7.7, 13.8)), onward).1;
@@ -169,7 +177,7 @@ fn one_does_not_turn_off_in_a_door() {
 
 #[test]
 fn aside_is_beside_the_others_way() {
-    let aside = Literal::not(Predicate::On(Entity::Agent(0), 0));
+    let aside = Literal::not(Predicate::On(Entity::Agent(AgentId::ZERO), LandmarkId::TOP_LEFT));
     let other = Vec2::new(7.25, 13.5);
     let distance = |at: Vec2| look(Size::Small, &state(at, 0.0, other, FAR), aside).0;
     assert!(distance(Vec2::new(9.0, 17.0)) > 1.0);

@@ -2,7 +2,8 @@
 
 use phase_agent::{objective::Objective, patience::Patience};
 use phase_model::{
-    Body, Entity, Grip, Layout, Literal, Physique, Predicate, Side, State, Subgoal, Vec2,
+    AgentId, Body, Entity, Grip, LandmarkId, Layout, Literal, ObjectId, Physique, Predicate, Side, State,
+    Subgoal, Vec2,
     physique::AgentBody,
     random::{Purpose, stream},
 };
@@ -21,14 +22,14 @@ fn place_to_go_to(force: f32, state: &State, literal: Literal, moves: f32) -> Op
     let objective = Objective {
         physique: &physique,
         routes: &routes,
-        agent: 0,
+        agent: AgentId::ZERO,
         subgoal: Subgoal::Achieve(literal),
         retreat: None,
     };
     let (mut patience, mut random) = (Patience::default(), stream(1, Purpose::Search, 0));
     let mut state = *state;
     (0..40).find_map(|_| {
-        state.body_mut(Entity::Agent(0)).position.x += moves;
+        state.body_mut(Entity::Agent(AgentId::ZERO)).position.x += moves;
         patience.lose(&objective, &state, &mut random)
     })
 }
@@ -41,13 +42,13 @@ fn state(at: Vec2, held: bool) -> State {
         Body::at_rest(at + Vec2::new(0.0, 1.6), 0.0),
         Body::default(),
     ]);
-    state.grips[0] = held.then_some(Grip { object: 0, side: Side::Head, relative_angle: 0.0 });
+    state.grips[0] = held.then_some(Grip { object: ObjectId::ZERO, side: Side::Head, relative_angle: 0.0 });
     state
 }
 
 #[test]
 fn who_does_not_get_on_goes_back() {
-    let to_landmark = Literal::is(Predicate::On(Entity::Agent(0), 2));
+    let to_landmark = Literal::is(Predicate::On(Entity::Agent(AgentId::ZERO), LandmarkId::BOTTOM_RIGHT));
     let at = Vec2::new(18.0, 7.0);
     let stuck = place_to_go_to(300.0, &state(at, false), to_landmark, 0.0);
     let onward = (Vec2::new(23.5, 4.5) - at).normalize();
@@ -55,22 +56,28 @@ fn who_does_not_get_on_goes_back() {
     assert!(back.dot(onward) < -1.0, "{back}");
     // With a wall behind, to the side: from below the wall at y 12 straight down.
     let below = Vec2::new(12.0, 11.0);
-    let down = Literal::is(Predicate::On(Entity::Agent(0), 3));
+    let down = Literal::is(Predicate::On(Entity::Agent(AgentId::ZERO), LandmarkId::BOTTOM_LEFT));
     let place = place_to_go_to(300.0, &state(below, false), down, 0.0).expect("lost as well");
     assert!(place.y < 12.0, "not through the wall: {place}");
 }
 
 #[test]
 fn who_gets_on_or_cannot_or_need_not_stays() {
-    let to_landmark = Literal::is(Predicate::On(Entity::Agent(0), 2));
-    let bring = Literal::is(Predicate::On(Entity::Object(0), 2));
+    let to_landmark = Literal::is(Predicate::On(Entity::Agent(AgentId::ZERO), LandmarkId::BOTTOM_RIGHT));
+    let bring = Literal::is(Predicate::On(Entity::Object(ObjectId::ZERO), LandmarkId::BOTTOM_RIGHT));
     let at = Vec2::new(8.0, 4.0);
     let there = Vec2::new(23.4, 4.5);
     for (what, force, state, literal, moves) in [
         ("walking", 300.0, state(at, false), to_landmark, 0.3),
         ("pulling at what is too heavy", 150.0, state(at, true), bring, 0.0),
         ("arrived", 300.0, state(there, false), to_landmark, 0.0),
-        ("guarding", 300.0, state(at, false), Literal::not(Predicate::On(Entity::Agent(1), 2)), 0.0),
+        (
+            "guarding",
+            300.0,
+            state(at, false),
+            Literal::not(Predicate::On(Entity::Agent(AgentId::ONE), LandmarkId::BOTTOM_RIGHT)),
+            0.0,
+        ),
     ] {
         assert_eq!(place_to_go_to(force, &state, literal, moves), None, "{what}");
     }

@@ -1,6 +1,6 @@
-//! The goals that a network tells apart: one list of classes, said of an agent rather than of agent 0 or 1.
+//! The goals that a network tells apart: one list of classes, said of an agent rather than of a numbered one.
 
-use phase_model::{AGENT_COUNT, Goal, MAX_OBJECTS, Sign, arena::LANDMARKS};
+use phase_model::{AgentId, Goal, LandmarkId, MAX_OBJECTS, ObjectId, Sign, arena::LANDMARKS};
 
 /// Number of goals told apart.
 pub const CLASSES: usize = PLACES + 2 * PLACES + MAX_OBJECTS * 2 * PLACES + 2;
@@ -8,7 +8,7 @@ pub const CLASSES: usize = PLACES + 2 * PLACES + MAX_OBJECTS * 2 * PLACES + 2;
 /// Number of landmarks.
 const PLACES: usize = LANDMARKS.len();
 
-/// The goals of an agent (0 or 1) in the order of the classes: itself on each landmark (4); the other on each landmark,
+/// The goals of an agent in the order of the classes: itself on each landmark (4); the other on each landmark,
 /// then kept off each, as helpers and hinderers have it (8); each object on each landmark, then kept off each (8 an
 /// object); approaching the other, getting away from it (2).
 ///
@@ -16,13 +16,13 @@ const PLACES: usize = LANDMARKS.len();
 /// `phase_simple::physical_goals` with what becomes of the other's own if one helps or hinders it. Oneself kept off
 /// a landmark is not among them: an agent that hinders itself does not exist.
 #[must_use]
-pub fn classes(agent: usize) -> [Goal; CLASSES] {
-    let (me, other) = (agent as u8, (AGENT_COUNT - 1 - agent) as u8);
-    let places = |agent: u8, sign: Sign| {
-        (0..PLACES as u8).map(move |landmark| Goal::AgentOnLandmark { agent, landmark, sign })
+pub fn classes(agent: AgentId) -> [Goal; CLASSES] {
+    let (me, other) = (agent, agent.other());
+    let places = |agent: AgentId, sign: Sign| {
+        LandmarkId::ALL.into_iter().map(move |landmark| Goal::AgentOnLandmark { agent, landmark, sign })
     };
-    let things = |object: u8, sign: Sign| {
-        (0..PLACES as u8).map(move |landmark| Goal::ObjectOnLandmark { object, landmark, sign })
+    let things = |object: ObjectId, sign: Sign| {
+        LandmarkId::ALL.into_iter().map(move |landmark| Goal::ObjectOnLandmark { object, landmark, sign })
     };
     let approach = Goal::Touch { agent: me, other, sign: Sign::Positive };
     // In a chase both goals name the chaser first.
@@ -31,17 +31,18 @@ pub fn classes(agent: usize) -> [Goal; CLASSES] {
         .chain(places(other, Sign::Positive))
         .chain(places(other, Sign::Negative))
         .chain(
-            (0..MAX_OBJECTS as u8)
+            ObjectId::ALL
+                .into_iter()
                 .flat_map(|object| things(object, Sign::Positive).chain(things(object, Sign::Negative))),
         )
         .chain([approach, get_away]);
     core::array::from_fn(|_| goals.next().unwrap_or(approach))
 }
 
-/// The class of an agent's (0 or 1) goal; `None` if it is none of them. Of touching only the sign counts, since it is
+/// The class of an agent's goal; `None` if it is none of them. Of touching only the sign counts, since it is
 /// about both agents alike.
 #[must_use]
-pub fn class_of(agent: usize, goal: Goal) -> Option<usize> {
+pub fn class_of(agent: AgentId, goal: Goal) -> Option<usize> {
     match goal {
         Goal::Touch { sign: Sign::Positive, .. } => Some(CLASSES - 2),
         Goal::Touch { sign: Sign::Negative, .. } => Some(CLASSES - 1),

@@ -8,7 +8,7 @@ use crate::{
 use candle_core::{D, DType, Device, Result, Tensor};
 use candle_nn::ops::log_softmax;
 use phase_model::{
-    AGENT_COUNT, Goal, Judgement, ObservedEvent, Relation, RelationProbabilities, random::Pcg64Mcg,
+    AGENT_COUNT, AgentId, Goal, Judgement, ObservedEvent, Relation, RelationProbabilities, random::Pcg64Mcg,
 };
 use thiserror::Error;
 
@@ -35,7 +35,7 @@ pub struct LabelledEvent {
 #[error("the goal of agent {agent} is none that networks tell apart")]
 pub struct LabelError {
     /// Whose goal.
-    pub agent: usize,
+    pub agent: AgentId,
 }
 
 impl LabelledEvent {
@@ -50,7 +50,7 @@ impl LabelledEvent {
     ) -> core::result::Result<Self, LabelError> {
         let objects = event.object_sizes().len();
         let mut labels = [0; AGENT_COUNT];
-        for (agent, (label, goal)) in labels.iter_mut().zip(goals).enumerate() {
+        for (agent, (label, goal)) in AgentId::ALL.into_iter().zip(labels.iter_mut().zip(goals)) {
             let class = class_of(agent, goal).filter(|&class| !is_absent(class, objects));
             *label = class.ok_or(LabelError { agent })? as u32;
         }
@@ -105,8 +105,8 @@ pub trait Recognition {
         let Answers { goals, relations } = self.answers(&batch, None)?.log_probabilities(&batch)?;
         let objects = event.object_sizes().len();
         let mut judgement = Judgement::default();
-        for (agent, ranked) in judgement.goals.iter_mut().enumerate() {
-            let logs: Vec<f32> = goals.get(0)?.get(agent)?.to_vec1()?;
+        for (agent, ranked) in AgentId::ALL.into_iter().zip(&mut judgement.goals) {
+            let logs: Vec<f32> = goals.get(0)?.get(agent.index())?.to_vec1()?;
             let shares = probabilities(&logs);
             let all = classes(agent).into_iter().zip(shares).enumerate();
             *ranked = all.filter(|(class, _)| !is_absent(*class, objects)).map(|(_, share)| share).collect();

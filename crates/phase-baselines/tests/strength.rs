@@ -3,7 +3,7 @@
 use phase_baselines::strength::{
     Epoch, Motion, Sample, Settings, TrainingError, WINDOW, commonest, nearest, score, train,
 };
-use phase_model::{AGENT_COUNT, Body, Layout, MAX_ENTITIES, ObservedEvent, Size, Strength, Vec2};
+use phase_model::{AGENT_COUNT, AgentId, Body, Layout, MAX_ENTITIES, ObservedEvent, Size, Strength, Vec2};
 use phase_simple::{ChainSettings, StrengthRegressor, Update, strength::features};
 
 /// Two agents that push in a straight line until friction holds them at a speed: 2 u/s for each level of strength.
@@ -44,10 +44,10 @@ fn a_motion_is_cut_into_all_its_windows() {
     let event = event(strengths, 0);
     let [first, second] = Motion::of_event(&event, strengths);
     assert_eq!((first.whole.strength, second.whole.strength), (Strength::Fair, Strength::Mighty));
-    assert_eq!(first.whole.features, features(event.rows(), 0, Size::Small));
+    assert_eq!(first.whole.features, features(event.rows(), AgentId::ZERO, Size::Small));
     // 16 rows hold six windows of 11.
     assert_eq!(second.windows.len(), 6);
-    assert_eq!(second.windows[5].features, features(&event.rows()[5..=15], 1, Size::Huge));
+    assert_eq!(second.windows[5].features, features(&event.rows()[5..=15], AgentId::ONE, Size::Huge));
     let short = Motion::of_event(&event.watched_for(WINDOW - 1), strengths);
     assert_eq!(short[0].windows, [short[0].whole]);
 }

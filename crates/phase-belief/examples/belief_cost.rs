@@ -3,8 +3,8 @@
 use phase_belief::{Belief, PARTICLE_COUNT};
 use phase_forward::Forward;
 use phase_model::{
-    AGENT_COUNT, Action, AgentBody, Body, Dynamics, Entity, Layout, LayoutError, MAX_ENTITIES, Physique,
-    Size, State, Vec2, arena,
+    AGENT_COUNT, Action, AgentBody, AgentId, Body, Dynamics, Entity, Layout, LayoutError, MAX_ENTITIES,
+    Physique, Size, State, Vec2, arena,
     geometry::Outline,
     random::{Pcg64Mcg, Purpose, stream},
 };
@@ -63,7 +63,7 @@ fn event(physique: &Physique, random: &mut Pcg64Mcg, total: &mut Total) {
     let forward = Forward::new(physique);
     let mut truth = legal_state(physique, random);
     let mut actions = [Action::NoForce; AGENT_COUNT];
-    let mut observation = observe(physique, &truth, 0);
+    let mut observation = observe(physique, &truth, AgentId::ZERO);
     let start = Instant::now();
     let mut belief = Belief::new(physique, &observation, PARTICLE_COUNT, random);
     total.first += start.elapsed();
@@ -72,7 +72,7 @@ fn event(physique: &Physique, random: &mut Pcg64Mcg, total: &mut Total) {
             actions = core::array::from_fn(|_| Action::ALL[random.random_range(0..Action::ALL.len())]);
         }
         forward.step(&mut truth, actions);
-        observation = observe(physique, &truth, 0);
+        observation = observe(physique, &truth, AgentId::ZERO);
         total.still += still_update(&belief, physique, &observation, actions[0], random);
         let start = Instant::now();
         for mut particle in belief.particles().iter().copied() {
@@ -131,7 +131,7 @@ fn legal_state(physique: &Physique, random: &mut Pcg64Mcg) -> State {
     let mut state = State::new([Body::default(); MAX_ENTITIES]);
     let mut outlines: Vec<Outline> = Vec::new();
     while outlines.len() < physique.entity_count() {
-        let entity = Entity::from_index(outlines.len());
+        let entity = Entity::ALL[outlines.len()];
         let position = arena::MIN + arena::SIDE * Vec2::new(random.random(), random.random());
         let body = Body::at_rest(position, random.random_range(-3.0..3.0));
         let outline = Outline::of(physique, entity, &body);

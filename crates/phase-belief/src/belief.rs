@@ -2,7 +2,7 @@
 
 use crate::{consistency::contradicted, memory::CellMemory, place::Placer, predict::predict};
 use phase_model::{
-    AGENT_COUNT, Action, Body, Contacts, Dynamics, Entity, EntitySet, MAX_ENTITIES, Physique, State,
+    Action, AgentId, Body, BodySet, Contacts, Dynamics, Entity, MAX_ENTITIES, Physique, State,
     geometry::Outline,
 };
 use phase_perception::{Cell, CellSet, Observation, footprint::covered};
@@ -14,7 +14,7 @@ pub const PARTICLE_COUNT: usize = 50;
 /// What one agent holds for possible: K whole states of the world, each consistent with what it observes.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Belief {
-    agent: usize,
+    agent: AgentId,
     particles: Vec<State>,
     memory: CellMemory,
     redrawn: usize,
@@ -43,7 +43,7 @@ impl Belief {
         };
         belief.memory.note(&seen_or_covered(physique, observation));
         let mut placer = Placer::new(physique, &belief.memory);
-        let unknown: EntitySet =
+        let unknown: BodySet =
             physique.entities().filter(|&entity| !observation.observed.contains(entity)).collect();
         for particle in &mut belief.particles {
             overwrite(particle, observation);
@@ -79,9 +79,9 @@ impl Belief {
         }
     }
 
-    /// Whose belief it is, 0 or 1.
+    /// Whose belief it is.
     #[must_use]
-    pub fn agent(&self) -> usize {
+    pub fn agent(&self) -> AgentId {
         self.agent
     }
 
@@ -126,8 +126,8 @@ impl Belief {
 /// What would be in the agent's grip if the prediction were true, and yet is not felt: it is not there. Whoever
 /// reaches for something behind its back and grasps nothing has learned that. Predicted contacts are not
 /// precise enough for the same conclusion.
-fn unfelt(physique: &Physique, particle: &State, agent: usize, observed: EntitySet) -> EntitySet {
-    let in_hand = particle.held_object(agent).map(Entity::object);
+fn unfelt(physique: &Physique, particle: &State, agent: AgentId, observed: BodySet) -> BodySet {
+    let in_hand = particle.held_object(agent).map(Entity::Object);
     physique.entities().filter(|&entity| !observed.contains(entity) && Some(entity) == in_hand).collect()
 }
 
@@ -151,10 +151,9 @@ pub fn overwrite(particle: &mut State, observation: &Observation) {
             *particle.body_mut(entity) = *body;
         }
     }
-    for agent in 0..AGENT_COUNT {
+    for agent in AgentId::ALL {
         let known = observation.grip(agent);
-        let imagined =
-            particle.grips[agent].filter(|grip| !observed.contains(Entity::object(usize::from(grip.object))));
+        let imagined = particle.grips[agent].filter(|grip| !observed.contains(Entity::Object(grip.object)));
         particle.grips[agent] = known.unwrap_or(imagined);
     }
     particle.contacts = contacts(|a, b| match (observed.contains(a), observed.contains(b)) {
@@ -166,10 +165,10 @@ pub fn overwrite(particle: &mut State, observation: &Observation) {
 
 /// Gives some entities new places, in which they neither hold nor touch anything. Returns how many found
 /// none.
-fn redraw(particle: &mut State, which: EntitySet, placer: &mut Placer<'_>, rng: &mut impl Rng) -> usize {
-    for agent in 0..AGENT_COUNT {
+fn redraw(particle: &mut State, which: BodySet, placer: &mut Placer<'_>, rng: &mut impl Rng) -> usize {
+    for agent in AgentId::ALL {
         particle.grips[agent] = particle.grips[agent].filter(|grip| {
-            !which.contains(Entity::agent(agent)) && !which.contains(Entity::object(usize::from(grip.object)))
+            !which.contains(Entity::Agent(agent)) && !which.contains(Entity::Object(grip.object))
         });
     }
     let before = particle.contacts;
@@ -180,8 +179,8 @@ fn redraw(particle: &mut State, which: EntitySet, placer: &mut Placer<'_>, rng: 
 /// The contacts between the pairs that satisfy a condition.
 fn contacts(touching: impl Fn(Entity, Entity) -> bool) -> Contacts {
     let mut contacts = Contacts::NONE;
-    for b in (0..MAX_ENTITIES).map(Entity::from_index) {
-        for a in (0..b.index()).map(Entity::from_index) {
+    for b in Entity::ALL {
+        for a in Entity::ALL.into_iter().take(b.index()) {
             if touching(a, b) {
                 contacts.insert(a, b);
             }

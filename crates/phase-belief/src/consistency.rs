@@ -1,7 +1,7 @@
 //! Which bodies of a particle contradict what is observed.
 
 use phase_model::{
-    Body, Entity, EntitySet, Physique, State, Vec2,
+    Body, BodySet, Entity, Physique, State, Vec2,
     geometry::{Outline, trapezoid},
 };
 use phase_perception::{CellSet, footprint::any_cell};
@@ -19,10 +19,10 @@ const FLANK_DEPTH: f32 = 0.105_573;
 pub(crate) fn contradicted(
     physique: &Physique,
     particle: &State,
-    observed: EntitySet,
+    observed: BodySet,
     visible: &CellSet,
-) -> EntitySet {
-    let mut impossible = EntitySet::EMPTY;
+) -> BodySet {
+    let mut impossible = BodySet::EMPTY;
     let mut settled = observed;
     for entity in physique.entities().filter(|&entity| !observed.contains(entity)) {
         let body = particle.body(entity);
@@ -90,9 +90,7 @@ fn farthest(physique: &Physique, entity: Entity) -> f32 {
 /// Whether one of two entities holds the other.
 fn holding(particle: &State, a: Entity, b: Entity) -> bool {
     let holds = |agent: Entity, object: Entity| match (agent, object) {
-        (Entity::Agent(agent), Entity::Object(object)) => {
-            particle.holds(usize::from(agent), usize::from(object))
-        }
+        (Entity::Agent(agent), Entity::Object(object)) => particle.holds(agent, object),
         _ => false,
     };
     holds(a, b) || holds(b, a)

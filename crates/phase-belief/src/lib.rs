@@ -15,7 +15,7 @@
 //!
 //! ```
 //! use phase_belief::{Belief, PARTICLE_COUNT};
-//! use phase_model::{AgentBody, Body, Entity, Physique, State, Vec2};
+//! use phase_model::{AgentBody, AgentId, Body, Entity, ObjectId, Physique, State, Vec2};
 //! use phase_perception::{observe, sees};
 //! use rand::SeedableRng;
 //! use rand_pcg::Pcg32;
@@ -25,11 +25,11 @@
 //! let places = [Vec2::new(16.0, 9.0), Vec2::new(16.0, 15.0), Vec2::new(16.0, 4.0), Vec2::ZERO];
 //! let state = State::new(places.map(|place| Body::at_rest(place, 0.0)));
 //!
-//! let observation = observe(&physique, &state, 0);
+//! let observation = observe(&physique, &state, AgentId::ZERO);
 //! let belief = Belief::new(&physique, &observation, PARTICLE_COUNT, &mut Pcg32::seed_from_u64(1));
 //! for particle in belief.particles() {
-//!     assert_eq!(particle.position(Entity::agent(1)), places[1]);
-//!     assert!(!sees(&physique, particle, 0, Entity::object(0)));
+//!     assert_eq!(particle.position(Entity::Agent(AgentId::ONE)), places[1]);
+//!     assert!(!sees(&physique, particle, AgentId::ZERO, Entity::Object(ObjectId::ZERO)));
 //! }
 //! ```
 //!

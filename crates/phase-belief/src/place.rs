@@ -6,7 +6,7 @@ use crate::{
     weights::{Reservoir, Weights},
 };
 use core::f32::consts::PI;
-use phase_model::{Body, Entity, EntitySet, MAX_ENTITIES, Physique, State, Vec2, arena, geometry::Outline};
+use phase_model::{Body, BodySet, Entity, MAX_ENTITIES, Physique, State, Vec2, arena, geometry::Outline};
 use phase_perception::Cell;
 use rand::{Rng, RngExt};
 
@@ -33,7 +33,7 @@ impl<'a> Placer<'a> {
     /// Gives some entities of a particle new bodies at rest, which overlap neither walls, nor the other
     /// bodies, nor one another. All are drawn together and together rejected, so that none has the first
     /// choice. Returns how many could not be placed.
-    pub(crate) fn redraw(&mut self, particle: &mut State, which: EntitySet, rng: &mut impl Rng) -> usize {
+    pub(crate) fn redraw(&mut self, particle: &mut State, which: BodySet, rng: &mut impl Rng) -> usize {
         let mut outlines = [None; MAX_ENTITIES];
         for entity in self.physique.entities().filter(|&entity| !which.contains(entity)) {
             outlines[entity.index()] = Some(Outline::of(self.physique, entity, particle.body(entity)));
@@ -65,7 +65,7 @@ impl<'a> Placer<'a> {
     fn draw_all(
         &mut self,
         particle: &mut State,
-        which: EntitySet,
+        which: BodySet,
         mut outlines: [Option<Outline>; MAX_ENTITIES],
         rng: &mut impl Rng,
     ) -> Option<bool> {

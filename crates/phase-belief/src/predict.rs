@@ -1,7 +1,7 @@
 //! One step of the dynamics under constant motion.
 
 use crate::consistency::{SLACK, loosely_overlap, shrunk};
-use phase_model::{AGENT_COUNT, Action, Dynamics, Entity, EntitySet, Physique, State, Vec2, arena};
+use phase_model::{AGENT_COUNT, Action, AgentId, BodySet, Dynamics, Entity, Physique, State, Vec2, arena};
 
 /// Advances a particle by one step in which the believing agent acts and the other goes on as it was going.
 ///
@@ -13,31 +13,31 @@ pub(crate) fn predict(
     dynamics: &impl Dynamics,
     physique: &Physique,
     particle: &mut State,
-    agent: usize,
+    agent: AgentId,
     own_action: Action,
-    observed: EntitySet,
+    observed: BodySet,
 ) {
     let before = *particle;
     let mut actions = [Action::NoForce; AGENT_COUNT];
     actions[agent] = own_action;
     dynamics.step(particle, actions);
-    let other = 1 - agent;
-    if !observed.contains(Entity::agent(other)) {
+    let other = agent.other();
+    if !observed.contains(Entity::Agent(other)) {
         keep_moving(physique, &before, particle, other);
     }
 }
 
 /// Puts an agent and what it holds where constant motion would have taken them, if the way is free.
-fn keep_moving(physique: &Physique, before: &State, after: &mut State, agent: usize) {
-    let velocity = before.body(Entity::agent(agent)).velocity;
-    let held = before.held_object(agent).filter(|&object| object < physique.object_count);
+fn keep_moving(physique: &Physique, before: &State, after: &mut State, agent: AgentId) {
+    let velocity = before.body(Entity::Agent(agent)).velocity;
+    let held = before.held_object(agent).filter(|&object| object.index() < physique.object_count);
     if velocity == Vec2::ZERO {
         return;
     }
-    let mut moving = EntitySet::EMPTY;
-    moving.insert(Entity::agent(agent));
+    let mut moving = BodySet::EMPTY;
+    moving.insert(Entity::Agent(agent));
     if let Some(object) = held {
-        moving.insert(Entity::object(object));
+        moving.insert(Entity::Object(object));
     }
     if (1..=arena::SUBSTEPS).all(|substep| {
         let way = velocity * (substep as f32 * arena::SUBSTEP_SECONDS);
@@ -60,7 +60,7 @@ fn is_free(
     physique: &Physique,
     before: &State,
     after: &State,
-    moving: EntitySet,
+    moving: BodySet,
     entity: Entity,
     way: Vec2,
 ) -> bool {

@@ -1,6 +1,8 @@
 //! How far a state lies from a recorded one.
 
-use phase_model::{AGENT_COUNT, Body, MAX_ENTITIES, Physique, State, Vec2, arena::SUBSTEPS};
+use phase_model::{
+    AGENT_COUNT, AgentId, Body, MAX_ENTITIES, ObjectId, Physique, State, Vec2, arena::SUBSTEPS,
+};
 use serde::Serialize;
 
 /// The largest errors over all bodies at one moment. Infinite where a number is none.
@@ -49,8 +51,8 @@ pub(crate) fn mean(substeps: &[State; SUBSTEPS]) -> [Body; MAX_ENTITIES] {
 }
 
 /// Which object each agent holds.
-pub(crate) fn held(state: &State) -> [Option<usize>; AGENT_COUNT] {
-    core::array::from_fn(|agent| state.held_object(agent))
+pub(crate) fn held(state: &State) -> [Option<ObjectId>; AGENT_COUNT] {
+    AgentId::ALL.map(|agent| state.held_object(agent))
 }
 
 /// `f32::max` passes over NaN, which must not make an error disappear.

@@ -5,7 +5,7 @@ use crate::{
     deviation::held,
     read::{self, BodyRow},
 };
-use phase_model::{AGENT_COUNT, Action, MAX_ENTITIES, Physique, State, Vec2, arena::SUBSTEPS};
+use phase_model::{AGENT_COUNT, Action, MAX_ENTITIES, ObjectId, Physique, State, Vec2, arena::SUBSTEPS};
 use serde_json::Value;
 
 /// One probe. It starts in `start`, runs one idle substep, then some bodies are given velocities, and that is
@@ -29,7 +29,7 @@ pub struct Probe {
     /// The state after each substep, without grips and angular velocities; five for each step.
     pub substeps: Vec<State>,
     /// The object each agent holds after each step.
-    pub held: Vec<[Option<usize>; AGENT_COUNT]>,
+    pub held: Vec<[Option<ObjectId>; AGENT_COUNT]>,
 }
 
 /// How far an engine came out from a probe.

@@ -1,7 +1,9 @@
 //! Fields of a JSON tree, with the path that leads to them in every error.
 
 use crate::{ReadError, deviation::body};
-use phase_model::{AGENT_COUNT, AgentBody, Body, MAX_ENTITIES, Physique, Segment, State, Vec2, arena};
+use phase_model::{
+    AGENT_COUNT, AgentBody, Body, MAX_ENTITIES, ObjectId, Physique, Segment, State, Vec2, arena,
+};
 use serde::Deserialize;
 use serde_json::Value;
 use std::collections::BTreeSet;
@@ -132,13 +134,10 @@ impl<'a> Entry<'a> {
     }
 
     /// Which object each agent holds after each step.
-    pub(crate) fn held(&self, steps: usize) -> Result<Vec<[Option<usize>; AGENT_COUNT]>, ReadError> {
+    pub(crate) fn held(&self, steps: usize) -> Result<Vec<[Option<ObjectId>; AGENT_COUNT]>, ReadError> {
         const KEY: &str = "attached_after_step";
-        let held: Vec<[Option<usize>; AGENT_COUNT]> = self.take(KEY, "a list of pairs of 0, 1 or null")?;
+        let held: Vec<[Option<ObjectId>; AGENT_COUNT]> = self.take(KEY, "a list of pairs of 0, 1 or null")?;
         self.check_length(KEY, held.len(), steps, "one entry for each step")?;
-        if held.iter().flatten().flatten().any(|object| *object > 1) {
-            return Err(self.error(KEY, "must name object 0, 1 or null"));
-        }
         Ok(held)
     }
 

@@ -5,7 +5,10 @@ use crate::{
     deviation::held,
     read::{self, BodyRow},
 };
-use phase_model::{AGENT_COUNT, Action, Grip, MAX_ENTITIES, Physique, Side, State, Vec2, arena::SUBSTEPS};
+use phase_model::{
+    AGENT_COUNT, Action, AgentId, Entity, Grip, MAX_ENTITIES, ObjectId, Physique, Side, State, Vec2,
+    arena::SUBSTEPS,
+};
 use serde_json::Value;
 
 /// One run. One idle substep lies between its first state and its first step.
@@ -62,15 +65,15 @@ impl Run {
 /// The grip an agent must have on an object that it is known to hold: on the side where the object lies, at
 /// the relative angle that both have.
 #[must_use]
-pub fn grip_of(state: &State, agent: usize, object: usize) -> Grip {
-    let (holder, object_body) = (&state.bodies[agent], &state.bodies[AGENT_COUNT + object]);
+pub fn grip_of(state: &State, agent: AgentId, object: ObjectId) -> Grip {
+    let (holder, object_body) = (state.body(Entity::Agent(agent)), state.body(Entity::Object(object)));
     let right = Vec2::from_angle(holder.angle);
     let between = object_body.position - holder.position;
     let local = Vec2::new(between.dot(right), between.dot(right.perp()));
     let along = |side: Side| side.direction().dot(local);
     let nearer = |best: Side, side: Side| if along(side) > along(best) { side } else { best };
     Grip {
-        object: object as u8,
+        object,
         side: Side::ALL.into_iter().fold(Side::Head, nearer),
         relative_angle: object_body.angle - holder.angle,
     }
@@ -86,7 +89,7 @@ fn run(entry: &read::Entry<'_>, name: String) -> Result<Run, ReadError> {
     let states = rows.map(|(step, rows)| entry.state("states", &format!("[{step}]"), rows));
     let mut states = states.collect::<Result<Vec<_>, _>>()?;
     for (state, held) in states.iter_mut().skip(1).zip(entry.held(actions.len())?) {
-        let grips = core::array::from_fn(|agent| held[agent].map(|object| grip_of(state, agent, object)));
+        let grips = AgentId::ALL.map(|agent| held[agent].map(|object| grip_of(state, agent, object)));
         state.grips = grips;
     }
     Ok(Run { name, physique, states, actions })

@@ -4,7 +4,7 @@ use crate::error::CliError;
 use core::ops::ControlFlow;
 use phase_event::{Event, Step};
 use phase_model::{
-    Scene,
+    AgentId, Scene,
     random::{self, Purpose},
 };
 use phase_sim::{BeliefSnapshot, Settings};
@@ -42,6 +42,6 @@ pub fn simulate(
 
 /// What an agent saw and believed before each step of a recorded event, and after the last.
 #[must_use]
-pub fn beliefs(event: &Event, agent: usize, settings: &Settings) -> Vec<BeliefSnapshot> {
+pub fn beliefs(event: &Event, agent: AgentId, settings: &Settings) -> Vec<BeliefSnapshot> {
     phase_sim::beliefs(event, agent, settings.minds.particles)
 }

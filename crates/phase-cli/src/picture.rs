@@ -2,7 +2,7 @@
 
 use crate::error::CliError;
 use phase_dataset::atomic;
-use phase_model::{Physique, State, arena::FRAMES_PER_SECOND};
+use phase_model::{AgentId, Physique, State, arena::FRAMES_PER_SECOND};
 use phase_perception::CellSet;
 use phase_render::{Caption, Frame, Overlay, RenderError, Stage, Style, VideoEncoder, contact_sheet};
 use std::path::Path;
@@ -16,7 +16,7 @@ const CAPTION_LINES: u32 = crate::captions::COUNT as u32;
 #[derive(Clone, Debug)]
 pub struct Mind {
     /// Whose.
-    pub agent: usize,
+    pub agent: AgentId,
     /// What it sees.
     pub visible: CellSet,
     /// What it holds possible.

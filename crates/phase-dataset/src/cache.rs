@@ -7,8 +7,8 @@
 use crate::{WriteError, atomic, checksum::sha256};
 use phase_event::{Event, Step, Thought};
 use phase_model::{
-    AGENT_COUNT, Action, AgentSpec, Attitude, Body, EventKind, Flip, Goal, Layout, ObjectSpec, Scene, Sign,
-    Size, State, Strength, arena::SUBSTEPS,
+    AGENT_COUNT, Action, AgentId, AgentSpec, Attitude, Body, EventKind, Flip, Goal, LandmarkId, Layout,
+    ObjectId, ObjectSpec, Scene, Sign, Size, State, Strength, arena::SUBSTEPS,
 };
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -93,9 +93,9 @@ struct CachedStep {
 
 #[derive(Clone, Copy, Serialize, Deserialize)]
 enum CachedGoal {
-    AgentOnLandmark(u8, u8, i8),
-    ObjectOnLandmark(u8, u8, i8),
-    Touch(u8, u8, i8),
+    AgentOnLandmark(AgentId, LandmarkId, i8),
+    ObjectOnLandmark(ObjectId, LandmarkId, i8),
+    Touch(AgentId, AgentId, i8),
 }
 
 impl CachedEvent {

@@ -1,6 +1,6 @@
 //! What learners are asked for: goals and kinds of interaction, as classes.
 
-use phase_model::{AGENT_COUNT, EventKind, Goal, Sign, arena::LANDMARKS};
+use phase_model::{AGENT_COUNT, EventKind, Goal, LandmarkId, ObjectId, Sign};
 use std::collections::BTreeMap;
 
 /// The class of one agent's goal. There are sixteen: the paper's fourteen physical goals, in which an agent's own
@@ -47,11 +47,11 @@ pub fn interaction_type(kind: EventKind, goals: [Goal; AGENT_COUNT]) -> String {
 }
 
 fn classes() -> Vec<String> {
-    let landmarks = 0..LANDMARKS.len();
+    let landmarks = LandmarkId::ALL.into_iter();
     let mut classes: Vec<String> =
         ["help", "hinder", "approach", "get away"].into_iter().map(Into::into).collect();
     classes.extend(landmarks.clone().map(|landmark| format!("agent on landmark {landmark}")));
-    classes.extend((0..phase_model::MAX_OBJECTS).flat_map(|object| {
+    classes.extend(ObjectId::ALL.into_iter().flat_map(|object| {
         landmarks.clone().map(move |landmark| format!("object {object} on landmark {landmark}"))
     }));
     classes

@@ -1,6 +1,8 @@
 //! Scenes in words, for people: colours for numbers, sentences for goals.
 
-use phase_model::{Attitude, Entity, EventKind, Goal, Relation, Sign, Size, Strength};
+use phase_model::{
+    AgentId, Attitude, Entity, EventKind, Goal, LandmarkId, ObjectId, Relation, Sign, Size, Strength,
+};
 
 /// A piece of a sentence. Entities and landmarks are kept apart so that a page can give them their colours.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -9,37 +11,37 @@ pub enum Piece {
     Text(&'static str),
     /// An agent or object.
     Entity(Entity),
-    /// A landmark, 0 to 3.
-    Landmark(u8),
+    /// A landmark.
+    Landmark(LandmarkId),
 }
 
 /// What an entity looks like in videos, such as `red agent`.
 #[must_use]
 pub const fn entity(entity: Entity) -> &'static str {
     match entity {
-        Entity::Agent(0) => "red agent",
+        Entity::Agent(AgentId::ZERO) => "red agent",
         Entity::Agent(_) => "green agent",
-        Entity::Object(0) => "blue object",
+        Entity::Object(ObjectId::ZERO) => "blue object",
         Entity::Object(_) => "pink object",
     }
 }
 
 /// What a landmark looks like in videos, and where it is.
 #[must_use]
-pub const fn landmark(landmark: u8) -> &'static str {
+pub const fn landmark(landmark: LandmarkId) -> &'static str {
     match landmark {
-        0 => "blue landmark (top left)",
-        1 => "green landmark (top right)",
-        2 => "red landmark (bottom right)",
+        LandmarkId::TOP_LEFT => "blue landmark (top left)",
+        LandmarkId::TOP_RIGHT => "green landmark (top right)",
+        LandmarkId::BOTTOM_RIGHT => "red landmark (bottom right)",
         _ => "yellow landmark (bottom left)",
     }
 }
 
-/// A goal of agent 0 or 1 as the end of the sentence "it wants to …".
+/// A goal of an agent as the end of the sentence "it wants to …".
 #[must_use]
-pub fn goal(agent: usize, goal: Goal) -> Vec<Piece> {
+pub fn goal(agent: AgentId, goal: Goal) -> Vec<Piece> {
     use Piece::{Entity as Who, Landmark, Text};
-    let me = Entity::agent(agent);
+    let me = Entity::Agent(agent);
     match (goal, goal.sign()) {
         (Goal::AgentOnLandmark { agent, landmark, .. }, Sign::Positive) if Entity::Agent(agent) == me => {
             vec![Text("go to the "), Landmark(landmark)]

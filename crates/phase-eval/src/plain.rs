@@ -2,8 +2,9 @@
 
 use crate::method::{Answered, Forecaster, Recogniser, Tick};
 use phase_model::{
-    AGENT_COUNT, Forecast, Goal, Judgement, ObservedEvent, RelationProbabilities, Sign, Vec2,
-    arena::{self, LANDMARKS, SUBSTEP_SECONDS, SUBSTEPS},
+    AgentId, Entity, Forecast, Goal, Judgement, LandmarkId, ObjectId, ObservedEvent, RelationProbabilities,
+    Sign, Vec2,
+    arena::{self, SUBSTEP_SECONDS, SUBSTEPS},
     random::{Purpose, stream},
 };
 use rand::RngExt;
@@ -17,7 +18,7 @@ impl Recogniser for Chance {
     /// Goals that are equally likely come in an order drawn from the seed, so that none is first more often.
     fn judge(&self, observed: &ObservedEvent, seed: u64, _: Tick<'_>) -> Answered<Judgement> {
         let mut random = stream(seed, Purpose::Evaluation, 0);
-        let goals = core::array::from_fn(|agent| {
+        let goals = AgentId::ALL.map(|agent| {
             let mut goals = own_goals(agent, observed.object_sizes().len());
             for k in (1..goals.len()).rev() {
                 goals.swap(k, random.random_range(0..=k));
@@ -32,11 +33,11 @@ impl Recogniser for Chance {
 /// The goals an agent can have of its own: itself or an object on a landmark, to approach the other, to get away from
 /// it. As in labels, touching names the one that approaches first.
 #[must_use]
-pub fn own_goals(agent: usize, objects: usize) -> Vec<Goal> {
-    let (me, other) = (agent as u8, (AGENT_COUNT - 1 - agent) as u8);
-    let (landmarks, sign) = (0..LANDMARKS.len() as u8, Sign::Positive);
+pub fn own_goals(agent: AgentId, objects: usize) -> Vec<Goal> {
+    let (me, other) = (agent, agent.other());
+    let (landmarks, sign) = (LandmarkId::ALL.into_iter(), Sign::Positive);
     let places = landmarks.clone().map(|landmark| Goal::AgentOnLandmark { agent: me, landmark, sign });
-    let things = (0..objects as u8).flat_map(|object| {
+    let things = ObjectId::ALL.into_iter().take(objects).flat_map(|object| {
         landmarks.clone().map(move |landmark| Goal::ObjectOnLandmark { object, landmark, sign })
     });
     let approach = Goal::Touch { agent: me, other, sign };
@@ -69,10 +70,10 @@ impl Forecaster for ConstantVelocity {
 fn straight_on(observed: &ObservedEvent, steps: usize, share: f32) -> Forecast {
     let last = observed.rows().last().copied().unwrap_or_default();
     let step_seconds = SUBSTEPS as f32 * SUBSTEP_SECONDS;
-    let path = |entity: usize| -> Vec<Vec2> {
+    let path = |entity: Entity| -> Vec<Vec2> {
         let body = last[entity];
         let after = |step: usize| body.position + body.velocity * (share * step_seconds * step as f32);
         (1..=steps).map(|step| after(step).clamp(arena::MIN, arena::MAX)).collect()
     };
-    (0..observed.entities().count()).map(path).collect()
+    observed.entities().map(path).collect()
 }

@@ -9,20 +9,30 @@ use phase_eval::{
     plain::own_goals,
     predictions,
 };
-use phase_model::{EventKind, Goal, Judgement, Relation, RelationProbabilities, Sign};
+use phase_model::{
+    AgentId, EventKind, Goal, Judgement, LandmarkId, ObjectId, Relation, RelationProbabilities, Sign,
+};
 use proptest::prelude::*;
 use serde_json::{Value, json};
 
-const fn place(agent: u8, landmark: u8, sign: Sign) -> Goal {
-    Goal::AgentOnLandmark { agent, landmark, sign }
+fn place(agent: u8, landmark: u8, sign: Sign) -> Goal {
+    Goal::AgentOnLandmark {
+        agent: AgentId::ALL[usize::from(agent)],
+        landmark: LandmarkId::ALL[usize::from(landmark)],
+        sign,
+    }
 }
 
-const fn touch(agent: u8, other: u8, sign: Sign) -> Goal {
-    Goal::Touch { agent, other, sign }
+fn touch(agent: u8, other: u8, sign: Sign) -> Goal {
+    Goal::Touch { agent: AgentId::ALL[usize::from(agent)], other: AgentId::ALL[usize::from(other)], sign }
 }
 
-const fn thing(object: u8, landmark: u8) -> Goal {
-    Goal::ObjectOnLandmark { object, landmark, sign: Sign::Positive }
+fn thing(object: u8, landmark: u8) -> Goal {
+    Goal::ObjectOnLandmark {
+        object: ObjectId::ALL[usize::from(object)],
+        landmark: LandmarkId::ALL[usize::from(landmark)],
+        sign: Sign::Positive,
+    }
 }
 
 const PLUS: Sign = Sign::Positive;
@@ -57,9 +67,8 @@ fn a_goal_is_right_only_if_everything_matches() {
     ];
     for (label, named, expected) in cases {
         let answer = answer([named, &[]], [1.0, 0.0, 0.0]);
-        assert_eq!(answer.place(0, *label), *expected, "{label:?} among {named:?}");
-        assert_eq!(answer.place(1, *label), None);
-        assert_eq!(answer.place(2, *label), None);
+        assert_eq!(answer.place(AgentId::ZERO, *label), *expected, "{label:?} among {named:?}");
+        assert_eq!(answer.place(AgentId::ONE, *label), None);
     }
 }
 
@@ -108,10 +117,10 @@ fn numbers_that_are_no_probabilities_are_refused() {
     };
     let third = RelationProbabilities::default();
     let cases = [
-        (goals(&[0.5, f64::NAN]), third, AnswerError::Goal { agent: 0, place: 1 }),
-        (goals(&[-0.1]), third, AnswerError::Goal { agent: 0, place: 0 }),
-        (goals(&[f64::INFINITY]), third, AnswerError::Goal { agent: 0, place: 0 }),
-        (goals(&[0.75, 0.5]), third, AnswerError::Goals(0)),
+        (goals(&[0.5, f64::NAN]), third, AnswerError::Goal { agent: AgentId::ZERO, place: 1 }),
+        (goals(&[-0.1]), third, AnswerError::Goal { agent: AgentId::ZERO, place: 0 }),
+        (goals(&[f64::INFINITY]), third, AnswerError::Goal { agent: AgentId::ZERO, place: 0 }),
+        (goals(&[0.75, 0.5]), third, AnswerError::Goals(AgentId::ZERO)),
         (goals(&[1.0]), RelationProbabilities { neutral: f64::NAN, ..third }, AnswerError::Relation),
         (goals(&[1.0]), RelationProbabilities { neutral: 0.5, ..third }, AnswerError::Relation),
     ];
@@ -186,7 +195,7 @@ fn a_reliability_table_by_hand() {
 #[test]
 fn an_agents_own_goals_are_all_different() {
     for (objects, count) in [(0, 6), (1, 10), (2, 14)] {
-        for agent in 0..2 {
+        for agent in AgentId::ALL {
             let mut goals: Vec<Goal> = own_goals(agent, objects).into_iter().map(canonical).collect();
             goals.sort();
             goals.dedup();
@@ -194,7 +203,10 @@ fn an_agents_own_goals_are_all_different() {
         }
     }
     // As labels of a chase have it: whoever approaches is named first.
-    assert!(own_goals(0, 0).contains(&touch(1, 0, MINUS)) && own_goals(1, 0).contains(&touch(1, 0, PLUS)));
+    assert!(
+        own_goals(AgentId::ZERO, 0).contains(&touch(1, 0, MINUS))
+            && own_goals(AgentId::ONE, 0).contains(&touch(1, 0, PLUS))
+    );
 }
 
 #[test]
@@ -239,7 +251,7 @@ proptest! {
     /// More guesses never hurt, no share leaves 0 to 1, and the mean lies in its interval.
     #[test]
     fn scores_are_ordered(orders in prop::collection::vec((0..14_usize, 0..14_usize, 0..3_usize), 1..12)) {
-        let goals = own_goals(0, 2);
+        let goals = own_goals(AgentId::ZERO, 2);
         let event = |&(first, right, relation): &(usize, usize, usize)| {
             let named: Vec<Goal> = (0..4).map(|k| goals[(first + k) % goals.len()]).collect();
             let mut sure = [0.0; 3];

@@ -6,7 +6,8 @@ use crate::{
     subgoals::subgoal_of,
 };
 use phase_model::{
-    AGENT_COUNT, Action, Body, Contacts, Entity, Grip, MAX_ENTITIES, Scene, Side, State, Subgoal, Vec2,
+    AGENT_COUNT, Action, Body, Contacts, Entity, Grip, MAX_ENTITIES, MAX_OBJECTS, ObjectId, Scene, Side,
+    State, Subgoal, Vec2,
     arena::SUBSTEPS,
     json::{Field, FieldError, shown},
 };
@@ -169,7 +170,7 @@ fn grips(field: &Field<'_>, objects: usize) -> Result<[Option<Grip>; AGENT_COUNT
         field.only(&["object", "side", "relative_angle"])?;
         let object = field.required("object")?;
         Ok(Some(Grip {
-            object: object.whole(0, objects as i64 - 1)? as u8,
+            object: object.id(&ObjectId::ALL[..objects.min(MAX_OBJECTS)])?,
             side: field.required("side")?.one_of(&SIDES)?,
             relative_angle: field.required("relative_angle")?.number()?,
         }))
@@ -183,11 +184,11 @@ fn contacts(field: &Field<'_>, objects: usize) -> Result<Contacts, FieldError> {
     for pair in field.items()? {
         let entities = pair
             .items()?
-            .map(|entity| entity.whole(0, (AGENT_COUNT + objects) as i64 - 1))
+            .map(|entity| entity.id(&Entity::ALL[..AGENT_COUNT + objects.min(MAX_OBJECTS)]))
             .collect::<Result<Vec<_>, _>>()?;
         match entities[..] {
             [a, b] if a != b => {
-                contacts.insert(Entity::from_index(a as usize), Entity::from_index(b as usize));
+                contacts.insert(a, b);
             }
             _ => return Err(pair.must_be("two different entities")),
         }

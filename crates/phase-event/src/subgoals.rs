@@ -1,8 +1,6 @@
 //! Subgoals as texts, and back.
 
-use phase_model::{
-    AGENT_COUNT, Entity, Literal, MAX_ENTITIES, MAX_OBJECTS, Place, Predicate, Subgoal, arena,
-};
+use phase_model::{AgentId, Entity, LandmarkId, Literal, ObjectId, Place, Predicate, Subgoal};
 use std::{collections::BTreeMap, sync::LazyLock};
 
 /// The subgoal that is displayed as a text, such as `not Attach(agent 0, object 1)`.
@@ -15,13 +13,13 @@ pub fn subgoal_of(text: &str) -> Option<Subgoal> {
 }
 
 fn all_subgoals() -> impl Iterator<Item = Subgoal> {
-    let entities = || (0..MAX_ENTITIES).map(Entity::from_index);
-    let landmarks = || 0..arena::LANDMARKS.len() as u8;
-    let agents = || 0..AGENT_COUNT as u8;
+    let entities = || Entity::ALL.into_iter();
+    let landmarks = || LandmarkId::ALL.into_iter();
+    let agents = || AgentId::ALL.into_iter();
     let on = entities().flat_map(move |entity| landmarks().map(move |to| Predicate::On(entity, to)));
     let touch = agents().flat_map(move |agent| entities().map(move |entity| Predicate::Touch(agent, entity)));
-    let attach =
-        agents().flat_map(|agent| (0..MAX_OBJECTS as u8).map(move |object| Predicate::Attach(agent, object)));
+    let attach = agents()
+        .flat_map(|agent| ObjectId::ALL.into_iter().map(move |object| Predicate::Attach(agent, object)));
     let close = entities().flat_map(move |entity| {
         let places = entities().map(Place::Entity).chain(landmarks().map(Place::Landmark));
         places.map(move |place| Predicate::Close(entity, place))

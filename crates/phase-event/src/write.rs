@@ -231,12 +231,13 @@ struct Substeps {
 
 impl Substeps {
     fn of(event: &Event) -> Self {
-        let track = |entity: usize| event.frames().map(|state| substep_row(&state.bodies[entity])).collect();
-        let count = event.scene.physique().entity_count();
+        let track = |entity: &Entity| event.frames().map(|state| substep_row(state.body(*entity))).collect();
+        let entities: Vec<Entity> = event.scene.physique().entities().collect();
+        let (agents, objects) = entities.split_at(AGENT_COUNT);
         Self {
             columns: SUBSTEP_COLUMNS,
-            agents: (0..AGENT_COUNT).map(track).collect(),
-            objects: (AGENT_COUNT..count).map(track).collect(),
+            agents: agents.iter().map(track).collect(),
+            objects: objects.iter().map(track).collect(),
             grips: changes(event.frames().map(|state| state.grips)),
             contacts: changes(event.frames().map(pairs_in_contact)),
         }
@@ -259,5 +260,5 @@ fn changes<T: PartialEq>(values: impl Iterator<Item = T>) -> Vec<(usize, T)> {
 pub fn pairs_in_contact(state: &State) -> Vec<[usize; 2]> {
     let contacts: Contacts = state.contacts;
     let pairs = (0..MAX_ENTITIES).flat_map(|a| (a + 1..MAX_ENTITIES).map(move |b| [a, b]));
-    pairs.filter(|pair| contacts.touching(Entity::from_index(pair[0]), Entity::from_index(pair[1]))).collect()
+    pairs.filter(|pair| contacts.touching(Entity::ALL[pair[0]], Entity::ALL[pair[1]])).collect()
 }

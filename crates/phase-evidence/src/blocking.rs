@@ -1,7 +1,7 @@
 //! Who stood in whose way.
 
-use crate::{Track, track::other};
-use phase_model::{AGENT_COUNT, Entity, Goal, State, Vec2, arena, layout::SLOT_DIRECTIONS};
+use crate::Track;
+use phase_model::{AgentId, Entity, Goal, SlotId, State, Vec2, arena};
 use phase_planner::{Routes, routes::point_in, situation::obstruct};
 
 /// Steps in which an agent's body narrowed a door on another's cheapest way to a point, so much that the other
@@ -12,27 +12,24 @@ use phase_planner::{Routes, routes::point_in, situation::obstruct};
 pub fn steps_blocking_a_door(
     track: &Track,
     routes: &Routes,
-    blocker: usize,
+    blocker: AgentId,
     target: impl Fn(&State) -> Option<Vec2>,
 ) -> Vec<usize> {
-    let blocked = other(blocker);
+    let blocked = blocker.other();
     let width = track.physique.agents[blocked].width();
     let in_the_way = |state: &State| {
-        let from = state.position(Entity::agent(blocked));
+        let from = state.position(Entity::Agent(blocked));
         let route = target(state).and_then(|to| routes.best(from, to, width, routes.gaps()));
         let Some(route) = route else { return false };
         let radius = track.physique.agents[blocker].radius;
         let mut gaps = *routes.gaps();
         obstruct(
             &mut gaps,
-            state.position(Entity::agent(blocker)),
+            state.position(Entity::Agent(blocker)),
             radius,
             radius + track.physique.agents[blocked].radius,
         );
-        route.doors().iter().any(|&(slot, _)| {
-            let slot = usize::from(slot);
-            routes.gaps().width(slot) >= width && gaps.width(slot) < width
-        })
+        route.doors().iter().any(|&(slot, _)| routes.gaps().width(slot) >= width && gaps.width(slot) < width)
     };
     (0..track.states.len()).filter(|&t| in_the_way(&track.states[t])).collect()
 }
@@ -40,28 +37,28 @@ pub fn steps_blocking_a_door(
 /// Steps in which an agent stood between the other and a point: nearer to the point than the other, and no
 /// farther from the straight line between them than both radii.
 #[must_use]
-pub fn steps_between(track: &Track, blocker: usize, target: impl Fn(&State) -> Option<Vec2>) -> Vec<usize> {
-    let blocked = other(blocker);
+pub fn steps_between(track: &Track, blocker: AgentId, target: impl Fn(&State) -> Option<Vec2>) -> Vec<usize> {
+    let blocked = blocker.other();
     let reach = track.physique.agents[0].radius + track.physique.agents[1].radius;
     let between = |state: &State| {
         let Some(to) = target(state) else { return false };
-        let from = state.position(Entity::agent(blocked));
-        let at = state.position(Entity::agent(blocker));
+        let from = state.position(Entity::Agent(blocked));
+        let at = state.position(Entity::Agent(blocker));
         let line = phase_model::Segment { a: from, b: to };
         line.distance(at) <= reach && at.distance(to) < from.distance(to)
     };
     (0..track.states.len()).filter(|&t| between(&track.states[t])).collect()
 }
 
-/// The door (slot) an agent stands in, if any: its origin is nearer to the door's line than its radius, and
+/// The door an agent stands in, if any, by its slot: its origin is nearer to the door's line than its radius, and
 /// within the opening.
 #[must_use]
-pub fn door_of(track: &Track, routes: &Routes, state: &State, agent: usize) -> Option<usize> {
-    let position = state.position(Entity::agent(agent));
+pub fn door_of(track: &Track, routes: &Routes, state: &State, agent: AgentId) -> Option<SlotId> {
+    let position = state.position(Entity::Agent(agent));
     let radius = track.physique.agents[agent].radius;
-    (0..SLOT_DIRECTIONS.len()).find(|&slot| {
+    SlotId::ALL.into_iter().find(|&slot| {
         routes.gaps().0[slot].is_some_and(|(low, high)| {
-            let line = phase_model::Segment { a: point_in(slot as u8, low), b: point_in(slot as u8, high) };
+            let line = phase_model::Segment { a: point_in(slot, low), b: point_in(slot, high) };
             line.distance(position) < radius
         })
     })
@@ -72,11 +69,11 @@ pub fn door_of(track: &Track, routes: &Routes, state: &State, agent: usize) -> O
 pub fn next_place(goal: Goal, state: &State) -> Option<Vec2> {
     match goal {
         Goal::ObjectOnLandmark { object, .. }
-            if !(0..AGENT_COUNT).any(|agent| state.holds(agent, usize::from(object))) =>
+            if !AgentId::ALL.into_iter().any(|agent| state.holds(agent, object)) =>
         {
             Some(state.position(Entity::Object(object)))
         }
         Goal::Touch { other, .. } => Some(state.position(Entity::Agent(other))),
-        _ => goal.landmark().and_then(|landmark| arena::LANDMARKS.get(landmark).copied()),
+        _ => goal.landmark().map(|landmark| arena::LANDMARKS[landmark]),
     }
 }

@@ -1,16 +1,16 @@
 //! Who held which object when, and carrying together.
 
 use crate::Track;
-use phase_model::{AGENT_COUNT, Entity};
+use phase_model::{AGENT_COUNT, AgentId, Entity, ObjectId};
 use serde::{Deserialize, Serialize};
 
 /// A time during which one agent held one object without a break.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
 pub struct Hold {
-    /// Who, 0 or 1.
-    pub agent: usize,
-    /// What, 0 or 1.
-    pub object: usize,
+    /// Who.
+    pub agent: AgentId,
+    /// What.
+    pub object: ObjectId,
     /// The first step at whose end it was held.
     pub from: usize,
     /// The last step at whose end it was held.
@@ -29,7 +29,7 @@ impl Hold {
 #[must_use]
 pub fn holds(track: &Track) -> Vec<Hold> {
     let mut holds: Vec<Hold> = Vec::new();
-    for agent in 0..AGENT_COUNT {
+    for agent in AgentId::ALL {
         for (t, state) in track.states.iter().enumerate() {
             let Some(object) = state.held_object(agent) else { continue };
             match holds.last_mut() {
@@ -41,24 +41,23 @@ pub fn holds(track: &Track) -> Vec<Hold> {
     holds
 }
 
-/// Steps in which an agent (0 or 1) held an object, and how far the object went in them.
+/// Steps in which an agent held an object, and how far the object went in them.
 #[must_use]
-pub fn carried(track: &Track, agent: usize, object: usize) -> Carrying {
-    carrying(track, object, |holders| holders[agent.min(AGENT_COUNT - 1)])
+pub fn carried(track: &Track, agent: AgentId, object: ObjectId) -> Carrying {
+    carrying(track, object, |holders| holders[agent])
 }
 
 /// Steps in which both agents held the same object, and how far it went in them: it is carried together where
 /// it moves, and fought over where it does not.
 #[must_use]
-pub fn carried_together(track: &Track, object: usize) -> Carrying {
+pub fn carried_together(track: &Track, object: ObjectId) -> Carrying {
     carrying(track, object, |holders| holders == [true; AGENT_COUNT])
 }
 
-/// Steps in which an agent (0 or 1) held an object and the other did not, and how far it went in them.
+/// Steps in which an agent held an object and the other did not, and how far it went in them.
 #[must_use]
-pub fn carried_alone(track: &Track, agent: usize, object: usize) -> Carrying {
-    let agent = agent.min(AGENT_COUNT - 1);
-    carrying(track, object, |holders| holders[agent] && !holders[crate::track::other(agent)])
+pub fn carried_alone(track: &Track, agent: AgentId, object: ObjectId) -> Carrying {
+    carrying(track, object, |holders| holders[agent] && !holders[agent.other()])
 }
 
 /// For how long an object was held in some way, and how far it went.
@@ -72,11 +71,11 @@ pub struct Carrying {
     pub approach: [f32; 4],
 }
 
-fn carrying(track: &Track, object: usize, counts: impl Fn([bool; AGENT_COUNT]) -> bool) -> Carrying {
+fn carrying(track: &Track, object: ObjectId, counts: impl Fn([bool; AGENT_COUNT]) -> bool) -> Carrying {
     let mut carrying = Carrying::default();
-    let entity = Entity::object(object.min(phase_model::MAX_OBJECTS - 1));
+    let entity = Entity::Object(object);
     for (t, pair) in track.states.windows(2).enumerate() {
-        let holders = core::array::from_fn(|agent| pair[1].holds(agent, object));
+        let holders = AgentId::ALL.map(|agent| pair[1].holds(agent, object));
         if !counts(holders) {
             continue;
         }

@@ -2,7 +2,7 @@
 
 use crate::{Track, contact};
 use phase_model::{
-    AGENT_COUNT, Entity,
+    AgentId, Entity,
     arena::{SUBSTEP_SECONDS, SUBSTEPS},
 };
 
@@ -21,15 +21,12 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// Of an agent (0 or 1) in steps 1 to `steps` of a track, or to its end if that comes first. Contact is
+    /// Of an agent in steps 1 to `steps` of a track, or to its end if that comes first. Contact is
     /// judged by outlines alone, so that recordings and simulations are measured alike.
     #[must_use]
-    pub fn of(track: &Track, agent: usize, steps: usize) -> Self {
-        let (steps, entity) = (steps.min(track.steps()), Entity::agent(agent.min(AGENT_COUNT - 1)));
-        let others: Vec<Entity> = (0..AGENT_COUNT + track.physique.object_count)
-            .map(Entity::from_index)
-            .filter(|&other| other != entity)
-            .collect();
+    pub fn of(track: &Track, agent: AgentId, steps: usize) -> Self {
+        let (steps, entity) = (steps.min(track.steps()), Entity::Agent(agent));
+        let others: Vec<Entity> = track.physique.entities().filter(|&other| other != entity).collect();
         let states = track.states.iter().skip(1).take(steps);
         let in_contact = states
             .filter(|state| others.iter().any(|&other| contact::near(&track.physique, state, entity, other)));

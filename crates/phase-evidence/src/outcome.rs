@@ -1,7 +1,7 @@
 //! Whether and when an agent's goal was reached.
 
 use crate::{Track, contact};
-use phase_model::{Entity, Goal, Physique, Sign, State, arena};
+use phase_model::{Entity, Goal, LandmarkId, Physique, Sign, State, arena};
 use phase_predicates::threshold::{ON_AGENT, ON_OBJECT};
 use serde::{Deserialize, Serialize};
 
@@ -41,9 +41,8 @@ impl Outcome {
 /// Whether what the goal speaks of is the case, whatever the goal's sign.
 #[must_use]
 pub fn condition(physique: &Physique, state: &State, goal: Goal) -> bool {
-    let near = |entity: Entity, landmark: u8, limit: f32| {
-        let centre = arena::LANDMARKS.get(usize::from(landmark));
-        centre.is_some_and(|&centre| state.position(entity).distance(centre) < limit)
+    let near = |entity: Entity, landmark: LandmarkId, limit: f32| {
+        state.position(entity).distance(arena::LANDMARKS[landmark]) < limit
     };
     match goal {
         Goal::AgentOnLandmark { agent, landmark, .. } => near(Entity::Agent(agent), landmark, ON_AGENT),

@@ -1,7 +1,7 @@
 //! Who went after whom, and who got away.
 
 use crate::Track;
-use phase_model::{Entity, layout::room_of};
+use phase_model::{AgentId, Entity, layout::room_of};
 use serde::{Deserialize, Serialize};
 
 /// Slower than this an agent is not going anywhere (u a step of 0.083 s of physics).
@@ -27,10 +27,10 @@ pub struct Pursuit {
 }
 
 impl Pursuit {
-    /// Looks at how agent 0 or 1 moved with regard to the other.
+    /// Looks at how an agent moved with regard to the other.
     #[must_use]
-    pub fn of(track: &Track, agent: usize) -> Self {
-        let (who, other) = (Entity::agent(agent), Entity::agent(crate::track::other(agent)));
+    pub fn of(track: &Track, agent: AgentId) -> Self {
+        let (who, other) = (Entity::Agent(agent), Entity::Agent(agent.other()));
         let distance = |t: usize| {
             track.states.get(t).map_or(0.0, |state| state.position(who).distance(state.position(other)))
         };

@@ -54,8 +54,3 @@ impl Track {
         }
     }
 }
-
-/// The other agent.
-pub(crate) const fn other(agent: usize) -> usize {
-    if agent == 0 { 1 } else { 0 }
-}

@@ -2,7 +2,7 @@
 
 use phase_forward::Forward;
 use phase_model::{
-    Action, AgentBody, Body, Dynamics, Grip, Layout, Physique, Side, Size, State, Strength, Vec2,
+    Action, AgentBody, Body, Dynamics, Grip, Layout, ObjectId, Physique, Side, Size, State, Strength, Vec2,
     arena::START_POINTS,
 };
 use std::time::Instant;
@@ -27,7 +27,8 @@ fn main() {
     held.bodies[2].position.y = 9.6;
     held.bodies[3].position.y = 10.4;
     for (k, grip) in held.grips.iter_mut().enumerate() {
-        *grip = Some(Grip { object: k as u8, side: Side::Head, relative_angle: 0.0 });
+        *grip =
+            Some(Grip { object: ObjectId::ALL[usize::from(k as u8)], side: Side::Head, relative_angle: 0.0 });
     }
     let forward = Forward::new(&open);
     let turns = [Action::Up, Action::Down, Action::TurnLeft, Action::TurnRight];

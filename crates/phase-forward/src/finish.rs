@@ -16,7 +16,7 @@ impl World<'_> {
         let touching = self.touching(near);
         for (pair, (a, b)) in PAIRS.into_iter().enumerate() {
             if touching & bit(pair_key(pair)) != 0 {
-                state.contacts.insert(Entity::from_index(a), Entity::from_index(b));
+                state.contacts.insert(Entity::ALL[a], Entity::ALL[b]);
             }
         }
     }

@@ -5,7 +5,7 @@ use crate::{
     tuning::H,
     world::World,
 };
-use phase_model::{AGENT_COUNT, Entity, State, Vec2};
+use phase_model::{AGENT_COUNT, AgentId, Entity, State, Vec2};
 
 /// How far from the place where it was let go of an object is clear of its holder (u).
 const CLEAR: f32 = 0.1;
@@ -20,7 +20,8 @@ impl World<'_> {
     pub(crate) fn part(&mut self, state: &State, let_go: [Option<usize>; AGENT_COUNT]) {
         /// Speed of approach at which it has not just been let go of (u/s).
         const APPROACH: f32 = 1.0;
-        for (agent, let_go) in let_go.into_iter().enumerate() {
+        for (holder, let_go) in AgentId::ALL.into_iter().zip(let_go) {
+            let agent = holder.index();
             if let Some(held) = self.held(agent) {
                 self.apart |= bit(pair_key(pair_of(agent, held)));
             }
@@ -28,16 +29,16 @@ impl World<'_> {
                 self.let_go |= bit(pair_key(pair_of(agent, held)));
             }
             for object in AGENT_COUNT..self.model.count {
-                let (holder, held) = (&self.motions[agent], &self.motions[object]);
+                let (motion, held) = (&self.motions[agent], &self.motions[object]);
                 let reach = self.model.shapes[agent].radius + self.model.shapes[object].radius;
-                let between = held.centre - holder.place(Vec2::new(0.0, self.model.shapes[agent].origin));
+                let between = held.centre - motion.place(Vec2::new(0.0, self.model.shapes[agent].origin));
                 if between.length_squared() > (reach + CLEAR) * (reach + CLEAR)
-                    || state.contacts.touching(Entity::agent(agent), Entity::from_index(object))
+                    || state.contacts.touching(Entity::Agent(holder), Entity::ALL[object])
                 {
                     continue;
                 }
-                let place = holder.right * (reach * between.dot(holder.right).signum());
-                let approach = (holder.velocity - held.velocity).dot(between.normalize_or_zero());
+                let place = motion.right * (reach * between.dot(motion.right).signum());
+                let approach = (motion.velocity - held.velocity).dot(between.normalize_or_zero());
                 if place.distance_squared(between) < CLEAR * CLEAR && approach < APPROACH {
                     self.let_go |= bit(pair_key(pair_of(agent, object)));
                 }

@@ -22,7 +22,7 @@
 //!
 //! ```
 //! use phase_forward::Forward;
-//! use phase_model::{Action, AgentBody, Body, Dynamics, Entity, Physique, State, Vec2};
+//! use phase_model::{Action, AgentBody, AgentId, Body, Dynamics, Entity, Physique, State, Vec2};
 //!
 //! let body = AgentBody { radius: 0.8, max_force: 450.0 };
 //! let physique = Physique { walls: Vec::new(), agents: [body; 2], object_radii: [0.0; 2], object_count: 0 };
@@ -32,9 +32,9 @@
 //!
 //! let mut state = start;
 //! forward.step(&mut state, [Action::Up, Action::NoForce]);
-//! let agent = Entity::agent(0);
+//! let agent = Entity::Agent(AgentId::ZERO);
 //! assert!(state.position(agent).y > 6.0 && state.position(agent).x == 10.0);
-//! assert_eq!(state.position(Entity::agent(1)), places[1]); // nothing acts on the other
+//! assert_eq!(state.position(Entity::Agent(AgentId::ONE)), places[1]); // nothing acts on the other
 //!
 //! let mut again = start;
 //! forward.step(&mut again, [Action::Up, Action::NoForce]);

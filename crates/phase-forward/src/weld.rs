@@ -5,7 +5,7 @@ use crate::{
     tuning::{ANGULAR_SLOP, SLOP},
 };
 use glam::Vec3;
-use phase_model::{Grip, Vec2};
+use phase_model::{Entity, Grip, Vec2};
 
 /// An agent's hold of an object and all that its solution needs.
 #[derive(Clone, Copy, Debug)]
@@ -81,9 +81,9 @@ impl Weld {
     }
 }
 
-/// Index of the body that a grip holds. Anything but object 0 counts as object 1.
+/// Index of the body that a grip holds.
 pub(crate) fn held_body(grip: &Grip) -> usize {
-    2 + usize::from(grip.object.min(1))
+    Entity::Object(grip.object).index()
 }
 
 /// What a unit impulse and a unit twist between an agent, at an offset, and an object's centre do.

@@ -9,7 +9,7 @@ use crate::{
     wall::WallSet,
     weld::held_body,
 };
-use phase_model::{AGENT_COUNT, Action, Body, Grip, State, Vec2, arena};
+use phase_model::{AGENT_COUNT, Action, AgentId, Body, Entity, Grip, State, Vec2, arena};
 
 /// Impulses of the last substep other than contacts', with which the next starts.
 #[derive(Clone, Copy, Debug)]
@@ -124,20 +124,20 @@ impl<'a> World<'a> {
     /// that let go of something, with the body they held.
     pub(crate) fn grab(&mut self, state: &State) -> [Option<usize>; AGENT_COUNT] {
         let mut let_go = [None; AGENT_COUNT];
-        for (agent, let_go) in let_go.iter_mut().enumerate() {
+        for agent in AgentId::ALL {
             match self.actions[agent] {
                 Action::Attach => {
                     if let Some((object, side)) = state.attachable(&self.model.physique, agent) {
                         // Not the state's angles, which may have had to be mended.
-                        let relative_angle =
-                            self.motions[AGENT_COUNT + object].angle - self.motions[agent].angle;
-                        self.grips[agent] = Some(Grip { object: object as u8, side, relative_angle });
+                        let angle = |entity: Entity| self.motions[entity.index()].angle;
+                        let relative_angle = angle(Entity::Object(object)) - angle(Entity::Agent(agent));
+                        self.grips[agent] = Some(Grip { object, side, relative_angle });
                         self.impulses.welds[agent] = (Vec2::ZERO, 0.0);
-                        self.latest_grip = agent;
+                        self.latest_grip = agent.index();
                     }
                 }
                 Action::Detach => {
-                    *let_go = self.held(agent);
+                    let_go[agent] = self.held(agent.index());
                     self.grips[agent] = None;
                 }
                 _ => {}

@@ -4,7 +4,7 @@ mod scenes;
 mod walls;
 
 use phase_forward::Forward;
-use phase_model::{Action, Contacts, Dynamics, Entity, Physique, State, Vec2, arena};
+use phase_model::{Action, AgentId, Contacts, Dynamics, Entity, Physique, State, Vec2, arena};
 use proptest::{prelude::*, strategy::ValueTree, test_runner::TestRunner};
 use scenes::{actions, apart, clear_of_walls};
 use walls::passes;
@@ -115,14 +115,14 @@ proptest! {
         for actions in actions {
             let before = state;
             forward.step_coarse(&mut state, actions);
-            for (agent, &action) in actions.iter().enumerate() {
+            for (agent, &action) in AgentId::ALL.into_iter().zip(&actions) {
                 let (Some(old), Some(new)) = (before.grips[agent], state.grips[agent]) else { continue };
-                let object = usize::from(new.object);
-                let held_by_both = before.grips[1 - agent].is_some() || state.grips[1 - agent].is_some();
+                let (me, held) = (Entity::Agent(agent), Entity::Object(new.object));
+                let held_by_both = before.grips[agent.other()].is_some() || state.grips[agent.other()].is_some();
                 if old.object != new.object || action == Action::Attach || held_by_both {
                     continue;
                 }
-                let arm = |state: &State| state.bodies[agent].position.distance(state.bodies[2 + object].position);
+                let arm = |state: &State| state.position(me).distance(state.position(held));
                 prop_assert!((arm(&state) - arm(&before)).abs() < 0.05, "{} -> {}", arm(&before), arm(&state));
             }
         }

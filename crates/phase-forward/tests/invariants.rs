@@ -5,7 +5,8 @@ mod walls;
 
 use phase_forward::Forward;
 use phase_model::{
-    Action, AgentBody, Body, Dynamics, Entity, Grip, Layout, Physique, Side, Size, State, Vec2, arena,
+    Action, AgentBody, Body, Dynamics, Entity, Grip, Layout, ObjectId, Physique, Side, Size, State, Vec2,
+    arena,
     geometry::Outline,
     physique::{GROUND_FRICTION, object_inertia, object_mass},
 };
@@ -23,7 +24,11 @@ fn grips() -> impl Strategy<Value = Option<Grip>> {
     let grip = (0..2_u8, side, angle);
     prop::option::weighted(
         0.3,
-        grip.prop_map(|(object, side, relative_angle)| Grip { object, side, relative_angle }),
+        grip.prop_map(|(object, side, relative_angle)| Grip {
+            object: ObjectId::ALL[usize::from(object)],
+            side,
+            relative_angle,
+        }),
     )
 }
 /// Bodies anywhere in the arena, even in walls and in each other, moving at up to a hundred units a second.
@@ -53,7 +58,7 @@ fn centre(physique: &Physique, state: &State, entity: Entity) -> Vec2 {
     let body = state.body(entity);
     match entity {
         Entity::Agent(agent) => {
-            body.position - body.forward() * physique.agents[usize::from(agent)].centre_of_mass_offset()
+            body.position - body.forward() * physique.agents[agent].centre_of_mass_offset()
         }
         Entity::Object(_) => body.position,
     }

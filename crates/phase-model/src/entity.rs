@@ -1,5 +1,6 @@
 //! Who is in a scene: two agents and up to two objects.
 
+use crate::{AgentId, ObjectId};
 use serde::{Deserialize, Serialize};
 
 /// Number of agents in every scene (the paper: "always exactly two").
@@ -9,52 +10,68 @@ pub const MAX_OBJECTS: usize = 2;
 /// Greatest number of entities in a scene.
 pub const MAX_ENTITIES: usize = AGENT_COUNT + MAX_OBJECTS;
 
-/// One agent or object. The number inside is 0 or 1.
+/// One agent or object.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Entity {
-    /// Agent 0 or 1.
-    Agent(u8),
-    /// Object 0 or 1.
-    Object(u8),
+    /// An agent.
+    Agent(AgentId),
+    /// An object.
+    Object(ObjectId),
 }
 
 impl Entity {
-    /// Position in arrays over all entities: agents 0 and 1, then objects 2 and 3.
+    /// All entities that a scene may have, in index order: agents, then objects.
+    pub const ALL: [Self; MAX_ENTITIES] = [
+        Self::Agent(AgentId::ZERO),
+        Self::Agent(AgentId::ONE),
+        Self::Object(ObjectId::ZERO),
+        Self::Object(ObjectId::ONE),
+    ];
+
+    /// Position in [`Entity::ALL`] and in other arrays over all entities: agents 0 and 1, then objects 2 and 3.
     #[must_use]
     pub const fn index(self) -> usize {
         match self {
-            Self::Agent(agent) => agent as usize,
-            Self::Object(object) => AGENT_COUNT + object as usize,
+            Self::Agent(agent) => agent.index(),
+            Self::Object(object) => AGENT_COUNT + object.index(),
         }
-    }
-
-    /// The entity at an index as [`Entity::index`] gives it (0 to 3).
-    #[must_use]
-    pub const fn from_index(index: usize) -> Self {
-        if index < AGENT_COUNT { Self::Agent(index as u8) } else { Self::Object((index - AGENT_COUNT) as u8) }
-    }
-
-    /// The agent with this number (0 or 1).
-    #[must_use]
-    pub const fn agent(agent: usize) -> Self {
-        Self::Agent(agent as u8)
-    }
-
-    /// The object with this number (0 or 1).
-    #[must_use]
-    pub const fn object(object: usize) -> Self {
-        Self::Object(object as u8)
     }
 }
 
-/// A set of entities.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default, Serialize, Deserialize)]
-pub struct EntitySet(u8);
+impl core::fmt::Display for Entity {
+    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Agent(agent) => write!(formatter, "agent {agent}"),
+            Self::Object(object) => write!(formatter, "object {object}"),
+        }
+    }
+}
 
-impl EntitySet {
+impl<T> core::ops::Index<Entity> for [T; MAX_ENTITIES] {
+    type Output = T;
+
+    fn index(&self, entity: Entity) -> &T {
+        &self[entity.index()]
+    }
+}
+
+impl<T> core::ops::IndexMut<Entity> for [T; MAX_ENTITIES] {
+    fn index_mut(&mut self, entity: Entity) -> &mut T {
+        &mut self[entity.index()]
+    }
+}
+
+/// A set of bodies, each that of an agent or an object.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default, Serialize, Deserialize)]
+pub struct BodySet(u8);
+
+impl BodySet {
     /// The set with nothing in it.
     pub const EMPTY: Self = Self(0);
+
+    /// The set of all objects that a scene may have.
+    pub const OBJECTS: Self = Self(((1 << MAX_OBJECTS) - 1) << AGENT_COUNT);
 
     /// Adds an entity.
     pub const fn insert(&mut self, entity: Entity) {
@@ -86,7 +103,7 @@ impl EntitySet {
 
     /// The entities in the set, by index.
     pub fn iter(self) -> impl Iterator<Item = Entity> {
-        (0..MAX_ENTITIES).map(Entity::from_index).filter(move |&entity| self.contains(entity))
+        Entity::ALL.into_iter().filter(move |&entity| self.contains(entity))
     }
 
     /// The set as four bits, bit `k` for the entity with index `k`.
@@ -96,7 +113,7 @@ impl EntitySet {
     }
 }
 
-impl FromIterator<Entity> for EntitySet {
+impl FromIterator<Entity> for BodySet {
     fn from_iter<I: IntoIterator<Item = Entity>>(entities: I) -> Self {
         let mut set = Self::EMPTY;
         entities.into_iter().for_each(|entity| set.insert(entity));

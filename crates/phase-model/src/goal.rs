@@ -1,6 +1,6 @@
 //! What agents want of the world and of each other.
 
-use crate::{Entity, Flip, State, arena};
+use crate::{AgentId, Entity, Flip, LandmarkId, ObjectId, State, arena};
 use serde::{Deserialize, Serialize};
 
 /// Whether a goal's condition is to hold or to be kept from holding; −1 and +1 in files.
@@ -51,34 +51,34 @@ impl TryFrom<i8> for Sign {
     }
 }
 
-/// A physical goal. Numbers of agents and objects are 0 or 1, landmarks 0 to 3.
+/// A physical goal.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Goal {
     /// On(agent, landmark).
     AgentOnLandmark {
         /// The agent to be on the landmark.
-        agent: u8,
+        agent: AgentId,
         /// The landmark.
-        landmark: u8,
+        landmark: LandmarkId,
         /// +1, or −1 to keep the agent off.
         sign: Sign,
     },
     /// On(object, landmark).
     ObjectOnLandmark {
         /// The object to be on the landmark.
-        object: u8,
+        object: ObjectId,
         /// The landmark.
-        landmark: u8,
+        landmark: LandmarkId,
         /// +1, or −1 to keep the object off.
         sign: Sign,
     },
     /// Touch(agent, other agent): approach (+1) or get away (−1).
     Touch {
         /// The agent that touches (in a chase, the chaser, for both agents' goals).
-        agent: u8,
+        agent: AgentId,
         /// The other agent.
-        other: u8,
+        other: AgentId,
         /// +1 to approach, −1 to get away.
         sign: Sign,
     },
@@ -114,10 +114,10 @@ impl Goal {
     pub const fn mirrored(self, flip: Flip) -> Self {
         match self {
             Self::AgentOnLandmark { agent, landmark, sign } => {
-                Self::AgentOnLandmark { agent, landmark: image(flip, landmark), sign }
+                Self::AgentOnLandmark { agent, landmark: flip.landmark(landmark), sign }
             }
             Self::ObjectOnLandmark { object, landmark, sign } => {
-                Self::ObjectOnLandmark { object, landmark: image(flip, landmark), sign }
+                Self::ObjectOnLandmark { object, landmark: flip.landmark(landmark), sign }
             }
             Self::Touch { .. } => self,
         }
@@ -134,10 +134,10 @@ impl Goal {
 
     /// The landmark of the goal, if it has one.
     #[must_use]
-    pub const fn landmark(self) -> Option<usize> {
+    pub const fn landmark(self) -> Option<LandmarkId> {
         match self {
             Self::AgentOnLandmark { landmark, .. } | Self::ObjectOnLandmark { landmark, .. } => {
-                Some(landmark as usize)
+                Some(landmark)
             }
             Self::Touch { .. } => None,
         }
@@ -149,7 +149,7 @@ impl Goal {
         let subject = state.position(self.subject());
         match self {
             Self::AgentOnLandmark { landmark, .. } | Self::ObjectOnLandmark { landmark, .. } => {
-                subject.distance(arena::LANDMARKS[usize::from(landmark)])
+                subject.distance(arena::LANDMARKS[landmark])
             }
             Self::Touch { other, .. } => subject.distance(state.position(Entity::Agent(other))),
         }
@@ -239,15 +239,6 @@ impl Relation {
         } else {
             Self::Neutral
         }
-    }
-}
-
-/// The image of a landmark; a number that names none stays as it is.
-const fn image(flip: Flip, landmark: u8) -> u8 {
-    if (landmark as usize) < arena::LANDMARKS.len() {
-        flip.landmark(landmark as usize) as u8
-    } else {
-        landmark
     }
 }
 

@@ -3,19 +3,20 @@
 //! Up to four walls radiate from the arena's centre, one in each *slot*: up (between rooms 0 and 1), left
 //! (0 and 3), down (3 and 2) and right (1 and 2). What a wall leaves open of its slot is a door.
 
-use crate::{Segment, Vec2, arena};
+use crate::{LandmarkId, RoomId, Segment, SlotId, Vec2, arena};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
-
-/// A room, which bears the same number as the landmark in it: 0 top left, 1 top right, 2 bottom right,
-/// 3 bottom left.
-pub type Room = usize;
 
 /// Length of a slot, from the centre to the boundary (u).
 pub const SLOT_LENGTH: f32 = 10.0;
 
 /// The two rooms on either side of each slot.
-pub const SLOT_ROOMS: [(Room, Room); 4] = [(0, 1), (0, 3), (3, 2), (1, 2)];
+pub const SLOT_ROOMS: [(RoomId, RoomId); 4] = [
+    (RoomId::TOP_LEFT, RoomId::TOP_RIGHT),
+    (RoomId::TOP_LEFT, RoomId::BOTTOM_LEFT),
+    (RoomId::BOTTOM_LEFT, RoomId::BOTTOM_RIGHT),
+    (RoomId::TOP_RIGHT, RoomId::BOTTOM_RIGHT),
+];
 
 /// Unit vectors from the centre along each slot.
 pub const SLOT_DIRECTIONS: [Vec2; 4] = [Vec2::Y, Vec2::NEG_X, Vec2::NEG_Y, Vec2::X];
@@ -110,26 +111,33 @@ impl Flip {
         }
     }
 
-    /// The landmark (or room) on which a landmark comes to lie.
+    /// The landmark on which a landmark comes to lie.
     #[must_use]
-    pub const fn landmark(self, landmark: usize) -> usize {
+    pub const fn landmark(self, landmark: LandmarkId) -> LandmarkId {
         let images = match self {
             Self::UpDown => [3, 2, 1, 0],
             Self::LeftRight => [1, 0, 3, 2],
             Self::Diagonal => [2, 1, 0, 3],
             Self::AntiDiagonal => [0, 3, 2, 1],
         };
-        images[landmark]
+        LandmarkId::ALL[images[landmark.index()]]
     }
 
-    /// Which slot's wall comes to lie in each slot.
-    const fn slots(self) -> [usize; 4] {
-        match self {
+    /// The room on which a room comes to lie.
+    #[must_use]
+    pub const fn room(self, room: RoomId) -> RoomId {
+        self.landmark(room.landmark()).room()
+    }
+
+    /// The slot whose wall comes to lie in a slot.
+    const fn slot(self, slot: SlotId) -> SlotId {
+        let sources = match self {
             Self::UpDown => [2, 1, 0, 3],
             Self::LeftRight => [0, 3, 2, 1],
             Self::Diagonal => [3, 2, 1, 0],
             Self::AntiDiagonal => [1, 0, 3, 2],
-        }
+        };
+        SlotId::ALL[sources[slot.index()]]
     }
 }
 
@@ -207,7 +215,8 @@ impl Layout {
     /// The inner walls, by slot (u).
     #[must_use]
     pub fn walls(self) -> Vec<Segment> {
-        (0..4)
+        SlotId::ALL
+            .into_iter()
             .filter_map(|slot| {
                 let (from, to) = match self.wall(slot) {
                     Open => return None,
@@ -219,10 +228,10 @@ impl Layout {
             .collect()
     }
 
-    /// What is open of a slot (0 to 3), from the end nearer the centre to the end nearer the boundary;
+    /// What is open of a slot, from the end nearer the centre to the end nearer the boundary;
     /// `None` where a full wall closes it.
     #[must_use]
-    pub fn opening(self, slot: usize) -> Option<Segment> {
+    pub fn opening(self, slot: SlotId) -> Option<Segment> {
         let (from, to) = match self.wall(slot) {
             Open => (0.0, SLOT_LENGTH),
             Inner(length) => (length, SLOT_LENGTH),
@@ -231,25 +240,25 @@ impl Layout {
         (from < to).then(|| along(slot, from, to))
     }
 
-    fn wall(self, slot: usize) -> Wall {
-        let slot = self.flip.map_or(slot, |flip| flip.slots()[slot]);
+    fn wall(self, slot: SlotId) -> Wall {
+        let slot = self.flip.map_or(slot, |flip| flip.slot(slot));
         BASES[usize::from(self.base)][slot]
     }
 }
 
 /// The part of a slot between two distances from the centre (u).
-fn along(slot: usize, from: f32, to: f32) -> Segment {
+fn along(slot: SlotId, from: f32, to: f32) -> Segment {
     let direction = SLOT_DIRECTIONS[slot];
     Segment { a: arena::CENTRE + direction * from, b: arena::CENTRE + direction * to }
 }
 
 /// The room a point lies in. Points on a border belong to the right and to the bottom.
 #[must_use]
-pub fn room_of(point: Vec2) -> Room {
+pub fn room_of(point: Vec2) -> RoomId {
     match (point.x < arena::CENTRE.x, point.y > arena::CENTRE.y) {
-        (true, true) => 0,
-        (false, true) => 1,
-        (false, false) => 2,
-        (true, false) => 3,
+        (true, true) => RoomId::TOP_LEFT,
+        (false, true) => RoomId::TOP_RIGHT,
+        (false, false) => RoomId::BOTTOM_RIGHT,
+        (true, false) => RoomId::BOTTOM_LEFT,
     }
 }

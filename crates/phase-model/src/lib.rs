@@ -3,7 +3,7 @@
 //! PHASE (Netanyahu et al., AAAI 2021) describes social events as a decentralised partially observable
 //! Markov decision process: two agents share a physical state, see parts of it and act at once. This crate
 //! holds the nouns every other crate speaks in: [`Scene`], [`Layout`], [`Entity`], [`State`], [`Action`],
-//! [`Goal`], [`Attitude`], and the one verb [`Dynamics`].
+//! [`Goal`], [`Attitude`], the ids in [`id`], and the one verb [`Dynamics`].
 //!
 //! The key design decision is that a [`State`] is plain `Copy` data of fixed size (two agents, at most two
 //! objects). A planner that imagines a hundred million steps copies states, it does not clone graphs. The
@@ -20,6 +20,7 @@ pub mod arena;
 pub mod entity;
 pub mod geometry;
 pub mod goal;
+pub mod id;
 pub mod json;
 pub mod judgement;
 pub mod layout;
@@ -35,12 +36,13 @@ pub mod subgoal;
 pub mod validate;
 
 pub use action::Action;
-pub use entity::{AGENT_COUNT, Entity, EntitySet, MAX_ENTITIES, MAX_OBJECTS};
+pub use entity::{AGENT_COUNT, BodySet, Entity, MAX_ENTITIES, MAX_OBJECTS};
 pub use geometry::Segment;
 pub use glam::Vec2;
 pub use goal::{Attitude, Goal, Relation, Sign};
+pub use id::{AgentId, IdError, LandmarkId, ObjectId, RoomId, SlotId};
 pub use judgement::{Forecast, Judgement, RelationProbabilities};
-pub use layout::{Flip, Layout, LayoutError, Room};
+pub use layout::{Flip, Layout, LayoutError};
 pub use observed::{ObservedError, ObservedEvent};
 pub use physique::{AgentBody, Physique, Size, Strength};
 pub use predicate::{Literal, Place, Predicate};

@@ -1,6 +1,8 @@
 //! An event as a viewer has it: walls, sizes and motion, and nothing that would answer the viewer's questions.
 
-use crate::{AGENT_COUNT, AgentBody, Body, Entity, Layout, MAX_ENTITIES, MAX_OBJECTS, Physique, Size, State};
+use crate::{
+    AGENT_COUNT, AgentBody, AgentId, Body, Entity, Layout, MAX_ENTITIES, MAX_OBJECTS, Physique, Size, State,
+};
 use thiserror::Error;
 
 /// Why something cannot be an observed event.
@@ -93,7 +95,7 @@ impl ObservedEvent {
 
     /// The entities present, agents first.
     pub fn entities(&self) -> impl Iterator<Item = Entity> + use<> {
-        (0..AGENT_COUNT + self.object_sizes.len()).map(Entity::from_index)
+        Entity::ALL.into_iter().take(AGENT_COUNT + self.object_sizes.len())
     }
 
     /// The physics of the event if its agents had these greatest forces (N).
@@ -105,7 +107,7 @@ impl ObservedEvent {
         }
         Physique {
             walls: self.layout.walls(),
-            agents: core::array::from_fn(|agent| AgentBody {
+            agents: AgentId::ALL.map(|agent| AgentBody {
                 radius: self.agent_sizes[agent].radius(),
                 max_force: max_forces[agent],
             }),

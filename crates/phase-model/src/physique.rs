@@ -1,6 +1,6 @@
 //! What physics needs to know of a scene: walls, radii and forces, and nothing of minds.
 
-use crate::{Entity, MAX_OBJECTS, Segment, entity::AGENT_COUNT};
+use crate::{Entity, MAX_OBJECTS, ObjectId, Segment, entity::AGENT_COUNT};
 use serde::{Deserialize, Serialize};
 
 /// Size level of an entity; the levels are not in order of size.
@@ -170,20 +170,20 @@ impl Physique {
 
     /// The entities present, agents first.
     pub fn entities(&self) -> impl Iterator<Item = Entity> + use<> {
-        (0..self.entity_count()).map(Entity::from_index)
+        Entity::ALL.into_iter().take(self.entity_count())
     }
 
-    /// The objects present, by number.
-    pub fn objects(&self) -> impl Iterator<Item = usize> + use<> {
-        0..self.object_count
+    /// The objects present.
+    pub fn objects(&self) -> impl Iterator<Item = ObjectId> + use<> {
+        ObjectId::ALL.into_iter().take(self.object_count)
     }
 
     /// Radius of an entity (u).
     #[must_use]
     pub fn radius(&self, entity: Entity) -> f32 {
         match entity {
-            Entity::Agent(agent) => self.agents[usize::from(agent)].radius,
-            Entity::Object(object) => self.object_radii[usize::from(object)],
+            Entity::Agent(agent) => self.agents[agent].radius,
+            Entity::Object(object) => self.object_radii[object],
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The four predicates and their negations, as words.
 
-use crate::{Entity, Goal, Sign};
+use crate::{AgentId, Entity, Goal, LandmarkId, ObjectId, Sign};
 use core::fmt;
 use serde::{Deserialize, Serialize};
 
@@ -10,21 +10,20 @@ use serde::{Deserialize, Serialize};
 pub enum Place {
     /// An agent or object.
     Entity(Entity),
-    /// A landmark, 0 to 3.
-    Landmark(u8),
+    /// A landmark.
+    Landmark(LandmarkId),
 }
 
-/// A predicate of the paper's table of definitions, with its arguments. Agents and objects are numbered 0
-/// and 1, landmarks 0 to 3.
+/// A predicate of the paper's table of definitions, with its arguments.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Predicate {
     /// An agent or object is on a landmark.
-    On(Entity, u8),
+    On(Entity, LandmarkId),
     /// An agent touches another agent or an object.
-    Touch(u8, Entity),
+    Touch(AgentId, Entity),
     /// An object is attached to an agent's body.
-    Attach(u8, u8),
+    Attach(AgentId, ObjectId),
     /// An agent or object is near something; near a landmark means in the landmark's room.
     Close(Entity, Place),
 }
@@ -66,29 +65,17 @@ impl From<Goal> for Literal {
     }
 }
 
-/// An entity in words, such as `agent 0`.
-struct Named(Entity);
-
-impl fmt::Display for Named {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0 {
-            Entity::Agent(agent) => write!(formatter, "agent {agent}"),
-            Entity::Object(object) => write!(formatter, "object {object}"),
-        }
-    }
-}
-
 impl fmt::Display for Predicate {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
-            Self::On(entity, landmark) => write!(formatter, "On({}, landmark {landmark})", Named(entity)),
-            Self::Touch(agent, entity) => write!(formatter, "Touch(agent {agent}, {})", Named(entity)),
+            Self::On(entity, landmark) => write!(formatter, "On({entity}, landmark {landmark})"),
+            Self::Touch(agent, entity) => write!(formatter, "Touch(agent {agent}, {entity})"),
             Self::Attach(agent, object) => write!(formatter, "Attach(agent {agent}, object {object})"),
             Self::Close(entity, Place::Entity(other)) => {
-                write!(formatter, "Close({}, {})", Named(entity), Named(other))
+                write!(formatter, "Close({entity}, {other})")
             }
             Self::Close(entity, Place::Landmark(landmark)) => {
-                write!(formatter, "Close({}, landmark {landmark})", Named(entity))
+                write!(formatter, "Close({entity}, landmark {landmark})")
             }
         }
     }

@@ -1,8 +1,8 @@
 //! A scene: everything that has to be said for two minds and a world to make an event.
 
 use crate::{
-    AGENT_COUNT, AgentBody, Attitude, Body, Entity, Flip, Goal, Layout, MAX_ENTITIES, MAX_OBJECTS, Physique,
-    Relation, Size, State, Strength,
+    AGENT_COUNT, AgentBody, AgentId, Attitude, Body, Entity, Flip, Goal, Layout, MAX_ENTITIES, MAX_OBJECTS,
+    ObjectId, Physique, Relation, Size, State, Strength,
 };
 use serde::{Deserialize, Serialize};
 
@@ -110,11 +110,11 @@ impl Scene {
     #[must_use]
     pub fn initial_state(&self) -> State {
         let mut bodies = [Body::default(); MAX_ENTITIES];
-        for (k, agent) in self.agents.iter().enumerate() {
-            bodies[Entity::agent(k).index()] = agent.start;
+        for (agent, spec) in AgentId::ALL.into_iter().zip(&self.agents) {
+            bodies[Entity::Agent(agent)] = spec.start;
         }
-        for (k, object) in self.objects.iter().take(MAX_OBJECTS).enumerate() {
-            bodies[Entity::object(k).index()] = object.start;
+        for (object, spec) in ObjectId::ALL.into_iter().zip(&self.objects) {
+            bodies[Entity::Object(object)] = spec.start;
         }
         State::new(bodies)
     }

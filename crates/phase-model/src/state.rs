@@ -1,6 +1,6 @@
 //! The physical state of the world at one moment, as plain copyable data.
 
-use crate::{AGENT_COUNT, Action, Entity, Flip, MAX_ENTITIES, Physique, Vec2, geometry};
+use crate::{AGENT_COUNT, Action, AgentId, Entity, Flip, MAX_ENTITIES, ObjectId, Physique, Vec2, geometry};
 use serde::{Deserialize, Serialize};
 
 /// Pose and motion of one body.
@@ -83,8 +83,8 @@ impl Side {
 /// An agent's rigid hold of an object: the object's centre sits at distance R + r on the given side.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Grip {
-    /// The object held, 0 or 1.
-    pub object: u8,
+    /// The object held.
+    pub object: ObjectId,
     /// The side that holds it.
     pub side: Side,
     /// The object's angle minus the agent's, kept from the moment of grabbing (rad).
@@ -167,15 +167,15 @@ impl State {
         self.bodies[entity.index()].position
     }
 
-    /// The object an agent (0 or 1) holds.
+    /// The object an agent holds.
     #[must_use]
-    pub fn held_object(&self, agent: usize) -> Option<usize> {
-        self.grips[agent].map(|grip| usize::from(grip.object))
+    pub fn held_object(&self, agent: AgentId) -> Option<ObjectId> {
+        self.grips[agent].map(|grip| grip.object)
     }
 
-    /// Whether an agent (0 or 1) holds an object (0 or 1).
+    /// Whether an agent holds an object.
     #[must_use]
-    pub fn holds(&self, agent: usize, object: usize) -> bool {
+    pub fn holds(&self, agent: AgentId, object: ObjectId) -> bool {
         self.held_object(agent) == Some(object)
     }
 
@@ -185,9 +185,7 @@ impl State {
         self.contacts.touching(a, b)
             || match (a, b) {
                 (Entity::Agent(agent), Entity::Object(object))
-                | (Entity::Object(object), Entity::Agent(agent)) => {
-                    self.holds(usize::from(agent), usize::from(object))
-                }
+                | (Entity::Object(object), Entity::Agent(agent)) => self.holds(agent, object),
                 _ => false,
             }
     }
@@ -196,16 +194,16 @@ impl State {
     /// r + [`crate::physique::GRAB_REACH`] to one of the agent's four grab points, the nearest.
     /// `None` if the agent already holds something.
     #[must_use]
-    pub fn attachable(&self, physique: &Physique, agent: usize) -> Option<(usize, Side)> {
+    pub fn attachable(&self, physique: &Physique, agent: AgentId) -> Option<(ObjectId, Side)> {
         if self.grips[agent].is_some() {
             return None;
         }
-        let body = &self.bodies[agent];
+        let body = self.body(Entity::Agent(agent));
         let radius = physique.agents[agent].radius;
         let rotation = Vec2::from_angle(body.angle);
-        let mut best: Option<(f32, usize, Side)> = None;
+        let mut best: Option<(f32, ObjectId, Side)> = None;
         for object in physique.objects() {
-            let centre = self.position(Entity::object(object));
+            let centre = self.position(Entity::Object(object));
             let reach = physique.object_radii[object] + crate::physique::GRAB_REACH;
             for side in Side::ALL {
                 let point = body.position + rotation.rotate(side.direction() * radius);

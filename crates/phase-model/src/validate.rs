@@ -1,7 +1,8 @@
 //! Which scenes make sense, and what is wrong with the others.
 
 use crate::{
-    AGENT_COUNT, Attitude, Entity, Goal, MAX_OBJECTS, Scene, arena, geometry::Outline, scene::AgentSpec,
+    AGENT_COUNT, AgentId, Attitude, Entity, Goal, MAX_OBJECTS, ObjectId, Scene, arena, geometry::Outline,
+    scene::AgentSpec,
 };
 use thiserror::Error;
 
@@ -27,23 +28,21 @@ pub enum SceneError {
         /// Where it lies instead (u).
         y: f32,
     },
-    /// A goal names something the scene does not have.
-    #[error("agents[{agent}].goal names {what} {number}, but the scene has only {count}")]
-    GoalOfAbsent {
+    /// A goal is about an object that the scene does not have.
+    #[error("agents[{agent}].goal names object {object}, but the number of objects is {count}")]
+    GoalOfAbsentObject {
         /// Whose goal.
-        agent: usize,
-        /// `agent`, `object` or `landmark`.
-        what: &'static str,
-        /// The number named.
-        number: u8,
-        /// How many there are.
+        agent: AgentId,
+        /// The object.
+        object: ObjectId,
+        /// How many objects the scene has.
         count: usize,
     },
     /// A goal is about an agent touching itself.
     #[error("agents[{agent}].goal: an agent cannot touch itself")]
     TouchesItself {
         /// Whose goal.
-        agent: usize,
+        agent: AgentId,
     },
     /// Both agents are social.
     #[error("at most one agent may have a social utility weight other than 0")]
@@ -52,7 +51,7 @@ pub enum SceneError {
     #[error("agents[{agent}].goal of a {role} agent must be the other agent's goal{sign}")]
     SocialGoal {
         /// The social agent.
-        agent: usize,
+        agent: AgentId,
         /// `helping` or `hindering`.
         role: &'static str,
         /// What has to be done to the other's goal.
@@ -88,7 +87,7 @@ impl Scene {
                 return Err(SceneError::OutsideArena { field, x: body.position.x, y: body.position.y });
             }
         }
-        for (agent, spec) in self.agents.iter().enumerate() {
+        for (agent, spec) in AgentId::ALL.into_iter().zip(&self.agents) {
             check_goal(agent, spec.goal, self.objects.len())?;
         }
         check_attitudes(&self.agents)
@@ -136,28 +135,13 @@ fn field_name(entity: Entity) -> String {
     }
 }
 
-fn check_goal(agent: usize, goal: Goal, object_count: usize) -> Result<(), SceneError> {
-    let check = |what, number: u8, count: usize| {
-        if usize::from(number) < count {
-            Ok(())
-        } else {
-            Err(SceneError::GoalOfAbsent { agent, what, number, count })
-        }
-    };
+fn check_goal(agent: AgentId, goal: Goal, count: usize) -> Result<(), SceneError> {
     match goal {
-        Goal::AgentOnLandmark { agent: who, landmark, .. } => {
-            check("agent", who, AGENT_COUNT)?;
-            check("landmark", landmark, arena::LANDMARKS.len())
+        Goal::ObjectOnLandmark { object, .. } if object.index() >= count => {
+            Err(SceneError::GoalOfAbsentObject { agent, object, count })
         }
-        Goal::ObjectOnLandmark { object, landmark, .. } => {
-            check("object", object, object_count)?;
-            check("landmark", landmark, arena::LANDMARKS.len())
-        }
-        Goal::Touch { agent: who, other, .. } => {
-            check("agent", who, AGENT_COUNT)?;
-            check("agent", other, AGENT_COUNT)?;
-            if who == other { Err(SceneError::TouchesItself { agent }) } else { Ok(()) }
-        }
+        Goal::Touch { agent: who, other, .. } if who == other => Err(SceneError::TouchesItself { agent }),
+        Goal::AgentOnLandmark { .. } | Goal::ObjectOnLandmark { .. } | Goal::Touch { .. } => Ok(()),
     }
 }
 
@@ -165,8 +149,8 @@ fn check_attitudes(agents: &[AgentSpec; AGENT_COUNT]) -> Result<(), SceneError> 
     if agents.iter().all(|agent| agent.attitude != Attitude::Neutral) {
         return Err(SceneError::BothSocial);
     }
-    for (agent, spec) in agents.iter().enumerate() {
-        let other = agents[1 - agent].goal;
+    for (agent, spec) in AgentId::ALL.into_iter().zip(agents) {
+        let other = agents[agent.other()].goal;
         let (expected, role, sign) = match spec.attitude {
             Attitude::Neutral => continue,
             Attitude::Help => (other, "helping", ""),

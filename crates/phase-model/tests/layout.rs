@@ -1,6 +1,8 @@
 //! Layouts against the published table, and reflections against each other.
 
-use phase_model::{Flip, Layout, LayoutError, Segment, Vec2, arena, layout::room_of};
+use phase_model::{
+    Flip, LandmarkId, Layout, LayoutError, RoomId, Segment, SlotId, Vec2, arena, layout::room_of,
+};
 use proptest::prelude::*;
 
 fn segment(a: (f32, f32), b: (f32, f32)) -> Segment {
@@ -48,17 +50,17 @@ fn a_layout_past_the_last_is_an_error() {
 #[test]
 fn landmarks_move_with_their_points() {
     for flip in Flip::ALL {
-        for (landmark, &centre) in arena::LANDMARKS.iter().enumerate() {
+        for (landmark, centre) in LandmarkId::ALL.into_iter().zip(arena::LANDMARKS) {
             let image = flip.point(centre);
             assert_eq!(image, arena::LANDMARKS[flip.landmark(landmark)], "{flip:?} {landmark}");
-            assert_eq!(room_of(image), flip.landmark(landmark));
+            assert_eq!(room_of(image), flip.room(landmark.room()));
         }
     }
 }
 
 #[test]
 fn start_points_lie_in_their_rooms() {
-    for (room, points) in arena::START_POINTS.iter().enumerate() {
+    for (room, points) in RoomId::ALL.into_iter().zip(arena::START_POINTS) {
         assert!(points.iter().all(|&point| room_of(point) == room));
     }
 }
@@ -101,7 +103,7 @@ proptest! {
     fn walls_and_openings_fill_every_slot(base in 0..22_u8, slot in 0..4_usize) {
         let layout = Layout::new(base, None).unwrap();
         let direction = phase_model::layout::SLOT_DIRECTIONS[slot];
-        let open = layout.opening(slot).map_or(0.0, Segment::length);
+        let open = layout.opening(SlotId::ALL[slot]).map_or(0.0, Segment::length);
         let walled: f32 = layout.walls().iter()
             .filter(|wall| (wall.b - wall.a).normalize().abs() == direction.abs())
             .filter(|wall| (wall.middle() - arena::CENTRE).dot(direction) > 0.0)

@@ -41,7 +41,7 @@ fn watching_for_a_while_hides_what_comes_later() {
     assert_eq!(part.rows(), &whole.rows()[..5]);
     assert_eq!(part.state(5), None);
     assert_eq!(whole.watched_for(usize::MAX), whole);
-    assert_eq!(whole.entities().collect::<Vec<_>>(), [0, 1, 2].map(Entity::from_index));
+    assert_eq!(whole.entities().collect::<Vec<_>>(), [0, 1, 2].map(|index| Entity::ALL[index]));
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Measures what seeing costs: `cargo run --release -p phase-perception --example perception_cost`.
 
 use phase_model::{
-    AgentBody, Body, Entity, Layout, LayoutError, Physique, Size, State, Vec2,
+    AgentBody, AgentId, Body, Entity, Layout, LayoutError, ObjectId, Physique, Size, State, Vec2,
     random::{Pcg64Mcg, Purpose, stream},
 };
 use phase_perception::{field_of_view, observe, observed_set, sees};
@@ -22,17 +22,22 @@ fn main() -> Result<(), LayoutError> {
     let mut random = stream(1, Purpose::Scene, 0);
     let states: Vec<State> =
         (0..STATES).map(|_| State::new(core::array::from_fn(|_| any_body(&mut random)))).collect();
-    let visible: usize = states.iter().map(|state| field_of_view(&physique, state, 0).len()).sum();
+    let visible: usize =
+        states.iter().map(|state| field_of_view(&physique, state, AgentId::ZERO).len()).sum();
     let observed: usize =
-        states.iter().map(|state| observed_set(&physique, state, 0).iter().count() - 1).sum();
+        states.iter().map(|state| observed_set(&physique, state, AgentId::ZERO).iter().count() - 1).sum();
     println!("{STATES} random states, 4 bodies, 4 walls; on average");
     println!("  {:.0} of 400 cells visible,", visible as f64 / STATES as f64);
     println!("  {:.2} of 3 others observed", observed as f64 / STATES as f64);
-    measure("field_of_view", &states, |state| field_of_view(&physique, state, 0).len());
-    measure("observe", &states, |state| observe(&physique, state, 0).visible.len());
-    measure("observed_set", &states, |state| observed_set(&physique, state, 0).bits().into());
-    measure("sees (an agent)", &states, |state| sees(&physique, state, 0, Entity::agent(1)).into());
-    measure("sees (an object)", &states, |state| sees(&physique, state, 0, Entity::object(0)).into());
+    measure("field_of_view", &states, |state| field_of_view(&physique, state, AgentId::ZERO).len());
+    measure("observe", &states, |state| observe(&physique, state, AgentId::ZERO).visible.len());
+    measure("observed_set", &states, |state| observed_set(&physique, state, AgentId::ZERO).bits().into());
+    measure("sees (an agent)", &states, |state| {
+        sees(&physique, state, AgentId::ZERO, Entity::Agent(AgentId::ONE)).into()
+    });
+    measure("sees (an object)", &states, |state| {
+        sees(&physique, state, AgentId::ZERO, Entity::Object(ObjectId::ZERO)).into()
+    });
     Ok(())
 }
 

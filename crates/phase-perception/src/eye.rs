@@ -4,22 +4,24 @@ use crate::{
     cells::{Cell, CellSet},
     footprint::any_cell,
 };
-use phase_model::{Body, Entity, MAX_ENTITIES, Physique, Segment, State, Vec2, geometry, geometry::Outline};
+use phase_model::{
+    AgentId, Body, Entity, MAX_ENTITIES, Physique, Segment, State, Vec2, geometry, geometry::Outline,
+};
 
 /// Tangent of the cone's half angle of 54.69°: 0.8 across for 17/30 ahead.
 pub const TAN_HALF_ANGLE: f32 = 24.0 / 17.0;
 
-/// The cells whose centre an agent (0 or 1) sees.
+/// The cells whose centre an agent sees.
 #[must_use]
-pub fn field_of_view(physique: &Physique, state: &State, agent: usize) -> CellSet {
+pub fn field_of_view(physique: &Physique, state: &State, agent: AgentId) -> CellSet {
     let eye = Eye::new(physique, state, agent);
     Cell::all().filter(|&cell| eye.sees_cell(cell)).collect()
 }
 
-/// Whether an agent (0 or 1) sees an entity: whether one of the cells of the entity's footprint is visible
+/// Whether an agent sees an entity: whether one of the cells of the entity's footprint is visible
 /// when the entity itself hides nothing. No agent sees itself.
 #[must_use]
-pub fn sees(physique: &Physique, state: &State, agent: usize, entity: Entity) -> bool {
+pub fn sees(physique: &Physique, state: &State, agent: AgentId, entity: Entity) -> bool {
     Eye::new(physique, state, agent).sees(entity)
 }
 
@@ -28,7 +30,7 @@ pub fn sees(physique: &Physique, state: &State, agent: usize, entity: Entity) ->
 pub struct Eye<'a> {
     physique: &'a Physique,
     state: &'a State,
-    agent: usize,
+    agent: AgentId,
     apex: Vec2,
     axis: Vec2,
     /// The bodies that may hide something, by [`Entity::index`].
@@ -36,10 +38,10 @@ pub struct Eye<'a> {
 }
 
 impl<'a> Eye<'a> {
-    /// The eye of an agent (0 or 1) in a state.
+    /// The eye of an agent in a state.
     #[must_use]
-    pub fn new(physique: &'a Physique, state: &'a State, agent: usize) -> Self {
-        let own = Entity::agent(agent);
+    pub fn new(physique: &'a Physique, state: &'a State, agent: AgentId) -> Self {
+        let own = Entity::Agent(agent);
         let body = state.body(own);
         let axis = body.forward();
         let apex = body.position - axis * physique.agents[agent].centre_of_mass_offset();
@@ -67,7 +69,7 @@ impl<'a> Eye<'a> {
     /// Whether an entity is seen; see [`sees`].
     #[must_use]
     pub fn sees(&self, entity: Entity) -> bool {
-        if entity == Entity::agent(self.agent) || entity.index() >= self.physique.entity_count() {
+        if entity == Entity::Agent(self.agent) || entity.index() >= self.physique.entity_count() {
             return false;
         }
         let body = self.state.body(entity);
@@ -131,7 +133,7 @@ fn blocks(wall: Segment, apex: Vec2, point: Vec2) -> bool {
 fn disc_centre(physique: &Physique, entity: Entity, body: &Body) -> Vec2 {
     match entity {
         Entity::Agent(agent) => {
-            let offset = physique.agents[usize::from(agent)].centre_of_mass_offset();
+            let offset = physique.agents[agent].centre_of_mass_offset();
             body.position - geometry::forward(body.angle) * offset
         }
         Entity::Object(_) => body.position,

@@ -7,7 +7,7 @@
 //! An agent that faces +y sees the other ahead of it, and not the object behind its back:
 //!
 //! ```
-//! use phase_model::{AgentBody, Body, Entity, Physique, State, Vec2};
+//! use phase_model::{AgentBody, AgentId, Body, Entity, ObjectId, Physique, State, Vec2};
 //! use phase_perception::observe;
 //!
 //! let body = AgentBody { radius: 0.8, max_force: 450.0 };
@@ -15,9 +15,10 @@
 //! let places = [Vec2::new(16.0, 9.0), Vec2::new(16.0, 15.0), Vec2::new(16.0, 4.0), Vec2::ZERO];
 //! let state = State::new(places.map(|place| Body::at_rest(place, 0.0)));
 //!
-//! let observation = observe(&physique, &state, 0);
-//! assert_eq!(observation.body(Entity::agent(1)), Some(state.body(Entity::agent(1))));
-//! assert_eq!(observation.body(Entity::object(0)), None);
+//! let observation = observe(&physique, &state, AgentId::ZERO);
+//! let other = Entity::Agent(AgentId::ONE);
+//! assert_eq!(observation.body(other), Some(state.body(other)));
+//! assert_eq!(observation.body(Entity::Object(ObjectId::ZERO)), None);
 //! ```
 //!
 //! # What is seen

@@ -4,13 +4,13 @@ use crate::{
     cells::{Cell, CellSet},
     eye::{Eye, field_of_view},
 };
-use phase_model::{AGENT_COUNT, Body, Contacts, Entity, EntitySet, Grip, MAX_ENTITIES, Physique, State};
+use phase_model::{AgentId, Body, BodySet, Contacts, Entity, Grip, MAX_ENTITIES, Physique, State};
 
-/// Everything an agent (0 or 1) observes of a state, oᵢ of the paper.
+/// Everything an agent observes of a state, oᵢ of the paper.
 #[must_use]
-pub fn observe(physique: &Physique, state: &State, agent: usize) -> Observation {
+pub fn observe(physique: &Physique, state: &State, agent: AgentId) -> Observation {
     let observed = observed_set(physique, state, agent);
-    let own = Entity::agent(agent);
+    let own = Entity::Agent(agent);
     let mut known = State::new([Body::default(); MAX_ENTITIES]);
     for entity in observed.iter() {
         *known.body_mut(entity) = *state.body(entity);
@@ -30,11 +30,11 @@ pub fn observe(physique: &Physique, state: &State, agent: usize) -> Observation 
     }
 }
 
-/// Which entities an agent (0 or 1) observes, itself included: the coarse observation for imagined states.
+/// Which entities an agent observes, itself included: the coarse observation for imagined states.
 /// Equal to [`Observation::observed`] of [`observe`], but looks only at the cells that bodies lie on.
 #[must_use]
-pub fn observed_set(physique: &Physique, state: &State, agent: usize) -> EntitySet {
-    let mut observed = with_touching(physique, state, [Entity::agent(agent)].into_iter().collect());
+pub fn observed_set(physique: &Physique, state: &State, agent: AgentId) -> BodySet {
+    let mut observed = with_touching(physique, state, [Entity::Agent(agent)].into_iter().collect());
     let mut eye = None;
     for entity in physique.entities() {
         if !observed.contains(entity)
@@ -51,14 +51,14 @@ pub fn observed_set(physique: &Physique, state: &State, agent: usize) -> EntityS
 /// observations are equal if the agent cannot tell them apart.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Observation {
-    /// Who observes, 0 or 1.
-    pub agent: usize,
+    /// Who observes.
+    pub agent: AgentId,
     /// The cells whose centre the agent sees.
     pub visible: CellSet,
     /// The entities whose bodies, grips and contacts are known exactly; the agent itself is one of them.
-    pub observed: EntitySet,
+    pub observed: BodySet,
     /// The entities that the agent feels: those in contact with it or attached to it.
-    pub touched: EntitySet,
+    pub touched: BodySet,
     /// The state as far as it is observed; the rest is blank.
     known: State,
 }
@@ -70,11 +70,11 @@ impl Observation {
         self.observed.contains(entity).then(|| self.known.body(entity))
     }
 
-    /// What an agent (0 or 1) holds, or the outer `None` if the agent is not observed. Whatever an observed
+    /// What an agent holds, or the outer `None` if the agent is not observed. Whatever an observed
     /// agent holds is observed, too.
     #[must_use]
-    pub fn grip(&self, agent: usize) -> Option<Option<Grip>> {
-        (agent < AGENT_COUNT && self.observed.contains(Entity::agent(agent))).then(|| self.known.grips[agent])
+    pub fn grip(&self, agent: AgentId) -> Option<Option<Grip>> {
+        self.observed.contains(Entity::Agent(agent)).then(|| self.known.grips[agent])
     }
 
     /// The contacts between observed entities. An unobserved entity touches no observed one.
@@ -97,10 +97,10 @@ impl Observation {
 }
 
 /// A set of entities, all that touch one of them, all that touch one of those, and so on.
-fn with_touching(physique: &Physique, state: &State, mut set: EntitySet) -> EntitySet {
+fn with_touching(physique: &Physique, state: &State, mut set: BodySet) -> BodySet {
     loop {
         let touching = |entity: Entity| set.iter().any(|known| state.touching(known, entity));
-        let larger = physique.entities().filter(|&entity| touching(entity)).collect::<EntitySet>().union(set);
+        let larger = physique.entities().filter(|&entity| touching(entity)).collect::<BodySet>().union(set);
         if larger == set {
             return set;
         }

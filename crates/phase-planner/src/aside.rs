@@ -6,7 +6,8 @@ use crate::{
     situation::{self, Situation},
 };
 use phase_model::{
-    AGENT_COUNT, Entity, Goal, Physique, Predicate, State, Subgoal, Vec2, arena, layout::room_of,
+    AgentId, Entity, Goal, LandmarkId, Physique, Predicate, SlotId, State, Subgoal, Vec2, arena,
+    layout::room_of,
 };
 
 /// Room left beside the other on its way (u).
@@ -28,13 +29,13 @@ pub fn intrusion(
     physique: &Physique,
     routes: &Routes,
     state: &State,
-    agent: usize,
-    landmark: u8,
+    agent: AgentId,
+    landmark: LandmarkId,
 ) -> Option<Intrusion> {
-    let other = 1 - agent;
-    let here = state.position(Entity::agent(agent));
-    let mover = state.held_object(other).map_or(Entity::agent(other), Entity::object);
-    let (from, to) = (state.position(mover), arena::LANDMARKS[usize::from(landmark)]);
+    let other = agent.other();
+    let here = state.position(Entity::Agent(agent));
+    let mover = state.held_object(other).map_or(Entity::Agent(other), Entity::Object);
+    let (from, to) = (state.position(mover), arena::LANDMARKS[landmark]);
     let width = physique.agents[other].width().max(2.0 * physique.radius(mover));
     let room = 0.5 * (physique.agents[agent].width() + width) + CLEARANCE;
     let nearest = routes.best(from, to, width, routes.gaps())?.nearest(from, to, here);
@@ -56,16 +57,16 @@ pub fn intrusion(
 /// leaves a door that the other would fit through, then the way to the landmark that the other, or what it
 /// holds, is to be on.
 #[must_use]
-pub(crate) fn subgoal(situation: &Situation<'_>, agent: usize, goal: Goal) -> Option<Subgoal> {
-    let me = Entity::agent(agent);
+pub(crate) fn subgoal(situation: &Situation<'_>, agent: AgentId, goal: Goal) -> Option<Subgoal> {
+    let me = Entity::Agent(agent);
     if stands_in_a_door(situation, agent) {
         let here = room_of(situation.state.position(me));
-        return Some(is(Predicate::On(me, here as u8)));
+        return Some(is(Predicate::On(me, here.landmark())));
     }
-    let held = situation.state.held_object(1 - agent);
+    let held = situation.state.held_object(agent.other());
     let landmark = match goal {
         Goal::AgentOnLandmark { landmark, .. } => landmark,
-        Goal::ObjectOnLandmark { object, landmark, .. } if held == Some(usize::from(object)) => landmark,
+        Goal::ObjectOnLandmark { object, landmark, .. } if held == Some(object) => landmark,
         _ => return None,
     };
     intrusion(situation.physique, situation.routes, situation.state, agent, landmark)
@@ -73,13 +74,13 @@ pub(crate) fn subgoal(situation: &Situation<'_>, agent: usize, goal: Goal) -> Op
 }
 
 /// Whether the agent's own body keeps the other from a door that it would fit through.
-fn stands_in_a_door(situation: &Situation<'_>, agent: usize) -> bool {
-    let other = (agent + 1) % AGENT_COUNT;
-    let radius = |agent: usize| situation.physique.agents[agent].radius;
+fn stands_in_a_door(situation: &Situation<'_>, agent: AgentId) -> bool {
+    let other = agent.other();
+    let radius = |agent: AgentId| situation.physique.agents[agent].radius;
     let open = situation.routes.gaps();
     let mut gaps = *open;
-    let here = situation.state.position(Entity::agent(agent));
+    let here = situation.state.position(Entity::Agent(agent));
     situation::obstruct(&mut gaps, here, radius(agent), radius(agent) + radius(other));
     let width = situation.width(other, None);
-    (0..gaps.0.len()).any(|slot| open.width(slot) >= width && gaps.width(slot) < width)
+    SlotId::ALL.into_iter().any(|slot| open.width(slot) >= width && gaps.width(slot) < width)
 }

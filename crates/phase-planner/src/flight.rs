@@ -4,7 +4,7 @@ use crate::{
     plan::{self, Plan},
     situation::{Situation, Spot},
 };
-use phase_model::{Entity, Predicate, arena, layout::room_of};
+use phase_model::{AgentId, BodySet, Entity, LandmarkId, Predicate, layout::room_of};
 
 /// What a room must offer over staying put before it is worth running for (u).
 const WORTHWHILE: f32 = 2.0;
@@ -16,38 +16,39 @@ const SAFE: f32 = 20.0;
 /// Where to run: of the four rooms and the present spot, the one that puts most distance between the two,
 /// provided the fleeing agent is nearer to every door on the way than its pursuer.
 #[must_use]
-pub fn plan(situation: &Situation<'_>, agent: usize) -> Plan {
-    let (me, other) = (Entity::agent(agent), Entity::agent(1 - agent));
+pub fn plan(situation: &Situation<'_>, agent: AgentId) -> Plan {
+    let (me, other) = (Entity::Agent(agent), Entity::Agent(agent.other()));
     let (here, there) = (situation.state.position(me), situation.state.position(other));
-    let apart = |from, to, who: usize| {
-        situation.routes.cost(from, to, situation.width(who, None), situation.gaps(who, 0b11))
+    let apart = |from, to, who: AgentId| {
+        situation.routes.cost(from, to, situation.width(who, None), situation.gaps(who, BodySet::OBJECTS))
     };
-    let present = apart(there, here, 1 - agent);
-    let mut best = Plan { subgoals: vec![plan::not(Predicate::Touch(agent as u8, other))], distance: 0.0 };
+    let present = apart(there, here, agent.other());
+    let mut best = Plan { subgoals: vec![plan::not(Predicate::Touch(agent, other))], distance: 0.0 };
     if present > SAFE && room_of(here) != room_of(there) {
         return plan::let_go(situation, agent);
     }
     let mut best_gain = present + WORTHWHILE;
     let width = situation.width(agent, None);
-    for landmark in 0..arena::LANDMARKS.len() as u8 {
+    for landmark in LandmarkId::ALL {
         let refuge = situation.position(Spot::Landmark(landmark));
-        if room_of(here) == usize::from(landmark) {
+        if room_of(here) == landmark.room() {
             continue;
         }
-        let Some(route) = situation.routes.best(here, refuge, width, situation.gaps(agent, 0b11)) else {
+        let Some(route) = situation.routes.best(here, refuge, width, situation.gaps(agent, BodySet::OBJECTS))
+        else {
             continue;
         };
         let reachable = route.impassable == 0
             && route
                 .doors()
                 .iter()
-                .all(|&(_, door)| apart(here, door, agent) + 1.0 < apart(there, door, 1 - agent));
-        let gain = apart(there, refuge, 1 - agent) - EFFORT * route.length;
+                .all(|&(_, door)| apart(here, door, agent) + 1.0 < apart(there, door, agent.other()));
+        let gain = apart(there, refuge, agent.other()) - EFFORT * route.length;
         if reachable && gain > best_gain {
             best_gain = gain;
             let mut subgoals = Vec::new();
             plan::rooms(&route, here, refuge, me, &mut subgoals);
-            subgoals.push(plan::not(Predicate::Touch(agent as u8, other)));
+            subgoals.push(plan::not(Predicate::Touch(agent, other)));
             best = Plan { subgoals, distance: route.length };
         }
     }

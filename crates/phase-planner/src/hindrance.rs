@@ -13,7 +13,10 @@ use crate::{
     situation::{Situation, Spot, obstruct},
     task::{Node, Task},
 };
-use phase_model::{Entity, Goal, Place, Predicate, Sign, Subgoal, Vec2, arena, layout::room_of};
+use phase_model::{
+    AgentId, BodySet, Entity, Goal, LandmarkId, ObjectId, Place, Predicate, Sign, Subgoal, Vec2,
+    layout::room_of,
+};
 use phase_predicates::achieved;
 
 /// How much of its own way the hinderer sets against the other's cost.
@@ -28,7 +31,7 @@ const LATE: f32 = 1.0;
 /// The most harmful thing an agent can do to a goal of the other. A negated goal is hindered by bringing its
 /// positive about.
 #[must_use]
-pub fn plan(situation: &Situation<'_>, agent: usize, goal: Goal) -> Plan {
+pub fn plan(situation: &Situation<'_>, agent: AgentId, goal: Goal) -> Plan {
     let mut candidates = match goal {
         Goal::AgentOnLandmark { sign: Sign::Negative, .. }
         | Goal::ObjectOnLandmark { sign: Sign::Negative, .. } => {
@@ -51,53 +54,63 @@ pub fn plan(situation: &Situation<'_>, agent: usize, goal: Goal) -> Plan {
 }
 
 /// What the other wants not to be. An agent that is to be on a landmark against its will has to be pushed there.
-fn bring_about(situation: &Situation<'_>, agent: usize, goal: Goal) -> Plan {
+fn bring_about(situation: &Situation<'_>, agent: AgentId, goal: Goal) -> Plan {
     let task = lone_task(situation, agent, goal, None);
     let subject = goal.subject();
     if let Some(plan) = search::solve(&task, Node::start(situation)) {
         let mut plan = express(&task, &plan, agent);
         if let Entity::Object(object) = subject {
             // Against the other's will, things stay only where they are held.
-            plan.subgoals.retain(|&subgoal| subgoal != plan::not(Predicate::Attach(agent as u8, object)));
+            plan.subgoals.retain(|&subgoal| subgoal != plan::not(Predicate::Attach(agent, object)));
         }
         return plan;
     }
     let Some(landmark) = goal.landmark() else { return Plan::STAY };
     let mut subgoals = let_go_first(situation, agent);
-    subgoals.push(plan::is(Predicate::On(subject, landmark as u8)));
+    subgoals.push(plan::is(Predicate::On(subject, landmark)));
     plan::skip_done(situation, &mut subgoals);
     Plan { subgoals, distance: way(situation, agent, situation.state.position(subject)) }
 }
 
-fn evade_or_pursue(situation: &Situation<'_>, agent: usize, sign: Sign) -> (f32, Plan) {
+fn evade_or_pursue(situation: &Situation<'_>, agent: AgentId, sign: Sign) -> (f32, Plan) {
     if sign == Sign::Positive {
         return (0.0, flight::plan(situation, agent));
     }
-    let here = situation.state.position(Entity::agent(agent));
-    let there = situation.state.position(Entity::agent(1 - agent));
+    let here = situation.state.position(Entity::Agent(agent));
+    let there = situation.state.position(Entity::Agent(agent.other()));
     let mut subgoals = Vec::new();
-    let route = situation.routes.best(here, there, situation.width(agent, None), situation.gaps(agent, 0b11));
+    let route = situation.routes.best(
+        here,
+        there,
+        situation.width(agent, None),
+        situation.gaps(agent, BodySet::OBJECTS),
+    );
     if let Some(route) = &route {
-        plan::rooms(route, here, there, Entity::agent(agent), &mut subgoals);
+        plan::rooms(route, here, there, Entity::Agent(agent), &mut subgoals);
     }
-    subgoals.push(plan::is(Predicate::Touch(agent as u8, Entity::agent(1 - agent))));
+    subgoals.push(plan::is(Predicate::Touch(agent, Entity::Agent(agent.other()))));
     (0.0, Plan { subgoals, distance: route.map_or(0.0, |route| route.length) })
 }
 
 /// Block a door on the other's way, or stand between it and its landmark.
-fn keep_agent_off(situation: &Situation<'_>, agent: usize, goal: Goal, landmark: u8) -> Vec<(f32, Plan)> {
-    let victim = 1 - agent;
+fn keep_agent_off(
+    situation: &Situation<'_>,
+    agent: AgentId,
+    goal: Goal,
+    landmark: LandmarkId,
+) -> Vec<(f32, Plan)> {
+    let victim = agent.other();
     let base = other_cost(situation, victim, goal, hands_free(situation, agent), None);
     let target = situation.position(Spot::Landmark(landmark));
-    let there = situation.state.position(Entity::agent(victim));
+    let there = situation.state.position(Entity::Agent(victim));
     let mut candidates = block_doors(situation, agent, goal, there, target, base);
     let between = target + (there - target).clamp_length_max(guard_distance(situation));
     let way = way(situation, agent, between);
     let mut subgoals = let_go_first(situation, agent);
-    if room_of(situation.state.position(Entity::agent(agent))) != usize::from(landmark) && way > 6.0 {
+    if room_of(situation.state.position(Entity::Agent(agent))) != landmark.room() && way > 6.0 {
         approach_rooms(situation, agent, between, &mut subgoals);
     }
-    subgoals.push(plan::not(Predicate::On(Entity::agent(victim), landmark)));
+    subgoals.push(plan::not(Predicate::On(Entity::Agent(victim), landmark)));
     candidates.push((base + IN_THE_WAY - EFFORT * way, Plan { subgoals, distance: way }));
     candidates
 }
@@ -105,22 +118,22 @@ fn keep_agent_off(situation: &Situation<'_>, agent: usize, goal: Goal, landmark:
 /// Each door on the other's way that the hinderer's body can close and that it can reach in time.
 fn block_doors(
     situation: &Situation<'_>,
-    agent: usize,
+    agent: AgentId,
     goal: Goal,
     from: Vec2,
     to: Vec2,
     base: f32,
 ) -> Vec<(f32, Plan)> {
-    let victim = 1 - agent;
+    let victim = agent.other();
     let width = situation.width(victim, None);
-    let Some(route) = situation.routes.best(from, to, width, situation.gaps(victim, 0b11)) else {
+    let Some(route) = situation.routes.best(from, to, width, situation.gaps(victim, BodySet::OBJECTS)) else {
         return Vec::new();
     };
     let mut candidates = Vec::new();
     let mut room = room_of(from);
     for &(slot, _) in route.doors() {
-        let next = Routes::beyond(usize::from(slot), room);
-        let gap = situation.routes.gaps().0[usize::from(slot)];
+        let next = Routes::beyond(slot, room);
+        let gap = situation.routes.gaps().0[slot];
         room = next;
         let Some((low, high)) = gap else { continue };
         let middle = point_in(slot, 0.5 * (low + high));
@@ -131,7 +144,7 @@ fn block_doors(
             continue;
         }
         let mut subgoals = let_go_first(situation, agent);
-        subgoals.push(plan::not(Predicate::Close(Entity::agent(victim), Place::Landmark(next as u8))));
+        subgoals.push(plan::not(Predicate::Close(Entity::Agent(victim), Place::Landmark(next.landmark()))));
         candidates.push((
             effect.min(base + GREATEST_EFFECT) - EFFORT * own_way,
             Plan { subgoals, distance: own_way },
@@ -141,8 +154,8 @@ fn block_doors(
 }
 
 /// The doors as the victim finds them when the hinderer stands in one.
-fn closed_by(situation: &Situation<'_>, agent: usize, victim: usize, at: Vec2) -> Gaps {
-    let mut gaps = *situation.gaps(victim, 0b11);
+fn closed_by(situation: &Situation<'_>, agent: AgentId, victim: AgentId, at: Vec2) -> Gaps {
+    let mut gaps = *situation.gaps(victim, BodySet::OBJECTS);
     let half_width = 0.5 * situation.width(agent, None);
     obstruct(&mut gaps, at, half_width, half_width);
     gaps
@@ -151,25 +164,25 @@ fn closed_by(situation: &Situation<'_>, agent: usize, victim: usize, at: Vec2) -
 /// Take the object away, pull against the other, or failing that stand in the way.
 fn keep_object_off(
     situation: &Situation<'_>,
-    agent: usize,
+    agent: AgentId,
     goal: Goal,
-    object: u8,
-    landmark: u8,
+    object: ObjectId,
+    landmark: LandmarkId,
 ) -> Vec<(f32, Plan)> {
-    let victim = 1 - agent;
+    let victim = agent.other();
     let start = Node::start(situation);
     let free = hands_free(situation, agent);
     let base = other_cost(situation, victim, goal, free, None);
     let task = lone_task(situation, agent, goal, None);
-    let me = Entity::agent(agent);
+    let me = Entity::Agent(agent);
     let spot = Spot::Now(Entity::Object(object));
-    let holding = situation.state.held_object(agent) == Some(usize::from(object));
-    let contested = situation.state.held_object(victim) == Some(usize::from(object));
+    let holding = situation.state.held_object(agent) == Some(object);
+    let contested = situation.state.held_object(victim) == Some(object);
     let fetch = if holding { 0.0 } else { task.distance(&start, agent, None, spot) };
     let mut candidates = Vec::new();
-    for refuge in (0..arena::LANDMARKS.len() as u8).filter(|&refuge| refuge != landmark) {
+    for refuge in LandmarkId::ALL.into_iter().filter(|&refuge| refuge != landmark) {
         let mut after = free;
-        after.objects[usize::from(object)] = Spot::Landmark(refuge);
+        after.objects[object] = Spot::Landmark(refuge);
         after.holds[victim] = None;
         let effect = other_cost(situation, victim, goal, after, None).min(base + GREATEST_EFFECT);
         let mut carrying = start;
@@ -180,10 +193,10 @@ fn keep_object_off(
             subgoals = let_go_first(situation, agent);
             approach_rooms(situation, agent, situation.position(spot), &mut subgoals);
             subgoals.push(plan::is(Predicate::Close(me, Place::Entity(Entity::Object(object)))));
-            subgoals.push(plan::is(Predicate::Attach(agent as u8, object)));
+            subgoals.push(plan::is(Predicate::Attach(agent, object)));
         }
         let (from, to) = (situation.position(spot), situation.position(Spot::Landmark(refuge)));
-        let width = situation.width(agent, Some(usize::from(object)));
+        let width = situation.width(agent, Some(object));
         let gaps = task.gaps(&carrying, agent, Some(object));
         if let Some(route) = situation.routes.best(from, to, width, &gaps) {
             plan::rooms(&route, from, to, Entity::Object(object), &mut subgoals);
@@ -215,7 +228,7 @@ fn keep_object_off(
 
 /// The present symbolic state, but for what the hinderer holds: letting go must not look harmful only because
 /// holding on is.
-fn hands_free(situation: &Situation<'_>, agent: usize) -> Node {
+fn hands_free(situation: &Situation<'_>, agent: AgentId) -> Node {
     let mut node = Node::start(situation);
     node.holds[agent] = None;
     node
@@ -224,7 +237,7 @@ fn hands_free(situation: &Situation<'_>, agent: usize) -> Node {
 /// What the other's best plan costs from a symbolic state, acting alone.
 fn other_cost(
     situation: &Situation<'_>,
-    other: usize,
+    other: AgentId,
     goal: Goal,
     node: Node,
     narrowed: Option<Gaps>,
@@ -233,7 +246,12 @@ fn other_cost(
 }
 
 /// The task of one agent that acts alone and against the other, which may have narrowed doors for it.
-fn lone_task<'a>(situation: &'a Situation<'a>, agent: usize, goal: Goal, narrowed: Option<Gaps>) -> Task<'a> {
+fn lone_task<'a>(
+    situation: &'a Situation<'a>,
+    agent: AgentId,
+    goal: Goal,
+    narrowed: Option<Gaps>,
+) -> Task<'a> {
     Task {
         situation,
         goal,
@@ -249,19 +267,19 @@ fn guard_distance(situation: &Situation<'_>) -> f32 {
     situation.physique.agents.iter().map(|body| body.radius).sum()
 }
 
-fn way(situation: &Situation<'_>, agent: usize, to: Vec2) -> f32 {
-    let from = situation.state.position(Entity::agent(agent));
-    situation.routes.cost(from, to, situation.width(agent, None), situation.gaps(agent, 0b11))
+fn way(situation: &Situation<'_>, agent: AgentId, to: Vec2) -> f32 {
+    let from = situation.state.position(Entity::Agent(agent));
+    situation.routes.cost(from, to, situation.width(agent, None), situation.gaps(agent, BodySet::OBJECTS))
 }
 
-fn approach_rooms(situation: &Situation<'_>, agent: usize, to: Vec2, subgoals: &mut Vec<Subgoal>) {
-    let from = situation.state.position(Entity::agent(agent));
+fn approach_rooms(situation: &Situation<'_>, agent: AgentId, to: Vec2, subgoals: &mut Vec<Subgoal>) {
+    let from = situation.state.position(Entity::Agent(agent));
     let width = situation.width(agent, None);
-    if let Some(route) = situation.routes.best(from, to, width, situation.gaps(agent, 0b11)) {
-        plan::rooms(&route, from, to, Entity::agent(agent), subgoals);
+    if let Some(route) = situation.routes.best(from, to, width, situation.gaps(agent, BodySet::OBJECTS)) {
+        plan::rooms(&route, from, to, Entity::Agent(agent), subgoals);
     }
 }
 
-fn let_go_first(situation: &Situation<'_>, agent: usize) -> Vec<Subgoal> {
+fn let_go_first(situation: &Situation<'_>, agent: AgentId) -> Vec<Subgoal> {
     plan::let_go(situation, agent).subgoals
 }

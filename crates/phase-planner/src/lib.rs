@@ -15,7 +15,9 @@
 //! way round:
 //!
 //! ```
-//! use phase_model::{AgentBody, Attitude, Body, EntitySet, Goal, Layout, Physique, Sign, State, Vec2};
+//! use phase_model::{
+//!     AgentBody, AgentId, Attitude, Body, BodySet, Goal, LandmarkId, Layout, Physique, Sign, State, Vec2,
+//! };
 //! use phase_planner::Planner;
 //!
 //! let layout = Layout::new(2, None)?;
@@ -24,10 +26,10 @@
 //!     Physique { walls: layout.walls(), agents: [body; 2], object_radii: [0.0; 2], object_count: 0 };
 //! let places = [Vec2::new(8.0, 18.0), Vec2::new(24.0, 8.0), Vec2::ZERO, Vec2::ZERO];
 //! let state = State::new(places.map(|place| Body::at_rest(place, 0.0)));
-//! let goals = [(0, 1), (1, 0)]
+//! let goals = [(AgentId::ZERO, LandmarkId::TOP_RIGHT), (AgentId::ONE, LandmarkId::TOP_LEFT)]
 //!     .map(|(agent, landmark)| Goal::AgentOnLandmark { agent, landmark, sign: Sign::Positive });
-//! let planner = Planner::new(physique, layout, 0, goals, Attitude::Neutral);
-//! let plan = planner.plan(&state, EntitySet::EMPTY);
+//! let planner = Planner::new(physique, layout, AgentId::ZERO, goals, Attitude::Neutral);
+//! let plan = planner.plan(&state, BodySet::EMPTY);
 //! let words: Vec<String> = plan.subgoals.iter().map(|subgoal| subgoal.to_string()).collect();
 //! assert_eq!(words[0], "Close(agent 0, landmark 3)"); // the next room on the way
 //! assert_eq!(words[3], "On(agent 0, landmark 1)");

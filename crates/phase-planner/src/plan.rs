@@ -4,7 +4,7 @@ use crate::{
     routes::{Route, Routes},
     situation::Situation,
 };
-use phase_model::{AGENT_COUNT, Entity, Literal, Place, Predicate, Subgoal, layout::room_of};
+use phase_model::{AGENT_COUNT, AgentId, Entity, Literal, Place, Predicate, Subgoal, layout::room_of};
 use phase_predicates::is_true;
 
 /// What an agent means to do, from one possible world.
@@ -29,8 +29,8 @@ impl Plan {
 }
 
 /// The plan of going to an entity to see it.
-pub(crate) fn visit(situation: &Situation<'_>, agent: usize, entity: Entity) -> Plan {
-    let me = Entity::agent(agent);
+pub(crate) fn visit(situation: &Situation<'_>, agent: AgentId, entity: Entity) -> Plan {
+    let me = Entity::Agent(agent);
     let (from, to) = (situation.state.position(me), situation.state.position(entity));
     let mut subgoals = Vec::new();
     let width = situation.width(agent, None);
@@ -40,7 +40,7 @@ pub(crate) fn visit(situation: &Situation<'_>, agent: usize, entity: Entity) -> 
     }
     subgoals.push(is(Predicate::Close(me, Place::Entity(entity))));
     // Near and yet unobserved, it is behind one's back: reaching for it means turning to it.
-    subgoals.push(is(Predicate::Touch(agent as u8, entity)));
+    subgoals.push(is(Predicate::Touch(agent, entity)));
     skip_done(situation, &mut subgoals);
     Plan { subgoals, distance: route.map_or(0.0, |route| route.cost()) }
 }
@@ -59,9 +59,9 @@ pub(crate) fn skip_done(situation: &Situation<'_>, subgoals: &mut Vec<Subgoal>) 
 
 /// The plan of letting go of whatever is in hand and then staying.
 #[must_use]
-pub(crate) fn let_go(situation: &Situation<'_>, agent: usize) -> Plan {
+pub(crate) fn let_go(situation: &Situation<'_>, agent: AgentId) -> Plan {
     situation.state.grips[agent].map_or(Plan::STAY, |grip| Plan {
-        subgoals: vec![not(Predicate::Attach(agent as u8, grip.object))],
+        subgoals: vec![not(Predicate::Attach(agent, grip.object))],
         distance: 0.0,
     })
 }
@@ -80,8 +80,8 @@ pub(crate) fn rooms(
     }
     let mut room = room_of(from);
     for &(slot, _) in route.doors() {
-        room = Routes::beyond(usize::from(slot), room);
-        subgoals.push(is(Predicate::Close(mover, Place::Landmark(room as u8))));
+        room = Routes::beyond(slot, room);
+        subgoals.push(is(Predicate::Close(mover, Place::Landmark(room.landmark()))));
     }
 }
 
@@ -99,6 +99,6 @@ pub(crate) const fn not(predicate: Predicate) -> Subgoal {
 
 /// The set of just one agent.
 #[must_use]
-pub(crate) fn only(agent: usize) -> [bool; AGENT_COUNT] {
-    core::array::from_fn(|who| who == agent)
+pub(crate) fn only(agent: AgentId) -> [bool; AGENT_COUNT] {
+    AgentId::ALL.map(|who| who == agent)
 }

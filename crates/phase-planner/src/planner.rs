@@ -10,7 +10,7 @@ use crate::{
     situation::Situation,
     task::{Node, Task},
 };
-use phase_model::{AGENT_COUNT, Attitude, Entity, EntitySet, Goal, Layout, Physique, Sign, State};
+use phase_model::{AGENT_COUNT, AgentId, Attitude, BodySet, Entity, Goal, Layout, Physique, Sign, State};
 use phase_predicates::achieved;
 
 /// What a helper's own travel counts for beside the helpee's: of two ways that are equally short it takes the
@@ -26,19 +26,19 @@ const HOPELESS: f32 = 60.0;
 pub struct Planner {
     physique: Physique,
     routes: Routes,
-    agent: usize,
+    agent: AgentId,
     goals: [Goal; AGENT_COUNT],
     attitude: Attitude,
 }
 
 impl Planner {
-    /// A planner for agent 0 or 1 with both agents' goals, which are common knowledge, and its own attitude
+    /// A planner for one agent with both agents' goals, which are common knowledge, and its own attitude
     /// towards the other.
     #[must_use]
     pub fn new(
         physique: Physique,
         layout: Layout,
-        agent: usize,
+        agent: AgentId,
         goals: [Goal; AGENT_COUNT],
         attitude: Attitude,
     ) -> Self {
@@ -54,10 +54,10 @@ impl Planner {
     /// HP(gᵢ, gⱼ, αᵢⱼ, b) of Algorithm 1: the agent's best plan if the world is in this state, of which it
     /// observes these entities.
     #[must_use]
-    pub fn plan(&self, state: &State, observed: EntitySet) -> Plan {
+    pub fn plan(&self, state: &State, observed: BodySet) -> Plan {
         let situation = Situation::new(&self.physique, &self.routes, state);
         let own = self.goals[self.agent];
-        let other = self.goals[1 - self.agent];
+        let other = self.goals[self.agent.other()];
         match self.attitude {
             Attitude::Help => self.help(&situation, other, observed),
             Attitude::Hinder => hindrance::plan(&situation, self.agent, other),
@@ -68,7 +68,7 @@ impl Planner {
 
     /// A neutral agent reaches for its own goal by its own means. Only when the other wants the very same, and
     /// it cannot do it alone, is the other counted on.
-    fn pursue(&self, situation: &Situation<'_>, own: Goal, other: Goal, observed: EntitySet) -> Plan {
+    fn pursue(&self, situation: &Situation<'_>, own: Goal, other: Goal, observed: BodySet) -> Plan {
         if let Some(plan) = self.finish(situation, own, observed) {
             return plan;
         }
@@ -90,7 +90,7 @@ impl Planner {
 
     /// The own part of the cheapest way in which both together reach a goal; the own travel counts for
     /// `own_effort` beside the other's. Who has no part in it gets out of the other's way.
-    fn cooperate(&self, situation: &Situation<'_>, goal: Goal, own_effort: f32, observed: EntitySet) -> Plan {
+    fn cooperate(&self, situation: &Situation<'_>, goal: Goal, own_effort: f32, observed: BodySet) -> Plan {
         let mut effort = [1.0; AGENT_COUNT];
         effort[self.agent] = own_effort;
         let actors = [true; AGENT_COUNT];
@@ -98,7 +98,7 @@ impl Planner {
         let plan = search::solve(&task, Node::start(situation))
             .map_or(Plan::STAY, |plan| express(&task, &plan, self.agent));
         // Not being needed is something to be seen.
-        let unseen = [goal.subject(), Entity::agent(1 - self.agent)];
+        let unseen = [goal.subject(), Entity::Agent(self.agent.other())];
         match unseen.into_iter().find(|&entity| !observed.contains(entity)) {
             Some(entity) if plan.subgoals.is_empty() => {
                 // Where one cannot go and look, the hope that all is well elsewhere must cost no less than that.
@@ -115,7 +115,7 @@ impl Planner {
 
     /// A helper looks for the cheapest way in which both together reach the other's goal, and does its own
     /// part of it; if the other does best alone, that part is nothing.
-    fn help(&self, situation: &Situation<'_>, goal: Goal, observed: EntitySet) -> Plan {
+    fn help(&self, situation: &Situation<'_>, goal: Goal, observed: BodySet) -> Plan {
         if goal.sign() == Sign::Negative {
             return self.help_to_avoid(situation, goal);
         }
@@ -143,7 +143,7 @@ impl Planner {
 
     /// What to do once the goal holds: let go of whatever is in hand, else nothing. An agent that believes an
     /// object to be where it should be without observing it goes and looks. `None` while the goal does not hold.
-    fn finish(&self, situation: &Situation<'_>, goal: Goal, observed: EntitySet) -> Option<Plan> {
+    fn finish(&self, situation: &Situation<'_>, goal: Goal, observed: BodySet) -> Option<Plan> {
         if !achieved(situation.physique, situation.state, goal) {
             return None;
         }

@@ -5,8 +5,8 @@
 
 use petgraph::graph::{NodeIndex, UnGraph};
 use phase_model::{
-    Layout, Vec2, arena,
-    layout::{Room, SLOT_DIRECTIONS, SLOT_ROOMS, room_of},
+    Layout, RoomId, SlotId, Vec2, arena,
+    layout::{SLOT_DIRECTIONS, SLOT_ROOMS, room_of},
 };
 
 /// Added to a route's cost for each door that is too narrow or blocked for the body (u): more than any way
@@ -25,7 +25,7 @@ pub struct Gaps(pub [Option<(f32, f32)>; 4]);
 impl Gaps {
     /// Width of the passage in a slot (u), 0 where there is none.
     #[must_use]
-    pub fn width(&self, slot: usize) -> f32 {
+    pub fn width(&self, slot: SlotId) -> f32 {
         self.0[slot].map_or(0.0, |(from, to)| to - from)
     }
 }
@@ -37,14 +37,14 @@ pub struct Route {
     pub length: f32,
     /// Number of doors on the way that the body does not fit through.
     pub impassable: u8,
-    doors: [(u8, Vec2); MAX_DOORS],
+    doors: [(SlotId, Vec2); MAX_DOORS],
     door_count: u8,
 }
 
 impl Route {
     /// The way between two points of a room.
     fn straight(from: Vec2, to: Vec2) -> Self {
-        let doors = [(0, Vec2::ZERO); MAX_DOORS];
+        let doors = [(SlotId::UP, Vec2::ZERO); MAX_DOORS];
         Self { length: from.distance(to), impassable: 0, doors, door_count: 0 }
     }
 
@@ -56,7 +56,7 @@ impl Route {
 
     /// The doors on the way, by slot, with the point at which each is crossed (u).
     #[must_use]
-    pub fn doors(&self) -> &[(u8, Vec2)] {
+    pub fn doors(&self) -> &[(SlotId, Vec2)] {
         &self.doors[..usize::from(self.door_count)]
     }
 
@@ -88,24 +88,24 @@ impl Route {
 #[derive(Clone, Debug)]
 pub struct Routes {
     gaps: Gaps,
-    sequences: [[Vec<Vec<u8>>; 4]; 4],
+    sequences: [[Vec<Vec<SlotId>>; 4]; 4],
 }
 
 impl Routes {
     /// Finds all simple paths of the room graph.
     #[must_use]
     pub fn new(layout: Layout) -> Self {
-        let gaps = Gaps(core::array::from_fn(|slot| {
+        let gaps = Gaps(SlotId::ALL.map(|slot| {
             layout.opening(slot).map(|opening| {
                 let along = |point: Vec2| (point - arena::CENTRE).dot(SLOT_DIRECTIONS[slot]);
                 (along(opening.a), along(opening.b))
             })
         }));
-        let mut graph = UnGraph::<(), u8>::with_capacity(4, 4);
+        let mut graph = UnGraph::<(), SlotId>::with_capacity(4, 4);
         let rooms: [NodeIndex; 4] = core::array::from_fn(|_| graph.add_node(()));
-        for (slot, &(a, b)) in SLOT_ROOMS.iter().enumerate() {
+        for (slot, (a, b)) in SlotId::ALL.into_iter().zip(SLOT_ROOMS) {
             if gaps.0[slot].is_some() {
-                graph.add_edge(rooms[a], rooms[b], slot as u8);
+                graph.add_edge(rooms[a], rooms[b], slot);
             }
         }
         let sequences = core::array::from_fn(|from| {
@@ -153,16 +153,16 @@ impl Routes {
 
     /// The room on the other side of a slot.
     #[must_use]
-    pub fn beyond(slot: usize, room: Room) -> Room {
+    pub fn beyond(slot: SlotId, room: RoomId) -> RoomId {
         let (a, b) = SLOT_ROOMS[slot];
         if a == room { b } else { a }
     }
 
     /// A length that no way through several doors falls short of (u), at little cost.
-    fn at_least(&self, sequence: &[u8], from: Vec2, to: Vec2) -> f32 {
-        let near = |slot: &u8, point: Vec2| {
-            let (low, high) = self.gaps.0[usize::from(*slot)].unwrap_or((0.0, 0.0));
-            let along = (point - arena::CENTRE).dot(SLOT_DIRECTIONS[usize::from(*slot)]);
+    fn at_least(&self, sequence: &[SlotId], from: Vec2, to: Vec2) -> f32 {
+        let near = |slot: &SlotId, point: Vec2| {
+            let (low, high) = self.gaps.0[*slot].unwrap_or((0.0, 0.0));
+            let along = (point - arena::CENTRE).dot(SLOT_DIRECTIONS[*slot]);
             point.distance(point_in(*slot, along.max(low).min(high)))
         };
         match sequence {
@@ -171,14 +171,14 @@ impl Routes {
         }
     }
 
-    fn along(&self, sequence: &[u8], from: Vec2, to: Vec2, width: f32, gaps: &Gaps) -> Route {
-        let mut doors = [(0, Vec2::ZERO); MAX_DOORS];
+    fn along(&self, sequence: &[SlotId], from: Vec2, to: Vec2, width: f32, gaps: &Gaps) -> Route {
+        let mut doors = [(SlotId::UP, Vec2::ZERO); MAX_DOORS];
         let mut ranges = [(0.0, 0.0); MAX_DOORS];
         let mut impassable = 0;
         for (k, &slot) in sequence.iter().enumerate().take(MAX_DOORS) {
-            let whole = self.gaps.0[usize::from(slot)].unwrap_or((0.0, 0.0));
-            let gap = gaps.0[usize::from(slot)].unwrap_or(whole);
-            if gaps.width(usize::from(slot)) < width {
+            let whole = self.gaps.0[slot].unwrap_or((0.0, 0.0));
+            let gap = gaps.0[slot].unwrap_or(whole);
+            if gaps.width(slot) < width {
                 impassable += 1;
             }
             let margin = (0.5 * width + CLEARANCE).min(0.5 * (gap.1 - gap.0));
@@ -214,8 +214,8 @@ impl Routes {
 }
 
 /// All sequences of doors from one room to another that visit no room twice.
-fn door_sequences(graph: &UnGraph<(), u8>, from: NodeIndex, to: NodeIndex) -> Vec<Vec<u8>> {
-    let mut sequences: Vec<Vec<u8>> = petgraph::algo::all_simple_paths::<
+fn door_sequences(graph: &UnGraph<(), SlotId>, from: NodeIndex, to: NodeIndex) -> Vec<Vec<SlotId>> {
+    let mut sequences: Vec<Vec<SlotId>> = petgraph::algo::all_simple_paths::<
         Vec<_>,
         _,
         std::collections::hash_map::RandomState,
@@ -231,14 +231,14 @@ fn door_sequences(graph: &UnGraph<(), u8>, from: NodeIndex, to: NodeIndex) -> Ve
 
 /// The point of a slot at a distance from the centre (u).
 #[must_use]
-pub fn point_in(slot: u8, distance: f32) -> Vec2 {
-    arena::CENTRE + SLOT_DIRECTIONS[usize::from(slot)] * distance
+pub fn point_in(slot: SlotId, distance: f32) -> Vec2 {
+    arena::CENTRE + SLOT_DIRECTIONS[slot] * distance
 }
 
 /// Where the line between two points crosses the line of a slot, as a distance from the centre (u); where it
 /// runs parallel to it, the mean of both.
-fn crossing(slot: u8, a: Vec2, b: Vec2) -> f32 {
-    let direction = SLOT_DIRECTIONS[usize::from(slot)];
+fn crossing(slot: SlotId, a: Vec2, b: Vec2) -> f32 {
+    let direction = SLOT_DIRECTIONS[slot];
     let (a, b) = (a - arena::CENTRE, b - arena::CENTRE);
     let (across_a, across_b) = (direction.perp_dot(a), direction.perp_dot(b));
     let (along_a, along_b) = (direction.dot(a), direction.dot(b));

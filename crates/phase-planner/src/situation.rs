@@ -2,8 +2,8 @@
 
 use crate::routes::{Gaps, Routes, point_in};
 use phase_model::{
-    AGENT_COUNT, Entity, MAX_OBJECTS, Physique, State, Vec2, arena, layout::SLOT_DIRECTIONS,
-    physique::GROUND_FRICTION,
+    AGENT_COUNT, AgentId, BodySet, Entity, LandmarkId, MAX_OBJECTS, ObjectId, Physique, RoomId, SlotId,
+    State, Vec2, arena, layout::SLOT_DIRECTIONS, physique::GROUND_FRICTION,
 };
 
 /// A place that can be named in a plan: where an entity is now, or a landmark's centre.
@@ -12,13 +12,13 @@ pub enum Spot {
     /// Where an entity is in the physical state that the plan starts from.
     Now(Entity),
     /// A landmark's centre.
-    Landmark(u8),
+    Landmark(LandmarkId),
     /// In a room, just inside the door in a slot.
     Inside {
         /// The slot of the door.
-        slot: u8,
+        slot: SlotId,
         /// The room.
-        room: u8,
+        room: RoomId,
     },
 }
 
@@ -34,7 +34,7 @@ pub struct Situation<'a> {
     pub routes: &'a Routes,
     /// The physical state.
     pub state: &'a State,
-    /// What is passable of each door for each agent while the objects in a mask (bit per object) are still
+    /// What is passable of each door for each agent while a set of objects, the bits of the index, are still
     /// where they are now.
     gaps: [[Gaps; 1 << MAX_OBJECTS]; AGENT_COUNT],
     /// Which objects, where they are now, keep somebody from a door.
@@ -45,16 +45,16 @@ impl<'a> Situation<'a> {
     /// Works out which doors the objects obstruct.
     #[must_use]
     pub fn new(physique: &'a Physique, routes: &'a Routes, state: &'a State) -> Self {
-        let gaps = core::array::from_fn(|agent| {
+        let gaps = AgentId::ALL.map(|agent| {
             core::array::from_fn(|mask| {
                 let mut gaps = *routes.gaps();
-                for object in physique.objects().filter(|object| mask & (1 << object) != 0) {
+                for object in physique.objects().filter(|object| mask & 1 << object.index() != 0) {
                     let radius = physique.object_radii[object];
                     // What is in hand is not put down before there is room to turn between it and the door.
-                    let in_hand = (0..AGENT_COUNT).any(|holder| state.holds(holder, object));
+                    let in_hand = AgentId::ALL.into_iter().any(|holder| state.holds(holder, object));
                     let own = physique.agents[agent];
                     let reach = radius + if in_hand { own.width() } else { own.radius };
-                    obstruct(&mut gaps, state.position(Entity::object(object)), radius, reach);
+                    obstruct(&mut gaps, state.position(Entity::Object(object)), radius, reach);
                 }
                 gaps
             })
@@ -62,7 +62,7 @@ impl<'a> Situation<'a> {
         let mut situation = Self { physique, routes, state, gaps, blockers: [false; MAX_OBJECTS] };
         for object in physique.objects() {
             situation.blockers[object] =
-                (0..AGENT_COUNT).any(|agent| situation.narrows_a_door(object, agent));
+                AgentId::ALL.into_iter().any(|agent| situation.narrows_a_door(object, agent));
         }
         situation
     }
@@ -70,8 +70,8 @@ impl<'a> Situation<'a> {
     /// Whether an object, where it is now, narrows some door too much for an agent that would fit through it
     /// otherwise.
     #[must_use]
-    pub const fn blocks_a_door(&self, object: usize) -> bool {
-        self.blockers[object]
+    pub const fn blocks_a_door(&self, object: ObjectId) -> bool {
+        self.blockers[object.index()]
     }
 
     /// Where a spot lies (u).
@@ -79,33 +79,34 @@ impl<'a> Situation<'a> {
     pub fn position(&self, spot: Spot) -> Vec2 {
         match spot {
             Spot::Now(entity) => self.state.position(entity),
-            Spot::Landmark(landmark) => arena::LANDMARKS[usize::from(landmark)],
+            Spot::Landmark(landmark) => arena::LANDMARKS[landmark],
             Spot::Inside { slot, room } => {
-                let (low, high) = self.routes.gaps().0[usize::from(slot)].unwrap_or_default();
+                let (low, high) = self.routes.gaps().0[slot].unwrap_or_default();
                 let middle = point_in(slot, 0.5 * (low + high));
-                let across = SLOT_DIRECTIONS[usize::from(slot)].perp();
-                let inwards = across.dot(arena::LANDMARKS[usize::from(room)] - middle).signum();
+                let across = SLOT_DIRECTIONS[slot].perp();
+                let inwards = across.dot(arena::LANDMARKS[room.landmark()] - middle).signum();
                 middle + across * inwards * INSIDE
             }
         }
     }
 
-    /// The doors as an agent finds them while the objects in `unmoved` are still where they are now.
+    /// The doors as an agent finds them while the objects in `unmoved` are still where they are now. Agents in the
+    /// set do not matter.
     #[must_use]
-    pub const fn gaps(&self, agent: usize, unmoved: usize) -> &Gaps {
-        &self.gaps[agent][unmoved]
+    pub const fn gaps(&self, agent: AgentId, unmoved: BodySet) -> &Gaps {
+        &self.gaps[agent.index()][object_bits(unmoved)]
     }
 
     /// Width of an agent, with an object in hand or not (u).
     #[must_use]
-    pub fn width(&self, agent: usize, held: Option<usize>) -> f32 {
+    pub fn width(&self, agent: AgentId, held: Option<ObjectId>) -> f32 {
         let own = self.physique.agents[agent].width();
         held.map_or(own, |object| own.max(2.0 * self.physique.object_radii[object]))
     }
 
     /// Distance between the centres of an agent and an object that touch (u).
     #[must_use]
-    pub fn arm(&self, agent: usize, object: u8) -> f32 {
+    pub fn arm(&self, agent: AgentId, object: ObjectId) -> f32 {
         self.physique.agents[agent].radius + self.physique.radius(Entity::Object(object))
     }
 
@@ -114,18 +115,24 @@ impl<'a> Situation<'a> {
     #[must_use]
     pub fn net_force(&self, holders: [bool; AGENT_COUNT]) -> f32 {
         let mut net = -GROUND_FRICTION;
-        for (agent, _) in holders.iter().enumerate().filter(|&(_, &holds)| holds) {
+        for agent in AgentId::ALL.into_iter().filter(|&agent| holders[agent]) {
             net += self.physique.agents[agent].max_force - GROUND_FRICTION;
         }
         net
     }
 }
 
+/// The objects of a set as bits from the lowest on.
+const fn object_bits(set: BodySet) -> usize {
+    (set.bits() >> AGENT_COUNT) as usize & ((1 << MAX_OBJECTS) - 1)
+}
+
 impl Situation<'_> {
-    fn narrows_a_door(&self, object: usize, agent: usize) -> bool {
+    fn narrows_a_door(&self, object: ObjectId, agent: AgentId) -> bool {
         let width = self.width(agent, None);
-        (0..4).any(|slot| {
-            self.routes.gaps().width(slot) >= width && self.gaps[agent][1 << object].width(slot) < width
+        SlotId::ALL.into_iter().any(|slot| {
+            let narrowed = self.gaps(agent, BodySet::from_iter([Entity::Object(object)]));
+            self.routes.gaps().width(slot) >= width && narrowed.width(slot) < width
         })
     }
 }
@@ -133,7 +140,7 @@ impl Situation<'_> {
 /// Takes a round obstacle out of every door that it lies in or before, leaving the wider remainder. An
 /// obstacle counts when the door's line is nearer to its centre than `reach` (u).
 pub fn obstruct(gaps: &mut Gaps, centre: Vec2, radius: f32, reach: f32) {
-    for (slot, direction) in SLOT_DIRECTIONS.iter().enumerate() {
+    for (slot, direction) in SlotId::ALL.into_iter().zip(SLOT_DIRECTIONS) {
         let offset = centre - arena::CENTRE;
         let (along, across) = (direction.dot(offset), direction.perp_dot(offset));
         if across.abs() >= reach {

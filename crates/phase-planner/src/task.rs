@@ -5,7 +5,7 @@ use crate::{
     situation::{Situation, Spot},
 };
 use phase_model::{
-    AGENT_COUNT, Entity, Goal, MAX_OBJECTS, arena,
+    AGENT_COUNT, AgentId, BodySet, Entity, Goal, LandmarkId, MAX_OBJECTS, ObjectId, RoomId, SlotId,
     layout::{SLOT_ROOMS, room_of},
 };
 
@@ -18,7 +18,7 @@ const GREATEST_SLOWNESS: f32 = 5.0;
 /// Net force at which carrying takes twice as long as walking (N).
 const SLOW_FORCE: f32 = 100.0;
 
-/// A symbolic state of the search: positions are spots, holds are by object number.
+/// A symbolic state of the search: positions are spots.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Node {
     /// Where each agent is.
@@ -26,7 +26,7 @@ pub struct Node {
     /// Where each object is; with its holders, if any.
     pub objects: [Spot; MAX_OBJECTS],
     /// What each agent holds.
-    pub holds: [Option<u8>; AGENT_COUNT],
+    pub holds: [Option<ObjectId>; AGENT_COUNT],
 }
 
 impl Node {
@@ -34,22 +34,24 @@ impl Node {
     #[must_use]
     pub fn start(situation: &Situation<'_>) -> Self {
         Self {
-            agents: core::array::from_fn(|agent| Spot::Now(Entity::agent(agent))),
-            objects: core::array::from_fn(|object| Spot::Now(Entity::object(object))),
+            agents: AgentId::ALL.map(|agent| Spot::Now(Entity::Agent(agent))),
+            objects: ObjectId::ALL.map(|object| Spot::Now(Entity::Object(object))),
             holds: situation.state.grips.map(|grip| grip.map(|grip| grip.object)),
         }
     }
 
-    /// Objects that have not been moved, as a bit mask.
-    fn unmoved(&self) -> usize {
-        (0..MAX_OBJECTS)
-            .filter(|&object| self.objects[object] == Spot::Now(Entity::object(object)))
-            .fold(0, |mask, object| mask | 1 << object)
+    /// Objects that have not been moved.
+    fn unmoved(&self) -> BodySet {
+        ObjectId::ALL
+            .into_iter()
+            .filter(|&object| self.objects[object] == Spot::Now(Entity::Object(object)))
+            .map(Entity::Object)
+            .collect()
     }
 
     /// Whether each agent holds an object.
     #[must_use]
-    pub fn holders(&self, object: u8) -> [bool; AGENT_COUNT] {
+    pub fn holders(&self, object: ObjectId) -> [bool; AGENT_COUNT] {
         self.holds.map(|held| held == Some(object))
     }
 }
@@ -60,55 +62,55 @@ pub enum Operator {
     /// Go to where an object is.
     Approach {
         /// Who.
-        agent: usize,
+        agent: AgentId,
         /// The object.
-        object: u8,
+        object: ObjectId,
     },
     /// Go to where the other agent is.
     Meet {
         /// Who.
-        agent: usize,
+        agent: AgentId,
     },
     /// Go to a landmark, hands free.
     Go {
         /// Who.
-        agent: usize,
+        agent: AgentId,
         /// The landmark.
-        landmark: u8,
+        landmark: LandmarkId,
     },
     /// Take hold of an object.
     Grab {
         /// Who.
-        agent: usize,
+        agent: AgentId,
         /// The object.
-        object: u8,
+        object: ObjectId,
     },
     /// Move a held object, and with it everyone who holds it, to a landmark.
     Carry {
         /// Who leads.
-        agent: usize,
+        agent: AgentId,
         /// The object.
-        object: u8,
+        object: ObjectId,
         /// Where to.
-        landmark: u8,
+        landmark: LandmarkId,
     },
     /// Bring an object to a door that one does not fit through oneself, push it through and let go.
     Pass {
         /// Who.
-        agent: usize,
+        agent: AgentId,
         /// The object.
-        object: u8,
+        object: ObjectId,
         /// The slot of the door.
-        slot: u8,
+        slot: SlotId,
         /// The room that the object comes to lie in.
-        room: u8,
+        room: RoomId,
     },
     /// Let go.
     Release {
         /// Who.
-        agent: usize,
+        agent: AgentId,
         /// The object.
-        object: u8,
+        object: ObjectId,
     },
 }
 
@@ -126,7 +128,7 @@ pub struct Task<'a> {
     /// Whether both agents pull the same way when both hold an object.
     pub allied: bool,
     /// Doors narrowed for one agent by something that is not an object, such as the other agent's body.
-    pub narrowed: Option<(usize, Gaps)>,
+    pub narrowed: Option<(AgentId, Gaps)>,
 }
 
 impl Task<'_> {
@@ -134,17 +136,13 @@ impl Task<'_> {
     #[must_use]
     pub fn is_done(&self, node: &Node) -> bool {
         let reached = match self.goal {
-            Goal::AgentOnLandmark { agent, landmark, .. } => {
-                node.agents[usize::from(agent)] == Spot::Landmark(landmark)
-            }
+            Goal::AgentOnLandmark { agent, landmark, .. } => node.agents[agent] == Spot::Landmark(landmark),
             Goal::ObjectOnLandmark { object, landmark, .. } => {
-                node.objects[usize::from(object)] == Spot::Landmark(landmark)
+                node.objects[object] == Spot::Landmark(landmark)
             }
-            Goal::Touch { agent, other, .. } => {
-                node.agents[usize::from(agent)] == node.agents[usize::from(other)]
-            }
+            Goal::Touch { agent, other, .. } => node.agents[agent] == node.agents[other],
         };
-        reached && (0..AGENT_COUNT).all(|agent| !self.actors[agent] || node.holds[agent].is_none())
+        reached && AgentId::ALL.into_iter().all(|agent| !self.actors[agent] || node.holds[agent].is_none())
     }
 
     /// An estimate of the cost still to come (u): the straight distance of what has to move, at the effort of the
@@ -155,14 +153,12 @@ impl Task<'_> {
             |from: Spot, to: Spot| self.situation.position(from).distance(self.situation.position(to));
         let straight = match self.goal {
             Goal::AgentOnLandmark { agent, landmark, .. } => {
-                distance(node.agents[usize::from(agent)], Spot::Landmark(landmark))
+                distance(node.agents[agent], Spot::Landmark(landmark))
             }
             Goal::ObjectOnLandmark { object, landmark, .. } => {
-                distance(node.objects[usize::from(object)], Spot::Landmark(landmark))
+                distance(node.objects[object], Spot::Landmark(landmark))
             }
-            Goal::Touch { agent, other, .. } => {
-                distance(node.agents[usize::from(agent)], node.agents[usize::from(other)])
-            }
+            Goal::Touch { agent, other, .. } => distance(node.agents[agent], node.agents[other]),
         };
         straight * self.effort[0].min(self.effort[1])
     }
@@ -193,7 +189,7 @@ impl Task<'_> {
     #[must_use]
     pub fn successors(&self, node: &Node) -> Vec<(Operator, Node, f32)> {
         let mut successors = Vec::with_capacity(12);
-        for agent in (0..AGENT_COUNT).filter(|&agent| self.actors[agent]) {
+        for agent in AgentId::ALL.into_iter().filter(|&agent| self.actors[agent]) {
             match node.holds[agent] {
                 Some(object) => self.with_full_hands(node, agent, object, &mut successors),
                 None => self.with_free_hands(node, agent, &mut successors),
@@ -206,39 +202,50 @@ impl Task<'_> {
     /// doors that somebody does not fit through. Whatever is held, all holders have to come along, so the
     /// longest way counts.
     #[must_use]
-    pub fn distance(&self, node: &Node, agent: usize, held: Option<u8>, to: Spot) -> f32 {
+    pub fn distance(&self, node: &Node, agent: AgentId, held: Option<ObjectId>, to: Spot) -> f32 {
         self.longest_way(node, agent, held, to, held)
     }
 
-    fn longest_way(&self, node: &Node, agent: usize, held: Option<u8>, to: Spot, ignored: Option<u8>) -> f32 {
+    fn longest_way(
+        &self,
+        node: &Node,
+        agent: AgentId,
+        held: Option<ObjectId>,
+        to: Spot,
+        ignored: Option<ObjectId>,
+    ) -> f32 {
         let situation = self.situation;
         let gaps = self.gaps(node, agent, ignored);
         let cost = |from: Spot, width: f32| {
             situation.routes.cost(situation.position(from), situation.position(to), width, &gaps)
         };
         let Some(object) = held else { return cost(node.agents[agent], situation.width(agent, None)) };
-        let radius = |who: usize| situation.physique.agents[who].radius;
-        let diameter = 2.0 * situation.physique.object_radii[usize::from(object)];
+        let radius = |who: AgentId| situation.physique.agents[who].radius;
+        let diameter = 2.0 * situation.physique.object_radii[object];
         let holders = node.holders(object);
         // Two carriers are not in line with each other, so they take more room than the wider of them.
-        let extra = if holders == [true; AGENT_COUNT] { radius(0).min(radius(1)) } else { 0.0 };
-        (0..AGENT_COUNT)
+        let extra = if holders == [true; AGENT_COUNT] {
+            radius(AgentId::ZERO).min(radius(AgentId::ONE))
+        } else {
+            0.0
+        };
+        AgentId::ALL
+            .into_iter()
             .filter(|&holder| holders[holder] || holder == agent)
             .map(|holder| {
                 // Where the load comes to lie its holder is still an arm's length away.
                 let way = cost(node.agents[holder], situation.width(holder, None) + extra);
                 way - situation.arm(holder, object)
             })
-            .fold(cost(node.objects[usize::from(object)], diameter), f32::max)
+            .fold(cost(node.objects[object], diameter), f32::max)
     }
 
-    fn with_free_hands(&self, node: &Node, agent: usize, successors: &mut Vec<(Operator, Node, f32)>) {
+    fn with_free_hands(&self, node: &Node, agent: AgentId, successors: &mut Vec<(Operator, Node, f32)>) {
         for object in self.situation.physique.objects() {
             if !self.matters(object) {
                 continue;
             }
             let spot = node.objects[object];
-            let object = object as u8;
             let mut after = *node;
             if node.agents[agent] == spot {
                 after.holds[agent] = Some(object);
@@ -252,7 +259,7 @@ impl Task<'_> {
             }
         }
         match self.goal {
-            Goal::AgentOnLandmark { agent: who, landmark, .. } if usize::from(who) == agent => {
+            Goal::AgentOnLandmark { agent: who, landmark, .. } if who == agent => {
                 let spot = Spot::Landmark(landmark);
                 let mut after = *node;
                 after.agents[agent] = spot;
@@ -260,7 +267,7 @@ impl Task<'_> {
                 successors.push((Operator::Go { agent, landmark }, after, cost));
             }
             Goal::Touch { .. } => {
-                let spot = node.agents[1 - agent];
+                let spot = node.agents[agent.other()];
                 let mut after = *node;
                 after.agents[agent] = spot;
                 let cost = self.travel_cost(node, agent, None, spot, None);
@@ -273,21 +280,21 @@ impl Task<'_> {
     fn with_full_hands(
         &self,
         node: &Node,
-        agent: usize,
-        object: u8,
+        agent: AgentId,
+        object: ObjectId,
         successors: &mut Vec<(Operator, Node, f32)>,
     ) {
         let mut after = *node;
         after.holds[agent] = None;
         successors.push((Operator::Release { agent, object }, after, HANDLING_COST));
-        for landmark in 0..arena::LANDMARKS.len() as u8 {
+        for landmark in LandmarkId::ALL {
             let spot = Spot::Landmark(landmark);
-            if node.objects[usize::from(object)] == spot || !self.may_drop(object, landmark) {
+            if node.objects[object] == spot || !self.may_drop(object, landmark) {
                 continue;
             }
             let mut after = *node;
-            after.objects[usize::from(object)] = spot;
-            for holder in (0..AGENT_COUNT).filter(|&holder| node.holds[holder] == Some(object)) {
+            after.objects[object] = spot;
+            for holder in AgentId::ALL.into_iter().filter(|&holder| node.holds[holder] == Some(object)) {
                 after.agents[holder] = spot;
             }
             let cost = self.carrying_cost(node, agent, object, spot);
@@ -299,37 +306,41 @@ impl Task<'_> {
     }
 
     /// Handing an object over through each door that it fits through and its holder does not.
-    fn passing(&self, node: &Node, agent: usize, object: u8, successors: &mut Vec<(Operator, Node, f32)>) {
+    fn passing(
+        &self,
+        node: &Node,
+        agent: AgentId,
+        object: ObjectId,
+        successors: &mut Vec<(Operator, Node, f32)>,
+    ) {
         let own = self.situation.width(agent, None);
-        let diameter = 2.0 * self.situation.physique.object_radii[usize::from(object)];
-        for (slot, (a, b)) in SLOT_ROOMS.into_iter().enumerate() {
+        let diameter = 2.0 * self.situation.physique.object_radii[object];
+        for (slot, (a, b)) in SlotId::ALL.into_iter().zip(SLOT_ROOMS) {
             let gap = self.situation.routes.gaps().width(slot);
             if gap < diameter || gap >= own {
                 continue;
             }
-            let here = room_of(self.situation.position(node.objects[usize::from(object)]));
+            let here = room_of(self.situation.position(node.objects[object]));
             for (near, beyond) in [(a, b), (b, a)] {
                 // What lies beyond the door already is only to be let go of.
                 if here == beyond {
                     continue;
                 }
-                let slot = slot as u8;
-                let before = Spot::Inside { slot, room: near as u8 };
-                let passed = Spot::Inside { slot, room: beyond as u8 };
+                let before = Spot::Inside { slot, room: near };
+                let passed = Spot::Inside { slot, room: beyond };
                 let mut after = *node;
                 after.agents[agent] = before;
-                after.objects[usize::from(object)] = passed;
+                after.objects[object] = passed;
                 after.holds[agent] = None;
                 let cost = self.carrying_cost(node, agent, object, before) + 2.0 * HANDLING_COST;
-                let room = beyond as u8;
-                successors.push((Operator::Pass { agent, object, slot, room }, after, cost));
+                successors.push((Operator::Pass { agent, object, slot, room: beyond }, after, cost));
             }
         }
     }
 
     /// The object of the goal is carried to where it belongs, or, when both agents act, anywhere to be handed
     /// over; an object in the way is carried out of the way.
-    fn may_drop(&self, object: u8, landmark: u8) -> bool {
+    fn may_drop(&self, object: ObjectId, landmark: LandmarkId) -> bool {
         match self.goal {
             Goal::ObjectOnLandmark { object: wanted, landmark: goal, .. } if wanted == object => {
                 landmark == goal || self.actors == [true; AGENT_COUNT]
@@ -339,11 +350,11 @@ impl Task<'_> {
     }
 
     /// Objects worth touching: the goal's own, those that block a door for somebody, and those in hand.
-    fn matters(&self, object: usize) -> bool {
-        self.goal.subject() == Entity::object(object) || self.situation.blocks_a_door(object)
+    fn matters(&self, object: ObjectId) -> bool {
+        self.goal.subject() == Entity::Object(object) || self.situation.blocks_a_door(object)
     }
 
-    fn carrying_cost(&self, node: &Node, agent: usize, object: u8, to: Spot) -> f32 {
+    fn carrying_cost(&self, node: &Node, agent: AgentId, object: ObjectId, to: Spot) -> f32 {
         let holders = node.holders(object);
         let net = if self.allied || holders != [true; AGENT_COUNT] {
             self.situation.net_force(holders)
@@ -351,7 +362,7 @@ impl Task<'_> {
             // The other pulls the other way.
             let mut alone = [false; AGENT_COUNT];
             alone[agent] = true;
-            self.situation.net_force(alone) - self.situation.physique.agents[1 - agent].max_force
+            self.situation.net_force(alone) - self.situation.physique.agents[agent.other()].max_force
         };
         let slowness =
             if net > 0.0 { (1.0 + SLOW_FORCE / net).min(GREATEST_SLOWNESS) } else { GREATEST_SLOWNESS };
@@ -359,22 +370,29 @@ impl Task<'_> {
         travel * slowness + if net > 0.0 { 0.0 } else { IMMOVABLE_COST }
     }
 
-    fn travel_cost(&self, node: &Node, agent: usize, held: Option<u8>, to: Spot, ignored: Option<u8>) -> f32 {
+    fn travel_cost(
+        &self,
+        node: &Node,
+        agent: AgentId,
+        held: Option<ObjectId>,
+        to: Spot,
+        ignored: Option<ObjectId>,
+    ) -> f32 {
         let cost = self.effort[agent] * self.longest_way(node, agent, held, to, ignored);
         if held.is_none() && self.is_behind_a_blocker(node, agent) { cost + IMPASSABLE_COST } else { cost }
     }
 
     /// Whether an agent stands at an object that still blocks a door. It may be on either side of it, so
     /// walking on as if past it would be a way through the blocked door.
-    fn is_behind_a_blocker(&self, node: &Node, agent: usize) -> bool {
+    fn is_behind_a_blocker(&self, node: &Node, agent: AgentId) -> bool {
         self.situation.physique.objects().any(|object| {
-            let spot = Spot::Now(Entity::object(object));
+            let spot = Spot::Now(Entity::Object(object));
             self.situation.blocks_a_door(object) && node.agents[agent] == spot && node.objects[object] == spot
         })
     }
 
     /// The doors as an agent finds them in a symbolic state; an object it holds or heads for is no obstacle.
-    pub(crate) fn gaps(&self, node: &Node, agent: usize, ignored: Option<u8>) -> Gaps {
+    pub(crate) fn gaps(&self, node: &Node, agent: AgentId, ignored: Option<ObjectId>) -> Gaps {
         if let Some((narrowed, gaps)) = self.narrowed
             && narrowed == agent
         {
@@ -382,7 +400,7 @@ impl Task<'_> {
         }
         let mut unmoved = node.unmoved();
         for object in ignored.into_iter().chain(node.holds[agent]) {
-            unmoved &= !(1 << object);
+            unmoved.remove(Entity::Object(object));
         }
         *self.situation.gaps(agent, unmoved)
     }

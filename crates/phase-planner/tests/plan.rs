@@ -2,7 +2,7 @@
 
 mod support;
 
-use phase_model::{Attitude, Size::*, Strength::*, Subgoal, Vec2};
+use phase_model::{AgentId, Attitude, LandmarkId, Size::*, Strength::*, Subgoal, Vec2};
 use phase_planner::{Routes, aside};
 use support::{Setup, agent_on, approach, everything, layout, object_on};
 
@@ -80,7 +80,7 @@ fn one_does_not_take_an_unseen_success_on_trust() {
     let believed = Setup {
         objects: vec![(Small, Vec2::new(23.0, 5.0))],
         goals: [object_on(0, 2), agent_on(1, 0)],
-        observed: [phase_model::Entity::Agent(0)].into_iter().collect(),
+        observed: [phase_model::Entity::Agent(AgentId::ZERO)].into_iter().collect(),
         ..plain()
     };
     assert_eq!(believed.words(0), ["Close(agent 0, object 0)", "Touch(agent 0, object 0)"]);
@@ -230,7 +230,8 @@ fn one_steps_beside_the_others_way() {
         ..plain()
     };
     let (physique, routes, state) = (setup.physique(), Routes::new(setup.layout), setup.state());
-    let found = aside::intrusion(&physique, &routes, &state, 0, 0).expect("in the way");
+    let found = aside::intrusion(&physique, &routes, &state, AgentId::ZERO, LandmarkId::TOP_LEFT)
+        .expect("in the way");
     // The other goes straight up at x = 8.5; both are 2.4 u wide.
     assert!((found.nearest.x - 8.5).abs() < 1e-3 && found.nearest.distance(Vec2::new(9.0, 12.0)) < 0.6);
     assert!(found.place.x > 8.5 + 2.4, "to the side it is on: {found:?}");
@@ -298,8 +299,16 @@ fn hinderers_hinder() {
             Setup {
                 agents: [(Small, Strong, Vec2::new(12.0, 8.0)), (Small, Strong, Vec2::new(8.0, 8.0))],
                 goals: [
-                    phase_model::Goal::Touch { agent: 1, other: 0, sign: phase_model::Sign::Negative },
-                    phase_model::Goal::Touch { agent: 1, other: 0, sign: phase_model::Sign::Positive },
+                    phase_model::Goal::Touch {
+                        agent: AgentId::ONE,
+                        other: AgentId::ZERO,
+                        sign: phase_model::Sign::Negative,
+                    },
+                    phase_model::Goal::Touch {
+                        agent: AgentId::ONE,
+                        other: AgentId::ZERO,
+                        sign: phase_model::Sign::Positive,
+                    },
                 ],
                 ..plain()
             },

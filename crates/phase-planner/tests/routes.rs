@@ -1,6 +1,6 @@
 //! Ways through doors against lengths worked out by hand.
 
-use phase_model::{Layout, Vec2};
+use phase_model::{Layout, SlotId, Vec2};
 use phase_planner::{Routes, routes::IMPASSABLE_COST, situation::obstruct};
 use proptest::prelude::*;
 
@@ -44,8 +44,8 @@ fn the_shorter_way_round_is_taken() {
     // rooms 2 and 3.
     let routes = Routes::new(Layout::new(2, None).unwrap());
     let route = routes.best(Vec2::new(18.0, 20.0), Vec2::new(14.0, 20.0), 2.4, routes.gaps()).unwrap();
-    let slots: Vec<u8> = route.doors().iter().map(|&(slot, _)| slot).collect();
-    assert_eq!(slots, [3, 2, 1]);
+    let slots: Vec<SlotId> = route.doors().iter().map(|&(slot, _)| slot).collect();
+    assert_eq!(slots, [SlotId::RIGHT, SlotId::DOWN, SlotId::LEFT]);
 }
 
 #[test]

@@ -1,10 +1,13 @@
 //! V(B, h, g) by hand.
 
-use phase_model::{Entity, Literal, Predicate, Subgoal};
+use phase_model::{AgentId, Entity, LandmarkId, Literal, Predicate, Subgoal};
 use phase_planner::{Plan, value::candidates};
 
 fn plan(landmark: u8, distance: f32) -> Plan {
-    let subgoal = Subgoal::Achieve(Literal::is(Predicate::On(Entity::Agent(0), landmark)));
+    let subgoal = Subgoal::Achieve(Literal::is(Predicate::On(
+        Entity::Agent(AgentId::ZERO),
+        LandmarkId::ALL[usize::from(landmark)],
+    )));
     Plan { subgoals: vec![subgoal], distance }
 }
 
@@ -17,7 +20,10 @@ fn value_is_share_minus_weighted_mean_cost() {
         [(0.05, 1, 0.25 - 0.05 * 4.0, 0.75 - 0.05 * 20.0), (0.0, 0, 0.75, 0.25)]
     {
         let found = candidates(&plans, lambda);
-        let expected = Subgoal::Achieve(Literal::is(Predicate::On(Entity::Agent(0), first)));
+        let expected = Subgoal::Achieve(Literal::is(Predicate::On(
+            Entity::Agent(AgentId::ZERO),
+            LandmarkId::ALL[first],
+        )));
         assert_eq!(found[0].subgoal, expected);
         assert!((found[0].value - value).abs() < 1e-9);
         assert!((found[1].value - other).abs() < 1e-9);

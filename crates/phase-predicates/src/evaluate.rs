@@ -3,7 +3,7 @@
 use crate::threshold;
 use phase_model::{Entity, Goal, Literal, Physique, Place, Predicate, State, arena, layout};
 
-/// Whether a predicate holds. Numbers that name nothing in the scene make it false.
+/// Whether a predicate holds. Objects that the scene does not have make it false.
 #[must_use]
 pub fn holds(physique: &Physique, state: &State, predicate: Predicate) -> bool {
     let present = |entity: Entity| entity.index() < physique.entity_count();
@@ -13,20 +13,15 @@ pub fn holds(physique: &Physique, state: &State, predicate: Predicate) -> bool {
                 Entity::Agent(_) => threshold::ON_AGENT,
                 Entity::Object(_) => threshold::ON_OBJECT,
             };
-            present(entity)
-                && arena::LANDMARKS
-                    .get(usize::from(landmark))
-                    .is_some_and(|&centre| state.position(entity).distance(centre) < limit)
+            present(entity) && state.position(entity).distance(arena::LANDMARKS[landmark]) < limit
         }
         Predicate::Touch(agent, entity) => {
             let agent = Entity::Agent(agent);
             present(agent) && present(entity) && state.touching(agent, entity)
         }
-        Predicate::Attach(agent, object) => {
-            present(Entity::Agent(agent)) && state.holds(usize::from(agent), usize::from(object))
-        }
+        Predicate::Attach(agent, object) => present(Entity::Agent(agent)) && state.holds(agent, object),
         Predicate::Close(entity, Place::Landmark(landmark)) => {
-            present(entity) && layout::room_of(state.position(entity)) == usize::from(landmark)
+            present(entity) && layout::room_of(state.position(entity)) == landmark.room()
         }
         Predicate::Close(entity, Place::Entity(other)) => {
             present(entity)

@@ -5,21 +5,23 @@
 //! [`Literal`](phase_model::Literal)s: predicates or their negations.
 //! ```
 //! use phase_model::{
-//!     AgentBody, Body, Entity, Goal, Literal, Physique, Place, Predicate, Sign, State, Vec2, arena,
+//!     AgentBody, AgentId, Body, Entity, Goal, LandmarkId, Literal, Physique, Place, Predicate, Sign, State, Vec2,
+//!     arena,
 //! };
 //! use phase_predicates::{SymbolicState, achieved};
 //!
 //! let body = AgentBody { radius: 0.8, max_force: 450.0 };
 //! let physique = Physique { walls: Vec::new(), agents: [body; 2], object_radii: [0.0; 2], object_count: 0 };
-//! let places = [arena::LANDMARKS[2], Vec2::new(8.0, 18.0), Vec2::ZERO, Vec2::ZERO];
+//! let (agent, landmark) = (AgentId::ZERO, LandmarkId::BOTTOM_RIGHT);
+//! let places = [arena::LANDMARKS[landmark], Vec2::new(8.0, 18.0), Vec2::ZERO, Vec2::ZERO];
 //! let state = State::new(places.map(|place| Body::at_rest(place, 0.0)));
 //!
-//! let goal = Goal::AgentOnLandmark { agent: 0, landmark: 2, sign: Sign::Positive };
+//! let goal = Goal::AgentOnLandmark { agent, landmark, sign: Sign::Positive };
 //! assert!(achieved(&physique, &state, goal));
 //! assert_eq!(Literal::from(goal).to_string(), "On(agent 0, landmark 2)");
 //! let symbolic = SymbolicState::of(&physique, &state);
-//! assert!(symbolic.holds(Predicate::Close(Entity::agent(0), Place::Landmark(2))));
-//! assert!(!symbolic.holds(Predicate::Touch(0, Entity::agent(1))));
+//! assert!(symbolic.holds(Predicate::Close(Entity::Agent(agent), Place::Landmark(landmark))));
+//! assert!(!symbolic.holds(Predicate::Touch(agent, Entity::Agent(agent.other()))));
 //! ```
 //!
 //! The key design decision is that *Close to a landmark* means *in the landmark's room*. The paper says "within

@@ -1,7 +1,8 @@
 //! Every predicate just below and just above its threshold.
 
 use phase_model::{
-    AgentBody, Body, Entity, Goal, Grip, Literal, Physique, Place, Predicate, Side, Sign, State, Vec2, arena,
+    AgentBody, AgentId, Body, Entity, Goal, Grip, LandmarkId, Literal, ObjectId, Physique, Place, Predicate,
+    Side, Sign, State, Vec2, arena,
 };
 use phase_predicates::{SymbolicState, achieved, holds, threshold};
 
@@ -30,20 +31,20 @@ const APART: [Vec2; 3] = [Vec2::new(15.0, 13.0), Vec2::new(17.5, 6.0), Vec2::new
 fn on() {
     let centre = arena::LANDMARKS[2];
     for (index, entity, limit) in [
-        (0, Entity::Agent(0), threshold::ON_AGENT),
-        (1, Entity::Agent(1), threshold::ON_AGENT),
-        (2, Entity::Object(0), threshold::ON_OBJECT),
+        (0, Entity::Agent(AgentId::ZERO), threshold::ON_AGENT),
+        (1, Entity::Agent(AgentId::ONE), threshold::ON_AGENT),
+        (2, Entity::Object(ObjectId::ZERO), threshold::ON_OBJECT),
     ] {
         for (distance, expected) in [(0.0, true), (limit - 0.01, true), (limit + 0.01, false), (5.0, false)] {
             let mut positions = APART;
             positions[index] = centre + Vec2::from_angle(1.0) * distance;
             let state = state(positions);
             assert_eq!(
-                holds(&physique(), &state, Predicate::On(entity, 2)),
+                holds(&physique(), &state, Predicate::On(entity, LandmarkId::BOTTOM_RIGHT)),
                 expected,
                 "{entity:?} {distance}"
             );
-            assert!(!holds(&physique(), &state, Predicate::On(entity, 0)));
+            assert!(!holds(&physique(), &state, Predicate::On(entity, LandmarkId::TOP_LEFT)));
         }
     }
 }
@@ -54,7 +55,7 @@ fn close() {
     for (distance, expected) in [(2.5, true), (3.89, true), (3.91, false)] {
         let mut positions = APART;
         positions[2] = positions[0] + Vec2::new(distance, 0.0);
-        let (agent, object) = (Entity::Agent(0), Entity::Object(0));
+        let (agent, object) = (Entity::Agent(AgentId::ZERO), Entity::Object(ObjectId::ZERO));
         for predicate in
             [Predicate::Close(agent, Place::Entity(object)), Predicate::Close(object, Place::Entity(agent))]
         {
@@ -69,7 +70,8 @@ fn close() {
     ] {
         let state = state([position, APART[1], APART[2]]);
         for landmark in 0..4 {
-            let predicate = Predicate::Close(Entity::Agent(0), Place::Landmark(landmark));
+            let predicate =
+                Predicate::Close(Entity::Agent(AgentId::ZERO), Place::Landmark(LandmarkId::ALL[landmark]));
             assert_eq!(holds(&physique(), &state, predicate), landmark == room);
         }
     }
@@ -79,28 +81,27 @@ fn close() {
 fn touch_and_attach() {
     let mut state = state(APART);
     let touch = |who, what| Predicate::Touch(who, what);
-    assert!(!holds(&physique(), &state, touch(0, Entity::Agent(1))));
-    state.contacts.insert(Entity::Agent(1), Entity::Agent(0));
-    assert!(holds(&physique(), &state, touch(0, Entity::Agent(1))));
-    assert!(holds(&physique(), &state, touch(1, Entity::Agent(0))));
-    assert!(!holds(&physique(), &state, touch(0, Entity::Object(0))));
-    state.grips[1] = Some(Grip { object: 0, side: Side::Tail, relative_angle: 0.0 });
-    assert!(holds(&physique(), &state, Predicate::Attach(1, 0)));
-    assert!(!holds(&physique(), &state, Predicate::Attach(0, 0)));
+    assert!(!holds(&physique(), &state, touch(AgentId::ZERO, Entity::Agent(AgentId::ONE))));
+    state.contacts.insert(Entity::Agent(AgentId::ONE), Entity::Agent(AgentId::ZERO));
+    assert!(holds(&physique(), &state, touch(AgentId::ZERO, Entity::Agent(AgentId::ONE))));
+    assert!(holds(&physique(), &state, touch(AgentId::ONE, Entity::Agent(AgentId::ZERO))));
+    assert!(!holds(&physique(), &state, touch(AgentId::ZERO, Entity::Object(ObjectId::ZERO))));
+    state.grips[1] = Some(Grip { object: ObjectId::ZERO, side: Side::Tail, relative_angle: 0.0 });
+    assert!(holds(&physique(), &state, Predicate::Attach(AgentId::ONE, ObjectId::ZERO)));
+    assert!(!holds(&physique(), &state, Predicate::Attach(AgentId::ZERO, ObjectId::ZERO)));
     // What is attached is felt.
-    assert!(holds(&physique(), &state, touch(1, Entity::Object(0))));
+    assert!(holds(&physique(), &state, touch(AgentId::ONE, Entity::Object(ObjectId::ZERO))));
 }
 
 #[test]
 fn the_absent_satisfies_nothing() {
     let state = state(APART);
-    let absent = Entity::Object(1);
+    let absent = Entity::Object(ObjectId::ONE);
     for predicate in [
-        Predicate::On(absent, 0),
-        Predicate::On(Entity::Agent(0), 9),
-        Predicate::Touch(0, absent),
-        Predicate::Close(absent, Place::Landmark(3)),
-        Predicate::Close(Entity::Agent(0), Place::Entity(absent)),
+        Predicate::On(absent, LandmarkId::TOP_LEFT),
+        Predicate::Touch(AgentId::ZERO, absent),
+        Predicate::Close(absent, Place::Landmark(LandmarkId::BOTTOM_LEFT)),
+        Predicate::Close(Entity::Agent(AgentId::ZERO), Place::Entity(absent)),
     ] {
         assert!(!holds(&physique(), &state, predicate), "{predicate}");
     }
@@ -108,7 +109,11 @@ fn the_absent_satisfies_nothing() {
 
 #[test]
 fn goals_are_literals() {
-    let goal = Goal::AgentOnLandmark { agent: 0, landmark: 2, sign: Sign::Positive };
+    let goal = Goal::AgentOnLandmark {
+        agent: AgentId::ZERO,
+        landmark: LandmarkId::BOTTOM_RIGHT,
+        sign: Sign::Positive,
+    };
     let on = state([arena::LANDMARKS[2], APART[1], APART[2]]);
     assert!(achieved(&physique(), &on, goal) && !achieved(&physique(), &on, goal.negated()));
     assert!(
@@ -120,8 +125,8 @@ fn goals_are_literals() {
 #[test]
 fn symbolic_states_hold_exactly_what_is_true() {
     let mut physical = state([arena::LANDMARKS[0], Vec2::new(9.5, 17.0), APART[2]]);
-    physical.grips[0] = Some(Grip { object: 0, side: Side::Head, relative_angle: 0.0 });
-    physical.contacts.insert(Entity::Agent(0), Entity::Agent(1));
+    physical.grips[0] = Some(Grip { object: ObjectId::ZERO, side: Side::Head, relative_angle: 0.0 });
+    physical.contacts.insert(Entity::Agent(AgentId::ZERO), Entity::Agent(AgentId::ONE));
     let symbolic = SymbolicState::of(&physique(), &physical);
     let mut count = 0;
     for predicate in SymbolicState::predicates() {

@@ -3,7 +3,7 @@
 //! With a directory as argument it leaves `plain.mp4`, `belief.mp4`, `plain.png`, `belief.png` and
 //! `sheet.png` there, to look at.
 
-use phase_model::{AgentBody, Body, Grip, Layout, Physique, Side, State, Vec2, arena};
+use phase_model::{AgentBody, AgentId, Body, Grip, Layout, ObjectId, Physique, Side, State, Vec2, arena};
 use phase_perception::{Cell, CellSet};
 use phase_render::{Frame, Overlay, Stage, Style, VideoEncoder, contact_sheet};
 use std::{error::Error, f32::consts::PI, path::Path, time::Instant};
@@ -30,7 +30,8 @@ fn main() -> Result<(), Box<dyn Error>> {
             format!("V = {:+.3} ({} of 400 cells seen)", 0.9 - k as f32 / 1000.0, visible.len()).into(),
         ];
         let particles: Vec<State> = (0..50).map(|particle| guess(&state, particle)).collect();
-        let overlay = Overlay { agent: 0, visible: &visible, particles: &particles, captions: &captions };
+        let overlay =
+            Overlay { agent: AgentId::ZERO, visible: &visible, particles: &particles, captions: &captions };
         stage.frame(&state, Some(&overlay))
     })?;
 
@@ -87,7 +88,7 @@ fn event(frame: usize) -> State {
     if frame >= 250 {
         let heading = state.bodies[0].forward();
         state.bodies[3].position = state.bodies[0].position + heading * (1.01 + 1.2);
-        state.grips[0] = Some(Grip { object: 1, side: Side::Head, relative_angle: 0.0 });
+        state.grips[0] = Some(Grip { object: ObjectId::ONE, side: Side::Head, relative_angle: 0.0 });
     }
     state
 }

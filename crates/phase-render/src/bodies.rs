@@ -1,7 +1,7 @@
 //! Agents and objects, solid or as a faint belief.
 
 use crate::{Palette, painter::Painter};
-use phase_model::{AGENT_COUNT, Body, Entity, MAX_OBJECTS, Physique, State, Vec2, geometry};
+use phase_model::{AgentId, Body, Entity, Physique, State, Vec2, geometry};
 
 /// Width of the outline of a body, all of it inside the body's shape (u).
 const OUTLINE: f32 = 0.09;
@@ -19,7 +19,7 @@ const PUPIL_RADIUS: f32 = 0.224;
 
 /// The entities of a physique in the order in which they are drawn, at most what a state can hold.
 pub(crate) fn entities(physique: &Physique) -> impl Iterator<Item = Entity> + use<> {
-    (0..AGENT_COUNT + physique.object_count.min(MAX_OBJECTS)).map(Entity::from_index)
+    physique.entities()
 }
 
 /// Draws all bodies of a state: agents, objects on top, and a mark at each grip.
@@ -27,15 +27,15 @@ pub(crate) fn draw(painter: &mut Painter, palette: &Palette, physique: &Physique
     for entity in entities(physique) {
         let (body, radius) = (state.body(entity), physique.radius(entity));
         match entity {
-            Entity::Agent(agent) => draw_agent(painter, palette, usize::from(agent), radius, body),
+            Entity::Agent(agent) => draw_agent(painter, palette, agent, radius, body),
             Entity::Object(object) => {
-                let colour = palette.objects[usize::from(object)];
+                let colour = palette.objects[object];
                 painter.disc(body.position, radius, palette.outline, 255);
                 painter.disc(body.position, radius - OUTLINE, colour, 255);
             }
         }
     }
-    for agent in 0..AGENT_COUNT {
+    for agent in AgentId::ALL {
         draw_grip(painter, palette, physique, state, agent);
     }
 }
@@ -51,20 +51,20 @@ pub(crate) fn draw_believed(
     let radius = physique.radius(entity);
     match entity {
         Entity::Agent(agent) => {
-            let colour = palette.agents[usize::from(agent)];
+            let colour = palette.agents[agent];
             let (outer, inner) = (corners(body, radius, 0.0), corners(body, radius, OUTLINE));
             painter.polygon(&inner, colour, BELIEF_FILL);
             painter.frame(&outer, &inner, colour, BELIEF_EDGE);
         }
         Entity::Object(object) => {
-            let colour = palette.objects[usize::from(object)];
+            let colour = palette.objects[object];
             painter.disc(body.position, radius - OUTLINE, colour, BELIEF_FILL);
             painter.ring(body.position, radius, radius - OUTLINE, colour, BELIEF_EDGE);
         }
     }
 }
 
-fn draw_agent(painter: &mut Painter, palette: &Palette, agent: usize, radius: f32, body: &Body) {
+fn draw_agent(painter: &mut Painter, palette: &Palette, agent: AgentId, radius: f32, body: &Body) {
     painter.polygon(&corners(body, radius, 0.0), palette.outline, 255);
     painter.polygon(&corners(body, radius, OUTLINE), palette.agents[agent], 255);
     let place = placement(body, radius);
@@ -76,13 +76,13 @@ fn draw_agent(painter: &mut Painter, palette: &Palette, agent: usize, radius: f3
 }
 
 /// A dark bar with a rim in the agent's colour, where the agent's side meets the object it holds.
-fn draw_grip(painter: &mut Painter, palette: &Palette, physique: &Physique, state: &State, agent: usize) {
+fn draw_grip(painter: &mut Painter, palette: &Palette, physique: &Physique, state: &State, agent: AgentId) {
     let Some(grip) = state.grips[agent] else { return };
-    if usize::from(grip.object) >= physique.object_count.min(MAX_OBJECTS) {
+    if grip.object.index() >= physique.object_count {
         return;
     }
     let along = grip.side.direction();
-    let place = placement(&state.bodies[agent], physique.agents[agent].radius);
+    let place = placement(state.body(Entity::Agent(agent)), physique.agents[agent].radius);
     let bar = |length: f32, depth: f32| {
         [(-length, -depth), (length, -depth), (length, depth), (-length, depth)]
             .map(|(across, deep)| place(along * (1.0 + deep) + along.perp() * across))

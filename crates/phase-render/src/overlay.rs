@@ -1,14 +1,14 @@
 //! What one agent sees and believes, drawn over the true state.
 
 use crate::{Palette, bodies, painter::Painter};
-use phase_model::{Entity, Physique, State, Vec2};
+use phase_model::{AgentId, Entity, Physique, State, Vec2};
 use phase_perception::{Cell, CellSet};
 
 /// One agent's view of the world at the moment of a frame.
 #[derive(Clone, Copy, Debug)]
 pub struct Overlay<'a> {
-    /// Whose view it is, 0 or 1. The agent knows its own state, so its own body is not drawn as a belief.
-    pub agent: usize,
+    /// Whose view it is. The agent knows its own state, so its own body is not drawn as a belief.
+    pub agent: AgentId,
     /// The cells in its field of view; the others are dimmed.
     pub visible: &'a CellSet,
     /// The states it holds possible, each drawn faintly; where many agree the picture becomes solid.
@@ -55,7 +55,7 @@ pub(crate) fn draw_particles(
     physique: &Physique,
     overlay: &Overlay<'_>,
 ) {
-    let own = |entity| matches!(entity, Entity::Agent(agent) if usize::from(agent) == overlay.agent);
+    let own = |entity| entity == Entity::Agent(overlay.agent);
     for particle in overlay.particles {
         for entity in bodies::entities(physique).filter(|&entity| !own(entity)) {
             bodies::draw_believed(painter, palette, physique, entity, particle.body(entity));

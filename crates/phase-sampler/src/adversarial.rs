@@ -6,15 +6,15 @@ use rand::Rng;
 
 /// The victim wants itself or an object on a landmark.
 pub(crate) fn hinder(goals: [Goal; 2], random: &mut impl Rng) -> Option<Draft> {
-    let landmark = goals[1].landmark()?;
+    let target = goals[1].landmark()?.room();
     let hinderer =
         hindering(agent(any_size(random), choose(&CAPABLE, random), goals[0], any_room(random), random));
     let about_object = object_of(goals[1]).is_some();
     // Going somewhere takes no strength.
     let strengths = if about_object { &CAPABLE[..] } else { &Strength::ALL[..] };
-    let room = draft::other_room(&[landmark], random)?;
+    let room = draft::other_room(&[target], random)?;
     let victim = agent(any_size(random), choose(strengths, random), goals[1], room, random);
-    let place = draft::other_room(&[landmark], random)?;
+    let place = draft::other_room(&[target], random)?;
     let objects = if about_object { vec![object(any_size(random), place, random)] } else { Vec::new() };
     Draft::about(goals, [hinderer, victim], objects)
 }
@@ -39,7 +39,7 @@ pub(crate) fn chase(goals: [Goal; 2], random: &mut impl Rng) -> Option<Draft> {
 
 /// One object, in neither of the landmarks' rooms.
 pub(crate) fn compete(goals: [Goal; 2], random: &mut impl Rng) -> Option<Draft> {
-    let room = draft::other_room(&[goals[0].landmark()?, goals[1].landmark()?], random)?;
+    let room = draft::other_room(&[goals[0].landmark()?.room(), goals[1].landmark()?.room()], random)?;
     let agents =
         goals.map(|goal| agent(any_size(random), choose(&CAPABLE, random), goal, any_room(random), random));
     Draft::about(goals, agents, vec![object(any_size(random), room, random)])

@@ -1,8 +1,9 @@
 //! Drawing the parts of a scene.
 
 use phase_model::{
-    Attitude, Body, Entity, EventKind, Goal, Layout, Scene, Sign, Size, Strength, Vec2, arena,
-    layout::{Room, SLOT_ROOMS},
+    AgentId, Attitude, Body, Entity, EventKind, Goal, LandmarkId, Layout, ObjectId, RoomId, Scene, Sign,
+    Size, SlotId, Strength, Vec2, arena,
+    layout::SLOT_ROOMS,
     scene::{AgentSpec, ObjectSpec},
 };
 use rand::{Rng, RngExt};
@@ -24,7 +25,7 @@ pub struct Draft {
     /// The objects that goals are about.
     wanted: Vec<ObjectSpec>,
     /// The first of them has this number; the others follow.
-    first_wanted: u8,
+    first_wanted: usize,
 }
 
 impl Draft {
@@ -32,10 +33,10 @@ impl Draft {
     /// about more or other objects.
     #[must_use]
     pub fn about(goals: [Goal; 2], agents: [AgentSpec; 2], wanted: Vec<ObjectSpec>) -> Option<Self> {
-        let numbers: Vec<u8> = goals.into_iter().filter_map(object_of).collect();
+        let numbers: Vec<usize> = goals.into_iter().filter_map(object_of).map(ObjectId::index).collect();
         let first_wanted = numbers.iter().copied().min().unwrap_or(0);
         // An object that merely stands in the way is nobody's goal.
-        let count = numbers.iter().max().map_or(wanted.len(), |&last| usize::from(last - first_wanted) + 1);
+        let count = numbers.iter().max().map_or(wanted.len(), |&last| last - first_wanted + 1);
         (count == wanted.len()).then_some(Self { agents, wanted, first_wanted })
     }
 
@@ -59,14 +60,14 @@ pub fn choose<T: Copy>(options: &[T], random: &mut impl Rng) -> T {
 }
 
 /// A room other than those given, if there is one.
-pub fn other_room(taken: &[Room], random: &mut impl Rng) -> Option<Room> {
-    let free: Vec<Room> = (0..4).filter(|room| !taken.contains(room)).collect();
+pub fn other_room(taken: &[RoomId], random: &mut impl Rng) -> Option<RoomId> {
+    let free: Vec<RoomId> = RoomId::ALL.into_iter().filter(|room| !taken.contains(room)).collect();
     (!free.is_empty()).then(|| choose(&free, random))
 }
 
 /// Any of the four rooms.
-pub fn any_room(random: &mut impl Rng) -> Room {
-    random.random_range(0..4)
+pub fn any_room(random: &mut impl Rng) -> RoomId {
+    choose(&RoomId::ALL, random)
 }
 
 /// Any of the four sizes.
@@ -75,20 +76,20 @@ pub fn any_size(random: &mut impl Rng) -> Size {
 }
 
 /// A narrow door of a room, which only the smallest agents fit through, and the room beyond it.
-pub fn narrow_door_of(layout: Layout, room: Room, random: &mut impl Rng) -> Option<(usize, Room)> {
-    let narrow = |slot: usize| layout.opening(slot).is_some_and(|opening| opening.length() <= NARROW);
-    let beyond = |slot: usize| match SLOT_ROOMS[slot] {
+pub fn narrow_door_of(layout: Layout, room: RoomId, random: &mut impl Rng) -> Option<(SlotId, RoomId)> {
+    let narrow = |slot: SlotId| layout.opening(slot).is_some_and(|opening| opening.length() <= NARROW);
+    let beyond = |slot: SlotId| match SLOT_ROOMS[slot] {
         (a, b) if a == room => Some((slot, b)),
         (a, b) if b == room => Some((slot, a)),
         _ => None,
     };
-    let doors: Vec<(usize, Room)> =
-        (0..SLOT_ROOMS.len()).filter(|&slot| narrow(slot)).filter_map(beyond).collect();
+    let doors: Vec<(SlotId, RoomId)> =
+        SlotId::ALL.into_iter().filter(|&slot| narrow(slot)).filter_map(beyond).collect();
     (!doors.is_empty()).then(|| choose(&doors, random))
 }
 
 /// A body at rest near one of a room's start points, facing anywhere.
-pub fn start_in(room: Room, random: &mut impl Rng) -> Body {
+pub fn start_in(room: RoomId, random: &mut impl Rng) -> Body {
     let point = choose(&arena::START_POINTS[room], random);
     let jitter = Vec2::new(random.random_range(-JITTER..JITTER), random.random_range(-JITTER..JITTER));
     let angle = random.random_range(-core::f32::consts::PI..core::f32::consts::PI);
@@ -96,7 +97,7 @@ pub fn start_in(room: Room, random: &mut impl Rng) -> Body {
 }
 
 /// A neutral agent.
-pub fn agent(size: Size, strength: Strength, goal: Goal, room: Room, random: &mut impl Rng) -> AgentSpec {
+pub fn agent(size: Size, strength: Strength, goal: Goal, room: RoomId, random: &mut impl Rng) -> AgentSpec {
     AgentSpec { size, strength, goal, attitude: Attitude::Neutral, start: start_in(room, random) }
 }
 
@@ -113,7 +114,7 @@ pub const fn hindering(agent: AgentSpec) -> AgentSpec {
 }
 
 /// An object.
-pub fn object(size: Size, room: Room, random: &mut impl Rng) -> ObjectSpec {
+pub fn object(size: Size, room: RoomId, random: &mut impl Rng) -> ObjectSpec {
     let mut start = start_in(room, random);
     start.angle = 0.0;
     ObjectSpec { size, start }
@@ -121,19 +122,19 @@ pub fn object(size: Size, room: Room, random: &mut impl Rng) -> ObjectSpec {
 
 /// The goal of being on a landmark.
 #[must_use]
-pub const fn agent_on(agent: u8, landmark: Room) -> Goal {
-    Goal::AgentOnLandmark { agent, landmark: landmark as u8, sign: Sign::Positive }
+pub const fn agent_on(agent: AgentId, landmark: LandmarkId) -> Goal {
+    Goal::AgentOnLandmark { agent, landmark, sign: Sign::Positive }
 }
 
 /// The goal of an object's being on a landmark.
 #[must_use]
-pub const fn object_on(object: u8, landmark: Room) -> Goal {
-    Goal::ObjectOnLandmark { object, landmark: landmark as u8, sign: Sign::Positive }
+pub const fn object_on(object: ObjectId, landmark: LandmarkId) -> Goal {
+    Goal::ObjectOnLandmark { object, landmark, sign: Sign::Positive }
 }
 
-/// The number of the object that a goal is about.
+/// The object that a goal is about.
 #[must_use]
-pub const fn object_of(goal: Goal) -> Option<u8> {
+pub const fn object_of(goal: Goal) -> Option<ObjectId> {
     match goal.subject() {
         Entity::Object(object) => Some(object),
         Entity::Agent(_) => None,

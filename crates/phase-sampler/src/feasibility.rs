@@ -1,6 +1,6 @@
 //! Whether a scene can show what it is meant to, asked of the planner.
 
-use phase_model::{AGENT_COUNT, Goal, Scene};
+use phase_model::{AGENT_COUNT, AgentId, Goal, Scene};
 use phase_planner::{
     Routes, Situation, search,
     task::{Node, Task},
@@ -29,8 +29,8 @@ pub fn cost(scene: &Scene, goal: Goal, actors: [bool; AGENT_COUNT]) -> f32 {
 
 /// Whether an agent reaches a goal on its own.
 #[must_use]
-pub fn alone(scene: &Scene, agent: usize, goal: Goal) -> bool {
-    cost(scene, goal, core::array::from_fn(|who| who == agent)) < IMPOSSIBLE
+pub fn alone(scene: &Scene, agent: AgentId, goal: Goal) -> bool {
+    cost(scene, goal, AgentId::ALL.map(|who| who == agent)) < IMPOSSIBLE
 }
 
 /// Whether both together reach a goal.

@@ -11,7 +11,7 @@ const CLEARANCE: f32 = 0.05;
 
 /// The helpee is too weak for the object it wants moved.
 pub(crate) fn lift(goals: [Goal; 2], random: &mut impl Rng) -> Option<Draft> {
-    let room = draft::other_room(&[goals[1].landmark()?], random)?;
+    let room = draft::other_room(&[goals[1].landmark()?.room()], random)?;
     // The helper comes from elsewhere, so that one sees who wants the object before it is there.
     let elsewhere = draft::other_room(&[room], random)?;
     let helper = helping(agent(any_size(random), choose(&CAPABLE, random), goals[0], elsewhere, random));
@@ -21,7 +21,7 @@ pub(crate) fn lift(goals: [Goal; 2], random: &mut impl Rng) -> Option<Draft> {
 
 /// The helpee is too big for the door behind which its object lies.
 pub(crate) fn blocked(layout: Layout, goals: [Goal; 2], random: &mut impl Rng) -> Option<Draft> {
-    let outside = goals[1].landmark()?;
+    let outside = goals[1].landmark()?.room();
     let (_, inside) = draft::narrow_door_of(layout, outside, random)?;
     let helper = helping(agent(any_size(random), choose(&CAPABLE, random), goals[0], inside, random));
     let helpee = agent(choose(&BIG, random), choose(&CAPABLE, random), goals[1], outside, random);
@@ -30,7 +30,7 @@ pub(crate) fn blocked(layout: Layout, goals: [Goal; 2], random: &mut impl Rng) -
 
 /// A big object stands behind the door that the helpee has to go through.
 pub(crate) fn clear(layout: Layout, goals: [Goal; 2], random: &mut impl Rng) -> Option<Draft> {
-    let beyond = goals[1].landmark()?;
+    let beyond = goals[1].landmark()?.room();
     let (slot, here) = draft::narrow_door_of(layout, beyond, random)?;
     let helper = helping(agent(any_size(random), Strength::Mighty, goals[0], beyond, random));
     let weak = choose(&[Strength::Weak, Strength::Fair], random);
@@ -49,7 +49,7 @@ pub(crate) fn clear(layout: Layout, goals: [Goal; 2], random: &mut impl Rng) -> 
 /// Both want the same object on the same landmark. Equal strengths, as the published scripts draw them; two of
 /// the weakest cannot move anything together.
 pub(crate) fn carry(goals: [Goal; 2], random: &mut impl Rng) -> Option<Draft> {
-    let room = draft::other_room(&[goals[1].landmark()?], random)?;
+    let room = draft::other_room(&[goals[1].landmark()?.room()], random)?;
     let strength = choose(&CAPABLE, random);
     let agents = goals.map(|goal| agent(any_size(random), strength, goal, any_room(random), random));
     Draft::about(goals, agents, vec![object(any_size(random), room, random)])

@@ -11,7 +11,7 @@ pub(crate) fn independent(goals: [Goal; 2], random: &mut impl Rng) -> Option<Dra
     for goal in goals {
         let strengths = match object_of(goal) {
             Some(_) => {
-                let room = draft::other_room(&[goal.landmark()?], random)?;
+                let room = draft::other_room(&[goal.landmark()?.room()], random)?;
                 objects.push(object(any_size(random), room, random));
                 &CAPABLE[..]
             }

@@ -5,7 +5,7 @@ use crate::{
     draft::{Draft, choose},
     feasibility, friendly, neutral,
 };
-use phase_model::{AgentSpec, Entity, EventKind, Goal, Layout, Scene, Sign};
+use phase_model::{AgentId, AgentSpec, Entity, EventKind, Goal, Layout, Scene, Sign};
 use rand::{Rng, RngExt};
 use thiserror::Error;
 
@@ -94,10 +94,10 @@ fn makes_sense(scene: &Scene) -> bool {
             let both = feasibility::cost(scene, second, [true, true]);
             both < feasibility::IMPOSSIBLE && alone > both * WORTH_HELPING
         }
-        EventKind::Hindering => feasibility::alone(scene, 1, second),
-        EventKind::Chasing => feasibility::alone(scene, 0, first),
+        EventKind::Hindering => feasibility::alone(scene, AgentId::ONE, second),
+        EventKind::Chasing => feasibility::alone(scene, AgentId::ZERO, first),
         EventKind::Competing | EventKind::Independent => {
-            feasibility::alone(scene, 0, first) && feasibility::alone(scene, 1, second)
+            feasibility::alone(scene, AgentId::ZERO, first) && feasibility::alone(scene, AgentId::ONE, second)
         }
         EventKind::Collaborating => feasibility::together(scene, first),
     }
@@ -113,7 +113,7 @@ fn exchanged(scene: &Scene) -> Scene {
 fn renumbered(goal: Goal) -> Goal {
     match (goal, goal.subject()) {
         (Goal::AgentOnLandmark { landmark, sign, .. }, Entity::Agent(agent)) => {
-            Goal::AgentOnLandmark { agent: 1 - agent, landmark, sign }
+            Goal::AgentOnLandmark { agent: agent.other(), landmark, sign }
         }
         (Goal::Touch { agent, other, sign }, _) => Goal::Touch { agent: other, other: agent, sign },
         _ => goal,

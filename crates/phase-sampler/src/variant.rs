@@ -1,7 +1,7 @@
 //! The variants of each kind of event, and the goals that each of them is about.
 
 use crate::draft::{agent_on, object_on};
-use phase_model::{EventKind, Goal, Sign, arena::LANDMARKS, layout::Room};
+use phase_model::{AgentId, EventKind, Goal, LandmarkId, ObjectId, Sign};
 use serde::{Deserialize, Serialize};
 
 /// How a kind of event comes about. The social agent, or the one that chases, is role 0 in what follows; which
@@ -110,32 +110,42 @@ impl Variant {
     /// turns in a row name every landmark equally often.
     #[must_use]
     pub const fn goals(self, turn: usize) -> [Goal; 2] {
-        let landmarks = LANDMARKS.len();
-        let first: Room = turn % landmarks;
-        let round = turn / landmarks;
-        let object = (round % 2) as u8;
+        let at = LandmarkId::ALL;
+        let first = turn % at.len();
+        let round = turn / at.len();
+        let object = ObjectId::ALL[round % 2];
         match self {
-            Self::Lift | Self::Blocked | Self::Carry => [object_on(object, first); 2],
-            Self::Move => [agent_on(1, first); 2],
-            Self::HinderPlace => [agent_on(1, first).negated(), agent_on(1, first)],
-            Self::HinderObject => [object_on(object, first).negated(), object_on(object, first)],
-            Self::Evade => [touch(1, Sign::Negative), touch(1, Sign::Positive)],
-            Self::Pester | Self::Chase => [touch(0, Sign::Positive), touch(0, Sign::Negative)],
+            Self::Lift | Self::Blocked | Self::Carry => [object_on(object, at[first]); 2],
+            Self::Move => [agent_on(AgentId::ONE, at[first]); 2],
+            Self::HinderPlace => {
+                [agent_on(AgentId::ONE, at[first]).negated(), agent_on(AgentId::ONE, at[first])]
+            }
+            Self::HinderObject => [object_on(object, at[first]).negated(), object_on(object, at[first])],
+            Self::Evade => [touch(AgentId::ONE, Sign::Negative), touch(AgentId::ONE, Sign::Positive)],
+            Self::Pester | Self::Chase => {
+                [touch(AgentId::ZERO, Sign::Positive), touch(AgentId::ZERO, Sign::Negative)]
+            }
             Self::Compete => {
-                let second = (first + 1 + (round / 2) % 3) % landmarks;
-                [object_on(object, first), object_on(object, second)]
+                let second = (first + 1 + (round / 2) % 3) % at.len();
+                [object_on(object, at[first]), object_on(object, at[second])]
             }
-            Self::Places => [agent_on(0, first), agent_on(1, (first + 1 + round % 3) % landmarks)],
+            Self::Places => [
+                agent_on(AgentId::ZERO, at[first]),
+                agent_on(AgentId::ONE, at[(first + 1 + round % 3) % at.len()]),
+            ],
             Self::Mixed => {
-                let second = (first + 1 + (round / 2) % 3) % landmarks;
-                [object_on(object, first), agent_on(1, second)]
+                let second = (first + 1 + (round / 2) % 3) % at.len();
+                [object_on(object, at[first]), agent_on(AgentId::ONE, at[second])]
             }
-            Self::Objects => [object_on(0, first), object_on(1, (first + 1 + round % 3) % landmarks)],
+            Self::Objects => [
+                object_on(ObjectId::ZERO, at[first]),
+                object_on(ObjectId::ONE, at[(first + 1 + round % 3) % at.len()]),
+            ],
         }
     }
 }
 
-/// Agent `agent`'s touching the other one.
-const fn touch(agent: u8, sign: Sign) -> Goal {
-    Goal::Touch { agent, other: 1 - agent, sign }
+/// An agent's touching the other one.
+const fn touch(agent: AgentId, sign: Sign) -> Goal {
+    Goal::Touch { agent, other: agent.other(), sign }
 }

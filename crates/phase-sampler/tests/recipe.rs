@@ -1,7 +1,7 @@
 //! Every kind of scene keeps its promises.
 
 use phase_model::{
-    Attitude, EventKind, Goal, Layout, Relation, Sign,
+    AgentId, Attitude, EventKind, Goal, LandmarkId, Layout, Relation, Sign,
     random::{Purpose, stream},
 };
 use phase_predicates::achieved;
@@ -26,8 +26,10 @@ fn relation_of(kind: EventKind) -> (Relation, Attitude) {
 /// A goal whoever has it: an agent's own number does not matter.
 fn anonymous(goal: Goal) -> Goal {
     match goal {
-        Goal::AgentOnLandmark { landmark, sign, .. } => Goal::AgentOnLandmark { agent: 0, landmark, sign },
-        Goal::Touch { sign, .. } => Goal::Touch { agent: 0, other: 1, sign },
+        Goal::AgentOnLandmark { landmark, sign, .. } => {
+            Goal::AgentOnLandmark { agent: AgentId::ZERO, landmark, sign }
+        }
+        Goal::Touch { sign, .. } => Goal::Touch { agent: AgentId::ZERO, other: AgentId::ONE, sign },
         object => object,
     }
 }
@@ -98,7 +100,7 @@ fn turns_name_all_goals_equally_often() {
         assert_eq!(variant.goals(3), variant.goals(3 + variant.goal_count()));
         let landmarks = |role: usize, landmark: usize| {
             let turns = (0..variant.goal_count()).map(|turn| variant.goals(turn)[role]);
-            turns.filter(|goal| goal.landmark() == Some(landmark)).count()
+            turns.filter(|goal| goal.landmark() == Some(LandmarkId::ALL[landmark])).count()
         };
         for role in 0..2 {
             assert!((1..4).all(|landmark| landmarks(role, landmark) == landmarks(role, 0)), "{variant:?}");

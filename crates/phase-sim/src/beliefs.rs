@@ -4,7 +4,7 @@ use crate::simulation::belief_stream;
 use phase_belief::Belief;
 use phase_event::Event;
 use phase_forward::Forward;
-use phase_model::{State, arena::SUBSTEPS};
+use phase_model::{AgentId, State, arena::SUBSTEPS};
 use phase_perception::{CellSet, observe};
 
 /// What one agent saw and believed before one of its decisions.
@@ -16,10 +16,10 @@ pub struct BeliefSnapshot {
     pub particles: Vec<State>,
 }
 
-/// The beliefs of agent 0 or 1 before each step of an event, and one more after the last. They depend only on
+/// The beliefs of an agent before each step of an event, and one more after the last. They depend only on
 /// what it observed and did and on the event's seed, so this needs no planning.
 #[must_use]
-pub fn beliefs(event: &Event, agent: usize, particle_count: usize) -> Vec<BeliefSnapshot> {
+pub fn beliefs(event: &Event, agent: AgentId, particle_count: usize) -> Vec<BeliefSnapshot> {
     let physique = event.scene.physique();
     let dynamics = Forward::new(&physique);
     let mut random = belief_stream(event.seed, agent);

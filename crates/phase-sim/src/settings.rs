@@ -1,5 +1,6 @@
 //! How an event is simulated: the physics it plays in, how long it lasts, how its agents think.
 
+use phase_model::AgentId;
 use serde::{Deserialize, Serialize};
 
 /// The physics in which an event itself plays. Agents imagine with `phase-forward` in either case.
@@ -42,10 +43,10 @@ pub struct Settings {
     /// Nor does it go on, whatever its agents are after, once nothing has moved for this many steps in a row.
     #[serde(default = "for_ever")]
     pub still_steps: usize,
-    /// An agent (0 or 1) that stops and stays whatever its goal, so that an event can be compared with what
-    /// would have happened without it; usually none. Any other number names nobody.
+    /// An agent that stops and stays whatever its goal, so that an event can be compared with what
+    /// would have happened without it; usually none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub idle: Option<usize>,
+    pub idle: Option<AgentId>,
     /// How both agents think.
     pub minds: phase_agent::Settings,
 }

@@ -6,7 +6,7 @@ use phase_agent::Agent;
 use phase_event::{Event, Step, Thought};
 use phase_forward::Forward;
 use phase_model::{
-    AGENT_COUNT, Action, Physique, Scene, SceneError, State, Subgoal,
+    AGENT_COUNT, Action, AgentId, Physique, Scene, SceneError, State, Subgoal,
     arena::SUBSTEPS,
     random::{self, Pcg64Mcg, Purpose},
 };
@@ -102,8 +102,8 @@ fn is_at_rest(physique: &Physique, state: &State) -> bool {
 
 /// The generator of an agent's belief. It is a stream of its own, so that beliefs can be recomputed from a
 /// recorded event without planning again.
-pub(crate) fn belief_stream(seed: u64, agent: usize) -> Pcg64Mcg {
-    random::stream(seed, Purpose::Belief, agent as u64)
+pub(crate) fn belief_stream(seed: u64, agent: AgentId) -> Pcg64Mcg {
+    random::stream(seed, Purpose::Belief, agent.number().into())
 }
 
 /// Both agents with their random streams.
@@ -112,7 +112,7 @@ struct Minds {
     beliefs: [Pcg64Mcg; AGENT_COUNT],
     searches: [Pcg64Mcg; AGENT_COUNT],
     /// Who does nothing and need not think.
-    idle: Option<usize>,
+    idle: Option<AgentId>,
 }
 
 impl Minds {
@@ -123,24 +123,24 @@ impl Minds {
         seed: u64,
         settings: &Settings,
     ) -> Result<Self, SimulationError> {
-        let mut beliefs: [Pcg64Mcg; AGENT_COUNT] = core::array::from_fn(|agent| belief_stream(seed, agent));
-        let searches = core::array::from_fn(|agent| random::stream(seed, Purpose::Search, agent as u64));
-        let mut mind = |agent: usize| {
+        let mut beliefs: [Pcg64Mcg; AGENT_COUNT] = AgentId::ALL.map(|agent| belief_stream(seed, agent));
+        let searches = AgentId::ALL.map(|agent| random::stream(seed, Purpose::Search, agent.number().into()));
+        let mut mind = |agent: AgentId| {
             let observation = observe(physique, initial, agent);
             let forward = Forward::new(physique);
             Agent::new(scene, agent, forward, settings.minds, &observation, &mut beliefs[agent])
         };
-        let agents = [mind(0)?, mind(1)?];
+        let agents = [mind(AgentId::ZERO)?, mind(AgentId::ONE)?];
         Ok(Self { agents, beliefs, searches, idle: settings.idle })
     }
 
     fn decide(&mut self) -> Result<([Action; AGENT_COUNT], [Thought; AGENT_COUNT]), SimulationError> {
-        let (first, why_first) = self.decide_for(0)?;
-        let (second, why_second) = self.decide_for(1)?;
+        let (first, why_first) = self.decide_for(AgentId::ZERO)?;
+        let (second, why_second) = self.decide_for(AgentId::ONE)?;
         Ok(([first, second], [why_first, why_second]))
     }
 
-    fn decide_for(&mut self, agent: usize) -> Result<(Action, Thought), SimulationError> {
+    fn decide_for(&mut self, agent: AgentId) -> Result<(Action, Thought), SimulationError> {
         if self.idle == Some(agent) {
             return Ok((Action::Stop, Thought::IDLE));
         }
@@ -148,7 +148,7 @@ impl Minds {
     }
 
     fn perceive(&mut self, physique: &Physique, state: &State, actions: [Action; AGENT_COUNT]) {
-        for (agent, mind) in self.agents.iter_mut().enumerate() {
+        for (agent, mind) in AgentId::ALL.into_iter().zip(&mut self.agents) {
             if self.idle == Some(agent) {
                 continue;
             }

@@ -3,7 +3,7 @@
 use phase_belief::{Belief, overwrite};
 use phase_forward::Forward;
 use phase_model::{
-    AGENT_COUNT, Action, EntitySet, ObservedEvent, Physique, State,
+    AGENT_COUNT, Action, AgentId, BodySet, ObservedEvent, Physique, State,
     random::{self, Purpose},
 };
 use phase_perception::{Observation, observe};
@@ -17,19 +17,19 @@ pub struct EstimatedBeliefs {
 }
 
 impl EstimatedBeliefs {
-    /// The beliefs of agent 0 or 1 along the states of an event (those of
+    /// The beliefs of an agent along the states of an event (those of
     /// [`InverseDynamics`](crate::InverseDynamics)), by so many particles at least.
     #[must_use]
     pub fn new(
         observed: &ObservedEvent,
         states: &[State],
-        agent: usize,
+        agent: AgentId,
         particle_count: usize,
         seed: u64,
     ) -> Self {
         let physique = observed.physique([0.0; AGENT_COUNT]);
         let dynamics = Forward::new(&physique);
-        let mut random = random::stream(seed, Purpose::Belief, agent as u64);
+        let mut random = random::stream(seed, Purpose::Belief, agent.number().into());
         let seen: Vec<Observation> = states.iter().map(|state| observe(&physique, state, agent)).collect();
         let mut last = Belief::new(&physique, &seen[0], particle_count, &mut random);
         let mut particles = vec![last.particles().to_vec()];
@@ -44,7 +44,7 @@ impl EstimatedBeliefs {
     /// What the agent believes after so many steps if the world is in this state: what it has observed until then
     /// in the event, and what it observes now. The particles, and the entities that it observes.
     #[must_use]
-    pub fn outlook(&self, physique: &Physique, step: usize, state: &State) -> (Vec<State>, EntitySet) {
+    pub fn outlook(&self, physique: &Physique, step: usize, state: &State) -> (Vec<State>, BodySet) {
         let observation = observe(physique, state, self.last.agent());
         let known = &self.particles[step.min(self.particles.len() - 1)];
         let mut particles = known.clone();

@@ -1,6 +1,6 @@
 //! Q(g | S): what a stretch of motion by itself says about goals (appendix, "Bottom-up Proposals").
 
-use phase_model::{Body, Entity, Goal, MAX_ENTITIES, Sign, State, arena};
+use phase_model::{AgentId, Body, Entity, Goal, MAX_ENTITIES, Sign, State, arena};
 use phase_predicates::threshold::ON_OBJECT;
 
 /// How far whoever gets away means to be from the other at least (u).
@@ -12,16 +12,16 @@ const AWAY: f32 = 14.0;
 /// that of the goal whose distance shrank most. Over the side of the arena it is a cue that leaves room for doubt.
 pub const GAMMA: f64 = 10.0 / arena::SIDE as f64;
 
-/// ‖s − s_g‖ of the proposal: how far an agent (0 or 1) has to go until the goal holds, in straight lines (u). What
+/// ‖s − s_g‖ of the proposal: how far an agent has to go until the goal holds, in straight lines (u). What
 /// has to be moved must be got to first; once it is in place nobody need be near. Of getting away it is what is
 /// missing to a safe distance.
 #[must_use]
-pub fn distance_left(goal: Goal, agent: usize, state: &State) -> f32 {
+pub fn distance_left(goal: Goal, agent: AgentId, state: &State) -> f32 {
     let apart = goal.distance(state);
     match goal {
         Goal::Touch { sign: Sign::Negative, .. } => (AWAY - apart).max(0.0),
         Goal::ObjectOnLandmark { .. } if apart >= ON_OBJECT => {
-            apart + state.position(Entity::agent(agent)).distance(state.position(goal.subject()))
+            apart + state.position(Entity::Agent(agent)).distance(state.position(goal.subject()))
         }
         _ => apart,
     }
@@ -31,7 +31,7 @@ pub fn distance_left(goal: Goal, agent: usize, state: &State) -> f32 {
 /// add up to 1. Printed is e^{γ(2‖s^t2 − s_g‖ − ‖s^t1 − s_g‖)}, under which the goal farthest away would be the
 /// likeliest; the sentence below it has it the other way round, and so have we.
 #[must_use]
-pub fn log_proposal(goals: &[Goal], agent: usize, rows: &[[Body; MAX_ENTITIES]], gamma: f64) -> Vec<f64> {
+pub fn log_proposal(goals: &[Goal], agent: AgentId, rows: &[[Body; MAX_ENTITIES]], gamma: f64) -> Vec<f64> {
     let (Some(first), Some(last)) = (rows.first(), rows.last()) else {
         return vec![-libm::log(goals.len() as f64); goals.len()];
     };

@@ -5,7 +5,7 @@ use phase_agent::{Mind, Outlook};
 use phase_event::Thought;
 use phase_forward::{Forward, Memory};
 use phase_model::{
-    AGENT_COUNT, Action, Body, Entity, EntitySet, MAX_ENTITIES, ObservedEvent, Physique, State, Vec2,
+    AGENT_COUNT, Action, AgentId, Body, BodySet, Entity, MAX_ENTITIES, ObservedEvent, Physique, State, Vec2,
     arena::SUBSTEPS,
     random::{self, Pcg64Mcg, Purpose},
 };
@@ -32,9 +32,8 @@ impl<'a> Stage<'a> {
     #[must_use]
     pub fn new(observed: &'a ObservedEvent, minds: phase_agent::Settings, seed: u64) -> Self {
         let motion = InverseDynamics::new(observed);
-        let beliefs = core::array::from_fn(|agent| {
-            EstimatedBeliefs::new(observed, &motion.states, agent, minds.particles, seed)
-        });
+        let beliefs = AgentId::ALL
+            .map(|agent| EstimatedBeliefs::new(observed, &motion.states, agent, minds.particles, seed));
         Self { observed, motion, beliefs, minds, seed }
     }
 
@@ -70,9 +69,8 @@ impl<'a> Stage<'a> {
             if anchor.is_some_and(|anchor| step > 1 && (step - 1) % anchor.max(1) == 0) {
                 run.put(self.motion.states[step - 1]);
             }
-            let outlooks = core::array::from_fn(|agent| {
-                self.beliefs[agent].outlook(&run.physique, step - 1, &run.state)
-            });
+            let outlooks =
+                AgentId::ALL.map(|agent| self.beliefs[agent].outlook(&run.physique, step - 1, &run.state));
             let (means, _) = run.step(&outlooks)?;
             let deviation = self.deviation(&means, row);
             deviations.push(deviation);
@@ -86,12 +84,11 @@ impl<'a> Stage<'a> {
 
     /// ‖sᵗ − ŝᵗ‖₂ over the positions of all entities (u).
     fn deviation(&self, means: &[Vec2; MAX_ENTITIES], row: &[Body; MAX_ENTITIES]) -> f64 {
-        let square =
-            |entity: Entity| f64::from(means[entity.index()].distance_squared(row[entity.index()].position));
+        let square = |entity: Entity| f64::from(means[entity].distance_squared(row[entity].position));
         libm::sqrt(self.observed.entities().map(square).sum())
     }
 
-    /// Lets one agent (0 or 1) decide as a hypothesis has it, while the other does what it was found to do. Every
+    /// Lets one agent decide as a hypothesis has it, while the other does what it was found to do. Every
     /// `anchor` steps the simulation is put back to where the observed event is.
     ///
     /// # Errors
@@ -99,7 +96,7 @@ impl<'a> Stage<'a> {
     pub fn simulate_one(
         &self,
         hypothesis: &Hypothesis,
-        agent: usize,
+        agent: AgentId,
         anchor: usize,
     ) -> Result<Vec<Decided>, PomcpError> {
         let rows = self.observed.rows();
@@ -134,10 +131,10 @@ impl<'a> Stage<'a> {
         let mut run = Run::new(self.observed, hypothesis, self.minds, seed, last)?;
         let mut beliefs = self.beliefs.each_ref().map(|belief| belief.last().clone());
         let mut random: [Pcg64Mcg; AGENT_COUNT] =
-            core::array::from_fn(|agent| random::stream(seed, Purpose::Belief, agent as u64));
+            AgentId::ALL.map(|agent| random::stream(seed, Purpose::Belief, agent.number().into()));
         let mut forecast: phase_model::Forecast = self.observed.entities().map(|_| Vec::new()).collect();
         for _ in 0..steps {
-            let outlooks = core::array::from_fn(|agent| {
+            let outlooks = AgentId::ALL.map(|agent| {
                 let observation = observe(&run.physique, &run.state, agent);
                 (beliefs[agent].particles().to_vec(), observation.observed)
             });
@@ -145,7 +142,7 @@ impl<'a> Stage<'a> {
             for (positions, mean) in forecast.iter_mut().zip(means) {
                 positions.push(mean);
             }
-            for (agent, belief) in beliefs.iter_mut().enumerate() {
+            for (agent, belief) in AgentId::ALL.into_iter().zip(&mut beliefs) {
                 let observation = observe(&run.physique, &run.state, agent);
                 let (forward, physique) = (&run.forward, &run.physique);
                 belief.update(forward, physique, actions[agent], &observation, &mut random[agent]);
@@ -177,7 +174,7 @@ struct Run {
 }
 
 /// What an agent believes possible, and the entities that it observes.
-type Outlooks = [(Vec<State>, EntitySet); AGENT_COUNT];
+type Outlooks = [(Vec<State>, BodySet); AGENT_COUNT];
 
 impl Run {
     fn new(
@@ -191,8 +188,8 @@ impl Run {
         let physique = scene.physique();
         let forward = Forward::new(&physique);
         let mind = |agent| Mind::new(&scene, agent, Forward::new(&physique), settings);
-        let minds = [mind(0)?, mind(1)?];
-        let random = core::array::from_fn(|agent| random::stream(seed, Purpose::Search, agent as u64));
+        let minds = [mind(AgentId::ZERO)?, mind(AgentId::ONE)?];
+        let random = AgentId::ALL.map(|agent| random::stream(seed, Purpose::Search, agent.number().into()));
         let memory = forward.remember(&state);
         Ok(Self { physique, forward, minds, random, state, memory })
     }
@@ -209,7 +206,7 @@ impl Run {
         outlooks: &Outlooks,
     ) -> Result<([Vec2; MAX_ENTITIES], [Action; AGENT_COUNT]), PomcpError> {
         let mut actions = [Action::NoForce; AGENT_COUNT];
-        for (agent, outlook) in outlooks.iter().enumerate() {
+        for (agent, outlook) in AgentId::ALL.into_iter().zip(outlooks) {
             (actions[agent], _) = self.decide(agent, outlook)?;
         }
         Ok((self.act(actions), actions))
@@ -218,8 +215,8 @@ impl Run {
     /// One agent decides.
     fn decide(
         &mut self,
-        agent: usize,
-        (particles, observed): &(Vec<State>, EntitySet),
+        agent: AgentId,
+        (particles, observed): &(Vec<State>, BodySet),
     ) -> Result<(Action, Thought), PomcpError> {
         let outlook = Outlook { particles, observed: *observed };
         self.minds[agent].decide(outlook, &mut self.random[agent])

@@ -1,8 +1,8 @@
 //! What might explain an event: Y = ⟨g_i, g_j, α_ij, α_ji, f_i, f_j⟩ of the paper.
 
 use phase_model::{
-    AGENT_COUNT, AgentSpec, Attitude, EventKind, Goal, ObjectSpec, ObservedEvent, Relation, Scene, Sign,
-    Strength,
+    AGENT_COUNT, AgentId, AgentSpec, Attitude, Entity, EventKind, Goal, LandmarkId, ObjectId, ObjectSpec,
+    ObservedEvent, Relation, Scene, Sign, Strength,
 };
 use serde::{Deserialize, Serialize};
 
@@ -28,18 +28,18 @@ impl Hypothesis {
         attitudes: [Attitude; AGENT_COUNT],
         strengths: [Strength; AGENT_COUNT],
     ) -> Self {
-        let goal = |agent: usize| match attitudes[agent] {
+        let goal = |agent: AgentId| match attitudes[agent] {
             Attitude::Neutral => goals[agent],
-            Attitude::Help => goals[1 - agent],
-            Attitude::Hinder => goals[1 - agent].negated(),
+            Attitude::Help => goals[agent.other()],
+            Attitude::Hinder => goals[agent.other()].negated(),
         };
-        Self { goals: [goal(0), goal(1)], attitudes, strengths }
+        Self { goals: [goal(AgentId::ZERO), goal(AgentId::ONE)], attitudes, strengths }
     }
 
     /// The agent with a social goal, if there is one.
     #[must_use]
-    pub fn social_agent(&self) -> Option<usize> {
-        self.attitudes.iter().position(|&attitude| attitude != Attitude::Neutral)
+    pub fn social_agent(&self) -> Option<AgentId> {
+        AgentId::ALL.into_iter().find(|&agent| self.attitudes[agent] != Attitude::Neutral)
     }
 
     /// ln P(g_i)P(g_j)P(α_ij, α_ji)P(f_i)P(f_j) of Equation 2, everything evenly: so many goals an agent, nobody, one
@@ -69,12 +69,12 @@ impl Hypothesis {
     pub fn scene(&self, observed: &ObservedEvent) -> Scene {
         let [first, ..] = observed.rows() else { unreachable!("an observed event has a row") };
         let sizes = observed.agent_sizes();
-        let agents = core::array::from_fn(|agent| AgentSpec {
+        let agents = AgentId::ALL.map(|agent| AgentSpec {
             size: sizes[agent],
             strength: self.strengths[agent],
             goal: self.goals[agent],
             attitude: self.attitudes[agent],
-            start: first[agent],
+            start: first[Entity::Agent(agent)],
         });
         let objects = observed.object_sizes().iter().zip(&first[AGENT_COUNT..]);
         Scene {
@@ -97,17 +97,17 @@ impl Hypothesis {
     }
 }
 
-/// The physical goals that an agent (0 or 1) can have in an event with so many objects: being on each landmark,
+/// The physical goals that an agent can have in an event with so many objects: being on each landmark,
 /// each object on each landmark, approaching the other and getting away from it. Fourteen with two objects.
 #[must_use]
-pub fn physical_goals(agent: usize, objects: usize) -> Vec<Goal> {
-    let (me, other) = (agent as u8, 1 - agent as u8);
-    let landmarks = 0..phase_model::arena::LANDMARKS.len() as u8;
+pub fn physical_goals(agent: AgentId, objects: usize) -> Vec<Goal> {
+    let (me, other) = (agent, agent.other());
+    let landmarks = LandmarkId::ALL.into_iter();
     let mut goals: Vec<Goal> = landmarks
         .clone()
         .map(|landmark| Goal::AgentOnLandmark { agent: me, landmark, sign: Sign::Positive })
         .collect();
-    goals.extend((0..objects as u8).flat_map(|object| {
+    goals.extend(ObjectId::ALL.into_iter().take(objects).flat_map(|object| {
         landmarks.clone().map(move |landmark| Goal::ObjectOnLandmark {
             object,
             landmark,

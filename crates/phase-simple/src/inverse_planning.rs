@@ -11,7 +11,7 @@ use crate::{
     want::Want,
 };
 use core::ops::ControlFlow;
-use phase_model::{AGENT_COUNT, Action, Attitude, Goal, Strength};
+use phase_model::{AGENT_COUNT, Action, AgentId, Attitude, Goal, Strength};
 use phase_pomcp::PomcpError;
 
 /// How often the search tried an action stands for how likely it is to be taken. Which way an agent turns says
@@ -46,22 +46,22 @@ pub(crate) fn posterior(
     };
     let cue = Proposal::new(observed, 0..=observed.steps(), gamma, &AnyStrength);
     // What either seems to be after, as the other takes it who is not social.
-    let mut seeming: [Goal; AGENT_COUNT] = core::array::from_fn(|agent| cue.likeliest_goal(agent));
+    let mut seeming: [Goal; AGENT_COUNT] = AgentId::ALL.map(|agent| cue.likeliest_goal(agent));
     let mut weighed: [Weighed; AGENT_COUNT] = [Vec::new(), Vec::new()];
-    for (agent, weighed) in weighed.iter_mut().enumerate() {
+    for (agent, weighed) in AgentId::ALL.into_iter().zip(&mut weighed) {
         for want in Want::all(agent, objects) {
             if tick().is_break() {
                 return Ok(None);
             }
-            weighed.push((want, evidence.log_likelihood(agent, &want, seeming[1 - agent])?));
+            weighed.push((want, evidence.log_likelihood(agent, &want, seeming[agent.other()])?));
         }
     }
-    let goals = cue.goals(0).len();
+    let goals = cue.goals(AgentId::ZERO).len();
     let mut posterior = joint(&weighed, evidence.strengths, goals);
     for _ in 0..SECOND_THOUGHTS {
         let likeliest = posterior.hypotheses.first().map_or(seeming, |(hypothesis, _)| hypothesis.goals);
-        for (agent, weighed) in weighed.iter_mut().enumerate() {
-            let other = 1 - agent;
+        for (agent, weighed) in AgentId::ALL.into_iter().zip(&mut weighed) {
+            let other = agent.other();
             if likeliest[other] == seeming[other] {
                 continue;
             }
@@ -91,7 +91,7 @@ struct Evidence<'a> {
 
 impl Evidence<'_> {
     /// ln P(motion | want) of an agent's part of the motion, the other being after `others`.
-    fn log_likelihood(&self, agent: usize, want: &Want, others: Goal) -> Result<f64, PomcpError> {
+    fn log_likelihood(&self, agent: AgentId, want: &Want, others: Goal) -> Result<f64, PomcpError> {
         let hypothesis = want.hypothesis(agent, others, self.strengths);
         let every_step = self.stage.simulate_one(&hypothesis, agent, 1)?;
         let chosen = every_step.iter().zip(&self.found);
@@ -106,16 +106,18 @@ impl Evidence<'_> {
 /// Every hypothesis, weighed by its prior and by both agents' parts in the motion.
 fn joint(weighed: &[Weighed; AGENT_COUNT], strengths: [Strength; AGENT_COUNT], goals: usize) -> Posterior {
     let weigh = |hypothesis: Hypothesis, log: f64| (hypothesis, log + hypothesis.log_prior(goals));
-    let neutral = |agent: usize| weighed[agent].iter().filter(|(want, _)| want.attitude == Attitude::Neutral);
+    let neutral =
+        |agent: AgentId| weighed[agent].iter().filter(|(want, _)| want.attitude == Attitude::Neutral);
     let mut hypotheses = Vec::new();
-    for (first, first_log) in neutral(0) {
-        for (second, second_log) in neutral(1) {
-            hypotheses.push(weigh(first.hypothesis(0, second.goal, strengths), first_log + second_log));
+    for (first, first_log) in neutral(AgentId::ZERO) {
+        for (second, second_log) in neutral(AgentId::ONE) {
+            hypotheses
+                .push(weigh(first.hypothesis(AgentId::ZERO, second.goal, strengths), first_log + second_log));
         }
     }
-    for (social, wants) in weighed.iter().enumerate() {
+    for (social, wants) in AgentId::ALL.into_iter().zip(weighed) {
         for (want, log) in wants.iter().filter(|(want, _)| want.attitude != Attitude::Neutral) {
-            let other = neutral(1 - social).find(|(other, _)| other.goal == want.goal);
+            let other = neutral(social.other()).find(|(other, _)| other.goal == want.goal);
             let Some((_, other_log)) = other else { continue };
             hypotheses.push(weigh(want.hypothesis(social, want.goal, strengths), log + other_log));
         }

@@ -1,7 +1,7 @@
 //! From weighted hypotheses to what they say of goals, attitudes and relations.
 
 use crate::Hypothesis;
-use phase_model::{AGENT_COUNT, Attitude, Goal, Judgement, Relation, RelationProbabilities};
+use phase_model::{AGENT_COUNT, AgentId, Attitude, Goal, Judgement, Relation, RelationProbabilities};
 use std::collections::BTreeMap;
 
 /// Weighted hypotheses; the weights are not negative and add up to 1 unless there are none.
@@ -26,9 +26,9 @@ impl Posterior {
         Self { hypotheses }
     }
 
-    /// P(g_i | s) of an agent (0 or 1), likeliest first, without those of no weight.
+    /// P(g_i | s) of an agent, likeliest first, without those of no weight.
     #[must_use]
-    pub fn goals(&self, agent: usize) -> Vec<(Goal, f64)> {
+    pub fn goals(&self, agent: AgentId) -> Vec<(Goal, f64)> {
         let mut goals: BTreeMap<Goal, f64> = BTreeMap::new();
         for (hypothesis, weight) in &self.hypotheses {
             *goals.entry(hypothesis.goals[agent]).or_default() += weight;
@@ -38,9 +38,9 @@ impl Posterior {
         goals
     }
 
-    /// P(α_ij | s) of an agent (0 or 1).
+    /// P(α_ij | s) of an agent.
     #[must_use]
-    pub fn attitude(&self, agent: usize, attitude: Attitude) -> f64 {
+    pub fn attitude(&self, agent: AgentId, attitude: Attitude) -> f64 {
         self.sum(|hypothesis| hypothesis.attitudes[agent] == attitude)
     }
 
@@ -63,7 +63,7 @@ impl Posterior {
     /// Everything that Task 1 asks for.
     #[must_use]
     pub fn judgement(&self) -> Judgement {
-        let goals: [Vec<(Goal, f64)>; AGENT_COUNT] = core::array::from_fn(|agent| self.goals(agent));
+        let goals: [Vec<(Goal, f64)>; AGENT_COUNT] = AgentId::ALL.map(|agent| self.goals(agent));
         Judgement { goals, relation: self.relation() }
     }
 

@@ -2,7 +2,7 @@
 
 use crate::{Hypothesis, Posterior, cue, hypothesis::physical_goals, strength::StrengthCue};
 use core::ops::RangeInclusive;
-use phase_model::{AGENT_COUNT, Attitude, Goal, ObservedEvent, Strength};
+use phase_model::{AGENT_COUNT, AgentId, Attitude, Goal, ObservedEvent, Strength};
 use rand::{Rng, RngExt};
 
 /// The distribution of hypotheses that a stretch of an observed event suggests: goals and strengths of both agents
@@ -27,42 +27,41 @@ impl Proposal {
         let (from, to) = ((*range.start()).min(last), (*range.end()).min(last));
         let rows = observed.rows().get(from..=to).unwrap_or_default();
         let goals: [Vec<Goal>; AGENT_COUNT] =
-            core::array::from_fn(|agent| physical_goals(agent, observed.object_sizes().len()));
-        let goal_logs = core::array::from_fn(|agent| cue::log_proposal(&goals[agent], agent, rows, gamma));
+            AgentId::ALL.map(|agent| physical_goals(agent, observed.object_sizes().len()));
+        let goal_logs = AgentId::ALL.map(|agent| cue::log_proposal(&goals[agent], agent, rows, gamma));
         let sizes = observed.agent_sizes();
-        let strength_logs = core::array::from_fn(|agent| strengths.log_proposal(rows, agent, sizes[agent]));
+        let strength_logs = AgentId::ALL.map(|agent| strengths.log_proposal(rows, agent, sizes[agent]));
         Self { goals, goal_logs, strength_logs }
     }
 
     /// Draws a hypothesis.
     pub fn sample(&self, random: &mut impl Rng) -> Hypothesis {
-        let goals = core::array::from_fn(|agent| self.sample_goal(agent, random));
+        let goals = AgentId::ALL.map(|agent| self.sample_goal(agent, random));
         let mut attitudes = [Attitude::Neutral; AGENT_COUNT];
         let social = [Attitude::Hinder, Attitude::Neutral, Attitude::Help][random.random_range(0..3)];
         if social != Attitude::Neutral {
             attitudes[random.random_range(0..AGENT_COUNT)] = social;
         }
-        let strengths =
-            core::array::from_fn(|agent| Strength::ALL[drawn(&self.strength_logs[agent], random)]);
+        let strengths = AgentId::ALL.map(|agent| Strength::ALL[drawn(&self.strength_logs[agent], random)]);
         Hypothesis::new(goals, attitudes, strengths)
     }
 
-    /// The goal that an agent (0 or 1) pursues most likely.
+    /// The goal that an agent pursues most likely.
     #[must_use]
-    pub fn likeliest_goal(&self, agent: usize) -> Goal {
+    pub fn likeliest_goal(&self, agent: AgentId) -> Goal {
         let goals = self.goals[agent].iter().zip(&self.goal_logs[agent]);
         let best = goals.max_by(|a, b| a.1.total_cmp(b.1));
         best.map_or_else(|| unreachable!("there are landmarks to go to"), |(goal, _)| *goal)
     }
 
-    /// Draws a goal of an agent (0 or 1).
-    fn sample_goal(&self, agent: usize, random: &mut impl Rng) -> Goal {
+    /// Draws a goal of an agent.
+    fn sample_goal(&self, agent: AgentId, random: &mut impl Rng) -> Goal {
         self.goals[agent][drawn(&self.goal_logs[agent], random)]
     }
 
-    /// The goals that an agent (0 or 1) can have.
+    /// The goals that an agent can have.
     #[must_use]
-    pub fn goals(&self, agent: usize) -> &[Goal] {
+    pub fn goals(&self, agent: AgentId) -> &[Goal] {
         &self.goals[agent]
     }
 
@@ -81,11 +80,11 @@ impl Proposal {
                 ));
             }
         }
-        for social in 0..AGENT_COUNT {
+        for social in AgentId::ALL {
             for attitude in [Attitude::Help, Attitude::Hinder] {
                 let mut attitudes = [Attitude::Neutral; AGENT_COUNT];
                 attitudes[social] = attitude;
-                let all = self.goals[1 - social].iter();
+                let all = self.goals[social.other()].iter();
                 hypotheses.extend(all.map(|&goal| Hypothesis::new([goal; 2], attitudes, strengths)));
             }
         }
@@ -96,16 +95,16 @@ impl Proposal {
     #[must_use]
     pub fn log_probability(&self, hypothesis: &Hypothesis) -> f64 {
         let strength =
-            |agent: usize| self.strength_logs[agent][usize::from(hypothesis.strengths[agent].level())];
-        let goal = |agent: usize| {
+            |agent: AgentId| self.strength_logs[agent][usize::from(hypothesis.strengths[agent].level())];
+        let goal = |agent: AgentId| {
             let place = self.goals[agent].iter().position(|&goal| goal == hypothesis.goals[agent]);
             place.map_or(f64::NEG_INFINITY, |place| self.goal_logs[agent][place])
         };
         let (attitudes, goals) = match hypothesis.social_agent() {
-            None => (1.0 / 3.0, goal(0) + goal(1)),
-            Some(social) => (1.0 / 6.0, goal(1 - social)),
+            None => (1.0 / 3.0, goal(AgentId::ZERO) + goal(AgentId::ONE)),
+            Some(social) => (1.0 / 6.0, goal(social.other())),
         };
-        libm::log(attitudes) + goals + strength(0) + strength(1)
+        libm::log(attitudes) + goals + strength(AgentId::ZERO) + strength(AgentId::ONE)
     }
 }
 

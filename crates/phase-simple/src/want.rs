@@ -1,7 +1,7 @@
 //! What one agent may want, and what two may want at once.
 
 use crate::{Hypothesis, hypothesis::physical_goals};
-use phase_model::{AGENT_COUNT, Attitude, Goal, Strength};
+use phase_model::{AGENT_COUNT, AgentId, Attitude, Goal, Strength};
 
 /// What an agent wants: a goal of its own, or to help or hinder the other with one of the other's.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -13,27 +13,27 @@ pub struct Want {
 }
 
 impl Want {
-    /// All that an agent (0 or 1) can want in an event with so many objects: 42 wants with two of them, its own
+    /// All that an agent can want in an event with so many objects: 42 wants with two of them, its own
     /// goals first.
     #[must_use]
-    pub fn all(agent: usize, objects: usize) -> Vec<Self> {
+    pub fn all(agent: AgentId, objects: usize) -> Vec<Self> {
         let own = physical_goals(agent, objects).into_iter();
         let neutral = own.map(|goal| Self { attitude: Attitude::Neutral, goal });
         let social = [Attitude::Help, Attitude::Hinder].into_iter().flat_map(|attitude| {
-            physical_goals(1 - agent, objects).into_iter().map(move |goal| Self { attitude, goal })
+            physical_goals(agent.other(), objects).into_iter().map(move |goal| Self { attitude, goal })
         });
         neutral.chain(social).collect()
     }
 
-    /// The hypothesis that an agent (0 or 1) wants this while the other pursues a goal of its own, which is the
+    /// The hypothesis that an agent wants this while the other pursues a goal of its own, which is the
     /// wanted one if the agent is social and `others` if it is not.
     #[must_use]
-    pub fn hypothesis(&self, agent: usize, others: Goal, strengths: [Strength; AGENT_COUNT]) -> Hypothesis {
+    pub fn hypothesis(&self, agent: AgentId, others: Goal, strengths: [Strength; AGENT_COUNT]) -> Hypothesis {
         let mut attitudes = [Attitude::Neutral; AGENT_COUNT];
         attitudes[agent] = self.attitude;
         let mut goals = [self.goal; AGENT_COUNT];
         if self.attitude == Attitude::Neutral {
-            goals[1 - agent] = others;
+            goals[agent.other()] = others;
         }
         Hypothesis::new(goals, attitudes, strengths)
     }

@@ -2,7 +2,7 @@
 
 use phase_event::{Event, Recording};
 use phase_model::{
-    Attitude, Goal, Layout, ObservedEvent, Relation,
+    AgentId, Attitude, Goal, LandmarkId, Layout, ObjectId, ObservedEvent, Relation,
     random::{Purpose, stream},
 };
 use phase_sampler::{Request, Variant, sample};
@@ -44,7 +44,11 @@ fn no_label_is_seen() {
     let event = event(Variant::Places, 1);
     let mut relabelled = recording(event.clone());
     for agent in &mut relabelled.scene.agents {
-        agent.goal = Goal::ObjectOnLandmark { object: 0, landmark: 0, sign: phase_model::Sign::Positive };
+        agent.goal = Goal::ObjectOnLandmark {
+            object: ObjectId::ZERO,
+            landmark: LandmarkId::TOP_LEFT,
+            sign: phase_model::Sign::Positive,
+        };
         agent.attitude = Attitude::Hinder;
         agent.strength = phase_model::Strength::Mighty;
     }
@@ -72,7 +76,7 @@ fn every_hypothesis_is_weighed_and_neutral_agents_are_independent() {
     let event = observed(&event(Variant::Carry, 1)).watched_for(6);
     let [planning, _] = quick();
     let posterior = explain(&event, &AnyStrength, 1, &planning).expect("is sound").posterior;
-    let goals = phase_simple::physical_goals(0, event.object_sizes().len()).len();
+    let goals = phase_simple::physical_goals(AgentId::ZERO, event.object_sizes().len()).len();
     assert_eq!(posterior.hypotheses.len(), goals * goals + 4 * goals);
     let neutral: Vec<_> = posterior
         .hypotheses
@@ -128,9 +132,9 @@ fn actions_strengths_and_grips_are_found_again() {
                 let shows = action.push().is_some();
                 pushes += usize::from(shows);
                 pushes_found += usize::from(shows && action == found);
-                let truth = step.substeps[4].held_object(agent);
+                let truth = step.substeps[4].held_object(AgentId::ALL[agent]);
                 held += usize::from(truth.is_some());
-                held_found += usize::from(truth.is_some() && truth == state.held_object(agent));
+                held_found += usize::from(truth.is_some() && truth == state.held_object(AgentId::ALL[agent]));
             }
         }
     }
@@ -174,7 +178,7 @@ fn the_truth_deviates_least() {
     let truth = deviation(event.scene.goals());
     let swapped = event.scene.goals().map(|goal| match goal {
         Goal::AgentOnLandmark { agent, landmark, sign } => {
-            Goal::AgentOnLandmark { agent, landmark: (landmark + 2) % 4, sign }
+            Goal::AgentOnLandmark { agent, landmark: LandmarkId::ALL[(landmark.index() + 2) % 4], sign }
         }
         other => other,
     });

@@ -1,18 +1,26 @@
 //! What weighted hypotheses say, by hand.
 
-use phase_model::{Attitude, Goal, Relation, Sign, Strength};
+use phase_model::{AgentId, Attitude, Goal, LandmarkId, ObjectId, Relation, Sign, Strength};
 use phase_simple::{Hypothesis, Posterior, forecast::geometric_median, physical_goals};
 
-const fn place(agent: u8, landmark: u8) -> Goal {
-    Goal::AgentOnLandmark { agent, landmark, sign: Sign::Positive }
+fn place(agent: u8, landmark: u8) -> Goal {
+    Goal::AgentOnLandmark {
+        agent: AgentId::ALL[usize::from(agent)],
+        landmark: LandmarkId::ALL[usize::from(landmark)],
+        sign: Sign::Positive,
+    }
 }
 
-const fn thing(object: u8, landmark: u8) -> Goal {
-    Goal::ObjectOnLandmark { object, landmark, sign: Sign::Positive }
+fn thing(object: u8, landmark: u8) -> Goal {
+    Goal::ObjectOnLandmark {
+        object: ObjectId::ALL[usize::from(object)],
+        landmark: LandmarkId::ALL[usize::from(landmark)],
+        sign: Sign::Positive,
+    }
 }
 
-const CHASE: Goal = Goal::Touch { agent: 0, other: 1, sign: Sign::Positive };
-const FLIGHT: Goal = Goal::Touch { agent: 0, other: 1, sign: Sign::Negative };
+const CHASE: Goal = Goal::Touch { agent: AgentId::ZERO, other: AgentId::ONE, sign: Sign::Positive };
+const FLIGHT: Goal = Goal::Touch { agent: AgentId::ZERO, other: AgentId::ONE, sign: Sign::Negative };
 
 fn neutral(goals: [Goal; 2]) -> Hypothesis {
     Hypothesis::new(goals, [Attitude::Neutral; 2], [Strength::Fair; 2])
@@ -32,7 +40,7 @@ fn a_social_agent_bears_the_others_goal() {
 #[test]
 fn there_are_fourteen_goals_with_two_objects() {
     for (objects, count) in [(0, 6), (1, 10), (2, 14)] {
-        for agent in 0..2 {
+        for agent in AgentId::ALL {
             let mut goals = physical_goals(agent, objects);
             assert_eq!(goals.len(), count);
             goals.sort();
@@ -41,7 +49,10 @@ fn there_are_fourteen_goals_with_two_objects() {
         }
     }
     // In a chase both goals name the chaser.
-    assert!(physical_goals(0, 0).contains(&CHASE) && physical_goals(1, 0).contains(&FLIGHT));
+    assert!(
+        physical_goals(AgentId::ZERO, 0).contains(&CHASE)
+            && physical_goals(AgentId::ONE, 0).contains(&FLIGHT)
+    );
 }
 
 /// Weights 3/4 and 1/4 from log likelihoods that are ln 3 apart, far below what exp can hold.
@@ -52,9 +63,9 @@ fn weights_are_likelihoods_in_proportion() {
     let weights: Vec<f64> = posterior.hypotheses.iter().map(|(_, weight)| *weight).collect();
     assert_eq!(posterior.hypotheses[0].0, a);
     assert!((weights[0] - 0.75).abs() < 1e-12 && (weights[1] - 0.25).abs() < 1e-12);
-    let certain = posterior.goals(0);
+    let certain = posterior.goals(AgentId::ZERO);
     assert!(matches!(certain[..], [(goal, p)] if goal == place(0, 1) && (p - 1.0).abs() < 1e-12));
-    let goals = posterior.goals(1);
+    let goals = posterior.goals(AgentId::ONE);
     assert_eq!(goals[0].0, place(1, 2));
     assert!((goals[1].1 - 0.25).abs() < 1e-12);
 }
@@ -64,8 +75,8 @@ fn equal_particles_add_up() {
     let (a, b) = (neutral([place(0, 1), place(1, 2)]), social(thing(0, 2), Attitude::Help));
     let posterior = Posterior::new([(a, -1.0), (b, -1.0), (a, -1.0)]);
     assert_eq!(posterior.hypotheses.len(), 2);
-    assert!((posterior.attitude(0, Attitude::Help) - 1.0 / 3.0).abs() < 1e-12);
-    assert!((posterior.attitude(1, Attitude::Neutral) - 1.0).abs() < 1e-12);
+    assert!((posterior.attitude(AgentId::ZERO, Attitude::Help) - 1.0 / 3.0).abs() < 1e-12);
+    assert!((posterior.attitude(AgentId::ONE, Attitude::Neutral) - 1.0).abs() < 1e-12);
 }
 
 /// Every kind of friendship and conflict that the paper names, and none.
@@ -94,18 +105,18 @@ fn relations_follow_from_goals_and_attitudes() {
 /// hypotheses together 1.
 #[test]
 fn the_prior_adds_up_to_one() {
-    let goals = [physical_goals(0, 2), physical_goals(1, 2)];
+    let goals = [physical_goals(AgentId::ZERO, 2), physical_goals(AgentId::ONE, 2)];
     let mut sum = 0.0;
     for &first in &goals[0] {
         for &second in &goals[1] {
             sum += neutral([first, second]).log_prior(14).exp() * 16.0;
         }
     }
-    for (agent, goals) in goals.iter().enumerate() {
+    for (agent, goals) in AgentId::ALL.into_iter().zip(&goals) {
         for &goal in goals {
             for attitude in [Attitude::Help, Attitude::Hinder] {
                 let mut attitudes = [Attitude::Neutral; 2];
-                attitudes[1 - agent] = attitude;
+                attitudes[agent.other()] = attitude;
                 let hypothesis = Hypothesis::new([goal; 2], attitudes, [Strength::Weak; 2]);
                 sum += hypothesis.log_prior(14).exp() * 16.0;
             }

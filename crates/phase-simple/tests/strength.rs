@@ -1,6 +1,6 @@
 //! What motion says about strength: features and the network's arithmetic by hand, and what is refused.
 
-use phase_model::{AgentBody, Body, MAX_ENTITIES, Size, Strength, Vec2, physique::GROUND_FRICTION};
+use phase_model::{AgentBody, AgentId, Body, MAX_ENTITIES, Size, Strength, Vec2, physique::GROUND_FRICTION};
 use phase_simple::{
     StrengthCue, StrengthRegressor,
     strength::{Dense, FEATURES, STRENGTH_FORMAT, Weights, WeightsError, features},
@@ -48,27 +48,30 @@ fn features_of_a_small_motion() {
     // Speeds 0, 3, 5; changes of velocity (3, 0) and (0, 4) in a twelfth of a second.
     let rows = motion(&[(0.0, 0.0), (3.0, 0.0), (3.0, 4.0)]);
     let expected = [8.0 / 3.0, 5.0, 0.0, 42.0, 48.0, 36.0, f64::from(1.2_f32)];
-    for (found, expected) in features(&rows, 1, Size::Large).into_iter().zip(expected) {
+    for (found, expected) in features(&rows, AgentId::ONE, Size::Large).into_iter().zip(expected) {
         assert!((found - expected).abs() < 1e-5, "{found} is not {expected}");
     }
-    let resting = features(&rows, 0, Size::Small);
+    let resting = features(&rows, AgentId::ZERO, Size::Small);
     assert_eq!(resting, [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, f64::from(0.8_f32)]);
 }
 
 #[test]
 fn too_few_rows_give_zeros() {
     let radius = f64::from(1.6_f32);
-    assert_eq!(features(&motion(&[(0.0, -2.0)]), 1, Size::Huge), [2.0, 2.0, 2.0, 0.0, 0.0, 0.0, radius]);
-    assert_eq!(features(&[], 1, Size::Huge), [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, radius]);
+    assert_eq!(
+        features(&motion(&[(0.0, -2.0)]), AgentId::ONE, Size::Huge),
+        [2.0, 2.0, 2.0, 0.0, 0.0, 0.0, radius]
+    );
+    assert_eq!(features(&[], AgentId::ONE, Size::Huge), [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, radius]);
 }
 
 #[test]
 fn the_network_by_hand() {
     let regressor = StrengthRegressor::new(tiny()).unwrap();
     // Speed 3: standardised 4; hidden 4 and 0; then 4 and 8.5; 100 + 40 + 8.5.
-    assert_eq!(regressor.estimate(&motion(&[(3.0, 0.0)]), 1, Size::Small), 148.5);
+    assert_eq!(regressor.estimate(&motion(&[(3.0, 0.0)]), AgentId::ONE, Size::Small), 148.5);
     // Speed 0: standardised −2; hidden 0 and 2; then 2 and −1.5, of which 0 is left; 100 + 20.
-    assert_eq!(regressor.estimate(&motion(&[(0.0, 0.0)]), 1, Size::Small), 120.0);
+    assert_eq!(regressor.estimate(&motion(&[(0.0, 0.0)]), AgentId::ONE, Size::Small), 120.0);
 }
 
 #[test]
@@ -77,7 +80,7 @@ fn levels_under_the_normal_distribution_by_hand() {
     weights.output.bias = vec![251.5];
     let regressor = StrengthRegressor::new(weights).unwrap();
     // The estimate is 300 N, the spread a level: exponents −½, 0, −½ and −2.
-    let logs = regressor.log_proposal(&motion(&[(3.0, 0.0)]), 1, Size::Small);
+    let logs = regressor.log_proposal(&motion(&[(3.0, 0.0)]), AgentId::ONE, Size::Small);
     let sum = 1.0 + 2.0 * (-0.5_f64).exp() + (-2.0_f64).exp();
     for (log, exponent) in logs.into_iter().zip([-0.5, 0.0, -0.5, -2.0]) {
         assert!((log - (exponent - sum.ln())).abs() < 1e-12);
@@ -88,7 +91,7 @@ fn levels_under_the_normal_distribution_by_hand() {
 fn what_is_no_number_says_nothing() {
     let regressor = StrengthRegressor::new(tiny()).unwrap();
     for speed in [f32::NAN, f32::INFINITY, f32::MAX] {
-        let logs = regressor.log_proposal(&motion(&[(speed, 0.0), (0.0, speed)]), 1, Size::Small);
+        let logs = regressor.log_proposal(&motion(&[(speed, 0.0), (0.0, speed)]), AgentId::ONE, Size::Small);
         let sum: f64 = logs.iter().map(|log| log.exp()).sum();
         assert!((sum - 1.0).abs() < 1e-9, "{speed}: {logs:?}");
     }
@@ -161,7 +164,7 @@ fn the_shipped_regressor_tells_weak_from_mighty() {
             let pushed = |step: u8| if step % 6 < 4 { f32::from(step % 6) } else { 0.0 };
             motion(&(0..=60).map(|step| (gained * pushed(step), 0.0)).collect::<Vec<_>>())
         };
-        let estimate = |strength| regressor.estimate(&run(strength), 1, size);
+        let estimate = |strength| regressor.estimate(&run(strength), AgentId::ONE, size);
         let (weak, mighty) = (estimate(Strength::Weak), estimate(Strength::Mighty));
         assert!(weak + 100.0 < mighty, "{size:?}: {weak} N and {mighty} N");
     }
@@ -208,7 +211,7 @@ proptest! {
         let at = at % bytes.len();
         bytes[at] = byte;
         if let Ok(regressor) = StrengthRegressor::from_safetensors(&bytes) {
-            let logs = regressor.log_proposal(&motion(&[(3.0, 0.0), (1.0, 1.0)]), 1, Size::Small);
+            let logs = regressor.log_proposal(&motion(&[(3.0, 0.0), (1.0, 1.0)]), AgentId::ONE, Size::Small);
             let sum: f64 = logs.iter().map(|log| log.exp()).sum();
             prop_assert!((sum - 1.0).abs() < 1e-9, "{logs:?}");
         }

@@ -69,7 +69,7 @@ pub(crate) fn insert_body(
     let radius = physique.radius(entity);
     let collider = match entity {
         Entity::Agent(agent) => {
-            let agent = &physique.agents[usize::from(agent)];
+            let agent = &physique.agents[agent];
             let centre_of_mass = Vec2::new(0.0, -agent.centre_of_mass_offset());
             ColliderBuilder::convex_polyline(geometry::trapezoid(radius).to_vec())
                 // Only a radius that is no length has no hull.

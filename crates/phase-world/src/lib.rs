@@ -6,7 +6,7 @@
 //! One agent pushes forward for a step of five substeps while the other rests:
 //!
 //! ```
-//! use phase_model::{Action, AgentBody, Body, Entity, Physique, State, Vec2};
+//! use phase_model::{Action, AgentBody, AgentId, Body, Entity, Physique, State, Vec2};
 //! use phase_world::World;
 //!
 //! let body = AgentBody { radius: 0.8, max_force: 450.0 };
@@ -16,9 +16,9 @@
 //! let mut world = World::new(&physique, &start);
 //!
 //! let substeps = world.step([Action::Up, Action::NoForce]);
-//! let heights = substeps.map(|state| state.position(Entity::agent(0)).y);
+//! let heights = substeps.map(|state| state.position(Entity::Agent(AgentId::ZERO)).y);
 //! assert!(heights[0] > 6.0 && heights.is_sorted());
-//! assert!(world.state().position(Entity::agent(1)).distance(places[1]) < 1e-3);
+//! assert!(world.state().position(Entity::Agent(AgentId::ONE)).distance(places[1]) < 1e-3);
 //! ```
 //!
 //! The key design decision is that everything is done with rapier's own means: solver settings (`settings`),

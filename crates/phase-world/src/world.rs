@@ -5,7 +5,7 @@ use crate::{
     substep,
 };
 use phase_model::{
-    AGENT_COUNT, Action, Entity, Grip, MAX_OBJECTS, Physique, Segment, State, arena::SUBSTEPS,
+    AGENT_COUNT, Action, AgentId, Entity, Grip, MAX_OBJECTS, Physique, Segment, State, arena::SUBSTEPS,
 };
 use rapier2d::prelude::*;
 
@@ -43,7 +43,7 @@ impl World {
             welds: [None; AGENT_COUNT],
             rules,
         };
-        for (agent, grip) in state.grips.into_iter().enumerate() {
+        for (agent, grip) in AgentId::ALL.into_iter().zip(state.grips) {
             if let Some(grip) = grip {
                 world.weld(agent, grip);
             }
@@ -60,7 +60,7 @@ impl World {
         for (index, mover) in self.movers.iter().enumerate() {
             state.bodies[index] = mover.state(&self.engine);
             for (other, earlier) in self.movers.iter().enumerate().take(index) {
-                let (a, b) = (Entity::from_index(index), Entity::from_index(other));
+                let (a, b) = (Entity::ALL[index], Entity::ALL[other]);
                 if !state.touching(a, b) && contact::touching(&self.engine, mover, earlier) {
                     state.contacts.insert(a, b);
                 }
@@ -81,7 +81,7 @@ impl World {
     /// Attaching and detaching happen once, before the first substep; pushes and torques act and `stop` takes
     /// the velocity away in every substep; the agents' angular velocities are zero after the last.
     pub fn step(&mut self, actions: [Action; AGENT_COUNT]) -> [State; SUBSTEPS] {
-        for (agent, action) in actions.into_iter().enumerate() {
+        for (agent, action) in AgentId::ALL.into_iter().zip(actions) {
             match action {
                 Action::Attach => self.attach(agent),
                 Action::Detach => self.detach(agent),
@@ -99,28 +99,31 @@ impl World {
         })
     }
 
-    fn attach(&mut self, agent: usize) {
+    fn attach(&mut self, agent: AgentId) {
         let state = self.state();
         if let Some((object, side)) = state.attachable(&self.physique, agent) {
-            let relative_angle = state.body(Entity::object(object)).angle - state.bodies[agent].angle;
-            self.weld(agent, Grip { object: object as u8, side, relative_angle });
+            let angle = |entity| state.body(entity).angle;
+            let relative_angle = angle(Entity::Object(object)) - angle(Entity::Agent(agent));
+            self.weld(agent, Grip { object, side, relative_angle });
         }
     }
 
-    fn detach(&mut self, agent: usize) {
+    fn detach(&mut self, agent: AgentId) {
         if let Some(weld) = self.welds[agent].take() {
-            let object = Entity::Object(weld.grip.object).index();
-            self.rules.release(&self.engine, &self.movers[agent], &self.movers[object]);
+            let [holder, held] = [Entity::Agent(agent), Entity::Object(weld.grip.object)]
+                .map(|entity| &self.movers[entity.index()]);
+            self.rules.release(&self.engine, holder, held);
             weld.remove(&mut self.engine);
         }
     }
 
     /// Makes a grip real; one on an object that is not there, or at no angle, is dropped.
-    fn weld(&mut self, agent: usize, grip: Grip) {
-        let object = usize::from(grip.object);
-        if object < self.physique.object_count && grip.relative_angle.is_finite() {
+    fn weld(&mut self, agent: AgentId, grip: Grip) {
+        let object = grip.object;
+        if object.index() < self.physique.object_count && grip.relative_angle.is_finite() {
             let length = self.physique.agents[agent].radius + self.physique.object_radii[object];
-            let ends = [self.movers[agent].body, self.movers[Entity::object(object).index()].body];
+            let ends =
+                [Entity::Agent(agent), Entity::Object(object)].map(|entity| self.movers[entity.index()].body);
             self.welds[agent] = Some(Weld::insert(&mut self.engine, ends, grip, length));
         }
     }

@@ -4,7 +4,7 @@ use super::rows::{Criterion, Form, Part};
 use phase_evidence::{
     Effect, Outcome, Rest, Track, blocking, contact, exploration, holding, outcome, pursuit::Pursuit,
 };
-use phase_model::{AGENT_COUNT, Entity, Goal, Scene, State, layout::Room};
+use phase_model::{AgentId, Entity, Goal, ObjectId, RoomId, Scene, State};
 use phase_planner::Routes;
 
 /// Steps an agent may take to let go and come to rest after its goal is reached.
@@ -43,7 +43,7 @@ pub(super) fn judge(part: &Part, scene: &Scene, track: &Track, control: Option<&
         Criterion::SearchFirst(wanted) => case.search(wanted),
         Criterion::CarryTogether => case.carry_together(goal),
         Criterion::Help => {
-            let held = case.held_anything(1 - part.judged);
+            let held = case.held_anything(part.judged.other());
             (
                 effect.is_some_and(|effect| effect.helped()),
                 Some(held >= VISIBLE),
@@ -73,8 +73,8 @@ type Judgement = (bool, Option<bool>, String);
 
 impl Case<'_> {
     /// The agents that the row is about, with their outcomes.
-    fn active(&self) -> impl Iterator<Item = (usize, Outcome)> {
-        let who = (0..AGENT_COUNT).filter(|&agent| self.part.idle != Some(agent));
+    fn active(&self) -> impl Iterator<Item = (AgentId, Outcome)> {
+        let who = AgentId::ALL.into_iter().filter(|&agent| self.part.idle != Some(agent));
         who.map(|agent| (agent, Outcome::of(self.track, self.scene.agents[agent].goal)))
     }
 
@@ -83,7 +83,7 @@ impl Case<'_> {
     }
 
     fn outcomes(&self) -> String {
-        let words = |(agent, outcome): (usize, Outcome)| match outcome.steps {
+        let words = |(agent, outcome): (AgentId, Outcome)| match outcome.steps {
             Some(steps) => format!("agent {agent} after {steps}"),
             None if outcome.reached => format!("agent {agent} in the end"),
             None => format!("agent {agent} never"),
@@ -102,8 +102,9 @@ impl Case<'_> {
 
     fn search(&self, wanted: usize) -> Judgement {
         // In the scene as it is written the near region is room 1 and the larger one rooms 0 and 3.
-        let image = |room: Room| self.scene.layout.flip().map_or(room, |flip| flip.landmark(room));
-        let (near, larger) = ([image(1)], [image(0), image(3)]);
+        let image = |room: RoomId| self.scene.layout.flip().map_or(room, |flip| flip.room(room));
+        let (near, larger) =
+            ([image(RoomId::TOP_RIGHT)], [image(RoomId::TOP_LEFT), image(RoomId::BOTTOM_LEFT)]);
         let first = exploration::searched_first(self.track, self.part.judged, &[&near, &larger]);
         let notes = first.map_or_else(
             || "neither searched".into(),
@@ -121,7 +122,7 @@ impl Case<'_> {
     }
 
     fn stay_out(&self, with: Outcome, effect: Option<Effect>) -> Judgement {
-        let (helper, helpee) = (Entity::agent(1 - self.part.judged), Entity::agent(self.part.judged));
+        let (helper, helpee) = (Entity::Agent(self.part.judged.other()), Entity::Agent(self.part.judged));
         let touched = contact::steps_touching(self.track, helper, helpee).len();
         let good = with.reached && touched == 0 && effect.is_some_and(|effect| !effect.hindered());
         let way = self.track.distance_travelled(helper, 0..self.track.states.len());
@@ -129,8 +130,8 @@ impl Case<'_> {
     }
 
     fn hindrance(&self, form: Form, goal: Goal) -> (bool, String) {
-        let hinderer = 1 - self.part.judged;
-        let object = object_of(goal).unwrap_or(0);
+        let hinderer = self.part.judged.other();
+        let object = object_of(goal).unwrap_or(ObjectId::ZERO);
         let alone = holding::carried_alone(self.track, hinderer, object);
         match form {
             Form::Block => {
@@ -171,7 +172,7 @@ impl Case<'_> {
     }
 
     fn chase(&self, effect: Option<Effect>) -> Judgement {
-        let (chaser, fleer) = (Pursuit::of(self.track, 0), Pursuit::of(self.track, 1));
+        let (chaser, fleer) = (Pursuit::of(self.track, AgentId::ZERO), Pursuit::of(self.track, AgentId::ONE));
         let chases = 2 * chaser.towards >= chaser.moving && chaser.moving >= VISIBLE;
         let flees = effect.is_some_and(|effect| effect.hindered());
         let notes = format!(
@@ -183,10 +184,10 @@ impl Case<'_> {
 
     fn compete(&self, goal: Goal) -> Judgement {
         let Some(object) = object_of(goal) else { return (false, None, String::new()) };
-        let touched = |agent: usize| {
-            !contact::steps_touching(self.track, Entity::agent(agent), Entity::object(object)).is_empty()
+        let touched = |agent: AgentId| {
+            !contact::steps_touching(self.track, Entity::Agent(agent), Entity::Object(object)).is_empty()
         };
-        let engaged = touched(0) && touched(1);
+        let engaged = touched(AgentId::ZERO) && touched(AgentId::ONE);
         let fought = holding::carried_together(self.track, object).steps;
         let decided = self.active().any(|(_, outcome)| outcome.reached);
         let notes = format!("{}, both held {fought} steps, both touched it: {engaged}", self.outcomes());
@@ -208,29 +209,29 @@ impl Case<'_> {
             if !rest.is_quiet() {
                 quiet = false;
                 let (strayed, turned) = (rest.strayed, rest.turned);
-                notes += &format!("; {entity:?} strayed {strayed:.2} u, turned {turned:.2} rad");
+                notes += &format!("; {entity} strayed {strayed:.2} u, turned {turned:.2} rad");
             }
         }
         (quiet && !held, None, notes)
     }
 
-    fn held_anything(&self, agent: usize) -> usize {
+    fn held_anything(&self, agent: AgentId) -> usize {
         self.track.states.iter().filter(|state| state.grips[agent].is_some()).count()
     }
 
     /// Whether in the end an object lies where an agent does not fit through the doors.
-    fn out_of_reach(&self, agent: usize, object: usize) -> bool {
+    fn out_of_reach(&self, agent: AgentId, object: ObjectId) -> bool {
         let Some(state) = self.track.states.last() else { return false };
         let routes = Routes::new(self.scene.layout);
-        let (from, to) = (state.position(Entity::agent(agent)), state.position(Entity::object(object)));
+        let (from, to) = (state.position(Entity::Agent(agent)), state.position(Entity::Object(object)));
         let width = self.track.physique.agents[agent].width();
         routes.best(from, to, width, routes.gaps()).is_none_or(|route| route.impassable > 0)
     }
 }
 
-const fn object_of(goal: Goal) -> Option<usize> {
+const fn object_of(goal: Goal) -> Option<ObjectId> {
     match goal.subject() {
-        Entity::Object(object) => Some(object as usize),
+        Entity::Object(object) => Some(object),
         Entity::Agent(_) => None,
     }
 }

@@ -1,5 +1,7 @@
 //! The table of what is checked.
 
+use phase_model::AgentId;
+
 /// One line of the table: scenes in a file of their own, how they are played, and what counts as success.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Part {
@@ -10,11 +12,11 @@ pub(super) struct Part {
     /// What is checked, in words.
     pub title: &'static str,
     /// An agent that does nothing because the scene is about the other alone.
-    pub idle: Option<usize>,
+    pub idle: Option<AgentId>,
     /// An agent that does nothing in the scene's counterfactual, if it has one.
-    pub control: Option<usize>,
+    pub control: Option<AgentId>,
     /// The agent whose goal is timed, with and without the other's doing.
-    pub judged: usize,
+    pub judged: AgentId,
     /// λ of the subgoal value, if it is not the usual one.
     pub lambda: Option<f64>,
     /// Whether the event goes on to its greatest length however quiet it is.
@@ -89,16 +91,17 @@ const ALONE: Part = Part {
     row: 0,
     name: "",
     title: "",
-    idle: Some(1),
+    idle: Some(AgentId::ONE),
     control: None,
-    judged: 0,
+    judged: AgentId::ZERO,
     lambda: None,
     lingers: false,
     criterion: Criterion::Reach,
 };
 const BOTH: Part = Part { idle: None, ..ALONE };
-const HELPING: Part = Part { row: 5, control: Some(0), judged: 1, criterion: Criterion::Help, ..BOTH };
-const HINDERING: Part = Part { row: 6, control: Some(0), judged: 1, ..BOTH };
+const HELPING: Part =
+    Part { row: 5, control: Some(AgentId::ZERO), judged: AgentId::ONE, criterion: Criterion::Help, ..BOTH };
+const HINDERING: Part = Part { row: 6, control: Some(AgentId::ZERO), judged: AgentId::ONE, ..BOTH };
 const SEARCHING: Part = Part { row: 2, name: "02-search", ..ALONE };
 
 /// Everything that is checked, in order.
@@ -127,7 +130,7 @@ pub(super) const PARTS: [Part; 20] = [
         row: 4,
         name: "04-together",
         title: "carrying together",
-        control: Some(0),
+        control: Some(AgentId::ZERO),
         criterion: Criterion::CarryTogether,
         ..BOTH
     },
@@ -175,7 +178,7 @@ pub(super) const PARTS: [Part; 20] = [
         row: 7,
         name: "07-chase",
         title: "chasing and fleeing",
-        control: Some(1),
+        control: Some(AgentId::ONE),
         criterion: Criterion::Chase,
         ..BOTH
     },
@@ -183,7 +186,7 @@ pub(super) const PARTS: [Part; 20] = [
         row: 8,
         name: "08-compete",
         title: "competing for an object",
-        control: Some(1),
+        control: Some(AgentId::ONE),
         criterion: Criterion::Compete,
         ..BOTH
     },

@@ -12,7 +12,7 @@ use phase_cli::{
 use phase_dataset::{cache::Cache, checksum::sha256, folder::Folder};
 use phase_event::Event;
 use phase_evidence::Track;
-use phase_model::{Attitude, Flip, Scene};
+use phase_model::{AgentId, Attitude, Flip, Scene};
 use phase_sim::Settings;
 use std::{path::PathBuf, time::Instant};
 
@@ -80,7 +80,7 @@ impl Laboratory {
         id: &str,
         scene: &Scene,
         index: usize,
-        agent: usize,
+        agent: AgentId,
     ) -> Result<Option<Event>, CliError> {
         let mut scene = mirrored(scene, index);
         scene.agents[agent].attitude = Attitude::Neutral;

@@ -1,6 +1,6 @@
 //! What there is to learn strengths from.
 
-use phase_model::{AGENT_COUNT, ObservedEvent, Strength};
+use phase_model::{AGENT_COUNT, AgentId, ObservedEvent, Strength};
 use phase_simple::strength::{FEATURES, features};
 
 /// Length of the stretches (steps), ΔT of SIMPLE.
@@ -29,7 +29,7 @@ impl Motion {
     #[must_use]
     pub fn of_event(event: &ObservedEvent, strengths: [Strength; AGENT_COUNT]) -> [Self; AGENT_COUNT] {
         let rows = event.rows();
-        core::array::from_fn(|agent| {
+        AgentId::ALL.map(|agent| {
             let (size, strength) = (event.agent_sizes()[agent], strengths[agent]);
             let sample = |rows| Sample { features: features(rows, agent, size), strength };
             let whole = sample(rows);

@@ -2,7 +2,8 @@
 
 use phase_baselines::{nodes::Nodes, parameters::Parameter, recognition::LabelledEvent};
 use phase_model::{
-    AGENT_COUNT, Body, Goal, Layout, MAX_ENTITIES, ObservedEvent, Relation, Sign, Size, Vec2,
+    AGENT_COUNT, AgentId, Body, Goal, LandmarkId, Layout, MAX_ENTITIES, ObservedEvent, Relation, Sign, Size,
+    Vec2,
     arena::{CENTRE, LANDMARKS},
     random::{Pcg64Mcg, Purpose, stream},
 };
@@ -40,8 +41,8 @@ pub(crate) fn labelled() -> Vec<LabelledEvent> {
     (0..8)
         .map(|number| {
             let goal = |agent: u8, landmark: usize| Goal::AgentOnLandmark {
-                agent,
-                landmark: landmark as u8,
+                agent: AgentId::ALL[usize::from(agent)],
+                landmark: LandmarkId::ALL[landmark],
                 sign: Sign::Positive,
             };
             let goals = [goal(0, number % 4), goal(1, (number / 2) % 4)];

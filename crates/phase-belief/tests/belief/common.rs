@@ -1,18 +1,18 @@
 //! Scenes to hold beliefs about, and ways for the world to go.
 
 use phase_model::{
-    AGENT_COUNT, Action, AgentBody, Body, Dynamics, Entity, Layout, MAX_ENTITIES, Physique, Segment, Size,
-    State, Vec2, arena,
+    AGENT_COUNT, Action, AgentBody, AgentId, Body, Dynamics, Entity, Layout, MAX_ENTITIES, ObjectId,
+    Physique, Segment, Size, State, Vec2, arena,
     geometry::Outline,
     random::{Pcg64Mcg, Purpose, stream},
 };
 use proptest::prelude::*;
 use rand::RngExt;
 
-pub(crate) const ME: Entity = Entity::Agent(0);
-pub(crate) const OTHER: Entity = Entity::Agent(1);
-pub(crate) const BALL: Entity = Entity::Object(0);
-pub(crate) const BOX: Entity = Entity::Object(1);
+pub(crate) const ME: Entity = Entity::Agent(AgentId::ZERO);
+pub(crate) const OTHER: Entity = Entity::Agent(AgentId::ONE);
+pub(crate) const BALL: Entity = Entity::Object(ObjectId::ZERO);
+pub(crate) const BOX: Entity = Entity::Object(ObjectId::ONE);
 
 pub(crate) fn random(seed: u64) -> Pcg64Mcg {
     stream(seed, Purpose::Belief, 0)
@@ -52,7 +52,7 @@ pub(crate) fn legal_state(physique: &Physique, random: &mut Pcg64Mcg) -> State {
     let mut state = State::new([Body::default(); MAX_ENTITIES]);
     let mut outlines: Vec<Outline> = Vec::new();
     while outlines.len() < physique.entity_count() {
-        let entity = Entity::from_index(outlines.len());
+        let entity = Entity::ALL[outlines.len()];
         let position = arena::MIN + arena::SIDE * Vec2::new(random.random(), random.random());
         let mut body = Body::at_rest(position, random.random_range(-3.0..3.0));
         let outline = Outline::of(physique, entity, &body);
@@ -113,7 +113,7 @@ impl Dynamics for Mad {
         }
         let grip = |number: f32, object: u8| {
             (number > 0.0).then_some(phase_model::Grip {
-                object,
+                object: ObjectId::ALL[usize::from(object)],
                 side: phase_model::Side::Tail,
                 relative_angle: number,
             })

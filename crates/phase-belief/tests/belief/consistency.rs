@@ -3,7 +3,9 @@
 use crate::common::{BALL, BOX, ME, OTHER, Still, physique, random, state};
 use core::f32::consts::PI;
 use phase_belief::Belief;
-use phase_model::{AGENT_COUNT, Action, Body, Dynamics, Grip, MAX_ENTITIES, Side, Size, State, Vec2};
+use phase_model::{
+    AGENT_COUNT, Action, AgentId, Body, Dynamics, Grip, MAX_ENTITIES, ObjectId, Side, Size, State, Vec2,
+};
 use phase_perception::observe;
 
 /// Dynamics that put the world into one state, whatever it was.
@@ -28,7 +30,7 @@ fn moved(mut state: State, entity: phase_model::Entity, x: f32, y: f32) -> State
 fn held(mut state: State, side: Side) -> State {
     let offset = side.direction() * 1.6;
     *state.body_mut(BALL) = Body::at_rest(state.position(OTHER) + offset, 0.0);
-    state.grips[1] = Some(Grip { object: 0, side, relative_angle: 0.0 });
+    state.grips[1] = Some(Grip { object: ObjectId::ZERO, side, relative_angle: 0.0 });
     state
 }
 
@@ -36,8 +38,14 @@ fn held(mut state: State, side: Side) -> State {
 fn confront(truth: State, imagined: State) -> Belief {
     let physique = physique(Vec::new(), Size::Small, 2);
     let mut chance = random(1);
-    let mut belief = Belief::new(&physique, &observe(&physique, &truth, 0), 20, &mut chance);
-    belief.update(&Into(imagined), &physique, Action::NoForce, &observe(&physique, &truth, 0), &mut chance);
+    let mut belief = Belief::new(&physique, &observe(&physique, &truth, AgentId::ZERO), 20, &mut chance);
+    belief.update(
+        &Into(imagined),
+        &physique,
+        Action::NoForce,
+        &observe(&physique, &truth, AgentId::ZERO),
+        &mut chance,
+    );
     assert_eq!(belief.unresolved(), 0);
     belief
 }
@@ -81,7 +89,7 @@ fn only_what_cannot_be_is_redrawn() {
 fn walls_count_too() {
     let physique = physique(vec![crate::common::wall((16.0, 12.0), (16.0, 22.0))], Size::Small, 2);
     let truth = hidden();
-    let observation = observe(&physique, &truth, 0);
+    let observation = observe(&physique, &truth, AgentId::ZERO);
     for (x, redrawn) in [(16.77, 0), (16.7, 20), (16.0, 20), (15.0, 0)] {
         let mut chance = random(1);
         let mut belief = Belief::new(&physique, &observation, 20, &mut chance);
@@ -174,7 +182,7 @@ fn what_should_be_felt_and_is_not_is_not_there() {
     // In reach behind one's back, and predicted in the own grip.
     let behind = moved(truth, BALL, 16.0, 5.6);
     let mut gripped = behind;
-    gripped.grips[0] = Some(Grip { object: 0, side: Side::Tail, relative_angle: 0.0 });
+    gripped.grips[0] = Some(Grip { object: ObjectId::ZERO, side: Side::Tail, relative_angle: 0.0 });
     for (imagined, stays) in [(behind, true), (gripped, false)] {
         for particle in confront(truth, imagined).particles() {
             assert_eq!(particle.position(BALL) == imagined.position(BALL), stays);
@@ -200,7 +208,7 @@ fn a_cell_under_a_known_body_counts_as_seen() {
     let physique = physique(Vec::new(), Size::Huge, 0);
     let truth = state([(16.5, 8.5, PI), (12.0, 18.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)]);
     let mut chance = random(1);
-    let observation = observe(&physique, &truth, 0);
+    let observation = observe(&physique, &truth, AgentId::ZERO);
     let mut belief = Belief::new(&physique, &observation, 1, &mut chance);
     let under = phase_perception::Cell::at(Vec2::new(16.5, 9.5)).unwrap();
     assert!(!observation.sees_cell(under));
@@ -208,6 +216,6 @@ fn a_cell_under_a_known_body_counts_as_seen() {
     assert!(belief.seen_now().any(|cell| cell == under));
     assert!(belief.never_seen().all(|cell| cell != under));
     let gone = moved(truth, ME, 16.5, 4.0);
-    belief.update(&Still, &physique, Action::Up, &observe(&physique, &gone, 0), &mut chance);
+    belief.update(&Still, &physique, Action::Up, &observe(&physique, &gone, AgentId::ZERO), &mut chance);
     assert_eq!(belief.memory().age(under), Some(1));
 }

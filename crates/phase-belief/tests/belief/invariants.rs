@@ -3,7 +3,7 @@
 use crate::common::{Mad, any_physique, clear_of_walls, legal_state, random, shrunk};
 use phase_belief::Belief;
 use phase_forward::Forward;
-use phase_model::{Action, Dynamics, Entity, Physique, State, geometry::Outline};
+use phase_model::{Action, AgentId, Dynamics, Entity, Physique, State, geometry::Outline};
 use phase_perception::{Observation, footprint, observe};
 use proptest::prelude::*;
 use rand::RngExt;
@@ -29,8 +29,8 @@ fn check(physique: &Physique, belief: &Belief, observation: &Observation) -> Res
             }
         }
         prop_assert_eq!(Some(particle.grips[agent]), observation.grip(agent));
-        if let Some(grip) = observation.grip(1 - agent) {
-            prop_assert_eq!(particle.grips[1 - agent], grip);
+        if let Some(grip) = observation.grip(agent.other()) {
+            prop_assert_eq!(particle.grips[agent.other()], grip);
         }
     }
     Ok(())
@@ -84,15 +84,15 @@ proptest! {
         let forward = Forward::new(&physique);
         let mut chance = random(seed);
         let mut truth = legal_state(&physique, &mut chance);
-        let mut beliefs = [0, 1].map(|agent| {
+        let mut beliefs = AgentId::ALL.map(|agent| {
             Belief::new(&physique, &observe(&physique, &truth, agent), 12, &mut chance)
         });
-        for (agent, belief) in beliefs.iter().enumerate() {
+        for (agent, belief) in AgentId::ALL.into_iter().zip(&beliefs) {
             check(&physique, belief, &observe(&physique, &truth, agent))?;
         }
         for both in actions {
             forward.step(&mut truth, both);
-            for (agent, belief) in beliefs.iter_mut().enumerate() {
+            for (agent, belief) in AgentId::ALL.into_iter().zip(&mut beliefs) {
                 let observation = observe(&physique, &truth, agent);
                 belief.update(&forward, &physique, both[agent], &observation, &mut chance);
                 prop_assert_eq!(belief.particles().len(), 12);
@@ -112,7 +112,7 @@ proptest! {
     ) {
         let mut chance = random(seed);
         let truth = legal_state(&physique, &mut chance);
-        let observation = observe(&physique, &truth, agent);
+        let observation = observe(&physique, &truth, AgentId::ALL[agent]);
         let mut belief = Belief::new(&physique, &observation, 12, &mut chance);
         for _ in 0..3 {
             belief.update(&Mad(numbers), &physique, Action::Up, &observation, &mut chance);
@@ -125,7 +125,7 @@ proptest! {
     fn first_beliefs_are_clean(physique in any_physique(), agent in 0_usize..2, seed in any::<u64>()) {
         let mut chance = random(seed);
         let truth = legal_state(&physique, &mut chance);
-        let observation = observe(&physique, &truth, agent);
+        let observation = observe(&physique, &truth, AgentId::ALL[agent]);
         let belief = Belief::new(&physique, &observation, 12, &mut chance);
         prop_assert_eq!(belief.redrawn(), 12 * (physique.entity_count() - observation.observed.iter().count()));
         for particle in belief.particles() {
@@ -136,7 +136,7 @@ proptest! {
             for (k, outline) in outlines.iter().enumerate() {
                 prop_assert!(clear_of_walls(&physique, outline));
                 prop_assert!(!outlines[..k].iter().any(|other| outline.overlaps(other)));
-                let entity = Entity::from_index(k);
+                let entity = Entity::ALL[k];
                 if observation.body(entity).is_none() {
                     prop_assert_eq!(particle.body(entity).velocity, phase_model::Vec2::ZERO);
                     prop_assert_eq!(particle.body(entity).angular_velocity, 0.0);
@@ -150,7 +150,7 @@ proptest! {
     #[test]
     fn beliefs_are_a_function_of_the_generator(physique in any_physique(), seed in any::<u64>()) {
         let truth = legal_state(&physique, &mut random(seed));
-        let observation = observe(&physique, &truth, 0);
+        let observation = observe(&physique, &truth, AgentId::ZERO);
         let forward = Forward::new(&physique);
         let run = |seed: u64| {
             let mut chance = random(seed);

@@ -1,7 +1,7 @@
 //! What is remembered of cells.
 
 use phase_belief::{AGENT_FORGETTING, CellMemory, OBJECT_FORGETTING, hiding_weight};
-use phase_model::{Entity, Vec2};
+use phase_model::{AgentId, Entity, ObjectId, Vec2};
 use phase_perception::{Cell, CellSet};
 
 fn cell(index: usize) -> Cell {
@@ -42,7 +42,7 @@ fn cells_age_from_when_they_were_last_seen() {
         memory.note(&set(seen));
         assert_eq!([0, 1, 399].map(|index| memory.age(cell(index))), expected);
     }
-    let (agent, object) = (Entity::agent(1), Entity::object(0));
+    let (agent, object) = (Entity::Agent(AgentId::ONE), Entity::Object(ObjectId::ZERO));
     assert_eq!(memory.weight(agent, cell(0)), 0.0);
     assert!(memory.weight(agent, cell(1)) > memory.weight(object, cell(1)));
     assert_eq!(memory.weight(object, Cell::at(Vec2::new(16.0, 12.0)).unwrap()), 1.0);

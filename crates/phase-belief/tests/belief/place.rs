@@ -3,7 +3,7 @@
 use crate::common::{BALL, Lost, OTHER, clear_of_walls, physique, random, state};
 use core::f32::consts::PI;
 use phase_belief::Belief;
-use phase_model::{Action, Physique, Size, State, Vec2, geometry::Outline};
+use phase_model::{Action, AgentId, Physique, Size, State, Vec2, geometry::Outline};
 use phase_perception::{Cell, CellSet, Observation, footprint, observe};
 
 /// Agent 0 in a corner, its face to the wall; the others far away.
@@ -13,7 +13,7 @@ fn truth() -> State {
 
 /// What agent 0 would observe if it saw all cells but those in a square with this lower left corner.
 fn all_but(physique: &Physique, corner: (f32, f32), side: usize) -> Observation {
-    let mut observation = observe(physique, &truth(), 0);
+    let mut observation = observe(physique, &truth(), AgentId::ZERO);
     let hidden = |cell: Cell| {
         let offset = cell.centre() - Vec2::from(corner);
         offset.min_element() > 0.0 && offset.max_element() < side as f32
@@ -30,8 +30,8 @@ fn a_tight_hiding_place_is_found() {
     for (side, size) in cases {
         let physique = physique(Vec::new(), size, 1);
         let mut truth = truth();
-        truth.contacts.insert(phase_model::Entity::agent(0), OTHER);
-        let mut observation = observe(&physique, &truth, 0);
+        truth.contacts.insert(phase_model::Entity::Agent(AgentId::ZERO), OTHER);
+        let mut observation = observe(&physique, &truth, AgentId::ZERO);
         observation.visible = all_but(&physique, (12.0, 17.0), side).visible;
         let belief = Belief::new(&physique, &observation, 200, &mut random(3));
         assert_eq!(belief.unresolved(), 0, "{size:?}");
@@ -47,8 +47,8 @@ fn a_tight_hiding_place_is_found_among_many_that_are_too_tight() {
     // A hundred single cells into which nothing fits, and one square of four into which the object does.
     let physique = physique(Vec::new(), Size::Small, 1);
     let mut truth = truth();
-    truth.contacts.insert(phase_model::Entity::agent(0), OTHER);
-    let mut observation = observe(&physique, &truth, 0);
+    truth.contacts.insert(phase_model::Entity::Agent(AgentId::ZERO), OTHER);
+    let mut observation = observe(&physique, &truth, AgentId::ZERO);
     let square = |x: usize, y: usize| (10..12).contains(&x) && (14..16).contains(&y);
     let hidden = |cell: Cell| {
         let (x, y) = (cell.index() % 20, cell.index() / 20);
@@ -84,7 +84,7 @@ fn where_no_place_is_left_bodies_lie_in_view_and_are_counted() {
         ("all but a nook", all_but(&physique, (12.0, 17.0), 1).visible),
     ];
     for (name, visible) in cases {
-        let mut observation = observe(&physique, &truth(), 0);
+        let mut observation = observe(&physique, &truth(), AgentId::ZERO);
         observation.visible = visible;
         let mut belief = Belief::new(&physique, &observation, 10, &mut chance);
         for _ in 0..3 {
@@ -113,7 +113,7 @@ fn where_no_place_is_left_bodies_lie_in_view_and_are_counted() {
 fn bodies_too_large_for_the_arena_do_not_panic() {
     let mut physique = physique(Vec::new(), Size::Small, 2);
     physique.object_radii = [15.0, f32::NAN];
-    let belief = Belief::new(&physique, &observe(&physique, &truth(), 0), 3, &mut random(6));
+    let belief = Belief::new(&physique, &observe(&physique, &truth(), AgentId::ZERO), 3, &mut random(6));
     assert!(belief.unresolved() >= 3);
     assert!(belief.particles().iter().all(|particle| particle.is_finite(&physique)));
 }
@@ -121,7 +121,7 @@ fn bodies_too_large_for_the_arena_do_not_panic() {
 #[test]
 fn a_belief_of_no_particles_is_empty() {
     let physique = physique(Vec::new(), Size::Small, 1);
-    let observation = observe(&physique, &truth(), 0);
+    let observation = observe(&physique, &truth(), AgentId::ZERO);
     let mut belief = Belief::new(&physique, &observation, 0, &mut random(1));
     belief.update(&Lost(&[BALL]), &physique, Action::Up, &observation, &mut random(1));
     assert!(belief.particles().is_empty());

@@ -5,7 +5,8 @@ use core::f32::consts::PI;
 use phase_belief::Belief;
 use phase_forward::Forward;
 use phase_model::{
-    AGENT_COUNT, Action, Dynamics, Grip, Physique, Segment, Side, Size, State, Vec2, geometry::Outline,
+    AGENT_COUNT, Action, AgentId, Dynamics, Grip, ObjectId, Physique, Segment, Side, Size, State, Vec2,
+    geometry::Outline,
 };
 use phase_perception::observe;
 
@@ -16,13 +17,13 @@ fn imagine(physique: &Physique, first: State, steps: usize) -> State {
 }
 
 fn imagine_by(dynamics: &impl Dynamics, physique: &Physique, first: State, steps: usize) -> State {
-    let observation = observe(physique, &first, 0);
+    let observation = observe(physique, &first, AgentId::ZERO);
     assert_eq!(observation.observed.iter().count(), physique.entity_count(), "all is seen at first");
     let mut chance = random(1);
     let mut belief = Belief::new(physique, &observation, 3, &mut chance);
     let mut away = first;
     *away.body_mut(ME) = phase_model::Body::at_rest(Vec2::new(16.0, 4.0), PI);
-    let observation = observe(physique, &away, 0);
+    let observation = observe(physique, &away, AgentId::ZERO);
     assert_eq!(observation.observed, [ME].into_iter().collect());
     for _ in 0..steps {
         belief.update(dynamics, physique, Action::NoForce, &observation, &mut chance);
@@ -72,7 +73,7 @@ fn what_it_holds_goes_along() {
     let velocity = Vec2::new(4.0, -2.0);
     let mut first = scene(velocity, (16.0, 15.6));
     first.body_mut(BALL).velocity = velocity;
-    first.grips[1] = Some(Grip { object: 0, side: Side::Head, relative_angle: 0.0 });
+    first.grips[1] = Some(Grip { object: ObjectId::ZERO, side: Side::Head, relative_angle: 0.0 });
     let last = imagine(&small(Vec::new()), first, 3);
     assert_eq!(last.grips, first.grips);
     for entity in [OTHER, BALL] {
@@ -153,7 +154,7 @@ fn the_agents_own_action_is_known_and_the_other_does_nothing() {
     let truth = state([(16.0, 4.0, PI), (24.0, 4.0, 0.0), (8.0, 20.0, 0.0), (24.0, 20.0, 0.0)]);
     let mirrored = state([(24.0, 4.0, 0.0), (16.0, 4.0, PI), (8.0, 20.0, 0.0), (24.0, 20.0, 0.0)]);
     for (agent, truth) in [(0, truth), (1, mirrored)] {
-        let observation = observe(&physique, &truth, agent);
+        let observation = observe(&physique, &truth, AgentId::ALL[agent]);
         let mut chance = random(2);
         let mut belief = Belief::new(&physique, &observation, 30, &mut chance);
         belief.update(&Tell, &physique, Action::Left, &observation, &mut chance);

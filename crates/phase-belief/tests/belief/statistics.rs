@@ -3,7 +3,7 @@
 use crate::common::{BALL, Lost, ME, OTHER, Still, physique, random, state, wall};
 use core::f32::consts::{FRAC_PI_2, PI};
 use phase_belief::Belief;
-use phase_model::{Action, Body, Dynamics, Entity, Physique, Size, State, Vec2};
+use phase_model::{Action, AgentId, Body, Dynamics, Entity, Physique, Size, State, Vec2};
 use phase_perception::{Cell, Observation, observe};
 
 /// Looks of agent 0 in turn: the state before, one after each look.
@@ -14,10 +14,10 @@ fn looks(
     states: &[State],
 ) -> (Belief, Observation) {
     let mut chance = random(7);
-    let mut observation = observe(physique, &states[0], 0);
+    let mut observation = observe(physique, &states[0], AgentId::ZERO);
     let mut belief = Belief::new(physique, &observation, particles, &mut chance);
     for (k, state) in states.iter().enumerate().skip(1) {
-        observation = observe(physique, state, 0);
+        observation = observe(physique, state, AgentId::ZERO);
         if k + 1 == states.len() {
             belief.update(dynamics, physique, Action::TurnLeft, &observation, &mut chance);
         } else {

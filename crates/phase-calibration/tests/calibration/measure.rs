@@ -2,7 +2,7 @@ use crate::support::{Drifting, probe, probes, run, runs};
 use phase_calibration::{
     Deviation, Probe, Replay, Run, Spread, ahead, grip_of, probes_report, replay_reports, run_reports,
 };
-use phase_model::{Action, Body, MAX_ENTITIES, Physique, Side, State, Vec2};
+use phase_model::{Action, AgentId, Body, MAX_ENTITIES, ObjectId, Physique, Side, State, Vec2};
 use serde_json::json;
 
 #[test]
@@ -89,8 +89,8 @@ fn grips_are_on_the_side_where_the_object_lies() {
         let mut state = State::new([Body::default(); MAX_ENTITIES]);
         state.bodies[1] = Body::at_rest(Vec2::new(10.0, 10.0), quarter);
         state.bodies[2] = Body::at_rest(Vec2::new(10.0, 10.0) + Vec2::from(offset), 2.0);
-        let grip = grip_of(&state, 1, 0);
-        assert_eq!((grip.object, grip.side), (0, side), "{offset:?}");
+        let grip = grip_of(&state, AgentId::ONE, ObjectId::ZERO);
+        assert_eq!((grip.object, grip.side), (ObjectId::ZERO, side), "{offset:?}");
         assert!((grip.relative_angle - (2.0 - quarter)).abs() < 1e-6);
     }
 }

@@ -1,6 +1,6 @@
 use crate::support::{probe, probes, run, runs};
 use phase_calibration::{Probe, ReadError, Run};
-use phase_model::Action;
+use phase_model::{Action, AgentId, ObjectId};
 use serde_json::{Value, json};
 
 #[test]
@@ -10,12 +10,12 @@ fn good_files_are_read() {
     let runs = Run::parse(&runs(&[run("one", 1), held])).expect("runs");
     assert_eq!(runs[1].actions, [[Action::Stop, Action::NoForce]; 2]);
     assert_eq!(
-        runs[1].states.iter().map(|state| state.held_object(1)).collect::<Vec<_>>(),
-        [None, Some(1), Some(0)]
+        runs[1].states.iter().map(|state| state.held_object(AgentId::ONE)).collect::<Vec<_>>(),
+        [None, Some(ObjectId::ONE), Some(ObjectId::ZERO)]
     );
     let probes = Probe::parse(&probes(&[probe("free_x")])).expect("probes");
     assert_eq!((probes[0].steps.len(), probes[0].substeps.len()), (2, 10));
-    assert_eq!(probes[0].held, [[None, None], [None, Some(0)]]);
+    assert_eq!(probes[0].held, [[None, None], [None, Some(ObjectId::ZERO)]]);
     assert_eq!(probes[0].physique.object_radii, [0.8, 1.6]);
 }
 

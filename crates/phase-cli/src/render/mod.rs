@@ -15,7 +15,7 @@ use crate::{
 use options::Render;
 use phase_dataset::WriteError;
 use phase_event::{Recording, Row, Simulation, Trajectory};
-use phase_model::{State, arena::SUBSTEPS};
+use phase_model::{AgentId, State, arena::SUBSTEPS};
 use phase_sim::Settings;
 use std::path::{Path, PathBuf};
 
@@ -67,7 +67,7 @@ impl Target {
         Ok(if is_file { Self::File(out.to_owned()) } else { Self::Folder(out.to_owned()) })
     }
 
-    fn path(&self, id: &str, belief: Option<u8>, extension: &str) -> PathBuf {
+    fn path(&self, id: &str, belief: Option<AgentId>, extension: &str) -> PathBuf {
         match self {
             Self::File(path) => path.clone(),
             Self::Folder(folder) => {
@@ -83,7 +83,7 @@ fn render(arguments: &Render, recording: &Recording, path: &Path) -> Result<&'st
     let (id, physique) = (&recording.id, recording.scene.physique());
     let minds = match (arguments.belief, &recording.simulation) {
         (None, _) => Vec::new(),
-        (Some(agent), Some(simulation)) => minds(simulation, agent.into()),
+        (Some(agent), Some(simulation)) => minds(simulation, agent),
         (Some(_), None) => {
             let (file, rule) = (arguments.file.display(), "--belief needs a simulated event");
             let why = "a measured recording does not tell what its agents saw and did";
@@ -109,7 +109,7 @@ fn render(arguments: &Render, recording: &Recording, path: &Path) -> Result<&'st
 }
 
 /// What an agent saw, believed and was after at every step.
-fn minds(simulation: &Simulation, agent: usize) -> Vec<Mind> {
+fn minds(simulation: &Simulation, agent: AgentId) -> Vec<Mind> {
     let event = &simulation.event;
     let settings: Settings = serde_json::from_value(simulation.settings.clone()).unwrap_or_default();
     let snapshots = engine::beliefs(event, agent, &settings);

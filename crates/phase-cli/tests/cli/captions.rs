@@ -2,15 +2,22 @@
 
 use phase_cli::captions::{COUNT, lines};
 use phase_event::{ActionValue, SubgoalValue, Thought};
-use phase_model::{Action, Entity, Literal, Predicate, Subgoal};
+use phase_model::{Action, AgentId, Entity, LandmarkId, Literal, ObjectId, Predicate, Subgoal};
 use phase_render::Style;
 
 fn on(object: u8, landmark: u8, holds: bool) -> Subgoal {
-    Subgoal::Achieve(Literal { predicate: Predicate::On(Entity::Object(object), landmark), holds })
+    Subgoal::Achieve(Literal {
+        predicate: Predicate::On(
+            Entity::Object(ObjectId::ALL[usize::from(object)]),
+            LandmarkId::ALL[usize::from(landmark)],
+        ),
+        holds,
+    })
 }
 
 fn thought() -> Thought {
-    let attach = Subgoal::Achieve(Literal { predicate: Predicate::Attach(0, 1), holds: true });
+    let attach =
+        Subgoal::Achieve(Literal { predicate: Predicate::Attach(AgentId::ZERO, ObjectId::ONE), holds: true });
     let proposed = |subgoal, value, particles| SubgoalValue { subgoal, value, particles };
     let found = |action, visits, value| ActionValue { action, visits, value };
     Thought {

@@ -5,7 +5,7 @@ use super::{
     row::{goal_kind, goal_other, number},
 };
 use crate::words;
-use phase_model::arena;
+use phase_model::{LandmarkId, arena};
 
 /// What every column holds, in the files' order.
 #[must_use]
@@ -124,7 +124,7 @@ fn labels() -> Vec<Box<dyn Column>> {
         ("goal_entity", "[2]", "int32", "", "whom the goal is about: agents 0, 1, objects 2, 3", |row| row
             .of_agents(|agent| agent.goal.subject().index() as i32)),
         ("goal_landmark", "[2]", "int32", "", "the landmark, 0 to 3; null for `touch`", |row| row
-            .of_agents(|agent| number(agent.goal.landmark()))),
+            .of_agents(|agent| number(agent.goal.landmark().map(LandmarkId::index)))),
         ("goal_other", "[2]", "int32", "", "the agent to touch, 0 or 1; null for the others", |row| row
             .of_agents(|agent| goal_other(agent.goal))),
         ("goal_sign", "[2]", "int32", "", "1: to bring about; -1: to avoid or undo", |row| row

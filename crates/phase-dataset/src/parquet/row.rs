@@ -2,7 +2,7 @@
 
 use crate::{manifest::EventEntry, words};
 use phase_event::{Event, Recording, Simulation, Step, pairs_in_contact, substep_row};
-use phase_model::{AGENT_COUNT, AgentSpec, Goal, State};
+use phase_model::{AGENT_COUNT, AgentId, AgentSpec, Goal, ObjectId, State};
 
 /// An event, with what the manifest says beside its file.
 pub(super) struct Row<'a> {
@@ -26,7 +26,7 @@ impl Row<'_> {
 
     /// The goals as the end of the sentence "it wants to …".
     pub(super) fn goal_words(&self) -> Vec<String> {
-        let goals = self.recording.scene.goals().into_iter().enumerate();
+        let goals = AgentId::ALL.into_iter().zip(self.recording.scene.goals());
         goals.map(|(agent, goal)| words::plain(&words::goal(agent, goal))).collect()
     }
 
@@ -43,8 +43,8 @@ impl Row<'_> {
         (0..=trajectory.steps()).map(at).collect()
     }
 
-    pub(super) fn of_steps<T>(&self, get: impl Fn(&Step, usize) -> T) -> Vec<Vec<T>> {
-        let both = |step: &Step| (0..AGENT_COUNT).map(|agent| get(step, agent)).collect();
+    pub(super) fn of_steps<T>(&self, get: impl Fn(&Step, AgentId) -> T) -> Vec<Vec<T>> {
+        let both = |step: &Step| AgentId::ALL.into_iter().map(|agent| get(step, agent)).collect();
         self.event().steps.iter().map(both).collect()
     }
 
@@ -58,7 +58,12 @@ impl Row<'_> {
 
     /// What each agent holds, by frame.
     pub(super) fn held(&self) -> Vec<Vec<Option<i32>>> {
-        let held = |state: &State| (0..AGENT_COUNT).map(|agent| number(state.held_object(agent))).collect();
+        let held = |state: &State| {
+            AgentId::ALL
+                .into_iter()
+                .map(|agent| number(state.held_object(agent).map(ObjectId::index)))
+                .collect()
+        };
         self.event().frames().map(held).collect()
     }
 
@@ -83,7 +88,7 @@ pub(super) const fn goal_kind(goal: Goal) -> &'static str {
 /// Whom the subject of a goal is to touch.
 pub(super) fn goal_other(goal: Goal) -> Option<i32> {
     match goal {
-        Goal::Touch { other, .. } => Some(other.into()),
+        Goal::Touch { other, .. } => Some(other.number().into()),
         _ => None,
     }
 }

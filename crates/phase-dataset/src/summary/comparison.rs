@@ -4,7 +4,7 @@ use super::Quartiles;
 use crate::{FileError, checksum::FileEntry};
 use phase_event::{Event, Recording};
 use phase_evidence::{Motion, Outcome, Track, motion::common_steps};
-use phase_model::{AGENT_COUNT, EventKind, Goal, Sign};
+use phase_model::{AGENT_COUNT, AgentId, EventKind, Goal, Sign};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -121,8 +121,8 @@ impl Pair {
         let track = Track { physique: recording.scene.physique(), states: recording.trajectory.states() };
         let ours = Track::of_event(event);
         let steps = common_steps(&track, &ours);
-        let recorded = core::array::from_fn(|agent| Motion::of(&track, agent, steps));
-        let simulated = core::array::from_fn(|agent| Motion::of(&ours, agent, steps));
+        let recorded = AgentId::ALL.map(|agent| Motion::of(&track, agent, steps));
+        let simulated = AgentId::ALL.map(|agent| Motion::of(&ours, agent, steps));
         let agents = core::array::from_fn(|i| {
             let agent = &recording.scene.agents[i];
             AgentComparison {

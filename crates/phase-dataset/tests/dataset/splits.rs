@@ -4,18 +4,26 @@ use phase_dataset::{
     labels::{goal_label, interaction_type},
     splits::{Item, Quota, Split, check, make},
 };
-use phase_model::{EventKind, Goal, Sign};
+use phase_model::{AgentId, EventKind, Goal, LandmarkId, ObjectId, Sign};
 use proptest::prelude::*;
 
-const fn place(agent: u8, landmark: u8) -> Goal {
-    Goal::AgentOnLandmark { agent, landmark, sign: Sign::Positive }
+fn place(agent: u8, landmark: u8) -> Goal {
+    Goal::AgentOnLandmark {
+        agent: AgentId::ALL[usize::from(agent)],
+        landmark: LandmarkId::ALL[usize::from(landmark)],
+        sign: Sign::Positive,
+    }
 }
 
-const fn thing(landmark: u8) -> Goal {
-    Goal::ObjectOnLandmark { object: 0, landmark, sign: Sign::Positive }
+fn thing(landmark: u8) -> Goal {
+    Goal::ObjectOnLandmark {
+        object: ObjectId::ZERO,
+        landmark: LandmarkId::ALL[usize::from(landmark)],
+        sign: Sign::Positive,
+    }
 }
 
-const TOUCH: Goal = Goal::Touch { agent: 0, other: 1, sign: Sign::Positive };
+const TOUCH: Goal = Goal::Touch { agent: AgentId::ZERO, other: AgentId::ONE, sign: Sign::Positive };
 
 fn item(k: usize, kind: EventKind, goals: [Goal; 2], base: u8) -> Item {
     Item { id: format!("e{k}"), kind, goals, base }

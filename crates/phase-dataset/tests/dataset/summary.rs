@@ -7,7 +7,7 @@ use phase_dataset::{
 };
 use phase_event::{Event, Recording};
 use phase_evidence::{Motion, Outcome};
-use phase_model::{EventKind, Goal, Sign, arena::SUBSTEPS};
+use phase_model::{AgentId, EventKind, Goal, LandmarkId, Sign, arena::SUBSTEPS};
 use serde_json::{Value, json};
 use std::fs;
 
@@ -28,7 +28,11 @@ fn pair(id: &str, kind: EventKind, agents: [(Option<usize>, Option<usize>); 2]) 
         simulated_steps: 60,
         compared_steps: 50,
         agents: agents.map(|(recorded, simulated)| AgentComparison {
-            goal: Goal::AgentOnLandmark { agent: 0, landmark: 0, sign: Sign::Positive },
+            goal: Goal::AgentOnLandmark {
+                agent: AgentId::ZERO,
+                landmark: LandmarkId::TOP_LEFT,
+                sign: Sign::Positive,
+            },
             alpha: 0,
             recorded: outcome(recorded),
             simulated: outcome(simulated),
@@ -111,11 +115,13 @@ fn own_positive_goals_are_counted_apart() {
     let mut hindered = pair("a", EventKind::Hindering, [(None, None), (Some(10), None)]);
     let mut chase = pair("b", EventKind::Chasing, [(Some(5), Some(9)), (None, None)]);
     let mut helped = pair("c", EventKind::Helping, [(Some(10), Some(20)), (Some(10), Some(20))]);
-    let negative = Goal::AgentOnLandmark { agent: 1, landmark: 0, sign: Sign::Negative };
+    let negative =
+        Goal::AgentOnLandmark { agent: AgentId::ONE, landmark: LandmarkId::TOP_LEFT, sign: Sign::Negative };
     hindered.comparison.agents[0].goal = negative;
     hindered.comparison.agents[0].alpha = -1;
     // Whoever flees is neutral, but there is nothing to bring about.
-    chase.comparison.agents[1].goal = Goal::Touch { agent: 1, other: 0, sign: Sign::Negative };
+    chase.comparison.agents[1].goal =
+        Goal::Touch { agent: AgentId::ONE, other: AgentId::ZERO, sign: Sign::Negative };
     helped.comparison.agents[0].alpha = 1;
     let rows = tabulate(&[hindered, chase, helped]);
     let counts: Vec<_> =

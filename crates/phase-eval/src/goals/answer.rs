@@ -1,7 +1,7 @@
 //! What a method said of an event, and what would have been right.
 
 use super::canonical;
-use phase_model::{AGENT_COUNT, EventKind, Goal, Judgement, Relation, RelationProbabilities};
+use phase_model::{AGENT_COUNT, AgentId, EventKind, Goal, Judgement, Relation, RelationProbabilities};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use thiserror::Error;
@@ -16,13 +16,13 @@ pub enum AnswerError {
     #[error("`goals[{agent}][{place}].p` must be a number from 0 to 1")]
     Goal {
         /// Whose goal.
-        agent: usize,
+        agent: AgentId,
         /// Its place in the list.
         place: usize,
     },
     /// An agent's goals are together more than certain.
     #[error("`goals[{0}]` must have probabilities of at most 1 in all")]
-    Goals(usize),
+    Goals(AgentId),
     /// The relations' probabilities are none.
     #[error("`relation` must have three numbers from 0 to 1 that add up to 1")]
     Relation,
@@ -54,7 +54,7 @@ impl Answer {
     /// If a number is no probability.
     pub fn of(judgement: &Judgement) -> Result<Self, AnswerError> {
         let mut goals: [Vec<Share>; AGENT_COUNT] = Default::default();
-        for (agent, (ranked, given)) in goals.iter_mut().zip(&judgement.goals).enumerate() {
+        for (agent, (ranked, given)) in AgentId::ALL.into_iter().zip(goals.iter_mut().zip(&judgement.goals)) {
             for (place, &(goal, p)) in given.iter().enumerate() {
                 if !probable(p) {
                     return Err(AnswerError::Goal { agent, place });
@@ -79,12 +79,11 @@ impl Answer {
         Ok(Self { goals, relation: RelationProbabilities { friendly, adversarial, neutral } })
     }
 
-    /// The place of the right goal of an agent among those named, from 0; `None` if it was not named or there
-    /// is no such agent.
+    /// The place of the right goal of an agent among those named, from 0; `None` if it was not named.
     #[must_use]
-    pub fn place(&self, agent: usize, right: Goal) -> Option<usize> {
+    pub fn place(&self, agent: AgentId, right: Goal) -> Option<usize> {
         let right = canonical(right);
-        self.goals.get(agent)?.iter().position(|share| canonical(share.goal) == right)
+        self.goals[agent].iter().position(|share| canonical(share.goal) == right)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::{Answer, Calibration, Label, RecognisedEvent};
 use crate::{Estimate, Group};
-use phase_model::{AGENT_COUNT, EventKind, Relation};
+use phase_model::{AGENT_COUNT, AgentId, EventKind, Relation};
 use phase_statistics::mean;
 use serde::{Deserialize, Serialize};
 
@@ -32,8 +32,8 @@ impl Scores {
         let top = |k: usize| {
             let right = |&(answer, label): &(&Answer, &Label)| {
                 let among =
-                    |&agent: &usize| answer.place(agent, label.goals[agent]).is_some_and(|place| place < k);
-                (0..AGENT_COUNT).filter(among).count() as f64 / AGENT_COUNT as f64
+                    |&agent: &AgentId| answer.place(agent, label.goals[agent]).is_some_and(|place| place < k);
+                AgentId::ALL.into_iter().filter(among).count() as f64 / AGENT_COUNT as f64
             };
             Estimate::of(&answers.iter().map(right).collect::<Vec<f64>>(), seed)
         };
@@ -134,11 +134,14 @@ fn confusion(events: &[RecognisedEvent]) -> [[usize; RELATIONS.len()]; RELATIONS
 }
 
 fn goal_answers(events: &[RecognisedEvent]) -> Vec<(f64, bool)> {
-    let of_agent = |event: &RecognisedEvent, agent: usize| {
+    let of_agent = |event: &RecognisedEvent, agent: AgentId| {
         let p = event.answer.goals[agent].first().map_or(0.0, |share| share.p);
         (p, event.answer.place(agent, event.label.goals[agent]) == Some(0))
     };
-    events.iter().flat_map(|event| (0..AGENT_COUNT).map(move |agent| of_agent(event, agent))).collect()
+    events
+        .iter()
+        .flat_map(|event| AgentId::ALL.into_iter().map(move |agent| of_agent(event, agent)))
+        .collect()
 }
 
 fn relation_answers(events: &[RecognisedEvent]) -> Vec<(f64, bool)> {

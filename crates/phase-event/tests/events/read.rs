@@ -2,7 +2,10 @@
 
 use crate::support::file;
 use phase_event::{EventReadError, Recording, parse};
-use phase_model::{Action, Attitude, EventKind, Goal, Relation, Sign, Size, Strength, Vec2, json::JsonError};
+use phase_model::{
+    Action, Attitude, EventKind, Goal, LandmarkId, ObjectId, Relation, Sign, Size, Strength, Vec2,
+    json::JsonError,
+};
 use serde_json::{Value, json};
 
 fn parse_value(value: &Value) -> Result<Vec<Recording>, EventReadError> {
@@ -26,7 +29,14 @@ fn every_field_arrives() {
     assert_eq!((first.size, first.strength, first.attitude), (Size::Small, Strength::Strong, Attitude::Help));
     let sizes = (second.size, second.strength, second.attitude);
     assert_eq!(sizes, (Size::Medium, Strength::Weak, Attitude::Neutral));
-    assert_eq!(first.goal, Goal::ObjectOnLandmark { object: 0, landmark: 2, sign: Sign::Positive });
+    assert_eq!(
+        first.goal,
+        Goal::ObjectOnLandmark {
+            object: ObjectId::ZERO,
+            landmark: LandmarkId::BOTTOM_RIGHT,
+            sign: Sign::Positive
+        }
+    );
     assert_eq!(first.start.position, Vec2::new(8.0, 14.0));
     assert_eq!(first.start.velocity, Vec2::new(0.5, -0.25));
     assert_eq!(first.start.angle, 1.5);

@@ -2,7 +2,9 @@
 
 use crate::support::{event, file, plain_event};
 use phase_event::{Recording, Trajectory, parse, subgoal_of, to_json};
-use phase_model::{Entity, Literal, Place, Predicate, Subgoal, arena::SUBSTEPS};
+use phase_model::{
+    AgentId, Entity, LandmarkId, Literal, ObjectId, Place, Predicate, Subgoal, arena::SUBSTEPS,
+};
 use proptest::prelude::*;
 use serde_json::{Value, json};
 
@@ -141,12 +143,18 @@ fn a_simulation_that_does_not_fit_together_is_refused() {
 fn subgoals_are_read_as_they_are_written() {
     let all = [
         Subgoal::Stay,
-        Subgoal::Achieve(Literal::is(Predicate::On(Entity::agent(1), 3))),
-        Subgoal::Achieve(Literal::not(Predicate::On(Entity::object(0), 0))),
-        Subgoal::Achieve(Literal::is(Predicate::Touch(1, Entity::agent(0)))),
-        Subgoal::Achieve(Literal::not(Predicate::Attach(0, 1))),
-        Subgoal::Achieve(Literal::is(Predicate::Close(Entity::agent(0), Place::Landmark(2)))),
-        Subgoal::Achieve(Literal::is(Predicate::Close(Entity::agent(0), Place::Entity(Entity::object(1))))),
+        Subgoal::Achieve(Literal::is(Predicate::On(Entity::Agent(AgentId::ONE), LandmarkId::BOTTOM_LEFT))),
+        Subgoal::Achieve(Literal::not(Predicate::On(Entity::Object(ObjectId::ZERO), LandmarkId::TOP_LEFT))),
+        Subgoal::Achieve(Literal::is(Predicate::Touch(AgentId::ONE, Entity::Agent(AgentId::ZERO)))),
+        Subgoal::Achieve(Literal::not(Predicate::Attach(AgentId::ZERO, ObjectId::ONE))),
+        Subgoal::Achieve(Literal::is(Predicate::Close(
+            Entity::Agent(AgentId::ZERO),
+            Place::Landmark(LandmarkId::BOTTOM_RIGHT),
+        ))),
+        Subgoal::Achieve(Literal::is(Predicate::Close(
+            Entity::Agent(AgentId::ZERO),
+            Place::Entity(Entity::Object(ObjectId::ONE)),
+        ))),
     ];
     for subgoal in all {
         assert_eq!(subgoal_of(&subgoal.to_string()), Some(subgoal));

@@ -2,14 +2,18 @@
 
 use phase_event::{ActionValue, Event, Step, SubgoalValue, Thought};
 use phase_model::{
-    Action, AgentSpec, Attitude, Body, Entity, EventKind, Flip, Goal, Grip, Layout, Literal, ObjectSpec,
-    Predicate, Scene, Side, Sign, Size, State, Strength, Subgoal, Vec2,
+    Action, AgentId, AgentSpec, Attitude, Body, Entity, EventKind, Flip, Goal, Grip, LandmarkId, Layout,
+    Literal, ObjectId, ObjectSpec, Predicate, Scene, Side, Sign, Size, State, Strength, Subgoal, Vec2,
 };
 use serde_json::{Value, json};
 
 /// A scene in which agent 0 helps agent 1 to put object 0 on landmark 1.
 pub(crate) fn scene() -> Scene {
-    let goal = Goal::ObjectOnLandmark { object: 0, landmark: 1, sign: Sign::Positive };
+    let goal = Goal::ObjectOnLandmark {
+        object: ObjectId::ZERO,
+        landmark: LandmarkId::TOP_RIGHT,
+        sign: Sign::Positive,
+    };
     let agent = |attitude, x, angle| AgentSpec {
         size: Size::Medium,
         strength: Strength::Strong,
@@ -38,10 +42,10 @@ pub(crate) fn event(steps: usize, mut number: impl FnMut() -> f32) -> Event {
             advance(&mut state, &mut number);
             if (t, k) == (1, 2) {
                 let relative_angle = number();
-                state.grips[1] = Some(Grip { object: 1, side: Side::Tail, relative_angle });
+                state.grips[1] = Some(Grip { object: ObjectId::ONE, side: Side::Tail, relative_angle });
             }
             if k == 3 {
-                state.contacts.insert(Entity::agent(0), Entity::object(t % 2));
+                state.contacts.insert(Entity::Agent(AgentId::ZERO), Entity::Object(ObjectId::ALL[t % 2]));
             }
             state
         });
@@ -76,9 +80,9 @@ fn advance(state: &mut State, number: &mut impl FnMut() -> f32) {
 
 fn thought(t: usize, number: &mut impl FnMut() -> f32) -> Thought {
     let literal = if t.is_multiple_of(2) {
-        Literal::is(Predicate::Attach(0, 1))
+        Literal::is(Predicate::Attach(AgentId::ZERO, ObjectId::ONE))
     } else {
-        Literal::not(Predicate::Touch(0, Entity::agent(1)))
+        Literal::not(Predicate::Touch(AgentId::ZERO, Entity::Agent(AgentId::ONE)))
     };
     let subgoal = Subgoal::Achieve(literal);
     let mut value = || f64::from(number()) / 3.0;
@@ -90,7 +94,10 @@ fn thought(t: usize, number: &mut impl FnMut() -> f32) -> Thought {
         ],
         plan: vec![
             subgoal,
-            Subgoal::Achieve(Literal::is(Predicate::On(Entity::object(1), 3))),
+            Subgoal::Achieve(Literal::is(Predicate::On(
+                Entity::Object(ObjectId::ONE),
+                LandmarkId::BOTTOM_LEFT,
+            ))),
             Subgoal::Stay,
         ],
         actions: Action::ALL

@@ -2,7 +2,7 @@
 
 use super::Refusal;
 use crate::{Outcome, Rest, Track, contact};
-use phase_model::{Entity, Goal, Relation, Scene, State};
+use phase_model::{AgentId, Entity, Goal, ObjectId, Relation, Scene, State};
 
 /// For how long something must be done to be seen (steps).
 pub(super) const VISIBLE: usize = 3;
@@ -25,7 +25,7 @@ pub(super) fn tidy(scene: &Scene, track: &Track) -> Result<(), Refusal> {
 }
 
 /// An agent's goal is reached, and not before one could see it being pursued.
-pub(super) fn reached(scene: &Scene, track: &Track, agent: usize) -> Result<usize, Refusal> {
+pub(super) fn reached(scene: &Scene, track: &Track, agent: AgentId) -> Result<usize, Refusal> {
     match Outcome::of(track, scene.agents[agent].goal) {
         Outcome { reached: true, steps: Some(steps) } if steps >= SOON => Ok(steps),
         Outcome { reached: true, .. } => Err(Refusal::TooSoon),
@@ -35,7 +35,7 @@ pub(super) fn reached(scene: &Scene, track: &Track, agent: usize) -> Result<usiz
 
 /// An agent with a positive goal was seen to be after it: it came clearly nearer to what it has to get to first,
 /// or touched it.
-pub(super) fn pursued(scene: &Scene, track: &Track, agent: usize) -> Result<(), Refusal> {
+pub(super) fn pursued(scene: &Scene, track: &Track, agent: AgentId) -> Result<(), Refusal> {
     let goal = scene.agents[agent].goal;
     let way = |state: &State| first_distance(goal, agent, state);
     let Some(start) = track.states.first().map(way) else { return Err(Refusal::Aimless) };
@@ -48,12 +48,12 @@ pub(super) fn pursued(scene: &Scene, track: &Track, agent: usize) -> Result<(), 
 }
 
 /// Steps in which an agent touched or held an object.
-pub(super) fn touches(track: &Track, agent: usize, object: u8) -> usize {
-    contact::steps_touching(track, Entity::agent(agent), Entity::Object(object)).len()
+pub(super) fn touches(track: &Track, agent: AgentId, object: ObjectId) -> usize {
+    contact::steps_touching(track, Entity::Agent(agent), Entity::Object(object)).len()
 }
 
 /// The goal's object, if it is about one.
-pub(super) const fn object_of(goal: Goal) -> Option<u8> {
+pub(super) const fn object_of(goal: Goal) -> Option<ObjectId> {
     match goal {
         Goal::ObjectOnLandmark { object, .. } => Some(object),
         Goal::AgentOnLandmark { .. } | Goal::Touch { .. } => None,
@@ -61,9 +61,9 @@ pub(super) const fn object_of(goal: Goal) -> Option<u8> {
 }
 
 /// How far an agent is from what its goal takes it to first (u).
-fn first_distance(goal: Goal, agent: usize, state: &State) -> f32 {
+fn first_distance(goal: Goal, agent: AgentId, state: &State) -> f32 {
     match object_of(goal) {
-        Some(object) => state.position(Entity::agent(agent)).distance(state.position(Entity::Object(object))),
+        Some(object) => state.position(Entity::Agent(agent)).distance(state.position(Entity::Object(object))),
         None => goal.distance(state),
     }
 }

@@ -4,8 +4,8 @@ use super::{
     Change, Comparison, Refusal,
     common::{VISIBLE, object_of, pursued, reached, touches},
 };
-use crate::{Outcome, Track, blocking, contact, holding, pursuit::Pursuit, track::other};
-use phase_model::{Attitude, Entity, EventKind, Goal, Scene, Sign};
+use crate::{Outcome, Track, blocking, contact, holding, pursuit::Pursuit};
+use phase_model::{AgentId, Attitude, Entity, EventKind, Goal, ObjectId, Scene, Sign};
 use phase_planner::Routes;
 
 /// An object both pull at for so long is fought over (steps).
@@ -33,14 +33,14 @@ pub(super) fn judge(scene: &Scene, track: &Track) -> Result<Option<Comparison>, 
 /// and somebody stand about.
 fn helping(scene: &Scene, track: &Track) -> Result<Comparison, Refusal> {
     let helper = social(scene);
-    let helpee = other(helper);
+    let helpee = helper.other();
     reached(scene, track, helpee)?;
     let held = track.states.iter().filter(|state| state.grips[helper].is_some()).count();
     demand(held >= VISIBLE, Refusal::NoContact)?;
     if let Some(object) = object_of(scene.agents[helpee].goal) {
-        let taken = track.states.iter().position(|state| state.holds(helper, object.into()));
+        let taken = track.states.iter().position(|state| state.holds(helper, object));
         pursued(scene, &track.until(taken.unwrap_or(track.steps())), helpee)?;
-        let lent_a_hand = holding::carried(track, helpee, object.into()).steps;
+        let lent_a_hand = holding::carried(track, helpee, object).steps;
         demand(lent_a_hand >= VISIBLE, Refusal::Aimless)?;
     }
     Ok(Comparison { idle: helper, judged: helpee, change: Change::Helped })
@@ -50,7 +50,7 @@ fn helping(scene: &Scene, track: &Track) -> Result<Comparison, Refusal> {
 /// touching, one goes after the other, which gets away.
 fn hindering(scene: &Scene, track: &Track) -> Result<Comparison, Refusal> {
     let hinderer = social(scene);
-    let victim = other(hinderer);
+    let victim = hinderer.other();
     match scene.agents[victim].goal {
         Goal::Touch { sign: Sign::Positive, .. } => chase(track, victim)?,
         Goal::Touch { sign: Sign::Negative, .. } => chase(track, hinderer)?,
@@ -63,68 +63,69 @@ fn hindering(scene: &Scene, track: &Track) -> Result<Comparison, Refusal> {
 }
 
 fn chasing(scene: &Scene, track: &Track) -> Result<Comparison, Refusal> {
-    let chases = |agent: &usize| scene.agents[*agent].goal.sign() == Sign::Positive;
-    let chaser = (0..scene.agents.len()).find(chases).unwrap_or(0);
+    let chases = |agent: &AgentId| scene.agents[*agent].goal.sign() == Sign::Positive;
+    let chaser = AgentId::ALL.into_iter().find(chases).unwrap_or(AgentId::ZERO);
     if Outcome::of(track, scene.agents[chaser].goal).reached {
         reached(scene, track, chaser)?;
     }
     chase(track, chaser)?;
-    Ok(Comparison { idle: other(chaser), judged: chaser, change: Change::Hindered })
+    Ok(Comparison { idle: chaser.other(), judged: chaser, change: Change::Hindered })
 }
 
 /// Both get to the object; one wins, or they fight over it. Without the winner the loser would have won.
 fn competing(scene: &Scene, track: &Track) -> Result<Comparison, Refusal> {
-    let object = object_of(scene.agents[0].goal).unwrap_or(0);
-    for agent in 0..scene.agents.len() {
+    let object = object_of(scene.agents[0].goal).unwrap_or(ObjectId::ZERO);
+    for agent in AgentId::ALL {
         pursued(scene, track, agent)?;
         demand(touches(track, agent, object) > 0, Refusal::Uncontested)?;
     }
-    let winner = (0..scene.agents.len()).find(|&it| Outcome::of(track, scene.agents[it].goal).reached);
-    let fought = holding::carried_together(track, object.into()).steps;
+    let winner = AgentId::ALL.into_iter().find(|&it| Outcome::of(track, scene.agents[it].goal).reached);
+    let fought = holding::carried_together(track, object).steps;
     demand(winner.is_some() || fought >= FOUGHT, Refusal::Uncontested)?;
-    let winner = winner.unwrap_or(1);
-    Ok(Comparison { idle: winner, judged: other(winner), change: Change::Hindered })
+    let winner = winner.unwrap_or(AgentId::ONE);
+    Ok(Comparison { idle: winner, judged: winner.other(), change: Change::Hindered })
 }
 
 /// The object gets there, carried by both at once or by one after the other.
 fn collaborating(scene: &Scene, track: &Track) -> Result<(), Refusal> {
-    reached(scene, track, 0)?;
-    let object = usize::from(object_of(scene.agents[0].goal).unwrap_or(0));
+    reached(scene, track, AgentId::ZERO)?;
+    let object = object_of(scene.agents[0].goal).unwrap_or(ObjectId::ZERO);
     let much = |it: holding::Carrying| it.steps >= VISIBLE && it.distance >= CARRIED;
     let together = much(holding::carried_together(track, object));
-    let in_turn = (0..scene.agents.len()).all(|agent| much(holding::carried_alone(track, agent, object)));
+    let in_turn = AgentId::ALL.into_iter().all(|agent| much(holding::carried_alone(track, agent, object)));
     demand(together || in_turn, Refusal::NotTogether)
 }
 
 /// Both reach their goals and keep out of each other's business; that they meet on the way is fine.
 fn independent(scene: &Scene, track: &Track) -> Result<(), Refusal> {
-    for agent in 0..scene.agents.len() {
+    for agent in AgentId::ALL {
         reached(scene, track, agent)?;
-        if let Some(object) = object_of(scene.agents[other(agent)].goal) {
-            let meddled = holding::carried(track, agent, object.into()).steps;
+        if let Some(object) = object_of(scene.agents[agent.other()].goal) {
+            let meddled = holding::carried(track, agent, object).steps;
             demand(meddled == 0, Refusal::Interference)?;
         }
     }
-    let met = contact::steps_touching(track, Entity::Agent(0), Entity::Agent(1)).len();
+    let met = contact::steps_touching(track, Entity::Agent(AgentId::ZERO), Entity::Agent(AgentId::ONE)).len();
     demand(met * CROSSING <= track.steps(), Refusal::Interference)
 }
 
 /// One goes after the other most of the time that it moves, and the other gets away for a while and is not in its grasp for
 /// more than half of the event.
-fn chase(track: &Track, chaser: usize) -> Result<(), Refusal> {
-    let (after, away) = (Pursuit::of(track, chaser), Pursuit::of(track, other(chaser)));
+fn chase(track: &Track, chaser: AgentId) -> Result<(), Refusal> {
+    let (after, away) = (Pursuit::of(track, chaser), Pursuit::of(track, chaser.other()));
     demand(after.moving >= PURSUIT && 2 * after.towards >= after.moving, Refusal::NoPursuit)?;
     demand(away.away >= VISIBLE && away.away > away.towards, Refusal::NoFlight)?;
-    let caught = contact::steps_touching(track, Entity::Agent(0), Entity::Agent(1)).len();
+    let caught =
+        contact::steps_touching(track, Entity::Agent(AgentId::ZERO), Entity::Agent(AgentId::ONE)).len();
     demand(2 * caught <= track.steps(), Refusal::NoFlight)
 }
 
 /// Whether a hinderer was seen at the victim, at its object, or in its way.
-fn is_in_the_way(scene: &Scene, track: &Track, hinderer: usize, goal: Goal) -> bool {
-    let victim = other(hinderer);
+fn is_in_the_way(scene: &Scene, track: &Track, hinderer: AgentId, goal: Goal) -> bool {
+    let victim = hinderer.other();
     let target = |state: &phase_model::State| blocking::next_place(goal, state);
-    let met = contact::steps_touching(track, Entity::agent(hinderer), Entity::agent(victim)).len();
-    let handled = object_of(goal).map_or(0, |object| holding::carried(track, hinderer, object.into()).steps);
+    let met = contact::steps_touching(track, Entity::Agent(hinderer), Entity::Agent(victim)).len();
+    let handled = object_of(goal).map_or(0, |object| holding::carried(track, hinderer, object).steps);
     let in_door =
         || blocking::steps_blocking_a_door(track, &Routes::new(scene.layout), hinderer, target).len();
     let between = || blocking::steps_between(track, hinderer, target).len();
@@ -132,8 +133,9 @@ fn is_in_the_way(scene: &Scene, track: &Track, hinderer: usize, goal: Goal) -> b
 }
 
 /// The agent with a social utility weight.
-fn social(scene: &Scene) -> usize {
-    scene.agents.iter().position(|agent| agent.attitude != Attitude::Neutral).unwrap_or(0)
+fn social(scene: &Scene) -> AgentId {
+    let is_social = |agent: &AgentId| scene.agents[*agent].attitude != Attitude::Neutral;
+    AgentId::ALL.into_iter().find(is_social).unwrap_or(AgentId::ZERO)
 }
 
 const fn demand(holds: bool, otherwise: Refusal) -> Result<(), Refusal> {

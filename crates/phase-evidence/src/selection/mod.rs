@@ -10,7 +10,7 @@ mod kinds;
 
 use crate::{Effect, Outcome, Track, contact};
 use core::ops::RangeInclusive;
-use phase_model::{Attitude, Entity, Goal, Scene, Sign};
+use phase_model::{AgentId, Attitude, Entity, Goal, Scene, Sign};
 use serde::{Deserialize, Serialize};
 
 /// Why an event does not show its label.
@@ -98,9 +98,9 @@ pub enum Change {
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Comparison {
     /// The agent that is to do nothing: `idle` of the simulation's settings.
-    pub idle: usize,
+    pub idle: AgentId,
     /// The agent whose goal is looked at.
-    pub judged: usize,
+    pub judged: AgentId,
     /// What has to come out.
     pub change: Change,
 }
@@ -110,9 +110,7 @@ impl Comparison {
     #[must_use]
     pub fn scene(&self, scene: &Scene) -> Scene {
         let mut scene = scene.clone();
-        if let Some(agent) = scene.agents.get_mut(self.idle) {
-            agent.attitude = Attitude::Neutral;
-        }
+        scene.agents[self.idle].attitude = Attitude::Neutral;
         scene
     }
 
@@ -158,7 +156,8 @@ fn gets_loose(goal: Goal, event: &Track, without: &Track) -> bool {
         return false;
     }
     let [(held, left), (held_without, left_without)] = [event, without].map(|track| {
-        let touches = contact::steps_touching(track, Entity::Agent(0), Entity::Agent(1));
+        let touches =
+            contact::steps_touching(track, Entity::Agent(AgentId::ZERO), Entity::Agent(AgentId::ONE));
         (touches.len(), touches.first().map_or(0, |first| track.states.len() - first))
     });
     held > 0 && 2 * held * left_without <= held_without * left

@@ -2,17 +2,17 @@
 
 use crate::support::{Move, track};
 use phase_evidence::contact::{TOUCH_GAP, gap, steps_touching};
-use phase_model::{Contacts, Entity};
+use phase_model::{AgentId, Contacts, Entity, ObjectId};
 
 /// Agents of radius 1 have a base of 3 u at the rear, 1 u behind their origin, and a front 1 u before it.
 #[test]
 fn gaps_of_all_pairs() {
     let cases = [
         // Side by side, both face up: the bases end 1.5 u from the origins.
-        (Entity::Agent(0), Entity::Agent(1), 2.0),
+        (Entity::Agent(AgentId::ZERO), Entity::Agent(AgentId::ONE), 2.0),
         // The object's edge is 1 u from its centre, straight above agent 0's front.
-        (Entity::Agent(0), Entity::Object(0), 3.0),
-        (Entity::Object(0), Entity::Object(1), 4.0),
+        (Entity::Agent(AgentId::ZERO), Entity::Object(ObjectId::ZERO), 3.0),
+        (Entity::Object(ObjectId::ZERO), Entity::Object(ObjectId::ONE), 4.0),
     ];
     let moves = Move {
         agents: [(10.0, 10.0, 0.0), (15.0, 10.0, 0.0)],
@@ -32,9 +32,9 @@ fn gaps_of_all_pairs() {
 fn touching_is_being_near_or_in_contact_or_held() {
     let at = |x: f32| Move { agents: [(x, 10.0, 0.0), (15.0, 10.0, 0.0)], ..Move::default() };
     let mut track = track([at(8.0), at(12.0 - 0.5 * TOUCH_GAP), at(12.0 - 1.5 * TOUCH_GAP), at(8.0)]);
-    assert_eq!(steps_touching(&track, Entity::Agent(0), Entity::Agent(1)), [1]);
+    assert_eq!(steps_touching(&track, Entity::Agent(AgentId::ZERO), Entity::Agent(AgentId::ONE)), [1]);
     let mut contacts = Contacts::NONE;
-    contacts.insert(Entity::Agent(0), Entity::Agent(1));
+    contacts.insert(Entity::Agent(AgentId::ZERO), Entity::Agent(AgentId::ONE));
     track.states[3].contacts = contacts;
-    assert_eq!(steps_touching(&track, Entity::Agent(1), Entity::Agent(0)), [1, 3]);
+    assert_eq!(steps_touching(&track, Entity::Agent(AgentId::ONE), Entity::Agent(AgentId::ZERO)), [1, 3]);
 }

@@ -3,6 +3,7 @@
 use crate::support::{Move, track};
 use core::f32::consts::{FRAC_PI_2, PI};
 use phase_evidence::exploration::searched_first;
+use phase_model::{AgentId, RoomId};
 
 /// Agent 0 stands in the middle of room 2 and faces somewhere at each step; agent 1 is out of sight in room 0.
 fn turning(angles: &[f32]) -> phase_evidence::Track {
@@ -23,13 +24,21 @@ fn the_first_region_half_seen_counts() {
         (&[], None),
     ];
     for (angles, expected) in cases {
-        assert_eq!(searched_first(&turning(angles), 0, &[&[1], &[3]]), expected, "{angles:?}");
+        assert_eq!(
+            searched_first(&turning(angles), AgentId::ZERO, &[&[RoomId::TOP_RIGHT], &[RoomId::BOTTOM_LEFT]]),
+            expected,
+            "{angles:?}"
+        );
     }
 }
 
 #[test]
 fn what_was_seen_at_the_start_is_no_search() {
     // Facing up it sees room 1 at once; there is nothing left to search but what is hidden.
-    let first = searched_first(&turning(&[0.0, FRAC_PI_2]), 0, &[&[1], &[3]]);
+    let first = searched_first(
+        &turning(&[0.0, FRAC_PI_2]),
+        AgentId::ZERO,
+        &[&[RoomId::TOP_RIGHT], &[RoomId::BOTTOM_LEFT]],
+    );
     assert_eq!(first, Some((1, 1)));
 }

@@ -2,6 +2,7 @@
 
 use crate::support::{Move, track};
 use phase_evidence::holding::{Hold, carried, carried_together, holds};
+use phase_model::{AgentId, ObjectId};
 
 /// Object 0 at x, held by some.
 fn at(x: f32, held: [Option<u8>; 2]) -> Move {
@@ -25,9 +26,9 @@ fn event() -> phase_evidence::Track {
 #[test]
 fn holds_are_found_with_their_times() {
     let expected = [
-        Hold { agent: 0, object: 0, from: 1, to: 4 },
-        Hold { agent: 0, object: 1, from: 6, to: 7 },
-        Hold { agent: 1, object: 0, from: 3, to: 6 },
+        Hold { agent: AgentId::ZERO, object: ObjectId::ZERO, from: 1, to: 4 },
+        Hold { agent: AgentId::ZERO, object: ObjectId::ONE, from: 6, to: 7 },
+        Hold { agent: AgentId::ONE, object: ObjectId::ZERO, from: 3, to: 6 },
     ];
     assert_eq!(holds(&event()), expected);
     assert_eq!(expected.map(|hold| hold.steps()), [4, 2, 4]);
@@ -36,31 +37,32 @@ fn holds_are_found_with_their_times() {
 #[test]
 fn a_hold_from_the_start_counts_and_other_objects_part_it() {
     let moves = [at(9.0, [Some(0), None]), at(9.0, [Some(1), None]), at(9.0, [Some(0), None])];
-    let objects: Vec<(usize, usize)> = holds(&track(moves)).iter().map(|it| (it.object, it.from)).collect();
-    assert_eq!(objects, [(0, 0), (1, 1), (0, 2)]);
+    let objects: Vec<(ObjectId, usize)> =
+        holds(&track(moves)).iter().map(|it| (it.object, it.from)).collect();
+    assert_eq!(objects, [(ObjectId::ZERO, 0), (ObjectId::ONE, 1), (ObjectId::ZERO, 2)]);
 }
 
 #[test]
 fn carrying_is_counted_with_its_way() {
     let event = event();
-    let together = carried_together(&event, 0);
+    let together = carried_together(&event, ObjectId::ZERO);
     assert_eq!(together.steps, 2);
     assert!((together.distance - 3.5).abs() < 1e-5, "{together:?}");
     // Landmark 3 is at (8.5, 4.5), on the object's line.
     assert!((together.approach[3] + 3.5).abs() < 1e-4, "{together:?}");
-    let first = carried(&event, 0, 0);
+    let first = carried(&event, AgentId::ZERO, ObjectId::ZERO);
     assert_eq!(first.steps, 4);
     assert!((first.distance - 4.5).abs() < 1e-5, "{first:?}");
-    let second = carried(&event, 1, 0);
+    let second = carried(&event, AgentId::ONE, ObjectId::ZERO);
     assert!((second.distance - 4.0).abs() < 1e-5, "the way back counts too: {second:?}");
     assert!((second.approach[3] + 3.0).abs() < 1e-4, "but towards the landmark: {second:?}");
-    assert_eq!(carried(&event, 1, 1).steps, 0);
+    assert_eq!(carried(&event, AgentId::ONE, ObjectId::ONE).steps, 0);
 }
 
 #[test]
 fn distances_add_up() {
     let event = event();
-    let object = phase_model::Entity::Object(0);
+    let object = phase_model::Entity::Object(ObjectId::ZERO);
     assert!((event.distance_travelled(object, 0..8) - 5.0).abs() < 1e-5);
     assert!((event.distance_travelled(object, 2..4) - 3.0).abs() < 1e-5);
     assert_eq!(event.distance_travelled(object, 8..100), 0.0);

@@ -2,7 +2,7 @@
 
 use crate::support::{Move, track};
 use phase_evidence::{Outcome, contact::TOUCH_GAP};
-use phase_model::{Body, Goal, Sign, Vec2};
+use phase_model::{AgentId, Body, Goal, LandmarkId, ObjectId, Sign, Vec2};
 
 /// Agent 0 and object 0 move as told along y = 4.5; agent 1 stands at (16, 4.5), both face up.
 fn trajectory(agent: &[f32], object: &[f32]) -> phase_evidence::Track {
@@ -18,7 +18,7 @@ fn trajectory(agent: &[f32], object: &[f32]) -> phase_evidence::Track {
 fn being_somewhere_counts_at_the_end() {
     // Landmark 3 is at (8.5, 4.5).
     let (far, near, just, beyond) = (12.0, 8.5, 8.5 + 0.56, 8.5 + 0.57);
-    let goal = |sign| Goal::AgentOnLandmark { agent: 0, landmark: 3, sign };
+    let goal = |sign| Goal::AgentOnLandmark { agent: AgentId::ZERO, landmark: LandmarkId::BOTTOM_LEFT, sign };
     let cases: &[(&[f32], bool, Option<usize>)] = &[
         (&[far, near, near], true, Some(1)),
         (&[near, far, near], true, Some(2)),
@@ -38,7 +38,11 @@ fn being_somewhere_counts_at_the_end() {
 
 #[test]
 fn an_object_may_lie_farther_off_than_an_agent() {
-    let goal = Goal::ObjectOnLandmark { object: 0, landmark: 3, sign: Sign::Positive };
+    let goal = Goal::ObjectOnLandmark {
+        object: ObjectId::ZERO,
+        landmark: LandmarkId::BOTTOM_LEFT,
+        sign: Sign::Positive,
+    };
     for (x, reached) in [(8.5 + 1.41, true), (8.5 + 1.42, false)] {
         let outcome = Outcome::of(&trajectory(&[20.0; 2], &[20.0, x]), goal);
         assert_eq!(outcome.reached, reached, "{x}");
@@ -48,7 +52,7 @@ fn an_object_may_lie_farther_off_than_an_agent() {
 /// Two trapezoids of radius 1 that stand side by side have bases 3 wide, so they touch at 3 u.
 #[test]
 fn touching_counts_at_any_time_and_getting_away_at_the_end() {
-    let goal = |sign| Goal::Touch { agent: 0, other: 1, sign };
+    let goal = |sign| Goal::Touch { agent: AgentId::ZERO, other: AgentId::ONE, sign };
     let (apart, touching, just, beyond) = (8.0, 13.0, 13.0 - 0.99 * TOUCH_GAP, 13.0 - 1.01 * TOUCH_GAP);
     let cases: &[(&[f32], Option<usize>, bool)] = &[
         (&[apart, touching, apart], Some(1), true),
@@ -74,6 +78,6 @@ fn head_on_agents_touch_by_their_flat_fronts() {
     for (state, y) in rows.states.iter_mut().zip([9.0, 6.55]) {
         state.bodies[1] = Body::at_rest(Vec2::new(16.0, y), core::f32::consts::PI);
     }
-    let goal = Goal::Touch { agent: 0, other: 1, sign: Sign::Positive };
+    let goal = Goal::Touch { agent: AgentId::ZERO, other: AgentId::ONE, sign: Sign::Positive };
     assert_eq!(Outcome::of(&rows, goal).steps, Some(1));
 }

@@ -2,7 +2,7 @@
 
 use crate::support::{Move, track};
 use phase_evidence::Rest;
-use phase_model::Entity;
+use phase_model::{AgentId, Entity, ObjectId};
 
 fn event(poses: &[(f32, f32)]) -> phase_evidence::Track {
     let one =
@@ -12,7 +12,11 @@ fn event(poses: &[(f32, f32)]) -> phase_evidence::Track {
 
 #[test]
 fn what_is_still_moving() {
-    let rest = Rest::after(&event(&[(8.0, 0.0), (10.0, 0.0), (10.5, 0.5), (10.0, 0.0)]), Entity::Agent(0), 1);
+    let rest = Rest::after(
+        &event(&[(8.0, 0.0), (10.0, 0.0), (10.5, 0.5), (10.0, 0.0)]),
+        Entity::Agent(AgentId::ZERO),
+        1,
+    );
     assert_eq!((rest.steps, rest.restless), (2, 2));
     assert!((rest.travelled - 1.0).abs() < 1e-5, "{rest:?}");
     assert!((rest.strayed - 0.5).abs() < 1e-5, "{rest:?}");
@@ -29,13 +33,17 @@ fn quiet_is_staying_facing_and_not_trembling() {
     nudged[20].0 = 8.1;
     let cases = [(still, true), (drifting, false), (spinning, false), (trembling, false), (nudged, true)];
     for (poses, quiet) in cases {
-        assert_eq!(Rest::after(&event(&poses), Entity::Agent(0), 0).is_quiet(), quiet, "{poses:?}");
+        assert_eq!(
+            Rest::after(&event(&poses), Entity::Agent(AgentId::ZERO), 0).is_quiet(),
+            quiet,
+            "{poses:?}"
+        );
     }
 }
 
 #[test]
 fn past_the_end_everything_is_quiet() {
-    assert!(Rest::after(&event(&[(8.0, 0.0)]), Entity::Agent(0), 5).is_quiet());
+    assert!(Rest::after(&event(&[(8.0, 0.0)]), Entity::Agent(AgentId::ZERO), 5).is_quiet());
 }
 
 #[test]
@@ -44,6 +52,6 @@ fn nobody_sees_a_disc_turn() {
     for (t, state) in track.states.iter_mut().enumerate() {
         state.bodies[2].angle = t as f32;
     }
-    let rest = Rest::after(&track, Entity::Object(0), 0);
+    let rest = Rest::after(&track, Entity::Object(ObjectId::ZERO), 0);
     assert!(rest.is_quiet() && rest.turned == 0.0, "{rest:?}");
 }

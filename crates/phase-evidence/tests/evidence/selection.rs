@@ -6,19 +6,28 @@ use phase_evidence::{
     selection::{Change, Comparison, Refusal, first_look},
 };
 use phase_model::{
-    AgentSpec, Attitude, Body, EventKind, Goal, Layout, ObjectSpec, Scene, Sign, Size, Strength,
+    AgentId, AgentSpec, Attitude, Body, EventKind, Goal, LandmarkId, Layout, ObjectId, ObjectSpec, Scene,
+    Sign, Size, Strength,
 };
 
 /// Steps of the made-up events.
 const STEPS: usize = 40;
 
-const fn place(agent: u8, landmark: u8) -> Goal {
-    Goal::AgentOnLandmark { agent, landmark, sign: Sign::Positive }
+fn place(agent: u8, landmark: u8) -> Goal {
+    Goal::AgentOnLandmark {
+        agent: AgentId::ALL[usize::from(agent)],
+        landmark: LandmarkId::ALL[usize::from(landmark)],
+        sign: Sign::Positive,
+    }
 }
 
 /// Object 0 on landmark 2, whose centre is (23.5, 4.5).
-const THING: Goal = Goal::ObjectOnLandmark { object: 0, landmark: 2, sign: Sign::Positive };
-const TOUCH: Goal = Goal::Touch { agent: 0, other: 1, sign: Sign::Positive };
+const THING: Goal = Goal::ObjectOnLandmark {
+    object: ObjectId::ZERO,
+    landmark: LandmarkId::BOTTOM_RIGHT,
+    sign: Sign::Positive,
+};
+const TOUCH: Goal = Goal::Touch { agent: AgentId::ZERO, other: AgentId::ONE, sign: Sign::Positive };
 
 fn scene(kind: EventKind, goals: [Goal; 2], first: Attitude) -> Scene {
     let agent = |goal, attitude| AgentSpec {
@@ -78,7 +87,7 @@ fn help_needs_a_goal_reached_in_time_a_hand_and_a_quiet_end() {
         Move { agents: [fetched.agents[0], facing(helpee)], held, ..fetched }
     };
     let good = event(helped);
-    let comparison = Comparison { idle: 0, judged: 1, change: Change::Helped };
+    let comparison = Comparison { idle: AgentId::ZERO, judged: AgentId::ONE, change: Change::Helped };
     assert_eq!(first_look(&scene, &good, STEPS..=100), Ok(Some(comparison)));
     assert_eq!(first_look(&scene, &good, 41..=100), Err(Refusal::TooShort));
     assert_eq!(first_look(&scene, &good, 10..=39), Err(Refusal::TooLong));
@@ -119,7 +128,7 @@ fn help_needs_a_goal_reached_in_time_a_hand_and_a_quiet_end() {
 #[test]
 fn an_effect_is_a_difference_to_the_event_without_the_agent() {
     let scene = scene(EventKind::Helping, [THING, THING], Attitude::Help);
-    let comparison = Comparison { idle: 0, judged: 1, change: Change::Helped };
+    let comparison = Comparison { idle: AgentId::ZERO, judged: AgentId::ONE, change: Change::Helped };
     let (with, without) = (event(fetch), event(|_| fetch(0)));
     assert_eq!(comparison.judge(&scene, &with, &without), Ok(()));
     assert_eq!(comparison.judge(&scene, &with, &with), Err(Refusal::NoEffect));
@@ -140,7 +149,7 @@ fn stopped(t: usize) -> Move {
 fn hindrance_needs_a_victim_after_something_and_somebody_in_its_way() {
     let goals = [place(1, 1).negated(), place(1, 1)];
     let scene = scene(EventKind::Hindering, goals, Attitude::Hinder);
-    let comparison = Comparison { idle: 0, judged: 1, change: Change::Hindered };
+    let comparison = Comparison { idle: AgentId::ZERO, judged: AgentId::ONE, change: Change::Hindered };
     assert_eq!(first_look(&scene, &event(stopped), STEPS..=100), Ok(Some(comparison)));
     let lazy = event(|t| Move { agents: [(22.4, 19.5, 0.0), (8.0, 19.5, t as f32)], ..stopped(t) });
     assert_eq!(refusal(&scene, &lazy), Some(Refusal::Aimless));
@@ -152,7 +161,7 @@ fn hindrance_needs_a_victim_after_something_and_somebody_in_its_way() {
 #[test]
 fn who_gets_loose_was_chased() {
     let scene = scene(EventKind::Chasing, [TOUCH, TOUCH.negated()], Attitude::Neutral);
-    let comparison = Comparison { idle: 1, judged: 0, change: Change::Hindered };
+    let comparison = Comparison { idle: AgentId::ONE, judged: AgentId::ZERO, change: Change::Hindered };
     let touching = |share: usize| {
         event(move |t| {
             let apart = if t >= 10 && t % 10 < share { 2.0 } else { 6.0 };
@@ -177,7 +186,7 @@ fn hunt(t: usize, speed: f32) -> Move {
 #[test]
 fn a_chase_needs_pursuit_and_flight() {
     let scene = scene(EventKind::Chasing, [TOUCH, TOUCH.negated()], Attitude::Neutral);
-    let comparison = Comparison { idle: 1, judged: 0, change: Change::Hindered };
+    let comparison = Comparison { idle: AgentId::ONE, judged: AgentId::ZERO, change: Change::Hindered };
     let good = event(|t| hunt(t, 0.2));
     assert_eq!(first_look(&scene, &good, STEPS..=100), Ok(Some(comparison)));
     assert_eq!(refusal(&scene, &event(|t| hunt(t, 0.0))), Some(Refusal::NoFlight));
@@ -198,13 +207,17 @@ fn a_chase_needs_pursuit_and_flight() {
     let mut evading = scene.clone();
     evading.kind = EventKind::Hindering;
     evading.agents[1].attitude = Attitude::Hinder;
-    let comparison = Comparison { idle: 1, judged: 0, change: Change::Hindered };
+    let comparison = Comparison { idle: AgentId::ONE, judged: AgentId::ZERO, change: Change::Hindered };
     assert_eq!(first_look(&evading, &good, STEPS..=100), Ok(Some(comparison)));
 }
 
 #[test]
 fn a_contest_needs_two_at_the_object_and_an_issue() {
-    let other = Goal::ObjectOnLandmark { object: 0, landmark: 0, sign: Sign::Positive };
+    let other = Goal::ObjectOnLandmark {
+        object: ObjectId::ZERO,
+        landmark: LandmarkId::TOP_LEFT,
+        sign: Sign::Positive,
+    };
     let scene = scene(EventKind::Competing, [THING, other], Attitude::Neutral);
     // Agent 1 has been at the object, where agent 0 then takes it from.
     let met = |t| {
@@ -212,7 +225,7 @@ fn a_contest_needs_two_at_the_object_and_an_issue() {
         step.agents[1] = facing(on_way(t, (12.0, 12.0), (12.0, 6.4), 0..6));
         step
     };
-    let comparison = Comparison { idle: 0, judged: 1, change: Change::Hindered };
+    let comparison = Comparison { idle: AgentId::ZERO, judged: AgentId::ONE, change: Change::Hindered };
     assert_eq!(first_look(&scene, &event(met), STEPS..=100), Ok(Some(comparison)));
     assert_eq!(refusal(&scene, &event(fetch)), Some(Refusal::Aimless));
     let near_miss =

@@ -1,7 +1,7 @@
 //! Tracks made up by hand: all bodies of radius 1, in an arena without walls.
 
 use phase_evidence::Track;
-use phase_model::{AgentBody, Body, Contacts, Grip, MAX_ENTITIES, Physique, Side, State, Vec2};
+use phase_model::{AgentBody, Body, Contacts, Grip, MAX_ENTITIES, ObjectId, Physique, Side, State, Vec2};
 
 /// Where everybody is at one step.
 #[derive(Clone, Debug, Default)]
@@ -31,6 +31,10 @@ fn state(step: &Move) -> State {
     for (body, &(x, y)) in bodies.iter_mut().skip(2).zip(&step.objects) {
         *body = Body::at_rest(Vec2::new(x, y), 0.0);
     }
-    let grip = |object: u8| Grip { object, side: Side::Head, relative_angle: 0.0 };
+    let grip = |object: u8| Grip {
+        object: ObjectId::ALL[usize::from(object)],
+        side: Side::Head,
+        relative_angle: 0.0,
+    };
     State { bodies, grips: step.held.map(|held| held.map(grip)), contacts: Contacts::NONE }
 }

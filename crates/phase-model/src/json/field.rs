@@ -113,6 +113,15 @@ impl<'a> Field<'a> {
         number.ok_or_else(|| self.must_be(&format!("a whole number from {from} to {to}")))
     }
 
+    /// The one of some ids or entities, in number order from 0, that a number names.
+    ///
+    /// # Errors
+    /// If this is no such number.
+    pub fn id<T: Copy>(&self, ids: &[T]) -> Result<T, FieldError> {
+        let number = self.whole(0, ids.len() as i64 - 1)?;
+        Ok(ids[number as usize])
+    }
+
     /// One of a few words, or whatever else has a name.
     ///
     /// # Errors

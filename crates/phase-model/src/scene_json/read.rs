@@ -2,8 +2,8 @@
 
 use super::Starts;
 use crate::{
-    AGENT_COUNT, AgentSpec, Attitude, Body, EventKind, Flip, Goal, Layout, MAX_OBJECTS, ObjectSpec, Scene,
-    Segment, Sign, Size, Strength, Vec2, arena,
+    AGENT_COUNT, AgentId, AgentSpec, Attitude, Body, EventKind, Flip, Goal, LandmarkId, Layout, MAX_OBJECTS,
+    ObjectId, ObjectSpec, Scene, Segment, Sign, Size, Strength, Vec2, arena,
     json::{Field, FieldError},
 };
 
@@ -122,7 +122,9 @@ fn repeats(field: &Field<'_>, key: &str, expected: f32, what: &str) -> Result<()
 }
 
 fn goal(field: &Field<'_>) -> Result<Goal, FieldError> {
-    let number = |key| Ok(field.required(key)?.whole(0, u8::MAX.into())? as u8);
+    let agent = |key| field.required(key)?.id(&AgentId::ALL);
+    let object = || field.required("object")?.id(&ObjectId::ALL);
+    let landmark = || field.required("landmark")?.id(&LandmarkId::ALL);
     let sign = || {
         let field = field.required("sign")?;
         match field.whole(-1, 1) {
@@ -135,20 +137,15 @@ fn goal(field: &Field<'_>) -> Result<Goal, FieldError> {
     match field.required("kind")?.one_of(&kinds)? {
         0 => {
             field.only(&["kind", "agent", "landmark", "sign"])?;
-            Ok(Goal::AgentOnLandmark {
-                agent: number("agent")?,
-                landmark: number("landmark")?,
-                sign: sign()?,
-            })
+            Ok(Goal::AgentOnLandmark { agent: agent("agent")?, landmark: landmark()?, sign: sign()? })
         }
         1 => {
             field.only(&["kind", "object", "landmark", "sign"])?;
-            let (object, landmark) = (number("object")?, number("landmark")?);
-            Ok(Goal::ObjectOnLandmark { object, landmark, sign: sign()? })
+            Ok(Goal::ObjectOnLandmark { object: object()?, landmark: landmark()?, sign: sign()? })
         }
         _ => {
             field.only(&["kind", "agent", "other", "sign"])?;
-            Ok(Goal::Touch { agent: number("agent")?, other: number("other")?, sign: sign()? })
+            Ok(Goal::Touch { agent: agent("agent")?, other: agent("other")?, sign: sign()? })
         }
     }
 }

@@ -1,14 +1,15 @@
 //! Scenes to look at.
 
 use phase_model::{
-    AgentBody, Body, Entity, Grip, Layout, MAX_ENTITIES, Physique, Segment, Side, Size, State, Vec2,
+    AgentBody, AgentId, Body, Entity, Grip, Layout, MAX_ENTITIES, ObjectId, Physique, Segment, Side, Size,
+    State, Vec2,
 };
 use proptest::prelude::*;
 
-pub(crate) const ME: Entity = Entity::Agent(0);
-pub(crate) const OTHER: Entity = Entity::Agent(1);
-pub(crate) const BALL: Entity = Entity::Object(0);
-pub(crate) const BOX: Entity = Entity::Object(1);
+pub(crate) const ME: Entity = Entity::Agent(AgentId::ZERO);
+pub(crate) const OTHER: Entity = Entity::Agent(AgentId::ONE);
+pub(crate) const BALL: Entity = Entity::Object(ObjectId::ZERO);
+pub(crate) const BOX: Entity = Entity::Object(ObjectId::ONE);
 
 /// Somewhere no cell is.
 pub(crate) const AWAY: Vec2 = Vec2::new(-500.0, -500.0);
@@ -36,7 +37,7 @@ pub(crate) fn with(mut state: State, entity: Entity, position: (f32, f32)) -> St
 }
 
 pub(crate) fn grip(object: u8) -> Option<Grip> {
-    Some(Grip { object, side: Side::Head, relative_angle: 0.0 })
+    Some(Grip { object: ObjectId::ALL[usize::from(object)], side: Side::Head, relative_angle: 0.0 })
 }
 
 pub(crate) fn any_size() -> impl Strategy<Value = Size> {
@@ -68,7 +69,7 @@ pub(crate) fn any_state() -> impl Strategy<Value = State> {
     (prop::array::uniform4(any_body()), pairs, held(), held()).prop_map(|(bodies, pairs, first, second)| {
         let mut state = State::new(bodies);
         for (a, b) in pairs {
-            state.contacts.insert(Entity::from_index(a), Entity::from_index(b));
+            state.contacts.insert(Entity::ALL[a], Entity::ALL[b]);
         }
         state.grips = [first, second].map(|held| held.and_then(grip));
         state

@@ -5,7 +5,7 @@ use crate::{
     oracle::look,
 };
 use core::f32::consts::{FRAC_PI_2, PI};
-use phase_model::{Body, Segment, Size, State, Vec2};
+use phase_model::{AgentId, Body, Segment, Size, State, Vec2};
 use phase_perception::{Cell, CellSet, field_of_view, footprint, sees};
 use proptest::prelude::*;
 
@@ -24,7 +24,7 @@ fn drawn(cells: &CellSet) -> Vec<String> {
 
 fn check(walls: &[Segment], state: &State, expected: [&str; 20]) {
     let physique = physique(walls.to_vec(), Size::Small);
-    let seen = drawn(&field_of_view(&physique, state, 0));
+    let seen = drawn(&field_of_view(&physique, state, AgentId::ZERO));
     assert_eq!(seen, expected, "seen:\n{}\n", seen.join("\n"));
 }
 
@@ -145,7 +145,11 @@ fn the_cone_ends_at_its_half_angle() {
     let physique = physique(Vec::new(), Size::Small);
     let cell = Cell::at(target).unwrap();
     for (name, angle, expected) in cases {
-        assert_eq!(field_of_view(&physique, &upright(angle), 0).contains(cell), expected, "{name}");
+        assert_eq!(
+            field_of_view(&physique, &upright(angle), AgentId::ZERO).contains(cell),
+            expected,
+            "{name}"
+        );
     }
 }
 
@@ -163,7 +167,7 @@ fn a_ray_along_a_wall_passes_and_one_through_its_end_does_not() {
     for (name, wall, expected) in cases {
         let state = looking((10.5, 4.5), 0.0);
         assert_eq!(
-            field_of_view(&physique(vec![wall], Size::Small), &state, 0).contains(cell),
+            field_of_view(&physique(vec![wall], Size::Small), &state, AgentId::ZERO).contains(cell),
             expected,
             "{name}"
         );
@@ -200,7 +204,7 @@ fn entities_are_seen_if_a_cell_of_theirs_is() {
         ("not a number", small(with(front, BALL, (f32::NAN, 10.0))), false),
     ];
     for (name, (size, state), expected) in cases {
-        assert_eq!(sees(&physique(Vec::new(), size), &state, 0, BALL), expected, "{name}");
+        assert_eq!(sees(&physique(Vec::new(), size), &state, AgentId::ZERO, BALL), expected, "{name}");
     }
 }
 
@@ -210,7 +214,7 @@ fn walls_hide_entities_and_doors_show_them() {
     let cases = [((12.0, 14.0), false), ((17.2, 13.0), true), ((18.5, 20.0), true), ((23.0, 14.0), false)];
     for (place, expected) in cases {
         let state = with(looking((14.5, 6.5), 0.0), BALL, place);
-        assert_eq!(sees(&physique(walls(), Size::Small), &state, 0, BALL), expected, "{place:?}");
+        assert_eq!(sees(&physique(walls(), Size::Small), &state, AgentId::ZERO, BALL), expected, "{place:?}");
     }
 }
 
@@ -218,18 +222,18 @@ fn walls_hide_entities_and_doors_show_them() {
 fn nobody_sees_itself_or_what_is_not_there() {
     let mut physique = physique(Vec::new(), Size::Small);
     let state = with(looking((10.5, 6.5), 0.0), BOX, (10.5, 12.0));
-    assert!(!sees(&physique, &state, 0, ME));
-    assert!(sees(&physique, &state, 0, BOX));
+    assert!(!sees(&physique, &state, AgentId::ZERO, ME));
+    assert!(sees(&physique, &state, AgentId::ZERO, BOX));
     physique.object_count = 1;
-    assert!(!sees(&physique, &state, 0, BOX));
+    assert!(!sees(&physique, &state, AgentId::ZERO, BOX));
 }
 
 #[test]
 fn a_wall_through_the_eye_hides_nothing() {
     let walls = vec![wall((10.5, 4.0), (10.5, 5.0))];
     let state = looking((10.5, 4.5), 0.0);
-    let seen = field_of_view(&physique(walls, Size::Small), &state, 0);
-    assert_eq!(seen, field_of_view(&physique(Vec::new(), Size::Small), &state, 0));
+    let seen = field_of_view(&physique(walls, Size::Small), &state, AgentId::ZERO);
+    assert_eq!(seen, field_of_view(&physique(Vec::new(), Size::Small), &state, AgentId::ZERO));
     assert!(seen.len() > 100);
 }
 
@@ -241,7 +245,7 @@ fn arc_tangent(x: f32, y: f32) -> f32 {
 proptest! {
     #[test]
     fn cells_are_seen_as_reckoned_slowly(physique in any_physique(), state in any_state(), agent in 0_usize..2) {
-        let visible = field_of_view(&physique, &state, agent);
+        let visible = field_of_view(&physique, &state, AgentId::ALL[agent]);
         for cell in Cell::all() {
             let sight = look(&physique, &state, agent, cell);
             prop_assert!(
@@ -260,8 +264,8 @@ proptest! {
             let mut without = state;
             *without.body_mut(entity) = Body::at_rest(AWAY, 0.0);
             let cells = footprint(&physique, entity, state.body(entity));
-            let expected = field_of_view(&physique, &without, agent).intersects(&cells);
-            prop_assert_eq!(sees(&physique, &state, agent, entity), expected, "{:?}", entity);
+            let expected = field_of_view(&physique, &without, AgentId::ALL[agent]).intersects(&cells);
+            prop_assert_eq!(sees(&physique, &state, AgentId::ALL[agent], entity), expected, "{:?}", entity);
         }
     }
 
@@ -271,12 +275,12 @@ proptest! {
         let body = |k: usize| Body::at_rest(Vec2::new(numbers[k], numbers[k + 1]), numbers[k + 2]);
         let state = State::new([body(0), body(3), body(6), body(9)]);
         let physique = physique(vec![wall((16.0, 12.0), (6.0, 12.0))], Size::Large);
-        let visible = field_of_view(&physique, &state, agent);
+        let visible = field_of_view(&physique, &state, AgentId::ALL[agent]);
         if !state.bodies[agent].is_finite() {
             prop_assert!(visible.is_empty());
         }
         for entity in physique.entities() {
-            let _ = sees(&physique, &state, agent, entity);
+            let _ = sees(&physique, &state, AgentId::ALL[agent], entity);
         }
     }
 }

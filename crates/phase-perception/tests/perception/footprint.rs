@@ -1,7 +1,7 @@
 //! Footprints against the shared outline tests of the model.
 
 use crate::common::{any_body, any_physique};
-use phase_model::{Body, Entity, Physique, Size, Vec2, geometry::Outline};
+use phase_model::{Body, Entity, ObjectId, Physique, Size, Vec2, geometry::Outline};
 use phase_perception::{Cell, footprint, footprint::covered};
 use proptest::prelude::*;
 
@@ -14,12 +14,12 @@ fn balls_in_the_middle_of_a_cell_lie_on_as_many_cells_as_counted_by_hand() {
         object_count: 2,
     };
     let body = Body::at_rest(Vec2::new(10.5, 10.5), 0.0);
-    let count = |size| footprint(&physique(size), Entity::Object(0), &body).len();
+    let count = |size| footprint(&physique(size), Entity::Object(ObjectId::ZERO), &body).len();
     // The nearest corners of the diagonal neighbours are 0.707 u away, the next cells 1.5 u.
     assert_eq!(count(Size::Small), 9);
     assert_eq!(count(Size::Large), 9);
     assert_eq!(count(Size::Huge), 21);
-    let cells = covered(&Outline::of(&physique(Size::Small), Entity::Object(0), &body));
+    let cells = covered(&Outline::of(&physique(Size::Small), Entity::Object(ObjectId::ZERO), &body));
     assert_eq!(cells.iter().map(Cell::centre).collect::<Vec<_>>(), [body.position]);
 }
 

@@ -1,6 +1,6 @@
 //! Seeing reckoned slowly, in other ways and with more digits.
 
-use phase_model::{Entity, Physique, Segment, State};
+use phase_model::{AgentId, Entity, Physique, Segment, State};
 use phase_perception::Cell;
 
 /// Whether a cell's centre is seen, and by how much the closest of the decisions was taken (u or rad).
@@ -12,7 +12,7 @@ pub(crate) struct Sight {
 /// Angles by the arc tangent, discs by walking along the ray, walls by where the ray meets their line.
 pub(crate) fn look(physique: &Physique, state: &State, agent: usize, cell: Cell) -> Sight {
     let body = &state.bodies[agent];
-    let (eye, heading) = centre_of_mass(physique, state, Entity::agent(agent));
+    let (eye, heading) = centre_of_mass(physique, state, Entity::Agent(AgentId::ALL[agent]));
     let centre = cell.centre();
     let ray = (f64::from(centre.x) - eye.0, f64::from(centre.y) - eye.1);
     debug_assert!((heading - f64::from(body.angle)).abs() < 1e-9);
@@ -27,7 +27,7 @@ pub(crate) fn look(physique: &Physique, state: &State, agent: usize, cell: Cell)
         visible &= !meets;
         margin = margin.min(by);
     }
-    for entity in physique.entities().filter(|&entity| entity != Entity::agent(agent)) {
+    for entity in physique.entities().filter(|&entity| entity != Entity::Agent(AgentId::ALL[agent])) {
         let (disc, _) = centre_of_mass(physique, state, entity);
         let radius = f64::from(physique.radius(entity));
         let offset = (disc.0 - eye.0, disc.1 - eye.1);

@@ -4,7 +4,7 @@ use crate::{
     common::{any_physique, any_state},
     oracle::least_margin,
 };
-use phase_model::{Body, Flip, Physique, Segment, State};
+use phase_model::{AgentId, Body, Flip, Physique, Segment, State};
 use phase_perception::{Cell, CellSet, field_of_view, footprint, observed_set};
 use proptest::prelude::*;
 
@@ -45,12 +45,12 @@ proptest! {
     ) {
         prop_assume!(least_margin(&physique, &state, agent).abs() > 1e-4);
         prop_assume!(!is_on_the_line(&physique, &state));
-        let visible = field_of_view(&physique, &state, agent);
-        let observed = observed_set(&physique, &state, agent);
+        let visible = field_of_view(&physique, &state, AgentId::ALL[agent]);
+        let observed = observed_set(&physique, &state, AgentId::ALL[agent]);
         for flip in Flip::ALL {
             let (physique, state) = mirrored(flip, &physique, &state);
-            prop_assert_eq!(field_of_view(&physique, &state, agent), image(flip, &visible), "{:?}", flip);
-            prop_assert_eq!(observed_set(&physique, &state, agent), observed, "{:?}", flip);
+            prop_assert_eq!(field_of_view(&physique, &state, AgentId::ALL[agent]), image(flip, &visible), "{:?}", flip);
+            prop_assert_eq!(observed_set(&physique, &state, AgentId::ALL[agent]), observed, "{:?}", flip);
         }
     }
 }

@@ -1,7 +1,8 @@
 //! Random problems of the symbolic search.
 
 use phase_model::{
-    AgentBody, Body, Goal, Grip, Layout, Physique, Segment, Side, Sign, Size, State, Strength, Vec2, arena,
+    AgentBody, AgentId, Body, BodySet, Entity, Goal, Grip, LandmarkId, Layout, ObjectId, Physique, Segment,
+    Side, Sign, Size, State, Strength, Vec2, arena,
 };
 use phase_planner::{Situation, situation::obstruct, task::Task};
 use proptest::prelude::*;
@@ -13,13 +14,13 @@ pub(crate) struct Problem {
     pub(crate) agents: [(Size, Strength); 2],
     pub(crate) objects: Vec<Size>,
     pub(crate) places: [Vec2; 4],
-    pub(crate) holds: [Option<u8>; 2],
+    pub(crate) holds: [Option<ObjectId>; 2],
     pub(crate) goal: Goal,
     pub(crate) actors: [bool; 2],
     pub(crate) effort: [f32; 2],
     pub(crate) allied: bool,
     /// Where a round body narrows doors for one agent, which this says.
-    pub(crate) narrowed: Option<(usize, Vec2)>,
+    pub(crate) narrowed: Option<(AgentId, Vec2)>,
 }
 
 impl Problem {
@@ -45,7 +46,7 @@ impl Problem {
 
     pub(crate) fn task<'a>(&self, situation: &'a Situation<'a>) -> Task<'a> {
         let narrowed = self.narrowed.map(|(agent, place)| {
-            let mut gaps = *situation.gaps(agent, 0b11);
+            let mut gaps = *situation.gaps(agent, BodySet::OBJECTS);
             obstruct(&mut gaps, place, 1.0, 1.0);
             (agent, gaps)
         });
@@ -64,12 +65,14 @@ fn place() -> impl Strategy<Value = Vec2> {
 
 fn goal(object_count: usize) -> impl Strategy<Value = Goal> {
     let sign = Sign::Positive;
-    (0..3_u8, 0..2_u8, 0..2_u8, 0..4_u8).prop_map(move |(kind, agent, object, landmark)| match kind {
+    let (agent, landmark) =
+        (prop::sample::select(AgentId::ALL.to_vec()), prop::sample::select(LandmarkId::ALL.to_vec()));
+    (0..3_u8, agent, 0..2_usize, landmark).prop_map(move |(kind, agent, object, landmark)| match kind {
         0 => Goal::AgentOnLandmark { agent, landmark, sign },
         1 if object_count > 0 => {
-            Goal::ObjectOnLandmark { object: object % object_count as u8, landmark, sign }
+            Goal::ObjectOnLandmark { object: ObjectId::ALL[object % object_count], landmark, sign }
         }
-        _ => Goal::Touch { agent, other: 1 - agent, sign },
+        _ => Goal::Touch { agent, other: agent.other(), sign },
     })
 }
 
@@ -84,26 +87,26 @@ pub(crate) fn problems() -> impl Strategy<Value = Problem> {
     (scene, [place(), place(), place(), place()], actors, effort, any::<bool>())
         .prop_flat_map(|(scene, places, actors, effort, allied)| {
             let count = scene.2.len();
-            let held = || prop::option::weighted(0.3, 0..2_u8);
-            let narrowed = prop::option::weighted(0.2, (0..2_usize, place()));
+            let held = || prop::option::weighted(0.3, prop::sample::select(ObjectId::ALL.to_vec()));
+            let narrowed =
+                prop::option::weighted(0.2, (prop::sample::select(AgentId::ALL.to_vec()), place()));
             (Just((scene, places, actors, effort, allied)), [held(), held()], goal(count), narrowed)
         })
         .prop_map(|(fixed, holds, goal, narrowed)| {
             let ((layout, agents, objects), mut places, actors, effort, allied) = fixed;
-            let holds = holds.map(|held| held.filter(|&object| usize::from(object) < objects.len()));
+            let holds = holds.map(|held| held.filter(|&object| object.index() < objects.len()));
             // What is held touches its holder; of an object held by both, the first has it where it is.
             for agent in [1, 0] {
                 if let Some(object) = holds[agent] {
-                    let object = usize::from(object);
-                    let arm = agents[agent].0.radius() + objects[object].radius();
-                    places[2 + object] = places[agent] + Vec2::new(0.0, arm);
+                    let arm = agents[agent].0.radius() + objects[object.index()].radius();
+                    places[Entity::Object(object)] = places[agent] + Vec2::new(0.0, arm);
                 }
             }
             if let [Some(a), Some(b)] = holds
                 && a == b
             {
-                let arms = agents.map(|(size, _)| size.radius() + objects[usize::from(a)].radius());
-                places[1] = places[2 + usize::from(a)] + Vec2::new(0.0, arms[1]);
+                let arms = agents.map(|(size, _)| size.radius() + objects[a.index()].radius());
+                places[1] = places[Entity::Object(a)] + Vec2::new(0.0, arms[1]);
             }
             Problem { layout, agents, objects, places, holds, goal, actors, effort, allied, narrowed }
         })

@@ -1,8 +1,8 @@
 //! Hand-made situations.
 
 use phase_model::{
-    Attitude, Body, EntitySet, Flip, Goal, Layout, Physique, Sign, Size, State, Strength, Vec2,
-    physique::AgentBody,
+    AgentId, Attitude, Body, BodySet, Flip, Goal, LandmarkId, Layout, ObjectId, Physique, Sign, Size, State,
+    Strength, Vec2, physique::AgentBody,
 };
 use phase_planner::{Plan, Planner};
 
@@ -14,7 +14,7 @@ pub(crate) struct Setup {
     pub(crate) goals: [Goal; 2],
     pub(crate) attitudes: [Attitude; 2],
     pub(crate) holds: [Option<u8>; 2],
-    pub(crate) observed: EntitySet,
+    pub(crate) observed: BodySet,
 }
 
 impl Setup {
@@ -45,7 +45,7 @@ impl Setup {
         let mut state = State::new(bodies);
         for (grip, held) in state.grips.iter_mut().zip(self.holds) {
             *grip = held.map(|object| phase_model::Grip {
-                object,
+                object: ObjectId::ALL[usize::from(object)],
                 side: phase_model::Side::Head,
                 relative_angle: 0.0,
             });
@@ -54,7 +54,7 @@ impl Setup {
     }
 
     pub(crate) fn plan(&self, agent: usize) -> Plan {
-        Planner::new(self.physique(), self.layout, agent, self.goals, self.attitudes[agent])
+        Planner::new(self.physique(), self.layout, AgentId::ALL[agent], self.goals, self.attitudes[agent])
             .plan(&self.state(), self.observed)
     }
 
@@ -69,18 +69,26 @@ pub(crate) fn layout(base: u8, flip: Option<Flip>) -> Layout {
 }
 
 pub(crate) fn agent_on(agent: u8, landmark: u8) -> Goal {
-    Goal::AgentOnLandmark { agent, landmark, sign: Sign::Positive }
+    Goal::AgentOnLandmark {
+        agent: AgentId::ALL[usize::from(agent)],
+        landmark: LandmarkId::ALL[usize::from(landmark)],
+        sign: Sign::Positive,
+    }
 }
 
 pub(crate) fn object_on(object: u8, landmark: u8) -> Goal {
-    Goal::ObjectOnLandmark { object, landmark, sign: Sign::Positive }
+    Goal::ObjectOnLandmark {
+        object: ObjectId::ALL[usize::from(object)],
+        landmark: LandmarkId::ALL[usize::from(landmark)],
+        sign: Sign::Positive,
+    }
 }
 
 pub(crate) fn approach() -> Goal {
-    Goal::Touch { agent: 0, other: 1, sign: Sign::Positive }
+    Goal::Touch { agent: AgentId::ZERO, other: AgentId::ONE, sign: Sign::Positive }
 }
 
 /// Everything there can be.
-pub(crate) fn everything() -> EntitySet {
-    (0..4).map(phase_model::Entity::from_index).collect()
+pub(crate) fn everything() -> BodySet {
+    phase_model::Entity::ALL.into_iter().collect()
 }

@@ -1,7 +1,7 @@
 //! What an agent sees is light, what it does not see is dim, what it believes is faint.
 
 use crate::common::{RADII, at, physique, state};
-use phase_model::{Body, State, Vec2};
+use phase_model::{AgentId, Body, State, Vec2};
 use phase_perception::{Cell, CellSet};
 use phase_render::{Caption, Frame, Overlay, Palette, Stage, Style, font};
 
@@ -15,7 +15,7 @@ fn upper_right() -> CellSet {
 }
 
 fn draw(stage: &Stage, visible: &CellSet, particles: &[State], captions: &[Caption]) -> Frame {
-    stage.frame(&state(), Some(&Overlay { agent: 0, visible, particles, captions }))
+    stage.frame(&state(), Some(&Overlay { agent: AgentId::ZERO, visible, particles, captions }))
 }
 
 fn lightness(colour: [u8; 3]) -> u32 {
@@ -55,8 +55,10 @@ fn no_seams_between_cells_at_any_size() {
         let stage = Stage::new(&empty, Style::with_side(side)).unwrap();
         let gone = State::new([Body::at_rest(Vec2::splat(-500.0), 0.0); 4]);
         let none = CellSet::EMPTY;
-        let frame =
-            stage.frame(&gone, Some(&Overlay { agent: 0, visible: &none, particles: &[], captions: &[] }));
+        let frame = stage.frame(
+            &gone,
+            Some(&Overlay { agent: AgentId::ZERO, visible: &none, particles: &[], captions: &[] }),
+        );
         let inside = |x: f32, y: f32| stage.pixel(Vec2::new(x, y));
         let (from, to) = (inside(11.5, 16.5), inside(20.5, 7.5));
         let first = frame.pixel(from.x as u32, from.y as u32).unwrap();
@@ -188,7 +190,7 @@ fn bars_are_as_long_as_their_share_of_the_arena() {
 }
 
 #[test]
-fn an_overlay_of_nobody_draws_everybody() {
+fn an_agent_is_drawn_as_a_belief_of_the_other_only() {
     let stage = stage(0);
     let visible = CellSet::EMPTY;
     let mut particle = state();
@@ -199,6 +201,9 @@ fn an_overlay_of_nobody_draws_everybody() {
         particles: std::slice::from_ref(&particle),
         captions: &[],
     };
-    let (own, other) = (stage.frame(&state(), Some(&overlay(0))), stage.frame(&state(), Some(&overlay(99))));
+    let (own, other) = (
+        stage.frame(&state(), Some(&overlay(AgentId::ZERO))),
+        stage.frame(&state(), Some(&overlay(AgentId::ONE))),
+    );
     assert_ne!(own, other);
 }

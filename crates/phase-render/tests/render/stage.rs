@@ -1,7 +1,7 @@
 //! Frames show the world where it is, y up.
 
 use crate::common::{RADII, at, physique, stage, state};
-use phase_model::{Body, Grip, Side, State, Vec2};
+use phase_model::{Body, Grip, ObjectId, Physique, Side, State, Vec2};
 use phase_render::{Frame, Palette, RenderError, Stage, Style};
 use std::f32::consts::{FRAC_PI_2, PI};
 
@@ -127,7 +127,7 @@ fn a_grip_is_marked_and_a_broken_grip_is_not() {
         let point = state.bodies[0].position + along * RADII[0];
         state.bodies[2] = Body::at_rest(point + along * RADII[2], 0.0);
         let free = stage.frame(&state, None);
-        state.grips[0] = Some(Grip { object: 0, side, relative_angle: 0.0 });
+        state.grips[0] = Some(Grip { object: ObjectId::ZERO, side, relative_angle: 0.0 });
         let held = stage.frame(&state, None);
         assert_eq!(at(&stage, &held, point.x, point.y), palette.outline, "{side:?}");
         // The mark is wider than the outlines that meet there anyway.
@@ -135,8 +135,11 @@ fn a_grip_is_marked_and_a_broken_grip_is_not() {
         assert_eq!(at(&stage, &held, aside.x, aside.y), palette.outline, "{side:?} at {angle}");
         let marked = changed(&free, &held);
         assert!((100..900).contains(&marked), "{marked} pixels mark the grip");
-        state.grips[0] = Some(Grip { object: 7, side, relative_angle: 0.0 });
-        assert_eq!(stage.frame(&state, None), free);
+        let single = Stage::new(&Physique { object_count: 1, ..physique() }, Style::default()).unwrap();
+        state.grips[0] = Some(Grip { object: ObjectId::ONE, side, relative_angle: 0.0 });
+        let absent = single.frame(&state, None);
+        state.grips[0] = None;
+        assert_eq!(absent, single.frame(&state, None));
     }
 }
 
@@ -151,7 +154,7 @@ fn impossible_states_are_drawn_without_the_impossible() {
             Body::at_rest(Vec2::splat(odd), odd),
         ] {
             let mut state = State::new([body; 4]);
-            state.grips = [Some(Grip { object: 0, side: Side::Head, relative_angle: odd }); 2];
+            state.grips = [Some(Grip { object: ObjectId::ZERO, side: Side::Head, relative_angle: odd }); 2];
             assert_eq!(stage.frame(&state, None), expected, "{body:?}");
         }
     }

@@ -11,7 +11,7 @@ use phase_dataset::{
     words::{self, Piece},
 };
 use phase_model::{
-    AGENT_COUNT, Attitude, Entity, Goal, Sign, Size, Strength,
+    AgentId, Attitude, Entity, Goal, ObjectId, Sign, Size, Strength,
     arena::{FRAMES_PER_SECOND, SUBSTEPS},
 };
 use std::{collections::BTreeMap, fmt::Write as _};
@@ -95,7 +95,7 @@ fn filters(events: &[EventEntry]) -> String {
 /// What the agents of an event want, whoever wants it: each goal once.
 fn goals(event: &EventEntry) -> Vec<String> {
     let text = |agent: &AgentEntry| {
-        let landmark = agent.goal.landmark().map_or("", |number| words::landmark(number as u8));
+        let landmark = agent.goal.landmark().map_or("", words::landmark);
         let on = if agent.goal.sign() == Sign::Positive { "on" } else { "off" };
         match agent.goal {
             Goal::AgentOnLandmark { .. } => format!("agent {on} {landmark}"),
@@ -111,11 +111,11 @@ fn goals(event: &EventEntry) -> Vec<String> {
 
 fn card(event: &EventEntry) -> String {
     let (id, kind) = (escape(&event.id), event.kind.name());
-    let agents: String = (0..AGENT_COUNT).map(|k| agent(k, &event.agents[k])).collect();
+    let agents: String = AgentId::ALL.into_iter().map(|who| agent(who, &event.agents[who])).collect();
     let mut things = String::new();
-    for (k, &level) in event.object_size_levels.iter().enumerate() {
+    for (object, &level) in ObjectId::ALL.into_iter().zip(&event.object_size_levels) {
         let size = Size::from_level(level).map_or("", words::size);
-        let _ = write!(things, "{} {size} · ", chip(Piece::Entity(Entity::object(k))));
+        let _ = write!(things, "{} {size} · ", chip(Piece::Entity(Entity::Object(object))));
     }
     let flip = event.layout.flip.map_or_else(String::new, |flip| format!(", flip {flip}"));
     let button = |class: &str, label: &str, sign: &str| {
@@ -156,16 +156,16 @@ fn card(event: &EventEntry) -> String {
     )
 }
 
-fn agent(k: usize, agent: &AgentEntry) -> String {
+fn agent(who: AgentId, agent: &AgentEntry) -> String {
     let size = Size::from_level(agent.size_level).map_or("", words::size);
     let strength = Strength::from_level(agent.strength_level).map_or("", words::strength);
-    let other = chip(Piece::Entity(Entity::agent(1 - k)));
+    let other = chip(Piece::Entity(Entity::Agent(who.other())));
     let attitude = Attitude::try_from(agent.alpha).unwrap_or_default();
     let stance = match attitude {
         Attitude::Neutral => String::new(),
         social => format!(" <strong>{}</strong> {other}:", words::attitude(social)),
     };
-    let goal: String = words::goal(k, agent.goal).into_iter().map(chip).collect();
+    let goal: String = words::goal(who, agent.goal).into_iter().map(chip).collect();
     let outcome = match (agent.reached, agent.steps_to_goal) {
         (true, Some(steps)) => {
             format!("<span class=\"yes\">done after {:.1} s</span>", steps as f64 * SECONDS_PER_STEP)
@@ -178,10 +178,10 @@ fn agent(k: usize, agent: &AgentEntry) -> String {
     };
     format!(
         "<li>{me} <span class=\"body\">{size}, {strength}</span>{stance} wants to {goal} {outcome}\
-         <div class=\"now\" data-agent=\"{k}\"{done}><span class=\"label\">now</span> \
+         <div class=\"now\" data-agent=\"{who}\"{done}><span class=\"label\">now</span> \
          <span class=\"subgoal\">–</span> <span class=\"share\"></span></div></li>\n",
         done = agent.steps_to_goal.map_or_else(String::new, |steps| format!(" data-done=\"{steps}\"")),
-        me = chip(Piece::Entity(Entity::agent(k))),
+        me = chip(Piece::Entity(Entity::Agent(who))),
     )
 }
 

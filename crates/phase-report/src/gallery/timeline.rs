@@ -2,7 +2,7 @@
 
 use phase_dataset::manifest::EventEntry;
 use phase_event::Event;
-use phase_model::AGENT_COUNT;
+use phase_model::{AGENT_COUNT, AgentId};
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
 
@@ -23,7 +23,7 @@ impl Timeline {
     /// The timeline of an event.
     #[must_use]
     pub fn of(event: &Event) -> Self {
-        Self(core::array::from_fn(|agent| {
+        Self(AgentId::ALL.map(|agent| {
             let mut track = Track::default();
             for (t, step) in event.steps.iter().enumerate() {
                 let thought = &step.thoughts[agent];

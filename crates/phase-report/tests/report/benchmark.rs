@@ -5,7 +5,7 @@ use phase_eval::{
     goals::{self, Answer, Label, Mistakes, RecognisedEvent},
     trajectories::{Errors, ForecastEvent, Summary},
 };
-use phase_model::{EventKind, Goal, Relation, RelationProbabilities, Sign};
+use phase_model::{AgentId, EventKind, Goal, Relation, RelationProbabilities, Sign};
 use phase_report::{
     evaluation,
     plot::{Axis, Series, curves},
@@ -129,7 +129,7 @@ fn mistakes_stand_in_their_columns() {
         answer: Answer { goals: Default::default(), relation: RelationProbabilities::default() },
         label: Label {
             kind: EventKind::Independent,
-            goals: [Goal::Touch { agent: 0, other: 1, sign: Sign::Positive }; 2],
+            goals: [Goal::Touch { agent: AgentId::ZERO, other: AgentId::ONE, sign: Sign::Positive }; 2],
             relation: Relation::Neutral,
             relation_human: None,
             layout_seen: None,

@@ -3,15 +3,16 @@
 use phase_dataset::manifest::{DATASET_FORMAT, EventEntry, Manifest, event_path, video_path};
 use phase_event::{Event, Step, SubgoalValue, Thought};
 use phase_model::{
-    Action, AgentSpec, Attitude, Body, Entity, EventKind, Flip, Goal, Layout, Literal, ObjectSpec, Predicate,
-    Scene, Sign, Size, Strength, Subgoal, Vec2, arena::SUBSTEPS,
+    Action, AgentId, AgentSpec, Attitude, Body, Entity, EventKind, Flip, Goal, LandmarkId, Layout, Literal,
+    ObjectId, ObjectSpec, Predicate, Scene, Sign, Size, Strength, Subgoal, Vec2, arena::SUBSTEPS,
 };
 use serde_json::json;
 use std::{fs, path::Path};
 
 /// A scene in which agent 0 helps agent 1 to put object 0 on landmark 1.
 fn scene() -> Scene {
-    let goal = Goal::ObjectOnLandmark { object: 0, landmark: 1, sign: Sign::Positive };
+    let goal =
+        Goal::ObjectOnLandmark { object: ObjectId::ZERO, landmark: LandmarkId::ONE, sign: Sign::Positive };
     let agent = |attitude, x| AgentSpec {
         size: Size::Medium,
         strength: Strength::Strong,
@@ -45,9 +46,9 @@ pub(crate) fn plain_event(steps: usize) -> Event {
 
 fn thought(t: usize) -> Thought {
     let literal = if t.is_multiple_of(2) {
-        Literal::is(Predicate::Attach(0, 1))
+        Literal::is(Predicate::Attach(AgentId::ZERO, ObjectId::ONE))
     } else {
-        Literal::not(Predicate::Touch(0, Entity::agent(1)))
+        Literal::not(Predicate::Touch(AgentId::ZERO, Entity::Agent(AgentId::ONE)))
     };
     let subgoal = Subgoal::Achieve(literal);
     let proposed = |subgoal, particles| SubgoalValue { subgoal, value: 1.0, particles };

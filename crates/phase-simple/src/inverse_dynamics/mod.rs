@@ -9,7 +9,7 @@ mod path;
 mod tracker;
 
 use path::Path;
-use phase_model::{AGENT_COUNT, Action, ObservedEvent, State, Strength};
+use phase_model::{AGENT_COUNT, Action, AgentId, ObservedEvent, State, Strength};
 use tracker::{Moment, Tracker};
 
 /// States with different grips that are followed at once.
@@ -83,7 +83,7 @@ impl InverseDynamics {
                     memory: tracker.remember(state),
                     late: self.late_start && step == 0,
                 };
-                core::array::from_fn(|agent| {
+                AgentId::ALL.map(|agent| {
                     Action::ALL.map(|action| {
                         let mut actions = *actions;
                         actions[agent] = action;

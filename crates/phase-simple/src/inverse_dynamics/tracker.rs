@@ -3,7 +3,7 @@
 use super::path::{Path, least};
 use phase_forward::{Forward, Memory};
 use phase_model::{
-    AGENT_COUNT, Action, Body, Entity, MAX_ENTITIES, ObservedEvent, State, Strength, Vec2,
+    AGENT_COUNT, Action, AgentId, Body, Entity, MAX_ENTITIES, ObservedEvent, State, Strength, Vec2,
     arena::{SUBSTEP_SECONDS, SUBSTEPS},
 };
 
@@ -78,8 +78,8 @@ impl<'a> Tracker<'a> {
         let mut radii = [0.0; MAX_ENTITIES];
         for entity in observed.entities() {
             radii[entity.index()] = match entity {
-                Entity::Agent(agent) => physique.agents[usize::from(agent)].radius,
-                Entity::Object(object) => physique.object_radii[usize::from(object)],
+                Entity::Agent(agent) => physique.agents[agent].radius,
+                Entity::Object(object) => physique.object_radii[object],
             };
         }
         Self { observed, worlds, radii }
@@ -148,7 +148,7 @@ impl<'a> Tracker<'a> {
         let mut costs = [[0.0; LEVELS]; AGENT_COUNT];
         for _ in 0..ROUNDS {
             let before = (actions, levels);
-            for agent in 0..AGENT_COUNT {
+            for agent in AgentId::ALL {
                 let (by_level, best) = self.by_level(&path.moment, row, agent, levels, actions);
                 let sums: [f64; LEVELS] =
                     core::array::from_fn(|level| path.strength_costs[agent][level] + by_level[level]);
@@ -162,7 +162,7 @@ impl<'a> Tracker<'a> {
         }
         let imagined = self.step(&path.moment, row, levels, actions);
         let mut paths = vec![self.extended(path, actions, imagined, between, 0.0, Some(costs))];
-        for agent in 0..AGENT_COUNT {
+        for agent in AgentId::ALL {
             let held = path.moment.state.grips[agent].is_some();
             let mut actions = actions;
             actions[agent] = if held { Action::Detach } else { Action::Attach };
@@ -179,7 +179,7 @@ impl<'a> Tracker<'a> {
         &self,
         moment: &Moment,
         row: &[Body; MAX_ENTITIES],
-        agent: usize,
+        agent: AgentId,
         levels: [usize; AGENT_COUNT],
         actions: [Action; AGENT_COUNT],
     ) -> ([f64; LEVELS], [Action; LEVELS]) {

@@ -1,7 +1,7 @@
 //! What the network is told of an agent's motion.
 
 use phase_model::{
-    Body, MAX_ENTITIES, Size, Vec2,
+    AgentId, Body, Entity, MAX_ENTITIES, Size, Vec2,
     arena::{SUBSTEP_SECONDS, SUBSTEPS},
 };
 
@@ -11,14 +11,14 @@ pub const FEATURES: usize = 7;
 /// Time between rows (s).
 const STEP_SECONDS: f64 = SUBSTEPS as f64 * SUBSTEP_SECONDS as f64;
 
-/// Mean, greatest and least speed (u/s) of an agent (0 or 1), the same of its acceleration (u/s²), and its radius (u),
+/// Mean, greatest and least speed (u/s) of an agent, the same of its acceleration (u/s²), and its radius (u),
 /// from the rows of a stretch of motion.
 ///
 /// Acceleration is the change of velocity from row to row. What there are too few rows for is 0: one for accelerations,
 /// none for speeds. The paper has no radius; but it is seen, and the same push moves a big body less.
 #[must_use]
-pub fn features(rows: &[[Body; MAX_ENTITIES]], agent: usize, size: Size) -> [f64; FEATURES] {
-    let velocities = || rows.iter().filter_map(|row| row.get(agent)).map(|body| wide(body.velocity));
+pub fn features(rows: &[[Body; MAX_ENTITIES]], agent: AgentId, size: Size) -> [f64; FEATURES] {
+    let velocities = || rows.iter().map(|row| wide(row[Entity::Agent(agent)].velocity));
     let speeds = summary(velocities().map(length));
     let changes = velocities().zip(velocities().skip(1));
     let accelerations =

@@ -12,16 +12,16 @@ pub use file::STRENGTH_FORMAT;
 pub use regressor::StrengthRegressor;
 pub use weights::{Dense, Weights, WeightsError};
 
-use phase_model::{Body, MAX_ENTITIES, Size, Strength};
+use phase_model::{AgentId, Body, MAX_ENTITIES, Size, Strength};
 
 /// Something that guesses at strengths.
 pub trait StrengthCue: Sync {
-    /// ln Q(f | S) of each level for an agent (0 or 1) of a size, from the rows of a stretch of motion. The
+    /// ln Q(f | S) of each level for an agent of a size, from the rows of a stretch of motion. The
     /// probabilities add up to 1.
     fn log_proposal(
         &self,
         rows: &[[Body; MAX_ENTITIES]],
-        agent: usize,
+        agent: AgentId,
         size: Size,
     ) -> [f64; Strength::ALL.len()];
 }
@@ -34,7 +34,7 @@ impl StrengthCue for AnyStrength {
     fn log_proposal(
         &self,
         _rows: &[[Body; MAX_ENTITIES]],
-        _agent: usize,
+        _agent: AgentId,
         _size: Size,
     ) -> [f64; Strength::ALL.len()] {
         [-libm::log(Strength::ALL.len() as f64); Strength::ALL.len()]

@@ -1,7 +1,7 @@
 //! The paper's guess at strengths: a network with two hidden layers (appendix, "Bottom-up Proposals").
 
 use super::{AnyStrength, Dense, FEATURES, StrengthCue, Weights, WeightsError, features};
-use phase_model::{Body, MAX_ENTITIES, Size, Strength};
+use phase_model::{AgentId, Body, MAX_ENTITIES, Size, Strength};
 
 /// Estimates an agent's greatest force from its speeds and accelerations.
 ///
@@ -42,10 +42,10 @@ impl StrengthRegressor {
         &self.weights
     }
 
-    /// The greatest force (N) of an agent (0 or 1) of a size, from the rows of a stretch of motion. A best guess:
+    /// The greatest force (N) of an agent of a size, from the rows of a stretch of motion. A best guess:
     /// it may lie between the levels, or beyond them for motion unlike any trained on.
     #[must_use]
-    pub fn estimate(&self, rows: &[[Body; MAX_ENTITIES]], agent: usize, size: Size) -> f32 {
+    pub fn estimate(&self, rows: &[[Body; MAX_ENTITIES]], agent: AgentId, size: Size) -> f32 {
         self.estimate_from(&features(rows, agent, size)) as f32
     }
 
@@ -68,7 +68,7 @@ impl StrengthCue for StrengthRegressor {
     fn log_proposal(
         &self,
         rows: &[[Body; MAX_ENTITIES]],
-        agent: usize,
+        agent: AgentId,
         size: Size,
     ) -> [f64; Strength::ALL.len()] {
         let estimate = f64::from(self.estimate(rows, agent, size));

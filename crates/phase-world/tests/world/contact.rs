@@ -1,7 +1,7 @@
 //! The contacts that states report.
 
 use crate::{ASIDE, OBJECT, lone_agent, step};
-use phase_model::{Action, Body, Contacts, Entity, Size, State, Strength, Vec2};
+use phase_model::{Action, AgentId, Body, Contacts, Entity, Size, State, Strength, Vec2};
 use phase_world::World;
 
 /// Agent 0 with object 0 straight ahead at a gap.
@@ -19,10 +19,10 @@ fn only_bodies_within_a_fiftieth_touch() {
     for (gap, expected) in [(-0.2, true), (0.0, true), (0.015, true), (0.03, false), (0.5, false)] {
         let world = World::new(&lone_agent(Size::Small, Strength::Fair), &ahead(gap));
         let contacts = world.state().contacts;
-        assert_eq!(contacts.touching(Entity::agent(0), OBJECT), expected, "gap {gap}");
+        assert_eq!(contacts.touching(Entity::Agent(AgentId::ZERO), OBJECT), expected, "gap {gap}");
         let mut only = Contacts::NONE;
         if expected {
-            only.insert(OBJECT, Entity::agent(0));
+            only.insert(OBJECT, Entity::Agent(AgentId::ZERO));
         }
         assert_eq!(contacts, only, "no other pair touches");
     }
@@ -31,12 +31,15 @@ fn only_bodies_within_a_fiftieth_touch() {
 #[test]
 fn pushing_touches_until_the_pusher_stops() {
     let mut world = World::new(&lone_agent(Size::Small, Strength::Strong), &ahead(0.1));
-    assert!(!world.state().touching(Entity::agent(0), OBJECT));
+    assert!(!world.state().touching(Entity::Agent(AgentId::ZERO), OBJECT));
     for _ in 0..3 {
         step(&mut world, Action::Up);
     }
-    assert!(step(&mut world, Action::Up).touching(Entity::agent(0), OBJECT));
-    assert!(!step(&mut world, Action::Stop).touching(Entity::agent(0), OBJECT), "the object rolls on");
+    assert!(step(&mut world, Action::Up).touching(Entity::Agent(AgentId::ZERO), OBJECT));
+    assert!(
+        !step(&mut world, Action::Stop).touching(Entity::Agent(AgentId::ZERO), OBJECT),
+        "the object rolls on"
+    );
 }
 
 #[test]
@@ -44,9 +47,9 @@ fn held_pairs_touch_through_their_grip() {
     let mut world = World::new(&lone_agent(Size::Small, Strength::Strong), &ahead(0.1));
     let state = step(&mut world, Action::Attach);
     assert_eq!(state.contacts, Contacts::NONE);
-    assert!(state.touching(Entity::agent(0), OBJECT));
+    assert!(state.touching(Entity::Agent(AgentId::ZERO), OBJECT));
     let state = step(&mut world, Action::Detach);
-    assert!(state.contacts.touching(Entity::agent(0), OBJECT), "let go, but still in contact");
+    assert!(state.contacts.touching(Entity::Agent(AgentId::ZERO), OBJECT), "let go, but still in contact");
 }
 
 #[test]

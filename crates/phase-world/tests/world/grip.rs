@@ -1,7 +1,9 @@
 //! Grabbing, carrying and letting go.
 
 use crate::{ASIDE, OBJECT, assert_close, assert_share, lone_agent, physique, step};
-use phase_model::{Action, Body, Grip, Physique, Side, Size, State, Strength, Vec2, physique::object_mass};
+use phase_model::{
+    Action, AgentId, Body, Grip, ObjectId, Physique, Side, Size, State, Strength, Vec2, physique::object_mass,
+};
 use phase_world::World;
 
 const AGENT: Vec2 = Vec2::new(12.0, 8.0);
@@ -38,7 +40,11 @@ fn grabbing_reaches_half_a_unit_from_every_side() {
             let physique = lone_agent(Size::Large, Strength::Fair);
             let mut world = World::new(&physique, &beside(&physique, side, gap));
             let grip = step(&mut world, Action::Attach).grips[0];
-            assert_eq!(grip.map(|grip| (grip.object, grip.side)), expected.then_some((0, side)), "{gap}");
+            assert_eq!(
+                grip.map(|grip| (grip.object, grip.side)),
+                expected.then_some((ObjectId::ZERO, side)),
+                "{gap}"
+            );
         }
     }
 }
@@ -112,7 +118,10 @@ fn two_agents_add_their_forces() {
             let physique = physique([(Size::Small, first), (Size::Small, second)], [object, Size::Small]);
             let mut world = World::new(&physique, &around(&physique));
             let held = world.step([Action::Attach; 2])[4];
-            assert_eq!([held.held_object(0), held.held_object(1)], [Some(0), Some(0)]);
+            assert_eq!(
+                [held.held_object(AgentId::ZERO), held.held_object(AgentId::ONE)],
+                [Some(ObjectId::ZERO); 2]
+            );
             let carried = world.step([Action::Up, Action::Down])[4];
             let mass = 2.0 * 2.56 + object_mass(object.radius());
             let surplus = (first.max_force() + second.max_force() - 300.0).max(0.0);
@@ -190,7 +199,10 @@ fn letting_go_is_each_agents_own() {
     let mut world = World::new(&physique, &around(&physique));
     world.step([Action::Attach; 2]);
     let state = world.step([Action::Detach, Action::Attach])[4];
-    assert_eq!([state.held_object(0), state.held_object(1)], [None, Some(0)]);
+    assert_eq!(
+        [state.held_object(AgentId::ZERO), state.held_object(AgentId::ONE)],
+        [None, Some(ObjectId::ZERO)]
+    );
     let state = world.step([Action::Detach, Action::Detach])[4];
     assert_eq!(state.grips, [None; 2], "detaching without holding does nothing");
 }
@@ -199,7 +211,7 @@ fn letting_go_is_each_agents_own() {
 fn grips_of_a_given_state_are_real() {
     let physique = lone_agent(Size::Small, Strength::Mighty);
     let mut state = beside(&physique, Side::Tail, 0.0);
-    state.grips[0] = Some(Grip { object: 0, side: Side::Tail, relative_angle: 0.1 - ANGLE });
+    state.grips[0] = Some(Grip { object: ObjectId::ZERO, side: Side::Tail, relative_angle: 0.1 - ANGLE });
     let mut world = World::new(&physique, &state);
     assert_eq!(world.state().grips, state.grips);
     let after = [(); 3].map(|()| step(&mut world, Action::Up))[2];
@@ -207,6 +219,7 @@ fn grips_of_a_given_state_are_real() {
     assert!(after.position(OBJECT).distance(state.position(OBJECT)) > 0.5, "the object is dragged along");
     assert_close(after.position(OBJECT).distance(after.bodies[0].position), 1.6, 1e-2, "distance");
 
-    state.grips[0] = Some(Grip { object: 7, side: Side::Tail, relative_angle: 0.0 });
+    state.grips[0] = Some(Grip { object: ObjectId::ONE, side: Side::Tail, relative_angle: 0.0 });
+    let physique = Physique { object_count: 1, ..physique };
     assert_eq!(World::new(&physique, &state).state().grips, [None; 2], "no such object");
 }

@@ -9,7 +9,7 @@ mod motion;
 mod probes;
 mod safety;
 
-use phase_model::{Action, AgentBody, Body, Entity, Physique, Size, State, Strength, Vec2};
+use phase_model::{Action, AgentBody, Body, Entity, ObjectId, Physique, Size, State, Strength, Vec2};
 use phase_world::World;
 
 /// Somewhere in the upper right quarter of an empty arena, far from everything that matters.
@@ -50,4 +50,4 @@ fn assert_share(actual: f32, expected: f32, share: f32, what: &str) {
     assert_close(actual, expected, (expected * share).abs(), what);
 }
 
-const OBJECT: Entity = Entity::object(0);
+const OBJECT: Entity = Entity::Object(ObjectId::ZERO);

@@ -100,7 +100,7 @@ fn everything_coasts_to_a_stop_against_a_hundred_newtons() {
             for _ in 0..20 {
                 last = step(&mut world, Action::NoForce);
             }
-            let what = format!("{size:?} {:?}", Entity::from_index(index));
+            let what = format!("{size:?} {:?}", Entity::ALL[index]);
             let moved = last.bodies[index].position - MIDDLE;
             assert_share(moved.y, coasting_distance(8.0, 100.0 / mass), 0.01, &what);
             assert_close(moved.x, 0.0, 1e-3, &what);

@@ -2,8 +2,8 @@
 
 use crate::physique;
 use phase_model::{
-    Action, Body, Entity, Flip, Grip, Layout, Physique, Segment, Side, Size, State, Strength, Vec2, arena,
-    geometry::Outline,
+    Action, AgentId, Body, Entity, Flip, Grip, Layout, ObjectId, Physique, Segment, Side, Size, State,
+    Strength, Vec2, arena, geometry::Outline,
 };
 use phase_world::World;
 use proptest::prelude::*;
@@ -110,7 +110,7 @@ proptest! {
         };
         let mut state = State::new([0, 6, 12, 18].map(body));
         for (slot, grip) in state.grips.iter_mut().zip(&grips) {
-            *slot = grip.map(|(object, side, relative_angle)| Grip { object, side: Side::ALL[side], relative_angle });
+            *slot = grip.map(|(object, side, relative_angle)| Grip { object: ObjectId::ALL[usize::from(object)], side: Side::ALL[side], relative_angle });
         }
         let mut world = World::new(&physique, &state);
         for _ in 0..3 {
@@ -140,7 +140,7 @@ fn bodies_that_start_in_one_place_come_apart() {
                 let mut slim = physique.clone();
                 slim.agents.iter_mut().for_each(|agent| agent.radius -= 0.02);
                 slim.object_radii.iter_mut().for_each(|radius| *radius -= 0.02);
-                Outline::of(&slim, Entity::from_index(k), &last.bodies[k])
+                Outline::of(&slim, Entity::ALL[k], &last.bodies[k])
             });
             for a in 0..4 {
                 for b in 0..a {
@@ -189,7 +189,7 @@ fn grips_do_not_pull_through_walls() {
             let start = State::new(bodies.map(|(x, y)| Body::at_rest(Vec2::new(x, y), 0.0)));
             let mut world = World::new(&physique, &start);
             let held = world.step([Action::Attach, Action::NoForce])[4];
-            assert!(held.holds(0, 0), "{size:?} reaches through the wall");
+            assert!(held.holds(AgentId::ZERO, ObjectId::ZERO), "{size:?} reaches through the wall");
             for step in 0..20 {
                 for state in world.step([turn, Action::NoForce]) {
                     let what = format!("{size:?} {turn:?} step {step}: {:?}", state.bodies);
