@@ -11,8 +11,11 @@ use std::{fs, path::Path};
 
 /// A scene in which agent 0 helps agent 1 to put object 0 on landmark 1.
 fn scene() -> Scene {
-    let goal =
-        Goal::ObjectOnLandmark { object: ObjectId::ZERO, landmark: LandmarkId::ONE, sign: Sign::Positive };
+    let goal = Goal::ObjectOnLandmark {
+        object: ObjectId::ZERO,
+        landmark: LandmarkId::TOP_RIGHT,
+        sign: Sign::Positive,
+    };
     let agent = |attitude, x| AgentSpec {
         size: Size::Medium,
         strength: Strength::Strong,
