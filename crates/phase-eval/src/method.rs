@@ -2,7 +2,8 @@
 
 use crate::{goals::AnswerError, trajectories::ForecastError};
 use core::ops::ControlFlow;
-use phase_model::{Forecast, Judgement, ObservedEvent};
+use phase_event::ObservedEvent;
+use phase_model::{Forecast, Judgement};
 use serde_json::Value;
 use thiserror::Error;
 

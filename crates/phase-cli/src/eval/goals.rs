@@ -14,8 +14,7 @@ use phase_eval::{
     goals::{Answer, Glimpse, Label, RecognisedEvent, Summary},
     predictions, results,
 };
-use phase_event::Recording;
-use phase_model::ObservedEvent;
+use phase_event::{ObservedEvent, Recording};
 use phase_report::{
     document::Document,
     evaluation::{self, Subject},
