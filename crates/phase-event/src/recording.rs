@@ -1,7 +1,7 @@
 //! One event of a `phase-events/1` file, in memory.
 
-use crate::{Event, Trajectory};
-use phase_model::{AGENT_COUNT, Action, ObservedError, ObservedEvent, Relation, Scene};
+use crate::{Event, ObservedError, ObservedEvent, Trajectory};
+use phase_model::{AGENT_COUNT, Action, Relation, Scene};
 use serde_json::Value;
 
 /// The exact actions of the first steps of a recording, where they are known.

@@ -1,8 +1,9 @@
 //! What might explain an event: Y = ⟨g_i, g_j, α_ij, α_ji, f_i, f_j⟩ of the paper.
 
+use phase_event::ObservedEvent;
 use phase_model::{
     AGENT_COUNT, AgentId, AgentSpec, Attitude, Entity, EventKind, Goal, LandmarkId, ObjectId, ObjectSpec,
-    ObservedEvent, Relation, Scene, Sign, Strength,
+    Relation, Scene, Sign, Strength,
 };
 use serde::{Deserialize, Serialize};
 

@@ -3,7 +3,7 @@
 pub mod options;
 
 use crate::{
-    captions,
+    captions, console,
     context::Context,
     engine,
     error::CliError,
@@ -36,7 +36,7 @@ pub fn run(arguments: &Render, context: &Context) -> Result<(), CliError> {
         return Err(unsimulated(arguments, &recording.id));
     }
     interrupt::listen();
-    let progress = context.progress(&format!("rendering {} events", source.len()), source.len(), 1);
+    let progress = context.progress(&format!("rendering {}", console::events(source.len())), source.len(), 1);
     let made = make_all(&arguments.jobs, source.len(), |index| {
         let recording = source.load(index)?;
         let path = target.path(&recording.id, arguments.belief, extension);
@@ -118,9 +118,7 @@ fn check_ending(out: &Path, extension: &str) -> Result<(), CliError> {
     if !foreign || out.is_dir() {
         return Ok(());
     }
-    let rule = format!(
-        "cannot be written; what can is .mp4 (a video) and, with --contact-sheet N, .png; here .{extension}"
-    );
+    let rule = "cannot be written; a video ends in .mp4, and with --contact-sheet N a picture in .png";
     Err(CliError::Usage(format!("--out: {}: .{found} {rule}", out.display())))
 }
 

@@ -94,7 +94,10 @@ fn rubbish_instead_of_events() {
             changed("/trajectory/agents/0/0/0", json!(null)),
             &["my-event", "`trajectory.agents[0][0][0]`", "null"],
         ),
-        (changed("/agents/0/goal/landmark", json!(9)), &["my-event", "agents[0].goal", "landmark 9"]),
+        (
+            changed("/agents/0/goal/landmark", json!(9)),
+            &["my-event", "agents[0].goal.landmark", "0 to 3", "9"],
+        ),
         (
             changed(
                 "/agents/0/goal",

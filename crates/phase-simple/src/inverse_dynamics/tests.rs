@@ -1,10 +1,10 @@
 //! Events simulated with known actions, explained again.
 
 use super::InverseDynamics;
+use phase_event::ObservedEvent;
 use phase_forward::Forward;
 use phase_model::{
-    AGENT_COUNT, Action, AgentId, Body, Layout, MAX_ENTITIES, ObservedEvent, Size, State, Strength, Vec2,
-    arena::SUBSTEPS,
+    AGENT_COUNT, Action, AgentId, Body, Layout, MAX_ENTITIES, Size, State, Strength, Vec2, arena::SUBSTEPS,
 };
 
 /// Steps for which an action is held.
