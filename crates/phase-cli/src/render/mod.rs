@@ -12,10 +12,11 @@ use crate::{
     picture::{self, Mind, Shot},
     source::Source,
 };
-use options::Render;
+use options::{Belief, Render};
 use phase_dataset::WriteError;
 use phase_event::{Recording, Row, Simulation, Trajectory};
 use phase_model::{AgentId, State, arena::SUBSTEPS};
+use phase_render::Palette;
 use phase_sim::Settings;
 use serde::Serialize;
 use serde_json::json;
@@ -97,11 +98,11 @@ impl Target {
         Ok(if is_file { Self::File(out.to_owned()) } else { Self::Folder(out.to_owned()) })
     }
 
-    fn path(&self, id: &str, belief: Option<AgentId>, extension: &str) -> PathBuf {
+    fn path(&self, id: &str, belief: Option<Belief>, extension: &str) -> PathBuf {
         match self {
             Self::File(path) => path.clone(),
             Self::Folder(folder) => {
-                let belief = belief.map_or_else(String::new, |agent| format!(".belief{agent}"));
+                let belief = belief.map_or("", Belief::suffix);
                 folder.join(format!("{id}{belief}.{extension}"))
             }
         }
@@ -125,9 +126,13 @@ fn check_ending(out: &Path, extension: &str) -> Result<(), CliError> {
 /// Renders one event.
 fn render(arguments: &Render, recording: &Recording, path: &Path) -> Result<(), CliError> {
     let (id, physique) = (&recording.id, recording.scene.physique());
-    let minds = match (arguments.belief, &recording.simulation) {
+    let palette = arguments.palette.palette();
+    let minds: Vec<Vec<Mind>> = match (arguments.belief, &recording.simulation) {
         (None, _) => Vec::new(),
-        (Some(agent), Some(simulation)) => minds(arguments, id, simulation, agent)?,
+        (Some(belief), Some(simulation)) => {
+            let settings = settings(arguments, id, simulation)?;
+            belief.agents().iter().map(|&agent| minds(simulation, agent, &palette, &settings)).collect()
+        }
         (Some(_), None) => return Err(unsimulated(arguments, id)),
     };
     let states = match &recording.simulation {
@@ -135,12 +140,15 @@ fn render(arguments: &Render, recording: &Recording, path: &Path) -> Result<(), 
         None => interpolated(&recording.trajectory),
     };
     // The mind that chose a step is shown while the step lasts.
-    let mind_at = |frame: usize| minds.get(frame.saturating_sub(1) / SUBSTEPS).or(minds.last());
+    let minds_at = |frame: usize| {
+        let step = frame.saturating_sub(1) / SUBSTEPS;
+        minds.iter().filter_map(|minds| minds.get(step).or(minds.last())).collect()
+    };
     let frames = states.into_iter().enumerate();
-    let shots: Vec<Shot<'_>> = frames.map(|(k, state)| Shot { state, mind: mind_at(k) }).collect();
+    let shots: Vec<Shot<'_>> = frames.map(|(k, state)| Shot { state, minds: minds_at(k) }).collect();
     let result = match arguments.contact_sheet {
-        Some(count) => picture::write_sheet(path, id, &physique, &shots, count.into()),
-        None => picture::write_video(path, id, &physique, &shots),
+        Some(count) => picture::write_sheet(path, id, &physique, palette, &shots, count.into()),
+        None => picture::write_video(path, id, &physique, palette, &shots),
     };
     result.map_err(|error| match error {
         CliError::Write(error) => CliError::Output(error),
@@ -155,18 +163,17 @@ fn unsimulated(arguments: &Render, id: &str) -> CliError {
     CliError::Usage(format!("{file}: event {id}: {rule}; {why}"))
 }
 
+/// The settings that an event was simulated with.
+fn settings(arguments: &Render, id: &str, simulation: &Simulation) -> Result<Settings, CliError> {
+    let settings = serde_json::from_value(simulation.settings.clone());
+    settings.map_err(|source| CliError::Settings { file: arguments.file.clone(), id: id.to_owned(), source })
+}
+
 /// What an agent saw, believed and was after at every step.
-fn minds(
-    arguments: &Render,
-    id: &str,
-    simulation: &Simulation,
-    agent: AgentId,
-) -> Result<Vec<Mind>, CliError> {
+fn minds(simulation: &Simulation, agent: AgentId, palette: &Palette, settings: &Settings) -> Vec<Mind> {
     let event = &simulation.event;
-    let settings: Settings = serde_json::from_value(simulation.settings.clone())
-        .map_err(|source| CliError::Settings { file: arguments.file.clone(), id: id.to_owned(), source })?;
-    let snapshots = engine::beliefs(event, agent, &settings);
-    let colour = ["red", "green"][agent];
+    let snapshots = engine::beliefs(event, agent, settings);
+    let colour = palette.agent_names[agent];
     let steps = event.steps.iter().enumerate();
     let mind = |((t, step), snapshot): ((usize, &phase_event::Step), phase_sim::BeliefSnapshot)| {
         let thought = &step.thoughts[agent];
@@ -174,13 +181,11 @@ fn minds(
             agent,
             visible: snapshot.visible,
             particles: snapshot.particles,
-            captions: captions::lines(
-                format!("agent {agent} ({colour}), step {t}: {}", step.actions[agent].name()),
-                thought,
-            ),
+            title: format!("Agent {agent} ({colour}), step {t}: {}", step.actions[agent].name()),
+            captions: captions::lines(thought),
         }
     };
-    Ok(steps.zip(snapshots).map(mind).collect())
+    steps.zip(snapshots).map(mind).collect()
 }
 
 /// Five frames for each step of a recording that has rows only: the bodies go straight from row to row.
