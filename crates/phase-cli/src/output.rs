@@ -19,7 +19,11 @@ impl Output {
     /// # Errors
     /// [`CliError::Serialise`].
     pub fn print(self, text: impl Display, value: &impl Serialize) -> Result<(), CliError> {
-        if self.json { print_json(value) } else { Ok(print_result(text.to_string().trim_end())) }
+        if self.json {
+            return print_json(value);
+        }
+        print_result(text.to_string().trim_end());
+        Ok(())
     }
 }
 

@@ -10,7 +10,7 @@ use std::{
 };
 
 /// The bar. What may be cut to the width of the terminal comes last.
-const TEMPLATE: &str = "{bar:24} {percent:>3} %{times} · {wide_msg}";
+const TEMPLATE: &str = "{bar:16} {percent:>3} %{times} · {wide_msg}";
 /// How often the bar is drawn again while nothing happens.
 const TICK: Duration = Duration::from_millis(500);
 

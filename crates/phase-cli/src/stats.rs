@@ -78,7 +78,7 @@ fn statistics(path: &Path, context: &Context) -> Result<(Statistics, Vec<Accepta
         *relations.entry(recording.relation).or_default() += 1;
         *kinds.entry(*kind).or_default() += 1;
     }
-    let (events, goals, layouts) = (source.len(), goal_counts(agents.into_iter()), layouts.len());
+    let (events, goals, layouts) = (source.len(), goal_counts(agents), layouts.len());
     Ok((Statistics { events, lengths, goals, relations, kinds, layouts, parts: None }, Vec::new()))
 }
 

@@ -1,7 +1,7 @@
 //! `verify`: whether a dataset is whole and its files agree.
 
 use crate::{
-    console::print_message,
+    console::{self, print_message},
     context::Context,
     error::CliError,
     output::{Output, print_json},
@@ -50,8 +50,8 @@ pub fn run(arguments: &Verify, context: &Context) -> Result<(), CliError> {
     // panics are not to be seen.
     let hook = std::panic::take_hook();
     std::panic::set_hook(Box::new(|_| {}));
-    let progress =
-        context.progress_over(&format!("verifying {} events", manifest.events.len()), work(&manifest));
+    let progress = context
+        .progress_over(&format!("verifying {}", console::events(manifest.events.len())), work(&manifest));
     let run = |count: usize, check: &Check<'_>| {
         let answers = make_all(&arguments.jobs, count, |k| Ok(Some(check(k))))?;
         // There is always an answer: only who listens for interruptions stops early, and nothing is written here.

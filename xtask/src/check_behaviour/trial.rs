@@ -3,6 +3,7 @@
 use super::{judge, report::Trial, rows::Part};
 use core::ops::ControlFlow;
 use phase_cli::{
+    console,
     context::Context,
     engine,
     error::CliError,
@@ -38,7 +39,8 @@ pub(super) fn key(part: &Part) -> String {
 impl Laboratory {
     pub(super) fn new(folder: &Folder, settings: Settings, events: usize, context: &Context) -> Self {
         let program = production::program();
-        let progress = context.progress(&format!("simulating {events} events"), events, settings.max_steps);
+        let progress =
+            context.progress(&format!("simulating {}", console::events(events)), events, settings.max_steps);
         Self { settings, cache: folder.cache(), program, progress }
     }
 

@@ -23,7 +23,7 @@ pub(crate) struct Input {
     pub sha256: String,
     /// The events.
     pub events: Vec<Event>,
-    pub(crate) source: Source,
+    source: Source,
 }
 
 /// One event, before it is loaded.

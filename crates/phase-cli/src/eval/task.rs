@@ -5,8 +5,15 @@ use super::{
     options::Common,
 };
 use crate::{
-    console::print_result, context::Context, error::CliError, gen_dataset::check_same, interrupt,
-    output::print_json, parallel::make_all, production::program, progress::Progress,
+    console::{self, print_result},
+    context::Context,
+    error::CliError,
+    gen_dataset::check_same,
+    interrupt,
+    output::print_json,
+    parallel::make_all,
+    production::program,
+    progress::Progress,
 };
 use phase_dataset::{
     FileError, Problem, WriteError, atomic,
@@ -143,7 +150,7 @@ pub(crate) fn evaluate<T: Task>(
     interrupt::listen();
     let folder = Folder::claim(&out, &run)?;
     let kept = Kept { folder: folder.subfolder(EVENTS)?, program: hexadecimal(&program()) };
-    let activity = format!("evaluating {} on {} events", task.method(), input.events.len());
+    let activity = format!("evaluating {} on {}", task.method(), console::events(input.events.len()));
     let progress = context.progress(&activity, input.events.len(), task.ticks());
     let answered = make_all(&arguments.jobs, input.events.len(), |k| {
         one(task, input, &input.events[k], arguments.seed, &kept, &progress)

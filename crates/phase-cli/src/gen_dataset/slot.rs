@@ -2,6 +2,7 @@
 
 use super::plan::Plan;
 use crate::{
+    console,
     context::Context,
     engine,
     error::CliError,
@@ -49,7 +50,7 @@ impl<'a> Slots<'a> {
     /// [`CliError::Serialise`].
     pub fn new(plan: &'a Plan, folder: &'a Folder, count: usize, context: Context) -> Result<Self, CliError> {
         let pools = plan.preset.layouts.keys().map(|name| (name.clone(), plan.preset.pool(name))).collect();
-        let activity = format!("making {count} events");
+        let activity = format!("making {}", console::events(count));
         let production = Production::new(&context, &activity, folder, plan.settings, count)?;
         Ok(Self { plan, folder, production, pools, context })
     }

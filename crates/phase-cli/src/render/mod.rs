@@ -3,7 +3,7 @@
 pub mod options;
 
 use crate::{
-    captions,
+    captions, console,
     context::Context,
     engine,
     error::CliError,
@@ -37,7 +37,7 @@ pub fn run(arguments: &Render, context: &Context) -> Result<(), CliError> {
         return Err(unsimulated(arguments, &recording.id));
     }
     interrupt::listen();
-    let progress = context.progress(&format!("rendering {} events", source.len()), source.len(), 1);
+    let progress = context.progress(&format!("rendering {}", console::events(source.len())), source.len(), 1);
     let made = make_all(&arguments.jobs, source.len(), |index| {
         let recording = source.load(index)?;
         let path = target.path(&recording.id, arguments.belief, extension);
@@ -119,9 +119,7 @@ fn check_ending(out: &Path, extension: &str) -> Result<(), CliError> {
     if !foreign || out.is_dir() {
         return Ok(());
     }
-    let rule = format!(
-        "cannot be written; what can is .mp4 (a video) and, with --contact-sheet N, .png; here .{extension}"
-    );
+    let rule = "cannot be written; a video ends in .mp4, and with --contact-sheet N a picture in .png";
     Err(CliError::Usage(format!("--out: {}: .{found} {rule}", out.display())))
 }
 
@@ -131,11 +129,10 @@ fn render(arguments: &Render, recording: &Recording, path: &Path) -> Result<(), 
     let palette = arguments.palette.palette();
     let minds: Vec<Vec<Mind>> = match (arguments.belief, &recording.simulation) {
         (None, _) => Vec::new(),
-        (Some(belief), Some(simulation)) => belief
-            .agents()
-            .iter()
-            .map(|&agent| minds(arguments, id, simulation, agent, &palette))
-            .collect::<Result<_, _>>()?,
+        (Some(belief), Some(simulation)) => {
+            let settings = settings(arguments, id, simulation)?;
+            belief.agents().iter().map(|&agent| minds(simulation, agent, &palette, &settings)).collect()
+        }
         (Some(_), None) => return Err(unsimulated(arguments, id)),
     };
     let states = match &recording.simulation {
@@ -166,18 +163,16 @@ fn unsimulated(arguments: &Render, id: &str) -> CliError {
     CliError::Usage(format!("{file}: event {id}: {rule}; {why}"))
 }
 
+/// The settings that an event was simulated with.
+fn settings(arguments: &Render, id: &str, simulation: &Simulation) -> Result<Settings, CliError> {
+    let settings = serde_json::from_value(simulation.settings.clone());
+    settings.map_err(|source| CliError::Settings { file: arguments.file.clone(), id: id.to_owned(), source })
+}
+
 /// What an agent saw, believed and was after at every step.
-fn minds(
-    arguments: &Render,
-    id: &str,
-    simulation: &Simulation,
-    agent: AgentId,
-    palette: &Palette,
-) -> Result<Vec<Mind>, CliError> {
+fn minds(simulation: &Simulation, agent: AgentId, palette: &Palette, settings: &Settings) -> Vec<Mind> {
     let event = &simulation.event;
-    let settings: Settings = serde_json::from_value(simulation.settings.clone())
-        .map_err(|source| CliError::Settings { file: arguments.file.clone(), id: id.to_owned(), source })?;
-    let snapshots = engine::beliefs(event, agent, &settings);
+    let snapshots = engine::beliefs(event, agent, settings);
     let colour = palette.agent_names[agent];
     let steps = event.steps.iter().enumerate();
     let mind = |((t, step), snapshot): ((usize, &phase_event::Step), phase_sim::BeliefSnapshot)| {
@@ -190,7 +185,7 @@ fn minds(
             captions: captions::lines(thought),
         }
     };
-    Ok(steps.zip(snapshots).map(mind).collect())
+    steps.zip(snapshots).map(mind).collect()
 }
 
 /// Five frames for each step of a recording that has rows only: the bodies go straight from row to row.

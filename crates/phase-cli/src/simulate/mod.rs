@@ -5,6 +5,7 @@ pub mod options;
 mod outcomes;
 
 use crate::{
+    console,
     context::Context,
     engine::{self, GENERATOR},
     error::CliError,
@@ -51,7 +52,7 @@ pub fn run(arguments: &Simulate, context: &Context) -> Result<(), CliError> {
     context.detail(format!("seed {}: {}", arguments.seed, arguments.effort.description()));
     let folder = Folder::claim(out, &run)?;
     let events = chosen.len() * seeds.len();
-    let activity = format!("simulating {events} events");
+    let activity = format!("simulating {}", console::events(events));
     let production = Production::new(context, &activity, &folder, arguments.effort.settings(), events)?;
     let made = make_all(&arguments.jobs, events, |k| {
         let (index, recording) = &chosen[k / seeds.len()];

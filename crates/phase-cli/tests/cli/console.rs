@@ -14,7 +14,7 @@ fn quiet_leaves_errors_and_results() {
         (text(&output.stdout), text(&output.stderr))
     };
     let (result, said) = simulate("said", &[]);
-    assert_eq!(said.lines().next(), Some("simulating 1 events"));
+    assert_eq!(said.lines().next(), Some("simulating 1 event"));
     assert!(said.contains("1/1 apart independent: 4 steps"), "{said}");
     let (quiet, nothing) = simulate("quiet", &["--quiet"]);
     assert_eq!((quiet.replace("quiet", "said"), nothing.as_str()), (result.clone(), ""));

@@ -1,6 +1,6 @@
 //! `simulate`, with agents that think little.
 
-use crate::support::{QUICK, recording, refuse, succeed, tree, write_events};
+use crate::support::{QUICK, fail, recording, refuse, succeed, tree, write_events};
 use phase_dataset::{phase_events, summary::Summary};
 use serde_json::json;
 use std::path::Path;
@@ -72,14 +72,14 @@ fn a_finished_folder_is_left_alone() {
     let second = succeed(path, &simulate("out", &["--no-video"]));
     assert!(second.contains("already"));
     assert_eq!(first.lines().next(), second.lines().next(), "the table is shown again");
-    let sentence = refuse(path, &simulate("out", &[]));
+    let sentence = fail(path, &simulate("out", &[]));
     assert!(sentence.contains("videos false instead of true"), "{sentence}");
-    let sentence = refuse(path, &simulate("out", &["--no-video", "--engine", "forward"]));
+    let sentence = fail(path, &simulate("out", &["--no-video", "--engine", "forward"]));
     assert!(sentence.contains(r#"settings.engine "world" instead of "forward""#), "{sentence}");
     let mut changed = recording("apart");
     changed["trajectory"]["agents"][0][0][0] = json!(9.0);
     write_events(&path.join("events.json"), &[changed]);
-    refuse(path, &simulate("out", &["--no-video"]));
+    fail(path, &simulate("out", &["--no-video"]));
     assert!(tree(&path.join("out")) == before);
 }
 
@@ -129,7 +129,7 @@ fn several_seeds_are_pooled_and_resumed() {
 
     let finished = tree(&path.join("out"));
     assert!(succeed(path, &simulate("out", &two)).contains("holds these 4 simulated events already"));
-    let sentence = refuse(path, &simulate("out", &["--no-video", "--seed", "7", "--seeds", "3"]));
+    let sentence = fail(path, &simulate("out", &["--no-video", "--seed", "7", "--seeds", "3"]));
     assert!(sentence.contains("seeds 2 instead of 3"), "{sentence}");
     assert!(tree(&path.join("out")) == finished);
 }
