@@ -11,6 +11,36 @@
 //! not tell, have to be found out.
 //!
 //! `docs/simple.md` says where the paper's formulas were settled and where this goes beyond them.
+//!
+//! Agent 0 pushes forward from one landmark towards the next, agent 1 rests. What does agent 0 want?
+//!
+//! ```
+//! use phase_forward::Forward;
+//! use phase_model::{
+//!     Action, AgentId, Body, Dynamics, Goal, LandmarkId, Layout, ObservedEvent, Sign, Size, State, Vec2,
+//! };
+//! use phase_simple::{AnyStrength, Settings, explain};
+//!
+//! let (layout, sizes) = (Layout::new(0, None)?, [Size::Small; 2]);
+//! let places = [Vec2::new(23.5, 6.0), Vec2::new(8.5, 19.5), Vec2::ZERO, Vec2::ZERO];
+//! let mut state = State::new(places.map(|place| Body::at_rest(place, 0.0))); // both face +y
+//! let start = ObservedEvent::new(layout, sizes, Vec::new(), vec![state.bodies])?;
+//! let forward = Forward::new(&start.physique([450.0; 2]));
+//! let mut rows = vec![state.bodies];
+//! for _ in 0..8 {
+//!     forward.step(&mut state, [Action::Up, Action::Stop]);
+//!     rows.push(state.bodies);
+//! }
+//! let observed = ObservedEvent::new(layout, sizes, Vec::new(), rows)?;
+//!
+//! let mut settings = Settings::default();
+//! (settings.minds.particles, settings.minds.simulations) = (5, 20);
+//! let posterior = explain(&observed, &AnyStrength, 1, &settings)?.posterior;
+//! let (likeliest, _probability) = posterior.goals(AgentId::ZERO)[0];
+//! let (agent, landmark) = (AgentId::ZERO, LandmarkId::TOP_RIGHT);
+//! assert_eq!(likeliest, Goal::AgentOnLandmark { agent, landmark, sign: Sign::Positive });
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
