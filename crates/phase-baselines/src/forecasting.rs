@@ -5,8 +5,9 @@ use crate::{
     training::{Loss, Settings},
 };
 use candle_core::{D, Device, Result, Tensor};
+use phase_event::ObservedEvent;
 use phase_model::{
-    AGENT_COUNT, Forecast, ObservedEvent, Vec2,
+    AGENT_COUNT, Forecast, Vec2,
     arena::{SUBSTEP_SECONDS, SUBSTEPS},
     random::Pcg64Mcg,
 };

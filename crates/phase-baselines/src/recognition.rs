@@ -7,9 +7,8 @@ use crate::{
 };
 use candle_core::{D, DType, Device, Result, Tensor};
 use candle_nn::ops::log_softmax;
-use phase_model::{
-    AGENT_COUNT, AgentId, Goal, Judgement, ObservedEvent, Relation, RelationProbabilities, random::Pcg64Mcg,
-};
+use phase_event::ObservedEvent;
+use phase_model::{AGENT_COUNT, AgentId, Goal, Judgement, Relation, RelationProbabilities, random::Pcg64Mcg};
 use thiserror::Error;
 
 /// The relations in the order of the networks' answers.

@@ -3,7 +3,8 @@
 use phase_baselines::strength::{
     Epoch, Motion, Sample, Settings, TrainingError, WINDOW, commonest, nearest, score, train,
 };
-use phase_model::{AGENT_COUNT, AgentId, Body, Layout, MAX_ENTITIES, ObservedEvent, Size, Strength, Vec2};
+use phase_event::ObservedEvent;
+use phase_model::{AGENT_COUNT, AgentId, Body, Layout, MAX_ENTITIES, Size, Strength, Vec2};
 use phase_simple::{ChainSettings, StrengthRegressor, Update, strength::features};
 
 /// Two agents that push in a straight line until friction holds them at a speed: 2 u/s for each level of strength.

@@ -1,6 +1,6 @@
 //! Where events come from: a file, or the folder of a dataset.
 
-use crate::error::CliError;
+use crate::{console::remark, error::CliError};
 use phase_dataset::{
     manifest::{MANIFEST_FILE, Manifest},
     phase_events,
@@ -26,7 +26,7 @@ impl Source {
     /// when they are loaded.
     pub fn open(path: &Path, ids: &[String]) -> Result<Self, CliError> {
         if !path.is_dir() {
-            let chosen = choose(path, phase_events::read(path)?, ids)?;
+            let chosen = read(path, ids)?;
             return Ok(Self::Loaded(chosen.into_iter().map(|(_, recording)| recording).collect()));
         }
         let is_dataset = path.join(MANIFEST_FILE).is_file();
@@ -88,18 +88,23 @@ impl Source {
     }
 }
 
-/// The events with these ids (all, if there are none), each with its place in the file.
+/// The events of a file with these ids (all, if there are none), each with its place in the file. What is odd about
+/// them is told to whoever runs the command.
 ///
 /// # Errors
-/// [`CliError::UnknownId`].
-pub fn choose(
-    file: &Path,
-    recordings: Vec<Recording>,
-    ids: &[String],
-) -> Result<Vec<(usize, Recording)>, CliError> {
+/// If the file cannot be used, or [`CliError::UnknownId`].
+pub fn read(file: &Path, ids: &[String]) -> Result<Vec<(usize, Recording)>, CliError> {
+    let recordings = phase_events::read(file)?;
     check_ids(file, recordings.iter().map(|recording| recording.id.as_str()), ids)?;
     let wanted = |recording: &Recording| ids.is_empty() || ids.contains(&recording.id);
-    Ok(recordings.into_iter().enumerate().filter(|(_, recording)| wanted(recording)).collect())
+    let chosen: Vec<_> =
+        recordings.into_iter().enumerate().filter(|(_, recording)| wanted(recording)).collect();
+    for (_, recording) in &chosen {
+        for warning in recording.warnings() {
+            remark(format!("warning: {}: event {}: {warning}", file.display(), recording.id));
+        }
+    }
+    Ok(chosen)
 }
 
 fn check_ids<'a>(

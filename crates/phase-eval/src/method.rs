@@ -1,7 +1,8 @@
 //! What a method of perception has to be.
 
 use core::ops::ControlFlow;
-use phase_model::{Forecast, Judgement, ObservedEvent};
+use phase_event::ObservedEvent;
+use phase_model::{Forecast, Judgement};
 use serde_json::Value;
 use thiserror::Error;
 

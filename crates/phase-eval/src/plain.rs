@@ -1,9 +1,9 @@
 //! The plainest methods: what is reached without perceiving anything.
 
 use crate::method::{Answered, Forecaster, Recogniser, Tick};
+use phase_event::ObservedEvent;
 use phase_model::{
-    AgentId, Entity, Forecast, Goal, Judgement, LandmarkId, ObjectId, ObservedEvent, RelationProbabilities,
-    Sign, Vec2,
+    AgentId, Entity, Forecast, Goal, Judgement, LandmarkId, ObjectId, RelationProbabilities, Sign, Vec2,
     arena::{self, SUBSTEP_SECONDS, SUBSTEPS},
     random::{Purpose, stream},
 };

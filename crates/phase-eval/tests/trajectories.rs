@@ -7,7 +7,8 @@ use phase_eval::{
     predictions,
     trajectories::{Errors, ForecastError, ForecastEvent, Summary},
 };
-use phase_model::{Body, EventKind, Layout, MAX_ENTITIES, ObservedEvent, Relation, Size, Vec2};
+use phase_event::ObservedEvent;
+use phase_model::{Body, EventKind, Layout, MAX_ENTITIES, Relation, Size, Vec2};
 use proptest::prelude::*;
 use serde_json::{Value, json};
 

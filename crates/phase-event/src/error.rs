@@ -28,7 +28,7 @@ pub enum EventReadError {
         problem: FieldError,
     },
     /// The scene breaks a rule of [`phase_model::validate`].
-    #[error("{}{}", event_prefix(event), in_trajectory(source))]
+    #[error("{}{}", event_prefix(event), in_trajectory(&source.to_string()))]
     Scene {
         /// The event's `id`; `None` if it has none.
         event: Option<String>,
@@ -58,8 +58,8 @@ fn event_prefix(event: &Option<String>) -> String {
 }
 
 /// The model's checks know a start pose where an event has a trajectory's first row.
-fn in_trajectory(error: &SceneError) -> String {
-    ["agents", "objects"].into_iter().fold(error.to_string(), |rule, group| {
+pub(crate) fn in_trajectory(rule: &str) -> String {
+    ["agents", "objects"].into_iter().fold(rule.to_owned(), |rule, group| {
         (0..MAX_OBJECTS.max(AGENT_COUNT)).fold(rule, |rule, k| {
             rule.replace(&format!("{group}[{k}].start"), &format!("trajectory.{group}[{k}][0]"))
         })

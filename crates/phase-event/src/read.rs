@@ -2,7 +2,7 @@
 
 use crate::{
     COLUMNS, Event, EventReadError, Recording, Recovered, Row, Trajectory,
-    read_simulation::{actions_of, event_of, simulation_of},
+    read_simulation::{actions_of, event_of, seed_of, simulation_of},
     trajectory::body_of,
     write::FILE_FORMAT,
 };
@@ -14,6 +14,32 @@ use phase_model::{
 };
 use serde_json::Value;
 use std::collections::BTreeSet;
+
+/// The members that an event may have.
+const MEMBERS: [&str; 22] = [
+    "id",
+    "layout",
+    "walls",
+    "landmarks",
+    "agents",
+    "objects",
+    "event",
+    "relation",
+    "relation_human",
+    "step_seconds",
+    "row_0",
+    "recorded_steps",
+    "trajectory",
+    "recovered_actions",
+    "seed",
+    "generator",
+    "settings",
+    "actions",
+    "subgoals",
+    "values",
+    "substeps",
+    "thoughts",
+];
 
 /// The most letters an id may have.
 pub const LONGEST_ID: usize = 100;
@@ -37,7 +63,9 @@ pub fn parse(bytes: &[u8]) -> Result<Vec<Recording>, EventReadError> {
 fn all_of(document: &Value) -> Result<Vec<Recording>, EventReadError> {
     json::check_format(document, FILE_FORMAT)?;
     let of_file = |problem| EventReadError::Field { event: None, problem };
-    let events = Field::root(document).required("events").map_err(of_file)?;
+    let file = Field::root(document);
+    file.only(&["format", "events"]).map_err(of_file)?;
+    let events = file.required("events").map_err(of_file)?;
     let events = events.array().map_err(of_file)?;
     if events.is_empty() {
         return Err(EventReadError::NoEvents);
@@ -103,6 +131,8 @@ fn recording(event: &Field<'_>, name: impl FnOnce() -> Option<String>) -> Result
     let (mut scene, trajectory) = start_and_motion(event, Some(&id))?;
     let labels = labels(event, trajectory.steps()).map_err(in_event)?;
     let simulation = simulation_of(event, &mut scene, &trajectory).map_err(in_event)?;
+    let seed = event.optional("seed").and_then(|seed| seed.as_ref().map(seed_of).transpose());
+    let seed = seed.map_err(in_event)?.filter(|_| simulation.is_none());
     Ok(Recording {
         relation: labels.relation.unwrap_or_else(|| scene.relation()),
         relation_human: labels.relation_human,
@@ -112,6 +142,7 @@ fn recording(event: &Field<'_>, name: impl FnOnce() -> Option<String>) -> Result
         id,
         scene,
         trajectory,
+        seed,
         simulation,
     })
 }
@@ -120,6 +151,7 @@ fn recording(event: &Field<'_>, name: impl FnOnce() -> Option<String>) -> Result
 fn start_and_motion(event: &Field<'_>, id: Option<&str>) -> Result<(Scene, Trajectory), EventReadError> {
     let name = || id.map(String::from);
     let in_event = |problem| EventReadError::Field { event: name(), problem };
+    event.only(&MEMBERS).map_err(in_event)?;
     let mut scene = Scene::from_members(event, Starts::Elsewhere).map_err(in_event)?;
     let trajectory = trajectory(event, scene.objects.len()).map_err(in_event)?;
     for (agent, rows) in scene.agents.iter_mut().zip(&trajectory.agents) {
@@ -128,7 +160,7 @@ fn start_and_motion(event: &Field<'_>, id: Option<&str>) -> Result<(Scene, Traje
     for (object, rows) in scene.objects.iter_mut().zip(&trajectory.objects) {
         object.start = body_of(&rows[0]);
     }
-    match scene.validate() {
+    match scene.validate().and_then(|()| scene.check_kind()) {
         Ok(()) => Ok((scene, trajectory)),
         Err(source) => Err(EventReadError::Scene { event: name(), source }),
     }

@@ -59,15 +59,19 @@ pub(crate) fn event_of(
     for (object, start) in scene.objects.iter_mut().zip(&states[0].bodies[AGENT_COUNT..]) {
         object.start = *start;
     }
-    let seed = event.required("seed")?;
     let event_read = Event {
         scene: scene.clone(),
-        seed: seed.value().as_u64().ok_or_else(|| seed.must_be("a whole number from 0 to 2^64 - 1"))?,
+        seed: seed_of(&event.required("seed")?)?,
         initial: states[0],
         steps: recorded,
     };
     check_means(&event_read, trajectory)?;
     Ok(event_read)
+}
+
+/// A seed.
+pub(crate) fn seed_of(field: &Field<'_>) -> Result<u64, FieldError> {
+    field.value().as_u64().ok_or_else(|| field.must_be("a whole number from 0 to 2^64 - 1"))
 }
 
 /// Pairs of actions, by step.

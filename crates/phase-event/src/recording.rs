@@ -1,7 +1,7 @@
 //! One event of a `phase-events/1` file, in memory.
 
-use crate::{Event, Trajectory};
-use phase_model::{AGENT_COUNT, Action, ObservedError, ObservedEvent, Relation, Scene};
+use crate::{Event, ObservedError, ObservedEvent, Trajectory};
+use phase_model::{AGENT_COUNT, Action, Relation, Scene};
 use serde_json::Value;
 
 /// The exact actions of the first steps of a recording, where they are known.
@@ -43,6 +43,9 @@ pub struct Recording {
     pub trajectory: Trajectory,
     /// The first actions, where they are known of a measured event.
     pub recovered_actions: Option<Recovered>,
+    /// The seed that an event yet to be simulated is to be simulated with, so that several have the same chance. A
+    /// simulated event has its seed in [`Recording::simulation`].
+    pub seed: Option<u64>,
     /// Everything else, of a simulated event.
     pub simulation: Option<Simulation>,
 }
@@ -60,6 +63,7 @@ impl Recording {
             recorded_steps: Some(event.steps.len() as u32),
             trajectory: Trajectory::means(&event),
             recovered_actions: None,
+            seed: None,
             simulation: Some(Simulation { event, generator, settings }),
         }
     }

@@ -79,6 +79,8 @@ pub(crate) struct EventMembers<'a> {
     trajectory: Table<'a>,
     #[serde(skip_serializing_if = "Option::is_none")]
     recovered_actions: Option<RecoveredMembers<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    seed: Option<u64>,
     #[serde(flatten)]
     simulation: Option<SimulationMembers<'a>>,
 }
@@ -93,6 +95,7 @@ impl<'a> EventMembers<'a> {
             row_0: recording.row_0.as_deref(),
             recorded_steps: recording.recorded_steps,
             recovered_actions: recording.recovered_actions.as_ref().map(RecoveredMembers::of),
+            seed: simulation.map_or(recording.seed, |simulation| Some(simulation.event.seed)),
             simulation: simulation.map(|simulation| SimulationMembers {
                 generator: Some(&simulation.generator),
                 settings: Some(&simulation.settings),
@@ -104,7 +107,8 @@ impl<'a> EventMembers<'a> {
 
     /// `trajectory` is that of the event.
     pub(crate) fn of_event(event: &'a Event, trajectory: &'a Trajectory) -> Self {
-        Self { simulation: Some(SimulationMembers::of(event)), ..Self::of_scene(&event.scene, trajectory) }
+        let simulation = Some(SimulationMembers::of(event));
+        Self { seed: Some(event.seed), simulation, ..Self::of_scene(&event.scene, trajectory) }
     }
 
     fn of_scene(scene: &Scene, trajectory: &'a Trajectory) -> Self {
@@ -123,6 +127,7 @@ impl<'a> EventMembers<'a> {
             recorded_steps: None,
             trajectory: Table { columns: &COLUMNS, agents: &trajectory.agents, objects: &trajectory.objects },
             recovered_actions: None,
+            seed: None,
             simulation: None,
         }
     }
@@ -131,7 +136,6 @@ impl<'a> EventMembers<'a> {
 /// What a simulated event has beside.
 #[derive(Serialize)]
 struct SimulationMembers<'a> {
-    seed: u64,
     #[serde(skip_serializing_if = "Option::is_none")]
     generator: Option<&'a str>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -148,7 +152,6 @@ impl SimulationMembers<'_> {
         let thoughts = || event.steps.iter().map(|step| step.thoughts.each_ref());
         let value = |thought: &Thought| thought.pursued().map(|proposed| proposed.value);
         Self {
-            seed: event.seed,
             generator: None,
             settings: None,
             actions: event.steps.iter().map(|step| step.actions.map(Action::name)).collect(),

@@ -189,3 +189,6 @@ pub(crate) fn wall_agent(wall: &Wall, agent: &Motion, polygon: &Polygon) -> Mani
     }
     manifold
 }
+
+#[cfg(test)]
+mod tests;

@@ -157,12 +157,12 @@ impl Outline {
 }
 
 /// The edges of a polygon, in order.
-fn edges(corners: &[Vec2; 4]) -> impl Iterator<Item = Segment> {
+pub(crate) fn edges(corners: &[Vec2; 4]) -> impl Iterator<Item = Segment> {
     (0..4).map(|k| Segment { a: corners[k], b: corners[(k + 1) % 4] })
 }
 
 /// Whether a point lies strictly inside a convex counter-clockwise polygon.
-fn contains(corners: &[Vec2; 4], point: Vec2) -> bool {
+pub(crate) fn contains(corners: &[Vec2; 4], point: Vec2) -> bool {
     edges(corners).all(|edge| (edge.b - edge.a).perp_dot(point - edge.a) > 0.0)
 }
 

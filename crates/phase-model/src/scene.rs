@@ -35,6 +35,20 @@ impl EventKind {
         Self::Independent,
     ];
 
+    /// The kind that goals and attitudes make, as scenes are labelled: an attitude that is not neutral decides, else
+    /// the relation and what the goals are about.
+    #[must_use]
+    pub fn of(goals: [Goal; AGENT_COUNT], attitudes: [Attitude; AGENT_COUNT]) -> Self {
+        match Relation::of(goals, attitudes) {
+            _ if attitudes.contains(&Attitude::Help) => Self::Helping,
+            _ if attitudes.contains(&Attitude::Hinder) => Self::Hindering,
+            Relation::Friendly => Self::Collaborating,
+            Relation::Adversarial if matches!(goals[0], Goal::Touch { .. }) => Self::Chasing,
+            Relation::Adversarial => Self::Competing,
+            Relation::Neutral => Self::Independent,
+        }
+    }
+
     /// The name used in files and on screen.
     #[must_use]
     pub const fn name(self) -> &'static str {

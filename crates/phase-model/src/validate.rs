@@ -1,8 +1,8 @@
 //! Which scenes make sense, and what is wrong with the others.
 
 use crate::{
-    AGENT_COUNT, AgentId, Attitude, Entity, Goal, MAX_OBJECTS, ObjectId, Scene, arena, geometry::Outline,
-    scene::AgentSpec,
+    AGENT_COUNT, AgentId, Attitude, Entity, EventKind, Goal, MAX_OBJECTS, ObjectId, Scene, arena,
+    geometry::Outline, scene::AgentSpec,
 };
 use thiserror::Error;
 
@@ -29,7 +29,7 @@ pub enum SceneError {
         y: f32,
     },
     /// A goal is about an object that the scene does not have.
-    #[error("agents[{agent}].goal names object {object}, but the number of objects is {count}")]
+    #[error("agents[{agent}].goal names object {object}, but the scene has only {count}")]
     GoalOfAbsentObject {
         /// Whose goal.
         agent: AgentId,
@@ -43,6 +43,14 @@ pub enum SceneError {
     TouchesItself {
         /// Whose goal.
         agent: AgentId,
+    },
+    /// The kind of event says that one agent helps or hinders the other, but none does.
+    #[error("event is {:?}, but no agent has the social utility weight {alpha}", .kind.name())]
+    NobodySocial {
+        /// The kind.
+        kind: EventKind,
+        /// α of an agent that does what the kind says.
+        alpha: i8,
     },
     /// Both agents are social.
     #[error("at most one agent may have a social utility weight other than 0")]
@@ -93,6 +101,24 @@ impl Scene {
         check_attitudes(&self.agents)
     }
 
+    /// Checks that somebody helps in a scene that was made for helping, and hinders in one for hindering. The
+    /// label decides nothing in a simulation, so only readers of files ask for it.
+    ///
+    /// # Errors
+    /// [`SceneError::NobodySocial`].
+    pub fn check_kind(&self) -> Result<(), SceneError> {
+        let attitude = match self.kind {
+            EventKind::Helping => Attitude::Help,
+            EventKind::Hindering => Attitude::Hinder,
+            _ => return Ok(()),
+        };
+        if self.attitudes().contains(&attitude) {
+            Ok(())
+        } else {
+            Err(SceneError::NobodySocial { kind: self.kind, alpha: attitude.alpha() })
+        }
+    }
+
     /// Checks that every number of the starts is finite.
     pub(crate) fn check_finite(&self) -> Result<(), SceneError> {
         let state = self.initial_state();
@@ -128,7 +154,7 @@ impl Scene {
 }
 
 /// The field an entity has in files, such as `agents[0]`.
-fn field_name(entity: Entity) -> String {
+pub(crate) fn field_name(entity: Entity) -> String {
     match entity {
         Entity::Agent(agent) => format!("agents[{agent}]"),
         Entity::Object(object) => format!("objects[{object}]"),

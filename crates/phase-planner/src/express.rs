@@ -5,7 +5,8 @@ use crate::{
     routes::Routes,
     search::SymbolicPlan,
     situation::Spot,
-    task::{Node, Operator, Task},
+    symbolic::{Node, Operator},
+    task::Task,
 };
 use phase_model::{AgentId, Entity, ObjectId, Place, Predicate, Subgoal};
 

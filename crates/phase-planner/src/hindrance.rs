@@ -11,7 +11,8 @@ use crate::{
     routes::{Gaps, Routes, point_in},
     search,
     situation::{Situation, Spot, obstruct},
-    task::{Node, Task},
+    symbolic::Node,
+    task::Task,
 };
 use phase_model::{
     AgentId, BodySet, Entity, Goal, LandmarkId, ObjectId, Place, Predicate, Sign, Subgoal, Vec2,

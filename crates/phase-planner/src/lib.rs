@@ -49,6 +49,7 @@ pub mod planner;
 pub mod routes;
 pub mod search;
 pub mod situation;
+pub mod symbolic;
 pub mod task;
 pub mod value;
 

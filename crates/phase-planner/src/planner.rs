@@ -8,7 +8,8 @@ use crate::{
     routes::Routes,
     search,
     situation::Situation,
-    task::{Node, Task},
+    symbolic::Node,
+    task::Task,
 };
 use phase_model::{AGENT_COUNT, AgentId, Attitude, BodySet, Entity, Goal, Layout, Physique, Sign, State};
 use phase_predicates::achieved;

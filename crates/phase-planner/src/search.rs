@@ -1,6 +1,9 @@
 //! A* over symbolic states.
 
-use crate::task::{Node, Operator, Task};
+use crate::{
+    symbolic::{Node, Operator},
+    task::Task,
+};
 
 /// A* needs a totally ordered cost; this many units make one world unit.
 const UNITS: f32 = 256.0;

@@ -9,11 +9,7 @@ use petgraph::{
     graph::{DiGraph, NodeIndex},
     visit::{EdgeRef, Reversed},
 };
-use phase_planner::{
-    Routes, Situation,
-    search::solve,
-    task::{Node, Task},
-};
+use phase_planner::{Routes, Situation, search::solve, symbolic::Node, task::Task};
 use problems::problems;
 use proptest::{
     strategy::{Strategy, ValueTree},

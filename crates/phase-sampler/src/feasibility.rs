@@ -1,10 +1,7 @@
 //! Whether a scene can show what it is meant to, asked of the planner.
 
 use phase_model::{AGENT_COUNT, AgentId, Goal, Scene};
-use phase_planner::{
-    Routes, Situation, search,
-    task::{Node, Task},
-};
+use phase_planner::{Routes, Situation, search, symbolic::Node, task::Task};
 use phase_predicates::achieved;
 
 /// Plans that cost more than this contain something nearly impossible (u); see

@@ -46,6 +46,8 @@ proptest! {
         let scene = sample(&request, &mut stream(seed, Purpose::Scene, 0)).unwrap();
         prop_assert_eq!(scene.kind, variant.kind());
         prop_assert_eq!(scene.validate_apart(), Ok(()));
+        prop_assert_eq!(scene.check_kind(), Ok(()));
+        prop_assert_eq!(scene.warnings(), []);
         prop_assert!(layouts.contains(&scene.layout));
         let (physique, state) = (scene.physique(), scene.initial_state());
         for goal in scene.goals() {

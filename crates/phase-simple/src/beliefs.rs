@@ -1,9 +1,10 @@
 //! What the agents of an observed event believed, estimated from what they can have observed.
 
 use phase_belief::{Belief, overwrite};
+use phase_event::ObservedEvent;
 use phase_forward::Forward;
 use phase_model::{
-    AGENT_COUNT, Action, AgentId, BodySet, ObservedEvent, Physique, State,
+    AGENT_COUNT, Action, AgentId, BodySet, Physique, State,
     random::{self, Purpose},
 };
 use phase_perception::{Observation, observe};

@@ -2,10 +2,10 @@
 
 use crate::{Hypothesis, InverseDynamics, beliefs::EstimatedBeliefs};
 use phase_agent::{Mind, Outlook};
-use phase_event::Thought;
+use phase_event::{ObservedEvent, Thought};
 use phase_forward::{Forward, Memory};
 use phase_model::{
-    AGENT_COUNT, Action, AgentId, Body, BodySet, Entity, MAX_ENTITIES, ObservedEvent, Physique, State, Vec2,
+    AGENT_COUNT, Action, AgentId, Body, BodySet, Entity, MAX_ENTITIES, Physique, State, Vec2,
     arena::SUBSTEPS,
     random::{self, Pcg64Mcg, Purpose},
 };

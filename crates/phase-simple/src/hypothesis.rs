@@ -1,8 +1,9 @@
 //! What might explain an event: Y = ⟨g_i, g_j, α_ij, α_ji, f_i, f_j⟩ of the paper.
 
+use phase_event::ObservedEvent;
 use phase_model::{
     AGENT_COUNT, AgentId, AgentSpec, Attitude, Entity, EventKind, Goal, LandmarkId, ObjectId, ObjectSpec,
-    ObservedEvent, Relation, Scene, Sign, Strength,
+    Relation, Scene, Sign, Strength,
 };
 use serde::{Deserialize, Serialize};
 
@@ -81,18 +82,7 @@ impl Hypothesis {
             layout: observed.layout(),
             agents,
             objects: objects.map(|(&size, &start)| ObjectSpec { size, start }).collect(),
-            kind: self.kind(),
-        }
-    }
-
-    fn kind(&self) -> EventKind {
-        match (self.attitudes, self.relation()) {
-            (attitudes, _) if attitudes.contains(&Attitude::Help) => EventKind::Helping,
-            (attitudes, _) if attitudes.contains(&Attitude::Hinder) => EventKind::Hindering,
-            (_, Relation::Friendly) => EventKind::Collaborating,
-            (_, Relation::Adversarial) if matches!(self.goals[0], Goal::Touch { .. }) => EventKind::Chasing,
-            (_, Relation::Adversarial) => EventKind::Competing,
-            (_, Relation::Neutral) => EventKind::Independent,
+            kind: EventKind::of(self.goals, self.attitudes),
         }
     }
 }

@@ -5,10 +5,8 @@ use crate::{
     metropolis::Chains, simulations::Simulations, strength::StrengthCue,
 };
 use core::ops::ControlFlow;
-use phase_model::{
-    ObservedEvent,
-    random::{self, Purpose},
-};
+use phase_event::ObservedEvent;
+use phase_model::random::{self, Purpose};
 use phase_pomcp::PomcpError;
 
 /// What an inference found, and how.

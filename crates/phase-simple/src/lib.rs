@@ -6,7 +6,7 @@
 //! agent would do next at every step (`inverse_planning`), or as Algorithm 2 of the paper some of them by simulations of
 //! whole events ([`metropolis`]), and returns a [`Posterior`]; [`forecast()`] plays the likeliest on.
 //!
-//! The key design decision is that everything starts from an [`ObservedEvent`](phase_model::ObservedEvent), a type
+//! The key design decision is that everything starts from an [`ObservedEvent`](phase_event::ObservedEvent), a type
 //! without labels: what is inferred cannot have been read. The price is that actions and grips, which trajectories do
 //! not tell, have to be found out.
 //!

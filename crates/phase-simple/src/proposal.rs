@@ -2,7 +2,8 @@
 
 use crate::{Hypothesis, Posterior, cue, hypothesis::physical_goals, strength::StrengthCue};
 use core::ops::RangeInclusive;
-use phase_model::{AGENT_COUNT, AgentId, Attitude, Goal, ObservedEvent, Strength};
+use phase_event::ObservedEvent;
+use phase_model::{AGENT_COUNT, AgentId, Attitude, Goal, Strength};
 use rand::{Rng, RngExt};
 
 /// The distribution of hypotheses that a stretch of an observed event suggests: goals and strengths of both agents

@@ -1,9 +1,9 @@
 //! The posterior that SIMPLE infers from a simulated event is pinned bit for bit.
 
-use phase_event::Event;
+use phase_event::{Event, ObservedEvent};
 use phase_golden::{Digest, Golden};
 use phase_model::{
-    Body, EventKind, MAX_ENTITIES, ObservedEvent,
+    Body, EventKind, MAX_ENTITIES,
     arena::SUBSTEPS,
     random::{Purpose, stream},
 };

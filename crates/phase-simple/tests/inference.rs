@@ -1,8 +1,8 @@
 //! Whole inferences, on events whose labels are known to the test and to nobody else.
 
-use phase_event::{Event, Recording};
+use phase_event::{Event, ObservedEvent, Recording};
 use phase_model::{
-    AgentId, Attitude, Goal, LandmarkId, Layout, ObjectId, ObservedEvent, Relation,
+    AgentId, Attitude, Goal, LandmarkId, Layout, ObjectId, Relation,
     random::{Purpose, stream},
 };
 use phase_sampler::{Request, Variant, sample};

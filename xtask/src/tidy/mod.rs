@@ -1,6 +1,7 @@
 //! `tidy`: the rules of the house that the compiler cannot check.
 
 mod layers;
+mod modules;
 mod sources;
 mod texts;
 
@@ -53,6 +54,7 @@ pub fn run() -> Result<(), XtaskError> {
 pub fn check(root: &Path) -> Vec<Finding> {
     let mut workspace = Workspace { root: root.to_owned(), findings: Vec::new() };
     layers::check(&mut workspace);
+    modules::check(&mut workspace);
     sources::check(&mut workspace);
     texts::check(&mut workspace);
     let mut findings = workspace.findings;

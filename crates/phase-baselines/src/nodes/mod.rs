@@ -10,7 +10,8 @@ pub use embedding::NodeEmbedding;
 pub use features::FEATURES;
 
 use features::{body, landmark, wall};
-use phase_model::{MAX_ENTITIES, ObservedEvent, Vec2, arena::LANDMARKS};
+use phase_event::ObservedEvent;
+use phase_model::{MAX_ENTITIES, Vec2, arena::LANDMARKS};
 
 /// Nodes that move: agents, then objects.
 pub const MOVING: usize = MAX_ENTITIES;

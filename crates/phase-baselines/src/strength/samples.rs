@@ -1,6 +1,7 @@
 //! What there is to learn strengths from.
 
-use phase_model::{AGENT_COUNT, AgentId, ObservedEvent, Strength};
+use phase_event::ObservedEvent;
+use phase_model::{AGENT_COUNT, AgentId, Strength};
 use phase_simple::strength::{FEATURES, features};
 
 /// Length of the stretches (steps), ΔT of SIMPLE.

@@ -8,7 +8,8 @@ use phase_baselines::{
     social_lstm::SocialLstm,
     stgat::Stgat,
 };
-use phase_model::{Body, Layout, ObservedEvent, Size, Vec2, arena::CENTRE};
+use phase_event::ObservedEvent;
+use phase_model::{Body, Layout, Size, Vec2, arena::CENTRE};
 
 fn networks() -> [Box<dyn Forecasting>; 2] {
     let social = SocialLstm::new(8, &mut random(0)).expect("a network");

@@ -7,7 +7,8 @@ use phase_baselines::{
     recognition::{Answers, Recognition},
     two_level_lstm::TwoLevelLstm,
 };
-use phase_model::{Layout, ObservedEvent, Size};
+use phase_event::ObservedEvent;
+use phase_model::{Layout, Size};
 
 /// All that a network says of a batch, event by event.
 fn said(network: &dyn Recognition, batch: &Batch) -> Vec<Vec<f32>> {

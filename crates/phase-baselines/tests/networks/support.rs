@@ -1,9 +1,9 @@
 //! Made-up events.
 
 use phase_baselines::{nodes::Nodes, parameters::Parameter, recognition::LabelledEvent};
+use phase_event::ObservedEvent;
 use phase_model::{
-    AGENT_COUNT, AgentId, Body, Goal, LandmarkId, Layout, MAX_ENTITIES, ObservedEvent, Relation, Sign, Size,
-    Vec2,
+    AGENT_COUNT, AgentId, Body, Goal, LandmarkId, Layout, MAX_ENTITIES, Relation, Sign, Size, Vec2,
     arena::{CENTRE, LANDMARKS},
     random::{Pcg64Mcg, Purpose, stream},
 };

@@ -16,8 +16,7 @@ use phase_eval::{
     report::{self, Document, Subject},
     results,
 };
-use phase_event::Recording;
-use phase_model::ObservedEvent;
+use phase_event::{ObservedEvent, Recording};
 use serde_json::{Value, json};
 use std::path::Path;
 

@@ -4,7 +4,8 @@ use phase_eval::{
     Forecaster, Recogniser,
     method::{Answered, MethodError, Tick},
 };
-use phase_model::{Forecast, Judgement, ObservedEvent};
+use phase_event::ObservedEvent;
+use phase_model::{Forecast, Judgement};
 use phase_simple::{
     AnyStrength, ChainSettings, ForecastSettings, Inference, Proposal, Settings, Stage, StrengthRegressor,
     Update, forecast, infer,

@@ -159,7 +159,7 @@ fn steps_to_predict(steps: usize) -> usize {
 }
 
 /// Where an entity went in the steps to be predicted.
-fn path(observed: &phase_model::ObservedEvent, entity: usize) -> Vec<phase_model::Vec2> {
+fn path(observed: &phase_event::ObservedEvent, entity: usize) -> Vec<phase_model::Vec2> {
     let rows = observed.rows().iter().skip(1 + WATCHED_STEPS).take(PREDICTED_STEPS);
     rows.map(|row| row[entity].position).collect()
 }

@@ -17,7 +17,6 @@ use phase_dataset::{
     atomic,
     checksum::{hexadecimal, sha256},
     folder::{self, Contents, Folder},
-    phase_events,
     summary::{Pair, SUMMARY_FILE, Summary},
 };
 use phase_event::Recording;
@@ -30,8 +29,7 @@ use std::path::Path;
 /// # Errors
 /// Any [`CliError`].
 pub fn run(arguments: &Simulate) -> Result<(), CliError> {
-    let recordings = phase_events::read(&arguments.events)?;
-    let chosen = source::choose(&arguments.events, recordings, &arguments.id)?;
+    let chosen = source::read(&arguments.events, &arguments.id)?;
     let seeds = seeds(arguments)?;
     check_ids(arguments, &chosen, &seeds)?;
     let (run, out) = (run_value(arguments, &chosen), &arguments.out);
@@ -72,8 +70,7 @@ fn make(
     let video = !arguments.no_video;
     let order = Order {
         id: id.clone(),
-        // By its place in the file, so that the same event comes out with or without the others.
-        seed: engine::event_seed(seed, index),
+        seed: event_seed(arguments, index, recording, seed),
         relation: Some(recording.relation),
         max_steps: None,
         json: out.join(format!("{id}.json")),
@@ -95,6 +92,15 @@ fn seeds(arguments: &Simulate) -> Result<Vec<u64>, CliError> {
         ))
     })?;
     Ok((arguments.seed..=last).collect())
+}
+
+/// The seed of a simulated event. That of an event without one of its own follows from its place in the file, so that
+/// the same event comes out with or without the others; one's own counts on with `--seeds`.
+fn event_seed(arguments: &Simulate, index: usize, recording: &Recording, seed: u64) -> u64 {
+    match recording.seed {
+        Some(own) => own.wrapping_add(seed - arguments.seed),
+        None => engine::event_seed(seed, index),
+    }
 }
 
 /// The id of a simulated event: the recording's, told apart by seed if there are several.
@@ -135,11 +141,12 @@ fn run_value(arguments: &Simulate, chosen: &[(usize, Recording)]) -> Value {
     })
 }
 
-/// Everything the results depend on in one event of the input: the scene, the labels and the recorded rows.
+/// Everything the results depend on in one event of the input: the scene, the labels, the seed and the recorded rows.
 fn input_of(index: usize, recording: &Recording) -> String {
     let (scene, rows) = (&recording.scene, &recording.trajectory);
     let relation: Relation = recording.relation;
-    format!("{index} {} {relation:?} {scene:?} {rows:?}\n", recording.id)
+    let seed = recording.seed.map_or_else(String::new, |seed| format!("seed {seed} "));
+    format!("{index} {} {seed}{relation:?} {scene:?} {rows:?}\n", recording.id)
 }
 
 fn check_finished(out: &Path, run: &Value) -> Result<(), CliError> {

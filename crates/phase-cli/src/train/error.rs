@@ -6,7 +6,7 @@ use phase_baselines::{
     training::{CheckpointError, NetworkError, RecordError, TrainingError},
 };
 use phase_dataset::{FileError, WriteError};
-use phase_model::ObservedError;
+use phase_event::ObservedError;
 use phase_simple::strength::WeightsError;
 use std::path::PathBuf;
 use thiserror::Error;

@@ -6,8 +6,7 @@ use phase_baselines::training::{
     Final, Measure, NamedMeasure, NetworkError, Published, Round, Run, Settings, measure, to_safetensors,
 };
 use phase_dataset::{atomic, splits::Split};
-use phase_event::Recording;
-use phase_model::ObservedEvent;
+use phase_event::{ObservedEvent, Recording};
 
 /// Trains a network on what `sample` makes of events.
 ///

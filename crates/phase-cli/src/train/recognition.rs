@@ -6,8 +6,7 @@ use phase_baselines::{
     recognition::{LabelledEvent, SETTINGS},
     two_level_lstm::TwoLevelLstm,
 };
-use phase_event::Recording;
-use phase_model::ObservedEvent;
+use phase_event::{ObservedEvent, Recording};
 
 /// Trains a 2-Level LSTM.
 ///

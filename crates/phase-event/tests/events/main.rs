@@ -5,3 +5,4 @@ mod real;
 mod round_trip;
 mod serde;
 mod support;
+mod warnings;

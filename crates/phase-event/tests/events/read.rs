@@ -67,7 +67,7 @@ fn what_is_optional_may_be_absent() {
         event.remove(key).expect("a field of the example");
     }
     event["agents"][0].as_object_mut().expect("an agent").remove("radius");
-    event.insert("added_by_someone".into(), json!({"else": true}));
+    event.insert("_added_by_someone".into(), json!({"else": true}));
     let recordings = parse_value(&value).expect("a good file");
     assert_eq!(recordings[0].relation, Relation::Friendly, "follows from the goals");
 }
@@ -117,7 +117,7 @@ fn every_rule_names_event_field_and_rule() {
         (&format!("{agent_goal}/sign"), json!(0), &["`agents[0].goal.sign`", "1 or -1", "0"]),
         (&format!("{agent_goal}/kind"), json!("sing"), &["`agents[0].goal.kind`", "touch", "\"sing\""]),
         (&format!("{agent_goal}/object"), json!(1), &["agents[0].goal", "object 1", "only 1"]),
-        (&format!("{agent_goal}/landmark"), json!(4), &["agents[0].goal", "landmark 4", "only 4"]),
+        (&format!("{agent_goal}/landmark"), json!(4), &["agents[0].goal.landmark", "from 0 to 3", "not 4"]),
         (&format!("{agent_goal}/landmark"), json!(-1), &["`agents[0].goal.landmark`", "-1"]),
         (agent_goal, json!(null), &["`agents[0].goal`", "an object, not null"]),
         (

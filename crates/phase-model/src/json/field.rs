@@ -1,6 +1,6 @@
 //! The fields of a JSON document, each of which knows its path.
 
-use super::FieldError;
+use super::{FieldError, similar::nearest};
 use serde_json::{Map, Value};
 
 /// A value in a JSON tree and the path that leads to it.
@@ -56,18 +56,19 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// Checks that an object has no members but these.
+    /// Checks that an object has no members but these, and those whose names begin with `_`: they are left to
+    /// whoever added them.
     ///
     /// # Errors
-    /// Names the first other member.
+    /// Names the first other member, and the one that was meant if one is spelt much like it.
     pub fn only(&self, keys: &[&str]) -> Result<(), FieldError> {
-        match self.object()?.keys().find(|key| !keys.contains(&key.as_str())) {
-            None => Ok(()),
-            Some(key) => {
-                let rule = format!("is unknown; expected are {}", keys.join(", "));
-                Err(FieldError { field: self.path_of(key), rule })
-            }
-        }
+        let is_unknown = |key: &&String| !key.starts_with('_') && !keys.contains(&key.as_str());
+        let Some(key) = self.object()?.keys().find(is_unknown) else { return Ok(()) };
+        let rule = match nearest(key, keys) {
+            Some(meant) => format!("is unknown; did you mean `{meant}`?"),
+            None => format!("is unknown; expected are {}", keys.join(", ")),
+        };
+        Err(FieldError { field: self.path_of(key), rule })
     }
 
     /// The elements of an array.

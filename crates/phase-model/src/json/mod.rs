@@ -5,6 +5,7 @@
 mod error;
 mod field;
 mod parse;
+mod similar;
 
 pub use error::{FieldError, JsonError};
 pub use field::{Field, finite, shown};

@@ -3,7 +3,8 @@
 //! A scene is an object with the members `layout`, `agents`, `objects` and `event`, which mean what they mean in an
 //! event of the format `phase-events/1`. In an event the starts of all bodies are the first rows of its trajectory;
 //! in a scene by itself each agent and each object has a member `start` of `x`, `y` (u), `vx`, `vy` (u/s), `angle`
-//! (rad) and `angular_velocity` (rad/s), of which all but the position may be left out and are 0.
+//! (rad) and `angular_velocity` (rad/s), of which all but the position may be left out and are 0. Members whose names
+//! begin with `_` are left to whoever added them, such as `"_comment"`; others that are unknown are refused.
 
 mod read;
 mod write;
@@ -80,6 +81,7 @@ impl Scene {
         field.only(&["layout", "walls", "landmarks", "agents", "objects", "event"])?;
         let scene = Self::from_members(&field, Starts::Members)?;
         scene.validate()?;
+        scene.check_kind()?;
         Ok(scene)
     }
 

@@ -1,6 +1,7 @@
 //! The states between steps by rows alone, which are means over steps: where to go on if motion cannot be explained.
 
-use phase_model::{Body, MAX_ENTITIES, ObservedEvent, State, arena};
+use phase_event::ObservedEvent;
+use phase_model::{Body, MAX_ENTITIES, State, arena};
 
 /// How far the end of a step lies on the way from its mean to the mean of the next: the mean stands for the third of
 /// five substeps, the end is the fifth.

@@ -6,10 +6,13 @@
 
 mod interpolation;
 mod path;
+#[cfg(test)]
+mod tests;
 mod tracker;
 
 use path::Path;
-use phase_model::{AGENT_COUNT, Action, AgentId, ObservedEvent, State, Strength};
+use phase_event::ObservedEvent;
+use phase_model::{AGENT_COUNT, Action, AgentId, State, Strength};
 use tracker::{Moment, Tracker};
 
 /// States with different grips that are followed at once.

@@ -1,9 +1,10 @@
 //! One step of an event, imagined under all that its agents can have done.
 
 use super::path::{Path, least};
+use phase_event::ObservedEvent;
 use phase_forward::{Forward, Memory};
 use phase_model::{
-    AGENT_COUNT, Action, AgentId, Body, Entity, MAX_ENTITIES, ObservedEvent, State, Strength, Vec2,
+    AGENT_COUNT, Action, AgentId, Body, Entity, MAX_ENTITIES, State, Strength, Vec2,
     arena::{SUBSTEP_SECONDS, SUBSTEPS},
 };
 

@@ -21,7 +21,8 @@ use phase_eval::{
     benchmark::{Curve, Training},
     method::{Answered, MethodError, Tick},
 };
-use phase_model::{Forecast, Judgement, ObservedEvent};
+use phase_event::ObservedEvent;
+use phase_model::{Forecast, Judgement};
 use serde_json::{Value, json};
 use std::{
     ffi::OsString,

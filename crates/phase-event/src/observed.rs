@@ -1,6 +1,6 @@
 //! An event as a viewer has it: walls, sizes and motion, and nothing that would answer the viewer's questions.
 
-use crate::{
+use phase_model::{
     AGENT_COUNT, AgentBody, AgentId, Body, Entity, Layout, MAX_ENTITIES, MAX_OBJECTS, Physique, Size, State,
 };
 use thiserror::Error;

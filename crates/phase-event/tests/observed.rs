@@ -1,9 +1,7 @@
 //! What a viewer has of an event.
 
-use phase_model::{
-    Body, Entity, Layout, MAX_ENTITIES, ObservedError, ObservedEvent, Relation, RelationProbabilities, Size,
-    Vec2,
-};
+use phase_event::{ObservedError, ObservedEvent};
+use phase_model::{Body, Entity, Layout, MAX_ENTITIES, Size, Vec2};
 
 fn event(rows: Vec<[Body; MAX_ENTITIES]>, objects: usize) -> Result<ObservedEvent, ObservedError> {
     let layout = Layout::new(0, None).expect("layout 0 exists");
@@ -50,18 +48,4 @@ fn the_physics_has_the_seen_sizes_and_the_supposed_forces() {
     assert_eq!(physique.agents.map(|agent| agent.radius), [0.8, 1.6]);
     assert_eq!(physique.agents.map(|agent| agent.max_force), [150.0, 450.0]);
     assert_eq!((physique.object_count, physique.object_radii[0]), (1, 1.2));
-}
-
-#[test]
-fn the_most_likely_relation() {
-    let probabilities =
-        |friendly, adversarial, neutral| RelationProbabilities { friendly, adversarial, neutral };
-    for (of, expected) in [
-        (probabilities(0.2, 0.5, 0.3), Relation::Adversarial),
-        (probabilities(0.2, 0.2, 0.6), Relation::Neutral),
-        (probabilities(0.4, 0.4, 0.2), Relation::Friendly),
-        (RelationProbabilities::default(), Relation::Friendly),
-    ] {
-        assert_eq!(of.most_likely(), expected, "{of:?}");
-    }
 }

@@ -1,0 +1,100 @@
+//! Symbolic states, and the operators that lead from one to another.
+
+use crate::situation::{Situation, Spot};
+use phase_model::{AGENT_COUNT, AgentId, BodySet, Entity, LandmarkId, MAX_OBJECTS, ObjectId, RoomId, SlotId};
+
+/// A symbolic state of the search: positions are spots.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct Node {
+    /// Where each agent is.
+    pub agents: [Spot; AGENT_COUNT],
+    /// Where each object is; with its holders, if any.
+    pub objects: [Spot; MAX_OBJECTS],
+    /// What each agent holds.
+    pub holds: [Option<ObjectId>; AGENT_COUNT],
+}
+
+impl Node {
+    /// The symbolic state that a physical state starts in.
+    #[must_use]
+    pub fn start(situation: &Situation<'_>) -> Self {
+        Self {
+            agents: AgentId::ALL.map(|agent| Spot::Now(Entity::Agent(agent))),
+            objects: ObjectId::ALL.map(|object| Spot::Now(Entity::Object(object))),
+            holds: situation.state.grips.map(|grip| grip.map(|grip| grip.object)),
+        }
+    }
+
+    /// Objects that have not been moved.
+    pub(crate) fn unmoved(&self) -> BodySet {
+        ObjectId::ALL
+            .into_iter()
+            .filter(|&object| self.objects[object] == Spot::Now(Entity::Object(object)))
+            .map(Entity::Object)
+            .collect()
+    }
+
+    /// Whether each agent holds an object.
+    #[must_use]
+    pub fn holders(&self, object: ObjectId) -> [bool; AGENT_COUNT] {
+        self.holds.map(|held| held == Some(object))
+    }
+}
+
+/// One symbolic action of one agent (of all holders, for carrying).
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Operator {
+    /// Go to where an object is.
+    Approach {
+        /// Who.
+        agent: AgentId,
+        /// The object.
+        object: ObjectId,
+    },
+    /// Go to where the other agent is.
+    Meet {
+        /// Who.
+        agent: AgentId,
+    },
+    /// Go to a landmark, hands free.
+    Go {
+        /// Who.
+        agent: AgentId,
+        /// The landmark.
+        landmark: LandmarkId,
+    },
+    /// Take hold of an object.
+    Grab {
+        /// Who.
+        agent: AgentId,
+        /// The object.
+        object: ObjectId,
+    },
+    /// Move a held object, and with it everyone who holds it, to a landmark.
+    Carry {
+        /// Who leads.
+        agent: AgentId,
+        /// The object.
+        object: ObjectId,
+        /// Where to.
+        landmark: LandmarkId,
+    },
+    /// Bring an object to a door that one does not fit through oneself, push it through and let go.
+    Pass {
+        /// Who.
+        agent: AgentId,
+        /// The object.
+        object: ObjectId,
+        /// The slot of the door.
+        slot: SlotId,
+        /// The room that the object comes to lie in.
+        room: RoomId,
+    },
+    /// Let go.
+    Release {
+        /// Who.
+        agent: AgentId,
+        /// The object.
+        object: ObjectId,
+    },
+}

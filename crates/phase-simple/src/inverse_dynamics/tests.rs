@@ -1,0 +1,147 @@
+//! Events simulated with known actions, explained again.
+
+use super::InverseDynamics;
+use phase_event::ObservedEvent;
+use phase_forward::Forward;
+use phase_model::{
+    AGENT_COUNT, Action, AgentId, Body, Layout, MAX_ENTITIES, Size, State, Strength, Vec2, arena::SUBSTEPS,
+};
+
+/// Steps for which an action is held.
+const HELD: usize = 3;
+const STRENGTHS: [Strength; AGENT_COUNT] = [Strength::Strong, Strength::Mighty];
+
+/// What was simulated: the state at the end of every step, state 0 being the start, and what a viewer sees.
+struct Simulated {
+    states: Vec<State>,
+    actions: Vec<[Action; AGENT_COUNT]>,
+    observed: ObservedEvent,
+}
+
+fn mean(substeps: &[State; SUBSTEPS], entity: usize) -> Body {
+    let bodies = substeps.map(|state| state.bodies[entity]);
+    let share = 1.0 / SUBSTEPS as f32;
+    Body {
+        position: bodies.iter().map(|body| body.position * share).sum(),
+        velocity: bodies.iter().map(|body| body.velocity * share).sum(),
+        angle: bodies.iter().map(|body| body.angle * share).sum(),
+        angular_velocity: 0.0,
+    }
+}
+
+/// Simulates runs of actions, each held for some steps, without walls in reach.
+fn simulate(
+    places: [Vec2; MAX_ENTITIES],
+    object_sizes: Vec<Size>,
+    runs: &[([Action; 2], usize)],
+) -> Simulated {
+    let start = State::new(places.map(|place| Body::at_rest(place, 0.0)));
+    let layout = Layout::new(2, None).expect("a known layout");
+    let event = |rows| ObservedEvent::new(layout, [Size::Small, Size::Medium], object_sizes.clone(), rows);
+    let blank = event(vec![start.bodies]).expect("an event of one row");
+    let world = Forward::new(&blank.physique(STRENGTHS.map(Strength::max_force)));
+    let actions: Vec<_> = runs.iter().flat_map(|&(actions, steps)| vec![actions; steps]).collect();
+    let (mut states, mut rows) = (vec![start], vec![start.bodies]);
+    let (mut state, mut memory) = (start, world.remember(&start));
+    for &actions in &actions {
+        let substeps = world.step_warm(&mut state, &mut memory, actions);
+        states.push(state);
+        rows.push(core::array::from_fn(|entity| mean(&substeps, entity)));
+    }
+    Simulated { states, actions, observed: event(rows).expect("an event") }
+}
+
+/// Both agents in rooms of their own, far from everything.
+fn apart() -> Simulated {
+    let first =
+        [Action::Up, Action::TurnLeft, Action::UpRight, Action::Stop, Action::Left, Action::TurnRight];
+    let second = [Action::TurnRight, Action::Down, Action::Stop, Action::DownLeft, Action::Right, Action::Up];
+    let runs: Vec<_> = first.into_iter().zip(second).map(|(a, b)| ([a, b], HELD)).collect();
+    let places = [Vec2::new(10.0, 16.0), Vec2::new(22.0, 7.0), Vec2::ZERO, Vec2::ZERO];
+    simulate(places, Vec::new(), &runs)
+}
+
+/// Agent 0 grabs an object in front of it, pulls it backwards and lets go.
+fn pulled() -> Simulated {
+    let object = Vec2::new(10.0, 17.0 + Size::Small.radius() + Size::Small.radius() + 0.02);
+    let places = [Vec2::new(10.0, 17.0), Vec2::new(22.0, 7.0), object, Vec2::ZERO];
+    let run = |action, steps| ([action, Action::NoForce], steps);
+    let runs = [
+        run(Action::NoForce, 1),
+        run(Action::Attach, 1),
+        run(Action::Down, 6),
+        run(Action::Detach, 1),
+        run(Action::Down, 4),
+    ];
+    simulate(places, vec![Size::Small], &runs)
+}
+
+#[test]
+fn actions_and_strengths_of_free_agents_are_recovered() {
+    let event = apart();
+    let found = InverseDynamics::new(&event.observed);
+    assert!(!found.late_start);
+    assert_eq!(found.strengths(), STRENGTHS);
+    assert_eq!(found.states.len(), event.states.len());
+    let passive = |action: Action| matches!(action, Action::Stop | Action::NoForce);
+    for (step, (found, actions)) in found.actions.iter().zip(&event.actions).enumerate() {
+        for agent in 0..AGENT_COUNT {
+            // Stopping and doing nothing are the same to an agent at rest.
+            let at_rest = event.states[step].bodies[agent].velocity.length() < 1e-4;
+            if !(at_rest && passive(found[agent]) && passive(actions[agent])) {
+                assert_eq!(found[agent], actions[agent], "agent {agent}, step {step}");
+            }
+        }
+    }
+    for (step, (found, state)) in found.states.iter().zip(&event.states).enumerate() {
+        for agent in 0..AGENT_COUNT {
+            let off = found.bodies[agent].position.distance(state.bodies[agent].position);
+            assert!(off < 1e-3, "agent {agent} is {off} u off after step {step}");
+        }
+    }
+    assert!(found.residuals.iter().all(|&residual| residual < 1e-3));
+}
+
+#[test]
+fn grips_are_recovered() {
+    let event = pulled();
+    let held: Vec<_> = event.states.iter().map(|state| state.held_object(AgentId::ZERO)).collect();
+    assert_eq!(held.iter().filter(|held| held.is_some()).count(), 7, "the simulation itself");
+    let found = InverseDynamics::new(&event.observed);
+    // A grip does not show before it pulls, nor that it is gone before the object stays behind.
+    for (step, (found, held)) in found.states.iter().zip(&held).enumerate().skip(3).take(5) {
+        assert_eq!(found.held_object(AgentId::ZERO), *held, "after step {step}");
+    }
+    assert_eq!(found.states.last().and_then(|state| state.held_object(AgentId::ZERO)), None);
+    let object = |state: &State| state.bodies[AGENT_COUNT].position;
+    for (found, state) in found.states.iter().zip(&event.states) {
+        assert!(object(found).distance(object(state)) < 0.05);
+    }
+}
+
+#[test]
+fn what_was_done_explains_more_than_anything_else() {
+    let event = apart();
+    let found = InverseDynamics::new(&event.observed);
+    for (step, residuals) in found.alternatives(&event.observed).iter().enumerate() {
+        for (agent, residuals) in residuals.iter().enumerate() {
+            let done = residuals[event.actions[step][agent].index()];
+            assert!(residuals.iter().all(|&other| done <= other + 1e-4), "agent {agent}, step {step}");
+        }
+    }
+}
+
+#[test]
+fn an_explanation_repeats_bit_for_bit() {
+    let event = pulled();
+    let [first, second] = [0, 1].map(|_| InverseDynamics::new(&event.observed));
+    assert_eq!(first.states, second.states);
+    assert_eq!(first.actions, second.actions);
+    let bits = |found: &InverseDynamics| {
+        let strengths = found.log_strengths.concat().into_iter().map(f64::to_bits);
+        strengths
+            .chain(found.residuals.iter().map(|&residual| u64::from(residual.to_bits())))
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(bits(&first), bits(&second));
+}
