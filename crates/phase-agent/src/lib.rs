@@ -12,23 +12,16 @@
 //! ```
 //! use phase_agent::{Agent, Settings};
 //! use phase_forward::Forward;
-//! use phase_model::random::{Purpose, stream};
-//! use phase_model::{
-//!     Action, AgentId, AgentSpec, Attitude, Body, EventKind, Goal, LandmarkId, Layout, Scene, Sign, Size,
-//!     Strength, Vec2,
-//! };
+//! use phase_model::{Action, AgentId, Scene, random::{Purpose, stream}};
 //! use phase_perception::observe;
 //!
-//! let spec = |agent, landmark, x| AgentSpec {
-//!     size: Size::Small,
-//!     strength: Strength::Strong,
-//!     goal: Goal::AgentOnLandmark { agent, landmark, sign: Sign::Positive },
-//!     attitude: Attitude::Neutral,
-//!     start: Body::at_rest(Vec2::new(x, 14.0), 0.0), // faces +y
-//! };
-//! let agents = [spec(AgentId::ZERO, LandmarkId::TOP_RIGHT, 23.5), spec(AgentId::ONE, LandmarkId::TOP_LEFT, 8.5)];
-//! let scene = Scene { layout: Layout::new(0, None)?, agents, objects: Vec::new(), kind: EventKind::Independent };
-//!
+//! let scene = Scene::from_json(
+//!     r#"{"layout": {"base": 0}, "objects": [], "event": "independent", "agents": [
+//!         {"size_level": 0, "strength_level": 2, "alpha": 0, "start": {"x": 23.5, "y": 14, "angle": 0},
+//!          "goal": {"kind": "agent_on_landmark", "agent": 0, "landmark": 1, "sign": 1}},
+//!         {"size_level": 0, "strength_level": 2, "alpha": 0, "start": {"x": 8.5, "y": 14, "angle": 0},
+//!          "goal": {"kind": "agent_on_landmark", "agent": 1, "landmark": 0, "sign": 1}}]}"#,
+//! )?;
 //! let forward = Forward::new(&scene.physique());
 //! let observation = observe(&scene.physique(), &scene.initial_state(), AgentId::ZERO);
 //! let settings = Settings { particles: 5, simulations: 100, ..Settings::default() };

@@ -12,26 +12,21 @@
 //!
 //! `docs/simple.md` says where the paper's formulas were settled and where this goes beyond them.
 //!
-//! Agent 0 pushes forward from one landmark towards the next, agent 1 rests. What does agent 0 want?
+//! Agent 0 is observed for eight steps on its way from one landmark to the next, while agent 1 rests. The likeliest
+//! goal of agent 0 is to reach that next landmark:
 //!
 //! ```
-//! use phase_forward::Forward;
-//! use phase_model::{
-//!     Action, AgentId, Body, Dynamics, Goal, LandmarkId, Layout, ObservedEvent, Sign, Size, State, Vec2,
-//! };
+//! use phase_event::ObservedEvent;
+//! use phase_model::{AgentId, Body, Goal, LandmarkId, Layout, Sign, Size, Vec2};
 //! use phase_simple::{AnyStrength, Settings, explain};
 //!
-//! let (layout, sizes) = (Layout::new(0, None)?, [Size::Small; 2]);
-//! let places = [Vec2::new(23.5, 6.0), Vec2::new(8.5, 19.5), Vec2::ZERO, Vec2::ZERO];
-//! let mut state = State::new(places.map(|place| Body::at_rest(place, 0.0))); // both face +y
-//! let start = ObservedEvent::new(layout, sizes, Vec::new(), vec![state.bodies])?;
-//! let forward = Forward::new(&start.physique([450.0; 2]));
-//! let mut rows = vec![state.bodies];
-//! for _ in 0..8 {
-//!     forward.step(&mut state, [Action::Up, Action::Stop]);
-//!     rows.push(state.bodies);
-//! }
-//! let observed = ObservedEvent::new(layout, sizes, Vec::new(), rows)?;
+//! let rows = (0..=8_u8).map(|step| {
+//!     let places = [Vec2::new(23.5, 6.0 + f32::from(step)), Vec2::new(8.5, 19.5), Vec2::ZERO, Vec2::ZERO];
+//!     let mut row = places.map(|place| Body::at_rest(place, 0.0)); // both face +y
+//!     row[0].velocity = Vec2::new(0.0, 12.0); // 1 u in each step of 1/12 s
+//!     row
+//! });
+//! let observed = ObservedEvent::new(Layout::new(0, None)?, [Size::Small; 2], Vec::new(), rows.collect())?;
 //!
 //! let mut settings = Settings::default();
 //! (settings.minds.particles, settings.minds.simulations) = (5, 20);
