@@ -20,6 +20,26 @@
 //!
 //! Real recordings are not restarted: their rows are means over the five substeps of a step and no states, and
 //! a state of our own replay would hold the engine against itself.
+//!
+//! # Example
+//!
+//! A run of one step in which nobody acts, and which nevertheless claims that agent 0 moved by 0.25 u. The engine leaves
+//! it where it was, so that is its error:
+//!
+//! ```
+//! use phase_calibration::{Run, WorldEngine, run_reports};
+//!
+//! let runs = Run::parse(
+//!     r#"{"runs": [{"name": "still", "walls": [], "radii": [0.8, 0.8, 0.8, 0.8], "max_force": [450, 450],
+//!         "actions": [["noforce"], ["noforce"]], "attached_after_step": [[null, null]],
+//!         "states": [[[8, 12, 0, 0, 0, 0], [24, 12, 0, 0, 0, 0], [12, 4, 0, 0, 0, 0], [20, 20, 0, 0, 0, 0]],
+//!                    [[8, 12.25, 0, 0, 0, 0], [24, 12, 0, 0, 0, 0], [12, 4, 0, 0, 0, 0], [20, 20, 0, 0, 0, 0]]]}]}"#,
+//! )?;
+//! let reports = run_reports::<WorldEngine>(&runs);
+//! assert_eq!((reports.len(), reports[0].steps), (1, 1));
+//! assert!((reports[0].position.max - 0.25).abs() < 1e-3);
+//! # Ok::<(), phase_calibration::ReadError>(())
+//! ```
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]

@@ -14,6 +14,24 @@
 //!
 //! Together with the command line this crate is where the outside world is touched; it does so only at paths
 //! it is given.
+//!
+//! A file is written atomically and entered with its checksum; when somebody alters it, that is found:
+//!
+//! ```
+//! use phase_dataset::{Problem, atomic, checksum::FileEntry};
+//!
+//! let folder = tempfile::tempdir()?;
+//! atomic::write(&folder.path().join("event.json"), b"abc")?;
+//! let entry = FileEntry::of(folder.path(), "event.json")?;
+//! assert_eq!(entry.bytes, 3);
+//! assert!(entry.sha256.starts_with("ba7816bf8f01cfea")); // the example of FIPS 180-4
+//! entry.verify(folder.path())?;
+//!
+//! std::fs::write(folder.path().join("event.json"), "abd")?;
+//! let problem = entry.verify(folder.path()).err().map(|error| error.problem);
+//! assert_eq!(problem, Some(Problem::Altered("checksum")));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]

@@ -11,6 +11,31 @@
 //!
 //! Units everywhere: world units (u), radians, seconds, newtons. Angle 0 faces +y and forward is
 //! (−sin θ, cos θ); positive angles turn left (counter-clockwise).
+//!
+//! Agent 0 helps agent 1 to a landmark. The scene is checked, stored as JSON and read again:
+//!
+//! ```
+//! use phase_model::{
+//!     AgentId, AgentSpec, Attitude, Body, EventKind, Goal, LandmarkId, Layout, Relation, Scene, Sign, Size,
+//!     Strength, Vec2,
+//! };
+//!
+//! let goal = Goal::AgentOnLandmark { agent: AgentId::ONE, landmark: LandmarkId::TOP_LEFT, sign: Sign::Positive };
+//! let spec = |attitude, x| AgentSpec {
+//!     size: Size::Small,
+//!     strength: Strength::Strong,
+//!     goal, // a helper's goal is the other's
+//!     attitude,
+//!     start: Body::at_rest(Vec2::new(x, 8.0), 0.0),
+//! };
+//! let agents = [spec(Attitude::Help, 12.0), spec(Attitude::Neutral, 20.0)];
+//! let scene = Scene { layout: Layout::new(2, None)?, agents, objects: Vec::new(), kind: EventKind::Helping };
+//! scene.validate()?;
+//! assert_eq!(scene.relation(), Relation::Friendly);
+//! assert_eq!(scene.physique().walls.len(), 2); // of layout 2
+//! assert_eq!(Scene::from_json(&scene.to_json()?)?, scene);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]

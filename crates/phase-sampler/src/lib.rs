@@ -7,6 +7,27 @@
 //! The key design decision is rejection: a recipe for each variant draws freely, and a common set of checks, some
 //! of them made by the planner itself, throws away what cannot work. The price is a few hundred draws a scene;
 //! they cost microseconds.
+//!
+//! A scene in which one agent is too weak for the object that it wants moved, and the other helps:
+//!
+//! ```
+//! use phase_model::random::{Purpose, stream};
+//! use phase_model::{AgentId, Attitude, Layout, Relation, Strength};
+//! use phase_sampler::{Request, Variant, feasibility, sample};
+//!
+//! let layouts: Vec<Layout> = Layout::all_used().collect();
+//! let request = Request { variant: Variant::Lift, turn: 0, layouts: &layouts };
+//! let scene = sample(&request, &mut stream(1, Purpose::Scene, 0))?;
+//! assert_eq!(scene.relation(), Relation::Friendly);
+//!
+//! // Which of the two helps is drawn.
+//! let helper = if scene.agents[0].attitude == Attitude::Help { AgentId::ZERO } else { AgentId::ONE };
+//! let helpee = helper.other();
+//! assert_eq!(scene.agents[helpee].strength, Strength::Weak);
+//! let goal = scene.agents[helpee].goal;
+//! assert!(feasibility::together(&scene, goal) && !feasibility::alone(&scene, helpee, goal));
+//! # Ok::<(), phase_sampler::SampleError>(())
+//! ```
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
