@@ -47,7 +47,7 @@ fn main() {
     criterion.bench_function("belief/update of 50 particles, nobody observed", |bencher| {
         let dynamics = forward();
         let mut random = stream(1, Purpose::Belief, 0);
-        // Turned until it sees nobody.
+        // Rotated until it observes no other entity.
         let mut turned = (0..64).map(|k| {
             let mut turned = state;
             turned.bodies[0].angle = 0.1 * k as f32;

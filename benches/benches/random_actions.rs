@@ -111,7 +111,7 @@ fn bench(
     }
 }
 
-/// An action of each agent, drawn evenly.
+/// A uniformly sampled action of each agent.
 fn draw(random: &mut Pcg64Mcg) -> Actions {
     [0, 1].map(|_| Action::ALL[random.random_range(0..Action::ALL.len())])
 }

@@ -33,11 +33,11 @@ pub enum Command {
     Phase(phase_cli::cli::Command),
     /// Compare an engine of the physics with recorded motion
     CheckPhysics(CheckPhysics),
-    /// Show how reliably agents do what they are planned to do
+    /// Measure how reliably agents show the intended behaviour
     CheckBehaviour(CheckBehaviour),
     /// Run the golden tests of all crates, or rewrite the values that they compare with
     Golden(GoldenOptions),
-    /// Check the rules of the house that the compiler cannot
+    /// Check the project rules that the compiler cannot
     Tidy,
 }
 

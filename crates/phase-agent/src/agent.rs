@@ -20,8 +20,7 @@ pub struct Agent<D> {
 impl<D: Dynamics> Agent<D> {
     /// The mind of an agent of a scene, with a first belief from its first observation.
     ///
-    /// # Errors
-    /// Settings that cannot be searched with.
+    /// # Errors Invalid search parameters.
     pub fn new(
         scene: &Scene,
         agent: AgentId,
@@ -47,7 +46,7 @@ impl<D: Dynamics> Agent<D> {
         self.belief.update(self.mind.dynamics(), &self.physique, action, observation, random);
     }
 
-    /// Decides what to do next, and says why.
+    /// Chooses the next action; returns it with its explanation.
     ///
     /// # Errors
     /// As POMCP's search.

@@ -1,42 +1,42 @@
-//! A load and all who hold it, as one rigid body that has to get through a door.
+//! The carried assembly: an object and its holders as one rigid body that has to pass a door.
 
 use phase_model::{
     AGENT_COUNT, AgentId, Entity, ObjectId, Physique, SlotId, State, Vec2, arena, geometry::Outline,
     layout::SLOT_DIRECTIONS,
 };
 
-/// Most bodies of a convoy: an object and both agents.
+/// Maximum number of bodies in an assembly: an object and both agents.
 const BODIES: usize = 1 + AGENT_COUNT;
-/// Room kept before a door when a convoy turns (u).
+/// Clearance kept from a door while an assembly turns (u).
 const TURNING_ROOM: f32 = 0.2;
-/// Distance before a door at which a convoy in line heads for the middle of its way through (u).
+/// Distance before a door at which an aligned assembly aims for the middle of its passage (u).
 const LINE_UP: f32 = 1.8;
-/// Nearer than this to where it is to turn, how a convoy lies counts in full (u).
+/// Within this distance of its turning point, the orientation penalty of an assembly has full weight (u).
 const NEAR: f32 = 1.0;
-/// Farther than this from where it is to turn, how a convoy lies does not count yet (u).
+/// Beyond this distance of its turning point, the orientation penalty of an assembly is zero (u).
 const FAR: f32 = 6.0;
-/// Being this much beside its way, a convoy that is near the door may go on into it (u).
+/// Lateral offset below which an assembly near the door counts as aligned (u).
 const IN_LINE: f32 = 0.3;
-/// How far past a door one heads that is in line with it (u).
+/// Distance of the waypoint past the door for an aligned assembly (u).
 const BEYOND: f32 = 1.5;
 
-/// An object and its holders. They hold on rigidly: none of them turns without swinging the others round.
+/// An object and its holders. Grips are rigid, so no member turns without rotating the others about it.
 #[derive(Clone, Copy, Debug)]
 pub struct Convoy {
     bodies: [Option<(Vec2, Outline)>; BODIES],
 }
 
-/// How a convoy stands to a door: where to head for with the load, and how far that makes it to the crossing (u).
+/// How an assembly approaches a door: the waypoint for the load and the path length left to the crossing (u).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Entrance {
     /// The point for the load to head for (u).
     pub heading_for: Vec2,
-    /// What is left until the load is at the door's line (u), with what it takes to get in line.
+    /// Path length until the load reaches the door's line (u), alignment included.
     pub remaining: f32,
 }
 
 impl Convoy {
-    /// The convoy of an object that somebody holds.
+    /// The assembly of an object that is held.
     #[must_use]
     pub fn of(physique: &Physique, state: &State, object: ObjectId) -> Self {
         let body = |entity: Entity| {
@@ -51,24 +51,26 @@ impl Convoy {
         self.bodies.iter().flatten()
     }
 
-    /// The mean of the bodies' centres, about which the convoy turns, roughly (u).
+    /// Mean of the bodies' centres (u), an approximation of the centre of rotation.
     fn centre(&self) -> Vec2 {
         let sum: Vec2 = self.bodies().map(|&(place, _)| place).sum();
         sum / self.bodies().count() as f32
     }
 
-    /// The circle about [`Convoy::centre`] that the convoy needs to turn in (u).
+    /// Radius of the circle about [`Convoy::centre`] that the assembly sweeps when it turns (u).
     fn reach(&self) -> f32 {
         let centre = self.centre();
         self.bodies().map(|(_, outline)| farthest(outline, centre)).fold(0.0, f32::max)
     }
 
-    /// How the convoy gets through a door that is passable between two distances from the arena's centre, from the
-    /// side that the load is on. `None` where the door is wide enough for it however it lies, or the load is alone.
+    /// How the assembly approaches a door that is open between two distances from the arena's centre, from the side
+    /// that the load is on. `None` if the door is wide enough for every orientation of the assembly, or the load
+    /// has no holder.
     ///
-    /// What is not through yet has to fit between the door's ends as it lies. If it does not, the convoy turns
-    /// where it has room to, or what leads would be in the door with what follows held up at the corner, for
-    /// good; if it does, it gets in line before it goes on.
+    /// The part that has not passed yet must fit between the door's ends in its present orientation. If it
+    /// does not, the assembly turns where there is clearance; otherwise the leading body would enter the door
+    /// while the following one stays blocked at the corner. If it fits, the assembly aligns with the door
+    /// before it proceeds.
     #[must_use]
     pub fn entrance(&self, slot: SlotId, (low, high): (f32, f32)) -> Option<Entrance> {
         let along = SLOT_DIRECTIONS[slot];
@@ -98,12 +100,12 @@ impl Convoy {
             let turning = arena::CENTRE + along * (0.5 * (low + high)) + inwards * room;
             let way = turning - centre;
             let away = way.length();
-            // Always more than in line, but less than it takes to come nearer.
+            // Always more than for an aligned assembly, but less than the gain of approaching.
             let minded = ((FAR - away) / (FAR - NEAR)).clamp(0.0, 1.0);
             let remaining = away + room + minded * (reach + excess);
             return Some(Entrance { heading_for: load + way, remaining });
         }
-        // Sideways, until it lies between the door's ends, or as much to one side as to the other.
+        // Lateral correction until the assembly lies between the door's ends, or is centred on the door.
         let aside = if excess > 0.0 {
             0.5 * (low + high - from - to)
         } else {
@@ -121,7 +123,7 @@ impl Convoy {
     }
 }
 
-/// From where to where an outline reaches in a direction, as distances from the arena's centre (u).
+/// Interval that an outline covers along a direction, as distances from the arena's centre (u).
 fn extent(outline: &Outline, direction: Vec2) -> (f32, f32) {
     let at = |point: Vec2| direction.dot(point - arena::CENTRE);
     match *outline {

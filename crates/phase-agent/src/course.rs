@@ -1,28 +1,28 @@
-//! From a point to another through doors: how far it still is, and which way to move now.
+//! Steering along a planned path through doors: remaining path length and next waypoint.
 
 use crate::convoy::{Convoy, Entrance};
 use phase_model::{SlotId, Vec2, arena, layout::SLOT_DIRECTIONS};
 use phase_planner::{Route, Routes};
 
-/// A door with less room to spare than this is entered straight on (u).
+/// A door with less clearance than this is entered perpendicularly (u).
 const TIGHT: f32 = 1.2;
-/// Distance before a tight door at which a body lines up with it (u).
+/// Distance before a tight door at which a body aligns with it (u).
 const LINE_UP: f32 = 1.8;
-/// Distance from a door, and to its side, at which one waits for it to be free (u).
+/// Distance from a door, and to its side, at which an agent waits for it to be free (u).
 const WAITING_ROOM: f32 = 1.5;
-/// Two that are this much nearer or farther count as equally near (u).
+/// Distances that differ by less than this count as equal (u).
 const AS_NEAR: f32 = 0.25;
-/// A body nearer to a door's crossing than this takes the door (u).
+/// A body closer to a door's crossing than this occupies the door (u).
 const DOORWAY: f32 = 2.5;
-/// Nearer to a crossing than this one heads for what lies past it (u).
+/// Closer to a crossing than this, the waypoint lies past it (u).
 const AT_CROSSING: f32 = 0.6;
-/// What a door that the body does not fit through adds to a way (u): that it is there cannot be helped, and the
-/// planner's cost of it would drown all that a search can tell apart.
+/// Path cost of a door that the body does not fit through (u). The planner's own cost of such a door would
+/// dominate all differences that the search has to resolve.
 pub const BARRED: f32 = 10.0;
-/// How far beyond a room's border counts as being in it (u).
+/// Distance past a room's border at which a body counts as inside (u).
 const INSIDE: f32 = 1.5;
 
-/// What is left of a way, and where to head.
+/// Next waypoint and remaining path length.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Course {
     /// The point to head for now (u).
@@ -31,7 +31,7 @@ pub struct Course {
     pub remaining: f32,
 }
 
-/// The best way between two points for a body of some width: found once, for all that asks about it.
+/// The cheapest path between two points for a body of a given width, computed once and shared by all queries.
 #[derive(Clone, Copy, Debug)]
 pub struct Way<'a> {
     routes: &'a Routes,
@@ -49,7 +49,7 @@ impl<'a> Way<'a> {
         Self { routes, from, to, width, route: routes.best(from, to, width, routes.gaps()), convoy: None }
     }
 
-    /// The same way, gone by an object and its holders.
+    /// The same path, travelled by an object and its holders.
     #[must_use]
     pub const fn with_convoy(self, convoy: Convoy) -> Self {
         Self { convoy: Some(convoy), ..self }
@@ -75,8 +75,7 @@ impl<'a> Way<'a> {
     }
 }
 
-/// What is left of a way when one has to wait before its first door: a place beside the door, out of the way of
-/// who comes through.
+/// Where to wait before the first door of a path: beside the door, clear of traffic through it.
 fn wait(slot: SlotId, crossing: Vec2, from: Vec2, width: f32) -> Vec2 {
     let along = SLOT_DIRECTIONS[slot];
     let side = along.perp() * along.perp_dot(from - crossing).signum();
@@ -84,7 +83,7 @@ fn wait(slot: SlotId, crossing: Vec2, from: Vec2, width: f32) -> Vec2 {
     crossing + side * (0.5 * width + WAITING_ROOM) - along * WAITING_ROOM
 }
 
-/// A place before the wall beside a door, so far from it that who comes through need not push one aside.
+/// A point beside a door, far enough from it that a body coming through does not collide.
 fn let_by(slot: SlotId, (low, high): (f32, f32), from: Vec2, width: f32) -> Vec2 {
     let along = SLOT_DIRECTIONS[slot];
     let side = along.perp() * along.perp_dot(from - arena::CENTRE).signum();
@@ -94,8 +93,8 @@ fn let_by(slot: SlotId, (low, high): (f32, f32), from: Vec2, width: f32) -> Vec2
     arena::CENTRE + along * beside + side * room
 }
 
-/// Lets another body through first: if the other is in the first door on the way, and nearer to it, the course
-/// leads to a place beside that door instead. Of two that are as near, the one that is `polite` waits.
+/// Yields to another body: if the other occupies the first door on the path and is closer to it, the steering
+/// leads to a point beside that door instead. If both are equally close, the one that is `polite` waits.
 #[must_use]
 pub fn give_way(way: &Way<'_>, other: Vec2, polite: bool) -> Option<Course> {
     let Way { routes, from, width, route, .. } = *way;
@@ -107,15 +106,15 @@ pub fn give_way(way: &Way<'_>, other: Vec2, polite: bool) -> Option<Course> {
         && routes.gaps().width(slot) < 2.0 * width + TIGHT;
     is_taken.then(|| {
         let place = let_by(slot, routes.gaps().0[slot].unwrap_or_default(), from, width);
-        // By way of that place, so that every step towards it gains.
+        // Measured via that point, so that every step towards it reduces the distance.
         let by_way = from.distance(place) + place.distance(crossing);
         Course { heading_for: place, remaining: route.length - mine + by_way }
     })
 }
 
-/// Goes round bodies in the way: if the straight line to the point that a course heads for passes through one of
-/// these discs (centre, radius; u), the course is bent past the disc's nearer side, or the other if that side
-/// is outside the arena.
+/// Local obstacle avoidance: if the straight line to the waypoint intersects one of these discs (centre, radius;
+/// u), the waypoint moves to the nearer side of the disc, or to the other side if that one lies outside the
+/// arena.
 #[must_use]
 pub fn around(course: Course, from: Vec2, discs: impl Iterator<Item = (Vec2, f32)>) -> Course {
     let way = course.heading_for - from;
@@ -125,7 +124,7 @@ pub fn around(course: Course, from: Vec2, discs: impl Iterator<Item = (Vec2, f32
     for (centre, radius) in discs {
         let offset = centre - from;
         let along = offset.dot(direction);
-        // Whoever touches the disc already must not be sent back through it.
+        // A body that touches the disc already must not be sent back through it.
         let hits = along > 0.0 && along < length && direction.perp_dot(offset).abs() < radius;
         if hits && nearest.is_none_or(|(first, ..)| along < first) {
             nearest = Some((along, centre, radius));
@@ -151,7 +150,7 @@ pub fn to_point(way: &Way<'_>) -> Course {
         return Course { heading_for: to, remaining: left(&route) };
     };
     if gaps.width(slot) < width {
-        // It does not fit: it waits before the door instead of getting stuck in it.
+        // The body does not fit, so it waits before the door instead of getting stuck in it.
         let place = wait(slot, crossing, from, width);
         return Course { heading_for: place, remaining: BARRED + from.distance(place) };
     }
@@ -199,12 +198,12 @@ fn through(way: &Way<'_>, slot: SlotId, crossing: Vec2) -> (Vec2, f32) {
     let across = along.perp_dot(offset);
     let straight = offset.length();
     if gaps.width(slot) > width + TIGHT {
-        // At the crossing itself there is no direction any more: on, and past it.
+        // At the crossing itself the direction is undefined, so the waypoint lies past it.
         let on = crossing - along.perp() * across.signum();
         return (if straight < AT_CROSSING { on } else { crossing }, 0.0);
     }
     if across.abs() <= LINE_UP {
-        // Beside the door already: sideways first, then on; just before it, on and through.
+        // Beside the door, correct the lateral offset first; directly before it, proceed through.
         let on = crossing - along.perp() * across.signum();
         return (if lateral < 0.5 { on } else { crossing }, lateral + across.abs() - straight);
     }

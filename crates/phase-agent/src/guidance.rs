@@ -1,19 +1,19 @@
-//! A rule of thumb for moving along a course: the informed half of the default policy.
+//! The heuristic rollout policy: steers along the path; the other rollout actions are uniformly random.
 
 use crate::{course::Course, objective::Objective};
 use phase_model::{Action, Entity, Literal, Predicate, State, Subgoal, Vec2, arena};
 
 /// Seconds of physics in one step.
 const STEP_SECONDS: f32 = arena::SUBSTEP_SECONDS * arena::SUBSTEPS as f32;
-/// A heading off by less than this is good enough to push forward (rad).
+/// Heading error below which the policy pushes forward (rad).
 const GOOD_HEADING: f32 = 0.6;
-/// Below this speed there is nothing to brake (u/s).
+/// Speed below which the policy does not brake (u/s).
 const SLOW: f32 = 1.0;
 
-/// The action that a simple mover would take: grab or let go where that is the subgoal; brake before
-/// overshooting; push whichever way leads most directly along the course; or, when sideways pushes are not
-/// among the `actions` on offer, turn until the heading is good, stepping back where that is on offer and the
-/// way leads back. `course` is the state's, if it has been laid already.
+/// The action of the heuristic: attach or detach where that is the subgoal; brake before overshooting; apply
+/// the push closest to the direction of the waypoint; or, if sideways pushes are not among the `actions`,
+/// turn until the heading error is small, stepping back where that is available and the waypoint lies behind.
+/// `course` is the state's steering if it is known already.
 #[must_use]
 pub fn action(
     objective: &Objective<'_>,
@@ -61,7 +61,7 @@ pub fn action(
     }
 }
 
-/// Whether the present motion leads past the point or well away from it within this step.
+/// Whether the present velocity overshoots the waypoint, or moves clearly away from it, within this step.
 fn overshoots(velocity: Vec2, way: Vec2, speed: f32, distance: f32) -> bool {
     let towards = velocity.dot(way) / (speed * distance);
     towards < 0.5 || speed * STEP_SECONDS > distance

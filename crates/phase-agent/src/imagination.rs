@@ -1,4 +1,4 @@
-//! The agent's own model of the world, as POMCP searches it.
+//! The generative model that POMCP searches: the agent's own model of the world.
 
 use crate::{
     Foresight,
@@ -15,42 +15,42 @@ use phase_pomcp::{GenerativeModel, Outcome};
 use phase_predicates::achieved;
 use rand::{Rng, RngExt};
 
-/// Steps for which the distance left at the end of an imagined future is taken to last: what a search of ten
-/// steps cannot see still counts, but less than what it can.
+/// Number of further steps for which the distance at the end of a rollout is charged as the leaf value:
+/// steps beyond the search depth count, but less than those within it.
 const STEPS_BEYOND: f64 = 8.0;
-/// How much more likely than any other the rule of thumb's action looks before it has been tried. Where all
-/// actions come to the same, as for one too weak to move its load, it is what people expect to see.
+/// Prior weight of the heuristic's action relative to any other. It decides where all actions have equal
+/// value, as for an agent too weak to move its load.
 const GUIDED_WEIGHT: f64 = 2.0;
 
-/// What an agent imagines when it searches for an action: the physics it believes in, its own actions, the
-/// other one coasting, and Equation 1 shaped by the distance to the subgoal.
+/// The search model of an agent: its dynamics, its own action set, a passive model of the other agent, and
+/// Equation 1 shaped by the distance to the subgoal.
 #[derive(Debug)]
 pub struct Imagination<'a, D> {
     /// The physics.
     pub dynamics: &'a D,
     /// The agent's subgoal.
     pub objective: Objective<'a>,
-    /// What the other agent would do about its own goal if it is seen to hold the same object.
+    /// Objective of the other agent, followed while both hold the same object or touch.
     pub other_objective: Objective<'a>,
     /// Actions to search.
     pub actions: &'a [Action],
     /// Both agents' goals.
     pub goals: [Goal; AGENT_COUNT],
-    /// Whether goals that hold count. While an agent goes and looks whether one does, the mere hope must not
-    /// make it shy of going near.
+    /// Whether satisfied goals are rewarded. Not while the agent goes to verify one: the particles in which
+    /// it holds already would make approaching look worthless.
     pub goals_count: bool,
     /// The agent's attitude.
     pub attitude: Attitude,
-    /// Discount a step.
+    /// Discount factor per step.
     pub discount: f64,
-    /// Share of informed rollout actions.
+    /// Probability that a rollout action comes from the heuristic, 0 to 1.
     pub guidance: f64,
-    /// How exactly steps are worked out.
+    /// Fidelity of the dynamics in the search.
     pub foresight: Foresight,
 }
 
 impl<'a, D> Imagination<'a, D> {
-    /// What the other would do about its goal.
+    /// Objective of the other agent's own goal.
     #[must_use]
     pub fn other(
         physique: &'a Physique,
@@ -62,9 +62,10 @@ impl<'a, D> Imagination<'a, D> {
         Objective { physique, routes, agent: agent.other(), subgoal, retreat: None }
     }
 
-    /// The other coasts, except when both hold the same object or the two touch: then it goes on pulling or
-    /// pushing for its own goal. Without that a weak agent could not imagine what two can carry, and two who
-    /// meet face to face would each believe that the other can be pushed away. Who hinders is to try just that.
+    /// The other agent is passive (no force), except when both hold the same object or touch: then it follows
+    /// the heuristic for its own goal. Otherwise a weak agent could not predict joint carrying, and two agents
+    /// face to face would each predict that the other yields. A hinderer keeps the passive model on contact,
+    /// since pushing the other away is what it attempts.
     fn other_action(&self, state: &State) -> Action {
         let (me, other) = (self.objective.agent, self.objective.agent.other());
         let together = state.held_object(me).is_some() && state.held_object(me) == state.held_object(other);
@@ -77,7 +78,7 @@ impl<'a, D> Imagination<'a, D> {
         }
     }
 
-    /// What the rule of thumb would do.
+    /// The heuristic's action.
     fn guided(&self, imagined: &Imagined) -> Action {
         guidance::action(&self.objective, &imagined.state, imagined.course, self.actions)
     }
@@ -98,12 +99,12 @@ impl<'a, D> Imagination<'a, D> {
         ) + shaping
     }
 
-    /// The goal that the social part of the reward is about: the other's, as the other has it.
+    /// The goal of the social term of the reward: the other agent's own goal.
     const fn other_goal(&self) -> Goal {
         self.goals[self.objective.agent.other().index()]
     }
 
-    /// What the agent notices, coarsely: who is observed, and who holds what of that.
+    /// Coarse observation: which entities are observed, and which observed agent holds what.
     fn notice(&self, state: &State) -> u16 {
         let agent = self.objective.agent;
         let observed = observed_set(self.objective.physique, state, agent);
@@ -118,8 +119,7 @@ impl<'a, D> Imagination<'a, D> {
     }
 }
 
-/// A state as the search carries it along, with what the objective says of it: rewards and the rule of thumb ask
-/// for the same.
+/// A state of the search with the objective's distance and steering, which reward and rollout policy share.
 #[derive(Clone, Copy, Debug)]
 pub struct Imagined {
     state: State,
@@ -128,7 +128,7 @@ pub struct Imagined {
 }
 
 impl Imagined {
-    /// A state seen in the light of an objective.
+    /// Evaluates the objective in a state.
     #[must_use]
     pub fn new(objective: &Objective<'_>, state: State) -> Self {
         let (distance, course) = objective.look(&state);

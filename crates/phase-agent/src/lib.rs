@@ -1,11 +1,12 @@
 //! One PHASE agent's mind: from belief to subgoal to action (paper, Algorithm 1).
 //!
-//! [`Agent::perceive`] updates the belief, [`Agent::decide`] plans from every particle, weighs the subgoals,
-//! and searches an action for the best of them with the particles that agree on it. The latter is [`Mind::decide`],
-//! which inference uses with beliefs that it has estimated.
+//! [`Agent::perceive`] updates the belief; [`Agent::decide`] plans from every particle, evaluates the subgoals, and
+//! searches for an action with the particles that agree on the best one. [`Mind::decide`] does the latter for a
+//! given belief, such as one estimated by inference.
 //!
-//! The key design decision is that a mind owns its model of the world ([`phase_model::Dynamics`]) and never
-//! sees the true one: whatever it knows it has perceived. The price is a second simulation of the physics.
+//! Key design decision: a mind owns its model of the world ([`phase_model::Dynamics`]) and has no access to
+//! the true state; everything it knows comes from observations. The cost is a second simulation of the
+//! physics.
 //!
 //! An agent that faces the landmark it wants to reach, 5.5 u ahead in the same room, pushes forward:
 //!

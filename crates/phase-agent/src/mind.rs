@@ -1,4 +1,4 @@
-//! Particles to subgoal to action: what an agent of Algorithm 1 does with a belief, wherever that comes from.
+//! The decision step of Algorithm 1: from particles to subgoal to action, for a given belief.
 
 use crate::{
     Settings,
@@ -17,8 +17,8 @@ use phase_planner::{Candidate, Plan, Planner, value};
 use phase_pomcp::{Pomcp, PomcpError, PomcpSettings};
 use rand::Rng;
 
-/// One agent's goals and planners. The dynamics are its own model of the world. What it believes is shown to it at
-/// every decision, so that it can also think on behalf of somebody whose beliefs are estimated.
+/// One agent's goals and planners, with its own model of the dynamics. The belief is an argument of every
+/// decision, so inference can use a mind with estimated beliefs.
 #[derive(Debug)]
 pub struct Mind<D> {
     agent: AgentId,
@@ -32,7 +32,7 @@ pub struct Mind<D> {
     patience: Patience,
 }
 
-/// What a decision rests on.
+/// The belief state that a decision is based on.
 #[derive(Clone, Copy, Debug)]
 pub struct Outlook<'a> {
     /// Possible states of the world, all equally likely; at least one.
@@ -44,8 +44,7 @@ pub struct Outlook<'a> {
 impl<D: Dynamics> Mind<D> {
     /// The mind of an agent of a scene.
     ///
-    /// # Errors
-    /// Settings that cannot be searched with.
+    /// # Errors Invalid search parameters.
     pub fn new(scene: &Scene, agent: AgentId, dynamics: D, settings: Settings) -> Result<Self, PomcpError> {
         let physique = scene.physique();
         let pomcp = Pomcp::new(PomcpSettings {
@@ -70,12 +69,12 @@ impl<D: Dynamics> Mind<D> {
         })
     }
 
-    /// How it imagines the world to move.
+    /// Its model of the dynamics.
     pub const fn dynamics(&self) -> &D {
         &self.dynamics
     }
 
-    /// Decides what to do next, and says why.
+    /// Chooses the next action; returns it with its explanation.
     ///
     /// # Errors
     /// As POMCP's search.
@@ -101,8 +100,8 @@ impl<D: Dynamics> Mind<D> {
         Ok((action, Thought { subgoal, subgoals, plan, actions }))
     }
 
-    /// One plan for each different particle, and which plan belongs to each particle. Once everything is in
-    /// view all particles are the same world, and planning once is enough.
+    /// One plan for each distinct particle, and the index of each particle's plan. When everything is
+    /// observed all particles are equal and one plan suffices.
     fn plans(&self, particles: &[State], known: BodySet) -> (Vec<Plan>, Vec<usize>) {
         let mut different: Vec<usize> = Vec::new();
         let mut plans = Vec::new();
@@ -118,11 +117,11 @@ impl<D: Dynamics> Mind<D> {
         (plans, plan_of)
     }
 
-    /// The particles to search an action in. If the subgoal is to get to something unseen, these are the ones
-    /// that put it near where the shortest plan has it: one looks in one place after the other. Drawn to all
-    /// places at once, one would turn to and fro between them and never see any.
+    /// The particles used as roots of the search. If the subgoal's target is unobserved, only those that
+    /// place it near its position in the cheapest plan: the agent searches one location after another. With
+    /// all of them, it would oscillate between locations and reach none.
     fn attended(&self, outlook: Outlook<'_>, candidate: &Candidate, plans: &[&Plan]) -> Vec<usize> {
-        /// Greatest distance between places that are looked at together (u).
+        /// Maximum distance between target positions that are searched together (u).
         const TOGETHER: f32 = 3.0;
         let all = &candidate.particles;
         let Some(unseen) = self.unseen(outlook, candidate.subgoal) else { return all.clone() };
@@ -130,7 +129,7 @@ impl<D: Dynamics> Mind<D> {
         let Some(&first) = shortest else { return all.clone() };
         let place = |particle: usize| outlook.particles[particle].position(unseen);
         let near = |&&particle: &&usize| place(particle).distance(place(first)) <= TOGETHER;
-        // A place that is not a number is near nothing, not even itself.
+        // A NaN position is near nothing, not even itself.
         let mut attended: Vec<usize> = all.iter().filter(near).copied().collect();
         if attended.is_empty() {
             attended.push(first);
@@ -154,7 +153,7 @@ impl<D: Dynamics> Mind<D> {
         let routes = self.planner.routes();
         let objective =
             Objective { physique: &self.physique, routes, agent: self.agent, subgoal, retreat: None };
-        // Whoever hinders has nothing to gain by making room.
+        // A hinderer does not back off: being in the way is its purpose.
         let retreat = match self.attitude {
             Attitude::Hinder => None,
             _ => self.patience.lose(&objective, &roots[0], random),
@@ -175,11 +174,11 @@ impl<D: Dynamics> Mind<D> {
             guidance: self.settings.guidance,
             foresight: self.settings.foresight,
         };
-        // Where all particles are the same world, one of them says it all, and the search need not redo its steps.
+        // If all particles are equal, one root suffices and the search can cache its transitions.
         let different = if roots.iter().all(|root| root == &roots[0]) { &roots[..1] } else { roots };
         let imagined: Vec<Imagined> =
             different.iter().map(|&state| Imagined::new(&model.objective, state)).collect();
-        // A generator of its own for every decision: how long a search takes changes nothing that comes later.
+        // Each decision has its own generator, so the length of a search does not affect later decisions.
         let mut random = stream(random.next_u64(), Purpose::Search, 0);
         let decision = self.pomcp.search(&model, &imagined, &mut random)?;
         let evidence = actions
@@ -206,10 +205,10 @@ fn summary(candidate: &Candidate) -> SubgoalValue {
     SubgoalValue { subgoal: candidate.subgoal, value: candidate.value, particles: candidate.particles.len() }
 }
 
-/// Entities that all particles believe to be in the same place. Nobody need go and look whether an object lies
-/// where it has just been put.
+/// Entities on whose position all particles agree. An agent need not verify the position of an object it has
+/// just put down.
 fn known_places(physique: &Physique, particles: &[State]) -> BodySet {
-    /// Greatest distance between places that count as the same (u).
+    /// Maximum distance between positions that count as equal (u).
     const SAME: f32 = 0.5;
     let mut known = BodySet::EMPTY;
     let Some(first) = particles.first() else { return known };

@@ -1,4 +1,4 @@
-//! A subgoal as the low level sees it: a distance to bring down, and a direction that does.
+//! A subgoal as the low-level planner sees it: a distance to minimise and a waypoint.
 
 use crate::course::{self, Course, Way};
 use phase_model::{
@@ -11,21 +11,21 @@ use phase_planner::{
 };
 use phase_predicates::is_true;
 
-/// Longest straight distance in the arena (u); distances are scaled by it in rewards.
+/// Diagonal of the arena (u), the scale of distances in rewards.
 pub const LONGEST: f32 = 28.284;
-/// What an object not in hand adds to the distance of Attach (u): more than standing next to it gains.
+/// Penalty while the object of an Attach subgoal is not held (u), more than the gain of standing next to it.
 const NOT_IN_HAND: f32 = 2.0;
-/// Half of what turning one's back on what one is to get close to costs (u).
+/// Half of the heading penalty for facing away from the target (u).
 const FACING: f32 = 0.5;
-/// What facing an entity costs at the edge of the field of view, 55° off (u).
+/// Heading penalty at the edge of the field of view, 55° off (u).
 const IN_VIEW: f32 = 0.42 * FACING;
-/// Room kept between bodies that pass each other (u).
+/// Clearance between bodies that pass each other (u).
 const CLEARANCE: f32 = 0.4;
-/// How far from the landmark that it is kept off the other agent is not minded any more (u).
+/// Distance from the guarded landmark beyond which the other agent's proximity is not penalised (u).
 const KEPT_OFF: f32 = 6.0;
-/// How far from a landmark its guard goes at most (u).
+/// Maximum distance of a guard from its landmark (u).
 const GREATEST_REACH: f32 = 4.0;
-/// What the other agent's being where it should not adds to the distance of keeping it out (u).
+/// Penalty while the other agent is on the guarded landmark (u).
 const TRESPASS: f32 = 8.0;
 
 /// One agent's subgoal, in one scene.
@@ -39,19 +39,19 @@ pub struct Objective<'a> {
     pub agent: AgentId,
     /// What is pursued.
     pub subgoal: Subgoal,
-    /// Where to go first to make room for another try, if the agent does not get on (u).
+    /// Back-off point to visit first if the agent has stalled (u).
     pub retreat: Option<Vec2>,
 }
 
 impl Objective<'_> {
-    /// How far a state is from the subgoal (u); 0 where it is reached, finite for every finite state.
+    /// Distance of a state from the subgoal (u); 0 where it is achieved, finite for every finite state.
     #[must_use]
     pub fn distance(&self, state: &State) -> f32 {
         self.look(state).0
     }
 
-    /// The distance of a state, and the course, if the distance is taken along it, so that nobody need lay the
-    /// same course twice.
+    /// The distance of a state, and the steering if the distance was measured along it, so that it is computed
+    /// once.
     #[must_use]
     pub fn look(&self, state: &State) -> (f32, Option<Course>) {
         if let Some(place) = self.retreat {
@@ -86,9 +86,8 @@ impl Objective<'_> {
         (distance, course)
     }
 
-    /// What not facing the entity one is to get close to or keep off adds (u). It makes agents look
-    /// where they are going, and turn to where they believe something unseen to be; that is how they find it, or
-    /// find it gone.
+    /// Heading penalty (u) for not facing the entity to approach or keep off. It makes agents look where they go
+    /// and turn to the believed position of an unobserved entity, which confirms or refutes it.
     fn averted(&self, state: &State, literal: Literal) -> f32 {
         let me = Entity::Agent(self.agent);
         let other = Entity::Agent(self.agent.other());
@@ -101,15 +100,15 @@ impl Objective<'_> {
         self.turned_away(state, state.position(target))
     }
 
-    /// What not facing a point costs (u).
+    /// Heading penalty for not facing a point (u).
     fn turned_away(&self, state: &State, target: Vec2) -> f32 {
         let body = state.body(Entity::Agent(self.agent));
         let way = (target - body.position).normalize_or_zero();
         FACING * (1.0 - way.dot(body.forward()))
     }
 
-    /// What the other agent's being near to the landmark that it is to be kept off adds (u): its guard pushes it
-    /// back rather than just stand there.
+    /// Proximity penalty (u) for the other agent's closeness to the guarded landmark, so that the guard pushes
+    /// it back.
     fn nearness(&self, state: &State, literal: Literal) -> f32 {
         let other = Entity::Agent(self.agent.other());
         match (literal.predicate, literal.holds) {
@@ -121,7 +120,7 @@ impl Objective<'_> {
         }
     }
 
-    /// The entity whose place the subgoal is about and that the agent can move: itself or what it holds.
+    /// The entity that the subgoal positions and the agent controls: itself or the object it holds.
     #[must_use]
     pub fn mover(&self, state: &State) -> Entity {
         match self.subgoal {
@@ -134,7 +133,7 @@ impl Objective<'_> {
         }
     }
 
-    /// The way that is left for the mover, round bodies that stand in it.
+    /// Steering of the moved entity, around bodies in the way.
     #[must_use]
     pub fn course(&self, state: &State) -> Course {
         let mut course = self.open_course(state);
@@ -153,7 +152,7 @@ impl Objective<'_> {
             .map(|entity| (state.position(entity), self.physique.radius(entity) + clearance));
         let from = state.position(mover);
         let bent = course::around(course, from, discs);
-        // In a door one has to go on before one can turn off.
+        // Inside a door, proceed before turning off.
         let heading_for = if self.grazes(from, bent.heading_for, self.physique.radius(mover)) {
             course.heading_for
         } else {
@@ -171,8 +170,8 @@ impl Objective<'_> {
             .any(|&wall| way.crosses(wall) || way.distance(wall.a).min(way.distance(wall.b)) < radius)
     }
 
-    /// Whether an entity is to be walked round: it is neither the agent nor what the subgoal is about, and
-    /// neither of them holds it.
+    /// Whether an entity is an obstacle: neither the agent nor the subgoal's target, nor held by or with
+    /// either.
     fn is_in_the_way(&self, state: &State, entity: Entity) -> bool {
         let me = Entity::Agent(self.agent);
         let about = match self.subgoal {
@@ -191,7 +190,7 @@ impl Objective<'_> {
         entity != me && entity != about && !mine
     }
 
-    /// The way that is left for the mover, as if nobody stood in it but in doors.
+    /// Steering of the moved entity, ignoring other bodies except in doors.
     fn open_course(&self, state: &State) -> Course {
         let mover = self.mover(state);
         let from = state.position(mover);
@@ -237,7 +236,7 @@ impl Objective<'_> {
                 let target = arena::LANDMARKS[landmark];
                 let reach = self.physique.radius(entity) + self.physique.agents[self.agent].radius;
                 let offset = state.position(entity) - target;
-                // Half-way, so that whoever has been pushed back is pushed on.
+                // Half-way, so that a body that has been pushed back is pushed further.
                 let most = (0.5 * offset.length()).min(GREATEST_REACH).max(reach);
                 self.towards(state, from, target + offset.clamp_length_max(most))
             }
@@ -250,18 +249,18 @@ impl Objective<'_> {
         self.along(state, &way, course::to_point)
     }
 
-    /// The course along a way, if nobody has to be let through first.
+    /// Steering along a path, unless another body has priority.
     fn along(&self, state: &State, way: &Way<'_>, course: fn(&Way<'_>) -> Course) -> Course {
         let mut course = self.give_way(state, way).unwrap_or_else(|| course(way));
         if let Some(door) = way.barred().filter(|_| state.grips[self.agent].is_none()) {
-            // Whoever cannot go on watches for what may come through the door.
+            // An agent that cannot pass watches the door.
             course.remaining += self.turned_away(state, door);
         }
         course
     }
 
-    /// The course to a place to wait at while the other agent is in the door, unless the two carry something
-    /// together or the other is what this is about.
+    /// Steering to a waiting point while the other agent occupies the door, unless both carry the same
+    /// object or the other agent is the target.
     fn give_way(&self, state: &State, way: &Way<'_>) -> Option<Course> {
         let Subgoal::Achieve(Literal { predicate, holds: true }) = self.subgoal else { return None };
         let other = Entity::Agent(self.agent.other());
@@ -274,7 +273,7 @@ impl Objective<'_> {
             return None;
         }
         let mut course = course::give_way(way, state.position(other), self.agent == AgentId::ONE)?;
-        // Whoever waits looks at whom it waits for, or it will not see that the door is free again.
+        // A waiting agent faces the other one, so that it observes when the door is free.
         course.remaining += (self.turned_away(state, state.position(other)) - IN_VIEW).max(0.0);
         Some(course)
     }
@@ -307,7 +306,7 @@ impl Objective<'_> {
         course
     }
 
-    /// Something that has to move but is not in hand: get to it, and what it has left counts as well.
+    /// For an object that has to move but is not held: approach it, and add its own remaining distance.
     fn escort(&self, state: &State, entity: Entity, target: Vec2) -> Course {
         let mut course = self.up_to(state, entity);
         course.remaining += course::to_point(&Way::find(
@@ -320,7 +319,7 @@ impl Objective<'_> {
         course
     }
 
-    /// By way of doors, from the other agent to this one (u).
+    /// Path length from the other agent to this one (u).
     fn apart(&self, state: &State) -> f32 {
         let (me, other) = (Entity::Agent(self.agent), Entity::Agent(self.agent.other()));
         let width = self.physique.agents[self.agent.other()].width();

@@ -1,28 +1,29 @@
-//! Noticing that one does not get on, and making room for another try.
+//! Stall detection and back-off.
 
 use crate::{course::Course, objective::Objective};
 use phase_model::{Entity, Literal, State, Subgoal, Vec2, arena, physique::GROUND_FRICTION};
 use rand::{Rng, RngExt};
 
-/// Who has come no farther than this is where it was (u).
+/// Displacement below which an agent counts as not having moved (u).
 const SAME_PLACE: f32 = 0.5;
-/// Who has turned no farther than this faces where it faced (rad).
+/// Rotation below which an agent counts as not having turned (rad).
 const SAME_HEADING: f32 = 0.5;
-/// Steps in one place before an agent may lose its patience.
+/// Steps without motion after which an agent counts as stalled.
 const WAIT: u32 = 6;
-/// Chance of losing it in each step after that. Two who hold each other up must not do so at once.
+/// Probability of backing off in each later step; random, so that two agents that block each other do not both back
+/// off.
 const LOSS: f64 = 0.3;
-/// Steps of making room.
+/// Duration of the back-off (steps).
 const RETREAT: u32 = 5;
-/// How far one goes back (u).
+/// Distance of the back-off (u).
 const ROOM: f32 = 1.5;
-/// Nearer than this to what one heads for there is nothing to get on to (u).
+/// Distance to the waypoint below which no progress is expected (u).
 const NEARLY_THERE: f32 = 1.0;
 
-/// How long an agent has been held up, and where it goes back to if it was too long.
+/// Detects that an agent has stalled, and chooses a back-off point.
 ///
-/// No search of a few steps sees that what it imagines has failed to come about for many: two who push against
-/// each other, or one that is stuck in a door, imagine every time that the next push will do.
+/// A search of limited depth cannot see that its prediction has failed repeatedly: agents that push against
+/// each other, or one stuck in a door, predict success of the next push in every step.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct Patience {
     since: Option<(Vec2, f32)>,
@@ -31,8 +32,8 @@ pub struct Patience {
 }
 
 impl Patience {
-    /// Takes in that an agent is about to act for an objective in a state. The place to go back to (u) if it has
-    /// lost its patience; `random` is drawn from only if it might.
+    /// Updates the detector before a decision. Returns the back-off point (u) while the agent backs off; draws
+    /// from `random` only once it has stalled.
     pub fn lose(&mut self, objective: &Objective<'_>, state: &State, random: &mut impl Rng) -> Option<Vec2> {
         if let Some((place, steps)) = self.retreat {
             self.retreat = (steps > 1).then_some((place, steps - 1));
@@ -60,8 +61,8 @@ impl Patience {
     }
 }
 
-/// The direction in which an agent means to get on; `None` if it need not, waits for a door, or is not able to:
-/// with a load that it cannot move, or that the other holds as well, all it can do is pull.
+/// The direction of intended progress; `None` if no progress is expected: at the target, waiting for a door, or
+/// holding an object that it cannot move or that the other agent holds too.
 fn onward(objective: &Objective<'_>, state: &State) -> Option<Vec2> {
     let Subgoal::Achieve(Literal { holds: true, .. }) = objective.subgoal else { return None };
     let (me, other) = (objective.agent, objective.agent.other());
@@ -75,7 +76,7 @@ fn onward(objective: &Objective<'_>, state: &State) -> Option<Vec2> {
     (way.length() > NEARLY_THERE).then(|| way.normalize_or_zero())
 }
 
-/// Where to make room: straight back, or to the side where a wall is behind.
+/// The back-off point: straight back, or to a side if a wall is behind.
 fn back(objective: &Objective<'_>, from: Vec2, onward: Vec2) -> Vec2 {
     let inset = Vec2::splat(objective.physique.agents[objective.agent].radius);
     let free = |place: &Vec2| {
@@ -88,7 +89,7 @@ fn back(objective: &Objective<'_>, from: Vec2, onward: Vec2) -> Vec2 {
 }
 
 impl Objective<'_> {
-    /// The course back to a place, and whatever is in hand with one.
+    /// Steering to the back-off point, taking a held object along.
     pub(crate) fn back_to(&self, state: &State, place: Vec2) -> Course {
         let way = place - state.position(Entity::Agent(self.agent));
         Course { heading_for: state.position(self.mover(state)) + way, remaining: way.length() }

@@ -2,19 +2,19 @@
 
 use phase_model::{Action, AgentId, Entity, Literal, Place, Predicate, State, Subgoal};
 
-/// For getting oneself somewhere: people see purpose in bodies that move the way they face.
+/// For locomotion: viewers attribute intent to bodies that move in the direction they face.
 const WALKING: [Action; 5] = [Action::TurnLeft, Action::TurnRight, Action::Up, Action::Stop, Action::NoForce];
-/// The same with a step back, for whom another body holds up: face to face there is no room to turn.
+/// The same with a backward push, for agents in contact: face to face there is no clearance to turn.
 const BACKING_OFF: [Action; 6] =
     [Action::TurnLeft, Action::TurnRight, Action::Up, Action::Stop, Action::NoForce, Action::Down];
-/// For letting go: first come to rest, so that the object stays where it is put.
+/// For releasing: come to rest first, so that the object stays in place.
 const RELEASING: [Action; 3] = [Action::Stop, Action::NoForce, Action::Detach];
 /// Number of leading actions of [`Action::ALL`] without grabbing and letting go.
 const WITHOUT_HANDS: usize = 12;
 /// Number of leading actions of [`Action::ALL`] without letting go.
 const WITHOUT_RELEASE: usize = 13;
 
-/// The actions to search, never empty; a single one needs no search. Who `retreats` may step back.
+/// The actions to search, never empty; a single one needs no search. With `retreats`, pushing backward is included.
 #[must_use]
 pub fn actions(agent: AgentId, subgoal: Subgoal, state: &State, retreats: bool) -> &'static [Action] {
     let Subgoal::Achieve(Literal { predicate, holds }) = subgoal else { return &[Action::Stop] };

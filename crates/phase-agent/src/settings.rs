@@ -1,9 +1,8 @@
-//! The numbers of a mind.
+//! Parameters of a mind.
 
 use serde::{Deserialize, Serialize};
 
-/// How exactly an agent works out the futures that it imagines while it searches. Its belief is always moved on
-/// exactly.
+/// Fidelity of the dynamics that an agent's search uses. Its belief is always predicted with exact steps.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Foresight {
@@ -28,7 +27,7 @@ impl Foresight {
     }
 }
 
-/// How an agent thinks. The defaults are the paper's.
+/// Parameters of an agent's mind. The defaults are the paper's.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Settings {
     /// K, the number of belief particles; at least 1.
@@ -37,7 +36,7 @@ pub struct Settings {
     pub lambda: f64,
     /// POMCP simulations a decision; at least 1.
     pub simulations: usize,
-    /// Steps of the default policy after the tree is left.
+    /// Steps of the rollout policy after a leaf of the tree.
     pub rollout_steps: usize,
     /// c_init of PUCT.
     pub c_init: f64,
@@ -45,10 +44,9 @@ pub struct Settings {
     pub c_base: f64,
     /// Discount of the next step's reward relative to this one's.
     pub discount: f64,
-    /// Share of rollout actions that head for the subgoal instead of being drawn evenly, 0 to 1.
+    /// Share of rollout actions taken from the heuristic instead of uniformly sampled, 0 to 1.
     pub guidance: f64,
-    /// How exactly futures are worked out. Files written before there was a choice say nothing, and meant
-    /// `exact`.
+    /// Fidelity of the search's dynamics. Absent in older files, which means `exact`.
     #[serde(default = "before_there_was_a_choice")]
     pub foresight: Foresight,
 }

@@ -19,9 +19,9 @@ pub const FRAMES: usize = 10;
 /// Rows from one window of frames to the next when all of an event is looked at.
 pub const STRIDE: usize = 5;
 
-/// Node embeddings of ten frames, all tied to all by dot products; what the nodes take from each other is added to what
-/// they are. Goals from the agents, the relation from the greatest over the nodes, both for every frame; the answers
-/// of frames are averaged, and so are those of windows.
+/// Node embeddings of ten frames, related to each other by dot-product attention with a residual connection. Goals come
+/// from the agent nodes, the relation from a max-pool over all nodes, both for every frame; logits are averaged over
+/// frames and over windows.
 #[derive(Clone, Debug)]
 pub struct Arg {
     nodes: NodeEmbedding,
@@ -30,7 +30,7 @@ pub struct Arg {
     relation: Perceptron,
 }
 
-/// One way of being related: who looks, who is looked at, and what is taken from it.
+/// One relation graph: query, key and value projections.
 #[derive(Clone, Debug)]
 struct Graph {
     from: Layer,
@@ -45,10 +45,9 @@ struct Window {
 }
 
 impl Arg {
-    /// A network with so many numbers in every layer and so many graphs over the same nodes.
+    /// A network with the given number of hidden units and of relation graphs over the same nodes.
     ///
-    /// # Errors
-    /// If there is no memory for it.
+    /// # Errors If a tensor cannot be allocated.
     pub fn new(hidden: usize, graphs: usize, random: &mut Pcg64Mcg) -> Result<Self> {
         let nodes = NodeEmbedding::new(hidden, random)?;
         let mut layer = || Layer::new(hidden, hidden, random);

@@ -36,8 +36,7 @@ pub trait Forecasting {
     /// How far everything that moves will have come [`HORIZON`] steps on from some moments (u), in that order:
     /// (moments · [`MOVING`]) × [`HORIZON`] × 2. What it says of absent objects means nothing.
     ///
-    /// # Errors
-    /// If there is no such moment, or no memory.
+    /// # Errors If there is no such origin, or a tensor cannot be allocated.
     fn displacements(&self, batch: &Batch, moments: &[Moment]) -> Result<Tensor>;
 
     /// The moments of a batch it learns from, and those it is measured at. All but the last row of each event, unless
@@ -51,8 +50,7 @@ pub trait Forecasting {
     /// Where everything will be in the next `steps` steps. [`HORIZON`] of them are predicted; if there are more, the
     /// network is shown what it predicted as if it had come, and asked again.
     ///
-    /// # Errors
-    /// If there is no memory for it.
+    /// # Errors If a tensor cannot be allocated.
     fn forecast(&self, event: &ObservedEvent, steps: usize) -> Result<Forecast> {
         let entities = event.entities().count();
         let mut forecast = vec![Vec::with_capacity(steps + HORIZON); entities];
@@ -74,8 +72,8 @@ pub trait Forecasting {
     }
 }
 
-/// The event as it goes on if the last [`HORIZON`] positions of a forecast come true: velocities are those between
-/// positions, and nothing turns, for only positions are predicted. `None` if a number is none.
+/// The event extended by the last [`HORIZON`] positions of a forecast, with velocities from finite differences and
+/// constant angles. `None` if a value is not finite.
 fn continued(event: &ObservedEvent, forecast: &Forecast) -> Option<ObservedEvent> {
     let mut rows = event.rows().to_vec();
     for step in (0..HORIZON).rev() {

@@ -50,7 +50,7 @@ pub fn class_of(agent: AgentId, goal: Goal) -> Option<usize> {
     }
 }
 
-/// Whether a class is about an object that an event with so many objects has not got.
+/// Whether a class refers to an object that is absent in an event with the given number of objects.
 #[must_use]
 pub fn is_absent(class: usize, objects: usize) -> bool {
     let first = 3 * PLACES;

@@ -15,11 +15,10 @@ pub struct Layer {
 }
 
 impl Layer {
-    /// A layer from `inputs` numbers (at least 1) to `outputs`; weights and biases are drawn evenly from
-    /// ±1/√inputs, the custom of the field.
+    /// A layer from `inputs` numbers (at least 1) to `outputs`; weights and biases are uniformly sampled
+    /// from ±1/√inputs, the usual initialisation.
     ///
-    /// # Errors
-    /// If there is no memory for it.
+    /// # Errors If a tensor cannot be allocated.
     pub fn new(inputs: usize, outputs: usize, random: &mut Pcg64Mcg) -> Result<Self> {
         let bound = 1.0 / (inputs.max(1) as f32).sqrt();
         let mut draw = |count: usize| -> Vec<f32> {

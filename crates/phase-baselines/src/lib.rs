@@ -1,4 +1,4 @@
-//! What is learnt from data: training of neural networks on social events.
+//! Training of neural networks on social events.
 //!
 //! - [`strength`] trains SIMPLE's guess at agents' strengths, which `phase_simple::StrengthRegressor` evaluates,
 //! - [`two_level_lstm`] and [`arg`] are the paper's baselines for Task 1,
@@ -10,10 +10,10 @@
 //!
 //! The key design decision is that all chance (first weights, order of samples, what is drawn from an event) comes from
 //! one seed through `phase_model::random`, none from the library for neural networks. So the same seed and samples give
-//! the same weights, bit for bit, and a training that was broken off goes on as if it had not been. The price is that the
-//! optimiser and the LSTM are our own, and that the promise ends where processors have different instructions for
-//! multiplying matrices. Those of the strengths are small enough for one thread; those of the baselines take as many as
-//! `RAYON_NUM_THREADS` says; one and two gave the same weights (`docs/networks.md`).
+//! the same weights, bit for bit, and a training that was broken off goes on as if it had not been. The price is that
+//! the optimiser and the LSTM are our own, and that the promise holds only for processors with the same
+//! matrix-multiplication instructions. Those of the strengths are small enough for one thread; those of the baselines
+//! take as many as `RAYON_NUM_THREADS` says; one and two gave the same weights (`docs/networks.md`).
 //!
 //! Nothing here reads a file, looks at a clock or prints; `train` in `phase-cli` does. No other crate of the library uses
 //! this one: the library for neural networks takes long to build.

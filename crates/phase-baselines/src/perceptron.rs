@@ -4,7 +4,7 @@ use crate::{layer::Layer, parameters::Parameter};
 use candle_core::{Module, Result, Tensor};
 use phase_model::random::Pcg64Mcg;
 
-/// Layers with max(0, ·) after each but the last.
+/// Fully connected layers with ReLU after each but the last.
 #[derive(Clone, Debug)]
 pub struct Perceptron {
     layers: Vec<Layer>,
@@ -13,8 +13,7 @@ pub struct Perceptron {
 impl Perceptron {
     /// Layers between each two sizes that follow each other, at least two of them.
     ///
-    /// # Errors
-    /// If there is no memory for it.
+    /// # Errors If a tensor cannot be allocated.
     pub fn new(sizes: &[usize], random: &mut Pcg64Mcg) -> Result<Self> {
         let layers = sizes.windows(2).map(|pair| Layer::new(pair[0], pair[1], random));
         Ok(Self { layers: layers.collect::<Result<_>>()? })
@@ -22,13 +21,12 @@ impl Perceptron {
 
     /// The paper's head: three hidden layers of as many numbers as come in, then one for each answer.
     ///
-    /// # Errors
-    /// If there is no memory for it.
+    /// # Errors If a tensor cannot be allocated.
     pub fn head(hidden: usize, answers: usize, random: &mut Pcg64Mcg) -> Result<Self> {
         Self::new(&[hidden, hidden, hidden, hidden, answers], random)
     }
 
-    /// What is to be learnt, named.
+    /// Trainable parameters with their names.
     #[must_use]
     pub fn parameters(&self, name: &str) -> Vec<Parameter> {
         let layers = self.layers.iter().enumerate();

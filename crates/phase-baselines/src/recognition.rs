@@ -31,7 +31,7 @@ pub struct LabelledEvent {
 
 /// A goal that is none of the [`classes`].
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Error)]
-#[error("the goal of agent {agent} is none that networks tell apart")]
+#[error("the goal of agent {agent} has no class")]
 pub struct LabelError {
     /// Whose goal.
     pub agent: AgentId,
@@ -90,14 +90,12 @@ pub trait Recognition {
     /// What it says of some events. Networks that look at a part of what they are shown draw it while they learn; without
     /// a generator they look at everything.
     ///
-    /// # Errors
-    /// If there is no memory for it.
+    /// # Errors If a tensor cannot be allocated.
     fn answers(&self, batch: &Batch, chance: Option<&mut Pcg64Mcg>) -> Result<Answers>;
 
     /// The answer to one event, goals most likely first.
     ///
-    /// # Errors
-    /// If there is no memory for it.
+    /// # Errors If a tensor cannot be allocated.
     fn judge(&self, event: &ObservedEvent) -> Result<Judgement> {
         let nodes = Nodes::of(event);
         let batch = Batch::new(&[&nodes])?;
@@ -141,7 +139,7 @@ pub(crate) fn shortcoming(measure: &Measure) -> f64 {
     measure.scores.iter().map(|right| 1.0 - right).sum()
 }
 
-/// Mean surprise at the right classes, and the share of them that were thought likeliest.
+/// Mean cross-entropy of the true classes, and top-1 accuracy.
 fn held_against(logs: &Tensor, right: Vec<u32>) -> Result<(Tensor, f64)> {
     let count = right.len();
     let right = Tensor::from_vec(right, (count, 1), &Device::Cpu)?;

@@ -16,9 +16,9 @@ pub const CELLS: usize = 4;
 /// Side of a cell (u).
 pub const CELL: f32 = 4.0;
 
-/// What moves has an LSTM, whose input is its features and a grid of its neighbours: in each cell the sum of what those
-/// in it put out at the step before. Landmarks and walls, which have no LSTM, are in the grid with an embedding.
-/// After every step the next ten positions come straight from what the LSTM puts out.
+/// Every moving node has an LSTM; its input is the node's features and a social-pooling grid that sums, for each cell,
+/// the neighbours' hidden states of the previous step. Landmarks and walls, which have no LSTM, enter the grid with an
+/// embedding. After every step a linear layer predicts the next ten positions from the hidden state.
 #[derive(Clone, Debug)]
 pub struct SocialLstm {
     features: Layer,
@@ -30,10 +30,9 @@ pub struct SocialLstm {
 }
 
 impl SocialLstm {
-    /// A network with so many numbers in every layer.
+    /// A network with the given number of hidden units in every layer.
     ///
-    /// # Errors
-    /// If there is no memory for it.
+    /// # Errors If a tensor cannot be allocated.
     pub fn new(hidden: usize, random: &mut Pcg64Mcg) -> Result<Self> {
         Ok(Self {
             features: Layer::new(FEATURES, hidden, random)?,

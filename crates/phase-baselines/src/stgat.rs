@@ -1,4 +1,4 @@
-//! STGAT, after Huang et al. (2019): how each moves, who looks at whom at every step, what comes of it.
+//! STGAT, after Huang et al. (2019): motion LSTM, graph attention at every step, graph LSTM and decoder.
 
 use crate::{
     attention::{UNSEEN, attend},
@@ -51,10 +51,9 @@ struct Head {
 }
 
 impl Stgat {
-    /// A network with so many numbers in every layer, a multiple of the number of heads.
+    /// A network with the given number of hidden units in every layer, a multiple of the number of attention heads.
     ///
-    /// # Errors
-    /// If there is no memory for it.
+    /// # Errors If a tensor cannot be allocated.
     pub fn new(hidden: usize, heads: usize, random: &mut Pcg64Mcg) -> Result<Self> {
         let features = Layer::new(FEATURES, hidden, random)?;
         let motion = Lstm::new(hidden, hidden, random)?;

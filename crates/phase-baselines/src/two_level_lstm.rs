@@ -24,10 +24,9 @@ pub struct TwoLevelLstm {
 }
 
 impl TwoLevelLstm {
-    /// A network with so many numbers in every layer.
+    /// A network with the given number of hidden units in every layer.
     ///
-    /// # Errors
-    /// If there is no memory for it.
+    /// # Errors If a tensor cannot be allocated.
     pub fn new(hidden: usize, random: &mut Pcg64Mcg) -> Result<Self> {
         Ok(Self {
             nodes: NodeEmbedding::new(hidden, random)?,

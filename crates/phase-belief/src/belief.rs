@@ -11,7 +11,7 @@ use rand::Rng;
 /// The paper's number of particles, K.
 pub const PARTICLE_COUNT: usize = 50;
 
-/// What one agent holds for possible: K whole states of the world, each consistent with what it observes.
+/// One agent's particle belief: K complete states of the world, each consistent with its observation.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Belief {
     agent: AgentId,
@@ -123,9 +123,8 @@ impl Belief {
     }
 }
 
-/// What would be in the agent's grip if the prediction were true, and yet is not felt: it is not there. Whoever
-/// reaches for something behind its back and grasps nothing has learned that. Predicted contacts are not
-/// precise enough for the same conclusion.
+/// Entities that the prediction puts in the agent's grip although no touch is observed, which rules them out
+/// there. Predicted contacts are not precise enough for the same conclusion.
 fn unfelt(physique: &Physique, particle: &State, agent: AgentId, observed: BodySet) -> BodySet {
     let in_hand = particle.held_object(agent).map(Entity::Object);
     physique.entities().filter(|&entity| !observed.contains(entity) && Some(entity) == in_hand).collect()

@@ -52,8 +52,8 @@
 //! their weights counts: it would have been noticed in any of them. Strips between cells that happen to have
 //! been missed would otherwise attract bodies that do not fit into them.
 //!
-//! A redrawn body rests, an agent's heading is uniform, and nobody holds it or is held. If a body is held in
-//! a particle and either of the two is redrawn, the grip is gone; the other stays where it was.
+//! A resampled body is at rest and neither holds nor is held; an agent's heading is uniform. If either side
+//! of a grip is resampled, the grip is dropped and the other body stays.
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]

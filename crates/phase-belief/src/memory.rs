@@ -5,11 +5,11 @@ use phase_perception::{Cell, CellSet, cells::CELL_COUNT};
 
 /// The τ of [`hiding_weight`] for agents, which move by themselves (steps).
 pub const AGENT_FORGETTING: f32 = 20.0;
-/// The τ for objects, which move only when somebody moves them (steps). Events are 40 to 100 steps long.
+/// The τ for objects, which move only when moved (steps). Events are 40 to 100 steps long.
 pub const OBJECT_FORGETTING: f32 = 200.0;
 
-/// How well a body may have got into a cell that was last seen `age` steps ago (`None`: never), from 0 to 1:
-/// 1 − exp(−age/τ), with τ in steps. Exactly 0 for a cell that is seen now, exactly 1 for one never seen.
+/// Prior weight, 0 to 1, that an unobserved body occupies a cell last seen `age` steps ago (`None`: never):
+/// 1 − exp(−age/τ), with τ in steps. Exactly 0 for a visible cell, exactly 1 for one never seen.
 #[must_use]
 pub fn hiding_weight(age: Option<u32>, forgetting: f32) -> f32 {
     age.map_or(1.0, |age| -libm::expm1f(-(age as f32) / forgetting))

@@ -107,9 +107,9 @@ impl<'a> Placer<'a> {
         None
     }
 
-    /// Goes through all cells and picks one of the possible places in proportion to its weight. If no place
-    /// is possible, one that is at least clear of walls and bodies, or else of walls, or else where the body
-    /// was, and false.
+    /// Enumerates a grid of poses and samples a feasible one in proportion to its weight. If none is
+    /// feasible, returns false with one that is at least clear of walls and bodies, else of walls, else the
+    /// previous pose.
     fn search(
         &mut self,
         entity: Entity,
@@ -147,7 +147,7 @@ impl<'a> Placer<'a> {
         (clear.kept.or(inside.kept).or(rest).unwrap_or(Body::at_rest(arena::CENTRE, 0.0)), false)
     }
 
-    /// The weights of all cells for one kind of entity, reckoned when first needed.
+    /// The weights of all cells for one kind of entity, computed on first use.
     fn weights(&mut self, entity: Entity) -> &Weights {
         let weights = match entity {
             Entity::Agent(_) => &mut self.agents,
@@ -157,7 +157,7 @@ impl<'a> Placer<'a> {
     }
 }
 
-/// Places spread evenly over a cell, with random headings.
+/// A regular grid of positions in a cell, with random headings.
 fn places(cell: Cell, entity: Entity, rng: &mut impl Rng) -> [Body; PLACES_PER_SIDE * PLACES_PER_SIDE] {
     core::array::from_fn(|place| {
         let (column, row) = (place % PLACES_PER_SIDE, place / PLACES_PER_SIDE);

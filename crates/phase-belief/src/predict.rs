@@ -5,10 +5,10 @@ use phase_model::{AGENT_COUNT, Action, AgentId, BodySet, Dynamics, Entity, Physi
 
 /// Advances a particle by one step in which the believing agent acts and the other goes on as it was going.
 ///
-/// The dynamics know only agents that push and agents that coast to a stop. Someone who walks does neither,
-/// so the other agent's velocity is kept after the step, and with it that of the object it holds, wherever
-/// nothing is in the way; where something is, the dynamics' outcome stands. If the other agent is observed at
-/// the end of the step, this does not matter and is left out. Free objects coast, for nobody drives them.
+/// Without an action the dynamics would let the other agent coast to a stop. The constant-motion assumption
+/// keeps its velocity instead, and that of the object it holds, unless something is in the way; then the
+/// result of the dynamics stands. This is skipped if the other agent is observed at the end of the step. Free
+/// objects coast.
 pub(crate) fn predict(
     dynamics: &impl Dynamics,
     physique: &Physique,

@@ -29,10 +29,10 @@ impl Weights {
         self.weights[cell.index()]
     }
 
-    /// A cell in proportion to its weight, or `None` if all weigh nothing.
+    /// Samples a cell in proportion to its weight; `None` if all weights are 0.
     pub(crate) fn draw(&self, rng: &mut impl Rng) -> Option<Cell> {
         let mark = rng.random::<f32>() * self.sums[CELL_COUNT - 1];
-        // Rounding may put the mark onto the very end, past all cells.
+        // Rounding may place the sample past the last cell.
         Cell::from_index(self.sums.partition_point(|&sum| sum <= mark))
     }
 

@@ -5,7 +5,7 @@ use phase_model::{
 };
 use serde::Serialize;
 
-/// The largest errors over all bodies at one moment. Infinite where a number is none.
+/// The largest errors over all bodies at one moment. Infinite where a value is NaN.
 #[derive(Clone, Copy, PartialEq, Debug, Default, Serialize)]
 pub struct Deviation {
     /// Distance between positions (u).

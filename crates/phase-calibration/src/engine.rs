@@ -1,4 +1,4 @@
-//! What an engine has to offer to be held against records.
+//! The interface that an engine implements to be compared with recordings.
 
 use phase_model::{AGENT_COUNT, Action, Physique, State, Vec2, arena::SUBSTEPS};
 

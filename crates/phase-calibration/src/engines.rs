@@ -1,4 +1,4 @@
-//! The project's two engines as something that can be held against records.
+//! Adapters of the project's two engines for the comparison with recordings.
 
 use crate::Engine;
 use phase_forward::{Forward, Memory};

@@ -1,4 +1,4 @@
-//! How far an engine of the PHASE physics comes out from recorded motion.
+//! Errors of a physics engine with respect to recorded motion.
 //!
 //! Three kinds of record are replayed with the actions that made them: [`Probe`]s, each a few steps of one
 //! effect; [`Run`]s, a hundred steps of everything; and [`Replay`]s, real recordings whose actions are known.

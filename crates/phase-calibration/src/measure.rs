@@ -1,4 +1,4 @@
-//! Holding an engine against many records.
+//! Comparing an engine with many recordings.
 
 use crate::{
     Ahead, Deviation, Engine, FamilyReport, Followed, Probe, ProbeReport, ProbesReport, Replay, Run,

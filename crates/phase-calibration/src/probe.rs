@@ -32,7 +32,7 @@ pub struct Probe {
     pub held: Vec<[Option<ObjectId>; AGENT_COUNT]>,
 }
 
-/// How far an engine came out from a probe.
+/// Errors of an engine on a probe.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Followed {
     /// Before the first step, after the engine's own idle substep; only where bodies overlap at the start can

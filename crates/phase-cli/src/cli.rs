@@ -41,7 +41,7 @@ pub enum Command {
     NewScene(NewScene),
     /// Make a dataset of social events, with videos and a page to look at them
     GenDataset(GenDataset),
-    /// Put the shards of a dataset together
+    /// Merge the shards of a dataset
     Merge(Merge),
     /// Check how a dataset is divided into train, validation and test, or divide it
     Splits(Splits),

@@ -1,6 +1,6 @@
 //! Lines for whoever started the program.
 //!
-//! The standard macros panic when nobody listens any more (`… | head`); a run must not end for that.
+//! The standard macros panic on a closed pipe (`… | head`), which must not end a run.
 
 use std::{
     fmt::Display,

@@ -11,12 +11,12 @@ use phase_sim::{Engine, Settings};
 /// What events play in, how long they last and how hard agents think; the defaults are the paper's.
 #[derive(Args, Debug)]
 pub struct Effort {
-    /// Physics that the events themselves play in: `world` (rapier2d) or `forward` (the kernel that agents
-    /// imagine with, nearest to the published simulator) [default: world]
+    /// Physics engine of the events: `world` (rapier2d) or `forward` (the kernel that the agents' search
+    /// uses, closest to the published simulator) [default: world]
     #[arg(long, value_name = "ENGINE", hide_possible_values = true, value_parser = engines())]
     pub engine: Option<Engine>,
-    /// How exactly agents work out the futures they imagine: `coarse` or `exact`, which takes several times as
-    /// long [default: coarse]
+    /// Fidelity of the dynamics in the agents' search: `coarse`, or `exact`, which takes several times as long
+    /// [default: coarse]
     #[arg(long, value_name = "HOW", hide_possible_values = true, value_parser = foresights())]
     pub foresight: Option<Foresight>,
     /// Belief particles of each agent [default: 50]

@@ -42,7 +42,7 @@ pub enum CliError {
     #[error("{0}; remove the folder or choose another")]
     Altered(#[source] FileError),
     /// There is no preset of this name.
-    #[error("--preset: there is no preset {name:?}; there is {known}")]
+    #[error("--preset: unknown preset {name:?}; available: {known}")]
     UnknownPreset {
         /// The name given.
         name: String,
@@ -85,7 +85,7 @@ pub enum CliError {
     #[error(transparent)]
     Sample(#[from] SampleError),
     /// No scene of a slot showed its label.
-    #[error("event {id}: no scene ({}) showed its label ({reasons}); the preset's selection.attempts is the limit", variant.name())]
+    #[error("event {id}: no scene ({}) was accepted within selection.attempts of the preset ({reasons})", variant.name())]
     Exhausted {
         /// The event.
         id: String,
@@ -182,7 +182,7 @@ pub enum CliError {
     Train(#[from] TrainError),
     /// A file of weights cannot be used.
     #[cfg(feature = "networks")]
-    #[error("{}: is no complete file of weights: {source}", file.display())]
+    #[error("{}: is not a complete file of weights: {source}", file.display())]
     Weights {
         /// The file.
         file: PathBuf,

@@ -1,4 +1,4 @@
-//! Ctrl-C: once to stop in good order, twice to stop at once.
+//! Ctrl-C: once for a graceful stop, twice to stop immediately.
 
 use crate::console::print_message;
 use std::sync::{

@@ -14,14 +14,14 @@ const SHEET_SIDE: u32 = 320;
 /// Lines of text below frames that show a mind at work.
 const CAPTION_LINES: u32 = crate::captions::COUNT as u32;
 
-/// One agent's mind at one frame.
+/// One agent's field of view and belief at one frame.
 #[derive(Clone, Debug)]
 pub struct Mind {
     /// Whose.
     pub agent: AgentId,
     /// What it sees.
     pub visible: CellSet,
-    /// What it holds possible.
+    /// Its belief particles.
     pub particles: Vec<State>,
     /// What to write above.
     pub title: String,

@@ -153,13 +153,13 @@ pub fn write_video(path: &Path, id: &str, event: &Event) -> Result<(), CliError>
     picture::write_video(path, id, &event.scene.physique(), Palette::PAPER, &shots)
 }
 
-/// Stands for everything that decides an event besides its scene and seed: the settings and this very program.
+/// Digest of everything that determines an event besides its scene and seed: the settings and this executable.
 /// An event cached by another build is made again, so that no dataset mixes two.
 fn fingerprint(settings: &Value) -> [u8; 32] {
     sha256(&[&program()[..], settings.to_string().as_bytes()].concat())
 }
 
-/// Stands for this very program.
+/// Digest of this executable.
 #[must_use]
 pub fn program() -> [u8; 32] {
     let program = std::env::current_exe().and_then(std::fs::read).map(|bytes| sha256(&bytes));

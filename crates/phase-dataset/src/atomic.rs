@@ -40,7 +40,7 @@ pub fn write_json_line(path: &Path, value: &impl Serialize) -> Result<(), WriteE
     write(path, format!("{text}\n").as_bytes())
 }
 
-/// Removes a file; that there is none is fine.
+/// Removes a file if it exists.
 ///
 /// # Errors
 /// If it is there and stays.
@@ -111,7 +111,7 @@ impl Write for AtomicFile {
 
 impl Drop for AtomicFile {
     fn drop(&mut self) {
-        // After a rename there is nothing to remove, and a failure to clear up has nobody to be told to.
+        // After a rename there is nothing to remove, and a failure here cannot be reported.
         let _ = fs::remove_file(&self.part);
     }
 }

@@ -43,7 +43,7 @@ pub enum Problem {
         source: serde_json::Error,
     },
     /// It is JSON of the right format and complete, but its parts do not agree.
-    #[error("is no complete {what}: {rule}")]
+    #[error("is not a complete {what}: {rule}")]
     Shape {
         /// What it should be.
         what: &'static str,
@@ -54,7 +54,7 @@ pub enum Problem {
     #[error("differs in {0} from what its manifest says")]
     Altered(&'static str),
     /// It is no Parquet file, or a damaged one.
-    #[error("is no whole Parquet file: {0}")]
+    #[error("is not a complete Parquet file: {0}")]
     Parquet(#[source] Box<dyn core::error::Error + Send + Sync>),
     /// It is a Parquet file whose pages are damaged.
     #[error("is no whole Parquet file: its pages cannot be decoded")]

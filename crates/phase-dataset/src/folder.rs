@@ -22,7 +22,7 @@ const MARKER_FORMAT: &str = "phase-run/1";
 pub enum Contents {
     /// Nothing, or it is not there at all.
     Nothing,
-    /// A run that was broken off; with its description.
+    /// An interrupted run, with its description.
     Unfinished(Value),
     /// A run that came to its end: the file that is written last is there.
     Finished,
@@ -35,7 +35,7 @@ pub enum FolderError {
     #[error("{}: is a file; the output needs a folder", .0.display())]
     IsFile(PathBuf),
     /// It holds something that is not ours.
-    #[error("{}: holds something else ({entry}); choose an empty or a new folder", path.display())]
+    #[error("{}: contains other files ({entry}); choose an empty or a new folder", path.display())]
     Foreign {
         /// The folder.
         path: PathBuf,
@@ -54,7 +54,7 @@ pub enum FolderError {
     #[error(transparent)]
     NotWritable(#[from] WriteError),
     /// Another run is writing into it right now.
-    #[error("{}: another run is writing into this folder; wait for it or choose another folder", .0.display())]
+    #[error("{}: is in use by another run; wait for it to finish or choose another folder", .0.display())]
     Busy(PathBuf),
 }
 

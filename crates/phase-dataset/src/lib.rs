@@ -8,9 +8,9 @@
 //! - [`summary`] compares simulations with recordings.
 //! - [`atomic`], [`folder`] and [`cache`] let a run be interrupted at any moment and nothing be half-written.
 //!
-//! The key design decision is that files are read by hand from a tree of JSON values instead of by derived
-//! readers: whoever made the file learns which field of which event breaks which rule. The price is a reader
-//! four times as long, and a file has to fit in memory twice.
+//! Key design decision: files are read by hand from a tree of JSON values instead of by derived readers, so
+//! that errors name the event, the field and the rule. The cost is a reader four times as long, and a file
+//! has to fit in memory twice.
 //!
 //! Together with the command line this crate is where the outside world is touched; it does so only at paths
 //! it is given.

@@ -35,7 +35,7 @@ pub struct Manifest {
     pub generator: String,
     /// Name of the preset it was made from.
     pub preset: String,
-    /// The seed from which all chance in it was derived.
+    /// The random seed of the dataset.
     pub seed: u64,
     /// Settings of simulation and minds.
     pub settings: Value,
@@ -54,7 +54,7 @@ pub struct Manifest {
 pub struct EventEntry {
     /// Name.
     pub id: String,
-    /// What kind of event it was made to show.
+    /// The intended kind of event.
     pub kind: EventKind,
     /// How its kind was to come about; not known of other programs' events.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -44,8 +44,9 @@ pub struct Selection {
     pub max_steps: usize,
     /// Scenes tried for an event before the run is given up.
     pub attempts: usize,
-    /// Whether adversarial events, which may go on for ever, end at a step drawn evenly from `min_steps` to
-    /// `max_steps`. Else all of them last as long as can be, and their length tells the relation.
+    /// Whether adversarial events, which need not end by themselves, end at a step uniformly sampled from
+    /// `min_steps` to `max_steps`. Otherwise all of them last to the maximum, and their length reveals the
+    /// relation.
     #[serde(default)]
     pub draw_ends: bool,
 }
@@ -88,8 +89,8 @@ pub struct Slot {
     pub layouts: String,
 }
 
-/// The slots of a preset: its groups in even proportion from the first slot to the last, and from the beginning
-/// again for datasets that are larger. Goals go on by turns, so that they stay balanced.
+/// The slots of a preset: its groups interleaved evenly, repeated for larger datasets. Goals rotate, so that
+/// they stay balanced.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Composition {
     slots: Vec<Slot>,

@@ -1,4 +1,4 @@
-//! What was tried for each event of a dataset, and why it was refused.
+//! The attempts at each event of a dataset, with the reasons for rejection.
 
 use crate::{WriteError, atomic, manifest::EventEntry};
 use phase_evidence::selection::Refusal;
@@ -19,7 +19,7 @@ pub struct Record {
 }
 
 impl Record {
-    /// The record in a file, or an empty one if there is none that can be trusted: then the slot begins anew.
+    /// The record in a file, or an empty one if there is no valid one; the slot then starts over.
     #[must_use]
     pub fn load(path: &Path, fingerprint: &str) -> Self {
         let text = std::fs::read_to_string(path).unwrap_or_default();

@@ -19,7 +19,7 @@ pub struct Whole {
     pub preset: String,
     /// Number of events.
     pub events: usize,
-    /// The seed from which all chance is derived.
+    /// The random seed of the dataset.
     pub seed: u64,
     /// Name and version of the program.
     pub generator: String,

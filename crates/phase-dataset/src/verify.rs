@@ -34,8 +34,8 @@ pub fn verify(folder: &Path, manifest: &Manifest) -> Vec<FileError> {
     problems
 }
 
-/// As [`verify`], with somebody else to see to the work: `run` carries out so many checks, numbered from 0, in any
-/// order and on any threads, and returns the answers by number. `done` is told how much of [`work`] a check was.
+/// As [`verify`], with an executor: `run` performs the given number of checks, numbered from 0, in any order and
+/// on any threads, and returns the results by number. `done` receives the share of [`work`] of each check.
 ///
 /// # Errors
 /// Those of `run`.
@@ -71,7 +71,7 @@ pub fn verify_with<E>(
         problems.extend(problem);
     }
     let parts = parquet::parts(&manifest.events);
-    // The page shows videos, and goes without saying where there are none.
+    // The page exists only if there are videos.
     let page = manifest.events.iter().any(|event| event.video.is_some()).then_some(PAGE_FILE);
     let described = [CARD_FILE, CROISSANT_FILE].into_iter().chain(page);
     for path in described.chain(parts.iter().map(|part| part.path.as_str())) {

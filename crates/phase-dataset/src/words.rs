@@ -126,7 +126,7 @@ pub const fn relation(relation: Relation) -> &'static str {
     }
 }
 
-/// What to look for in an event of a kind.
+/// What characterises an event of a kind.
 #[must_use]
 pub const fn kind(kind: EventKind) -> &'static str {
     match kind {

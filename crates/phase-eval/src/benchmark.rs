@@ -63,11 +63,10 @@ pub struct Row<S> {
     pub training: Option<usize>,
     /// How well it does.
     pub summary: S,
-    /// What its goals are taken for; of Task 1 alone.
+    /// Error breakdown of its goals; Task 1 only.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mistakes: Option<goals::Mistakes>,
-    /// How well it does on events like and unlike those of the training and validation splits; empty where nobody
-    /// knows.
+    /// Scores on events with seen and unseen layouts or interaction types; empty if unknown.
     pub parts: Vec<Part<S>>,
 }
 
@@ -94,18 +93,18 @@ pub enum Familiarity {
     UnseenInteraction,
 }
 
-/// How a network came by its weights.
+/// How a network was trained.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Training {
     /// The kind of network.
     pub network: String,
-    /// Numbers that were learnt.
+    /// Number of trainable parameters.
     pub weights: usize,
     /// The seed.
     pub seed: u64,
-    /// The name of the dataset learnt from.
+    /// Name of the training dataset.
     pub dataset: String,
-    /// Events learnt from.
+    /// Number of training events.
     pub events: usize,
     /// Events of a round.
     pub round: usize,
@@ -124,7 +123,7 @@ pub struct Training {
 pub struct Curve {
     /// What is measured.
     pub measure: String,
-    /// On the events learnt from, while they were.
+    /// On the training events, during training.
     pub training: Vec<f64>,
     /// On the validation events.
     pub validation: Vec<f64>,

@@ -1,4 +1,4 @@
-//! What a method of perception has to be.
+//! The interface of a method of social perception.
 
 use crate::{goals::AnswerError, trajectories::ForecastError};
 use core::ops::ControlFlow;
@@ -28,10 +28,10 @@ impl MethodError {
     }
 }
 
-/// To be called now and then while a method thinks; the method gives up, with `Ok(None)`, when told to break.
+/// Called periodically while a method works; the method stops with `Ok(None)` on `Break`.
 pub type Tick<'a> = &'a mut dyn FnMut() -> ControlFlow<()>;
 
-/// An answer, and whatever the method wants to have kept beside it; `None` if it was told to break.
+/// An answer with optional details; `None` if the method was cancelled.
 pub type Answered<T> = Result<Option<(T, Value)>, MethodError>;
 
 /// A method for Task 1, joint inference of goals and relations.

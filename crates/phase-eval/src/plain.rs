@@ -1,4 +1,4 @@
-//! The plainest methods: what is reached without perceiving anything.
+//! Trivial baselines: what is reached without perception.
 
 use crate::method::{Answered, Forecaster, Recogniser, Tick};
 use phase_event::ObservedEvent;

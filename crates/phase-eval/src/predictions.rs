@@ -1,4 +1,4 @@
-//! The answers of somebody else's method to either task, from a file.
+//! Predictions of an external method for either task, from a file.
 
 use crate::{
     goals::{Answer, canonical},

@@ -19,7 +19,7 @@ pub struct Step {
 pub struct Event {
     /// The scene.
     pub scene: Scene,
-    /// The seed from which all chance in the event was derived.
+    /// The random seed of the event.
     pub seed: u64,
     /// The state before the first step.
     pub initial: State,

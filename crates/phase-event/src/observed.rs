@@ -55,7 +55,7 @@ impl ObservedEvent {
         }
     }
 
-    /// The event as it is known after its first steps; all of it if it has no more.
+    /// The first steps of the event; all of it if it has no more.
     #[must_use]
     pub fn watched_for(&self, steps: usize) -> Self {
         let rows = self.rows.iter().take(steps.saturating_add(1)).copied().collect();
@@ -116,7 +116,7 @@ impl ObservedEvent {
         }
     }
 
-    /// Row `t` as a state without grips and contacts, which no trajectory tells; `None` past the last row.
+    /// Row `t` as a state without grips and contacts, which trajectories do not contain; `None` past the last row.
     #[must_use]
     pub fn state(&self, t: usize) -> Option<State> {
         self.rows.get(t).copied().map(State::new)

@@ -31,7 +31,7 @@ pub struct Recording {
     pub id: String,
     /// The scene, starting at row 0.
     pub scene: Scene,
-    /// The relation the scene was made to show.
+    /// The intended relation.
     pub relation: Relation,
     /// The relation that human viewers saw.
     pub relation_human: Option<Relation>,

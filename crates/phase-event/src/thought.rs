@@ -3,7 +3,7 @@
 use phase_model::{Action, Subgoal};
 use serde::{Deserialize, Serialize};
 
-/// A subgoal that some particles proposed, and what the high level made of it.
+/// A subgoal proposed by some particles, with its value.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 pub struct SubgoalValue {
     /// The subgoal.
@@ -14,12 +14,12 @@ pub struct SubgoalValue {
     pub particles: usize,
 }
 
-/// What the low level found out about one action at the root of its search.
+/// Search statistics of one root action.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 pub struct ActionValue {
     /// The action.
     pub action: Action,
-    /// Simulations that began with it.
+    /// Number of simulations that began with it.
     pub visits: u32,
     /// Mean discounted return of those.
     pub value: f64,
@@ -43,7 +43,7 @@ impl Thought {
     pub const IDLE: Self =
         Self { subgoal: Subgoal::Stay, subgoals: Vec::new(), plan: Vec::new(), actions: Vec::new() };
 
-    /// What the particles say about the subgoal pursued; `None` if none of them proposed it.
+    /// The value of the subgoal pursued; `None` if no particle proposed it.
     #[must_use]
     pub fn pursued(&self) -> Option<&SubgoalValue> {
         self.subgoals.iter().find(|proposed| proposed.subgoal == self.subgoal)

@@ -64,7 +64,7 @@ pub fn door_of(track: &Track, routes: &Routes, state: &State, agent: AgentId) ->
     })
 }
 
-/// Where an agent with a goal has to go: to the object that nobody has hold of yet, else to the goal's end.
+/// The next target of an agent with a goal: the object while it is not held, else the goal's landmark or agent.
 #[must_use]
 pub fn next_place(goal: Goal, state: &State) -> Option<Vec2> {
     match goal {

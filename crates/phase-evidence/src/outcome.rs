@@ -12,7 +12,7 @@ pub struct Outcome {
     /// Whether it was reached. To be (or to keep someone off) somewhere counts at the end of the event, to
     /// touch someone at any time, and to get away from someone at the end again.
     pub reached: bool,
-    /// Steps until a positive goal was reached: for good, or for the first time if it is to touch someone.
+    /// Steps until a positive goal was reached permanently, or for the first time for touch goals.
     pub steps: Option<usize>,
 }
 

@@ -7,7 +7,7 @@ use crate::{
 use glam::Vec3;
 use phase_model::{Action, AgentBody, Body, Vec2, physique};
 
-/// Index of the one body that stands for everything that does not move.
+/// Index of the static body.
 pub(crate) const STATIC: usize = 4;
 
 /// Mass, shape and forces of one body. All points are relative to the centre of mass, in the body's frame.
@@ -18,7 +18,7 @@ pub(crate) struct Shape {
     /// Inverse mass (twice) and inverse inertia, to go with a [`Twist`].
     pub(crate) yielding: Vec3,
     pub(crate) mass: f32,
-    /// How much less than the mass a sideways push at the origin has to move (kg).
+    /// Reduction of the effective mass for a lateral force at the origin, compared with the mass (kg).
     pub(crate) yielding_mass: f32,
     /// Distance of the origin ahead of the centre of mass (u).
     pub(crate) origin: f32,
@@ -205,7 +205,7 @@ impl Motion {
         }
     }
 
-    /// Whether it neither moves nor turns.
+    /// Whether linear and angular velocity are zero.
     #[inline]
     pub(crate) fn is_still(&self) -> bool {
         self.velocity == Vec2::ZERO && self.spin == 0.0

@@ -1,4 +1,4 @@
-//! Steps for imagination: fewer and longer substeps, and grips that do not give.
+//! Coarse steps for the search: fewer, longer substeps and rigid grips.
 
 use crate::{
     contact::Contact,
@@ -30,7 +30,7 @@ const CORRECTION: f32 = 0.5;
 /// The contacts of a substep.
 type Touches = ArrayVec<Contact, MAX_CONTACTS>;
 
-/// One step as a planner imagines it: as [`phase_model::Dynamics::step`], at a fraction of its cost.
+/// One approximate step: as [`phase_model::Dynamics::step`], at a fraction of its cost.
 pub(crate) fn step(model: &Model, state: &mut State, actions: [Action; AGENT_COUNT]) {
     let mut world = World::new(model, state, actions);
     let let_go = world.grab(state);

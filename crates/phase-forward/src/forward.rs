@@ -59,7 +59,7 @@ impl Forward {
         substeps
     }
 
-    /// One step as a planner imagines it: as [`phase_model::Dynamics::step`], at a fraction of its cost.
+    /// One approximate step: as [`phase_model::Dynamics::step`], at a fraction of its cost.
     pub fn step_coarse(&self, state: &mut State, actions: [Action; AGENT_COUNT]) {
         coarse::step(&self.model, state, actions);
     }

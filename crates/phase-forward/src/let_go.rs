@@ -1,4 +1,4 @@
-//! Pairs that hold each other, or did so just before, and therefore do not touch.
+//! Collision filtering of pairs that are held or were released recently.
 
 use crate::{
     key::{PAIRS, bit, pair_key, pair_of},
@@ -54,7 +54,7 @@ impl World<'_> {
         }
     }
 
-    /// Lets pairs touch again of which one has moved away from where it was let go of.
+    /// Restores collisions of released pairs once one of the two has moved clear.
     pub(crate) fn reunite(&mut self) {
         for (pair, (a, b)) in PAIRS.into_iter().enumerate() {
             let moved = |body: usize| {

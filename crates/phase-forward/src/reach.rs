@@ -78,7 +78,7 @@ pub(crate) fn members(world: &mut World<'_>) -> BodySet {
     members | grouped
 }
 
-/// Whether bodies of different groups may meet in the coming step.
+/// Whether bodies of different rigid groups may collide in the coming step.
 pub(crate) fn strangers_meet(world: &World<'_>, groups: &Groups) -> bool {
     let model = world.model;
     let way = |body: usize| {
@@ -111,8 +111,8 @@ pub(crate) fn at_work(world: &mut World<'_>, members: BodySet, apart: KeySet) ->
     Some((busy, pairs | walls))
 }
 
-/// Those of the given bodies that the coming substep can change: all but those at ease that are near
-/// nobody else. The others are at ease no more.
+/// The bodies that the coming substep may change: all but sleeping bodies without an active
+/// neighbour. Neighbours of active bodies are woken.
 fn busy(world: &mut World<'_>, members: BodySet, pairs: KeySet) -> BodySet {
     let mut busy = members & !world.at_ease;
     if busy == members {

@@ -41,11 +41,11 @@ impl Wall {
 /// A set of walls, one bit each.
 pub(crate) type WallSet = u16;
 
-/// Walls are held against a box four at a time.
+/// Walls are tested against a box four at a time.
 const GROUPS: usize = MAX_WALLS.div_ceil(4);
 
-/// The boxes around all walls, skin included, coordinate by coordinate, so that one box is held against many
-/// at once. Those of walls that are not there are empty.
+/// AABBs of all walls, skin included, as a structure of arrays, so that one box is tested against several at
+/// once. Boxes of absent walls are empty.
 #[derive(Clone, Debug)]
 pub(crate) struct Boxes {
     min_x: [f32x4; GROUPS],

@@ -1,4 +1,4 @@
-//! The bodies at work: a state taken apart for solving, and put together again.
+//! The solver's working state: a state unpacked for solving and packed again.
 
 use crate::{
     body::Motion,
@@ -46,7 +46,7 @@ pub(crate) struct World<'a> {
     pub(crate) let_go_at: [Vec2; 4],
     /// How far each body has to move from there before it counts as clear (u).
     pub(crate) let_go_room: [f32; 4],
-    /// Bodies at rest of which it is known that the ground and the walls leave them where they are.
+    /// Sleeping bodies: at rest and in equilibrium with ground friction and walls.
     pub(crate) at_ease: u8,
     /// Iterations of the velocity solver in the coming substep.
     pub(crate) iterations: usize,
@@ -57,7 +57,7 @@ pub(crate) struct World<'a> {
 }
 
 impl<'a> World<'a> {
-    /// Takes a state apart. Numbers that make no sense are mended, and centres of mass brought into the arena.
+    /// Unpacks a state. Invalid values are replaced, and centres of mass are clamped to the arena.
     pub(crate) fn new(model: &'a Model, state: &State, actions: [Action; AGENT_COUNT]) -> Self {
         let mut motions = [Motion::STILL; 5];
         for (index, motion) in motions.iter_mut().enumerate().take(model.count) {
@@ -164,8 +164,8 @@ impl<'a> World<'a> {
     }
 }
 
-/// Greatest speed that is taken seriously (u/s), and spin (rad/s); bodies that move freely are limited to far
-/// less anyway.
+/// Largest accepted speed (u/s) and angular velocity (rad/s) of an input state; free motion is limited to far
+/// less.
 const FASTEST: f32 = 1e4;
 /// Greatest angle that is taken seriously (rad); beyond it, neighbouring numbers are a visible turn apart.
 const FARTHEST_TURN: f32 = 1e5;
@@ -189,7 +189,7 @@ fn is_sane(body: &Body) -> bool {
         && !body.velocity.is_nan()
 }
 
-/// The same body with numbers that make sense: 0 for those that are none, the nearest for those out of range.
+/// The body with invalid values replaced: 0 for non-finite ones, the nearest bound for those out of range.
 fn mended(body: Body) -> Body {
     let number = |x: f32, most: f32| if x.is_nan() { 0.0 } else { x.clamp(-most, most) };
     Body {

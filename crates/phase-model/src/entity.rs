@@ -1,4 +1,4 @@
-//! Who is in a scene: two agents and up to two objects.
+//! Entities of a scene: two agents and up to two objects.
 
 use crate::{AgentId, ObjectId};
 use serde::{Deserialize, Serialize};

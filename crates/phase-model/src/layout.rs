@@ -155,7 +155,7 @@ impl TryFrom<u8> for Flip {
     }
 }
 
-/// Why there is no such layout.
+/// An invalid layout number.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Error)]
 pub enum LayoutError {
     /// The base number is past the last.

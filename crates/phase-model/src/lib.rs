@@ -1,4 +1,4 @@
-//! The words of PHASE, without physics and without I/O.
+//! The vocabulary of PHASE: plain types without physics or I/O.
 //!
 //! PHASE (Netanyahu et al., AAAI 2021) describes social events as a decentralised partially observable
 //! Markov decision process: two agents share a physical state, see parts of it and act at once. This crate

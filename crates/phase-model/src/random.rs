@@ -19,7 +19,7 @@ pub enum Purpose {
     Attempt = 5,
     /// Proposals of an inference.
     Inference = 6,
-    /// How long an event may last.
+    /// Sampled lengths of events.
     Length = 7,
     /// What a method of perception draws on one event, by the hash of its id.
     Evaluation = 8,

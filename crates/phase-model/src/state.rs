@@ -228,8 +228,8 @@ pub trait Dynamics {
     /// Advances the state by one step: five substeps of 1/60 s under the two agents' actions.
     fn step(&self, state: &mut State, actions: [Action; AGENT_COUNT]);
 
-    /// Advances the state by one step as roughly as is good enough for weighing actions against each other,
-    /// thousands of steps to a decision. Like [`step`](Self::step) unless there is something cheaper.
+    /// Advances the state by one step approximately, for comparing actions within a search. The default is
+    /// [`step`](Self::step).
     fn imagine(&self, state: &mut State, actions: [Action; AGENT_COUNT]) {
         self.step(state, actions);
     }

@@ -43,7 +43,7 @@ fn faults_are_named() {
         (|s| s.agents[0].start.position.x = f32::NAN, "agents[0].start must hold finite numbers"),
         (|s| s.objects[0].start.angle = f32::INFINITY, "objects[0].start must hold finite numbers"),
         (|s| s.agents[1].start.position.y = 22.5, "agents[1].start must lie inside the arena"),
-        (|s| s.agents[0].goal = object_on(1, 2), "agents[0].goal names object 1"),
+        (|s| s.agents[0].goal = object_on(1, 2), "agents[0].goal refers to object 1"),
         (
             |s| {
                 s.agents[1].goal =

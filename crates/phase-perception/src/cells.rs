@@ -1,4 +1,4 @@
-//! The 20 × 20 grid of 1 × 1 u cells in which seeing is reckoned.
+//! The 20 × 20 grid of 1 × 1 u cells used for visibility.
 
 use phase_model::{Vec2, arena};
 

@@ -38,7 +38,7 @@ fn near(outline: &Outline) -> impl Iterator<Item = Cell> {
     Cell::in_box(min, max)
 }
 
-/// An outline prepared for being held against many cells, all of the same size.
+/// An outline prepared for overlap tests with many cells of equal size.
 enum Shape {
     /// The outward normals of the four edges, how far along each the outline reaches, and how much more or
     /// less a cell's centre may lie along it for the cell to be touched or covered.

@@ -25,9 +25,8 @@
 //!
 //! The eye sits in the agent's centre of mass and looks along its heading, [54.69°](eye::TAN_HALF_ANGLE) to
 //! either side, as far as the arena reaches. Inner walls, objects and the other agent stand in the way, the
-//! bodies as discs. An object that the agent itself holds is no exception, so whoever carries something in
-//! front of its head sees little else: the paper has all entities obstruct the view, and an object does not
-//! turn transparent by being held.
+//! bodies as discs. A held object is no exception, so an agent that carries something in front of its head
+//! sees little else: in the paper all entities obstruct the view.
 //!
 //! # The key design decisions
 //!

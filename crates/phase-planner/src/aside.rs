@@ -1,4 +1,4 @@
-//! Getting out of the other agent's way.
+//! Yielding: clearing the other agent's path.
 
 use crate::{
     plan::{is, not},
@@ -10,10 +10,10 @@ use phase_model::{
     layout::room_of,
 };
 
-/// Room left beside the other on its way (u).
+/// Lateral clearance to the other agent's path (u).
 const CLEARANCE: f32 = 0.4;
 
-/// Where an agent stands too near to the way that the other has to a landmark.
+/// An agent that obstructs the other agent's path to a landmark.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Intrusion {
     /// The nearest point of the other's way (u).
@@ -22,8 +22,8 @@ pub struct Intrusion {
     pub place: Vec2,
 }
 
-/// Whether an agent stands in the way that the other, or what it holds, has to a landmark, so that the two
-/// bodies could not pass each other; `None` if it stands beside that way, or behind the other.
+/// Whether an agent obstructs the path of the other, or of the object the other holds, to a landmark;
+/// `None` if the two bodies can pass each other, or the agent is behind the other.
 #[must_use]
 pub fn intrusion(
     physique: &Physique,
@@ -47,15 +47,14 @@ pub fn intrusion(
     let is_free = |place: Vec2| {
         arena::contains(place - inset) && arena::contains(place + inset) && room_of(place) == room_of(here)
     };
-    // A little farther than need be, so as not to stop on the brink.
+    // With a margin, so that the agent does not stop exactly at the limit.
     let beside = [away, -away].map(|side| nearest + side * (room + CLEARANCE));
     let place = beside.into_iter().find(|&place| is_free(place)).unwrap_or(beside[0]);
     Some(Intrusion { nearest, place })
 }
 
-/// What an agent with nothing to do for the other's goal brings about if it stands in the other's way: it
-/// leaves a door that the other would fit through, then the way to the landmark that the other, or what it
-/// holds, is to be on.
+/// Subgoal of an agent without a part in the other's plan that obstructs the other: leave a door that the
+/// other would fit through, then the path to the landmark of the other's goal.
 #[must_use]
 pub(crate) fn subgoal(situation: &Situation<'_>, agent: AgentId, goal: Goal) -> Option<Subgoal> {
     let me = Entity::Agent(agent);
@@ -73,7 +72,7 @@ pub(crate) fn subgoal(situation: &Situation<'_>, agent: AgentId, goal: Goal) -> 
         .map(|_| not(Predicate::On(me, landmark)))
 }
 
-/// Whether the agent's own body keeps the other from a door that it would fit through.
+/// Whether the agent's body blocks a door that the other would fit through otherwise.
 fn stands_in_a_door(situation: &Situation<'_>, agent: AgentId) -> bool {
     let other = agent.other();
     let radius = |agent: AgentId| situation.physique.agents[agent].radius;

@@ -1,4 +1,4 @@
-//! Getting away from the other agent.
+//! Evading the other agent.
 
 use crate::{
     plan::{self, Plan},
@@ -6,15 +6,15 @@ use crate::{
 };
 use phase_model::{AgentId, BodySet, Entity, LandmarkId, Predicate, layout::room_of};
 
-/// What a room must offer over staying put before it is worth running for (u).
+/// Minimum gain in separation, over staying, for which a room is chosen (u).
 const WORTHWHILE: f32 = 2.0;
-/// How much of its own way the fleeing agent sets against the distance gained.
+/// Weight of the evader's own travel relative to the separation gained.
 const EFFORT: f32 = 0.5;
-/// Further away than this by way of doors, nobody need run (u).
+/// Path length to the pursuer beyond which the evader stays (u).
 const SAFE: f32 = 20.0;
 
-/// Where to run: of the four rooms and the present spot, the one that puts most distance between the two,
-/// provided the fleeing agent is nearer to every door on the way than its pursuer.
+/// The refuge: of the four rooms and the present position, the one with the greatest separation, provided
+/// the evader reaches every door on its path before the pursuer.
 #[must_use]
 pub fn plan(situation: &Situation<'_>, agent: AgentId) -> Plan {
     let (me, other) = (Entity::Agent(agent), Entity::Agent(agent.other()));

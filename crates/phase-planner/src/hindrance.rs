@@ -1,8 +1,8 @@
 //! Keeping the other agent from its goal.
 //!
-//! The hinderer asks, for everything it could bring about, how much the other's best plan would then cost,
-//! and weighs that against its own way. The other's cost is A*'s, so the hinderer knows what the other
-//! knows of doors, widths and strengths.
+//! For every candidate interference, the hinderer computes by A* what the other's best plan would then
+//! cost, and subtracts a share of its own travel. The estimate therefore accounts for doors, widths and
+//! strengths.
 
 use crate::{
     express::express,
@@ -20,17 +20,17 @@ use phase_model::{
 };
 use phase_predicates::achieved;
 
-/// How much of its own way the hinderer sets against the other's cost.
+/// Weight of the hinderer's own travel relative to the other's cost.
 const EFFORT: f32 = 0.4;
-/// Greatest effect that counts (u): whatever makes the goal impossible is as good as anything else that does.
+/// Cap of the effect (u), so that all ways of making the goal infeasible count alike.
 const GREATEST_EFFECT: f32 = 80.0;
-/// What standing in the way is worth where no door can be blocked (u).
+/// Value of obstructing the other where no door can be blocked (u).
 const IN_THE_WAY: f32 = 8.0;
-/// How much later than the other the hinderer may be at a door and still hope to close it (u).
+/// Path length by which the hinderer may be behind the other at a door that it tries to block (u).
 const LATE: f32 = 1.0;
 
-/// The most harmful thing an agent can do to a goal of the other. A negated goal is hindered by bringing its
-/// positive about.
+/// The most effective interference with a goal of the other. A negated goal is hindered by achieving its
+/// positive form.
 #[must_use]
 pub fn plan(situation: &Situation<'_>, agent: AgentId, goal: Goal) -> Plan {
     let mut candidates = match goal {
@@ -54,14 +54,15 @@ pub fn plan(situation: &Situation<'_>, agent: AgentId, goal: Goal) -> Plan {
     best.map_or(Plan::STAY, |(_, plan)| plan)
 }
 
-/// What the other wants not to be. An agent that is to be on a landmark against its will has to be pushed there.
+/// Achieves what the other tries to avoid. An agent that is to be on a landmark against its own goal has to be pushed
+/// there.
 fn bring_about(situation: &Situation<'_>, agent: AgentId, goal: Goal) -> Plan {
     let task = lone_task(situation, agent, goal, None);
     let subject = goal.subject();
     if let Some(plan) = search::solve(&task, Node::start(situation)) {
         let mut plan = express(&task, &plan, agent);
         if let Entity::Object(object) = subject {
-            // Against the other's will, things stay only where they are held.
+            // Since the other would undo it, the object has to be held in place.
             plan.subgoals.retain(|&subgoal| subgoal != plan::not(Predicate::Attach(agent, object)));
         }
         return plan;
@@ -227,8 +228,8 @@ fn keep_object_off(
     candidates
 }
 
-/// The present symbolic state, but for what the hinderer holds: letting go must not look harmful only because
-/// holding on is.
+/// The present symbolic state with the hinderer's hands free, so that releasing does not appear effective
+/// only because holding is.
 fn hands_free(situation: &Situation<'_>, agent: AgentId) -> Node {
     let mut node = Node::start(situation);
     node.holds[agent] = None;

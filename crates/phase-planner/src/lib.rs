@@ -5,10 +5,9 @@
 //! of one or both agents, and the agent's own part of the cheapest plan is put into predicates
 //! ([`Subgoal`](phase_model::Subgoal)). [`value::candidates`] then weighs the first subgoals of all particles (V with λ = 0.05).
 //!
-//! The key design decision is that nothing is forbidden that could be tried: a door too narrow or a load too
-//! heavy costs more than any way round instead of cutting the search off. A weak agent without help still
-//! goes and pulls, as people expect to see. The price is that a plan's existence does not mean that it will
-//! succeed; its cost does.
+//! Key design decision: nothing that can be attempted is pruned. A door that is too narrow or a load that is
+//! too heavy costs more than any detour. A weak agent without help still pulls at its load, as viewers
+//! expect. The cost is that the existence of a plan does not imply success; its cost does.
 //!
 //! This crate knows no physics engine: widths, forces and straight distances are all it uses, so it plans for
 //! whoever has a map. One agent is to get from the upper left room to the lower right one, where walls leave one
@@ -33,7 +32,7 @@
 //! let words: Vec<String> = plan.subgoals.iter().map(|subgoal| subgoal.to_string()).collect();
 //! assert_eq!(words[0], "Close(agent 0, landmark 3)"); // the next room on the way
 //! assert_eq!(words[3], "On(agent 0, landmark 1)");
-//! assert!(plan.distance > 16.0); // farther than the bird flies
+//! assert!(plan.distance > 16.0); // longer than the straight line
 //! # Ok::<(), phase_model::LayoutError>(())
 //! ```
 

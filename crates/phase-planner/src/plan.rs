@@ -7,7 +7,7 @@ use crate::{
 use phase_model::{AGENT_COUNT, AgentId, Entity, Literal, Place, Predicate, Subgoal, layout::room_of};
 use phase_predicates::is_true;
 
-/// What an agent means to do, from one possible world.
+/// An agent's plan from one possible state.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Plan {
     /// The agent's own subgoals in order. Empty when there is nothing for it to do.
@@ -39,13 +39,13 @@ pub(crate) fn visit(situation: &Situation<'_>, agent: AgentId, entity: Entity) -
         rooms(route, from, to, me, &mut subgoals);
     }
     subgoals.push(is(Predicate::Close(me, Place::Entity(entity))));
-    // Near and yet unobserved, it is behind one's back: reaching for it means turning to it.
+    // Close and yet unobserved means behind the agent's back: approaching it means turning round.
     subgoals.push(is(Predicate::Touch(agent, entity)));
     skip_done(situation, &mut subgoals);
     Plan { subgoals, distance: route.map_or(0.0, |route| route.cost()) }
 }
 
-/// Drops the leading subgoals that hold already: what is left begins with something to bring about.
+/// Drops the leading subgoals that are satisfied already.
 pub(crate) fn skip_done(situation: &Situation<'_>, subgoals: &mut Vec<Subgoal>) {
     let done = subgoals
         .iter()

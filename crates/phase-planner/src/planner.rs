@@ -14,7 +14,7 @@ use crate::{
 use phase_model::{AGENT_COUNT, AgentId, Attitude, BodySet, Entity, Goal, Layout, Physique, Sign, State};
 use phase_predicates::achieved;
 
-/// What a helper's own travel counts for beside the helpee's: of two ways that are equally short it takes the
+/// Effort weight of a helper's own travel relative to the helpee's: of two equally short plans it takes the
 /// one that spares the other.
 const HELPERS_EFFORT: f32 = 0.5;
 
@@ -22,7 +22,7 @@ const HELPERS_EFFORT: f32 = 0.5;
 /// [`crate::routes::IMPASSABLE_COST`] and the cost of a load too heavy.
 const HOPELESS: f32 = 60.0;
 
-/// The high-level planner of one agent: what it knows that does not change.
+/// The high-level planner of one agent, with everything that does not change during an event.
 #[derive(Clone, Debug)]
 pub struct Planner {
     physique: Physique,
@@ -67,8 +67,8 @@ impl Planner {
         }
     }
 
-    /// A neutral agent reaches for its own goal by its own means. Only when the other wants the very same, and
-    /// it cannot do it alone, is the other counted on.
+    /// A neutral agent plans with its own actions. It relies on the other only if both have the same goal and
+    /// it cannot achieve it alone.
     fn pursue(&self, situation: &Situation<'_>, own: Goal, other: Goal, observed: BodySet) -> Plan {
         if let Some(plan) = self.finish(situation, own, observed) {
             return plan;
@@ -89,8 +89,8 @@ impl Planner {
         }
     }
 
-    /// The own part of the cheapest way in which both together reach a goal; the own travel counts for
-    /// `own_effort` beside the other's. Who has no part in it gets out of the other's way.
+    /// The agent's part of the cheapest joint plan for a goal, its own travel weighted by
+    /// `own_effort`. An agent without a part yields.
     fn cooperate(&self, situation: &Situation<'_>, goal: Goal, own_effort: f32, observed: BodySet) -> Plan {
         let mut effort = [1.0; AGENT_COUNT];
         effort[self.agent] = own_effort;
@@ -98,11 +98,11 @@ impl Planner {
         let task = Task { situation, goal, actors, effort, allied: true, narrowed: None };
         let plan = search::solve(&task, Node::start(situation))
             .map_or(Plan::STAY, |plan| express(&task, &plan, self.agent));
-        // Not being needed is something to be seen.
+        // An agent has to observe that it is not needed.
         let unseen = [goal.subject(), Entity::Agent(self.agent.other())];
         match unseen.into_iter().find(|&entity| !observed.contains(entity)) {
             Some(entity) if plan.subgoals.is_empty() => {
-                // Where one cannot go and look, the hope that all is well elsewhere must cost no less than that.
+                // If the entity cannot be reached, the optimistic particles must not be cheaper than the path there.
                 let visit = visit(situation, self.agent, entity);
                 Plan { distance: plan.distance.max(visit.distance), ..visit }
             }
@@ -126,7 +126,7 @@ impl Planner {
         self.cooperate(situation, goal, HELPERS_EFFORT, observed)
     }
 
-    /// Who wants to be left alone is helped by keeping away; other negated goals by undoing them.
+    /// An avoidance goal is helped by staying away; other negated goals by undoing them.
     fn help_to_avoid(&self, situation: &Situation<'_>, goal: Goal) -> Plan {
         match goal {
             Goal::Touch { .. } => flight::plan(situation, self.agent),

@@ -37,7 +37,7 @@ pub struct Situation<'a> {
     /// What is passable of each door for each agent while a set of objects, the bits of the index, are still
     /// where they are now.
     gaps: [[Gaps; 1 << MAX_OBJECTS]; AGENT_COUNT],
-    /// Which objects, where they are now, keep somebody from a door.
+    /// Which objects block a door for some agent at their current positions.
     blockers: [bool; MAX_OBJECTS],
 }
 
@@ -111,7 +111,7 @@ impl<'a> Situation<'a> {
     }
 
     /// Force left over for moving an object when these agents hold it and pull the same way, each body's
-    /// ground friction taken off (N). Nothing moves unless it is positive.
+    /// ground friction taken off (N). The load moves only if it is positive.
     #[must_use]
     pub fn net_force(&self, holders: [bool; AGENT_COUNT]) -> f32 {
         let mut net = -GROUND_FRICTION;

@@ -1,4 +1,4 @@
-//! The symbolic problem that A* searches: who is where, who holds what, and what each step costs.
+//! The symbolic planning task that A* solves: locations, grips and operator costs.
 
 use crate::{
     routes::{Gaps, IMPASSABLE_COST},
@@ -12,9 +12,9 @@ use phase_model::{
 
 /// Cost of grabbing or letting go (u of travel).
 const HANDLING_COST: f32 = 1.0;
-/// Added when the holders are too weak to move an object at all: it is tried only when nothing else is left.
+/// Added when the holders are too weak to move an object, so that carrying it is the last resort.
 const IMMOVABLE_COST: f32 = 60.0;
-/// How much longer carrying takes when the force left over is this small fraction of a newton or less.
+/// Upper bound of the carrying-time factor, reached as the net force approaches zero.
 const GREATEST_SLOWNESS: f32 = 5.0;
 /// Net force at which carrying takes twice as long as walking (N).
 const SLOW_FORCE: f32 = 100.0;
@@ -28,7 +28,7 @@ pub struct Task<'a> {
     pub goal: Goal,
     /// Which agents act.
     pub actors: [bool; AGENT_COUNT],
-    /// What each agent's travel counts for: 1 as it is, less where the agent is glad to do it.
+    /// Effort weight of each agent's travel: 1 in full, less for an agent willing to travel more.
     pub effort: [f32; AGENT_COUNT],
     /// Whether both agents pull the same way when both hold an object.
     pub allied: bool,
@@ -103,9 +103,8 @@ impl Task<'_> {
         successors
     }
 
-    /// Distance to a spot (u), for an agent or for an object and everyone who holds it, with the penalties of
-    /// doors that somebody does not fit through. Whatever is held, all holders have to come along, so the
-    /// longest way counts.
+    /// Path cost to a location (u), for an agent or for an object and its holders, with penalties for doors
+    /// that one of them does not fit through. All holders have to come along, so the longest path counts.
     #[must_use]
     pub fn distance(&self, node: &Node, agent: AgentId, held: Option<ObjectId>, to: Spot) -> f32 {
         self.longest_way(node, agent, held, to, held)
@@ -128,7 +127,7 @@ impl Task<'_> {
         let radius = |who: AgentId| situation.physique.agents[who].radius;
         let diameter = 2.0 * situation.physique.object_radii[object];
         let holders = node.holders(object);
-        // Two carriers are not in line with each other, so they take more room than the wider of them.
+        // Two carriers are not aligned, so together they need more width than the wider one.
         let extra = if holders == [true; AGENT_COUNT] {
             radius(AgentId::ZERO).min(radius(AgentId::ONE))
         } else {
@@ -138,7 +137,7 @@ impl Task<'_> {
             .into_iter()
             .filter(|&holder| holders[holder] || holder == agent)
             .map(|holder| {
-                // Where the load comes to lie its holder is still an arm's length away.
+                // When the load arrives, its holder is still at arm's length.
                 let way = cost(node.agents[holder], situation.width(holder, None) + extra);
                 way - situation.arm(holder, object)
             })
@@ -254,7 +253,7 @@ impl Task<'_> {
         }
     }
 
-    /// Objects worth touching: the goal's own, those that block a door for somebody, and those in hand.
+    /// Relevant objects: the goal's own, those that block a door, and those held.
     fn matters(&self, object: ObjectId) -> bool {
         self.goal.subject() == Entity::Object(object) || self.situation.blocks_a_door(object)
     }

@@ -1,4 +1,4 @@
-//! What a search found, and why.
+//! The result of a search.
 
 /// The chosen action with the evidence for it.
 #[derive(Debug, Clone, PartialEq)]
@@ -13,7 +13,7 @@ pub struct Decision {
 }
 
 impl Decision {
-    /// Draws the conclusion from the evidence. `actions` has one entry per action and is not empty.
+    /// Selects the action from the statistics. `actions` has one entry per action and is not empty.
     pub(crate) fn new(actions: Vec<ActionValue>, effort: SearchEffort) -> Self {
         let mut action = 0;
         for (candidate, evidence) in actions.iter().enumerate().skip(1) {
@@ -33,7 +33,7 @@ impl Decision {
     }
 }
 
-/// What the simulations that began with one action found.
+/// Statistics of the simulations that began with one action.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ActionValue {
     /// How many simulations began with it.

@@ -1,8 +1,8 @@
-//! What a problem has to say about itself before it can be planned for.
+//! The interface of a decision problem.
 
 use rand::{Rng, RngExt};
 
-/// A decision problem known only through samples of what happens next.
+/// A decision problem given by a generative model: samples of the next state, observation and reward.
 ///
 /// Three functions are enough: how many actions there are, how the future is discounted, and what one step
 /// does. The rest is advice that makes a search better, never different in what it converges to.
@@ -12,7 +12,7 @@ use rand::{Rng, RngExt};
 /// and branches are found by comparing one after another. `()` makes an open-loop tree, whose nodes branch on
 /// actions alone; the whole state makes a fully observed problem.
 pub trait GenerativeModel {
-    /// One possible present. It is copied once a simulation (with [`Clone::clone_from`]), so keep it small.
+    /// A state of the problem. It is copied once a simulation (with [`Clone::clone_from`]), so keep it small.
     type State: Clone;
 
     /// What the agent perceives after a step.
@@ -32,7 +32,7 @@ pub trait GenerativeModel {
         random: &mut impl Rng,
     ) -> Outcome<Self::Observation>;
 
-    /// As [`step`](Self::step), for rollouts, where nobody looks at the observation.
+    /// As [`step`](Self::step), for rollouts, which need no observation.
     ///
     /// Override it where observations cost more than the step; it must move the state and earn just as
     /// `step` does.
@@ -66,7 +66,7 @@ pub trait GenerativeModel {
         false
     }
 
-    /// What is still to be earned from `state` on, where a simulation stops before the problem has ended.
+    /// Estimate of the return from `state` on, where a simulation stops before the problem has ended.
     ///
     /// Zero unless overridden. It must be finite, in the reward's unit, discounted to `state`'s own time.
     fn value_estimate(&self, _state: &Self::State) -> f64 {
@@ -74,7 +74,7 @@ pub trait GenerativeModel {
     }
 }
 
-/// What one step brought.
+/// The result of one step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Outcome<O> {
     /// What the agent perceives of the new state.

@@ -40,8 +40,8 @@ impl<O: Eq> Pomcp<O> {
     ///
     /// Each simulation draws one of them, follows PUCT down the tree, grows the tree by the first history it
     /// does not know, plays the default policy from there, and averages the discounted return into every
-    /// action it chose on the way. Among actions never tried at a history one is drawn evenly, so that each
-    /// is tried once before PUCT compares them.
+    /// action it chose on the way. Actions never tried at a history are sampled uniformly, so that each is
+    /// tried once before PUCT compares them.
     ///
     /// # Errors
     /// [`PomcpError::NoRoots`], [`PomcpError::NoActions`] and [`PomcpError::TooLarge`] for what cannot be

@@ -1,4 +1,4 @@
-//! The few numbers a search is tuned with.
+//! Parameters of a search.
 
 use crate::PomcpError;
 

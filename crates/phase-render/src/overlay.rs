@@ -11,7 +11,7 @@ pub struct Overlay<'a> {
     pub agent: AgentId,
     /// The cells in its field of view; the others are dimmed.
     pub visible: &'a CellSet,
-    /// The states it holds possible, each drawn faintly; where many agree the picture becomes solid.
+    /// Its belief particles, each drawn translucent; where many agree the picture becomes opaque.
     pub particles: &'a [State],
     /// A line above the arena, drawn if [`crate::Style::title`] is set.
     pub title: &'a str,

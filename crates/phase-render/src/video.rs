@@ -131,8 +131,8 @@ fn config(frames_per_second: u32) -> EncoderConfig {
         .profile(Profile::Baseline)
         .usage_type(UsageType::CameraVideoRealTime)
         .complexity(Complexity::High)
-        // The other modes trade quality for bits, or do not heed the range below. This one only follows the
-        // receiver's buffer, which nobody reports here, so the range is all that decides.
+        // The other modes trade quality for bits or ignore the range below. This one only follows the
+        // receiver's buffer, which is not reported here, so the range decides alone.
         .rate_control_mode(RateControlMode::Bufferbased)
         .qp(QpRange::new(QUANTISATION, QUANTISATION))
         .bitrate(BitRate::from_bps(BIT_RATE))

@@ -35,13 +35,13 @@ impl Draft {
     pub fn about(goals: [Goal; 2], agents: [AgentSpec; 2], wanted: Vec<ObjectSpec>) -> Option<Self> {
         let numbers: Vec<usize> = goals.into_iter().filter_map(object_of).map(ObjectId::index).collect();
         let first_wanted = numbers.iter().copied().min().unwrap_or(0);
-        // An object that merely stands in the way is nobody's goal.
+        // An object that only blocks a door is not part of a goal.
         let count = numbers.iter().max().map_or(wanted.len(), |&last| last - first_wanted + 1);
         (count == wanted.len()).then_some(Self { agents, wanted, first_wanted })
     }
 
-    /// The scene. Objects that nobody wants come first where goals are about a later one; else one lies about in
-    /// half of the cases.
+    /// The scene. Distractor objects come first where the goals are about a later object; otherwise one is added
+    /// in half of the cases.
     pub fn into_scene(self, kind: EventKind, layout: Layout, random: &mut impl Rng) -> Scene {
         let mut stray = |_| object(any_size(random), any_room(random), random);
         let mut objects: Vec<ObjectSpec> = (0..self.first_wanted).map(&mut stray).collect();

@@ -12,7 +12,7 @@ const CLEARANCE: f32 = 0.05;
 /// The helpee is too weak for the object it wants moved.
 pub(crate) fn lift(goals: [Goal; 2], random: &mut impl Rng) -> Option<Draft> {
     let room = draft::other_room(&[goals[1].landmark()?.room()], random)?;
-    // The helper comes from elsewhere, so that one sees who wants the object before it is there.
+    // The helper starts in another room, so that the helpee's goal is visible before it arrives.
     let elsewhere = draft::other_room(&[room], random)?;
     let helper = helping(agent(any_size(random), choose(&CAPABLE, random), goals[0], elsewhere, random));
     let helpee = agent(any_size(random), Strength::Weak, goals[1], room, random);

@@ -1,12 +1,11 @@
 //! Scenes for every kind of PHASE event.
 //!
 //! [`sample`] draws the physical and social variables of the paper (section "Procedural Generation") so that a
-//! scene can show what its kind promises: someone who helps is needed, someone who hinders can. A [`Request`]
-//! says which [`Variant`] of a kind, whose goals' turn it is, and which layouts may be drawn.
+//! scene can show its label: help is needed, hindrance is possible. A [`Request`] says which [`Variant`] of a
+//! kind, whose goals' turn it is, and which layouts may be drawn.
 //!
-//! The key design decision is rejection: a recipe for each variant draws freely, and a common set of checks, some
-//! of them made by the planner itself, throws away what cannot work. The price is a few hundred draws a scene;
-//! they cost microseconds.
+//! Key design decision: rejection sampling. A recipe for each variant proposes scenes, and common checks, some of
+//! them by the planner, reject infeasible ones. The cost is a few hundred proposals a scene, microseconds each.
 //!
 //! A scene in which one agent is too weak for the object that it wants moved, and the other helps:
 //!

@@ -1,4 +1,4 @@
-//! From a request to a scene that keeps its promises.
+//! Rejection sampling of scenes that can show their label.
 
 use crate::{
     Variant, adversarial,
@@ -11,7 +11,7 @@ use thiserror::Error;
 
 /// Draws before a variant is given up; in practice some dozens suffice.
 const MAX_DRAWS: usize = 20_000;
-/// With a helper a goal has to cost less than two thirds of what it costs without.
+/// Minimum ratio of a goal's cost without the helper to its cost with the helper.
 const WORTH_HELPING: f32 = 1.5;
 
 /// What scene is wanted.
@@ -77,7 +77,7 @@ fn draft(variant: Variant, layout: Layout, goals: [Goal; 2], random: &mut impl R
     }
 }
 
-/// Whether nothing that somebody wants holds at the start.
+/// Whether no goal holds at the start.
 fn is_open(scene: &Scene) -> bool {
     scene.goals().iter().all(|&goal| {
         let positive = if goal.sign() == Sign::Positive { goal } else { goal.negated() };

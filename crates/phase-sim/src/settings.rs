@@ -1,4 +1,4 @@
-//! How an event is simulated: the physics it plays in, how long it lasts, how its agents think.
+//! Settings of a simulation: engine, length, parameters of the minds.
 
 use phase_model::AgentId;
 use serde::{Deserialize, Serialize};
@@ -34,13 +34,13 @@ pub struct Settings {
     /// What the event plays in. Files written before there was a choice mean the default.
     #[serde(default)]
     pub engine: Engine,
-    /// An event never lasts longer (steps of 0.25 s; the paper's 25 s).
+    /// Maximum length (steps of 0.25 s; the paper's 25 s).
     pub max_steps: usize,
-    /// An event never ends earlier, unless `max_steps` is smaller (the paper's 10 s).
+    /// Minimum length unless `max_steps` is smaller (steps; the paper's 10 s).
     pub min_steps: usize,
     /// An event ends once, for this many steps in a row, neither agent had anything to do and nothing moved.
     pub rest_steps: usize,
-    /// Nor does it go on, whatever its agents are after, once nothing has moved for this many steps in a row.
+    /// An event also ends once nothing has moved for this many consecutive steps, whatever the subgoals.
     #[serde(default = "for_ever")]
     pub still_steps: usize,
     /// An agent that stops and stays whatever its goal, so that an event can be compared with what
@@ -51,7 +51,7 @@ pub struct Settings {
     pub minds: phase_agent::Settings,
 }
 
-/// Files written before there was a limit.
+/// Default for files written before the limit existed.
 const fn for_ever() -> usize {
     usize::MAX
 }

@@ -111,7 +111,7 @@ struct Minds {
     agents: [Agent<Forward>; AGENT_COUNT],
     beliefs: [Pcg64Mcg; AGENT_COUNT],
     searches: [Pcg64Mcg; AGENT_COUNT],
-    /// Who does nothing and need not think.
+    /// The idle agent, if any.
     idle: Option<AgentId>,
 }
 

@@ -5,7 +5,7 @@ use phase_forward::{Forward, Memory};
 use phase_model::{AGENT_COUNT, Action, Physique, State, arena::SUBSTEPS};
 use phase_world::World;
 
-/// What truly happens, as opposed to what the agents imagine.
+/// The environment: the true world, as opposed to the agents' models of it.
 pub(crate) enum Truth {
     World(Box<World>),
     Forward(Box<Replay>),

@@ -1,4 +1,4 @@
-//! What the agents of an observed event believed, estimated from what they can have observed.
+//! Beliefs of the agents of an observed event, estimated from their reconstructed observations.
 
 use phase_belief::{Belief, overwrite};
 use phase_event::ObservedEvent;

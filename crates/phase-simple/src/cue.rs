@@ -3,7 +3,7 @@
 use phase_model::{AgentId, Body, Entity, Goal, MAX_ENTITIES, Sign, State, arena};
 use phase_predicates::threshold::ON_OBJECT;
 
-/// How far whoever gets away means to be from the other at least (u).
+/// Separation at which an avoidance goal counts as satisfied (u).
 const AWAY: f32 = 14.0;
 
 /// γ of the goal proposal's exponent, per unit of distance (1/u).
@@ -28,7 +28,7 @@ pub fn distance_left(goal: Goal, agent: AgentId, state: &State) -> f32 {
 }
 
 /// ln Q(g | S) for each of some goals of an agent, from the rows of a stretch of motion; not empty. The probabilities
-/// add up to 1. Printed is e^{γ(2‖s^t2 − s_g‖ − ‖s^t1 − s_g‖)}, under which the goal farthest away would be the
+/// sum to 1. The paper prints e^{γ(2‖s^t2 − s_g‖ − ‖s^t1 − s_g‖)}, under which the goal farthest away would be the
 /// likeliest; the sentence below it has it the other way round, and so have we.
 #[must_use]
 pub fn log_proposal(goals: &[Goal], agent: AgentId, rows: &[[Body; MAX_ENTITIES]], gamma: f64) -> Vec<f64> {
@@ -41,7 +41,7 @@ pub fn log_proposal(goals: &[Goal], agent: AgentId, rows: &[[Body; MAX_ENTITIES]
     normalised(logs)
 }
 
-/// Logarithms of numbers in proportion, as those of probabilities.
+/// Normalises log-weights to log-probabilities.
 pub(crate) fn normalised(mut logs: Vec<f64>) -> Vec<f64> {
     normalise(&mut logs);
     logs

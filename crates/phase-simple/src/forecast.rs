@@ -8,17 +8,17 @@ use phase_model::{
 };
 use phase_pomcp::PomcpError;
 
-/// Rounds of the search for a median.
+/// Iterations of Weiszfeld's algorithm.
 const ROUNDS: usize = 30;
 
 /// How the future is put together; the defaults were chosen on the validation events of PHASE-500.
 #[derive(Clone, Copy, PartialEq, Debug, serde::Serialize, serde::Deserialize)]
 pub struct ForecastSettings {
-    /// How many of the most likely hypotheses are played on; at least 1.
+    /// Number of most likely hypotheses to simulate; at least 1.
     pub hypotheses: usize,
-    /// How often each, with chance of its own; at least 1.
+    /// Futures per hypothesis, each with its own random stream; at least 1.
     pub repeats: usize,
-    /// Power to which their weights are raised: after 20 steps the likeliest are rarely as likely as they seem.
+    /// Inverse temperature of the posterior weights: after 20 steps the posterior is overconfident.
     pub temper: f64,
 }
 
@@ -32,8 +32,7 @@ impl Default for ForecastSettings {
 /// all places that they lead to, weighted by how likely they are: the displacement to expect is least there. `None`
 /// if `tick` broke it off.
 ///
-/// # Errors
-/// Settings of minds that cannot be searched with.
+/// # Errors Invalid parameters of the minds' search.
 pub fn forecast(
     stage: &Stage<'_>,
     inference: &Inference,

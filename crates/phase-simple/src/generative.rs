@@ -1,4 +1,4 @@
-//! G(Y): what would have happened if a hypothesis were true.
+//! G(Y): simulation of the event under a hypothesis.
 
 use crate::{Hypothesis, InverseDynamics, beliefs::EstimatedBeliefs};
 use phase_agent::{Mind, Outlook};
@@ -12,7 +12,7 @@ use phase_model::{
 use phase_perception::observe;
 use phase_pomcp::PomcpError;
 
-/// An observed event prepared for being explained: what all hypotheses share.
+/// An observed event prepared for inference: everything that all hypotheses share.
 #[derive(Clone, Debug)]
 pub struct Stage<'a> {
     observed: &'a ObservedEvent,
@@ -27,8 +27,8 @@ pub struct Stage<'a> {
 pub type Deviations = Vec<f64>;
 
 impl<'a> Stage<'a> {
-    /// Estimates what was done and who believed what in an event. All hypotheses draw the same random numbers,
-    /// so that they differ in nothing but what they say.
+    /// Estimates actions and beliefs of an event. All hypotheses use the same random streams (common random
+    /// numbers), so that differences are due to the hypotheses alone.
     #[must_use]
     pub fn new(observed: &'a ObservedEvent, minds: phase_agent::Settings, seed: u64) -> Self {
         let motion = InverseDynamics::new(observed);
@@ -49,12 +49,11 @@ impl<'a> Stage<'a> {
         &self.motion
     }
 
-    /// Simulates the event under a hypothesis and returns how far it deviates. Every `anchor` steps the simulation
-    /// is put back to where the observed event is; without an anchor it goes its own way from the start, as in the
-    /// paper. It breaks off once the deviations add up to more than `limit`; then they are as many as there are.
+    /// Simulates the event under a hypothesis and returns its deviations. Every `anchor` steps the simulation is
+    /// resynchronised with the observed state; with `None` it runs freely from the start, as in the paper. It
+    /// stops early once the sum of deviations exceeds `limit`; then fewer deviations are returned.
     ///
-    /// # Errors
-    /// Settings of minds that cannot be searched with.
+    /// # Errors Invalid parameters of the minds' search.
     pub fn simulate(
         &self,
         hypothesis: &Hypothesis,
@@ -91,8 +90,7 @@ impl<'a> Stage<'a> {
     /// Lets one agent decide as a hypothesis has it, while the other does what it was found to do. Every
     /// `anchor` steps the simulation is put back to where the observed event is.
     ///
-    /// # Errors
-    /// Settings of minds that cannot be searched with.
+    /// # Errors Invalid parameters of the minds' search.
     pub fn simulate_one(
         &self,
         hypothesis: &Hypothesis,
@@ -119,8 +117,7 @@ impl<'a> Stage<'a> {
     /// Goes on from the last state watched for so many steps: where every entity will be after each, if the
     /// hypothesis is true. Beliefs go on from those estimated, by what the agents observe in the simulation.
     ///
-    /// # Errors
-    /// Settings of minds that cannot be searched with.
+    /// # Errors Invalid parameters of the minds' search.
     pub fn go_on(
         &self,
         hypothesis: &Hypothesis,
@@ -152,7 +149,7 @@ impl<'a> Stage<'a> {
     }
 }
 
-/// What an agent decided in one step, and what came of it.
+/// One simulated decision and the resulting deviation.
 #[derive(Clone, Debug)]
 pub struct Decided {
     /// The action.

@@ -1,4 +1,4 @@
-//! What might explain an event: Y = ⟨g_i, g_j, α_ij, α_ji, f_i, f_j⟩ of the paper.
+//! Hypotheses: Y = ⟨g_i, g_j, α_ij, α_ji, f_i, f_j⟩ of the paper.
 
 use phase_event::ObservedEvent;
 use phase_model::{

@@ -9,10 +9,10 @@ use phase_event::ObservedEvent;
 use phase_model::random::{self, Purpose};
 use phase_pomcp::PomcpError;
 
-/// What an inference found, and how.
+/// The result of an inference.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Inference {
-    /// What it comes to.
+    /// The posterior.
     pub posterior: Posterior,
     /// How many chains accepted their proposal, for each iteration of Algorithm 2; empty for inverse planning.
     pub accepted: Vec<usize>,
@@ -24,8 +24,7 @@ pub struct Inference {
 /// Infers what explains an event. The same seed gives the same answer. `tick` is called about once a simulation;
 /// when it breaks, the answer is `None`.
 ///
-/// # Errors
-/// Settings of minds that cannot be searched with.
+/// # Errors Invalid parameters of the minds' search.
 pub fn infer(
     stage: &Stage<'_>,
     strengths: &dyn StrengthCue,

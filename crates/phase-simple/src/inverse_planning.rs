@@ -1,8 +1,8 @@
-//! Inverse planning: how well each thing that an agent may want explains what it did.
+//! Inverse planning: the likelihood of each agent's motion under each of its possible intents.
 //!
-//! Who decides at the same moment, each from the state of the world, does not depend on what the other is about to
-//! do. So P(motion | Y) is a product of two factors, one an agent, and instead of 14 · 14 + 2 · 28 hypotheses it is enough
-//! to simulate 42 wants of either agent by themselves, the other doing what it was found to do.
+//! Both agents decide at the same time from the same state, so given the states their actions are conditionally
+//! independent. P(motion | Y) is therefore a product of one factor per agent, and instead of 14 · 14 + 2 · 28
+//! hypotheses it suffices to simulate 42 intents of each agent, with the other replaying its inferred actions.
 
 use crate::{
     Hypothesis, PlanningSettings, Posterior, Proposal,
@@ -14,22 +14,21 @@ use core::ops::ControlFlow;
 use phase_model::{AGENT_COUNT, Action, AgentId, Attitude, Goal, Strength};
 use phase_pomcp::PomcpError;
 
-/// How often the search tried an action stands for how likely it is to be taken. Which way an agent turns says
-/// little about what it wants, and nothing in recordings of the published simulator, where all turns go one way:
-/// turning left stands for both.
+/// Visit counts of the search serve as action probabilities. The direction of a turn carries little information,
+/// and none in recordings of the published simulator, in which all turns are left turns; the two turns are
+/// therefore one choice.
 const CHOICES: usize = Action::ALL.len() - 1;
 
-/// What an agent may want, with ln P(motion | want) of its part of the motion.
+/// Intents of an agent with ln P(motion | intent) of its part of the motion.
 type Weighed = Vec<(Want, f64)>;
 
-/// How often wants are weighed again after another answer to what the other is after.
+/// Refinement passes: how often the intents are re-evaluated with an updated goal of the other agent.
 const SECOND_THOUGHTS: usize = 2;
 
 /// P(Y | motion) of every hypothesis, strengths being those that the physics tells; `None` if `tick`, which is
 /// called once a want, broke it off.
 ///
-/// # Errors
-/// Settings of minds that cannot be searched with.
+/// # Errors Invalid parameters of the minds' search.
 pub(crate) fn posterior(
     stage: &Stage<'_>,
     settings: &PlanningSettings,
@@ -45,7 +44,7 @@ pub(crate) fn posterior(
         strengths: stage.motion().strengths(),
     };
     let cue = Proposal::new(observed, 0..=observed.steps(), gamma, &AnyStrength);
-    // What either seems to be after, as the other takes it who is not social.
+    // The goal that each agent attributes to the other if it is not social.
     let mut seeming: [Goal; AGENT_COUNT] = AgentId::ALL.map(|agent| cue.likeliest_goal(agent));
     let mut weighed: [Weighed; AGENT_COUNT] = [Vec::new(), Vec::new()];
     for (agent, weighed) in AgentId::ALL.into_iter().zip(&mut weighed) {
@@ -103,7 +102,7 @@ impl Evidence<'_> {
     }
 }
 
-/// Every hypothesis, weighed by its prior and by both agents' parts in the motion.
+/// The joint posterior: prior times both agents' likelihoods.
 fn joint(weighed: &[Weighed; AGENT_COUNT], strengths: [Strength; AGENT_COUNT], goals: usize) -> Posterior {
     let weigh = |hypothesis: Hypothesis, log: f64| (hypothesis, log + hypothesis.log_prior(goals));
     let neutral =
@@ -125,7 +124,7 @@ fn joint(weighed: &[Weighed; AGENT_COUNT], strengths: [Strength; AGENT_COUNT], g
     Posterior::new(hypotheses)
 }
 
-/// How likely each choice is to be what an agent did, for each step and agent: e^{−residual/σ}, adding up to 1.
+/// Normalised likelihood of each choice for each step and agent, proportional to e^{−residual/σ}.
 fn found(stage: &Stage<'_>, tolerance: f64) -> Vec<[[f64; CHOICES]; AGENT_COUNT]> {
     let alternatives = stage.motion().alternatives(stage.observed());
     let one = |residuals: &[f32; Action::ALL.len()]| {
@@ -142,7 +141,7 @@ fn found(stage: &Stage<'_>, tolerance: f64) -> Vec<[[f64; CHOICES]; AGENT_COUNT]
     alternatives.iter().map(|agents| agents.each_ref().map(one)).collect()
 }
 
-/// ln of the chance that a mind's choice and what was done are the same.
+/// ln of the probability that the policy's action is the observed one, lapses included.
 fn log_chance(decided: &Decided, found: &[f64; CHOICES], slips: f64) -> f64 {
     let mut policy = [0.0; CHOICES];
     let visits: f64 = decided.thought.actions.iter().map(|value| f64::from(value.visits)).sum();

@@ -1,4 +1,4 @@
-//! The numbers of an inference.
+//! Settings of an inference.
 
 use crate::cue::GAMMA;
 use phase_model::AGENT_COUNT;
@@ -37,23 +37,23 @@ pub struct Settings {
     pub minds: phase_agent::Settings,
 }
 
-/// The numbers of inverse planning, chosen on the validation events of PHASE-500.
+/// Parameters of inverse planning, selected on the validation events of PHASE-500.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 pub struct PlanningSettings {
-    /// ε: how often an agent does something else than its mind is for, any action alike.
+    /// ε, the lapse rate: probability of a uniformly random action instead of the policy's.
     pub slips: f64,
-    /// σ: an action that leaves so much more unexplained than another (u) is e times less likely to have been done.
+    /// σ, scale of the residuals (u): a residual larger by σ divides an action's likelihood by e.
     pub tolerance: f64,
-    /// κ: how much the choice of actions counts. Less than 1, for what a simulated mind gets wrong once it gets wrong
-    /// again.
+    /// κ, inverse temperature of the action likelihood; below 1 because errors of a simulated mind are correlated
+    /// over steps.
     pub temper: f64,
-    /// After how many steps a simulation is put back to the event to see how far it strays; at least 1.
+    /// Steps between resynchronisations of the simulations whose deviation is measured; at least 1.
     pub anchor: usize,
-    /// β of straying (1/u).
+    /// β of that deviation (1/u).
     pub beta: f64,
 }
 
-/// The numbers of Algorithm 2.
+/// Parameters of Algorithm 2.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 pub struct ChainSettings {
     /// Which proposals there are after the first.
@@ -68,7 +68,7 @@ pub struct ChainSettings {
     pub eta: f64,
     /// ΔT, length of a stretch (steps).
     pub window: usize,
-    /// After how many steps a simulation is put back to the observed event; never in the paper.
+    /// Steps between resynchronisations with the observed state; `None` (the paper) for none.
     pub anchor: Option<usize>,
 }
 
@@ -103,7 +103,7 @@ impl Settings {
 }
 
 impl ChainSettings {
-    /// The paper's numbers over simulations that are put back to the event.
+    /// The paper's parameters with simulations that are resynchronised with the observed event.
     #[must_use]
     pub const fn anchored(update: Update) -> Self {
         Self { update, iterations: 6, particles: 15, beta: 0.2, eta: 0.1, window: 10, anchor: Some(10) }

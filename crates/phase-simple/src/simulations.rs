@@ -1,4 +1,4 @@
-//! Hypotheses that have been simulated, each once.
+//! Cache of simulated hypotheses.
 
 use crate::{
     Hypothesis,
@@ -25,8 +25,7 @@ impl<'a> Simulations<'a> {
 
     /// ln P(s | Y) = −β Σ ‖sᵗ − ŝᵗ‖₂.
     ///
-    /// # Errors
-    /// Settings of minds that cannot be searched with.
+    /// # Errors Invalid parameters of the minds' search.
     pub fn log_likelihood(&mut self, hypothesis: &Hypothesis) -> Result<f64, PomcpError> {
         Ok(self.above(hypothesis, f64::NEG_INFINITY)?.unwrap_or(f64::NEG_INFINITY))
     }
@@ -34,8 +33,7 @@ impl<'a> Simulations<'a> {
     /// The same if it is above a threshold. A simulation that has come too far from the event to get above it is
     /// broken off, which changes nothing: deviations only add up.
     ///
-    /// # Errors
-    /// Settings of minds that cannot be searched with.
+    /// # Errors Invalid parameters of the minds' search.
     pub fn above(&mut self, hypothesis: &Hypothesis, threshold: f64) -> Result<Option<f64>, PomcpError> {
         let steps = self.stage.observed().steps();
         let limit = -threshold / self.beta;

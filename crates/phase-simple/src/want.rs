@@ -1,9 +1,9 @@
-//! What one agent may want, and what two may want at once.
+//! Intents: the part of a hypothesis that concerns one agent.
 
 use crate::{Hypothesis, hypothesis::physical_goals};
 use phase_model::{AGENT_COUNT, AgentId, Attitude, Goal, Strength};
 
-/// What an agent wants: a goal of its own, or to help or hinder the other with one of the other's.
+/// One agent's intent: a goal of its own, or helping or hindering the other with one of the other's goals.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub struct Want {
     /// α towards the other.

@@ -7,7 +7,7 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 pub enum TensorsError {
     /// The bytes are something else.
-    #[error("is no safetensors file: {0}")]
+    #[error("is not a safetensors file: {0}")]
     Container(#[from] SafeTensorError),
     /// It is a file of tensors, but of another kind.
     #[error("field `{field}` must be {expected:?}")]

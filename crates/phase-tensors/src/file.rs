@@ -1,4 +1,4 @@
-//! Files of tensors: made and looked into.
+//! Reading and writing of tensor files.
 
 use crate::TensorsError;
 use safetensors::{Dtype, SafeTensors, tensor::TensorView};
@@ -11,7 +11,7 @@ pub struct NamedTensor {
     pub name: String,
     /// Its lengths, the outermost first.
     pub shape: Vec<usize>,
-    /// Its numbers, row by row: as many as its lengths multiplied.
+    /// Its values in row-major order; as many as the product of its lengths.
     pub numbers: Vec<f32>,
 }
 
@@ -31,7 +31,7 @@ pub fn write(tensors: &[NamedTensor], field: &str, says: &str) -> Result<Vec<u8>
     Ok(safetensors::serialize(views, Some(HashMap::from([(field.to_owned(), says.to_owned())])))?)
 }
 
-/// A file that has been looked into.
+/// A parsed tensor file.
 #[derive(Debug)]
 pub struct TensorFile<'a> {
     tensors: SafeTensors<'a>,

@@ -1,4 +1,4 @@
-//! Weights at rest: named tensors of 32-bit floats in a safetensors file, with one entry of text that says what they are.
+//! Weights on disk: named 32-bit float tensors in a safetensors file, with one metadata entry that identifies them.
 //!
 //! [`write()`] makes such a file, [`TensorFile`] looks into one, [`TensorsError`] says what is wrong with it.
 //!

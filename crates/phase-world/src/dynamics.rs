@@ -1,4 +1,4 @@
-//! The true world behind the interface that planners use.
+//! The reference dynamics behind the planners' interface.
 
 use crate::World;
 use phase_model::{AGENT_COUNT, Action, Dynamics, Physique, State};

@@ -129,7 +129,8 @@ impl<'a> Impacts<'a> {
         let mut after = *body.vels();
         let gain = energy(after) / energy(velocities);
         if gain > 1.0 {
-            // A wall does no work: what a body wedged between two of them gains is an error of the solver.
+            // A wall does no work, so energy gained by a body wedged between two walls is a solver error and is
+            // removed.
             after = after * libm::sqrtf(1.0 / gain);
         }
         (*body.position(), after)

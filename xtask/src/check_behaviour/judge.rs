@@ -1,4 +1,4 @@
-//! Whether an event shows what its row wants.
+//! Judges an event by the criterion of its test.
 
 use super::rows::{Criterion, Form, Part};
 use phase_evidence::{
@@ -14,7 +14,7 @@ const AT_THE_END: usize = 4;
 /// For how long something must be done to be seen (steps).
 const VISIBLE: usize = 3;
 
-/// What was made of one event.
+/// The judgement of one event.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct Verdict {
     /// Whether the row's criterion holds.

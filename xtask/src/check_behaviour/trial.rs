@@ -1,4 +1,4 @@
-//! Playing one scene once, and once more without the agent that matters.
+//! Simulates one trial and its counterfactual.
 
 use super::{judge, report::Trial, rows::Part};
 use core::ops::ControlFlow;
@@ -22,7 +22,7 @@ use std::{path::PathBuf, time::Instant};
 const FLIPS: [Option<Flip>; 5] =
     [None, Some(Flip::UpDown), Some(Flip::LeftRight), Some(Flip::Diagonal), Some(Flip::AntiDiagonal)];
 
-/// Where events are played, or taken from a run that was broken off.
+/// Simulates the trials, reusing those of an interrupted run.
 #[derive(Debug)]
 pub(super) struct Laboratory {
     settings: Settings,

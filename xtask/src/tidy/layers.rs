@@ -1,4 +1,4 @@
-//! Which crates there are and which may use which.
+//! The crates and their layers.
 
 use super::Workspace;
 use std::path::{Path, PathBuf};

@@ -1,4 +1,4 @@
-//! `tidy`: the rules of the house that the compiler cannot check.
+//! `tidy`: project rules that the compiler cannot check.
 
 mod layers;
 mod modules;

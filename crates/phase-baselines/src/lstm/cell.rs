@@ -33,7 +33,7 @@ impl Cell {
     fn unit(&self, gates: &[f32], state: &[f32], k: usize) -> Unit {
         let size = self.size;
         let input = sigmoid(gates[k]);
-        // At first it remembers: the custom of the field, without which long events are forgotten.
+        // Forget-gate bias of 1, as usual, so that the initial cell state persists over long events.
         let forget = sigmoid(gates[size + k] + 1.0);
         let (new, output) = (tanh(gates[2 * size + k]), sigmoid(gates[3 * size + k]));
         let memory = forget * state[size + k] + input * new;
@@ -84,7 +84,7 @@ impl CustomOp2 for Cell {
         let flat = |tensor: &Tensor| tensor.flatten_all()?.to_vec1::<f32>();
         let (gate_numbers, state_numbers, slopes) = (flat(gates)?, flat(state)?, flat(slope)?);
         let mut gate_slopes = vec![0.0; gate_numbers.len()];
-        // A row that is not alive hands its slope on as it is.
+        // An inactive row passes its gradient through unchanged.
         let mut state_slopes = slopes.clone();
         let rows = gate_slopes.chunks_exact_mut(4 * size).zip(state_slopes.chunks_exact_mut(2 * size));
         for (row, (gate_slopes, state_slopes)) in rows.enumerate().filter(|&(row, _)| self.is_alive(row)) {

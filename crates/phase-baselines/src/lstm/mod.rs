@@ -20,16 +20,14 @@ pub struct Lstm {
 impl Lstm {
     /// From `inputs` numbers to `size`, with first weights as [`Layer::new`] draws them.
     ///
-    /// # Errors
-    /// If there is no memory for it.
+    /// # Errors If a tensor cannot be allocated.
     pub fn new(inputs: usize, size: usize, random: &mut Pcg64Mcg) -> Result<Self> {
         Ok(Self { gates: Layer::new(inputs + size, 4 * size, random)?, size })
     }
 
     /// The state before the first step: zeros.
     ///
-    /// # Errors
-    /// If there is no memory for it.
+    /// # Errors If a tensor cannot be allocated.
     pub fn start(&self, rows: usize) -> Result<Tensor> {
         Tensor::zeros((rows, 2 * self.size), DType::F32, &Device::Cpu)
     }
@@ -52,7 +50,7 @@ impl Lstm {
         state.narrow(1, 0, self.size)?.contiguous()
     }
 
-    /// What is to be learnt, named.
+    /// Trainable parameters with their names.
     #[must_use]
     pub fn parameters(&self, name: &str) -> Vec<Parameter> {
         self.gates.parameters(name)

@@ -5,11 +5,10 @@ use candle_core::{Device, Result, Tensor};
 use phase_model::Vec2;
 use std::sync::Arc;
 
-/// Lower than any output of an LSTM once it is added to one.
+/// Additive padding mask: below any LSTM output once it is added to one.
 const OUT_OF_SIGHT: f32 = -4.0;
 
-/// Events side by side. What is not there, because an event is shorter or has fewer objects or walls, is filled up
-/// and masked.
+/// A padded batch of events. Rows past an event's end and absent objects or walls are padded and masked.
 #[derive(Clone, Debug)]
 pub struct Batch {
     /// Features of what moves, by row: (events · [`MOVING`]) × [`FEATURES`].
@@ -35,16 +34,14 @@ pub struct Batch {
 impl Batch {
     /// Puts events side by side, at least one.
     ///
-    /// # Errors
-    /// If there is no memory for it.
+    /// # Errors If a tensor cannot be allocated.
     pub fn new(events: &[&Nodes]) -> Result<Self> {
         Self::padded_with(events, 0.0)
     }
 
     /// The same with some number instead of zeros wherever nothing is. What networks say does not depend on it.
     ///
-    /// # Errors
-    /// If there is no memory for it.
+    /// # Errors If a tensor cannot be allocated.
     pub fn padded_with(events: &[&Nodes], padding: f32) -> Result<Self> {
         let longest = events.iter().map(|nodes| nodes.rows()).max().unwrap_or(0);
         let moving = (0..longest).map(|row| {
@@ -119,7 +116,7 @@ impl Batch {
         }
     }
 
-    /// Which of so many rows of numbers an event go on at a row; `None` if all do.
+    /// Which events are active at a row, repeated `each` times; `None` if all are.
     pub(crate) fn alive(&self, row: usize, each: usize) -> Option<Arc<[bool]>> {
         if self.lengths.iter().all(|&length| row < length) {
             return None;

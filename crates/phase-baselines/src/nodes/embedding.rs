@@ -13,10 +13,9 @@ pub struct NodeEmbedding {
 }
 
 impl NodeEmbedding {
-    /// To so many numbers a node.
+    /// With the given number of hidden units.
     ///
-    /// # Errors
-    /// If there is no memory for it.
+    /// # Errors If a tensor cannot be allocated.
     pub fn new(hidden: usize, random: &mut Pcg64Mcg) -> Result<Self> {
         Ok(Self {
             features: Layer::new(FEATURES, hidden, random)?,
@@ -29,8 +28,7 @@ impl NodeEmbedding {
     ///
     /// A landmark or wall is the same through an event and in all events that have it, so each is followed once.
     ///
-    /// # Errors
-    /// If there is no memory for it.
+    /// # Errors If a tensor cannot be allocated.
     pub fn forward(&self, batch: &Batch) -> Result<Vec<Tensor>> {
         let events = batch.events();
         let by_event = |numbers: &Tensor, each: usize| numbers.reshape((events, each, ()));
@@ -49,7 +47,7 @@ impl NodeEmbedding {
         Ok(embeddings)
     }
 
-    /// What is to be learnt, named.
+    /// Trainable parameters with their names.
     #[must_use]
     pub fn parameters(&self, name: &str) -> Vec<Parameter> {
         let mut parameters = self.features.parameters(&format!("{name}.features"));

@@ -28,7 +28,7 @@ pub(super) struct Network {
 }
 
 impl Network {
-    /// A network that knows nothing yet.
+    /// An untrained network.
     pub(super) fn new(hidden: usize, random: &mut Pcg64Mcg) -> Result<Self> {
         let sizes = [(FEATURES, hidden), (hidden, hidden), (hidden, 1)];
         let [first, second, third] = sizes.map(|(inputs, outputs)| Layer::new(inputs, outputs, random));
@@ -67,7 +67,7 @@ impl Network {
             scale: standard.features.iter().map(|moments| moments.deviation).collect(),
             hidden: [dense(first, FEATURES, self.hidden)?, dense(second, self.hidden, self.hidden)?],
             output,
-            // Whoever measures it says better.
+            // Placeholder until the error is measured.
             rmse: deviation,
         })
     }

@@ -4,7 +4,7 @@ use super::Sample;
 use phase_model::Strength;
 use phase_simple::StrengthRegressor;
 
-/// How good estimates are on some motion, beside those of somebody who does not look at it.
+/// Errors of the estimates, with those of constant predictions for comparison.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Score {
     /// Root mean squared error (N).
@@ -17,8 +17,8 @@ pub struct Score {
     pub accuracy_of_guess: f64,
 }
 
-/// Scores a regressor on groups of samples of which none is empty; every group counts alike, within it every sample.
-/// `guess` is what somebody says who does not look. Zeros for no groups.
+/// Scores a regressor on non-empty groups of samples; groups have equal weight, as have the samples of a group.
+/// `guess` is the constant prediction. Zeros without groups.
 #[must_use]
 pub fn score<'a>(
     regressor: &StrengthRegressor,
@@ -50,7 +50,7 @@ pub fn score<'a>(
     }
 }
 
-/// The level nearest to a force (N); of two as near the weaker.
+/// The level nearest to a force (N); the weaker one in a tie.
 #[must_use]
 pub fn nearest(force: f64) -> Strength {
     let off = |strength: Strength| (f64::from(strength.max_force()) - force).abs();
@@ -58,7 +58,7 @@ pub fn nearest(force: f64) -> Strength {
     Strength::ALL.into_iter().fold(Strength::Weak, better)
 }
 
-/// The level most samples have; of two as common the weaker.
+/// The most common level; the weaker one in a tie.
 #[must_use]
 pub fn commonest<'a>(samples: impl Iterator<Item = &'a Sample>) -> Strength {
     let mut counts = [0_usize; Strength::ALL.len()];

@@ -18,7 +18,7 @@ pub struct Settings {
     pub hidden: usize,
     /// Samples between two changes of the weights, at least 1.
     pub batch: usize,
-    /// Adam's rate of learning.
+    /// Adam's learning rate.
     pub learning_rate: f64,
     /// Stretches drawn from each agent's motion in each epoch, beside the whole of it.
     pub windows: usize,
@@ -39,7 +39,7 @@ impl Default for Settings {
 pub struct Epoch {
     /// The epoch, from 1.
     pub number: usize,
-    /// On the epoch's training samples, while they were learnt from.
+    /// On the epoch's training samples, during training.
     pub training: f64,
     /// On whole validation events.
     pub whole: f64,
@@ -57,11 +57,11 @@ pub enum TrainingError {
     /// There is nothing to learn from, or to validate on.
     #[error("there are no {0} events to learn strengths from")]
     NoMotion(&'static str),
-    /// The library for neural networks gave up.
+    /// The neural-network library failed.
     #[error("the network cannot be trained: {0}")]
     Network(#[from] candle_core::Error),
-    /// Numbers grew beyond all bounds.
-    #[error("training came apart in epoch {epoch}: {source}")]
+    /// Training diverged.
+    #[error("training diverged in epoch {epoch}: {source}")]
     Apart {
         /// The epoch, from 1.
         epoch: usize,

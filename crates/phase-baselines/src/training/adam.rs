@@ -1,4 +1,4 @@
-//! Adam (Kingma and Ba, 2015), with moments that can be kept and put back.
+//! Adam (Kingma and Ba, 2015), with moments that can be saved and restored.
 
 use crate::parameters::{Parameter, numbers, set_numbers};
 use candle_core::{Result, backprop::GradStore};
@@ -26,8 +26,8 @@ impl Adam {
         Self { steps: 0, first: zeros.clone(), second: zeros }
     }
 
-    /// Changes the parameters by the slopes of a loss. Slopes that are together longer than `longest` are shortened to
-    /// it. A parameter that the loss did not depend on has slope 0.
+    /// Updates the parameters by the gradients of a loss, clipped to the global norm `longest`. A parameter that the
+    /// loss does not depend on has gradient 0.
     pub(super) fn step(
         &mut self,
         parameters: &[Parameter],

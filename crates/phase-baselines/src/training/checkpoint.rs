@@ -20,7 +20,7 @@ pub struct Checkpoint {
     pub seed: u64,
     /// The settings.
     pub settings: Settings,
-    /// Something that stands for the events, to learn from and to validate on: others have another.
+    /// Digest of the training and validation events.
     pub data: String,
 }
 
@@ -54,7 +54,7 @@ impl From<TensorsError> for CheckpointError {
 }
 
 impl<N: Network> Run<N> {
-    /// What this is a training of, on data that this text stands for.
+    /// Identity of this training for the given digest of its data.
     #[must_use]
     pub fn checkpoint_of(&self, data: &str) -> Checkpoint {
         let (seed, settings) = (self.seed, self.settings);

@@ -16,18 +16,16 @@ pub trait Network {
     /// What is measured beside the loss, by name.
     const SCORES: &'static [&'static str];
 
-    /// What is to be learnt, always in the same order.
+    /// Trainable parameters, always in the same order.
     fn parameters(&self) -> Vec<Parameter>;
 
-    /// How wrong it is about some samples, at least one. While it learns, whatever it draws comes from the generator; without
-    /// one it is measured, and draws nothing.
+    /// Loss and metrics over some samples, at least one. With a generator the network is in training mode and may
+    /// sample its input; without one it is evaluated deterministically.
     ///
-    /// # Errors
-    /// If there is no memory for it.
+    /// # Errors If a tensor cannot be allocated.
     fn loss(&self, samples: &[&Self::Sample], chance: Option<&mut Pcg64Mcg>) -> Result<Loss>;
 
-    /// What has to become less on the validation events for a round to be better than others: the loss, unless there is
-    /// something that is more what the network is for.
+    /// The criterion minimised over rounds on the validation events; the loss unless overridden.
     #[must_use]
     fn shortcoming(measure: &Measure) -> f64 {
         measure.loss

@@ -3,7 +3,7 @@
 use phase_model::random::{self, Pcg64Mcg, Purpose};
 use rand::seq::SliceRandom;
 
-/// The samples of a round (`number` from 1), in the order in which they are learnt from.
+/// The samples of a round (`number` from 1), in training order.
 ///
 /// Pass follows pass, each all samples once in an order of its own; a round is the next `length` of them, wherever passes begin
 /// and end. A pass's order comes from (seed, number of the pass) alone, so that any round can be the first one after a break.

@@ -11,10 +11,9 @@ pub trait Published: Network + Sized {
     /// The [`Record`](super::Record) of that training, as a file.
     const RECORD: &'static str;
 
-    /// The network with 64 numbers in every layer; it knows nothing yet.
+    /// The untrained network with 64 hidden units in every layer.
     ///
-    /// # Errors
-    /// If there is no memory for it.
+    /// # Errors If a tensor cannot be allocated.
     fn published(random: &mut Pcg64Mcg) -> Result<Self>;
 
     /// The network with the weights in a file of [`to_safetensors`](super::to_safetensors), such as

@@ -12,13 +12,13 @@ pub struct Record {
     format: Format,
     /// The network's name.
     pub network: String,
-    /// Numbers that it learns.
+    /// Number of trainable parameters.
     pub weights: usize,
     /// The seed.
     pub seed: u64,
     /// The settings.
     pub settings: Settings,
-    /// What is learnt from.
+    /// Training data.
     pub data: Source,
     /// What is validated on.
     pub validation: Source,
@@ -53,7 +53,7 @@ pub struct Source {
 pub struct RecordedRound {
     /// Its number, from 1.
     pub number: usize,
-    /// On the events learnt from, while they were.
+    /// On the training events, during training.
     pub training: NamedMeasure,
     /// On the validation events afterwards.
     pub validation: NamedMeasure,
@@ -79,7 +79,7 @@ pub struct NamedMeasure {
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Final {
-    /// On the events learnt from.
+    /// On the training events.
     pub train: NamedMeasure,
     /// On the validation events.
     pub validation: NamedMeasure,
@@ -92,12 +92,12 @@ pub struct Final {
 #[derive(Debug, Error)]
 pub enum RecordError {
     /// They cannot be read.
-    #[error("is no record of a training: {0}")]
+    #[error("is not a training record: {0}")]
     Text(#[from] serde_json::Error),
     /// Rounds are missing or do not stand in their order.
     #[error("field `rounds` must have the rounds 1, 2, 3 … in this order")]
     Order,
-    /// A time is none.
+    /// A time is negative or not finite.
     #[error("field `{0}` must not be negative")]
     Time(&'static str),
     /// The best round is not the last one marked as best.

@@ -7,16 +7,16 @@ use phase_model::random::{self, Pcg64Mcg, Purpose};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// How to train. Learning goes on in rounds of equal size however many events there are, so that as many rounds are as much
-/// work, and patience means the same, whatever is learnt from.
+/// Training settings. Rounds have a fixed size whatever the number of events, so that a number of rounds is the same
+/// amount of work, and patience has the same meaning, for every dataset.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Settings {
-    /// Events between two changes of the weights, at least 1.
+    /// Batch size (events), at least 1.
     pub batch: usize,
-    /// Adam's rate of learning.
+    /// Adam's learning rate.
     pub learning_rate: f64,
-    /// Greatest length of the slope of all weights together; longer ones are shortened to it.
+    /// Maximum global norm of the gradients; larger ones are scaled down to it.
     pub longest_slope: f64,
     /// Events in a round, at least 1. Events that are fewer come several times, of more it is the next part.
     pub round: usize,
@@ -40,7 +40,7 @@ pub struct Measure {
 pub struct Round {
     /// Its number, from 1.
     pub number: usize,
-    /// On the training events while they were learnt from.
+    /// On the training events, during training.
     pub training: Measure,
     /// On the validation events afterwards; [`Network::shortcoming`] is what has to become less.
     pub validation: Measure,
@@ -54,16 +54,16 @@ pub enum TrainingError {
     /// There is nothing to learn from, or to validate on.
     #[error("there are no {0} events to learn from")]
     NoEvents(&'static str),
-    /// The library for neural networks gave up.
+    /// The neural-network library failed.
     #[error("the network cannot be trained: {0}")]
     Network(#[from] candle_core::Error),
-    /// Numbers grew beyond all bounds.
-    #[error("training came apart in round {0}: the loss is no number any more")]
+    /// Training diverged.
+    #[error("training diverged in round {0}: the loss is not finite")]
     Apart(usize),
 }
 
-/// A training under way. Everything it draws comes from the seed and the number of the round or pass, so it can stop
-/// after any round and go on later.
+/// A training in progress. All randomness is derived from the seed and the number of the round or pass, so it can
+/// stop after any round and resume.
 #[derive(Debug)]
 pub struct Run<N: Network> {
     pub(super) network: N,
@@ -116,8 +116,7 @@ impl<N: Network> Run<N> {
         done >= self.settings.rounds || done - best >= self.settings.patience.max(1)
     }
 
-    /// Learns from the next training events of an endless sequence, in which all come once in random order before any comes
-    /// again, and measures on the validation events.
+    /// Trains on the next events of an endless sequence of shuffled passes, then evaluates on the validation events.
     ///
     /// # Errors
     /// [`TrainingError`].
@@ -158,8 +157,7 @@ impl<N: Network> Run<N> {
 
     /// The network with the weights of its best round, or its first ones.
     ///
-    /// # Errors
-    /// If they cannot be put back.
+    /// # Errors If they cannot be restored.
     pub fn into_best(self) -> Result<N> {
         if let Some(best) = &self.best {
             parameters::set_numbers(&self.network.parameters(), best)?;
@@ -170,8 +168,7 @@ impl<N: Network> Run<N> {
 
 /// How good a network is on some samples; zeros without any.
 ///
-/// # Errors
-/// If there is no memory for it.
+/// # Errors If a tensor cannot be allocated.
 pub fn measure<N: Network>(network: &N, samples: &[N::Sample], batch: usize) -> Result<Measure> {
     let mut mean = Mean::default();
     let samples: Vec<&N::Sample> = samples.iter().collect();

@@ -35,9 +35,8 @@ pub fn to_safetensors<N: Network>(network: &N) -> Result<Vec<u8>, NetworkError> 
 
 /// Gives a network the weights that [`to_safetensors`] wrote; its own must have the same shapes.
 ///
-/// # Errors
-/// For bytes that are no such file or one of another network, and for tensors that are missing, too many, of another
-/// shape or not finite. The network is then as it was.
+/// # Errors For bytes that are not such a file or belong to another network, and for tensors that are missing,
+/// unexpected, of another shape or not finite. The network is then unchanged.
 pub fn from_safetensors<N: Network>(network: N, bytes: &[u8]) -> Result<N, NetworkError> {
     let file = TensorFile::open_kind(bytes, FIELD, &format::<N>())?;
     let parameters = network.parameters();

@@ -27,7 +27,7 @@ pub struct Benchmark {
     /// Only the first N events of each
     #[arg(long, value_name = "N", value_parser = value_parser!(u64).range(1..=1_000_000_000))]
     pub limit: Option<u64>,
-    /// Seed of all chance in methods and intervals
+    /// Random seed of methods and intervals
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub seed: u64,
     /// Folder with a folder for each method and task, as `eval` leaves them; what is there already is not done again

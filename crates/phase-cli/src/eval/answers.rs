@@ -1,4 +1,4 @@
-//! Where answers come from: a method of ours, or somebody else's, from a file.
+//! Sources of answers: one of our methods, or a predictions file.
 
 use super::input::{Event, Input};
 use crate::{context::Context, error::CliError};

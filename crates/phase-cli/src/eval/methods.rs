@@ -1,4 +1,4 @@
-//! The methods there are, by name. Whoever has a new one adds its name and a line here.
+//! The methods by name. A new method is added here.
 
 use super::{
     networks,

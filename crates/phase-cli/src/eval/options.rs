@@ -70,7 +70,7 @@ pub struct Common {
     /// Only the first N events
     #[arg(long, value_name = "N", value_parser = value_parser!(u64).range(1..=1_000_000_000))]
     pub limit: Option<u64>,
-    /// Seed of all chance in the method and in the intervals
+    /// Random seed of the method and the intervals
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub seed: u64,
     /// Print the results as one JSON object on stdout, and nothing else there; or, with a file, write them there too

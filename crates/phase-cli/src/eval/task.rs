@@ -64,10 +64,9 @@ pub(crate) trait Task: Sync {
     /// Says what is wrong with it, reading on from its name.
     fn check(&self, event: &Event, file: &Path) -> Result<(), CliError>;
 
-    /// Asks the method; `None` if it was told to break.
+    /// Runs the method; `None` if it was cancelled.
     ///
-    /// # Errors
-    /// If it has no answer, or one that is none.
+    /// # Errors If it has no answer, or an invalid one.
     fn ask(
         &self,
         event: &Event,

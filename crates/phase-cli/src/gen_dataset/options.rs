@@ -14,7 +14,7 @@ pub struct GenDataset {
     /// Number of events [default: the preset's]
     #[arg(long, value_name = "N", value_parser = value_parser!(u64).range(1..=1_000_000))]
     pub events: Option<u64>,
-    /// Seed of all chance in the dataset [default: the preset's]
+    /// Random seed of the dataset [default: the preset's]
     #[arg(long, value_name = "S")]
     pub seed: Option<u64>,
     /// Folder for the dataset; new, empty, or of this very run [default: out/PRESET-seedS]

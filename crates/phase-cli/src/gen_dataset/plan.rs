@@ -1,4 +1,4 @@
-//! Everything that decides what a dataset holds.
+//! Everything that determines a dataset.
 
 use super::{options::GenDataset, run_value};
 use crate::{

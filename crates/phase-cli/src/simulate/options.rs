@@ -13,7 +13,7 @@ pub struct Simulate {
     /// Only the event with this id; may be given several times
     #[arg(long, value_name = "ID")]
     pub id: Vec<String>,
-    /// Seed of all chance in the simulations of events that have no `seed` of their own
+    /// Random seed of the simulations of events that have no `seed` of their own
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub seed: u64,
     /// Simulate every scene with the seeds S to S + N - 1; with more than one, ids end in -seedK

@@ -17,8 +17,8 @@ pub enum TrainError {
     /// A file of the dataset cannot be used.
     #[error(transparent)]
     File(#[from] FileError),
-    /// The folder is no finished dataset.
-    #[error("{}: is no finished dataset; give a folder with manifest.json", .0.display())]
+    /// The folder is not a finished dataset.
+    #[error("{}: is not a finished dataset; give a folder with manifest.json", .0.display())]
     NotADataset(PathBuf),
     /// The dataset has no events to learn from, or none to validate on.
     #[error("{}: has no {split} events", folder.display())]
@@ -73,7 +73,7 @@ pub enum TrainError {
         /// Why.
         source: CheckpointError,
     },
-    /// The record of a training that was broken off cannot be used.
+    /// The record of an interrupted training cannot be used.
     #[error("{}: {source}; remove {} to begin anew", file.display(), checkpoint.display())]
     Record {
         /// The file.

@@ -24,8 +24,8 @@ pub(super) struct Events {
 impl Events {
     /// Opens the datasets.
     ///
-    /// # Errors
-    /// If one is none, its manifest cannot be used, or there are fewer training events than are asked for.
+    /// # Errors If a folder is not a dataset, its manifest cannot be used, or there are fewer training
+    /// events than requested.
     pub(super) fn open(options: &Options) -> Result<Self, TrainError> {
         let data = Dataset::open(&options.data)?;
         let validation = options.validation.as_deref().map(Dataset::open).transpose()?;
@@ -99,7 +99,7 @@ impl Dataset {
         self.manifest.events.iter().filter(move |entry| entry.split == Some(split))
     }
 
-    /// Something that stands for all of it: every event's checksum is in it.
+    /// A digest of the dataset, over the checksums of all events.
     fn id(&self) -> String {
         let entries = self.manifest.events.iter();
         entries.map(|entry| format!("{} {:?} {}\n", entry.id, entry.split, entry.event.sha256)).collect()

@@ -20,14 +20,14 @@ pub(super) struct Kept {
     checkpoint: PathBuf,
     file: PathBuf,
     record: Record,
-    /// What stands for the events in checkpoints.
+    /// Digest of the events, stored in checkpoints.
     data: String,
     /// When there was last a checkpoint after a round of this process.
     last: Option<Instant>,
 }
 
 impl Kept {
-    /// Takes up a training that was broken off, or begins to keep the new one: where nothing can be written is to be known
+    /// Resumes an interrupted training or creates the files of a new one, so that an unwritable folder is reported
     /// before the work.
     ///
     /// # Errors
@@ -60,8 +60,8 @@ impl Kept {
         Ok(kept)
     }
 
-    /// Goes through a round and writes it down. Whoever breaks off loses the round at work, and those of the last
-    /// two seconds. Also says how long the round took (s).
+    /// Runs a round and records it. An interruption loses the current round and those of the last two seconds.
+    /// Also returns the duration of the round (s).
     ///
     /// # Errors
     /// If nothing can be learnt or written.

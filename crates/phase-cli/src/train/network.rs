@@ -61,7 +61,7 @@ pub(super) fn run<N: Published>(
     let test = if options.test { Some(report(Split::Test, &samples(Split::Test)?)?) } else { None };
     let (test, of_test) = test.unzip();
     let text = format!(
-        "the weights are those of round {best}\n| events | loss | {} |\n|---|---|{}\n{of_train}{of_validation}{}",
+        "kept the weights of round {best}\n| events | loss | {} |\n|---|---|{}\n{of_train}{of_validation}{}",
         N::SCORES.join(" | "),
         "---|".repeat(N::SCORES.len()),
         of_test.unwrap_or_default(),

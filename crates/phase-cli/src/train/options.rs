@@ -7,7 +7,7 @@ use std::path::PathBuf;
 /// What to train.
 #[derive(Subcommand, Debug)]
 pub enum Train {
-    /// SIMPLE's guess at the agents' strengths
+    /// The strength regressor of SIMPLE
     Strength(Options),
     /// 2-Level LSTM, a baseline for goals and relations
     TwoLevelLstm(NetworkOptions),
@@ -34,10 +34,10 @@ pub struct Options {
     /// File for the weights (safetensors)
     #[arg(long, value_name = "FILE")]
     pub out: PathBuf,
-    /// Seed of all chance in the training
+    /// Random seed of the training
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub seed: u64,
-    /// Also measure what was learnt on the test events, once, at the end
+    /// Also evaluate the final weights on the test events
     #[arg(long)]
     pub test: bool,
     /// How the result is printed.
@@ -51,7 +51,7 @@ pub struct NetworkOptions {
     /// On what, and where to.
     #[command(flatten)]
     pub options: Options,
-    /// Rounds of learning at most
+    /// Maximum number of rounds
     #[arg(long, value_name = "N", value_parser = at_least_one)]
     pub rounds: Option<usize>,
 }

@@ -1,4 +1,4 @@
-//! `strength`: trains SIMPLE's guess at the agents' strengths and says how good it is.
+//! `strength`: trains The strength regressor of SIMPLE and says how good it is.
 
 use super::{error::TrainError, events::Events, options::Options};
 use crate::{context::Context, error::CliError};

@@ -129,9 +129,9 @@ fn methods_from_outside_stand_beside_ours() {
         (
             "tiny",
             "mine/results.json",
-            "mine/results.json: is no complete results file: field `run.events_sha256` is not that",
+            "mine/results.json: is not a complete results file: field `run.events_sha256` is not that",
         ),
-        ("tiny", "none.json", "none.json: is no complete results file: field `run.events_sha256`"),
+        ("tiny", "none.json", "none.json: is not a complete results file: field `run.events_sha256`"),
         ("tiny", "missing.json", "missing.json: cannot be read: no such file"),
         (
             "events.json",
@@ -147,7 +147,7 @@ fn methods_from_outside_stand_beside_ours() {
     fs::create_dir(path.join("full")).expect("a folder");
     fs::write(path.join("full/thesis.tex"), "").expect("written");
     let sentence = refuse(path, &["benchmark", "--data", "tiny", "--methods", "cue", "--out", "full"]);
-    assert!(sentence.contains("full: holds something else (thesis.tex)"), "{sentence}");
+    assert!(sentence.contains("full: contains other files (thesis.tex)"), "{sentence}");
 }
 
 #[cfg(not(feature = "networks"))]

@@ -97,7 +97,7 @@ fn a_finished_dataset_is_left_alone() {
     let sentence = refuse(path, &generate("out", &["--seed", "5"]));
     assert!(sentence.contains("out: ") && sentence.contains("seed 1 instead of 5"), "{sentence}");
     let sentence = refuse(path, &["simulate", "--events", "out/events/demo-0000.json", "--out", "out"]);
-    assert!(sentence.contains("holds something else"), "{sentence}");
+    assert!(sentence.contains("contains other files"), "{sentence}");
     assert!(tree(&path.join("out")) == before);
 
     let video = path.join("out/videos/demo-0001.mp4");

@@ -110,7 +110,7 @@ fn two_runs_in_one_folder_do_not_mix() {
     assert!(sentence.contains("unfinished run of another kind"), "{sentence}");
     let output = phase(path).args(generate("out")).output().expect("the program starts");
     assert_eq!(output.status.code(), Some(2));
-    assert!(text(&output.stderr).contains("another run is writing"), "{}", text(&output.stderr));
+    assert!(text(&output.stderr).contains("is in use by another run"), "{}", text(&output.stderr));
     signal(&child, "-INT");
     assert_eq!(child.wait().expect("it ends").code(), Some(130), "the first run was not disturbed");
 }

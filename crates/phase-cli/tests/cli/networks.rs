@@ -116,7 +116,7 @@ fn networks_in_the_benchmark() {
     assert_eq!(figures["trainings"][0]["events"], 320);
     fs::write(format!("{arg}.training.json"), "{\"format\": \"phase-training/1\"}").expect("written");
     let sentence = refuse(path, &arguments);
-    assert!(sentence.contains("training.json: is no record of a training: missing field"), "{sentence}");
+    assert!(sentence.contains("training.json: is not a training record: missing field"), "{sentence}");
 }
 
 #[cfg(feature = "networks")]
@@ -136,7 +136,7 @@ fn weights_of_ones_own() {
             refuse(path, &arguments.iter().map(String::as_str).collect::<Vec<_>>())
         };
         assert!(refused("missing").contains("missing: cannot be read: no such file"));
-        assert!(refused("rubbish").contains("rubbish: is no complete file of weights"));
+        assert!(refused("rubbish").contains("rubbish: is not a complete file of weights"));
         let other = if name == "arg" { "stgat" } else { "arg" };
         let sentence = refused(&shipped(other));
         assert!(sentence.contains(&format!("field `format` must be \"phase-{name}/1\"")), "{sentence}");

@@ -38,7 +38,7 @@ fn bad_input_is_one_sentence_and_exit_code_2() {
         (
             &nothing,
             &out,
-            format!("error: {nothing}: is no finished dataset; give a folder with manifest.json\n"),
+            format!("error: {nothing}: is not a finished dataset; give a folder with manifest.json\n"),
         ),
         (
             &torn,

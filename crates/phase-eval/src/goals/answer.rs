@@ -1,4 +1,4 @@
-//! What a method said of an event, and what would have been right.
+//! A method's answer to an event, and the label.
 
 use super::canonical;
 use phase_model::{AGENT_COUNT, AgentId, EventKind, Goal, Judgement, Relation, RelationProbabilities};
@@ -23,7 +23,7 @@ pub enum AnswerError {
     /// An agent's goals are together more than certain.
     #[error("`goals[{0}]` must have probabilities of at most 1 in all")]
     Goals(AgentId),
-    /// The relations' probabilities are none.
+    /// The relations' probabilities are invalid.
     #[error("`relation` must have three numbers from 0 to 1 that add up to 1")]
     Relation,
 }
@@ -38,7 +38,7 @@ pub struct Share {
     pub p: f64,
 }
 
-/// What a method said of an event.
+/// A method's answer to an event.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Answer {
     /// Goals of each agent, most likely first, no goal twice; those of equal probability as the method had them.
@@ -94,7 +94,7 @@ pub struct Label {
     pub kind: EventKind,
     /// The goals, with a helper's or hinderer's as labels have it.
     pub goals: [Goal; AGENT_COUNT],
-    /// The relation the event was made to show.
+    /// The intended relation.
     pub relation: Relation,
     /// The relation that people saw, where they were asked.
     pub relation_human: Option<Relation>,
@@ -102,12 +102,12 @@ pub struct Label {
     pub layout_seen: Option<bool>,
 }
 
-/// What a method said after a part of an event.
+/// A method's answer after a prefix of an event.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Glimpse {
-    /// How much it had seen (s of video).
+    /// Length of the prefix (s of video).
     pub seconds: f64,
-    /// What it said.
+    /// The answer.
     #[serde(flatten)]
     pub answer: Answer,
 }
@@ -117,17 +117,17 @@ pub struct Glimpse {
 pub struct RecognisedEvent {
     /// The event's name.
     pub id: String,
-    /// What the method said after all of the event.
+    /// The answer after the whole event.
     #[serde(flatten)]
     pub answer: Answer,
-    /// What would have been right.
+    /// The label.
     pub label: Label,
-    /// What it said after parts of the event, in the order in which they were asked for.
+    /// Answers after prefixes of the event, in the order requested.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub watched: Vec<Glimpse>,
     /// CPU time for the answer to the whole event (s), where it was measured.
     pub cpu_seconds: Option<f64>,
-    /// What the method wanted to have kept.
+    /// Details that the method attached.
     #[serde(default, skip_serializing_if = "Value::is_null")]
     pub details: Value,
 }

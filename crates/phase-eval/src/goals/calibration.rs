@@ -1,4 +1,4 @@
-//! Whether a method is right as often as it says it is.
+//! Calibration of a method's probabilities.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,4 +1,4 @@
-//! What goals were taken for.
+//! Error breakdown of the recognised goals.
 
 use super::{RecognisedEvent, canonical};
 use phase_model::Goal;

@@ -1,4 +1,4 @@
-//! How right a method is over many events.
+//! Accuracy of a method over many events.
 
 use super::{Answer, Calibration, Label, RecognisedEvent};
 use crate::{Estimate, Group};
@@ -54,7 +54,7 @@ impl Scores {
     }
 }
 
-/// How right a method is.
+/// Accuracy of a method.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Summary {
     /// Over all events.

@@ -1,14 +1,14 @@
-//! How far a prediction is from what came.
+//! Errors of a prediction.
 
 use phase_model::{AGENT_COUNT, EventKind, Forecast, Relation, Vec2};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use thiserror::Error;
 
-/// Why numbers are no prediction of what came.
+/// Why a prediction cannot be scored.
 #[derive(Clone, PartialEq, Eq, Debug, Error)]
 pub enum ForecastError {
-    /// There is nothing to hold a prediction against.
+    /// There is no step to predict.
     #[error("there is no step to predict")]
     NoSteps,
     /// Not every entity has a position for every step.
@@ -57,7 +57,7 @@ pub struct ForecastEvent {
     pub forecast: Vec<Vec<[f32; 2]>>,
     /// CPU time for the prediction (s).
     pub cpu_seconds: Option<f64>,
-    /// What the method wanted to have kept.
+    /// Details that the method attached.
     #[serde(default, skip_serializing_if = "Value::is_null")]
     pub details: Value,
 }

@@ -1,4 +1,4 @@
-//! How far off a method is over many events.
+//! Displacement errors of a method over many events.
 
 use super::{Errors, ForecastEvent, PREDICTED_STEPS};
 use crate::{Estimate, Group};
@@ -36,7 +36,7 @@ impl Scores {
     }
 }
 
-/// How far off a method is.
+/// Displacement errors of a method.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Summary {
     /// Events with a neutral relation; `None` if there are none.

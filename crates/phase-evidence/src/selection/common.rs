@@ -13,7 +13,8 @@ const SOON: usize = 8;
 /// How much nearer to what it needs an agent has to come for its goal to be seen (u).
 const APPROACH: f32 = 2.0;
 
-/// Two who are at odds may go on to the greatest length; everybody else is to have let go and come to rest.
+/// Adversarial events may last to the maximum length; in all others both agents have released their objects and come
+/// to rest.
 pub(super) fn tidy(scene: &Scene, track: &Track) -> Result<(), Refusal> {
     if scene.relation() == Relation::Adversarial {
         return Ok(());

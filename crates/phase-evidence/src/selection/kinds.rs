@@ -12,9 +12,9 @@ use phase_planner::Routes;
 const FOUGHT: usize = 5;
 /// An object was carried if it went so far (u).
 const CARRIED: f32 = 1.0;
-/// A pursuit takes so many steps of motion.
+/// Minimum number of moving steps of a pursuit.
 const PURSUIT: usize = 8;
-/// Of so many steps, independent agents may touch each other in one.
+/// Independent agents may touch each other in one of this many steps.
 const CROSSING: usize = 5;
 
 pub(super) fn judge(scene: &Scene, track: &Track) -> Result<Option<Comparison>, Refusal> {
@@ -28,9 +28,9 @@ pub(super) fn judge(scene: &Scene, track: &Track) -> Result<Option<Comparison>, 
     }
 }
 
-/// The helpee's goal is reached, and the helper has had something in hand. If the goal is about an object, the helpee was
-/// seen to be after it before the helper took it, and has had it in hand as well: else one sees somebody move an object
-/// and somebody stand about.
+/// The helpee's goal is reached, and the helper has held an object. If the goal is about an object, the helpee pursued
+/// it visibly before the helper took it, and has held it as well; otherwise a viewer sees one agent move an object and
+/// the other stand idle.
 fn helping(scene: &Scene, track: &Track) -> Result<Comparison, Refusal> {
     let helper = social(scene);
     let helpee = helper.other();

@@ -21,7 +21,7 @@ pub enum Refusal {
     TooShort,
     /// It lasts beyond the greatest length.
     TooLong,
-    /// Something still moves or is still held at the end, and nobody is at odds with anybody.
+    /// Something still moves or is still held at the end of a non-adversarial event.
     Restless,
     /// A goal that the label needs reached was missed.
     GoalMissed,
@@ -35,11 +35,11 @@ pub enum Refusal {
     NotTogether,
     /// Two who are at odds about an object did not both get to it, or nothing came of it.
     Uncontested,
-    /// Nobody went after the other.
+    /// No pursuit was seen.
     NoPursuit,
-    /// Nobody got away from the other.
+    /// No evasion was seen.
     NoFlight,
-    /// Two who should mind their own business were in each other's way.
+    /// Independent agents interfered with each other.
     Interference,
     /// Without the agent that is to make a difference it would have come out alike.
     NoEffect,
@@ -150,7 +150,7 @@ pub fn first_look(
     kinds::judge(scene, track)
 }
 
-/// Whether whoever is touched gets away again: a chase in which one is caught and escapes is one all the same.
+/// Whether the touched agent escapes again: a chase with a catch and an escape still counts.
 fn gets_loose(goal: Goal, event: &Track, without: &Track) -> bool {
     if !matches!(goal, Goal::Touch { sign: Sign::Positive, .. }) {
         return false;

@@ -97,7 +97,7 @@ impl<'a> Field<'a> {
         self.value.as_str().ok_or_else(|| self.must_be("a text"))
     }
 
-    /// A number that single precision can hold.
+    /// A number representable in single precision.
     ///
     /// # Errors
     /// If this is none.
@@ -144,7 +144,7 @@ impl<'a> Field<'a> {
     }
 }
 
-/// A number that single precision can hold.
+/// A number representable in single precision.
 #[must_use]
 pub fn finite(value: &Value) -> Option<f32> {
     value.as_f64().map(|number| number as f32).filter(|number| number.is_finite())

@@ -67,8 +67,8 @@ fn kind(value: &Value) -> &'static str {
     }
 }
 
-/// The spelling of a number that is none, if one stands around the place of a mistake. The parser points
-/// at or one past the character that surprised it.
+/// The spelling of a non-finite number near the position of a parse error. The parser reports the
+/// position of the unexpected character or the one after it.
 fn non_number(text: &str, line: usize, column: usize) -> Option<&'static str> {
     let line = text.lines().nth(line.checked_sub(1)?)?.as_bytes();
     let from = column.saturating_sub(4).min(line.len());

@@ -26,7 +26,7 @@ const CHECK: usize = 5;
 /// nothing, which is never worth a step either, so that the optimum is the same.
 pub(crate) struct RockSample;
 
-/// One possible present.
+/// A state of the problem.
 #[derive(Clone, Copy)]
 pub(crate) struct Rover {
     at: [i8; 2],
@@ -82,7 +82,7 @@ impl GenerativeModel for RockSample {
         }
     }
 
-    /// What cannot be of use is not worth trying twice, and what the rollouts would do is worth trying first.
+    /// Useless actions get a low prior, the rollout policy's action a high one.
     fn prior_weight(&self, rover: &Rover, action: usize) -> f64 {
         let is_useful = match action {
             EAST => true,

@@ -16,7 +16,7 @@ use phase_eval::Estimate;
 pub struct Subject<'a> {
     /// The method's name.
     pub method: &'a str,
-    /// Whether it is somebody else's, whose answers came from a file.
+    /// Whether the method is external, with predictions from a file.
     pub given: bool,
     /// The events, in words.
     pub events: &'a str,

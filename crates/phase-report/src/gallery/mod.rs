@@ -92,7 +92,7 @@ fn filters(events: &[EventEntry]) -> String {
     selects
 }
 
-/// What the agents of an event want, whoever wants it: each goal once.
+/// The distinct goals of an event's agents.
 fn goals(event: &EventEntry) -> Vec<String> {
     let text = |agent: &AgentEntry| {
         let landmark = agent.goal.landmark().map_or("", words::landmark);
@@ -125,10 +125,10 @@ fn card(event: &EventEntry) -> String {
     };
     let buttons = [
         button("toggle", "play", "▶"),
-        button("step-back", "one step back", "«"),
-        button("back", "one frame back", "‹"),
-        button("next", "one frame on", "›"),
-        button("step-next", "one step on", "»"),
+        button("step-back", "previous step", "«"),
+        button("back", "previous frame", "‹"),
+        button("next", "next frame", "›"),
+        button("step-next", "next step", "»"),
     ];
     format!(
         "<article class=\"card\" tabindex=\"0\" data-id=\"{id}\" data-kind=\"{kind}\" \

@@ -27,7 +27,7 @@ pub struct InverseDynamics {
     pub actions: Vec<[Action; AGENT_COUNT]>,
     /// ln P(motion | f) of each agent's strengths but for a constant, weakest first.
     pub log_strengths: [[f64; Strength::ALL.len()]; AGENT_COUNT],
-    /// What stays unexplained of every step (u), over positions, velocities and angles of all bodies.
+    /// Residual of every step (u), over positions, velocities and angles of all bodies.
     pub residuals: Vec<f32>,
     /// Whether row 0 is the state after the first substep of the first step, as in some recordings.
     pub late_start: bool,

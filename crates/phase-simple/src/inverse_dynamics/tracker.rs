@@ -1,4 +1,4 @@
-//! One step of an event, imagined under all that its agents can have done.
+//! One step of an event, simulated under all possible actions.
 
 use super::path::{Path, least};
 use phase_event::ObservedEvent;
@@ -12,7 +12,7 @@ use phase_model::{
 pub(super) const LEVELS: usize = Strength::ALL.len();
 /// What physics leaves unexplained of a step that it explains (u).
 const SCALE: f64 = 0.02;
-/// A body that is this far (u, rad) from where it was imagined was not understood.
+/// Prediction error beyond which a body is reset to the observation (u, rad).
 const LOST: f32 = 0.4;
 /// Nearer than this (u, rad), what a simulation knows of contacts still holds.
 const SAME: f32 = 0.02;
@@ -62,7 +62,7 @@ struct Difference {
     angle: f32,
 }
 
-/// What it takes to follow an event.
+/// Filter that follows an event through the forward model.
 pub(super) struct Tracker<'a> {
     observed: &'a ObservedEvent,
     /// By both agents' strengths.

@@ -1,4 +1,4 @@
-//! What the network is told of an agent's motion.
+//! Input features of the strength regressor.
 
 use phase_model::{
     AgentId, Body, Entity, MAX_ENTITIES, Size, Vec2,

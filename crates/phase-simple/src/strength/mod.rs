@@ -14,7 +14,7 @@ pub use weights::{Dense, Weights, WeightsError};
 
 use phase_model::{AgentId, Body, MAX_ENTITIES, Size, Strength};
 
-/// Something that guesses at strengths.
+/// A proposal distribution over strengths.
 pub trait StrengthCue: Sync {
     /// ln Q(f | S) of each level for an agent of a size, from the rows of a stretch of motion. The
     /// probabilities add up to 1.
@@ -26,7 +26,7 @@ pub trait StrengthCue: Sync {
     ) -> [f64; Strength::ALL.len()];
 }
 
-/// The cue of whoever has none: all strengths are equally likely.
+/// The uninformative cue: all strengths are equally likely.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct AnyStrength;
 

@@ -87,7 +87,7 @@ impl StrengthCue for StrengthRegressor {
 }
 
 impl Dense {
-    /// What goes out for what comes in, summed up in order.
+    /// The layer's output, summed in order.
     fn apply(&self, inputs: &[f64]) -> Vec<f64> {
         let rows = self.weight.chunks_exact(self.inputs.max(1));
         let sum = |row: &[f32]| -> f64 {

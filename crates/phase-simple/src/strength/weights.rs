@@ -1,4 +1,4 @@
-//! The numbers of the strength regressor, and what they have to be.
+//! Weights of the strength regressor and their constraints.
 
 use super::FEATURES;
 use phase_tensors::{NamedTensor, TensorsError, check_shape};

@@ -1,4 +1,4 @@
-//! What goals were taken for.
+//! Error breakdown of the recognised goals.
 
 use super::tables::{events, name};
 use crate::document::{Block, head};

@@ -35,7 +35,7 @@ pub(super) fn goals(benchmark: &Benchmark) -> Block {
     goal_table(rows.chain(others.into_iter().map(|row| goal_row(benchmark, row))).collect())
 }
 
-/// The ablation: SIMPLE and what is left of it with one part or two taken out.
+/// The ablation: SIMPLE with one or two components removed.
 pub(super) fn ablation(benchmark: &Benchmark) -> Block {
     goal_table(ABLATION.iter().flat_map(|names| goal_rows(benchmark, names)).collect())
 }
@@ -169,7 +169,7 @@ fn part_table<S>(
     Some(Block::Table { head, rows: lines })
 }
 
-/// Methods that stand for themselves: nobody's published row is above them.
+/// Methods without a published counterpart.
 fn others<S>(rows: &[Row<S>], has_place: impl Fn(&str) -> bool) -> Vec<&Row<S>> {
     let placed = |row: &Row<S>| row.origin == Origin::Ours && has_place(&row.method);
     let mut others: Vec<&Row<S>> =
