@@ -3,7 +3,7 @@
 
 use core::hint::black_box;
 use criterion::{BenchmarkId, Criterion, SamplingMode};
-use phase_agent::{Agent, Settings};
+use phase_agent::{Agent, MindParameters};
 use phase_belief::Belief;
 use phase_forward::Forward;
 use phase_model::{
@@ -21,28 +21,28 @@ fn scene() -> Scene {
 fn main() {
     let mut criterion = Criterion::default().configure_from_args();
     let scene = scene();
-    let (physique, state) = (scene.physique(), scene.initial_state());
-    let observation = observe(&physique, &state, AgentId::ZERO);
-    let forward = || Forward::new(&physique);
+    let (physics, state) = (scene.physics(), scene.initial_state());
+    let observation = observe(&physics, &state, AgentId::ZERO);
+    let forward = || Forward::new(&physics);
 
     let numbers: Vec<f64> = (0..10_000).map(f64::from).collect();
     criterion.bench_function("yardstick/sum of 10 000 square roots", |bencher| {
         bencher.iter(|| black_box(&numbers).iter().map(|number| number.sqrt()).sum::<f64>());
     });
     criterion.bench_function("perception/field of view", |bencher| {
-        bencher.iter(|| field_of_view(&physique, black_box(&state), AgentId::ZERO));
+        bencher.iter(|| field_of_view(&physics, black_box(&state), AgentId::ZERO));
     });
     criterion.bench_function("perception/observed set", |bencher| {
-        bencher.iter(|| observed_set(&physique, black_box(&state), AgentId::ZERO));
+        bencher.iter(|| observed_set(&physics, black_box(&state), AgentId::ZERO));
     });
     criterion.bench_function("perception/one observation", |bencher| {
-        bencher.iter(|| observe(&physique, black_box(&state), AgentId::ZERO));
+        bencher.iter(|| observe(&physics, black_box(&state), AgentId::ZERO));
     });
     criterion.bench_function("belief/update of 50 particles", |bencher| {
         let dynamics = forward();
         let mut random = stream(1, Purpose::Belief, 0);
-        let mut belief = Belief::new(&physique, &observation, 50, &mut random);
-        bencher.iter(|| belief.update(&dynamics, &physique, Action::NoForce, &observation, &mut random));
+        let mut belief = Belief::new(&physics, &observation, 50, &mut random);
+        bencher.iter(|| belief.update(&dynamics, &physics, Action::NoForce, &observation, &mut random));
     });
     criterion.bench_function("belief/update of 50 particles, nobody observed", |bencher| {
         let dynamics = forward();
@@ -51,29 +51,29 @@ fn main() {
         let mut turned = (0..64).map(|k| {
             let mut turned = state;
             turned.bodies[0].angle = 0.1 * k as f32;
-            observe(&physique, &turned, AgentId::ZERO)
+            observe(&physics, &turned, AgentId::ZERO)
         });
-        let others = || physique.entities().skip(1);
+        let others = || physics.entities().skip(1);
         let blind = turned
             .find(|seen| others().all(|other| seen.body(other).is_none()))
             .expect("some direction in which there is nobody");
-        let mut belief = Belief::new(&physique, &blind, 50, &mut random);
-        bencher.iter(|| belief.update(&dynamics, &physique, Action::NoForce, &blind, &mut random));
+        let mut belief = Belief::new(&physics, &blind, 50, &mut random);
+        bencher.iter(|| belief.update(&dynamics, &physics, Action::NoForce, &blind, &mut random));
     });
     criterion.bench_function("planner/one plan", |bencher| {
         let planner =
-            Planner::new(physique.clone(), scene.layout, AgentId::ZERO, scene.goals(), scene.attitudes()[0]);
+            Planner::new(physics.clone(), scene.layout, AgentId::ZERO, scene.goals(), scene.attitudes()[0]);
         bencher.iter(|| planner.plan(black_box(&state), observation.observed));
     });
     criterion.bench_function("planner/plans of 50 particles that differ", |bencher| {
         let planner =
-            Planner::new(physique.clone(), scene.layout, AgentId::ZERO, scene.goals(), scene.attitudes()[0]);
+            Planner::new(physics.clone(), scene.layout, AgentId::ZERO, scene.goals(), scene.attitudes()[0]);
         let mut random = stream(1, Purpose::Belief, 0);
         let mut turned = state;
         // Turned away from everybody, so that every particle has them elsewhere.
         turned.bodies[0].angle += core::f32::consts::PI;
-        let blind = observe(&physique, &turned, AgentId::ZERO);
-        let belief = Belief::new(&physique, &blind, 50, &mut random);
+        let blind = observe(&physics, &turned, AgentId::ZERO);
+        let belief = Belief::new(&physics, &blind, 50, &mut random);
         bencher.iter(|| {
             let plans: Vec<_> =
                 belief.particles().iter().map(|particle| planner.plan(particle, blind.observed)).collect();
@@ -82,9 +82,15 @@ fn main() {
     });
     criterion.bench_function("agent/one decision at the paper's settings", |bencher| {
         let mut random = stream(1, Purpose::Belief, 0);
-        let mut agent =
-            Agent::new(&scene, AgentId::ZERO, forward(), Settings::default(), &observation, &mut random)
-                .expect("good settings");
+        let mut agent = Agent::new(
+            &scene,
+            AgentId::ZERO,
+            forward(),
+            MindParameters::default(),
+            &observation,
+            &mut random,
+        )
+        .expect("good settings");
         let mut search = stream(1, Purpose::Search, 0);
         bencher.iter(|| agent.decide(&mut search));
     });
@@ -95,13 +101,13 @@ fn main() {
 
 /// One decision and one belief update, one setting varied at a time, the others as in the paper but where named.
 fn scaling(criterion: &mut Criterion, scene: &Scene) {
-    let (physique, state) = (scene.physique(), scene.initial_state());
-    let observation = observe(&physique, &state, AgentId::ZERO);
-    let paper = Settings::default();
-    let with_simulations = |simulations| (simulations, Settings { simulations, ..paper });
+    let (physics, state) = (scene.physics(), scene.initial_state());
+    let observation = observe(&physics, &state, AgentId::ZERO);
+    let paper = MindParameters::default();
+    let with_simulations = |simulations| (simulations, MindParameters { simulations, ..paper });
     // One simulation, since the search does not grow with particles, but what they agree to search may change.
-    let with_particles = |particles| (particles, Settings { particles, simulations: 1, ..paper });
-    let with_rollout = |rollout_steps| (rollout_steps, Settings { rollout_steps, ..paper });
+    let with_particles = |particles| (particles, MindParameters { particles, simulations: 1, ..paper });
+    let with_rollout = |rollout_steps| (rollout_steps, MindParameters { rollout_steps, ..paper });
     for (name, settings) in [
         ("simulations", [250, 500, 1000, 2000].map(with_simulations).to_vec()),
         ("particles, one simulation", [25, 50, 100, 200].map(with_particles).to_vec()),
@@ -111,7 +117,7 @@ fn scaling(criterion: &mut Criterion, scene: &Scene) {
         for (count, settings) in settings {
             let mut random = stream(1, Purpose::Belief, 0);
             let mut search = stream(1, Purpose::Search, 0);
-            let forward = Forward::new(&physique);
+            let forward = Forward::new(&physics);
             let mut agent = Agent::new(scene, AgentId::ZERO, forward, settings, &observation, &mut random)
                 .expect("good settings");
             group.bench_function(BenchmarkId::from_parameter(count), |bencher| {
@@ -129,7 +135,11 @@ fn scaling(criterion: &mut Criterion, scene: &Scene) {
 
 /// The sampler's first scene of each kind at the paper's settings, made to last exactly 100 steps.
 fn whole_events(criterion: &mut Criterion) {
-    let settings = phase_sim::Settings { min_steps: 100, max_steps: 100, ..phase_sim::Settings::default() };
+    let settings = phase_sim::SimulationSettings {
+        min_steps: 100,
+        max_steps: 100,
+        ..phase_sim::SimulationSettings::default()
+    };
     let mut group = criterion.benchmark_group("event");
     group.sample_size(10).sampling_mode(SamplingMode::Flat);
     for kind in EventKind::ALL {

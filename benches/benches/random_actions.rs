@@ -54,8 +54,8 @@ fn main() {
 fn play(kind: EventKind, index: u64, random: &mut Pcg64Mcg) -> (Forward, Vec<State>) {
     let scene = phase_sampler::sample_kind(kind, &mut stream(1, Purpose::Scene, index))
         .expect("a scene of every kind");
-    let physique = scene.physique();
-    let mut world = World::new(&physique, &scene.initial_state());
+    let physics = scene.physics();
+    let mut world = World::new(&physics, &scene.initial_state());
     let mut actions = draw(random);
     let mut step = |k: usize| {
         if k.is_multiple_of(HELD) {
@@ -64,7 +64,7 @@ fn play(kind: EventKind, index: u64, random: &mut Pcg64Mcg) -> (Forward, Vec<Sta
         let [.., after] = world.step(actions);
         after
     };
-    (Forward::new(&physique), (0..STEPS).map(&mut step).collect())
+    (Forward::new(&physics), (0..STEPS).map(&mut step).collect())
 }
 
 /// The states of all rows of all recordings of a file.
@@ -73,7 +73,7 @@ fn recorded(path: &Path) -> Result<Vec<(Forward, Vec<State>)>, phase_dataset::Fi
     let rows = |recording: &phase_event::Recording| {
         let trajectory = &recording.trajectory;
         let states = (0..=trajectory.steps()).filter_map(|t| trajectory.state(t)).collect();
-        (Forward::new(&recording.scene.physique()), states)
+        (Forward::new(&recording.scene.physics()), states)
     };
     Ok(recordings.iter().map(rows).collect())
 }
@@ -90,7 +90,7 @@ fn bench(
     let starts: Vec<Start<'_>> = all
         .map(|(forward, state)| Start { forward, state, actions: (0..ahead).map(|_| draw(random)).collect() })
         .collect();
-    let steps: [(&str, Step); 2] = [("exact", Forward::step), ("coarse", Forward::imagine)];
+    let steps: [(&str, Step); 2] = [("exact", Forward::step), ("coarse", Forward::step_approximate)];
     for (how, step) in steps {
         criterion.bench_function(&format!("{name}, {how}"), |bencher| {
             bencher.iter_custom(|iterations| {

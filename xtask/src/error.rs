@@ -13,7 +13,7 @@ pub enum XtaskError {
     Cli(#[from] CliError),
     /// A file of probes or runs cannot be used.
     #[error("{}: {source}", file.display())]
-    Record {
+    Calibration {
         /// The file.
         file: PathBuf,
         /// What is wrong with it.
@@ -42,7 +42,7 @@ impl Failure for XtaskError {
     fn exit_code(&self) -> u8 {
         match self {
             Self::Cli(error) => error.exit_code(),
-            Self::Record { .. } => 2,
+            Self::Calibration { .. } => 2,
             Self::Unreadable { .. } | Self::Cargo(_) | Self::GoldenTests | Self::Untidy(_) => 1,
         }
     }

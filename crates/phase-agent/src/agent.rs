@@ -1,9 +1,9 @@
 //! Belief to subgoal to action: one agent of Algorithm 1.
 
-use crate::{Mind, Outlook, Settings};
+use crate::{BeliefView, Mind, MindParameters};
 use phase_belief::Belief;
 use phase_event::Thought;
-use phase_model::{Action, AgentId, BodySet, Dynamics, Physique, Scene};
+use phase_model::{Action, AgentId, BodySet, Dynamics, PhysicsConfig, Scene};
 use phase_perception::Observation;
 use phase_pomcp::PomcpError;
 use rand::Rng;
@@ -12,7 +12,7 @@ use rand::Rng;
 #[derive(Debug)]
 pub struct Agent<D> {
     mind: Mind<D>,
-    physique: Physique,
+    physics: PhysicsConfig,
     belief: Belief,
     observed: BodySet,
 }
@@ -25,14 +25,14 @@ impl<D: Dynamics> Agent<D> {
         scene: &Scene,
         agent: AgentId,
         dynamics: D,
-        settings: Settings,
+        settings: MindParameters,
         observation: &Observation,
         random: &mut impl Rng,
     ) -> Result<Self, PomcpError> {
-        let physique = scene.physique();
+        let physics = scene.physics();
         let mind = Mind::new(scene, agent, dynamics, settings)?;
-        let belief = Belief::new(&physique, observation, settings.particles, random);
-        Ok(Self { mind, physique, belief, observed: observation.observed })
+        let belief = Belief::new(&physics, observation, settings.particles, random);
+        Ok(Self { mind, physics, belief, observed: observation.observed })
     }
 
     /// What the agent believes.
@@ -43,7 +43,7 @@ impl<D: Dynamics> Agent<D> {
     /// Takes in what has become of its last action.
     pub fn perceive(&mut self, action: Action, observation: &Observation, random: &mut impl Rng) {
         self.observed = observation.observed;
-        self.belief.update(self.mind.dynamics(), &self.physique, action, observation, random);
+        self.belief.update(self.mind.dynamics(), &self.physics, action, observation, random);
     }
 
     /// Chooses the next action; returns it with its explanation.
@@ -51,7 +51,7 @@ impl<D: Dynamics> Agent<D> {
     /// # Errors
     /// As POMCP's search.
     pub fn decide(&mut self, random: &mut impl Rng) -> Result<(Action, Thought), PomcpError> {
-        let outlook = Outlook { particles: self.belief.particles(), observed: self.observed };
-        self.mind.decide(outlook, random)
+        let belief_view = BeliefView { particles: self.belief.particles(), observed: self.observed };
+        self.mind.decide(belief_view, random)
     }
 }

@@ -11,7 +11,7 @@
 //! An agent that faces the landmark it wants to reach, 5.5 u ahead in the same room, pushes forward:
 //!
 //! ```
-//! use phase_agent::{Agent, Settings};
+//! use phase_agent::{Agent, MindParameters};
 //! use phase_forward::Forward;
 //! use phase_model::{Action, AgentId, Scene, random::{Purpose, stream}};
 //! use phase_perception::observe;
@@ -23,9 +23,9 @@
 //!         {"size_level": 0, "strength_level": 2, "alpha": 0, "start": {"x": 8.5, "y": 14, "angle": 0},
 //!          "goal": {"kind": "agent_on_landmark", "agent": 1, "landmark": 0, "sign": 1}}]}"#,
 //! )?;
-//! let forward = Forward::new(&scene.physique());
-//! let observation = observe(&scene.physique(), &scene.initial_state(), AgentId::ZERO);
-//! let settings = Settings { particles: 5, simulations: 100, ..Settings::default() };
+//! let forward = Forward::new(&scene.physics());
+//! let observation = observe(&scene.physics(), &scene.initial_state(), AgentId::ZERO);
+//! let settings = MindParameters { particles: 5, simulations: 100, ..MindParameters::default() };
 //! let mut random = stream(1, Purpose::Search, 0);
 //! let mut agent = Agent::new(&scene, AgentId::ZERO, forward, settings, &observation, &mut random)?;
 //! let (action, thought) = agent.decide(&mut random)?;
@@ -37,18 +37,18 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod action_set;
 pub mod agent;
-pub mod convoy;
-pub mod course;
-pub mod guidance;
-pub mod imagination;
-mod load;
+pub mod assembly;
+mod carrying;
 pub mod mind;
 pub mod objective;
-pub mod patience;
-pub mod repertoire;
+pub mod rollout_policy;
+pub mod search_model;
 pub mod settings;
+pub mod stall;
+pub mod steering;
 
 pub use agent::Agent;
-pub use mind::{Mind, Outlook};
-pub use settings::{Foresight, Settings};
+pub use mind::{BeliefView, Mind};
+pub use settings::{Foresight, MindParameters};

@@ -1,16 +1,15 @@
 //! The decision step of Algorithm 1: from particles to subgoal to action, for a given belief.
 
 use crate::{
-    Settings,
-    imagination::{Imagination, Imagined},
+    MindParameters, action_set,
     objective::Objective,
-    patience::Patience,
-    repertoire,
+    search_model::{SearchModel, SearchState},
+    stall::StallDetector,
 };
-use phase_event::{ActionValue, SubgoalValue, Thought};
+use phase_event::{ActionEvaluation, SubgoalValue, Thought};
 use phase_model::{
-    AGENT_COUNT, Action, AgentId, Attitude, BodySet, Dynamics, Entity, Goal, Literal, Physique, Place,
-    Predicate, Scene, State, Subgoal,
+    AGENT_COUNT, Action, AgentId, Attitude, BodySet, Dynamics, Entity, Goal, Literal, PhysicsConfig,
+    Predicate, PredicateTarget, Scene, State, Subgoal,
     random::{Purpose, stream},
 };
 use phase_planner::{Candidate, Plan, Planner, value};
@@ -22,19 +21,19 @@ use rand::Rng;
 #[derive(Debug)]
 pub struct Mind<D> {
     agent: AgentId,
-    physique: Physique,
+    physics: PhysicsConfig,
     goals: [Goal; AGENT_COUNT],
     attitude: Attitude,
-    settings: Settings,
+    settings: MindParameters,
     dynamics: D,
     planner: Planner,
     pomcp: Pomcp<u16>,
-    patience: Patience,
+    stall: StallDetector,
 }
 
 /// The belief state that a decision is based on.
 #[derive(Clone, Copy, Debug)]
-pub struct Outlook<'a> {
+pub struct BeliefView<'a> {
     /// Possible states of the world, all equally likely; at least one.
     pub particles: &'a [State],
     /// The entities that the agent observes now, itself included.
@@ -45,8 +44,13 @@ impl<D: Dynamics> Mind<D> {
     /// The mind of an agent of a scene.
     ///
     /// # Errors Invalid search parameters.
-    pub fn new(scene: &Scene, agent: AgentId, dynamics: D, settings: Settings) -> Result<Self, PomcpError> {
-        let physique = scene.physique();
+    pub fn new(
+        scene: &Scene,
+        agent: AgentId,
+        dynamics: D,
+        settings: MindParameters,
+    ) -> Result<Self, PomcpError> {
+        let physics = scene.physics();
         let pomcp = Pomcp::new(PomcpSettings {
             simulations: settings.simulations,
             rollout_steps: settings.rollout_steps,
@@ -62,10 +66,10 @@ impl<D: Dynamics> Mind<D> {
             attitude,
             settings,
             dynamics,
-            planner: Planner::new(physique.clone(), scene.layout, agent, scene.goals(), attitude),
+            planner: Planner::new(physics.clone(), scene.layout, agent, scene.goals(), attitude),
             pomcp,
-            patience: Patience::default(),
-            physique,
+            stall: StallDetector::default(),
+            physics,
         })
     }
 
@@ -80,22 +84,22 @@ impl<D: Dynamics> Mind<D> {
     /// As POMCP's search.
     pub fn decide(
         &mut self,
-        outlook: Outlook<'_>,
+        belief_view: BeliefView<'_>,
         random: &mut impl Rng,
     ) -> Result<(Action, Thought), PomcpError> {
-        let particles = outlook.particles;
-        let known = outlook.observed.union(known_places(&self.physique, particles));
+        let particles = belief_view.particles;
+        let known = belief_view.observed.union(localised(&self.physics, particles));
         let (plans, plan_of) = self.plans(particles, known);
         let by_particle: Vec<&Plan> = plan_of.iter().map(|&plan| &plans[plan]).collect();
         let candidates = value::candidates(&by_particle, self.settings.lambda);
         let Some(best) = candidates.first() else {
             return Ok((Action::Stop, Thought::IDLE));
         };
-        let attended = self.attended(outlook, best, &by_particle);
-        let roots: Vec<State> = attended.iter().map(|&particle| particles[particle]).collect();
-        let plan = by_particle[attended[0]].subgoals.clone();
+        let search_particles = self.search_particles(belief_view, best, &by_particle);
+        let roots: Vec<State> = search_particles.iter().map(|&particle| particles[particle]).collect();
+        let plan = by_particle[search_particles[0]].subgoals.clone();
         let subgoal = best.subgoal;
-        let (action, actions) = self.search(outlook, subgoal, &roots, random)?;
+        let (action, actions) = self.search(belief_view, subgoal, &roots, random)?;
         let subgoals = candidates.iter().map(summary).collect();
         Ok((action, Thought { subgoal, subgoals, plan, actions }))
     }
@@ -120,81 +124,92 @@ impl<D: Dynamics> Mind<D> {
     /// The particles used as roots of the search. If the subgoal's target is unobserved, only those that
     /// place it near its position in the cheapest plan: the agent searches one location after another. With
     /// all of them, it would oscillate between locations and reach none.
-    fn attended(&self, outlook: Outlook<'_>, candidate: &Candidate, plans: &[&Plan]) -> Vec<usize> {
+    fn search_particles(
+        &self,
+        belief_view: BeliefView<'_>,
+        candidate: &Candidate,
+        plans: &[&Plan],
+    ) -> Vec<usize> {
         /// Maximum distance between target positions that are searched together (u).
-        const TOGETHER: f32 = 3.0;
+        const COLOCATION_DISTANCE: f32 = 3.0;
         let all = &candidate.particles;
-        let Some(unseen) = self.unseen(outlook, candidate.subgoal) else { return all.clone() };
+        let Some(unobserved_target) = self.unobserved_target(belief_view, candidate.subgoal) else {
+            return all.clone();
+        };
         let shortest = all.iter().min_by(|&&a, &&b| plans[a].distance.total_cmp(&plans[b].distance));
         let Some(&first) = shortest else { return all.clone() };
-        let place = |particle: usize| outlook.particles[particle].position(unseen);
-        let near = |&&particle: &&usize| place(particle).distance(place(first)) <= TOGETHER;
+        let place = |particle: usize| belief_view.particles[particle].position(unobserved_target);
+        let near = |&&particle: &&usize| place(particle).distance(place(first)) <= COLOCATION_DISTANCE;
         // A NaN position is near nothing, not even itself.
-        let mut attended: Vec<usize> = all.iter().filter(near).copied().collect();
-        if attended.is_empty() {
-            attended.push(first);
+        let mut search_particles: Vec<usize> = all.iter().filter(near).copied().collect();
+        if search_particles.is_empty() {
+            search_particles.push(first);
         }
-        attended
+        search_particles
     }
 
     /// The entity that a subgoal sends the agent to, if it does not see it.
-    fn unseen(&self, outlook: Outlook<'_>, subgoal: Subgoal) -> Option<Entity> {
-        sought(subgoal, self.agent).filter(|&entity| !outlook.observed.contains(entity))
+    fn unobserved_target(&self, belief_view: BeliefView<'_>, subgoal: Subgoal) -> Option<Entity> {
+        target_entity(subgoal, self.agent).filter(|&entity| !belief_view.observed.contains(entity))
     }
 
     /// LP(B̃, h*) of Algorithm 1: the best action for a subgoal in the worlds that agree on it.
     fn search(
         &mut self,
-        outlook: Outlook<'_>,
+        belief_view: BeliefView<'_>,
         subgoal: Subgoal,
         roots: &[State],
         random: &mut impl Rng,
-    ) -> Result<(Action, Vec<ActionValue>), PomcpError> {
+    ) -> Result<(Action, Vec<ActionEvaluation>), PomcpError> {
         let routes = self.planner.routes();
         let objective =
-            Objective { physique: &self.physique, routes, agent: self.agent, subgoal, retreat: None };
+            Objective { physics: &self.physics, routes, agent: self.agent, subgoal, backoff: None };
         // A hinderer does not back off: being in the way is its purpose.
-        let retreat = match self.attitude {
+        let backoff = match self.attitude {
             Attitude::Hinder => None,
-            _ => self.patience.lose(&objective, &roots[0], random),
+            _ => self.stall.update(&objective, &roots[0], random),
         };
-        let actions = repertoire::actions(self.agent, subgoal, &roots[0], retreat.is_some());
+        let actions = action_set::actions(self.agent, subgoal, &roots[0], backoff.is_some());
         if let [only] = actions {
             return Ok((*only, Vec::new()));
         }
-        let model = Imagination {
+        let model = SearchModel {
             dynamics: &self.dynamics,
-            objective: Objective { retreat, ..objective },
-            other_objective: Imagination::<D>::other(&self.physique, routes, self.agent, self.goals),
+            objective: Objective { backoff, ..objective },
+            other_objective: SearchModel::<D>::other(&self.physics, routes, self.agent, self.goals),
             actions,
             goals: self.goals,
-            goals_count: !matches!(self.unseen(outlook, subgoal), Some(Entity::Object(_))),
+            rewards_goals: !matches!(self.unobserved_target(belief_view, subgoal), Some(Entity::Object(_))),
             attitude: self.attitude,
             discount: self.settings.discount,
-            guidance: self.settings.guidance,
+            heuristic_share: self.settings.heuristic_share,
             foresight: self.settings.foresight,
         };
         // If all particles are equal, one root suffices and the search can cache its transitions.
         let different = if roots.iter().all(|root| root == &roots[0]) { &roots[..1] } else { roots };
-        let imagined: Vec<Imagined> =
-            different.iter().map(|&state| Imagined::new(&model.objective, state)).collect();
+        let search_state: Vec<SearchState> =
+            different.iter().map(|&state| SearchState::new(&model.objective, state)).collect();
         // Each decision has its own generator, so the length of a search does not affect later decisions.
         let mut random = stream(random.next_u64(), Purpose::Search, 0);
-        let decision = self.pomcp.search(&model, &imagined, &mut random)?;
+        let decision = self.pomcp.search(&model, &search_state, &mut random)?;
         let evidence = actions
             .iter()
             .zip(&decision.actions)
-            .map(|(&action, found)| ActionValue { action, visits: found.visits as u32, value: found.value })
+            .map(|(&action, found)| ActionEvaluation {
+                action,
+                visits: found.visits as u32,
+                value: found.value,
+            })
             .collect();
         Ok((actions[decision.action], evidence))
     }
 }
 
 /// The entity that a subgoal sends an agent to.
-fn sought(subgoal: Subgoal, agent: AgentId) -> Option<Entity> {
+fn target_entity(subgoal: Subgoal, agent: AgentId) -> Option<Entity> {
     let Subgoal::Achieve(Literal { predicate, holds: true }) = subgoal else { return None };
     match predicate {
-        Predicate::Close(who, Place::Entity(entity)) if who == Entity::Agent(agent) => Some(entity),
+        Predicate::Close(who, PredicateTarget::Entity(entity)) if who == Entity::Agent(agent) => Some(entity),
         Predicate::Touch(_, entity) => Some(entity),
         Predicate::Attach(_, object) => Some(Entity::Object(object)),
         _ => None,
@@ -207,14 +222,14 @@ fn summary(candidate: &Candidate) -> SubgoalValue {
 
 /// Entities on whose position all particles agree. An agent need not verify the position of an object it has
 /// just put down.
-fn known_places(physique: &Physique, particles: &[State]) -> BodySet {
+fn localised(physics: &PhysicsConfig, particles: &[State]) -> BodySet {
     /// Maximum distance between positions that count as equal (u).
-    const SAME: f32 = 0.5;
+    const AGREEMENT_DISTANCE: f32 = 0.5;
     let mut known = BodySet::EMPTY;
     let Some(first) = particles.first() else { return known };
-    for entity in physique.entities() {
+    for entity in physics.entities() {
         let place = first.position(entity);
-        if particles.iter().all(|particle| particle.position(entity).distance(place) <= SAME) {
+        if particles.iter().all(|particle| particle.position(entity).distance(place) <= AGREEMENT_DISTANCE) {
             known.insert(entity);
         }
     }

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Foresight {
-    /// By [`Dynamics::imagine`](phase_model::Dynamics::imagine), at a fraction of the cost.
+    /// By [`Dynamics::step_approximate`](phase_model::Dynamics::step_approximate), at a fraction of the cost.
     #[default]
     Coarse,
     /// By [`Dynamics::step`](phase_model::Dynamics::step), as the world itself moves.
@@ -29,7 +29,7 @@ impl Foresight {
 
 /// Parameters of an agent's mind. The defaults are the paper's.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
-pub struct Settings {
+pub struct MindParameters {
     /// K, the number of belief particles; at least 1.
     pub particles: usize,
     /// λ of the subgoal value.
@@ -45,17 +45,18 @@ pub struct Settings {
     /// Discount of the next step's reward relative to this one's.
     pub discount: f64,
     /// Share of rollout actions taken from the heuristic instead of uniformly sampled, 0 to 1.
-    pub guidance: f64,
+    #[serde(rename = "guidance")]
+    pub heuristic_share: f64,
     /// Fidelity of the search's dynamics. Absent in older files, which means `exact`.
-    #[serde(default = "before_there_was_a_choice")]
+    #[serde(default = "legacy_foresight")]
     pub foresight: Foresight,
 }
 
-const fn before_there_was_a_choice() -> Foresight {
+const fn legacy_foresight() -> Foresight {
     Foresight::Exact
 }
 
-impl Default for Settings {
+impl Default for MindParameters {
     fn default() -> Self {
         Self {
             particles: 50,
@@ -65,7 +66,7 @@ impl Default for Settings {
             c_init: 1.25,
             c_base: 1000.0,
             discount: 0.95,
-            guidance: 0.5,
+            heuristic_share: 0.5,
             foresight: Foresight::Coarse,
         }
     }

@@ -1,15 +1,16 @@
 //! Guidance, repertoire, reward and decisions in hand-made states.
 
 use phase_agent::{
-    Agent, Foresight, Settings, guidance,
-    imagination::{Imagination, Imagined},
-    objective::{LONGEST, Objective},
-    repertoire,
+    Agent, Foresight, MindParameters, action_set,
+    objective::{ARENA_DIAGONAL, Objective},
+    rollout_policy,
+    search_model::{SearchModel, SearchState},
 };
 use phase_forward::Forward;
 use phase_model::{
     Action, AgentId, AgentSpec, Attitude, Body, Dynamics, Entity, EventKind, Goal, Grip, LandmarkId, Layout,
-    Literal, ObjectId, ObjectSpec, Place, Predicate, Scene, Side, Sign, Size, State, Strength, Subgoal, Vec2,
+    Literal, ObjectId, ObjectSpec, Predicate, PredicateTarget, Scene, Side, Sign, Size, State, Strength,
+    Subgoal, Vec2,
     random::{Purpose, stream},
 };
 use phase_perception::observe;
@@ -43,14 +44,14 @@ fn achieve(predicate: Predicate) -> Subgoal {
 }
 
 /// What an agent does to walk.
-const WALKING: [Action; 3] = [Action::TurnLeft, Action::TurnRight, Action::Up];
+const WALK_ACTIONS: [Action; 3] = [Action::TurnLeft, Action::TurnRight, Action::Up];
 
 /// The rule of thumb's action for a subgoal of agent 0.
 fn thumb(scene: &Scene, state: &State, subgoal: Subgoal, actions: &[Action]) -> Action {
-    let (physique, routes) = (scene.physique(), Routes::new(scene.layout));
+    let (physics, routes) = (scene.physics(), Routes::new(scene.layout));
     let objective =
-        Objective { physique: &physique, routes: &routes, agent: AgentId::ZERO, subgoal, retreat: None };
-    guidance::action(&objective, state, None, actions)
+        Objective { physics: &physics, routes: &routes, agent: AgentId::ZERO, subgoal, backoff: None };
+    rollout_policy::action(&objective, state, None, actions)
 }
 
 #[test]
@@ -64,12 +65,12 @@ fn the_rule_of_thumb_turns_goes_and_brakes() {
         (core::f32::consts::PI + 1.2, Action::TurnRight),
     ] {
         let scene = scene(above, angle);
-        assert_eq!(thumb(&scene, &scene.initial_state(), to_landmark, &WALKING), expected, "{angle}");
+        assert_eq!(thumb(&scene, &scene.initial_state(), to_landmark, &WALK_ACTIONS), expected, "{angle}");
     }
     let near = scene(Vec2::new(23.5, 5.5), core::f32::consts::PI);
     let mut fast = near.initial_state();
     fast.bodies[0].velocity = Vec2::new(0.0, -20.0);
-    assert_eq!(thumb(&near, &fast, to_landmark, &WALKING), Action::Stop);
+    assert_eq!(thumb(&near, &fast, to_landmark, &WALK_ACTIONS), Action::Stop);
 }
 
 #[test]
@@ -88,8 +89,10 @@ fn every_subgoal_has_its_actions() {
     let state = scene(Vec2::new(20.0, 15.0), 0.0).initial_state();
     let mut holding = state;
     holding.grips[0] = Some(Grip { object: ObjectId::ZERO, side: Side::Head, relative_angle: 0.0 });
-    let close =
-        achieve(Predicate::Close(Entity::Agent(AgentId::ZERO), Place::Landmark(LandmarkId::TOP_RIGHT)));
+    let close = achieve(Predicate::Close(
+        Entity::Agent(AgentId::ZERO),
+        PredicateTarget::Landmark(LandmarkId::TOP_RIGHT),
+    ));
     let carry = achieve(Predicate::On(Entity::Object(ObjectId::ZERO), LandmarkId::TOP_RIGHT));
     let release = Subgoal::Achieve(Literal::not(Predicate::Attach(AgentId::ZERO, ObjectId::ZERO)));
     for (subgoal, state, count) in [
@@ -100,7 +103,7 @@ fn every_subgoal_has_its_actions() {
         (carry, &holding, 12),
         (release, &holding, 3),
     ] {
-        assert_eq!(repertoire::actions(AgentId::ZERO, subgoal, state, false).len(), count, "{subgoal}");
+        assert_eq!(action_set::actions(AgentId::ZERO, subgoal, state, false).len(), count, "{subgoal}");
     }
 }
 
@@ -111,39 +114,39 @@ fn rewards_follow_equation_1() {
     scene.agents[1].start.position = Vec2::new(8.5, 19.5);
     // Weak enough that one push does not carry it off the landmark.
     scene.agents[0].strength = Strength::Weak;
-    let (physique, routes, state) = (scene.physique(), Routes::new(scene.layout), scene.initial_state());
-    let forward = Forward::new(&physique);
+    let (physics, routes, state) = (scene.physics(), Routes::new(scene.layout), scene.initial_state());
+    let forward = Forward::new(&physics);
     let subgoal = achieve(Predicate::On(Entity::Agent(AgentId::ZERO), LandmarkId::TOP_RIGHT));
     let objective =
-        Objective { physique: &physique, routes: &routes, agent: AgentId::ZERO, subgoal, retreat: None };
+        Objective { physics: &physics, routes: &routes, agent: AgentId::ZERO, subgoal, backoff: None };
     let goals = [ON_2, OTHER_ON_0];
     for (attitude, social) in [(Attitude::Neutral, 1.0), (Attitude::Help, 1.0), (Attitude::Hinder, -1.0)] {
         for (action, cost) in [(Action::Stop, 0.0), (Action::Left, 0.02)] {
             let actions = [action];
-            let model = Imagination {
+            let model = SearchModel {
                 dynamics: &forward,
                 objective,
-                other_objective: Imagination::<Forward>::other(&physique, &routes, AgentId::ZERO, goals),
+                other_objective: SearchModel::<Forward>::other(&physics, &routes, AgentId::ZERO, goals),
                 actions: &actions,
                 goals,
-                goals_count: true,
+                rewards_goals: true,
                 attitude,
                 discount: 0.95,
-                guidance: 0.0,
+                heuristic_share: 0.0,
                 foresight: Foresight::Coarse,
             };
-            let mut after = Imagined::new(&objective, state);
+            let mut after = SearchState::new(&objective, state);
             let reward = model.rollout_step(&mut after, 0, &mut stream(1, Purpose::Search, 0)).reward;
             let mut by_hand = state;
-            forward.imagine(&mut by_hand, [action, Action::NoForce]);
+            forward.step_approximate(&mut by_hand, [action, Action::NoForce]);
             assert_eq!(*after.state(), by_hand);
             let distance = objective.distance(&by_hand);
             assert!((distance - 15.0).abs() < 0.7, "landmark 1 is 15 u above landmark 2: {distance}");
-            let expected = social - cost - f64::from(distance / LONGEST);
+            let expected = social - cost - f64::from(distance / ARENA_DIAGONAL);
             assert!((reward - expected).abs() < 1e-6, "{attitude:?} {action:?}: {reward} {expected}");
             // Going to see whether a goal holds, an agent counts none.
-            let looking = Imagination { goals_count: false, ..model };
-            let mut after = Imagined::new(&objective, state);
+            let looking = SearchModel { rewards_goals: false, ..model };
+            let mut after = SearchState::new(&objective, state);
             let reward = looking.rollout_step(&mut after, 0, &mut stream(1, Purpose::Search, 0)).reward;
             assert!((reward - (expected - social)).abs() < 1e-6, "{attitude:?} {action:?}: {reward}");
         }
@@ -152,11 +155,11 @@ fn rewards_follow_equation_1() {
 
 /// The first decision of agent 0 with a modest search.
 fn decide(scene: &Scene, seed: u64) -> (Action, Subgoal) {
-    let (physique, state) = (scene.physique(), scene.initial_state());
-    let observation = observe(&physique, &state, AgentId::ZERO);
-    let settings = Settings { simulations: 300, particles: 20, ..Settings::default() };
+    let (physics, state) = (scene.physics(), scene.initial_state());
+    let observation = observe(&physics, &state, AgentId::ZERO);
+    let settings = MindParameters { simulations: 300, particles: 20, ..MindParameters::default() };
     let mut random = stream(seed, Purpose::Belief, 0);
-    let forward = Forward::new(&physique);
+    let forward = Forward::new(&physics);
     let mut agent = Agent::new(scene, AgentId::ZERO, forward, settings, &observation, &mut random)
         .expect("good settings");
     let (action, thought) = agent.decide(&mut stream(seed, Purpose::Search, 0)).expect("a decision");

@@ -1,14 +1,14 @@
 //! ARG, after Wu et al. (2019): an actor relation graph over all nodes of a few frames.
 
 use crate::{
-    attention::{UNSEEN, attend},
+    attention::{MASK_BIAS, attend},
     goals::CLASSES,
     layer::Layer,
     nodes::{Batch, NODES, NodeEmbedding},
     parameters::Parameter,
     perceptron::Perceptron,
-    recognition::{self, Answers, LabelledEvent, RELATIONS, Recognition},
-    training::{Loss, Measure, Network, Published},
+    recognition::{self, LabelledEvent, Logits, RELATIONS, Recognition},
+    training::{Loss, Metrics, Network, PublishedNetwork},
 };
 use candle_core::{D, Device, Module, Result, Tensor};
 use phase_model::{AGENT_COUNT, random::Pcg64Mcg};
@@ -65,13 +65,13 @@ impl Arg {
     ///
     /// # Errors
     /// If there are not that many events in the batch, or an event has no such row.
-    pub fn answers_at(&self, batch: &Batch, rows: &[[usize; FRAMES]]) -> Result<Answers> {
+    pub fn logits_at(&self, batch: &Batch, rows: &[[usize; FRAMES]]) -> Result<Logits> {
         let windows = rows.iter().enumerate().map(|(event, rows)| Window { event, rows: *rows });
         self.look(batch, &self.nodes.forward(batch)?, &windows.collect::<Vec<_>>())
     }
 
     /// The answers for windows: windows × 2 × [`CLASSES`] and windows × 3.
-    fn look(&self, batch: &Batch, embeddings: &[Tensor], windows: &[Window]) -> Result<Answers> {
+    fn look(&self, batch: &Batch, embeddings: &[Tensor], windows: &[Window]) -> Result<Logits> {
         let (events, count) = (batch.events(), windows.len());
         let rows =
             windows.iter().flat_map(|window| window.rows.iter().map(|row| row * events + window.event));
@@ -79,23 +79,24 @@ impl Arg {
         let all = Tensor::cat(embeddings, 0)?;
         let hidden = all.dim(D::Minus1)?;
         let nodes = all.index_select(&rows, 0)?.reshape((count, FRAMES * NODES, hidden))?;
-        let there = windows.iter().flat_map(|window| {
-            (0..FRAMES * NODES).map(|place| if batch.has(window.event, place % NODES) { 0.0 } else { UNSEEN })
+        let present = windows.iter().flat_map(|window| {
+            (0..FRAMES * NODES)
+                .map(|place| if batch.has(window.event, place % NODES) { 0.0 } else { MASK_BIAS })
         });
-        let unseen = Tensor::from_iter(there, &Device::Cpu)?.reshape((count, 1, FRAMES * NODES))?;
+        let mask = Tensor::from_iter(present, &Device::Cpu)?.reshape((count, 1, FRAMES * NODES))?;
         let mut related = nodes.clone();
         for Graph { from, to, taken } in &self.graphs {
             let scores = from.forward(&nodes)?.matmul(&to.forward(&nodes)?.t()?)?;
             let scores = (scores / (hidden as f64).sqrt())?;
-            related = (related + attend(&scores, &unseen, &taken.forward(&nodes)?)?.relu()?)?;
+            related = (related + attend(&scores, &mask, &taken.forward(&nodes)?)?.relu()?)?;
         }
         let frames = related.reshape((count * FRAMES, NODES, hidden))?;
         let agents = frames.narrow(1, 0, AGENT_COUNT)?.reshape(((), hidden))?;
         let goals = self.goals.forward(&agents)?.reshape((count, FRAMES, AGENT_COUNT * CLASSES))?;
-        let unseen = unseen.reshape((count * FRAMES, NODES, 1))?;
-        let pooled = frames.broadcast_add(&unseen)?.max(1)?;
+        let mask = mask.reshape((count * FRAMES, NODES, 1))?;
+        let pooled = frames.broadcast_add(&mask)?.max(1)?;
         let relations = self.relation.forward(&pooled)?.reshape((count, FRAMES, RELATIONS.len()))?;
-        Ok(Answers {
+        Ok(Logits {
             goals: goals.mean(1)?.reshape((count, AGENT_COUNT, CLASSES))?,
             relations: relations.mean(1)?,
         })
@@ -103,26 +104,27 @@ impl Arg {
 }
 
 impl Recognition for Arg {
-    fn answers(&self, batch: &Batch, chance: Option<&mut Pcg64Mcg>) -> Result<Answers> {
+    fn logits(&self, batch: &Batch, random: Option<&mut Pcg64Mcg>) -> Result<Logits> {
         let lengths = batch.lengths();
-        if let Some(random) = chance {
-            let rows: Vec<_> = lengths.iter().map(|&length| drawn(length, random)).collect();
-            return self.answers_at(batch, &rows);
+        if let Some(random) = random {
+            let rows: Vec<_> = lengths.iter().map(|&length| sample_rows(length, random)).collect();
+            return self.logits_at(batch, &rows);
         }
         let embeddings = self.nodes.forward(batch)?;
-        let slid: Vec<Vec<[usize; FRAMES]>> = lengths.iter().map(|&length| slid(length).collect()).collect();
-        let each = slid.iter().enumerate();
+        let sliding_windows: Vec<Vec<[usize; FRAMES]>> =
+            lengths.iter().map(|&length| sliding_windows(length).collect()).collect();
+        let each = sliding_windows.iter().enumerate();
         let windows: Vec<Window> =
             each.flat_map(|(event, all)| all.iter().map(move |&rows| Window { event, rows })).collect();
         // Each event's mean over its windows, as a matrix.
-        let means = slid.iter().enumerate().flat_map(|(event, all)| {
+        let means = sliding_windows.iter().enumerate().flat_map(|(event, all)| {
             let share = 1.0 / all.len() as f32;
             windows.iter().map(move |window| if window.event == event { share } else { 0.0 })
         });
         let means = Tensor::from_iter(means, &Device::Cpu)?.reshape((batch.events(), windows.len()))?;
-        let Answers { goals, relations } = self.look(batch, &embeddings, &windows)?;
+        let Logits { goals, relations } = self.look(batch, &embeddings, &windows)?;
         let goals = means.matmul(&goals.reshape((windows.len(), AGENT_COUNT * CLASSES))?)?;
-        Ok(Answers {
+        Ok(Logits {
             goals: goals.reshape((batch.events(), AGENT_COUNT, CLASSES))?,
             relations: means.matmul(&relations)?,
         })
@@ -132,7 +134,7 @@ impl Recognition for Arg {
 impl Network for Arg {
     type Sample = LabelledEvent;
     const NAME: &'static str = "arg";
-    const SCORES: &'static [&'static str] = &recognition::SCORES;
+    const METRICS: &'static [&'static str] = &recognition::METRICS;
 
     fn parameters(&self) -> Vec<Parameter> {
         let mut parameters = self.nodes.parameters("nodes");
@@ -146,18 +148,18 @@ impl Network for Arg {
         parameters
     }
 
-    fn loss(&self, events: &[&LabelledEvent], chance: Option<&mut Pcg64Mcg>) -> Result<Loss> {
-        recognition::loss(self, events, chance)
+    fn loss(&self, events: &[&LabelledEvent], random: Option<&mut Pcg64Mcg>) -> Result<Loss> {
+        recognition::loss(self, events, random)
     }
 
-    fn shortcoming(measure: &Measure) -> f64 {
-        recognition::shortcoming(measure)
+    fn selection_loss(evaluate: &Metrics) -> f64 {
+        recognition::selection_loss(evaluate)
     }
 }
 
-impl Published for Arg {
-    const SHIPPED: &'static [u8] = include_bytes!("../../../data/arg.safetensors");
-    const RECORD: &'static str = include_str!("../../../data/arg.safetensors.training.json");
+impl PublishedNetwork for Arg {
+    const BUNDLED_WEIGHTS: &'static [u8] = include_bytes!("../../../data/arg.safetensors");
+    const BUNDLED_RECORD: &'static str = include_str!("../../../data/arg.safetensors.training.json");
 
     /// How many graphs there are the paper does not say; we have four.
     fn published(random: &mut Pcg64Mcg) -> Result<Self> {
@@ -166,7 +168,7 @@ impl Published for Arg {
 }
 
 /// Ten rows of an event at random; of one that is shorter, all, some of them more than once.
-fn drawn(length: usize, random: &mut Pcg64Mcg) -> [usize; FRAMES] {
+fn sample_rows(length: usize, random: &mut Pcg64Mcg) -> [usize; FRAMES] {
     let mut rows: Vec<usize> = (0..length).collect();
     if length >= FRAMES {
         rows.shuffle(random);
@@ -175,7 +177,7 @@ fn drawn(length: usize, random: &mut Pcg64Mcg) -> [usize; FRAMES] {
 }
 
 /// Windows of ten rows through an event, the last of them at its end.
-fn slid(length: usize) -> impl Iterator<Item = [usize; FRAMES]> {
+fn sliding_windows(length: usize) -> impl Iterator<Item = [usize; FRAMES]> {
     let last = length.saturating_sub(FRAMES);
     let starts = (0..last).step_by(STRIDE).chain([last]);
     starts.map(move |start| core::array::from_fn(|k| start + k % (length - start)))

@@ -2,7 +2,7 @@
 
 use crate::{
     nodes::{Batch, MOVING, Nodes},
-    training::{Loss, Settings},
+    training::{Loss, TrainingSettings},
 };
 use candle_core::{D, Device, Result, Tensor};
 use phase_event::ObservedEvent;
@@ -15,16 +15,22 @@ use phase_model::{
 /// Steps that the networks predict at a time.
 pub const HORIZON: usize = 10;
 /// How the networks are trained: batch and rate are the paper's.
-pub const SETTINGS: Settings =
-    Settings { batch: 8, learning_rate: 1e-2, longest_slope: 10.0, round: 320, patience: 15, rounds: 200 };
+pub const SETTINGS: TrainingSettings = TrainingSettings {
+    batch: 8,
+    learning_rate: 1e-2,
+    max_gradient_norm: 10.0,
+    round: 320,
+    patience: 15,
+    rounds: 200,
+};
 /// What is measured beside the loss: the same distance over agents alone (u).
-pub(crate) const SCORES: [&str; 1] = ["agents"];
+pub(crate) const METRICS: [&str; 1] = ["agents"];
 /// Keeps the slope of a distance finite where it is 0 (u²).
-const TINY: f64 = 1e-6;
+const EPSILON: f64 = 1e-6;
 
 /// A moment of one of the events of a batch: all that comes after it is to be predicted from all before.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Moment {
+pub struct ForecastOrigin {
     /// The event's place in the batch.
     pub event: usize,
     /// The last row that is known.
@@ -37,14 +43,16 @@ pub trait Forecasting {
     /// (moments · [`MOVING`]) × [`HORIZON`] × 2. What it says of absent objects means nothing.
     ///
     /// # Errors If there is no such origin, or a tensor cannot be allocated.
-    fn displacements(&self, batch: &Batch, moments: &[Moment]) -> Result<Tensor>;
+    fn displacements(&self, batch: &Batch, origins: &[ForecastOrigin]) -> Result<Tensor>;
 
     /// The moments of a batch it learns from, and those it is measured at. All but the last row of each event, unless
     /// that is too much.
-    fn moments(&self, batch: &Batch, _chance: Option<&mut Pcg64Mcg>) -> Vec<Moment> {
+    fn origins(&self, batch: &Batch, _chance: Option<&mut Pcg64Mcg>) -> Vec<ForecastOrigin> {
         let each = batch.lengths().iter().enumerate();
-        each.flat_map(|(event, &length)| (0..length.saturating_sub(1)).map(move |row| Moment { event, row }))
-            .collect()
+        each.flat_map(|(event, &length)| {
+            (0..length.saturating_sub(1)).map(move |row| ForecastOrigin { event, row })
+        })
+        .collect()
     }
 
     /// Where everything will be in the next `steps` steps. [`HORIZON`] of them are predicted; if there are more, the
@@ -58,7 +66,7 @@ pub trait Forecasting {
         while forecast.first().is_some_and(|path| path.len() < steps) {
             let nodes = Nodes::of(&known);
             let batch = Batch::new(&[&nodes])?;
-            let moment = Moment { event: 0, row: nodes.rows() - 1 };
+            let moment = ForecastOrigin { event: 0, row: nodes.rows() - 1 };
             let moved: Vec<Vec<Vec<f32>>> = self.displacements(&batch, &[moment])?.to_vec3()?;
             let Some(last) = known.rows().last() else { break };
             for ((path, body), moved) in forecast.iter_mut().zip(last).zip(&moved) {
@@ -92,14 +100,14 @@ fn continued(event: &ObservedEvent, forecast: &Forecast) -> Option<ObservedEvent
 pub(crate) fn loss(
     network: &impl Forecasting,
     events: &[&Nodes],
-    chance: Option<&mut Pcg64Mcg>,
+    random: Option<&mut Pcg64Mcg>,
 ) -> Result<Loss> {
     let batch = Batch::new(events)?;
-    let moments = network.moments(&batch, chance);
-    let displacements = network.displacements(&batch, &moments)?;
-    let mut truth = Vec::with_capacity(moments.len() * MOVING * HORIZON * 2);
+    let origins = network.origins(&batch, random);
+    let displacements = network.displacements(&batch, &origins)?;
+    let mut truth = Vec::with_capacity(origins.len() * MOVING * HORIZON * 2);
     let (mut agents, mut all) = (Vec::new(), Vec::new());
-    for &Moment { event, row } in &moments {
+    for &ForecastOrigin { event, row } in &origins {
         for node in 0..MOVING {
             for step in 1..=HORIZON {
                 let path = batch.positions(event, row).zip(batch.positions(event, row + step));
@@ -112,7 +120,7 @@ pub(crate) fn loss(
         }
     }
     let truth = Tensor::from_vec(truth, displacements.shape(), &Device::Cpu)?;
-    let off = ((displacements - truth)?.sqr()?.sum(D::Minus1)? + TINY)?.sqrt()?;
+    let off = ((displacements - truth)?.sqr()?.sum(D::Minus1)? + EPSILON)?.sqrt()?;
     let mean = |counts: Vec<f32>| -> Result<Tensor> {
         let count = f64::from(counts.iter().sum::<f32>()).max(1.0);
         (&off * Tensor::from_vec(counts, off.shape(), &Device::Cpu)?)?.sum_all()? / count
@@ -122,8 +130,8 @@ pub(crate) fn loss(
 }
 
 /// The rows of stacked numbers (rows of the event, events of the batch, what moves) that belong to some moments.
-pub(crate) fn places(batch: &Batch, moments: &[Moment]) -> Result<Tensor> {
-    let rows = moments.iter().flat_map(|&Moment { event, row }| {
+pub(crate) fn places(batch: &Batch, origins: &[ForecastOrigin]) -> Result<Tensor> {
+    let rows = origins.iter().flat_map(|&ForecastOrigin { event, row }| {
         (0..MOVING).map(move |node| ((row * batch.events() + event) * MOVING + node) as u32)
     });
     Tensor::from_iter(rows, &Device::Cpu)

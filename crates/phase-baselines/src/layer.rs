@@ -46,7 +46,7 @@ impl Layer {
     ///
     /// # Errors
     /// If they cannot be read.
-    pub fn numbers(&self) -> Result<(Vec<f32>, Vec<f32>)> {
+    pub fn values(&self) -> Result<(Vec<f32>, Vec<f32>)> {
         Ok((self.weight.flatten_all()?.to_vec1()?, self.bias.to_vec1()?))
     }
 }

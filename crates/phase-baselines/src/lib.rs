@@ -21,7 +21,7 @@
 //! A network learns from two agents, of which the weak one was slow and the mighty one fast, how strong each is:
 //!
 //! ```
-//! use phase_baselines::strength::{Motion, Sample, Settings, nearest, train};
+//! use phase_baselines::strength::{Motion, Sample, TrainingSettings, nearest, train};
 //! use phase_model::Strength;
 //!
 //! let motions = [(1.0, Strength::Weak), (9.0, Strength::Mighty)].map(|(mean_speed, strength)| {
@@ -29,7 +29,7 @@
 //!     Motion { whole, windows: vec![whole] }
 //! });
 //! let settings =
-//!     Settings { hidden: 8, learning_rate: 1e-2, epochs: 200, patience: 200, ..Settings::default() };
+//!     TrainingSettings { hidden: 8, learning_rate: 1e-2, epochs: 200, patience: 200, ..TrainingSettings::default() };
 //! let regressor = train(&motions, &motions, 1, &settings, &mut |_epoch| {})?;
 //! for Motion { whole, .. } in &motions {
 //!     assert_eq!(nearest(regressor.estimate_from(&whole.features)), whole.strength);

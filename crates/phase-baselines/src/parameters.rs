@@ -9,7 +9,7 @@ pub type Parameter = (String, Var);
 ///
 /// # Errors
 /// If they cannot be read.
-pub fn numbers(parameters: &[Parameter]) -> Result<Vec<Vec<f32>>> {
+pub fn values(parameters: &[Parameter]) -> Result<Vec<Vec<f32>>> {
     parameters.iter().map(|(_, variable)| variable.flatten_all()?.to_vec1()).collect()
 }
 
@@ -17,9 +17,9 @@ pub fn numbers(parameters: &[Parameter]) -> Result<Vec<Vec<f32>>> {
 ///
 /// # Errors
 /// If there are too few or too many numbers for one of them.
-pub fn set_numbers(parameters: &[Parameter], numbers: &[Vec<f32>]) -> Result<()> {
-    for ((_, variable), numbers) in parameters.iter().zip(numbers) {
-        variable.set(&Tensor::from_slice(numbers, variable.shape(), variable.device())?)?;
+pub fn set_values(parameters: &[Parameter], values: &[Vec<f32>]) -> Result<()> {
+    for ((_, variable), values) in parameters.iter().zip(values) {
+        variable.set(&Tensor::from_slice(values, variable.shape(), variable.device())?)?;
     }
     Ok(())
 }

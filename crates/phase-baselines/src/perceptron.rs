@@ -22,8 +22,8 @@ impl Perceptron {
     /// The paper's head: three hidden layers of as many numbers as come in, then one for each answer.
     ///
     /// # Errors If a tensor cannot be allocated.
-    pub fn head(hidden: usize, answers: usize, random: &mut Pcg64Mcg) -> Result<Self> {
-        Self::new(&[hidden, hidden, hidden, hidden, answers], random)
+    pub fn head(hidden: usize, logits: usize, random: &mut Pcg64Mcg) -> Result<Self> {
+        Self::new(&[hidden, hidden, hidden, hidden, logits], random)
     }
 
     /// Trainable parameters with their names.
@@ -36,10 +36,10 @@ impl Perceptron {
 
 impl Module for Perceptron {
     fn forward(&self, inputs: &Tensor) -> Result<Tensor> {
-        let mut numbers = inputs.clone();
+        let mut values = inputs.clone();
         for (k, layer) in self.layers.iter().enumerate() {
-            numbers = if k == 0 { layer.forward(&numbers)? } else { layer.forward(&numbers.relu()?)? };
+            values = if k == 0 { layer.forward(&values)? } else { layer.forward(&values.relu()?)? };
         }
-        Ok(numbers)
+        Ok(values)
     }
 }

@@ -3,7 +3,7 @@
 use crate::{
     goals::{CLASSES, class_of, classes, is_absent},
     nodes::{Batch, Nodes},
-    training::{Loss, Measure, Settings},
+    training::{Loss, Metrics, TrainingSettings},
 };
 use candle_core::{D, DType, Device, Result, Tensor};
 use candle_nn::ops::log_softmax;
@@ -14,12 +14,18 @@ use thiserror::Error;
 /// The relations in the order of the networks' answers.
 pub const RELATIONS: [Relation; 3] = [Relation::Friendly, Relation::Adversarial, Relation::Neutral];
 /// How the networks are trained: batch and rate are the paper's.
-pub const SETTINGS: Settings =
-    Settings { batch: 8, learning_rate: 1e-3, longest_slope: 10.0, round: 320, patience: 25, rounds: 200 };
+pub const SETTINGS: TrainingSettings = TrainingSettings {
+    batch: 8,
+    learning_rate: 1e-3,
+    max_gradient_norm: 10.0,
+    round: 320,
+    patience: 25,
+    rounds: 200,
+};
 /// What is measured beside the loss: shares of right goals and of right relations.
-pub(crate) const SCORES: [&str; 2] = ["goal", "relation"];
+pub(crate) const METRICS: [&str; 2] = ["goal", "relation"];
 /// Added to what cannot be: its probability is 0.
-const IMPOSSIBLE: f32 = -1e9;
+const MASKED_LOGIT: f32 = -1e9;
 
 /// An event with its right answers, to learn from.
 #[derive(Clone, PartialEq, Debug)]
@@ -60,21 +66,21 @@ impl LabelledEvent {
 
 /// What a network says of some events, before the softmax.
 #[derive(Clone, Debug)]
-pub struct Answers {
+pub struct Logits {
     /// events × 2 × [`CLASSES`].
     pub goals: Tensor,
     /// events × 3, in the order of [`RELATIONS`].
     pub relations: Tensor,
 }
 
-impl Answers {
+impl Logits {
     /// The logarithms of the probabilities, those of goals about absent objects so low that they are 0.
     ///
     /// # Errors
     /// If shapes do not fit to the events.
     pub fn log_probabilities(&self, batch: &Batch) -> Result<Self> {
         let possible = batch.objects().iter().flat_map(|&objects| {
-            (0..CLASSES).map(move |class| if is_absent(class, objects) { IMPOSSIBLE } else { 0.0 })
+            (0..CLASSES).map(move |class| if is_absent(class, objects) { MASKED_LOGIT } else { 0.0 })
         });
         let shape = (batch.events(), 1, CLASSES);
         let possible = Tensor::from_vec(possible.collect::<Vec<f32>>(), shape, &Device::Cpu)?;
@@ -91,7 +97,7 @@ pub trait Recognition {
     /// a generator they look at everything.
     ///
     /// # Errors If a tensor cannot be allocated.
-    fn answers(&self, batch: &Batch, chance: Option<&mut Pcg64Mcg>) -> Result<Answers>;
+    fn logits(&self, batch: &Batch, random: Option<&mut Pcg64Mcg>) -> Result<Logits>;
 
     /// The answer to one event, goals most likely first.
     ///
@@ -99,7 +105,7 @@ pub trait Recognition {
     fn judge(&self, event: &ObservedEvent) -> Result<Judgement> {
         let nodes = Nodes::of(event);
         let batch = Batch::new(&[&nodes])?;
-        let Answers { goals, relations } = self.answers(&batch, None)?.log_probabilities(&batch)?;
+        let Logits { goals, relations } = self.logits(&batch, None)?.log_probabilities(&batch)?;
         let objects = event.object_sizes().len();
         let mut judgement = Judgement::default();
         for (agent, ranked) in AgentId::ALL.into_iter().zip(&mut judgement.goals) {
@@ -121,26 +127,26 @@ pub trait Recognition {
 pub(crate) fn loss(
     network: &impl Recognition,
     events: &[&LabelledEvent],
-    chance: Option<&mut Pcg64Mcg>,
+    random: Option<&mut Pcg64Mcg>,
 ) -> Result<Loss> {
     let nodes: Vec<&Nodes> = events.iter().map(|event| &event.nodes).collect();
     let batch = Batch::new(&nodes)?;
-    let said = network.answers(&batch, chance)?.log_probabilities(&batch)?;
+    let said = network.logits(&batch, random)?.log_probabilities(&batch)?;
     let goals: Vec<u32> = events.iter().flat_map(|event| event.goals).collect();
     let relations: Vec<u32> = events.iter().map(|event| event.relation).collect();
-    let (goal_loss, goal_score) = held_against(&said.goals.reshape(((), CLASSES))?, goals)?;
-    let (relation_loss, relation_score) = held_against(&said.relations, relations)?;
+    let (goal_loss, goal_score) = cross_entropy(&said.goals.reshape(((), CLASSES))?, goals)?;
+    let (relation_loss, relation_score) = cross_entropy(&said.relations, relations)?;
     Ok(Loss { loss: (goal_loss + relation_loss)?, scores: vec![goal_score, relation_score] })
 }
 
 /// The shares of goals and of relations that are wrong, added up. The loss soon grows again for being too sure of what is
 /// wrong, while more and more comes out right.
-pub(crate) fn shortcoming(measure: &Measure) -> f64 {
-    measure.scores.iter().map(|right| 1.0 - right).sum()
+pub(crate) fn selection_loss(evaluate: &Metrics) -> f64 {
+    evaluate.scores.iter().map(|right| 1.0 - right).sum()
 }
 
 /// Mean cross-entropy of the true classes, and top-1 accuracy.
-fn held_against(logs: &Tensor, right: Vec<u32>) -> Result<(Tensor, f64)> {
+fn cross_entropy(logs: &Tensor, right: Vec<u32>) -> Result<(Tensor, f64)> {
     let count = right.len();
     let right = Tensor::from_vec(right, (count, 1), &Device::Cpu)?;
     let loss = logs.gather(&right, 1)?.mean_all()?.neg()?;

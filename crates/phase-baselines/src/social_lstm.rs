@@ -1,12 +1,12 @@
 //! Social-LSTM, after Alahi et al. (2016): an LSTM for everything that moves, which sees what those near it remember.
 
 use crate::{
-    forecasting::{self, Forecasting, HORIZON, Moment, places},
+    forecasting::{self, ForecastOrigin, Forecasting, HORIZON, places},
     layer::Layer,
     lstm::Lstm,
     nodes::{Batch, FEATURES, FIXED, MOVING, NODES, Nodes},
     parameters::Parameter,
-    training::{Loss, Network, Published},
+    training::{Loss, Network, PublishedNetwork},
 };
 use candle_core::{Device, Module, Result, Tensor};
 use phase_model::{Vec2, random::Pcg64Mcg};
@@ -46,7 +46,7 @@ impl SocialLstm {
 }
 
 impl Forecasting for SocialLstm {
-    fn displacements(&self, batch: &Batch, moments: &[Moment]) -> Result<Tensor> {
+    fn displacements(&self, batch: &Batch, origins: &[ForecastOrigin]) -> Result<Tensor> {
         let (events, hidden) = (batch.events(), self.hidden);
         // Between −1 and 1, as what LSTMs put out.
         let fixed = self.fixed.forward(&batch.fixed)?.tanh()?.index_select(&batch.fixed_places, 0)?;
@@ -60,18 +60,18 @@ impl Forecasting for SocialLstm {
             let neighbours = self.neighbours.forward(&pooled)?.relu()?;
             let features = self.features.forward(features)?.relu()?;
             let input = Tensor::cat(&[features, neighbours], 1)?;
-            state = self.memory.step(&input, &state, batch.alive(row, MOVING))?;
+            state = self.memory.step(&input, &state, batch.active(row, MOVING))?;
             outputs.push(self.memory.output(&state)?);
         }
-        let chosen = Tensor::cat(&outputs, 0)?.index_select(&places(batch, moments)?, 0)?;
-        self.displacement.forward(&chosen)?.reshape((moments.len() * MOVING, HORIZON, 2))
+        let chosen = Tensor::cat(&outputs, 0)?.index_select(&places(batch, origins)?, 0)?;
+        self.displacement.forward(&chosen)?.reshape((origins.len() * MOVING, HORIZON, 2))
     }
 }
 
 impl Network for SocialLstm {
     type Sample = Nodes;
     const NAME: &'static str = "social-lstm";
-    const SCORES: &'static [&'static str] = &forecasting::SCORES;
+    const METRICS: &'static [&'static str] = &forecasting::METRICS;
 
     fn parameters(&self) -> Vec<Parameter> {
         let layers = [
@@ -86,14 +86,14 @@ impl Network for SocialLstm {
         parameters
     }
 
-    fn loss(&self, events: &[&Nodes], chance: Option<&mut Pcg64Mcg>) -> Result<Loss> {
-        forecasting::loss(self, events, chance)
+    fn loss(&self, events: &[&Nodes], random: Option<&mut Pcg64Mcg>) -> Result<Loss> {
+        forecasting::loss(self, events, random)
     }
 }
 
-impl Published for SocialLstm {
-    const SHIPPED: &'static [u8] = include_bytes!("../../../data/social-lstm.safetensors");
-    const RECORD: &'static str = include_str!("../../../data/social-lstm.safetensors.training.json");
+impl PublishedNetwork for SocialLstm {
+    const BUNDLED_WEIGHTS: &'static [u8] = include_bytes!("../../../data/social-lstm.safetensors");
+    const BUNDLED_RECORD: &'static str = include_str!("../../../data/social-lstm.safetensors.training.json");
 
     /// How many numbers the paper does not say; it is as many as the other networks have.
     fn published(random: &mut Pcg64Mcg) -> Result<Self> {

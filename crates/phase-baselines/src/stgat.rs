@@ -1,13 +1,13 @@
 //! STGAT, after Huang et al. (2019): motion LSTM, graph attention at every step, graph LSTM and decoder.
 
 use crate::{
-    attention::{UNSEEN, attend},
-    forecasting::{self, Forecasting, HORIZON, Moment, places},
+    attention::{MASK_BIAS, attend},
+    forecasting::{self, ForecastOrigin, Forecasting, HORIZON, places},
     layer::Layer,
     lstm::Lstm,
     nodes::{Batch, FEATURES, FIXED, MOVING, NODES, Nodes},
     parameters::Parameter,
-    training::{Loss, Network, Published},
+    training::{Loss, Network, PublishedNetwork},
 };
 use candle_core::{Device, Module, Result, Tensor};
 use phase_model::{
@@ -17,11 +17,11 @@ use phase_model::{
 use rand::seq::SliceRandom;
 
 /// Moments of each event from which futures are unrolled in one pass of training; all would take ten times as long.
-pub const DRAWN: usize = 8;
+pub const TRAINING_ORIGINS: usize = 8;
 /// Rows from one moment to the next at which it is measured.
 pub const STRIDE: usize = 5;
 /// How much of a negative score is left before the softmax, as in graph attention networks.
-const LEAK: f64 = 0.2;
+const NEGATIVE_SLOPE: f64 = 0.2;
 /// Velocities as features are a tenth of those in u/s.
 const SPEED: f64 = 10.0;
 
@@ -76,7 +76,7 @@ impl Stgat {
     }
 
     /// What moves after looking at all nodes: (events · [`MOVING`]) × hidden.
-    fn look(&self, nodes: &Tensor, unseen: &Tensor) -> Result<Tensor> {
+    fn look(&self, nodes: &Tensor, mask: &Tensor) -> Result<Tensor> {
         let mut seen = Vec::with_capacity(self.heads.len());
         for Head { taken, scores } in &self.heads {
             let taken = taken.forward(nodes)?;
@@ -85,8 +85,8 @@ impl Stgat {
             let looked_at = scores.narrow(2, 1, 1)?.transpose(1, 2)?;
             let scores = looking.broadcast_add(&looked_at)?;
             // max(x, LEAK · x)
-            let scores = (scores.relu()? * (1.0 - LEAK))?.add(&(scores * LEAK)?)?;
-            seen.push(attend(&scores, unseen, &taken)?.elu(1.0)?);
+            let scores = (scores.relu()? * (1.0 - NEGATIVE_SLOPE))?.add(&(scores * NEGATIVE_SLOPE)?)?;
+            seen.push(attend(&scores, mask, &taken)?.elu(1.0)?);
         }
         let seen = Tensor::cat(&seen, 2)?;
         seen.reshape((seen.dim(0)? * MOVING, seen.dim(2)?))
@@ -97,18 +97,19 @@ impl Stgat {
         let (events, hidden) = (batch.events(), self.hidden);
         let fixed = self.fixed.forward(&batch.fixed)?.tanh()?.index_select(&batch.fixed_places, 0)?;
         let fixed = fixed.reshape((events, FIXED, hidden))?;
-        let there = (0..events)
-            .flat_map(|event| (0..NODES).map(move |node| if batch.has(event, node) { 0.0 } else { UNSEEN }));
-        let unseen = Tensor::from_iter(there, &Device::Cpu)?.reshape((events, 1, NODES))?;
+        let present = (0..events).flat_map(|event| {
+            (0..NODES).map(move |node| if batch.has(event, node) { 0.0 } else { MASK_BIAS })
+        });
+        let mask = Tensor::from_iter(present, &Device::Cpu)?.reshape((events, 1, NODES))?;
         let mut motion = self.motion.start(events * MOVING)?;
         let mut graph = self.graph.start(events * MOVING)?;
         let mut encoded = Vec::with_capacity(batch.moving.len());
         for (row, features) in batch.moving.iter().enumerate() {
             let features = self.features.forward(features)?.relu()?;
-            motion = self.motion.step(&features, &motion, batch.alive(row, MOVING))?;
+            motion = self.motion.step(&features, &motion, batch.active(row, MOVING))?;
             let moved = self.motion.output(&motion)?;
             let nodes = Tensor::cat(&[moved.reshape((events, MOVING, hidden))?, fixed.clone()], 1)?;
-            graph = self.graph.step(&self.look(&nodes, &unseen)?, &graph, batch.alive(row, MOVING))?;
+            graph = self.graph.step(&self.look(&nodes, &mask)?, &graph, batch.active(row, MOVING))?;
             encoded.push(Tensor::cat(&[moved, self.graph.output(&graph)?], 1)?);
         }
         Ok(encoded)
@@ -116,8 +117,8 @@ impl Stgat {
 }
 
 impl Forecasting for Stgat {
-    fn displacements(&self, batch: &Batch, moments: &[Moment]) -> Result<Tensor> {
-        let places = places(batch, moments)?;
+    fn displacements(&self, batch: &Batch, origins: &[ForecastOrigin]) -> Result<Tensor> {
+        let places = places(batch, origins)?;
         let known = Tensor::cat(&self.encoded(batch)?, 0)?.index_select(&places, 0)?;
         let velocity = Tensor::cat(&batch.moving, 0)?.index_select(&places, 0)?.narrow(1, FEATURES - 2, 2)?;
         // What was covered in the last step (u).
@@ -134,28 +135,28 @@ impl Forecasting for Stgat {
         Tensor::stack(&positions, 1)
     }
 
-    fn moments(&self, batch: &Batch, chance: Option<&mut Pcg64Mcg>) -> Vec<Moment> {
+    fn origins(&self, batch: &Batch, random: Option<&mut Pcg64Mcg>) -> Vec<ForecastOrigin> {
         let each = batch.lengths().iter().enumerate();
-        let Some(random) = chance else {
+        let Some(random) = random else {
             let rows = |length: usize| (0..length.saturating_sub(1)).step_by(STRIDE);
             return each
-                .flat_map(|(event, &length)| rows(length).map(move |row| Moment { event, row }))
+                .flat_map(|(event, &length)| rows(length).map(move |row| ForecastOrigin { event, row }))
                 .collect();
         };
-        let mut moments = Vec::new();
+        let mut origins = Vec::new();
         for (event, &length) in each {
             let mut rows: Vec<usize> = (0..length.saturating_sub(1)).collect();
             rows.shuffle(random);
-            moments.extend(rows.into_iter().take(DRAWN).map(|row| Moment { event, row }));
+            origins.extend(rows.into_iter().take(TRAINING_ORIGINS).map(|row| ForecastOrigin { event, row }));
         }
-        moments
+        origins
     }
 }
 
 impl Network for Stgat {
     type Sample = Nodes;
     const NAME: &'static str = "stgat";
-    const SCORES: &'static [&'static str] = &forecasting::SCORES;
+    const METRICS: &'static [&'static str] = &forecasting::METRICS;
 
     fn parameters(&self) -> Vec<Parameter> {
         let mut parameters = self.features.parameters("features");
@@ -172,14 +173,14 @@ impl Network for Stgat {
         parameters
     }
 
-    fn loss(&self, events: &[&Nodes], chance: Option<&mut Pcg64Mcg>) -> Result<Loss> {
-        forecasting::loss(self, events, chance)
+    fn loss(&self, events: &[&Nodes], random: Option<&mut Pcg64Mcg>) -> Result<Loss> {
+        forecasting::loss(self, events, random)
     }
 }
 
-impl Published for Stgat {
-    const SHIPPED: &'static [u8] = include_bytes!("../../../data/stgat.safetensors");
-    const RECORD: &'static str = include_str!("../../../data/stgat.safetensors.training.json");
+impl PublishedNetwork for Stgat {
+    const BUNDLED_WEIGHTS: &'static [u8] = include_bytes!("../../../data/stgat.safetensors");
+    const BUNDLED_RECORD: &'static str = include_str!("../../../data/stgat.safetensors.training.json");
 
     /// How many numbers and heads the paper does not say; of numbers it is as many as the other networks have.
     fn published(random: &mut Pcg64Mcg) -> Result<Self> {

@@ -7,8 +7,8 @@ use crate::{
     nodes::{Batch, NodeEmbedding},
     parameters::Parameter,
     perceptron::Perceptron,
-    recognition::{self, Answers, LabelledEvent, RELATIONS, Recognition},
-    training::{Loss, Measure, Network, Published},
+    recognition::{self, LabelledEvent, Logits, RELATIONS, Recognition},
+    training::{Loss, Metrics, Network, PublishedNetwork},
 };
 use candle_core::{D, Module, Result};
 use phase_model::{AGENT_COUNT, random::Pcg64Mcg};
@@ -38,27 +38,27 @@ impl TwoLevelLstm {
 }
 
 impl Recognition for TwoLevelLstm {
-    fn answers(&self, batch: &Batch, _chance: Option<&mut Pcg64Mcg>) -> Result<Answers> {
+    fn logits(&self, batch: &Batch, _chance: Option<&mut Pcg64Mcg>) -> Result<Logits> {
         let embeddings = self.nodes.forward(batch)?;
-        let out_of_sight = batch.out_of_sight.unsqueeze(2)?;
+        let padding_mask = batch.padding_mask.unsqueeze(2)?;
         let mut context = self.context.start(batch.events())?;
         for (row, embedding) in embeddings.iter().enumerate() {
-            let pooled = embedding.broadcast_add(&out_of_sight)?.max(1)?;
-            context = self.context.step(&pooled, &context, batch.alive(row, 1))?;
+            let pooled = embedding.broadcast_add(&padding_mask)?.max(1)?;
+            context = self.context.step(&pooled, &context, batch.active(row, 1))?;
         }
         let relations = self.relation.forward(&self.context.output(&context)?)?;
         let Some(last) = embeddings.last() else { candle_core::bail!("there is no event to look at") };
         let agents = last.narrow(1, 0, AGENT_COUNT)?;
         let hidden = agents.dim(D::Minus1)?;
         let goals = self.goals.forward(&agents.reshape(((), hidden))?)?;
-        Ok(Answers { goals: goals.reshape((batch.events(), AGENT_COUNT, CLASSES))?, relations })
+        Ok(Logits { goals: goals.reshape((batch.events(), AGENT_COUNT, CLASSES))?, relations })
     }
 }
 
 impl Network for TwoLevelLstm {
     type Sample = LabelledEvent;
     const NAME: &'static str = "two-level-lstm";
-    const SCORES: &'static [&'static str] = &recognition::SCORES;
+    const METRICS: &'static [&'static str] = &recognition::METRICS;
 
     fn parameters(&self) -> Vec<Parameter> {
         let mut parameters = self.nodes.parameters("nodes");
@@ -68,18 +68,19 @@ impl Network for TwoLevelLstm {
         parameters
     }
 
-    fn loss(&self, events: &[&LabelledEvent], chance: Option<&mut Pcg64Mcg>) -> Result<Loss> {
-        recognition::loss(self, events, chance)
+    fn loss(&self, events: &[&LabelledEvent], random: Option<&mut Pcg64Mcg>) -> Result<Loss> {
+        recognition::loss(self, events, random)
     }
 
-    fn shortcoming(measure: &Measure) -> f64 {
-        recognition::shortcoming(measure)
+    fn selection_loss(evaluate: &Metrics) -> f64 {
+        recognition::selection_loss(evaluate)
     }
 }
 
-impl Published for TwoLevelLstm {
-    const SHIPPED: &'static [u8] = include_bytes!("../../../data/two-level-lstm.safetensors");
-    const RECORD: &'static str = include_str!("../../../data/two-level-lstm.safetensors.training.json");
+impl PublishedNetwork for TwoLevelLstm {
+    const BUNDLED_WEIGHTS: &'static [u8] = include_bytes!("../../../data/two-level-lstm.safetensors");
+    const BUNDLED_RECORD: &'static str =
+        include_str!("../../../data/two-level-lstm.safetensors.training.json");
 
     fn published(random: &mut Pcg64Mcg) -> Result<Self> {
         Self::new(64, random)

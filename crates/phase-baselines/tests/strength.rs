@@ -1,7 +1,8 @@
 //! Learning strengths: from made-up motion, where the answer is known.
 
 use phase_baselines::strength::{
-    Epoch, Motion, Sample, Settings, TrainingError, WINDOW, commonest, nearest, score, train,
+    AgentSamples, Epoch, Sample, StrengthTrainingSettings, TrainingError, WINDOW, most_common, nearest,
+    score, train,
 };
 use phase_event::ObservedEvent;
 use phase_model::{AGENT_COUNT, AgentId, Body, Layout, MAX_ENTITIES, Size, Strength, Vec2};
@@ -23,17 +24,30 @@ fn event(strengths: [Strength; AGENT_COUNT], variety: u8) -> ObservedEvent {
 }
 
 /// Events of all pairs of strengths.
-fn motions(variety: u8) -> Vec<Motion> {
+fn motions(variety: u8) -> Vec<AgentSamples> {
     let pairs = Strength::ALL.into_iter().flat_map(|a| Strength::ALL.map(|b| [a, b]));
-    pairs.zip(variety..).flat_map(|(pair, variety)| Motion::of_event(&event(pair, variety), pair)).collect()
+    pairs
+        .zip(variety..)
+        .flat_map(|(pair, variety)| AgentSamples::of_event(&event(pair, variety), pair))
+        .collect()
 }
 
-fn small() -> Settings {
-    Settings { hidden: 16, batch: 16, learning_rate: 1e-2, epochs: 40, ..Settings::default() }
+fn small() -> StrengthTrainingSettings {
+    StrengthTrainingSettings {
+        hidden: 16,
+        batch: 16,
+        learning_rate: 1e-2,
+        epochs: 40,
+        ..StrengthTrainingSettings::default()
+    }
 }
 
 /// Trains and also returns what was told.
-fn trained(training: &[Motion], seed: u64, settings: &Settings) -> (StrengthRegressor, Vec<Epoch>) {
+fn trained(
+    training: &[AgentSamples],
+    seed: u64,
+    settings: &StrengthTrainingSettings,
+) -> (StrengthRegressor, Vec<Epoch>) {
     let mut epochs = Vec::new();
     let regressor = train(training, &motions(3), seed, settings, &mut |epoch| epochs.push(*epoch));
     (regressor.expect("weights"), epochs)
@@ -43,19 +57,19 @@ fn trained(training: &[Motion], seed: u64, settings: &Settings) -> (StrengthRegr
 fn a_motion_is_cut_into_all_its_windows() {
     let strengths = [Strength::Fair, Strength::Mighty];
     let event = event(strengths, 0);
-    let [first, second] = Motion::of_event(&event, strengths);
+    let [first, second] = AgentSamples::of_event(&event, strengths);
     assert_eq!((first.whole.strength, second.whole.strength), (Strength::Fair, Strength::Mighty));
     assert_eq!(first.whole.features, features(event.rows(), AgentId::ZERO, Size::Small));
     // 16 rows hold six windows of 11.
     assert_eq!(second.windows.len(), 6);
     assert_eq!(second.windows[5].features, features(&event.rows()[5..=15], AgentId::ONE, Size::Huge));
-    let short = Motion::of_event(&event.watched_for(WINDOW - 1), strengths);
+    let short = AgentSamples::of_event(&event.prefix(WINDOW - 1), strengths);
     assert_eq!(short[0].windows, [short[0].whole]);
 }
 
 #[test]
 fn windows_are_as_long_as_those_of_inference() {
-    assert_eq!(ChainSettings::anchored(Update::Local).window, WINDOW);
+    assert_eq!(ChainSettings::resynchronised(Update::Local).window, WINDOW);
 }
 
 #[test]
@@ -72,7 +86,7 @@ fn the_error_becomes_small() {
 #[test]
 fn what_is_trained_is_what_is_evaluated_later() {
     // Without learning, the error that training sees is that of the regressor in plain Rust on the same samples.
-    let settings = Settings { learning_rate: 0.0, windows: 0, patience: 1, ..small() };
+    let settings = StrengthTrainingSettings { learning_rate: 0.0, windows: 0, patience: 1, ..small() };
     let (_, epochs) = trained(&motions(3), 1, &settings);
     let Epoch { training, whole, .. } = epochs[0];
     assert!((training - whole).abs() < 1e-3, "{training} is not {whole}");
@@ -80,7 +94,7 @@ fn what_is_trained_is_what_is_evaluated_later() {
 
 #[test]
 fn one_seed_one_result() {
-    let settings = Settings { epochs: 3, ..small() };
+    let settings = StrengthTrainingSettings { epochs: 3, ..small() };
     let file = |seed| trained(&motions(0), seed, &settings).0.to_safetensors().unwrap();
     assert_eq!(file(1), file(1));
     assert_ne!(file(1), file(2));
@@ -89,20 +103,25 @@ fn one_seed_one_result() {
 #[test]
 fn eight_samples_are_learnt_by_heart() {
     // Features that tell nothing of the strength, one tall tale for each agent.
-    let motions: Vec<Motion> = [2_u8, 0, 3, 1, 1, 3, 0, 2]
+    let motions: Vec<AgentSamples> = [2_u8, 0, 3, 1, 1, 3, 0, 2]
         .into_iter()
         .enumerate()
         .map(|(k, level)| {
             let number = k as f64;
             let features = [number, (number * 2.3) % 3.0, 0.0, (number * 1.7) % 4.0, number % 2.0, 0.0, 1.2];
             let whole = Sample { features, strength: Strength::from_level(level).unwrap() };
-            Motion { whole, windows: vec![whole] }
+            AgentSamples { whole, windows: vec![whole] }
         })
         .collect();
-    let settings =
-        Settings { batch: 8, learning_rate: 1e-2, epochs: 300, patience: 300, ..Settings::default() };
+    let settings = StrengthTrainingSettings {
+        batch: 8,
+        learning_rate: 1e-2,
+        epochs: 300,
+        patience: 300,
+        ..StrengthTrainingSettings::default()
+    };
     let regressor = train(&motions, &motions, 1, &settings, &mut |_| {}).unwrap();
-    for Motion { whole, .. } in &motions {
+    for AgentSamples { whole, .. } in &motions {
         let (force, estimate) = (whole.strength.max_force(), regressor.estimate_from(&whole.features));
         assert!((estimate - f64::from(force)).abs() < 10.0, "{estimate} is not {force}");
     }
@@ -110,7 +129,7 @@ fn eight_samples_are_learnt_by_heart() {
 
 #[test]
 fn training_stops_when_nothing_is_gained() {
-    let settings = Settings { learning_rate: 0.0, patience: 4, ..small() };
+    let settings = StrengthTrainingSettings { learning_rate: 0.0, patience: 4, ..small() };
     let (_, epochs) = trained(&motions(0), 1, &settings);
     assert_eq!(epochs.len(), 5);
     assert_eq!(epochs.iter().filter(|epoch| epoch.best).count(), 1);
@@ -119,19 +138,20 @@ fn training_stops_when_nothing_is_gained() {
 #[test]
 fn what_cannot_be_learnt_from_is_refused() {
     let some = motions(0);
-    let outcome = |training, validation, settings: &Settings| {
+    let outcome = |training, validation, settings: &StrengthTrainingSettings| {
         train(training, validation, 1, settings, &mut |_| {}).unwrap_err()
     };
     assert!(matches!(outcome(&[], &some, &small()), TrainingError::NoMotion("training")));
     assert!(matches!(outcome(&some, &[], &small()), TrainingError::NoMotion("validation")));
-    let wild = Settings { learning_rate: 1e30, ..small() };
-    assert!(matches!(outcome(&some, &some, &wild), TrainingError::Apart { epoch: 1, .. }));
+    let wild = StrengthTrainingSettings { learning_rate: 1e30, ..small() };
+    assert!(matches!(outcome(&some, &some, &wild), TrainingError::Diverged { epoch: 1, .. }));
 }
 
 #[test]
 fn scores_by_hand() {
     // A network that always says 400 N.
-    let mut weights = trained(&motions(0), 1, &Settings { epochs: 1, ..small() }).0.weights().clone();
+    let mut weights =
+        trained(&motions(0), 1, &StrengthTrainingSettings { epochs: 1, ..small() }).0.weights().clone();
     weights.output.weight.fill(0.0);
     weights.output.bias = vec![400.0];
     let regressor = StrengthRegressor::new(weights).unwrap();
@@ -143,8 +163,8 @@ fn scores_by_hand() {
     assert!((found.rmse - (0.25 * 10_000.0 + 0.75 * 2500.0_f64).sqrt()).abs() < 1e-9);
     assert!((found.rmse_of_constant - 150.0 * (0.25 * 0.75_f64).sqrt()).abs() < 1e-9);
     assert_eq!((found.accuracy, found.accuracy_of_guess), (0.75, 0.25));
-    assert_eq!(commonest([strong, fair, strong].iter()), Strength::Strong);
-    assert_eq!(commonest([strong, fair].iter()), Strength::Fair);
+    assert_eq!(most_common([strong, fair, strong].iter()), Strength::Strong);
+    assert_eq!(most_common([strong, fair].iter()), Strength::Fair);
 }
 
 #[test]

@@ -4,7 +4,7 @@ use phase_belief::{Belief, PARTICLE_COUNT};
 use phase_forward::Forward;
 use phase_model::{
     AGENT_COUNT, Action, AgentBody, AgentId, Body, Dynamics, Entity, Layout, LayoutError, MAX_ENTITIES,
-    Physique, Size, State, Vec2, arena,
+    PhysicsConfig, Size, State, Vec2, arena,
     geometry::Outline,
     random::{Pcg64Mcg, Purpose, stream},
 };
@@ -17,9 +17,9 @@ const EVENTS: usize = 10;
 const STEPS: usize = 60;
 
 /// Nothing moves, and nothing is spent on it.
-struct Still;
+struct StaticDynamics;
 
-impl Dynamics for Still {
+impl Dynamics for StaticDynamics {
     fn step(&self, _: &mut State, _: [Action; AGENT_COUNT]) {}
 }
 
@@ -31,7 +31,7 @@ struct Total {
     longest: Duration,
     predicting: Duration,
     still: Duration,
-    redrawn: usize,
+    resampled: usize,
     unresolved: usize,
 }
 
@@ -51,7 +51,7 @@ fn main() -> Result<(), LayoutError> {
         println!("  update without dynamics  {:7.1} µs", per(total.still, total.updates));
         println!(
             "  {:.1} bodies redrawn per update, {} without a place in all",
-            total.redrawn as f64 / total.updates as f64,
+            total.resampled as f64 / total.updates as f64,
             total.unresolved
         );
     }
@@ -59,21 +59,21 @@ fn main() -> Result<(), LayoutError> {
 }
 
 /// One event in which both agents do something at random for a few steps each.
-fn event(physique: &Physique, random: &mut Pcg64Mcg, total: &mut Total) {
-    let forward = Forward::new(physique);
-    let mut truth = legal_state(physique, random);
+fn event(physics: &PhysicsConfig, random: &mut Pcg64Mcg, total: &mut Total) {
+    let forward = Forward::new(physics);
+    let mut truth = legal_state(physics, random);
     let mut actions = [Action::NoForce; AGENT_COUNT];
-    let mut observation = observe(physique, &truth, AgentId::ZERO);
+    let mut observation = observe(physics, &truth, AgentId::ZERO);
     let start = Instant::now();
-    let mut belief = Belief::new(physique, &observation, PARTICLE_COUNT, random);
+    let mut belief = Belief::new(physics, &observation, PARTICLE_COUNT, random);
     total.first += start.elapsed();
     for step in 0..STEPS {
         if step % 4 == 0 {
             actions = core::array::from_fn(|_| Action::ALL[random.random_range(0..Action::ALL.len())]);
         }
         forward.step(&mut truth, actions);
-        observation = observe(physique, &truth, AgentId::ZERO);
-        total.still += still_update(&belief, physique, &observation, actions[0], random);
+        observation = observe(physics, &truth, AgentId::ZERO);
+        total.still += still_update(&belief, physics, &observation, actions[0], random);
         let start = Instant::now();
         for mut particle in belief.particles().iter().copied() {
             forward.step(&mut particle, [actions[0], Action::NoForce]);
@@ -87,7 +87,7 @@ fn event(physique: &Physique, random: &mut Pcg64Mcg, total: &mut Total) {
                 belief.clone_from(&before);
                 random.clone_from(&chance);
                 let start = Instant::now();
-                belief.update(&forward, physique, actions[0], &observation, random);
+                belief.update(&forward, physics, actions[0], &observation, random);
                 start.elapsed()
             })
             .min()
@@ -95,7 +95,7 @@ fn event(physique: &Physique, random: &mut Pcg64Mcg, total: &mut Total) {
         total.all += spent;
         total.longest = total.longest.max(spent);
         total.updates += 1;
-        total.redrawn += belief.redrawn();
+        total.resampled += belief.resampled();
         total.unresolved += belief.unresolved();
     }
 }
@@ -103,20 +103,20 @@ fn event(physique: &Physique, random: &mut Pcg64Mcg, total: &mut Total) {
 /// Time for an update of a copy in which only perceiving costs.
 fn still_update(
     belief: &Belief,
-    physique: &Physique,
+    physics: &PhysicsConfig,
     observation: &Observation,
     action: Action,
     random: &mut Pcg64Mcg,
 ) -> Duration {
     let mut copy = belief.clone();
     let start = Instant::now();
-    copy.update(&Still, physique, action, observation, random);
+    copy.update(&StaticDynamics, physics, action, observation, random);
     start.elapsed()
 }
 
-fn any_physique(base: u8, random: &mut Pcg64Mcg) -> Result<Physique, LayoutError> {
+fn any_physique(base: u8, random: &mut Pcg64Mcg) -> Result<PhysicsConfig, LayoutError> {
     let mut radius = || Size::ALL[random.random_range(0..Size::ALL.len())].radius();
-    Ok(Physique {
+    Ok(PhysicsConfig {
         walls: Layout::new(base, None)?.walls(),
         agents: [
             AgentBody { radius: radius(), max_force: 450.0 },
@@ -127,15 +127,15 @@ fn any_physique(base: u8, random: &mut Pcg64Mcg) -> Result<Physique, LayoutError
     })
 }
 
-fn legal_state(physique: &Physique, random: &mut Pcg64Mcg) -> State {
+fn legal_state(physics: &PhysicsConfig, random: &mut Pcg64Mcg) -> State {
     let mut state = State::new([Body::default(); MAX_ENTITIES]);
     let mut outlines: Vec<Outline> = Vec::new();
-    while outlines.len() < physique.entity_count() {
+    while outlines.len() < physics.entity_count() {
         let entity = Entity::ALL[outlines.len()];
         let position = arena::MIN + arena::SIDE * Vec2::new(random.random(), random.random());
         let body = Body::at_rest(position, random.random_range(-3.0..3.0));
-        let outline = Outline::of(physique, entity, &body);
-        let clear = outline.inside_arena() && !physique.walls.iter().any(|&wall| outline.overlaps_wall(wall));
+        let outline = Outline::of(physics, entity, &body);
+        let clear = outline.inside_arena() && !physics.walls.iter().any(|&wall| outline.overlaps_wall(wall));
         if clear && !outlines.iter().any(|other| outline.overlaps(other)) {
             *state.body_mut(entity) = body;
             outlines.push(outline);

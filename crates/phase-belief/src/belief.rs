@@ -1,8 +1,8 @@
 //! The belief itself: particles, memory, and one step of both.
 
-use crate::{consistency::contradicted, memory::CellMemory, place::Placer, predict::predict};
+use crate::{consistency::contradicted, memory::CellMemory, predict::predict, resampling::PoseSampler};
 use phase_model::{
-    Action, AgentId, Body, BodySet, Contacts, Dynamics, Entity, MAX_ENTITIES, Physique, State,
+    Action, AgentId, Body, BodySet, Contacts, Dynamics, Entity, MAX_ENTITIES, PhysicsConfig, State,
     geometry::Outline,
 };
 use phase_perception::{Cell, CellSet, Observation, footprint::covered};
@@ -17,7 +17,7 @@ pub struct Belief {
     agent: AgentId,
     particles: Vec<State>,
     memory: CellMemory,
-    redrawn: usize,
+    resampled: usize,
     unresolved: usize,
 }
 
@@ -28,7 +28,7 @@ impl Belief {
     /// headings 0; headings are uniform here.) All bodies that are not observed rest and hold nothing.
     #[must_use]
     pub fn new(
-        physique: &Physique,
+        physics: &PhysicsConfig,
         observation: &Observation,
         particle_count: usize,
         rng: &mut impl Rng,
@@ -38,17 +38,17 @@ impl Belief {
             agent: observation.agent,
             particles: vec![blank; particle_count],
             memory: CellMemory::new(),
-            redrawn: 0,
+            resampled: 0,
             unresolved: 0,
         };
-        belief.memory.note(&seen_or_covered(physique, observation));
-        let mut placer = Placer::new(physique, &belief.memory);
+        belief.memory.record_seen(&seen_or_covered(physics, observation));
+        let mut sampler = PoseSampler::new(physics, &belief.memory);
         let unknown: BodySet =
-            physique.entities().filter(|&entity| !observation.observed.contains(entity)).collect();
+            physics.entities().filter(|&entity| !observation.observed.contains(entity)).collect();
         for particle in &mut belief.particles {
             overwrite(particle, observation);
-            belief.unresolved += redraw(particle, unknown, &mut placer, rng);
-            belief.redrawn += unknown.iter().count();
+            belief.unresolved += resample(particle, unknown, &mut sampler, rng);
+            belief.resampled += unknown.iter().count();
         }
         belief
     }
@@ -58,23 +58,24 @@ impl Belief {
     pub fn update(
         &mut self,
         dynamics: &impl Dynamics,
-        physique: &Physique,
+        physics: &PhysicsConfig,
         own_action: Action,
         observation: &Observation,
         rng: &mut impl Rng,
     ) {
-        self.memory.note(&seen_or_covered(physique, observation));
-        (self.redrawn, self.unresolved) = (0, 0);
-        let mut placer = Placer::new(physique, &self.memory);
+        self.memory.record_seen(&seen_or_covered(physics, observation));
+        (self.resampled, self.unresolved) = (0, 0);
+        let mut sampler = PoseSampler::new(physics, &self.memory);
         let observed = observation.observed;
         for particle in &mut self.particles {
-            predict(dynamics, physique, particle, self.agent, own_action, observed);
-            let unfelt = unfelt(physique, particle, self.agent, observed);
+            predict(dynamics, physics, particle, self.agent, own_action, observed);
+            let contradicted_by_touch = contradicted_by_touch(physics, particle, self.agent, observed);
             overwrite(particle, observation);
-            let impossible = contradicted(physique, particle, observed, &observation.visible).union(unfelt);
+            let impossible =
+                contradicted(physics, particle, observed, &observation.visible).union(contradicted_by_touch);
             if !impossible.is_empty() {
-                self.unresolved += redraw(particle, impossible, &mut placer, rng);
-                self.redrawn += impossible.iter().count();
+                self.unresolved += resample(particle, impossible, &mut sampler, rng);
+                self.resampled += impossible.iter().count();
             }
         }
     }
@@ -110,8 +111,8 @@ impl Belief {
 
     /// How many bodies, over all particles, were redrawn in the last step.
     #[must_use]
-    pub fn redrawn(&self) -> usize {
-        self.redrawn
+    pub fn resampled(&self) -> usize {
+        self.resampled
     }
 
     /// How many of these found no possible place, neither in 200 draws nor when 3600 places all over the
@@ -125,17 +126,22 @@ impl Belief {
 
 /// Entities that the prediction puts in the agent's grip although no touch is observed, which rules them out
 /// there. Predicted contacts are not precise enough for the same conclusion.
-fn unfelt(physique: &Physique, particle: &State, agent: AgentId, observed: BodySet) -> BodySet {
+fn contradicted_by_touch(
+    physics: &PhysicsConfig,
+    particle: &State,
+    agent: AgentId,
+    observed: BodySet,
+) -> BodySet {
     let in_hand = particle.held_object(agent).map(Entity::Object);
-    physique.entities().filter(|&entity| !observed.contains(entity) && Some(entity) == in_hand).collect()
+    physics.entities().filter(|&entity| !observed.contains(entity) && Some(entity) == in_hand).collect()
 }
 
 /// Cells in which the agent knows that nothing unobserved is.
-fn seen_or_covered(physique: &Physique, observation: &Observation) -> CellSet {
+fn seen_or_covered(physics: &PhysicsConfig, observation: &Observation) -> CellSet {
     let mut cells = observation.visible;
     for entity in observation.observed.iter() {
         if let Some(body) = observation.body(entity) {
-            covered(&Outline::of(physique, entity, body)).iter().for_each(|cell| cells.insert(cell));
+            covered(&Outline::of(physics, entity, body)).iter().for_each(|cell| cells.insert(cell));
         }
     }
     cells
@@ -164,7 +170,12 @@ pub fn overwrite(particle: &mut State, observation: &Observation) {
 
 /// Gives some entities new places, in which they neither hold nor touch anything. Returns how many found
 /// none.
-fn redraw(particle: &mut State, which: BodySet, placer: &mut Placer<'_>, rng: &mut impl Rng) -> usize {
+fn resample(
+    particle: &mut State,
+    which: BodySet,
+    sampler: &mut PoseSampler<'_>,
+    rng: &mut impl Rng,
+) -> usize {
     for agent in AgentId::ALL {
         particle.grips[agent] = particle.grips[agent].filter(|grip| {
             !which.contains(Entity::Agent(agent)) && !which.contains(Entity::Object(grip.object))
@@ -172,7 +183,7 @@ fn redraw(particle: &mut State, which: BodySet, placer: &mut Placer<'_>, rng: &m
     }
     let before = particle.contacts;
     particle.contacts = contacts(|a, b| !which.contains(a) && !which.contains(b) && before.touching(a, b));
-    placer.redraw(particle, which, rng)
+    sampler.resample(particle, which, rng)
 }
 
 /// The contacts between the pairs that satisfy a condition.

@@ -1,38 +1,38 @@
 //! Which bodies of a particle contradict what is observed.
 
 use phase_model::{
-    Body, BodySet, Entity, Physique, State, Vec2,
+    Body, BodySet, Entity, PhysicsConfig, State, Vec2,
     geometry::{Outline, trapezoid},
 };
 use phase_perception::{CellSet, footprint::any_cell};
 
 /// How deep bodies may lie in walls and in one another before a particle counts as impossible (u). Solvers
 /// let resting contacts sink in a little, and a belief must not lose a body for leaning on a wall.
-pub(crate) const SLACK: f32 = 0.05;
+pub(crate) const PENETRATION_TOLERANCE: f32 = 0.05;
 
 /// How deep an object may lie in an agent, in its own radius: 1 − 2/√5. This is how deep one held by a flank
 /// lies in the slanting side, and there it stays when it is let go.
-const FLANK_DEPTH: f32 = 0.105_573;
+const SIDE_GRIP_PENETRATION: f32 = 0.105_573;
 
 /// The entities, of those not observed, whose bodies cannot be where a particle has them. Of two that
 /// overlap, the later by index is the one that cannot.
 pub(crate) fn contradicted(
-    physique: &Physique,
+    physics: &PhysicsConfig,
     particle: &State,
     observed: BodySet,
     visible: &CellSet,
 ) -> BodySet {
     let mut impossible = BodySet::EMPTY;
     let mut settled = observed;
-    for entity in physique.entities().filter(|&entity| !observed.contains(entity)) {
+    for entity in physics.entities().filter(|&entity| !observed.contains(entity)) {
         let body = particle.body(entity);
         let possible = body.is_finite()
-            && is_clear_of_walls(physique, &shrunk(physique, entity, body, SLACK))
+            && is_clear_of_walls(physics, &shrunk_outline(physics, entity, body, PENETRATION_TOLERANCE))
             && settled.iter().all(|other| {
                 holding(particle, entity, other)
-                    || !loosely_overlap(physique, (entity, body), (other, particle.body(other)))
+                    || !overlap_beyond_tolerance(physics, (entity, body), (other, particle.body(other)))
             })
-            && !any_cell(&Outline::of(physique, entity, body), |cell| visible.contains(cell));
+            && !any_cell(&Outline::of(physics, entity, body), |cell| visible.contains(cell));
         if possible {
             settled.insert(entity);
         } else {
@@ -43,13 +43,13 @@ pub(crate) fn contradicted(
 }
 
 /// Whether an outline lies inside the arena and no inner wall runs through it.
-pub(crate) fn is_clear_of_walls(physique: &Physique, outline: &Outline) -> bool {
-    outline.inside_arena() && !physique.walls.iter().any(|&wall| outline.overlaps_wall(wall))
+pub(crate) fn is_clear_of_walls(physics: &PhysicsConfig, outline: &Outline) -> bool {
+    outline.inside_arena() && !physics.walls.iter().any(|&wall| outline.overlaps_wall(wall))
 }
 
 /// The outline of an entity whose radius is less by a number (u).
-pub(crate) fn shrunk(physique: &Physique, entity: Entity, body: &Body, by: f32) -> Outline {
-    let radius = physique.radius(entity) - by;
+pub(crate) fn shrunk_outline(physics: &PhysicsConfig, entity: Entity, body: &Body, by: f32) -> Outline {
+    let radius = physics.radius(entity) - by;
     match entity {
         Entity::Agent(_) => {
             let rotation = Vec2::from_angle(body.angle);
@@ -60,27 +60,29 @@ pub(crate) fn shrunk(physique: &Physique, entity: Entity, body: &Body, by: f32) 
 }
 
 /// Whether two bodies overlap by more than solvers and letting go account for.
-pub(crate) fn loosely_overlap(
-    physique: &Physique,
+pub(crate) fn overlap_beyond_tolerance(
+    physics: &PhysicsConfig,
     (a, body_a): (Entity, &Body),
     (b, body_b): (Entity, &Body),
 ) -> bool {
-    let reach = farthest(physique, a) + farthest(physique, b);
+    let reach = farthest(physics, a) + farthest(physics, b);
     // Written so that NaN goes on to the exact test, which says no.
     if body_a.position.distance_squared(body_b.position) > reach * reach {
         return false;
     }
     let by = |entity: Entity, other: Entity| match (entity, other) {
-        (Entity::Object(_), Entity::Agent(_)) => SLACK + FLANK_DEPTH * physique.radius(entity),
+        (Entity::Object(_), Entity::Agent(_)) => {
+            PENETRATION_TOLERANCE + SIDE_GRIP_PENETRATION * physics.radius(entity)
+        }
         (Entity::Agent(_), Entity::Object(_)) => 0.0,
-        _ => SLACK / 2.0,
+        _ => PENETRATION_TOLERANCE / 2.0,
     };
-    shrunk(physique, a, body_a, by(a, b)).overlaps(&shrunk(physique, b, body_b, by(b, a)))
+    shrunk_outline(physics, a, body_a, by(a, b)).overlaps(&shrunk_outline(physics, b, body_b, by(b, a)))
 }
 
 /// Distance of the farthest point of an outline from its origin, rounded up (u).
-fn farthest(physique: &Physique, entity: Entity) -> f32 {
-    physique.radius(entity)
+fn farthest(physics: &PhysicsConfig, entity: Entity) -> f32 {
+    physics.radius(entity)
         * match entity {
             Entity::Agent(_) => 1.803,
             Entity::Object(_) => 1.0,

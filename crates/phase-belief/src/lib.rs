@@ -15,21 +15,21 @@
 //!
 //! ```
 //! use phase_belief::{Belief, PARTICLE_COUNT};
-//! use phase_model::{AgentBody, AgentId, Body, Entity, ObjectId, Physique, State, Vec2};
+//! use phase_model::{AgentBody, AgentId, Body, Entity, ObjectId, PhysicsConfig, State, Vec2};
 //! use phase_perception::{observe, sees};
 //! use rand::SeedableRng;
 //! use rand_pcg::Pcg32;
 //!
 //! let body = AgentBody { radius: 0.8, max_force: 450.0 };
-//! let physique = Physique { walls: Vec::new(), agents: [body; 2], object_radii: [0.8; 2], object_count: 1 };
-//! let places = [Vec2::new(16.0, 9.0), Vec2::new(16.0, 15.0), Vec2::new(16.0, 4.0), Vec2::ZERO];
-//! let state = State::new(places.map(|place| Body::at_rest(place, 0.0)));
+//! let physics = PhysicsConfig { walls: Vec::new(), agents: [body; 2], object_radii: [0.8; 2], object_count: 1 };
+//! let grid_poses = [Vec2::new(16.0, 9.0), Vec2::new(16.0, 15.0), Vec2::new(16.0, 4.0), Vec2::ZERO];
+//! let state = State::new(grid_poses.map(|place| Body::at_rest(place, 0.0)));
 //!
-//! let observation = observe(&physique, &state, AgentId::ZERO);
-//! let belief = Belief::new(&physique, &observation, PARTICLE_COUNT, &mut Pcg32::seed_from_u64(1));
+//! let observation = observe(&physics, &state, AgentId::ZERO);
+//! let belief = Belief::new(&physics, &observation, PARTICLE_COUNT, &mut Pcg32::seed_from_u64(1));
 //! for particle in belief.particles() {
-//!     assert_eq!(particle.position(Entity::Agent(AgentId::ONE)), places[1]);
-//!     assert!(!sees(&physique, particle, AgentId::ZERO, Entity::Object(ObjectId::ZERO)));
+//!     assert_eq!(particle.position(Entity::Agent(AgentId::ONE)), grid_poses[1]);
+//!     assert!(!sees(&physics, particle, AgentId::ZERO, Entity::Object(ObjectId::ZERO)));
 //! }
 //! ```
 //!
@@ -45,7 +45,7 @@
 //!
 //! The place of a redrawn body is uniform over the free space, weighted by how well a body can have got there
 //! unseen: a cell counts 0 while it is visible, 1 if it has never been seen, and 1 − exp(−age/τ) if it was
-//! last seen `age` steps ago ([`hiding_weight`]). A place that was seen empty is likely empty still, the more
+//! last seen `age` steps ago ([`occupancy_weight`]). A place that was seen empty is likely empty still, the more
 //! so the shorter ago; τ is 20 steps for an agent, which moves by itself, and 200 steps, longer than an
 //! event, for an object, which lies until somebody moves it. So a searcher turns to what it has not looked
 //! at, yet never runs out of places when it has seen everything. A body lies on many cells, and the least of
@@ -61,9 +61,9 @@
 pub mod belief;
 mod consistency;
 pub mod memory;
-mod place;
 mod predict;
+mod resampling;
 mod weights;
 
 pub use belief::{Belief, PARTICLE_COUNT, overwrite};
-pub use memory::{AGENT_FORGETTING, CellMemory, OBJECT_FORGETTING, hiding_weight};
+pub use memory::{AGENT_DECAY_STEPS, CellMemory, OBJECT_DECAY_STEPS, occupancy_weight};

@@ -3,16 +3,16 @@
 use phase_model::Entity;
 use phase_perception::{Cell, CellSet, cells::CELL_COUNT};
 
-/// The τ of [`hiding_weight`] for agents, which move by themselves (steps).
-pub const AGENT_FORGETTING: f32 = 20.0;
+/// The τ of [`occupancy_weight`] for agents, which move by themselves (steps).
+pub const AGENT_DECAY_STEPS: f32 = 20.0;
 /// The τ for objects, which move only when moved (steps). Events are 40 to 100 steps long.
-pub const OBJECT_FORGETTING: f32 = 200.0;
+pub const OBJECT_DECAY_STEPS: f32 = 200.0;
 
 /// Prior weight, 0 to 1, that an unobserved body occupies a cell last seen `age` steps ago (`None`: never):
 /// 1 − exp(−age/τ), with τ in steps. Exactly 0 for a visible cell, exactly 1 for one never seen.
 #[must_use]
-pub fn hiding_weight(age: Option<u32>, forgetting: f32) -> f32 {
-    age.map_or(1.0, |age| -libm::expm1f(-(age as f32) / forgetting))
+pub fn occupancy_weight(age: Option<u32>, decay_steps: f32) -> f32 {
+    age.map_or(1.0, |age| -libm::expm1f(-(age as f32) / decay_steps))
 }
 
 /// The age of every cell's last sighting.
@@ -32,7 +32,7 @@ impl CellMemory {
     }
 
     /// Lets one step pass and notes the cells seen at its end.
-    pub fn note(&mut self, seen: &CellSet) {
+    pub fn record_seen(&mut self, seen: &CellSet) {
         for (cell, age) in Cell::all().zip(&mut self.ages) {
             *age = match *age {
                 _ if seen.contains(cell) => 0,
@@ -49,14 +49,14 @@ impl CellMemory {
         (age != NEVER).then_some(age)
     }
 
-    /// How well an entity may have got into a cell unseen; see [`hiding_weight`].
+    /// How well an entity may have got into a cell unseen; see [`occupancy_weight`].
     #[must_use]
     pub fn weight(&self, entity: Entity, cell: Cell) -> f32 {
-        let forgetting = match entity {
-            Entity::Agent(_) => AGENT_FORGETTING,
-            Entity::Object(_) => OBJECT_FORGETTING,
+        let decay_steps = match entity {
+            Entity::Agent(_) => AGENT_DECAY_STEPS,
+            Entity::Object(_) => OBJECT_DECAY_STEPS,
         };
-        hiding_weight(self.age(cell), forgetting)
+        occupancy_weight(self.age(cell), decay_steps)
     }
 }
 

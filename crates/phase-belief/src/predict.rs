@@ -1,7 +1,9 @@
 //! One step of the dynamics under constant motion.
 
-use crate::consistency::{SLACK, loosely_overlap, shrunk};
-use phase_model::{AGENT_COUNT, Action, AgentId, BodySet, Dynamics, Entity, Physique, State, Vec2, arena};
+use crate::consistency::{PENETRATION_TOLERANCE, overlap_beyond_tolerance, shrunk_outline};
+use phase_model::{
+    AGENT_COUNT, Action, AgentId, BodySet, Dynamics, Entity, PhysicsConfig, State, Vec2, arena,
+};
 
 /// Advances a particle by one step in which the believing agent acts and the other goes on as it was going.
 ///
@@ -11,7 +13,7 @@ use phase_model::{AGENT_COUNT, Action, AgentId, BodySet, Dynamics, Entity, Physi
 /// objects coast.
 pub(crate) fn predict(
     dynamics: &impl Dynamics,
-    physique: &Physique,
+    physics: &PhysicsConfig,
     particle: &mut State,
     agent: AgentId,
     own_action: Action,
@@ -23,14 +25,14 @@ pub(crate) fn predict(
     dynamics.step(particle, actions);
     let other = agent.other();
     if !observed.contains(Entity::Agent(other)) {
-        keep_moving(physique, &before, particle, other);
+        apply_constant_motion(physics, &before, particle, other);
     }
 }
 
 /// Puts an agent and what it holds where constant motion would have taken them, if the way is free.
-fn keep_moving(physique: &Physique, before: &State, after: &mut State, agent: AgentId) {
+fn apply_constant_motion(physics: &PhysicsConfig, before: &State, after: &mut State, agent: AgentId) {
     let velocity = before.body(Entity::Agent(agent)).velocity;
-    let held = before.held_object(agent).filter(|&object| object.index() < physique.object_count);
+    let held = before.held_object(agent).filter(|&object| object.index() < physics.object_count);
     if velocity == Vec2::ZERO {
         return;
     }
@@ -41,7 +43,7 @@ fn keep_moving(physique: &Physique, before: &State, after: &mut State, agent: Ag
     }
     if (1..=arena::SUBSTEPS).all(|substep| {
         let way = velocity * (substep as f32 * arena::SUBSTEP_SECONDS);
-        moving.iter().all(|entity| is_free(physique, before, after, moving, entity, way))
+        moving.iter().all(|entity| is_free(physics, before, after, moving, entity, way))
     }) {
         let way = velocity * (arena::SUBSTEPS as f32 * arena::SUBSTEP_SECONDS);
         for entity in moving.iter() {
@@ -57,7 +59,7 @@ fn keep_moving(physique: &Physique, before: &State, after: &mut State, agent: Ag
 /// Whether an entity that has been moved by a vector lies in no wall and in no body, neither where that was
 /// before the step nor where it is after it: pushing something is left to the dynamics.
 fn is_free(
-    physique: &Physique,
+    physics: &PhysicsConfig,
     before: &State,
     after: &State,
     moving: BodySet,
@@ -66,11 +68,11 @@ fn is_free(
 ) -> bool {
     let mut body = *before.body(entity);
     body.position += way;
-    let outline = shrunk(physique, entity, &body, SLACK);
+    let outline = shrunk_outline(physics, entity, &body, PENETRATION_TOLERANCE);
     outline.inside_arena()
-        && !physique.walls.iter().any(|&wall| outline.overlaps_wall(wall))
-        && physique.entities().filter(|&other| !moving.contains(other)).all(|other| {
-            !loosely_overlap(physique, (entity, &body), (other, before.body(other)))
-                && !loosely_overlap(physique, (entity, &body), (other, after.body(other)))
+        && !physics.walls.iter().any(|&wall| outline.overlaps_wall(wall))
+        && physics.entities().filter(|&other| !moving.contains(other)).all(|other| {
+            !overlap_beyond_tolerance(physics, (entity, &body), (other, before.body(other)))
+                && !overlap_beyond_tolerance(physics, (entity, &body), (other, after.body(other)))
         })
 }

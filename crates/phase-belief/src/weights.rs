@@ -37,13 +37,13 @@ impl Weights {
     }
 
     /// The least weight of the cells an outline lies on, 0 if it lies on none.
-    pub(crate) fn least(&self, outline: &Outline) -> f32 {
-        let mut least = f32::INFINITY;
+    pub(crate) fn min_weight(&self, outline: &Outline) -> f32 {
+        let mut min_weight = f32::INFINITY;
         let nothing = any_cell(outline, |cell| {
-            least = least.min(self.of(cell));
-            least <= 0.0
+            min_weight = min_weight.min(self.of(cell));
+            min_weight <= 0.0
         });
-        if nothing || least == f32::INFINITY { 0.0 } else { least }
+        if nothing || min_weight == f32::INFINITY { 0.0 } else { min_weight }
     }
 }
 

@@ -1,7 +1,7 @@
 //! How far a state lies from a recorded one.
 
 use phase_model::{
-    AGENT_COUNT, AgentId, Body, MAX_ENTITIES, ObjectId, Physique, State, Vec2, arena::SUBSTEPS,
+    AGENT_COUNT, AgentId, Body, MAX_ENTITIES, ObjectId, PhysicsConfig, State, Vec2, arena::SUBSTEPS,
 };
 use serde::Serialize;
 
@@ -18,11 +18,11 @@ impl Deviation {
     /// Between the bodies present in a scene.
     #[must_use]
     pub fn between(
-        physique: &Physique,
+        physics: &PhysicsConfig,
         found: &[Body; MAX_ENTITIES],
         recorded: &[Body; MAX_ENTITIES],
     ) -> Self {
-        let pairs = found.iter().zip(recorded).take(physique.entity_count());
+        let pairs = found.iter().zip(recorded).take(physics.entity_count());
         pairs.fold(Self::default(), |worst, (found, recorded)| Self {
             position: worst.position.max(finite(found.position.distance(recorded.position))),
             angle: worst.angle.max(finite((found.angle - recorded.angle).abs())),

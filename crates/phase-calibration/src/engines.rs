@@ -1,21 +1,21 @@
 //! Adapters of the project's two engines for the comparison with recordings.
 
 use crate::Engine;
-use phase_forward::{Forward, Memory};
-use phase_model::{AGENT_COUNT, Action, Physique, State, Vec2, arena::SUBSTEPS};
+use phase_forward::{Forward, SolverCache};
+use phase_model::{AGENT_COUNT, Action, PhysicsConfig, State, Vec2, arena::SUBSTEPS};
 use phase_world::World;
 
 /// The true world.
 pub struct WorldEngine {
-    physique: Physique,
+    physics: PhysicsConfig,
     world: World,
 }
 
 impl Engine for WorldEngine {
-    const THROUGH_IDLE: bool = false;
+    const RUNS_IDLE_SUBSTEP: bool = false;
 
-    fn set_up(physique: &Physique, state: &State) -> Self {
-        Self { physique: physique.clone(), world: World::new(physique, state) }
+    fn set_up(physics: &PhysicsConfig, state: &State) -> Self {
+        Self { physics: physics.clone(), world: World::new(physics, state) }
     }
 
     fn settle(&mut self) {
@@ -26,7 +26,7 @@ impl Engine for WorldEngine {
     fn set_velocity(&mut self, body: usize, velocity: Vec2) {
         let mut state = self.world.state();
         state.bodies[body].velocity = velocity;
-        self.world = World::new(&self.physique, &state);
+        self.world = World::new(&self.physics, &state);
     }
 
     fn state(&self) -> State {
@@ -45,20 +45,20 @@ pub struct WarmForward {
     /// The state it is in; a replay may put it back onto the record.
     pub state: State,
     /// What it remembers from step to step.
-    pub memory: Memory,
+    pub cache: SolverCache,
 }
 
 impl Engine for WarmForward {
-    const THROUGH_IDLE: bool = true;
+    const RUNS_IDLE_SUBSTEP: bool = true;
 
-    fn set_up(physique: &Physique, state: &State) -> Self {
-        let forward = Forward::new(physique);
-        let memory = forward.remember(state);
-        Self { forward, state: *state, memory }
+    fn set_up(physics: &PhysicsConfig, state: &State) -> Self {
+        let forward = Forward::new(physics);
+        let cache = forward.fresh_cache(state);
+        Self { forward, state: *state, cache }
     }
 
     fn settle(&mut self) {
-        self.forward.settle_warm(&mut self.state, &mut self.memory);
+        self.forward.settle_warm(&mut self.state, &mut self.cache);
     }
 
     fn set_velocity(&mut self, body: usize, velocity: Vec2) {
@@ -70,7 +70,7 @@ impl Engine for WarmForward {
     }
 
     fn step(&mut self, actions: [Action; AGENT_COUNT]) -> [State; SUBSTEPS] {
-        self.forward.step_warm(&mut self.state, &mut self.memory, actions)
+        self.forward.step_warm(&mut self.state, &mut self.cache, actions)
     }
 }
 
@@ -81,10 +81,10 @@ pub struct ColdForward {
 }
 
 impl Engine for ColdForward {
-    const THROUGH_IDLE: bool = true;
+    const RUNS_IDLE_SUBSTEP: bool = true;
 
-    fn set_up(physique: &Physique, state: &State) -> Self {
-        Self { forward: Forward::new(physique), state: *state }
+    fn set_up(physics: &PhysicsConfig, state: &State) -> Self {
+        Self { forward: Forward::new(physics), state: *state }
     }
 
     fn settle(&mut self) {

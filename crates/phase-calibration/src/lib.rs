@@ -3,7 +3,7 @@
 //! Three kinds of record are replayed with the actions that made them: [`Probe`]s, each a few steps of one
 //! effect; [`Run`]s, a hundred steps of everything; and [`Replay`]s, real recordings whose actions are known.
 //! Any [`Engine`] can be held against them with [`probes_report`], [`run_reports`], [`replay_reports`] and
-//! [`ahead`]; what comes out is a [`Report`] of medians and percentiles.
+//! [`horizon_errors`]; what comes out is a [`Report`] of medians and percentiles.
 //!
 //! The key design decision is that an engine is whatever can be set up in a state, settle, and be stepped. So
 //! the command line and the tests of every engine measure with the same reader, the same replay and the same
@@ -62,11 +62,11 @@ pub use engine::Engine;
 pub use engines::{ColdForward, WarmForward, WorldEngine};
 pub use error::ReadError;
 pub use family::family;
-pub use measure::{ahead, probes_report, replay_reports, run_reports};
-pub use probe::{Followed, Probe};
+pub use measure::{horizon_errors, probes_report, replay_reports, run_reports};
+pub use probe::{Probe, ProbeErrors};
 pub use replay::Replay;
 pub use report::{
-    Ahead, FamilyReport, ProbeReport, ProbesReport, Report, RunReport, StateAlone, SubstepReport,
+    FamilyReport, HorizonErrors, ProbeReport, ProbesReport, Report, RunReport, StatelessErrors, SubstepReport,
 };
 pub use run::{Run, grip_of};
-pub use spread::Spread;
+pub use spread::ErrorQuantiles;

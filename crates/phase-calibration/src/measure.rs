@@ -1,15 +1,15 @@
 //! Comparing an engine with many recordings.
 
 use crate::{
-    Ahead, Deviation, Engine, FamilyReport, Followed, Probe, ProbeReport, ProbesReport, Replay, Run,
-    RunReport, Spread, SubstepReport, family, report::columns,
+    Deviation, Engine, ErrorQuantiles, FamilyReport, HorizonErrors, Probe, ProbeErrors, ProbeReport,
+    ProbesReport, Replay, Run, RunReport, SubstepReport, family, report::columns,
 };
 use std::collections::BTreeMap;
 
 /// Replays all probes.
 #[must_use]
 pub fn probes_report<E: Engine>(probes: &[Probe]) -> ProbesReport {
-    let mut families: BTreeMap<&str, Vec<Followed>> = BTreeMap::new();
+    let mut families: BTreeMap<&str, Vec<ProbeErrors>> = BTreeMap::new();
     let mut each = Vec::with_capacity(probes.len());
     for probe in probes {
         let (followed, family) = (probe.follow::<E>(), family(&probe.name));
@@ -40,41 +40,41 @@ pub fn replay_reports<E: Engine>(replays: &[Replay]) -> Vec<RunReport> {
 /// Restarts all runs from every state that is followed by as many steps, and takes the position error after
 /// the last of them. `None` if no run is long enough.
 #[must_use]
-pub fn ahead<E: Engine>(runs: &[Run], steps: usize) -> Option<Ahead> {
+pub fn horizon_errors<E: Engine>(runs: &[Run], steps: usize) -> Option<HorizonErrors> {
     let starts = |run: &Run| 0..(run.states.len()).saturating_sub(steps);
     let last = |run: &Run, start| Some(run.follow::<E>(start, steps).0.last()?.position);
     let errors = runs.iter().flat_map(|run| starts(run).filter_map(move |start| last(run, start)));
-    Ahead::of(&errors.collect::<Vec<f32>>())
+    HorizonErrors::of(&errors.collect::<Vec<f32>>())
 }
 
-fn probe_report(name: &str, family: &str, followed: &Followed) -> Option<ProbeReport> {
+fn probe_report(name: &str, family: &str, followed: &ProbeErrors) -> Option<ProbeReport> {
     let (positions, angles) = columns(&followed.steps);
     Some(ProbeReport {
         name: name.into(),
         family: family.into(),
         steps: positions.len(),
         start: followed.start,
-        position: Spread::of(&positions)?,
-        angle: Spread::of(&angles)?,
+        position: ErrorQuantiles::of(&positions)?,
+        angle: ErrorQuantiles::of(&angles)?,
         grip_mismatches: followed.grip_mismatches,
     })
 }
 
-fn family_report(all: &[Followed]) -> Option<FamilyReport> {
-    let pooled = |of: fn(&Followed) -> &[Deviation]| all.iter().flat_map(of).copied().collect::<Vec<_>>();
+fn family_report(all: &[ProbeErrors]) -> Option<FamilyReport> {
+    let pooled = |of: fn(&ProbeErrors) -> &[Deviation]| all.iter().flat_map(of).copied().collect::<Vec<_>>();
     let (steps, substeps) = (pooled(|followed| &followed.steps), pooled(|followed| &followed.substeps));
     let (positions, angles) = columns(&steps);
     let (substep_positions, substep_angles) = columns(&substeps);
     Some(FamilyReport {
         n: all.len(),
         steps: steps.len(),
-        position: Spread::of(&positions)?,
-        angle: Spread::of(&angles)?,
+        position: ErrorQuantiles::of(&positions)?,
+        angle: ErrorQuantiles::of(&angles)?,
         within_0_01: share_within(&steps, 0.01),
         within_0_1: share_within(&steps, 0.1),
         substeps: SubstepReport {
-            position: Spread::of(&substep_positions)?,
-            angle: Spread::of(&substep_angles)?,
+            position: ErrorQuantiles::of(&substep_positions)?,
+            angle: ErrorQuantiles::of(&substep_angles)?,
         },
         grip_mismatches: all.iter().map(|followed| followed.grip_mismatches).sum(),
     })

@@ -5,7 +5,7 @@ use crate::{
     deviation::held,
     read::{self, BodyRow},
 };
-use phase_model::{AGENT_COUNT, Action, MAX_ENTITIES, ObjectId, Physique, State, Vec2, arena::SUBSTEPS};
+use phase_model::{AGENT_COUNT, Action, MAX_ENTITIES, ObjectId, PhysicsConfig, State, Vec2, arena::SUBSTEPS};
 use serde_json::Value;
 
 /// One probe. It starts in `start`, runs one idle substep, then some bodies are given velocities, and that is
@@ -15,7 +15,7 @@ pub struct Probe {
     /// Its name, which begins with its [`crate::family`].
     pub name: String,
     /// Walls, radii, forces.
-    pub physique: Physique,
+    pub physics: PhysicsConfig,
     /// The state before the idle substep.
     pub start: State,
     /// Velocities (u/s) that bodies are given after the idle substep.
@@ -34,7 +34,7 @@ pub struct Probe {
 
 /// Errors of an engine on a probe.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Followed {
+pub struct ProbeErrors {
     /// Before the first step, after the engine's own idle substep; only where bodies overlap at the start can
     /// it be wrong.
     pub start: Deviation,
@@ -65,8 +65,8 @@ impl Probe {
 
     /// Replays the probe with an engine.
     #[must_use]
-    pub fn follow<E: Engine>(&self) -> Followed {
-        let mut engine = E::set_up(&self.physique, &self.start);
+    pub fn follow<E: Engine>(&self) -> ProbeErrors {
+        let mut engine = E::set_up(&self.physics, &self.start);
         engine.settle();
         for (body, velocity) in self.velocities.into_iter().enumerate() {
             if let Some(velocity) = velocity {
@@ -74,13 +74,13 @@ impl Probe {
             }
         }
         let far = |state: &State, recorded: &State| {
-            Deviation::between(&self.physique, &state.bodies, &recorded.bodies)
+            Deviation::between(&self.physics, &state.bodies, &recorded.bodies)
         };
         let start = far(&engine.state(), &self.initial);
-        if !E::THROUGH_IDLE {
-            engine = E::set_up(&self.physique, &self.initial);
+        if !E::RUNS_IDLE_SUBSTEP {
+            engine = E::set_up(&self.physics, &self.initial);
         }
-        let mut followed = Followed {
+        let mut followed = ProbeErrors {
             start,
             steps: Vec::with_capacity(self.steps.len()),
             substeps: Vec::with_capacity(self.substeps.len()),
@@ -103,7 +103,7 @@ impl Probe {
 fn probe(entry: &read::Entry<'_>, name: String) -> Result<Probe, ReadError> {
     const SUBSTEP_ROWS: &str = "four lists of rows [x, y, vx, vy, angle]";
     const STATE: &str = "four rows [x, y, vx, vy, angle, angular velocity]";
-    let physique = entry.physique("wall_segs", "sizes", "max_force")?;
+    let physics = entry.physics("wall_segs", "sizes", "max_force")?;
     let actions = entry.actions()?;
     let initial = entry.state("initial", "", entry.take("initial", STATE)?)?;
     let rows: Vec<[BodyRow; MAX_ENTITIES]> = entry.take("steps", &format!("a list of {STATE}"))?;
@@ -133,7 +133,7 @@ fn probe(entry: &read::Entry<'_>, name: String) -> Result<Probe, ReadError> {
     }
     Ok(Probe {
         name,
-        physique,
+        physics,
         start: moment(0)?,
         velocities,
         initial,

@@ -2,7 +2,7 @@
 
 use crate::{ReadError, deviation::body};
 use phase_model::{
-    AGENT_COUNT, AgentBody, Body, MAX_ENTITIES, ObjectId, Physique, Segment, State, Vec2, arena,
+    AGENT_COUNT, AgentBody, Body, MAX_ENTITIES, ObjectId, PhysicsConfig, Segment, State, Vec2, arena,
 };
 use serde::Deserialize;
 use serde_json::Value;
@@ -91,7 +91,7 @@ impl<'a> Entry<'a> {
     }
 
     /// Walls, the radii of agents and objects, and the agents' forces.
-    pub(crate) fn physique(&self, walls: &str, radii: &str, forces: &str) -> Result<Physique, ReadError> {
+    pub(crate) fn physics(&self, walls: &str, radii: &str, forces: &str) -> Result<PhysicsConfig, ReadError> {
         let segments: Vec<[[f32; 2]; 2]> = self.take(walls, "a list of pairs of points [x, y]")?;
         if segments.len() > MAX_WALLS {
             return Err(
@@ -112,7 +112,7 @@ impl<'a> Entry<'a> {
         if !max_force.iter().all(|force| *force >= 0.0 && force.is_finite()) {
             return Err(self.error(forces, "must be finite and not negative"));
         }
-        Ok(Physique {
+        Ok(PhysicsConfig {
             walls: segments.into_iter().map(|[a, b]| Segment { a: a.into(), b: b.into() }).collect(),
             agents: core::array::from_fn(|k| AgentBody { radius: sizes[k], max_force: max_force[k] }),
             object_radii: [sizes[2], sizes[3]],

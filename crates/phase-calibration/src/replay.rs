@@ -2,7 +2,7 @@
 
 use crate::{Deviation, Engine, deviation::mean};
 use phase_event::Recording;
-use phase_model::{AGENT_COUNT, Action, Body, MAX_ENTITIES, Physique, State};
+use phase_model::{AGENT_COUNT, Action, Body, MAX_ENTITIES, PhysicsConfig, State};
 
 /// One real recording. One idle substep lies between its initial state and its first step.
 #[derive(Clone, PartialEq, Debug)]
@@ -10,7 +10,7 @@ pub struct Replay {
     /// The recording's id.
     pub id: String,
     /// Walls, radii, forces.
-    pub physique: Physique,
+    pub physics: PhysicsConfig,
     /// The state before the idle substep.
     pub initial: State,
     /// What both agents did, by step.
@@ -36,7 +36,7 @@ impl Replay {
         let rows = (1..=recovered.steps.len()).map(|t| Some(recording.trajectory.state(t)?.bodies));
         Some(Self {
             id: recording.id.clone(),
-            physique: recording.scene.physique(),
+            physics: recording.scene.physics(),
             initial: recording.trajectory.state(0)?,
             actions: recovered.steps.iter().map(|both| both.map(left_only)).collect(),
             rows: rows.collect::<Option<_>>()?,
@@ -46,10 +46,10 @@ impl Replay {
     /// How far the means over an engine's substeps come out from each row, as long as actions are known.
     #[must_use]
     pub fn follow<E: Engine>(&self) -> Vec<Deviation> {
-        let mut engine = E::set_up(&self.physique, &self.initial);
+        let mut engine = E::set_up(&self.physics, &self.initial);
         engine.settle();
         let steps = self.actions.iter().zip(&self.rows);
-        let far = |found: [Body; MAX_ENTITIES], row| Deviation::between(&self.physique, &found, row);
+        let far = |found: [Body; MAX_ENTITIES], row| Deviation::between(&self.physics, &found, row);
         steps.map(|(&actions, row)| far(mean(&engine.step(actions)), row)).collect()
     }
 }

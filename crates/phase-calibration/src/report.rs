@@ -1,12 +1,12 @@
 //! What came out, ready to be written as JSON. Positions are in u, angles in rad; what is not finite is null.
 
-use crate::{Deviation, Spread};
+use crate::{Deviation, ErrorQuantiles};
 use phase_statistics::percentile;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
 /// Within how far of a run its engine is said to follow it (u).
-pub(crate) const FOLLOWING: f32 = 0.5;
+pub(crate) const TRACKING_TOLERANCE: f32 = 0.5;
 
 /// Everything measured of one engine. What was not asked for is absent.
 #[derive(Clone, PartialEq, Debug, Default, Serialize)]
@@ -24,13 +24,13 @@ pub struct Report {
     pub replays: Option<Vec<RunReport>>,
     /// Errors one step after a restart from each recorded state of the runs.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub one_step: Option<Ahead>,
+    pub one_step: Option<HorizonErrors>,
     /// Errors ten steps after a restart from each recorded state of the runs.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub ten_steps: Option<Ahead>,
+    pub ten_steps: Option<HorizonErrors>,
     /// The last two for an engine without its memory, where it has one.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub state_alone: Option<StateAlone>,
+    pub state_alone: Option<StatelessErrors>,
 }
 
 /// Errors on probes.
@@ -52,9 +52,9 @@ pub struct FamilyReport {
     /// Number of steps in them.
     pub steps: usize,
     /// Position errors (u).
-    pub position: Spread,
+    pub position: ErrorQuantiles,
     /// Angle errors (rad).
-    pub angle: Spread,
+    pub angle: ErrorQuantiles,
     /// Share of steps within 0.01 u and 0.01 rad.
     pub within_0_01: f64,
     /// Share of steps within 0.1 u and 0.1 rad.
@@ -69,9 +69,9 @@ pub struct FamilyReport {
 #[derive(Clone, Copy, PartialEq, Debug, Serialize)]
 pub struct SubstepReport {
     /// Position errors (u).
-    pub position: Spread,
+    pub position: ErrorQuantiles,
     /// Angle errors (rad).
-    pub angle: Spread,
+    pub angle: ErrorQuantiles,
 }
 
 /// Errors on one probe.
@@ -86,9 +86,9 @@ pub struct ProbeReport {
     /// Error after the engine's own idle substep, before the first step.
     pub start: Deviation,
     /// Position errors after steps (u).
-    pub position: Spread,
+    pub position: ErrorQuantiles,
     /// Angle errors after steps (rad).
-    pub angle: Spread,
+    pub angle: ErrorQuantiles,
     /// Steps after which an agent holds something else than recorded.
     pub grip_mismatches: usize,
 }
@@ -101,9 +101,9 @@ pub struct RunReport {
     /// Number of steps.
     pub steps: usize,
     /// Position errors (u).
-    pub position: Spread,
+    pub position: ErrorQuantiles,
     /// Angle errors (rad).
-    pub angle: Spread,
+    pub angle: ErrorQuantiles,
     /// Steps before the first whose position error exceeds 0.5 u.
     pub steps_within_0_5: usize,
     /// Position error after each step (u).
@@ -115,7 +115,7 @@ pub struct RunReport {
 
 /// Position errors some steps after restarts (u).
 #[derive(Clone, Copy, PartialEq, Debug, Serialize)]
-pub struct Ahead {
+pub struct HorizonErrors {
     /// Number of restarts.
     pub n: usize,
     /// 50th percentile.
@@ -128,11 +128,11 @@ pub struct Ahead {
 
 /// Errors after restarts of an engine that is given a state and nothing else before every step.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize)]
-pub struct StateAlone {
+pub struct StatelessErrors {
     /// After one step.
-    pub one_step: Option<Ahead>,
+    pub one_step: Option<HorizonErrors>,
     /// After ten steps.
-    pub ten_steps: Option<Ahead>,
+    pub ten_steps: Option<HorizonErrors>,
 }
 
 impl RunReport {
@@ -140,12 +140,12 @@ impl RunReport {
     #[must_use]
     pub fn of(id: &str, deviations: &[Deviation], grip_mismatches: Option<usize>) -> Option<Self> {
         let (positions, angles) = columns(deviations);
-        let lost = positions.iter().position(|error| *error > FOLLOWING);
+        let lost = positions.iter().position(|error| *error > TRACKING_TOLERANCE);
         Some(Self {
             id: id.into(),
             steps: positions.len(),
-            position: Spread::of(&positions)?,
-            angle: Spread::of(&angles)?,
+            position: ErrorQuantiles::of(&positions)?,
+            angle: ErrorQuantiles::of(&angles)?,
             steps_within_0_5: lost.unwrap_or(positions.len()),
             position_by_step: positions,
             grip_mismatches,
@@ -153,7 +153,7 @@ impl RunReport {
     }
 }
 
-impl Ahead {
+impl HorizonErrors {
     /// Of some position errors; `None` of none.
     #[must_use]
     pub fn of(errors: &[f32]) -> Option<Self> {

@@ -6,7 +6,7 @@ use crate::{
     read::{self, BodyRow},
 };
 use phase_model::{
-    AGENT_COUNT, Action, AgentId, Entity, Grip, MAX_ENTITIES, ObjectId, Physique, Side, State, Vec2,
+    AGENT_COUNT, Action, AgentId, Entity, Grip, MAX_ENTITIES, ObjectId, PhysicsConfig, Side, State, Vec2,
     arena::SUBSTEPS,
 };
 use serde_json::Value;
@@ -17,7 +17,7 @@ pub struct Run {
     /// Its name.
     pub name: String,
     /// Walls, radii, forces.
-    pub physique: Physique,
+    pub physics: PhysicsConfig,
     /// The state before the idle substep, and after each step, with grips as [`grip_of`] reconstructs them.
     pub states: Vec<State>,
     /// Both agents' actions, by step; at least one step.
@@ -47,7 +47,7 @@ impl Run {
     #[must_use]
     pub fn follow<E: Engine>(&self, start: usize, steps: usize) -> (Vec<Deviation>, usize) {
         let Some(state) = self.states.get(start) else { return (Vec::new(), 0) };
-        let mut engine = E::set_up(&self.physique, state);
+        let mut engine = E::set_up(&self.physics, state);
         if start == 0 {
             engine.settle();
         }
@@ -56,7 +56,7 @@ impl Run {
         let deviations = records.map(|(&actions, recorded)| {
             let found = engine.step(actions)[SUBSTEPS - 1];
             grip_mismatches += usize::from(held(&found) != held(recorded));
-            Deviation::between(&self.physique, &found.bodies, &recorded.bodies)
+            Deviation::between(&self.physics, &found.bodies, &recorded.bodies)
         });
         (deviations.collect(), grip_mismatches)
     }
@@ -80,7 +80,7 @@ pub fn grip_of(state: &State, agent: AgentId, object: ObjectId) -> Grip {
 }
 
 fn run(entry: &read::Entry<'_>, name: String) -> Result<Run, ReadError> {
-    let physique = entry.physique("walls", "radii", "max_force")?;
+    let physics = entry.physics("walls", "radii", "max_force")?;
     let actions = entry.actions()?;
     let shape = "a list of four rows [x, y, vx, vy, angle, angular velocity]";
     let rows: Vec<[BodyRow; MAX_ENTITIES]> = entry.take("states", shape)?;
@@ -92,5 +92,5 @@ fn run(entry: &read::Entry<'_>, name: String) -> Result<Run, ReadError> {
         let grips = AgentId::ALL.map(|agent| held[agent].map(|object| grip_of(state, agent, object)));
         state.grips = grips;
     }
-    Ok(Run { name, physique, states, actions })
+    Ok(Run { name, physics, states, actions })
 }

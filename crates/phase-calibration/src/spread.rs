@@ -5,7 +5,7 @@ use serde::Serialize;
 
 /// The middle and the end of a distribution of errors.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize)]
-pub struct Spread {
+pub struct ErrorQuantiles {
     /// 50th percentile.
     pub median: f32,
     /// 90th percentile.
@@ -14,7 +14,7 @@ pub struct Spread {
     pub max: f32,
 }
 
-impl Spread {
+impl ErrorQuantiles {
     /// Of some values; `None` of none.
     #[must_use]
     pub fn of(values: &[f32]) -> Option<Self> {

@@ -25,7 +25,7 @@ fn recordings_with_known_actions_can_be_replayed() {
     let actions = json!([["turnright", "turnleft"], ["up", "attach"]]);
     let recorded = recording(None, &actions);
     let replay = Replay::of_recording(&recorded).expect("a replay");
-    assert_eq!((replay.id.as_str(), &replay.physique), ("made-up-1", &recorded.scene.physique()));
+    assert_eq!((replay.id.as_str(), &replay.physics), ("made-up-1", &recorded.scene.physics()));
     assert_eq!(replay.actions, [[Action::TurnLeft; 2], [Action::Up, Action::Attach]]);
     assert_eq!(Some(replay.initial), recorded.trajectory.state(0));
     let rows = [1, 2].map(|t| recorded.trajectory.state(t).expect("a row").bodies);

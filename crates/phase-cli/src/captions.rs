@@ -1,6 +1,6 @@
 //! Why an agent does what it does, in a few lines to be written below its picture.
 
-use phase_event::{ActionValue, SubgoalValue, Thought};
+use phase_event::{ActionEvaluation, SubgoalValue, Thought};
 use phase_render::Caption;
 
 /// Lines that [`lines`] returns.
@@ -28,7 +28,7 @@ pub fn lines(thought: &Thought) -> Vec<Caption> {
     let columns = heading(["visits", "return"], "action (bar: share of visits)");
     lines.push(if searched { columns } else { "no search needed".to_owned().into() });
     let visits: u32 = thought.actions.iter().map(|found| found.visits).sum();
-    let mut actions: Vec<&ActionValue> = thought.actions.iter().collect();
+    let mut actions: Vec<&ActionEvaluation> = thought.actions.iter().collect();
     // The sort is stable: of equally visited actions the first of the action set comes first.
     actions.sort_by_key(|found| core::cmp::Reverse(found.visits));
     lines.extend(actions.into_iter().take(ACTIONS).map(|found| action_line(found, visits)));
@@ -42,8 +42,8 @@ fn subgoal_line(proposed: &SubgoalValue, particles: usize) -> Caption {
     Caption { cells: vec![number(*value, 2), count.to_string()], text: subgoal.to_string(), bar }
 }
 
-fn action_line(found: &ActionValue, visits: u32) -> Caption {
-    let ActionValue { action, visits: count, value } = found;
+fn action_line(found: &ActionEvaluation, visits: u32) -> Caption {
+    let ActionEvaluation { action, visits: count, value } = found;
     let bar = *count as f32 / visits.max(1) as f32;
     Caption { cells: vec![count.to_string(), number(*value, 3)], text: action.name().into(), bar }
 }

@@ -6,11 +6,11 @@ use clap::{
     value_parser,
 };
 use phase_agent::Foresight;
-use phase_sim::{Engine, Settings};
+use phase_sim::{Engine, SimulationSettings};
 
 /// What events play in, how long they last and how hard agents think; the defaults are the paper's.
 #[derive(Args, Debug)]
-pub struct Effort {
+pub struct SimulationOptions {
     /// Physics engine of the events: `world` (rapier2d) or `forward` (the kernel that the agents' search
     /// uses, closest to the published simulator) [default: world]
     #[arg(long, value_name = "ENGINE", hide_possible_values = true, value_parser = engines())]
@@ -30,11 +30,12 @@ pub struct Effort {
     pub max_steps: Option<u32>,
 }
 
-impl Effort {
+impl SimulationOptions {
     /// The settings asked for.
     #[must_use]
-    pub fn settings(&self) -> Settings {
-        let mut settings = Settings { engine: self.engine.unwrap_or_default(), ..Settings::default() };
+    pub fn settings(&self) -> SimulationSettings {
+        let mut settings =
+            SimulationSettings { engine: self.engine.unwrap_or_default(), ..SimulationSettings::default() };
         if let Some(foresight) = self.foresight {
             settings.minds.foresight = foresight;
         }
@@ -53,7 +54,7 @@ impl Effort {
     /// The settings in words.
     #[must_use]
     pub fn description(&self) -> String {
-        let Settings { engine, max_steps, minds, .. } = self.settings();
+        let SimulationSettings { engine, max_steps, minds, .. } = self.settings();
         let (engine, foresight) = (engine.name(), minds.foresight.name());
         let (particles, simulations) = (minds.particles, minds.simulations);
         format!(

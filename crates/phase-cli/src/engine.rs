@@ -7,7 +7,7 @@ use phase_model::{
     AgentId, Scene,
     random::{self, Purpose},
 };
-use phase_sim::{BeliefSnapshot, Settings};
+use phase_sim::{BeliefSnapshot, SimulationSettings};
 
 /// Name and version of this program, as files bear it.
 pub const GENERATOR: &str = concat!("phase ", env!("CARGO_PKG_VERSION"));
@@ -32,7 +32,7 @@ pub fn simulate(
     id: &str,
     scene: &Scene,
     seed: u64,
-    settings: &Settings,
+    settings: &SimulationSettings,
     on_step: &mut dyn FnMut(&Step) -> ControlFlow<()>,
 ) -> Result<Option<Event>, CliError> {
     let (event, finished) = phase_sim::simulate_with(scene, seed, settings, on_step)
@@ -42,6 +42,6 @@ pub fn simulate(
 
 /// What an agent saw and believed before each step of a recorded event, and after the last.
 #[must_use]
-pub fn beliefs(event: &Event, agent: AgentId, settings: &Settings) -> Vec<BeliefSnapshot> {
+pub fn beliefs(event: &Event, agent: AgentId, settings: &SimulationSettings) -> Vec<BeliefSnapshot> {
     phase_sim::beliefs(event, agent, settings.minds.particles)
 }

@@ -4,7 +4,7 @@ use crate::program::Failure;
 #[cfg(feature = "networks")]
 use crate::train::error::TrainError;
 #[cfg(feature = "networks")]
-use phase_baselines::training::{NetworkError, RecordError};
+use phase_baselines::training::{NetworkError, TrainingRecordError};
 use phase_dataset::{FileError, WriteError, folder::FolderError, parquet::ExportError};
 use phase_eval::MethodError;
 use phase_event::EventWriteError;
@@ -129,7 +129,7 @@ pub enum CliError {
     },
     /// The settings that an event was made with cannot be used.
     #[error("{}: event {id}: field `settings`: {source}", file.display())]
-    Settings {
+    SimulationSettings {
         /// The file.
         file: PathBuf,
         /// The event.
@@ -196,7 +196,7 @@ pub enum CliError {
         /// The file.
         file: PathBuf,
         /// Why.
-        source: RecordError,
+        source: TrainingRecordError,
     },
     /// A neural network was asked for in a program that has none.
     #[error("neural networks are needed, which this program was built without; {hint}")]
@@ -233,7 +233,7 @@ impl Failure for CliError {
             | Self::Unfinished(_)
             | Self::RulesBroken { .. }
             | Self::NoNetworks { .. }
-            | Self::Settings { .. }
+            | Self::SimulationSettings { .. }
             | Self::StartAlone { .. }
             | Self::NoScene { .. }
             | Self::Usage(_) => 2,

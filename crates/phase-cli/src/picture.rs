@@ -2,10 +2,11 @@
 
 use crate::error::CliError;
 use phase_dataset::atomic;
-use phase_model::{AgentId, Physique, State, arena::FRAMES_PER_SECOND};
+use phase_model::{AgentId, PhysicsConfig, State, arena::FRAMES_PER_SECOND};
 use phase_perception::CellSet;
 use phase_render::{
-    Caption, Frame, Overlay, Palette, RenderError, Stage, Style, VideoEncoder, contact_sheet, side_by_side,
+    Caption, Frame, Overlay, Palette, RenderError, SceneRenderer, Style, VideoEncoder, contact_sheet,
+    side_by_side,
 };
 use std::path::Path;
 
@@ -16,7 +17,7 @@ const CAPTION_LINES: u32 = crate::captions::COUNT as u32;
 
 /// One agent's field of view and belief at one frame.
 #[derive(Clone, Debug)]
-pub struct Mind {
+pub struct BeliefFrame {
     /// Whose.
     pub agent: AgentId,
     /// What it sees.
@@ -32,11 +33,11 @@ pub struct Mind {
 /// A state to draw and the minds to draw over it, each in a picture of its own beside the others'; without any the state
 /// alone. Several frames may share a mind.
 #[derive(Clone, Debug)]
-pub struct Shot<'a> {
+pub struct RenderedState<'a> {
     /// The true state.
     pub state: State,
     /// The minds, as many for every frame of an event.
-    pub minds: Vec<&'a Mind>,
+    pub minds: Vec<&'a BeliefFrame>,
 }
 
 /// Writes a video.
@@ -46,13 +47,13 @@ pub struct Shot<'a> {
 pub fn write_video(
     path: &Path,
     id: &str,
-    physique: &Physique,
+    physics: &PhysicsConfig,
     palette: Palette,
-    shots: &[Shot<'_>],
+    items: &[RenderedState<'_>],
 ) -> Result<(), CliError> {
     let mp4 = || -> Result<Vec<u8>, RenderError> {
-        let stage = Stage::new(physique, style(Style::default(), palette, shots))?;
-        let mut frames = shots.iter().map(|shot| frame(&stage, shot));
+        let renderer = SceneRenderer::new(physics, style(Style::default(), palette, items))?;
+        let mut frames = items.iter().map(|item| frame(&renderer, item));
         let first = frames.next().ok_or(RenderError::NoFrames("video"))??;
         let mut video = VideoEncoder::new(Vec::new(), first.width(), first.height(), FRAMES_PER_SECOND)?;
         video.push(&first)?;
@@ -72,17 +73,18 @@ pub fn write_video(
 pub fn write_sheet(
     path: &Path,
     id: &str,
-    physique: &Physique,
+    physics: &PhysicsConfig,
     palette: Palette,
-    shots: &[Shot<'_>],
+    items: &[RenderedState<'_>],
     count: usize,
 ) -> Result<(), CliError> {
     let png = || -> Result<Vec<u8>, RenderError> {
-        let stage = Stage::new(physique, style(Style::with_side(SHEET_SIDE), palette, shots))?;
-        let count = count.min(shots.len());
-        let last = shots.len().saturating_sub(1);
+        let renderer = SceneRenderer::new(physics, style(Style::with_side(SHEET_SIDE), palette, items))?;
+        let count = count.min(items.len());
+        let last = items.len().saturating_sub(1);
         let chosen = (0..count).map(|k| if count > 1 { k * last / (count - 1) } else { last });
-        let frames = chosen.map(|k| frame(&stage, &shots[k])).collect::<Result<Vec<Frame>, RenderError>>()?;
+        let frames =
+            chosen.map(|k| frame(&renderer, &items[k])).collect::<Result<Vec<Frame>, RenderError>>()?;
         let columns = columns(count);
         contact_sheet(&frames, columns)?.png()
     };
@@ -98,14 +100,14 @@ fn columns(count: usize) -> usize {
 }
 
 /// Title, legend and captions are for minds.
-fn style(style: Style, palette: Palette, shots: &[Shot<'_>]) -> Style {
-    let explained = shots.iter().any(|shot| !shot.minds.is_empty());
+fn style(style: Style, palette: Palette, items: &[RenderedState<'_>]) -> Style {
+    let explained = items.iter().any(|item| !item.minds.is_empty());
     let caption_lines = if explained { CAPTION_LINES } else { 0 };
     Style { palette, title: explained, legend: explained, caption_lines, ..style }
 }
 
-fn frame(stage: &Stage, shot: &Shot<'_>) -> Result<Frame, RenderError> {
-    let view = |mind: &&Mind| {
+fn frame(renderer: &SceneRenderer, item: &RenderedState<'_>) -> Result<Frame, RenderError> {
+    let view = |mind: &&BeliefFrame| {
         let overlay = Overlay {
             agent: mind.agent,
             visible: &mind.visible,
@@ -113,11 +115,11 @@ fn frame(stage: &Stage, shot: &Shot<'_>) -> Result<Frame, RenderError> {
             title: &mind.title,
             captions: &mind.captions,
         };
-        stage.frame(&shot.state, Some(&overlay))
+        renderer.frame(&item.state, Some(&overlay))
     };
-    let mut views: Vec<Frame> = shot.minds.iter().map(view).collect();
+    let mut views: Vec<Frame> = item.minds.iter().map(view).collect();
     match views.len() {
-        0 => Ok(stage.frame(&shot.state, None)),
+        0 => Ok(renderer.frame(&item.state, None)),
         1 => Ok(views.remove(0)),
         _ => side_by_side(&views),
     }

@@ -5,14 +5,14 @@ use phase_dataset::{
     manifest::{MANIFEST_FILE, Manifest},
     phase_events,
     shard::SHARD_FILE,
-    summary::{SUMMARY_FILE, Summary},
+    summary::{SUMMARY_FILE, SimulationSummary},
 };
 use phase_event::Recording;
 use std::path::{Path, PathBuf};
 
 /// Events that can be loaded one at a time.
 #[derive(Debug)]
-pub enum Source {
+pub enum EventInput {
     /// Read already, from one file, each with its place there.
     Loaded(Vec<(usize, Recording)>),
     /// Files with one event each.
@@ -30,7 +30,7 @@ pub struct EventFile {
     pub path: PathBuf,
 }
 
-impl Source {
+impl EventInput {
     /// Opens an event file, or the folder of a dataset or of simulations.
     ///
     /// # Errors
@@ -48,7 +48,7 @@ impl Source {
             return Err(CliError::NotADataset(path.to_owned()));
         }
         let files: Vec<(String, String)> = if !is_dataset {
-            let summary = Summary::read(&path.join(SUMMARY_FILE))?;
+            let summary = SimulationSummary::read(&path.join(SUMMARY_FILE))?;
             summary.events.into_iter().map(|event| (event.id, event.event.path)).collect()
         } else {
             let manifest = Manifest::read(&path.join(MANIFEST_FILE))?;

@@ -1,6 +1,6 @@
 //! `splits`: makes or checks the split of a dataset.
 
-use crate::{context::Context, error::CliError, output::Output, source::Source};
+use crate::{context::Context, error::CliError, output::Output, source::EventInput};
 use clap::Args;
 use phase_dataset::{
     FileError,
@@ -77,7 +77,7 @@ fn events(arguments: &Splits, context: &Context) -> Result<(Vec<Item>, Option<Ve
         let parts = manifest.events.iter().map(|event| event.split).collect();
         return Ok((manifest.items(), parts));
     }
-    let source = Source::open(&arguments.events, &[], context)?;
+    let source = EventInput::open(&arguments.events, &[], context)?;
     let item = |index: usize| {
         let recording = source.load(index)?;
         let scene = &recording.scene;

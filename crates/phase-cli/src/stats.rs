@@ -1,20 +1,19 @@
 //! `stats`: the paper's figures beside those of a dataset or of other events, and plots of them.
 
-use crate::{context::Context, error::CliError, output::Output, source::Source};
+use crate::{context::Context, error::CliError, output::Output, source::EventInput};
 use clap::Args;
 use phase_dataset::{
     WriteError,
     acceptance::Acceptance,
-    atomic,
+    atomic, describe,
     labels::goal_counts,
     manifest::{MANIFEST_FILE, Manifest},
-    words,
 };
 use phase_model::Scene;
 use phase_report::{
     acceptance,
     plot::bars,
-    statistics::{self, Figure, Statistics},
+    statistics::{self, Statistics, StatisticsRow},
 };
 use serde_json::{Value, json};
 use std::{
@@ -66,7 +65,7 @@ fn statistics(path: &Path, context: &Context) -> Result<(Statistics, Vec<Accepta
         let manifest = Manifest::read(&manifest)?;
         return Ok((Statistics::of(&manifest), manifest.selection));
     }
-    let source = Source::open(path, &[], context)?;
+    let source = EventInput::open(path, &[], context)?;
     let (mut agents, mut layouts) = (Vec::new(), BTreeSet::new());
     let (mut lengths, mut relations, mut kinds) = (BTreeMap::new(), BTreeMap::new(), BTreeMap::new());
     for index in 0..source.len() {
@@ -86,7 +85,7 @@ fn statistics(path: &Path, context: &Context) -> Result<(Statistics, Vec<Accepta
 fn value(statistics: &Statistics, selection: &[Acceptance]) -> Value {
     let Statistics { events, lengths, goals, relations, kinds, layouts, .. } = statistics;
     let figure =
-        |figure: &Figure| json!({ "figure": figure.what, "paper": figure.paper, "here": figure.ours });
+        |figure: &StatisticsRow| json!({ "figure": figure.what, "paper": figure.paper, "here": figure.ours });
     let figures: Vec<Value> = statistics.figures().iter().map(figure).collect();
     let kinds: BTreeMap<&str, usize> = kinds.iter().map(|(kind, &count)| (kind.name(), count)).collect();
     json!({
@@ -149,7 +148,7 @@ fn write(
             "relations.svg",
             "Events by relation",
             "",
-            statistics.relations.iter().map(|(&it, &n)| (words::relation(it).into(), number(n))).collect(),
+            statistics.relations.iter().map(|(&it, &n)| (describe::relation(it).into(), number(n))).collect(),
         ),
         (
             "acceptance.svg",

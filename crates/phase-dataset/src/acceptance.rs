@@ -1,6 +1,6 @@
 //! How many scenes were tried for the events of a dataset, and why most were refused.
 
-use phase_evidence::selection::Refusal;
+use phase_evidence::selection::RejectionReason;
 use phase_sampler::Variant;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -16,7 +16,7 @@ pub struct Acceptance {
     /// Scenes simulated for them.
     pub attempts: usize,
     /// How many were refused for each reason.
-    pub refused: BTreeMap<Refusal, usize>,
+    pub refused: BTreeMap<RejectionReason, usize>,
 }
 
 /// Counts attempts by variant, one slot after the other.
@@ -25,7 +25,7 @@ pub struct Tally(BTreeMap<Variant, Acceptance>);
 
 impl Tally {
     /// Adds what was tried for one accepted event.
-    pub fn add(&mut self, variant: Variant, refused: &[Refusal]) {
+    pub fn add(&mut self, variant: Variant, refused: &[RejectionReason]) {
         let empty = Acceptance { variant, events: 0, attempts: 0, refused: BTreeMap::new() };
         let row = self.0.entry(variant).or_insert(empty);
         row.events += 1;

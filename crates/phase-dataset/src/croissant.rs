@@ -3,7 +3,7 @@
 use crate::{
     checksum::FileEntry,
     manifest::Manifest,
-    parquet::{self, Description, Part},
+    parquet::{self, Description, ParquetFile},
 };
 use serde_json::{Value, json};
 
@@ -62,8 +62,8 @@ fn file(entry: &FileEntry) -> Value {
 }
 
 /// The events of one file; named after the split, and the file's number if the split has several.
-fn record_set(part: &Part<'_>, parts: &[Part<'_>], columns: &[Description]) -> Value {
-    let same: Vec<&Part<'_>> = parts.iter().filter(|other| other.split == part.split).collect();
+fn record_set(part: &ParquetFile<'_>, parts: &[ParquetFile<'_>], columns: &[Description]) -> Value {
+    let same: Vec<&ParquetFile<'_>> = parts.iter().filter(|other| other.split == part.split).collect();
     let number = same.iter().position(|other| other.path == part.path).unwrap_or_default();
     let split = part.split.name();
     let name = if same.len() == 1 { split.to_owned() } else { format!("{split}-{number:05}") };

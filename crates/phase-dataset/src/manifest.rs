@@ -9,7 +9,7 @@ use crate::{
     splits::{Item, Split},
 };
 use phase_event::Event;
-use phase_evidence::{Outcome, Track};
+use phase_evidence::{GoalOutcome, Track};
 use phase_model::{AGENT_COUNT, EventKind, Goal, Relation, json::check_format};
 use phase_sampler::Variant;
 use serde::{Deserialize, Serialize};
@@ -103,7 +103,7 @@ pub struct AgentEntry {
     pub goal: Goal,
     /// Social utility weight: −1, 0 or 1.
     pub alpha: i8,
-    /// Whether the goal was reached; see [`Outcome`].
+    /// Whether the goal was reached; see [`GoalOutcome`].
     pub reached: bool,
     /// Steps until it was reached, of positive goals.
     pub steps_to_goal: Option<usize>,
@@ -126,7 +126,7 @@ impl EventEntry {
         let track = Track::of_event(event);
         let agent = |k: usize| {
             let spec = &scene.agents[k];
-            let outcome = Outcome::of(&track, spec.goal);
+            let outcome = GoalOutcome::of(&track, spec.goal);
             AgentEntry {
                 size_level: spec.size.level(),
                 strength_level: spec.strength.level(),

@@ -31,7 +31,7 @@ pub struct Preset {
     /// What an event has to satisfy; without it the first scene drawn is taken.
     pub selection: Option<Selection>,
     /// What the dataset is composed of.
-    pub groups: Vec<Group>,
+    pub groups: Vec<PresetGroup>,
 }
 
 /// Which events are let in.
@@ -54,7 +54,7 @@ pub struct Selection {
 impl Selection {
     /// The step at which an event of this relation and seed ends at the latest, if that is drawn.
     #[must_use]
-    pub fn drawn_end(&self, relation: Relation, seed: u64) -> Option<usize> {
+    pub fn sampled_end(&self, relation: Relation, seed: u64) -> Option<usize> {
         let ends = self.max_steps.saturating_sub(self.min_steps) as u64 + 1;
         // So few ends that the remainder favours none of them noticeably.
         let drawn = random::derive_seed(seed, Purpose::Length, 0) % ends;
@@ -65,7 +65,7 @@ impl Selection {
 /// Events that have everything in common but their goals.
 #[derive(Clone, PartialEq, Eq, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Group {
+pub struct PresetGroup {
     /// The variant, and with it the kind.
     pub variant: Variant,
     /// The part of the dataset, if it is divided.
@@ -78,11 +78,11 @@ pub struct Group {
 
 /// What one event of a dataset is to be.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Slot {
+pub struct EventSlot {
     /// The variant.
     pub variant: Variant,
     /// Whose goals' turn it is; see [`Variant::goals`].
-    pub turn: usize,
+    pub goal_index: usize,
     /// The part of the dataset, if it is divided.
     pub split: Option<Split>,
     /// The name of its layouts.
@@ -93,7 +93,7 @@ pub struct Slot {
 /// they stay balanced.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Composition {
-    slots: Vec<Slot>,
+    slots: Vec<EventSlot>,
     turns: BTreeMap<Variant, usize>,
 }
 
@@ -127,7 +127,7 @@ impl Preset {
                 return Err(format!("layouts.{name} names base {base}, which no event is made in"));
             }
         }
-        let empty = |group: &&Group| self.layouts.get(&group.layouts).is_none_or(Vec::is_empty);
+        let empty = |group: &&PresetGroup| self.layouts.get(&group.layouts).is_none_or(Vec::is_empty);
         if let Some(group) = self.groups.iter().find(empty) {
             return Err(format!("there are no layouts of the name {:?}", group.layouts));
         }
@@ -155,15 +155,15 @@ impl Preset {
     pub fn composition(&self) -> Composition {
         // The place of event j of n is (2 j + 1) / 2 n of the way; equal places keep the groups' order.
         let places = self.groups.iter().flat_map(|group| (0..group.events).map(move |j| (j, group)));
-        let mut places: Vec<(usize, &Group)> = places.collect();
+        let mut places: Vec<(usize, &PresetGroup)> = places.collect();
         places.sort_by(|(a, one), (b, other)| ((2 * a + 1) * other.events).cmp(&((2 * b + 1) * one.events)));
         let mut turns: BTreeMap<Variant, usize> = BTreeMap::new();
-        let slot = |(_, group): (usize, &Group)| {
+        let slot = |(_, group): (usize, &PresetGroup)| {
             let next = turns.entry(group.variant).or_default();
             *next += 1;
-            Slot {
+            EventSlot {
                 variant: group.variant,
-                turn: *next - 1,
+                goal_index: *next - 1,
                 split: group.split,
                 layouts: group.layouts.clone(),
             }
@@ -182,10 +182,10 @@ impl Preset {
 impl Composition {
     /// What the event with this number is to be.
     #[must_use]
-    pub fn slot(&self, index: usize) -> Slot {
+    pub fn slot(&self, index: usize) -> EventSlot {
         let slot = &self.slots[index % self.slots.len()];
         let round = index / self.slots.len();
         let turns = self.turns.get(&slot.variant).copied().unwrap_or_default();
-        Slot { turn: slot.turn + round * turns, ..slot.clone() }
+        EventSlot { goal_index: slot.goal_index + round * turns, ..slot.clone() }
     }
 }

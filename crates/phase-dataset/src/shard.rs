@@ -1,6 +1,6 @@
 //! `shard.json`: one part of a dataset that is made in several places.
 
-use crate::{FileError, Problem, WriteError, atomic, json, record::Record};
+use crate::{FileError, Problem, WriteError, atomic, json, slot_record::SlotRecord};
 use phase_model::json::check_format;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -14,7 +14,7 @@ pub const SHARD_FILE: &str = "shard.json";
 /// What a dataset is, apart from its events: the same for all of its shards.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Whole {
+pub struct DatasetDescription {
     /// Name of the preset.
     pub preset: String,
     /// Number of events.
@@ -49,9 +49,9 @@ pub struct Shard {
     /// Of how many.
     pub of: usize,
     /// The dataset it is a part of.
-    pub whole: Whole,
+    pub whole: DatasetDescription,
     /// What became of its slots, in order.
-    pub slots: Vec<Record>,
+    pub slots: Vec<SlotRecord>,
 }
 
 impl Shard {

@@ -52,7 +52,7 @@ pub struct Item {
 
 /// How many events of a dataset go where.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Quota {
+pub struct SplitQuota {
     /// Events to learn from.
     pub train: usize,
     /// Events to choose by.
@@ -65,7 +65,7 @@ pub struct Quota {
     pub exclusive: usize,
 }
 
-impl Quota {
+impl SplitQuota {
     /// The quota of a dataset of this size, to the nearest event.
     #[must_use]
     pub const fn of(events: usize) -> Self {
@@ -103,7 +103,7 @@ impl Rule {
 /// Counts a split against the rules; one part for each event.
 #[must_use]
 pub fn check(items: &[Item], parts: &[Split]) -> Vec<Rule> {
-    let quota = Quota::of(items.len());
+    let quota = SplitQuota::of(items.len());
     let of = |part: Split| items.iter().zip(parts).filter(move |(_, it)| **it == part).map(|(item, _)| item);
     let learnt: Vec<&Item> = of(Split::Train).chain(of(Split::Validation)).collect();
     let bases: BTreeSet<u8> = learnt.iter().map(|item| item.base).collect();
@@ -123,7 +123,7 @@ pub fn check(items: &[Item], parts: &[Split]) -> Vec<Rule> {
 /// seed decides, and kinds are spread evenly.
 #[must_use]
 pub fn make(items: &[Item], seed: u64) -> Vec<Split> {
-    let quota = Quota::of(items.len());
+    let quota = SplitQuota::of(items.len());
     let key = |k: usize| random::derive_seed(seed, random::Purpose::Event, k as u64);
     let exclusive = exclusive_type(items, &quota);
     let held_out = held_out_bases(items, &quota, seed);
@@ -152,7 +152,7 @@ pub fn make(items: &[Item], seed: u64) -> Vec<Split> {
 
 /// The interaction type that has most nearly as many events as wanted, and not more than the test set holds beside
 /// unseen layouts; the first of several.
-fn exclusive_type(items: &[Item], quota: &Quota) -> Option<String> {
+fn exclusive_type(items: &[Item], quota: &SplitQuota) -> Option<String> {
     let mut counts: BTreeMap<String, usize> = BTreeMap::new();
     for item in items {
         *counts.entry(type_of(item)).or_default() += 1;
@@ -167,7 +167,7 @@ fn exclusive_type(items: &[Item], quota: &Quota) -> Option<String> {
 
 /// Base layouts that together have as many events as there are to be in unseen layouts, or as nearly as may be
 /// without having more.
-fn held_out_bases(items: &[Item], quota: &Quota, seed: u64) -> BTreeSet<u8> {
+fn held_out_bases(items: &[Item], quota: &SplitQuota, seed: u64) -> BTreeSet<u8> {
     let mut counts: BTreeMap<u8, usize> = BTreeMap::new();
     for item in items {
         *counts.entry(item.base).or_default() += 1;

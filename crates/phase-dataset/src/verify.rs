@@ -7,7 +7,7 @@ use crate::{
     croissant::{CROISSANT_FILE, checksums},
     json,
     manifest::{CARD_FILE, EventEntry, MANIFEST_FILE, Manifest, PAGE_FILE},
-    parquet::{self, Part},
+    parquet::{self, ParquetFile},
 };
 use core::convert::Infallible;
 use phase_event::EventReadError;
@@ -88,7 +88,7 @@ pub fn verify_with<E>(
     if readable(CROISSANT_FILE) {
         problems.extend(croissant(folder, &files).err());
     }
-    let whole = |part: &&Part<'_>| {
+    let whole = |part: &&ParquetFile<'_>| {
         readable(&part.path) && part.events.iter().all(|entry| readable(&entry.event.path))
     };
     problems.extend(compare(folder, &parts.iter().filter(whole).collect::<Vec<_>>(), done, run)?);
@@ -104,7 +104,7 @@ pub fn work(manifest: &Manifest) -> usize {
 /// Compares Parquet files with the event files, share by share; one error for each file.
 fn compare<E>(
     folder: &Path,
-    parts: &[&Part<'_>],
+    parts: &[&ParquetFile<'_>],
     done: &(dyn Fn(usize) + Sync),
     run: impl Fn(usize, &Check<'_>) -> Result<Vec<Option<FileError>>, E>,
 ) -> Result<Vec<FileError>, E> {

@@ -18,9 +18,9 @@ pub struct Benchmark {
     /// The events; the first are those of the dataset, the test split.
     pub sets: Vec<EventSet>,
     /// Task 1.
-    pub goals: Vec<Row<goals::Summary>>,
+    pub goals: Vec<Row<goals::RecognitionSummary>>,
     /// Task 2.
-    pub trajectories: Vec<Row<trajectories::Summary>>,
+    pub trajectories: Vec<Row<trajectories::ForecastSummary>>,
     /// What the networks among the methods cost, and how they learnt.
     pub trainings: Vec<Training>,
 }
@@ -65,14 +65,14 @@ pub struct Row<S> {
     pub summary: S,
     /// Error breakdown of its goals; Task 1 only.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub mistakes: Option<goals::Mistakes>,
+    pub mistakes: Option<goals::ErrorBreakdown>,
     /// Scores on events with seen and unseen layouts or interaction types; empty if unknown.
-    pub parts: Vec<Part<S>>,
+    pub parts: Vec<Subset<S>>,
 }
 
 /// Some of a set's events.
 #[derive(Clone, PartialEq, Debug, Serialize)]
-pub struct Part<S> {
+pub struct Subset<S> {
     /// What they have in common.
     pub familiarity: Familiarity,
     /// How well the method does on them.
@@ -140,7 +140,7 @@ impl Familiarity {
 
     /// In words.
     #[must_use]
-    pub const fn words(self) -> &'static str {
+    pub const fn description(self) -> &'static str {
         match self {
             Self::SeenLayout => "seen layouts",
             Self::UnseenLayout => "unseen layouts",

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// Scores of the events that have something in common.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
-pub struct Group<S> {
+pub struct GroupScores<S> {
     /// What they have in common.
     pub name: String,
     /// Their scores.

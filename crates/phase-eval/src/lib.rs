@@ -44,11 +44,11 @@ pub mod estimate;
 pub mod goals;
 mod group;
 pub mod method;
-pub mod plain;
 pub mod predictions;
 pub mod results;
 pub mod trajectories;
+pub mod trivial;
 
 pub use estimate::Estimate;
-pub use group::Group;
-pub use method::{Forecaster, MethodError, Recogniser, Tick};
+pub use group::GroupScores;
+pub use method::{Forecaster, MethodError, ProgressCallback, Recogniser};

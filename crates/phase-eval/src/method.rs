@@ -1,6 +1,6 @@
 //! The interface of a method of social perception.
 
-use crate::{goals::AnswerError, trajectories::ForecastError};
+use crate::{goals::InvalidAnswer, trajectories::ForecastError};
 use core::ops::ControlFlow;
 use phase_event::ObservedEvent;
 use phase_model::{Forecast, Judgement};
@@ -15,7 +15,7 @@ pub enum MethodError {
     NoAnswer(#[source] Box<dyn core::error::Error + Send + Sync>),
     /// The probabilities of goals or relations that it gave are none.
     #[error("the method's {0}")]
-    Answer(#[from] AnswerError),
+    Answer(#[from] InvalidAnswer),
     /// The positions that it predicted cannot be compared with those that came.
     #[error(transparent)]
     Forecast(#[from] ForecastError),
@@ -29,10 +29,10 @@ impl MethodError {
 }
 
 /// Called periodically while a method works; the method stops with `Ok(None)` on `Break`.
-pub type Tick<'a> = &'a mut dyn FnMut() -> ControlFlow<()>;
+pub type ProgressCallback<'a> = &'a mut dyn FnMut() -> ControlFlow<()>;
 
 /// An answer with optional details; `None` if the method was cancelled.
-pub type Answered<T> = Result<Option<(T, Value)>, MethodError>;
+pub type MethodResult<T> = Result<Option<(T, Value)>, MethodError>;
 
 /// A method for Task 1, joint inference of goals and relations.
 ///
@@ -44,7 +44,7 @@ pub trait Recogniser: Sync {
         Value::Null
     }
 
-    /// About how often [`Tick`] is called for an event, for the time left.
+    /// About how often [`ProgressCallback`] is called for an event, for the time left.
     fn ticks(&self) -> usize {
         1
     }
@@ -53,7 +53,12 @@ pub trait Recogniser: Sync {
     ///
     /// # Errors
     /// If the method has no answer for such an event.
-    fn judge(&self, observed: &ObservedEvent, seed: u64, tick: Tick<'_>) -> Answered<Judgement>;
+    fn judge(
+        &self,
+        observed: &ObservedEvent,
+        seed: u64,
+        tick: ProgressCallback<'_>,
+    ) -> MethodResult<Judgement>;
 }
 
 /// A method for Task 2, multi-entity trajectory prediction. See [`Recogniser`] for seeds and threads.
@@ -63,7 +68,7 @@ pub trait Forecaster: Sync {
         Value::Null
     }
 
-    /// About how often [`Tick`] is called for an event, for the time left.
+    /// About how often [`ProgressCallback`] is called for an event, for the time left.
     fn ticks(&self) -> usize {
         1
     }
@@ -77,6 +82,6 @@ pub trait Forecaster: Sync {
         observed: &ObservedEvent,
         steps: usize,
         seed: u64,
-        tick: Tick<'_>,
-    ) -> Answered<Forecast>;
+        tick: ProgressCallback<'_>,
+    ) -> MethodResult<Forecast>;
 }

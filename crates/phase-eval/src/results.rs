@@ -16,7 +16,11 @@ pub const TRAJECTORIES_FORMAT: &str = "phase-eval-trajectories/1";
 ///
 /// # Errors
 /// If a part of them cannot be written as JSON.
-pub fn goals(run: &Value, summary: &goals::Summary, events: &[RecognisedEvent]) -> serde_json::Result<Value> {
+pub fn goals(
+    run: &Value,
+    summary: &goals::RecognitionSummary,
+    events: &[RecognisedEvent],
+) -> serde_json::Result<Value> {
     let all = &summary.all;
     let human = all.relation_human;
     Ok(json!({
@@ -51,11 +55,11 @@ pub fn goals(run: &Value, summary: &goals::Summary, events: &[RecognisedEvent]) 
 /// If a part of them cannot be written as JSON.
 pub fn trajectories(
     run: &Value,
-    summary: &trajectories::Summary,
+    summary: &trajectories::ForecastSummary,
     events: &[ForecastEvent],
 ) -> serde_json::Result<Value> {
     let (independent, social) = (summary.independent.as_ref(), summary.social.as_ref());
-    let parts = |of: fn(&trajectories::Scores) -> Estimate| {
+    let parts = |of: fn(&trajectories::ForecastScores) -> Estimate| {
         let (independent, social) = (independent.map(of), social.map(of));
         let all = of(&summary.all);
         let (value, interval) = (|it: Estimate| it.value, |it: Estimate| it.interval());

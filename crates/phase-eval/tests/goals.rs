@@ -1,13 +1,13 @@
 //! Scores of Task 1, held against numbers worked out by hand.
 
 use phase_eval::{
-    Group,
+    GroupScores,
     goals::{
-        Answer, AnswerError, Calibration, Glimpse, Label, Mistakes, RecognisedEvent, Scores, Summary,
-        canonical,
+        Answer, Calibration, ErrorBreakdown, InvalidAnswer, Label, PartialAnswer, RecognisedEvent,
+        RecognitionScores, RecognitionSummary, canonical,
     },
-    plain::own_goals,
     predictions,
+    trivial::own_goals,
 };
 use phase_model::{
     AgentId, EventKind, Goal, Judgement, LandmarkId, ObjectId, Relation, RelationProbabilities, Sign,
@@ -77,27 +77,27 @@ fn mistakes_are_counted_by_what_is_wrong() {
     let kinds = |right: usize, said: usize| {
         let mut kinds = [[0; 3]; 3];
         kinds[right][said] = 1;
-        Mistakes { kinds, ..Mistakes::default() }
+        ErrorBreakdown { kinds, ..ErrorBreakdown::default() }
     };
     let cases = [
-        (thing(0, 1), Some(thing(0, 1)), Mistakes { right: 1, ..kinds(1, 1) }),
-        (touch(1, 0, MINUS), Some(touch(0, 1, MINUS)), Mistakes { right: 1, ..kinds(2, 2) }),
-        (touch(1, 0, MINUS), Some(touch(1, 0, PLUS)), Mistakes { sign: 1, ..kinds(2, 2) }),
-        (place(1, 3, MINUS), Some(place(1, 3, PLUS)), Mistakes { sign: 1, ..kinds(0, 0) }),
-        (place(1, 3, MINUS), Some(place(1, 2, PLUS)), Mistakes { landmark: 1, ..kinds(0, 0) }),
-        (place(1, 3, MINUS), Some(place(0, 3, PLUS)), Mistakes { entity: 1, ..kinds(0, 0) }),
-        (thing(0, 1), Some(thing(1, 2)), Mistakes { both: 1, ..kinds(1, 1) }),
+        (thing(0, 1), Some(thing(0, 1)), ErrorBreakdown { right: 1, ..kinds(1, 1) }),
+        (touch(1, 0, MINUS), Some(touch(0, 1, MINUS)), ErrorBreakdown { right: 1, ..kinds(2, 2) }),
+        (touch(1, 0, MINUS), Some(touch(1, 0, PLUS)), ErrorBreakdown { sign: 1, ..kinds(2, 2) }),
+        (place(1, 3, MINUS), Some(place(1, 3, PLUS)), ErrorBreakdown { sign: 1, ..kinds(0, 0) }),
+        (place(1, 3, MINUS), Some(place(1, 2, PLUS)), ErrorBreakdown { landmark: 1, ..kinds(0, 0) }),
+        (place(1, 3, MINUS), Some(place(0, 3, PLUS)), ErrorBreakdown { entity: 1, ..kinds(0, 0) }),
+        (thing(0, 1), Some(thing(1, 2)), ErrorBreakdown { both: 1, ..kinds(1, 1) }),
         (thing(0, 1), Some(place(0, 1, PLUS)), kinds(1, 0)),
         (place(0, 1, PLUS), Some(touch(0, 1, PLUS)), kinds(0, 2)),
-        (place(0, 1, PLUS), None, Mistakes { nothing: 1, ..Mistakes::default() }),
+        (place(0, 1, PLUS), None, ErrorBreakdown { nothing: 1, ..ErrorBreakdown::default() }),
     ];
     for (right, said, expected) in cases {
         // The other agent has named nothing.
         let mut event = two_events().swap_remove(0);
         event.label.goals = [right; 2];
         event.answer = answer([&[], said.as_slice()], [1.0, 0.0, 0.0]);
-        let expected = Mistakes { nothing: expected.nothing + 1, ..expected };
-        assert_eq!(Mistakes::of(&[event]), expected, "{said:?} instead of {right:?}");
+        let expected = ErrorBreakdown { nothing: expected.nothing + 1, ..expected };
+        assert_eq!(ErrorBreakdown::of(&[event]), expected, "{said:?} instead of {right:?}");
     }
 }
 
@@ -117,12 +117,12 @@ fn numbers_that_are_no_probabilities_are_refused() {
     };
     let third = RelationProbabilities::default();
     let cases = [
-        (goals(&[0.5, f64::NAN]), third, AnswerError::Goal { agent: AgentId::ZERO, place: 1 }),
-        (goals(&[-0.1]), third, AnswerError::Goal { agent: AgentId::ZERO, place: 0 }),
-        (goals(&[f64::INFINITY]), third, AnswerError::Goal { agent: AgentId::ZERO, place: 0 }),
-        (goals(&[0.75, 0.5]), third, AnswerError::Goals(AgentId::ZERO)),
-        (goals(&[1.0]), RelationProbabilities { neutral: f64::NAN, ..third }, AnswerError::Relation),
-        (goals(&[1.0]), RelationProbabilities { neutral: 0.5, ..third }, AnswerError::Relation),
+        (goals(&[0.5, f64::NAN]), third, InvalidAnswer::Goal { agent: AgentId::ZERO, place: 1 }),
+        (goals(&[-0.1]), third, InvalidAnswer::Goal { agent: AgentId::ZERO, place: 0 }),
+        (goals(&[f64::INFINITY]), third, InvalidAnswer::Goal { agent: AgentId::ZERO, place: 0 }),
+        (goals(&[0.75, 0.5]), third, InvalidAnswer::Goals(AgentId::ZERO)),
+        (goals(&[1.0]), RelationProbabilities { neutral: f64::NAN, ..third }, InvalidAnswer::Relation),
+        (goals(&[1.0]), RelationProbabilities { neutral: 0.5, ..third }, InvalidAnswer::Relation),
     ];
     for (goals, relation, expected) in cases {
         let judgement = Judgement { goals: [goals, Vec::new()], relation };
@@ -142,7 +142,7 @@ fn two_events() -> Vec<RecognisedEvent> {
     };
     let event = |id: &str, answer: Answer, label, cpu_seconds| RecognisedEvent {
         id: id.into(),
-        watched: vec![Glimpse { seconds: 5.0, answer: answer.clone() }],
+        watched: vec![PartialAnswer { seconds: 5.0, answer: answer.clone() }],
         answer,
         label,
         cpu_seconds,
@@ -159,7 +159,7 @@ fn two_events() -> Vec<RecognisedEvent> {
 
 #[test]
 fn two_events_summed_up_by_hand() {
-    let summary = Summary::of(&two_events(), 1).expect("events");
+    let summary = RecognitionSummary::of(&two_events(), 1).expect("events");
     let all = &summary.all;
     assert_eq!((all.n, all.top1.value, all.top2.value, all.top3.value), (2, 0.25, 0.25, 0.5));
     assert_eq!(all.relation.value, 0.5);
@@ -167,7 +167,7 @@ fn two_events_summed_up_by_hand() {
     assert_eq!(all.relation_human.map(|estimate| estimate.value), Some(0.0));
     assert_eq!(summary.confusion, [[1, 0, 0], [0, 0, 1], [0, 0, 0]]);
     assert_eq!(summary.cpu_seconds_per_event, Some(2.0));
-    let named = |groups: &[Group<Scores>]| -> Vec<(String, usize, f64)> {
+    let named = |groups: &[GroupScores<RecognitionScores>]| -> Vec<(String, usize, f64)> {
         groups.iter().map(|it| (it.name.clone(), it.scores.n, it.scores.top1.value)).collect()
     };
     assert_eq!(named(&summary.kinds), [("helping".into(), 1, 0.5), ("chasing".into(), 1, 0.0)]);
@@ -176,7 +176,7 @@ fn two_events_summed_up_by_hand() {
     // Four goals named with 0.5, one right; two relations with 0.75, one right.
     assert!((summary.goal_calibration.error - 0.25).abs() < 1e-12);
     assert!((summary.relation_calibration.error - 0.25).abs() < 1e-12);
-    assert_eq!(Summary::of(&[], 1), None);
+    assert_eq!(RecognitionSummary::of(&[], 1), None);
 }
 
 #[test]
@@ -272,7 +272,7 @@ proptest! {
             }
         };
         let events: Vec<RecognisedEvent> = orders.iter().map(event).collect();
-        let all = Summary::of(&events, 7).expect("events").all;
+        let all = RecognitionSummary::of(&events, 7).expect("events").all;
         prop_assert!(all.top1.value <= all.top2.value && all.top2.value <= all.top3.value);
         for estimate in [all.top1, all.top2, all.top3, all.relation] {
             prop_assert!(0.0 <= estimate.low && estimate.low <= estimate.value + 1e-12);

@@ -2,10 +2,9 @@
 
 use core::ops::ControlFlow;
 use phase_eval::{
-    Forecaster,
-    plain::{ConstantVelocity, Still},
-    predictions,
-    trajectories::{Errors, ForecastError, ForecastEvent, Summary},
+    Forecaster, predictions,
+    trajectories::{Errors, ForecastError, ForecastEvent, ForecastSummary},
+    trivial::{ConstantVelocity, Stationary},
 };
 use phase_event::ObservedEvent;
 use phase_model::{Body, EventKind, Layout, MAX_ENTITIES, Relation, Size, Vec2};
@@ -71,8 +70,8 @@ fn event(relation: Relation, errors: &[f64]) -> ForecastEvent {
 fn events_count_alike_and_are_told_apart_by_relation() {
     let mut events = vec![event(Relation::Neutral, &[1.0; 20]), event(Relation::Friendly, &[2.0, 4.0])];
     events.push(event(Relation::Adversarial, &[7.0; 20]));
-    let summary = Summary::of(&events, 1).expect("events");
-    let of = |scores: Option<&phase_eval::trajectories::Scores>| {
+    let summary = ForecastSummary::of(&events, 1).expect("events");
+    let of = |scores: Option<&phase_eval::trajectories::ForecastScores>| {
         scores.map(|scores| (scores.n, scores.ade.value, scores.fde.value))
     };
     assert_eq!(of(summary.independent.as_ref()), Some((1, 1.0, 1.0)));
@@ -81,8 +80,8 @@ fn events_count_alike_and_are_told_apart_by_relation() {
     assert_eq!(summary.shorter, 1);
     // From the third step on the second event has nothing to say.
     assert_eq!(summary.by_step[..3], [10.0 / 3.0, 4.0, 4.0]);
-    assert_eq!(Summary::of(&events[..1], 1).expect("an event").social, None);
-    assert_eq!(Summary::of(&[], 1), None);
+    assert_eq!(ForecastSummary::of(&events[..1], 1).expect("an event").social, None);
+    assert_eq!(ForecastSummary::of(&[], 1), None);
 }
 
 #[test]
@@ -102,7 +101,7 @@ fn plain_methods_go_straight_on_or_stay() {
         let (forecast, _) = method.forecast(&observed, 4, 1, &mut tick).expect("an answer").expect("whole");
         forecast.iter().map(|path| path.iter().map(|point| point.x).collect()).collect::<Vec<Vec<f32>>>()
     };
-    assert_eq!(forecast(&Still), [[10.0; 4], [25.0; 4], [8.0; 4]]);
+    assert_eq!(forecast(&Stationary), [[10.0; 4], [25.0; 4], [8.0; 4]]);
     // Half a unit a step, as far as the arena goes.
     let expected = [[10.5, 11.0, 11.5, 12.0], [25.5, 26.0, 26.0, 26.0], [8.0; 4]];
     for (found, expected) in forecast(&ConstantVelocity).iter().flatten().zip(expected.iter().flatten()) {

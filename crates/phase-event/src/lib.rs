@@ -53,7 +53,7 @@ pub use observed::{ObservedError, ObservedEvent};
 pub use read::{LONGEST_ID, from_json, parse};
 pub use recording::{Recording, Recovered, Simulation};
 pub use subgoals::subgoal_of;
-pub use thought::{ActionValue, SubgoalValue, Thought};
+pub use thought::{ActionEvaluation, SubgoalValue, Thought};
 pub use trajectory::{COLUMNS, Row, SUBSTEP_COLUMNS, SubstepRow, Trajectory, substep_row};
 pub use warning::EventWarning;
 pub use write::{FILE_FORMAT, pairs_in_contact, to_json};

@@ -1,7 +1,8 @@
 //! An event as a viewer has it: walls, sizes and motion, and nothing that would answer the viewer's questions.
 
 use phase_model::{
-    AGENT_COUNT, AgentBody, AgentId, Body, Entity, Layout, MAX_ENTITIES, MAX_OBJECTS, Physique, Size, State,
+    AGENT_COUNT, AgentBody, AgentId, Body, Entity, Layout, MAX_ENTITIES, MAX_OBJECTS, PhysicsConfig, Size,
+    State,
 };
 use thiserror::Error;
 
@@ -57,7 +58,7 @@ impl ObservedEvent {
 
     /// The first steps of the event; all of it if it has no more.
     #[must_use]
-    pub fn watched_for(&self, steps: usize) -> Self {
+    pub fn prefix(&self, steps: usize) -> Self {
         let rows = self.rows.iter().take(steps.saturating_add(1)).copied().collect();
         Self { rows, object_sizes: self.object_sizes.clone(), ..*self }
     }
@@ -100,12 +101,12 @@ impl ObservedEvent {
 
     /// The physics of the event if its agents had these greatest forces (N).
     #[must_use]
-    pub fn physique(&self, max_forces: [f32; AGENT_COUNT]) -> Physique {
+    pub fn physics(&self, max_forces: [f32; AGENT_COUNT]) -> PhysicsConfig {
         let mut object_radii = [0.0; MAX_OBJECTS];
         for (radius, size) in object_radii.iter_mut().zip(&self.object_sizes) {
             *radius = size.radius();
         }
-        Physique {
+        PhysicsConfig {
             walls: self.layout.walls(),
             agents: AgentId::ALL.map(|agent| AgentBody {
                 radius: self.agent_sizes[agent].radius(),

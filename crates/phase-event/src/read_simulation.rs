@@ -1,7 +1,7 @@
 //! What a simulated event keeps beside its trajectory.
 
 use crate::{
-    ActionValue, Event, Row, SUBSTEP_COLUMNS, Simulation, Step, SubgoalValue, Thought, Trajectory,
+    ActionEvaluation, Event, Row, SUBSTEP_COLUMNS, Simulation, Step, SubgoalValue, Thought, Trajectory,
     read::{columns, rows},
     subgoals::subgoal_of,
 };
@@ -224,7 +224,7 @@ fn thought(subgoal: &Field<'_>, field: &Field<'_>) -> Result<Thought, FieldError
             return Err(field.must_be("an action, its visits and its value"));
         };
         let visits = visits.whole(0, u32::MAX.into())? as u32;
-        Ok(ActionValue { action: name.one_of(&names)?, visits, value: double(value)? })
+        Ok(ActionEvaluation { action: name.one_of(&names)?, visits, value: double(value)? })
     };
     Ok(Thought {
         subgoal: named(subgoal)?,

@@ -1,6 +1,6 @@
 //! Subgoals as texts, and back.
 
-use phase_model::{AgentId, Entity, LandmarkId, Literal, ObjectId, Place, Predicate, Subgoal};
+use phase_model::{AgentId, Entity, LandmarkId, Literal, ObjectId, Predicate, PredicateTarget, Subgoal};
 use std::{collections::BTreeMap, sync::LazyLock};
 
 /// The subgoal that is displayed as a text, such as `not Attach(agent 0, object 1)`.
@@ -21,7 +21,8 @@ fn all_subgoals() -> impl Iterator<Item = Subgoal> {
     let attach = agents()
         .flat_map(|agent| ObjectId::ALL.into_iter().map(move |object| Predicate::Attach(agent, object)));
     let close = entities().flat_map(move |entity| {
-        let places = entities().map(Place::Entity).chain(landmarks().map(Place::Landmark));
+        let places =
+            entities().map(PredicateTarget::Entity).chain(landmarks().map(PredicateTarget::Landmark));
         places.map(move |place| Predicate::Close(entity, place))
     });
     let literals = on

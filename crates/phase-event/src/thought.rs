@@ -16,7 +16,7 @@ pub struct SubgoalValue {
 
 /// Search statistics of one root action.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
-pub struct ActionValue {
+pub struct ActionEvaluation {
     /// The action.
     pub action: Action,
     /// Number of simulations that began with it.
@@ -35,7 +35,7 @@ pub struct Thought {
     /// The symbolic plan of the first particle that agrees with the subgoal, own subgoals only, in order.
     pub plan: Vec<Subgoal>,
     /// Every action searched, in the order of the action set; empty where no search was needed.
-    pub actions: Vec<ActionValue>,
+    pub actions: Vec<ActionEvaluation>,
 }
 
 impl Thought {

@@ -31,7 +31,7 @@ impl Trajectory {
         let means: Vec<State> = event.steps.iter().map(mean_state).collect();
         let states = || core::iter::once(&event.initial).chain(&means);
         let rows = |entity: usize| states().map(|state| row_of(&state.bodies[entity])).collect();
-        let objects = event.scene.physique().object_count;
+        let objects = event.scene.physics().object_count;
         Self {
             agents: core::array::from_fn(rows),
             objects: (AGENT_COUNT..AGENT_COUNT + objects).map(rows).collect(),

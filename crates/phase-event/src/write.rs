@@ -169,14 +169,14 @@ pub(crate) fn is_recording_finite(recording: &Recording) -> bool {
 }
 
 pub(crate) fn is_event_finite(event: &Event) -> bool {
-    let physique = event.scene.physique();
+    let physics = event.scene.physics();
     let mut grips = event.frames().flat_map(|state| state.grips).flatten();
     let thoughts = event.steps.iter().flat_map(|step| &step.thoughts);
     let mut values = thoughts.flat_map(|thought| {
         let subgoals = thought.subgoals.iter().map(|proposed| proposed.value);
         subgoals.chain(thought.actions.iter().map(|action| action.value))
     });
-    event.frames().all(|state| state.is_finite(&physique))
+    event.frames().all(|state| state.is_finite(&physics))
         && grips.all(|grip| grip.relative_angle.is_finite())
         && values.all(f64::is_finite)
 }
@@ -235,7 +235,7 @@ struct Substeps {
 impl Substeps {
     fn of(event: &Event) -> Self {
         let track = |entity: &Entity| event.frames().map(|state| substep_row(state.body(*entity))).collect();
-        let entities: Vec<Entity> = event.scene.physique().entities().collect();
+        let entities: Vec<Entity> = event.scene.physics().entities().collect();
         let (agents, objects) = entities.split_at(AGENT_COUNT);
         Self {
             columns: SUBSTEP_COLUMNS,

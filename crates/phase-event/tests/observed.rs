@@ -34,18 +34,18 @@ fn nonsense_is_refused() {
 #[test]
 fn watching_for_a_while_hides_what_comes_later() {
     let whole = event((0..10).map(|t| row(t as f32)).collect(), 1).expect("is sound");
-    let part = whole.watched_for(4);
+    let part = whole.prefix(4);
     assert_eq!(part.steps(), 4);
     assert_eq!(part.rows(), &whole.rows()[..5]);
     assert_eq!(part.state(5), None);
-    assert_eq!(whole.watched_for(usize::MAX), whole);
+    assert_eq!(whole.prefix(usize::MAX), whole);
     assert_eq!(whole.entities().collect::<Vec<_>>(), [0, 1, 2].map(|index| Entity::ALL[index]));
 }
 
 #[test]
 fn the_physics_has_the_seen_sizes_and_the_supposed_forces() {
-    let physique = event(vec![row(0.0)], 1).expect("is sound").physique([150.0, 450.0]);
-    assert_eq!(physique.agents.map(|agent| agent.radius), [0.8, 1.6]);
-    assert_eq!(physique.agents.map(|agent| agent.max_force), [150.0, 450.0]);
-    assert_eq!((physique.object_count, physique.object_radii[0]), (1, 1.2));
+    let physics = event(vec![row(0.0)], 1).expect("is sound").physics([150.0, 450.0]);
+    assert_eq!(physics.agents.map(|agent| agent.radius), [0.8, 1.6]);
+    assert_eq!(physics.agents.map(|agent| agent.max_force), [150.0, 450.0]);
+    assert_eq!((physics.object_count, physics.object_radii[0]), (1, 1.2));
 }

@@ -2,7 +2,7 @@
 
 use crate::Track;
 use phase_model::{AgentId, Entity, Goal, SlotId, State, Vec2, arena};
-use phase_planner::{Routes, routes::point_in, situation::obstruct};
+use phase_planner::{Routes, problem::obstruct, routes::point_in};
 
 /// Steps in which an agent's body narrowed a door on another's cheapest way to a point, so much that the other
 /// no longer fitted through. `target` gives the point for each state (u); `None` where there is none.
@@ -16,18 +16,18 @@ pub fn steps_blocking_a_door(
     target: impl Fn(&State) -> Option<Vec2>,
 ) -> Vec<usize> {
     let blocked = blocker.other();
-    let width = track.physique.agents[blocked].width();
+    let width = track.physics.agents[blocked].width();
     let in_the_way = |state: &State| {
         let from = state.position(Entity::Agent(blocked));
         let route = target(state).and_then(|to| routes.best(from, to, width, routes.gaps()));
         let Some(route) = route else { return false };
-        let radius = track.physique.agents[blocker].radius;
+        let radius = track.physics.agents[blocker].radius;
         let mut gaps = *routes.gaps();
         obstruct(
             &mut gaps,
             state.position(Entity::Agent(blocker)),
             radius,
-            radius + track.physique.agents[blocked].radius,
+            radius + track.physics.agents[blocked].radius,
         );
         route.doors().iter().any(|&(slot, _)| routes.gaps().width(slot) >= width && gaps.width(slot) < width)
     };
@@ -39,7 +39,7 @@ pub fn steps_blocking_a_door(
 #[must_use]
 pub fn steps_between(track: &Track, blocker: AgentId, target: impl Fn(&State) -> Option<Vec2>) -> Vec<usize> {
     let blocked = blocker.other();
-    let reach = track.physique.agents[0].radius + track.physique.agents[1].radius;
+    let reach = track.physics.agents[0].radius + track.physics.agents[1].radius;
     let between = |state: &State| {
         let Some(to) = target(state) else { return false };
         let from = state.position(Entity::Agent(blocked));
@@ -55,7 +55,7 @@ pub fn steps_between(track: &Track, blocker: AgentId, target: impl Fn(&State) ->
 #[must_use]
 pub fn door_of(track: &Track, routes: &Routes, state: &State, agent: AgentId) -> Option<SlotId> {
     let position = state.position(Entity::Agent(agent));
-    let radius = track.physique.agents[agent].radius;
+    let radius = track.physics.agents[agent].radius;
     SlotId::ALL.into_iter().find(|&slot| {
         routes.gaps().0[slot].is_some_and(|(low, high)| {
             let line = phase_model::Segment { a: point_in(slot, low), b: point_in(slot, high) };

@@ -1,7 +1,7 @@
 //! Who touched whom, and how near they came.
 
 use crate::Track;
-use phase_model::{Entity, Physique, Segment, State, Vec2, geometry::Outline};
+use phase_model::{Entity, PhysicsConfig, Segment, State, Vec2, geometry::Outline};
 
 /// Two entities touch when their outlines are no farther apart than this (u). A state of a track is a mean over
 /// five substeps, in which bodies that bounce off each other are already apart again.
@@ -9,8 +9,8 @@ pub const TOUCH_GAP: f32 = 0.1;
 
 /// Distance between the outlines of two entities, 0 if they overlap (u).
 #[must_use]
-pub fn gap(physique: &Physique, state: &State, a: Entity, b: Entity) -> f32 {
-    let outline = |entity: Entity| Outline::of(physique, entity, state.body(entity));
+pub fn gap(physics: &PhysicsConfig, state: &State, a: Entity, b: Entity) -> f32 {
+    let outline = |entity: Entity| Outline::of(physics, entity, state.body(entity));
     match (outline(a), outline(b)) {
         (a, b) if a.overlaps(&b) => 0.0,
         (Outline::Trapezoid(a), Outline::Trapezoid(b)) => corner_gap(&a, &b).min(corner_gap(&b, &a)),
@@ -27,21 +27,21 @@ pub fn gap(physique: &Physique, state: &State, a: Entity, b: Entity) -> f32 {
 
 /// Whether two entities touch in a state: physically, or by outlines no farther apart than [`TOUCH_GAP`].
 #[must_use]
-pub fn touching(physique: &Physique, state: &State, a: Entity, b: Entity) -> bool {
-    state.touching(a, b) || near(physique, state, a, b)
+pub fn touching(physics: &PhysicsConfig, state: &State, a: Entity, b: Entity) -> bool {
+    state.touching(a, b) || near(physics, state, a, b)
 }
 
 /// Whether the outlines of two entities are no farther apart than [`TOUCH_GAP`]: touching as far as recordings
 /// tell it.
 #[must_use]
-pub fn near(physique: &Physique, state: &State, a: Entity, b: Entity) -> bool {
-    gap(physique, state, a, b) <= TOUCH_GAP
+pub fn near(physics: &PhysicsConfig, state: &State, a: Entity, b: Entity) -> bool {
+    gap(physics, state, a, b) <= TOUCH_GAP
 }
 
 /// The steps (0 for the initial state) at which two entities touch, in order.
 #[must_use]
 pub fn steps_touching(track: &Track, a: Entity, b: Entity) -> Vec<usize> {
-    let touch = |state: &State| touching(&track.physique, state, a, b);
+    let touch = |state: &State| touching(&track.physics, state, a, b);
     (0..track.states.len()).filter(|&t| touch(&track.states[t])).collect()
 }
 

@@ -1,15 +1,15 @@
 //! What an agent changed: an event beside the same event in which that agent did nothing.
 
-use crate::Outcome;
+use crate::GoalOutcome;
 use serde::{Deserialize, Serialize};
 
 /// The outcome of one goal with and without an agent's doing.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
 pub struct Effect {
     /// With it.
-    pub with: Outcome,
+    pub with: GoalOutcome,
     /// Without.
-    pub without: Outcome,
+    pub without: GoalOutcome,
 }
 
 /// A time counts as shorter or longer only from a difference of this many percent on; less is chance.
@@ -30,12 +30,13 @@ impl Effect {
 }
 
 /// Whether one outcome is clearly better than another: reached where the other is not, or clearly sooner.
-const fn better(one: Outcome, other: Outcome) -> bool {
+const fn better(one: GoalOutcome, other: GoalOutcome) -> bool {
     match (one, other) {
-        (Outcome { reached: true, .. }, Outcome { reached: false, .. }) => true,
-        (Outcome { reached: true, steps: Some(one) }, Outcome { reached: true, steps: Some(other) }) => {
-            one < other && 100 * one <= (100 - MARGIN_PERCENT) * other
-        }
+        (GoalOutcome { reached: true, .. }, GoalOutcome { reached: false, .. }) => true,
+        (
+            GoalOutcome { reached: true, steps: Some(one) },
+            GoalOutcome { reached: true, steps: Some(other) },
+        ) => one < other && 100 * one <= (100 - MARGIN_PERCENT) * other,
         _ => false,
     }
 }

@@ -10,7 +10,7 @@ use phase_perception::{Cell, CellSet, observe};
 #[must_use]
 pub fn searched_first(track: &Track, agent: AgentId, regions: &[&[RoomId]]) -> Option<(usize, usize)> {
     let first = track.states.first()?;
-    let seen_at_start = observe(&track.physique, first, agent).visible;
+    let seen_at_start = observe(&track.physics, first, agent).visible;
     let unseen: Vec<CellSet> = regions
         .iter()
         .map(|rooms| {
@@ -20,7 +20,7 @@ pub fn searched_first(track: &Track, agent: AgentId, regions: &[&[RoomId]]) -> O
         .collect();
     let mut seen: Vec<CellSet> = vec![CellSet::EMPTY; regions.len()];
     for (t, state) in track.states.iter().enumerate() {
-        let visible = observe(&track.physique, state, agent).visible;
+        let visible = observe(&track.physics, state, agent).visible;
         for (region, (seen, unseen)) in seen.iter_mut().zip(&unseen).enumerate() {
             unseen.iter().filter(|&cell| visible.contains(cell)).for_each(|cell| seen.insert(cell));
             if !unseen.is_empty() && 2 * seen.len() >= unseen.len() {

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 /// A time during which one agent held one object without a break.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
-pub struct Hold {
+pub struct HoldInterval {
     /// Who.
     pub agent: AgentId,
     /// What.
@@ -17,7 +17,7 @@ pub struct Hold {
     pub to: usize,
 }
 
-impl Hold {
+impl HoldInterval {
     /// How many steps it lasted.
     #[must_use]
     pub const fn steps(&self) -> usize {
@@ -27,14 +27,14 @@ impl Hold {
 
 /// Every hold of an event, agent 0's first, each agent's in order of time.
 #[must_use]
-pub fn holds(track: &Track) -> Vec<Hold> {
-    let mut holds: Vec<Hold> = Vec::new();
+pub fn holds(track: &Track) -> Vec<HoldInterval> {
+    let mut holds: Vec<HoldInterval> = Vec::new();
     for agent in AgentId::ALL {
         for (t, state) in track.states.iter().enumerate() {
             let Some(object) = state.held_object(agent) else { continue };
             match holds.last_mut() {
                 Some(last) if last.agent == agent && last.object == object && last.to + 1 == t => last.to = t,
-                _ => holds.push(Hold { agent, object, from: t, to: t }),
+                _ => holds.push(HoldInterval { agent, object, from: t, to: t }),
             }
         }
     }
@@ -43,26 +43,26 @@ pub fn holds(track: &Track) -> Vec<Hold> {
 
 /// Steps in which an agent held an object, and how far the object went in them.
 #[must_use]
-pub fn carried(track: &Track, agent: AgentId, object: ObjectId) -> Carrying {
+pub fn carried(track: &Track, agent: AgentId, object: ObjectId) -> CarryStatistics {
     carrying(track, object, |holders| holders[agent])
 }
 
 /// Steps in which both agents held the same object, and how far it went in them: it is carried together where
 /// it moves, and fought over where it does not.
 #[must_use]
-pub fn carried_together(track: &Track, object: ObjectId) -> Carrying {
+pub fn carried_together(track: &Track, object: ObjectId) -> CarryStatistics {
     carrying(track, object, |holders| holders == [true; AGENT_COUNT])
 }
 
 /// Steps in which an agent held an object and the other did not, and how far it went in them.
 #[must_use]
-pub fn carried_alone(track: &Track, agent: AgentId, object: ObjectId) -> Carrying {
+pub fn carried_alone(track: &Track, agent: AgentId, object: ObjectId) -> CarryStatistics {
     carrying(track, object, |holders| holders[agent] && !holders[agent.other()])
 }
 
 /// For how long an object was held in some way, and how far it went.
 #[derive(Clone, Copy, PartialEq, Debug, Default, Serialize, Deserialize)]
-pub struct Carrying {
+pub struct CarryStatistics {
     /// Steps.
     pub steps: usize,
     /// Distance the object travelled in them (u).
@@ -71,8 +71,12 @@ pub struct Carrying {
     pub approach: [f32; 4],
 }
 
-fn carrying(track: &Track, object: ObjectId, counts: impl Fn([bool; AGENT_COUNT]) -> bool) -> Carrying {
-    let mut carrying = Carrying::default();
+fn carrying(
+    track: &Track,
+    object: ObjectId,
+    counts: impl Fn([bool; AGENT_COUNT]) -> bool,
+) -> CarryStatistics {
+    let mut carrying = CarryStatistics::default();
     let entity = Entity::Object(object);
     for (t, pair) in track.states.windows(2).enumerate() {
         let holders = AgentId::ALL.map(|agent| pair[1].holds(agent, object));

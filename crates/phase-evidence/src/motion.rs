@@ -8,7 +8,7 @@ use phase_model::{
 
 /// How one agent moved in the first steps of an event.
 #[derive(Clone, PartialEq, Debug, Default)]
-pub struct Motion {
+pub struct MotionStatistics {
     /// Its speed in each step (u per second of physics): the distance between its origins before and after,
     /// over five substeps of 1/60 s. Turning on the spot is no motion, so it is not the velocity of the centre
     /// of mass. Means over substeps stand for all states but the first, so the first step is measured over
@@ -20,16 +20,16 @@ pub struct Motion {
     pub contact_steps: usize,
 }
 
-impl Motion {
+impl MotionStatistics {
     /// Of an agent in steps 1 to `steps` of a track, or to its end if that comes first. Contact is
     /// judged by outlines alone, so that recordings and simulations are measured alike.
     #[must_use]
     pub fn of(track: &Track, agent: AgentId, steps: usize) -> Self {
         let (steps, entity) = (steps.min(track.steps()), Entity::Agent(agent));
-        let others: Vec<Entity> = track.physique.entities().filter(|&other| other != entity).collect();
+        let others: Vec<Entity> = track.physics.entities().filter(|&other| other != entity).collect();
         let states = track.states.iter().skip(1).take(steps);
         let in_contact = states
-            .filter(|state| others.iter().any(|&other| contact::near(&track.physique, state, entity, other)));
+            .filter(|state| others.iter().any(|&other| contact::near(&track.physics, state, entity, other)));
         let seconds = SUBSTEPS as f32 * SUBSTEP_SECONDS;
         Self {
             speeds: (1..=steps).map(|step| track.distance_in_step(entity, step) / seconds).collect(),

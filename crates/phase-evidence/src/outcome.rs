@@ -1,14 +1,14 @@
 //! Whether and when an agent's goal was reached.
 
 use crate::{Track, contact};
-use phase_model::{Entity, Goal, LandmarkId, Physique, Sign, State, arena};
+use phase_model::{Entity, Goal, LandmarkId, PhysicsConfig, Sign, State, arena};
 use phase_predicates::threshold::{ON_AGENT, ON_OBJECT};
 use serde::{Deserialize, Serialize};
 
 /// What became of one agent's goal.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Outcome {
+pub struct GoalOutcome {
     /// Whether it was reached. To be (or to keep someone off) somewhere counts at the end of the event, to
     /// touch someone at any time, and to get away from someone at the end again.
     pub reached: bool,
@@ -16,13 +16,13 @@ pub struct Outcome {
     pub steps: Option<usize>,
 }
 
-impl Outcome {
+impl GoalOutcome {
     /// Judges a goal on the states of a track, and on bodies alone: what recordings do not tell (contacts and
     /// grips) is not asked of simulations either.
     #[must_use]
     pub fn of(track: &Track, goal: Goal) -> Self {
         let holds: Vec<bool> =
-            track.states.iter().map(|state| condition(&track.physique, state, goal)).collect();
+            track.states.iter().map(|state| condition(&track.physics, state, goal)).collect();
         let at_the_end = holds.last().copied().unwrap_or(false);
         match (goal, goal.sign()) {
             (_, Sign::Negative) => Self { reached: !at_the_end, steps: None },
@@ -40,7 +40,7 @@ impl Outcome {
 
 /// Whether what the goal speaks of is the case, whatever the goal's sign.
 #[must_use]
-pub fn condition(physique: &Physique, state: &State, goal: Goal) -> bool {
+pub fn condition(physics: &PhysicsConfig, state: &State, goal: Goal) -> bool {
     let near = |entity: Entity, landmark: LandmarkId, limit: f32| {
         state.position(entity).distance(arena::LANDMARKS[landmark]) < limit
     };
@@ -48,7 +48,7 @@ pub fn condition(physique: &Physique, state: &State, goal: Goal) -> bool {
         Goal::AgentOnLandmark { agent, landmark, .. } => near(Entity::Agent(agent), landmark, ON_AGENT),
         Goal::ObjectOnLandmark { object, landmark, .. } => near(Entity::Object(object), landmark, ON_OBJECT),
         Goal::Touch { agent, other, .. } => {
-            contact::near(physique, state, Entity::Agent(agent), Entity::Agent(other))
+            contact::near(physics, state, Entity::Agent(agent), Entity::Agent(other))
         }
     }
 }

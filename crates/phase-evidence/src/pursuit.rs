@@ -5,9 +5,9 @@ use phase_model::{AgentId, Entity, layout::room_of};
 use serde::{Deserialize, Serialize};
 
 /// Slower than this an agent is not going anywhere (u a step of 0.083 s of physics).
-const STANDING: f32 = 0.1;
+const MIN_SPEED: f32 = 0.1;
 /// Heading for something means that most of the motion goes towards it: the cosine of 60°.
-const TOWARDS: f32 = 0.5;
+const TOWARDS_COSINE: f32 = 0.5;
 
 /// How one agent moved with regard to the other, over a whole event.
 #[derive(Clone, Copy, PartialEq, Debug, Default, Serialize, Deserialize)]
@@ -45,13 +45,13 @@ impl Pursuit {
             if room_of(pair[0].position(who)) != room_of(pair[1].position(who)) {
                 pursuit.rooms_changed += 1;
             }
-            if motion.length() < STANDING {
+            if motion.length() < MIN_SPEED {
                 continue;
             }
             pursuit.moving += 1;
             let cosine = motion.normalize_or_zero().dot(line.normalize_or_zero());
-            pursuit.towards += usize::from(cosine > TOWARDS);
-            pursuit.away += usize::from(cosine < -TOWARDS);
+            pursuit.towards += usize::from(cosine > TOWARDS_COSINE);
+            pursuit.away += usize::from(cosine < -TOWARDS_COSINE);
         }
         pursuit
     }

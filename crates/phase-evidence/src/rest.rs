@@ -12,15 +12,15 @@ pub struct Rest {
     /// Distance travelled in them (u).
     pub travelled: f32,
     /// Greatest distance from where it was at the beginning of them (u).
-    pub strayed: f32,
+    pub displacement: f32,
     /// Sum of all turning, either way (rad); 0 for objects, since a disc that turns looks like one that does not.
     pub turned: f32,
     /// Steps in which it moved more than 0.02 u or turned more than 0.02 rad.
-    pub restless: usize,
+    pub moving_steps: usize,
 }
 
 /// Less than this in one step counts as resting (u, rad).
-const STILL: f32 = 0.02;
+const MOTION_TOLERANCE: f32 = 0.02;
 
 impl Rest {
     /// What an entity did after step `from`.
@@ -39,8 +39,8 @@ impl Rest {
             rest.steps += 1;
             rest.travelled += moved;
             rest.turned += turned;
-            rest.strayed = rest.strayed.max(after.position.distance(first.position(entity)));
-            rest.restless += usize::from(moved > STILL || turned > STILL);
+            rest.displacement = rest.displacement.max(after.position.distance(first.position(entity)));
+            rest.moving_steps += usize::from(moved > MOTION_TOLERANCE || turned > MOTION_TOLERANCE);
         }
         rest
     }
@@ -48,7 +48,9 @@ impl Rest {
     /// Whether nothing of any account happened: it stayed within 0.3 u, turned by less than a quarter turn
     /// altogether, and was still in nine steps of ten.
     #[must_use]
-    pub fn is_quiet(&self) -> bool {
-        self.strayed < 0.3 && self.turned < core::f32::consts::FRAC_PI_2 && 10 * self.restless <= self.steps
+    pub fn is_at_rest(&self) -> bool {
+        self.displacement < 0.3
+            && self.turned < core::f32::consts::FRAC_PI_2
+            && 10 * self.moving_steps <= self.steps
     }
 }

@@ -1,13 +1,13 @@
 //! One state for each step: what all judgements are made on.
 
 use phase_event::{Event, mean_state};
-use phase_model::{Entity, Physique, State};
+use phase_model::{Entity, PhysicsConfig, State};
 
 /// Where everybody was at every step of one event.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Track {
     /// Walls, radii and forces.
-    pub physique: Physique,
+    pub physics: PhysicsConfig,
     /// State 0 is where the event starts; state t ≥ 1 stands for step t. Recordings know no grips and contacts.
     pub states: Vec<State>,
 }
@@ -19,7 +19,7 @@ impl Track {
     pub fn of_event(event: &Event) -> Self {
         let steps = event.steps.iter().map(mean_state);
         Self {
-            physique: event.scene.physique(),
+            physics: event.scene.physics(),
             states: core::iter::once(event.initial).chain(steps).collect(),
         }
     }
@@ -34,7 +34,7 @@ impl Track {
     #[must_use]
     pub fn until(&self, step: usize) -> Self {
         let states = self.states.iter().take(step.saturating_add(1)).copied().collect();
-        Self { physique: self.physique.clone(), states }
+        Self { physics: self.physics.clone(), states }
     }
 
     /// Distance an entity travelled in the steps of a range, from state to state (u). What lies past the end

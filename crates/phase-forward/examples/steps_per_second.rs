@@ -2,8 +2,8 @@
 
 use phase_forward::Forward;
 use phase_model::{
-    Action, AgentBody, Body, Dynamics, Grip, Layout, ObjectId, Physique, Side, Size, State, Strength, Vec2,
-    arena::START_POINTS,
+    Action, AgentBody, Body, Dynamics, Grip, Layout, ObjectId, PhysicsConfig, Side, Size, State, Strength,
+    Vec2, arena::START_POINTS,
 };
 use std::time::Instant;
 
@@ -14,14 +14,14 @@ fn main() {
     let steps: usize = std::env::args().nth(1).and_then(|n| n.parse().ok()).unwrap_or(2_000_000);
     let agent =
         |size: Size, strength: Strength| AgentBody { radius: size.radius(), max_force: strength.max_force() };
-    let open = Physique {
+    let open = PhysicsConfig {
         walls: Vec::new(),
         agents: [agent(Size::Small, Strength::Strong), agent(Size::Large, Strength::Mighty)],
         object_radii: [0.8, 1.2],
         object_count: 2,
     };
     let at = |places: [(f32, f32); 4]| State::new(places.map(|(x, y)| Body::at_rest(Vec2::new(x, y), 0.0)));
-    let apart = at([(10.0, 6.0), (22.0, 15.0), (22.0, 6.0), (10.0, 18.0)]);
+    let excluded_pairs = at([(10.0, 6.0), (22.0, 15.0), (22.0, 6.0), (10.0, 18.0)]);
     let near = at([(10.0, 8.0), (20.0, 8.0), (10.0, 9.65), (20.0, 10.45)]);
     let mut held = near;
     held.bodies[2].position.y = 9.6;
@@ -32,18 +32,23 @@ fn main() {
     }
     let forward = Forward::new(&open);
     let turns = [Action::Up, Action::Down, Action::TurnLeft, Action::TurnRight];
-    report("free, pushing to and fro", steps, |k| (&forward, apart, k % 4 == 0), |k| [turns[k / 2 % 2]; 2]);
-    report("free, turning", steps, |k| (&forward, apart, k % 4 == 0), |k| [turns[2 + k / 2 % 2]; 2]);
+    report(
+        "free, pushing to and fro",
+        steps,
+        |k| (&forward, excluded_pairs, k % 4 == 0),
+        |k| [turns[k / 2 % 2]; 2],
+    );
+    report("free, turning", steps, |k| (&forward, excluded_pairs, k % 4 == 0), |k| [turns[2 + k / 2 % 2]; 2]);
     report("pushing two objects", steps, |k| (&forward, near, k % 8 == 0), |_| [Action::Up; 2]);
     report("carrying two objects", steps, |k| (&forward, held, k % 8 == 0), |k| [turns[k / 4 % 4]; 2]);
 
-    let mut dice = Dice(1);
+    let mut dice = SmallRng(1);
     let scenes: Vec<(Forward, State)> = Layout::all_used()
         .flat_map(|layout| [layout; 4])
         .map(|layout| {
             let mut size = || Size::ALL[dice.roll(4)];
             let sizes = [size(), size(), size(), size()];
-            let physique = Physique {
+            let physics = PhysicsConfig {
                 walls: layout.walls(),
                 agents: [0, 1].map(|k| agent(sizes[k], Strength::ALL[dice.roll(4)])),
                 object_radii: [sizes[2].radius(), sizes[3].radius()],
@@ -54,10 +59,10 @@ fn main() {
                 let place = places.swap_remove(dice.roll(places.len()));
                 Body::at_rest(place, dice.roll(628) as f32 / 100.0)
             });
-            (Forward::new(&physique), State::new(bodies))
+            (Forward::new(&physics), State::new(bodies))
         })
         .collect();
-    let mut actions = Dice(7);
+    let mut actions = SmallRng(7);
     report(
         "random actions",
         steps,
@@ -67,7 +72,7 @@ fn main() {
         },
         |_| [Action::ALL[actions.roll(14)], Action::ALL[actions.roll(14)]],
     );
-    let mut actions = Dice(7);
+    let mut actions = SmallRng(7);
     report(
         "held random actions",
         steps,
@@ -76,7 +81,7 @@ fn main() {
             (forward, *state, k % EPISODE == 0)
         },
         |k| {
-            let mut held = Dice(actions.0 ^ (k / 6) as u64);
+            let mut held = SmallRng(actions.0 ^ (k / 6) as u64);
             [Action::ALL[held.roll(14)], Action::ALL[held.roll(14)]]
         },
     );
@@ -94,7 +99,7 @@ fn report<'a>(
         return;
     }
     let mut state = scene(0).1;
-    let (start, start_busy) = (Instant::now(), busy());
+    let (start, start_busy) = (Instant::now(), active());
     for k in 0..steps {
         let (forward, fresh, restart) = scene(k);
         if restart {
@@ -104,7 +109,7 @@ fn report<'a>(
     }
     let per_step = |nanoseconds: u128| nanoseconds as f64 / steps as f64;
     let elapsed = per_step(start.elapsed().as_nanos());
-    let spent = busy().zip(start_busy).map_or(f64::NAN, |(end, start)| per_step(end - start));
+    let spent = active().zip(start_busy).map_or(f64::NAN, |(end, start)| per_step(end - start));
     println!(
         "{name}: {spent:.0} ns a step on the processor, {elapsed:.0} by the clock (ends at {:?})",
         state.bodies[0].position
@@ -112,15 +117,15 @@ fn report<'a>(
 }
 
 /// Time this process has spent on a processor (ns), where the system tells.
-fn busy() -> Option<u128> {
+fn active() -> Option<u128> {
     let text = std::fs::read_to_string("/proc/self/schedstat").ok()?;
     text.split_whitespace().next()?.parse().ok()
 }
 
 /// A small generator of random numbers.
-struct Dice(u64);
+struct SmallRng(u64);
 
-impl Dice {
+impl SmallRng {
     fn roll(&mut self, sides: usize) -> usize {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut word = self.0;

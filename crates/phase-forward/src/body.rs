@@ -1,11 +1,11 @@
 //! One body: what never changes of it, and how it moves.
 
 use crate::{
-    tuning::{GREATEST_TURN, GRIP_OF_GROUND, H, LONGEST_WAY, SKIN},
+    constants::{H, MAX_FRICTION_IMPULSE, MAX_ROTATION, MAX_TRANSLATION, SKIN},
     turn::{cos_sin, turned},
 };
 use glam::Vec3;
-use phase_model::{Action, AgentBody, Body, Vec2, physique};
+use phase_model::{Action, AgentBody, Body, Vec2, physics};
 
 /// Index of the static body.
 pub(crate) const STATIC: usize = 4;
@@ -16,10 +16,10 @@ pub(crate) struct Shape {
     pub(crate) inverse_mass: f32,
     pub(crate) inverse_inertia: f32,
     /// Inverse mass (twice) and inverse inertia, to go with a [`Twist`].
-    pub(crate) yielding: Vec3,
+    pub(crate) inverse_mass_vector: Vec3,
     pub(crate) mass: f32,
     /// Reduction of the effective mass for a lateral force at the origin, compared with the mass (kg).
-    pub(crate) yielding_mass: f32,
+    pub(crate) lateral_mass_reduction: f32,
     /// Distance of the origin ahead of the centre of mass (u).
     pub(crate) origin: f32,
     /// R of an agent, r of an object (u).
@@ -27,7 +27,7 @@ pub(crate) struct Shape {
     /// Thickness around the corners (or the one point of a disc) within which contacts act (u).
     pub(crate) skin: f32,
     /// Radius of the circle about the centre of mass that holds the body, skin included (u).
-    pub(crate) bound: f32,
+    pub(crate) bounding_radius: f32,
     /// Corners of an agent, counter-clockwise from the right end of its base.
     pub(crate) corners: [Vec2; 4],
     /// Outward normals of the sides that begin at those corners.
@@ -52,13 +52,13 @@ impl Shape {
         Self {
             inverse_mass,
             inverse_inertia,
-            yielding: Vec3::new(inverse_mass, inverse_mass, inverse_inertia),
+            inverse_mass_vector: Vec3::new(inverse_mass, inverse_mass, inverse_inertia),
             mass: agent.mass(),
-            yielding_mass: agent.mass() - 1.0 / (inverse_mass + origin * origin * inverse_inertia),
+            lateral_mass_reduction: agent.mass() - 1.0 / (inverse_mass + origin * origin * inverse_inertia),
             origin,
             radius,
             skin: SKIN,
-            bound: corners[0].length() + SKIN,
+            bounding_radius: corners[0].length() + SKIN,
             corners,
             normals,
             max_force: agent.max_force,
@@ -68,17 +68,17 @@ impl Shape {
     }
 
     pub(crate) fn object(radius: f32) -> Self {
-        let mass = physique::object_mass(radius);
-        let (inverse_mass, inverse_inertia) = (1.0 / mass, 1.0 / physique::object_inertia(radius));
+        let mass = physics::object_mass(radius);
+        let (inverse_mass, inverse_inertia) = (1.0 / mass, 1.0 / physics::object_inertia(radius));
         Self {
             inverse_mass,
             inverse_inertia,
-            yielding: Vec3::new(inverse_mass, inverse_mass, inverse_inertia),
+            inverse_mass_vector: Vec3::new(inverse_mass, inverse_mass, inverse_inertia),
             mass,
-            yielding_mass: 0.0,
+            lateral_mass_reduction: 0.0,
             radius,
             skin: radius,
-            bound: radius,
+            bounding_radius: radius,
             ..Self::immovable()
         }
     }
@@ -88,13 +88,13 @@ impl Shape {
         Self {
             inverse_mass: 0.0,
             inverse_inertia: 0.0,
-            yielding: Vec3::ZERO,
+            inverse_mass_vector: Vec3::ZERO,
             mass: 0.0,
-            yielding_mass: 0.0,
+            lateral_mass_reduction: 0.0,
             origin: 0.0,
             radius: 0.0,
             skin: SKIN,
-            bound: 0.0,
+            bounding_radius: 0.0,
             corners: [Vec2::ZERO; 4],
             normals: [Vec2::ZERO; 4],
             max_force: 0.0,
@@ -106,7 +106,7 @@ impl Shape {
 
 /// Pose and velocity of one body, about its centre of mass.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Motion {
+pub(crate) struct BodyMotion {
     /// Centre of mass (u).
     pub(crate) centre: Vec2,
     /// Velocity of the centre of mass (u/s).
@@ -119,9 +119,9 @@ pub(crate) struct Motion {
     pub(crate) spin: f32,
 }
 
-impl Motion {
+impl BodyMotion {
     /// At rest at the origin, which is the frame that walls are given in.
-    pub(crate) const STILL: Self =
+    pub(crate) const AT_REST: Self =
         Self { centre: Vec2::ZERO, velocity: Vec2::ZERO, right: Vec2::X, angle: 0.0, spin: 0.0 };
 
     pub(crate) fn of_agent(body: &Body, shape: &Shape) -> Self {
@@ -162,7 +162,7 @@ impl Motion {
 
     /// A vector of the world's frame in the body's.
     #[inline]
-    pub(crate) fn turn_back(&self, vector: Vec2) -> Vec2 {
+    pub(crate) fn to_local(&self, vector: Vec2) -> Vec2 {
         Vec2::new(vector.dot(self.right), vector.dot(self.right.perp()))
     }
 
@@ -207,18 +207,18 @@ impl Motion {
 
     /// Whether linear and angular velocity are zero.
     #[inline]
-    pub(crate) fn is_still(&self) -> bool {
+    pub(crate) fn is_at_rest(&self) -> bool {
         self.velocity == Vec2::ZERO && self.spin == 0.0
     }
 
     /// Moves on for one substep with nothing but the ground's friction. Returns the impulse of the friction.
     #[inline]
-    pub(crate) fn slide(&mut self, shape: &Shape) -> Vec2 {
-        if self.is_still() {
+    pub(crate) fn coast(&mut self, shape: &Shape) -> Vec2 {
+        if self.is_at_rest() {
             return Vec2::ZERO;
         }
         let mut twist = self.twist();
-        let rubbed = twist.rub(shape, self.right, Vec2::ZERO);
+        let rubbed = twist.solve_friction(shape, self.right, Vec2::ZERO);
         self.set_twist(twist);
         self.advance(shape, H);
         rubbed
@@ -239,14 +239,14 @@ impl Motion {
     /// Moves on for some seconds, after limiting the velocity.
     #[inline]
     pub(crate) fn advance(&mut self, shape: &Shape, seconds: f32) {
-        let way = self.velocity * seconds;
-        let length_squared = way.length_squared();
-        if length_squared > LONGEST_WAY * LONGEST_WAY {
-            self.velocity *= LONGEST_WAY / length_squared.sqrt();
+        let sweep = self.velocity * seconds;
+        let length_squared = sweep.length_squared();
+        if length_squared > MAX_TRANSLATION * MAX_TRANSLATION {
+            self.velocity *= MAX_TRANSLATION / length_squared.sqrt();
         }
         let turn = self.spin * seconds;
-        if turn * turn > GREATEST_TURN * GREATEST_TURN {
-            self.spin *= GREATEST_TURN / turn.abs();
+        if turn * turn > MAX_ROTATION * MAX_ROTATION {
+            self.spin *= MAX_ROTATION / turn.abs();
         }
         self.centre += self.velocity * seconds;
         self.rotate(self.spin * seconds, shape);
@@ -281,38 +281,38 @@ impl Twist {
 
     /// The velocity along this impulse's direction that a unit of another impulse gives a body.
     #[inline]
-    pub(crate) fn through(self, other: Self, yielding: Vec3) -> f32 {
-        self.dot(Self(other.0 * yielding))
+    pub(crate) fn through(self, other: Self, inverse_mass_vector: Vec3) -> f32 {
+        self.dot(Self(other.0 * inverse_mass_vector))
     }
 
     /// Adds what a multiple of an impulse does to a body.
     #[inline]
-    pub(crate) fn push(&mut self, impulse: Self, times: f32, yielding: Vec3) {
-        self.0 += impulse.0 * yielding * times;
+    pub(crate) fn push(&mut self, impulse: Self, times: f32, inverse_mass_vector: Vec3) {
+        self.0 += impulse.0 * inverse_mass_vector * times;
     }
 
     /// One iteration of ground friction, which acts at the body's origin and gives at most 100 N. Takes and
     /// returns the impulse given so far in this substep. For a body that nothing else acts on, one
     /// iteration is exact whatever the first guess.
     #[inline]
-    pub(crate) fn rub(&mut self, shape: &Shape, right: Vec2, so_far: Vec2) -> Vec2 {
+    pub(crate) fn solve_friction(&mut self, shape: &Shape, right: Vec2, so_far: Vec2) -> Vec2 {
         let (velocity, spin) = self.parts();
         let slip = velocity - right * (spin * shape.origin);
-        let wanted = so_far - slip * shape.mass + right * (right.dot(slip) * shape.yielding_mass);
+        let wanted = so_far - slip * shape.mass + right * (right.dot(slip) * shape.lateral_mass_reduction);
         let length_squared = wanted.length_squared();
-        let given = if length_squared > GRIP_OF_GROUND * GRIP_OF_GROUND {
-            wanted * (GRIP_OF_GROUND / length_squared.sqrt())
+        let given = if length_squared > MAX_FRICTION_IMPULSE * MAX_FRICTION_IMPULSE {
+            wanted * (MAX_FRICTION_IMPULSE / length_squared.sqrt())
         } else {
             wanted
         };
-        self.rub_by(shape, right, given - so_far);
+        self.apply_friction(shape, right, given - so_far);
         given
     }
 
     /// Applies an impulse of ground friction.
     #[inline]
-    pub(crate) fn rub_by(&mut self, shape: &Shape, right: Vec2, impulse: Vec2) {
+    pub(crate) fn apply_friction(&mut self, shape: &Shape, right: Vec2, impulse: Vec2) {
         let twist = -right.dot(impulse) * shape.origin;
-        self.0 += Vec3::new(impulse.x, impulse.y, twist) * shape.yielding;
+        self.0 += Vec3::new(impulse.x, impulse.y, twist) * shape.inverse_mass_vector;
     }
 }

@@ -1,25 +1,25 @@
 //! Contacts of two shapes of each kind: disc, agent, wall.
 
 use crate::{
-    body::{Motion, Shape},
+    body::{BodyMotion, Shape},
     clip::{clip, name},
+    constants::SKIN,
     manifold::{Manifold, Reference},
     polygon::Polygon,
-    tuning::SKIN,
     wall::Wall,
 };
 use phase_model::Vec2;
 
 /// Sides whose gaps differ by less than this tie, and the first wins (u). Bodies that start in the same place
 /// are such ties, and rounding must not decide where they go.
-const TIE: f32 = 1e-5;
+const TIE_TOLERANCE: f32 = 1e-5;
 
 /// The first shape's side is the reference unless the second's gap exceeds this share of the first's and
 /// this much on top (u).
-const PREFERENCE: (f32, f32) = (0.98, 0.001);
+const REFERENCE_BIAS: (f32, f32) = (0.98, 0.001);
 
 /// Contact of two discs.
-pub(crate) fn discs(a: &Motion, b: &Motion, skins: f32) -> Manifold {
+pub(crate) fn discs(a: &BodyMotion, b: &BodyMotion, skins: f32) -> Manifold {
     if a.centre.distance_squared(b.centre) > skins * skins {
         return Manifold::NONE;
     }
@@ -27,15 +27,15 @@ pub(crate) fn discs(a: &Motion, b: &Motion, skins: f32) -> Manifold {
 }
 
 /// Contact of an agent (first) and a disc (second).
-pub(crate) fn agent_disc(shape: &Shape, agent: &Motion, disc: &Motion, skins: f32) -> Manifold {
-    let centre = agent.turn_back(disc.centre - agent.centre);
+pub(crate) fn agent_disc(shape: &Shape, agent: &BodyMotion, disc: &BodyMotion, skins: f32) -> Manifold {
+    let centre = agent.to_local(disc.centre - agent.centre);
     let (mut side, mut gap) = (0, f32::MIN);
     for k in 0..4 {
         let along = shape.normals[k].dot(centre - shape.corners[k]);
         if along > skins {
             return Manifold::NONE;
         }
-        if along > gap + TIE {
+        if along > gap + TIE_TOLERANCE {
             (side, gap) = (k, along);
         }
     }
@@ -61,7 +61,7 @@ pub(crate) fn agent_disc(shape: &Shape, agent: &Motion, disc: &Motion, skins: f3
 }
 
 /// Contact of a wall (first) and a disc (second).
-pub(crate) fn wall_disc(wall: &Wall, disc: &Motion, skins: f32) -> Manifold {
+pub(crate) fn wall_disc(wall: &Wall, disc: &BodyMotion, skins: f32) -> Manifold {
     let along = wall.b - wall.a;
     let (to_b, from_a) = (along.dot(wall.b - disc.centre), along.dot(disc.centre - wall.a));
     let end = if from_a <= 0.0 {
@@ -86,22 +86,22 @@ pub(crate) fn wall_disc(wall: &Wall, disc: &Motion, skins: f32) -> Manifold {
 }
 
 /// Contact of two agents.
-pub(crate) fn agents(first: (&Motion, &Polygon), second: (&Motion, &Polygon)) -> Manifold {
+pub(crate) fn agents(first: (&BodyMotion, &Polygon), second: (&BodyMotion, &Polygon)) -> Manifold {
     const SKINS: f32 = 2.0 * SKIN;
     let towards = second.0.centre - first.0.centre;
-    let (side_a, gap_a) = first.1.widest_gap(second.1, towards);
+    let (side_a, gap_a) = first.1.max_separation(second.1, towards);
     if gap_a > SKINS {
         return Manifold::NONE;
     }
-    let (side_b, gap_b) = second.1.widest_gap(first.1, -towards);
+    let (side_b, gap_b) = second.1.max_separation(first.1, -towards);
     if gap_b > SKINS {
         return Manifold::NONE;
     }
-    let flipped = gap_b > PREFERENCE.0 * gap_a + PREFERENCE.1;
+    let flipped = gap_b > REFERENCE_BIAS.0 * gap_a + REFERENCE_BIAS.1;
     let (reference, incident, side) = if flipped { (second, first, side_b) } else { (first, second, side_a) };
     let normal = reference.1.normals[side];
     let next = (side + 1) % 4;
-    let other_side = incident.1.side_against(normal);
+    let other_side = incident.1.incident_side(normal);
     let tangent = normal.perp();
     let face = [reference.1.corners[side], reference.1.corners[next]];
     let Some(clipped) = clip(
@@ -113,13 +113,13 @@ pub(crate) fn agents(first: (&Motion, &Polygon), second: (&Motion, &Polygon)) ->
     };
     let mut manifold = Manifold {
         reference: if flipped { Reference::Second } else { Reference::First },
-        normal: reference.0.turn_back(normal),
-        anchor: reference.0.turn_back((face[0] + face[1]) * 0.5 - reference.0.centre),
+        normal: reference.0.to_local(normal),
+        anchor: reference.0.to_local((face[0] + face[1]) * 0.5 - reference.0.centre),
         ..Manifold::NONE
     };
     for (point, name) in clipped {
         if normal.dot(point - face[0]) <= SKINS {
-            manifold.points[manifold.count] = incident.0.turn_back(point - incident.0.centre);
+            manifold.points[manifold.count] = incident.0.to_local(point - incident.0.centre);
             manifold.names[manifold.count] = if flipped { name.swap_bytes() } else { name };
             manifold.count += 1;
         }
@@ -128,7 +128,7 @@ pub(crate) fn agents(first: (&Motion, &Polygon), second: (&Motion, &Polygon)) ->
 }
 
 /// Contact of a wall (first) and an agent (second).
-pub(crate) fn wall_agent(wall: &Wall, agent: &Motion, polygon: &Polygon) -> Manifold {
+pub(crate) fn wall_agent(wall: &Wall, agent: &BodyMotion, polygon: &Polygon) -> Manifold {
     const SKINS: f32 = 2.0 * SKIN;
     let front = wall.normal.dot(agent.centre - wall.a) >= 0.0;
     let wall_normal = if front { wall.normal } else { -wall.normal };
@@ -149,7 +149,7 @@ pub(crate) fn wall_agent(wall: &Wall, agent: &Motion, polygon: &Polygon) -> Mani
             (side, side_gap) = (k, separation);
         }
     }
-    let by_side = side_gap > PREFERENCE.0 * gap + PREFERENCE.1;
+    let by_side = side_gap > REFERENCE_BIAS.0 * gap + REFERENCE_BIAS.1;
     let (normal, face, incident) = if by_side {
         let next = (side + 1) % 4;
         (
@@ -160,7 +160,7 @@ pub(crate) fn wall_agent(wall: &Wall, agent: &Motion, polygon: &Polygon) -> Mani
     } else {
         let face =
             if front { [(wall.a, 0.0, 0), (wall.b, 0.0, 1)] } else { [(wall.b, 0.0, 1), (wall.a, 0.0, 0)] };
-        let facing = polygon.side_against(wall_normal);
+        let facing = polygon.incident_side(wall_normal);
         let named = |k: usize| (polygon.corners[k], name(false, 0, true, k));
         let incident = [named(facing), named((facing + 1) % 4)];
         (wall_normal, face, incident)
@@ -172,8 +172,8 @@ pub(crate) fn wall_agent(wall: &Wall, agent: &Motion, polygon: &Polygon) -> Mani
     let mut manifold = Manifold::NONE;
     if by_side {
         manifold.reference = Reference::Second;
-        manifold.normal = agent.turn_back(normal);
-        manifold.anchor = agent.turn_back(face[0].0 - agent.centre);
+        manifold.normal = agent.to_local(normal);
+        manifold.anchor = agent.to_local(face[0].0 - agent.centre);
     } else {
         manifold.reference = Reference::First;
         manifold.normal = normal;
@@ -182,7 +182,7 @@ pub(crate) fn wall_agent(wall: &Wall, agent: &Motion, polygon: &Polygon) -> Mani
     for (point, name) in clipped {
         if normal.dot(point - face[0].0) <= SKINS {
             manifold.points[manifold.count] =
-                if by_side { point } else { agent.turn_back(point - agent.centre) };
+                if by_side { point } else { agent.to_local(point - agent.centre) };
             manifold.names[manifold.count] = if by_side { name.swap_bytes() } else { name };
             manifold.count += 1;
         }

@@ -1,15 +1,15 @@
 //! One contact as a constraint: bodies may not approach each other at its points.
 
 use crate::{
-    body::{Motion, STATIC, Shape, Twist},
+    body::{BodyMotion, STATIC, Shape, Twist},
+    constants::{LINEAR_SLOP, MAX_CORRECTION},
     manifold::Manifold,
-    tuning::{LONGEST_CORRECTION, SLOP},
 };
 use glam::Vec3;
 use phase_model::Vec2;
 
 /// Two points whose effective masses differ by more than this are solved as one.
-const WORST_CONDITION: f32 = 1000.0;
+const MAX_CONDITION_NUMBER: f32 = 1000.0;
 
 /// A touching contact and all that its solution needs.
 #[derive(Clone, Copy, Debug)]
@@ -57,34 +57,34 @@ impl Contact {
     }
 
     /// Works out where impulses act and what they do, at the present poses.
-    pub(crate) fn prepare(&mut self, shapes: &[Shape; 5], motions: &[Motion; 5]) {
+    pub(crate) fn prepare(&mut self, shapes: &[Shape; 5], motions: &[BodyMotion; 5]) {
         let (a, b) = (&motions[self.a], &motions[self.b]);
         self.place(&shapes[self.a], &shapes[self.b], a, b, [a.centre, b.centre], false);
-        self.respond(shapes[self.a].yielding, shapes[self.b].yielding, false);
+        self.compute_response(shapes[self.a].inverse_mass_vector, shapes[self.b].inverse_mass_vector, false);
     }
 
     /// The same where the two bodies are parts of rigid groups with these names, centres of mass (u) and
-    /// [`Shape::yielding`].
+    /// [`Shape::inverse_mass_vector`].
     #[inline]
     pub(crate) fn prepare_rigid(
         &mut self,
         names: (usize, usize),
         centres: [Vec2; 2],
-        yielding: [Vec3; 2],
+        inverse_mass_vector: [Vec3; 2],
         shapes: &[Shape; 5],
-        motions: &[Motion; 5],
+        motions: &[BodyMotion; 5],
     ) {
         self.groups = names;
         let (a, b) = (&motions[self.a], &motions[self.b]);
         self.place(&shapes[self.a], &shapes[self.b], a, b, centres, self.a == STATIC);
-        self.respond(yielding[0], yielding[1], self.a == STATIC);
+        self.compute_response(inverse_mass_vector[0], inverse_mass_vector[1], self.a == STATIC);
     }
 
     /// The same for a contact with a wall, of which only the second body has a say.
-    pub(crate) fn prepare_alone(&mut self, shapes: &[Shape; 5], motion: &Motion) {
+    pub(crate) fn prepare_alone(&mut self, shapes: &[Shape; 5], motion: &BodyMotion) {
         let (wall, shape) = (&shapes[STATIC], &shapes[self.b]);
-        self.place(wall, shape, &Motion::STILL, motion, [Vec2::ZERO, motion.centre], true);
-        self.respond(wall.yielding, shape.yielding, true);
+        self.place(wall, shape, &BodyMotion::AT_REST, motion, [Vec2::ZERO, motion.centre], true);
+        self.compute_response(wall.inverse_mass_vector, shape.inverse_mass_vector, true);
     }
 
     /// Works out where impulses act, and so what a unit of them is to each side, about its centre of mass.
@@ -93,8 +93,8 @@ impl Contact {
         &mut self,
         shape_a: &Shape,
         shape_b: &Shape,
-        a: &Motion,
-        b: &Motion,
+        a: &BodyMotion,
+        b: &BodyMotion,
         centres: [Vec2; 2],
         alone: bool,
     ) {
@@ -111,17 +111,17 @@ impl Contact {
 
     /// Works out what impulses do to both sides, of which the first may be a wall.
     #[inline(always)]
-    fn respond(&mut self, yielding_a: Vec3, yielding_b: Vec3, alone: bool) {
+    fn compute_response(&mut self, yielding_a: Vec3, yielding_b: Vec3, alone: bool) {
         let rows = &self.rows;
-        let respond = |i: usize, j: usize| {
+        let compute_response = |i: usize, j: usize| {
             let on_b = rows[i].1.through(rows[j].1, yielding_b);
             if alone { on_b } else { rows[i].0.through(rows[j].0, yielding_a) + on_b }
         };
-        self.response[0] = respond(0, 0);
+        self.response[0] = compute_response(0, 0);
         if self.count == 2 {
-            let [first, cross, second] = [self.response[0], respond(0, 1), respond(1, 1)];
+            let [first, cross, second] = [self.response[0], compute_response(0, 1), compute_response(1, 1)];
             let determinant = first * second - cross * cross;
-            if first * first < WORST_CONDITION * determinant {
+            if first * first < MAX_CONDITION_NUMBER * determinant {
                 let scale = 1.0 / determinant;
                 self.response = [first, cross, second];
                 self.inverse = [second * scale, -cross * scale, first * scale];
@@ -134,7 +134,7 @@ impl Contact {
     /// Applies the impulses so far, those of the substep before as a first guess.
     pub(crate) fn warm_start(&self, shapes: &[Shape; 5], twists: &mut [Twist; 5]) {
         for point in 0..self.count {
-            self.apply(|body| shapes[body].yielding, twists, point, self.impulses[point]);
+            self.apply(|body| shapes[body].inverse_mass_vector, twists, point, self.impulses[point]);
         }
     }
 
@@ -142,20 +142,24 @@ impl Contact {
     #[inline]
     pub(crate) fn warm_start_alone(&self, shape: &Shape, twist: &mut Twist) {
         for point in 0..self.count {
-            twist.push(self.rows[point].1, self.impulses[point], shape.yielding);
+            twist.push(self.rows[point].1, self.impulses[point], shape.inverse_mass_vector);
         }
     }
 
-    /// One iteration of the velocity solver, for bodies or groups that yield as told ([`Shape::yielding`]).
+    /// One iteration of the velocity solver, for bodies or groups that yield as told ([`Shape::inverse_mass_vector`]).
     /// Returns the greatest change of an impulse (N s).
     #[inline]
-    pub(crate) fn solve(&mut self, yielding: impl Fn(usize) -> Vec3, twists: &mut [Twist; 5]) -> f32 {
+    pub(crate) fn solve(
+        &mut self,
+        inverse_mass_vector: impl Fn(usize) -> Vec3,
+        twists: &mut [Twist; 5],
+    ) -> f32 {
         let changes = self
             .changes(|(row_a, row_b)| row_a.dot(twists[self.groups.0]) + row_b.dot(twists[self.groups.1]));
         for (point, &change) in changes.iter().enumerate().take(self.count) {
             if change != 0.0 {
                 self.impulses[point] += change;
-                self.apply(&yielding, twists, point, change);
+                self.apply(&inverse_mass_vector, twists, point, change);
             }
         }
         changes[0].abs().max(changes[1].abs())
@@ -168,7 +172,7 @@ impl Contact {
         for (point, &change) in changes.iter().enumerate().take(self.count) {
             if change != 0.0 {
                 self.impulses[point] += change;
-                twist.push(self.rows[point].1, change, shape.yielding);
+                twist.push(self.rows[point].1, change, shape.inverse_mass_vector);
             }
         }
         changes[0].abs().max(changes[1].abs())
@@ -184,16 +188,16 @@ impl Contact {
         }
         let [first, cross, second] = self.response;
         // Speeds there would be without the impulses so far.
-        let bare = [
+        let free_speeds = [
             speed(&self.rows[0]) - first * before[0] - cross * before[1],
             speed(&self.rows[1]) - cross * before[0] - second * before[1],
         ];
-        self.complementary(bare).map_or([0.0; 2], |after| [after[0] - before[0], after[1] - before[1]])
+        self.solve_lcp(free_speeds).map_or([0.0; 2], |after| [after[0] - before[0], after[1] - before[1]])
     }
 
     /// The normal at one of the points, where that lies, and the gap there, negative where shapes overlap (u).
     #[inline]
-    pub(crate) fn gap(&self, motions: &[Motion; 5], point: usize) -> (Vec2, Vec2, f32) {
+    pub(crate) fn gap(&self, motions: &[BodyMotion; 5], point: usize) -> (Vec2, Vec2, f32) {
         if self.a == STATIC {
             self.manifold.gap_to_wall(&motions[self.b], self.skins, point)
         } else {
@@ -203,7 +207,7 @@ impl Contact {
 
     /// One iteration of the position solver, which takes back a share of the overlap. Returns the gap found
     /// before, negative where shapes overlap (u).
-    pub(crate) fn separate(&self, shapes: &[Shape; 5], motions: &mut [Motion; 5], share: f32) -> f32 {
+    pub(crate) fn separate(&self, shapes: &[Shape; 5], motions: &mut [BodyMotion; 5], share: f32) -> f32 {
         if self.a == STATIC {
             return self.separate_alone(&shapes[self.b], &mut motions[self.b], share);
         }
@@ -213,7 +217,7 @@ impl Contact {
             let (a, b) = (&motions[self.a], &motions[self.b]);
             let (normal, at, gap) = self.manifold.gap(a, b, self.skins, point);
             least = least.min(gap);
-            if gap >= -SLOP {
+            if gap >= -LINEAR_SLOP {
                 continue;
             }
             let (offset_a, offset_b) = (at - a.centre, at - b.centre);
@@ -231,12 +235,12 @@ impl Contact {
 
     /// The same for a contact with a wall.
     #[inline]
-    pub(crate) fn separate_alone(&self, shape: &Shape, motion: &mut Motion, share: f32) -> f32 {
+    pub(crate) fn separate_alone(&self, shape: &Shape, motion: &mut BodyMotion, share: f32) -> f32 {
         let mut least = f32::MAX;
         for point in 0..self.manifold.count {
             let (normal, at, gap) = self.manifold.gap_to_wall(motion, self.skins, point);
             least = least.min(gap);
-            if gap >= -SLOP {
+            if gap >= -LINEAR_SLOP {
                 continue;
             }
             let offset = at - motion.centre;
@@ -248,41 +252,47 @@ impl Contact {
     }
 
     #[inline]
-    fn apply(&self, yielding: impl Fn(usize) -> Vec3, twists: &mut [Twist; 5], point: usize, impulse: f32) {
+    fn apply(
+        &self,
+        inverse_mass_vector: impl Fn(usize) -> Vec3,
+        twists: &mut [Twist; 5],
+        point: usize,
+        impulse: f32,
+    ) {
         let (row_a, row_b) = self.rows[point];
         let (a, b) = self.groups;
-        twists[a].push(row_a, impulse, yielding(a));
-        twists[b].push(row_b, impulse, yielding(b));
+        twists[a].push(row_a, impulse, inverse_mass_vector(a));
+        twists[b].push(row_b, impulse, inverse_mass_vector(b));
     }
 
     /// Impulses at both points such that nothing approaches, nothing pulls, and no impulse acts where the
     /// bodies part: a complementarity problem small enough to try all four cases. Takes the speeds without
     /// any impulse.
     #[inline]
-    fn complementary(&self, bare: [f32; 2]) -> Option<[f32; 2]> {
+    fn solve_lcp(&self, free_speeds: [f32; 2]) -> Option<[f32; 2]> {
         let [first, cross, second] = self.response;
         let [inverse_first, inverse_cross, inverse_second] = self.inverse;
         let both = [
-            -(inverse_first * bare[0] + inverse_cross * bare[1]),
-            -(inverse_cross * bare[0] + inverse_second * bare[1]),
+            -(inverse_first * free_speeds[0] + inverse_cross * free_speeds[1]),
+            -(inverse_cross * free_speeds[0] + inverse_second * free_speeds[1]),
         ];
         if both[0] >= 0.0 && both[1] >= 0.0 {
             return Some(both);
         }
-        let alone = -bare[0] / first;
-        if alone >= 0.0 && cross * alone + bare[1] >= 0.0 {
+        let alone = -free_speeds[0] / first;
+        if alone >= 0.0 && cross * alone + free_speeds[1] >= 0.0 {
             return Some([alone, 0.0]);
         }
-        let alone = -bare[1] / second;
-        if alone >= 0.0 && cross * alone + bare[0] >= 0.0 {
+        let alone = -free_speeds[1] / second;
+        if alone >= 0.0 && cross * alone + free_speeds[0] >= 0.0 {
             return Some([0.0, alone]);
         }
-        (bare[0] >= 0.0 && bare[1] >= 0.0).then_some([0.0, 0.0])
+        (free_speeds[0] >= 0.0 && free_speeds[1] >= 0.0).then_some([0.0, 0.0])
     }
 }
 
 /// How far one iteration of the position solver takes bodies apart that overlap (u).
 #[inline]
 pub(crate) fn correction(share: f32, gap: f32) -> f32 {
-    (-share * (gap + SLOP)).min(LONGEST_CORRECTION)
+    (-share * (gap + LINEAR_SLOP)).min(MAX_CORRECTION)
 }

@@ -1,8 +1,8 @@
 //! The last resort: no centre of mass leaves the arena or crosses a wall, whatever the solver did.
 
 use crate::{
+    constants::BOUNDARY_MARGIN,
     key::{KeySet, bit, wall_key},
-    tuning::BOUNDARY_MARGIN,
     world::World,
 };
 use phase_model::{Segment, Vec2, arena};

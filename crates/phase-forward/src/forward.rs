@@ -1,10 +1,10 @@
 //! The kernel: what never changes of a scene's physics, and steps from state to state.
 
 use crate::{
-    coarse, finish::stop_turning, key::BodySet, memory::Memory, model::Model, reach, touching::Touching,
-    tuning::VELOCITY_ITERATIONS, world::World,
+    coarse, constants::VELOCITY_ITERATIONS, finish::stop_turning, key::BodyMask, model::Model, reach,
+    solver_cache::SolverCache, touching::ContactSet, world::World,
 };
-use phase_model::{AGENT_COUNT, Action, Dynamics, Physique, State, arena::SUBSTEPS};
+use phase_model::{AGENT_COUNT, Action, Dynamics, PhysicsConfig, State, arena::SUBSTEPS};
 
 /// Iterations of the velocity solver in a substep that starts without impulses.
 const COLD_ITERATIONS: usize = 20;
@@ -20,8 +20,8 @@ pub struct Forward {
 impl Forward {
     /// Prepares the dynamics of a scene.
     #[must_use]
-    pub fn new(physique: &Physique) -> Self {
-        Self { model: Model::new(physique) }
+    pub fn new(physics: &PhysicsConfig) -> Self {
+        Self { model: Model::new(physics) }
     }
 
     /// One step (five substeps) from a state alone, with the state after each substep. Impulses of contacts
@@ -37,23 +37,23 @@ impl Forward {
 
     /// One step (five substeps) that goes on from the impulses of the step before, with the state after each
     /// substep: for replaying recordings as faithfully as possible. The memory must come from
-    /// [`Forward::remember`] or from the step that led to this state.
+    /// [`Forward::fresh_cache`] or from the step that led to this state.
     pub fn step_warm(
         &self,
         state: &mut State,
-        memory: &mut Memory,
+        solver_cache: &mut SolverCache,
         actions: [Action; AGENT_COUNT],
     ) -> [State; SUBSTEPS] {
         let mut world = World::new(&self.model, state, actions);
-        memory.enter(&mut world);
+        solver_cache.enter(&mut world);
         world.grab(state);
         let mut substeps = [*state; SUBSTEPS];
         for substep in &mut substeps {
-            self.substep_warm(&mut world, memory);
-            world.finish(state, memory.alive());
+            self.substep_warm(&mut world, solver_cache);
+            world.finish(state, solver_cache.active_pairs());
             *substep = *state;
         }
-        memory.leave(&world);
+        solver_cache.leave(&world);
         stop_turning(state);
         substeps[SUBSTEPS - 1] = *state;
         substeps
@@ -67,27 +67,27 @@ impl Forward {
     /// The memory of a world that has just been set up in a state: no impulses, every pair in reach ready
     /// to touch.
     #[must_use]
-    pub fn remember(&self, state: &State) -> Memory {
-        Memory::new(&World::new(&self.model, state, [Action::NoForce; AGENT_COUNT]))
+    pub fn fresh_cache(&self, state: &State) -> SolverCache {
+        SolverCache::new(&World::new(&self.model, state, [Action::NoForce; AGENT_COUNT]))
     }
 
     /// One substep of 1/60 s in which nobody acts. The original runs one before the first step, which pushes
     /// overlapping bodies apart.
     pub fn settle(&self, state: &mut State) {
         let mut world = World::new(&self.model, state, [Action::NoForce; AGENT_COUNT]);
-        let mut touching = Touching::NONE;
+        let mut touching = ContactSet::NONE;
         self.substep_cold(&mut world, self.model.everyone(), &mut touching);
         world.finish(state, !0);
         stop_turning(state);
     }
 
     /// [`Forward::settle`] with memory.
-    pub fn settle_warm(&self, state: &mut State, memory: &mut Memory) {
+    pub fn settle_warm(&self, state: &mut State, solver_cache: &mut SolverCache) {
         let mut world = World::new(&self.model, state, [Action::NoForce; AGENT_COUNT]);
-        memory.enter(&mut world);
-        self.substep_warm(&mut world, memory);
-        memory.leave(&world);
-        world.finish(state, memory.alive());
+        solver_cache.enter(&mut world);
+        self.substep_warm(&mut world, solver_cache);
+        solver_cache.leave(&world);
+        world.finish(state, solver_cache.active_pairs());
         stop_turning(state);
     }
 
@@ -100,10 +100,10 @@ impl Forward {
         mut observe: impl FnMut(&mut World<'_>, usize),
     ) {
         let mut world = World::new(&self.model, state, actions);
-        let let_go = world.grab(state);
-        world.part(state, let_go);
-        let members = reach::members(&mut world);
-        if members == 0 && !ALL {
+        let released = world.grab(state);
+        world.exclude_pairs(state, released);
+        let reachable_bodies = reach::reachable_bodies(&mut world);
+        if reachable_bodies == 0 && !ALL {
             for body in AGENT_COUNT..self.model.count {
                 self.drift(&mut world, body, SUBSTEPS);
             }
@@ -113,9 +113,9 @@ impl Forward {
                 self.drift(&mut world, 1, 1);
             }
         } else {
-            self.step_together(&mut world, members, &mut observe);
+            self.step_together(&mut world, reachable_bodies, &mut observe);
         }
-        world.finish(state, if members == 0 { 0 } else { !0 });
+        world.finish(state, if reachable_bodies == 0 { 0 } else { !0 });
         stop_turning(state);
     }
 
@@ -123,20 +123,20 @@ impl Forward {
     fn step_together(
         &self,
         world: &mut World<'_>,
-        members: BodySet,
+        reachable_bodies: BodyMask,
         observe: &mut impl FnMut(&mut World<'_>, usize),
     ) {
-        let mut touching = Touching::NONE;
+        let mut touching = ContactSet::NONE;
         for substep in 0..SUBSTEPS {
             for body in 0..self.model.count {
-                if members & 1 << body == 0 {
+                if reachable_bodies & 1 << body == 0 {
                     self.drift(world, body, 1);
                 }
             }
             world.iterations = if substep == 0 { COLD_ITERATIONS } else { VELOCITY_ITERATIONS };
-            self.substep_cold(world, members, &mut touching);
-            if world.let_go != 0 {
-                world.reunite();
+            self.substep_cold(world, reachable_bodies, &mut touching);
+            if world.released != 0 {
+                world.restore_pairs();
             }
             observe(world, substep);
         }
@@ -147,25 +147,28 @@ impl Forward {
     fn drift(&self, world: &mut World<'_>, body: usize, substeps: usize) {
         let (shape, motion) = (&self.model.shapes[body], &mut world.motions[body]);
         let action = if body < AGENT_COUNT { world.actions[body] } else { Action::NoForce };
-        if motion.is_still() && action.push().is_none() && action.turn() == 0.0 {
+        if motion.is_at_rest() && action.push().is_none() && action.turn() == 0.0 {
             return;
         }
         for _ in 0..substeps {
             motion.act(shape, action);
-            motion.slide(shape);
+            motion.coast(shape);
         }
         world.moved(body);
     }
 
     /// One substep of bodies that may touch each other and walls.
-    fn substep_cold(&self, world: &mut World<'_>, members: BodySet, touching: &mut Touching) {
-        let Some((busy, candidates)) = reach::at_work(world, members, world.apart) else { return };
+    fn substep_cold(&self, world: &mut World<'_>, reachable_bodies: BodyMask, touching: &mut ContactSet) {
+        let Some((active, candidates)) = reach::active_set(world, reachable_bodies, world.excluded_pairs)
+        else {
+            return;
+        };
         touching.replace(world.contacts(candidates));
         let before = world.outlines.boxes;
-        world.solve(busy, touching);
-        world.outline(busy);
+        world.solve(active, touching);
+        world.outline(active);
         for (body, start) in before.into_iter().enumerate() {
-            if busy & 1 << body != 0 && reach::may_meet_wall(world, body, start) {
+            if active & 1 << body != 0 && reach::may_meet_wall(world, body, start) {
                 let walls = reach::walls_swept(world, body);
                 world.impacts(body, walls);
                 world.contain(body, walls);
@@ -173,22 +176,22 @@ impl Forward {
         }
     }
 
-    fn substep_warm(&self, world: &mut World<'_>, memory: &mut Memory) {
-        memory.drop_dead(world);
+    fn substep_warm(&self, world: &mut World<'_>, solver_cache: &mut SolverCache) {
+        solver_cache.drop_stale(world);
         world.all_moved();
         world.outline(self.model.everyone());
-        memory.touching.replace(world.contacts(memory.alive()));
-        memory.newest_first();
-        world.solve(self.model.everyone(), &mut memory.touching);
-        memory.follow(world);
+        solver_cache.touching.replace(world.contacts(solver_cache.active_pairs()));
+        solver_cache.sort_newest_first();
+        world.solve(self.model.everyone(), &mut solver_cache.touching);
+        solver_cache.update_boxes(world);
         for body in 0..self.model.count {
             let walls = reach::walls_swept(world, body);
-            if world.impacts(body, walls & memory.alive()).is_some() {
-                memory.follow_one(world, body);
+            if world.impacts(body, walls & solver_cache.active_pairs()).is_some() {
+                solver_cache.update_box(world, body);
             }
             world.contain(body, walls);
         }
-        memory.find_new(world);
+        solver_cache.find_new_pairs(world);
     }
 }
 
@@ -199,7 +202,7 @@ impl Dynamics for Forward {
     }
 
     /// [`Forward::step_coarse`].
-    fn imagine(&self, state: &mut State, actions: [Action; AGENT_COUNT]) {
+    fn step_approximate(&self, state: &mut State, actions: [Action; AGENT_COUNT]) {
         self.step_coarse(state, actions);
     }
 }

@@ -1,19 +1,19 @@
 //! Bodies that hold each other, taken as one rigid body.
 
 use crate::{
-    body::{Motion, STATIC, Shape, Twist},
+    body::{BodyMotion, STATIC, Shape, Twist},
+    constants::{H, LINEAR_SLOP, MAX_ROTATION, MAX_TRANSLATION},
     contact::{Contact, correction},
-    key::{BodySet, KeySet, PAIRS, bit, pair_key},
-    tuning::{GREATEST_TURN, H, LONGEST_WAY, SLOP},
+    key::{BodyMask, KeySet, PAIRS, bit, pair_key},
     turn::turned,
     world::World,
 };
 use glam::Vec3;
-use phase_model::{AGENT_COUNT, Action, Vec2, physique::GROUND_FRICTION};
+use phase_model::{AGENT_COUNT, Action, Vec2, physics::GROUND_FRICTION};
 
 /// Fastest that anything goes (u/s) and turns (rad/s), as in the exact kernel.
-const FASTEST: f32 = LONGEST_WAY / H;
-const FASTEST_TURN: f32 = GREATEST_TURN / H;
+const MAX_SPEED: f32 = MAX_TRANSLATION / H;
+const MAX_SPIN: f32 = MAX_ROTATION / H;
 
 /// All bodies of a step in rigid groups. A body that neither holds nor is held is a group of one.
 #[derive(Clone, Debug)]
@@ -21,11 +21,11 @@ pub(crate) struct Groups {
     /// For each body, the body that its group is named after: the one of lowest index in it.
     pub(crate) names: [usize; 5],
     /// The bodies of each group, by name.
-    pub(crate) bodies: [BodySet; 5],
+    pub(crate) bodies: [BodyMask; 5],
     /// Pairs of bodies that belong to the same group, and so cannot touch.
     pub(crate) within: KeySet,
-    /// How groups yield, by name; see [`Shape::yielding`].
-    pub(crate) yielding: [Vec3; 5],
+    /// How groups yield, by name; see [`Shape::inverse_mass_vector`].
+    pub(crate) inverse_mass_vector: [Vec3; 5],
     /// Centres of mass of groups, by name (u).
     pub(crate) centres: [Vec2; 5],
     /// Velocities of groups, by name.
@@ -60,12 +60,12 @@ impl Groups {
             names,
             bodies,
             within,
-            yielding: world.model.shapes.each_ref().map(|shape| shape.yielding),
+            inverse_mass_vector: world.model.shapes.each_ref().map(|shape| shape.inverse_mass_vector),
             centres: [Vec2::ZERO; 5],
             twists: [Twist::ZERO; 5],
         };
         for name in 0..world.model.count {
-            groups.weigh(name, world);
+            groups.compute_mass(name, world);
         }
         groups
     }
@@ -77,12 +77,12 @@ impl Groups {
     }
 
     /// The names of the groups that some bodies belong to, as a set.
-    pub(crate) fn names_of(&self, bodies: BodySet) -> BodySet {
+    pub(crate) fn names_of(&self, bodies: BodyMask) -> BodyMask {
         (0..4).filter(|body| bodies & 1 << body != 0).fold(0, |names, body| names | 1 << self.names[body])
     }
 
     /// Works out mass, centre and moment of inertia of a group of several.
-    fn weigh(&mut self, name: usize, world: &World<'_>) {
+    fn compute_mass(&mut self, name: usize, world: &World<'_>) {
         if self.bodies[name].count_ones() < 2 {
             return;
         }
@@ -99,11 +99,11 @@ impl Groups {
             inertia += 1.0 / shapes[body].inverse_inertia + shapes[body].mass * arm;
         }
         self.centres[name] = centre;
-        self.yielding[name] = Vec3::new(1.0 / mass, 1.0 / mass, 1.0 / inertia);
+        self.inverse_mass_vector[name] = Vec3::new(1.0 / mass, 1.0 / mass, 1.0 / inertia);
     }
 
     /// Takes over the velocities of a group's bodies: their momentum and angular momentum stay what they are.
-    pub(crate) fn gather(&mut self, name: usize, world: &World<'_>) {
+    pub(crate) fn gather_momentum(&mut self, name: usize, world: &World<'_>) {
         if self.bodies[name].count_ones() < 2 {
             let motion = &world.motions[name];
             self.centres[name] = motion.centre;
@@ -117,11 +117,11 @@ impl Groups {
             sum.0 += Twist::of_impulse(momentum, motion.centre - self.centres[name]).0;
             sum.0.z += motion.spin / shape.inverse_inertia;
         }
-        self.twists[name] = Twist(sum.0 * self.yielding[name]);
+        self.twists[name] = Twist(sum.0 * self.inverse_mass_vector[name]);
     }
 
     /// Gives a group's bodies the group's velocity.
-    pub(crate) fn spread(&self, name: usize, world: &mut World<'_>) {
+    pub(crate) fn distribute_velocity(&self, name: usize, world: &mut World<'_>) {
         let (velocity, spin) = self.twists[name].parts();
         for body in self.bodies_of(name) {
             let motion = &mut world.motions[body];
@@ -135,7 +135,7 @@ impl Groups {
     pub(crate) fn stop(&mut self, body: usize, world: &World<'_>, substeps: u8) {
         let name = self.names[body];
         let (shape, motion) = (&world.model.shapes[body], &world.motions[body]);
-        let share = shape.mass * self.yielding[name].x;
+        let share = shape.mass * self.inverse_mass_vector[name].x;
         let mut left = 1.0;
         for _ in 0..substeps {
             left *= 1.0 - share;
@@ -144,7 +144,7 @@ impl Groups {
         let (velocity, spin) = self.twists[name].parts();
         let own = velocity + arm.perp() * spin;
         let impulse = own * (-shape.mass * (1.0 - left) / share);
-        self.twists[name].push(Twist::of_impulse(impulse, arm), 1.0, self.yielding[name]);
+        self.twists[name].push(Twist::of_impulse(impulse, arm), 1.0, self.inverse_mass_vector[name]);
     }
 
     /// Lets an agent's push or turn act for some seconds.
@@ -157,7 +157,7 @@ impl Groups {
         } else {
             Twist(Vec3::new(0.0, 0.0, action.turn() * shape.turn_torque * seconds))
         };
-        self.twists[name].push(impulse, 1.0, self.yielding[name]);
+        self.twists[name].push(impulse, 1.0, self.inverse_mass_vector[name]);
     }
 
     /// Whether a body's action moves anything.
@@ -168,31 +168,34 @@ impl Groups {
     /// Limits a group's velocity.
     pub(crate) fn limit(&mut self, name: usize) {
         let (velocity, spin) = self.twists[name].parts();
-        let velocity = velocity.clamp_length_max(FASTEST);
-        self.twists[name] = Twist(velocity.extend(spin.clamp(-FASTEST_TURN, FASTEST_TURN)));
+        let velocity = velocity.clamp_length_max(MAX_SPEED);
+        self.twists[name] = Twist(velocity.extend(spin.clamp(-MAX_SPIN, MAX_SPIN)));
     }
 
     /// Moves and turns a group.
-    pub(crate) fn shift(&mut self, name: usize, world: &mut World<'_>, way: Vec2, turn: f32) {
+    pub(crate) fn shift(&mut self, name: usize, world: &mut World<'_>, sweep: Vec2, turn: f32) {
         let centre = self.centres[name];
         let alone = self.bodies[name].count_ones() < 2;
         let right = if alone { Vec2::X } else { turned(Vec2::X, turn) };
         for body in self.bodies_of(name) {
             let (shape, motion) = (&world.model.shapes[body], &mut world.motions[body]);
-            motion.centre =
-                if alone { motion.centre + way } else { centre + way + right.rotate(motion.centre - centre) };
+            motion.centre = if alone {
+                motion.centre + sweep
+            } else {
+                centre + sweep + right.rotate(motion.centre - centre)
+            };
             motion.rotate(turn, shape);
             world.moved(body);
         }
-        self.centres[name] += way;
+        self.centres[name] += sweep;
     }
 
     /// Works out what impulses of a contact do to the groups that it acts on.
-    pub(crate) fn prepare(&self, contact: &mut Contact, shapes: &[Shape; 5], motions: &[Motion; 5]) {
+    pub(crate) fn prepare(&self, contact: &mut Contact, shapes: &[Shape; 5], motions: &[BodyMotion; 5]) {
         let names = (self.names[contact.a], self.names[contact.b]);
         let centres = [self.centres[names.0], self.centres[names.1]];
-        let yielding = [self.yielding[names.0], self.yielding[names.1]];
-        contact.prepare_rigid(names, centres, yielding, shapes, motions);
+        let inverse_mass_vector = [self.inverse_mass_vector[names.0], self.inverse_mass_vector[names.1]];
+        contact.prepare_rigid(names, centres, inverse_mass_vector, shapes, motions);
     }
 
     /// Takes back a share of the overlap at a contact. Returns the gap found before, negative where shapes
@@ -203,12 +206,12 @@ impl Groups {
         for point in 0..contact.manifold.count {
             let (normal, at, gap) = contact.gap(&world.motions, point);
             least = least.min(gap);
-            if gap >= -SLOP {
+            if gap >= -LINEAR_SLOP {
                 continue;
             }
             let arms = [a, b].map(|name| Twist::of_impulse(normal, at - self.centres[name]));
-            let response =
-                arms[0].through(arms[0], self.yielding[a]) + arms[1].through(arms[1], self.yielding[b]);
+            let response = arms[0].through(arms[0], self.inverse_mass_vector[a])
+                + arms[1].through(arms[1], self.inverse_mass_vector[b]);
             // Where two centres coincide there is no way apart.
             if response <= 0.0 {
                 continue;
@@ -216,8 +219,9 @@ impl Groups {
             let impulse = correction(share, gap) / response;
             for (name, arm, sign) in [(a, arms[0], -1.0), (b, arms[1], 1.0)] {
                 if name != STATIC {
-                    let (way, turn) = Twist(arm.0 * self.yielding[name] * (sign * impulse)).parts();
-                    self.shift(name, world, way, turn);
+                    let (sweep, turn) =
+                        Twist(arm.0 * self.inverse_mass_vector[name] * (sign * impulse)).parts();
+                    self.shift(name, world, sweep, turn);
                 }
             }
         }
@@ -227,7 +231,7 @@ impl Groups {
 
 /// Ground friction on one body of a group, which acts at the body's origin.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Ground {
+pub(crate) struct GroundFriction {
     /// From the group's centre of mass to the body's origin (u).
     offset: Vec2,
     /// The impulse that a unit of slip takes: (xx, xy, yy).
@@ -236,15 +240,21 @@ pub(crate) struct Ground {
     greatest: f32,
 }
 
-impl Ground {
+impl GroundFriction {
     pub(crate) const NONE: Self =
         Self { offset: Vec2::ZERO, mass: [0.0; 3], impulse: Vec2::ZERO, greatest: 0.0 };
 
     /// Friction on a body for some seconds.
-    pub(crate) fn new(body: usize, groups: &Groups, shape: &Shape, motion: &Motion, seconds: f32) -> Self {
+    pub(crate) fn new(
+        body: usize,
+        groups: &Groups,
+        shape: &Shape,
+        motion: &BodyMotion,
+        seconds: f32,
+    ) -> Self {
         let name = groups.names[body];
         let offset = motion.place(Vec2::new(0.0, shape.origin)) - groups.centres[name];
-        let Vec3 { x: m, z: i, .. } = groups.yielding[name];
+        let Vec3 { x: m, z: i, .. } = groups.inverse_mass_vector[name];
         let (xx, xy, yy) =
             (m + i * offset.y * offset.y, -i * offset.x * offset.y, m + i * offset.x * offset.x);
         let scale = 1.0 / (xx * yy - xy * xy);
@@ -258,7 +268,7 @@ impl Ground {
 
     /// One iteration. Returns the greatest change of the impulse (N s).
     #[inline]
-    pub(crate) fn rub(&mut self, twist: &mut Twist, yielding: Vec3) -> f32 {
+    pub(crate) fn solve_friction(&mut self, twist: &mut Twist, inverse_mass_vector: Vec3) -> f32 {
         let (velocity, spin) = twist.parts();
         let slip = velocity + self.offset.perp() * spin;
         let [xx, xy, yy] = self.mass;
@@ -271,7 +281,7 @@ impl Ground {
         };
         let change = given - self.impulse;
         self.impulse = given;
-        twist.push(Twist::of_impulse(change, self.offset), 1.0, yielding);
+        twist.push(Twist::of_impulse(change, self.offset), 1.0, inverse_mass_vector);
         change.abs().max_element()
     }
 }

@@ -9,7 +9,7 @@ pub(crate) const KEYS: usize = 4 * MAX_WALLS + 6;
 pub(crate) const PAIRS: [(usize, usize); 6] = [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)];
 
 /// A set of bodies, one bit each.
-pub(crate) type BodySet = u8;
+pub(crate) type BodyMask = u8;
 
 /// A set of keys, one bit each.
 pub(crate) type KeySet = u64;
@@ -55,7 +55,7 @@ pub(crate) fn wall_keys(mut walls: WallSet, body: usize) -> KeySet {
 }
 
 /// The bodies that belong to some pairs.
-pub(crate) fn bodies_of(pairs: KeySet) -> BodySet {
+pub(crate) fn bodies_of(pairs: KeySet) -> BodyMask {
     let mut bodies = 0;
     if pairs != 0 {
         for (pair, (a, b)) in PAIRS.into_iter().enumerate() {

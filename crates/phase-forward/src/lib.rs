@@ -6,9 +6,9 @@
 //!
 //! - [`phase_model::Dynamics::step`], and [`Forward::step_substeps`] with its five frames, go from a state
 //!   alone. This is what belief particles use.
-//! - [`phase_model::Dynamics::imagine`] goes from a state alone as well, at a fraction of the cost. This is what
+//! - [`phase_model::Dynamics::step_approximate`] goes from a state alone as well, at a fraction of the cost. This is what
 //!   searches use; see below.
-//! - [`Forward::step_warm`] also takes a [`Memory`] of the impulses that acted last, and of the pairs that
+//! - [`Forward::step_warm`] also takes a [`SolverCache`] of the impulses that acted last, and of the pairs that
 //!   were up for contact. This is what replays of recordings need.
 //!
 //! The key design decision is to be the same *kind* of solver as the one that made the published recordings
@@ -22,13 +22,13 @@
 //!
 //! ```
 //! use phase_forward::Forward;
-//! use phase_model::{Action, AgentBody, AgentId, Body, Dynamics, Entity, Physique, State, Vec2};
+//! use phase_model::{Action, AgentBody, AgentId, Body, Dynamics, Entity, PhysicsConfig, State, Vec2};
 //!
 //! let body = AgentBody { radius: 0.8, max_force: 450.0 };
-//! let physique = Physique { walls: Vec::new(), agents: [body; 2], object_radii: [0.0; 2], object_count: 0 };
+//! let physics = PhysicsConfig { walls: Vec::new(), agents: [body; 2], object_radii: [0.0; 2], object_count: 0 };
 //! let places = [Vec2::new(10.0, 6.0), Vec2::new(20.0, 16.0), Vec2::ZERO, Vec2::ZERO];
 //! let start = State::new(places.map(|place| Body::at_rest(place, 0.0))); // both face +y
-//! let forward = Forward::new(&physique);
+//! let forward = Forward::new(&physics);
 //!
 //! let mut state = start;
 //! forward.step(&mut state, [Action::Up, Action::NoForce]);
@@ -56,7 +56,7 @@
 //! # What a state does not say
 //!
 //! Let go of, an object does not touch its holder again before one of them has moved about 0.1 u; if it was
-//! held at a flank it lies a tenth of its radius deep in the agent. [`Memory`] carries this as the original
+//! held at a flank it lies a tenth of its radius deep in the agent. [`SolverCache`] carries this as the original
 //! does. From a state alone, the pair is kept apart in the step of the `detach`, and at the start of later
 //! ones if the object lies deep in a flank just where it was held, does not approach, and was not in contact;
 //! in either case until one of the two has moved away from where it then was.
@@ -85,29 +85,29 @@ mod body;
 mod clip;
 mod coarse;
 mod collide;
+mod constants;
 mod contact;
 mod contain;
 mod continuous;
 mod finish;
 mod forward;
 mod group;
-mod impact;
 mod key;
-mod let_go;
 mod manifold;
-mod memory;
 mod model;
 mod narrow;
 mod outline;
 mod polygon;
 mod reach;
+mod released;
+mod solver_cache;
 mod substep;
+mod time_of_impact;
 mod touching;
-mod tuning;
 mod turn;
 mod wall;
 mod weld;
 mod world;
 
 pub use forward::Forward;
-pub use memory::Memory;
+pub use solver_cache::SolverCache;

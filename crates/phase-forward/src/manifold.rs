@@ -1,6 +1,6 @@
 //! Where two shapes touch: one normal and up to two points, in the frames of the two bodies.
 
-use crate::body::Motion;
+use crate::body::BodyMotion;
 use phase_model::Vec2;
 
 /// Which shape the normal belongs to.
@@ -48,7 +48,7 @@ impl Manifold {
     /// The normal (from the first shape to the second) and, for one of the points, where it lies and how far
     /// the shapes with their skins are apart there, for bodies at the given poses.
     #[inline]
-    pub(crate) fn gap(&self, a: &Motion, b: &Motion, skins: f32, point: usize) -> (Vec2, Vec2, f32) {
+    pub(crate) fn gap(&self, a: &BodyMotion, b: &BodyMotion, skins: f32, point: usize) -> (Vec2, Vec2, f32) {
         match self.reference {
             Reference::Points => {
                 let (from, to) = (a.place(self.anchor), b.place(self.points[0]));
@@ -70,7 +70,7 @@ impl Manifold {
 
     /// [`Manifold::gap`] where the first shape is a wall.
     #[inline]
-    pub(crate) fn gap_to_wall(&self, body: &Motion, skins: f32, point: usize) -> (Vec2, Vec2, f32) {
+    pub(crate) fn gap_to_wall(&self, body: &BodyMotion, skins: f32, point: usize) -> (Vec2, Vec2, f32) {
         match self.reference {
             Reference::Points => {
                 let to = body.place(self.points[0]);
@@ -91,7 +91,13 @@ impl Manifold {
 
     /// The normal and the middles of the overlaps, where impulses act.
     #[inline]
-    pub(crate) fn middles(&self, a: &Motion, b: &Motion, skin_a: f32, skin_b: f32) -> (Vec2, [Vec2; 2]) {
+    pub(crate) fn middles(
+        &self,
+        a: &BodyMotion,
+        b: &BodyMotion,
+        skin_a: f32,
+        skin_b: f32,
+    ) -> (Vec2, [Vec2; 2]) {
         let mut middles = [Vec2::ZERO; 2];
         match self.reference {
             Reference::Points => {

@@ -2,42 +2,42 @@
 
 use crate::{
     body::Shape,
-    key::BodySet,
-    wall::{Boxes, MAX_WALLS, Wall, walls},
+    key::BodyMask,
+    wall::{MAX_WALLS, Wall, WallBoxes, walls},
 };
-use phase_model::{AGENT_COUNT, Physique};
+use phase_model::{AGENT_COUNT, PhysicsConfig};
 
 /// The constants of one scene's dynamics, prepared for stepping.
 ///
 /// At most two objects and four inner walls count, which is all that PHASE has; more are left out.
 #[derive(Clone, Debug)]
 pub(crate) struct Model {
-    pub(crate) physique: Physique,
+    pub(crate) physics: PhysicsConfig,
     pub(crate) shapes: [Shape; 5],
     pub(crate) walls: [Wall; MAX_WALLS],
     pub(crate) wall_count: usize,
-    pub(crate) boxes: Boxes,
+    pub(crate) boxes: WallBoxes,
     pub(crate) count: usize,
 }
 
 impl Model {
     /// Prepares the dynamics of a scene.
-    pub(crate) fn new(physique: &Physique) -> Self {
+    pub(crate) fn new(physics: &PhysicsConfig) -> Self {
         let mut shapes = [Shape::immovable(); 5];
-        for (shape, agent) in shapes.iter_mut().zip(&physique.agents) {
+        for (shape, agent) in shapes.iter_mut().zip(&physics.agents) {
             *shape = Shape::agent(agent);
         }
-        for (shape, radius) in shapes[AGENT_COUNT..4].iter_mut().zip(physique.object_radii) {
+        for (shape, radius) in shapes[AGENT_COUNT..4].iter_mut().zip(physics.object_radii) {
             *shape = Shape::object(radius);
         }
-        let (walls, wall_count) = walls(&physique.walls);
-        let count = physique.entity_count().min(4);
-        let boxes = Boxes::new(&walls[..wall_count]);
-        Self { physique: physique.clone(), shapes, walls, wall_count, boxes, count }
+        let (walls, wall_count) = walls(&physics.walls);
+        let count = physics.entity_count().min(4);
+        let boxes = WallBoxes::new(&walls[..wall_count]);
+        Self { physics: physics.clone(), shapes, walls, wall_count, boxes, count }
     }
 
     /// All bodies of the scene.
-    pub(crate) fn everyone(&self) -> BodySet {
+    pub(crate) fn everyone(&self) -> BodyMask {
         (1 << self.count) - 1
     }
 }

@@ -1,6 +1,6 @@
 //! What bodies occupy where they are now, worked out once for every pose.
 
-use crate::{body::Motion, key::BodySet, model::Model, polygon::Polygon};
+use crate::{body::BodyMotion, key::BodyMask, model::Model, polygon::Polygon};
 use phase_model::{AGENT_COUNT, Vec2};
 
 /// A box with sides along the axes: lower left and upper right corner (u).
@@ -14,7 +14,7 @@ pub(crate) struct Outlines {
     /// Boxes around the bodies. Those of agents are without skin.
     pub(crate) boxes: [Aabb; 4],
     /// Bodies that have not moved since.
-    current: BodySet,
+    current: BodyMask,
 }
 
 impl Outlines {
@@ -23,7 +23,7 @@ impl Outlines {
 
     /// Brings those of some bodies up to date.
     #[inline]
-    pub(crate) fn update(&mut self, bodies: BodySet, model: &Model, motions: &[Motion; 5]) {
+    pub(crate) fn update(&mut self, bodies: BodyMask, model: &Model, motions: &[BodyMotion; 5]) {
         let stale = bodies & !self.current;
         if stale == 0 {
             return;

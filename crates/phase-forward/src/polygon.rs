@@ -1,6 +1,6 @@
 //! An agent's outline as a convex polygon in the world.
 
-use crate::body::{Motion, Shape};
+use crate::body::{BodyMotion, Shape};
 use phase_model::Vec2;
 
 /// An agent's corners and side normals in the world.
@@ -14,7 +14,7 @@ impl Polygon {
     pub(crate) const NONE: Self = Self { corners: [Vec2::ZERO; 4], normals: [Vec2::ZERO; 4] };
 
     #[inline]
-    pub(crate) fn new(shape: &Shape, motion: &Motion) -> Self {
+    pub(crate) fn new(shape: &Shape, motion: &BodyMotion) -> Self {
         // Written out because `map` on arrays does not unroll here.
         let [a, b, c, d] = &shape.corners;
         let [e, f, g, h] = &shape.normals;
@@ -34,8 +34,8 @@ impl Polygon {
     /// The side whose normal separates the other polygon most, and by how much. Found by climbing from the
     /// side that looks most towards the other's centre of mass, which matters where polygons overlap deeply.
     #[inline]
-    pub(crate) fn widest_gap(&self, other: &Self, towards: Vec2) -> (usize, f32) {
-        let side = self.side_against(-towards);
+    pub(crate) fn max_separation(&self, other: &Self, towards: Vec2) -> (usize, f32) {
+        let side = self.incident_side(-towards);
         let gap = self.gap(side, other);
         let (previous, next) = ((side + 3) % 4, (side + 1) % 4);
         let (gap_previous, gap_next) = (self.gap(previous, other), self.gap(next, other));
@@ -66,7 +66,7 @@ impl Polygon {
 
     /// The side that looks most against a direction.
     #[inline]
-    pub(crate) fn side_against(&self, direction: Vec2) -> usize {
+    pub(crate) fn incident_side(&self, direction: Vec2) -> usize {
         let mut best = (0, f32::MAX);
         for (side, normal) in self.normals.iter().enumerate() {
             let along = normal.dot(direction);

@@ -2,10 +2,10 @@
 
 use crate::{
     body::{STATIC, Twist},
+    constants::{BAUMGARTE, H, IMPULSE_TOLERANCE, LINEAR_SLOP, POSITION_ITERATIONS},
     contact::Contact,
-    key::BodySet,
-    touching::{MAX_CONTACTS, Touching},
-    tuning::{CORRECTION, H, POSITION_ITERATIONS, SETTLED_IMPULSE, SLOP},
+    key::BodyMask,
+    touching::{ContactSet, MAX_CONTACTS},
     weld::Weld,
     world::World,
 };
@@ -16,48 +16,48 @@ type Joint = u8;
 
 impl World<'_> {
     /// Applies forces and solves all given bodies, group by group.
-    pub(crate) fn solve(&mut self, members: BodySet, touching: &mut Touching) {
+    pub(crate) fn solve(&mut self, reachable_bodies: BodyMask, touching: &mut ContactSet) {
         let mut welds: [Option<Weld>; AGENT_COUNT] = [None; AGENT_COUNT];
         // Bodies that lean on walls, and bodies that hang together with others.
-        let (mut leaning, mut linked): (BodySet, BodySet) = (0, 0);
+        let (mut leaning, mut linked): (BodyMask, BodyMask) = (0, 0);
         for (agent, weld) in welds.iter_mut().enumerate() {
             if let (Some(grip), Some(held)) = (&self.grips[agent], self.held(agent)) {
                 linked |= 1 << agent | 1 << held;
                 *weld = Some(Weld::new(agent, grip, &self.model.shapes, self.impulses.welds[agent]));
             }
         }
-        for contact in touching.found() {
+        for contact in touching.current() {
             if contact.a == STATIC {
                 leaning |= 1 << contact.b;
             } else {
                 linked |= 1 << contact.a | 1 << contact.b;
             }
         }
-        let mut still: BodySet = 0;
+        let mut still: BodyMask = 0;
         for body in 0..self.model.count {
-            if members & 1 << body == 0 {
+            if reachable_bodies & 1 << body == 0 {
                 continue;
             }
             let (shape, motion) = (&self.model.shapes[body], &mut self.motions[body]);
             self.starts[body] = (motion.centre, motion.angle, motion.right);
-            still |= u8::from(motion.is_still()) << body;
+            still |= u8::from(motion.is_at_rest()) << body;
             if body < AGENT_COUNT {
                 motion.act(shape, self.actions[body]);
-                still &= !(u8::from(!motion.is_still()) << body);
+                still &= !(u8::from(!motion.is_at_rest()) << body);
             }
             if linked & 1 << body != 0 {
                 continue;
             }
             if leaning & 1 << body == 0 {
-                self.impulses.ground[body] = motion.slide(shape);
+                self.impulses.ground[body] = motion.coast(shape);
             } else {
-                self.solve_alone(body, touching.found_mut());
+                self.solve_alone(body, touching.current_mut());
             }
         }
-        let mut done = !(members & linked);
+        let mut done = !(reachable_bodies & linked);
         for seed in (0..self.model.count).rev() {
             if done & 1 << seed == 0 {
-                let island = self.island(seed, touching.found(), &welds, &mut done);
+                let island = self.island(seed, touching.current(), &welds, &mut done);
                 self.solve_island(&island, &mut touching.contacts, &mut welds);
             }
         }
@@ -67,14 +67,14 @@ impl World<'_> {
             }
         }
         for body in 0..self.model.count {
-            if members & 1 << body == 0 {
+            if reachable_bodies & 1 << body == 0 {
                 continue;
             }
             let (motion, (centre, angle, _)) = (&self.motions[body], self.starts[body]);
             if motion.centre != centre || motion.angle != angle {
                 self.moved(body);
-            } else if still & 1 << body != 0 && motion.is_still() {
-                self.at_ease |= 1 << body;
+            } else if still & 1 << body != 0 && motion.is_at_rest() {
+                self.sleeping |= 1 << body;
             }
         }
         touching.keep();
@@ -86,7 +86,7 @@ impl World<'_> {
         seed: usize,
         contacts: &[Contact],
         welds: &[Option<Weld>; AGENT_COUNT],
-        done: &mut BodySet,
+        done: &mut BodyMask,
     ) -> Island {
         let mut island = Island::EMPTY;
         let mut taken = 0_u32;
@@ -146,15 +146,15 @@ impl World<'_> {
             contact.prepare_alone(shapes, motion);
             contact.warm_start_alone(shape, &mut twist);
         }
-        twist.rub_by(shape, motion.right, ground);
+        twist.apply_friction(shape, motion.right, ground);
         for _ in 0..self.iterations {
-            let after = twist.rub(shape, motion.right, ground);
+            let after = twist.solve_friction(shape, motion.right, ground);
             let mut change = (after - ground).abs().max_element();
             ground = after;
             for contact in all.iter_mut().filter(|contact| contact.b == body) {
                 change = change.max(contact.solve_alone(shape, &mut twist));
             }
-            if change < SETTLED_IMPULSE {
+            if change < IMPULSE_TOLERANCE {
                 break;
             }
         }
@@ -164,7 +164,7 @@ impl World<'_> {
         for _ in 0..POSITION_ITERATIONS {
             let mut settled = true;
             for contact in all.iter().filter(|contact| contact.b == body) {
-                settled &= contact.separate_alone(shape, motion, CORRECTION) >= -3.0 * SLOP;
+                settled &= contact.separate_alone(shape, motion, BAUMGARTE) >= -3.0 * LINEAR_SLOP;
             }
             if settled {
                 break;
@@ -194,7 +194,11 @@ impl World<'_> {
         for &joint in joints {
             let joint = usize::from(joint);
             if joint < 4 {
-                twists[joint].rub_by(&shapes[joint], motions[joint].right, self.impulses.ground[joint]);
+                twists[joint].apply_friction(
+                    &shapes[joint],
+                    motions[joint].right,
+                    self.impulses.ground[joint],
+                );
             } else if let Some(weld) = &mut welds[joint - 4] {
                 weld.prepare(shapes, motions, &mut twists);
             }
@@ -205,7 +209,7 @@ impl World<'_> {
                 let joint = usize::from(joint);
                 if joint < 4 {
                     let before = self.impulses.ground[joint];
-                    let after = twists[joint].rub(&shapes[joint], motions[joint].right, before);
+                    let after = twists[joint].solve_friction(&shapes[joint], motions[joint].right, before);
                     self.impulses.ground[joint] = after;
                     change = change.max((after - before).abs().max_element());
                 } else if let Some(weld) = &mut welds[joint - 4] {
@@ -213,9 +217,10 @@ impl World<'_> {
                 }
             }
             for &index in contacts {
-                change = change.max(all[usize::from(index)].solve(|body| shapes[body].yielding, &mut twists));
+                change = change
+                    .max(all[usize::from(index)].solve(|body| shapes[body].inverse_mass_vector, &mut twists));
             }
-            if change < SETTLED_IMPULSE {
+            if change < IMPULSE_TOLERANCE {
                 break;
             }
         }
@@ -230,8 +235,8 @@ impl World<'_> {
         for _ in 0..POSITION_ITERATIONS {
             let mut settled = true;
             for &index in contacts {
-                let gap = all[usize::from(index)].separate(shapes, motions, CORRECTION);
-                settled &= gap >= -3.0 * SLOP;
+                let gap = all[usize::from(index)].separate(shapes, motions, BAUMGARTE);
+                settled &= gap >= -3.0 * LINEAR_SLOP;
             }
             for &joint in joints {
                 if let Some(weld) = usize::from(joint).checked_sub(4).and_then(|agent| welds[agent].as_ref())

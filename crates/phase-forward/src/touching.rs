@@ -7,45 +7,45 @@ pub(crate) const MAX_CONTACTS: usize = 16;
 
 /// What is kept of a contact for the next substep.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Trace {
+pub(crate) struct CachedContact {
     pub(crate) key: u8,
     pub(crate) count: u8,
     pub(crate) names: [u16; 2],
     pub(crate) impulses: [f32; 2],
 }
 
-impl Trace {
+impl CachedContact {
     pub(crate) const NONE: Self = Self { key: u8::MAX, count: 0, names: [0; 2], impulses: [0.0; 2] };
 }
 
 /// The contacts found in a substep, newest first, and what is kept of those of the substep before.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Touching {
+pub(crate) struct ContactSet {
     pub(crate) contacts: [Contact; MAX_CONTACTS],
     pub(crate) count: usize,
-    pub(crate) traces: Traces,
+    pub(crate) traces: CachedContacts,
 }
 
-impl Touching {
+impl ContactSet {
     pub(crate) const NONE: Self =
-        Self { contacts: [Contact::NONE; MAX_CONTACTS], count: 0, traces: Traces::NONE };
+        Self { contacts: [Contact::NONE; MAX_CONTACTS], count: 0, traces: CachedContacts::NONE };
 
     /// The contacts found.
-    pub(crate) fn found(&self) -> &[Contact] {
+    pub(crate) fn current(&self) -> &[Contact] {
         &self.contacts[..self.count]
     }
 
     /// The contacts found, to be solved.
-    pub(crate) fn found_mut(&mut self) -> &mut [Contact] {
+    pub(crate) fn current_mut(&mut self) -> &mut [Contact] {
         &mut self.contacts[..self.count]
     }
 
     /// Takes over what has been found now, with the impulses the points had in the last substep. Drops what is
     /// too many.
-    pub(crate) fn replace(&mut self, found: impl Iterator<Item = Contact>) {
+    pub(crate) fn replace(&mut self, current: impl Iterator<Item = Contact>) {
         self.count = 0;
-        for (place, mut contact) in self.contacts.iter_mut().zip(found) {
-            self.traces.recall(&mut contact);
+        for (place, mut contact) in self.contacts.iter_mut().zip(current) {
+            self.traces.warm_start(&mut contact);
             *place = contact;
             self.count += 1;
         }
@@ -55,7 +55,7 @@ impl Touching {
     pub(crate) fn keep(&mut self) {
         self.traces.count = self.count;
         for (trace, contact) in self.traces.list.iter_mut().zip(&self.contacts[..self.count]) {
-            *trace = Trace {
+            *trace = CachedContact {
                 key: contact.key,
                 count: contact.manifold.count as u8,
                 names: contact.manifold.names,
@@ -67,16 +67,16 @@ impl Touching {
 
 /// What is kept of all contacts of a substep.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Traces {
-    list: [Trace; MAX_CONTACTS],
+pub(crate) struct CachedContacts {
+    list: [CachedContact; MAX_CONTACTS],
     count: usize,
 }
 
-impl Traces {
-    pub(crate) const NONE: Self = Self { list: [Trace::NONE; MAX_CONTACTS], count: 0 };
+impl CachedContacts {
+    pub(crate) const NONE: Self = Self { list: [CachedContact::NONE; MAX_CONTACTS], count: 0 };
 
     /// Gives a contact's points the impulses they had.
-    fn recall(&self, contact: &mut Contact) {
+    fn warm_start(&self, contact: &mut Contact) {
         let Some(trace) = self.list[..self.count].iter().find(|trace| trace.key == contact.key) else {
             return;
         };

@@ -1,6 +1,6 @@
 //! Walls: the arena's boundary, the inner walls, and the stray points at their ends.
 
-use crate::tuning::SKIN;
+use crate::constants::SKIN;
 use phase_model::{Segment, Vec2, arena};
 use wide::f32x4;
 
@@ -47,14 +47,14 @@ const GROUPS: usize = MAX_WALLS.div_ceil(4);
 /// AABBs of all walls, skin included, as a structure of arrays, so that one box is tested against several at
 /// once. Boxes of absent walls are empty.
 #[derive(Clone, Debug)]
-pub(crate) struct Boxes {
+pub(crate) struct WallBoxes {
     min_x: [f32x4; GROUPS],
     min_y: [f32x4; GROUPS],
     max_x: [f32x4; GROUPS],
     max_y: [f32x4; GROUPS],
 }
 
-impl Boxes {
+impl WallBoxes {
     pub(crate) fn new(walls: &[Wall]) -> Self {
         let coordinate = |of: fn(&Wall) -> f32, none: f32| {
             let lane = |k: usize| walls.get(k).map_or(none, of);

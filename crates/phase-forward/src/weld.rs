@@ -1,8 +1,8 @@
 //! A grip as a constraint: the held object's centre stays at one point of the agent, at one angle.
 
 use crate::{
-    body::{Motion, Shape, Twist},
-    tuning::{ANGULAR_SLOP, SLOP},
+    body::{BodyMotion, Shape, Twist},
+    constants::{ANGULAR_SLOP, LINEAR_SLOP},
 };
 use glam::Vec3;
 use phase_model::{Entity, Grip, Vec2};
@@ -39,7 +39,12 @@ impl Weld {
     }
 
     /// Works out what impulses do at the present poses, and applies those so far.
-    pub(crate) fn prepare(&mut self, shapes: &[Shape; 5], motions: &[Motion; 5], twists: &mut [Twist; 5]) {
+    pub(crate) fn prepare(
+        &mut self,
+        shapes: &[Shape; 5],
+        motions: &[BodyMotion; 5],
+        twists: &mut [Twist; 5],
+    ) {
         self.offset = motions[self.agent].turn(self.anchor);
         self.inverse = response(&shapes[self.agent], &shapes[self.object], self.offset).inverse();
         let (impulse, twist) = self.impulse;
@@ -60,24 +65,24 @@ impl Weld {
     }
 
     /// One iteration of the position solver. Returns whether there was nothing to speak of to do.
-    pub(crate) fn join(&self, shapes: &[Shape; 5], motions: &mut [Motion; 5]) -> bool {
+    pub(crate) fn join(&self, shapes: &[Shape; 5], motions: &mut [BodyMotion; 5]) -> bool {
         let (shape_a, shape_b) = (&shapes[self.agent], &shapes[self.object]);
         let (agent, object) = (&motions[self.agent], &motions[self.object]);
         let offset = agent.turn(self.anchor);
-        let apart = object.centre - agent.centre - offset;
+        let excluded_pairs = object.centre - agent.centre - offset;
         let twisted = object.angle - agent.angle - self.relative_angle;
-        let (impulse, twist) = response(shape_a, shape_b, offset).inverse().times(-apart, -twisted);
+        let (impulse, twist) = response(shape_a, shape_b, offset).inverse().times(-excluded_pairs, -twisted);
         motions[self.agent].shift(shape_a, offset, -impulse, -twist);
         motions[self.object].shift(shape_b, Vec2::ZERO, impulse, twist);
-        apart.length_squared() <= SLOP * SLOP && twisted.abs() <= ANGULAR_SLOP
+        excluded_pairs.length_squared() <= LINEAR_SLOP * LINEAR_SLOP && twisted.abs() <= ANGULAR_SLOP
     }
 
     #[inline]
     fn apply(&self, shapes: &[Shape; 5], twists: &mut [Twist; 5], impulse: Vec2, twist: f32) {
         let on_agent = Vec3::new(impulse.x, impulse.y, self.offset.perp_dot(impulse) + twist);
-        twists[self.agent].push(Twist(on_agent), -1.0, shapes[self.agent].yielding);
+        twists[self.agent].push(Twist(on_agent), -1.0, shapes[self.agent].inverse_mass_vector);
         let on_object = Vec3::new(impulse.x, impulse.y, twist);
-        twists[self.object].push(Twist(on_object), 1.0, shapes[self.object].yielding);
+        twists[self.object].push(Twist(on_object), 1.0, shapes[self.object].inverse_mass_vector);
     }
 }
 
@@ -89,14 +94,14 @@ pub(crate) fn held_body(grip: &Grip) -> usize {
 /// What a unit impulse and a unit twist between an agent, at an offset, and an object's centre do.
 fn response(agent: &Shape, object: &Shape, offset: Vec2) -> Symmetric {
     let mass = agent.inverse_mass + object.inverse_mass;
-    let yielding = agent.inverse_inertia;
+    let inverse_mass_vector = agent.inverse_inertia;
     Symmetric {
-        xx: mass + offset.y * offset.y * yielding,
-        xy: -offset.y * offset.x * yielding,
-        xz: -offset.y * yielding,
-        yy: mass + offset.x * offset.x * yielding,
-        yz: offset.x * yielding,
-        zz: yielding + object.inverse_inertia,
+        xx: mass + offset.y * offset.y * inverse_mass_vector,
+        xy: -offset.y * offset.x * inverse_mass_vector,
+        xz: -offset.y * inverse_mass_vector,
+        yy: mass + offset.x * offset.x * inverse_mass_vector,
+        yz: offset.x * inverse_mass_vector,
+        zz: inverse_mass_vector + object.inverse_inertia,
     }
 }
 

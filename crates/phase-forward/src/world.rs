@@ -1,11 +1,11 @@
 //! The solver's working state: a state unpacked for solving and packed again.
 
 use crate::{
-    body::Motion,
-    key::{BodySet, KeySet},
+    body::BodyMotion,
+    constants::{BOUNDARY_MARGIN, H, VELOCITY_ITERATIONS},
+    key::{BodyMask, KeySet},
     model::Model,
     outline::Outlines,
-    tuning::{BOUNDARY_MARGIN, H, VELOCITY_ITERATIONS},
     wall::WallSet,
     weld::held_body,
 };
@@ -28,7 +28,7 @@ impl Impulses {
 pub(crate) struct World<'a> {
     pub(crate) model: &'a Model,
     /// The four bodies and the one that stands for all walls.
-    pub(crate) motions: [Motion; 5],
+    pub(crate) motions: [BodyMotion; 5],
     /// Where each body was at the start of the substep: centre, angle, unit vector to its right.
     pub(crate) starts: [(Vec2, f32, Vec2); 4],
     pub(crate) outlines: Outlines,
@@ -40,18 +40,18 @@ pub(crate) struct World<'a> {
     pub(crate) actions: [Action; AGENT_COUNT],
     pub(crate) impulses: Impulses,
     /// Pairs that may not touch: held, or let go of and not yet clear.
-    pub(crate) apart: KeySet,
+    pub(crate) excluded_pairs: KeySet,
     /// Those of them that were let go of, and where all bodies were then.
-    pub(crate) let_go: KeySet,
+    pub(crate) released: KeySet,
     pub(crate) let_go_at: [Vec2; 4],
     /// How far each body has to move from there before it counts as clear (u).
-    pub(crate) let_go_room: [f32; 4],
+    pub(crate) release_distance: [f32; 4],
     /// Sleeping bodies: at rest and in equilibrium with ground friction and walls.
-    pub(crate) at_ease: u8,
+    pub(crate) sleeping: u8,
     /// Iterations of the velocity solver in the coming substep.
     pub(crate) iterations: usize,
     /// How far each body may come in the step by itself (u).
-    pub(crate) ways: [f32; 4],
+    pub(crate) max_displacements: [f32; 4],
     /// Duration of the substep (s).
     pub(crate) seconds: f32,
 }
@@ -59,23 +59,23 @@ pub(crate) struct World<'a> {
 impl<'a> World<'a> {
     /// Unpacks a state. Invalid values are replaced, and centres of mass are clamped to the arena.
     pub(crate) fn new(model: &'a Model, state: &State, actions: [Action; AGENT_COUNT]) -> Self {
-        let mut motions = [Motion::STILL; 5];
+        let mut motions = [BodyMotion::AT_REST; 5];
         for (index, motion) in motions.iter_mut().enumerate().take(model.count) {
             let mut body = state.bodies[index];
             if !is_sane(&body) {
-                body = mended(body);
+                body = sanitized(body);
             }
             *motion = if index < AGENT_COUNT {
-                Motion::of_agent(&body, &model.shapes[index])
+                BodyMotion::of_agent(&body, &model.shapes[index])
             } else {
-                Motion::of_object(&body)
+                BodyMotion::of_object(&body)
             };
             if !arena::contains(motion.centre) {
                 motion.centre =
                     motion.centre.clamp(arena::MIN + BOUNDARY_MARGIN, arena::MAX - BOUNDARY_MARGIN);
             }
         }
-        let grips = [0, 1].map(|agent| Some(mended_grip(state.grips[agent]?, agent, &motions)));
+        let grips = [0, 1].map(|agent| Some(sanitized_grip(state.grips[agent]?, agent, &motions)));
         Self {
             model,
             motions,
@@ -86,13 +86,13 @@ impl<'a> World<'a> {
             latest_grip: 1,
             actions,
             impulses: Impulses::NONE,
-            apart: 0,
-            let_go: 0,
+            excluded_pairs: 0,
+            released: 0,
             let_go_at: [Vec2::ZERO; 4],
-            let_go_room: [0.0; 4],
-            at_ease: 0,
+            release_distance: [0.0; 4],
+            sleeping: 0,
             iterations: VELOCITY_ITERATIONS,
-            ways: [0.0; 4],
+            max_displacements: [0.0; 4],
             seconds: H,
         }
     }
@@ -104,7 +104,7 @@ impl<'a> World<'a> {
     }
 
     /// How far what an agent holds is from where it holds it (u).
-    pub(crate) fn stretch(&self, agent: usize) -> Option<f32> {
+    pub(crate) fn joint_error(&self, agent: usize) -> Option<f32> {
         let (grip, held) = (self.grips[agent].as_ref()?, self.held(agent)?);
         let (shape, holder) = (&self.model.shapes[agent], &self.motions[agent]);
         let reach = grip.side.direction() * (shape.radius + self.model.shapes[held].radius);
@@ -123,11 +123,11 @@ impl<'a> World<'a> {
     /// Lets both agents grab or let go, which happens once and before anything moves. Returns the agents
     /// that let go of something, with the body they held.
     pub(crate) fn grab(&mut self, state: &State) -> [Option<usize>; AGENT_COUNT] {
-        let mut let_go = [None; AGENT_COUNT];
+        let mut released = [None; AGENT_COUNT];
         for agent in AgentId::ALL {
             match self.actions[agent] {
                 Action::Attach => {
-                    if let Some((object, side)) = state.attachable(&self.model.physique, agent) {
+                    if let Some((object, side)) = state.attachable(&self.model.physics, agent) {
                         // Not the state's angles, which may have had to be mended.
                         let angle = |entity: Entity| self.motions[entity.index()].angle;
                         let relative_angle = angle(Entity::Object(object)) - angle(Entity::Agent(agent));
@@ -137,18 +137,18 @@ impl<'a> World<'a> {
                     }
                 }
                 Action::Detach => {
-                    let_go[agent] = self.held(agent.index());
+                    released[agent] = self.held(agent.index());
                     self.grips[agent] = None;
                 }
                 _ => {}
             }
         }
-        let_go
+        released
     }
 
     /// Brings the outlines of some bodies up to date.
     #[inline]
-    pub(crate) fn outline(&mut self, bodies: BodySet) {
+    pub(crate) fn outline(&mut self, bodies: BodyMask) {
         self.outlines.update(bodies, self.model, &self.motions);
     }
 
@@ -166,39 +166,39 @@ impl<'a> World<'a> {
 
 /// Largest accepted speed (u/s) and angular velocity (rad/s) of an input state; free motion is limited to far
 /// less.
-const FASTEST: f32 = 1e4;
+const MAX_SPEED: f32 = 1e4;
 /// Greatest angle that is taken seriously (rad); beyond it, neighbouring numbers are a visible turn apart.
-const FARTHEST_TURN: f32 = 1e5;
+const MAX_ANGLE: f32 = 1e5;
 
 /// Greatest twist of a grip that is taken seriously (rad); the strongest agents do not come near it.
-const MOST_TWISTED: f32 = 1.0;
+const MAX_GRIP_ANGLE: f32 = 1.0;
 
 /// The same grip, at the angle at which its object is if the angle it says is far from that or no number.
-fn mended_grip(grip: Grip, agent: usize, motions: &[Motion; 5]) -> Grip {
+fn sanitized_grip(grip: Grip, agent: usize, motions: &[BodyMotion; 5]) -> Grip {
     let angle = motions[held_body(&grip)].angle - motions[agent].angle;
-    let is_sane = (grip.relative_angle - angle).abs() <= MOST_TWISTED;
+    let is_sane = (grip.relative_angle - angle).abs() <= MAX_GRIP_ANGLE;
     Grip { relative_angle: if is_sane { grip.relative_angle } else { angle }, ..grip }
 }
 
 /// Whether all numbers of a body make sense.
 fn is_sane(body: &Body) -> bool {
     body.position.is_finite()
-        && body.velocity.abs().max_element() <= FASTEST
-        && body.angular_velocity.abs() <= FASTEST
-        && body.angle.abs() <= FARTHEST_TURN
+        && body.velocity.abs().max_element() <= MAX_SPEED
+        && body.angular_velocity.abs() <= MAX_SPEED
+        && body.angle.abs() <= MAX_ANGLE
         && !body.velocity.is_nan()
 }
 
 /// The body with invalid values replaced: 0 for non-finite ones, the nearest bound for those out of range.
-fn mended(body: Body) -> Body {
+fn sanitized(body: Body) -> Body {
     let number = |x: f32, most: f32| if x.is_nan() { 0.0 } else { x.clamp(-most, most) };
     Body {
         position: Vec2::new(
             number(body.position.x, 2.0 * arena::MAX.x),
             number(body.position.y, 2.0 * arena::MAX.y),
         ),
-        velocity: Vec2::new(number(body.velocity.x, FASTEST), number(body.velocity.y, FASTEST)),
-        angle: number(body.angle, FARTHEST_TURN),
-        angular_velocity: number(body.angular_velocity, FASTEST),
+        velocity: Vec2::new(number(body.velocity.x, MAX_SPEED), number(body.velocity.y, MAX_SPEED)),
+        angle: number(body.angle, MAX_ANGLE),
+        angular_velocity: number(body.angular_velocity, MAX_SPEED),
     }
 }

@@ -4,9 +4,9 @@ mod scenes;
 mod walls;
 
 use phase_forward::Forward;
-use phase_model::{Action, AgentId, Contacts, Dynamics, Entity, Physique, State, Vec2, arena};
+use phase_model::{Action, AgentId, Contacts, Dynamics, Entity, PhysicsConfig, State, Vec2, arena};
 use proptest::{prelude::*, strategy::ValueTree, test_runner::TestRunner};
-use scenes::{actions, apart, clear_of_walls};
+use scenes::{actions, clear_of_walls, excluded_pairs};
 use walls::passes;
 
 /// Scenes of the statistics, and runs of held actions in each.
@@ -23,11 +23,11 @@ const SUNK: f32 = 0.5;
 #[test]
 fn coarse_steps_are_near_exact_ones() {
     let mut runner = TestRunner::deterministic();
-    let strategy = (apart(), actions(RUNS));
+    let strategy = (excluded_pairs(), actions(RUNS));
     let mut kinds: [Vec<f32>; 3] = Default::default();
     for _ in 0..SCENES {
-        let ((physique, mut state), actions) = strategy.new_tree(&mut runner).expect("a scene").current();
-        let forward = Forward::new(&physique);
+        let ((physics, mut state), actions) = strategy.new_tree(&mut runner).expect("a scene").current();
+        let forward = Forward::new(&physics);
         for actions in actions {
             let (before, mut coarse) = (state, state);
             forward.step(&mut state, actions);
@@ -36,7 +36,7 @@ fn coarse_steps_are_near_exact_ones() {
                 coarse.grips.map(|grip| grip.map(|grip| grip.object)),
                 state.grips.map(|grip| grip.map(|grip| grip.object))
             );
-            let distance = physique
+            let distance = physics
                 .entities()
                 .map(|entity| coarse.position(entity).distance(state.position(entity)))
                 .fold(0.0, f32::max);
@@ -65,13 +65,13 @@ fn coarse_steps_are_near_exact_ones() {
 /// Where nothing is near, a long substep gains as much way from a steady push ahead as five short ones.
 #[test]
 fn a_push_in_the_open_takes_bodies_as_far() {
-    let physique = Physique {
+    let physics = PhysicsConfig {
         walls: Vec::new(),
         agents: [phase_model::AgentBody { radius: 0.8, max_force: 300.0 }; 2],
         object_radii: [0.8, 0.8],
         object_count: 0,
     };
-    let forward = Forward::new(&physique);
+    let forward = Forward::new(&physics);
     let mut exact = State::new(
         [[12.0, 6.0], [24.0, 19.0], [24.0, 6.0], [8.0, 19.0]]
             .map(|[x, y]| phase_model::Body::at_rest(Vec2::new(x, y), 0.0)),
@@ -92,26 +92,26 @@ proptest! {
 
     /// Nothing goes through walls, and nothing sinks deep into them.
     #[test]
-    fn walls_hold((physique, mut state) in apart(), actions in actions(16)) {
-        let forward = Forward::new(&physique);
+    fn walls_hold((physics, mut state) in excluded_pairs(), actions in actions(16)) {
+        let forward = Forward::new(&physics);
         for actions in actions {
             let before = state;
             forward.step_coarse(&mut state, actions);
-            for entity in physique.entities() {
+            for entity in physics.entities() {
                 let (from, to) = (before.position(entity), state.position(entity));
                 prop_assert!(arena::contains(to), "{entity:?} left the arena: {from} -> {to}");
                 if matches!(entity, Entity::Object(_)) {
-                    prop_assert!(!physique.walls.iter().any(|&wall| passes(from, to, wall)), "{entity:?}: {from} -> {to}");
+                    prop_assert!(!physics.walls.iter().any(|&wall| passes(from, to, wall)), "{entity:?}: {from} -> {to}");
                 }
-                prop_assert!(clear_of_walls(&physique, &state, entity, -SUNK), "{entity:?} {actions:?}: {before:?} {state:?}");
+                prop_assert!(clear_of_walls(&physics, &state, entity, -SUNK), "{entity:?} {actions:?}: {before:?} {state:?}");
             }
         }
     }
 
     /// What is held stays exactly where it is held.
     #[test]
-    fn grips_do_not_give((physique, mut state) in apart(), actions in actions(16)) {
-        let forward = Forward::new(&physique);
+    fn grips_do_not_give((physics, mut state) in excluded_pairs(), actions in actions(16)) {
+        let forward = Forward::new(&physics);
         for actions in actions {
             let before = state;
             forward.step_coarse(&mut state, actions);

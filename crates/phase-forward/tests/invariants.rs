@@ -5,13 +5,13 @@ mod walls;
 
 use phase_forward::Forward;
 use phase_model::{
-    Action, AgentBody, Body, Dynamics, Entity, Grip, Layout, ObjectId, Physique, Side, Size, State, Vec2,
-    arena,
+    Action, AgentBody, Body, Dynamics, Entity, Grip, Layout, ObjectId, PhysicsConfig, Side, Size, State,
+    Vec2, arena,
     geometry::Outline,
-    physique::{GROUND_FRICTION, object_inertia, object_mass},
+    physics::{GROUND_FRICTION, object_inertia, object_mass},
 };
 use proptest::{prelude::*, strategy::ValueTree, test_runner::TestRunner};
-use scenes::{actions, apart, clear_of_walls, physiques};
+use scenes::{actions, clear_of_walls, excluded_pairs, physiques};
 use walls::passes;
 
 /// How deep a corner or rim may be in a wall (u): 0.02 nearly always, more where a fast body is hit into it.
@@ -54,44 +54,44 @@ fn bodies() -> impl Strategy<Value = [Body; 4]> {
 }
 
 /// Centre of mass of an entity.
-fn centre(physique: &Physique, state: &State, entity: Entity) -> Vec2 {
+fn centre(physics: &PhysicsConfig, state: &State, entity: Entity) -> Vec2 {
     let body = state.body(entity);
     match entity {
         Entity::Agent(agent) => {
-            body.position - body.forward() * physique.agents[agent].centre_of_mass_offset()
+            body.position - body.forward() * physics.agents[agent].centre_of_mass_offset()
         }
         Entity::Object(_) => body.position,
     }
 }
 
 /// Masses (kg) and moments of inertia (kg u²) by entity.
-fn inertias(physique: &Physique) -> impl Iterator<Item = (f32, f32)> {
-    let agents = physique.agents.map(|agent| (agent.mass(), agent.inertia()));
-    let radii = physique.object_radii.into_iter().take(physique.object_count);
+fn inertias(physics: &PhysicsConfig) -> impl Iterator<Item = (f32, f32)> {
+    let agents = physics.agents.map(|agent| (agent.mass(), agent.inertia()));
+    let radii = physics.object_radii.into_iter().take(physics.object_count);
     agents.into_iter().chain(radii.map(|radius| (object_mass(radius), object_inertia(radius))))
 }
 
 /// Kinetic energy of all bodies (J); a state's velocities are those of the centres of mass.
-fn energy(physique: &Physique, state: &State) -> f32 {
+fn energy(physics: &PhysicsConfig, state: &State) -> f32 {
     let of = |(body, (mass, inertia)): (&Body, (f32, f32))| {
         0.5 * (mass * body.velocity.length_squared()
             + inertia * body.angular_velocity * body.angular_velocity)
     };
-    state.bodies.iter().zip(inertias(physique)).map(of).sum()
+    state.bodies.iter().zip(inertias(physics)).map(of).sum()
 }
 
 /// Momentum of all bodies together (N s).
-fn momentum(physique: &Physique, state: &State) -> Vec2 {
-    state.bodies.iter().zip(inertias(physique)).map(|(body, (mass, _))| body.velocity * mass).sum()
+fn momentum(physics: &PhysicsConfig, state: &State) -> Vec2 {
+    state.bodies.iter().zip(inertias(physics)).map(|(body, (mass, _))| body.velocity * mass).sum()
 }
 
 /// A check of what one substep did.
-fn check(physique: &Physique, before: &State, after: &State) -> Result<(), TestCaseError> {
-    prop_assert!(after.is_finite(physique), "{after:?}");
-    for entity in physique.entities() {
-        let (from, to) = (centre(physique, before, entity), centre(physique, after, entity));
+fn check(physics: &PhysicsConfig, before: &State, after: &State) -> Result<(), TestCaseError> {
+    prop_assert!(after.is_finite(physics), "{after:?}");
+    for entity in physics.entities() {
+        let (from, to) = (centre(physics, before, entity), centre(physics, after, entity));
         prop_assert!(arena::contains(to), "{entity:?} left the arena: {from} -> {to}");
-        for &wall in &physique.walls {
+        for &wall in &physics.walls {
             prop_assert!(!passes(from, to, wall), "{entity:?} passed {wall:?}: {from} -> {to}");
         }
     }
@@ -104,40 +104,40 @@ proptest! {
 
     #[test]
     fn nothing_escapes_and_everything_stays_finite(
-        physique in physiques(), bodies in bodies(), actions in actions(20),
+        physics in physiques(), bodies in bodies(), actions in actions(20),
     ) {
-        let forward = Forward::new(&physique);
+        let forward = Forward::new(&physics);
         let mut state = State::new(bodies);
-        let (mut coarse, mut warm, mut memory) = (state, state, forward.remember(&state));
+        let (mut coarse, mut warm, mut solver_cache) = (state, state, forward.fresh_cache(&state));
         for actions in actions {
             let (mut before, mut again) = (state, state);
             let substeps = forward.step_substeps(&mut state, actions);
             for (k, after) in substeps.iter().enumerate() {
-                check(&physique, &before, after).map_err(|e| TestCaseError::fail(format!("substep {k}: {e}")))?;
+                check(&physics, &before, after).map_err(|e| TestCaseError::fail(format!("substep {k}: {e}")))?;
                 before = *after;
             }
             forward.step(&mut again, actions);
             prop_assert_eq!(again, state, "a step differs from its substeps");
             before = warm;
-            for after in forward.step_warm(&mut warm, &mut memory, actions) {
-                check(&physique, &before, &after)?;
+            for after in forward.step_warm(&mut warm, &mut solver_cache, actions) {
+                check(&physics, &before, &after)?;
                 before = after;
             }
             forward.step_coarse(&mut coarse, actions);
-            prop_assert!(coarse.is_finite(&physique), "{coarse:?}");
+            prop_assert!(coarse.is_finite(&physics), "{coarse:?}");
         }
     }
 
     /// From starts without overlaps, no corner and no rim sinks deeper into a wall or the boundary than `SUNK`.
     #[test]
-    fn nothing_sinks_into_walls((physique, start) in apart(), actions in actions(16)) {
-        let forward = Forward::new(&physique);
-        let (mut state, mut warm, mut memory) = (start, start, forward.remember(&start));
+    fn nothing_sinks_into_walls((physics, start) in excluded_pairs(), actions in actions(16)) {
+        let forward = Forward::new(&physics);
+        let (mut state, mut warm, mut solver_cache) = (start, start, forward.fresh_cache(&start));
         for actions in actions {
             let cold = forward.step_substeps(&mut state, actions);
-            for after in cold.into_iter().chain(forward.step_warm(&mut warm, &mut memory, actions)) {
-                for entity in physique.entities() {
-                    prop_assert!(clear_of_walls(&physique, &after, entity, -SUNK), "{entity:?}: {after:?}");
+            for after in cold.into_iter().chain(forward.step_warm(&mut warm, &mut solver_cache, actions)) {
+                for entity in physics.entities() {
+                    prop_assert!(clear_of_walls(&physics, &after, entity, -SUNK), "{entity:?}: {after:?}");
                 }
             }
         }
@@ -146,17 +146,17 @@ proptest! {
     /// Momentum comes from pushes, from the ground (100 N a body) and from walls, which only push away from
     /// themselves, and only what is at them.
     #[test]
-    fn momentum_comes_from_somewhere((physique, start) in apart(), actions in actions(16)) {
+    fn momentum_comes_from_somewhere((physics, start) in excluded_pairs(), actions in actions(16)) {
         // Inner walls push both ways.
-        let physique = Physique { walls: Vec::new(), ..physique };
-        let forward = Forward::new(&physique);
+        let physics = PhysicsConfig { walls: Vec::new(), ..physics };
+        let forward = Forward::new(&physics);
         let mut state = start;
         for actions in actions {
             let mut before = state;
             for after in forward.step_substeps(&mut state, actions) {
-                let mut given = physique.entity_count() as f32 * GROUND_FRICTION;
+                let mut given = physics.entity_count() as f32 * GROUND_FRICTION;
                 let mut stopped = Vec2::ZERO;
-                for (agent, (body, action)) in physique.agents.iter().zip(actions).enumerate() {
+                for (agent, (body, action)) in physics.agents.iter().zip(actions).enumerate() {
                     given += if action.push().is_some() { body.max_force } else { 0.0 };
                     if action == Action::Stop {
                         stopped -= before.bodies[agent].velocity * body.mass();
@@ -168,10 +168,10 @@ proptest! {
                 });
                 let farthest = 1.0 + 1.5 * fastest.fold(0.0, f32::max) * arena::SUBSTEP_SECONDS;
                 let most = given * arena::SUBSTEP_SECONDS * 1.001 + 1e-3;
-                let change = momentum(&physique, &after) - momentum(&physique, &before) - stopped;
+                let change = momentum(&physics, &after) - momentum(&physics, &before) - stopped;
                 for inward in [Vec2::X, Vec2::NEG_X, Vec2::Y, Vec2::NEG_Y] {
-                    let at_wall = physique.entities().any(|entity| {
-                        let (min, max) = Outline::of(&physique, entity, before.body(entity)).bounds();
+                    let at_wall = physics.entities().any(|entity| {
+                        let (min, max) = Outline::of(&physics, entity, before.body(entity)).bounds();
                         let gap = (min - arena::MIN).dot(inward.max(Vec2::ZERO))
                             + (arena::MAX - max).dot((-inward).max(Vec2::ZERO));
                         gap < farthest
@@ -187,7 +187,7 @@ proptest! {
     /// Any numbers at all in bodies and grips, in any layout.
     #[test]
     fn any_state_is_survived(
-        physique in physiques(),
+        physics in physiques(),
         numbers in prop::array::uniform4(prop::array::uniform6(prop::num::f32::ANY)),
         sound in prop::array::uniform4(any::<bool>()),
         bodies in bodies(),
@@ -202,17 +202,17 @@ proptest! {
                 *body = Body { position, velocity, angle, angular_velocity: spin };
             }
         }
-        let forward = Forward::new(&physique);
-        let (mut settled, mut warm, mut memory) = (state, state, forward.remember(&state));
+        let forward = Forward::new(&physics);
+        let (mut settled, mut warm, mut solver_cache) = (state, state, forward.fresh_cache(&state));
         let mut coarse = state;
         forward.settle(&mut settled);
         for actions in actions {
             forward.step(&mut state, actions);
             forward.step_coarse(&mut coarse, actions);
-            forward.step_warm(&mut warm, &mut memory, actions);
+            forward.step_warm(&mut warm, &mut solver_cache, actions);
             for state in [&state, &coarse, &warm, &settled] {
-                prop_assert!(state.is_finite(&physique), "{state:?}");
-                for entity in physique.entities() {
+                prop_assert!(state.is_finite(&physics), "{state:?}");
+                for entity in physics.entities() {
                     // The origin lies ahead of the centre of mass, and nearer than this.
                     let place = state.position(entity);
                     let outside = place.distance(place.clamp(arena::MIN, arena::MAX));
@@ -224,14 +224,14 @@ proptest! {
 
     #[test]
     fn ground_friction_only_slows(velocity in (-40.0..40.0_f32, -40.0..40.0_f32), angle in -9.0..9.0_f32, size in 0..4_usize) {
-        let physique = Physique {
+        let physics = PhysicsConfig {
             walls: Vec::new(),
             agents: [AgentBody { radius: Size::ALL[size].radius(), max_force: 300.0 }; 2],
             object_radii: [1.2, 0.8],
             object_count: 1,
         };
-        let forward = Forward::new(&physique);
-        for (moving, other, mass) in [(0, 2, physique.agents[0].mass()), (2, 0, object_mass(1.2))] {
+        let forward = Forward::new(&physics);
+        for (moving, other, mass) in [(0, 2, physics.agents[0].mass()), (2, 0, object_mass(1.2))] {
             let mut state = State::new([[8.0, 5.0], [24.0, 5.0], [24.0, 19.0], [8.0, 19.0]].map(|[x, y]| Body::at_rest(Vec2::new(x, y), angle)));
             state.bodies[other].position = Vec2::new(8.0, 5.0);
             state.bodies[moving].position = arena::CENTRE;
@@ -254,14 +254,14 @@ proptest! {
 
     #[test]
     fn colliding_bodies_keep_their_momentum(offset in -1.5..1.5_f32, speed in 1.0..25.0_f32, mover in 0..4_usize, next in 1..4_usize, angle in -4.0..4.0_f32) {
-        let physique = Physique {
+        let physics = PhysicsConfig {
             walls: Vec::new(),
             agents: [AgentBody { radius: 0.8, max_force: 300.0 }, AgentBody { radius: 1.2, max_force: 300.0 }],
             object_radii: [0.8, 1.2],
             object_count: 2,
         };
-        let forward = Forward::new(&physique);
-        let masses = [physique.agents[0].mass(), physique.agents[1].mass(), object_mass(0.8), object_mass(1.2)];
+        let forward = Forward::new(&physics);
+        let masses = [physics.agents[0].mass(), physics.agents[1].mass(), object_mass(0.8), object_mass(1.2)];
         let struck = (mover + next) % 4;
         let mut state = State::new([[8.0, 4.0], [24.0, 4.0], [24.0, 20.0], [8.0, 20.0]].map(|[x, y]| Body::at_rest(Vec2::new(x, y), angle)));
         state.bodies[mover].position = Vec2::new(12.5, 12.0);
@@ -292,27 +292,27 @@ fn nothing_gains_energy_by_itself() {
     };
     let mut runner = TestRunner::deterministic();
     let motion = (-30.0..30.0_f32, -30.0..30.0_f32, -8.0..8.0_f32);
-    let strategy = (apart(), prop::array::uniform4(motion), actions(12));
+    let strategy = (excluded_pairs(), prop::array::uniform4(motion), actions(12));
     let mut gains = [Vec::new(), Vec::new()];
     for _ in 0..500 {
-        let ((physique, mut start), motions, actions) =
+        let ((physics, mut start), motions, actions) =
             strategy.new_tree(&mut runner).expect("a scene").current();
         for (body, (x, y, spin)) in start.bodies.iter_mut().zip(motions) {
             body.velocity = Vec2::new(x, y);
             body.angular_velocity = spin;
         }
-        let forward = Forward::new(&physique);
-        let (mut state, mut warm, mut memory) = (start, start, forward.remember(&start));
-        let mut energies = [energy(&physique, &start); 2];
+        let forward = Forward::new(&physics);
+        let (mut state, mut warm, mut solver_cache) = (start, start, forward.fresh_cache(&start));
+        let mut energies = [energy(&physics, &start); 2];
         for actions in actions {
             let actions = actions.map(idle);
             let runs = [
                 forward.step_substeps(&mut state, actions),
-                forward.step_warm(&mut warm, &mut memory, actions),
+                forward.step_warm(&mut warm, &mut solver_cache, actions),
             ];
             for ((run, before), gains) in runs.into_iter().zip(&mut energies).zip(&mut gains) {
                 for after in run {
-                    let now = energy(&physique, &after);
+                    let now = energy(&physics, &after);
                     // While anything moves; a scene at rest would make the share look good.
                     if *before > GAIN {
                         gains.push(now - *before);
@@ -336,13 +336,13 @@ fn nothing_gains_energy_by_itself() {
 
 #[test]
 fn numbers_that_are_none_do_not_spread() {
-    let physique = Physique {
+    let physics = PhysicsConfig {
         walls: Vec::new(),
         agents: [AgentBody { radius: 0.8, max_force: 300.0 }; 2],
         object_radii: [0.8; 2],
         object_count: 2,
     };
-    let forward = Forward::new(&physique);
+    let forward = Forward::new(&physics);
     for bad in [f32::NAN, f32::INFINITY, f32::MAX, -f32::MAX] {
         for field in 0..6 {
             let mut state =
@@ -359,9 +359,9 @@ fn numbers_that_are_none_do_not_spread() {
             }
             for _ in 0..3 {
                 forward.step(&mut state, [Action::Up, Action::TurnLeft]);
-                assert!(state.is_finite(&physique), "field {field} = {bad}: {state:?}");
+                assert!(state.is_finite(&physics), "field {field} = {bad}: {state:?}");
                 assert!(
-                    physique.entities().all(|entity| arena::contains(centre(&physique, &state, entity))),
+                    physics.entities().all(|entity| arena::contains(centre(&physics, &state, entity))),
                     "field {field} = {bad}: {state:?}"
                 );
             }
@@ -372,7 +372,7 @@ fn numbers_that_are_none_do_not_spread() {
 #[test]
 fn bodies_at_rest_stay_at_rest() {
     for layout in Layout::all_used() {
-        let physique = Physique {
+        let physics = PhysicsConfig {
             walls: layout.walls(),
             agents: [AgentBody { radius: 0.8, max_force: 300.0 }; 2],
             object_radii: [0.8; 2],
@@ -387,7 +387,7 @@ fn bodies_at_rest_stay_at_rest() {
         let start = State::new(places.map(|place| Body::at_rest(place, 0.5)));
         let mut state = start;
         for _ in 0..4 {
-            Forward::new(&physique).step(&mut state, [Action::NoForce, Action::Stop]);
+            Forward::new(&physics).step(&mut state, [Action::NoForce, Action::Stop]);
         }
         for (now, then) in state.bodies.iter().zip(&start.bodies) {
             assert!(now.position.distance(then.position) < 1e-5 && now.velocity == Vec2::ZERO);

@@ -2,7 +2,7 @@
 
 mod records;
 
-use phase_calibration::{ColdForward, Probe, Spread, WarmForward};
+use phase_calibration::{ColdForward, ErrorQuantiles, Probe, WarmForward};
 use records::text;
 use std::collections::BTreeMap;
 
@@ -45,7 +45,8 @@ fn probes_are_replayed() {
         }
     }
     for (family, warm_limit, cold_limit) in FAMILIES {
-        let [warm, cold] = errors[family].each_ref().map(|errors| Spread::of(errors).expect("some substeps"));
+        let [warm, cold] =
+            errors[family].each_ref().map(|errors| ErrorQuantiles::of(errors).expect("some substeps"));
         println!("{family:<14} with memory {warm:.6?}, without {cold:.6?}");
         assert!(warm.p90 < warm_limit && cold.p90 < cold_limit && warm.max < WORST, "{family}");
     }

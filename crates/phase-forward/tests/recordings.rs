@@ -3,7 +3,7 @@
 mod records;
 
 use phase_calibration::{
-    Ahead, ColdForward, Deviation, Engine, Replay, Run, WarmForward, ahead, replay_reports,
+    ColdForward, Deviation, Engine, HorizonErrors, Replay, Run, WarmForward, horizon_errors, replay_reports,
 };
 use phase_dataset::phase_events;
 use phase_statistics::percentile;
@@ -18,13 +18,13 @@ const HORIZONS: [(usize, [f32; 2], [f32; 2]); 2] =
 fn predictions_from_recorded_states_hold() {
     let Some(runs) = runs() else { return };
     for (horizon, alone, remembered) in HORIZONS {
-        let check = |found: Option<Ahead>, [p90, p99]: [f32; 2], how: &str| {
-            let found = found.expect("runs that are long enough");
-            println!("{horizon} steps ahead {how}: {found:.6?}");
-            assert!(found.p90 < p90 && found.p99 < p99, "{horizon} steps ahead {how}");
+        let check = |current: Option<HorizonErrors>, [p90, p99]: [f32; 2], how: &str| {
+            let current = current.expect("runs that are long enough");
+            println!("{horizon} steps ahead {how}: {current:.6?}");
+            assert!(current.p90 < p90 && current.p99 < p99, "{horizon} steps ahead {how}");
         };
-        check(ahead::<ColdForward>(&runs, horizon), alone, "from a state alone");
-        check(ahead::<WarmForward>(&runs, horizon), remembered, "with fresh memory");
+        check(horizon_errors::<ColdForward>(&runs, horizon), alone, "from a state alone");
+        check(horizon_errors::<WarmForward>(&runs, horizon), remembered, "with fresh memory");
     }
 }
 
@@ -35,12 +35,12 @@ fn long_runs_are_followed() {
     let Some(runs) = runs() else { return };
     let mut errors = Vec::new();
     for run in &runs {
-        let mut kernel = WarmForward::set_up(&run.physique, &run.states[0]);
+        let mut kernel = WarmForward::set_up(&run.physics, &run.states[0]);
         kernel.settle();
         // The memory goes on from step to step while the bodies are put back onto the record.
         for (&actions, recorded) in run.actions.iter().zip(&run.states[1..]) {
             kernel.step(actions);
-            let deviation = Deviation::between(&run.physique, &kernel.state.bodies, &recorded.bodies);
+            let deviation = Deviation::between(&run.physics, &kernel.state.bodies, &recorded.bodies);
             errors.push(deviation.position);
             kernel.state.bodies = recorded.bodies;
         }

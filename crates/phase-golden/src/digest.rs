@@ -1,6 +1,6 @@
 //! SHA-256 over the raw bits of plain data.
 
-use phase_model::{Entity, Physique, State};
+use phase_model::{Entity, PhysicsConfig, State};
 use sha2::{Digest as _, Sha256};
 
 /// A digest that grows with everything it is shown. The order matters; lengths are part of what is digested.
@@ -41,8 +41,8 @@ impl Digest {
     }
 
     /// Adds the bodies present in a state, what is held, and which bodies touch.
-    pub fn state(&mut self, physique: &Physique, state: &State) {
-        let entities: Vec<Entity> = physique.entities().collect();
+    pub fn state(&mut self, physics: &PhysicsConfig, state: &State) {
+        let entities: Vec<Entity> = physics.entities().collect();
         for &entity in &entities {
             let body = state.body(entity);
             let [position, velocity] = [body.position, body.velocity];

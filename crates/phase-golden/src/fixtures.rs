@@ -1,7 +1,7 @@
 //! Physical scenes and random actions to take golden values of.
 
 use phase_model::{
-    AGENT_COUNT, Action, AgentBody, Body, Flip, Layout, Physique, Size, State, Strength, Vec2,
+    AGENT_COUNT, Action, AgentBody, Body, Flip, Layout, PhysicsConfig, Size, State, Strength, Vec2,
     random::{Pcg64Mcg, Purpose, stream},
 };
 use rand::RngExt;
@@ -12,7 +12,7 @@ pub const STEPS: usize = 500;
 /// Six scenes in which bodies start near each other and near walls, so that random actions lead to contacts,
 /// grips and hand-overs: no, one and two objects, all sizes and strengths, open and divided arenas, mirrored ones.
 #[must_use]
-pub fn scenes() -> Vec<(Physique, State)> {
+pub fn scenes() -> Vec<(PhysicsConfig, State)> {
     use Size::{Huge, Large, Medium, Small};
     use Strength::{Fair, Mighty, Strong, Weak};
     vec![
@@ -77,7 +77,7 @@ fn scene(
     agents: [(Size, Strength); AGENT_COUNT],
     objects: &[Size],
     places: &[(f32, f32)],
-) -> (Physique, State) {
+) -> (PhysicsConfig, State) {
     let walls = Layout::new(base, flip).map(Layout::walls).unwrap_or_default();
     let agents =
         agents.map(|(size, strength)| AgentBody { radius: size.radius(), max_force: strength.max_force() });
@@ -89,5 +89,5 @@ fn scene(
     for (k, (body, &(x, y))) in bodies.iter_mut().zip(places).enumerate() {
         *body = Body::at_rest(Vec2::new(x, y), k as f32);
     }
-    (Physique { walls, agents, object_radii, object_count: objects.len() }, State::new(bodies))
+    (PhysicsConfig { walls, agents, object_radii, object_count: objects.len() }, State::new(bodies))
 }

@@ -13,9 +13,9 @@
 //! ```
 //! use phase_golden::{Digest, fixtures};
 //!
-//! let (physique, state) = &fixtures::scenes()[0];
+//! let (physics, state) = &fixtures::scenes()[0];
 //! let mut digest = Digest::new();
-//! digest.state(physique, state);
+//! digest.state(physics, state);
 //! assert_eq!(digest.hex().len(), 64);
 //! ```
 

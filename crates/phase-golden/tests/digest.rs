@@ -12,10 +12,10 @@ fn digest_is_sha256() {
 
 #[test]
 fn one_bit_changes_a_digest() {
-    let (physique, state) = &fixtures::scenes()[1];
+    let (physics, state) = &fixtures::scenes()[1];
     let digest_of = |state| {
         let mut digest = Digest::new();
-        digest.state(physique, state);
+        digest.state(physics, state);
         digest.hex()
     };
     let mut changed = *state;
@@ -29,8 +29,8 @@ fn one_bit_changes_a_digest() {
 
 #[test]
 fn bodies_start_apart_and_within_the_arena() {
-    for (physique, state) in fixtures::scenes() {
-        let entities: Vec<_> = physique.entities().collect();
+    for (physics, state) in fixtures::scenes() {
+        let entities: Vec<_> = physics.entities().collect();
         for (k, &a) in entities.iter().enumerate() {
             assert!(phase_model::arena::contains(state.position(a)));
             for &b in &entities[k + 1..] {

@@ -1,6 +1,6 @@
 //! Shapes and the tests between them: trapezoids, discs and segments.
 
-use crate::{Body, Entity, Physique, Vec2, arena};
+use crate::{Body, Entity, PhysicsConfig, Vec2, arena};
 use serde::{Deserialize, Serialize};
 
 /// A straight piece of wall, or of an opening, from `a` to `b` (u).
@@ -93,8 +93,8 @@ pub enum Outline {
 impl Outline {
     /// The outline of an entity of a scene whose body is the given one.
     #[must_use]
-    pub fn of(physique: &Physique, entity: Entity, body: &Body) -> Self {
-        let radius = physique.radius(entity);
+    pub fn of(physics: &PhysicsConfig, entity: Entity, body: &Body) -> Self {
+        let radius = physics.radius(entity);
         match entity {
             Entity::Agent(_) => {
                 let rotation = Vec2::from_angle(body.angle);

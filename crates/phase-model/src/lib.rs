@@ -32,7 +32,7 @@
 //! let scene = Scene { layout: Layout::new(2, None)?, agents, objects: Vec::new(), kind: EventKind::Helping };
 //! scene.validate()?;
 //! assert_eq!(scene.relation(), Relation::Friendly);
-//! assert_eq!(scene.physique().walls.len(), 2); // of layout 2
+//! assert_eq!(scene.physics().walls.len(), 2); // of layout 2
 //! assert_eq!(Scene::from_json(&scene.to_json()?)?, scene);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -50,7 +50,7 @@ pub mod json;
 pub mod judgement;
 pub mod layout;
 mod penetration;
-pub mod physique;
+pub mod physics;
 pub mod predicate;
 pub mod random;
 pub mod reward;
@@ -69,8 +69,8 @@ pub use goal::{Attitude, Goal, Relation, Sign};
 pub use id::{AgentId, IdError, LandmarkId, ObjectId, RoomId, SlotId};
 pub use judgement::{Forecast, Judgement, RelationProbabilities};
 pub use layout::{Flip, Layout, LayoutError};
-pub use physique::{AgentBody, Physique, Size, Strength};
-pub use predicate::{Literal, Place, Predicate};
+pub use physics::{AgentBody, PhysicsConfig, Size, Strength};
+pub use predicate::{Literal, Predicate, PredicateTarget};
 pub use scene::{AgentSpec, EventKind, ObjectSpec, Scene};
 pub use scene_json::SceneReadError;
 pub use state::{Body, Contacts, Dynamics, Grip, Side, State};

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 /// Something an entity can be close to.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Place {
+pub enum PredicateTarget {
     /// An agent or object.
     Entity(Entity),
     /// A landmark.
@@ -25,7 +25,7 @@ pub enum Predicate {
     /// An object is attached to an agent's body.
     Attach(AgentId, ObjectId),
     /// An agent or object is near something; near a landmark means in the landmark's room.
-    Close(Entity, Place),
+    Close(Entity, PredicateTarget),
 }
 
 /// A predicate or its negation.
@@ -71,10 +71,10 @@ impl fmt::Display for Predicate {
             Self::On(entity, landmark) => write!(formatter, "On({entity}, landmark {landmark})"),
             Self::Touch(agent, entity) => write!(formatter, "Touch(agent {agent}, {entity})"),
             Self::Attach(agent, object) => write!(formatter, "Attach(agent {agent}, object {object})"),
-            Self::Close(entity, Place::Entity(other)) => {
+            Self::Close(entity, PredicateTarget::Entity(other)) => {
                 write!(formatter, "Close({entity}, {other})")
             }
-            Self::Close(entity, Place::Landmark(landmark)) => {
+            Self::Close(entity, PredicateTarget::Landmark(landmark)) => {
                 write!(formatter, "Close({entity}, landmark {landmark})")
             }
         }

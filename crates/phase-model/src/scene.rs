@@ -2,7 +2,7 @@
 
 use crate::{
     AGENT_COUNT, AgentBody, AgentId, Attitude, Body, Entity, Flip, Goal, Layout, MAX_ENTITIES, MAX_OBJECTS,
-    ObjectId, Physique, Relation, Size, State, Strength,
+    ObjectId, PhysicsConfig, Relation, Size, State, Strength,
 };
 use serde::{Deserialize, Serialize};
 
@@ -104,12 +104,12 @@ pub struct Scene {
 impl Scene {
     /// The part of the scene that physics knows. Objects past the second are left out.
     #[must_use]
-    pub fn physique(&self) -> Physique {
+    pub fn physics(&self) -> PhysicsConfig {
         let mut object_radii = [0.0; MAX_OBJECTS];
         for (radius, object) in object_radii.iter_mut().zip(&self.objects) {
             *radius = object.size.radius();
         }
-        Physique {
+        PhysicsConfig {
             walls: self.layout.walls(),
             agents: self.agents.map(|agent| AgentBody {
                 radius: agent.size.radius(),

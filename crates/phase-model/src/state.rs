@@ -1,6 +1,8 @@
 //! The physical state of the world at one moment, as plain copyable data.
 
-use crate::{AGENT_COUNT, Action, AgentId, Entity, Flip, MAX_ENTITIES, ObjectId, Physique, Vec2, geometry};
+use crate::{
+    AGENT_COUNT, Action, AgentId, Entity, Flip, MAX_ENTITIES, ObjectId, PhysicsConfig, Vec2, geometry,
+};
 use serde::{Deserialize, Serialize};
 
 /// Pose and motion of one body.
@@ -135,7 +137,7 @@ impl Contacts {
 /// The whole physical state: at most four bodies, who holds what, who touches whom.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 pub struct State {
-    /// Bodies by [`Entity::index`]; those past [`Physique::entity_count`] mean nothing.
+    /// Bodies by [`Entity::index`]; those past [`PhysicsConfig::entity_count`] mean nothing.
     pub bodies: [Body; MAX_ENTITIES],
     /// What each agent holds.
     pub grips: [Option<Grip>; AGENT_COUNT],
@@ -191,20 +193,20 @@ impl State {
     }
 
     /// The object that `attach` would grab, and with which side: of the objects whose centre is nearer than
-    /// r + [`crate::physique::GRAB_REACH`] to one of the agent's four grab points, the nearest.
+    /// r + [`crate::physics::GRAB_REACH`] to one of the agent's four grab points, the nearest.
     /// `None` if the agent already holds something.
     #[must_use]
-    pub fn attachable(&self, physique: &Physique, agent: AgentId) -> Option<(ObjectId, Side)> {
+    pub fn attachable(&self, physics: &PhysicsConfig, agent: AgentId) -> Option<(ObjectId, Side)> {
         if self.grips[agent].is_some() {
             return None;
         }
         let body = self.body(Entity::Agent(agent));
-        let radius = physique.agents[agent].radius;
+        let radius = physics.agents[agent].radius;
         let rotation = Vec2::from_angle(body.angle);
         let mut best: Option<(f32, ObjectId, Side)> = None;
-        for object in physique.objects() {
+        for object in physics.objects() {
             let centre = self.position(Entity::Object(object));
-            let reach = physique.object_radii[object] + crate::physique::GRAB_REACH;
+            let reach = physics.object_radii[object] + crate::physics::GRAB_REACH;
             for side in Side::ALL {
                 let point = body.position + rotation.rotate(side.direction() * radius);
                 let distance = point.distance(centre);
@@ -218,8 +220,8 @@ impl State {
 
     /// Whether every number of the bodies present is finite.
     #[must_use]
-    pub fn is_finite(&self, physique: &Physique) -> bool {
-        self.bodies[..physique.entity_count()].iter().all(Body::is_finite)
+    pub fn is_finite(&self, physics: &PhysicsConfig) -> bool {
+        self.bodies[..physics.entity_count()].iter().all(Body::is_finite)
     }
 }
 
@@ -230,7 +232,7 @@ pub trait Dynamics {
 
     /// Advances the state by one step approximately, for comparing actions within a search. The default is
     /// [`step`](Self::step).
-    fn imagine(&self, state: &mut State, actions: [Action; AGENT_COUNT]) {
+    fn step_approximate(&self, state: &mut State, actions: [Action; AGENT_COUNT]) {
         self.step(state, actions);
     }
 }

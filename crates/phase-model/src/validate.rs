@@ -40,7 +40,7 @@ pub enum SceneError {
     },
     /// A goal is about an agent touching itself.
     #[error("agents[{agent}].goal: an agent cannot touch itself")]
-    TouchesItself {
+    SelfTouch {
         /// Whose goal.
         agent: AgentId,
     },
@@ -88,7 +88,7 @@ impl Scene {
         }
         self.check_finite()?;
         let state = self.initial_state();
-        for entity in self.physique().entities() {
+        for entity in self.physics().entities() {
             let body = state.body(entity);
             let field = format!("{}.start", field_name(entity));
             if !arena::contains(body.position) {
@@ -122,7 +122,7 @@ impl Scene {
     /// Checks that every number of the starts is finite.
     pub(crate) fn check_finite(&self) -> Result<(), SceneError> {
         let state = self.initial_state();
-        match self.physique().entities().find(|&entity| !state.body(entity).is_finite()) {
+        match self.physics().entities().find(|&entity| !state.body(entity).is_finite()) {
             Some(entity) => Err(SceneError::NotFinite { field: format!("{}.start", field_name(entity)) }),
             None => Ok(()),
         }
@@ -133,16 +133,16 @@ impl Scene {
     ///
     /// # Errors
     /// The first rule that is broken.
-    pub fn validate_apart(&self) -> Result<(), SceneError> {
+    pub fn validate_without_overlap(&self) -> Result<(), SceneError> {
         self.validate()?;
-        let (physique, state) = (self.physique(), self.initial_state());
-        let outlines: Vec<(Entity, Outline)> = physique
+        let (physics, state) = (self.physics(), self.initial_state());
+        let outlines: Vec<(Entity, Outline)> = physics
             .entities()
-            .map(|entity| (entity, Outline::of(&physique, entity, state.body(entity))))
+            .map(|entity| (entity, Outline::of(&physics, entity, state.body(entity))))
             .collect();
         for (k, (entity, outline)) in outlines.iter().enumerate() {
             let overlap = |second: String| SceneError::Overlap { first: field_name(*entity), second };
-            if !outline.inside_arena() || physique.walls.iter().any(|&wall| outline.overlaps_wall(wall)) {
+            if !outline.inside_arena() || physics.walls.iter().any(|&wall| outline.overlaps_wall(wall)) {
                 return Err(overlap("a wall".into()));
             }
             if let Some((other, _)) = outlines[..k].iter().find(|(_, other)| outline.overlaps(other)) {
@@ -166,7 +166,7 @@ fn check_goal(agent: AgentId, goal: Goal, count: usize) -> Result<(), SceneError
         Goal::ObjectOnLandmark { object, .. } if object.index() >= count => {
             Err(SceneError::GoalOfAbsentObject { agent, object, count })
         }
-        Goal::Touch { agent: who, other, .. } if who == other => Err(SceneError::TouchesItself { agent }),
+        Goal::Touch { agent: who, other, .. } if who == other => Err(SceneError::SelfTouch { agent }),
         Goal::AgentOnLandmark { .. } | Goal::ObjectOnLandmark { .. } | Goal::Touch { .. } => Ok(()),
     }
 }

@@ -76,9 +76,9 @@ impl Scene {
     /// simulated in spite of it; what must not be in it is an error of [`Scene::validate`].
     #[must_use]
     pub fn warnings(&self) -> Vec<SceneWarning> {
-        let (physique, state) = (self.physique(), self.initial_state());
-        let body = |entity: Entity| (entity, Outline::of(&physique, entity, state.body(entity)));
-        let outlines: Vec<(Entity, Outline)> = physique.entities().map(body).collect();
+        let (physics, state) = (self.physics(), self.initial_state());
+        let body = |entity: Entity| (entity, Outline::of(&physics, entity, state.body(entity)));
+        let outlines: Vec<(Entity, Outline)> = physics.entities().map(body).collect();
         let mut warnings = Vec::new();
         for (k, &(first, outline)) in outlines.iter().enumerate() {
             for &(second, other) in &outlines[k + 1..] {
@@ -86,7 +86,7 @@ impl Scene {
                     warnings.push(SceneWarning::Overlap { first, second, depth });
                 }
             }
-            let walls = physique.walls.iter().filter_map(|&wall| outline.depth_in_wall(wall));
+            let walls = physics.walls.iter().filter_map(|&wall| outline.depth_in_wall(wall));
             let depth = walls.chain(outline.depth_in_boundary()).fold(0.0, f32::max);
             if depth > TOUCH {
                 warnings.push(SceneWarning::AcrossWall { body: first, depth });

@@ -7,7 +7,7 @@ use parry2d::{
     shape::{Ball, ConvexPolygon, Segment as ParrySegment},
 };
 use phase_model::{
-    AgentBody, AgentId, Body, Entity, ObjectId, Physique, Segment, Vec2,
+    AgentBody, AgentId, Body, Entity, ObjectId, PhysicsConfig, Segment, Vec2,
     geometry::{Outline, trapezoid},
 };
 use proptest::prelude::*;
@@ -15,8 +15,8 @@ use proptest::prelude::*;
 /// Nearer than this to touching, the two sides may disagree.
 const DOUBT: f32 = 1e-3;
 
-fn physique(agent: f32, object: f32) -> Physique {
-    Physique {
+fn physics(agent: f32, object: f32) -> PhysicsConfig {
+    PhysicsConfig {
         walls: vec![],
         agents: [AgentBody { radius: agent, max_force: 300.0 }; 2],
         object_radii: [object; 2],
@@ -40,9 +40,9 @@ fn body() -> impl Strategy<Value = Body> {
 proptest! {
     #[test]
     fn trapezoid_and_disc(agent in body(), object in body(), r in 0.8..1.6_f32, s in 0.8..1.6_f32) {
-        let physique = physique(r, s);
-        let ours = Outline::of(&physique, Entity::Agent(AgentId::ZERO), &agent)
-            .overlaps(&Outline::of(&physique, Entity::Object(ObjectId::ZERO), &object));
+        let physics = physics(r, s);
+        let ours = Outline::of(&physics, Entity::Agent(AgentId::ZERO), &agent)
+            .overlaps(&Outline::of(&physics, Entity::Object(ObjectId::ZERO), &object));
         // parry reports 0 for overlap, so overlap by more than the doubt is asked of a smaller disc.
         let (a, b) = (pose(&agent), pose(&object));
         let apart = distance(&a, &polygon(r), &b, &Ball::new(s)).expect("supported").distance;
@@ -53,10 +53,10 @@ proptest! {
 
     #[test]
     fn trapezoids(one in body(), two in body(), r in 0.8..1.6_f32, s in 0.8..1.6_f32) {
-        let mut physique = physique(r, 1.0);
-        physique.agents[1].radius = s;
-        let ours = Outline::of(&physique, Entity::Agent(AgentId::ZERO), &one)
-            .overlaps(&Outline::of(&physique, Entity::Agent(AgentId::ONE), &two));
+        let mut physics = physics(r, 1.0);
+        physics.agents[1].radius = s;
+        let ours = Outline::of(&physics, Entity::Agent(AgentId::ZERO), &one)
+            .overlaps(&Outline::of(&physics, Entity::Agent(AgentId::ONE), &two));
         let (a, b) = (pose(&one), pose(&two));
         let apart = distance(&a, &polygon(r), &b, &polygon(s)).expect("supported").distance;
         let deep = distance(&a, &polygon(r * 0.998), &b, &polygon(s * 0.998)).expect("supported").distance;
@@ -69,13 +69,13 @@ proptest! {
         let wall = Segment { a: Vec2::new(ends[0], ends[1]), b: Vec2::new(ends[2], ends[3]) };
         prop_assume!(wall.length() > 0.1);
         let theirs = ParrySegment::new(Vector::new(wall.a.x, wall.a.y), Vector::new(wall.b.x, wall.b.y));
-        let physique = physique(r, r);
-        let ours = Outline::of(&physique, Entity::Agent(AgentId::ZERO), &agent).overlaps_wall(wall);
+        let physics = physics(r, r);
+        let ours = Outline::of(&physics, Entity::Agent(AgentId::ZERO), &agent).overlaps_wall(wall);
         let apart = distance(&pose(&agent), &polygon(r), &Pose::identity(), &theirs).expect("supported").distance;
         let deep = distance(&pose(&agent), &polygon(r * 0.998), &Pose::identity(), &theirs).expect("supported").distance;
         prop_assert!(!(ours && apart > DOUBT), "overlap seen, {apart} apart");
         prop_assert!(ours || deep > 0.0, "overlap missed");
-        let disc = Outline::of(&physique, Entity::Object(ObjectId::ZERO), &agent).overlaps_wall(wall);
+        let disc = Outline::of(&physics, Entity::Object(ObjectId::ZERO), &agent).overlaps_wall(wall);
         let apart = distance(&pose(&agent), &Ball::new(r), &Pose::identity(), &theirs).expect("supported").distance;
         let deep = distance(&pose(&agent), &Ball::new(r - DOUBT), &Pose::identity(), &theirs).expect("supported").distance;
         prop_assert!(!(disc && apart > DOUBT), "overlap seen, {apart} apart");

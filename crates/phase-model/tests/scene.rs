@@ -38,7 +38,7 @@ type Fault = (fn(&mut Scene), &'static str);
 #[test]
 fn faults_are_named() {
     assert_eq!(scene().validate(), Ok(()));
-    assert_eq!(scene().validate_apart(), Ok(()));
+    assert_eq!(scene().validate_without_overlap(), Ok(()));
     let faults: [Fault; 8] = [
         (|s| s.agents[0].start.position.x = f32::NAN, "agents[0].start must hold finite numbers"),
         (|s| s.objects[0].start.angle = f32::INFINITY, "objects[0].start must hold finite numbers"),
@@ -71,9 +71,9 @@ fn overlaps_are_refused_only_where_asked() {
     let mut scene = scene();
     scene.agents[1].start.position = Vec2::new(9.0, 8.0);
     assert_eq!(scene.validate(), Ok(()));
-    assert!(matches!(scene.validate_apart(), Err(SceneError::Overlap { .. })));
+    assert!(matches!(scene.validate_without_overlap(), Err(SceneError::Overlap { .. })));
     scene.agents[1].start.position = Vec2::new(25.5, 8.0);
-    assert!(matches!(scene.validate_apart(), Err(SceneError::Overlap { .. })));
+    assert!(matches!(scene.validate_without_overlap(), Err(SceneError::Overlap { .. })));
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Measures what seeing costs: `cargo run --release -p phase-perception --example perception_cost`.
 
 use phase_model::{
-    AgentBody, AgentId, Body, Entity, Layout, LayoutError, ObjectId, Physique, Size, State, Vec2,
+    AgentBody, AgentId, Body, Entity, Layout, LayoutError, ObjectId, PhysicsConfig, Size, State, Vec2,
     random::{Pcg64Mcg, Purpose, stream},
 };
 use phase_perception::{field_of_view, observe, observed_set, sees};
@@ -13,7 +13,7 @@ const STATES: usize = 1000;
 const ROUNDS: usize = 50;
 
 fn main() -> Result<(), LayoutError> {
-    let physique = Physique {
+    let physics = PhysicsConfig {
         walls: Layout::new(20, None)?.walls(),
         agents: [Size::Large, Size::Small].map(|size| AgentBody { radius: size.radius(), max_force: 300.0 }),
         object_radii: [Size::Medium.radius(), Size::Huge.radius()],
@@ -22,21 +22,20 @@ fn main() -> Result<(), LayoutError> {
     let mut random = stream(1, Purpose::Scene, 0);
     let states: Vec<State> =
         (0..STATES).map(|_| State::new(core::array::from_fn(|_| any_body(&mut random)))).collect();
-    let visible: usize =
-        states.iter().map(|state| field_of_view(&physique, state, AgentId::ZERO).len()).sum();
+    let visible: usize = states.iter().map(|state| field_of_view(&physics, state, AgentId::ZERO).len()).sum();
     let observed: usize =
-        states.iter().map(|state| observed_set(&physique, state, AgentId::ZERO).iter().count() - 1).sum();
+        states.iter().map(|state| observed_set(&physics, state, AgentId::ZERO).iter().count() - 1).sum();
     println!("{STATES} random states, 4 bodies, 4 walls; on average");
     println!("  {:.0} of 400 cells visible,", visible as f64 / STATES as f64);
     println!("  {:.2} of 3 others observed", observed as f64 / STATES as f64);
-    measure("field_of_view", &states, |state| field_of_view(&physique, state, AgentId::ZERO).len());
-    measure("observe", &states, |state| observe(&physique, state, AgentId::ZERO).visible.len());
-    measure("observed_set", &states, |state| observed_set(&physique, state, AgentId::ZERO).bits().into());
+    measure("field_of_view", &states, |state| field_of_view(&physics, state, AgentId::ZERO).len());
+    measure("observe", &states, |state| observe(&physics, state, AgentId::ZERO).visible.len());
+    measure("observed_set", &states, |state| observed_set(&physics, state, AgentId::ZERO).bits().into());
     measure("sees (an agent)", &states, |state| {
-        sees(&physique, state, AgentId::ZERO, Entity::Agent(AgentId::ONE)).into()
+        sees(&physics, state, AgentId::ZERO, Entity::Agent(AgentId::ONE)).into()
     });
     measure("sees (an object)", &states, |state| {
-        sees(&physique, state, AgentId::ZERO, Entity::Object(ObjectId::ZERO)).into()
+        sees(&physics, state, AgentId::ZERO, Entity::Object(ObjectId::ZERO)).into()
     });
     Ok(())
 }

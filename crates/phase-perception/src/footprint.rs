@@ -1,13 +1,13 @@
 //! Which cells a body lies on.
 
 use crate::cells::{Cell, CellSet};
-use phase_model::{Body, Entity, Physique, Vec2, geometry::Outline};
+use phase_model::{Body, Entity, PhysicsConfig, Vec2, geometry::Outline};
 
 /// The cells that share inner points with an entity's outline; parts outside the arena have none.
 #[must_use]
-pub fn footprint(physique: &Physique, entity: Entity, body: &Body) -> CellSet {
+pub fn footprint(physics: &PhysicsConfig, entity: Entity, body: &Body) -> CellSet {
     let mut cells = CellSet::EMPTY;
-    let _ = any_cell(&Outline::of(physique, entity, body), |cell| {
+    let _ = any_cell(&Outline::of(physics, entity, body), |cell| {
         cells.insert(cell);
         false
     });

@@ -7,15 +7,15 @@
 //! An agent that faces +y sees the other ahead of it, and not the object behind its back:
 //!
 //! ```
-//! use phase_model::{AgentBody, AgentId, Body, Entity, ObjectId, Physique, State, Vec2};
+//! use phase_model::{AgentBody, AgentId, Body, Entity, ObjectId, PhysicsConfig, State, Vec2};
 //! use phase_perception::observe;
 //!
 //! let body = AgentBody { radius: 0.8, max_force: 450.0 };
-//! let physique = Physique { walls: Vec::new(), agents: [body; 2], object_radii: [0.8; 2], object_count: 1 };
+//! let physics = PhysicsConfig { walls: Vec::new(), agents: [body; 2], object_radii: [0.8; 2], object_count: 1 };
 //! let places = [Vec2::new(16.0, 9.0), Vec2::new(16.0, 15.0), Vec2::new(16.0, 4.0), Vec2::ZERO];
 //! let state = State::new(places.map(|place| Body::at_rest(place, 0.0)));
 //!
-//! let observation = observe(&physique, &state, AgentId::ZERO);
+//! let observation = observe(&physics, &state, AgentId::ZERO);
 //! let other = Entity::Agent(AgentId::ONE);
 //! assert_eq!(observation.body(other), Some(state.body(other)));
 //! assert_eq!(observation.body(Entity::Object(ObjectId::ZERO)), None);
@@ -23,7 +23,7 @@
 //!
 //! # What is seen
 //!
-//! The eye sits in the agent's centre of mass and looks along its heading, [54.69°](eye::TAN_HALF_ANGLE) to
+//! The eye sits in the agent's centre of mass and looks along its heading, [54.69°](viewpoint::TAN_HALF_ANGLE) to
 //! either side, as far as the arena reaches. Inner walls, objects and the other agent stand in the way, the
 //! bodies as discs. A held object is no exception, so an agent that carries something in front of its head
 //! sees little else: in the paper all entities obstruct the view.
@@ -50,11 +50,11 @@
 #![deny(missing_docs)]
 
 pub mod cells;
-pub mod eye;
 pub mod footprint;
 pub mod observation;
+pub mod viewpoint;
 
 pub use cells::{Cell, CellSet};
-pub use eye::{Eye, field_of_view, sees};
 pub use footprint::footprint;
 pub use observation::{Observation, observe, observed_set};
+pub use viewpoint::{Viewpoint, field_of_view, sees};

@@ -2,14 +2,14 @@
 
 use crate::{
     cells::{Cell, CellSet},
-    eye::{Eye, field_of_view},
+    viewpoint::{Viewpoint, field_of_view},
 };
-use phase_model::{AgentId, Body, BodySet, Contacts, Entity, Grip, MAX_ENTITIES, Physique, State};
+use phase_model::{AgentId, Body, BodySet, Contacts, Entity, Grip, MAX_ENTITIES, PhysicsConfig, State};
 
 /// Everything an agent observes of a state, oᵢ of the paper.
 #[must_use]
-pub fn observe(physique: &Physique, state: &State, agent: AgentId) -> Observation {
-    let observed = observed_set(physique, state, agent);
+pub fn observe(physics: &PhysicsConfig, state: &State, agent: AgentId) -> Observation {
+    let observed = observed_set(physics, state, agent);
     let own = Entity::Agent(agent);
     let mut known = State::new([Body::default(); MAX_ENTITIES]);
     for entity in observed.iter() {
@@ -23,9 +23,9 @@ pub fn observe(physique: &Physique, state: &State, agent: AgentId) -> Observatio
     }
     Observation {
         agent,
-        visible: field_of_view(physique, state, agent),
+        visible: field_of_view(physics, state, agent),
         observed,
-        touched: physique.entities().filter(|&entity| state.touching(own, entity)).collect(),
+        touched: physics.entities().filter(|&entity| state.touching(own, entity)).collect(),
         known,
     }
 }
@@ -33,15 +33,15 @@ pub fn observe(physique: &Physique, state: &State, agent: AgentId) -> Observatio
 /// Which entities an agent observes, itself included: the coarse observation for imagined states.
 /// Equal to [`Observation::observed`] of [`observe`], but looks only at the cells that bodies lie on.
 #[must_use]
-pub fn observed_set(physique: &Physique, state: &State, agent: AgentId) -> BodySet {
-    let mut observed = with_touching(physique, state, [Entity::Agent(agent)].into_iter().collect());
-    let mut eye = None;
-    for entity in physique.entities() {
+pub fn observed_set(physics: &PhysicsConfig, state: &State, agent: AgentId) -> BodySet {
+    let mut observed = contact_closure(physics, state, [Entity::Agent(agent)].into_iter().collect());
+    let mut viewpoint = None;
+    for entity in physics.entities() {
         if !observed.contains(entity)
-            && eye.get_or_insert_with(|| Eye::new(physique, state, agent)).sees(entity)
+            && viewpoint.get_or_insert_with(|| Viewpoint::new(physics, state, agent)).sees(entity)
         {
             observed.insert(entity);
-            observed = with_touching(physique, state, observed);
+            observed = contact_closure(physics, state, observed);
         }
     }
     observed
@@ -97,10 +97,10 @@ impl Observation {
 }
 
 /// A set of entities, all that touch one of them, all that touch one of those, and so on.
-fn with_touching(physique: &Physique, state: &State, mut set: BodySet) -> BodySet {
+fn contact_closure(physics: &PhysicsConfig, state: &State, mut set: BodySet) -> BodySet {
     loop {
         let touching = |entity: Entity| set.iter().any(|known| state.touching(known, entity));
-        let larger = physique.entities().filter(|&entity| touching(entity)).collect::<BodySet>().union(set);
+        let larger = physics.entities().filter(|&entity| touching(entity)).collect::<BodySet>().union(set);
         if larger == set {
             return set;
         }

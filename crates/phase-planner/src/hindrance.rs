@@ -5,44 +5,44 @@
 //! strengths.
 
 use crate::{
-    express::express,
-    flight,
+    evasion,
     plan::{self, Plan},
+    problem::{Location, PlanningProblem, obstruct},
     routes::{Gaps, Routes, point_in},
     search,
-    situation::{Situation, Spot, obstruct},
     symbolic::Node,
     task::Task,
+    to_subgoals::to_subgoals,
 };
 use phase_model::{
-    AgentId, BodySet, Entity, Goal, LandmarkId, ObjectId, Place, Predicate, Sign, Subgoal, Vec2,
+    AgentId, BodySet, Entity, Goal, LandmarkId, ObjectId, Predicate, PredicateTarget, Sign, Subgoal, Vec2,
     layout::room_of,
 };
 use phase_predicates::achieved;
 
 /// Weight of the hinderer's own travel relative to the other's cost.
-const EFFORT: f32 = 0.4;
+const EFFORT_WEIGHT: f32 = 0.4;
 /// Cap of the effect (u), so that all ways of making the goal infeasible count alike.
-const GREATEST_EFFECT: f32 = 80.0;
+const MAX_EFFECT: f32 = 80.0;
 /// Value of obstructing the other where no door can be blocked (u).
-const IN_THE_WAY: f32 = 8.0;
+const OBSTRUCTION_VALUE: f32 = 8.0;
 /// Path length by which the hinderer may be behind the other at a door that it tries to block (u).
-const LATE: f32 = 1.0;
+const MAX_LATENESS: f32 = 1.0;
 
 /// The most effective interference with a goal of the other. A negated goal is hindered by achieving its
 /// positive form.
 #[must_use]
-pub fn plan(situation: &Situation<'_>, agent: AgentId, goal: Goal) -> Plan {
+pub fn plan(problem: &PlanningProblem<'_>, agent: AgentId, goal: Goal) -> Plan {
     let mut candidates = match goal {
         Goal::AgentOnLandmark { sign: Sign::Negative, .. }
         | Goal::ObjectOnLandmark { sign: Sign::Negative, .. } => {
-            return bring_about(situation, agent, goal);
+            return achieve_unwanted(problem, agent, goal);
         }
-        Goal::AgentOnLandmark { landmark, .. } => keep_agent_off(situation, agent, goal, landmark),
+        Goal::AgentOnLandmark { landmark, .. } => obstruct_agent(problem, agent, goal, landmark),
         Goal::ObjectOnLandmark { object, landmark, .. } => {
-            keep_object_off(situation, agent, goal, object, landmark)
+            obstruct_object(problem, agent, goal, object, landmark)
         }
-        Goal::Touch { sign, .. } => vec![evade_or_pursue(situation, agent, sign)],
+        Goal::Touch { sign, .. } => vec![evade_or_pursue(problem, agent, sign)],
     };
     // The first of equals, so that the order above decides ties.
     let mut best: Option<(f32, Plan)> = None;
@@ -56,11 +56,11 @@ pub fn plan(situation: &Situation<'_>, agent: AgentId, goal: Goal) -> Plan {
 
 /// Achieves what the other tries to avoid. An agent that is to be on a landmark against its own goal has to be pushed
 /// there.
-fn bring_about(situation: &Situation<'_>, agent: AgentId, goal: Goal) -> Plan {
-    let task = lone_task(situation, agent, goal, None);
+fn achieve_unwanted(problem: &PlanningProblem<'_>, agent: AgentId, goal: Goal) -> Plan {
+    let task = single_agent_task(problem, agent, goal, None);
     let subject = goal.subject();
-    if let Some(plan) = search::solve(&task, Node::start(situation)) {
-        let mut plan = express(&task, &plan, agent);
+    if let Some(plan) = search::solve(&task, Node::start(problem)) {
+        let mut plan = to_subgoals(&task, &plan, agent);
         if let Entity::Object(object) = subject {
             // Since the other would undo it, the object has to be held in place.
             plan.subgoals.retain(|&subgoal| subgoal != plan::not(Predicate::Attach(agent, object)));
@@ -68,25 +68,21 @@ fn bring_about(situation: &Situation<'_>, agent: AgentId, goal: Goal) -> Plan {
         return plan;
     }
     let Some(landmark) = goal.landmark() else { return Plan::STAY };
-    let mut subgoals = let_go_first(situation, agent);
+    let mut subgoals = release_first(problem, agent);
     subgoals.push(plan::is(Predicate::On(subject, landmark)));
-    plan::skip_done(situation, &mut subgoals);
-    Plan { subgoals, distance: way(situation, agent, situation.state.position(subject)) }
+    plan::drop_satisfied(problem, &mut subgoals);
+    Plan { subgoals, distance: way(problem, agent, problem.state.position(subject)) }
 }
 
-fn evade_or_pursue(situation: &Situation<'_>, agent: AgentId, sign: Sign) -> (f32, Plan) {
+fn evade_or_pursue(problem: &PlanningProblem<'_>, agent: AgentId, sign: Sign) -> (f32, Plan) {
     if sign == Sign::Positive {
-        return (0.0, flight::plan(situation, agent));
+        return (0.0, evasion::plan(problem, agent));
     }
-    let here = situation.state.position(Entity::Agent(agent));
-    let there = situation.state.position(Entity::Agent(agent.other()));
+    let here = problem.state.position(Entity::Agent(agent));
+    let there = problem.state.position(Entity::Agent(agent.other()));
     let mut subgoals = Vec::new();
-    let route = situation.routes.best(
-        here,
-        there,
-        situation.width(agent, None),
-        situation.gaps(agent, BodySet::OBJECTS),
-    );
+    let route =
+        problem.routes.best(here, there, problem.width(agent, None), problem.gaps(agent, BodySet::OBJECTS));
     if let Some(route) = &route {
         plan::rooms(route, here, there, Entity::Agent(agent), &mut subgoals);
     }
@@ -95,31 +91,31 @@ fn evade_or_pursue(situation: &Situation<'_>, agent: AgentId, sign: Sign) -> (f3
 }
 
 /// Block a door on the other's way, or stand between it and its landmark.
-fn keep_agent_off(
-    situation: &Situation<'_>,
+fn obstruct_agent(
+    problem: &PlanningProblem<'_>,
     agent: AgentId,
     goal: Goal,
     landmark: LandmarkId,
 ) -> Vec<(f32, Plan)> {
     let victim = agent.other();
-    let base = other_cost(situation, victim, goal, hands_free(situation, agent), None);
-    let target = situation.position(Spot::Landmark(landmark));
-    let there = situation.state.position(Entity::Agent(victim));
-    let mut candidates = block_doors(situation, agent, goal, there, target, base);
-    let between = target + (there - target).clamp_length_max(guard_distance(situation));
-    let way = way(situation, agent, between);
-    let mut subgoals = let_go_first(situation, agent);
-    if room_of(situation.state.position(Entity::Agent(agent))) != landmark.room() && way > 6.0 {
-        approach_rooms(situation, agent, between, &mut subgoals);
+    let base = other_cost(problem, victim, goal, without_held_object(problem, agent), None);
+    let target = problem.position(Location::Landmark(landmark));
+    let there = problem.state.position(Entity::Agent(victim));
+    let mut candidates = block_doors(problem, agent, goal, there, target, base);
+    let between = target + (there - target).clamp_length_max(guard_distance(problem));
+    let way = way(problem, agent, between);
+    let mut subgoals = release_first(problem, agent);
+    if room_of(problem.state.position(Entity::Agent(agent))) != landmark.room() && way > 6.0 {
+        approach_rooms(problem, agent, between, &mut subgoals);
     }
     subgoals.push(plan::not(Predicate::On(Entity::Agent(victim), landmark)));
-    candidates.push((base + IN_THE_WAY - EFFORT * way, Plan { subgoals, distance: way }));
+    candidates.push((base + OBSTRUCTION_VALUE - EFFORT_WEIGHT * way, Plan { subgoals, distance: way }));
     candidates
 }
 
 /// Each door on the other's way that the hinderer's body can close and that it can reach in time.
 fn block_doors(
-    situation: &Situation<'_>,
+    problem: &PlanningProblem<'_>,
     agent: AgentId,
     goal: Goal,
     from: Vec2,
@@ -127,28 +123,31 @@ fn block_doors(
     base: f32,
 ) -> Vec<(f32, Plan)> {
     let victim = agent.other();
-    let width = situation.width(victim, None);
-    let Some(route) = situation.routes.best(from, to, width, situation.gaps(victim, BodySet::OBJECTS)) else {
+    let width = problem.width(victim, None);
+    let Some(route) = problem.routes.best(from, to, width, problem.gaps(victim, BodySet::OBJECTS)) else {
         return Vec::new();
     };
     let mut candidates = Vec::new();
     let mut room = room_of(from);
     for &(slot, _) in route.doors() {
-        let next = Routes::beyond(slot, room);
-        let gap = situation.routes.gaps().0[slot];
+        let next = Routes::neighbour_across(slot, room);
+        let gap = problem.routes.gaps().0[slot];
         room = next;
         let Some((low, high)) = gap else { continue };
         let middle = point_in(slot, 0.5 * (low + high));
-        let gaps = closed_by(situation, agent, victim, middle);
-        let effect = other_cost(situation, victim, goal, hands_free(situation, agent), Some(gaps));
-        let own_way = way(situation, agent, middle);
-        if effect <= base + 1.0 || own_way > from.distance(middle) + LATE {
+        let gaps = gaps_with_blocker(problem, agent, victim, middle);
+        let effect = other_cost(problem, victim, goal, without_held_object(problem, agent), Some(gaps));
+        let own_way = way(problem, agent, middle);
+        if effect <= base + 1.0 || own_way > from.distance(middle) + MAX_LATENESS {
             continue;
         }
-        let mut subgoals = let_go_first(situation, agent);
-        subgoals.push(plan::not(Predicate::Close(Entity::Agent(victim), Place::Landmark(next.landmark()))));
+        let mut subgoals = release_first(problem, agent);
+        subgoals.push(plan::not(Predicate::Close(
+            Entity::Agent(victim),
+            PredicateTarget::Landmark(next.landmark()),
+        )));
         candidates.push((
-            effect.min(base + GREATEST_EFFECT) - EFFORT * own_way,
+            effect.min(base + MAX_EFFECT) - EFFORT_WEIGHT * own_way,
             Plan { subgoals, distance: own_way },
         ));
     }
@@ -156,132 +155,132 @@ fn block_doors(
 }
 
 /// The doors as the victim finds them when the hinderer stands in one.
-fn closed_by(situation: &Situation<'_>, agent: AgentId, victim: AgentId, at: Vec2) -> Gaps {
-    let mut gaps = *situation.gaps(victim, BodySet::OBJECTS);
-    let half_width = 0.5 * situation.width(agent, None);
+fn gaps_with_blocker(problem: &PlanningProblem<'_>, agent: AgentId, victim: AgentId, at: Vec2) -> Gaps {
+    let mut gaps = *problem.gaps(victim, BodySet::OBJECTS);
+    let half_width = 0.5 * problem.width(agent, None);
     obstruct(&mut gaps, at, half_width, half_width);
     gaps
 }
 
 /// Take the object away, pull against the other, or failing that stand in the way.
-fn keep_object_off(
-    situation: &Situation<'_>,
+fn obstruct_object(
+    problem: &PlanningProblem<'_>,
     agent: AgentId,
     goal: Goal,
     object: ObjectId,
     landmark: LandmarkId,
 ) -> Vec<(f32, Plan)> {
     let victim = agent.other();
-    let start = Node::start(situation);
-    let free = hands_free(situation, agent);
-    let base = other_cost(situation, victim, goal, free, None);
-    let task = lone_task(situation, agent, goal, None);
+    let start = Node::start(problem);
+    let free = without_held_object(problem, agent);
+    let base = other_cost(problem, victim, goal, free, None);
+    let task = single_agent_task(problem, agent, goal, None);
     let me = Entity::Agent(agent);
-    let spot = Spot::Now(Entity::Object(object));
-    let holding = situation.state.held_object(agent) == Some(object);
-    let contested = situation.state.held_object(victim) == Some(object);
-    let fetch = if holding { 0.0 } else { task.distance(&start, agent, None, spot) };
+    let location = Location::Current(Entity::Object(object));
+    let holding = problem.state.held_object(agent) == Some(object);
+    let contested = problem.state.held_object(victim) == Some(object);
+    let fetch = if holding { 0.0 } else { task.distance(&start, agent, None, location) };
     let mut candidates = Vec::new();
     for refuge in LandmarkId::ALL.into_iter().filter(|&refuge| refuge != landmark) {
         let mut after = free;
-        after.objects[object] = Spot::Landmark(refuge);
+        after.objects[object] = Location::Landmark(refuge);
         after.holds[victim] = None;
-        let effect = other_cost(situation, victim, goal, after, None).min(base + GREATEST_EFFECT);
+        let effect = other_cost(problem, victim, goal, after, None).min(base + MAX_EFFECT);
         let mut carrying = start;
         carrying.holds[agent] = Some(object);
-        let carry = task.distance(&carrying, agent, Some(object), Spot::Landmark(refuge));
+        let carry = task.distance(&carrying, agent, Some(object), Location::Landmark(refuge));
         let mut subgoals = Vec::new();
         if !holding {
-            subgoals = let_go_first(situation, agent);
-            approach_rooms(situation, agent, situation.position(spot), &mut subgoals);
-            subgoals.push(plan::is(Predicate::Close(me, Place::Entity(Entity::Object(object)))));
+            subgoals = release_first(problem, agent);
+            approach_rooms(problem, agent, problem.position(location), &mut subgoals);
+            subgoals.push(plan::is(Predicate::Close(me, PredicateTarget::Entity(Entity::Object(object)))));
             subgoals.push(plan::is(Predicate::Attach(agent, object)));
         }
-        let (from, to) = (situation.position(spot), situation.position(Spot::Landmark(refuge)));
-        let width = situation.width(agent, Some(object));
+        let (from, to) = (problem.position(location), problem.position(Location::Landmark(refuge)));
+        let width = problem.width(agent, Some(object));
         let gaps = task.gaps(&carrying, agent, Some(object));
-        if let Some(route) = situation.routes.best(from, to, width, &gaps) {
+        if let Some(route) = problem.routes.best(from, to, width, &gaps) {
             plan::rooms(&route, from, to, Entity::Object(object), &mut subgoals);
         }
         subgoals.push(plan::is(Predicate::On(Entity::Object(object), refuge)));
-        plan::skip_done(situation, &mut subgoals);
+        plan::drop_satisfied(problem, &mut subgoals);
         let mut holders = plan::only(agent);
         holders[victim] = false;
-        let feasible = situation.net_force(holders) > 0.0 || contested;
+        let feasible = problem.net_force(holders) > 0.0 || contested;
         if feasible {
-            let value = effect - EFFORT * (fetch + carry);
+            let value = effect - EFFORT_WEIGHT * (fetch + carry);
             candidates.push((value, Plan { subgoals, distance: fetch + carry }));
         }
     }
-    if achieved(situation.physique, situation.state, goal) {
+    if achieved(problem.physics, problem.state, goal) {
         return candidates;
     }
-    let target = situation.position(Spot::Landmark(landmark));
-    candidates.extend(block_doors(situation, agent, goal, situation.position(spot), target, base));
+    let target = problem.position(Location::Landmark(landmark));
+    candidates.extend(block_doors(problem, agent, goal, problem.position(location), target, base));
     if candidates.is_empty() {
-        let mut subgoals = let_go_first(situation, agent);
-        approach_rooms(situation, agent, target, &mut subgoals);
+        let mut subgoals = release_first(problem, agent);
+        approach_rooms(problem, agent, target, &mut subgoals);
         subgoals.push(plan::not(Predicate::On(Entity::Object(object), landmark)));
-        plan::skip_done(situation, &mut subgoals);
-        candidates.push((0.0, Plan { subgoals, distance: way(situation, agent, target) }));
+        plan::drop_satisfied(problem, &mut subgoals);
+        candidates.push((0.0, Plan { subgoals, distance: way(problem, agent, target) }));
     }
     candidates
 }
 
 /// The present symbolic state with the hinderer's hands free, so that releasing does not appear effective
 /// only because holding is.
-fn hands_free(situation: &Situation<'_>, agent: AgentId) -> Node {
-    let mut node = Node::start(situation);
+fn without_held_object(problem: &PlanningProblem<'_>, agent: AgentId) -> Node {
+    let mut node = Node::start(problem);
     node.holds[agent] = None;
     node
 }
 
 /// What the other's best plan costs from a symbolic state, acting alone.
 fn other_cost(
-    situation: &Situation<'_>,
+    problem: &PlanningProblem<'_>,
     other: AgentId,
     goal: Goal,
     node: Node,
     narrowed: Option<Gaps>,
 ) -> f32 {
-    search::solve(&lone_task(situation, other, goal, narrowed), node).map_or(f32::MAX, |plan| plan.cost)
+    search::solve(&single_agent_task(problem, other, goal, narrowed), node).map_or(f32::MAX, |plan| plan.cost)
 }
 
 /// The task of one agent that acts alone and against the other, which may have narrowed doors for it.
-fn lone_task<'a>(
-    situation: &'a Situation<'a>,
+fn single_agent_task<'a>(
+    problem: &'a PlanningProblem<'a>,
     agent: AgentId,
     goal: Goal,
     narrowed: Option<Gaps>,
 ) -> Task<'a> {
     Task {
-        situation,
+        problem,
         goal,
         actors: plan::only(agent),
-        effort: [1.0; 2],
-        allied: false,
+        effort_weights: [1.0; 2],
+        cooperative: false,
         narrowed: narrowed.map(|gaps| (agent, gaps)),
     }
 }
 
 /// Distance at which a guard stands before a landmark (u): both bodies' radii.
-fn guard_distance(situation: &Situation<'_>) -> f32 {
-    situation.physique.agents.iter().map(|body| body.radius).sum()
+fn guard_distance(problem: &PlanningProblem<'_>) -> f32 {
+    problem.physics.agents.iter().map(|body| body.radius).sum()
 }
 
-fn way(situation: &Situation<'_>, agent: AgentId, to: Vec2) -> f32 {
-    let from = situation.state.position(Entity::Agent(agent));
-    situation.routes.cost(from, to, situation.width(agent, None), situation.gaps(agent, BodySet::OBJECTS))
+fn way(problem: &PlanningProblem<'_>, agent: AgentId, to: Vec2) -> f32 {
+    let from = problem.state.position(Entity::Agent(agent));
+    problem.routes.cost(from, to, problem.width(agent, None), problem.gaps(agent, BodySet::OBJECTS))
 }
 
-fn approach_rooms(situation: &Situation<'_>, agent: AgentId, to: Vec2, subgoals: &mut Vec<Subgoal>) {
-    let from = situation.state.position(Entity::Agent(agent));
-    let width = situation.width(agent, None);
-    if let Some(route) = situation.routes.best(from, to, width, situation.gaps(agent, BodySet::OBJECTS)) {
+fn approach_rooms(problem: &PlanningProblem<'_>, agent: AgentId, to: Vec2, subgoals: &mut Vec<Subgoal>) {
+    let from = problem.state.position(Entity::Agent(agent));
+    let width = problem.width(agent, None);
+    if let Some(route) = problem.routes.best(from, to, width, problem.gaps(agent, BodySet::OBJECTS)) {
         plan::rooms(&route, from, to, Entity::Agent(agent), subgoals);
     }
 }
 
-fn let_go_first(situation: &Situation<'_>, agent: AgentId) -> Vec<Subgoal> {
-    plan::let_go(situation, agent).subgoals
+fn release_first(problem: &PlanningProblem<'_>, agent: AgentId) -> Vec<Subgoal> {
+    plan::release(problem, agent).subgoals
 }

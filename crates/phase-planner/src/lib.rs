@@ -15,19 +15,19 @@
 //!
 //! ```
 //! use phase_model::{
-//!     AgentBody, AgentId, Attitude, Body, BodySet, Goal, LandmarkId, Layout, Physique, Sign, State, Vec2,
+//!     AgentBody, AgentId, Attitude, Body, BodySet, Goal, LandmarkId, Layout, PhysicsConfig, Sign, State, Vec2,
 //! };
 //! use phase_planner::Planner;
 //!
 //! let layout = Layout::new(2, None)?;
 //! let body = AgentBody { radius: 0.8, max_force: 450.0 };
-//! let physique =
-//!     Physique { walls: layout.walls(), agents: [body; 2], object_radii: [0.0; 2], object_count: 0 };
+//! let physics =
+//!     PhysicsConfig { walls: layout.walls(), agents: [body; 2], object_radii: [0.0; 2], object_count: 0 };
 //! let places = [Vec2::new(8.0, 18.0), Vec2::new(24.0, 8.0), Vec2::ZERO, Vec2::ZERO];
 //! let state = State::new(places.map(|place| Body::at_rest(place, 0.0)));
 //! let goals = [(AgentId::ZERO, LandmarkId::TOP_RIGHT), (AgentId::ONE, LandmarkId::TOP_LEFT)]
 //!     .map(|(agent, landmark)| Goal::AgentOnLandmark { agent, landmark, sign: Sign::Positive });
-//! let planner = Planner::new(physique, layout, AgentId::ZERO, goals, Attitude::Neutral);
+//! let planner = Planner::new(physics, layout, AgentId::ZERO, goals, Attitude::Neutral);
 //! let plan = planner.plan(&state, BodySet::EMPTY);
 //! let words: Vec<String> = plan.subgoals.iter().map(|subgoal| subgoal.to_string()).collect();
 //! assert_eq!(words[0], "Close(agent 0, landmark 3)"); // the next room on the way
@@ -39,21 +39,21 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
-pub mod aside;
-mod express;
-pub mod flight;
+pub mod evasion;
 pub mod hindrance;
 pub mod plan;
 pub mod planner;
+pub mod problem;
 pub mod routes;
 pub mod search;
-pub mod situation;
 pub mod symbolic;
 pub mod task;
+mod to_subgoals;
 pub mod value;
+pub mod yielding;
 
 pub use plan::Plan;
 pub use planner::Planner;
+pub use problem::{Location, PlanningProblem};
 pub use routes::{Gaps, Route, Routes};
-pub use situation::{Situation, Spot};
 pub use value::Candidate;

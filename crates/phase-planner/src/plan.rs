@@ -1,10 +1,12 @@
 //! An agent's plan, and the parts that plans of all kinds are made of.
 
 use crate::{
+    problem::PlanningProblem,
     routes::{Route, Routes},
-    situation::Situation,
 };
-use phase_model::{AGENT_COUNT, AgentId, Entity, Literal, Place, Predicate, Subgoal, layout::room_of};
+use phase_model::{
+    AGENT_COUNT, AgentId, Entity, Literal, Predicate, PredicateTarget, Subgoal, layout::room_of,
+};
 use phase_predicates::is_true;
 
 /// An agent's plan from one possible state.
@@ -29,29 +31,29 @@ impl Plan {
 }
 
 /// The plan of going to an entity to see it.
-pub(crate) fn visit(situation: &Situation<'_>, agent: AgentId, entity: Entity) -> Plan {
+pub(crate) fn inspect(problem: &PlanningProblem<'_>, agent: AgentId, entity: Entity) -> Plan {
     let me = Entity::Agent(agent);
-    let (from, to) = (situation.state.position(me), situation.state.position(entity));
+    let (from, to) = (problem.state.position(me), problem.state.position(entity));
     let mut subgoals = Vec::new();
-    let width = situation.width(agent, None);
-    let route = situation.routes.best(from, to, width, situation.routes.gaps());
+    let width = problem.width(agent, None);
+    let route = problem.routes.best(from, to, width, problem.routes.gaps());
     if let Some(route) = &route {
         rooms(route, from, to, me, &mut subgoals);
     }
-    subgoals.push(is(Predicate::Close(me, Place::Entity(entity))));
+    subgoals.push(is(Predicate::Close(me, PredicateTarget::Entity(entity))));
     // Close and yet unobserved means behind the agent's back: approaching it means turning round.
     subgoals.push(is(Predicate::Touch(agent, entity)));
-    skip_done(situation, &mut subgoals);
+    drop_satisfied(problem, &mut subgoals);
     Plan { subgoals, distance: route.map_or(0.0, |route| route.cost()) }
 }
 
 /// Drops the leading subgoals that are satisfied already.
-pub(crate) fn skip_done(situation: &Situation<'_>, subgoals: &mut Vec<Subgoal>) {
+pub(crate) fn drop_satisfied(problem: &PlanningProblem<'_>, subgoals: &mut Vec<Subgoal>) {
     let done = subgoals
         .iter()
         .take_while(|subgoal| {
             matches!(subgoal, Subgoal::Achieve(literal)
-                if is_true(situation.physique, situation.state, *literal))
+                if is_true(problem.physics, problem.state, *literal))
         })
         .count();
     subgoals.drain(..done);
@@ -59,8 +61,8 @@ pub(crate) fn skip_done(situation: &Situation<'_>, subgoals: &mut Vec<Subgoal>) 
 
 /// The plan of letting go of whatever is in hand and then staying.
 #[must_use]
-pub(crate) fn let_go(situation: &Situation<'_>, agent: AgentId) -> Plan {
-    situation.state.grips[agent].map_or(Plan::STAY, |grip| Plan {
+pub(crate) fn release(problem: &PlanningProblem<'_>, agent: AgentId) -> Plan {
+    problem.state.grips[agent].map_or(Plan::STAY, |grip| Plan {
         subgoals: vec![not(Predicate::Attach(agent, grip.object))],
         distance: 0.0,
     })
@@ -80,8 +82,8 @@ pub(crate) fn rooms(
     }
     let mut room = room_of(from);
     for &(slot, _) in route.doors() {
-        room = Routes::beyond(slot, room);
-        subgoals.push(is(Predicate::Close(mover, Place::Landmark(room.landmark()))));
+        room = Routes::neighbour_across(slot, room);
+        subgoals.push(is(Predicate::Close(mover, PredicateTarget::Landmark(room.landmark()))));
     }
 }
 

@@ -1,31 +1,33 @@
 //! One agent's planner: which kind of plan its goal and attitude call for.
 
 use crate::{
-    aside,
-    express::express,
-    flight, hindrance,
-    plan::{Plan, let_go, only, visit},
+    evasion, hindrance,
+    plan::{Plan, inspect, only, release},
+    problem::PlanningProblem,
     routes::Routes,
     search,
-    situation::Situation,
     symbolic::Node,
     task::Task,
+    to_subgoals::to_subgoals,
+    yielding,
 };
-use phase_model::{AGENT_COUNT, AgentId, Attitude, BodySet, Entity, Goal, Layout, Physique, Sign, State};
+use phase_model::{
+    AGENT_COUNT, AgentId, Attitude, BodySet, Entity, Goal, Layout, PhysicsConfig, Sign, State,
+};
 use phase_predicates::achieved;
 
 /// Effort weight of a helper's own travel relative to the helpee's: of two equally short plans it takes the
 /// one that spares the other.
-const HELPERS_EFFORT: f32 = 0.5;
+const HELPER_EFFORT_WEIGHT: f32 = 0.5;
 
 /// A plan that costs this much contains something nearly impossible (u): see
 /// [`crate::routes::IMPASSABLE_COST`] and the cost of a load too heavy.
-const HOPELESS: f32 = 60.0;
+const INFEASIBLE_COST: f32 = 60.0;
 
 /// The high-level planner of one agent, with everything that does not change during an event.
 #[derive(Clone, Debug)]
 pub struct Planner {
-    physique: Physique,
+    physics: PhysicsConfig,
     routes: Routes,
     agent: AgentId,
     goals: [Goal; AGENT_COUNT],
@@ -37,13 +39,13 @@ impl Planner {
     /// towards the other.
     #[must_use]
     pub fn new(
-        physique: Physique,
+        physics: PhysicsConfig,
         layout: Layout,
         agent: AgentId,
         goals: [Goal; AGENT_COUNT],
         attitude: Attitude,
     ) -> Self {
-        Self { physique, routes: Routes::new(layout), agent, goals, attitude }
+        Self { physics, routes: Routes::new(layout), agent, goals, attitude }
     }
 
     /// The ways between rooms.
@@ -56,59 +58,67 @@ impl Planner {
     /// observes these entities.
     #[must_use]
     pub fn plan(&self, state: &State, observed: BodySet) -> Plan {
-        let situation = Situation::new(&self.physique, &self.routes, state);
+        let problem = PlanningProblem::new(&self.physics, &self.routes, state);
         let own = self.goals[self.agent];
         let other = self.goals[self.agent.other()];
         match self.attitude {
-            Attitude::Help => self.help(&situation, other, observed),
-            Attitude::Hinder => hindrance::plan(&situation, self.agent, other),
-            Attitude::Neutral if own.sign() == Sign::Negative => self.avoid(&situation, own),
-            Attitude::Neutral => self.pursue(&situation, own, other, observed),
+            Attitude::Help => self.help(&problem, other, observed),
+            Attitude::Hinder => hindrance::plan(&problem, self.agent, other),
+            Attitude::Neutral if own.sign() == Sign::Negative => self.avoid(&problem, own),
+            Attitude::Neutral => self.pursue(&problem, own, other, observed),
         }
     }
 
     /// A neutral agent plans with its own actions. It relies on the other only if both have the same goal and
     /// it cannot achieve it alone.
-    fn pursue(&self, situation: &Situation<'_>, own: Goal, other: Goal, observed: BodySet) -> Plan {
-        if let Some(plan) = self.finish(situation, own, observed) {
+    fn pursue(&self, problem: &PlanningProblem<'_>, own: Goal, other: Goal, observed: BodySet) -> Plan {
+        if let Some(plan) = self.finish(problem, own, observed) {
             return plan;
         }
         let task = Task {
-            situation,
+            problem,
             goal: own,
             actors: only(self.agent),
-            effort: [1.0; AGENT_COUNT],
-            allied: own == other,
+            effort_weights: [1.0; AGENT_COUNT],
+            cooperative: own == other,
             narrowed: None,
         };
-        let alone = search::solve(&task, Node::start(situation));
+        let alone = search::solve(&task, Node::start(problem));
         match alone {
-            Some(plan) if own != other || plan.cost < HOPELESS => express(&task, &plan, self.agent),
-            _ if own == other => self.cooperate(situation, own, 1.0, observed),
+            Some(plan) if own != other || plan.cost < INFEASIBLE_COST => {
+                to_subgoals(&task, &plan, self.agent)
+            }
+            _ if own == other => self.cooperate(problem, own, 1.0, observed),
             _ => Plan::STAY,
         }
     }
 
     /// The agent's part of the cheapest joint plan for a goal, its own travel weighted by
-    /// `own_effort`. An agent without a part yields.
-    fn cooperate(&self, situation: &Situation<'_>, goal: Goal, own_effort: f32, observed: BodySet) -> Plan {
-        let mut effort = [1.0; AGENT_COUNT];
-        effort[self.agent] = own_effort;
+    /// `own_effort_weight`. An agent without a part yields.
+    fn cooperate(
+        &self,
+        problem: &PlanningProblem<'_>,
+        goal: Goal,
+        own_effort_weight: f32,
+        observed: BodySet,
+    ) -> Plan {
+        let mut effort_weights = [1.0; AGENT_COUNT];
+        effort_weights[self.agent] = own_effort_weight;
         let actors = [true; AGENT_COUNT];
-        let task = Task { situation, goal, actors, effort, allied: true, narrowed: None };
-        let plan = search::solve(&task, Node::start(situation))
-            .map_or(Plan::STAY, |plan| express(&task, &plan, self.agent));
+        let task = Task { problem, goal, actors, effort_weights, cooperative: true, narrowed: None };
+        let plan = search::solve(&task, Node::start(problem))
+            .map_or(Plan::STAY, |plan| to_subgoals(&task, &plan, self.agent));
         // An agent has to observe that it is not needed.
         let unseen = [goal.subject(), Entity::Agent(self.agent.other())];
         match unseen.into_iter().find(|&entity| !observed.contains(entity)) {
             Some(entity) if plan.subgoals.is_empty() => {
                 // If the entity cannot be reached, the optimistic particles must not be cheaper than the path there.
-                let visit = visit(situation, self.agent, entity);
-                Plan { distance: plan.distance.max(visit.distance), ..visit }
+                let inspect = inspect(problem, self.agent, entity);
+                Plan { distance: plan.distance.max(inspect.distance), ..inspect }
             }
             None if plan.subgoals.is_empty() => {
-                let aside = aside::subgoal(situation, self.agent, goal);
-                Plan { subgoals: aside.into_iter().collect(), ..plan }
+                let yielding = yielding::subgoal(problem, self.agent, goal);
+                Plan { subgoals: yielding.into_iter().collect(), ..plan }
             }
             _ => plan,
         }
@@ -116,43 +126,43 @@ impl Planner {
 
     /// A helper looks for the cheapest way in which both together reach the other's goal, and does its own
     /// part of it; if the other does best alone, that part is nothing.
-    fn help(&self, situation: &Situation<'_>, goal: Goal, observed: BodySet) -> Plan {
+    fn help(&self, problem: &PlanningProblem<'_>, goal: Goal, observed: BodySet) -> Plan {
         if goal.sign() == Sign::Negative {
-            return self.help_to_avoid(situation, goal);
+            return self.help_to_avoid(problem, goal);
         }
-        if let Some(plan) = self.finish(situation, goal, observed) {
+        if let Some(plan) = self.finish(problem, goal, observed) {
             return plan;
         }
-        self.cooperate(situation, goal, HELPERS_EFFORT, observed)
+        self.cooperate(problem, goal, HELPER_EFFORT_WEIGHT, observed)
     }
 
     /// An avoidance goal is helped by staying away; other negated goals by undoing them.
-    fn help_to_avoid(&self, situation: &Situation<'_>, goal: Goal) -> Plan {
+    fn help_to_avoid(&self, problem: &PlanningProblem<'_>, goal: Goal) -> Plan {
         match goal {
-            Goal::Touch { .. } => flight::plan(situation, self.agent),
-            _ => hindrance::plan(situation, self.agent, goal.negated()),
+            Goal::Touch { .. } => evasion::plan(problem, self.agent),
+            _ => hindrance::plan(problem, self.agent, goal.negated()),
         }
     }
 
     /// A negated goal of one's own: flight from the other, or keeping something off a landmark.
-    fn avoid(&self, situation: &Situation<'_>, goal: Goal) -> Plan {
+    fn avoid(&self, problem: &PlanningProblem<'_>, goal: Goal) -> Plan {
         match goal {
-            Goal::Touch { .. } => flight::plan(situation, self.agent),
-            _ => hindrance::plan(situation, self.agent, goal.negated()),
+            Goal::Touch { .. } => evasion::plan(problem, self.agent),
+            _ => hindrance::plan(problem, self.agent, goal.negated()),
         }
     }
 
     /// What to do once the goal holds: let go of whatever is in hand, else nothing. An agent that believes an
     /// object to be where it should be without observing it goes and looks. `None` while the goal does not hold.
-    fn finish(&self, situation: &Situation<'_>, goal: Goal, observed: BodySet) -> Option<Plan> {
-        if !achieved(situation.physique, situation.state, goal) {
+    fn finish(&self, problem: &PlanningProblem<'_>, goal: Goal, observed: BodySet) -> Option<Plan> {
+        if !achieved(problem.physics, problem.state, goal) {
             return None;
         }
         match goal.subject() {
             object @ Entity::Object(_) if !observed.contains(object) => {
-                Some(visit(situation, self.agent, object))
+                Some(inspect(problem, self.agent, object))
             }
-            _ => Some(let_go(situation, self.agent)),
+            _ => Some(release(problem, self.agent)),
         }
     }
 }

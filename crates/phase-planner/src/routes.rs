@@ -132,7 +132,7 @@ impl Routes {
         }
         let mut best: Option<Route> = None;
         for sequence in &self.sequences[here][there] {
-            if best.is_some_and(|best| self.at_least(sequence, from, to) >= best.cost()) {
+            if best.is_some_and(|best| self.length_lower_bound(sequence, from, to) >= best.cost()) {
                 continue;
             }
             let route = self.along(sequence, from, to, width, gaps);
@@ -153,13 +153,13 @@ impl Routes {
 
     /// The room on the other side of a slot.
     #[must_use]
-    pub fn beyond(slot: SlotId, room: RoomId) -> RoomId {
+    pub fn neighbour_across(slot: SlotId, room: RoomId) -> RoomId {
         let (a, b) = SLOT_ROOMS[slot];
         if a == room { b } else { a }
     }
 
     /// A length that no way through several doors falls short of (u), at little cost.
-    fn at_least(&self, sequence: &[SlotId], from: Vec2, to: Vec2) -> f32 {
+    fn length_lower_bound(&self, sequence: &[SlotId], from: Vec2, to: Vec2) -> f32 {
         let near = |slot: &SlotId, point: Vec2| {
             let (low, high) = self.gaps.0[*slot].unwrap_or((0.0, 0.0));
             let along = (point - arena::CENTRE).dot(SLOT_DIRECTIONS[*slot]);

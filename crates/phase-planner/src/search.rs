@@ -6,7 +6,7 @@ use crate::{
 };
 
 /// A* needs a totally ordered cost; this many units make one world unit.
-const UNITS: f32 = 256.0;
+const COST_RESOLUTION: f32 = 256.0;
 
 /// A symbolic plan: what is done in which symbolic state, in order, and what it all costs.
 #[derive(Clone, Debug)]
@@ -26,7 +26,7 @@ pub struct SymbolicPlan {
 /// Of equally cheap plans the one that the heuristic leads to is taken.
 #[must_use]
 pub fn solve(task: &Task<'_>, start: Node) -> Option<SymbolicPlan> {
-    let (mut nodes, mut cost) = search(task, &start, |node| (task.heuristic(node) * UNITS) as u32)?;
+    let (mut nodes, mut cost) = search(task, &start, |node| (task.heuristic(node) * COST_RESOLUTION) as u32)?;
     if !task.heuristic_is_admissible()
         && let Some((cheapest, least)) = search(task, &start, |_| 0)
         && least < cost
@@ -44,7 +44,7 @@ pub fn solve(task: &Task<'_>, start: Node) -> Option<SymbolicPlan> {
         })
         .collect();
     let end = nodes.last().copied().unwrap_or(start);
-    Some(SymbolicPlan { steps, end, cost: cost as f32 / UNITS })
+    Some(SymbolicPlan { steps, end, cost: cost as f32 / COST_RESOLUTION })
 }
 
 /// A* with a heuristic in its units: symbolic states on the way and the cost. A state is opened again when a
@@ -52,13 +52,13 @@ pub fn solve(task: &Task<'_>, start: Node) -> Option<SymbolicPlan> {
 fn search(task: &Task<'_>, start: &Node, heuristic: impl Fn(&Node) -> u32) -> Option<(Vec<Node>, u32)> {
     pathfinding::prelude::astar(
         start,
-        |node| task.successors(node).into_iter().map(|(_, after, cost)| (after, units(cost))),
+        |node| task.successors(node).into_iter().map(|(_, after, cost)| (after, quantise(cost))),
         heuristic,
         |node| task.is_done(node),
     )
 }
 
 /// A cost in A*'s units, rounded up so that a lower bound stays one. Not a number counts as very far.
-fn units(cost: f32) -> u32 {
-    libm::ceilf(cost.clamp(0.0, 1e6) * UNITS) as u32
+fn quantise(cost: f32) -> u32 {
+    libm::ceilf(cost.clamp(0.0, 1e6) * COST_RESOLUTION) as u32
 }

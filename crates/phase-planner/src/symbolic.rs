@@ -1,15 +1,15 @@
 //! Symbolic states, and the operators that lead from one to another.
 
-use crate::situation::{Situation, Spot};
+use crate::problem::{Location, PlanningProblem};
 use phase_model::{AGENT_COUNT, AgentId, BodySet, Entity, LandmarkId, MAX_OBJECTS, ObjectId, RoomId, SlotId};
 
 /// A symbolic state of the search: positions are spots.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Node {
     /// Where each agent is.
-    pub agents: [Spot; AGENT_COUNT],
+    pub agents: [Location; AGENT_COUNT],
     /// Where each object is; with its holders, if any.
-    pub objects: [Spot; MAX_OBJECTS],
+    pub objects: [Location; MAX_OBJECTS],
     /// What each agent holds.
     pub holds: [Option<ObjectId>; AGENT_COUNT],
 }
@@ -17,11 +17,11 @@ pub struct Node {
 impl Node {
     /// The symbolic state that a physical state starts in.
     #[must_use]
-    pub fn start(situation: &Situation<'_>) -> Self {
+    pub fn start(problem: &PlanningProblem<'_>) -> Self {
         Self {
-            agents: AgentId::ALL.map(|agent| Spot::Now(Entity::Agent(agent))),
-            objects: ObjectId::ALL.map(|object| Spot::Now(Entity::Object(object))),
-            holds: situation.state.grips.map(|grip| grip.map(|grip| grip.object)),
+            agents: AgentId::ALL.map(|agent| Location::Current(Entity::Agent(agent))),
+            objects: ObjectId::ALL.map(|object| Location::Current(Entity::Object(object))),
+            holds: problem.state.grips.map(|grip| grip.map(|grip| grip.object)),
         }
     }
 
@@ -29,7 +29,7 @@ impl Node {
     pub(crate) fn unmoved(&self) -> BodySet {
         ObjectId::ALL
             .into_iter()
-            .filter(|&object| self.objects[object] == Spot::Now(Entity::Object(object)))
+            .filter(|&object| self.objects[object] == Location::Current(Entity::Object(object)))
             .map(Entity::Object)
             .collect()
     }

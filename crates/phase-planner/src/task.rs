@@ -1,8 +1,8 @@
 //! The symbolic planning task that A* solves: locations, grips and operator costs.
 
 use crate::{
+    problem::{Location, PlanningProblem},
     routes::{Gaps, IMPASSABLE_COST},
-    situation::{Situation, Spot},
     symbolic::{Node, Operator},
 };
 use phase_model::{
@@ -11,27 +11,27 @@ use phase_model::{
 };
 
 /// Cost of grabbing or letting go (u of travel).
-const HANDLING_COST: f32 = 1.0;
+const GRASP_COST: f32 = 1.0;
 /// Added when the holders are too weak to move an object, so that carrying it is the last resort.
 const IMMOVABLE_COST: f32 = 60.0;
 /// Upper bound of the carrying-time factor, reached as the net force approaches zero.
-const GREATEST_SLOWNESS: f32 = 5.0;
+const MAX_CARRYING_FACTOR: f32 = 5.0;
 /// Net force at which carrying takes twice as long as walking (N).
-const SLOW_FORCE: f32 = 100.0;
+const CARRYING_FORCE_SCALE: f32 = 100.0;
 
 /// A goal to be reached by some agents' actions.
 #[derive(Clone, Copy, Debug)]
 pub struct Task<'a> {
     /// Where everything is.
-    pub situation: &'a Situation<'a>,
+    pub problem: &'a PlanningProblem<'a>,
     /// What is to hold in the end; its sign is taken as positive.
     pub goal: Goal,
     /// Which agents act.
     pub actors: [bool; AGENT_COUNT],
     /// Effort weight of each agent's travel: 1 in full, less for an agent willing to travel more.
-    pub effort: [f32; AGENT_COUNT],
+    pub effort_weights: [f32; AGENT_COUNT],
     /// Whether both agents pull the same way when both hold an object.
-    pub allied: bool,
+    pub cooperative: bool,
     /// Doors narrowed for one agent by something that is not an object, such as the other agent's body.
     pub narrowed: Option<(AgentId, Gaps)>,
 }
@@ -41,9 +41,11 @@ impl Task<'_> {
     #[must_use]
     pub fn is_done(&self, node: &Node) -> bool {
         let reached = match self.goal {
-            Goal::AgentOnLandmark { agent, landmark, .. } => node.agents[agent] == Spot::Landmark(landmark),
+            Goal::AgentOnLandmark { agent, landmark, .. } => {
+                node.agents[agent] == Location::Landmark(landmark)
+            }
             Goal::ObjectOnLandmark { object, landmark, .. } => {
-                node.objects[object] == Spot::Landmark(landmark)
+                node.objects[object] == Location::Landmark(landmark)
             }
             Goal::Touch { agent, other, .. } => node.agents[agent] == node.agents[other],
         };
@@ -55,17 +57,17 @@ impl Task<'_> {
     #[must_use]
     pub fn heuristic(&self, node: &Node) -> f32 {
         let distance =
-            |from: Spot, to: Spot| self.situation.position(from).distance(self.situation.position(to));
+            |from: Location, to: Location| self.problem.position(from).distance(self.problem.position(to));
         let straight = match self.goal {
             Goal::AgentOnLandmark { agent, landmark, .. } => {
-                distance(node.agents[agent], Spot::Landmark(landmark))
+                distance(node.agents[agent], Location::Landmark(landmark))
             }
             Goal::ObjectOnLandmark { object, landmark, .. } => {
-                distance(node.objects[object], Spot::Landmark(landmark))
+                distance(node.objects[object], Location::Landmark(landmark))
             }
             Goal::Touch { agent, other, .. } => distance(node.agents[agent], node.agents[other]),
         };
-        straight * self.effort[0].min(self.effort[1])
+        straight * self.effort_weights[0].min(self.effort_weights[1])
     }
 
     /// Whether [`Task::heuristic`] never exceeds the cost of the cheapest plan from a symbolic state.
@@ -106,26 +108,26 @@ impl Task<'_> {
     /// Path cost to a location (u), for an agent or for an object and its holders, with penalties for doors
     /// that one of them does not fit through. All holders have to come along, so the longest path counts.
     #[must_use]
-    pub fn distance(&self, node: &Node, agent: AgentId, held: Option<ObjectId>, to: Spot) -> f32 {
-        self.longest_way(node, agent, held, to, held)
+    pub fn distance(&self, node: &Node, agent: AgentId, held: Option<ObjectId>, to: Location) -> f32 {
+        self.longest_path(node, agent, held, to, held)
     }
 
-    fn longest_way(
+    fn longest_path(
         &self,
         node: &Node,
         agent: AgentId,
         held: Option<ObjectId>,
-        to: Spot,
+        to: Location,
         ignored: Option<ObjectId>,
     ) -> f32 {
-        let situation = self.situation;
+        let problem = self.problem;
         let gaps = self.gaps(node, agent, ignored);
-        let cost = |from: Spot, width: f32| {
-            situation.routes.cost(situation.position(from), situation.position(to), width, &gaps)
+        let cost = |from: Location, width: f32| {
+            problem.routes.cost(problem.position(from), problem.position(to), width, &gaps)
         };
-        let Some(object) = held else { return cost(node.agents[agent], situation.width(agent, None)) };
-        let radius = |who: AgentId| situation.physique.agents[who].radius;
-        let diameter = 2.0 * situation.physique.object_radii[object];
+        let Some(object) = held else { return cost(node.agents[agent], problem.width(agent, None)) };
+        let radius = |who: AgentId| problem.physics.agents[who].radius;
+        let diameter = 2.0 * problem.physics.object_radii[object];
         let holders = node.holders(object);
         // Two carriers are not aligned, so together they need more width than the wider one.
         let extra = if holders == [true; AGENT_COUNT] {
@@ -138,43 +140,43 @@ impl Task<'_> {
             .filter(|&holder| holders[holder] || holder == agent)
             .map(|holder| {
                 // When the load arrives, its holder is still at arm's length.
-                let way = cost(node.agents[holder], situation.width(holder, None) + extra);
-                way - situation.arm(holder, object)
+                let way = cost(node.agents[holder], problem.width(holder, None) + extra);
+                way - problem.arm(holder, object)
             })
             .fold(cost(node.objects[object], diameter), f32::max)
     }
 
     fn with_free_hands(&self, node: &Node, agent: AgentId, successors: &mut Vec<(Operator, Node, f32)>) {
-        for object in self.situation.physique.objects() {
-            if !self.matters(object) {
+        for object in self.problem.physics.objects() {
+            if !self.is_relevant(object) {
                 continue;
             }
-            let spot = node.objects[object];
+            let location = node.objects[object];
             let mut after = *node;
-            if node.agents[agent] == spot {
+            if node.agents[agent] == location {
                 after.holds[agent] = Some(object);
-                successors.push((Operator::Grab { agent, object }, after, HANDLING_COST));
+                successors.push((Operator::Grab { agent, object }, after, GRASP_COST));
             } else {
-                after.agents[agent] = spot;
-                let way = self.travel_cost(node, agent, None, spot, Some(object));
-                let spared = self.effort[agent] * self.situation.arm(agent, object);
+                after.agents[agent] = location;
+                let way = self.travel_cost(node, agent, None, location, Some(object));
+                let spared = self.effort_weights[agent] * self.problem.arm(agent, object);
                 let cost = (way - spared).max(0.0);
                 successors.push((Operator::Approach { agent, object }, after, cost));
             }
         }
         match self.goal {
             Goal::AgentOnLandmark { agent: who, landmark, .. } if who == agent => {
-                let spot = Spot::Landmark(landmark);
+                let location = Location::Landmark(landmark);
                 let mut after = *node;
-                after.agents[agent] = spot;
-                let cost = self.travel_cost(node, agent, None, spot, None);
+                after.agents[agent] = location;
+                let cost = self.travel_cost(node, agent, None, location, None);
                 successors.push((Operator::Go { agent, landmark }, after, cost));
             }
             Goal::Touch { .. } => {
-                let spot = node.agents[agent.other()];
+                let location = node.agents[agent.other()];
                 let mut after = *node;
-                after.agents[agent] = spot;
-                let cost = self.travel_cost(node, agent, None, spot, None);
+                after.agents[agent] = location;
+                let cost = self.travel_cost(node, agent, None, location, None);
                 successors.push((Operator::Meet { agent }, after, cost));
             }
             _ => {}
@@ -190,18 +192,18 @@ impl Task<'_> {
     ) {
         let mut after = *node;
         after.holds[agent] = None;
-        successors.push((Operator::Release { agent, object }, after, HANDLING_COST));
+        successors.push((Operator::Release { agent, object }, after, GRASP_COST));
         for landmark in LandmarkId::ALL {
-            let spot = Spot::Landmark(landmark);
-            if node.objects[object] == spot || !self.may_drop(object, landmark) {
+            let location = Location::Landmark(landmark);
+            if node.objects[object] == location || !self.may_place(object, landmark) {
                 continue;
             }
             let mut after = *node;
-            after.objects[object] = spot;
+            after.objects[object] = location;
             for holder in AgentId::ALL.into_iter().filter(|&holder| node.holds[holder] == Some(object)) {
-                after.agents[holder] = spot;
+                after.agents[holder] = location;
             }
-            let cost = self.carrying_cost(node, agent, object, spot);
+            let cost = self.carrying_cost(node, agent, object, location);
             successors.push((Operator::Carry { agent, object, landmark }, after, cost));
         }
         if self.actors == [true; AGENT_COUNT] {
@@ -217,34 +219,38 @@ impl Task<'_> {
         object: ObjectId,
         successors: &mut Vec<(Operator, Node, f32)>,
     ) {
-        let own = self.situation.width(agent, None);
-        let diameter = 2.0 * self.situation.physique.object_radii[object];
+        let own = self.problem.width(agent, None);
+        let diameter = 2.0 * self.problem.physics.object_radii[object];
         for (slot, (a, b)) in SlotId::ALL.into_iter().zip(SLOT_ROOMS) {
-            let gap = self.situation.routes.gaps().width(slot);
+            let gap = self.problem.routes.gaps().width(slot);
             if gap < diameter || gap >= own {
                 continue;
             }
-            let here = room_of(self.situation.position(node.objects[object]));
-            for (near, beyond) in [(a, b), (b, a)] {
+            let here = room_of(self.problem.position(node.objects[object]));
+            for (near, neighbour_across) in [(a, b), (b, a)] {
                 // What lies beyond the door already is only to be let go of.
-                if here == beyond {
+                if here == neighbour_across {
                     continue;
                 }
-                let before = Spot::Inside { slot, room: near };
-                let passed = Spot::Inside { slot, room: beyond };
+                let before = Location::Inside { slot, room: near };
+                let passed = Location::Inside { slot, room: neighbour_across };
                 let mut after = *node;
                 after.agents[agent] = before;
                 after.objects[object] = passed;
                 after.holds[agent] = None;
-                let cost = self.carrying_cost(node, agent, object, before) + 2.0 * HANDLING_COST;
-                successors.push((Operator::Pass { agent, object, slot, room: beyond }, after, cost));
+                let cost = self.carrying_cost(node, agent, object, before) + 2.0 * GRASP_COST;
+                successors.push((
+                    Operator::Pass { agent, object, slot, room: neighbour_across },
+                    after,
+                    cost,
+                ));
             }
         }
     }
 
     /// The object of the goal is carried to where it belongs, or, when both agents act, anywhere to be handed
     /// over; an object in the way is carried out of the way.
-    fn may_drop(&self, object: ObjectId, landmark: LandmarkId) -> bool {
+    fn may_place(&self, object: ObjectId, landmark: LandmarkId) -> bool {
         match self.goal {
             Goal::ObjectOnLandmark { object: wanted, landmark: goal, .. } if wanted == object => {
                 landmark == goal || self.actors == [true; AGENT_COUNT]
@@ -254,22 +260,25 @@ impl Task<'_> {
     }
 
     /// Relevant objects: the goal's own, those that block a door, and those held.
-    fn matters(&self, object: ObjectId) -> bool {
-        self.goal.subject() == Entity::Object(object) || self.situation.blocks_a_door(object)
+    fn is_relevant(&self, object: ObjectId) -> bool {
+        self.goal.subject() == Entity::Object(object) || self.problem.blocks_a_door(object)
     }
 
-    fn carrying_cost(&self, node: &Node, agent: AgentId, object: ObjectId, to: Spot) -> f32 {
+    fn carrying_cost(&self, node: &Node, agent: AgentId, object: ObjectId, to: Location) -> f32 {
         let holders = node.holders(object);
-        let net = if self.allied || holders != [true; AGENT_COUNT] {
-            self.situation.net_force(holders)
+        let net = if self.cooperative || holders != [true; AGENT_COUNT] {
+            self.problem.net_force(holders)
         } else {
             // The other pulls the other way.
             let mut alone = [false; AGENT_COUNT];
             alone[agent] = true;
-            self.situation.net_force(alone) - self.situation.physique.agents[agent.other()].max_force
+            self.problem.net_force(alone) - self.problem.physics.agents[agent.other()].max_force
         };
-        let slowness =
-            if net > 0.0 { (1.0 + SLOW_FORCE / net).min(GREATEST_SLOWNESS) } else { GREATEST_SLOWNESS };
+        let slowness = if net > 0.0 {
+            (1.0 + CARRYING_FORCE_SCALE / net).min(MAX_CARRYING_FACTOR)
+        } else {
+            MAX_CARRYING_FACTOR
+        };
         let travel = self.travel_cost(node, agent, Some(object), to, Some(object));
         travel * slowness + if net > 0.0 { 0.0 } else { IMMOVABLE_COST }
     }
@@ -279,19 +288,21 @@ impl Task<'_> {
         node: &Node,
         agent: AgentId,
         held: Option<ObjectId>,
-        to: Spot,
+        to: Location,
         ignored: Option<ObjectId>,
     ) -> f32 {
-        let cost = self.effort[agent] * self.longest_way(node, agent, held, to, ignored);
-        if held.is_none() && self.is_behind_a_blocker(node, agent) { cost + IMPASSABLE_COST } else { cost }
+        let cost = self.effort_weights[agent] * self.longest_path(node, agent, held, to, ignored);
+        if held.is_none() && self.is_at_blocking_object(node, agent) { cost + IMPASSABLE_COST } else { cost }
     }
 
     /// Whether an agent stands at an object that still blocks a door. It may be on either side of it, so
     /// walking on as if past it would be a way through the blocked door.
-    fn is_behind_a_blocker(&self, node: &Node, agent: AgentId) -> bool {
-        self.situation.physique.objects().any(|object| {
-            let spot = Spot::Now(Entity::Object(object));
-            self.situation.blocks_a_door(object) && node.agents[agent] == spot && node.objects[object] == spot
+    fn is_at_blocking_object(&self, node: &Node, agent: AgentId) -> bool {
+        self.problem.physics.objects().any(|object| {
+            let location = Location::Current(Entity::Object(object));
+            self.problem.blocks_a_door(object)
+                && node.agents[agent] == location
+                && node.objects[object] == location
         })
     }
 
@@ -306,6 +317,6 @@ impl Task<'_> {
         for object in ignored.into_iter().chain(node.holds[agent]) {
             unmoved.remove(Entity::Object(object));
         }
-        *self.situation.gaps(agent, unmoved)
+        *self.problem.gaps(agent, unmoved)
     }
 }

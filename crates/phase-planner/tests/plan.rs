@@ -3,7 +3,7 @@
 mod support;
 
 use phase_model::{AgentId, Attitude, LandmarkId, Size::*, Strength::*, Subgoal, Vec2};
-use phase_planner::{Routes, aside};
+use phase_planner::{Routes, yielding};
 use support::{Setup, agent_on, approach, everything, layout, object_on};
 
 /// Agent 0 at the top left, agent 1 at the bottom right, no walls, no objects.
@@ -229,8 +229,8 @@ fn one_steps_beside_the_others_way() {
         goals: [agent_on(1, 0); 2],
         ..plain()
     };
-    let (physique, routes, state) = (setup.physique(), Routes::new(setup.layout), setup.state());
-    let found = aside::intrusion(&physique, &routes, &state, AgentId::ZERO, LandmarkId::TOP_LEFT)
+    let (physics, routes, state) = (setup.physics(), Routes::new(setup.layout), setup.state());
+    let found = yielding::path_obstruction(&physics, &routes, &state, AgentId::ZERO, LandmarkId::TOP_LEFT)
         .expect("in the way");
     // The other goes straight up at x = 8.5; both are 2.4 u wide.
     assert!((found.nearest.x - 8.5).abs() < 1e-3 && found.nearest.distance(Vec2::new(9.0, 12.0)) < 0.6);
@@ -319,8 +319,8 @@ fn hinderers_hinder() {
         let setup = Setup { attitudes: [Attitude::Hinder, Attitude::Neutral], ..setup };
         let words = setup.words(0);
         let first = setup.plan(0).first().to_string();
-        let flight = expected.starts_with("not Touch") && words.contains(&expected.to_owned());
-        assert!(first == expected || flight, "{what}: {words:?}");
+        let evasion = expected.starts_with("not Touch") && words.contains(&expected.to_owned());
+        assert!(first == expected || evasion, "{what}: {words:?}");
     }
 }
 

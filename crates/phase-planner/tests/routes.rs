@@ -1,7 +1,7 @@
 //! Ways through doors against lengths worked out by hand.
 
 use phase_model::{Layout, SlotId, Vec2};
-use phase_planner::{Routes, routes::IMPASSABLE_COST, situation::obstruct};
+use phase_planner::{Routes, problem::obstruct, routes::IMPASSABLE_COST};
 use proptest::prelude::*;
 
 /// Layout 4: full wall between rooms 0 and 1, a narrow door (x 6 to 8.5) between 0 and 3, the rest open.

@@ -9,7 +9,7 @@ use petgraph::{
     graph::{DiGraph, NodeIndex},
     visit::{EdgeRef, Reversed},
 };
-use phase_planner::{Routes, Situation, search::solve, symbolic::Node, task::Task};
+use phase_planner::{PlanningProblem, Routes, search::solve, symbolic::Node, task::Task};
 use problems::problems;
 use proptest::{
     strategy::{Strategy, ValueTree},
@@ -20,7 +20,7 @@ use std::collections::HashMap;
 /// Problems tried unless the environment says otherwise.
 const PROBLEMS: usize = 4000;
 /// Costs are compared in units of this many to one world unit, rounded up.
-const UNITS: f32 = 256.0;
+const COST_RESOLUTION: f32 = 256.0;
 
 /// Every symbolic state that can be reached, by the cost of each operator, and a last node to which all states
 /// lead in which the task is done.
@@ -47,7 +47,7 @@ impl Reachable {
                     open.push((after, to));
                     to
                 });
-                graph.add_edge(from, to, (cost.clamp(0.0, 1e6) * UNITS).ceil() as u32);
+                graph.add_edge(from, to, (cost.clamp(0.0, 1e6) * COST_RESOLUTION).ceil() as u32);
             }
         }
         Self { graph, start: first, end }
@@ -67,23 +67,24 @@ fn no_plan_is_cheaper_and_admissible_heuristics_are_lower_bounds() {
     let strategy = problems();
     let (mut solved, mut misleading) = (0, 0);
     for _ in 0..count {
-        let problem = strategy.new_tree(&mut runner).expect("a problem").current();
-        let (routes, physique, state) = (Routes::new(problem.layout), problem.physique(), problem.state());
-        let situation = Situation::new(&physique, &routes, &state);
-        let task = problem.task(&situation);
-        let start = Node::start(&situation);
+        let random_problem = strategy.new_tree(&mut runner).expect("a problem").current();
+        let (routes, physics, state) =
+            (Routes::new(random_problem.layout), random_problem.physics(), random_problem.state());
+        let problem = PlanningProblem::new(&physics, &routes, &state);
+        let task = random_problem.task(&problem);
+        let start = Node::start(&problem);
         let reachable = Reachable::new(&task, start);
         let remaining = reachable.remaining();
-        let least = remaining.get(&reachable.start).map(|&cost| cost as f32 / UNITS);
+        let least = remaining.get(&reachable.start).map(|&cost| cost as f32 / COST_RESOLUTION);
         let found = solve(&task, start);
-        assert_eq!(found.as_ref().map(|plan| plan.cost), least, "{problem:?}");
+        assert_eq!(found.as_ref().map(|plan| plan.cost), least, "{random_problem:?}");
         let Some(found) = found else { continue };
         solved += 1;
-        assert!(task.is_done(&found.end), "{problem:?}");
+        assert!(task.is_done(&found.end), "{random_problem:?}");
         for (index, &cost) in &remaining {
             let Some(node) = reachable.graph[*index] else { continue };
-            if (task.heuristic(&node) * UNITS) as u32 > cost {
-                assert!(!task.heuristic_is_admissible(), "{node:?} of {problem:?}");
+            if (task.heuristic(&node) * COST_RESOLUTION) as u32 > cost {
+                assert!(!task.heuristic_is_admissible(), "{node:?} of {random_problem:?}");
                 misleading += 1;
             }
         }

@@ -7,7 +7,7 @@
 
 mod support;
 
-use phase_pomcp::{GenerativeModel, Outcome, Pomcp, PomcpError, PomcpSettings};
+use phase_pomcp::{GenerativeModel, Pomcp, PomcpError, PomcpSettings, Transition};
 use rand::{Rng, RngExt, SeedableRng};
 use support::Problem;
 
@@ -29,14 +29,14 @@ impl GenerativeModel for Tiger {
         0.95
     }
 
-    fn step(&self, left: &mut bool, action: usize, random: &mut impl Rng) -> Outcome<Option<bool>> {
+    fn step(&self, left: &mut bool, action: usize, random: &mut impl Rng) -> Transition<Option<bool>> {
         if action == 0 {
             let heard = *left == random.random_bool(0.85);
-            return Outcome { observation: Some(heard), reward: -1.0, terminal: false };
+            return Transition { observation: Some(heard), reward: -1.0, terminal: false };
         }
         let reward = if *left == (action == 1) { -100.0 } else { 10.0 };
         *left = random.random();
-        Outcome { observation: None, reward, terminal: false }
+        Transition { observation: None, reward, terminal: false }
     }
 
     /// Opening doors blindly says nothing of what a belief is worth, so rollouts only listen.

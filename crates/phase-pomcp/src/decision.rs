@@ -7,14 +7,14 @@ pub struct Decision {
     /// smaller index.
     pub action: usize,
     /// The evidence for every action, by action index.
-    pub actions: Vec<ActionValue>,
+    pub actions: Vec<ActionStatistics>,
     /// What the search cost.
-    pub effort: SearchEffort,
+    pub effort: SearchStatistics,
 }
 
 impl Decision {
     /// Selects the action from the statistics. `actions` has one entry per action and is not empty.
-    pub(crate) fn new(actions: Vec<ActionValue>, effort: SearchEffort) -> Self {
+    pub(crate) fn new(actions: Vec<ActionStatistics>, effort: SearchStatistics) -> Self {
         let mut action = 0;
         for (candidate, evidence) in actions.iter().enumerate().skip(1) {
             let best = actions[action];
@@ -35,7 +35,7 @@ impl Decision {
 
 /// Statistics of the simulations that began with one action.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct ActionValue {
+pub struct ActionStatistics {
     /// How many simulations began with it.
     pub visits: usize,
     /// The mean of their discounted returns, in the reward's unit; 0 where there were none.
@@ -44,7 +44,7 @@ pub struct ActionValue {
 
 /// What one search cost.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct SearchEffort {
+pub struct SearchStatistics {
     /// Histories in the tree at the end, the root among them.
     pub histories: usize,
     /// The longest way from the root that a simulation went by selection, in actions; rollouts not counted.

@@ -9,7 +9,7 @@
 //! 1 if right and ends it, peeking (action 2) costs 0.1 and shows the coin:
 //!
 //! ```
-//! use phase_pomcp::{GenerativeModel, Outcome, Pomcp, PomcpSettings};
+//! use phase_pomcp::{GenerativeModel, Transition, Pomcp, PomcpSettings};
 //! # use rand::{Rng, SeedableRng};
 //! # struct Cups;
 //!
@@ -18,9 +18,9 @@
 //!     type Observation = Option<usize>; // that cup, if peeked
 //!     fn action_count(&self) -> usize { 3 }
 //!     fn discount(&self) -> f64 { 0.95 }
-//!     fn step(&self, cup: &mut usize, action: usize, _: &mut impl Rng) -> Outcome<Option<usize>> {
+//!     fn step(&self, cup: &mut usize, action: usize, _: &mut impl Rng) -> Transition<Option<usize>> {
 //!         let (observation, reward) = if action == 2 { (Some(*cup), -0.1) } else { (None, f64::from(action == *cup)) };
-//!         Outcome { observation, reward, terminal: action != 2 }
+//!         Transition { observation, reward, terminal: action != 2 }
 //!     }
 //! }
 //!
@@ -72,8 +72,8 @@ mod settings;
 mod simulation;
 mod tree;
 
-pub use decision::{ActionValue, Decision, SearchEffort};
+pub use decision::{ActionStatistics, Decision, SearchStatistics};
 pub use error::PomcpError;
-pub use model::{GenerativeModel, Outcome};
+pub use model::{GenerativeModel, Transition};
 pub use search::Pomcp;
 pub use settings::PomcpSettings;

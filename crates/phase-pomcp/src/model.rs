@@ -30,15 +30,15 @@ pub trait GenerativeModel {
         state: &mut Self::State,
         action: usize,
         random: &mut impl Rng,
-    ) -> Outcome<Self::Observation>;
+    ) -> Transition<Self::Observation>;
 
     /// As [`step`](Self::step), for rollouts, which need no observation.
     ///
     /// Override it where observations cost more than the step; it must move the state and earn just as
     /// `step` does.
-    fn rollout_step(&self, state: &mut Self::State, action: usize, random: &mut impl Rng) -> Outcome<()> {
-        let Outcome { reward, terminal, .. } = self.step(state, action, random);
-        Outcome { observation: (), reward, terminal }
+    fn rollout_step(&self, state: &mut Self::State, action: usize, random: &mut impl Rng) -> Transition<()> {
+        let Transition { reward, terminal, .. } = self.step(state, action, random);
+        Transition { observation: (), reward, terminal }
     }
 
     /// The action of the default policy, which is played from a newly grown leaf on; in `0..action_count()`.
@@ -76,7 +76,7 @@ pub trait GenerativeModel {
 
 /// The result of one step.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Outcome<O> {
+pub struct Transition<O> {
     /// What the agent perceives of the new state.
     pub observation: O,
     /// What the step earned; must be finite.

@@ -5,7 +5,7 @@ use rand::{Rng, RngExt};
 use crate::puct::ValueRange;
 use crate::simulation::{PathStep, Simulation};
 use crate::tree::{HistoryId, Tree};
-use crate::{ActionValue, Decision, GenerativeModel, PomcpError, PomcpSettings, SearchEffort};
+use crate::{ActionStatistics, Decision, GenerativeModel, PomcpError, PomcpSettings, SearchStatistics};
 
 /// A POMCP planner (Silver & Veness 2010) and the memory it searches in, over problems whose observations are
 /// of type `O`.
@@ -79,9 +79,9 @@ impl<O: Eq> Pomcp<O> {
             }
         }
         let (depth, steps) = (simulation.depth, simulation.steps);
-        let effort = SearchEffort { histories: self.tree.history_count(), depth, steps };
+        let effort = SearchStatistics { histories: self.tree.history_count(), depth, steps };
         let evidence = self.tree.evidence(HistoryId::ROOT);
-        let actions = evidence.map(|(visits, value)| ActionValue { visits: visits as usize, value });
+        let actions = evidence.map(|(visits, value)| ActionStatistics { visits: visits as usize, value });
         Ok(Decision::new(actions.collect(), effort))
     }
 }

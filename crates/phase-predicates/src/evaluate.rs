@@ -1,12 +1,12 @@
 //! Whether a predicate holds in a physical state.
 
 use crate::threshold;
-use phase_model::{Entity, Goal, Literal, Physique, Place, Predicate, State, arena, layout};
+use phase_model::{Entity, Goal, Literal, PhysicsConfig, Predicate, PredicateTarget, State, arena, layout};
 
 /// Whether a predicate holds. Objects that the scene does not have make it false.
 #[must_use]
-pub fn holds(physique: &Physique, state: &State, predicate: Predicate) -> bool {
-    let present = |entity: Entity| entity.index() < physique.entity_count();
+pub fn holds(physics: &PhysicsConfig, state: &State, predicate: Predicate) -> bool {
+    let present = |entity: Entity| entity.index() < physics.entity_count();
     match predicate {
         Predicate::On(entity, landmark) => {
             let limit = match entity {
@@ -20,26 +20,26 @@ pub fn holds(physique: &Physique, state: &State, predicate: Predicate) -> bool {
             present(agent) && present(entity) && state.touching(agent, entity)
         }
         Predicate::Attach(agent, object) => present(Entity::Agent(agent)) && state.holds(agent, object),
-        Predicate::Close(entity, Place::Landmark(landmark)) => {
+        Predicate::Close(entity, PredicateTarget::Landmark(landmark)) => {
             present(entity) && layout::room_of(state.position(entity)) == landmark.room()
         }
-        Predicate::Close(entity, Place::Entity(other)) => {
+        Predicate::Close(entity, PredicateTarget::Entity(other)) => {
             present(entity)
                 && present(other)
                 && state.position(entity).distance(state.position(other))
-                    < physique.radius(entity) + physique.radius(other) + threshold::CLOSE_GAP
+                    < physics.radius(entity) + physics.radius(other) + threshold::CLOSE_GAP
         }
     }
 }
 
 /// Whether a literal is true in a state.
 #[must_use]
-pub fn is_true(physique: &Physique, state: &State, literal: Literal) -> bool {
-    holds(physique, state, literal.predicate) == literal.holds
+pub fn is_true(physics: &PhysicsConfig, state: &State, literal: Literal) -> bool {
+    holds(physics, state, literal.predicate) == literal.holds
 }
 
 /// Whether a goal's condition is satisfied in a state.
 #[must_use]
-pub fn achieved(physique: &Physique, state: &State, goal: Goal) -> bool {
-    is_true(physique, state, goal.into())
+pub fn achieved(physics: &PhysicsConfig, state: &State, goal: Goal) -> bool {
+    is_true(physics, state, goal.into())
 }

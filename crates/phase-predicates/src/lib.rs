@@ -5,22 +5,22 @@
 //! [`Literal`](phase_model::Literal)s: predicates or their negations.
 //! ```
 //! use phase_model::{
-//!     AgentBody, AgentId, Body, Entity, Goal, LandmarkId, Literal, Physique, Place, Predicate, Sign, State, Vec2,
+//!     AgentBody, AgentId, Body, Entity, Goal, LandmarkId, Literal, PhysicsConfig, PredicateTarget, Predicate, Sign, State, Vec2,
 //!     arena,
 //! };
 //! use phase_predicates::{SymbolicState, achieved};
 //!
 //! let body = AgentBody { radius: 0.8, max_force: 450.0 };
-//! let physique = Physique { walls: Vec::new(), agents: [body; 2], object_radii: [0.0; 2], object_count: 0 };
+//! let physics = PhysicsConfig { walls: Vec::new(), agents: [body; 2], object_radii: [0.0; 2], object_count: 0 };
 //! let (agent, landmark) = (AgentId::ZERO, LandmarkId::BOTTOM_RIGHT);
 //! let places = [arena::LANDMARKS[landmark], Vec2::new(8.0, 18.0), Vec2::ZERO, Vec2::ZERO];
 //! let state = State::new(places.map(|place| Body::at_rest(place, 0.0)));
 //!
 //! let goal = Goal::AgentOnLandmark { agent, landmark, sign: Sign::Positive };
-//! assert!(achieved(&physique, &state, goal));
+//! assert!(achieved(&physics, &state, goal));
 //! assert_eq!(Literal::from(goal).to_string(), "On(agent 0, landmark 2)");
-//! let symbolic = SymbolicState::of(&physique, &state);
-//! assert!(symbolic.holds(Predicate::Close(Entity::Agent(agent), Place::Landmark(landmark))));
+//! let symbolic = SymbolicState::of(&physics, &state);
+//! assert!(symbolic.holds(Predicate::Close(Entity::Agent(agent), PredicateTarget::Landmark(landmark))));
 //! assert!(!symbolic.holds(Predicate::Touch(agent, Entity::Agent(agent.other()))));
 //! ```
 //!

@@ -1,13 +1,13 @@
 //! Every predicate just below and just above its threshold.
 
 use phase_model::{
-    AgentBody, AgentId, Body, Entity, Goal, Grip, LandmarkId, Literal, ObjectId, Physique, Place, Predicate,
-    Side, Sign, State, Vec2, arena,
+    AgentBody, AgentId, Body, Entity, Goal, Grip, LandmarkId, Literal, ObjectId, PhysicsConfig, Predicate,
+    PredicateTarget, Side, Sign, State, Vec2, arena,
 };
 use phase_predicates::{SymbolicState, achieved, holds, threshold};
 
-fn physique() -> Physique {
-    Physique {
+fn physics() -> PhysicsConfig {
+    PhysicsConfig {
         walls: vec![],
         agents: [AgentBody { radius: 0.8, max_force: 300.0 }, AgentBody { radius: 1.2, max_force: 300.0 }],
         object_radii: [1.6, 0.0],
@@ -40,11 +40,11 @@ fn on() {
             positions[index] = centre + Vec2::from_angle(1.0) * distance;
             let state = state(positions);
             assert_eq!(
-                holds(&physique(), &state, Predicate::On(entity, LandmarkId::BOTTOM_RIGHT)),
+                holds(&physics(), &state, Predicate::On(entity, LandmarkId::BOTTOM_RIGHT)),
                 expected,
                 "{entity:?} {distance}"
             );
-            assert!(!holds(&physique(), &state, Predicate::On(entity, LandmarkId::TOP_LEFT)));
+            assert!(!holds(&physics(), &state, Predicate::On(entity, LandmarkId::TOP_LEFT)));
         }
     }
 }
@@ -56,10 +56,11 @@ fn close() {
         let mut positions = APART;
         positions[2] = positions[0] + Vec2::new(distance, 0.0);
         let (agent, object) = (Entity::Agent(AgentId::ZERO), Entity::Object(ObjectId::ZERO));
-        for predicate in
-            [Predicate::Close(agent, Place::Entity(object)), Predicate::Close(object, Place::Entity(agent))]
-        {
-            assert_eq!(holds(&physique(), &state(positions), predicate), expected, "{distance}");
+        for predicate in [
+            Predicate::Close(agent, PredicateTarget::Entity(object)),
+            Predicate::Close(object, PredicateTarget::Entity(agent)),
+        ] {
+            assert_eq!(holds(&physics(), &state(positions), predicate), expected, "{distance}");
         }
     }
     for (position, room) in [
@@ -70,9 +71,11 @@ fn close() {
     ] {
         let state = state([position, APART[1], APART[2]]);
         for landmark in 0..4 {
-            let predicate =
-                Predicate::Close(Entity::Agent(AgentId::ZERO), Place::Landmark(LandmarkId::ALL[landmark]));
-            assert_eq!(holds(&physique(), &state, predicate), landmark == room);
+            let predicate = Predicate::Close(
+                Entity::Agent(AgentId::ZERO),
+                PredicateTarget::Landmark(LandmarkId::ALL[landmark]),
+            );
+            assert_eq!(holds(&physics(), &state, predicate), landmark == room);
         }
     }
 }
@@ -81,16 +84,16 @@ fn close() {
 fn touch_and_attach() {
     let mut state = state(APART);
     let touch = |who, what| Predicate::Touch(who, what);
-    assert!(!holds(&physique(), &state, touch(AgentId::ZERO, Entity::Agent(AgentId::ONE))));
+    assert!(!holds(&physics(), &state, touch(AgentId::ZERO, Entity::Agent(AgentId::ONE))));
     state.contacts.insert(Entity::Agent(AgentId::ONE), Entity::Agent(AgentId::ZERO));
-    assert!(holds(&physique(), &state, touch(AgentId::ZERO, Entity::Agent(AgentId::ONE))));
-    assert!(holds(&physique(), &state, touch(AgentId::ONE, Entity::Agent(AgentId::ZERO))));
-    assert!(!holds(&physique(), &state, touch(AgentId::ZERO, Entity::Object(ObjectId::ZERO))));
+    assert!(holds(&physics(), &state, touch(AgentId::ZERO, Entity::Agent(AgentId::ONE))));
+    assert!(holds(&physics(), &state, touch(AgentId::ONE, Entity::Agent(AgentId::ZERO))));
+    assert!(!holds(&physics(), &state, touch(AgentId::ZERO, Entity::Object(ObjectId::ZERO))));
     state.grips[1] = Some(Grip { object: ObjectId::ZERO, side: Side::Tail, relative_angle: 0.0 });
-    assert!(holds(&physique(), &state, Predicate::Attach(AgentId::ONE, ObjectId::ZERO)));
-    assert!(!holds(&physique(), &state, Predicate::Attach(AgentId::ZERO, ObjectId::ZERO)));
+    assert!(holds(&physics(), &state, Predicate::Attach(AgentId::ONE, ObjectId::ZERO)));
+    assert!(!holds(&physics(), &state, Predicate::Attach(AgentId::ZERO, ObjectId::ZERO)));
     // What is attached is felt.
-    assert!(holds(&physique(), &state, touch(AgentId::ONE, Entity::Object(ObjectId::ZERO))));
+    assert!(holds(&physics(), &state, touch(AgentId::ONE, Entity::Object(ObjectId::ZERO))));
 }
 
 #[test]
@@ -100,10 +103,10 @@ fn the_absent_satisfies_nothing() {
     for predicate in [
         Predicate::On(absent, LandmarkId::TOP_LEFT),
         Predicate::Touch(AgentId::ZERO, absent),
-        Predicate::Close(absent, Place::Landmark(LandmarkId::BOTTOM_LEFT)),
-        Predicate::Close(Entity::Agent(AgentId::ZERO), Place::Entity(absent)),
+        Predicate::Close(absent, PredicateTarget::Landmark(LandmarkId::BOTTOM_LEFT)),
+        Predicate::Close(Entity::Agent(AgentId::ZERO), PredicateTarget::Entity(absent)),
     ] {
-        assert!(!holds(&physique(), &state, predicate), "{predicate}");
+        assert!(!holds(&physics(), &state, predicate), "{predicate}");
     }
 }
 
@@ -115,9 +118,9 @@ fn goals_are_literals() {
         sign: Sign::Positive,
     };
     let on = state([arena::LANDMARKS[2], APART[1], APART[2]]);
-    assert!(achieved(&physique(), &on, goal) && !achieved(&physique(), &on, goal.negated()));
+    assert!(achieved(&physics(), &on, goal) && !achieved(&physics(), &on, goal.negated()));
     assert!(
-        !achieved(&physique(), &state(APART), goal) && achieved(&physique(), &state(APART), goal.negated())
+        !achieved(&physics(), &state(APART), goal) && achieved(&physics(), &state(APART), goal.negated())
     );
     assert_eq!(Literal::from(goal.negated()).to_string(), "not On(agent 0, landmark 2)");
 }
@@ -127,10 +130,10 @@ fn symbolic_states_hold_exactly_what_is_true() {
     let mut physical = state([arena::LANDMARKS[0], Vec2::new(9.5, 17.0), APART[2]]);
     physical.grips[0] = Some(Grip { object: ObjectId::ZERO, side: Side::Head, relative_angle: 0.0 });
     physical.contacts.insert(Entity::Agent(AgentId::ZERO), Entity::Agent(AgentId::ONE));
-    let symbolic = SymbolicState::of(&physique(), &physical);
+    let symbolic = SymbolicState::of(&physics(), &physical);
     let mut count = 0;
     for predicate in SymbolicState::predicates() {
-        assert_eq!(symbolic.holds(predicate), holds(&physique(), &physical, predicate), "{predicate}");
+        assert_eq!(symbolic.holds(predicate), holds(&physics(), &physical, predicate), "{predicate}");
         let mut only = SymbolicState::default();
         only.set(predicate, true);
         assert_eq!(only.iter().filter(|&other| other == predicate).count(), 1, "{predicate}");

@@ -3,29 +3,31 @@
 //! With a directory as argument it leaves `plain.mp4`, `belief.mp4`, `plain.png`, `belief.png`, `both.png` (accessible
 //! palette) and `sheet.png` there, to look at.
 
-use phase_model::{AgentBody, AgentId, Body, Grip, Layout, ObjectId, Physique, Side, State, Vec2, arena};
+use phase_model::{
+    AgentBody, AgentId, Body, Grip, Layout, ObjectId, PhysicsConfig, Side, State, Vec2, arena,
+};
 use phase_perception::{Cell, CellSet};
 use phase_render::{
-    Caption, Frame, Overlay, Palette, Stage, Style, VideoEncoder, contact_sheet, side_by_side,
+    Caption, Frame, Overlay, Palette, SceneRenderer, Style, VideoEncoder, contact_sheet, side_by_side,
 };
 use std::{error::Error, f32::consts::PI, path::Path, time::Instant};
 
 const FRAMES: usize = 500;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let physique = Physique {
+    let physics = PhysicsConfig {
         walls: Layout::new(20, None)?.walls(),
         agents: [AgentBody { radius: 1.01, max_force: 300.0 }, AgentBody { radius: 1.2, max_force: 300.0 }],
         object_radii: [0.8, 1.2],
         object_count: 2,
     };
-    let plain = Stage::new(&physique, Style::default())?;
+    let plain = SceneRenderer::new(&physics, Style::default())?;
     let annotated = Style { title: true, legend: true, caption_lines: 3, ..Style::default() };
-    let captioned = Stage::new(&physique, annotated)?;
-    let accessible = Stage::new(&physique, Style { palette: Palette::ACCESSIBLE, ..annotated })?;
+    let captioned = SceneRenderer::new(&physics, annotated)?;
+    let accessible = SceneRenderer::new(&physics, Style { palette: Palette::ACCESSIBLE, ..annotated })?;
 
-    let (frames, mp4) = run("plain", &plain, |stage, k| stage.frame(&event(k), None))?;
-    let (beliefs, belief_mp4) = run("belief", &captioned, |stage, k| belief(stage, k, AgentId::ZERO))?;
+    let (frames, mp4) = run("plain", &plain, |renderer, k| renderer.frame(&event(k), None))?;
+    let (beliefs, belief_mp4) = run("belief", &captioned, |renderer, k| belief(renderer, k, AgentId::ZERO))?;
 
     if let Some(directory) = std::env::args().nth(1) {
         let directory = Path::new(&directory);
@@ -42,7 +44,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 /// One frame with what an agent might see and believe.
-fn belief(stage: &Stage, frame: usize, agent: AgentId) -> Frame {
+fn belief(renderer: &SceneRenderer, frame: usize, agent: AgentId) -> Frame {
     let state = event(frame);
     let visible = cone(&state.bodies[agent.index()]);
     let subgoal = if frame < 250 { "get object 1" } else { "put object 1 on landmark 2" };
@@ -60,20 +62,21 @@ fn belief(stage: &Stage, frame: usize, agent: AgentId) -> Frame {
     let title = format!("Agent {agent}, step {}", frame / arena::SUBSTEPS);
     let overlay =
         Overlay { agent, visible: &visible, particles: &particles, title: &title, captions: &captions };
-    stage.frame(&state, Some(&overlay))
+    renderer.frame(&state, Some(&overlay))
 }
 
 /// Draws all frames, then encodes them, and prints how long each took.
 fn run(
     name: &str,
-    stage: &Stage,
-    draw: impl Fn(&Stage, usize) -> Frame,
+    renderer: &SceneRenderer,
+    draw: impl Fn(&SceneRenderer, usize) -> Frame,
 ) -> Result<(Vec<Frame>, Vec<u8>), Box<dyn Error>> {
     let start = Instant::now();
-    let frames: Vec<Frame> = (0..FRAMES).map(|k| draw(stage, k)).collect();
+    let frames: Vec<Frame> = (0..FRAMES).map(|k| draw(renderer, k)).collect();
     let drawing = start.elapsed();
     let start = Instant::now();
-    let mut video = VideoEncoder::new(Vec::new(), stage.width(), stage.height(), arena::FRAMES_PER_SECOND)?;
+    let mut video =
+        VideoEncoder::new(Vec::new(), renderer.width(), renderer.height(), arena::FRAMES_PER_SECOND)?;
     for frame in &frames {
         video.push(frame)?;
     }
@@ -81,8 +84,8 @@ fn run(
     let encoding = start.elapsed();
     println!(
         "{name}: {} x {}, {FRAMES} frames, drawing {:.2} ms and encoding {:.2} ms a frame, {:.1} kB",
-        stage.width(),
-        stage.height(),
+        renderer.width(),
+        renderer.height(),
         drawing.as_secs_f64() * 1000.0 / FRAMES as f64,
         encoding.as_secs_f64() * 1000.0 / FRAMES as f64,
         mp4.len() as f64 / 1000.0

@@ -1,7 +1,7 @@
 //! Agents and objects, solid or as a faint belief.
 
 use crate::{Colour, Palette, painter::Painter};
-use phase_model::{AgentId, Body, Entity, Physique, State, Vec2, geometry};
+use phase_model::{AgentId, Body, Entity, PhysicsConfig, State, Vec2, geometry};
 
 /// Width of the outline of a body, all of it inside the body's shape (u).
 const OUTLINE: f32 = 0.09;
@@ -22,14 +22,14 @@ pub(crate) const GRIP_BAR: Vec2 = Vec2::new(0.40, 0.09);
 pub(crate) const GRIP_RIM: Vec2 = Vec2::new(0.48, 0.16);
 
 /// The entities of a physique in the order in which they are drawn, at most what a state can hold.
-pub(crate) fn entities(physique: &Physique) -> impl Iterator<Item = Entity> + use<> {
-    physique.entities()
+pub(crate) fn entities(physics: &PhysicsConfig) -> impl Iterator<Item = Entity> + use<> {
+    physics.entities()
 }
 
 /// Draws all bodies of a state: agents, objects on top, and a mark at each grip.
-pub(crate) fn draw(painter: &mut Painter, palette: &Palette, physique: &Physique, state: &State) {
-    for entity in entities(physique) {
-        let (body, radius) = (state.body(entity), physique.radius(entity));
+pub(crate) fn draw(painter: &mut Painter, palette: &Palette, physics: &PhysicsConfig, state: &State) {
+    for entity in entities(physics) {
+        let (body, radius) = (state.body(entity), physics.radius(entity));
         match entity {
             Entity::Agent(agent) => draw_agent(painter, palette, agent, radius, body),
             Entity::Object(object) => {
@@ -39,7 +39,7 @@ pub(crate) fn draw(painter: &mut Painter, palette: &Palette, physique: &Physique
         }
     }
     for agent in AgentId::ALL {
-        draw_grip(painter, palette, physique, state, agent);
+        draw_grip(painter, palette, physics, state, agent);
     }
 }
 
@@ -47,11 +47,11 @@ pub(crate) fn draw(painter: &mut Painter, palette: &Palette, physique: &Physique
 pub(crate) fn draw_believed(
     painter: &mut Painter,
     palette: &Palette,
-    physique: &Physique,
+    physics: &PhysicsConfig,
     entity: Entity,
     body: &Body,
 ) {
-    let radius = physique.radius(entity);
+    let radius = physics.radius(entity);
     match entity {
         Entity::Agent(agent) => {
             let colour = palette.agents[agent];
@@ -90,13 +90,19 @@ fn draw_agent(painter: &mut Painter, palette: &Palette, agent: AgentId, radius: 
 }
 
 /// A dark bar with a rim in the agent's colour, where the agent's side meets the object it holds.
-fn draw_grip(painter: &mut Painter, palette: &Palette, physique: &Physique, state: &State, agent: AgentId) {
+fn draw_grip(
+    painter: &mut Painter,
+    palette: &Palette,
+    physics: &PhysicsConfig,
+    state: &State,
+    agent: AgentId,
+) {
     let Some(grip) = state.grips[agent] else { return };
-    if grip.object.index() >= physique.object_count {
+    if grip.object.index() >= physics.object_count {
         return;
     }
     let along = grip.side.direction();
-    let place = placement(state.body(Entity::Agent(agent)), physique.agents[agent].radius);
+    let place = placement(state.body(Entity::Agent(agent)), physics.agents[agent].radius);
     let bar = |length: f32, depth: f32| {
         [(-length, -depth), (length, -depth), (length, depth), (-length, depth)]
             .map(|(across, deep)| place(along * (1.0 + deep) + along.perp() * across))

@@ -3,7 +3,7 @@
 use crate::{
     Frame, Palette, RenderError,
     painter::{Painter, View, fill},
-    stage::{draw_landmarks, draw_walls},
+    renderer::{draw_landmarks, draw_walls},
     text::{Align, SizedFont},
 };
 use phase_model::{Flip, Layout, Vec2, arena};

@@ -1,7 +1,7 @@
 //! What one agent sees and believes, drawn over the true state.
 
 use crate::{Caption, Palette, bodies, painter::Painter};
-use phase_model::{AgentId, Entity, Physique, State, Vec2};
+use phase_model::{AgentId, Entity, PhysicsConfig, State, Vec2};
 use phase_perception::{Cell, CellSet};
 
 /// One agent's view of the world at the moment of a frame.
@@ -38,13 +38,13 @@ pub(crate) fn shade(painter: &mut Painter, palette: &Palette, visible: &CellSet)
 pub(crate) fn draw_particles(
     painter: &mut Painter,
     palette: &Palette,
-    physique: &Physique,
+    physics: &PhysicsConfig,
     overlay: &Overlay<'_>,
 ) {
     let own = |entity| entity == Entity::Agent(overlay.agent);
     for particle in overlay.particles {
-        for entity in bodies::entities(physique).filter(|&entity| !own(entity)) {
-            bodies::draw_believed(painter, palette, physique, entity, particle.body(entity));
+        for entity in bodies::entities(physics).filter(|&entity| !own(entity)) {
+            bodies::draw_believed(painter, palette, physics, entity, particle.body(entity));
         }
     }
 }

@@ -2,10 +2,10 @@
 //! `datasets.load_dataset` which files to read.
 
 use phase_dataset::{
+    describe,
     manifest::Manifest,
     parquet::{self, FOLDER},
     splits::Split,
-    words,
 };
 use phase_model::EventKind;
 
@@ -110,7 +110,7 @@ fn kinds(manifest: &Manifest) -> String {
     for kind in EventKind::ALL {
         let count = manifest.events.iter().filter(|event| event.kind == kind).count();
         if count > 0 {
-            lines.push_str(&format!("| {} | {count} | {} |\n", kind.name(), words::kind(kind)));
+            lines.push_str(&format!("| {} | {count} | {} |\n", kind.name(), describe::kind(kind)));
         }
     }
     lines

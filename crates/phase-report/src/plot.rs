@@ -54,7 +54,7 @@ pub struct Axis<'a> {
 #[derive(Clone, Copy, PartialEq, Debug)]
 enum Scale {
     Linear { step: f64, steps: usize },
-    Doubling { from: f64, to: f64 },
+    Logarithmic { from: f64, to: f64 },
 }
 
 impl<'a> Axis<'a> {
@@ -64,7 +64,7 @@ impl<'a> Axis<'a> {
     pub fn linear(name: &'a str, to: f64) -> Self {
         // Steps of numbers beyond these are 0 or infinite.
         let to = if to.is_finite() && to > 0.0 { to.clamp(1e-300, 1e300) } else { 1.0 };
-        let least = to / MARKS as f64;
+        let least = to / MAX_TICKS as f64;
         let power = libm::pow(10.0, libm::log10(least).floor());
         // A rounding error must not lead to the next step.
         let reaches = |step: &f64| *step >= least * (1.0 - 1e-9);
@@ -76,30 +76,30 @@ impl<'a> Axis<'a> {
 
     /// An axis between two numbers above 0, on which doubling is always the same way.
     #[must_use]
-    pub const fn doubling(name: &'a str, from: f64, to: f64) -> Self {
-        Self { name, scale: Scale::Doubling { from, to } }
+    pub const fn logarithmic(name: &'a str, from: f64, to: f64) -> Self {
+        Self { name, scale: Scale::Logarithmic { from, to } }
     }
 
     /// Where a number lies, from 0 to 1.
     fn place(&self, number: f64) -> f64 {
         let place = match self.scale {
             Scale::Linear { step, steps } => number / (step * steps as f64),
-            Scale::Doubling { from, to } => libm::log2(number / from) / libm::log2(to / from),
+            Scale::Logarithmic { from, to } => libm::log2(number / from) / libm::log2(to / from),
         };
         // With both ends alike everything lies at the one place there is.
         if place.is_nan() { 0.0 } else { place.clamp(0.0, 1.0) }
     }
 
     /// The numbers written along it.
-    fn marks(&self) -> Vec<f64> {
+    fn ticks(&self) -> Vec<f64> {
         match self.scale {
             Scale::Linear { step, steps } => (0..=steps).map(|k| step * k as f64).collect(),
             // Between what is no number above 0 there is nothing to write.
-            Scale::Doubling { from, to } if from > 0.0 && to >= from => {
+            Scale::Logarithmic { from, to } if from > 0.0 && to >= from => {
                 let doublings = libm::log2(to / from).min(16.0) as u32;
                 (0..=doublings).map(|k| from * f64::from(1_u32 << k)).collect()
             }
-            Scale::Doubling { .. } => Vec::new(),
+            Scale::Logarithmic { .. } => Vec::new(),
         }
     }
 }
@@ -117,19 +117,19 @@ pub struct Series<'a> {
 const FIELD: (f64, f64) = (480.0, 320.0);
 const MARGIN: f64 = 64.0;
 /// Room for the names of lines beside the field (px): at least, and for each letter.
-const LEAST_NAMES: f64 = 100.0;
-const LETTER: f64 = 7.0;
+const MIN_LEGEND_WIDTH: f64 = 100.0;
+const CHARACTER_WIDTH: f64 = 7.0;
 /// Colours of lines, which are told apart by people who see few colours too.
 const COLOURS: [&str; 7] = ["#4477aa", "#cc6677", "#888888", "#228833", "#aa3377", "#66ccee", "#ccbb44"];
 /// Marks along an axis at the most, beside that at 0.
-const MARKS: usize = 5;
+const MAX_TICKS: usize = 5;
 
 /// A chart with two axes, x and y, and a line with dots for each series. Points that are not finite are left out; those
 /// beyond an axis are drawn at its end.
 #[must_use]
-pub fn curves(title: &str, [x_axis, y_axis]: [Axis<'_>; 2], series: &[Series<'_>]) -> String {
+pub fn line_chart(title: &str, [x_axis, y_axis]: [Axis<'_>; 2], series: &[Series<'_>]) -> String {
     let longest = series.iter().map(|line| line.name.chars().count()).max().unwrap_or_default() as f64;
-    let names = f64::max(LEAST_NAMES, LETTER * longest);
+    let names = f64::max(MIN_LEGEND_WIDTH, CHARACTER_WIDTH * longest);
     let (width, height) = (FIELD.0 + 2.0 * MARGIN + names, FIELD.1 + 2.0 * MARGIN);
     let at =
         |(x, y): (f64, f64)| (MARGIN + FIELD.0 * x_axis.place(x), MARGIN + FIELD.1 * (1.0 - y_axis.place(y)));
@@ -149,7 +149,7 @@ pub fn curves(title: &str, [x_axis, y_axis]: [Axis<'_>; 2], series: &[Series<'_>
     );
     let shown = |mark: f64| (mark * 100.0).round() / 100.0;
     // Writing to a string cannot fail.
-    for mark in x_axis.marks() {
+    for mark in x_axis.ticks() {
         let (left, below) = (MARGIN + FIELD.0 * x_axis.place(mark), bottom + 20.0);
         let _ = writeln!(
             svg,
@@ -158,7 +158,7 @@ pub fn curves(title: &str, [x_axis, y_axis]: [Axis<'_>; 2], series: &[Series<'_>
             shown(mark),
         );
     }
-    for mark in y_axis.marks() {
+    for mark in y_axis.ticks() {
         let (up, beside) = (MARGIN + FIELD.1 * (1.0 - y_axis.place(mark)), MARGIN - 8.0);
         let _ = writeln!(
             svg,

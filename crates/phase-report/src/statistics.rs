@@ -33,7 +33,7 @@ pub struct Statistics {
 
 /// One figure.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Figure {
+pub struct StatisticsRow {
     /// In words.
     pub what: &'static str,
     /// What the paper says.
@@ -70,8 +70,8 @@ impl Statistics {
 
     /// Every figure of the paper's, beside ours.
     #[must_use]
-    pub fn figures(&self) -> Vec<Figure> {
-        let figure = |what, paper, ours: String| Figure { what, paper, ours };
+    pub fn figures(&self) -> Vec<StatisticsRow> {
+        let figure = |what, paper, ours: String| StatisticsRow { what, paper, ours };
         let seconds = |steps: Option<(&usize, &usize)>| {
             steps.map_or_else(|| "–".into(), |(&steps, _)| format!("{} s", steps as f64 * STEP_SECONDS))
         };
@@ -99,9 +99,9 @@ impl Statistics {
 
 /// The figures as a table in Markdown.
 #[must_use]
-pub fn table(figures: &[Figure]) -> String {
+pub fn table(figures: &[StatisticsRow]) -> String {
     let mut text = String::from("| figure | paper | here |\n|---|---|---|\n");
-    for Figure { what, paper, ours } in figures {
+    for StatisticsRow { what, paper, ours } in figures {
         text += &format!("| {what} | {paper} | {ours} |\n");
     }
     text

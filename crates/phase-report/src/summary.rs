@@ -1,6 +1,6 @@
 //! The tables that `simulate` prints.
 
-use phase_dataset::summary::{KindRow, Quartiles, Spreads};
+use phase_dataset::summary::{KindRow, MotionQuartiles, Quartiles};
 use phase_model::EventKind;
 
 /// Least share of agents with positive goals of their own whose outcome should be the recorded one.
@@ -55,9 +55,9 @@ fn motion(row: &KindRow) -> String {
             },
         )
     };
-    let speed = |of: &Spreads| three(of.speed, 1.0, 1);
-    let path = |of: &Spreads| three(of.path, 1.0, 1);
-    let contact = |of: &Spreads| three(of.contact, 100.0, 0);
+    let speed = |of: &MotionQuartiles| three(of.speed, 1.0, 1);
+    let path = |of: &MotionQuartiles| three(of.path, 1.0, 1);
+    let contact = |of: &MotionQuartiles| three(of.contact, 100.0, 0);
     let (theirs, ours) = (&row.recorded_motion, &row.simulated_motion);
     format!(
         "{:<14} {:>22} {:>16}   {:>18} {:>18}   {:>21} {:>14}\n",

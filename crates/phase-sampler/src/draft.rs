@@ -9,43 +9,43 @@ use phase_model::{
 use rand::{Rng, RngExt};
 
 /// How far a body may start from its start point in each direction (u).
-const JITTER: f32 = 0.6;
+const START_JITTER: f32 = 0.6;
 /// Width of the narrow doors (u).
-const NARROW: f32 = 2.5;
+const NARROW_DOOR_WIDTH: f32 = 2.5;
 /// Strengths of agents that can move objects alone.
-pub const CAPABLE: [Strength; 3] = [Strength::Fair, Strength::Strong, Strength::Mighty];
+pub const SELF_SUFFICIENT: [Strength; 3] = [Strength::Fair, Strength::Strong, Strength::Mighty];
 /// Sizes that do not fit through narrow doors.
-pub const BIG: [Size; 3] = [Size::Large, Size::Huge, Size::Medium];
+pub const LARGE_SIZES: [Size; 3] = [Size::Large, Size::Huge, Size::Medium];
 
 /// Agents and objects, not yet in an arena.
 #[derive(Clone, Debug)]
-pub struct Draft {
+pub struct SceneDraft {
     /// Roles 0 and 1.
     pub agents: [AgentSpec; 2],
     /// The objects that goals are about.
-    wanted: Vec<ObjectSpec>,
+    goal_objects: Vec<ObjectSpec>,
     /// The first of them has this number; the others follow.
-    first_wanted: usize,
+    first_goal_object: usize,
 }
 
-impl Draft {
+impl SceneDraft {
     /// Agents and the objects that their goals are about, in the order of the goals. `None` if the goals are
     /// about more or other objects.
     #[must_use]
-    pub fn about(goals: [Goal; 2], agents: [AgentSpec; 2], wanted: Vec<ObjectSpec>) -> Option<Self> {
+    pub fn about(goals: [Goal; 2], agents: [AgentSpec; 2], goal_objects: Vec<ObjectSpec>) -> Option<Self> {
         let numbers: Vec<usize> = goals.into_iter().filter_map(object_of).map(ObjectId::index).collect();
-        let first_wanted = numbers.iter().copied().min().unwrap_or(0);
+        let first_goal_object = numbers.iter().copied().min().unwrap_or(0);
         // An object that only blocks a door is not part of a goal.
-        let count = numbers.iter().max().map_or(wanted.len(), |&last| last - first_wanted + 1);
-        (count == wanted.len()).then_some(Self { agents, wanted, first_wanted })
+        let count = numbers.iter().max().map_or(goal_objects.len(), |&last| last - first_goal_object + 1);
+        (count == goal_objects.len()).then_some(Self { agents, goal_objects, first_goal_object })
     }
 
     /// The scene. Distractor objects come first where the goals are about a later object; otherwise one is added
     /// in half of the cases.
     pub fn into_scene(self, kind: EventKind, layout: Layout, random: &mut impl Rng) -> Scene {
         let mut stray = |_| object(any_size(random), any_room(random), random);
-        let mut objects: Vec<ObjectSpec> = (0..self.first_wanted).map(&mut stray).collect();
-        objects.extend(self.wanted);
+        let mut objects: Vec<ObjectSpec> = (0..self.first_goal_object).map(&mut stray).collect();
+        objects.extend(self.goal_objects);
         let another = stray(0);
         if objects.len() < 2 && random.random_bool(0.5) {
             objects.push(another);
@@ -77,7 +77,8 @@ pub fn any_size(random: &mut impl Rng) -> Size {
 
 /// A narrow door of a room, which only the smallest agents fit through, and the room beyond it.
 pub fn narrow_door_of(layout: Layout, room: RoomId, random: &mut impl Rng) -> Option<(SlotId, RoomId)> {
-    let narrow = |slot: SlotId| layout.opening(slot).is_some_and(|opening| opening.length() <= NARROW);
+    let narrow =
+        |slot: SlotId| layout.opening(slot).is_some_and(|opening| opening.length() <= NARROW_DOOR_WIDTH);
     let beyond = |slot: SlotId| match SLOT_ROOMS[slot] {
         (a, b) if a == room => Some((slot, b)),
         (a, b) if b == room => Some((slot, a)),
@@ -91,7 +92,10 @@ pub fn narrow_door_of(layout: Layout, room: RoomId, random: &mut impl Rng) -> Op
 /// A body at rest near one of a room's start points, facing anywhere.
 pub fn start_in(room: RoomId, random: &mut impl Rng) -> Body {
     let point = choose(&arena::START_POINTS[room], random);
-    let jitter = Vec2::new(random.random_range(-JITTER..JITTER), random.random_range(-JITTER..JITTER));
+    let jitter = Vec2::new(
+        random.random_range(-START_JITTER..START_JITTER),
+        random.random_range(-START_JITTER..START_JITTER),
+    );
     let angle = random.random_range(-core::f32::consts::PI..core::f32::consts::PI);
     Body::at_rest(point + jitter, angle)
 }

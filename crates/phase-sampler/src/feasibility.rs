@@ -1,43 +1,43 @@
 //! Whether a scene can show what it is meant to, asked of the planner.
 
 use phase_model::{AGENT_COUNT, AgentId, Goal, Scene};
-use phase_planner::{Routes, Situation, search, symbolic::Node, task::Task};
+use phase_planner::{PlanningProblem, Routes, search, symbolic::Node, task::Task};
 use phase_predicates::achieved;
 
 /// Plans that cost more than this contain something nearly impossible (u); see
 /// [`phase_planner::routes::IMPASSABLE_COST`].
-pub const IMPOSSIBLE: f32 = 95.0;
+pub const INFEASIBLE_COST: f32 = 95.0;
 
 /// What reaching a goal costs these agents together (u of travel with penalties), from the scene's start.
 #[must_use]
 pub fn cost(scene: &Scene, goal: Goal, actors: [bool; AGENT_COUNT]) -> f32 {
-    let (physique, routes, state) = (scene.physique(), Routes::new(scene.layout), scene.initial_state());
-    let situation = Situation::new(&physique, &routes, &state);
+    let (physics, routes, state) = (scene.physics(), Routes::new(scene.layout), scene.initial_state());
+    let problem = PlanningProblem::new(&physics, &routes, &state);
     let task = Task {
-        situation: &situation,
+        problem: &problem,
         goal,
         actors,
-        effort: [1.0; AGENT_COUNT],
-        allied: true,
+        effort_weights: [1.0; AGENT_COUNT],
+        cooperative: true,
         narrowed: None,
     };
-    search::solve(&task, Node::start(&situation)).map_or(f32::INFINITY, |plan| plan.cost)
+    search::solve(&task, Node::start(&problem)).map_or(f32::INFINITY, |plan| plan.cost)
 }
 
 /// Whether an agent reaches a goal on its own.
 #[must_use]
 pub fn alone(scene: &Scene, agent: AgentId, goal: Goal) -> bool {
-    cost(scene, goal, AgentId::ALL.map(|who| who == agent)) < IMPOSSIBLE
+    cost(scene, goal, AgentId::ALL.map(|who| who == agent)) < INFEASIBLE_COST
 }
 
 /// Whether both together reach a goal.
 #[must_use]
 pub fn together(scene: &Scene, goal: Goal) -> bool {
-    cost(scene, goal, [true; AGENT_COUNT]) < IMPOSSIBLE
+    cost(scene, goal, [true; AGENT_COUNT]) < INFEASIBLE_COST
 }
 
 /// Whether a goal holds at the start already.
 #[must_use]
-pub fn solved(scene: &Scene, goal: Goal) -> bool {
-    achieved(&scene.physique(), &scene.initial_state(), goal)
+pub fn is_achieved(scene: &Scene, goal: Goal) -> bool {
+    achieved(&scene.physics(), &scene.initial_state(), goal)
 }

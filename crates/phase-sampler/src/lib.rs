@@ -15,7 +15,7 @@
 //! use phase_sampler::{Request, Variant, feasibility, sample};
 //!
 //! let layouts: Vec<Layout> = Layout::all_used().collect();
-//! let request = Request { variant: Variant::Lift, turn: 0, layouts: &layouts };
+//! let request = Request { variant: Variant::Lift, goal_index: 0, layouts: &layouts };
 //! let scene = sample(&request, &mut stream(1, Purpose::Scene, 0))?;
 //! assert_eq!(scene.relation(), Relation::Friendly);
 //!

@@ -1,11 +1,11 @@
 //! Independent agents.
 
-use crate::draft::{self, CAPABLE, Draft, agent, any_room, any_size, choose, object, object_of};
+use crate::draft::{self, SELF_SUFFICIENT, SceneDraft, agent, any_room, any_size, choose, object, object_of};
 use phase_model::{Goal, Strength};
 use rand::Rng;
 
 /// Each agent has a goal of its own; goals about different objects, each in another room than its landmark.
-pub(crate) fn independent(goals: [Goal; 2], random: &mut impl Rng) -> Option<Draft> {
+pub(crate) fn independent(goals: [Goal; 2], random: &mut impl Rng) -> Option<SceneDraft> {
     let mut objects = Vec::new();
     let mut agents = Vec::new();
     for goal in goals {
@@ -13,11 +13,11 @@ pub(crate) fn independent(goals: [Goal; 2], random: &mut impl Rng) -> Option<Dra
             Some(_) => {
                 let room = draft::other_room(&[goal.landmark()?.room()], random)?;
                 objects.push(object(any_size(random), room, random));
-                &CAPABLE[..]
+                &SELF_SUFFICIENT[..]
             }
             None => &Strength::ALL[..],
         };
         agents.push(agent(any_size(random), choose(strengths, random), goal, any_room(random), random));
     }
-    Draft::about(goals, agents.try_into().ok()?, objects)
+    SceneDraft::about(goals, agents.try_into().ok()?, objects)
 }

@@ -2,7 +2,7 @@
 
 use crate::{
     Variant, adversarial,
-    draft::{Draft, choose},
+    draft::{SceneDraft, choose},
     feasibility, friendly, neutral,
 };
 use phase_model::{AgentId, AgentSpec, Entity, EventKind, Goal, Layout, Scene, Sign};
@@ -12,7 +12,7 @@ use thiserror::Error;
 /// Draws before a variant is given up; in practice some dozens suffice.
 const MAX_DRAWS: usize = 20_000;
 /// Minimum ratio of a goal's cost without the helper to its cost with the helper.
-const WORTH_HELPING: f32 = 1.5;
+const MIN_COST_RATIO: f32 = 1.5;
 
 /// What scene is wanted.
 #[derive(Clone, Copy, Debug)]
@@ -20,7 +20,7 @@ pub struct Request<'a> {
     /// The variant.
     pub variant: Variant,
     /// Whose goals' turn it is; see [`Variant::goals`].
-    pub turn: usize,
+    pub goal_index: usize,
     /// The layouts to draw from.
     pub layouts: &'a [Layout],
 }
@@ -37,7 +37,7 @@ pub struct SampleError(pub Variant);
 /// # Errors
 /// [`SampleError`] if the draws run out, because no layout fits the variant for example.
 pub fn sample(request: &Request<'_>, random: &mut impl Rng) -> Result<Scene, SampleError> {
-    let goals = request.variant.goals(request.turn);
+    let goals = request.variant.goals(request.goal_index);
     for _ in 0..MAX_DRAWS {
         if request.layouts.is_empty() {
             break;
@@ -45,7 +45,7 @@ pub fn sample(request: &Request<'_>, random: &mut impl Rng) -> Result<Scene, Sam
         let layout = choose(request.layouts, random);
         let Some(draft) = draft(request.variant, layout, goals, random) else { continue };
         let scene = draft.into_scene(request.variant.kind(), layout, random);
-        if scene.validate_apart().is_ok() && is_open(&scene) && makes_sense(&scene) {
+        if scene.validate_without_overlap().is_ok() && is_unsolved(&scene) && is_feasible(&scene) {
             return Ok(if random.random_bool(0.5) { exchanged(&scene) } else { scene });
         }
     }
@@ -59,11 +59,11 @@ pub fn sample(request: &Request<'_>, random: &mut impl Rng) -> Result<Scene, Sam
 pub fn sample_kind(kind: EventKind, random: &mut impl Rng) -> Result<Scene, SampleError> {
     let layouts: Vec<Layout> = Layout::all_used().collect();
     let variant = choose(&Variant::of(kind), random);
-    let turn = random.random_range(0..variant.goal_count());
-    sample(&Request { variant, turn, layouts: &layouts }, random)
+    let goal_index = random.random_range(0..variant.goal_count());
+    sample(&Request { variant, goal_index, layouts: &layouts }, random)
 }
 
-fn draft(variant: Variant, layout: Layout, goals: [Goal; 2], random: &mut impl Rng) -> Option<Draft> {
+fn draft(variant: Variant, layout: Layout, goals: [Goal; 2], random: &mut impl Rng) -> Option<SceneDraft> {
     match variant {
         Variant::Lift => friendly::lift(goals, random),
         Variant::Blocked => friendly::blocked(layout, goals, random),
@@ -78,21 +78,21 @@ fn draft(variant: Variant, layout: Layout, goals: [Goal; 2], random: &mut impl R
 }
 
 /// Whether no goal holds at the start.
-fn is_open(scene: &Scene) -> bool {
+fn is_unsolved(scene: &Scene) -> bool {
     scene.goals().iter().all(|&goal| {
         let positive = if goal.sign() == Sign::Positive { goal } else { goal.negated() };
-        !feasibility::solved(scene, positive)
+        !feasibility::is_achieved(scene, positive)
     })
 }
 
 /// Whether the agents can do what the kind asks of them; role 0 is agent 0.
-fn makes_sense(scene: &Scene) -> bool {
+fn is_feasible(scene: &Scene) -> bool {
     let [first, second] = scene.goals();
     match scene.kind {
         EventKind::Helping => {
             let alone = feasibility::cost(scene, second, [false, true]);
             let both = feasibility::cost(scene, second, [true, true]);
-            both < feasibility::IMPOSSIBLE && alone > both * WORTH_HELPING
+            both < feasibility::INFEASIBLE_COST && alone > both * MIN_COST_RATIO
         }
         EventKind::Hindering => feasibility::alone(scene, AgentId::ONE, second),
         EventKind::Chasing => feasibility::alone(scene, AgentId::ZERO, first),

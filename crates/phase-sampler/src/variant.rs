@@ -106,13 +106,13 @@ impl Variant {
         }
     }
 
-    /// The goals of roles 0 and 1 in turn `turn`; they repeat after [`Variant::goal_count`] turns, and any four
+    /// The goals of roles 0 and 1 in turn `goal_index`; they repeat after [`Variant::goal_count`] turns, and any four
     /// turns in a row name every landmark equally often.
     #[must_use]
-    pub const fn goals(self, turn: usize) -> [Goal; 2] {
+    pub const fn goals(self, goal_index: usize) -> [Goal; 2] {
         let at = LandmarkId::ALL;
-        let first = turn % at.len();
-        let round = turn / at.len();
+        let first = goal_index % at.len();
+        let round = goal_index / at.len();
         let object = ObjectId::ALL[round % 2];
         match self {
             Self::Lift | Self::Blocked | Self::Carry => [object_on(object, at[first]); 2],

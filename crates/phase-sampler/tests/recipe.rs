@@ -39,30 +39,30 @@ proptest! {
 
     /// Nothing overlaps, nothing is solved, and labels are those of the variant, whatever the seed.
     #[test]
-    fn scenes_keep_the_promises_of_their_variant(seed: u64, which in 0..Variant::ALL.len(), turn in 0_usize..48) {
+    fn scenes_keep_the_promises_of_their_variant(seed: u64, which in 0..Variant::ALL.len(), goal_index in 0_usize..48) {
         let variant = Variant::ALL[which];
         let layouts = all_layouts();
-        let request = Request { variant, turn, layouts: &layouts };
+        let request = Request { variant, goal_index, layouts: &layouts };
         let scene = sample(&request, &mut stream(seed, Purpose::Scene, 0)).unwrap();
         prop_assert_eq!(scene.kind, variant.kind());
-        prop_assert_eq!(scene.validate_apart(), Ok(()));
+        prop_assert_eq!(scene.validate_without_overlap(), Ok(()));
         prop_assert_eq!(scene.check_kind(), Ok(()));
         prop_assert_eq!(scene.warnings(), []);
         prop_assert!(layouts.contains(&scene.layout));
-        let (physique, state) = (scene.physique(), scene.initial_state());
+        let (physics, state) = (scene.physics(), scene.initial_state());
         for goal in scene.goals() {
-            let wanted = if goal.sign() == Sign::Positive { goal } else { goal.negated() };
-            prop_assert!(!achieved(&physique, &state, wanted), "starts solved");
+            let goal_objects = if goal.sign() == Sign::Positive { goal } else { goal.negated() };
+            prop_assert!(!achieved(&physics, &state, goal_objects), "starts solved");
         }
         let (relation, attitude) = relation_of(scene.kind);
         prop_assert_eq!(scene.relation(), relation);
         let mut attitudes = scene.attitudes();
         attitudes.sort_by_key(|attitude| *attitude == Attitude::Neutral);
         prop_assert_eq!(attitudes, [attitude, Attitude::Neutral]);
-        let [mut wanted, mut found] = [variant.goals(turn), scene.goals()].map(|goals| goals.map(anonymous));
-        wanted.sort_unstable();
+        let [mut goal_objects, mut found] = [variant.goals(goal_index), scene.goals()].map(|goals| goals.map(anonymous));
+        goal_objects.sort_unstable();
         found.sort_unstable();
-        prop_assert_eq!(wanted, found);
+        prop_assert_eq!(goal_objects, found);
     }
 }
 
@@ -74,7 +74,7 @@ fn all_values_of_every_variable_occur() {
     let mut social = [0; 2];
     for variant in Variant::ALL {
         for index in 0..60 {
-            let request = Request { variant, turn: index as usize, layouts: &layouts };
+            let request = Request { variant, goal_index: index as usize, layouts: &layouts };
             let scene = sample(&request, &mut stream(7, Purpose::Scene, index)).unwrap();
             used.insert(scene.layout);
             objects.insert(scene.objects.len());
@@ -97,19 +97,20 @@ fn all_values_of_every_variable_occur() {
 fn turns_name_all_goals_equally_often() {
     let mut physical = BTreeSet::new();
     for variant in Variant::ALL {
-        let pairs: BTreeSet<[Goal; 2]> = (0..variant.goal_count()).map(|turn| variant.goals(turn)).collect();
+        let pairs: BTreeSet<[Goal; 2]> =
+            (0..variant.goal_count()).map(|goal_index| variant.goals(goal_index)).collect();
         assert_eq!(pairs.len(), variant.goal_count(), "{variant:?}");
         assert_eq!(variant.goals(3), variant.goals(3 + variant.goal_count()));
         let landmarks = |role: usize, landmark: usize| {
-            let turns = (0..variant.goal_count()).map(|turn| variant.goals(turn)[role]);
+            let turns = (0..variant.goal_count()).map(|goal_index| variant.goals(goal_index)[role]);
             turns.filter(|goal| goal.landmark() == Some(LandmarkId::ALL[landmark])).count()
         };
         for role in 0..2 {
             assert!((1..4).all(|landmark| landmarks(role, landmark) == landmarks(role, 0)), "{variant:?}");
         }
         let own = if relation_of(variant.kind()).1 == Attitude::Neutral { 0 } else { 1 };
-        for turn in 0..variant.goal_count() {
-            physical.extend(variant.goals(turn)[own..].iter().copied().map(anonymous));
+        for goal_index in 0..variant.goal_count() {
+            physical.extend(variant.goals(goal_index)[own..].iter().copied().map(anonymous));
         }
     }
     assert_eq!(physical.len(), 14, "the paper's physical goals");
@@ -121,7 +122,7 @@ fn layouts_come_from_the_pool_alone() {
     for variant in Variant::ALL {
         let drawn: BTreeSet<Layout> = (0..12)
             .filter_map(|index| {
-                let request = Request { variant, turn: index as usize, layouts: &pool };
+                let request = Request { variant, goal_index: index as usize, layouts: &pool };
                 sample(&request, &mut stream(1, Purpose::Scene, index)).ok()
             })
             .map(|scene| scene.layout)
@@ -130,10 +131,10 @@ fn layouts_come_from_the_pool_alone() {
     }
     // Without a narrow door nobody is kept out by one.
     let open = [Layout::new(0, None).unwrap()];
-    let request = Request { variant: Variant::Blocked, turn: 0, layouts: &open };
+    let request = Request { variant: Variant::Blocked, goal_index: 0, layouts: &open };
     let refused = sample(&request, &mut stream(1, Purpose::Scene, 0));
     assert_eq!(refused, Err(SampleError(Variant::Blocked)));
-    let none = Request { variant: Variant::Chase, turn: 0, layouts: &[] };
+    let none = Request { variant: Variant::Chase, goal_index: 0, layouts: &[] };
     assert!(sample(&none, &mut stream(1, Purpose::Scene, 0)).is_err());
 }
 

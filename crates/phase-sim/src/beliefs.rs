@@ -20,16 +20,16 @@ pub struct BeliefSnapshot {
 /// what it observed and did and on the event's seed, so this needs no planning.
 #[must_use]
 pub fn beliefs(event: &Event, agent: AgentId, particle_count: usize) -> Vec<BeliefSnapshot> {
-    let physique = event.scene.physique();
-    let dynamics = Forward::new(&physique);
+    let physics = event.scene.physics();
+    let dynamics = Forward::new(&physics);
     let mut random = belief_stream(event.seed, agent);
-    let observation = observe(&physique, &event.initial, agent);
-    let mut belief = Belief::new(&physique, &observation, particle_count, &mut random);
+    let observation = observe(&physics, &event.initial, agent);
+    let mut belief = Belief::new(&physics, &observation, particle_count, &mut random);
     let mut snapshots =
         vec![BeliefSnapshot { visible: observation.visible, particles: belief.particles().to_vec() }];
     for step in &event.steps {
-        let observation = observe(&physique, &step.substeps[SUBSTEPS - 1], agent);
-        belief.update(&dynamics, &physique, step.actions[agent], &observation, &mut random);
+        let observation = observe(&physics, &step.substeps[SUBSTEPS - 1], agent);
+        belief.update(&dynamics, &physics, step.actions[agent], &observation, &mut random);
         snapshots
             .push(BeliefSnapshot { visible: observation.visible, particles: belief.particles().to_vec() });
     }

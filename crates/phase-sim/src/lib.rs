@@ -13,7 +13,7 @@
 //!
 //! ```
 //! use phase_model::{AgentId, Entity, LandmarkId, Scene, arena};
-//! use phase_sim::{Settings, simulate};
+//! use phase_sim::{SimulationSettings, simulate};
 //!
 //! let scene = Scene::from_json(
 //!     r#"{"layout": {"base": 0}, "objects": [], "event": "independent", "agents": [
@@ -22,8 +22,8 @@
 //!         {"size_level": 0, "strength_level": 2, "alpha": 0, "start": {"x": 8.5, "y": 8, "angle": 0},
 //!          "goal": {"kind": "agent_on_landmark", "agent": 1, "landmark": 0, "sign": 1}}]}"#,
 //! )?;
-//! let minds = phase_agent::Settings { particles: 5, simulations: 50, ..phase_agent::Settings::default() };
-//! let event = simulate(&scene, 1, &Settings { max_steps: 6, minds, ..Settings::default() })?;
+//! let minds = phase_agent::MindParameters { particles: 5, simulations: 50, ..phase_agent::MindParameters::default() };
+//! let event = simulate(&scene, 1, &SimulationSettings { max_steps: 6, minds, ..SimulationSettings::default() })?;
 //! assert_eq!(event.steps.len(), 6);
 //! let last = event.steps[5].substeps[4];
 //! for (agent, landmark) in [(AgentId::ZERO, LandmarkId::TOP_RIGHT), (AgentId::ONE, LandmarkId::TOP_LEFT)] {
@@ -37,10 +37,10 @@
 #![deny(missing_docs)]
 
 pub mod beliefs;
+mod environment;
 pub mod settings;
 pub mod simulation;
-mod truth;
 
 pub use beliefs::{BeliefSnapshot, beliefs};
-pub use settings::{Engine, Settings};
+pub use settings::{Engine, SimulationSettings};
 pub use simulation::{SimulationError, simulate, simulate_with};

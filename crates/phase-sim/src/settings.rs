@@ -30,7 +30,7 @@ impl Engine {
 
 /// Physics, lengths and minds. The defaults are the paper's.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
-pub struct Settings {
+pub struct SimulationSettings {
     /// What the event plays in. Files written before there was a choice mean the default.
     #[serde(default)]
     pub engine: Engine,
@@ -41,22 +41,22 @@ pub struct Settings {
     /// An event ends once, for this many steps in a row, neither agent had anything to do and nothing moved.
     pub rest_steps: usize,
     /// An event also ends once nothing has moved for this many consecutive steps, whatever the subgoals.
-    #[serde(default = "for_ever")]
+    #[serde(default = "legacy_still_steps")]
     pub still_steps: usize,
     /// An agent that stops and stays whatever its goal, so that an event can be compared with what
     /// would have happened without it; usually none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub idle: Option<AgentId>,
     /// How both agents think.
-    pub minds: phase_agent::Settings,
+    pub minds: phase_agent::MindParameters,
 }
 
 /// Default for files written before the limit existed.
-const fn for_ever() -> usize {
+const fn legacy_still_steps() -> usize {
     usize::MAX
 }
 
-impl Default for Settings {
+impl Default for SimulationSettings {
     fn default() -> Self {
         Self {
             engine: Engine::default(),
@@ -65,7 +65,7 @@ impl Default for Settings {
             rest_steps: 8,
             still_steps: 24,
             idle: None,
-            minds: phase_agent::Settings::default(),
+            minds: phase_agent::MindParameters::default(),
         }
     }
 }

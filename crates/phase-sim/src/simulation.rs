@@ -1,12 +1,12 @@
 //! Algorithm 1 of the paper: both agents observe, update their beliefs, plan and act at once.
 
-use crate::{Settings, truth::Truth};
+use crate::{SimulationSettings, environment::Environment};
 use core::ops::ControlFlow;
 use phase_agent::Agent;
 use phase_event::{Event, Step, Thought};
 use phase_forward::Forward;
 use phase_model::{
-    AGENT_COUNT, Action, AgentId, Physique, Scene, SceneError, State, Subgoal,
+    AGENT_COUNT, Action, AgentId, PhysicsConfig, Scene, SceneError, State, Subgoal,
     arena::SUBSTEPS,
     random::{self, Pcg64Mcg, Purpose},
 };
@@ -14,10 +14,10 @@ use phase_perception::observe;
 use thiserror::Error;
 
 /// Below this speed a body counts as being at rest (u/s).
-const AT_REST: f32 = 0.05;
+const REST_SPEED: f32 = 0.05;
 
 /// A body that moves or turns by less than this in a step is not seen to (u; rad).
-const UNMOVED: f32 = 0.02;
+const MOTION_TOLERANCE: f32 = 0.02;
 
 /// Why a scene could not be simulated.
 #[derive(Clone, PartialEq, Debug, Error)]
@@ -37,7 +37,7 @@ pub enum SimulationError {
 ///
 /// # Errors
 /// [`SimulationError`] for scenes and settings that make no sense.
-pub fn simulate(scene: &Scene, seed: u64, settings: &Settings) -> Result<Event, SimulationError> {
+pub fn simulate(scene: &Scene, seed: u64, settings: &SimulationSettings) -> Result<Event, SimulationError> {
     let (event, _) = simulate_with(scene, seed, settings, &mut |_| ControlFlow::Continue(()))?;
     Ok(event)
 }
@@ -50,17 +50,17 @@ pub fn simulate(scene: &Scene, seed: u64, settings: &Settings) -> Result<Event, 
 pub fn simulate_with(
     scene: &Scene,
     seed: u64,
-    settings: &Settings,
+    settings: &SimulationSettings,
     on_step: &mut dyn FnMut(&Step) -> ControlFlow<()>,
 ) -> Result<(Event, bool), SimulationError> {
     scene.validate()?;
     if settings.minds.particles == 0 {
         return Err(SimulationError::NoParticles);
     }
-    let physique = scene.physique();
+    let physics = scene.physics();
     let initial = scene.initial_state();
-    let mut world = Truth::new(settings.engine, &physique, &initial);
-    let mut minds = Minds::new(scene, &physique, &initial, seed, settings)?;
+    let mut world = Environment::new(settings.engine, &physics, &initial);
+    let mut minds = Minds::new(scene, &physics, &initial, seed, settings)?;
     let mut event = Event { scene: scene.clone(), seed, initial, steps: Vec::new() };
     let (mut resting, mut still) = (0, 0);
     let mut state = initial;
@@ -76,28 +76,29 @@ pub fn simulate_with(
         if flow.is_break() {
             return Ok((event, false));
         }
-        resting = if idle && is_at_rest(&physique, &state) { resting + 1 } else { 0 };
-        still = if is_unmoved(&physique, &before, &state) { still + 1 } else { 0 };
+        resting = if idle && is_at_rest(&physics, &state) { resting + 1 } else { 0 };
+        still = if is_unmoved(&physics, &before, &state) { still + 1 } else { 0 };
         let over = resting >= settings.rest_steps || still >= settings.still_steps;
         if over && event.steps.len() >= settings.min_steps {
             break;
         }
-        minds.perceive(&physique, &state, actions);
+        minds.perceive(&physics, &state, actions);
     }
-    debug_assert!(state.is_finite(&physique));
+    debug_assert!(state.is_finite(&physics));
     Ok((event, true))
 }
 
 /// Whether a viewer would say that nothing has moved in a step.
-fn is_unmoved(physique: &Physique, before: &State, after: &State) -> bool {
-    physique.entities().all(|entity| {
+fn is_unmoved(physics: &PhysicsConfig, before: &State, after: &State) -> bool {
+    physics.entities().all(|entity| {
         let (before, after) = (before.body(entity), after.body(entity));
-        before.position.distance(after.position) < UNMOVED && (before.angle - after.angle).abs() < UNMOVED
+        before.position.distance(after.position) < MOTION_TOLERANCE
+            && (before.angle - after.angle).abs() < MOTION_TOLERANCE
     })
 }
 
-fn is_at_rest(physique: &Physique, state: &State) -> bool {
-    physique.entities().all(|entity| state.body(entity).velocity.length() < AT_REST)
+fn is_at_rest(physics: &PhysicsConfig, state: &State) -> bool {
+    physics.entities().all(|entity| state.body(entity).velocity.length() < REST_SPEED)
 }
 
 /// The generator of an agent's belief. It is a stream of its own, so that beliefs can be recomputed from a
@@ -118,16 +119,16 @@ struct Minds {
 impl Minds {
     fn new(
         scene: &Scene,
-        physique: &Physique,
+        physics: &PhysicsConfig,
         initial: &State,
         seed: u64,
-        settings: &Settings,
+        settings: &SimulationSettings,
     ) -> Result<Self, SimulationError> {
         let mut beliefs: [Pcg64Mcg; AGENT_COUNT] = AgentId::ALL.map(|agent| belief_stream(seed, agent));
         let searches = AgentId::ALL.map(|agent| random::stream(seed, Purpose::Search, agent.number().into()));
         let mut mind = |agent: AgentId| {
-            let observation = observe(physique, initial, agent);
-            let forward = Forward::new(physique);
+            let observation = observe(physics, initial, agent);
+            let forward = Forward::new(physics);
             Agent::new(scene, agent, forward, settings.minds, &observation, &mut beliefs[agent])
         };
         let agents = [mind(AgentId::ZERO)?, mind(AgentId::ONE)?];
@@ -147,12 +148,12 @@ impl Minds {
         Ok(self.agents[agent].decide(&mut self.searches[agent])?)
     }
 
-    fn perceive(&mut self, physique: &Physique, state: &State, actions: [Action; AGENT_COUNT]) {
+    fn perceive(&mut self, physics: &PhysicsConfig, state: &State, actions: [Action; AGENT_COUNT]) {
         for (agent, mind) in AgentId::ALL.into_iter().zip(&mut self.agents) {
             if self.idle == Some(agent) {
                 continue;
             }
-            let observation = observe(physique, state, agent);
+            let observation = observe(physics, state, agent);
             mind.perceive(actions[agent], &observation, &mut self.beliefs[agent]);
         }
     }

@@ -6,7 +6,7 @@ use phase_model::{
     EventKind, Scene,
     random::{Purpose, stream},
 };
-use phase_sim::{Settings, simulate};
+use phase_sim::{SimulationSettings, simulate};
 
 /// Seed of the scenes and of the events.
 const SEED: u64 = 2021;
@@ -17,9 +17,9 @@ fn scene(kind: EventKind) -> Scene {
 }
 
 fn digest(event: &Event) -> String {
-    let physique = event.scene.physique();
+    let physics = event.scene.physics();
     let mut digest = Digest::new();
-    digest.state(&physique, &event.initial);
+    digest.state(&physics, &event.initial);
     for step in &event.steps {
         for (action, thought) in step.actions.iter().zip(&step.thoughts) {
             digest.integer(action.index() as u64);
@@ -39,13 +39,13 @@ fn digest(event: &Event) -> String {
             }
         }
         for substep in &step.substeps {
-            digest.state(&physique, substep);
+            digest.state(&physics, substep);
         }
     }
     digest.hex()
 }
 
-fn check(name: &str, events: &[(EventKind, Settings)]) -> Result<(), String> {
+fn check(name: &str, events: &[(EventKind, SimulationSettings)]) -> Result<(), String> {
     // One event a thread: the seed alone decides what comes of each.
     let events = std::thread::scope(|scope| {
         let threads: Vec<_> = events
@@ -65,12 +65,12 @@ fn check(name: &str, events: &[(EventKind, Settings)]) -> Result<(), String> {
 
 #[test]
 fn golden_events_of_every_kind_are_unchanged() -> Result<(), String> {
-    check("events", &EventKind::ALL.map(|kind| (kind, Settings::default())))
+    check("events", &EventKind::ALL.map(|kind| (kind, SimulationSettings::default())))
 }
 
 #[test]
 fn golden_event_of_few_simulations_is_unchanged() -> Result<(), String> {
-    let mut settings = Settings::default();
+    let mut settings = SimulationSettings::default();
     settings.minds.simulations = 50;
     check("event-50-simulations", &[(EventKind::Hindering, settings)])
 }

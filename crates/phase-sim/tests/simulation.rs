@@ -7,15 +7,15 @@ use phase_model::{
     random::{Purpose, stream},
 };
 use phase_perception::observe;
-use phase_sim::{Engine, Settings, SimulationError, beliefs, simulate, simulate_with};
+use phase_sim::{Engine, SimulationError, SimulationSettings, beliefs, simulate, simulate_with};
 
 fn scene(kind: EventKind) -> Scene {
     phase_sampler::sample_kind(kind, &mut stream(5, Purpose::Scene, 0)).expect("a scene of every kind")
 }
 
 /// Small minds and short events, so that a test takes a moment.
-fn quick() -> Settings {
-    let mut settings = Settings { max_steps: 12, min_steps: 4, ..Settings::default() };
+fn quick() -> SimulationSettings {
+    let mut settings = SimulationSettings { max_steps: 12, min_steps: 4, ..SimulationSettings::default() };
     settings.minds.particles = 10;
     settings.minds.simulations = 40;
     settings
@@ -45,7 +45,7 @@ fn both_engines_repeat_themselves_and_differ() {
     for kind in [EventKind::Chasing, EventKind::Hindering] {
         let scene = scene(kind);
         let [world, forward] = Engine::ALL.map(|engine| {
-            let settings = Settings { engine, ..quick() };
+            let settings = SimulationSettings { engine, ..quick() };
             let [first, again] = [0, 1].map(|_| simulate(&scene, 3, &settings).unwrap());
             assert_eq!(format!("{first:?}"), format!("{again:?}"), "{engine:?}");
             first
@@ -61,11 +61,11 @@ fn both_engines_repeat_themselves_and_differ() {
 #[test]
 fn events_of_the_kernel_are_replays_of_it() {
     let scene = scene(EventKind::Collaborating);
-    let event = simulate(&scene, 4, &Settings { engine: Engine::Forward, ..quick() }).unwrap();
-    let forward = Forward::new(&scene.physique());
-    let (mut state, mut memory) = (event.initial, forward.remember(&event.initial));
+    let event = simulate(&scene, 4, &SimulationSettings { engine: Engine::Forward, ..quick() }).unwrap();
+    let forward = Forward::new(&scene.physics());
+    let (mut state, mut cache) = (event.initial, forward.fresh_cache(&event.initial));
     for step in &event.steps {
-        assert_eq!(forward.step_warm(&mut state, &mut memory, step.actions), step.substeps);
+        assert_eq!(forward.step_warm(&mut state, &mut cache, step.actions), step.substeps);
     }
 }
 
@@ -74,10 +74,10 @@ fn settings_without_an_engine_mean_the_world() {
     let mut settings = serde_json::to_value(quick()).unwrap();
     for engine in Engine::ALL {
         settings["engine"] = engine.name().into();
-        assert_eq!(serde_json::from_value::<Settings>(settings.clone()).unwrap().engine, engine);
+        assert_eq!(serde_json::from_value::<SimulationSettings>(settings.clone()).unwrap().engine, engine);
     }
     settings.as_object_mut().unwrap().remove("engine");
-    assert_eq!(serde_json::from_value::<Settings>(settings).unwrap(), quick());
+    assert_eq!(serde_json::from_value::<SimulationSettings>(settings).unwrap(), quick());
 }
 
 #[test]
@@ -123,14 +123,14 @@ fn nonsense_is_refused() {
 #[test]
 fn beliefs_are_recomputed_from_the_record() {
     let scene = scene(EventKind::Competing);
-    let physique = scene.physique();
+    let physics = scene.physics();
     for (engine, agent) in [(Engine::World, 0), (Engine::World, 1), (Engine::Forward, 0)] {
-        let event = simulate(&scene, 2, &Settings { engine, ..quick() }).unwrap();
+        let event = simulate(&scene, 2, &SimulationSettings { engine, ..quick() }).unwrap();
         let snapshots = beliefs(&event, AgentId::ALL[agent], 10);
         assert_eq!(snapshots.len(), event.steps.len() + 1);
         let states = core::iter::once(&event.initial).chain(event.steps.iter().map(|step| &step.substeps[4]));
         for (state, snapshot) in states.zip(&snapshots) {
-            let observation = observe(&physique, state, AgentId::ALL[agent]);
+            let observation = observe(&physics, state, AgentId::ALL[agent]);
             assert_eq!(snapshot.particles.len(), 10);
             for particle in &snapshot.particles {
                 for entity in observation.observed.iter() {
@@ -151,7 +151,7 @@ fn an_idle_agent_stays_and_leaves_the_other_its_own_chance() {
     let scene = scene(EventKind::Independent);
     let event = simulate(&scene, 3, &quick()).unwrap();
     for idle in AgentId::ALL {
-        let settings = Settings { idle: Some(idle), ..quick() };
+        let settings = SimulationSettings { idle: Some(idle), ..quick() };
         let without = simulate(&scene, 3, &settings).unwrap();
         assert!(without.steps.iter().all(|step| step.actions[idle] == phase_model::Action::Stop));
         // Both decide on the same first observation with streams of their own.

@@ -4,7 +4,7 @@ use phase_belief::{Belief, overwrite};
 use phase_event::ObservedEvent;
 use phase_forward::Forward;
 use phase_model::{
-    AGENT_COUNT, Action, AgentId, BodySet, Physique, State,
+    AGENT_COUNT, Action, AgentId, BodySet, PhysicsConfig, State,
     random::{self, Purpose},
 };
 use phase_perception::{Observation, observe};
@@ -28,15 +28,15 @@ impl EstimatedBeliefs {
         particle_count: usize,
         seed: u64,
     ) -> Self {
-        let physique = observed.physique([0.0; AGENT_COUNT]);
-        let dynamics = Forward::new(&physique);
+        let physics = observed.physics([0.0; AGENT_COUNT]);
+        let dynamics = Forward::new(&physics);
         let mut random = random::stream(seed, Purpose::Belief, agent.number().into());
-        let seen: Vec<Observation> = states.iter().map(|state| observe(&physique, state, agent)).collect();
-        let mut last = Belief::new(&physique, &seen[0], particle_count, &mut random);
+        let seen: Vec<Observation> = states.iter().map(|state| observe(&physics, state, agent)).collect();
+        let mut last = Belief::new(&physics, &seen[0], particle_count, &mut random);
         let mut particles = vec![last.particles().to_vec()];
         for observation in &seen[1..] {
             // Which action it was does not matter: its outcome is observed.
-            last.update(&dynamics, &physique, Action::NoForce, observation, &mut random);
+            last.update(&dynamics, &physics, Action::NoForce, observation, &mut random);
             particles.push(last.particles().to_vec());
         }
         Self { particles, last }
@@ -45,8 +45,8 @@ impl EstimatedBeliefs {
     /// What the agent believes after so many steps if the world is in this state: what it has observed until then
     /// in the event, and what it observes now. The particles, and the entities that it observes.
     #[must_use]
-    pub fn outlook(&self, physique: &Physique, step: usize, state: &State) -> (Vec<State>, BodySet) {
-        let observation = observe(physique, state, self.last.agent());
+    pub fn belief_view(&self, physics: &PhysicsConfig, step: usize, state: &State) -> (Vec<State>, BodySet) {
+        let observation = observe(physics, state, self.last.agent());
         let known = &self.particles[step.min(self.particles.len() - 1)];
         let mut particles = known.clone();
         particles.iter_mut().for_each(|particle| overwrite(particle, &observation));

@@ -4,7 +4,7 @@ use phase_model::{AgentId, Body, Entity, Goal, MAX_ENTITIES, Sign, State, arena}
 use phase_predicates::threshold::ON_OBJECT;
 
 /// Separation at which an avoidance goal counts as satisfied (u).
-const AWAY: f32 = 14.0;
+const SAFE_DISTANCE: f32 = 14.0;
 
 /// γ of the goal proposal's exponent, per unit of distance (1/u).
 ///
@@ -19,7 +19,7 @@ pub const GAMMA: f64 = 10.0 / arena::SIDE as f64;
 pub fn distance_left(goal: Goal, agent: AgentId, state: &State) -> f32 {
     let apart = goal.distance(state);
     match goal {
-        Goal::Touch { sign: Sign::Negative, .. } => (AWAY - apart).max(0.0),
+        Goal::Touch { sign: Sign::Negative, .. } => (SAFE_DISTANCE - apart).max(0.0),
         Goal::ObjectOnLandmark { .. } if apart >= ON_OBJECT => {
             apart + state.position(Entity::Agent(agent)).distance(state.position(goal.subject()))
         }

@@ -1,6 +1,6 @@
 //! Task 2: where everything will be, by the hypotheses that explain best what has been watched.
 
-use crate::{Inference, generative::Stage};
+use crate::{Inference, generative::PreparedEvent};
 use core::ops::ControlFlow;
 use phase_model::{
     Forecast, Vec2,
@@ -19,12 +19,13 @@ pub struct ForecastSettings {
     /// Futures per hypothesis, each with its own random stream; at least 1.
     pub repeats: usize,
     /// Inverse temperature of the posterior weights: after 20 steps the posterior is overconfident.
-    pub temper: f64,
+    #[serde(rename = "temper")]
+    pub inverse_temperature: f64,
 }
 
 impl Default for ForecastSettings {
     fn default() -> Self {
-        Self { hypotheses: 5, repeats: 6, temper: 0.4 }
+        Self { hypotheses: 5, repeats: 6, inverse_temperature: 0.4 }
     }
 }
 
@@ -34,7 +35,7 @@ impl Default for ForecastSettings {
 ///
 /// # Errors Invalid parameters of the minds' search.
 pub fn forecast(
-    stage: &Stage<'_>,
+    prepared: &PreparedEvent<'_>,
     inference: &Inference,
     steps: usize,
     seed: u64,
@@ -49,7 +50,10 @@ pub fn forecast(
                 return Ok(None);
             }
             let seed = random::derive_seed(seed, Purpose::Inference, repeat as u64);
-            futures.push((stage.go_on(hypothesis, steps, seed)?, libm::pow(*weight, settings.temper)));
+            futures.push((
+                prepared.predict(hypothesis, steps, seed)?,
+                libm::pow(*weight, settings.inverse_temperature),
+            ));
         }
     }
     let place = |entity: usize, step: usize| {
@@ -59,7 +63,7 @@ pub fn forecast(
             .collect();
         geometric_median(&places)
     };
-    let entities = stage.observed().entities().count();
+    let entities = prepared.observed().entities().count();
     Ok(Some((0..entities).map(|entity| (0..steps).map(|step| place(entity, step)).collect()).collect()))
 }
 
@@ -68,7 +72,7 @@ pub fn forecast(
 #[must_use]
 pub fn geometric_median(places: &[(Vec2, f64)]) -> Vec2 {
     /// Nearer than this to a place the search has arrived at it (u).
-    const AT: f64 = 1e-4;
+    const CONVERGENCE_TOLERANCE: f64 = 1e-4;
     let mean = |weights: &dyn Fn(&(Vec2, f64)) -> f64| {
         let (mut x, mut y, mut sum) = (0.0, 0.0, 0.0);
         for place in places {
@@ -81,7 +85,7 @@ pub fn geometric_median(places: &[(Vec2, f64)]) -> Vec2 {
     };
     let mut median = mean(&|place| place.1);
     for _ in 0..ROUNDS {
-        median = mean(&|place| place.1 / f64::from(place.0.distance(median)).max(AT));
+        median = mean(&|place| place.1 / f64::from(place.0.distance(median)).max(CONVERGENCE_TOLERANCE));
     }
     median
 }

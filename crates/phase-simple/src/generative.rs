@@ -1,11 +1,11 @@
 //! G(Y): simulation of the event under a hypothesis.
 
 use crate::{Hypothesis, InverseDynamics, beliefs::EstimatedBeliefs};
-use phase_agent::{Mind, Outlook};
+use phase_agent::{BeliefView, Mind};
 use phase_event::{ObservedEvent, Thought};
-use phase_forward::{Forward, Memory};
+use phase_forward::{Forward, SolverCache};
 use phase_model::{
-    AGENT_COUNT, Action, AgentId, Body, BodySet, Entity, MAX_ENTITIES, Physique, State, Vec2,
+    AGENT_COUNT, Action, AgentId, Body, BodySet, Entity, MAX_ENTITIES, PhysicsConfig, State, Vec2,
     arena::SUBSTEPS,
     random::{self, Pcg64Mcg, Purpose},
 };
@@ -14,11 +14,11 @@ use phase_pomcp::PomcpError;
 
 /// An observed event prepared for inference: everything that all hypotheses share.
 #[derive(Clone, Debug)]
-pub struct Stage<'a> {
+pub struct PreparedEvent<'a> {
     observed: &'a ObservedEvent,
     motion: InverseDynamics,
     beliefs: [EstimatedBeliefs; AGENT_COUNT],
-    minds: phase_agent::Settings,
+    minds: phase_agent::MindParameters,
     seed: u64,
 }
 
@@ -26,11 +26,11 @@ pub struct Stage<'a> {
 /// for each step from 1 on (u).
 pub type Deviations = Vec<f64>;
 
-impl<'a> Stage<'a> {
+impl<'a> PreparedEvent<'a> {
     /// Estimates actions and beliefs of an event. All hypotheses use the same random streams (common random
     /// numbers), so that differences are due to the hypotheses alone.
     #[must_use]
-    pub fn new(observed: &'a ObservedEvent, minds: phase_agent::Settings, seed: u64) -> Self {
+    pub fn new(observed: &'a ObservedEvent, minds: phase_agent::MindParameters, seed: u64) -> Self {
         let motion = InverseDynamics::new(observed);
         let beliefs = AgentId::ALL
             .map(|agent| EstimatedBeliefs::new(observed, &motion.states, agent, minds.particles, seed));
@@ -49,7 +49,7 @@ impl<'a> Stage<'a> {
         &self.motion
     }
 
-    /// Simulates the event under a hypothesis and returns its deviations. Every `anchor` steps the simulation is
+    /// Simulates the event under a hypothesis and returns its deviations. Every `resync_interval` steps the simulation is
     /// resynchronised with the observed state; with `None` it runs freely from the start, as in the paper. It
     /// stops early once the sum of deviations exceeds `limit`; then fewer deviations are returned.
     ///
@@ -57,19 +57,22 @@ impl<'a> Stage<'a> {
     pub fn simulate(
         &self,
         hypothesis: &Hypothesis,
-        anchor: Option<usize>,
+        resync_interval: Option<usize>,
         limit: f64,
     ) -> Result<Deviations, PomcpError> {
         let rows = self.observed.rows();
-        let mut run = Run::new(self.observed, hypothesis, self.minds, self.seed, self.motion.states[0])?;
+        let mut run =
+            SimulationRun::new(self.observed, hypothesis, self.minds, self.seed, self.motion.states[0])?;
         let mut deviations = Deviations::with_capacity(self.observed.steps());
         let mut sum = 0.0;
         for (step, row) in rows.iter().enumerate().skip(1) {
-            if anchor.is_some_and(|anchor| step > 1 && (step - 1) % anchor.max(1) == 0) {
-                run.put(self.motion.states[step - 1]);
+            if resync_interval
+                .is_some_and(|resync_interval| step > 1 && (step - 1) % resync_interval.max(1) == 0)
+            {
+                run.set_state(self.motion.states[step - 1]);
             }
             let outlooks =
-                AgentId::ALL.map(|agent| self.beliefs[agent].outlook(&run.physique, step - 1, &run.state));
+                AgentId::ALL.map(|agent| self.beliefs[agent].belief_view(&run.physics, step - 1, &run.state));
             let (means, _) = run.step(&outlooks)?;
             let deviation = self.deviation(&means, row);
             deviations.push(deviation);
@@ -88,28 +91,29 @@ impl<'a> Stage<'a> {
     }
 
     /// Lets one agent decide as a hypothesis has it, while the other does what it was found to do. Every
-    /// `anchor` steps the simulation is put back to where the observed event is.
+    /// `resync_interval` steps the simulation is put back to where the observed event is.
     ///
     /// # Errors Invalid parameters of the minds' search.
-    pub fn simulate_one(
+    pub fn simulate_agent(
         &self,
         hypothesis: &Hypothesis,
         agent: AgentId,
-        anchor: usize,
-    ) -> Result<Vec<Decided>, PomcpError> {
+        resync_interval: usize,
+    ) -> Result<Vec<AgentDecision>, PomcpError> {
         let rows = self.observed.rows();
-        let mut run = Run::new(self.observed, hypothesis, self.minds, self.seed, self.motion.states[0])?;
+        let mut run =
+            SimulationRun::new(self.observed, hypothesis, self.minds, self.seed, self.motion.states[0])?;
         let mut decided = Vec::with_capacity(self.observed.steps());
-        for (step, (row, found)) in rows[1..].iter().zip(&self.motion.actions).enumerate() {
-            if step > 0 && step % anchor.max(1) == 0 {
-                run.put(self.motion.states[step]);
+        for (step, (row, action_likelihoods)) in rows[1..].iter().zip(&self.motion.actions).enumerate() {
+            if step > 0 && step % resync_interval.max(1) == 0 {
+                run.set_state(self.motion.states[step]);
             }
-            let outlook = self.beliefs[agent].outlook(&run.physique, step, &run.state);
-            let (action, thought) = run.decide(agent, &outlook)?;
-            let mut actions = *found;
+            let belief_view = self.beliefs[agent].belief_view(&run.physics, step, &run.state);
+            let (action, thought) = run.decide(agent, &belief_view)?;
+            let mut actions = *action_likelihoods;
             actions[agent] = action;
             let means = run.act(actions);
-            decided.push(Decided { action, thought, deviation: self.deviation(&means, row) });
+            decided.push(AgentDecision { action, thought, deviation: self.deviation(&means, row) });
         }
         Ok(decided)
     }
@@ -118,21 +122,21 @@ impl<'a> Stage<'a> {
     /// hypothesis is true. Beliefs go on from those estimated, by what the agents observe in the simulation.
     ///
     /// # Errors Invalid parameters of the minds' search.
-    pub fn go_on(
+    pub fn predict(
         &self,
         hypothesis: &Hypothesis,
         steps: usize,
         seed: u64,
     ) -> Result<phase_model::Forecast, PomcpError> {
         let last = self.motion.states[self.observed.steps()];
-        let mut run = Run::new(self.observed, hypothesis, self.minds, seed, last)?;
+        let mut run = SimulationRun::new(self.observed, hypothesis, self.minds, seed, last)?;
         let mut beliefs = self.beliefs.each_ref().map(|belief| belief.last().clone());
         let mut random: [Pcg64Mcg; AGENT_COUNT] =
             AgentId::ALL.map(|agent| random::stream(seed, Purpose::Belief, agent.number().into()));
         let mut forecast: phase_model::Forecast = self.observed.entities().map(|_| Vec::new()).collect();
         for _ in 0..steps {
             let outlooks = AgentId::ALL.map(|agent| {
-                let observation = observe(&run.physique, &run.state, agent);
+                let observation = observe(&run.physics, &run.state, agent);
                 (beliefs[agent].particles().to_vec(), observation.observed)
             });
             let (means, actions) = run.step(&outlooks)?;
@@ -140,9 +144,9 @@ impl<'a> Stage<'a> {
                 positions.push(mean);
             }
             for (agent, belief) in AgentId::ALL.into_iter().zip(&mut beliefs) {
-                let observation = observe(&run.physique, &run.state, agent);
-                let (forward, physique) = (&run.forward, &run.physique);
-                belief.update(forward, physique, actions[agent], &observation, &mut random[agent]);
+                let observation = observe(&run.physics, &run.state, agent);
+                let (forward, physics) = (&run.forward, &run.physics);
+                belief.update(forward, physics, actions[agent], &observation, &mut random[agent]);
             }
         }
         Ok(forecast)
@@ -151,7 +155,7 @@ impl<'a> Stage<'a> {
 
 /// One simulated decision and the resulting deviation.
 #[derive(Clone, Debug)]
-pub struct Decided {
+pub struct AgentDecision {
     /// The action.
     pub action: Action,
     /// Why.
@@ -161,50 +165,50 @@ pub struct Decided {
 }
 
 /// A simulation under way.
-struct Run {
-    physique: Physique,
+struct SimulationRun {
+    physics: PhysicsConfig,
     forward: Forward,
     minds: [Mind<Forward>; AGENT_COUNT],
     random: [Pcg64Mcg; AGENT_COUNT],
     state: State,
-    memory: Memory,
+    cache: SolverCache,
 }
 
 /// What an agent believes possible, and the entities that it observes.
-type Outlooks = [(Vec<State>, BodySet); AGENT_COUNT];
+type BeliefViews = [(Vec<State>, BodySet); AGENT_COUNT];
 
-impl Run {
+impl SimulationRun {
     fn new(
         observed: &ObservedEvent,
         hypothesis: &Hypothesis,
-        settings: phase_agent::Settings,
+        settings: phase_agent::MindParameters,
         seed: u64,
         state: State,
     ) -> Result<Self, PomcpError> {
         let scene = hypothesis.scene(observed);
-        let physique = scene.physique();
-        let forward = Forward::new(&physique);
-        let mind = |agent| Mind::new(&scene, agent, Forward::new(&physique), settings);
+        let physics = scene.physics();
+        let forward = Forward::new(&physics);
+        let mind = |agent| Mind::new(&scene, agent, Forward::new(&physics), settings);
         let minds = [mind(AgentId::ZERO)?, mind(AgentId::ONE)?];
         let random = AgentId::ALL.map(|agent| random::stream(seed, Purpose::Search, agent.number().into()));
-        let memory = forward.remember(&state);
-        Ok(Self { physique, forward, minds, random, state, memory })
+        let cache = forward.fresh_cache(&state);
+        Ok(Self { physics, forward, minds, random, state, cache })
     }
 
     /// Puts the world into a state.
-    fn put(&mut self, state: State) {
+    fn set_state(&mut self, state: State) {
         self.state = state;
-        self.memory = self.forward.remember(&state);
+        self.cache = self.forward.fresh_cache(&state);
     }
 
     /// Both decide and act: the mean positions of all bodies over the step, and what they did.
     fn step(
         &mut self,
-        outlooks: &Outlooks,
+        outlooks: &BeliefViews,
     ) -> Result<([Vec2; MAX_ENTITIES], [Action; AGENT_COUNT]), PomcpError> {
         let mut actions = [Action::NoForce; AGENT_COUNT];
-        for (agent, outlook) in AgentId::ALL.into_iter().zip(outlooks) {
-            (actions[agent], _) = self.decide(agent, outlook)?;
+        for (agent, belief_view) in AgentId::ALL.into_iter().zip(outlooks) {
+            (actions[agent], _) = self.decide(agent, belief_view)?;
         }
         Ok((self.act(actions), actions))
     }
@@ -215,13 +219,13 @@ impl Run {
         agent: AgentId,
         (particles, observed): &(Vec<State>, BodySet),
     ) -> Result<(Action, Thought), PomcpError> {
-        let outlook = Outlook { particles, observed: *observed };
-        self.minds[agent].decide(outlook, &mut self.random[agent])
+        let belief_view = BeliefView { particles, observed: *observed };
+        self.minds[agent].decide(belief_view, &mut self.random[agent])
     }
 
     /// Both act: the mean positions of all bodies over the step.
     fn act(&mut self, actions: [Action; AGENT_COUNT]) -> [Vec2; MAX_ENTITIES] {
-        let substeps = self.forward.step_warm(&mut self.state, &mut self.memory, actions);
+        let substeps = self.forward.step_warm(&mut self.state, &mut self.cache, actions);
         let mean = |entity: usize| {
             let sum = substeps.iter().fold(Vec2::ZERO, |sum, substep| sum + substep.bodies[entity].position);
             sum / SUBSTEPS as f32

@@ -1,8 +1,8 @@
 //! From an observed event to weighted hypotheses.
 
 use crate::{
-    Algorithm, ChainSettings, Posterior, Proposal, Settings, generative::Stage, inverse_planning,
-    metropolis::Chains, simulations::Simulations, strength::StrengthCue,
+    Algorithm, ChainSettings, InferenceSettings, Posterior, Proposal, generative::PreparedEvent,
+    inverse_planning, metropolis::Chains, simulations::Simulations, strength::StrengthCue,
 };
 use core::ops::ControlFlow;
 use phase_event::ObservedEvent;
@@ -26,32 +26,32 @@ pub struct Inference {
 ///
 /// # Errors Invalid parameters of the minds' search.
 pub fn infer(
-    stage: &Stage<'_>,
+    prepared: &PreparedEvent<'_>,
     strengths: &dyn StrengthCue,
     seed: u64,
-    settings: &Settings,
+    settings: &InferenceSettings,
     tick: &mut dyn FnMut() -> ControlFlow<()>,
 ) -> Result<Option<Inference>, PomcpError> {
     match &settings.algorithm {
         Algorithm::InversePlanning(planning) => {
-            let posterior = inverse_planning::posterior(stage, planning, settings.gamma, tick)?;
+            let posterior = inverse_planning::posterior(prepared, planning, settings.gamma, tick)?;
             Ok(posterior.map(|posterior| Inference { posterior, accepted: Vec::new(), simulated: 0 }))
         }
-        Algorithm::Chains(chains) => by_chains(stage, strengths, seed, settings.gamma, chains, tick),
+        Algorithm::Chains(chains) => run_chains(prepared, strengths, seed, settings.gamma, chains, tick),
     }
 }
 
-fn by_chains(
-    stage: &Stage<'_>,
+fn run_chains(
+    prepared: &PreparedEvent<'_>,
     strengths: &dyn StrengthCue,
     seed: u64,
     gamma: f64,
     settings: &ChainSettings,
     tick: &mut dyn FnMut() -> ControlFlow<()>,
 ) -> Result<Option<Inference>, PomcpError> {
-    let mut simulations = Simulations::new(stage, settings.anchor, settings.beta);
-    let initial = Proposal::new(stage.observed(), 0..=stage.observed().steps(), gamma, strengths);
-    let chains = Chains { stage, initial: &initial, strengths, gamma, settings };
+    let mut simulations = Simulations::new(prepared, settings.resync_interval, settings.beta);
+    let initial = Proposal::new(prepared.observed(), 0..=prepared.observed().steps(), gamma, strengths);
+    let chains = Chains { prepared, initial: &initial, strengths, gamma, settings };
     let mut accepted = vec![0; settings.iterations];
     let mut particles = Vec::with_capacity(settings.particles);
     for particle in 0..settings.particles.max(1) {
@@ -75,9 +75,9 @@ pub fn explain(
     observed: &ObservedEvent,
     strengths: &dyn StrengthCue,
     seed: u64,
-    settings: &Settings,
+    settings: &InferenceSettings,
 ) -> Result<Inference, PomcpError> {
-    let stage = Stage::new(observed, settings.minds, seed);
-    let inference = infer(&stage, strengths, seed, settings, &mut || ControlFlow::Continue(()))?;
+    let prepared = PreparedEvent::new(observed, settings.minds, seed);
+    let inference = infer(&prepared, strengths, seed, settings, &mut || ControlFlow::Continue(()))?;
     Ok(inference.unwrap_or_else(|| unreachable!("nobody breaks it off")))
 }

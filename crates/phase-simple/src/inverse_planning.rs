@@ -5,10 +5,10 @@
 //! hypotheses it suffices to simulate 42 intents of each agent, with the other replaying its inferred actions.
 
 use crate::{
-    Hypothesis, PlanningSettings, Posterior, Proposal,
-    generative::{Decided, Stage},
-    strength::AnyStrength,
-    want::Want,
+    Hypothesis, InversePlanningSettings, Posterior, Proposal,
+    generative::{AgentDecision, PreparedEvent},
+    intent::Intent,
+    strength::UniformStrength,
 };
 use core::ops::ControlFlow;
 use phase_model::{AGENT_COUNT, Action, AgentId, Attitude, Goal, Strength};
@@ -20,93 +20,106 @@ use phase_pomcp::PomcpError;
 const CHOICES: usize = Action::ALL.len() - 1;
 
 /// Intents of an agent with ln P(motion | intent) of its part of the motion.
-type Weighed = Vec<(Want, f64)>;
+type WeightedIntents = Vec<(Intent, f64)>;
 
 /// Refinement passes: how often the intents are re-evaluated with an updated goal of the other agent.
-const SECOND_THOUGHTS: usize = 2;
+const REFINEMENT_PASSES: usize = 2;
 
 /// P(Y | motion) of every hypothesis, strengths being those that the physics tells; `None` if `tick`, which is
 /// called once a want, broke it off.
 ///
 /// # Errors Invalid parameters of the minds' search.
 pub(crate) fn posterior(
-    stage: &Stage<'_>,
-    settings: &PlanningSettings,
+    prepared: &PreparedEvent<'_>,
+    settings: &InversePlanningSettings,
     gamma: f64,
     tick: &mut dyn FnMut() -> ControlFlow<()>,
 ) -> Result<Option<Posterior>, PomcpError> {
-    let observed = stage.observed();
+    let observed = prepared.observed();
     let objects = observed.object_sizes().len();
     let evidence = Evidence {
-        stage,
+        prepared,
         settings,
-        found: found(stage, settings.tolerance),
-        strengths: stage.motion().strengths(),
+        action_likelihoods: action_likelihoods(prepared, settings.tolerance),
+        strengths: prepared.motion().strengths(),
     };
-    let cue = Proposal::new(observed, 0..=observed.steps(), gamma, &AnyStrength);
+    let cue = Proposal::new(observed, 0..=observed.steps(), gamma, &UniformStrength);
     // The goal that each agent attributes to the other if it is not social.
-    let mut seeming: [Goal; AGENT_COUNT] = AgentId::ALL.map(|agent| cue.likeliest_goal(agent));
-    let mut weighed: [Weighed; AGENT_COUNT] = [Vec::new(), Vec::new()];
-    for (agent, weighed) in AgentId::ALL.into_iter().zip(&mut weighed) {
-        for want in Want::all(agent, objects) {
+    let mut assumed_goals: [Goal; AGENT_COUNT] = AgentId::ALL.map(|agent| cue.most_likely_goal(agent));
+    let mut weighted_intents: [WeightedIntents; AGENT_COUNT] = [Vec::new(), Vec::new()];
+    for (agent, weighted_intents) in AgentId::ALL.into_iter().zip(&mut weighted_intents) {
+        for intent in Intent::all(agent, objects) {
             if tick().is_break() {
                 return Ok(None);
             }
-            weighed.push((want, evidence.log_likelihood(agent, &want, seeming[agent.other()])?));
+            weighted_intents
+                .push((intent, evidence.log_likelihood(agent, &intent, assumed_goals[agent.other()])?));
         }
     }
     let goals = cue.goals(AgentId::ZERO).len();
-    let mut posterior = joint(&weighed, evidence.strengths, goals);
-    for _ in 0..SECOND_THOUGHTS {
-        let likeliest = posterior.hypotheses.first().map_or(seeming, |(hypothesis, _)| hypothesis.goals);
-        for (agent, weighed) in AgentId::ALL.into_iter().zip(&mut weighed) {
+    let mut posterior = joint(&weighted_intents, evidence.strengths, goals);
+    for _ in 0..REFINEMENT_PASSES {
+        let likeliest =
+            posterior.hypotheses.first().map_or(assumed_goals, |(hypothesis, _)| hypothesis.goals);
+        for (agent, weighted_intents) in AgentId::ALL.into_iter().zip(&mut weighted_intents) {
             let other = agent.other();
-            if likeliest[other] == seeming[other] {
+            if likeliest[other] == assumed_goals[other] {
                 continue;
             }
-            for (want, log) in weighed.iter_mut().filter(|(want, _)| want.attitude == Attitude::Neutral) {
+            for (intent, log) in
+                weighted_intents.iter_mut().filter(|(intent, _)| intent.attitude == Attitude::Neutral)
+            {
                 if tick().is_break() {
                     return Ok(None);
                 }
-                *log = evidence.log_likelihood(agent, want, likeliest[other])?;
+                *log = evidence.log_likelihood(agent, intent, likeliest[other])?;
             }
         }
-        if likeliest == seeming {
+        if likeliest == assumed_goals {
             break;
         }
-        seeming = likeliest;
-        posterior = joint(&weighed, evidence.strengths, goals);
+        assumed_goals = likeliest;
+        posterior = joint(&weighted_intents, evidence.strengths, goals);
     }
     Ok(Some(posterior))
 }
 
 /// What wants are weighed by.
 struct Evidence<'a> {
-    stage: &'a Stage<'a>,
-    settings: &'a PlanningSettings,
-    found: Vec<[[f64; CHOICES]; AGENT_COUNT]>,
+    prepared: &'a PreparedEvent<'a>,
+    settings: &'a InversePlanningSettings,
+    action_likelihoods: Vec<[[f64; CHOICES]; AGENT_COUNT]>,
     strengths: [Strength; AGENT_COUNT],
 }
 
 impl Evidence<'_> {
     /// ln P(motion | want) of an agent's part of the motion, the other being after `others`.
-    fn log_likelihood(&self, agent: AgentId, want: &Want, others: Goal) -> Result<f64, PomcpError> {
-        let hypothesis = want.hypothesis(agent, others, self.strengths);
-        let every_step = self.stage.simulate_one(&hypothesis, agent, 1)?;
-        let chosen = every_step.iter().zip(&self.found);
-        let chosen: f64 =
-            chosen.map(|(decided, found)| log_chance(decided, &found[agent], self.settings.slips)).sum();
-        let now_and_then = self.stage.simulate_one(&hypothesis, agent, self.settings.anchor)?;
-        let strayed: f64 = now_and_then.iter().map(|step| step.deviation).sum();
-        Ok(self.settings.temper * chosen - self.settings.beta * strayed)
+    fn log_likelihood(&self, agent: AgentId, intent: &Intent, others: Goal) -> Result<f64, PomcpError> {
+        let hypothesis = intent.hypothesis(agent, others, self.strengths);
+        let every_step = self.prepared.simulate_agent(&hypothesis, agent, 1)?;
+        let chosen = every_step.iter().zip(&self.action_likelihoods);
+        let chosen: f64 = chosen
+            .map(|(decided, action_likelihoods)| {
+                log_choice_probability(decided, &action_likelihoods[agent], self.settings.lapse_rate)
+            })
+            .sum();
+        let resynchronised_steps =
+            self.prepared.simulate_agent(&hypothesis, agent, self.settings.resync_interval)?;
+        let deviation_sum: f64 = resynchronised_steps.iter().map(|step| step.deviation).sum();
+        Ok(self.settings.inverse_temperature * chosen - self.settings.beta * deviation_sum)
     }
 }
 
 /// The joint posterior: prior times both agents' likelihoods.
-fn joint(weighed: &[Weighed; AGENT_COUNT], strengths: [Strength; AGENT_COUNT], goals: usize) -> Posterior {
+fn joint(
+    weighted_intents: &[WeightedIntents; AGENT_COUNT],
+    strengths: [Strength; AGENT_COUNT],
+    goals: usize,
+) -> Posterior {
     let weigh = |hypothesis: Hypothesis, log: f64| (hypothesis, log + hypothesis.log_prior(goals));
-    let neutral =
-        |agent: AgentId| weighed[agent].iter().filter(|(want, _)| want.attitude == Attitude::Neutral);
+    let neutral = |agent: AgentId| {
+        weighted_intents[agent].iter().filter(|(intent, _)| intent.attitude == Attitude::Neutral)
+    };
     let mut hypotheses = Vec::new();
     for (first, first_log) in neutral(AgentId::ZERO) {
         for (second, second_log) in neutral(AgentId::ONE) {
@@ -114,27 +127,27 @@ fn joint(weighed: &[Weighed; AGENT_COUNT], strengths: [Strength; AGENT_COUNT], g
                 .push(weigh(first.hypothesis(AgentId::ZERO, second.goal, strengths), first_log + second_log));
         }
     }
-    for (social, wants) in AgentId::ALL.into_iter().zip(weighed) {
-        for (want, log) in wants.iter().filter(|(want, _)| want.attitude != Attitude::Neutral) {
-            let other = neutral(social.other()).find(|(other, _)| other.goal == want.goal);
+    for (social, intents) in AgentId::ALL.into_iter().zip(weighted_intents) {
+        for (intent, log) in intents.iter().filter(|(intent, _)| intent.attitude != Attitude::Neutral) {
+            let other = neutral(social.other()).find(|(other, _)| other.goal == intent.goal);
             let Some((_, other_log)) = other else { continue };
-            hypotheses.push(weigh(want.hypothesis(social, want.goal, strengths), log + other_log));
+            hypotheses.push(weigh(intent.hypothesis(social, intent.goal, strengths), log + other_log));
         }
     }
     Posterior::new(hypotheses)
 }
 
 /// Normalised likelihood of each choice for each step and agent, proportional to e^{−residual/σ}.
-fn found(stage: &Stage<'_>, tolerance: f64) -> Vec<[[f64; CHOICES]; AGENT_COUNT]> {
-    let alternatives = stage.motion().alternatives(stage.observed());
+fn action_likelihoods(prepared: &PreparedEvent<'_>, tolerance: f64) -> Vec<[[f64; CHOICES]; AGENT_COUNT]> {
+    let alternatives = prepared.motion().alternatives(prepared.observed());
     let one = |residuals: &[f32; Action::ALL.len()]| {
-        let mut least = [f64::INFINITY; CHOICES];
+        let mut argmin = [f64::INFINITY; CHOICES];
         for action in Action::ALL {
             let place = choice(action);
-            least[place] = least[place].min(f64::from(residuals[action.index()]));
+            argmin[place] = argmin[place].min(f64::from(residuals[action.index()]));
         }
-        let best = least.iter().copied().fold(f64::INFINITY, f64::min);
-        let weights = least.map(|residual| libm::exp((best - residual) / tolerance));
+        let best = argmin.iter().copied().fold(f64::INFINITY, f64::min);
+        let weights = argmin.map(|residual| libm::exp((best - residual) / tolerance));
         let sum: f64 = weights.iter().sum();
         weights.map(|weight| weight / sum)
     };
@@ -142,7 +155,11 @@ fn found(stage: &Stage<'_>, tolerance: f64) -> Vec<[[f64; CHOICES]; AGENT_COUNT]
 }
 
 /// ln of the probability that the policy's action is the observed one, lapses included.
-fn log_chance(decided: &Decided, found: &[f64; CHOICES], slips: f64) -> f64 {
+fn log_choice_probability(
+    decided: &AgentDecision,
+    action_likelihoods: &[f64; CHOICES],
+    lapse_rate: f64,
+) -> f64 {
     let mut policy = [0.0; CHOICES];
     let visits: f64 = decided.thought.actions.iter().map(|value| f64::from(value.visits)).sum();
     if visits > 0.0 {
@@ -152,8 +169,11 @@ fn log_chance(decided: &Decided, found: &[f64; CHOICES], slips: f64) -> f64 {
     } else {
         policy[choice(decided.action)] = 1.0;
     }
-    let slip = slips / CHOICES as f64;
-    let same = policy.iter().zip(found).map(|(policy, found)| ((1.0 - slips) * policy + slip) * found);
+    let slip = lapse_rate / CHOICES as f64;
+    let same = policy
+        .iter()
+        .zip(action_likelihoods)
+        .map(|(policy, action_likelihoods)| ((1.0 - lapse_rate) * policy + slip) * action_likelihoods);
     libm::log(same.sum::<f64>().max(f64::MIN_POSITIVE))
 }
 

@@ -1,6 +1,6 @@
 //! SIMPLE (SIMulation, Planning and Local Estimation): what explains the motion of a social event, and how it goes on.
 //!
-//! An event is first prepared ([`Stage`]): what was done ([`InverseDynamics`]), and what each agent can have observed
+//! An event is first prepared ([`PreparedEvent`]): what was done ([`InverseDynamics`]), and what each agent can have observed
 //! and so believed. Each [`Hypothesis`] is then put to the very minds and physics that make events, and is the
 //! likelier the better they do what was observed. [`infer`] weighs hypotheses, either all of them by what each
 //! agent would do next at every step (`inverse_planning`), or as Algorithm 2 of the paper some of them by simulations of
@@ -18,7 +18,7 @@
 //! ```
 //! use phase_event::ObservedEvent;
 //! use phase_model::{AgentId, Body, Goal, LandmarkId, Layout, Sign, Size, Vec2};
-//! use phase_simple::{AnyStrength, Settings, explain};
+//! use phase_simple::{UniformStrength, InferenceSettings, explain};
 //!
 //! let rows = (0..=8_u8).map(|step| {
 //!     let places = [Vec2::new(23.5, 6.0 + f32::from(step)), Vec2::new(8.5, 19.5), Vec2::ZERO, Vec2::ZERO];
@@ -28,9 +28,9 @@
 //! });
 //! let observed = ObservedEvent::new(Layout::new(0, None)?, [Size::Small; 2], Vec::new(), rows.collect())?;
 //!
-//! let mut settings = Settings::default();
+//! let mut settings = InferenceSettings::default();
 //! (settings.minds.particles, settings.minds.simulations) = (5, 20);
-//! let posterior = explain(&observed, &AnyStrength, 1, &settings)?.posterior;
+//! let posterior = explain(&observed, &UniformStrength, 1, &settings)?.posterior;
 //! let (likeliest, _probability) = posterior.goals(AgentId::ZERO)[0];
 //! let (agent, landmark) = (AgentId::ZERO, LandmarkId::TOP_RIGHT);
 //! assert_eq!(likeliest, Goal::AgentOnLandmark { agent, landmark, sign: Sign::Positive });
@@ -46,6 +46,7 @@ pub mod forecast;
 pub mod generative;
 pub mod hypothesis;
 pub mod inference;
+pub mod intent;
 pub mod inverse_dynamics;
 mod inverse_planning;
 pub mod metropolis;
@@ -54,15 +55,14 @@ pub mod proposal;
 pub mod settings;
 pub mod simulations;
 pub mod strength;
-pub mod want;
 
 pub use forecast::{ForecastSettings, forecast};
-pub use generative::Stage;
+pub use generative::PreparedEvent;
 pub use hypothesis::{Hypothesis, physical_goals};
 pub use inference::{Inference, explain, infer};
+pub use intent::Intent;
 pub use inverse_dynamics::InverseDynamics;
 pub use posterior::Posterior;
 pub use proposal::Proposal;
-pub use settings::{Algorithm, ChainSettings, PlanningSettings, Settings, Update};
-pub use strength::{AnyStrength, StrengthCue, StrengthRegressor};
-pub use want::Want;
+pub use settings::{Algorithm, ChainSettings, InferenceSettings, InversePlanningSettings, Update};
+pub use strength::{StrengthCue, StrengthRegressor, UniformStrength};

@@ -1,8 +1,8 @@
 //! Algorithm 2 of the paper: Metropolis–Hastings chains whose proposals come from short stretches of the event.
 
 use crate::{
-    ChainSettings, Hypothesis, Proposal, Update, cue::normalised, generative::Stage, proposal::drawn,
-    simulations::Simulations, strength::StrengthCue,
+    ChainSettings, Hypothesis, Proposal, Update, cue::normalised, generative::PreparedEvent,
+    proposal::sample_index, simulations::Simulations, strength::StrengthCue,
 };
 use core::ops::{ControlFlow, RangeInclusive};
 use phase_model::random::Pcg64Mcg;
@@ -23,7 +23,7 @@ pub fn threshold(log_u: f64, log_likelihood: f64, log_proposed: f64, log_current
 /// What all chains of an event share.
 #[derive(Clone, Copy)]
 pub(crate) struct Chains<'a, 's> {
-    pub(crate) stage: &'a Stage<'a>,
+    pub(crate) prepared: &'a PreparedEvent<'a>,
     pub(crate) initial: &'a Proposal,
     pub(crate) strengths: &'s dyn StrengthCue,
     pub(crate) gamma: f64,
@@ -47,9 +47,9 @@ impl Chains<'_, '_> {
             if tick().is_break() {
                 return Ok(None);
             }
-            let local = self
-                .stretch(&current, simulations, random)
-                .map(|stretch| Proposal::new(self.stage.observed(), stretch, self.gamma, self.strengths));
+            let local = self.sample_window(&current, simulations, random).map(|sample_window| {
+                Proposal::new(self.prepared.observed(), sample_window, self.gamma, self.strengths)
+            });
             let proposal = local.as_ref().unwrap_or(self.initial);
             let candidate = proposal.sample(random);
             let threshold = threshold(
@@ -58,7 +58,7 @@ impl Chains<'_, '_> {
                 proposal.log_probability(&candidate),
                 proposal.log_probability(&current),
             );
-            if let Some(likelihood_of_candidate) = simulations.above(&candidate, threshold)? {
+            if let Some(likelihood_of_candidate) = simulations.log_likelihood_above(&candidate, threshold)? {
                 (current, likelihood) = (candidate, likelihood_of_candidate);
                 *accepted = true;
             }
@@ -67,7 +67,7 @@ impl Chains<'_, '_> {
     }
 
     /// The stretch of ΔT steps to propose from next, drawn by e^{η Σ ‖ŝ − s‖₂}; `None` for the whole event.
-    fn stretch(
+    fn sample_window(
         &self,
         current: &Hypothesis,
         simulations: &Simulations<'_>,
@@ -79,7 +79,7 @@ impl Chains<'_, '_> {
         let (window, deviations) = (self.settings.window, simulations.deviations(current)?);
         let starts = deviations.len().saturating_sub(window) + 1;
         let sums = (0..starts).map(|start| deviations.iter().skip(start).take(window).sum::<f64>());
-        let start = drawn(&normalised(sums.map(|sum| self.settings.eta * sum).collect()), random);
+        let start = sample_index(&normalised(sums.map(|sum| self.settings.eta * sum).collect()), random);
         Some(start..=start + window)
     }
 }

@@ -43,13 +43,14 @@ impl Proposal {
         if social != Attitude::Neutral {
             attitudes[random.random_range(0..AGENT_COUNT)] = social;
         }
-        let strengths = AgentId::ALL.map(|agent| Strength::ALL[drawn(&self.strength_logs[agent], random)]);
+        let strengths =
+            AgentId::ALL.map(|agent| Strength::ALL[sample_index(&self.strength_logs[agent], random)]);
         Hypothesis::new(goals, attitudes, strengths)
     }
 
     /// The goal that an agent pursues most likely.
     #[must_use]
-    pub fn likeliest_goal(&self, agent: AgentId) -> Goal {
+    pub fn most_likely_goal(&self, agent: AgentId) -> Goal {
         let goals = self.goals[agent].iter().zip(&self.goal_logs[agent]);
         let best = goals.max_by(|a, b| a.1.total_cmp(b.1));
         best.map_or_else(|| unreachable!("there are landmarks to go to"), |(goal, _)| *goal)
@@ -57,7 +58,7 @@ impl Proposal {
 
     /// Draws a goal of an agent.
     fn sample_goal(&self, agent: AgentId, random: &mut impl Rng) -> Goal {
-        self.goals[agent][drawn(&self.goal_logs[agent], random)]
+        self.goals[agent][sample_index(&self.goal_logs[agent], random)]
     }
 
     /// The goals that an agent can have.
@@ -110,7 +111,7 @@ impl Proposal {
 }
 
 /// A place drawn by logarithms of probabilities that add up to 1.
-pub(crate) fn drawn(logs: &[f64], random: &mut impl Rng) -> usize {
+pub(crate) fn sample_index(logs: &[f64], random: &mut impl Rng) -> usize {
     let mut left = random.random::<f64>();
     for (place, log) in logs.iter().enumerate() {
         left -= libm::exp(*log);

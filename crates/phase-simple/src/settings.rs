@@ -21,34 +21,37 @@ pub enum Update {
 #[serde(rename_all = "snake_case")]
 pub enum Algorithm {
     /// All hypotheses, by what each agent would do at every step if it wanted this or that. Not in the paper.
-    InversePlanning(PlanningSettings),
+    InversePlanning(InversePlanningSettings),
     /// Some hypotheses, by simulations of whole events: the paper's Algorithm 2.
     Chains(ChainSettings),
 }
 
-/// How to infer. The defaults are what serves best; [`Settings::published`] is the paper's.
+/// How to infer. The defaults are what serves best; [`InferenceSettings::published`] is the paper's.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
-pub struct Settings {
+pub struct InferenceSettings {
     /// How hypotheses are found and weighed.
     pub algorithm: Algorithm,
     /// γ of the goal proposal (1/u).
     pub gamma: f64,
     /// How the agents of a simulation think.
-    pub minds: phase_agent::Settings,
+    pub minds: phase_agent::MindParameters,
 }
 
 /// Parameters of inverse planning, selected on the validation events of PHASE-500.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
-pub struct PlanningSettings {
+pub struct InversePlanningSettings {
     /// ε, the lapse rate: probability of a uniformly random action instead of the policy's.
-    pub slips: f64,
+    #[serde(rename = "slips")]
+    pub lapse_rate: f64,
     /// σ, scale of the residuals (u): a residual larger by σ divides an action's likelihood by e.
     pub tolerance: f64,
     /// κ, inverse temperature of the action likelihood; below 1 because errors of a simulated mind are correlated
     /// over steps.
-    pub temper: f64,
+    #[serde(rename = "temper")]
+    pub inverse_temperature: f64,
     /// Steps between resynchronisations of the simulations whose deviation is measured; at least 1.
-    pub anchor: usize,
+    #[serde(rename = "anchor")]
+    pub resync_interval: usize,
     /// β of that deviation (1/u).
     pub beta: f64,
 }
@@ -69,20 +72,25 @@ pub struct ChainSettings {
     /// ΔT, length of a stretch (steps).
     pub window: usize,
     /// Steps between resynchronisations with the observed state; `None` (the paper) for none.
-    pub anchor: Option<usize>,
+    #[serde(rename = "anchor")]
+    pub resync_interval: Option<usize>,
 }
 
 /// POMCP simulations a decision within an inference.
 const SIMULATIONS: usize = 50;
 /// What an agent can want in an event with two objects.
-const WANTS: usize = 42;
+const INTENTS: usize = 42;
 
-impl Settings {
+impl InferenceSettings {
     /// The paper's: Algorithm 2 with M = 15, L = 6, β = 0.05, η = 0.1 and ΔT = 10, over simulations that go their own
     /// way from the start. Only γ is not the printed one (see [`GAMMA`]), and agents search with fewer simulations.
     #[must_use]
     pub fn published() -> Self {
-        Self::chains(ChainSettings { beta: 0.05, anchor: None, ..ChainSettings::anchored(Update::Local) })
+        Self::chains(ChainSettings {
+            beta: 0.05,
+            resync_interval: None,
+            ..ChainSettings::resynchronised(Update::Local)
+        })
     }
 
     /// Algorithm 2.
@@ -95,7 +103,7 @@ impl Settings {
     #[must_use]
     pub const fn ticks(&self) -> usize {
         match self.algorithm {
-            Algorithm::InversePlanning(_) => WANTS * AGENT_COUNT,
+            Algorithm::InversePlanning(_) => INTENTS * AGENT_COUNT,
             Algorithm::Chains(ChainSettings { update: Update::Initial, particles, .. }) => particles,
             Algorithm::Chains(ChainSettings { iterations, particles, .. }) => particles * (iterations + 1),
         }
@@ -105,23 +113,34 @@ impl Settings {
 impl ChainSettings {
     /// The paper's parameters with simulations that are resynchronised with the observed event.
     #[must_use]
-    pub const fn anchored(update: Update) -> Self {
-        Self { update, iterations: 6, particles: 15, beta: 0.2, eta: 0.1, window: 10, anchor: Some(10) }
+    pub const fn resynchronised(update: Update) -> Self {
+        Self {
+            update,
+            iterations: 6,
+            particles: 15,
+            beta: 0.2,
+            eta: 0.1,
+            window: 10,
+            resync_interval: Some(10),
+        }
     }
 }
 
-impl Default for PlanningSettings {
+impl Default for InversePlanningSettings {
     fn default() -> Self {
-        Self { slips: 0.05, tolerance: 0.03, temper: 0.3, anchor: 10, beta: 0.1 }
+        Self { lapse_rate: 0.05, tolerance: 0.03, inverse_temperature: 0.3, resync_interval: 10, beta: 0.1 }
     }
 }
 
-impl Default for Settings {
+impl Default for InferenceSettings {
     fn default() -> Self {
         Self {
-            algorithm: Algorithm::InversePlanning(PlanningSettings::default()),
+            algorithm: Algorithm::InversePlanning(InversePlanningSettings::default()),
             gamma: GAMMA,
-            minds: phase_agent::Settings { simulations: SIMULATIONS, ..phase_agent::Settings::default() },
+            minds: phase_agent::MindParameters {
+                simulations: SIMULATIONS,
+                ..phase_agent::MindParameters::default()
+            },
         }
     }
 }

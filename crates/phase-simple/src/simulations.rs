@@ -2,7 +2,7 @@
 
 use crate::{
     Hypothesis,
-    generative::{Deviations, Stage},
+    generative::{Deviations, PreparedEvent},
 };
 use phase_pomcp::PomcpError;
 use std::collections::BTreeMap;
@@ -10,37 +10,41 @@ use std::collections::BTreeMap;
 /// Simulations of one event. Each hypothesis is simulated once: its simulation would draw the same numbers again.
 #[derive(Debug)]
 pub struct Simulations<'a> {
-    stage: &'a Stage<'a>,
-    anchor: Option<usize>,
+    prepared: &'a PreparedEvent<'a>,
+    resync_interval: Option<usize>,
     beta: f64,
-    done: BTreeMap<Hypothesis, Deviations>,
+    simulated: BTreeMap<Hypothesis, Deviations>,
 }
 
 impl<'a> Simulations<'a> {
-    /// None so far. `anchor` is that of [`Stage::simulate`], `beta` that of the likelihood (1/u).
+    /// None so far. `resync_interval` is that of [`PreparedEvent::simulate`], `beta` that of the likelihood (1/u).
     #[must_use]
-    pub const fn new(stage: &'a Stage<'a>, anchor: Option<usize>, beta: f64) -> Self {
-        Self { stage, anchor, beta, done: BTreeMap::new() }
+    pub const fn new(prepared: &'a PreparedEvent<'a>, resync_interval: Option<usize>, beta: f64) -> Self {
+        Self { prepared, resync_interval, beta, simulated: BTreeMap::new() }
     }
 
     /// ln P(s | Y) = −β Σ ‖sᵗ − ŝᵗ‖₂.
     ///
     /// # Errors Invalid parameters of the minds' search.
     pub fn log_likelihood(&mut self, hypothesis: &Hypothesis) -> Result<f64, PomcpError> {
-        Ok(self.above(hypothesis, f64::NEG_INFINITY)?.unwrap_or(f64::NEG_INFINITY))
+        Ok(self.log_likelihood_above(hypothesis, f64::NEG_INFINITY)?.unwrap_or(f64::NEG_INFINITY))
     }
 
     /// The same if it is above a threshold. A simulation that has come too far from the event to get above it is
     /// broken off, which changes nothing: deviations only add up.
     ///
     /// # Errors Invalid parameters of the minds' search.
-    pub fn above(&mut self, hypothesis: &Hypothesis, threshold: f64) -> Result<Option<f64>, PomcpError> {
-        let steps = self.stage.observed().steps();
+    pub fn log_likelihood_above(
+        &mut self,
+        hypothesis: &Hypothesis,
+        threshold: f64,
+    ) -> Result<Option<f64>, PomcpError> {
+        let steps = self.prepared.observed().steps();
         let limit = -threshold / self.beta;
         let enough = |known: &Deviations| known.len() == steps || known.iter().sum::<f64>() > limit;
-        if !self.done.get(hypothesis).is_some_and(enough) {
-            let deviations = self.stage.simulate(hypothesis, self.anchor, limit)?;
-            self.done.insert(*hypothesis, deviations);
+        if !self.simulated.get(hypothesis).is_some_and(enough) {
+            let deviations = self.prepared.simulate(hypothesis, self.resync_interval, limit)?;
+            self.simulated.insert(*hypothesis, deviations);
         }
         Ok(self.known(hypothesis).filter(|&log| log > threshold))
     }
@@ -48,18 +52,18 @@ impl<'a> Simulations<'a> {
     /// How far a hypothesis deviates step by step, as far as it has been simulated.
     #[must_use]
     pub fn deviations(&self, hypothesis: &Hypothesis) -> Option<&Deviations> {
-        self.done.get(hypothesis)
+        self.simulated.get(hypothesis)
     }
 
     /// How many hypotheses were simulated, to the end or not.
     #[must_use]
     pub fn count(&self) -> usize {
-        self.done.len()
+        self.simulated.len()
     }
 
     fn known(&self, hypothesis: &Hypothesis) -> Option<f64> {
-        let deviations = self.done.get(hypothesis)?;
-        let complete = deviations.len() == self.stage.observed().steps();
+        let deviations = self.simulated.get(hypothesis)?;
+        let complete = deviations.len() == self.prepared.observed().steps();
         complete.then(|| -self.beta * deviations.iter().sum::<f64>())
     }
 }

@@ -7,7 +7,7 @@ use phase_model::{
     arena::SUBSTEPS,
     random::{Purpose, stream},
 };
-use phase_simple::{Settings, StrengthRegressor, explain};
+use phase_simple::{InferenceSettings, StrengthRegressor, explain};
 
 /// Seed of the scene, of the event and of the inference.
 const SEED: u64 = 2021;
@@ -36,13 +36,13 @@ fn observed(event: &Event) -> ObservedEvent {
 
 #[test]
 fn golden_posterior_is_unchanged() -> Result<(), String> {
-    let mut settings = phase_sim::Settings::default();
+    let mut settings = phase_sim::SimulationSettings::default();
     settings.minds.simulations = 50;
     let mut random = stream(SEED, Purpose::Scene, EventKind::Hindering as u64);
     let scene = phase_sampler::sample_kind(EventKind::Hindering, &mut random).expect("a scene");
     let event = phase_sim::simulate(&scene, SEED, &settings).map_err(|error| error.to_string())?;
-    let strengths = StrengthRegressor::shipped().map_err(|error| error.to_string())?;
-    let inference = explain(&observed(&event), &strengths, SEED, &Settings::default())
+    let strengths = StrengthRegressor::bundled().map_err(|error| error.to_string())?;
+    let inference = explain(&observed(&event), &strengths, SEED, &InferenceSettings::default())
         .map_err(|error| error.to_string())?;
 
     let mut golden = Golden::new(env!("CARGO_MANIFEST_DIR"), "posterior");

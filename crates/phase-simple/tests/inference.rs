@@ -7,16 +7,17 @@ use phase_model::{
 };
 use phase_sampler::{Request, Variant, sample};
 use phase_simple::{
-    AnyStrength, ChainSettings, Inference, InverseDynamics, Settings, Stage, Update, explain,
+    ChainSettings, Inference, InferenceSettings, InverseDynamics, PreparedEvent, UniformStrength, Update,
+    explain,
 };
 
 /// An event of a variant, by minds that think less than the paper's.
 fn event(variant: Variant, seed: u64) -> Event {
     let layouts: Vec<Layout> = Layout::all_used().collect();
-    let request = Request { variant, turn: seed as usize, layouts: &layouts };
+    let request = Request { variant, goal_index: seed as usize, layouts: &layouts };
     let scene = sample(&request, &mut stream(seed, Purpose::Scene, 0)).expect("there are such scenes");
-    let minds = phase_agent::Settings { simulations: 100, ..phase_agent::Settings::default() };
-    let settings = phase_sim::Settings { minds, ..phase_sim::Settings::default() };
+    let minds = phase_agent::MindParameters { simulations: 100, ..phase_agent::MindParameters::default() };
+    let settings = phase_sim::SimulationSettings { minds, ..phase_sim::SimulationSettings::default() };
     phase_sim::simulate(&scene, seed, &settings).expect("a sound scene")
 }
 
@@ -29,10 +30,16 @@ fn recording(event: Event) -> Recording {
 }
 
 /// Inverse planning and Algorithm 2, by minds that think little.
-fn quick() -> [Settings; 2] {
-    let chains = ChainSettings { particles: 4, iterations: 2, ..ChainSettings::anchored(Update::Local) };
-    let minds = phase_agent::Settings { simulations: 20, particles: 10, ..phase_agent::Settings::default() };
-    [Settings::default(), Settings::chains(chains)].map(|settings| Settings { minds, ..settings })
+fn quick() -> [InferenceSettings; 2] {
+    let chains =
+        ChainSettings { particles: 4, iterations: 2, ..ChainSettings::resynchronised(Update::Local) };
+    let minds = phase_agent::MindParameters {
+        simulations: 20,
+        particles: 10,
+        ..phase_agent::MindParameters::default()
+    };
+    [InferenceSettings::default(), InferenceSettings::chains(chains)]
+        .map(|settings| InferenceSettings { minds, ..settings })
 }
 
 fn whole(inference: &Inference) -> f64 {
@@ -60,9 +67,10 @@ fn no_label_is_seen() {
 
 #[test]
 fn the_same_seed_gives_the_same_answer() {
-    let event = observed(&event(Variant::Places, 2)).watched_for(25);
+    let event = observed(&event(Variant::Places, 2)).prefix(25);
     for settings in quick() {
-        let answers = [1, 1, 2].map(|seed| explain(&event, &AnyStrength, seed, &settings).expect("is sound"));
+        let answers =
+            [1, 1, 2].map(|seed| explain(&event, &UniformStrength, seed, &settings).expect("is sound"));
         assert_eq!(answers[0], answers[1]);
         assert!((whole(&answers[0]) - 1.0).abs() < 1e-9, "{}", whole(&answers[0]));
         assert_ne!(answers[0].posterior, answers[2].posterior, "another seed draws other futures");
@@ -73,9 +81,9 @@ fn the_same_seed_gives_the_same_answer() {
 /// two goals of one are the same whatever goal the other has.
 #[test]
 fn every_hypothesis_is_weighed_and_neutral_agents_are_independent() {
-    let event = observed(&event(Variant::Carry, 1)).watched_for(6);
+    let event = observed(&event(Variant::Carry, 1)).prefix(6);
     let [planning, _] = quick();
-    let posterior = explain(&event, &AnyStrength, 1, &planning).expect("is sound").posterior;
+    let posterior = explain(&event, &UniformStrength, 1, &planning).expect("is sound").posterior;
     let goals = phase_simple::physical_goals(AgentId::ZERO, event.object_sizes().len()).len();
     assert_eq!(posterior.hypotheses.len(), goals * goals + 4 * goals);
     let neutral: Vec<_> = posterior
@@ -84,8 +92,8 @@ fn every_hypothesis_is_weighed_and_neutral_agents_are_independent() {
         .filter(|(hypothesis, _)| hypothesis.attitudes == [Attitude::Neutral; 2])
         .collect();
     let log = |goals: [Goal; 2]| {
-        let found = neutral.iter().find(|(hypothesis, _)| hypothesis.goals == goals);
-        found.expect("every pair is there").1.ln()
+        let action_likelihoods = neutral.iter().find(|(hypothesis, _)| hypothesis.goals == goals);
+        action_likelihoods.expect("every pair is there").1.ln()
     };
     for ([a, b], [c, d]) in neutral.iter().zip(&neutral[1..]).map(|(x, y)| (x.0.goals, y.0.goals)) {
         let (straight, crossed) = (log([a, b]) + log([c, d]), log([a, d]) + log([c, b]));
@@ -97,7 +105,7 @@ fn every_hypothesis_is_weighed_and_neutral_agents_are_independent() {
 #[test]
 fn two_who_walk_to_their_landmarks_are_understood() {
     let event = event(Variant::Places, 3);
-    let judgement = explain(&observed(&event), &AnyStrength, 1, &Settings::default())
+    let judgement = explain(&observed(&event), &UniformStrength, 1, &InferenceSettings::default())
         .expect("is sound")
         .posterior
         .judgement();
@@ -126,12 +134,12 @@ fn actions_strengths_and_grips_are_found_again() {
             strengths += usize::from(logs[truth] > best_other + SURE);
         }
         assert!(!motion.late_start, "row 0 is the initial state");
-        let found = motion.states[1..].iter().zip(&motion.actions);
-        for (step, (state, actions)) in event.steps.iter().zip(found) {
-            for (agent, (action, found)) in step.actions.iter().zip(actions).enumerate() {
+        let action_likelihoods = motion.states[1..].iter().zip(&motion.actions);
+        for (step, (state, actions)) in event.steps.iter().zip(action_likelihoods) {
+            for (agent, (action, action_likelihoods)) in step.actions.iter().zip(actions).enumerate() {
                 let shows = action.push().is_some();
                 pushes += usize::from(shows);
-                pushes_found += usize::from(shows && action == found);
+                pushes_found += usize::from(shows && action == action_likelihoods);
                 let truth = step.substeps[4].held_object(AgentId::ALL[agent]);
                 held += usize::from(truth.is_some());
                 held_found += usize::from(truth.is_some() && truth == state.held_object(AgentId::ALL[agent]));
@@ -167,11 +175,11 @@ fn a_late_start_is_noticed() {
 fn the_truth_deviates_least() {
     let event = event(Variant::Places, 5);
     let seen = observed(&event);
-    let stage = Stage::new(&seen, Settings::default().minds, 1);
+    let prepared = PreparedEvent::new(&seen, InferenceSettings::default().minds, 1);
     let strengths = event.scene.agents.map(|agent| agent.strength);
     let deviation = |goals: [Goal; 2]| {
         let hypothesis = phase_simple::Hypothesis::new(goals, [Attitude::Neutral; 2], strengths);
-        let deviations = stage.simulate(&hypothesis, Some(10), f64::INFINITY).expect("is sound");
+        let deviations = prepared.simulate(&hypothesis, Some(10), f64::INFINITY).expect("is sound");
         assert_eq!(deviations.len(), seen.steps());
         deviations.iter().sum::<f64>()
     };
@@ -185,6 +193,6 @@ fn the_truth_deviates_least() {
     assert!(truth < deviation(swapped), "{truth}");
     // Whoever asks for no more than a part gets no more.
     let hypothesis = phase_simple::Hypothesis::new(swapped, [Attitude::Neutral; 2], strengths);
-    let part = stage.simulate(&hypothesis, Some(10), truth).expect("is sound");
+    let part = prepared.simulate(&hypothesis, Some(10), truth).expect("is sound");
     assert!(part.len() < seen.steps() && part.iter().sum::<f64>() > truth);
 }

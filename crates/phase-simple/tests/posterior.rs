@@ -96,8 +96,8 @@ fn relations_follow_from_goals_and_attitudes() {
         assert_eq!(probabilities.of(relation), 1.0, "{hypothesis:?}");
     }
     let all = Posterior::new(cases.map(|(hypothesis, _)| (hypothesis, -7.0))).relation();
-    for (found, expected) in [(all.friendly, 2.0), (all.adversarial, 3.0), (all.neutral, 2.0)] {
-        assert!((found - expected / 7.0).abs() < 1e-12);
+    for (action_likelihoods, expected) in [(all.friendly, 2.0), (all.adversarial, 3.0), (all.neutral, 2.0)] {
+        assert!((action_likelihoods - expected / 7.0).abs() < 1e-12);
     }
 }
 

@@ -1,6 +1,6 @@
 //! What motion says about strength: features and the network's arithmetic by hand, and what is refused.
 
-use phase_model::{AgentBody, AgentId, Body, MAX_ENTITIES, Size, Strength, Vec2, physique::GROUND_FRICTION};
+use phase_model::{AgentBody, AgentId, Body, MAX_ENTITIES, Size, Strength, Vec2, physics::GROUND_FRICTION};
 use phase_simple::{
     StrengthCue, StrengthRegressor,
     strength::{Dense, FEATURES, STRENGTH_FORMAT, Weights, WeightsError, features},
@@ -48,8 +48,9 @@ fn features_of_a_small_motion() {
     // Speeds 0, 3, 5; changes of velocity (3, 0) and (0, 4) in a twelfth of a second.
     let rows = motion(&[(0.0, 0.0), (3.0, 0.0), (3.0, 4.0)]);
     let expected = [8.0 / 3.0, 5.0, 0.0, 42.0, 48.0, 36.0, f64::from(1.2_f32)];
-    for (found, expected) in features(&rows, AgentId::ONE, Size::Large).into_iter().zip(expected) {
-        assert!((found - expected).abs() < 1e-5, "{found} is not {expected}");
+    for (action_likelihoods, expected) in features(&rows, AgentId::ONE, Size::Large).into_iter().zip(expected)
+    {
+        assert!((action_likelihoods - expected).abs() < 1e-5, "{action_likelihoods} is not {expected}");
     }
     let resting = features(&rows, AgentId::ZERO, Size::Small);
     assert_eq!(resting, [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, f64::from(0.8_f32)]);
@@ -152,7 +153,7 @@ fn a_file_gives_back_what_was_written() {
 
 #[test]
 fn the_shipped_regressor_tells_weak_from_mighty() {
-    let regressor = StrengthRegressor::shipped().unwrap();
+    let regressor = StrengthRegressor::bundled().unwrap();
     let [first, second] = &regressor.weights().hidden;
     assert_eq!((first.outputs, second.outputs), (64, 64), "the paper's sizes");
     // An errand in the way agents run them: ten times three steps of pushing against 100 N of friction, then a stop to

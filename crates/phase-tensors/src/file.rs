@@ -12,30 +12,30 @@ pub struct NamedTensor {
     /// Its lengths, the outermost first.
     pub shape: Vec<usize>,
     /// Its values in row-major order; as many as the product of its lengths.
-    pub numbers: Vec<f32>,
+    pub values: Vec<f32>,
 }
 
-/// The bytes of a file with these tensors, whose entry `field` says `says`. The same tensors always give the same bytes.
+/// The bytes of a file with these tensors, whose entry `field` says `metadata_value`. The same tensors always give the same bytes.
 ///
 /// # Errors
 /// [`TensorsError::Container`] if a shape does not go with its numbers, or the tensors cannot be laid out.
-pub fn write(tensors: &[NamedTensor], field: &str, says: &str) -> Result<Vec<u8>, TensorsError> {
+pub fn write(tensors: &[NamedTensor], field: &str, metadata_value: &str) -> Result<Vec<u8>, TensorsError> {
     let bytes: Vec<Vec<u8>> = tensors
         .iter()
-        .map(|tensor| tensor.numbers.iter().flat_map(|number| number.to_le_bytes()).collect())
+        .map(|tensor| tensor.values.iter().flat_map(|number| number.to_le_bytes()).collect())
         .collect();
     let views = tensors.iter().zip(&bytes).map(|(tensor, bytes)| {
         Ok((&*tensor.name, TensorView::new(Dtype::F32, tensor.shape.clone(), bytes)?))
     });
     let views: Vec<_> = views.collect::<Result<_, TensorsError>>()?;
-    Ok(safetensors::serialize(views, Some(HashMap::from([(field.to_owned(), says.to_owned())])))?)
+    Ok(safetensors::serialize(views, Some(HashMap::from([(field.to_owned(), metadata_value.to_owned())])))?)
 }
 
 /// A parsed tensor file.
 #[derive(Debug)]
 pub struct TensorFile<'a> {
     tensors: SafeTensors<'a>,
-    says: Option<String>,
+    metadata_value: Option<String>,
 }
 
 impl<'a> TensorFile<'a> {
@@ -45,17 +45,17 @@ impl<'a> TensorFile<'a> {
     /// [`TensorsError::Container`] if they are no such file.
     pub fn open(bytes: &'a [u8], field: &'static str) -> Result<Self, TensorsError> {
         let (_, metadata) = SafeTensors::read_metadata(bytes)?;
-        let says = metadata.metadata().as_ref().and_then(|entries| entries.get(field)).cloned();
-        Ok(Self { tensors: SafeTensors::deserialize(bytes)?, says })
+        let metadata_value = metadata.metadata().as_ref().and_then(|entries| entries.get(field)).cloned();
+        Ok(Self { tensors: SafeTensors::deserialize(bytes)?, metadata_value })
     }
 
     /// The same, and checks what the entry says.
     ///
     /// # Errors
     /// As [`open`](Self::open), and [`TensorsError::Kind`] if it says something else or is not there.
-    pub fn open_kind(bytes: &'a [u8], field: &'static str, expected: &str) -> Result<Self, TensorsError> {
+    pub fn open_as(bytes: &'a [u8], field: &'static str, expected: &str) -> Result<Self, TensorsError> {
         let file = Self::open(bytes, field)?;
-        if file.says() == Some(expected) {
+        if file.metadata_value() == Some(expected) {
             Ok(file)
         } else {
             Err(TensorsError::Kind { field, expected: expected.into() })
@@ -64,8 +64,8 @@ impl<'a> TensorFile<'a> {
 
     /// What the entry says, if it is there.
     #[must_use]
-    pub fn says(&self) -> Option<&str> {
-        self.says.as_deref()
+    pub fn metadata_value(&self) -> Option<&str> {
+        self.metadata_value.as_deref()
     }
 
     /// Whether there is a tensor of this name.
@@ -99,22 +99,22 @@ impl<'a> TensorFile<'a> {
         if view.dtype() != Dtype::F32 {
             return Err(TensorsError::Type(name.into()));
         }
-        let (numbers, _) = view.data().as_chunks();
-        let numbers: Vec<f32> = numbers.iter().map(|&bytes| f32::from_le_bytes(bytes)).collect();
-        if !numbers.iter().all(|number| number.is_finite()) {
+        let (values, _) = view.data().as_chunks();
+        let values: Vec<f32> = values.iter().map(|&bytes| f32::from_le_bytes(bytes)).collect();
+        if !values.iter().all(|number| number.is_finite()) {
             return Err(TensorsError::NotFinite(name.into()));
         }
-        Ok(NamedTensor { name: name.into(), shape: view.shape().into(), numbers })
+        Ok(NamedTensor { name: name.into(), shape: view.shape().into(), values })
     }
 
     /// The numbers of a tensor of this shape.
     ///
     /// # Errors
     /// As [`tensor`](Self::tensor), and [`TensorsError::Shape`] for another shape.
-    pub fn numbers(&self, name: &str, shape: &[usize]) -> Result<Vec<f32>, TensorsError> {
-        let NamedTensor { shape: found, numbers, .. } = self.tensor(name)?;
+    pub fn values(&self, name: &str, shape: &[usize]) -> Result<Vec<f32>, TensorsError> {
+        let NamedTensor { shape: found, values, .. } = self.tensor(name)?;
         check_shape(name, shape, &found)?;
-        Ok(numbers)
+        Ok(values)
     }
 }
 

@@ -12,13 +12,13 @@
 //! ```
 //! use phase_tensors::{NamedTensor, TensorFile, TensorsError, write};
 //!
-//! let bias = NamedTensor { name: "output.bias".into(), shape: vec![2], numbers: vec![0.5, -1.0] };
+//! let bias = NamedTensor { name: "output.bias".into(), shape: vec![2], values: vec![0.5, -1.0] };
 //! let bytes = write(&[bias], "format", "example-weights/1")?;
 //! assert!(bytes.ends_with(&[0, 0, 0, 0x3f, 0, 0, 0x80, 0xbf])); // IEEE 754
 //!
-//! let file = TensorFile::open_kind(&bytes, "format", "example-weights/1")?;
-//! assert_eq!(file.numbers("output.bias", &[2])?, [0.5, -1.0]);
-//! assert_eq!(file.numbers("output.weight", &[2]), Err(TensorsError::Missing("output.weight".into())));
+//! let file = TensorFile::open_as(&bytes, "format", "example-weights/1")?;
+//! assert_eq!(file.values("output.bias", &[2])?, [0.5, -1.0]);
+//! assert_eq!(file.values("output.weight", &[2]), Err(TensorsError::Missing("output.weight".into())));
 //! # Ok::<(), TensorsError>(())
 //! ```
 

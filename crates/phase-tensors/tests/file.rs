@@ -3,8 +3,8 @@
 use phase_tensors::{NamedTensor, TensorFile, TensorsError, write};
 use proptest::prelude::*;
 
-fn tensor(name: &str, shape: &[usize], numbers: &[f32]) -> NamedTensor {
-    NamedTensor { name: name.into(), shape: shape.into(), numbers: numbers.into() }
+fn tensor(name: &str, shape: &[usize], values: &[f32]) -> NamedTensor {
+    NamedTensor { name: name.into(), shape: shape.into(), values: values.into() }
 }
 
 fn example() -> Vec<NamedTensor> {
@@ -15,8 +15,8 @@ fn example() -> Vec<NamedTensor> {
 fn what_is_written_is_read() {
     let bytes = write(&example(), "format", "example/1").unwrap();
     assert_eq!(bytes, write(&example(), "format", "example/1").unwrap());
-    let file = TensorFile::open_kind(&bytes, "format", "example/1").unwrap();
-    assert_eq!(file.says(), Some("example/1"));
+    let file = TensorFile::open_as(&bytes, "format", "example/1").unwrap();
+    assert_eq!(file.metadata_value(), Some("example/1"));
     file.check_names(|name| name == "weight" || name == "bias").expect("these are all");
     assert!(
         matches!(file.check_names(|name| name == "weight"), Err(TensorsError::Unknown(name)) if name == "bias")
@@ -26,7 +26,7 @@ fn what_is_written_is_read() {
     assert_eq!(names, ["bias", "weight"]);
     for tensor in example() {
         assert!(file.has(&tensor.name));
-        assert_eq!(file.numbers(&tensor.name, &tensor.shape).unwrap(), tensor.numbers);
+        assert_eq!(file.values(&tensor.name, &tensor.shape).unwrap(), tensor.values);
         assert_eq!(file.tensor(&tensor.name).unwrap(), tensor);
     }
 }
@@ -34,16 +34,16 @@ fn what_is_written_is_read() {
 #[test]
 fn what_is_not_there_or_of_another_kind_is_refused() {
     let bytes = write(&example(), "format", "example/1").unwrap();
-    let kind = |field, expected: &str| TensorFile::open_kind(&bytes, field, expected).err();
+    let kind = |field, expected: &str| TensorFile::open_as(&bytes, field, expected).err();
     for (field, expected) in [("format", "example/2"), ("training", "example/1")] {
         let refused = kind(field, expected).expect("another kind").to_string();
         assert_eq!(refused, format!("field `{field}` must be {expected:?}"));
     }
-    assert_eq!(TensorFile::open(&bytes, "training").unwrap().says(), None);
+    assert_eq!(TensorFile::open(&bytes, "training").unwrap().metadata_value(), None);
     let file = TensorFile::open(&bytes, "format").unwrap();
     assert!(!file.has("scale"));
     assert!(matches!(file.tensor("scale"), Err(TensorsError::Missing(name)) if name == "scale"));
-    let refused = file.numbers("weight", &[3, 2]).unwrap_err().to_string();
+    let refused = file.values("weight", &[3, 2]).unwrap_err().to_string();
     assert_eq!(refused, "tensor `weight` must have the shape [3, 2], not [2, 3]");
 }
 
@@ -80,7 +80,7 @@ proptest! {
         if let Ok(file) = TensorFile::open(&bytes, "format") {
             for name in file.names() {
                 if let Ok(tensor) = file.tensor(name) {
-                    prop_assert_eq!(tensor.shape.iter().product::<usize>(), tensor.numbers.len());
+                    prop_assert_eq!(tensor.shape.iter().product::<usize>(), tensor.values.len());
                 }
             }
         }

@@ -1,7 +1,7 @@
 //! The bodies and walls as rapier sees them.
 
 use crate::{contact, settings};
-use phase_model::{Body, Entity, Physique, Segment, Vec2, arena, geometry, physique};
+use phase_model::{Body, Entity, PhysicsConfig, Segment, Vec2, arena, geometry, physics};
 use rapier2d::prelude::*;
 
 /// Thickness of the skin around agents; objects have none (u).
@@ -29,7 +29,7 @@ pub(crate) fn pose(position: Vec2, angle: f32) -> Pose {
 
 /// The nearest start that makes sense: finite, inside the arena, not faster than anything can be.
 #[must_use]
-pub(crate) fn possible(body: &Body) -> Body {
+pub(crate) fn sanitized(body: &Body) -> Body {
     let or = |vector: Vec2, default| if vector.is_finite() { vector } else { default };
     let or_zero = |number: f32| if number.is_finite() { number } else { 0.0 };
     Body {
@@ -50,11 +50,11 @@ pub(crate) fn insert_ground(engine: &mut PhysicsWorld, walls: &[Segment]) -> Rig
             + outward.perp().abs() * (half_side + 2.0 * BOUNDARY_HALF_THICKNESS);
         let slab = ColliderBuilder::cuboid(half_extents.x, half_extents.y)
             .translation(arena::CENTRE + outward * (half_side + BOUNDARY_HALF_THICKNESS));
-        engine.insert_collider(smooth(slab).contact_skin(WALL_SKIN), Some(ground));
+        engine.insert_collider(frictionless(slab).contact_skin(WALL_SKIN), Some(ground));
     }
     for wall in walls.iter().filter(|wall| wall.a.is_finite() && wall.b.is_finite()) {
         let segment = ColliderBuilder::segment(wall.a, wall.b);
-        engine.insert_collider(smooth(segment).contact_skin(WALL_SKIN), Some(ground));
+        engine.insert_collider(frictionless(segment).contact_skin(WALL_SKIN), Some(ground));
     }
     ground
 }
@@ -62,14 +62,14 @@ pub(crate) fn insert_ground(engine: &mut PhysicsWorld, walls: &[Segment]) -> Rig
 /// Adds an entity's body, with the mass, the inertia and the centre of mass that its radius implies.
 pub(crate) fn insert_body(
     engine: &mut PhysicsWorld,
-    physique: &Physique,
+    physics: &PhysicsConfig,
     entity: Entity,
     start: &Body,
 ) -> (RigidBodyHandle, ColliderHandle) {
-    let radius = physique.radius(entity);
+    let radius = physics.radius(entity);
     let collider = match entity {
         Entity::Agent(agent) => {
-            let agent = &physique.agents[agent];
+            let agent = &physics.agents[agent];
             let centre_of_mass = Vec2::new(0.0, -agent.centre_of_mass_offset());
             ColliderBuilder::convex_polyline(geometry::trapezoid(radius).to_vec())
                 // Only a radius that is no length has no hull.
@@ -79,8 +79,8 @@ pub(crate) fn insert_body(
         }
         Entity::Object(_) => ColliderBuilder::ball(radius).mass_properties(MassProperties::new(
             Vec2::ZERO,
-            physique::object_mass(radius),
-            physique::object_inertia(radius),
+            physics::object_mass(radius),
+            physics::object_inertia(radius),
         )),
     };
     let rigid_body = RigidBodyBuilder::dynamic()
@@ -89,13 +89,13 @@ pub(crate) fn insert_body(
         .angvel(start.angular_velocity)
         .can_sleep(false)
         .allow_fast_rotation(true);
-    let collider = smooth(collider)
+    let collider = frictionless(collider)
         .active_hooks(ActiveHooks::FILTER_CONTACT_PAIRS | ActiveHooks::MODIFY_SOLVER_CONTACTS)
         .user_data(contact::tag(entity));
     engine.insert(rigid_body, collider)
 }
 
 /// Surfaces slide along each other without friction and do not bounce.
-fn smooth(builder: ColliderBuilder) -> ColliderBuilder {
+fn frictionless(builder: ColliderBuilder) -> ColliderBuilder {
     builder.friction(0.0).restitution(0.0)
 }

@@ -1,6 +1,6 @@
 //! Which contacts count: what the engine is told, and what it reports.
 
-use crate::mover::Mover;
+use crate::dynamic_body::DynamicBody;
 use phase_model::{Entity, MAX_ENTITIES, Vec2, arena::SUBSTEP_SECONDS};
 use rapier2d::{
     parry::{
@@ -16,9 +16,9 @@ const SLOP: f32 = 0.005;
 const TOUCHING_DISTANCE: f32 = 0.02;
 
 /// How far from where it was let go of a body at rest is clear of its former partner (u).
-const CLEAR: f32 = 0.1;
+const CLEARANCE: f32 = 0.1;
 /// How many substeps' way at the speed of that moment it has to go beyond that.
-const CLEAR_SUBSTEPS: f32 = 4.0;
+const CLEARANCE_SUBSTEPS: f32 = 4.0;
 
 /// The mark of an entity's collider; walls bear 0.
 #[must_use]
@@ -42,19 +42,20 @@ pub(crate) struct ContactRules {
 
 impl ContactRules {
     /// Lets a pair overlap until one of them has left the place where it is.
-    pub(crate) fn release(&mut self, engine: &PhysicsWorld, a: &Mover, b: &Mover) {
+    pub(crate) fn release(&mut self, engine: &PhysicsWorld, a: &DynamicBody, b: &DynamicBody) {
         for (one, other) in [(a, b), (b, a)] {
             let body = &engine.bodies[one.body];
-            let room = CLEAR + CLEAR_SUBSTEPS * SUBSTEP_SECONDS * body.linvel().length();
+            let room = CLEARANCE + CLEARANCE_SUBSTEPS * SUBSTEP_SECONDS * body.linvel().length();
             let place = Aabb::from_half_extents(body.center_of_mass(), Vec2::splat(room));
             self.released[one.entity.index()][other.entity.index()] = Some(place);
         }
     }
 
     /// Makes released pairs solid again of which one has left its place.
-    pub(crate) fn restore_clear(&mut self, engine: &PhysicsWorld, movers: &[Mover]) {
-        for mover in movers {
-            let (this, centre) = (mover.entity.index(), engine.bodies[mover.body].center_of_mass());
+    pub(crate) fn restore_clear(&mut self, engine: &PhysicsWorld, dynamic_bodies: &[DynamicBody]) {
+        for dynamic_body in dynamic_bodies {
+            let (this, centre) =
+                (dynamic_body.entity.index(), engine.bodies[dynamic_body.body].center_of_mass());
             for other in 0..MAX_ENTITIES {
                 if self.released[this][other].is_some_and(|place| !place.contains_local_point(centre)) {
                     self.released[this][other] = None;
@@ -85,10 +86,10 @@ impl PhysicsHooks for ContactRules {
 }
 
 /// Whether two bodies touch at their present poses, by the engine's own contact query.
-pub(crate) fn touching(engine: &PhysicsWorld, a: &Mover, b: &Mover) -> bool {
-    let placed = |mover: &Mover| {
-        let shape = engine.colliders.get(mover.collider)?.shape();
-        Some((engine.bodies.get(mover.body)?.position(), shape))
+pub(crate) fn touching(engine: &PhysicsWorld, a: &DynamicBody, b: &DynamicBody) -> bool {
+    let placed = |dynamic_body: &DynamicBody| {
+        let shape = engine.colliders.get(dynamic_body.collider)?.shape();
+        Some((engine.bodies.get(dynamic_body.body)?.position(), shape))
     };
     let (Some((pose1, shape1)), Some((pose2, shape2))) = (placed(a), placed(b)) else { return false };
     let near = shape1.compute_aabb(pose1).loosened(TOUCHING_DISTANCE).intersects(&shape2.compute_aabb(pose2));

@@ -1,7 +1,7 @@
 //! The reference dynamics behind the planners' interface.
 
 use crate::World;
-use phase_model::{AGENT_COUNT, Action, Dynamics, Physique, State};
+use phase_model::{AGENT_COUNT, Action, Dynamics, PhysicsConfig, State};
 
 /// [`Dynamics`] by the true world: builds a [`World`] from the state, steps it once and reads the state back.
 ///
@@ -13,12 +13,12 @@ use phase_model::{AGENT_COUNT, Action, Dynamics, Physique, State};
 #[derive(Clone, Debug)]
 pub struct WorldDynamics {
     /// Walls, radii and forces.
-    pub physique: Physique,
+    pub physics: PhysicsConfig,
 }
 
 impl Dynamics for WorldDynamics {
     fn step(&self, state: &mut State, actions: [Action; AGENT_COUNT]) {
-        let states = World::new(&self.physique, state).step(actions);
+        let states = World::new(&self.physics, state).step(actions);
         *state = states[states.len() - 1];
     }
 }

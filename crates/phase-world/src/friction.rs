@@ -4,10 +4,10 @@
 //! rapier's motors limit the force along each axis by itself. So a body that slides gets one motor, aimed
 //! along the impulse that would stop its origin, and a body that does not is held by a second one across.
 //! For a body on its own the direction is known before the substep, from its velocity and its push. Where
-//! contacts and welds have a say it is only known afterwards; [`Aim::after`] then tells whether the substep
+//! contacts and welds have a say it is only known afterwards; [`FrictionDirection::after`] then tells whether the substep
 //! has to be taken again with a better aim.
 
-use phase_model::{Vec2, arena::SUBSTEP_SECONDS, physique::GROUND_FRICTION};
+use phase_model::{Vec2, arena::SUBSTEP_SECONDS, physics::GROUND_FRICTION};
 use rapier2d::prelude::*;
 
 /// The main motor's axis and the one across.
@@ -18,9 +18,9 @@ const MOTOR_GAIN: f32 = 1.0e8;
 const MAX_IMPULSE: f32 = GROUND_FRICTION * SUBSTEP_SECONDS;
 /// Impulse below which what it would stop counts as resting (N s); such a body creeps by less than 1e-4 u in
 /// a whole event.
-const NO_SLIP: f32 = 1.0e-5;
+const REST_IMPULSE: f32 = 1.0e-5;
 /// Sine of the angle by which two aims may differ without making a difference.
-const SAME_AIM: f32 = 1.0e-3;
+const DIRECTION_TOLERANCE: f32 = 1.0e-3;
 
 /// Ties a body's origin to the ground by two motors at right angles that aim at standing still.
 pub(crate) fn insert(
@@ -36,17 +36,17 @@ pub(crate) fn insert(
 
 /// How a body's friction is directed in one substep.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(crate) struct Aim {
+pub(crate) struct FrictionDirection {
     /// Unit vector of the main motor, or zero for no friction at all.
     axis: Vec2,
     /// Whether the motor across acts, too.
     hold: bool,
 }
 
-impl Aim {
+impl FrictionDirection {
     /// The aim for a body on its own, whose forces are set for the coming substep.
     #[must_use]
-    pub(crate) fn foreseen(body: &RigidBody) -> Self {
+    pub(crate) fn predicted(body: &RigidBody) -> Self {
         let mass = &body.mass_properties().local_mprops;
         let velocity = body.linvel() + body.user_force() * (mass.inv_mass * SUBSTEP_SECONDS);
         let spin = body.angvel() + body.user_torque() * (mass.inv_principal_inertia * SUBSTEP_SECONDS);
@@ -69,7 +69,7 @@ impl Aim {
     /// The aim against a slip, given as the impulse that would stop it.
     fn against(slip: Vec2) -> Self {
         let impulse = slip.length();
-        if impulse <= NO_SLIP {
+        if impulse <= REST_IMPULSE {
             // Others may be about to move what rests; which way, a take without its friction shows.
             return Self { axis: Vec2::ZERO, hold: false };
         }
@@ -78,9 +78,9 @@ impl Aim {
 
     /// Whether two aims come to the same.
     #[must_use]
-    pub(crate) fn agrees_with(&self, other: &Self) -> bool {
+    pub(crate) fn is_close_to(&self, other: &Self) -> bool {
         self.axis == other.axis
-            || self.axis.perp_dot(other.axis).abs() <= SAME_AIM && self.axis.dot(other.axis) != 0.0
+            || self.axis.perp_dot(other.axis).abs() <= DIRECTION_TOLERANCE && self.axis.dot(other.axis) != 0.0
     }
 
     /// Sets a body's friction for the coming substep.

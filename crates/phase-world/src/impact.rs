@@ -10,11 +10,11 @@
 use crate::{
     bodies,
     contact::ContactRules,
-    mover,
-    mover::{Motion, Mover},
+    dynamic_body,
+    dynamic_body::{DynamicBody, PoseAndVelocity},
     settings,
 };
-use phase_model::{Body, Physique, Segment, Vec2, arena, arena::SUBSTEP_SECONDS};
+use phase_model::{Body, PhysicsConfig, Segment, Vec2, arena, arena::SUBSTEP_SECONDS};
 use rapier2d::{
     parry::{
         bounding_volume::{Aabb, BoundingVolume},
@@ -26,63 +26,68 @@ use rapier2d::{
 };
 
 /// Impacts of one body that are played out in one substep; at the next it loses the time left.
-const MOST_IMPACTS: usize = 6;
+const MAX_IMPACTS: usize = 6;
 /// Distance of an agent's outline from a wall, or depth of an object's in it, at which it has hit (u).
 const IMPACT_DISTANCE: f32 = 0.005;
 
 /// What bodies can hit, and how they are made.
 #[derive(Clone, Copy)]
 pub(crate) struct Impacts<'a> {
-    physique: &'a Physique,
+    physics: &'a PhysicsConfig,
     walls: &'a [Segment],
 }
 
 /// All walls of a scene: the four sides of the arena and the inner walls.
-pub(crate) fn walls(physique: &Physique) -> Vec<Segment> {
+pub(crate) fn walls(physics: &PhysicsConfig) -> Vec<Segment> {
     let (min, max) = (arena::MIN, arena::MAX);
     let corners = [min, Vec2::new(max.x, min.y), max, Vec2::new(min.x, max.y)];
     let sides = [0, 1, 2, 3].map(|k| Segment { a: corners[k], b: corners[(k + 1) % 4] });
-    let inner = physique.walls.iter().filter(|wall| wall.a.is_finite() && wall.b.is_finite());
+    let inner = physics.walls.iter().filter(|wall| wall.a.is_finite() && wall.b.is_finite());
     sides.iter().chain(inner).copied().collect()
 }
 
 impl<'a> Impacts<'a> {
     /// The impacts of a scene's bodies on its [`walls`].
-    pub(crate) fn new(physique: &'a Physique, walls: &'a [Segment]) -> Self {
-        Self { physique, walls }
+    pub(crate) fn new(physics: &'a PhysicsConfig, walls: &'a [Segment]) -> Self {
+        Self { physics, walls }
     }
 
     /// Plays out the impacts of a body on its way from `before`, at which its angle was `angle`, to where it
     /// is now.
-    pub(crate) fn play_out(
+    pub(crate) fn resolve(
         self,
         engine: &mut PhysicsWorld,
-        mover: &mut Mover,
-        before: &Motion,
+        dynamic_body: &mut DynamicBody,
+        before: &PoseAndVelocity,
         mut angle: f32,
     ) {
         let mut from = before.0;
         let mut left = SUBSTEP_SECONDS;
-        for impact in 1..=MOST_IMPACTS {
-            let (to, velocities) = mover.motion(engine);
-            let body = &engine.bodies[mover.body];
+        for impact in 1..=MAX_IMPACTS {
+            let (to, velocities) = dynamic_body.motion(engine);
+            let body = &engine.bodies[dynamic_body.body];
             let centre_of_mass = body.local_center_of_mass();
             let sweep = Sweep::from_poses(&from, &to, centre_of_mass);
-            let Some(share) = self.first(engine.colliders[mover.collider].shape(), &sweep) else { return };
+            let Some(share) = self.first(engine.colliders[dynamic_body.collider].shape(), &sweep) else {
+                return;
+            };
             left = (left * (1.0 - share) - settings::IMPACT_SECONDS).max(0.0);
-            angle += (mover.angle - angle) * share;
-            let at = mover::pose_around(centre_of_mass, sweep.c1.lerp(sweep.c2, share), angle);
-            if impact == MOST_IMPACTS {
-                mover.angle = angle;
-                mover.restore(engine, (at, velocities));
+            angle += (dynamic_body.angle - angle) * share;
+            let at = dynamic_body::pose_around(centre_of_mass, sweep.c1.lerp(sweep.c2, share), angle);
+            if impact == MAX_IMPACTS {
+                dynamic_body.angle = angle;
+                dynamic_body.restore(engine, (at, velocities));
                 return;
             }
-            let (after, velocities) = self.bounce(mover, (at, velocities), angle);
-            angle += mover::turn_between(&at.rotation, &after.rotation);
+            let (after, velocities) = self.bounce(dynamic_body, (at, velocities), angle);
+            angle += dynamic_body::turn_between(&at.rotation, &after.rotation);
             from = after;
-            mover.angle = angle + velocities.angvel * left;
+            dynamic_body.angle = angle + velocities.angvel * left;
             let centre = from * centre_of_mass + velocities.linvel * left;
-            mover.restore(engine, (mover::pose_around(centre_of_mass, centre, mover.angle), velocities));
+            dynamic_body.restore(
+                engine,
+                (dynamic_body::pose_around(centre_of_mass, centre, dynamic_body.angle), velocities),
+            );
         }
     }
 
@@ -95,11 +100,11 @@ impl<'a> Impacts<'a> {
             if !near.intersects(&Aabb::new(wall.a.min(wall.b), wall.a.max(wall.b))) {
                 continue;
             }
-            let mut hit = reach(wall, &ToiProxy::from_shape(shape)?, sweep, first);
+            let mut hit = time_of_impact(wall, &ToiProxy::from_shape(shape)?, sweep, first);
             if hit.status == SweepToiStatus::Overlapped {
                 // What starts across a wall may come out on either side, but its middle stays on its own.
                 let core = CORE_FRACTION * shape.ccd_thickness();
-                hit = reach(wall, &ToiProxy::point(sweep.local_center, core), sweep, first);
+                hit = time_of_impact(wall, &ToiProxy::point(sweep.local_center, core), sweep, first);
             }
             if matches!(hit.status, SweepToiStatus::Hit | SweepToiStatus::Failed) {
                 first = first.min(hit.fraction);
@@ -109,16 +114,21 @@ impl<'a> Impacts<'a> {
     }
 
     /// A body's motion once it has been parted from the walls that it touches and moves into none of them.
-    fn bounce(self, mover: &Mover, (at, velocities): Motion, angle: f32) -> Motion {
+    fn bounce(
+        self,
+        dynamic_body: &DynamicBody,
+        (at, velocities): PoseAndVelocity,
+        angle: f32,
+    ) -> PoseAndVelocity {
         let mut engine = settings::impact_engine();
-        bodies::insert_ground(&mut engine, &self.physique.walls);
+        bodies::insert_ground(&mut engine, &self.physics.walls);
         let start = Body {
             position: at.translation,
             velocity: velocities.linvel,
             angle,
             angular_velocity: velocities.angvel,
         };
-        let (body, _) = bodies::insert_body(&mut engine, self.physique, mover.entity, &start);
+        let (body, _) = bodies::insert_body(&mut engine, self.physics, dynamic_body.entity, &start);
         engine.step_with_events(&ContactRules::default(), &());
         let body = &engine.bodies[body];
         let gyration = body.mass_properties().local_mprops.inv_mass
@@ -138,7 +148,7 @@ impl<'a> Impacts<'a> {
 }
 
 /// When a shape on its way reaches a wall, if it does so before the share `latest` of it.
-fn reach(wall: &Segment, shape: &ToiProxy, sweep: &Sweep, latest: f32) -> SweepToiOutput {
+fn time_of_impact(wall: &Segment, shape: &ToiProxy, sweep: &Sweep, latest: f32) -> SweepToiOutput {
     let ends = [wall.a, wall.b];
     let still = Sweep::constant(&Pose::IDENTITY, Vec2::ZERO);
     sweep_time_of_impact(&ToiProxy::from_points(&ends, 0.0), &still, shape, sweep, latest, IMPACT_DISTANCE)

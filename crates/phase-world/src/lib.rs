@@ -1,19 +1,19 @@
 //! The true PHASE world: a scene simulated by rapier2d, stepped by actions.
 //!
-//! [`World`] takes a [`Physique`](phase_model::Physique) and a [`State`](phase_model::State), advances by
+//! [`World`] takes a [`PhysicsConfig`](phase_model::PhysicsConfig) and a [`State`](phase_model::State), advances by
 //! five substeps of 1/60 s per step under the two agents' actions, and reports the state after each with the
 //! grips and the contacts between bodies. [`WorldDynamics`] puts it behind the interface of planners.
 //! One agent pushes forward for a step of five substeps while the other rests:
 //!
 //! ```
-//! use phase_model::{Action, AgentBody, AgentId, Body, Entity, Physique, State, Vec2};
+//! use phase_model::{Action, AgentBody, AgentId, Body, Entity, PhysicsConfig, State, Vec2};
 //! use phase_world::World;
 //!
 //! let body = AgentBody { radius: 0.8, max_force: 450.0 };
-//! let physique = Physique { walls: Vec::new(), agents: [body; 2], object_radii: [0.0; 2], object_count: 0 };
+//! let physics = PhysicsConfig { walls: Vec::new(), agents: [body; 2], object_radii: [0.0; 2], object_count: 0 };
 //! let places = [Vec2::new(10.0, 6.0), Vec2::new(20.0, 16.0), Vec2::ZERO, Vec2::ZERO];
 //! let start = State::new(places.map(|place| Body::at_rest(place, 0.0))); // both face +y
-//! let mut world = World::new(&physique, &start);
+//! let mut world = World::new(&physics, &start);
 //!
 //! let substeps = world.step([Action::Up, Action::NoForce]);
 //! let heights = substeps.map(|state| state.position(Entity::Agent(AgentId::ZERO)).y);
@@ -28,9 +28,9 @@
 //! undone without explosions, and the same inputs give the same bits on every thread. Four things are done
 //! around it: a substep whose contacts or welds made a body slide another way than foreseen is taken again with
 //! friction aimed better (`substep`); rotations, which rapier integrates along the tangent, are set right
-//! afterwards (`mover`); a body that hit a wall in mid-substep goes back to the moment of impact, has the
+//! afterwards (`dynamic_body`); a body that hit a wall in mid-substep goes back to the moment of impact, has the
 //! engine resolve it there, and goes on for the time left (`impact`); and an origin that bodies starting in one
-//! spot squeezed out of the arena is put back (`mover`).
+//! spot squeezed out of the arena is put back (`dynamic_body`).
 //!
 //! Impacts are found, not foreseen. rapier offers two other ways, and both cost fidelity: contacts foreseen
 //! along the way act with the lever of where the body starts and catch on the ends of walls that it is about to
@@ -53,11 +53,11 @@
 
 mod bodies;
 mod contact;
+mod dynamic_body;
 pub mod dynamics;
 mod friction;
 mod grip;
 mod impact;
-mod mover;
 mod settings;
 mod substep;
 pub mod world;

@@ -10,13 +10,13 @@ const CORRECTION: f32 = 0.893;
 /// The same after an impact on a wall.
 const IMPACT_CORRECTION: f32 = 0.75;
 /// Longest way by which an impact parts a body from a wall (u).
-const IMPACT_WAY: f32 = 0.05;
+const MAX_IMPACT_SEPARATION: f32 = 0.05;
 /// Duration of an impact (s).
 pub(crate) const IMPACT_SECONDS: f32 = 0.01 * SUBSTEP_SECONDS;
 /// Sweeps over all constraints in one substep, before and again after positions have moved.
-const SWEEPS: usize = 10;
+const SOLVER_PASSES: usize = 10;
 /// Damping ratio at which contacts no longer give way.
-const RIGID: f32 = 1.0e4;
+const DAMPING_RATIO: f32 = 1.0e4;
 
 /// An empty engine without gravity, with the solver settings of this crate.
 ///
@@ -31,8 +31,8 @@ pub(crate) fn engine() -> PhysicsWorld {
     let integration_parameters = IntegrationParameters {
         dt: SUBSTEP_SECONDS,
         num_solver_iterations: 1,
-        num_internal_pgs_iterations: SWEEPS,
-        num_internal_stabilization_iterations: SWEEPS,
+        num_internal_pgs_iterations: SOLVER_PASSES,
+        num_internal_stabilization_iterations: SOLVER_PASSES,
         contact_softness: softness,
         static_contact_softness: softness,
         normalized_max_corrective_velocity: MAX_SPEED,
@@ -56,17 +56,17 @@ pub(crate) fn impact_engine() -> PhysicsWorld {
     parameters.dt = IMPACT_SECONDS;
     parameters.contact_softness = softness;
     parameters.static_contact_softness = softness;
-    parameters.normalized_max_corrective_velocity = IMPACT_WAY / IMPACT_SECONDS;
-    parameters.normalized_max_linear_velocity = MAX_SPEED + IMPACT_WAY / IMPACT_SECONDS;
+    parameters.normalized_max_corrective_velocity = MAX_IMPACT_SEPARATION / IMPACT_SECONDS;
+    parameters.normalized_max_linear_velocity = MAX_SPEED + MAX_IMPACT_SEPARATION / IMPACT_SECONDS;
     engine
 }
 
 /// A contact spring that corrects a share of a penetration within `dt` seconds and is rigid otherwise.
 fn rigid_contact(correction: f32, dt: f32) -> SpringCoefficients<f32> {
     // The share corrected is dt ω / (dt ω + 2 ζ); solved for ω.
-    let angular_frequency = 2.0 * RIGID * correction / (1.0 - correction) / dt;
+    let angular_frequency = 2.0 * DAMPING_RATIO * correction / (1.0 - correction) / dt;
     SpringCoefficients {
         natural_frequency: angular_frequency / (2.0 * core::f32::consts::PI),
-        damping_ratio: RIGID,
+        damping_ratio: DAMPING_RATIO,
     }
 }

@@ -2,14 +2,14 @@
 
 use crate::{
     contact::ContactRules,
-    friction::Aim,
+    dynamic_body::{DynamicBody, PoseAndVelocity},
+    friction::FrictionDirection,
     impact::Impacts,
-    mover::{Motion, Mover},
 };
 use rapier2d::prelude::*;
 
 /// How often a substep is taken at most. Free bodies need one take, bodies in contact mostly two or three.
-const MAX_TAKES: usize = 3;
+const MAX_ITERATIONS: usize = 3;
 
 /// Advances all bodies by one substep of 1/60 s, their forces being set.
 ///
@@ -19,38 +19,46 @@ const MAX_TAKES: usize = 3;
 pub(crate) fn advance(
     engine: &mut PhysicsWorld,
     impacts: Impacts,
-    movers: &mut [Mover],
+    dynamic_bodies: &mut [DynamicBody],
     rules: &ContactRules,
 ) {
-    let before: Vec<_> = movers.iter().map(|mover| mover.motion(engine)).collect();
-    let mut aims: Vec<Aim> = movers.iter().map(|mover| Aim::foreseen(&engine.bodies[mover.body])).collect();
-    for take in 1..=MAX_TAKES {
-        for (mover, aim) in movers.iter().zip(&aims) {
-            aim.apply(engine, mover.friction);
+    let before: Vec<_> = dynamic_bodies.iter().map(|dynamic_body| dynamic_body.motion(engine)).collect();
+    let mut directions: Vec<FrictionDirection> = dynamic_bodies
+        .iter()
+        .map(|dynamic_body| FrictionDirection::predicted(&engine.bodies[dynamic_body.body]))
+        .collect();
+    for take in 1..=MAX_ITERATIONS {
+        for (dynamic_body, direction) in dynamic_bodies.iter().zip(&directions) {
+            direction.apply(engine, dynamic_body.friction);
         }
         engine.step_with_events(rules, &());
-        if take == MAX_TAKES || !improve(&mut aims, engine, movers, &before) {
+        if take == MAX_ITERATIONS || !update_directions(&mut directions, engine, dynamic_bodies, &before) {
             break;
         }
-        for (mover, &motion) in movers.iter().zip(&before) {
-            mover.restore(engine, motion);
+        for (dynamic_body, &motion) in dynamic_bodies.iter().zip(&before) {
+            dynamic_body.restore(engine, motion);
         }
     }
-    for (mover, motion) in movers.iter_mut().zip(&before) {
-        let angle = mover.angle;
-        mover.correct_turn(engine, motion);
-        impacts.play_out(engine, mover, motion, angle);
-        mover.stay_inside(engine);
+    for (dynamic_body, motion) in dynamic_bodies.iter_mut().zip(&before) {
+        let angle = dynamic_body.angle;
+        dynamic_body.correct_turn(engine, motion);
+        impacts.resolve(engine, dynamic_body, motion, angle);
+        dynamic_body.clamp_to_arena(engine);
     }
 }
 
 /// Replaces the aims by those that the motion found calls for; tells whether any differs.
-fn improve(aims: &mut [Aim], engine: &PhysicsWorld, movers: &[Mover], before: &[Motion]) -> bool {
+fn update_directions(
+    directions: &mut [FrictionDirection],
+    engine: &PhysicsWorld,
+    dynamic_bodies: &[DynamicBody],
+    before: &[PoseAndVelocity],
+) -> bool {
     let mut improved = false;
-    for ((aim, mover), motion) in aims.iter_mut().zip(movers).zip(before) {
-        let better = mover.better_aim(engine, motion);
-        improved |= !better.agrees_with(aim);
-        *aim = better;
+    for ((direction, dynamic_body), motion) in directions.iter_mut().zip(dynamic_bodies).zip(before) {
+        let better = dynamic_body.corrected_direction(engine, motion);
+        improved |= !better.is_close_to(direction);
+        *direction = better;
     }
     improved
 }

@@ -1,20 +1,20 @@
 //! The world: a scene's bodies in the engine, stepped by actions.
 
 use crate::{
-    bodies, contact, contact::ContactRules, grip::Weld, impact, impact::Impacts, mover::Mover, settings,
-    substep,
+    bodies, contact, contact::ContactRules, dynamic_body::DynamicBody, grip::Weld, impact, impact::Impacts,
+    settings, substep,
 };
 use phase_model::{
-    AGENT_COUNT, Action, AgentId, Entity, Grip, MAX_OBJECTS, Physique, Segment, State, arena::SUBSTEPS,
+    AGENT_COUNT, Action, AgentId, Entity, Grip, MAX_OBJECTS, PhysicsConfig, Segment, State, arena::SUBSTEPS,
 };
 use rapier2d::prelude::*;
 
 /// A scene's bodies in motion.
 pub struct World {
-    physique: Physique,
+    physics: PhysicsConfig,
     engine: PhysicsWorld,
     walls: Vec<Segment>,
-    movers: Vec<Mover>,
+    dynamic_bodies: Vec<DynamicBody>,
     welds: [Option<Weld>; AGENT_COUNT],
     rules: ContactRules,
 }
@@ -25,21 +25,21 @@ impl World {
     /// that are not finite or lie outside the arena are replaced by the nearest that make sense. A body that
     /// starts across an inner wall may come out on either side of it.
     #[must_use]
-    pub fn new(physique: &Physique, state: &State) -> Self {
-        let mut physique = physique.clone();
-        physique.object_count = physique.object_count.min(MAX_OBJECTS);
+    pub fn new(physics: &PhysicsConfig, state: &State) -> Self {
+        let mut physics = physics.clone();
+        physics.object_count = physics.object_count.min(MAX_OBJECTS);
         let mut engine = settings::engine();
-        let ground = bodies::insert_ground(&mut engine, &physique.walls);
-        let movers = physique
+        let ground = bodies::insert_ground(&mut engine, &physics.walls);
+        let dynamic_bodies = physics
             .entities()
-            .map(|entity| Mover::insert(&mut engine, ground, &physique, entity, state.body(entity)))
+            .map(|entity| DynamicBody::insert(&mut engine, ground, &physics, entity, state.body(entity)))
             .collect();
         let rules = ContactRules::default();
         let mut world = Self {
-            walls: impact::walls(&physique),
-            physique,
+            walls: impact::walls(&physics),
+            physics,
             engine,
-            movers,
+            dynamic_bodies,
             welds: [None; AGENT_COUNT],
             rules,
         };
@@ -57,11 +57,11 @@ impl World {
     pub fn state(&self) -> State {
         let mut state = State::new(Default::default());
         state.grips = self.welds.map(|weld| weld.map(|weld| weld.grip));
-        for (index, mover) in self.movers.iter().enumerate() {
-            state.bodies[index] = mover.state(&self.engine);
-            for (other, earlier) in self.movers.iter().enumerate().take(index) {
+        for (index, dynamic_body) in self.dynamic_bodies.iter().enumerate() {
+            state.bodies[index] = dynamic_body.state(&self.engine);
+            for (other, earlier) in self.dynamic_bodies.iter().enumerate().take(index) {
                 let (a, b) = (Entity::ALL[index], Entity::ALL[other]);
-                if !state.touching(a, b) && contact::touching(&self.engine, mover, earlier) {
+                if !state.touching(a, b) && contact::touching(&self.engine, dynamic_body, earlier) {
                     state.contacts.insert(a, b);
                 }
             }
@@ -91,8 +91,8 @@ impl World {
         core::array::from_fn(|substep| {
             self.substep(actions);
             if substep + 1 == SUBSTEPS {
-                for mover in self.movers.iter().take(AGENT_COUNT) {
-                    mover.stop_turning(&mut self.engine);
+                for dynamic_body in self.dynamic_bodies.iter().take(AGENT_COUNT) {
+                    dynamic_body.stop_turning(&mut self.engine);
                 }
             }
             self.state()
@@ -101,7 +101,7 @@ impl World {
 
     fn attach(&mut self, agent: AgentId) {
         let state = self.state();
-        if let Some((object, side)) = state.attachable(&self.physique, agent) {
+        if let Some((object, side)) = state.attachable(&self.physics, agent) {
             let angle = |entity| state.body(entity).angle;
             let relative_angle = angle(Entity::Object(object)) - angle(Entity::Agent(agent));
             self.weld(agent, Grip { object, side, relative_angle });
@@ -111,7 +111,7 @@ impl World {
     fn detach(&mut self, agent: AgentId) {
         if let Some(weld) = self.welds[agent].take() {
             let [holder, held] = [Entity::Agent(agent), Entity::Object(weld.grip.object)]
-                .map(|entity| &self.movers[entity.index()]);
+                .map(|entity| &self.dynamic_bodies[entity.index()]);
             self.rules.release(&self.engine, holder, held);
             weld.remove(&mut self.engine);
         }
@@ -120,20 +120,22 @@ impl World {
     /// Makes a grip real; one on an object that is not there, or at no angle, is dropped.
     fn weld(&mut self, agent: AgentId, grip: Grip) {
         let object = grip.object;
-        if object.index() < self.physique.object_count && grip.relative_angle.is_finite() {
-            let length = self.physique.agents[agent].radius + self.physique.object_radii[object];
-            let ends =
-                [Entity::Agent(agent), Entity::Object(object)].map(|entity| self.movers[entity.index()].body);
+        if object.index() < self.physics.object_count && grip.relative_angle.is_finite() {
+            let length = self.physics.agents[agent].radius + self.physics.object_radii[object];
+            let ends = [Entity::Agent(agent), Entity::Object(object)]
+                .map(|entity| self.dynamic_bodies[entity.index()].body);
             self.welds[agent] = Some(Weld::insert(&mut self.engine, ends, grip, length));
         }
     }
 
     fn substep(&mut self, actions: [Action; AGENT_COUNT]) {
-        for ((mover, body), action) in self.movers.iter().zip(&self.physique.agents).zip(actions) {
-            mover.act(&mut self.engine, body, action);
+        for ((dynamic_body, body), action) in
+            self.dynamic_bodies.iter().zip(&self.physics.agents).zip(actions)
+        {
+            dynamic_body.act(&mut self.engine, body, action);
         }
-        let impacts = Impacts::new(&self.physique, &self.walls);
-        substep::advance(&mut self.engine, impacts, &mut self.movers, &self.rules);
-        self.rules.restore_clear(&self.engine, &self.movers);
+        let impacts = Impacts::new(&self.physics, &self.walls);
+        substep::advance(&mut self.engine, impacts, &mut self.dynamic_bodies, &self.rules);
+        self.rules.restore_clear(&self.engine, &self.dynamic_bodies);
     }
 }

@@ -6,13 +6,13 @@ use phase_world::World;
 #[test]
 fn golden_runs_are_unchanged() -> Result<(), String> {
     let mut golden = Golden::new(env!("CARGO_MANIFEST_DIR"), "world");
-    for (k, (physique, state)) in fixtures::scenes().iter().enumerate() {
-        let mut world = World::new(physique, state);
+    for (k, (physics, state)) in fixtures::scenes().iter().enumerate() {
+        let mut world = World::new(physics, state);
         let mut digest = Digest::new();
         let mut contacts = 0;
         for actions in fixtures::actions(k as u64) {
             for substep in world.step(actions) {
-                digest.state(physique, &substep);
+                digest.state(physics, &substep);
                 contacts += usize::from(substep.contacts != phase_model::Contacts::NONE);
             }
         }

@@ -1,18 +1,18 @@
 //! Judges an event by the criterion of its test.
 
-use super::rows::{Criterion, Form, Part};
+use super::rows::{BehaviourTest, Criterion, Form};
 use phase_evidence::{
-    Effect, Outcome, Rest, Track, blocking, contact, exploration, holding, outcome, pursuit::Pursuit,
+    Effect, GoalOutcome, Rest, Track, blocking, contact, exploration, holding, outcome, pursuit::Pursuit,
 };
 use phase_model::{AgentId, Entity, Goal, ObjectId, RoomId, Scene, State};
 use phase_planner::Routes;
 
 /// Steps an agent may take to let go and come to rest after its goal is reached.
-const SETTLING: usize = 8;
+const SETTLING_STEPS: usize = 8;
 /// Steps at the end over which nothing may move after fetching.
-const AT_THE_END: usize = 4;
+const FINAL_REST_STEPS: usize = 4;
 /// For how long something must be done to be seen (steps).
-const VISIBLE: usize = 3;
+const MIN_VISIBLE_STEPS: usize = 3;
 
 /// The judgement of one event.
 #[derive(Clone, PartialEq, Debug)]
@@ -22,20 +22,20 @@ pub(super) struct Verdict {
     /// Whether the means the row is named for was seen; `None` where the row names none.
     pub shown: Option<bool>,
     /// What became of the judged agent's goal.
-    pub with: Outcome,
+    pub with: GoalOutcome,
     /// The same without the other's doing.
-    pub without: Option<Outcome>,
+    pub without: Option<GoalOutcome>,
     /// What was seen, in words, for people.
     pub notes: String,
 }
 
 /// Judges an event of a scene, beside its counterfactual if the part has one.
 #[must_use]
-pub(super) fn judge(part: &Part, scene: &Scene, track: &Track, control: Option<&Track>) -> Verdict {
+pub(super) fn judge(part: &BehaviourTest, scene: &Scene, track: &Track, control: Option<&Track>) -> Verdict {
     let case = Case { part, scene, track };
     let goal = scene.agents[part.judged].goal;
-    let with = Outcome::of(track, goal);
-    let without = control.map(|control| Outcome::of(control, goal));
+    let with = GoalOutcome::of(track, goal);
+    let without = control.map(|control| GoalOutcome::of(control, goal));
     let effect = without.map(|without| Effect { with, without });
     let (success, shown, notes) = match part.criterion {
         Criterion::Reach => (case.all_reached(), None, case.outcomes()),
@@ -46,7 +46,7 @@ pub(super) fn judge(part: &Part, scene: &Scene, track: &Track, control: Option<&
             let held = case.held_anything(part.judged.other());
             (
                 effect.is_some_and(|effect| effect.helped()),
-                Some(held >= VISIBLE),
+                Some(held >= MIN_VISIBLE_STEPS),
                 format!("helper held {held}"),
             )
         }
@@ -64,18 +64,18 @@ pub(super) fn judge(part: &Part, scene: &Scene, track: &Track, control: Option<&
 
 /// One event under judgement.
 struct Case<'a> {
-    part: &'a Part,
+    part: &'a BehaviourTest,
     scene: &'a Scene,
     track: &'a Track,
 }
 
-type Judgement = (bool, Option<bool>, String);
+type Assessment = (bool, Option<bool>, String);
 
 impl Case<'_> {
     /// The agents that the row is about, with their outcomes.
-    fn active(&self) -> impl Iterator<Item = (AgentId, Outcome)> {
+    fn active(&self) -> impl Iterator<Item = (AgentId, GoalOutcome)> {
         let who = AgentId::ALL.into_iter().filter(|&agent| self.part.idle != Some(agent));
-        who.map(|agent| (agent, Outcome::of(self.track, self.scene.agents[agent].goal)))
+        who.map(|agent| (agent, GoalOutcome::of(self.track, self.scene.agents[agent].goal)))
     }
 
     fn all_reached(&self) -> bool {
@@ -83,7 +83,7 @@ impl Case<'_> {
     }
 
     fn outcomes(&self) -> String {
-        let words = |(agent, outcome): (AgentId, Outcome)| match outcome.steps {
+        let words = |(agent, outcome): (AgentId, GoalOutcome)| match outcome.steps {
             Some(steps) => format!("agent {agent} after {steps}"),
             None if outcome.reached => format!("agent {agent} in the end"),
             None => format!("agent {agent} never"),
@@ -91,16 +91,16 @@ impl Case<'_> {
         self.active().map(words).collect::<Vec<_>>().join(", ")
     }
 
-    fn fetch(&self) -> Judgement {
+    fn fetch(&self) -> Assessment {
         let last = self.track.states.last();
         let held = last.is_some_and(|state| state.grips.iter().any(Option::is_some));
-        let from = self.track.steps().saturating_sub(AT_THE_END);
-        let still = self.track.physique.entities().all(|it| Rest::after(self.track, it, from).is_quiet());
+        let from = self.track.steps().saturating_sub(FINAL_REST_STEPS);
+        let still = self.track.physics.entities().all(|it| Rest::after(self.track, it, from).is_at_rest());
         let notes = format!("{}, held at the end: {held}, still: {still}", self.outcomes());
         (self.all_reached() && !held && still, None, notes)
     }
 
-    fn search(&self, wanted: usize) -> Judgement {
+    fn search(&self, wanted: usize) -> Assessment {
         // In the scene as it is written the near region is room 1 and the larger one rooms 0 and 3.
         let image = |room: RoomId| self.scene.layout.flip().map_or(room, |flip| flip.room(room));
         let (near, larger) =
@@ -113,15 +113,15 @@ impl Case<'_> {
         (first.is_some_and(|(region, _)| region == wanted), None, format!("{notes}; {}", self.outcomes()))
     }
 
-    fn carry_together(&self, goal: Goal) -> Judgement {
+    fn carry_together(&self, goal: Goal) -> Assessment {
         let Some(object) = object_of(goal) else { return (false, None, String::new()) };
         let together = holding::carried_together(self.track, object);
-        let shown = together.steps >= VISIBLE && together.distance > 1.0;
+        let shown = together.steps >= MIN_VISIBLE_STEPS && together.distance > 1.0;
         let notes = format!("together {} steps, {:.1} u", together.steps, together.distance);
         (self.all_reached() && shown, Some(shown), notes)
     }
 
-    fn stay_out(&self, with: Outcome, effect: Option<Effect>) -> Judgement {
+    fn stay_out(&self, with: GoalOutcome, effect: Option<Effect>) -> Assessment {
         let (helper, helpee) = (Entity::Agent(self.part.judged.other()), Entity::Agent(self.part.judged));
         let touched = contact::steps_touching(self.track, helper, helpee).len();
         let good = with.reached && touched == 0 && effect.is_some_and(|effect| !effect.hindered());
@@ -139,11 +139,14 @@ impl Case<'_> {
                 let target = |state: &State| blocking::next_place(goal, state);
                 let door = blocking::steps_blocking_a_door(self.track, &routes, hinderer, target).len();
                 let between = blocking::steps_between(self.track, hinderer, target).len();
-                (door.max(between) >= VISIBLE, format!("blocked a door {door} steps, between {between}"))
+                (
+                    door.max(between) >= MIN_VISIBLE_STEPS,
+                    format!("blocked a door {door} steps, between {between}"),
+                )
             }
             Form::Take => {
                 let away = goal.landmark().map_or(0.0, |landmark| -alone.approach[landmark]);
-                let shown = alone.steps >= VISIBLE && alone.distance > 1.0;
+                let shown = alone.steps >= MIN_VISIBLE_STEPS && alone.distance > 1.0;
                 (
                     shown,
                     format!("held alone {} steps, {:.1} u, {away:.1} u away", alone.steps, alone.distance),
@@ -151,29 +154,29 @@ impl Case<'_> {
             }
             Form::Drag => {
                 let both = holding::carried_together(self.track, object).steps;
-                (both >= VISIBLE, format!("both held {both} steps, hinderer alone {}", alone.steps))
+                (both >= MIN_VISIBLE_STEPS, format!("both held {both} steps, hinderer alone {}", alone.steps))
             }
             Form::Hide => {
                 let hidden = self.out_of_reach(self.part.judged, object);
                 (hidden, format!("hidden: {hidden}, held alone {} steps", alone.steps))
             }
             Form::Undo => {
-                let undone = |state: &&State| outcome::condition(&self.track.physique, state, goal);
+                let undone = |state: &&State| outcome::condition(&self.track.physics, state, goal);
                 let steps = self.track.states.iter().filter(undone).count();
-                (steps >= VISIBLE, format!("so for {steps} steps"))
+                (steps >= MIN_VISIBLE_STEPS, format!("so for {steps} steps"))
             }
             Form::Evade => {
                 let flight = Pursuit::of(self.track, hinderer);
                 let notes =
                     format!("away {} of {}, rooms {}", flight.away, flight.moving, flight.rooms_changed);
-                (flight.moving >= VISIBLE, notes)
+                (flight.moving >= MIN_VISIBLE_STEPS, notes)
             }
         }
     }
 
-    fn chase(&self, effect: Option<Effect>) -> Judgement {
+    fn chase(&self, effect: Option<Effect>) -> Assessment {
         let (chaser, fleer) = (Pursuit::of(self.track, AgentId::ZERO), Pursuit::of(self.track, AgentId::ONE));
-        let chases = 2 * chaser.towards >= chaser.moving && chaser.moving >= VISIBLE;
+        let chases = 2 * chaser.towards >= chaser.moving && chaser.moving >= MIN_VISIBLE_STEPS;
         let flees = effect.is_some_and(|effect| effect.hindered());
         let notes = format!(
             "chaser towards {} of {}, fleer changed rooms {} times, nearest {:.1} u",
@@ -182,7 +185,7 @@ impl Case<'_> {
         (chases && flees, Some(fleer.rooms_changed > 0), notes)
     }
 
-    fn compete(&self, goal: Goal) -> Judgement {
+    fn compete(&self, goal: Goal) -> Assessment {
         let Some(object) = object_of(goal) else { return (false, None, String::new()) };
         let touched = |agent: AgentId| {
             !contact::steps_touching(self.track, Entity::Agent(agent), Entity::Object(object)).is_empty()
@@ -191,25 +194,25 @@ impl Case<'_> {
         let fought = holding::carried_together(self.track, object).steps;
         let decided = self.active().any(|(_, outcome)| outcome.reached);
         let notes = format!("{}, both held {fought} steps, both touched it: {engaged}", self.outcomes());
-        (engaged && (decided || fought >= 5), Some(fought >= VISIBLE), notes)
+        (engaged && (decided || fought >= 5), Some(fought >= MIN_VISIBLE_STEPS), notes)
     }
 
-    fn rest(&self) -> Judgement {
+    fn rest(&self) -> Assessment {
         let reached = self.active().filter_map(|(_, outcome)| outcome.steps).max();
         let (true, Some(reached)) = (self.all_reached(), reached) else {
             return (false, None, self.outcomes());
         };
-        let from = reached + SETTLING;
+        let from = reached + SETTLING_STEPS;
         let last = self.track.states.last();
         let held = last.is_some_and(|state| state.grips.iter().any(Option::is_some));
         let mut quiet = true;
         let mut notes = format!("{}, held at the end: {held}", self.outcomes());
-        for entity in self.track.physique.entities() {
+        for entity in self.track.physics.entities() {
             let rest = Rest::after(self.track, entity, from);
-            if !rest.is_quiet() {
+            if !rest.is_at_rest() {
                 quiet = false;
-                let (strayed, turned) = (rest.strayed, rest.turned);
-                notes += &format!("; {entity} strayed {strayed:.2} u, turned {turned:.2} rad");
+                let (displacement, turned) = (rest.displacement, rest.turned);
+                notes += &format!("; {entity} strayed {displacement:.2} u, turned {turned:.2} rad");
             }
         }
         (quiet && !held, None, notes)
@@ -224,7 +227,7 @@ impl Case<'_> {
         let Some(state) = self.track.states.last() else { return false };
         let routes = Routes::new(self.scene.layout);
         let (from, to) = (state.position(Entity::Agent(agent)), state.position(Entity::Object(object)));
-        let width = self.track.physique.agents[agent].width();
+        let width = self.track.physics.agents[agent].width();
         routes.best(from, to, width, routes.gaps()).is_none_or(|route| route.impassable > 0)
     }
 }

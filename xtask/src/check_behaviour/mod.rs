@@ -12,10 +12,10 @@ use phase_cli::{
     context::Context,
     engine::GENERATOR,
     error::CliError,
+    event_writer::settings_value,
     interrupt,
     parallel::make_all,
-    picture::{self, Shot},
-    production::settings_value,
+    picture::{self, RenderedState},
 };
 use phase_dataset::{
     WriteError, atomic,
@@ -28,7 +28,7 @@ use report::{SceneResult, Trial};
 use rows::PARTS;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
-use trial::Laboratory;
+use trial::TrialRunner;
 
 /// The report's file name in the output folder; it is written last.
 const REPORT_FILE: &str = "behaviour.json";
@@ -52,10 +52,10 @@ pub fn run(arguments: &CheckBehaviour, context: &Context) -> Result<(), CliError
     interrupt::listen();
     let controls = scenes.iter().filter(|(part, ..)| PARTS[*part].control.is_some()).count();
     let events = seeds * (scenes.len() + controls);
-    let laboratory = Laboratory::new(&folder, arguments.effort.settings(), events, context);
+    let runner = TrialRunner::new(&folder, arguments.effort.settings(), events, context);
     let made = make_all(&arguments.jobs, scenes.len() * seeds, |k| {
         let (part, id, scene) = &scenes[k / seeds];
-        laboratory.trial(&PARTS[*part], id, scene, k % seeds)
+        runner.trial(&PARTS[*part], id, scene, k % seeds)
     })?;
     let Some(trials) = made else { return Err(CliError::Interrupted(arguments.out.clone())) };
     let mut trials = trials.into_iter();
@@ -69,9 +69,9 @@ pub fn run(arguments: &CheckBehaviour, context: &Context) -> Result<(), CliError
         .collect();
     let sheets = folder.subfolder(SHEETS)?;
     for (result, (.., scene)) in results.iter().zip(&scenes) {
-        draw(&laboratory, &sheets, result, scene)?;
+        draw(&runner, &sheets, result, scene)?;
     }
-    drop(laboratory);
+    drop(runner);
     let report = report::to_json(&run, &results);
     complete(arguments, folder, &report)?;
     if to_stdout(arguments) {
@@ -94,7 +94,7 @@ fn scenes(arguments: &CheckBehaviour) -> Result<Vec<(usize, String, Scene)>, Cli
             let problem = if scene.layout.flip().is_some() {
                 Some("field `layout.flip` must be null, since scenes are mirrored here".into())
             } else {
-                scene.validate_apart().err().map(|error| error.to_string())
+                scene.validate_without_overlap().err().map(|error| error.to_string())
             };
             if let Some(rule) = problem {
                 return Err(CliError::Usage(format!("{}: event {id}: {rule}", file.display())));
@@ -122,32 +122,32 @@ fn prepare(out: &Path, run: &Value) -> Result<Folder, CliError> {
 }
 
 /// Contact sheets of a scene's first event and of its first failure.
-fn draw(laboratory: &Laboratory, sheets: &Path, result: &SceneResult, scene: &Scene) -> Result<(), CliError> {
+fn draw(runner: &TrialRunner, sheets: &Path, result: &SceneResult, scene: &Scene) -> Result<(), CliError> {
     let part = &PARTS[result.part];
     let first = result.trials.first().map(|trial| (trial, ""));
     let failure = result.trials.iter().find(|trial| !trial.verdict.success).map(|trial| (trial, "-failure"));
     for (trial, suffix) in first.into_iter().chain(failure) {
         let name = format!("{}-{}{suffix}.png", trial::key(part), result.id);
-        sheet(laboratory, &sheets.join(name), part, &result.id, scene, trial)?;
+        sheet(runner, &sheets.join(name), part, &result.id, scene, trial)?;
     }
     Ok(())
 }
 
 fn sheet(
-    laboratory: &Laboratory,
+    runner: &TrialRunner,
     path: &Path,
-    part: &rows::Part,
+    part: &rows::BehaviourTest,
     id: &str,
     scene: &Scene,
     trial: &Trial,
 ) -> Result<(), CliError> {
     let index = trial.seed as usize - 1;
-    let Some(event) = laboratory.event(part, id, scene, index)? else {
+    let Some(event) = runner.event(part, id, scene, index)? else {
         return Err(CliError::Interrupted(path.to_owned()));
     };
-    let shots: Vec<Shot<'_>> =
-        event.frames().step_by(SUBSTEPS).map(|&state| Shot { state, minds: Vec::new() }).collect();
-    picture::write_sheet(path, id, &event.scene.physique(), Palette::PAPER, &shots, SHEET_FRAMES)
+    let items: Vec<RenderedState<'_>> =
+        event.frames().step_by(SUBSTEPS).map(|&state| RenderedState { state, minds: Vec::new() }).collect();
+    picture::write_sheet(path, id, &event.scene.physics(), Palette::PAPER, &items, SHEET_FRAMES)
 }
 
 fn complete(arguments: &CheckBehaviour, folder: Folder, report: &Value) -> Result<(), CliError> {

@@ -1,7 +1,7 @@
 //! The options of `check-behaviour`.
 
 use clap::{Args, value_parser};
-use phase_cli::{effort::Effort, parallel::Jobs};
+use phase_cli::{effort::SimulationOptions, parallel::Jobs};
 use std::path::PathBuf;
 
 /// Options of `check-behaviour`.
@@ -24,7 +24,7 @@ pub struct CheckBehaviour {
     pub scenes: Option<PathBuf>,
     /// How the agents think.
     #[command(flatten)]
-    pub effort: Effort,
+    pub effort: SimulationOptions,
     /// How many events at once.
     #[command(flatten)]
     pub jobs: Jobs,

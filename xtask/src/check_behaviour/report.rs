@@ -2,9 +2,9 @@
 
 use super::{
     judge::Verdict,
-    rows::{Criterion, PARTS, Part},
+    rows::{BehaviourTest, Criterion, PARTS},
 };
-use phase_evidence::Outcome;
+use phase_evidence::GoalOutcome;
 use phase_model::Flip;
 use phase_statistics::{Interval, fisher_exact_greater, median, wilson_interval};
 use serde_json::{Value, json};
@@ -57,7 +57,7 @@ impl Rates {
     fn of<'a>(trials: impl Iterator<Item = &'a Trial>) -> Self {
         let verdicts: Vec<&Verdict> = trials.map(|trial| &trial.verdict).collect();
         let shown: Option<Vec<bool>> = verdicts.iter().map(|verdict| verdict.shown).collect();
-        let without: Option<Vec<Outcome>> = verdicts.iter().map(|verdict| verdict.without).collect();
+        let without: Option<Vec<GoalOutcome>> = verdicts.iter().map(|verdict| verdict.without).collect();
         Self {
             trials: verdicts.len(),
             successes: verdicts.iter().filter(|verdict| verdict.success).count(),
@@ -92,8 +92,8 @@ impl Rates {
 }
 
 impl Reached {
-    fn of(outcomes: impl Iterator<Item = Outcome>) -> Self {
-        let reached: Vec<Outcome> = outcomes.filter(|outcome| outcome.reached).collect();
+    fn of(outcomes: impl Iterator<Item = GoalOutcome>) -> Self {
+        let reached: Vec<GoalOutcome> = outcomes.filter(|outcome| outcome.reached).collect();
         let steps: Vec<usize> = reached.iter().filter_map(|outcome| outcome.steps).collect();
         Self { count: reached.len(), median: median(&steps) }
     }
@@ -102,11 +102,11 @@ impl Reached {
 /// The whole report as JSON; `run` says how it was made.
 #[must_use]
 pub(super) fn to_json(run: &Value, scenes: &[SceneResult]) -> Value {
-    let row = |(index, part): (usize, &Part)| {
+    let row = |(index, part): (usize, &BehaviourTest)| {
         let own: Vec<&SceneResult> = scenes.iter().filter(|scene| scene.part == index).collect();
         (!own.is_empty()).then(|| {
             json!({
-                "row": part.row, "name": part.name, "title": part.title, "success": part.criterion.words(),
+                "row": part.row, "name": part.name, "title": part.title, "success": part.criterion.description(),
                 "lambda": part.lambda, "result": Rates::of(trials(&own)).to_json(),
                 "scenes": own.iter().map(|scene| scene_value(scene)).collect::<Vec<_>>(),
             })
@@ -154,7 +154,7 @@ fn trials<'a>(scenes: &[&'a SceneResult]) -> impl Iterator<Item = &'a Trial> {
 }
 
 fn scene_value(scene: &SceneResult) -> Value {
-    let outcome = |outcome: Outcome| json!({ "reached": outcome.reached, "steps": outcome.steps });
+    let outcome = |outcome: GoalOutcome| json!({ "reached": outcome.reached, "steps": outcome.steps });
     let events: Vec<Value> = scene
         .trials
         .iter()

@@ -4,7 +4,7 @@ use phase_model::AgentId;
 
 /// One line of the table: scenes in a file of their own, how they are played, and what counts as success.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Part {
+pub(super) struct BehaviourTest {
     /// The row, from 1.
     pub row: u8,
     /// The file in `data/behaviour` without `.json`; begins with the row.
@@ -20,7 +20,7 @@ pub(super) struct Part {
     /// λ of the subgoal value, if it is not the usual one.
     pub lambda: Option<f64>,
     /// Whether the event goes on to its greatest length however quiet it is.
-    pub lingers: bool,
+    pub runs_full_length: bool,
     /// What counts as success.
     pub criterion: Criterion,
 }
@@ -70,7 +70,7 @@ pub(super) enum Form {
 impl Criterion {
     /// Success, in words.
     #[must_use]
-    pub(super) const fn words(self) -> &'static str {
+    pub(super) const fn description(self) -> &'static str {
         match self {
             Self::Reach => "goals reached",
             Self::Fetch => "goal reached, nothing held and nothing moving at the end",
@@ -87,7 +87,7 @@ impl Criterion {
     }
 }
 
-const ALONE: Part = Part {
+const ALONE: BehaviourTest = BehaviourTest {
     row: 0,
     name: "",
     title: "",
@@ -95,38 +95,44 @@ const ALONE: Part = Part {
     control: None,
     judged: AgentId::ZERO,
     lambda: None,
-    lingers: false,
+    runs_full_length: false,
     criterion: Criterion::Reach,
 };
-const BOTH: Part = Part { idle: None, ..ALONE };
-const HELPING: Part =
-    Part { row: 5, control: Some(AgentId::ZERO), judged: AgentId::ONE, criterion: Criterion::Help, ..BOTH };
-const HINDERING: Part = Part { row: 6, control: Some(AgentId::ZERO), judged: AgentId::ONE, ..BOTH };
-const SEARCHING: Part = Part { row: 2, name: "02-search", ..ALONE };
+const BOTH: BehaviourTest = BehaviourTest { idle: None, ..ALONE };
+const HELPING: BehaviourTest = BehaviourTest {
+    row: 5,
+    control: Some(AgentId::ZERO),
+    judged: AgentId::ONE,
+    criterion: Criterion::Help,
+    ..BOTH
+};
+const HINDERING: BehaviourTest =
+    BehaviourTest { row: 6, control: Some(AgentId::ZERO), judged: AgentId::ONE, ..BOTH };
+const SEARCHING: BehaviourTest = BehaviourTest { row: 2, name: "02-search", ..ALONE };
 
 /// Everything that is checked, in order.
-pub(super) const PARTS: [Part; 20] = [
-    Part { row: 1, name: "01-landmark", title: "going to a landmark through doors", ..ALONE },
-    Part {
+pub(super) const PARTS: [BehaviourTest; 20] = [
+    BehaviourTest { row: 1, name: "01-landmark", title: "going to a landmark through doors", ..ALONE },
+    BehaviourTest {
         title: "searching at lambda 0.05: the near region first",
         lambda: Some(0.05),
         criterion: Criterion::SearchFirst(0),
         ..SEARCHING
     },
-    Part {
+    BehaviourTest {
         title: "searching at lambda 0: the larger region first",
         lambda: Some(0.0),
         criterion: Criterion::SearchFirst(1),
         ..SEARCHING
     },
-    Part {
+    BehaviourTest {
         row: 3,
         name: "03-fetch",
         title: "fetching an object through doors and letting go",
         criterion: Criterion::Fetch,
         ..ALONE
     },
-    Part {
+    BehaviourTest {
         row: 4,
         name: "04-together",
         title: "carrying together",
@@ -134,47 +140,52 @@ pub(super) const PARTS: [Part; 20] = [
         criterion: Criterion::CarryTogether,
         ..BOTH
     },
-    Part { name: "05a-reach", title: "helping: an object out of reach", ..HELPING },
-    Part { name: "05b-carry", title: "helping: a load too heavy", ..HELPING },
-    Part { name: "05c-clear", title: "helping: a door to clear", ..HELPING },
-    Part { name: "05d-no-need", title: "helping: no help needed", criterion: Criterion::StayOut, ..HELPING },
-    Part {
+    BehaviourTest { name: "05a-reach", title: "helping: an object out of reach", ..HELPING },
+    BehaviourTest { name: "05b-carry", title: "helping: a load too heavy", ..HELPING },
+    BehaviourTest { name: "05c-clear", title: "helping: a door to clear", ..HELPING },
+    BehaviourTest {
+        name: "05d-no-need",
+        title: "helping: no help needed",
+        criterion: Criterion::StayOut,
+        ..HELPING
+    },
+    BehaviourTest {
         name: "06a-block",
         title: "hindering: blocking a door",
         criterion: Criterion::Hinder(Form::Block),
         ..HINDERING
     },
-    Part {
+    BehaviourTest {
         name: "06b-take",
         title: "hindering: taking the object away",
         criterion: Criterion::Hinder(Form::Take),
         ..HINDERING
     },
-    Part {
+    BehaviourTest {
         name: "06c-drag",
         title: "hindering: dragging against",
         criterion: Criterion::Hinder(Form::Drag),
         ..HINDERING
     },
-    Part {
+    BehaviourTest {
         name: "06d-hide",
         title: "hindering: hiding the object",
         criterion: Criterion::Hinder(Form::Hide),
         ..HINDERING
     },
-    Part {
+    BehaviourTest {
         name: "06e-evade",
         title: "hindering: not being touched",
         criterion: Criterion::Hinder(Form::Evade),
         ..HINDERING
     },
-    Part {
+    BehaviourTest {
         name: "06f-undo",
         title: "hindering: bringing about what is not to be",
         criterion: Criterion::Hinder(Form::Undo),
         ..HINDERING
     },
-    Part {
+    BehaviourTest {
         row: 7,
         name: "07-chase",
         title: "chasing and fleeing",
@@ -182,7 +193,7 @@ pub(super) const PARTS: [Part; 20] = [
         criterion: Criterion::Chase,
         ..BOTH
     },
-    Part {
+    BehaviourTest {
         row: 8,
         name: "08-compete",
         title: "competing for an object",
@@ -190,20 +201,20 @@ pub(super) const PARTS: [Part; 20] = [
         criterion: Criterion::Compete,
         ..BOTH
     },
-    Part { row: 9, name: "09-doorway", title: "meeting in a doorway", ..BOTH },
-    Part {
+    BehaviourTest { row: 9, name: "09-doorway", title: "meeting in a doorway", ..BOTH },
+    BehaviourTest {
         row: 10,
         name: "10-rest",
         title: "resting once the goal is reached",
-        lingers: true,
+        runs_full_length: true,
         criterion: Criterion::Rest,
         ..ALONE
     },
-    Part {
+    BehaviourTest {
         row: 10,
         name: "10-rest-both",
         title: "both resting once their goals are reached",
-        lingers: true,
+        runs_full_length: true,
         criterion: Criterion::Rest,
         ..BOTH
     },

@@ -1,21 +1,21 @@
 //! Simulates one trial and its counterfactual.
 
-use super::{judge, report::Trial, rows::Part};
+use super::{judge, report::Trial, rows::BehaviourTest};
 use core::ops::ControlFlow;
 use phase_cli::{
     console,
     context::Context,
     engine,
     error::CliError,
+    event_writer::{self, settings_value},
     interrupt,
-    production::{self, settings_value},
     progress::Progress,
 };
 use phase_dataset::{cache::Cache, checksum::sha256, folder::Folder};
 use phase_event::Event;
 use phase_evidence::Track;
 use phase_model::{AgentId, Attitude, Flip, Scene};
-use phase_sim::Settings;
+use phase_sim::SimulationSettings;
 use std::{path::PathBuf, time::Instant};
 
 /// The mirrors that seeds take in turn.
@@ -24,21 +24,26 @@ const FLIPS: [Option<Flip>; 5] =
 
 /// Simulates the trials, reusing those of an interrupted run.
 #[derive(Debug)]
-pub(super) struct Laboratory {
-    settings: Settings,
+pub(super) struct TrialRunner {
+    settings: SimulationSettings,
     cache: PathBuf,
     program: [u8; 32],
     progress: Progress,
 }
 
 /// The name of a part that no other has: parts may share scenes.
-pub(super) fn key(part: &Part) -> String {
+pub(super) fn key(part: &BehaviourTest) -> String {
     part.lambda.map_or_else(|| part.name.into(), |lambda| format!("{}-lambda{lambda}", part.name))
 }
 
-impl Laboratory {
-    pub(super) fn new(folder: &Folder, settings: Settings, events: usize, context: &Context) -> Self {
-        let program = production::program();
+impl TrialRunner {
+    pub(super) fn new(
+        folder: &Folder,
+        settings: SimulationSettings,
+        events: usize,
+        context: &Context,
+    ) -> Self {
+        let program = event_writer::program();
         let progress =
             context.progress(&format!("simulating {}", console::events(events)), events, settings.max_steps);
         Self { settings, cache: folder.cache(), program, progress }
@@ -47,7 +52,7 @@ impl Laboratory {
     /// Plays a scene with the seed of this index and judges it; `None` if interrupted.
     pub(super) fn trial(
         &self,
-        part: &Part,
+        part: &BehaviourTest,
         id: &str,
         scene: &Scene,
         index: usize,
@@ -68,7 +73,7 @@ impl Laboratory {
     /// The event of a scene and the seed of this index.
     pub(super) fn event(
         &self,
-        part: &Part,
+        part: &BehaviourTest,
         id: &str,
         scene: &Scene,
         index: usize,
@@ -80,7 +85,7 @@ impl Laboratory {
     /// The same without an agent's doing: it is neutral and stays where it is.
     fn control(
         &self,
-        part: &Part,
+        part: &BehaviourTest,
         id: &str,
         scene: &Scene,
         index: usize,
@@ -88,13 +93,13 @@ impl Laboratory {
     ) -> Result<Option<Event>, CliError> {
         let mut scene = mirrored(scene, index);
         scene.agents[agent].attitude = Attitude::Neutral;
-        let settings = Settings { idle: Some(agent), ..self.settings_of(part) };
+        let settings = SimulationSettings { idle: Some(agent), ..self.settings_of(part) };
         self.play(&format!("{}.{id}.without{agent}", key(part)), scene, index, &settings)
     }
 
-    fn settings_of(&self, part: &Part) -> Settings {
-        let mut settings = Settings { idle: part.idle, ..self.settings };
-        if part.lingers {
+    fn settings_of(&self, part: &BehaviourTest) -> SimulationSettings {
+        let mut settings = SimulationSettings { idle: part.idle, ..self.settings };
+        if part.runs_full_length {
             settings.rest_steps = usize::MAX;
         }
         if let Some(lambda) = part.lambda {
@@ -108,7 +113,7 @@ impl Laboratory {
         name: &str,
         scene: Scene,
         index: usize,
-        settings: &Settings,
+        settings: &SimulationSettings,
     ) -> Result<Option<Event>, CliError> {
         let seed = index as u64 + 1;
         let name = format!("{name}.{seed}");

@@ -7,11 +7,11 @@ mod targets;
 use crate::error::XtaskError;
 use options::CheckPhysics;
 use phase_calibration::{
-    ColdForward, Engine, Probe, ReadError, Replay, Report, Run, StateAlone, WarmForward, WorldEngine, ahead,
-    probes_report, replay_reports, run_reports,
+    ColdForward, Engine, Probe, ReadError, Replay, Report, Run, StatelessErrors, WarmForward, WorldEngine,
+    horizon_errors, probes_report, replay_reports, run_reports,
 };
 use phase_cli::{
-    console::print_result, context::Context, error::CliError, output::json_text, source::Source,
+    console::print_result, context::Context, error::CliError, output::json_text, source::EventInput,
 };
 use phase_dataset::{atomic, json};
 use serde::Serialize;
@@ -54,9 +54,9 @@ pub fn run(arguments: &CheckPhysics, context: &Context) -> Result<(), XtaskError
         }
         phase_sim::Engine::Forward => {
             let mut report = records.measure::<WarmForward>("forward");
-            report.state_alone = records.runs.as_ref().map(|runs| StateAlone {
-                one_step: ahead::<ColdForward>(runs, 1),
-                ten_steps: ahead::<ColdForward>(runs, 10),
+            report.state_alone = records.runs.as_ref().map(|runs| StatelessErrors {
+                one_step: horizon_errors::<ColdForward>(runs, 1),
+                ten_steps: horizon_errors::<ColdForward>(runs, 10),
             });
             let targets = targets::of_forward(&report);
             (report, targets)
@@ -98,8 +98,8 @@ impl Records {
             probes: self.probes.as_deref().map(probes_report::<E>),
             runs: runs.map(run_reports::<E>),
             replays: self.replays.as_deref().map(replay_reports::<E>),
-            one_step: runs.and_then(|runs| ahead::<E>(runs, 1)),
-            ten_steps: runs.and_then(|runs| ahead::<E>(runs, 10)),
+            one_step: runs.and_then(|runs| horizon_errors::<E>(runs, 1)),
+            ten_steps: runs.and_then(|runs| horizon_errors::<E>(runs, 10)),
             state_alone: None,
         }
     }
@@ -107,12 +107,12 @@ impl Records {
 
 fn read<T>(file: &Path, parse: impl Fn(&Value) -> Result<T, ReadError>) -> Result<T, XtaskError> {
     let value = json::read(file).map_err(CliError::File)?;
-    parse(&value).map_err(|source| XtaskError::Record { file: file.to_owned(), source })
+    parse(&value).map_err(|source| XtaskError::Calibration { file: file.to_owned(), source })
 }
 
 /// The events of a file that can be replayed, and the number of those that could be but for being mirrored.
 fn replays(file: &Path, context: &Context) -> Result<(Vec<Replay>, usize), CliError> {
-    let source = Source::open(file, &[], context)?;
+    let source = EventInput::open(file, &[], context)?;
     let mut recordings = (0..source.len()).map(|k| source.load(k)).collect::<Result<Vec<_>, _>>()?;
     recordings.retain(|recording| recording.recovered_actions.is_some());
     let replays: Vec<Replay> = recordings.iter().filter_map(Replay::of_recording).collect();

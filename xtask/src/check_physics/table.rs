@@ -1,7 +1,7 @@
 //! A report for people.
 
 use super::targets::Target;
-use phase_calibration::{Ahead, Report, RunReport};
+use phase_calibration::{HorizonErrors, Report, RunReport};
 use std::fmt::Write;
 
 /// The tables of a report.
@@ -103,7 +103,7 @@ fn run_rows(text: &mut String, runs: &[RunReport]) -> std::fmt::Result {
     Ok(())
 }
 
-fn ahead_row(text: &mut String, what: &str, ahead: Option<Ahead>) -> std::fmt::Result {
+fn ahead_row(text: &mut String, what: &str, ahead: Option<HorizonErrors>) -> std::fmt::Result {
     match ahead {
         Some(ahead) => writeln!(
             text,

@@ -1,6 +1,6 @@
 //! The published targets of both engines, and whether they are met.
 
-use phase_calibration::{Ahead, Report, RunReport};
+use phase_calibration::{HorizonErrors, Report, RunReport};
 use phase_statistics::percentile;
 use serde::Serialize;
 
@@ -84,7 +84,7 @@ pub(super) fn of_forward(report: &Report) -> Vec<Target> {
         let p90 = percentile(&errors, 90).unwrap_or(f32::NAN);
         targets.push(Target::at_most("replays: p90 over all steps (u)", p90, 0.02));
     }
-    let ahead = |what: &str, ahead: Option<Ahead>, limit| {
+    let ahead = |what: &str, ahead: Option<HorizonErrors>, limit| {
         ahead.map(|ahead| Target::at_most(format!("{what} ahead on runs: p90 (u)"), ahead.p90, limit))
     };
     targets.extend(ahead("one step", report.one_step, 0.002));

@@ -11,7 +11,7 @@ use std::sync::Arc;
 pub(super) struct Cell {
     pub(super) size: usize,
     /// Rows that have a next state; the others keep theirs.
-    pub(super) alive: Option<Arc<[bool]>>,
+    pub(super) active: Option<Arc<[bool]>>,
 }
 
 /// What becomes of one number of memory.
@@ -26,8 +26,8 @@ struct Unit {
 }
 
 impl Cell {
-    fn is_alive(&self, row: usize) -> bool {
-        self.alive.as_ref().is_none_or(|alive| alive.get(row).copied().unwrap_or(false))
+    fn is_active(&self, row: usize) -> bool {
+        self.active.as_ref().is_none_or(|active| active.get(row).copied().unwrap_or(false))
     }
 
     fn unit(&self, gates: &[f32], state: &[f32], k: usize) -> Unit {
@@ -53,8 +53,8 @@ impl CustomOp2 for Cell {
         state: &CpuStorage,
         state_layout: &Layout,
     ) -> Result<(CpuStorage, Shape)> {
-        let gates = numbers(gates, gates_layout)?;
-        let state = numbers(state, state_layout)?;
+        let gates = values(gates, gates_layout)?;
+        let state = values(state, state_layout)?;
         let size = self.size;
         let rows = state.len() / (2 * size).max(1);
         if gates.len() != rows * 4 * size {
@@ -62,7 +62,7 @@ impl CustomOp2 for Cell {
         }
         let mut next = state.to_vec();
         let each = next.chunks_exact_mut(2 * size).zip(gates.chunks_exact(4 * size));
-        for (row, (next, gates)) in each.enumerate().filter(|&(row, _)| self.is_alive(row)) {
+        for (row, (next, gates)) in each.enumerate().filter(|&(row, _)| self.is_active(row)) {
             let state = &state[row * 2 * size..][..2 * size];
             for k in 0..size {
                 let unit = self.unit(gates, state, k);
@@ -78,38 +78,38 @@ impl CustomOp2 for Cell {
         gates: &Tensor,
         state: &Tensor,
         _next: &Tensor,
-        slope: &Tensor,
+        gradient: &Tensor,
     ) -> Result<(Option<Tensor>, Option<Tensor>)> {
         let size = self.size;
         let flat = |tensor: &Tensor| tensor.flatten_all()?.to_vec1::<f32>();
-        let (gate_numbers, state_numbers, slopes) = (flat(gates)?, flat(state)?, flat(slope)?);
+        let (gate_numbers, state_numbers, gradients) = (flat(gates)?, flat(state)?, flat(gradient)?);
         let mut gate_slopes = vec![0.0; gate_numbers.len()];
         // An inactive row passes its gradient through unchanged.
-        let mut state_slopes = slopes.clone();
-        let rows = gate_slopes.chunks_exact_mut(4 * size).zip(state_slopes.chunks_exact_mut(2 * size));
-        for (row, (gate_slopes, state_slopes)) in rows.enumerate().filter(|&(row, _)| self.is_alive(row)) {
+        let mut state_gradients = gradients.clone();
+        let rows = gate_slopes.chunks_exact_mut(4 * size).zip(state_gradients.chunks_exact_mut(2 * size));
+        for (row, (gate_slopes, state_gradients)) in rows.enumerate().filter(|&(row, _)| self.is_active(row))
+        {
             let gates = &gate_numbers[row * 4 * size..][..4 * size];
             let state = &state_numbers[row * 2 * size..][..2 * size];
-            let slopes = &slopes[row * 2 * size..][..2 * size];
+            let gradients = &gradients[row * 2 * size..][..2 * size];
             for k in 0..size {
                 let Unit { input, forget, new, output, shown, .. } = self.unit(gates, state, k);
-                let memory_slope = slopes[size + k] + slopes[k] * output * (1.0 - shown * shown);
+                let memory_slope = gradients[size + k] + gradients[k] * output * (1.0 - shown * shown);
                 gate_slopes[k] = memory_slope * new * input * (1.0 - input);
                 gate_slopes[size + k] = memory_slope * state[size + k] * forget * (1.0 - forget);
                 gate_slopes[2 * size + k] = memory_slope * input * (1.0 - new * new);
-                gate_slopes[3 * size + k] = slopes[k] * shown * output * (1.0 - output);
-                state_slopes[k] = 0.0;
-                state_slopes[size + k] = memory_slope * forget;
+                gate_slopes[3 * size + k] = gradients[k] * shown * output * (1.0 - output);
+                state_gradients[k] = 0.0;
+                state_gradients[size + k] = memory_slope * forget;
             }
         }
-        let shaped =
-            |numbers: Vec<f32>, like: &Tensor| Tensor::from_vec(numbers, like.shape(), like.device());
-        Ok((Some(shaped(gate_slopes, gates)?), Some(shaped(state_slopes, state)?)))
+        let shaped = |values: Vec<f32>, like: &Tensor| Tensor::from_vec(values, like.shape(), like.device());
+        Ok((Some(shaped(gate_slopes, gates)?), Some(shaped(state_gradients, state)?)))
     }
 }
 
 /// The numbers of a tensor that lie one after the other.
-fn numbers<'a>(storage: &'a CpuStorage, layout: &Layout) -> Result<&'a [f32]> {
+fn values<'a>(storage: &'a CpuStorage, layout: &Layout) -> Result<&'a [f32]> {
     let all = storage.as_slice::<f32>()?;
     let Some((from, to)) = layout.contiguous_offsets() else {
         bail!("an LSTM needs numbers that lie one after the other");

@@ -32,14 +32,14 @@ impl Lstm {
         Tensor::zeros((rows, 2 * self.size), DType::F32, &Device::Cpu)
     }
 
-    /// The state after one more input (rows × inputs). Rows that are not `alive` keep their state; without a list
+    /// The state after one more input (rows × inputs). Rows that are not `active` keep their state; without a list
     /// all are.
     ///
     /// # Errors
     /// If shapes do not fit.
-    pub fn step(&self, input: &Tensor, state: &Tensor, alive: Option<Arc<[bool]>>) -> Result<Tensor> {
+    pub fn step(&self, input: &Tensor, state: &Tensor, active: Option<Arc<[bool]>>) -> Result<Tensor> {
         let gates = self.gates.forward(&Tensor::cat(&[input, &self.output(state)?], 1)?)?;
-        gates.apply_op2(state, Cell { size: self.size, alive })
+        gates.apply_op2(state, Cell { size: self.size, active })
     }
 
     /// What a state puts out, rows × `size`, numbers between −1 and 1.

@@ -6,7 +6,7 @@ use phase_model::Vec2;
 use std::sync::Arc;
 
 /// Additive padding mask: below any LSTM output once it is added to one.
-const OUT_OF_SIGHT: f32 = -4.0;
+const PADDING_BIAS: f32 = -4.0;
 
 /// A padded batch of events. Rows past an event's end and absent objects or walls are padded and masked.
 #[derive(Clone, Debug)]
@@ -18,13 +18,13 @@ pub struct Batch {
     /// Which of these stands where: events · [`FIXED`] places in [`fixed`](Self::fixed).
     pub(crate) fixed_places: Tensor,
     /// events × [`NODES`]: 0 for what is there, else so low that it is never the greatest.
-    pub(crate) out_of_sight: Tensor,
+    pub(crate) padding_mask: Tensor,
     /// Rows of each event.
     lengths: Vec<usize>,
     /// Objects of each event.
     objects: Vec<usize>,
     /// events × [`NODES`]: what is there.
-    there: Vec<bool>,
+    present: Vec<bool>,
     /// Where everything that moves is (u), by event and row.
     positions: Vec<Vec<[Vec2; MOVING]>>,
     /// Where everything that does not move is (u), by event.
@@ -43,8 +43,8 @@ impl Batch {
     ///
     /// # Errors If a tensor cannot be allocated.
     pub fn padded_with(events: &[&Nodes], padding: f32) -> Result<Self> {
-        let longest = events.iter().map(|nodes| nodes.rows()).max().unwrap_or(0);
-        let moving = (0..longest).map(|row| {
+        let max_norm = events.iter().map(|nodes| nodes.rows()).max().unwrap_or(0);
+        let moving = (0..max_norm).map(|row| {
             let mut features = Vec::with_capacity(events.len() * MOVING * FEATURES);
             for nodes in events {
                 for node in 0..MOVING {
@@ -57,18 +57,18 @@ impl Batch {
             Tensor::from_vec(features, (events.len() * MOVING, FEATURES), &Device::Cpu)
         });
         let (fixed, fixed_places) = fixed(events)?;
-        let there: Vec<bool> =
+        let present: Vec<bool> =
             events.iter().flat_map(|nodes| (0..NODES).map(|node| nodes.has(node))).collect();
-        let out_of_sight: Vec<f32> =
-            there.iter().map(|there| if *there { 0.0 } else { OUT_OF_SIGHT }).collect();
+        let padding_mask: Vec<f32> =
+            present.iter().map(|present| if *present { 0.0 } else { PADDING_BIAS }).collect();
         Ok(Self {
             moving: moving.collect::<Result<_>>()?,
             fixed,
             fixed_places,
-            out_of_sight: Tensor::from_vec(out_of_sight, (events.len(), NODES), &Device::Cpu)?,
+            padding_mask: Tensor::from_vec(padding_mask, (events.len(), NODES), &Device::Cpu)?,
             lengths: events.iter().map(|nodes| nodes.rows()).collect(),
             objects: events.iter().map(|nodes| nodes.objects).collect(),
-            there,
+            present,
             positions: events.iter().map(|nodes| nodes.positions.clone()).collect(),
             places: events.iter().map(|nodes| nodes.places.clone()).collect(),
         })
@@ -95,7 +95,7 @@ impl Batch {
     /// Whether an event has a node.
     #[must_use]
     pub fn has(&self, event: usize, node: usize) -> bool {
-        self.there.get(event * NODES + node).copied().unwrap_or(false)
+        self.present.get(event * NODES + node).copied().unwrap_or(false)
     }
 
     /// Where what moves is in a row of an event (u); `None` past its end.
@@ -117,7 +117,7 @@ impl Batch {
     }
 
     /// Which events are active at a row, repeated `each` times; `None` if all are.
-    pub(crate) fn alive(&self, row: usize, each: usize) -> Option<Arc<[bool]>> {
+    pub(crate) fn active(&self, row: usize, each: usize) -> Option<Arc<[bool]>> {
         if self.lengths.iter().all(|&length| row < length) {
             return None;
         }

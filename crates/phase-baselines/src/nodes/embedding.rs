@@ -31,7 +31,7 @@ impl NodeEmbedding {
     /// # Errors If a tensor cannot be allocated.
     pub fn forward(&self, batch: &Batch) -> Result<Vec<Tensor>> {
         let events = batch.events();
-        let by_event = |numbers: &Tensor, each: usize| numbers.reshape((events, each, ()));
+        let by_event = |values: &Tensor, each: usize| values.reshape((events, each, ()));
         let fixed_features = self.features.forward(&batch.fixed)?.relu()?;
         let mut fixed = self.memory.start(batch.fixed.dim(0)?)?;
         let mut moving = self.memory.start(events * MOVING)?;
@@ -39,7 +39,7 @@ impl NodeEmbedding {
         for (row, features) in batch.moving.iter().enumerate() {
             fixed = self.memory.step(&fixed_features, &fixed, None)?;
             let features = self.features.forward(features)?.relu()?;
-            moving = self.memory.step(&features, &moving, batch.alive(row, MOVING))?;
+            moving = self.memory.step(&features, &moving, batch.active(row, MOVING))?;
             let placed = self.memory.output(&fixed)?.index_select(&batch.fixed_places, 0)?;
             let moved = self.memory.output(&moving)?;
             embeddings.push(Tensor::cat(&[by_event(&moved, MOVING)?, by_event(&placed, FIXED)?], 1)?);

@@ -9,6 +9,6 @@ mod samples;
 mod score;
 mod training;
 
-pub use samples::{Motion, Sample, WINDOW};
-pub use score::{Score, commonest, nearest, score};
-pub use training::{Epoch, Settings, TrainingError, train};
+pub use samples::{AgentSamples, Sample, WINDOW};
+pub use score::{Score, most_common, nearest, score};
+pub use training::{Epoch, StrengthTrainingSettings, TrainingError, train};

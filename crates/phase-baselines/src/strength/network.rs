@@ -8,14 +8,14 @@ use phase_simple::strength::{Dense, FEATURES, Weights};
 
 /// Numbers as means of 0 and standard deviations of 1, and back.
 #[derive(Clone, Debug)]
-pub(super) struct Standard {
-    features: [Moments; FEATURES],
-    force: Moments,
+pub(super) struct Standardisation {
+    features: [MeanAndDeviation; FEATURES],
+    force: MeanAndDeviation,
 }
 
 /// Mean and standard deviation, in the precision in which they are kept.
 #[derive(Clone, Copy, Debug)]
-struct Moments {
+struct MeanAndDeviation {
     mean: f32,
     deviation: f32,
 }
@@ -40,7 +40,7 @@ impl Network {
     }
 
     /// Mean squared error on some samples, in standard deviations of the force.
-    pub(super) fn loss(&self, samples: &[Sample], standard: &Standard) -> Result<Tensor> {
+    pub(super) fn loss(&self, samples: &[Sample], standard: &Standardisation) -> Result<Tensor> {
         let inputs: Vec<f32> = samples.iter().flat_map(|sample| standard.inputs(sample)).collect();
         let forces: Vec<f32> =
             samples.iter().map(|sample| standard.force.standardised(force(sample))).collect();
@@ -52,14 +52,14 @@ impl Network {
     }
 
     /// The network as it is now, answering in N.
-    pub(super) fn weights(&self, standard: &Standard) -> Result<Weights> {
+    pub(super) fn weights(&self, standard: &Standardisation) -> Result<Weights> {
         let [first, second, third] = &self.layers;
         let dense = |layer: &Layer, inputs, outputs| -> Result<Dense> {
-            let (weight, bias) = layer.numbers()?;
+            let (weight, bias) = layer.values()?;
             Ok(Dense { inputs, outputs, weight, bias })
         };
         let mut output = dense(third, self.hidden, 1)?;
-        let Moments { mean, deviation } = standard.force;
+        let MeanAndDeviation { mean, deviation } = standard.force;
         output.weight.iter_mut().for_each(|weight| *weight *= deviation);
         output.bias.iter_mut().for_each(|bias| *bias = *bias * deviation + mean);
         Ok(Weights {
@@ -73,12 +73,12 @@ impl Network {
     }
 }
 
-impl Standard {
+impl Standardisation {
     /// Of samples to learn from.
     pub(super) fn of<'a>(samples: impl Iterator<Item = &'a Sample> + Clone) -> Self {
         let features =
-            core::array::from_fn(|k| Moments::of(samples.clone().map(|sample| sample.features[k])));
-        Self { features, force: Moments::of(samples.map(force)) }
+            core::array::from_fn(|k| MeanAndDeviation::of(samples.clone().map(|sample| sample.features[k])));
+        Self { features, force: MeanAndDeviation::of(samples.map(force)) }
     }
 
     /// The standard deviation of the forces (N).
@@ -91,11 +91,11 @@ impl Standard {
     }
 }
 
-impl Moments {
-    fn of(numbers: impl Iterator<Item = f64> + Clone) -> Self {
-        let count = numbers.clone().count().max(1) as f64;
-        let mean = numbers.clone().sum::<f64>() / count;
-        let variance = numbers.map(|number| (number - mean) * (number - mean)).sum::<f64>() / count;
+impl MeanAndDeviation {
+    fn of(values: impl Iterator<Item = f64> + Clone) -> Self {
+        let count = values.clone().count().max(1) as f64;
+        let mean = values.clone().sum::<f64>() / count;
+        let variance = values.map(|number| (number - mean) * (number - mean)).sum::<f64>() / count;
         // What is always the same tells nothing, and must not be blown up.
         let deviation = if variance > 1e-12 { variance.sqrt() as f32 } else { 1.0 };
         Self { mean: mean as f32, deviation }

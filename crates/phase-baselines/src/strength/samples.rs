@@ -18,14 +18,14 @@ pub struct Sample {
 
 /// One agent in one event.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Motion {
+pub struct AgentSamples {
     /// The whole event.
     pub whole: Sample,
     /// Every stretch of [`WINDOW`] steps in order; the whole event alone if it is shorter than that.
     pub windows: Vec<Sample>,
 }
 
-impl Motion {
+impl AgentSamples {
     /// Both agents of an event, with their strengths.
     #[must_use]
     pub fn of_event(event: &ObservedEvent, strengths: [Strength; AGENT_COUNT]) -> [Self; AGENT_COUNT] {

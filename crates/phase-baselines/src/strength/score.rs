@@ -60,7 +60,7 @@ pub fn nearest(force: f64) -> Strength {
 
 /// The most common level; the weaker one in a tie.
 #[must_use]
-pub fn commonest<'a>(samples: impl Iterator<Item = &'a Sample>) -> Strength {
+pub fn most_common<'a>(samples: impl Iterator<Item = &'a Sample>) -> Strength {
     let mut counts = [0_usize; Strength::ALL.len()];
     for sample in samples {
         counts[usize::from(sample.strength.level())] += 1;

@@ -1,8 +1,8 @@
 //! Learning strengths: Adam on the squared error, until events not trained on are estimated no better.
 
 use super::{
-    Motion, Sample, commonest,
-    network::{Network, Standard},
+    AgentSamples, Sample, most_common,
+    network::{Network, Standardisation},
     score,
 };
 use candle_nn::{AdamW, Optimizer, ParamsAdamW};
@@ -13,7 +13,7 @@ use thiserror::Error;
 
 /// How to train. The paper gives the hidden layers' size; the rest is the custom of the field.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Settings {
+pub struct StrengthTrainingSettings {
     /// Size of both hidden layers, at least 1.
     pub hidden: usize,
     /// Samples between two changes of the weights, at least 1.
@@ -28,7 +28,7 @@ pub struct Settings {
     pub epochs: usize,
 }
 
-impl Default for Settings {
+impl Default for StrengthTrainingSettings {
     fn default() -> Self {
         Self { hidden: 64, batch: 64, learning_rate: 1e-3, windows: 4, patience: 30, epochs: 500 }
     }
@@ -62,7 +62,7 @@ pub enum TrainingError {
     Network(#[from] candle_core::Error),
     /// Training diverged.
     #[error("training diverged in epoch {epoch}: {source}")]
-    Apart {
+    Diverged {
         /// The epoch, from 1.
         epoch: usize,
         /// What is wrong with the weights.
@@ -71,16 +71,16 @@ pub enum TrainingError {
 }
 
 /// Trains a regressor; the weights are those of the best epoch. The same seed and motion give the same weights.
-/// `told` hears of every epoch.
+/// `on_epoch` hears of every epoch.
 ///
 /// # Errors
 /// [`TrainingError`].
 pub fn train(
-    training: &[Motion],
-    validation: &[Motion],
+    training: &[AgentSamples],
+    validation: &[AgentSamples],
     seed: u64,
-    settings: &Settings,
-    told: &mut dyn FnMut(&Epoch),
+    settings: &StrengthTrainingSettings,
+    on_epoch: &mut dyn FnMut(&Epoch),
 ) -> Result<StrengthRegressor, TrainingError> {
     for (name, motions) in [("training", training), ("validation", validation)] {
         if motions.is_empty() {
@@ -88,7 +88,7 @@ pub fn train(
         }
     }
     let standard =
-        Standard::of(training.iter().flat_map(|motion| motion.windows.iter().chain([&motion.whole])));
+        Standardisation::of(training.iter().flat_map(|motion| motion.windows.iter().chain([&motion.whole])));
     let network = Network::new(settings.hidden.max(1), &mut random::stream(seed, Purpose::Training, 0))?;
     // Without decay of weights, AdamW is Adam.
     let adam = ParamsAdamW { lr: settings.learning_rate, weight_decay: 0.0, ..ParamsAdamW::default() };
@@ -96,20 +96,20 @@ pub fn train(
     let mut best: Option<(f64, usize, StrengthRegressor)> = None;
     for number in 1..=settings.epochs.max(1) {
         let mut random = random::stream(seed, Purpose::Training, number as u64);
-        let samples = drawn(training, settings.windows, &mut random);
+        let samples = sample_rows(training, settings.windows, &mut random);
         let mut squares = 0.0;
         for batch in samples.chunks(settings.batch.max(1)) {
             let loss = network.loss(batch, &standard)?;
             optimiser.backward_step(&loss)?;
             squares += f64::from(loss.to_scalar::<f32>()?) * batch.len() as f64;
         }
-        let apart = |source| TrainingError::Apart { epoch: number, source };
+        let apart = |source| TrainingError::Diverged { epoch: number, source };
         let mut weights = network.weights(&standard)?;
         let regressor = StrengthRegressor::new(weights.clone()).map_err(apart)?;
         let (whole, windows) = validated(&regressor, validation);
         let error = (0.5 * (whole * whole + windows * windows)).sqrt();
         let better = best.as_ref().is_none_or(|(least, _, _)| error < *least);
-        told(&Epoch {
+        on_epoch(&Epoch {
             number,
             training: (squares / samples.len() as f64).sqrt() * standard.force_deviation(),
             whole,
@@ -128,7 +128,7 @@ pub fn train(
 }
 
 /// The samples of an epoch: each motion as a whole and some stretches of it, in random order.
-fn drawn(motions: &[Motion], windows: usize, random: &mut Pcg64Mcg) -> Vec<Sample> {
+fn sample_rows(motions: &[AgentSamples], windows: usize, random: &mut Pcg64Mcg) -> Vec<Sample> {
     let mut samples = Vec::with_capacity(motions.len() * (1 + windows));
     for motion in motions {
         samples.push(motion.whole);
@@ -141,8 +141,8 @@ fn drawn(motions: &[Motion], windows: usize, random: &mut Pcg64Mcg) -> Vec<Sampl
 }
 
 /// Errors on whole motions and on stretches (N).
-fn validated(regressor: &StrengthRegressor, motions: &[Motion]) -> (f64, f64) {
-    let guess = commonest(motions.iter().map(|motion| &motion.whole));
+fn validated(regressor: &StrengthRegressor, motions: &[AgentSamples]) -> (f64, f64) {
+    let guess = most_common(motions.iter().map(|motion| &motion.whole));
     let whole = motions.iter().map(|motion| core::slice::from_ref(&motion.whole));
     let windows = motions.iter().map(|motion| &*motion.windows);
     (score(regressor, whole, guess).rmse, score(regressor, windows, guess).rmse)

@@ -1,6 +1,6 @@
 //! Adam (Kingma and Ba, 2015), with moments that can be saved and restored.
 
-use crate::parameters::{Parameter, numbers, set_numbers};
+use crate::parameters::{Parameter, set_values, values};
 use candle_core::{Result, backprop::GradStore};
 
 const BETA_1: f64 = 0.9;
@@ -26,37 +26,40 @@ impl Adam {
         Self { steps: 0, first: zeros.clone(), second: zeros }
     }
 
-    /// Updates the parameters by the gradients of a loss, clipped to the global norm `longest`. A parameter that the
+    /// Updates the parameters by the gradients of a loss, clipped to the global norm `max_norm`. A parameter that the
     /// loss does not depend on has gradient 0.
     pub(super) fn step(
         &mut self,
         parameters: &[Parameter],
-        slopes: &GradStore,
+        gradients: &GradStore,
         rate: f64,
-        longest: f64,
+        max_norm: f64,
     ) -> Result<()> {
-        let slope = |(_, variable): &Parameter| match slopes.get(variable) {
-            Some(slope) => slope.flatten_all()?.to_vec1::<f32>(),
+        let gradient = |(_, variable): &Parameter| match gradients.get(variable) {
+            Some(gradient) => gradient.flatten_all()?.to_vec1::<f32>(),
             None => Ok(vec![0.0; variable.elem_count()]),
         };
-        let slopes: Vec<Vec<f32>> = parameters.iter().map(slope).collect::<Result<_>>()?;
-        let squares: f64 = slopes.iter().flatten().map(|slope| f64::from(*slope) * f64::from(*slope)).sum();
-        let shortened = (longest / squares.sqrt().max(longest)) as f32;
+        let gradients: Vec<Vec<f32>> = parameters.iter().map(gradient).collect::<Result<_>>()?;
+        let squares: f64 =
+            gradients.iter().flatten().map(|gradient| f64::from(*gradient) * f64::from(*gradient)).sum();
+        let shortened = (max_norm / squares.sqrt().max(max_norm)) as f32;
         self.steps += 1;
         let grown = |beta: f64| 1.0 - libm::pow(beta, f64::from(self.steps));
         let (rate, root) = ((rate / grown(BETA_1)) as f32, (1.0 / grown(BETA_2)) as f32);
         let (beta_1, beta_2) = (BETA_1 as f32, BETA_2 as f32);
-        let mut all = numbers(parameters)?;
-        for (((numbers, slopes), first), second) in
-            all.iter_mut().zip(&slopes).zip(&mut self.first).zip(&mut self.second)
+        let mut all = values(parameters)?;
+        for (((values, gradients), first), second) in
+            all.iter_mut().zip(&gradients).zip(&mut self.first).zip(&mut self.second)
         {
-            for (((number, slope), first), second) in numbers.iter_mut().zip(slopes).zip(first).zip(second) {
-                let slope = slope * shortened;
-                *first = beta_1 * *first + (1.0 - beta_1) * slope;
-                *second = beta_2 * *second + (1.0 - beta_2) * slope * slope;
+            for (((number, gradient), first), second) in
+                values.iter_mut().zip(gradients).zip(first).zip(second)
+            {
+                let gradient = gradient * shortened;
+                *first = beta_1 * *first + (1.0 - beta_1) * gradient;
+                *second = beta_2 * *second + (1.0 - beta_2) * gradient * gradient;
                 *number -= rate * *first / ((*second * root).sqrt() + EPSILON);
             }
         }
-        set_numbers(parameters, &all)
+        set_values(parameters, &all)
     }
 }

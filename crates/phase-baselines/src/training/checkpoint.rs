@@ -1,6 +1,6 @@
 //! A training between two rounds, at rest.
 
-use super::{Network, NetworkError, Round, Run, Settings, adam::Adam};
+use super::{Network, NetworkError, Round, TrainingRun, TrainingSettings, adam::Adam};
 use crate::parameters::{self, Parameter};
 use phase_tensors::{NamedTensor, TensorFile, TensorsError, write};
 use serde::{Deserialize, Serialize};
@@ -19,7 +19,7 @@ pub struct Checkpoint {
     /// The seed.
     pub seed: u64,
     /// The settings.
-    pub settings: Settings,
+    pub settings: TrainingSettings,
     /// Digest of the training and validation events.
     pub data: String,
 }
@@ -27,7 +27,7 @@ pub struct Checkpoint {
 /// What the metadata says.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Said {
+struct CheckpointMetadata {
     of: Checkpoint,
     steps: u32,
     rounds: Vec<Round>,
@@ -53,7 +53,7 @@ impl From<TensorsError> for CheckpointError {
     }
 }
 
-impl<N: Network> Run<N> {
+impl<N: Network> TrainingRun<N> {
     /// Identity of this training for the given digest of its data.
     #[must_use]
     pub fn checkpoint_of(&self, data: &str) -> Checkpoint {
@@ -67,16 +67,20 @@ impl<N: Network> Run<N> {
     /// If it cannot be read or laid out in a file.
     pub fn checkpoint(&self, data: &str) -> Result<Vec<u8>, CheckpointError> {
         let parameters = self.network.parameters();
-        let now = parameters::numbers(&parameters).map_err(NetworkError::from)?;
+        let now = parameters::values(&parameters).map_err(NetworkError::from)?;
         let mut tensors = Vec::new();
         let parts = [Some(&now), Some(&self.adam.first), Some(&self.adam.second), self.best.as_ref()];
-        for (part, numbers) in PARTS.into_iter().zip(parts) {
-            for ((name, variable), numbers) in parameters.iter().zip(numbers.into_iter().flatten()) {
+        for (part, values) in PARTS.into_iter().zip(parts) {
+            for ((name, variable), values) in parameters.iter().zip(values.into_iter().flatten()) {
                 let (name, shape) = (format!("{part}{name}"), variable.dims().into());
-                tensors.push(NamedTensor { name, shape, numbers: numbers.clone() });
+                tensors.push(NamedTensor { name, shape, values: values.clone() });
             }
         }
-        let said = Said { of: self.checkpoint_of(data), steps: self.adam.steps, rounds: self.rounds.clone() };
+        let said = CheckpointMetadata {
+            of: self.checkpoint_of(data),
+            steps: self.adam.steps,
+            rounds: self.rounds.clone(),
+        };
         let said = serde_json::to_string(&said)?;
         Ok(write(&tensors, FIELD, &said)?)
     }
@@ -88,8 +92,8 @@ impl<N: Network> Run<N> {
     pub fn resume(&mut self, bytes: &[u8], data: &str) -> Result<(), CheckpointError> {
         let file = TensorFile::open(bytes, FIELD)?;
         let missing = || TensorsError::Kind { field: FIELD, expected: "a training's state".into() };
-        let said = file.says().ok_or_else(missing)?;
-        let said: Said = serde_json::from_str(said)?;
+        let said = file.metadata_value().ok_or_else(missing)?;
+        let said: CheckpointMetadata = serde_json::from_str(said)?;
         let (theirs, ours) = (&said.of, self.checkpoint_of(data));
         let differences = [
             (theirs.network != ours.network, "network"),
@@ -105,7 +109,7 @@ impl<N: Network> Run<N> {
         let has_best = parameters.first().is_some_and(|(name, _)| file.has(&format!("{}{name}", PARTS[3])));
         let best = if has_best { Some(best?) } else { None };
         let (now, first, second) = (now?, first?, second?);
-        parameters::set_numbers(&parameters, &now).map_err(NetworkError::from)?;
+        parameters::set_values(&parameters, &now).map_err(NetworkError::from)?;
         self.adam = Adam { steps: said.steps, first, second };
         self.rounds = said.rounds;
         self.best = best;
@@ -118,6 +122,6 @@ fn part_of(
     part: &str,
     parameters: &[Parameter],
 ) -> Result<Vec<Vec<f32>>, TensorsError> {
-    let numbers = |(name, variable): &Parameter| file.numbers(&format!("{part}{name}"), variable.dims());
-    parameters.iter().map(numbers).collect()
+    let values = |(name, variable): &Parameter| file.values(&format!("{part}{name}"), variable.dims());
+    parameters.iter().map(values).collect()
 }

@@ -12,7 +12,7 @@ mod weights;
 
 pub use checkpoint::{Checkpoint, CheckpointError};
 pub use network::{Loss, Network};
-pub use published::Published;
-pub use record::{Final, NamedMeasure, Record, RecordError, RecordedRound, Source};
-pub use run::{Measure, Round, Run, Settings, TrainingError, measure};
+pub use published::PublishedNetwork;
+pub use record::{DataSource, Final, NamedMetrics, RecordedRound, TrainingRecord, TrainingRecordError};
+pub use run::{Metrics, Round, TrainingError, TrainingRun, TrainingSettings, evaluate};
 pub use weights::{NetworkError, from_safetensors, to_safetensors};

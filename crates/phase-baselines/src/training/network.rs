@@ -1,6 +1,6 @@
 //! What can be trained.
 
-use super::Measure;
+use super::Metrics;
 use crate::parameters::Parameter;
 use candle_core::{Result, Tensor};
 use phase_model::random::Pcg64Mcg;
@@ -14,7 +14,7 @@ pub trait Network {
     const NAME: &'static str;
 
     /// What is measured beside the loss, by name.
-    const SCORES: &'static [&'static str];
+    const METRICS: &'static [&'static str];
 
     /// Trainable parameters, always in the same order.
     fn parameters(&self) -> Vec<Parameter>;
@@ -23,12 +23,12 @@ pub trait Network {
     /// sample its input; without one it is evaluated deterministically.
     ///
     /// # Errors If a tensor cannot be allocated.
-    fn loss(&self, samples: &[&Self::Sample], chance: Option<&mut Pcg64Mcg>) -> Result<Loss>;
+    fn loss(&self, samples: &[&Self::Sample], random: Option<&mut Pcg64Mcg>) -> Result<Loss>;
 
     /// The criterion minimised over rounds on the validation events; the loss unless overridden.
     #[must_use]
-    fn shortcoming(measure: &Measure) -> f64 {
-        measure.loss
+    fn selection_loss(evaluate: &Metrics) -> f64 {
+        evaluate.loss
     }
 }
 
@@ -37,6 +37,6 @@ pub trait Network {
 pub struct Loss {
     /// What is to become less: one number that knows where it comes from.
     pub loss: Tensor,
-    /// A number for each of [`Network::SCORES`].
+    /// A number for each of [`Network::METRICS`].
     pub scores: Vec<f64>,
 }

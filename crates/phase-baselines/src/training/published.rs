@@ -1,15 +1,15 @@
 //! The networks as the paper has them, and as they come with the program.
 
-use super::{Network, NetworkError, Run, from_safetensors};
+use super::{Network, NetworkError, TrainingRun, from_safetensors};
 use candle_core::Result;
 use phase_model::random::Pcg64Mcg;
 
 /// A network of the paper's size, whose weights come with the program.
-pub trait Published: Network + Sized {
+pub trait PublishedNetwork: Network + Sized {
     /// What `cargo train` learnt; `docs/networks.md` says from what.
-    const SHIPPED: &'static [u8];
-    /// The [`Record`](super::Record) of that training, as a file.
-    const RECORD: &'static str;
+    const BUNDLED_WEIGHTS: &'static [u8];
+    /// The [`TrainingRecord`](super::TrainingRecord) of that training, as a file.
+    const BUNDLED_RECORD: &'static str;
 
     /// The untrained network with 64 hidden units in every layer.
     ///
@@ -17,12 +17,12 @@ pub trait Published: Network + Sized {
     fn published(random: &mut Pcg64Mcg) -> Result<Self>;
 
     /// The network with the weights in a file of [`to_safetensors`](super::to_safetensors), such as
-    /// [`SHIPPED`](Self::SHIPPED).
+    /// [`BUNDLED_WEIGHTS`](Self::BUNDLED_WEIGHTS).
     ///
     /// # Errors
     /// As [`from_safetensors`].
     fn with_weights(bytes: &[u8]) -> core::result::Result<Self, NetworkError> {
         // What is drawn is overwritten.
-        from_safetensors(Self::published(&mut Run::<Self>::first_weights(0))?, bytes)
+        from_safetensors(Self::published(&mut TrainingRun::<Self>::first_weights(0))?, bytes)
     }
 }

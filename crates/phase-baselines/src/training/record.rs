@@ -1,6 +1,6 @@
 //! What is written down of a training: on what, how, how well and how long.
 
-use super::{Measure, Network, Round, Run, Settings};
+use super::{Metrics, Network, Round, TrainingRun, TrainingSettings};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use thiserror::Error;
@@ -8,7 +8,7 @@ use thiserror::Error;
 /// A training from its first round on; `docs/formats.md` has the file.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Record {
+pub struct TrainingRecord {
     format: Format,
     /// The network's name.
     pub network: String,
@@ -17,11 +17,11 @@ pub struct Record {
     /// The seed.
     pub seed: u64,
     /// The settings.
-    pub settings: Settings,
+    pub settings: TrainingSettings,
     /// Training data.
-    pub data: Source,
+    pub data: DataSource,
     /// What is validated on.
-    pub validation: Source,
+    pub validation: DataSource,
     /// All rounds so far.
     pub rounds: Vec<RecordedRound>,
     /// The number of the best one; `None` before the first.
@@ -38,7 +38,7 @@ pub struct Record {
 /// Some events of a dataset.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Source {
+pub struct DataSource {
     /// The name of the dataset's folder.
     pub folder: String,
     /// SHA-256 over ids, splits and checksums of all its events, in lower-case hexadecimal.
@@ -54,9 +54,9 @@ pub struct RecordedRound {
     /// Its number, from 1.
     pub number: usize,
     /// On the training events, during training.
-    pub training: NamedMeasure,
+    pub training: NamedMetrics,
     /// On the validation events afterwards.
-    pub validation: NamedMeasure,
+    pub validation: NamedMetrics,
     /// Whether it was the best up to then.
     pub best: bool,
     /// Processor time of learning and validation, all threads together (s).
@@ -68,7 +68,7 @@ pub struct RecordedRound {
 /// Means over some events, each by its name.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct NamedMeasure {
+pub struct NamedMetrics {
     /// The loss.
     pub loss: f64,
     /// What else is measured.
@@ -80,17 +80,17 @@ pub struct NamedMeasure {
 #[serde(deny_unknown_fields)]
 pub struct Final {
     /// On the training events.
-    pub train: NamedMeasure,
+    pub train: NamedMetrics,
     /// On the validation events.
-    pub validation: NamedMeasure,
+    pub validation: NamedMetrics,
     /// On the test events, if that was asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub test: Option<NamedMeasure>,
+    pub test: Option<NamedMetrics>,
 }
 
 /// Why some bytes are no record, or not that of a training.
 #[derive(Debug, Error)]
-pub enum RecordError {
+pub enum TrainingRecordError {
     /// They cannot be read.
     #[error("is not a training record: {0}")]
     Text(#[from] serde_json::Error),
@@ -114,19 +114,19 @@ enum Format {
     Training1,
 }
 
-impl NamedMeasure {
+impl NamedMetrics {
     /// Gives what a network of this kind is measured by its names.
     #[must_use]
-    pub fn of<N: Network>(measure: &Measure) -> Self {
-        let names = N::SCORES.iter().map(|&name| name.to_owned());
-        Self { loss: measure.loss, scores: names.zip(measure.scores.iter().copied()).collect() }
+    pub fn of<N: Network>(evaluate: &Metrics) -> Self {
+        let names = N::METRICS.iter().map(|&name| name.to_owned());
+        Self { loss: evaluate.loss, scores: names.zip(evaluate.scores.iter().copied()).collect() }
     }
 }
 
-impl Record {
+impl TrainingRecord {
     /// The record of a run before its first round.
     #[must_use]
-    pub fn new<N: Network>(run: &Run<N>, data: Source, validation: Source) -> Self {
+    pub fn new<N: Network>(run: &TrainingRun<N>, data: DataSource, validation: DataSource) -> Self {
         Self {
             format: Format::Training1,
             network: N::NAME.into(),
@@ -147,8 +147,8 @@ impl Record {
     pub fn add<N: Network>(&mut self, round: &Round, cpu_seconds: f64, seconds: f64) {
         self.rounds.push(RecordedRound {
             number: round.number,
-            training: NamedMeasure::of::<N>(&round.training),
-            validation: NamedMeasure::of::<N>(&round.validation),
+            training: NamedMetrics::of::<N>(&round.training),
+            validation: NamedMetrics::of::<N>(&round.validation),
             best: round.best,
             cpu_seconds,
             seconds,
@@ -160,8 +160,12 @@ impl Record {
     /// them, for it is written before a checkpoint is; those are dropped, since they are gone through again.
     ///
     /// # Errors
-    /// [`RecordError::Other`]; this record is then as it was.
-    pub fn resume<N: Network>(&mut self, earlier: Self, run: &Run<N>) -> Result<(), RecordError> {
+    /// [`TrainingRecordError::Other`]; this record is then as it was.
+    pub fn resume<N: Network>(
+        &mut self,
+        earlier: Self,
+        run: &TrainingRun<N>,
+    ) -> Result<(), TrainingRecordError> {
         let differences = [
             (earlier.network != self.network, "network"),
             (earlier.seed != self.seed, "seed"),
@@ -171,7 +175,7 @@ impl Record {
             (!has_rounds_of(&earlier, run), "course"),
         ];
         if let Some((_, what)) = differences.into_iter().find(|(differs, _)| *differs) {
-            return Err(RecordError::Other(what));
+            return Err(TrainingRecordError::Other(what));
         }
         self.rounds = earlier.rounds;
         self.rounds.truncate(run.rounds().len());
@@ -182,21 +186,21 @@ impl Record {
     /// Reads a record.
     ///
     /// # Errors
-    /// [`RecordError`], but not [`RecordError::Other`].
-    pub fn parse(bytes: &[u8]) -> Result<Self, RecordError> {
+    /// [`TrainingRecordError`], but not [`TrainingRecordError::Other`].
+    pub fn parse(bytes: &[u8]) -> Result<Self, TrainingRecordError> {
         let record: Self = serde_json::from_slice(bytes)?;
         if record.rounds.iter().zip(1..).any(|(round, number)| round.number != number) {
-            return Err(RecordError::Order);
+            return Err(TrainingRecordError::Order);
         }
         if record.best_round != record.last_best() {
-            return Err(RecordError::Best);
+            return Err(TrainingRecordError::Best);
         }
         let rounds = || record.rounds.iter();
         if rounds().any(|round| round.cpu_seconds < 0.0) || record.cpu_seconds < 0.0 {
-            return Err(RecordError::Time("cpu_seconds"));
+            return Err(TrainingRecordError::Time("cpu_seconds"));
         }
         if rounds().any(|round| round.seconds < 0.0) || record.seconds < 0.0 {
-            return Err(RecordError::Time("seconds"));
+            return Err(TrainingRecordError::Time("seconds"));
         }
         Ok(record)
     }
@@ -220,11 +224,11 @@ impl Record {
     }
 }
 
-fn has_rounds_of<N: Network>(record: &Record, run: &Run<N>) -> bool {
+fn has_rounds_of<N: Network>(record: &TrainingRecord, run: &TrainingRun<N>) -> bool {
     let same = |(ours, theirs): (&Round, &RecordedRound)| {
         ours.best == theirs.best
-            && NamedMeasure::of::<N>(&ours.training) == theirs.training
-            && NamedMeasure::of::<N>(&ours.validation) == theirs.validation
+            && NamedMetrics::of::<N>(&ours.training) == theirs.training
+            && NamedMetrics::of::<N>(&ours.validation) == theirs.validation
     };
     record.rounds.len() >= run.rounds().len() && run.rounds().iter().zip(&record.rounds).all(same)
 }

@@ -11,13 +11,14 @@ use thiserror::Error;
 /// amount of work, and patience has the same meaning, for every dataset.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Settings {
+pub struct TrainingSettings {
     /// Batch size (events), at least 1.
     pub batch: usize,
     /// Adam's learning rate.
     pub learning_rate: f64,
     /// Maximum global norm of the gradients; larger ones are scaled down to it.
-    pub longest_slope: f64,
+    #[serde(rename = "longest_slope")]
+    pub max_gradient_norm: f64,
     /// Events in a round, at least 1. Events that are fewer come several times, of more it is the next part.
     pub round: usize,
     /// Rounds without any progress on the validation events after which training ends.
@@ -28,10 +29,10 @@ pub struct Settings {
 
 /// Means over some events.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
-pub struct Measure {
+pub struct Metrics {
     /// The loss.
     pub loss: f64,
-    /// What else is measured, in the order of [`Network::SCORES`].
+    /// What else is measured, in the order of [`Network::METRICS`].
     pub scores: Vec<f64>,
 }
 
@@ -41,9 +42,9 @@ pub struct Round {
     /// Its number, from 1.
     pub number: usize,
     /// On the training events, during training.
-    pub training: Measure,
-    /// On the validation events afterwards; [`Network::shortcoming`] is what has to become less.
-    pub validation: Measure,
+    pub training: Metrics,
+    /// On the validation events afterwards; [`Network::selection_loss`] is what has to become less.
+    pub validation: Metrics,
     /// Whether it was the best up to then.
     pub best: bool,
 }
@@ -59,27 +60,27 @@ pub enum TrainingError {
     Network(#[from] candle_core::Error),
     /// Training diverged.
     #[error("training diverged in round {0}: the loss is not finite")]
-    Apart(usize),
+    Diverged(usize),
 }
 
 /// A training in progress. All randomness is derived from the seed and the number of the round or pass, so it can
 /// stop after any round and resume.
 #[derive(Debug)]
-pub struct Run<N: Network> {
+pub struct TrainingRun<N: Network> {
     pub(super) network: N,
     pub(super) adam: Adam,
     pub(super) seed: u64,
-    pub(super) settings: Settings,
+    pub(super) settings: TrainingSettings,
     pub(super) rounds: Vec<Round>,
     /// The weights of the best round.
     pub(super) best: Option<Vec<Vec<f32>>>,
 }
 
-impl<N: Network> Run<N> {
+impl<N: Network> TrainingRun<N> {
     /// A run before its first round, of a network with its first weights; those are drawn from
     /// [`first_weights`](Self::first_weights).
     #[must_use]
-    pub fn new(network: N, seed: u64, settings: Settings) -> Self {
+    pub fn new(network: N, seed: u64, settings: TrainingSettings) -> Self {
         let adam = Adam::new(&network.parameters());
         Self { network, adam, seed, settings, rounds: Vec::new(), best: None }
     }
@@ -138,18 +139,18 @@ impl<N: Network> Run<N> {
         for batch in order.chunks(self.settings.batch.max(1)) {
             let loss = self.network.loss(batch, Some(&mut random))?;
             learnt.add(&loss, batch.len())?;
-            let Settings { learning_rate, longest_slope, .. } = self.settings;
-            self.adam.step(&parameters, &loss.loss.backward()?, learning_rate, longest_slope)?;
+            let TrainingSettings { learning_rate, max_gradient_norm, .. } = self.settings;
+            self.adam.step(&parameters, &loss.loss.backward()?, learning_rate, max_gradient_norm)?;
         }
-        let training = learnt.measure();
-        let validation = measure(&self.network, validation, self.settings.batch)?;
+        let training = learnt.evaluate();
+        let validation = evaluate(&self.network, validation, self.settings.batch)?;
         if !(training.loss.is_finite() && validation.loss.is_finite()) {
-            return Err(TrainingError::Apart(number));
+            return Err(TrainingError::Diverged(number));
         }
-        let short = N::shortcoming(&validation);
-        let best = self.best_round().is_none_or(|round| short < N::shortcoming(&round.validation));
+        let short = N::selection_loss(&validation);
+        let best = self.best_round().is_none_or(|round| short < N::selection_loss(&round.validation));
         if best {
-            self.best = Some(parameters::numbers(&parameters)?);
+            self.best = Some(parameters::values(&parameters)?);
         }
         self.rounds.push(Round { number, training, validation, best });
         self.rounds.last().ok_or(TrainingError::NoEvents("training"))
@@ -160,7 +161,7 @@ impl<N: Network> Run<N> {
     /// # Errors If they cannot be restored.
     pub fn into_best(self) -> Result<N> {
         if let Some(best) = &self.best {
-            parameters::set_numbers(&self.network.parameters(), best)?;
+            parameters::set_values(&self.network.parameters(), best)?;
         }
         Ok(self.network)
     }
@@ -169,13 +170,13 @@ impl<N: Network> Run<N> {
 /// How good a network is on some samples; zeros without any.
 ///
 /// # Errors If a tensor cannot be allocated.
-pub fn measure<N: Network>(network: &N, samples: &[N::Sample], batch: usize) -> Result<Measure> {
+pub fn evaluate<N: Network>(network: &N, samples: &[N::Sample], batch: usize) -> Result<Metrics> {
     let mut mean = Mean::default();
     let samples: Vec<&N::Sample> = samples.iter().collect();
     for batch in samples.chunks(batch.max(1)) {
         mean.add(&network.loss(batch, None)?, batch.len())?;
     }
-    Ok(mean.measure())
+    Ok(mean.evaluate())
 }
 
 /// A mean over batches, each sample counting alike.
@@ -196,9 +197,9 @@ impl Mean {
         Ok(())
     }
 
-    fn measure(self) -> Measure {
+    fn evaluate(self) -> Metrics {
         let samples = self.samples.max(1.0);
-        Measure {
+        Metrics {
             loss: self.loss / samples,
             scores: self.scores.into_iter().map(|sum| sum / samples).collect(),
         }

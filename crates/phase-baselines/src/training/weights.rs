@@ -24,11 +24,11 @@ pub enum NetworkError {
 /// If they cannot be read or laid out in a file.
 pub fn to_safetensors<N: Network>(network: &N) -> Result<Vec<u8>, NetworkError> {
     let parameters = network.parameters();
-    let numbers = parameters::numbers(&parameters)?;
-    let named = parameters.into_iter().zip(numbers).map(|((name, variable), numbers)| NamedTensor {
+    let values = parameters::values(&parameters)?;
+    let named = parameters.into_iter().zip(values).map(|((name, variable), values)| NamedTensor {
         name,
         shape: variable.dims().into(),
-        numbers,
+        values,
     });
     Ok(write(&named.collect::<Vec<_>>(), FIELD, &format::<N>())?)
 }
@@ -38,12 +38,12 @@ pub fn to_safetensors<N: Network>(network: &N) -> Result<Vec<u8>, NetworkError> 
 /// # Errors For bytes that are not such a file or belong to another network, and for tensors that are missing,
 /// unexpected, of another shape or not finite. The network is then unchanged.
 pub fn from_safetensors<N: Network>(network: N, bytes: &[u8]) -> Result<N, NetworkError> {
-    let file = TensorFile::open_kind(bytes, FIELD, &format::<N>())?;
+    let file = TensorFile::open_as(bytes, FIELD, &format::<N>())?;
     let parameters = network.parameters();
     file.check_names(|name| parameters.iter().any(|(known, _)| known == name))?;
-    let numbers = parameters.iter().map(|(name, variable)| file.numbers(name, variable.dims()));
-    let numbers = numbers.collect::<Result<Vec<_>, _>>()?;
-    parameters::set_numbers(&parameters, &numbers)?;
+    let values = parameters.iter().map(|(name, variable)| file.values(name, variable.dims()));
+    let values = values.collect::<Result<Vec<_>, _>>()?;
+    parameters::set_values(&parameters, &values)?;
     Ok(network)
 }
 

@@ -3,7 +3,7 @@
 use crate::support::{difference, event, random, unlike};
 use candle_core::{Device, Result, Tensor};
 use phase_baselines::{
-    forecasting::{Forecasting, HORIZON, Moment},
+    forecasting::{ForecastOrigin, Forecasting, HORIZON},
     nodes::{Batch, MOVING, Nodes},
     social_lstm::SocialLstm,
     stgat::Stgat,
@@ -17,14 +17,14 @@ fn networks() -> [Box<dyn Forecasting>; 2] {
 }
 
 /// What a network says of an event's row, for what is there.
-fn said(network: &dyn Forecasting, batch: &Batch, moment: Moment) -> Vec<f32> {
+fn said(network: &dyn Forecasting, batch: &Batch, moment: ForecastOrigin) -> Vec<f32> {
     let displacements = network.displacements(batch, &[moment]).expect("an answer");
     assert_eq!(displacements.dims(), [MOVING, HORIZON, 2]);
-    let there = (0..MOVING).filter(|&node| batch.has(moment.event, node));
+    let present = (0..MOVING).filter(|&node| batch.has(moment.event, node));
     let of_node = |node| -> Vec<f32> {
         displacements.get(node).expect("a node").flatten_all().expect("numbers").to_vec1().expect("numbers")
     };
-    there.flat_map(of_node).collect()
+    present.flat_map(of_node).collect()
 }
 
 #[test]
@@ -33,10 +33,10 @@ fn company_and_padding_change_nothing() {
     let all: Vec<&Nodes> = nodes.iter().collect();
     for network in networks() {
         for (event, nodes) in nodes.iter().enumerate() {
-            let moment = Moment { event, row: 3 };
+            let moment = ForecastOrigin { event, row: 3 };
             let together = said(&*network, &Batch::new(&all).unwrap(), moment);
             assert_eq!(together, said(&*network, &Batch::padded_with(&all, 55.5).unwrap(), moment));
-            let alone = said(&*network, &Batch::new(&[nodes]).unwrap(), Moment { event: 0, row: 3 });
+            let alone = said(&*network, &Batch::new(&[nodes]).unwrap(), ForecastOrigin { event: 0, row: 3 });
             assert!(difference(&together, &alone) < 1e-5);
         }
     }
@@ -48,9 +48,9 @@ fn what_comes_later_is_not_known() {
     for network in networks() {
         let at_row_4 = |event: &ObservedEvent| {
             let nodes = Nodes::of(event);
-            said(&*network, &Batch::new(&[&nodes]).unwrap(), Moment { event: 0, row: 4 })
+            said(&*network, &Batch::new(&[&nodes]).unwrap(), ForecastOrigin { event: 0, row: 4 })
         };
-        assert!(difference(&at_row_4(&event), &at_row_4(&event.watched_for(4))) < 1e-6);
+        assert!(difference(&at_row_4(&event), &at_row_4(&event.prefix(4))) < 1e-6);
         assert!(difference(&at_row_4(&event), &at_row_4(&crate::support::event(5, 12, 2, 0.0))) > 1e-4);
     }
 }
@@ -79,16 +79,16 @@ fn neighbours_matter_where_they_can_be_seen() {
 struct Onwards;
 
 impl Forecasting for Onwards {
-    fn displacements(&self, batch: &Batch, moments: &[Moment]) -> Result<Tensor> {
-        let [moment] = moments else { unreachable!("one event is asked about") };
+    fn displacements(&self, batch: &Batch, origins: &[ForecastOrigin]) -> Result<Tensor> {
+        let [moment] = origins else { unreachable!("one event is asked about") };
         let before = batch.positions(0, moment.row - 1).expect("a row");
         let now = batch.positions(0, moment.row).expect("a row");
-        let mut numbers = Vec::new();
+        let mut values = Vec::new();
         for node in 0..MOVING {
             let by = now[node] - before[node] + Vec2::new(0.0, 1.0);
-            (1..=HORIZON).for_each(|step| numbers.extend((by * step as f32).to_array()));
+            (1..=HORIZON).for_each(|step| values.extend((by * step as f32).to_array()));
         }
-        Tensor::from_vec(numbers, (MOVING, HORIZON, 2), &Device::Cpu)
+        Tensor::from_vec(values, (MOVING, HORIZON, 2), &Device::Cpu)
     }
 }
 

@@ -55,7 +55,7 @@ fn classes_are_the_same_for_both_agents() {
 fn goals_about_absent_objects_are_known() {
     for agent in AgentId::ALL {
         for objects in 0..=2 {
-            let there: BTreeSet<usize> = (0..CLASSES).filter(|&class| !is_absent(class, objects)).collect();
+            let present: BTreeSet<usize> = (0..CLASSES).filter(|&class| !is_absent(class, objects)).collect();
             let about = |goal: &Goal| matches!(goal, Goal::ObjectOnLandmark { object, .. } if usize::from(*object) >= objects);
             let expected = classes(agent)
                 .iter()
@@ -63,7 +63,7 @@ fn goals_about_absent_objects_are_known() {
                 .filter(|(_, goal)| !about(goal))
                 .map(|(class, _)| class)
                 .collect();
-            assert_eq!(there, expected);
+            assert_eq!(present, expected);
         }
     }
 }

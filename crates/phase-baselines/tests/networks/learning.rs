@@ -8,16 +8,22 @@ use phase_baselines::{
     social_lstm::SocialLstm,
     stgat::Stgat,
     training::{
-        CheckpointError, Measure, Network, NetworkError, Run, Settings, TrainingError, from_safetensors,
-        measure, to_safetensors,
+        CheckpointError, Metrics, Network, NetworkError, TrainingError, TrainingRun, TrainingSettings,
+        evaluate, from_safetensors, to_safetensors,
     },
     two_level_lstm::TwoLevelLstm,
 };
 use phase_model::random::Pcg64Mcg;
 use phase_tensors::TensorsError;
 
-const QUICK: Settings =
-    Settings { batch: 4, learning_rate: 4e-3, longest_slope: 10.0, round: 8, patience: 100, rounds: 400 };
+const QUICK: TrainingSettings = TrainingSettings {
+    batch: 4,
+    learning_rate: 4e-3,
+    max_gradient_norm: 10.0,
+    round: 8,
+    patience: 100,
+    rounds: 400,
+};
 
 fn lstm(random: &mut Pcg64Mcg) -> TwoLevelLstm {
     TwoLevelLstm::new(16, random).expect("a network")
@@ -27,8 +33,8 @@ fn arg(random: &mut Pcg64Mcg) -> Arg {
     Arg::new(16, 2, random).expect("a network")
 }
 
-fn run<N: Network>(new: fn(&mut Pcg64Mcg) -> N, seed: u64, settings: Settings) -> Run<N> {
-    Run::new(new(&mut Run::<N>::first_weights(seed)), seed, settings)
+fn run<N: Network>(new: fn(&mut Pcg64Mcg) -> N, seed: u64, settings: TrainingSettings) -> TrainingRun<N> {
+    TrainingRun::new(new(&mut TrainingRun::<N>::first_weights(seed)), seed, settings)
 }
 
 fn social(random: &mut Pcg64Mcg) -> SocialLstm {
@@ -42,10 +48,10 @@ fn stgat(random: &mut Pcg64Mcg) -> Stgat {
 fn every_parameter_has_a_slope<N: Network>(new: fn(&mut Pcg64Mcg) -> N, events: &[N::Sample]) {
     let network = new(&mut random(3));
     let events: Vec<&N::Sample> = events.iter().collect();
-    for chance in [None, Some(&mut random(4))] {
-        let loss = network.loss(&events, chance).expect("a loss");
+    for random in [None, Some(&mut random(4))] {
+        let loss = network.loss(&events, random).expect("a loss");
         assert_eq!(loss.loss.rank(), 0);
-        assert_eq!(loss.scores.len(), N::SCORES.len());
+        assert_eq!(loss.scores.len(), N::METRICS.len());
         let without = without_slope(&network.parameters(), &loss.loss);
         assert!(without.is_empty(), "{}: {without:?}", N::NAME);
     }
@@ -54,7 +60,7 @@ fn every_parameter_has_a_slope<N: Network>(new: fn(&mut Pcg64Mcg) -> N, events: 
 fn learns_by_heart<N: Network>(
     new: fn(&mut Pcg64Mcg) -> N,
     events: &[N::Sample],
-    learnt: fn(&Measure, &Measure) -> bool,
+    learnt: fn(&Metrics, &Metrics) -> bool,
 ) {
     let mut run = run(new, 1, QUICK);
     while !run.is_finished() {
@@ -68,13 +74,13 @@ fn learns_by_heart<N: Network>(
     let (first, best) = (run.rounds()[0].validation.clone(), run.best_round().expect("a best one").clone());
     assert!(learnt(&first, &best.validation), "{}: {first:?} {best:?}", N::NAME);
     // What is kept is what was best, whatever came after it.
-    let again = measure(&run.into_best().expect("a network"), events, QUICK.batch).expect("a measure");
+    let again = evaluate(&run.into_best().expect("a network"), events, QUICK.batch).expect("a measure");
     assert_eq!(again, best.validation);
 }
 
 fn goes_on_as_if_nothing_had_happened<N: Network>(new: fn(&mut Pcg64Mcg) -> N, events: &[N::Sample]) {
-    let settings = Settings { rounds: 4, ..QUICK };
-    let rounds = |run: &mut Run<N>, last: usize| {
+    let settings = TrainingSettings { rounds: 4, ..QUICK };
+    let rounds = |run: &mut TrainingRun<N>, last: usize| {
         while run.rounds().len() < last {
             run.round(events, events).expect("a round");
         }
@@ -82,15 +88,15 @@ fn goes_on_as_if_nothing_had_happened<N: Network>(new: fn(&mut Pcg64Mcg) -> N, e
     let mut straight = run(new, 1, settings);
     let mut stopped = run(new, 1, settings);
     rounds(&mut stopped, 2);
-    let kept = stopped.checkpoint("data").expect("a checkpoint");
+    let training_files = stopped.checkpoint("data").expect("a checkpoint");
     let mut later = run(new, 1, settings);
-    later.resume(&kept, "data").expect("the same training");
-    assert_eq!(later.checkpoint("data").expect("a checkpoint"), kept);
+    later.resume(&training_files, "data").expect("the same training");
+    assert_eq!(later.checkpoint("data").expect("a checkpoint"), training_files);
     rounds(&mut straight, 4);
     rounds(&mut later, 4);
     assert!(straight.is_finished());
     assert_eq!(straight.rounds(), later.rounds());
-    let bytes = |run: Run<N>| to_safetensors(&run.into_best().expect("a network")).expect("a file");
+    let bytes = |run: TrainingRun<N>| to_safetensors(&run.into_best().expect("a network")).expect("a file");
     let straight = bytes(straight);
     assert_eq!(straight, bytes(later));
     // Another seed is another training.
@@ -103,7 +109,7 @@ fn goes_on_as_if_nothing_had_happened<N: Network>(new: fn(&mut Pcg64Mcg) -> N, e
 }
 
 #[test]
-fn slopes() {
+fn gradients() {
     every_parameter_has_a_slope(lstm, &labelled());
     every_parameter_has_a_slope(arg, &labelled());
     every_parameter_has_a_slope(social, &unlike());
@@ -112,7 +118,7 @@ fn slopes() {
 
 #[test]
 fn answers_by_heart() {
-    let all_right = |_: &Measure, best: &Measure| best.scores == [1.0, 1.0];
+    let all_right = |_: &Metrics, best: &Metrics| best.scores == [1.0, 1.0];
     learns_by_heart(lstm, &labelled(), all_right);
     learns_by_heart(arg, &labelled(), all_right);
 }
@@ -120,7 +126,7 @@ fn answers_by_heart() {
 #[test]
 fn ways_by_heart() {
     let events: Vec<Nodes> = (0..8).map(|number| Nodes::of(&event(number, 12, number % 3, 0.0))).collect();
-    let near = |first: &Measure, best: &Measure| best.loss < 0.3 && best.loss < 0.2 * first.loss;
+    let near = |first: &Metrics, best: &Metrics| best.loss < 0.3 && best.loss < 0.2 * first.loss;
     learns_by_heart(social, &events, near);
     learns_by_heart(stgat, &events, near);
 }
@@ -136,7 +142,7 @@ fn breaks() {
 #[test]
 fn training_stops_when_nothing_is_gained() {
     let events = labelled();
-    let mut run = run(lstm, 1, Settings { learning_rate: 0.0, patience: 3, ..QUICK });
+    let mut run = run(lstm, 1, TrainingSettings { learning_rate: 0.0, patience: 3, ..QUICK });
     while !run.is_finished() {
         run.round(&events, &events).unwrap();
     }
@@ -147,35 +153,41 @@ fn training_stops_when_nothing_is_gained() {
 fn what_cannot_be_learnt_from_is_refused() {
     let events = labelled();
     let outcome = |training: &[LabelledEvent], validation: &[LabelledEvent], learning_rate| {
-        let mut run = run(lstm, 1, Settings { learning_rate, ..QUICK });
+        let mut run = run(lstm, 1, TrainingSettings { learning_rate, ..QUICK });
         run.round(training, validation).map(|_| ()).unwrap_err()
     };
     assert!(matches!(outcome(&[], &events, 0.1), TrainingError::NoEvents("training")));
     assert!(matches!(outcome(&events, &[], 0.1), TrainingError::NoEvents("validation")));
-    assert!(matches!(outcome(&events, &events, f64::INFINITY), TrainingError::Apart(1)));
+    assert!(matches!(outcome(&events, &events, f64::INFINITY), TrainingError::Diverged(1)));
 }
 
 #[test]
 fn files_of_others_are_refused() {
     let lstm_run = run(lstm, 1, QUICK);
-    let kept = lstm_run.checkpoint("data").unwrap();
-    let resumed = |seed, settings, data| run(lstm, seed, settings).resume(&kept, data).unwrap_err();
+    let training_files = lstm_run.checkpoint("data").unwrap();
+    let resumed = |seed, settings, data| run(lstm, seed, settings).resume(&training_files, data).unwrap_err();
     assert!(matches!(resumed(2, QUICK, "data"), CheckpointError::Other("seed")));
-    assert!(matches!(resumed(1, Settings { batch: 5, ..QUICK }, "data"), CheckpointError::Other("settings")));
+    assert!(matches!(
+        resumed(1, TrainingSettings { batch: 5, ..QUICK }, "data"),
+        CheckpointError::Other("settings")
+    ));
     assert!(matches!(resumed(1, QUICK, "others"), CheckpointError::Other("data")));
-    assert!(matches!(run(arg, 1, QUICK).resume(&kept, "data"), Err(CheckpointError::Other("network"))));
+    assert!(matches!(
+        run(arg, 1, QUICK).resume(&training_files, "data"),
+        Err(CheckpointError::Other("network"))
+    ));
     let weights = to_safetensors(&lstm(&mut random(0))).unwrap();
     for length in [0, 1, 8, 100, weights.len() - 1] {
         let error = from_safetensors(lstm(&mut random(0)), &weights[..length]).unwrap_err();
         assert!(matches!(error, NetworkError::Tensors(TensorsError::Container(_))), "{error}");
-        assert!(run(lstm, 1, QUICK).resume(&kept[..length], "data").is_err());
+        assert!(run(lstm, 1, QUICK).resume(&training_files[..length], "data").is_err());
     }
     let refused = |bytes: &[u8]| match from_safetensors(arg(&mut random(0)), bytes) {
         Err(NetworkError::Tensors(error)) => Some(error),
         _ => None,
     };
     assert!(matches!(refused(&weights), Some(TensorsError::Kind { field: "format", .. })));
-    assert!(matches!(refused(&kept), Some(TensorsError::Kind { field: "format", .. })));
+    assert!(matches!(refused(&training_files), Some(TensorsError::Kind { field: "format", .. })));
     // A network of another size.
     let large = to_safetensors(&Arg::new(17, 2, &mut random(0)).unwrap()).unwrap();
     assert!(matches!(refused(&large), Some(TensorsError::Shape { .. })));

@@ -12,9 +12,9 @@ const SIZE: usize = 4;
 fn inputs(steps: usize) -> Vec<Tensor> {
     (0..steps)
         .map(|step| {
-            let numbers: Vec<f32> =
+            let values: Vec<f32> =
                 (0..ROWS * INPUTS).map(|k| ((7 * step + 3 * k) % 5) as f32 * 0.4 - 0.8).collect();
-            Tensor::from_vec(numbers, (ROWS, INPUTS), &Device::Cpu).expect("numbers")
+            Tensor::from_vec(values, (ROWS, INPUTS), &Device::Cpu).expect("numbers")
         })
         .collect()
 }
@@ -55,35 +55,35 @@ fn a_step_by_hand() {
 fn slopes_are_those_of_small_changes() {
     let lstm = Lstm::new(INPUTS, SIZE, &mut random(1)).unwrap();
     let steps = inputs(4);
-    let alive: Arc<[bool]> = [true, false, true].into();
+    let active: Arc<[bool]> = [true, false, true].into();
     let first = Var::from_tensor(&steps[0]).unwrap();
     let loss = || {
         let mut state = lstm.start(ROWS).unwrap();
         for (k, input) in steps.iter().enumerate() {
             let input = if k == 0 { first.as_tensor() } else { input };
             // One row ends before the last step.
-            state = lstm.step(input, &state, (k == 3).then(|| alive.clone())).unwrap();
+            state = lstm.step(input, &state, (k == 3).then(|| active.clone())).unwrap();
         }
         let weights: Vec<f32> = (0..ROWS * 2 * SIZE).map(|k| (k % 7) as f32 - 3.0).collect();
         let weights = Tensor::from_vec(weights, (ROWS, 2 * SIZE), &Device::Cpu).unwrap();
         (state * weights).unwrap().sum_all().unwrap()
     };
-    let slopes = loss().backward().unwrap();
+    let gradients = loss().backward().unwrap();
     let mut variables: Vec<Var> = lstm.parameters("lstm").into_iter().map(|(_, variable)| variable).collect();
     variables.push(first.clone());
     for variable in variables {
-        let slope: Vec<f32> = slopes.get(&variable).unwrap().flatten_all().unwrap().to_vec1().unwrap();
-        let numbers: Vec<f32> = variable.flatten_all().unwrap().to_vec1().unwrap();
-        for place in 0..numbers.len() {
+        let gradient: Vec<f32> = gradients.get(&variable).unwrap().flatten_all().unwrap().to_vec1().unwrap();
+        let values: Vec<f32> = variable.flatten_all().unwrap().to_vec1().unwrap();
+        for place in 0..values.len() {
             let at = |change: f32| {
-                let mut changed = numbers.clone();
+                let mut changed = values.clone();
                 changed[place] += change;
                 variable.set(&Tensor::from_vec(changed, variable.shape(), &Device::Cpu).unwrap()).unwrap();
                 f64::from(loss().to_scalar::<f32>().unwrap())
             };
             let expected = (at(0.01) - at(-0.01)) / 0.02;
             at(0.0);
-            let found = f64::from(slope[place]);
+            let found = f64::from(gradient[place]);
             assert!((found - expected).abs() < 2e-3 * (1.0 + expected.abs()), "{found} is not {expected}");
         }
     }

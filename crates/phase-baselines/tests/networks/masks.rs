@@ -4,7 +4,7 @@ use crate::support::{difference, event, random, unlike};
 use phase_baselines::{
     arg::Arg,
     nodes::{Batch, Nodes},
-    recognition::{Answers, Recognition},
+    recognition::{Logits, Recognition},
     two_level_lstm::TwoLevelLstm,
 };
 use phase_event::ObservedEvent;
@@ -12,18 +12,18 @@ use phase_model::{Layout, Size};
 
 /// All that a network says of a batch, event by event.
 fn said(network: &dyn Recognition, batch: &Batch) -> Vec<Vec<f32>> {
-    let Answers { goals, relations } = network.answers(batch, None).expect("numbers");
+    let Logits { goals, relations } = network.logits(batch, None).expect("numbers");
     (0..batch.events())
         .map(|event| {
-            let mut numbers: Vec<f32> = goals
+            let mut values: Vec<f32> = goals
                 .get(event)
                 .expect("numbers")
                 .flatten_all()
                 .expect("numbers")
                 .to_vec1()
                 .expect("numbers");
-            numbers.extend(relations.get(event).expect("numbers").to_vec1::<f32>().expect("numbers"));
-            numbers
+            values.extend(relations.get(event).expect("numbers").to_vec1::<f32>().expect("numbers"));
+            values
         })
         .collect()
 }
@@ -98,8 +98,8 @@ fn the_order_of_rows_matters() {
     let back =
         ObservedEvent::new(straight.layout(), straight.agent_sizes(), straight.object_sizes().to_vec(), rows);
     for network in networks() {
-        let answers = [&straight, &back.clone().unwrap()].map(|event| network.judge(event).unwrap());
-        assert_ne!(answers[0].relation, answers[1].relation);
+        let logits = [&straight, &back.clone().unwrap()].map(|event| network.judge(event).unwrap());
+        assert_ne!(logits[0].relation, logits[1].relation);
     }
 }
 
@@ -109,7 +109,7 @@ fn frames_of_a_graph_have_no_order() {
     let nodes = Nodes::of(&event(3, 14, 2, 0.0));
     let batch = Batch::new(&[&nodes]).unwrap();
     let relations =
-        |rows| network.answers_at(&batch, &[rows]).unwrap().relations.get(0).unwrap().to_vec1().unwrap();
+        |rows| network.logits_at(&batch, &[rows]).unwrap().relations.get(0).unwrap().to_vec1().unwrap();
     let some: Vec<f32> = relations([0, 2, 3, 5, 6, 8, 9, 10, 12, 13]);
     assert!(difference(&some, &relations([9, 2, 13, 5, 12, 8, 0, 10, 6, 3])) < 1e-5);
     assert!(difference(&some, &relations([1, 2, 3, 5, 6, 8, 9, 10, 12, 13])) > 1e-5);

@@ -2,38 +2,47 @@
 
 use crate::support::{labelled, random};
 use phase_baselines::{
-    training::{Final, NamedMeasure, Record, RecordError, Run, Settings, Source, to_safetensors},
+    training::{
+        DataSource, Final, NamedMetrics, TrainingRecord, TrainingRecordError, TrainingRun, TrainingSettings,
+        to_safetensors,
+    },
     two_level_lstm::TwoLevelLstm,
 };
 use serde_json::{Value, json};
 
-const SETTINGS: Settings =
-    Settings { batch: 4, learning_rate: 1e-3, longest_slope: 10.0, round: 5, patience: 9, rounds: 9 };
+const SETTINGS: TrainingSettings = TrainingSettings {
+    batch: 4,
+    learning_rate: 1e-3,
+    max_gradient_norm: 10.0,
+    round: 5,
+    patience: 9,
+    rounds: 9,
+};
 
 /// Makes a record another one.
-type Change = fn(&mut Record);
+type Change = fn(&mut TrainingRecord);
 
-fn run(seed: u64) -> Run<TwoLevelLstm> {
-    Run::new(TwoLevelLstm::new(4, &mut random(seed)).expect("a network"), seed, SETTINGS)
+fn run(seed: u64) -> TrainingRun<TwoLevelLstm> {
+    TrainingRun::new(TwoLevelLstm::new(4, &mut random(seed)).expect("a network"), seed, SETTINGS)
 }
 
-fn source(events: usize) -> Source {
-    Source { folder: "events".into(), sha256: "0".repeat(64), events }
+fn source(events: usize) -> DataSource {
+    DataSource { folder: "events".into(), sha256: "0".repeat(64), events }
 }
 
-fn record(run: &Run<TwoLevelLstm>) -> Record {
-    Record::new(run, source(8), source(2))
+fn record(run: &TrainingRun<TwoLevelLstm>) -> TrainingRecord {
+    TrainingRecord::new(run, source(8), source(2))
 }
 
 /// Goes through so many rounds, each of 2 s on two threads.
-fn go_on(run: &mut Run<TwoLevelLstm>, record: &mut Record, rounds: usize) {
+fn go_on(run: &mut TrainingRun<TwoLevelLstm>, record: &mut TrainingRecord, rounds: usize) {
     let events = labelled();
     for _ in 0..rounds {
         record.add::<TwoLevelLstm>(run.round(&events, &events).expect("a round"), 4.0, 2.0);
     }
 }
 
-fn text(record: &Record) -> String {
+fn text(record: &TrainingRecord) -> String {
     record.to_json().expect("JSON")
 }
 
@@ -42,16 +51,16 @@ fn what_is_written_is_read() {
     let mut run = run(1);
     let mut record = record(&run);
     assert_eq!((record.best_round, &record.finished), (None, &None));
-    assert_eq!(Record::parse(text(&record).as_bytes()).expect("our own record"), record);
+    assert_eq!(TrainingRecord::parse(text(&record).as_bytes()).expect("our own record"), record);
     go_on(&mut run, &mut record, 3);
     assert_eq!((record.cpu_seconds, record.seconds), (12.0, 6.0));
     assert_eq!(record.best_round, run.best_round().map(|round| round.number));
     let last = run.rounds().last().expect("a round");
     assert_eq!(record.rounds[2].validation.loss, last.validation.loss);
     assert_eq!(record.rounds[2].validation.scores["relation"], last.validation.scores[1]);
-    let measure = NamedMeasure::of::<TwoLevelLstm>(&last.validation);
-    record.finished = Some(Final { train: measure.clone(), validation: measure, test: None });
-    assert_eq!(Record::parse(text(&record).as_bytes()).expect("our own record"), record);
+    let evaluate = NamedMetrics::of::<TwoLevelLstm>(&last.validation);
+    record.finished = Some(Final { train: evaluate.clone(), validation: evaluate, test: None });
+    assert_eq!(TrainingRecord::parse(text(&record).as_bytes()).expect("our own record"), record);
     // Every number of the file of weights counts: four bytes each, after the header.
     let network = run.into_best().expect("a network");
     let file = to_safetensors(&network).expect("a file");
@@ -64,10 +73,10 @@ fn times_add_up_after_a_break() {
     let (mut before, mut after) = (run(1), run(1));
     let mut earlier = record(&before);
     go_on(&mut before, &mut earlier, 2);
-    let kept = before.checkpoint("data").expect("a checkpoint");
+    let training_files = before.checkpoint("data").expect("a checkpoint");
     // The record is written first, so it may know of a round more than the checkpoint.
     go_on(&mut before, &mut earlier, 1);
-    after.resume(&kept, "data").expect("the same training");
+    after.resume(&training_files, "data").expect("the same training");
     let mut later = record(&after);
     later.resume(earlier.clone(), &after).expect("the same training");
     assert_eq!((later.rounds.len(), later.cpu_seconds, later.seconds), (2, 8.0, 4.0));
@@ -96,7 +105,7 @@ fn records_of_others_are_refused() {
         (|record| record.rounds[1].training.loss += 1e-9, "course"),
     ];
     for (change, what) in cases {
-        assert!(matches!(refused(change), RecordError::Other(found) if found == what));
+        assert!(matches!(refused(change), TrainingRecordError::Other(found) if found == what));
     }
 }
 
@@ -107,7 +116,10 @@ fn what_is_no_record_is_refused() {
     go_on(&mut run, &mut record, 2);
     let text = text(&record);
     for length in [0, 1, text.len() / 2, text.len() - 3] {
-        assert!(matches!(Record::parse(&text.as_bytes()[..length]), Err(RecordError::Text(_))));
+        assert!(matches!(
+            TrainingRecord::parse(&text.as_bytes()[..length]),
+            Err(TrainingRecordError::Text(_))
+        ));
     }
     let refused = |pointer: &str, value: Value| {
         let mut changed: Value = serde_json::from_str(&text).expect("JSON");
@@ -116,7 +128,7 @@ fn what_is_no_record_is_refused() {
             Value::Array(items) => items[key.parse::<usize>().expect("an index")] = value,
             parent => parent[key] = value,
         }
-        Record::parse(changed.to_string().as_bytes()).expect_err("no record")
+        TrainingRecord::parse(changed.to_string().as_bytes()).expect_err("no record")
     };
     let cases = [
         ("/format", json!("phase-training/2")),
@@ -129,10 +141,10 @@ fn what_is_no_record_is_refused() {
     ];
     for (pointer, value) in cases {
         let error = refused(pointer, value);
-        assert!(matches!(error, RecordError::Text(_)), "{pointer}: {error}");
+        assert!(matches!(error, TrainingRecordError::Text(_)), "{pointer}: {error}");
     }
-    assert!(matches!(refused("/rounds/0/number", json!(2)), RecordError::Order));
-    assert!(matches!(refused("/best_round", Value::Null), RecordError::Best));
-    assert!(matches!(refused("/cpu_seconds", json!(-1.0)), RecordError::Time("cpu_seconds")));
-    assert!(matches!(refused("/rounds/1/seconds", json!(-1.0)), RecordError::Time("seconds")));
+    assert!(matches!(refused("/rounds/0/number", json!(2)), TrainingRecordError::Order));
+    assert!(matches!(refused("/best_round", Value::Null), TrainingRecordError::Best));
+    assert!(matches!(refused("/cpu_seconds", json!(-1.0)), TrainingRecordError::Time("cpu_seconds")));
+    assert!(matches!(refused("/rounds/1/seconds", json!(-1.0)), TrainingRecordError::Time("seconds")));
 }

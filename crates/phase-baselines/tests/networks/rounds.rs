@@ -3,7 +3,7 @@
 use candle_core::{Device, Result, Tensor, Var};
 use phase_baselines::{
     parameters::Parameter,
-    training::{Loss, Network, Run, Settings, to_safetensors},
+    training::{Loss, Network, TrainingRun, TrainingSettings, to_safetensors},
 };
 use phase_model::random::Pcg64Mcg;
 use rand::RngExt;
@@ -19,16 +19,16 @@ struct Noting {
 impl Network for Noting {
     type Sample = usize;
     const NAME: &'static str = "noting";
-    const SCORES: &'static [&'static str] = &[];
+    const METRICS: &'static [&'static str] = &[];
 
     fn parameters(&self) -> Vec<Parameter> {
         vec![("weight".into(), self.weight.clone())]
     }
 
-    fn loss(&self, samples: &[&usize], chance: Option<&mut Pcg64Mcg>) -> Result<Loss> {
+    fn loss(&self, samples: &[&usize], random: Option<&mut Pcg64Mcg>) -> Result<Loss> {
         let mut target: f64 = samples.iter().map(|&&sample| (7 * sample % 5) as f64 - 2.0).sum();
-        if let Some(chance) = chance {
-            target += chance.random_range(0.0..1.0);
+        if let Some(random) = random {
+            target += random.random_range(0.0..1.0);
             self.seen.borrow_mut().extend(samples.iter().copied());
             self.batches.borrow_mut().push(samples.len());
         }
@@ -36,19 +36,25 @@ impl Network for Noting {
     }
 }
 
-const SETTINGS: Settings =
-    Settings { batch: 4, learning_rate: 0.1, longest_slope: 10.0, round: 10, patience: 100, rounds: 100 };
+const SETTINGS: TrainingSettings = TrainingSettings {
+    batch: 4,
+    learning_rate: 0.1,
+    max_gradient_norm: 10.0,
+    round: 10,
+    patience: 100,
+    rounds: 100,
+};
 
-fn new(seed: u64, settings: Settings) -> Run<Noting> {
+fn new(seed: u64, settings: TrainingSettings) -> TrainingRun<Noting> {
     let weight =
         Var::from_tensor(&Tensor::zeros(1, candle_core::DType::F32, &Device::Cpu).expect("enough memory"))
             .expect("enough memory");
     let network = Noting { weight, seen: RefCell::default(), batches: RefCell::default() };
-    Run::new(network, seed, settings)
+    TrainingRun::new(network, seed, settings)
 }
 
 /// What is shown in so many more rounds, round by round.
-fn shown(run: &mut Run<Noting>, samples: usize, rounds: usize) -> Vec<Vec<usize>> {
+fn shown(run: &mut TrainingRun<Noting>, samples: usize, rounds: usize) -> Vec<Vec<usize>> {
     let samples: Vec<usize> = (0..samples).collect();
     (0..rounds)
         .map(|_| {

@@ -68,10 +68,11 @@ pub(crate) fn difference(a: &[f32], b: &[f32]) -> f32 {
 
 /// Whether a loss has a slope other than 0 by every parameter; the names of those where it has none.
 pub(crate) fn without_slope(parameters: &[Parameter], loss: &candle_core::Tensor) -> Vec<String> {
-    let slopes = loss.backward().expect("slopes");
+    let gradients = loss.backward().expect("slopes");
     let flat = |(_, variable): &&Parameter| {
-        let Some(slope) = slopes.get(variable) else { return true };
-        slope.abs().expect("numbers").max_all().expect("numbers").to_scalar::<f32>().expect("numbers") == 0.0
+        let Some(gradient) = gradients.get(variable) else { return true };
+        gradient.abs().expect("numbers").max_all().expect("numbers").to_scalar::<f32>().expect("numbers")
+            == 0.0
     };
     parameters.iter().filter(flat).map(|(name, _)| name.clone()).collect()
 }

@@ -2,7 +2,7 @@
 
 use phase_model::{
     AGENT_COUNT, Action, AgentBody, AgentId, Body, Dynamics, Entity, Layout, MAX_ENTITIES, ObjectId,
-    Physique, Segment, Size, State, Vec2, arena,
+    PhysicsConfig, Segment, Size, State, Vec2, arena,
     geometry::Outline,
     random::{Pcg64Mcg, Purpose, stream},
 };
@@ -19,9 +19,9 @@ pub(crate) fn random(seed: u64) -> Pcg64Mcg {
 }
 
 /// Two agents and some objects, all of one size.
-pub(crate) fn physique(walls: Vec<Segment>, size: Size, object_count: usize) -> Physique {
+pub(crate) fn physics(walls: Vec<Segment>, size: Size, object_count: usize) -> PhysicsConfig {
     let agent = AgentBody { radius: size.radius(), max_force: 300.0 };
-    Physique { walls, agents: [agent; 2], object_radii: [size.radius(); 2], object_count }
+    PhysicsConfig { walls, agents: [agent; 2], object_radii: [size.radius(); 2], object_count }
 }
 
 pub(crate) fn wall(a: (f32, f32), b: (f32, f32)) -> Segment {
@@ -33,12 +33,12 @@ pub(crate) fn state(bodies: [(f32, f32, f32); MAX_ENTITIES]) -> State {
     State::new(bodies.map(|(x, y, angle)| Body::at_rest(Vec2::new(x, y), angle)))
 }
 
-pub(crate) fn any_physique() -> impl Strategy<Value = Physique> {
+pub(crate) fn any_physique() -> impl Strategy<Value = PhysicsConfig> {
     let layouts = prop::sample::select(Layout::all_used().collect::<Vec<_>>());
     let size = || prop::sample::select(Size::ALL.to_vec());
     (layouts, [size(), size(), size(), size()], 0_usize..=2).prop_map(|(layout, sizes, object_count)| {
         let [a, b, c, d] = sizes.map(Size::radius);
-        Physique {
+        PhysicsConfig {
             walls: layout.walls(),
             agents: [a, b].map(|radius| AgentBody { radius, max_force: 450.0 }),
             object_radii: [c, d],
@@ -48,15 +48,15 @@ pub(crate) fn any_physique() -> impl Strategy<Value = Physique> {
 }
 
 /// A state in which nothing overlaps, at rest but for the agents.
-pub(crate) fn legal_state(physique: &Physique, random: &mut Pcg64Mcg) -> State {
+pub(crate) fn legal_state(physics: &PhysicsConfig, random: &mut Pcg64Mcg) -> State {
     let mut state = State::new([Body::default(); MAX_ENTITIES]);
     let mut outlines: Vec<Outline> = Vec::new();
-    while outlines.len() < physique.entity_count() {
+    while outlines.len() < physics.entity_count() {
         let entity = Entity::ALL[outlines.len()];
         let position = arena::MIN + arena::SIDE * Vec2::new(random.random(), random.random());
         let mut body = Body::at_rest(position, random.random_range(-3.0..3.0));
-        let outline = Outline::of(physique, entity, &body);
-        if clear_of_walls(physique, &outline) && !outlines.iter().any(|other| outline.overlaps(other)) {
+        let outline = Outline::of(physics, entity, &body);
+        if clear_of_walls(physics, &outline) && !outlines.iter().any(|other| outline.overlaps(other)) {
             if matches!(entity, Entity::Agent(_)) {
                 body.velocity = Vec2::new(random.random_range(-12.0..12.0), random.random_range(-12.0..12.0));
             }
@@ -67,22 +67,22 @@ pub(crate) fn legal_state(physique: &Physique, random: &mut Pcg64Mcg) -> State {
     state
 }
 
-pub(crate) fn clear_of_walls(physique: &Physique, outline: &Outline) -> bool {
-    outline.inside_arena() && !physique.walls.iter().any(|&wall| outline.overlaps_wall(wall))
+pub(crate) fn clear_of_walls(physics: &PhysicsConfig, outline: &Outline) -> bool {
+    outline.inside_arena() && !physics.walls.iter().any(|&wall| outline.overlaps_wall(wall))
 }
 
 /// The same scene with all bodies a little smaller.
-pub(crate) fn shrunk(physique: &Physique, by: f32) -> Physique {
-    let mut physique = physique.clone();
-    physique.agents.iter_mut().for_each(|agent| agent.radius -= by);
-    physique.object_radii.iter_mut().for_each(|radius| *radius -= by);
-    physique
+pub(crate) fn shrunk_outline(physics: &PhysicsConfig, by: f32) -> PhysicsConfig {
+    let mut physics = physics.clone();
+    physics.agents.iter_mut().for_each(|agent| agent.radius -= by);
+    physics.object_radii.iter_mut().for_each(|radius| *radius -= by);
+    physics
 }
 
 /// Nothing ever moves.
-pub(crate) struct Still;
+pub(crate) struct StaticDynamics;
 
-impl Dynamics for Still {
+impl Dynamics for StaticDynamics {
     fn step(&self, _: &mut State, _: [Action; AGENT_COUNT]) {}
 }
 

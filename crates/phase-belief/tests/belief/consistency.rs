@@ -1,6 +1,6 @@
 //! What contradicts an observation, what does not, and what becomes of grips.
 
-use crate::common::{BALL, BOX, ME, OTHER, Still, physique, random, state};
+use crate::common::{BALL, BOX, ME, OTHER, StaticDynamics, physics, random, state};
 use core::f32::consts::PI;
 use phase_belief::Belief;
 use phase_model::{
@@ -36,14 +36,14 @@ fn held(mut state: State, side: Side) -> State {
 
 /// Agent 0 sees `truth` while its particles predict `imagined`.
 fn confront(truth: State, imagined: State) -> Belief {
-    let physique = physique(Vec::new(), Size::Small, 2);
+    let physics = physics(Vec::new(), Size::Small, 2);
     let mut chance = random(1);
-    let mut belief = Belief::new(&physique, &observe(&physique, &truth, AgentId::ZERO), 20, &mut chance);
+    let mut belief = Belief::new(&physics, &observe(&physics, &truth, AgentId::ZERO), 20, &mut chance);
     belief.update(
         &Into(imagined),
-        &physique,
+        &physics,
         Action::NoForce,
-        &observe(&physique, &truth, AgentId::ZERO),
+        &observe(&physics, &truth, AgentId::ZERO),
         &mut chance,
     );
     assert_eq!(belief.unresolved(), 0);
@@ -73,13 +73,13 @@ fn only_what_cannot_be_is_redrawn() {
         ("deep in a flank", moved(truth, BALL, 13.3, 14.0), &[BALL]),
         ("not a number", nan, &[BALL]),
     ];
-    for (name, imagined, redrawn) in cases {
+    for (name, imagined, resampled) in cases {
         let belief = confront(truth, imagined);
-        assert_eq!(belief.redrawn(), 20 * redrawn.len(), "{name}");
+        assert_eq!(belief.resampled(), 20 * resampled.len(), "{name}");
         for particle in belief.particles() {
             for entity in [ME, OTHER, BALL, BOX] {
                 let kept = particle.body(entity) == imagined.body(entity);
-                assert_eq!(kept, !redrawn.contains(&entity), "{name}: {entity:?}");
+                assert_eq!(kept, !resampled.contains(&entity), "{name}: {entity:?}");
             }
         }
     }
@@ -87,17 +87,17 @@ fn only_what_cannot_be_is_redrawn() {
 
 #[test]
 fn walls_count_too() {
-    let physique = physique(vec![crate::common::wall((16.0, 12.0), (16.0, 22.0))], Size::Small, 2);
+    let physics = physics(vec![crate::common::wall((16.0, 12.0), (16.0, 22.0))], Size::Small, 2);
     let truth = hidden();
-    let observation = observe(&physique, &truth, AgentId::ZERO);
-    for (x, redrawn) in [(16.77, 0), (16.7, 20), (16.0, 20), (15.0, 0)] {
+    let observation = observe(&physics, &truth, AgentId::ZERO);
+    for (x, resampled) in [(16.77, 0), (16.7, 20), (16.0, 20), (15.0, 0)] {
         let mut chance = random(1);
-        let mut belief = Belief::new(&physique, &observation, 20, &mut chance);
+        let mut belief = Belief::new(&physics, &observation, 20, &mut chance);
         let imagined = Into(moved(truth, BALL, x, 18.0));
         // The other object out of the way.
         let imagined = Into(moved(imagined.0, BOX, 24.0, 14.0));
-        belief.update(&imagined, &physique, Action::NoForce, &observation, &mut chance);
-        assert_eq!(belief.redrawn(), redrawn, "{x}");
+        belief.update(&imagined, &physics, Action::NoForce, &observation, &mut chance);
+        assert_eq!(belief.resampled(), resampled, "{x}");
     }
 }
 
@@ -106,7 +106,7 @@ fn an_unseen_grip_lasts_while_nothing_contradicts_it() {
     for side in Side::ALL {
         let imagined = held(hidden(), side);
         let belief = confront(hidden(), imagined);
-        assert_eq!(belief.redrawn(), 0, "{side:?}");
+        assert_eq!(belief.resampled(), 0, "{side:?}");
         assert!(belief.particles().iter().all(|particle| particle.grips == imagined.grips), "{side:?}");
     }
 }
@@ -115,9 +115,9 @@ fn an_unseen_grip_lasts_while_nothing_contradicts_it() {
 fn a_grip_that_still_draws_its_object_into_place_is_no_contradiction() {
     let mut imagined = held(hidden(), Side::Head);
     imagined.body_mut(BALL).position.y -= 0.3;
-    assert_eq!(confront(hidden(), imagined).redrawn(), 0);
+    assert_eq!(confront(hidden(), imagined).resampled(), 0);
     imagined.grips[1] = None;
-    assert_eq!(confront(hidden(), imagined).redrawn(), 20);
+    assert_eq!(confront(hidden(), imagined).resampled(), 20);
 }
 
 #[test]
@@ -205,17 +205,23 @@ fn redrawn_bodies_rest() {
 
 #[test]
 fn a_cell_under_a_known_body_counts_as_seen() {
-    let physique = physique(Vec::new(), Size::Huge, 0);
+    let physics = physics(Vec::new(), Size::Huge, 0);
     let truth = state([(16.5, 8.5, PI), (12.0, 18.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)]);
     let mut chance = random(1);
-    let observation = observe(&physique, &truth, AgentId::ZERO);
-    let mut belief = Belief::new(&physique, &observation, 1, &mut chance);
+    let observation = observe(&physics, &truth, AgentId::ZERO);
+    let mut belief = Belief::new(&physics, &observation, 1, &mut chance);
     let under = phase_perception::Cell::at(Vec2::new(16.5, 9.5)).unwrap();
     assert!(!observation.sees_cell(under));
     assert_eq!(belief.memory().age(under), Some(0));
     assert!(belief.seen_now().any(|cell| cell == under));
     assert!(belief.never_seen().all(|cell| cell != under));
     let gone = moved(truth, ME, 16.5, 4.0);
-    belief.update(&Still, &physique, Action::Up, &observe(&physique, &gone, AgentId::ZERO), &mut chance);
+    belief.update(
+        &StaticDynamics,
+        &physics,
+        Action::Up,
+        &observe(&physics, &gone, AgentId::ZERO),
+        &mut chance,
+    );
     assert_eq!(belief.memory().age(under), Some(1));
 }

@@ -1,28 +1,28 @@
 //! What holds of every particle, whatever happens.
 
-use crate::common::{Mad, any_physique, clear_of_walls, legal_state, random, shrunk};
+use crate::common::{Mad, any_physique, clear_of_walls, legal_state, random, shrunk_outline};
 use phase_belief::Belief;
 use phase_forward::Forward;
-use phase_model::{Action, AgentId, Dynamics, Entity, Physique, State, geometry::Outline};
+use phase_model::{Action, AgentId, Dynamics, Entity, PhysicsConfig, State, geometry::Outline};
 use phase_perception::{Observation, footprint, observe};
 use proptest::prelude::*;
 use rand::RngExt;
 
 /// How deep particles may let bodies sink into others, and a little for rounding (u).
-const SLACK: f32 = 0.051;
+const PENETRATION_TOLERANCE: f32 = 0.051;
 
 /// Every particle agrees with the observation and is physically possible.
-fn check(physique: &Physique, belief: &Belief, observation: &Observation) -> Result<(), TestCaseError> {
+fn check(physics: &PhysicsConfig, belief: &Belief, observation: &Observation) -> Result<(), TestCaseError> {
     let agent = observation.agent;
     prop_assert_eq!(belief.unresolved(), 0);
     for particle in belief.particles() {
-        prop_assert!(particle.is_finite(physique));
-        for entity in physique.entities() {
+        prop_assert!(particle.is_finite(physics));
+        for entity in physics.entities() {
             match observation.body(entity) {
                 Some(body) => prop_assert_eq!(particle.body(entity), body),
-                None => check_unobserved(physique, particle, observation, entity)?,
+                None => check_unobserved(physics, particle, observation, entity)?,
             }
-            for other in physique.entities() {
+            for other in physics.entities() {
                 if let Some(touching) = observation.touching(entity, other) {
                     prop_assert_eq!(particle.touching(entity, other), touching, "{:?} {:?}", entity, other);
                 }
@@ -37,18 +37,18 @@ fn check(physique: &Physique, belief: &Belief, observation: &Observation) -> Res
 }
 
 fn check_unobserved(
-    physique: &Physique,
+    physics: &PhysicsConfig,
     particle: &State,
     observation: &Observation,
     entity: Entity,
 ) -> Result<(), TestCaseError> {
-    let smaller = shrunk(physique, SLACK);
+    let smaller = shrunk_outline(physics, PENETRATION_TOLERANCE);
     let body = particle.body(entity);
-    let seen = footprint(physique, entity, body).intersects(&observation.visible);
+    let seen = footprint(physics, entity, body).intersects(&observation.visible);
     prop_assert!(!seen, "{:?} is in view at {:?}", entity, body);
     let outline = Outline::of(&smaller, entity, body);
     prop_assert!(clear_of_walls(&smaller, &outline), "{:?} is in a wall at {:?}", entity, body);
-    for other in physique.entities().filter(|&other| other != entity) {
+    for other in physics.entities().filter(|&other| other != entity) {
         let mut smaller = smaller.clone();
         if matches!(
             (entity, other),
@@ -77,27 +77,27 @@ proptest! {
     /// Both agents act at random in a true world, and each believes.
     #[test]
     fn beliefs_stay_consistent_through_events(
-        physique in any_physique(),
+        physics in any_physique(),
         actions in prop::collection::vec([any_action(), any_action()], 1..25),
         seed in any::<u64>(),
     ) {
-        let forward = Forward::new(&physique);
+        let forward = Forward::new(&physics);
         let mut chance = random(seed);
-        let mut truth = legal_state(&physique, &mut chance);
+        let mut truth = legal_state(&physics, &mut chance);
         let mut beliefs = AgentId::ALL.map(|agent| {
-            Belief::new(&physique, &observe(&physique, &truth, agent), 12, &mut chance)
+            Belief::new(&physics, &observe(&physics, &truth, agent), 12, &mut chance)
         });
         for (agent, belief) in AgentId::ALL.into_iter().zip(&beliefs) {
-            check(&physique, belief, &observe(&physique, &truth, agent))?;
+            check(&physics, belief, &observe(&physics, &truth, agent))?;
         }
         for both in actions {
             forward.step(&mut truth, both);
             for (agent, belief) in AgentId::ALL.into_iter().zip(&mut beliefs) {
-                let observation = observe(&physique, &truth, agent);
-                belief.update(&forward, &physique, both[agent], &observation, &mut chance);
+                let observation = observe(&physics, &truth, agent);
+                belief.update(&forward, &physics, both[agent], &observation, &mut chance);
                 prop_assert_eq!(belief.particles().len(), 12);
                 prop_assert_eq!(belief.agent(), agent);
-                check(&physique, belief, &observation)?;
+                check(&physics, belief, &observation)?;
             }
         }
     }
@@ -105,36 +105,36 @@ proptest! {
     /// No prediction can spoil a belief.
     #[test]
     fn beliefs_survive_any_dynamics(
-        physique in any_physique(),
+        physics in any_physique(),
         numbers in prop::array::uniform12(prop_oneof![prop::num::f32::ANY, -9.0_f32..9.0, Just(0.0)]),
         agent in 0_usize..2,
         seed in any::<u64>(),
     ) {
         let mut chance = random(seed);
-        let truth = legal_state(&physique, &mut chance);
-        let observation = observe(&physique, &truth, AgentId::ALL[agent]);
-        let mut belief = Belief::new(&physique, &observation, 12, &mut chance);
+        let truth = legal_state(&physics, &mut chance);
+        let observation = observe(&physics, &truth, AgentId::ALL[agent]);
+        let mut belief = Belief::new(&physics, &observation, 12, &mut chance);
         for _ in 0..3 {
-            belief.update(&Mad(numbers), &physique, Action::Up, &observation, &mut chance);
-            check(&physique, &belief, &observation)?;
+            belief.update(&Mad(numbers), &physics, Action::Up, &observation, &mut chance);
+            check(&physics, &belief, &observation)?;
         }
     }
 
     /// At first nothing overlaps at all, and whoever is not observed rests and holds nothing.
     #[test]
-    fn first_beliefs_are_clean(physique in any_physique(), agent in 0_usize..2, seed in any::<u64>()) {
+    fn first_beliefs_are_clean(physics in any_physique(), agent in 0_usize..2, seed in any::<u64>()) {
         let mut chance = random(seed);
-        let truth = legal_state(&physique, &mut chance);
-        let observation = observe(&physique, &truth, AgentId::ALL[agent]);
-        let belief = Belief::new(&physique, &observation, 12, &mut chance);
-        prop_assert_eq!(belief.redrawn(), 12 * (physique.entity_count() - observation.observed.iter().count()));
+        let truth = legal_state(&physics, &mut chance);
+        let observation = observe(&physics, &truth, AgentId::ALL[agent]);
+        let belief = Belief::new(&physics, &observation, 12, &mut chance);
+        prop_assert_eq!(belief.resampled(), 12 * (physics.entity_count() - observation.observed.iter().count()));
         for particle in belief.particles() {
-            let outlines: Vec<_> = physique
+            let outlines: Vec<_> = physics
                 .entities()
-                .map(|entity| Outline::of(&physique, entity, particle.body(entity)))
+                .map(|entity| Outline::of(&physics, entity, particle.body(entity)))
                 .collect();
             for (k, outline) in outlines.iter().enumerate() {
-                prop_assert!(clear_of_walls(&physique, outline));
+                prop_assert!(clear_of_walls(&physics, outline));
                 prop_assert!(!outlines[..k].iter().any(|other| outline.overlaps(other)));
                 let entity = Entity::ALL[k];
                 if observation.body(entity).is_none() {
@@ -148,20 +148,20 @@ proptest! {
 
     /// The same generator gives the same particles, and another one others.
     #[test]
-    fn beliefs_are_a_function_of_the_generator(physique in any_physique(), seed in any::<u64>()) {
-        let truth = legal_state(&physique, &mut random(seed));
-        let observation = observe(&physique, &truth, AgentId::ZERO);
-        let forward = Forward::new(&physique);
+    fn beliefs_are_a_function_of_the_generator(physics in any_physique(), seed in any::<u64>()) {
+        let truth = legal_state(&physics, &mut random(seed));
+        let observation = observe(&physics, &truth, AgentId::ZERO);
+        let forward = Forward::new(&physics);
         let run = |seed: u64| {
             let mut chance = random(seed);
-            let mut belief = Belief::new(&physique, &observation, 8, &mut chance);
+            let mut belief = Belief::new(&physics, &observation, 8, &mut chance);
             for _ in 0..3 {
-                belief.update(&forward, &physique, Action::TurnLeft, &observation, &mut chance);
+                belief.update(&forward, &physics, Action::TurnLeft, &observation, &mut chance);
             }
             (belief, chance.random::<u64>())
         };
         prop_assert_eq!(run(seed), run(seed));
-        if physique.entities().any(|entity| observation.body(entity).is_none()) {
+        if physics.entities().any(|entity| observation.body(entity).is_none()) {
             prop_assert_ne!(run(seed).0, run(seed.wrapping_add(1)).0);
         }
     }

@@ -1,6 +1,6 @@
 //! What is remembered of cells.
 
-use phase_belief::{AGENT_FORGETTING, CellMemory, OBJECT_FORGETTING, hiding_weight};
+use phase_belief::{AGENT_DECAY_STEPS, CellMemory, OBJECT_DECAY_STEPS, occupancy_weight};
 use phase_model::{AgentId, Entity, ObjectId, Vec2};
 use phase_perception::{Cell, CellSet};
 
@@ -19,12 +19,12 @@ fn weights_are_those_stated() {
         (Some(20), 20.0, 0.632_120_56),
         (Some(u32::MAX), 20.0, 1.0),
     ];
-    for (age, forgetting, expected) in cases {
-        let weight = hiding_weight(age, forgetting);
-        assert!((weight - expected).abs() < 1e-6, "{age:?} {forgetting}: {weight}");
+    for (age, decay_steps, expected) in cases {
+        let weight = occupancy_weight(age, decay_steps);
+        assert!((weight - expected).abs() < 1e-6, "{age:?} {decay_steps}: {weight}");
     }
-    assert_eq!(hiding_weight(Some(0), 20.0), 0.0);
-    assert_eq!((AGENT_FORGETTING, OBJECT_FORGETTING), (20.0, 200.0));
+    assert_eq!(occupancy_weight(Some(0), 20.0), 0.0);
+    assert_eq!((AGENT_DECAY_STEPS, OBJECT_DECAY_STEPS), (20.0, 200.0));
 }
 
 #[test]
@@ -39,7 +39,7 @@ fn cells_age_from_when_they_were_last_seen() {
         (&[0, 399], [Some(0), Some(2), Some(0)]),
     ];
     for (seen, expected) in steps {
-        memory.note(&set(seen));
+        memory.record_seen(&set(seen));
         assert_eq!([0, 1, 399].map(|index| memory.age(cell(index))), expected);
     }
     let (agent, object) = (Entity::Agent(AgentId::ONE), Entity::Object(ObjectId::ZERO));

@@ -1,27 +1,27 @@
 //! How particles are distributed over the arena. All generators are seeded, so nothing here can flicker.
 
-use crate::common::{BALL, Lost, ME, OTHER, Still, physique, random, state, wall};
+use crate::common::{BALL, Lost, ME, OTHER, StaticDynamics, physics, random, state, wall};
 use core::f32::consts::{FRAC_PI_2, PI};
 use phase_belief::Belief;
-use phase_model::{Action, AgentId, Body, Dynamics, Entity, Physique, Size, State, Vec2};
+use phase_model::{Action, AgentId, Body, Dynamics, Entity, PhysicsConfig, Size, State, Vec2};
 use phase_perception::{Cell, Observation, observe};
 
 /// Looks of agent 0 in turn: the state before, one after each look.
 fn looks(
-    physique: &Physique,
+    physics: &PhysicsConfig,
     dynamics: &impl Dynamics,
     particles: usize,
     states: &[State],
 ) -> (Belief, Observation) {
     let mut chance = random(7);
-    let mut observation = observe(physique, &states[0], AgentId::ZERO);
-    let mut belief = Belief::new(physique, &observation, particles, &mut chance);
+    let mut observation = observe(physics, &states[0], AgentId::ZERO);
+    let mut belief = Belief::new(physics, &observation, particles, &mut chance);
     for (k, state) in states.iter().enumerate().skip(1) {
-        observation = observe(physique, state, AgentId::ZERO);
+        observation = observe(physics, state, AgentId::ZERO);
         if k + 1 == states.len() {
-            belief.update(dynamics, physique, Action::TurnLeft, &observation, &mut chance);
+            belief.update(dynamics, physics, Action::TurnLeft, &observation, &mut chance);
         } else {
-            belief.update(&Still, physique, Action::TurnLeft, &observation, &mut chance);
+            belief.update(&StaticDynamics, physics, Action::TurnLeft, &observation, &mut chance);
         }
     }
     (belief, observation)
@@ -60,10 +60,10 @@ fn excess(counts: &[f64]) -> f64 {
 #[test]
 fn the_first_belief_is_uniform() {
     // Agent 0 in a corner, its face to the wall; the other agent leans on it.
-    let physique = physique(Vec::new(), Size::Small, 1);
+    let physics = physics(Vec::new(), Size::Small, 1);
     let mut truth = state([(7.5, 3.5, PI), (10.0, 3.5, 0.0), (20.0, 15.0, 0.0), (0.0, 0.0, 0.0)]);
     truth.contacts.insert(ME, OTHER);
-    let (belief, observation) = looks(&physique, &Still, 40_000, &[truth]);
+    let (belief, observation) = looks(&physics, &StaticDynamics, 40_000, &[truth]);
     assert!(observation.body(OTHER).is_some() && observation.body(BALL).is_none());
     let bodies = [ME, OTHER].map(|agent| truth.position(agent));
     let cells = amid(1, |cell| {
@@ -92,9 +92,9 @@ fn the_first_belief_is_uniform() {
 
 #[test]
 fn headings_of_unseen_agents_are_uniform() {
-    let physique = physique(Vec::new(), Size::Small, 0);
+    let physics = physics(Vec::new(), Size::Small, 0);
     let truth = state([(7.5, 3.5, PI), (20.0, 15.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)]);
-    let (belief, _) = looks(&physique, &Still, 20_000, &[truth]);
+    let (belief, _) = looks(&physics, &StaticDynamics, 20_000, &[truth]);
     // In mid arena, where walls favour no heading.
     let mut counts = [0.0; 16];
     for particle in belief.particles() {
@@ -113,8 +113,8 @@ fn in_left_room(x: f32, y: f32, angle: f32) -> State {
     state([(x, y, angle), (24.0, 4.0, 0.0), (24.0, 20.0, 0.0), (0.0, 0.0, 0.0)])
 }
 
-fn two_rooms() -> Physique {
-    physique(vec![wall((16.0, 22.0), (16.0, 2.0))], Size::Small, 1)
+fn two_rooms() -> PhysicsConfig {
+    physics(vec![wall((16.0, 22.0), (16.0, 2.0))], Size::Small, 1)
 }
 
 fn share_on_the_left(belief: &Belief, entity: Entity) -> f64 {
@@ -133,9 +133,9 @@ fn after_a_look_at_half_the_arena_all_is_in_the_other_half() {
         in_left_room(7.5, 20.5, PI + 0.6),
         in_left_room(8.0, 12.0, -FRAC_PI_2),
     ];
-    let physique = two_rooms();
-    let (first, _) = looks(&physique, &Still, 4_000, &looking[..1]);
-    let (last, _) = looks(&physique, &Still, 4_000, &looking);
+    let physics = two_rooms();
+    let (first, _) = looks(&physics, &StaticDynamics, 4_000, &looking[..1]);
+    let (last, _) = looks(&physics, &StaticDynamics, 4_000, &looking);
     let unseen = last.never_seen().filter(|cell| cell.centre().x < 16.0).count();
     assert!(unseen <= 2, "{unseen}");
     for entity in [OTHER, BALL] {
@@ -151,10 +151,10 @@ fn after_a_look_at_half_the_arena_all_is_in_the_other_half() {
 fn a_place_last_seen_five_steps_ago_counts_as_stated() {
     // One look across the left room, then five with the face to the wall; then everything is lost from sight
     // and mind at once.
-    let physique = two_rooms();
+    let physics = two_rooms();
     let mut states = vec![in_left_room(7.0, 12.0, -FRAC_PI_2)];
     states.extend([in_left_room(7.0, 12.0, FRAC_PI_2); 5]);
-    let (belief, _) = looks(&physique, &Lost(&[OTHER, BALL]), 300_000, &states);
+    let (belief, _) = looks(&physics, &Lost(&[OTHER, BALL]), 300_000, &states);
     for (entity, reach, expected) in [(OTHER, 2, 0.221_2), (BALL, 1, 0.024_69)] {
         let mean = |age: Option<u32>| {
             let cells = amid(reach, |cell| belief.memory().age(cell) == age);
@@ -173,9 +173,9 @@ fn a_place_last_seen_five_steps_ago_counts_as_stated() {
 fn bodies_do_not_slip_into_gaps_between_what_was_just_seen() {
     // Three looks leave three wedges of 10.6° unseen, everywhere narrower than an object. If only the cell of
     // a body's centre counted, some would end up there.
-    let physique = two_rooms();
+    let physics = two_rooms();
     let states = [0.0, 1.0, 2.0].map(|thirds| in_left_room(12.0, 12.0, thirds * 2.0 * PI / 3.0));
-    let (belief, _) = looks(&physique, &Lost(&[BALL]), 20_000, &states);
+    let (belief, _) = looks(&physics, &Lost(&[BALL]), 20_000, &states);
     let gaps = belief.never_seen().filter(|cell| cell.centre().x < 16.0).count();
     assert!(gaps >= 8, "there is no gap to slip into: {gaps}");
     let slipped = share_on_the_left(&belief, BALL);

@@ -1,8 +1,9 @@
 use crate::support::{Drifting, probe, probes, run, runs};
 use phase_calibration::{
-    Deviation, Probe, Replay, Run, Spread, ahead, grip_of, probes_report, replay_reports, run_reports,
+    Deviation, ErrorQuantiles, Probe, Replay, Run, grip_of, horizon_errors, probes_report, replay_reports,
+    run_reports,
 };
-use phase_model::{Action, AgentId, Body, MAX_ENTITIES, ObjectId, Physique, Side, State, Vec2};
+use phase_model::{Action, AgentId, Body, MAX_ENTITIES, ObjectId, PhysicsConfig, Side, State, Vec2};
 use serde_json::json;
 
 #[test]
@@ -15,15 +16,15 @@ fn probes_are_followed_step_by_step_and_substep_by_substep() {
     let push = &report.families["push"];
     assert_eq!((push.n, push.steps, push.grip_mismatches), (2, 4, 2));
     // After the idle substep 0.25 u, after five more 1.5 u, after ten more 2.75 u.
-    assert_eq!(push.position, Spread { median: 1.5, p90: 2.75, max: 2.75 });
-    assert_eq!(push.angle, Spread { median: 0.5, p90: 1.0, max: 1.0 });
+    assert_eq!(push.position, ErrorQuantiles { median: 1.5, p90: 2.75, max: 2.75 });
+    assert_eq!(push.angle, ErrorQuantiles { median: 0.5, p90: 1.0, max: 1.0 });
     // 0.5 u to 2.75 u twice over; ten of twenty are at most 1.5 u, eighteen at most 2.5 u.
-    assert_eq!(push.substeps.position, Spread { median: 1.5, p90: 2.5, max: 2.75 });
+    assert_eq!(push.substeps.position, ErrorQuantiles { median: 1.5, p90: 2.5, max: 2.75 });
     assert_eq!((push.within_0_01, push.within_0_1), (0.0, 0.0));
     assert_eq!(report.each[0].start, Deviation { position: 0.25, angle: 0.0 });
 
     let from_record = probes_report::<Drifting<false>>(&probes);
-    assert_eq!(from_record.families["push"].position, Spread { median: 1.25, p90: 2.5, max: 2.5 });
+    assert_eq!(from_record.families["push"].position, ErrorQuantiles { median: 1.25, p90: 2.5, max: 2.5 });
     assert_eq!(from_record.each[0].start.position, 0.25, "the idle substep is still measured");
 }
 
@@ -44,16 +45,16 @@ fn runs_are_followed_freely_and_restarted() {
     assert_eq!((reports[1].steps, reports[1].steps_within_0_5), (2, 0));
     assert_eq!(reports[1].grip_mismatches, Some(0));
     // 1.25 u a step, and 0.25 u more in the two restarts at state 0, before which lies the idle substep.
-    let one = ahead::<Drifting<true>>(&runs, 1).expect("restarts");
+    let one = horizon_errors::<Drifting<true>>(&runs, 1).expect("restarts");
     assert_eq!((one.n, one.median, one.p90, one.p99), (13, 1.25, 1.5, 1.5));
-    let ten = ahead::<Drifting<true>>(&runs, 10).expect("restarts");
+    let ten = horizon_errors::<Drifting<true>>(&runs, 10).expect("restarts");
     assert_eq!((ten.n, ten.median, ten.p99), (2, 12.5, 12.75));
-    assert_eq!(ahead::<Drifting<true>>(&runs, 12), None);
+    assert_eq!(horizon_errors::<Drifting<true>>(&runs, 12), None);
 }
 
 #[test]
 fn real_rows_are_means_over_substeps() {
-    let physique = Physique {
+    let physics = PhysicsConfig {
         walls: Vec::new(),
         agents: [phase_model::AgentBody { radius: 0.8, max_force: 150.0 }; 2],
         object_radii: [0.8; 2],
@@ -65,7 +66,7 @@ fn real_rows_are_means_over_substeps() {
     off[3].position.x = 9.0;
     let replay = Replay {
         id: "one".into(),
-        physique,
+        physics,
         initial: State::new(rest),
         actions: vec![[Action::Stop; 2]; 2],
         rows: vec![off; 3],
@@ -100,7 +101,7 @@ fn what_is_no_number_is_no_small_error() {
     let mut bodies = [Body::default(); MAX_ENTITIES];
     bodies[0].position.x = f32::NAN;
     bodies[1].angle = f32::NAN;
-    let physique = &Run::parse(&runs(&[run("r", 1)])).expect("a run")[0].physique;
-    let deviation = Deviation::between(physique, &bodies, &[Body::default(); MAX_ENTITIES]);
+    let physics = &Run::parse(&runs(&[run("r", 1)])).expect("a run")[0].physics;
+    let deviation = Deviation::between(physics, &bodies, &[Body::default(); MAX_ENTITIES]);
     assert_eq!(deviation, Deviation { position: f32::INFINITY, angle: f32::INFINITY });
 }

@@ -16,7 +16,7 @@ fn good_files_are_read() {
     let probes = Probe::parse(&probes(&[probe("free_x")])).expect("probes");
     assert_eq!((probes[0].steps.len(), probes[0].substeps.len()), (2, 10));
     assert_eq!(probes[0].held, [[None, None], [None, Some(ObjectId::ZERO)]]);
-    assert_eq!(probes[0].physique.object_radii, [0.8, 1.6]);
+    assert_eq!(probes[0].physics.object_radii, [0.8, 1.6]);
 }
 
 /// A change to a good entry, and what has to be in the sentence about it.

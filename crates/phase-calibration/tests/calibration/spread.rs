@@ -1,13 +1,16 @@
 //! Distributions of errors.
 
-use phase_calibration::{Ahead, Deviation, RunReport, Spread};
+use phase_calibration::{Deviation, ErrorQuantiles, HorizonErrors, RunReport};
 
 #[test]
 fn spreads_and_horizons() {
     let values: Vec<f32> = (1..=200).map(|k| k as f32).collect();
-    assert_eq!(Spread::of(&values), Some(Spread { median: 100.0, p90: 180.0, max: 200.0 }));
-    assert_eq!(Ahead::of(&values), Some(Ahead { n: 200, median: 100.0, p90: 180.0, p99: 198.0 }));
-    assert_eq!((Spread::of(&[]), Ahead::of(&[])), (None, None));
+    assert_eq!(ErrorQuantiles::of(&values), Some(ErrorQuantiles { median: 100.0, p90: 180.0, max: 200.0 }));
+    assert_eq!(
+        HorizonErrors::of(&values),
+        Some(HorizonErrors { n: 200, median: 100.0, p90: 180.0, p99: 198.0 })
+    );
+    assert_eq!((ErrorQuantiles::of(&[]), HorizonErrors::of(&[])), (None, None));
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Small records, and an engine that drifts by a known amount.
 
 use phase_calibration::Engine;
-use phase_model::{AGENT_COUNT, Action, Physique, State, Vec2, arena::SUBSTEPS};
+use phase_model::{AGENT_COUNT, Action, PhysicsConfig, State, Vec2, arena::SUBSTEPS};
 use serde_json::{Value, json};
 
 /// Four bodies at rest: x, y and four zeros.
@@ -39,15 +39,15 @@ pub(crate) fn runs(entries: &[Value]) -> String {
 
 /// An engine in which agent 0 goes 0.25 u to the right in every substep, the idle one too, and agent 1 turns by
 /// 0.5 rad in every step. Nobody ever grabs anything.
-pub(crate) struct Drifting<const THROUGH_IDLE: bool>(State);
+pub(crate) struct Drifting<const RUNS_IDLE_SUBSTEP: bool>(State);
 
 /// How far agent 0 goes in a substep (u).
 pub(crate) const DRIFT: f32 = 0.25;
 
-impl<const THROUGH_IDLE: bool> Engine for Drifting<THROUGH_IDLE> {
-    const THROUGH_IDLE: bool = THROUGH_IDLE;
+impl<const RUNS_IDLE_SUBSTEP: bool> Engine for Drifting<RUNS_IDLE_SUBSTEP> {
+    const RUNS_IDLE_SUBSTEP: bool = RUNS_IDLE_SUBSTEP;
 
-    fn set_up(_: &Physique, state: &State) -> Self {
+    fn set_up(_: &PhysicsConfig, state: &State) -> Self {
         Self(*state)
     }
 

@@ -19,7 +19,7 @@ use phase_dataset::{
     folder::{self, Contents, Folder},
 };
 use phase_report::evaluation;
-use plan::{contestants, needs_networks};
+use plan::{entries, needs_networks};
 use rows::Rows;
 use serde_json::json;
 
@@ -34,7 +34,7 @@ pub fn run(arguments: &Benchmark, context: &Context) -> Result<(), CliError> {
     if needs_networks(arguments) {
         networks::require(context)?;
     }
-    let contestants = contestants(arguments)?;
+    let entries = entries(arguments)?;
     let mut rows = Rows::open(arguments, context)?;
     for file in &arguments.results {
         rows.add_results(file)?;
@@ -44,17 +44,17 @@ pub fn run(arguments: &Benchmark, context: &Context) -> Result<(), CliError> {
         check_same(out, "an unfinished", &other, &run)?;
     }
     let folder = Folder::claim(out, &run)?;
-    let (mut begun, all) = (0, contestants.len() * rows.sets());
-    for contestant in &contestants {
-        let training = match &contestant.weights {
+    let (mut begun, all) = (0, entries.len() * rows.sets());
+    for entry in &entries {
+        let training = match &entry.weights {
             Some(file) => Some(networks::training_of(file)?),
-            None => networks::training(&contestant.method)?,
+            None => networks::training(&entry.method)?,
         };
         let training = training.map(|training| rows.add_training(training));
         for set in 0..rows.sets() {
             begun += 1;
-            context.note(format!("{begun} of {all}: {}, {}", contestant.words(), rows.name(set)));
-            rows.add(contestant, training, set, context)?;
+            context.note(format!("{begun} of {all}: {}, {}", entry.description(), rows.name(set)));
+            rows.add(entry, training, set, context)?;
         }
     }
     let benchmark = rows.finish();

@@ -48,7 +48,7 @@ pub enum Task {
 
 /// One method at one task.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Contestant {
+pub struct BenchmarkEntry {
     /// The task.
     pub task: Task,
     /// What it is called in the report.
@@ -59,10 +59,10 @@ pub struct Contestant {
     pub weights: Option<PathBuf>,
 }
 
-impl Contestant {
+impl BenchmarkEntry {
     /// What it does, in words.
     #[must_use]
-    pub fn words(&self) -> String {
+    pub fn description(&self) -> String {
         format!("{} by {}", self.task.name(), self.name)
     }
 }
@@ -89,13 +89,13 @@ pub fn needs_networks(arguments: &Benchmark) -> bool {
 ///
 /// # Errors
 /// If a file of weights cannot be used.
-pub fn contestants(arguments: &Benchmark) -> Result<Vec<Contestant>, CliError> {
-    let mut contestants = Vec::new();
+pub fn entries(arguments: &Benchmark) -> Result<Vec<BenchmarkEntry>, CliError> {
+    let mut entries = Vec::new();
     for file in &arguments.trained {
         let method = networks::training_of(file)?.network;
         let tasks = TASKS.iter().filter(|(_, methods)| methods.contains(&method.as_str()));
         let name = file.file_stem().unwrap_or_default().to_string_lossy();
-        contestants.extend(tasks.map(|(task, _)| Contestant {
+        entries.extend(tasks.map(|(task, _)| BenchmarkEntry {
             task: *task,
             name: name.clone().into_owned(),
             method: method.clone(),
@@ -103,16 +103,16 @@ pub fn contestants(arguments: &Benchmark) -> Result<Vec<Contestant>, CliError> {
         }));
     }
     let own = TASKS.iter().flat_map(|(task, methods)| methods.iter().map(move |method| (*task, *method)));
-    let own = own.filter(|(_, method)| wanted(arguments, method)).map(|(task, method)| Contestant {
+    let own = own.filter(|(_, method)| wanted(arguments, method)).map(|(task, method)| BenchmarkEntry {
         task,
         name: method.into(),
         method: method.into(),
         weights: None,
     });
-    contestants.extend(own);
+    entries.extend(own);
     // The four ways of SIMPLE take seconds for an event, the others less than a tenth of one.
-    contestants.sort_by_key(|contestant| contestant.method.starts_with("simple"));
-    Ok(contestants)
+    entries.sort_by_key(|entry| entry.method.starts_with("simple"));
+    Ok(entries)
 }
 
 fn wanted(arguments: &Benchmark, method: &str) -> bool {

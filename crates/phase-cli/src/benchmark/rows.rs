@@ -2,7 +2,7 @@
 
 use super::{
     options::Benchmark,
-    plan::{Contestant, Task},
+    plan::{BenchmarkEntry, Task},
 };
 use crate::{
     context::Context,
@@ -18,8 +18,8 @@ use crate::{
 };
 use phase_dataset::{FileError, Problem, json, splits::Split};
 use phase_eval::{
-    benchmark::{self, BENCHMARK_FORMAT, EventSet, Familiarity, Origin, Part, Row, Training},
-    goals::{self, Mistakes, RecognisedEvent},
+    benchmark::{self, BENCHMARK_FORMAT, EventSet, Familiarity, Origin, Row, Subset, Training},
+    goals::{self, ErrorBreakdown, RecognisedEvent},
     results::{GOALS_FORMAT, TRAJECTORIES_FORMAT},
     trajectories::{self, ForecastEvent},
 };
@@ -35,7 +35,7 @@ pub(super) struct Rows<'a> {
 }
 
 /// An event with what a method said of it.
-trait Answered: Sized + Clone + DeserializeOwned {
+trait ScoredEvent: Sized + Clone + DeserializeOwned {
     type Summary;
 
     fn id(&self) -> &str;
@@ -43,7 +43,7 @@ trait Answered: Sized + Clone + DeserializeOwned {
     fn sum_up(events: &[Self], seed: u64) -> Option<Self::Summary>;
 
     /// What goals were taken for, if they were asked for.
-    fn mistakes(events: &[Self]) -> Option<Mistakes>;
+    fn mistakes(events: &[Self]) -> Option<ErrorBreakdown>;
 }
 
 impl<'a> Rows<'a> {
@@ -67,7 +67,7 @@ impl<'a> Rows<'a> {
         let (mut inputs, mut sets) = (Vec::new(), Vec::new());
         for (label, common) in [generated].into_iter().chain(real) {
             let input = Input::open(&common, context)?;
-            let (name, label, sha256) = (input.words.clone(), label.into(), input.sha256.clone());
+            let (name, label, sha256) = (input.description.clone(), label.into(), input.sha256.clone());
             sets.push(EventSet { name, label, sha256, events: input.events.len() });
             inputs.push((input, common));
         }
@@ -108,12 +108,12 @@ impl<'a> Rows<'a> {
     /// Any [`CliError`].
     pub(super) fn add(
         &mut self,
-        contestant: &Contestant,
+        entry: &BenchmarkEntry,
         training: Option<usize>,
         set: usize,
         context: &Context,
     ) -> Result<(), CliError> {
-        let Contestant { task, name, method, weights } = contestant;
+        let BenchmarkEntry { task, name, method, weights } = entry;
         let (input, common) = &mut self.inputs[set];
         let mut folder = format!("{}-{name}-{}", task.name(), input.name);
         if let Some(limit) = self.arguments.limit {
@@ -178,17 +178,17 @@ impl<'a> Rows<'a> {
 }
 
 /// The events of results, which have to be those of the input.
-fn events_of<A: Answered>(results: &Value, input: &Input) -> Result<Vec<A>, String> {
+fn events_of<A: ScoredEvent>(results: &Value, input: &Input) -> Result<Vec<A>, String> {
     let events = serde_json::from_value(results["events"].clone());
     let events: Vec<A> = events.map_err(|error| format!("field `events`: {error}"))?;
-    let ids = events.iter().map(Answered::id);
+    let ids = events.iter().map(ScoredEvent::id);
     match ids.eq(input.events.iter().map(|event| event.id.as_str())) {
         true => Ok(events),
         false => Err("field `events` does not have the ids of these events, in order".into()),
     }
 }
 
-fn row<A: Answered>(
+fn row<A: ScoredEvent>(
     method: String,
     origin: Origin,
     set: usize,
@@ -200,7 +200,7 @@ fn row<A: Answered>(
     let part = |familiarity: Familiarity| {
         let like = |(event, _): &(&Event, &A)| familiar(event, familiarity);
         let events = input.events.iter().zip(events).filter(like).map(|(_, answered)| answered.clone());
-        Some(Part { familiarity, summary: A::sum_up(&events.collect::<Vec<A>>(), seed)? })
+        Some(Subset { familiarity, summary: A::sum_up(&events.collect::<Vec<A>>(), seed)? })
     };
     let parts = Familiarity::ALL.into_iter().filter_map(part).collect();
     let (summary, mistakes) = (A::sum_up(events, seed)?, A::mistakes(events));
@@ -216,34 +216,34 @@ fn familiar(event: &Event, familiarity: Familiarity) -> bool {
     }
 }
 
-impl Answered for RecognisedEvent {
-    type Summary = goals::Summary;
+impl ScoredEvent for RecognisedEvent {
+    type Summary = goals::RecognitionSummary;
 
     fn id(&self) -> &str {
         &self.id
     }
 
     fn sum_up(events: &[Self], seed: u64) -> Option<Self::Summary> {
-        goals::Summary::of(events, seed)
+        goals::RecognitionSummary::of(events, seed)
     }
 
-    fn mistakes(events: &[Self]) -> Option<Mistakes> {
-        Some(Mistakes::of(events))
+    fn mistakes(events: &[Self]) -> Option<ErrorBreakdown> {
+        Some(ErrorBreakdown::of(events))
     }
 }
 
-impl Answered for ForecastEvent {
-    type Summary = trajectories::Summary;
+impl ScoredEvent for ForecastEvent {
+    type Summary = trajectories::ForecastSummary;
 
     fn id(&self) -> &str {
         &self.id
     }
 
     fn sum_up(events: &[Self], seed: u64) -> Option<Self::Summary> {
-        trajectories::Summary::of(events, seed)
+        trajectories::ForecastSummary::of(events, seed)
     }
 
-    fn mistakes(_: &[Self]) -> Option<Mistakes> {
+    fn mistakes(_: &[Self]) -> Option<ErrorBreakdown> {
         None
     }
 }

@@ -14,22 +14,22 @@ use serde_json::{Value, json};
 use std::{collections::BTreeMap, path::Path};
 
 /// Where answers come from.
-pub(super) enum Answers<M: ?Sized, A> {
+pub(super) enum AnswerSource<M: ?Sized, A> {
     /// A method of ours.
     Method(Box<M>),
     /// Somebody else's.
-    Given(Given<A>),
+    PredictionsFile(PredictionsFile<A>),
 }
 
 /// The answers of a file, one to each event that is asked for.
-pub(super) struct Given<A> {
+pub(super) struct PredictionsFile<A> {
     /// What the method is called: the file's name without its ending.
     pub name: String,
     answers: BTreeMap<String, A>,
     sha256: String,
 }
 
-impl<A> Given<A> {
+impl<A> PredictionsFile<A> {
     /// Reads a file. `parse` finds the answers by the ids of their events, `fit` makes of each what goes with its event.
     ///
     /// # Errors
@@ -67,7 +67,7 @@ impl<A> Given<A> {
     }
 }
 
-impl<A: Clone> Given<A> {
+impl<A: Clone> PredictionsFile<A> {
     /// The answer to an event.
     ///
     /// # Errors

@@ -1,7 +1,7 @@
 //! Task 1: how often goals and relations are recognised.
 
 use super::{
-    answers::{Answers, Given},
+    answers::{AnswerSource, PredictionsFile},
     input::{Event, Input},
     methods,
     options::{EvalGoals, steps_of},
@@ -10,8 +10,8 @@ use super::{
 use crate::{context::Context, error::CliError};
 use cpu_time::ThreadTime;
 use phase_eval::{
-    MethodError, Recogniser, Tick,
-    goals::{Answer, Glimpse, Label, RecognisedEvent, Summary},
+    MethodError, ProgressCallback, Recogniser,
+    goals::{Answer, Label, PartialAnswer, RecognisedEvent, RecognitionSummary},
     predictions, results,
 };
 use phase_event::{ObservedEvent, Recording};
@@ -30,8 +30,13 @@ pub(super) fn run(arguments: &EvalGoals, context: &Context) -> Result<(), CliErr
     let input = Input::open(&arguments.common, context)?;
     let goals = match (&arguments.common.predictions, &arguments.method) {
         (Some(file), _) => {
-            let given = Given::read(file, &input, context, predictions::goals, |_, answer| Ok(answer))?;
-            Goals { name: given.name.clone(), answers: Answers::Given(given), watched: Vec::new() }
+            let given =
+                PredictionsFile::read(file, &input, context, predictions::goals, |_, answer| Ok(answer))?;
+            Goals {
+                name: given.name.clone(),
+                answers: AnswerSource::PredictionsFile(given),
+                watched: Vec::new(),
+            }
         }
         (None, method) => {
             let method = method.as_deref().unwrap_or_default();
@@ -47,7 +52,7 @@ pub(super) fn run(arguments: &EvalGoals, context: &Context) -> Result<(), CliErr
 /// The task.
 pub(crate) struct Goals {
     name: String,
-    answers: Answers<dyn Recogniser, Answer>,
+    answers: AnswerSource<dyn Recogniser, Answer>,
     /// Parts of each event to ask about too, by their lengths (s).
     watched: Vec<f64>,
 }
@@ -58,13 +63,13 @@ impl Goals {
     /// # Errors
     /// As there.
     pub(crate) fn by_method(name: &str, method: &str, weights: Option<&Path>) -> Result<Self, CliError> {
-        let answers = Answers::Method(methods::recogniser(method, weights)?);
+        let answers = AnswerSource::Method(methods::recogniser(method, weights)?);
         Ok(Self { name: name.into(), answers, watched: Vec::new() })
     }
 }
 
 impl Task for Goals {
-    type Answered = RecognisedEvent;
+    type ScoredEvent = RecognisedEvent;
 
     const NAME: &'static str = "goals";
 
@@ -72,21 +77,21 @@ impl Task for Goals {
         &self.name
     }
 
-    fn is_given(&self) -> bool {
-        matches!(self.answers, Answers::Given(_))
+    fn is_external(&self) -> bool {
+        matches!(self.answers, AnswerSource::PredictionsFile(_))
     }
 
     fn settings(&self) -> Value {
         match &self.answers {
-            Answers::Method(method) => json!({ "method": method.settings(), "watched": self.watched }),
-            Answers::Given(given) => given.settings(),
+            AnswerSource::Method(method) => json!({ "method": method.settings(), "watched": self.watched }),
+            AnswerSource::PredictionsFile(given) => given.settings(),
         }
     }
 
     fn ticks(&self) -> usize {
         match &self.answers {
-            Answers::Method(method) => method.ticks() * (1 + self.watched.len()),
-            Answers::Given(_) => 1,
+            AnswerSource::Method(method) => method.ticks() * (1 + self.watched.len()),
+            AnswerSource::PredictionsFile(_) => 1,
         }
     }
 
@@ -103,11 +108,11 @@ impl Task for Goals {
         event: &Event,
         recording: &Recording,
         seed: u64,
-        tick: Tick<'_>,
+        tick: ProgressCallback<'_>,
     ) -> Result<Option<RecognisedEvent>, MethodError> {
         let (answer, details, cpu_seconds, watched) = match &self.answers {
-            Answers::Given(given) => (given.answer(event)?, Value::Null, None, Vec::new()),
-            Answers::Method(method) => {
+            AnswerSource::PredictionsFile(given) => (given.answer(event)?, Value::Null, None, Vec::new()),
+            AnswerSource::Method(method) => {
                 let observed = recording.observed().map_err(MethodError::new)?;
                 let begun = ThreadTime::now();
                 let judged = judge(method.as_ref(), &observed, seed, tick)?;
@@ -115,11 +120,11 @@ impl Task for Goals {
                 let Some((answer, details)) = judged else { return Ok(None) };
                 let mut watched = Vec::with_capacity(self.watched.len());
                 for &seconds in &self.watched {
-                    let part = observed.watched_for(steps_of(seconds));
+                    let part = observed.prefix(steps_of(seconds));
                     let Some((answer, _)) = judge(method.as_ref(), &part, seed, tick)? else {
                         return Ok(None);
                     };
-                    watched.push(Glimpse { seconds, answer });
+                    watched.push(PartialAnswer { seconds, answer });
                 }
                 (answer, details, Some(cpu_seconds), watched)
             }
@@ -134,7 +139,7 @@ impl Task for Goals {
         subject: Subject<'_>,
         events: &[RecognisedEvent],
     ) -> Option<serde_json::Result<(Value, Document)>> {
-        let summary = Summary::of(events, subject.seed)?;
+        let summary = RecognitionSummary::of(events, subject.seed)?;
         Some(
             results::goals(run, &summary, events)
                 .map(|results| (results, evaluation::goals(subject, &summary))),
@@ -146,7 +151,7 @@ fn judge(
     method: &dyn Recogniser,
     observed: &ObservedEvent,
     seed: u64,
-    tick: Tick<'_>,
+    tick: ProgressCallback<'_>,
 ) -> Result<Option<(Answer, Value)>, MethodError> {
     let Some((judgement, details)) = method.judge(observed, seed, tick)? else { return Ok(None) };
     let answer = Answer::of(&judgement)?;

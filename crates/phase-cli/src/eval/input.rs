@@ -1,7 +1,7 @@
 //! The events that a method is measured on.
 
 use super::options::Common;
-use crate::{context::Context, error::CliError, source::Source};
+use crate::{context::Context, error::CliError, source::EventInput};
 use phase_dataset::{
     checksum::{hexadecimal, sha256},
     manifest::{MANIFEST_FILE, Manifest},
@@ -18,12 +18,12 @@ pub(crate) struct Input {
     /// What they are called in the name of a folder.
     pub name: String,
     /// What they are called in a report.
-    pub words: String,
+    pub description: String,
     /// Stands for everything that is in them.
     pub sha256: String,
     /// The events.
     pub events: Vec<Event>,
-    source: Source,
+    source: EventInput,
 }
 
 /// One event, before it is loaded.
@@ -50,7 +50,7 @@ impl Input {
     /// If it cannot be used, or holds nothing of what was asked for.
     pub(crate) fn open(arguments: &Common, context: &Context) -> Result<Self, CliError> {
         let path = &arguments.events;
-        let source = Source::open(path, &[], context)?;
+        let source = EventInput::open(path, &[], context)?;
         let manifest = path.join(MANIFEST_FILE);
         let mut events = if manifest.is_file() {
             of_manifest(&Manifest::read(&manifest)?, arguments.split)
@@ -69,8 +69,8 @@ impl Input {
         events.truncate(arguments.limit.map_or(usize::MAX, |limit| limit as usize));
         let contents: String =
             events.iter().map(|event| format!("{} {}\n", event.id, event.contents)).collect();
-        let (name, words) = names(path, arguments.split);
-        Ok(Self { name, words, sha256: hexadecimal(&sha256(contents.as_bytes())), events, source })
+        let (name, description) = names(path, arguments.split);
+        Ok(Self { name, description, sha256: hexadecimal(&sha256(contents.as_bytes())), events, source })
     }
 
     /// Loads one of the events.

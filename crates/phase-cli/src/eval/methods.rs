@@ -7,7 +7,7 @@ use super::{
 use crate::error::CliError;
 use phase_eval::{
     Forecaster, Recogniser,
-    plain::{Chance, ConstantVelocity, Still},
+    trivial::{Chance, ConstantVelocity, Stationary},
 };
 use std::path::Path;
 
@@ -55,7 +55,7 @@ pub fn forecaster(name: &str, weights: Option<&Path>) -> Result<Box<dyn Forecast
     no_weights(name, weights)?;
     match name {
         "constant-velocity" => Ok(Box::new(ConstantVelocity)),
-        "still" => Ok(Box::new(Still)),
+        "still" => Ok(Box::new(Stationary)),
         _ => Ok(Box::new(Simple::of(name).ok_or_else(|| no_such(name))?)),
     }
 }

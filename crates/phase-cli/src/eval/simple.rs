@@ -2,23 +2,23 @@
 
 use phase_eval::{
     Forecaster, Recogniser,
-    method::{Answered, MethodError, Tick},
+    method::{MethodError, MethodResult, ProgressCallback},
 };
 use phase_event::ObservedEvent;
 use phase_model::{Forecast, Judgement};
 use phase_simple::{
-    AnyStrength, ChainSettings, ForecastSettings, Inference, Proposal, Settings, Stage, StrengthRegressor,
-    Update, forecast, infer,
+    ChainSettings, ForecastSettings, Inference, InferenceSettings, PreparedEvent, Proposal,
+    StrengthRegressor, UniformStrength, Update, forecast, infer,
 };
 use serde_json::{Value, json};
 
 /// Hypotheses kept with an answer.
-const KEPT: usize = 12;
+const REPORTED_HYPOTHESES: usize = 12;
 
 /// SIMPLE with some settings.
 #[derive(Clone, Copy, Debug)]
 pub struct Simple {
-    settings: Settings,
+    settings: InferenceSettings,
     forecast: ForecastSettings,
 }
 
@@ -28,21 +28,26 @@ impl Simple {
     /// and then; `simple-published` is Algorithm 2 with simulations that never are. `None` for other names.
     #[must_use]
     pub fn of(name: &str) -> Option<Self> {
-        let algorithm_2 = |update| Settings::chains(ChainSettings::anchored(update));
+        let algorithm_2 = |update| InferenceSettings::chains(ChainSettings::resynchronised(update));
         let settings = match name {
-            "simple" => Settings::default(),
+            "simple" => InferenceSettings::default(),
             "simple-initial" => algorithm_2(Update::Initial),
             "simple-global" => algorithm_2(Update::Global),
             "simple-local" => algorithm_2(Update::Local),
-            "simple-published" => Settings::published(),
+            "simple-published" => InferenceSettings::published(),
             _ => return None,
         };
         Some(Self { settings, forecast: ForecastSettings::default() })
     }
 
-    fn infer(&self, stage: &Stage<'_>, seed: u64, tick: Tick<'_>) -> Result<Option<Inference>, MethodError> {
-        let strengths = StrengthRegressor::shipped().map_err(MethodError::new)?;
-        infer(stage, &strengths, seed, &self.settings, tick).map_err(MethodError::new)
+    fn infer(
+        &self,
+        prepared: &PreparedEvent<'_>,
+        seed: u64,
+        tick: ProgressCallback<'_>,
+    ) -> Result<Option<Inference>, MethodError> {
+        let strengths = StrengthRegressor::bundled().map_err(MethodError::new)?;
+        infer(prepared, &strengths, seed, &self.settings, tick).map_err(MethodError::new)
     }
 }
 
@@ -55,9 +60,14 @@ impl Recogniser for Simple {
         self.settings.ticks()
     }
 
-    fn judge(&self, observed: &ObservedEvent, seed: u64, tick: Tick<'_>) -> Answered<Judgement> {
-        let stage = Stage::new(observed, self.settings.minds, seed);
-        let inference = self.infer(&stage, seed, tick)?;
+    fn judge(
+        &self,
+        observed: &ObservedEvent,
+        seed: u64,
+        tick: ProgressCallback<'_>,
+    ) -> MethodResult<Judgement> {
+        let prepared = PreparedEvent::new(observed, self.settings.minds, seed);
+        let inference = self.infer(&prepared, seed, tick)?;
         Ok(inference.map(|inference| (inference.posterior.judgement(), details(&inference))))
     }
 }
@@ -76,12 +86,12 @@ impl Forecaster for Simple {
         observed: &ObservedEvent,
         steps: usize,
         seed: u64,
-        tick: Tick<'_>,
-    ) -> Answered<Forecast> {
-        let stage = Stage::new(observed, self.settings.minds, seed);
-        let Some(inference) = self.infer(&stage, seed, &mut *tick)? else { return Ok(None) };
+        tick: ProgressCallback<'_>,
+    ) -> MethodResult<Forecast> {
+        let prepared = PreparedEvent::new(observed, self.settings.minds, seed);
+        let Some(inference) = self.infer(&prepared, seed, &mut *tick)? else { return Ok(None) };
         let forecast =
-            forecast(&stage, &inference, steps, seed, &self.forecast, tick).map_err(MethodError::new)?;
+            forecast(&prepared, &inference, steps, seed, &self.forecast, tick).map_err(MethodError::new)?;
         Ok(forecast.map(|forecast| (forecast, details(&inference))))
     }
 }
@@ -91,15 +101,21 @@ impl Forecaster for Simple {
 pub struct Cue;
 
 impl Recogniser for Cue {
-    fn judge(&self, observed: &ObservedEvent, _seed: u64, _tick: Tick<'_>) -> Answered<Judgement> {
+    fn judge(
+        &self,
+        observed: &ObservedEvent,
+        _seed: u64,
+        _tick: ProgressCallback<'_>,
+    ) -> MethodResult<Judgement> {
         let whole = 0..=observed.steps();
-        let proposal = Proposal::new(observed, whole, Settings::default().gamma, &AnyStrength);
+        let proposal = Proposal::new(observed, whole, InferenceSettings::default().gamma, &UniformStrength);
         Ok(Some((proposal.posterior().judgement(), Value::Null)))
     }
 }
 
 fn details(inference: &Inference) -> Value {
     let hypothesis = |(hypothesis, weight): &(_, f64)| json!({ "hypothesis": hypothesis, "weight": weight });
-    let hypotheses: Vec<Value> = inference.posterior.hypotheses.iter().take(KEPT).map(hypothesis).collect();
+    let hypotheses: Vec<Value> =
+        inference.posterior.hypotheses.iter().take(REPORTED_HYPOTHESES).map(hypothesis).collect();
     json!({ "hypotheses": hypotheses, "accepted": inference.accepted, "simulated": inference.simulated })
 }

@@ -8,11 +8,11 @@ use crate::{
     console::{self, print_result},
     context::Context,
     error::CliError,
+    event_writer::program,
     gen_dataset::check_same,
     interrupt,
     output::print_json,
     parallel::make_all,
-    production::program,
     progress::Progress,
 };
 use phase_dataset::{
@@ -21,7 +21,7 @@ use phase_dataset::{
     folder::{self, Contents, Folder},
     json,
 };
-use phase_eval::{MethodError, Tick};
+use phase_eval::{MethodError, ProgressCallback};
 use phase_event::Recording;
 use phase_model::random::{Purpose, derive_seed};
 use phase_report::{document::Document, evaluation::Subject};
@@ -41,7 +41,7 @@ const EVENTS: &str = "events";
 /// A task and the method that does it.
 pub(crate) trait Task: Sync {
     /// One event with what the method said of it.
-    type Answered: Serialize + DeserializeOwned + Send;
+    type ScoredEvent: Serialize + DeserializeOwned + Send;
 
     /// The task's name.
     const NAME: &'static str;
@@ -50,7 +50,7 @@ pub(crate) trait Task: Sync {
     fn method(&self) -> &str;
 
     /// Whether the method is somebody else's, whose answers came from a file.
-    fn is_given(&self) -> bool;
+    fn is_external(&self) -> bool;
 
     /// What decides the answers beside events and seed.
     fn settings(&self) -> Value;
@@ -72,15 +72,15 @@ pub(crate) trait Task: Sync {
         event: &Event,
         recording: &Recording,
         seed: u64,
-        tick: Tick<'_>,
-    ) -> Result<Option<Self::Answered>, MethodError>;
+        tick: ProgressCallback<'_>,
+    ) -> Result<Option<Self::ScoredEvent>, MethodError>;
 
     /// Results and report; `None` without events.
     fn sum_up(
         &self,
         run: &Value,
         subject: Subject<'_>,
-        events: &[Self::Answered],
+        events: &[Self::ScoredEvent],
     ) -> Option<serde_json::Result<(Value, Document)>>;
 }
 
@@ -92,7 +92,7 @@ pub(crate) struct Evaluation<A> {
     document: Document,
     out: PathBuf,
     /// Whether it was done already.
-    was_there: bool,
+    already_finished: bool,
 }
 
 /// Does a task and says what came of it.
@@ -105,13 +105,13 @@ pub(super) fn run<T: Task>(
     arguments: &Common,
     context: &Context,
 ) -> Result<(), CliError> {
-    check_place(arguments)?;
+    check_output_path(arguments)?;
     let done = evaluate(task, input, arguments, context)?;
     if arguments.json.as_deref() == Some(Path::new(STDOUT)) {
         return print_json(&done.results);
     }
-    hand_over(arguments, &done.results, &done.document)?;
-    print_result(if done.was_there {
+    write_copies(arguments, &done.results, &done.document)?;
+    print_result(if done.already_finished {
         format!("{} holds this evaluation already", done.out.display())
     } else {
         format!("{} events; report in {}", done.events.len(), done.out.join(REPORT_FILE).display())
@@ -128,7 +128,7 @@ pub(crate) fn evaluate<T: Task>(
     input: &Input,
     arguments: &Common,
     context: &Context,
-) -> Result<Evaluation<T::Answered>, CliError> {
+) -> Result<Evaluation<T::ScoredEvent>, CliError> {
     input.events.iter().try_for_each(|event| task.check(event, &arguments.events))?;
     let out = arguments.out.clone().unwrap_or_else(|| default_folder(task, input));
     let run = json!({
@@ -136,8 +136,12 @@ pub(crate) fn evaluate<T: Task>(
         "method_settings": task.settings(), "seed": arguments.seed, "n_events": input.events.len(),
         "events_sha256": input.sha256,
     });
-    let subject =
-        Subject { method: task.method(), given: task.is_given(), events: &input.words, seed: arguments.seed };
+    let subject = Subject {
+        method: task.method(),
+        given: task.is_external(),
+        events: &input.description,
+        seed: arguments.seed,
+    };
     match folder::inspect(&out, RESULTS_FILE)? {
         Contents::Finished => return finished(task, &run, subject, out),
         Contents::Unfinished(other) => {
@@ -148,7 +152,7 @@ pub(crate) fn evaluate<T: Task>(
     }
     interrupt::listen();
     let folder = Folder::claim(&out, &run)?;
-    let kept = Kept { folder: folder.subfolder(EVENTS)?, program: hexadecimal(&program()) };
+    let kept = AnswerStore { folder: folder.subfolder(EVENTS)?, program: hexadecimal(&program()) };
     let activity = format!("evaluating {} on {}", task.method(), console::events(input.events.len()));
     let progress = context.progress(&activity, input.events.len(), task.ticks());
     let answered = make_all(&arguments.jobs, input.events.len(), |k| {
@@ -162,7 +166,7 @@ pub(crate) fn evaluate<T: Task>(
     write_report(&out, &document)?;
     atomic::write(&results_file, text_of(&results).as_bytes())?;
     folder.finish()?;
-    Ok(Evaluation { events: answered, results, document, out, was_there: false })
+    Ok(Evaluation { events: answered, results, document, out, already_finished: false })
 }
 
 /// One event: taken from what was kept, or asked for and kept.
@@ -171,9 +175,9 @@ fn one<T: Task>(
     input: &Input,
     event: &Event,
     seed: u64,
-    kept: &Kept,
+    kept: &AnswerStore,
     progress: &Progress,
-) -> Result<Option<T::Answered>, CliError> {
+) -> Result<Option<T::ScoredEvent>, CliError> {
     if let Some(answered) = kept.load(&event.id) {
         progress.event(0, &format!("{} (kept)", event.id));
         return Ok(Some(answered));
@@ -205,13 +209,13 @@ fn event_seed(seed: u64, id: &str) -> u64 {
 }
 
 /// What was said of each event, in a file each.
-struct Kept {
+struct AnswerStore {
     folder: PathBuf,
     /// Stands for this very program; what another build said is not taken.
     program: String,
 }
 
-impl Kept {
+impl AnswerStore {
     fn path(&self, id: &str) -> PathBuf {
         self.folder.join(format!("{id}.json"))
     }
@@ -241,7 +245,7 @@ pub(crate) fn write_report(out: &Path, document: &Document) -> Result<(), CliErr
 }
 
 /// Prints the table and writes the results where else they were asked for.
-fn hand_over(arguments: &Common, results: &Value, document: &Document) -> Result<(), CliError> {
+fn write_copies(arguments: &Common, results: &Value, document: &Document) -> Result<(), CliError> {
     if let Some(path) = &arguments.json {
         atomic::write(path, text_of(results).as_bytes()).map_err(CliError::Output)?;
     }
@@ -255,7 +259,7 @@ fn finished<T: Task>(
     run: &Value,
     subject: Subject<'_>,
     out: PathBuf,
-) -> Result<Evaluation<T::Answered>, CliError> {
+) -> Result<Evaluation<T::ScoredEvent>, CliError> {
     let file = out.join(RESULTS_FILE);
     let results = json::read(&file)?;
     check_same(&out, "a finished", &results["run"], run)?;
@@ -263,7 +267,7 @@ fn finished<T: Task>(
         let problem = Problem::Shape { what: "results file", rule };
         CliError::Altered(FileError { file: file.clone(), problem })
     };
-    let events: Vec<T::Answered> =
+    let events: Vec<T::ScoredEvent> =
         serde_json::from_value(results["events"].clone()).map_err(|error| altered(error.to_string()))?;
     let Some(summed_up) = task.sum_up(run, subject, &events) else { return Err(no_events(&out)) };
     let (again, document) = summed_up.map_err(|error| WriteError::json(&file, error))?;
@@ -273,7 +277,7 @@ fn finished<T: Task>(
     if folder::has_leftovers(&out) {
         Folder::claim(&out, run)?.finish()?;
     }
-    Ok(Evaluation { events, results, document, out, was_there: true })
+    Ok(Evaluation { events, results, document, out, already_finished: true })
 }
 
 fn no_events(out: &Path) -> CliError {
@@ -285,7 +289,7 @@ fn default_folder<T: Task>(task: &T, input: &Input) -> PathBuf {
 }
 
 /// Checks before hours of work that there is a folder for the file to be written at their end.
-fn check_place(arguments: &Common) -> Result<(), CliError> {
+fn check_output_path(arguments: &Common) -> Result<(), CliError> {
     let Some(path) = arguments.json.as_ref().filter(|path| *path != Path::new(STDOUT)) else { return Ok(()) };
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let rule = if path.is_dir() {

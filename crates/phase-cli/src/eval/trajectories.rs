@@ -1,7 +1,7 @@
 //! Task 2: how far predicted trajectories are off.
 
 use super::{
-    answers::{Answers, Given},
+    answers::{AnswerSource, PredictionsFile},
     input::{Event, Input},
     methods,
     options::EvalTrajectories,
@@ -10,8 +10,8 @@ use super::{
 use crate::{context::Context, error::CliError};
 use cpu_time::ThreadTime;
 use phase_eval::{
-    Forecaster, MethodError, Tick, predictions, results,
-    trajectories::{Errors, ForecastEvent, PREDICTED_STEPS, Summary, WATCHED_STEPS},
+    Forecaster, MethodError, ProgressCallback, predictions, results,
+    trajectories::{Errors, ForecastEvent, ForecastSummary, PREDICTED_STEPS, WATCHED_STEPS},
 };
 use phase_event::Recording;
 use phase_model::Forecast;
@@ -33,8 +33,8 @@ pub(super) fn run(arguments: &EvalTrajectories, context: &Context) -> Result<(),
             let fit = |event: &Event, forecast| {
                 predictions::fit(&forecast, event.entities, steps_to_predict(event.steps))
             };
-            let given = Given::read(file, &input, context, predictions::forecasts, fit)?;
-            Trajectories { name: given.name.clone(), answers: Answers::Given(given) }
+            let given = PredictionsFile::read(file, &input, context, predictions::forecasts, fit)?;
+            Trajectories { name: given.name.clone(), answers: AnswerSource::PredictionsFile(given) }
         }
         (None, method) => {
             let method = method.as_deref().unwrap_or_default();
@@ -47,7 +47,7 @@ pub(super) fn run(arguments: &EvalTrajectories, context: &Context) -> Result<(),
 /// The task.
 pub(crate) struct Trajectories {
     name: String,
-    answers: Answers<dyn Forecaster, Forecast>,
+    answers: AnswerSource<dyn Forecaster, Forecast>,
 }
 
 impl Trajectories {
@@ -56,13 +56,13 @@ impl Trajectories {
     /// # Errors
     /// As there.
     pub(crate) fn by_method(name: &str, method: &str, weights: Option<&Path>) -> Result<Self, CliError> {
-        let answers = Answers::Method(methods::forecaster(method, weights)?);
+        let answers = AnswerSource::Method(methods::forecaster(method, weights)?);
         Ok(Self { name: name.into(), answers })
     }
 }
 
 impl Task for Trajectories {
-    type Answered = ForecastEvent;
+    type ScoredEvent = ForecastEvent;
 
     const NAME: &'static str = "trajectories";
 
@@ -70,21 +70,21 @@ impl Task for Trajectories {
         &self.name
     }
 
-    fn is_given(&self) -> bool {
-        matches!(self.answers, Answers::Given(_))
+    fn is_external(&self) -> bool {
+        matches!(self.answers, AnswerSource::PredictionsFile(_))
     }
 
     fn settings(&self) -> Value {
         match &self.answers {
-            Answers::Method(method) => json!({ "method": method.settings() }),
-            Answers::Given(given) => given.settings(),
+            AnswerSource::Method(method) => json!({ "method": method.settings() }),
+            AnswerSource::PredictionsFile(given) => given.settings(),
         }
     }
 
     fn ticks(&self) -> usize {
         match &self.answers {
-            Answers::Method(method) => method.ticks(),
-            Answers::Given(_) => 1,
+            AnswerSource::Method(method) => method.ticks(),
+            AnswerSource::PredictionsFile(_) => 1,
         }
     }
 
@@ -103,16 +103,16 @@ impl Task for Trajectories {
         event: &Event,
         recording: &Recording,
         seed: u64,
-        tick: Tick<'_>,
+        tick: ProgressCallback<'_>,
     ) -> Result<Option<ForecastEvent>, MethodError> {
         let observed = recording.observed().map_err(MethodError::new)?;
         let truth: Forecast = observed.entities().map(|entity| path(&observed, entity.index())).collect();
         let steps = truth.first().map_or(0, Vec::len);
         let (forecast, details, cpu_seconds) = match &self.answers {
-            Answers::Given(given) => (given.answer(event)?, Value::Null, None),
-            Answers::Method(method) => {
+            AnswerSource::PredictionsFile(given) => (given.answer(event)?, Value::Null, None),
+            AnswerSource::Method(method) => {
                 let begun = ThreadTime::now();
-                let forecast = method.forecast(&observed.watched_for(WATCHED_STEPS), steps, seed, tick)?;
+                let forecast = method.forecast(&observed.prefix(WATCHED_STEPS), steps, seed, tick)?;
                 let cpu_seconds = begun.elapsed().as_secs_f64();
                 let Some((forecast, details)) = forecast else { return Ok(None) };
                 (forecast, details, Some(cpu_seconds))
@@ -141,7 +141,7 @@ impl Task for Trajectories {
         subject: Subject<'_>,
         events: &[ForecastEvent],
     ) -> Option<serde_json::Result<(Value, Document)>> {
-        let summary = Summary::of(events, subject.seed)?;
+        let summary = ForecastSummary::of(events, subject.seed)?;
         Some(
             results::trajectories(run, &summary, events)
                 .map(|results| (results, evaluation::trajectories(subject, &summary))),

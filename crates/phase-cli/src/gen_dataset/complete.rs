@@ -12,8 +12,8 @@ use phase_dataset::{
     croissant::{CROISSANT_FILE, croissant},
     manifest::{CARD_FILE, DATASET_FORMAT, EventEntry, MANIFEST_FILE, Manifest, PAGE_FILE},
     parquet, phase_events,
-    record::Record,
-    shard::Whole,
+    shard::DatasetDescription,
+    slot_record::SlotRecord,
 };
 use phase_event::Event;
 use phase_report::{
@@ -29,8 +29,8 @@ use std::path::Path;
 /// If an event cannot be read back, a file cannot be written, or the run was interrupted.
 pub fn complete(
     out: &Path,
-    whole: &Whole,
-    records: impl Iterator<Item = Record>,
+    whole: &DatasetDescription,
+    records: impl Iterator<Item = SlotRecord>,
 ) -> Result<Manifest, CliError> {
     let (mut events, mut timelines, mut tally) = (Vec::new(), Vec::new(), Tally::default());
     for record in records {

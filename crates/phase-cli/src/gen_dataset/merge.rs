@@ -9,8 +9,8 @@ use phase_dataset::{
     folder::{self, Contents, Folder},
     manifest::MANIFEST_FILE,
     parquet,
-    record::Record,
     shard::{SHARD_FILE, Shard},
+    slot_record::SlotRecord,
 };
 use std::{
     fs,
@@ -120,7 +120,7 @@ impl Shards {
     }
 
     /// The records of all slots, in the order of the dataset.
-    fn records(&self) -> impl Iterator<Item = Record> {
+    fn records(&self) -> impl Iterator<Item = SlotRecord> {
         let (events, of) = (self.first().whole.events, self.0.len());
         (0..events).filter_map(move |slot| self.0[slot % of].0.slots.get(slot / of).cloned())
     }

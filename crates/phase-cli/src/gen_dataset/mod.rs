@@ -18,8 +18,8 @@ use phase_dataset::{
     folder::{self, Contents, Folder},
     manifest::{EventEntry, MANIFEST_FILE, Manifest, PAGE_FILE},
     parquet,
-    record::Record,
-    shard::{SHARD_FILE, SHARD_FORMAT, Shard, Whole},
+    shard::{DatasetDescription, SHARD_FILE, SHARD_FORMAT, Shard},
+    slot_record::SlotRecord,
 };
 use phase_report::acceptance;
 use phase_sim::Engine;
@@ -57,7 +57,7 @@ pub fn run(arguments: &GenDataset, context: &Context) -> Result<(), CliError> {
     if !for_all(&arguments.jobs, indices.len(), |k| slots.fill(indices[k]))? {
         return Err(CliError::Interrupted(out));
     }
-    let records: Vec<Record> = indices.iter().map(|&index| slots.record(index)).collect();
+    let records: Vec<SlotRecord> = indices.iter().map(|&index| slots.record(index)).collect();
     // The progress bar goes with them, before anything else is printed.
     drop(slots);
     if let Some((shard, of)) = plan.shard {
@@ -109,7 +109,7 @@ fn check_finished(plan: &Plan, out: &Path, output: Output) -> Result<(), CliErro
         (run_value(&shard.whole, Some((shard.shard, shard.of))), files)
     } else {
         let manifest = Manifest::read(&out.join(MANIFEST_FILE))?;
-        let whole = Whole {
+        let whole = DatasetDescription {
             preset: manifest.preset,
             events: manifest.events.len(),
             seed: manifest.seed,
@@ -134,7 +134,7 @@ fn check_finished(plan: &Plan, out: &Path, output: Output) -> Result<(), CliErro
 }
 
 /// What a run is, as it stands in the folder it works in.
-fn run_value(whole: &Whole, shard: Option<(usize, usize)>) -> Value {
+fn run_value(whole: &DatasetDescription, shard: Option<(usize, usize)>) -> Value {
     let mut value = json!({
         "command": "gen-dataset", "preset": whole.preset, "events": whole.events, "seed": whole.seed,
         "generator": whole.generator, "settings": whole.settings,

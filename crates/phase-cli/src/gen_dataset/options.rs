@@ -1,6 +1,6 @@
 //! The options of `gen-dataset` and `merge`.
 
-use crate::{effort::Effort, output::Output, parallel::Jobs};
+use crate::{effort::SimulationOptions, output::Output, parallel::Jobs};
 use clap::{Args, value_parser};
 use std::path::PathBuf;
 
@@ -31,7 +31,7 @@ pub struct GenDataset {
     pub output: Output,
     /// How the agents think.
     #[command(flatten)]
-    pub effort: Effort,
+    pub effort: SimulationOptions,
     /// How many events at once.
     #[command(flatten)]
     pub jobs: Jobs,

@@ -4,17 +4,17 @@ use super::{options::GenDataset, run_value};
 use crate::{
     engine::GENERATOR,
     error::CliError,
-    production::{program, settings_value},
+    event_writer::{program, settings_value},
 };
 use phase_dataset::{
     FileError,
     checksum::{hexadecimal, sha256},
     json,
     preset::{Composition, Preset},
-    shard::{self, Whole},
+    shard::{self, DatasetDescription},
 };
 use phase_model::json::JsonError;
-use phase_sim::{Engine, Settings};
+use phase_sim::{Engine, SimulationSettings};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
@@ -37,7 +37,7 @@ pub struct Plan {
     /// Seed of the whole dataset.
     pub seed: u64,
     /// How events are simulated.
-    pub settings: Settings,
+    pub settings: SimulationSettings,
     /// Whether events get videos.
     pub videos: bool,
     /// The shard to make (from 1) and of how many, if not the whole.
@@ -104,8 +104,8 @@ impl Plan {
 
     /// What the dataset is, apart from its events.
     #[must_use]
-    pub fn whole(&self) -> Whole {
-        Whole {
+    pub fn whole(&self) -> DatasetDescription {
+        DatasetDescription {
             preset: self.preset.name.clone(),
             events: self.count,
             seed: self.seed,

@@ -6,24 +6,24 @@ use crate::{
     context::Context,
     engine,
     error::CliError,
+    event_writer::{EventJob, EventWriter},
     interrupt,
-    production::{Order, Production},
 };
 use core::ops::ControlFlow;
 use phase_dataset::{
     folder::Folder,
     manifest::{EventEntry, event_path, video_path},
-    preset::{Selection, Slot},
-    record::Record,
+    preset::{EventSlot, Selection},
+    slot_record::SlotRecord,
 };
 use phase_event::Event;
 use phase_evidence::{
     Track,
-    selection::{Refusal, first_look},
+    selection::{RejectionReason, check_event},
 };
 use phase_model::{Layout, Scene, random};
 use phase_sampler::Request;
-use phase_sim::Settings;
+use phase_sim::SimulationSettings;
 use std::{collections::BTreeMap, path::PathBuf, time::Instant};
 
 /// The slots of a dataset that is being made in a folder.
@@ -31,7 +31,7 @@ use std::{collections::BTreeMap, path::PathBuf, time::Instant};
 pub struct Slots<'a> {
     plan: &'a Plan,
     folder: &'a Folder,
-    production: Production,
+    event_writer: EventWriter,
     pools: BTreeMap<String, Vec<Layout>>,
     context: Context,
 }
@@ -39,7 +39,7 @@ pub struct Slots<'a> {
 /// What came of an attempt.
 enum Attempt {
     Interrupted,
-    Refused(Refusal),
+    Refused(RejectionReason),
     Accepted(Box<Event>),
 }
 
@@ -51,14 +51,14 @@ impl<'a> Slots<'a> {
     pub fn new(plan: &'a Plan, folder: &'a Folder, count: usize, context: Context) -> Result<Self, CliError> {
         let pools = plan.preset.layouts.keys().map(|name| (name.clone(), plan.preset.pool(name))).collect();
         let activity = format!("making {}", console::events(count));
-        let production = Production::new(&context, &activity, folder, plan.settings, count)?;
-        Ok(Self { plan, folder, production, pools, context })
+        let event_writer = EventWriter::new(&context, &activity, folder, plan.settings, count)?;
+        Ok(Self { plan, folder, event_writer, pools, context })
     }
 
     /// What is known of a slot.
     #[must_use]
-    pub fn record(&self, index: usize) -> Record {
-        Record::load(&self.record_path(index), &self.plan.fingerprint)
+    pub fn record(&self, index: usize) -> SlotRecord {
+        SlotRecord::load(&self.record_path(index), &self.plan.fingerprint)
     }
 
     /// Fills a slot, going on where an earlier run stopped; `None` if interrupted. After every attempt the slot's
@@ -75,7 +75,7 @@ impl<'a> Slots<'a> {
             && entry.files().all(|file| file.verify(self.folder.path()).is_ok())
         {
             let length = entry.steps;
-            self.production.finished(0, &format!("{id} {kind}: {length} steps (kept)"));
+            self.event_writer.finished(0, &format!("{id} {kind}: {length} steps (kept)"));
             return Ok(Some(()));
         }
         record.entry = None;
@@ -97,16 +97,16 @@ impl<'a> Slots<'a> {
                 let seconds = begun.elapsed().as_secs_f64();
                 let tried = if attempts == 1 { String::new() } else { format!(" at attempt {attempts}") };
                 let line = format!("{id} {kind}, {variant}: {length} steps{tried} ({seconds:.1} s)");
-                self.production.finished(0, &line);
+                self.event_writer.finished(0, &line);
                 return Ok(Some(()));
             }
         }
         Err(CliError::Exhausted { id, variant: slot.variant, reasons: reasons(&record.refused) })
     }
 
-    fn attempt(&self, id: &str, slot: &Slot, seed: u64) -> Result<Attempt, CliError> {
+    fn attempt(&self, id: &str, slot: &EventSlot, seed: u64) -> Result<Attempt, CliError> {
         let layouts = self.pools.get(&slot.layouts).map_or(&[][..], Vec::as_slice);
-        let request = Request { variant: slot.variant, turn: slot.turn, layouts };
+        let request = Request { variant: slot.variant, goal_index: slot.goal_index, layouts };
         let mut random = random::stream(seed, random::Purpose::Scene, 0);
         let scene = phase_sampler::sample(&request, &mut random)?;
         let Some(event) = self.simulate(id, &scene, seed, &self.settings(&scene, seed))? else {
@@ -119,24 +119,25 @@ impl<'a> Slots<'a> {
     /// Cheap tests first; what would have happened without an agent has to be simulated and comes last.
     fn judge(&self, id: &str, event: Event, selection: &Selection) -> Result<Attempt, CliError> {
         let (scene, track) = (&event.scene, Track::of_event(&event));
-        let comparison = match first_look(scene, &track, selection.min_steps..=selection.max_steps) {
+        let counterfactual = match check_event(scene, &track, selection.min_steps..=selection.max_steps) {
             Err(reason) => return Ok(Attempt::Refused(reason)),
             Ok(None) => return Ok(accepted(event)),
-            Ok(Some(comparison)) => comparison,
+            Ok(Some(counterfactual)) => counterfactual,
         };
-        let settings = Settings { idle: Some(comparison.idle), ..self.settings(scene, event.seed) };
-        let without = self.simulate(id, &comparison.scene(scene), event.seed, &settings)?;
+        let settings =
+            SimulationSettings { idle: Some(counterfactual.idle), ..self.settings(scene, event.seed) };
+        let without = self.simulate(id, &counterfactual.scene(scene), event.seed, &settings)?;
         let Some(without) = without else { return Ok(Attempt::Interrupted) };
-        Ok(match comparison.judge(scene, &track, &Track::of_event(&without)) {
+        Ok(match counterfactual.judge(scene, &track, &Track::of_event(&without)) {
             Err(reason) => Attempt::Refused(reason),
             Ok(()) => accepted(event),
         })
     }
 
     /// The run's settings, with an end drawn for those who are at odds if the preset wants it so.
-    fn settings(&self, scene: &Scene, seed: u64) -> Settings {
+    fn settings(&self, scene: &Scene, seed: u64) -> SimulationSettings {
         let mut settings = self.plan.settings;
-        if let Some(end) = self.plan.preset.selection.and_then(|it| it.drawn_end(scene.relation(), seed)) {
+        if let Some(end) = self.plan.preset.selection.and_then(|it| it.sampled_end(scene.relation(), seed)) {
             settings.max_steps = end;
         }
         settings
@@ -147,7 +148,7 @@ impl<'a> Slots<'a> {
         id: &str,
         scene: &Scene,
         seed: u64,
-        settings: &Settings,
+        settings: &SimulationSettings,
     ) -> Result<Option<Event>, CliError> {
         let mut on_step = |_: &_| {
             if interrupt::requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
@@ -156,9 +157,9 @@ impl<'a> Slots<'a> {
     }
 
     /// Writes the files of an accepted event.
-    fn keep(&self, id: &str, slot: &Slot, event: &Event) -> Result<EventEntry, CliError> {
+    fn keep(&self, id: &str, slot: &EventSlot, event: &Event) -> Result<EventEntry, CliError> {
         let out = self.folder.path();
-        let order = Order {
+        let job = EventJob {
             id: id.into(),
             seed: event.seed,
             relation: None,
@@ -166,7 +167,7 @@ impl<'a> Slots<'a> {
             json: out.join(event_path(id)),
             video: self.plan.videos.then(|| out.join(video_path(id))),
         };
-        self.production.write(&order, event, true)?;
+        self.event_writer.write(&job, event, true)?;
         let mut entry = EventEntry::of(out, id, event, self.plan.videos).map_err(CliError::ReadBack)?;
         (entry.variant, entry.split) = (Some(slot.variant), slot.split);
         Ok(entry)
@@ -182,8 +183,9 @@ fn accepted(event: Event) -> Attempt {
 }
 
 /// Reasons with their numbers, in words.
-fn reasons(refused: &[Refusal]) -> String {
-    let counted = Refusal::ALL.map(|reason| (reason, refused.iter().filter(|it| **it == reason).count()));
+fn reasons(refused: &[RejectionReason]) -> String {
+    let counted =
+        RejectionReason::ALL.map(|reason| (reason, refused.iter().filter(|it| **it == reason).count()));
     let words = counted.iter().filter(|(_, count)| *count > 0);
     words.map(|(reason, count)| format!("{} {count}", reason.name())).collect::<Vec<_>>().join(", ")
 }

@@ -44,9 +44,9 @@ fn scene(arguments: &NewScene) -> Result<Scene, CliError> {
     let mut failure = None;
     for k in 0..variants.len() {
         let variant = variants[(arguments.seed as usize + k) % variants.len()];
-        let turn = arguments.seed as usize % variant.goal_count();
+        let goal_index = arguments.seed as usize % variant.goal_count();
         let mut random = random::stream(arguments.seed, random::Purpose::Scene, k as u64);
-        match sample(&Request { variant, turn, layouts: &layouts }, &mut random) {
+        match sample(&Request { variant, goal_index, layouts: &layouts }, &mut random) {
             Ok(scene) => return Ok(scene),
             Err(error) => failure = failure.or(Some(error)),
         }

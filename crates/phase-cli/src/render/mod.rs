@@ -9,15 +9,15 @@ use crate::{
     error::CliError,
     interrupt,
     parallel::make_all,
-    picture::{self, Mind, Shot},
-    source::Source,
+    picture::{self, BeliefFrame, RenderedState},
+    source::EventInput,
 };
 use options::{Belief, Render};
 use phase_dataset::WriteError;
 use phase_event::{Recording, Row, Simulation, Trajectory};
 use phase_model::{AgentId, State, arena::SUBSTEPS};
 use phase_render::Palette;
-use phase_sim::Settings;
+use phase_sim::SimulationSettings;
 use serde::Serialize;
 use serde_json::json;
 use std::path::{Path, PathBuf};
@@ -27,7 +27,7 @@ use std::path::{Path, PathBuf};
 /// # Errors
 /// Any [`CliError`].
 pub fn run(arguments: &Render, context: &Context) -> Result<(), CliError> {
-    let source = Source::open(&arguments.file, &arguments.id, context)?;
+    let source = EventInput::open(&arguments.file, &arguments.id, context)?;
     let extension = if arguments.contact_sheet.is_some() { "png" } else { "mp4" };
     let target = Target::of(&arguments.out, extension, source.len())?;
     // Known before the work of events in files that are read already; folders hold simulated events.
@@ -125,9 +125,9 @@ fn check_ending(out: &Path, extension: &str) -> Result<(), CliError> {
 
 /// Renders one event.
 fn render(arguments: &Render, recording: &Recording, path: &Path) -> Result<(), CliError> {
-    let (id, physique) = (&recording.id, recording.scene.physique());
+    let (id, physics) = (&recording.id, recording.scene.physics());
     let palette = arguments.palette.palette();
-    let minds: Vec<Vec<Mind>> = match (arguments.belief, &recording.simulation) {
+    let minds: Vec<Vec<BeliefFrame>> = match (arguments.belief, &recording.simulation) {
         (None, _) => Vec::new(),
         (Some(belief), Some(simulation)) => {
             let settings = settings(arguments, id, simulation)?;
@@ -145,10 +145,11 @@ fn render(arguments: &Render, recording: &Recording, path: &Path) -> Result<(), 
         minds.iter().filter_map(|minds| minds.get(step).or(minds.last())).collect()
     };
     let frames = states.into_iter().enumerate();
-    let shots: Vec<Shot<'_>> = frames.map(|(k, state)| Shot { state, minds: minds_at(k) }).collect();
+    let items: Vec<RenderedState<'_>> =
+        frames.map(|(k, state)| RenderedState { state, minds: minds_at(k) }).collect();
     let result = match arguments.contact_sheet {
-        Some(count) => picture::write_sheet(path, id, &physique, palette, &shots, count.into()),
-        None => picture::write_video(path, id, &physique, palette, &shots),
+        Some(count) => picture::write_sheet(path, id, &physics, palette, &items, count.into()),
+        None => picture::write_video(path, id, &physics, palette, &items),
     };
     result.map_err(|error| match error {
         CliError::Write(error) => CliError::Output(error),
@@ -164,20 +165,29 @@ fn unsimulated(arguments: &Render, id: &str) -> CliError {
 }
 
 /// The settings that an event was simulated with.
-fn settings(arguments: &Render, id: &str, simulation: &Simulation) -> Result<Settings, CliError> {
+fn settings(arguments: &Render, id: &str, simulation: &Simulation) -> Result<SimulationSettings, CliError> {
     let settings = serde_json::from_value(simulation.settings.clone());
-    settings.map_err(|source| CliError::Settings { file: arguments.file.clone(), id: id.to_owned(), source })
+    settings.map_err(|source| CliError::SimulationSettings {
+        file: arguments.file.clone(),
+        id: id.to_owned(),
+        source,
+    })
 }
 
 /// What an agent saw, believed and was after at every step.
-fn minds(simulation: &Simulation, agent: AgentId, palette: &Palette, settings: &Settings) -> Vec<Mind> {
+fn minds(
+    simulation: &Simulation,
+    agent: AgentId,
+    palette: &Palette,
+    settings: &SimulationSettings,
+) -> Vec<BeliefFrame> {
     let event = &simulation.event;
     let snapshots = engine::beliefs(event, agent, settings);
     let colour = palette.agent_names[agent];
     let steps = event.steps.iter().enumerate();
     let mind = |((t, step), snapshot): ((usize, &phase_event::Step), phase_sim::BeliefSnapshot)| {
         let thought = &step.thoughts[agent];
-        Mind {
+        BeliefFrame {
             agent,
             visible: snapshot.visible,
             particles: snapshot.particles,

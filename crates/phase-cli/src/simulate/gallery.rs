@@ -4,7 +4,7 @@ use crate::{engine::GENERATOR, error::CliError};
 use phase_dataset::{
     atomic,
     manifest::{DATASET_FORMAT, EventEntry, Manifest, PAGE_FILE},
-    summary::Comparison,
+    summary::EventComparison,
 };
 use phase_event::Event;
 use phase_report::gallery::{Timeline, page};
@@ -20,8 +20,8 @@ pub(super) struct Shown {
 
 impl Shown {
     /// Of an event whose files are described already.
-    pub(super) fn of(comparison: &Comparison, event: &Event) -> Self {
-        let Comparison { id, event: json, video, .. } = comparison;
+    pub(super) fn of(comparison: &EventComparison, event: &Event) -> Self {
+        let EventComparison { id, event: json, video, .. } = comparison;
         let entry = EventEntry::with_files(id, event, json.clone(), video.clone());
         Self { entry, timeline: Timeline::of(event) }
     }

@@ -9,11 +9,11 @@ use crate::{
     context::Context,
     engine::{self, GENERATOR},
     error::CliError,
+    event_writer::{EventJob, EventWriter, settings_value},
     gen_dataset::check_same,
     interrupt,
     parallel::make_all,
-    production::{Order, Production, settings_value},
-    source::Source,
+    source::EventInput,
 };
 use gallery::Shown;
 use options::Simulate;
@@ -21,7 +21,7 @@ use phase_dataset::{
     checksum::{hexadecimal, sha256},
     folder::{self, Contents, Folder},
     manifest::PAGE_FILE,
-    summary::{Pair, SUMMARY_FILE, Summary},
+    summary::{MeasuredPair, SUMMARY_FILE, SimulationSummary},
 };
 use phase_event::Recording;
 use phase_model::Relation;
@@ -53,18 +53,18 @@ pub fn run(arguments: &Simulate, context: &Context) -> Result<(), CliError> {
     let folder = Folder::claim(out, &run)?;
     let events = chosen.len() * seeds.len();
     let activity = format!("simulating {}", console::events(events));
-    let production = Production::new(context, &activity, &folder, arguments.effort.settings(), events)?;
+    let event_writer = EventWriter::new(context, &activity, &folder, arguments.effort.settings(), events)?;
     let made = make_all(&arguments.jobs, events, |k| {
         let (index, recording) = &chosen[k / seeds.len()];
-        make(&production, arguments, *index, recording, seeds[k % seeds.len()])
+        make(&event_writer, arguments, *index, recording, seeds[k % seeds.len()])
     })?;
-    drop(production);
+    drop(event_writer);
     let Some(made) = made else { return Err(CliError::Interrupted(out.clone())) };
     let (pairs, shown): (Vec<_>, Vec<_>) = made.into_iter().unzip();
     if !arguments.no_video {
         gallery::write(out, arguments.seed, shown)?;
     }
-    let summary = Summary::new(run, pairs);
+    let summary = SimulationSummary::new(run, pairs);
     summary.write(&out.join(SUMMARY_FILE))?;
     folder.finish()?;
     let line = format!("{} simulated events in {}", summary.events.len(), out.display());
@@ -73,21 +73,21 @@ pub fn run(arguments: &Simulate, context: &Context) -> Result<(), CliError> {
 
 /// The events to simulate, in the order of the input.
 fn inputs(arguments: &Simulate, context: &Context) -> Result<Vec<Input>, CliError> {
-    let source = Source::open(&arguments.events, &arguments.id, context)?;
+    let source = EventInput::open(&arguments.events, &arguments.id, context)?;
     let input = |k: usize| Ok((source.place(k), Recording { simulation: None, ..source.load(k)? }));
     (0..source.len()).map(input).collect()
 }
 
 fn make(
-    production: &Production,
+    event_writer: &EventWriter,
     arguments: &Simulate,
     index: usize,
     recording: &Recording,
     seed: u64,
-) -> Result<Option<(Pair, Shown)>, CliError> {
+) -> Result<Option<(MeasuredPair, Shown)>, CliError> {
     let (id, out) = (simulated_id(arguments, recording, seed), &arguments.out);
     let video = !arguments.no_video;
-    let order = Order {
+    let job = EventJob {
         id: id.clone(),
         seed: event_seed(arguments, index, recording, seed),
         relation: Some(recording.relation),
@@ -95,8 +95,8 @@ fn make(
         json: out.join(format!("{id}.json")),
         video: video.then(|| out.join(format!("{id}.mp4"))),
     };
-    let Some(event) = production.make(&order, || Ok(recording.scene.clone()))? else { return Ok(None) };
-    let pair = Pair::of(out, recording, id, seed, &event, video).map_err(CliError::ReadBack)?;
+    let Some(event) = event_writer.make(&job, || Ok(recording.scene.clone()))? else { return Ok(None) };
+    let pair = MeasuredPair::of(out, recording, id, seed, &event, video).map_err(CliError::ReadBack)?;
     let shown = Shown::of(&pair.comparison, &event);
     Ok(Some((pair, shown)))
 }
@@ -176,7 +176,7 @@ fn input_of(index: usize, recording: &Recording) -> String {
 
 fn check_finished(arguments: &Simulate, run: &Value) -> Result<(), CliError> {
     let out = &arguments.out;
-    let summary = Summary::read(&out.join(SUMMARY_FILE))?;
+    let summary = SimulationSummary::read(&out.join(SUMMARY_FILE))?;
     check_same(out, "a finished", &summary.run, run)?;
     summary.verify(out).map_err(CliError::Altered)?;
     if folder::has_leftovers(out) {
@@ -187,7 +187,7 @@ fn check_finished(arguments: &Simulate, run: &Value) -> Result<(), CliError> {
 }
 
 /// Prints what came of the run: beside the recordings if there are any, else of the simulations alone.
-fn print(arguments: &Simulate, summary: &Summary, line: &str, new: bool) -> Result<(), CliError> {
+fn print(arguments: &Simulate, summary: &SimulationSummary, line: &str, new: bool) -> Result<(), CliError> {
     let recorded = summary.events.iter().any(|event| event.recorded_steps > 0);
     let table = if recorded { summary::table(&summary.kinds) } else { outcomes::table(&summary.events) };
     let page = Some(arguments.out.join(PAGE_FILE)).filter(|page| page.exists());

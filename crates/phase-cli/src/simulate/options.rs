@@ -1,6 +1,6 @@
 //! The options of `simulate`.
 
-use crate::{effort::Effort, output::Output, parallel::Jobs};
+use crate::{effort::SimulationOptions, output::Output, parallel::Jobs};
 use clap::{Args, value_parser};
 use std::path::PathBuf;
 
@@ -34,7 +34,7 @@ pub struct Simulate {
     pub output: Output,
     /// How the agents think.
     #[command(flatten)]
-    pub effort: Effort,
+    pub effort: SimulationOptions,
     /// How many events at once.
     #[command(flatten)]
     pub jobs: Jobs,

@@ -1,11 +1,11 @@
 //! What became of simulated events that have no recording to be compared with.
 
-use phase_dataset::summary::{AgentComparison, Comparison};
+use phase_dataset::summary::{AgentComparison, EventComparison};
 use phase_model::{Attitude, Sign};
 
 /// A table in Markdown, a line for each event.
-pub(super) fn table(events: &[Comparison]) -> String {
-    let line = |event: &Comparison| {
+pub(super) fn table(events: &[EventComparison]) -> String {
+    let line = |event: &EventComparison| {
         let [first, second] = event.agents.each_ref().map(outcome);
         let (id, kind, steps) = (&event.id, event.kind.name(), event.simulated_steps);
         format!("| {id} | {kind} | {steps} | {first} | {second} |\n")

@@ -3,7 +3,7 @@
 use phase_baselines::{
     recognition::LabelError,
     strength,
-    training::{CheckpointError, NetworkError, RecordError, TrainingError},
+    training::{CheckpointError, NetworkError, TrainingError, TrainingRecordError},
 };
 use phase_dataset::{FileError, WriteError};
 use phase_event::ObservedError;
@@ -75,13 +75,13 @@ pub enum TrainError {
     },
     /// The record of an interrupted training cannot be used.
     #[error("{}: {source}; remove {} to begin anew", file.display(), checkpoint.display())]
-    Record {
+    TrainingRecord {
         /// The file.
         file: PathBuf,
         /// What the training would go on from.
         checkpoint: PathBuf,
         /// Why.
-        source: RecordError,
+        source: TrainingRecordError,
     },
     /// No strengths could be learnt.
     #[error(transparent)]
@@ -110,7 +110,7 @@ impl TrainError {
             | Self::Observed { .. }
             | Self::Label { .. }
             | Self::Checkpoint { .. }
-            | Self::Record { .. }
+            | Self::TrainingRecord { .. }
             | Self::Output(_) => 2,
             Self::Strength(_) | Self::Training(_) | Self::Network(_) | Self::Weights(_) => 1,
         }

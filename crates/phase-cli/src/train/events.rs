@@ -1,7 +1,7 @@
 //! The events to learn from, to validate on and to test with.
 
 use super::{error::TrainError, options::Options};
-use phase_baselines::training::Source;
+use phase_baselines::training::DataSource;
 use phase_dataset::{
     checksum::{hexadecimal, sha256},
     manifest::{EventEntry, MANIFEST_FILE, Manifest},
@@ -65,10 +65,10 @@ impl Events {
     }
 
     /// What a record says of the events of a split.
-    pub(super) fn source(&self, split: Split) -> Source {
+    pub(super) fn source(&self, split: Split) -> DataSource {
         let (dataset, count) = self.chosen(split);
         let events = dataset.entries(split).take(count).count();
-        Source { folder: dataset.name(), sha256: hexadecimal(&sha256(dataset.id().as_bytes())), events }
+        DataSource { folder: dataset.name(), sha256: hexadecimal(&sha256(dataset.id().as_bytes())), events }
     }
 
     fn chosen(&self, split: Split) -> (&Dataset, usize) {

@@ -7,14 +7,14 @@ mod events;
 #[cfg(feature = "networks")]
 mod forecasting;
 #[cfg(feature = "networks")]
-mod kept;
-#[cfg(feature = "networks")]
 mod network;
 pub mod options;
 #[cfg(feature = "networks")]
 mod recognition;
 #[cfg(feature = "networks")]
 mod strength;
+#[cfg(feature = "networks")]
+mod training_files;
 
 use crate::{context::Context, error::CliError, eval::networks};
 use options::Train;

@@ -1,9 +1,10 @@
 //! Training a network of the baselines: round by round, so that the same command goes on after a break.
 
-use super::{error::TrainError, events::Events, kept::Kept, options::NetworkOptions};
+use super::{error::TrainError, events::Events, options::NetworkOptions, training_files::TrainingFiles};
 use crate::{context::Context, error::CliError};
 use phase_baselines::training::{
-    Final, Measure, NamedMeasure, NetworkError, Published, Round, Run, Settings, measure, to_safetensors,
+    Final, Metrics, NamedMetrics, NetworkError, PublishedNetwork, Round, TrainingRun, TrainingSettings,
+    evaluate, to_safetensors,
 };
 use phase_dataset::{atomic, splits::Split};
 use phase_event::{ObservedEvent, Recording};
@@ -13,10 +14,10 @@ use serde_json::json;
 ///
 /// # Errors
 /// If the datasets cannot be used, nothing can be learnt or a file cannot be written.
-pub(super) fn run<N: Published>(
+pub(super) fn run<N: PublishedNetwork>(
     options: &NetworkOptions,
     context: &Context,
-    mut settings: Settings,
+    mut settings: TrainingSettings,
     sample: impl Fn(&Recording, &ObservedEvent) -> Result<N::Sample, TrainError>,
 ) -> Result<(), CliError> {
     let NetworkOptions { options, rounds } = options;
@@ -35,26 +36,26 @@ pub(super) fn run<N: Published>(
     events.check()?;
     context.note("reading the events");
     let (training, validation) = (samples(Split::Train)?, samples(Split::Validation)?);
-    let network = N::published(&mut Run::<N>::first_weights(options.seed)).map_err(failed)?;
-    let mut run = Run::new(network, options.seed, settings);
+    let network = N::published(&mut TrainingRun::<N>::first_weights(options.seed)).map_err(failed)?;
+    let mut run = TrainingRun::new(network, options.seed, settings);
     let sources = (events.source(Split::Train), events.source(Split::Validation));
-    let mut kept = Kept::open(&mut run, &options.out, sources.0, sources.1, context)?;
+    let mut training_files = TrainingFiles::open(&mut run, &options.out, sources.0, sources.1, context)?;
 
-    context.note(head(N::SCORES));
+    context.note(head(N::METRICS));
     run.rounds().iter().for_each(|round| context.note(line(round)));
     while !run.is_finished() {
-        let seconds = kept.round(&mut run, &training, &validation)?;
+        let seconds = training_files.round(&mut run, &training, &validation)?;
         let left = settings.rounds.saturating_sub(run.rounds().len()) as f64 * seconds / 60.0;
         let said = run.rounds().last().map_or_else(String::new, line);
         context.note(format!("{said}  {seconds:.1} s, at most {left:.0} min remaining"));
     }
     let best = run.best_round().map_or(0, |round| round.number);
     let network = run.into_best().map_err(failed)?;
-    let report = |split: Split, samples: &[N::Sample]| -> Result<(NamedMeasure, String), CliError> {
-        let measure = measure(&network, samples, settings.batch).map_err(failed)?;
-        let scores: Vec<String> = measure.scores.iter().map(|score| format!("{score:.3}")).collect();
-        let row = format!("| {} | {:.3} | {} |\n", split.name(), measure.loss, scores.join(" | "));
-        Ok((NamedMeasure::of::<N>(&measure), row))
+    let report = |split: Split, samples: &[N::Sample]| -> Result<(NamedMetrics, String), CliError> {
+        let evaluate = evaluate(&network, samples, settings.batch).map_err(failed)?;
+        let scores: Vec<String> = evaluate.scores.iter().map(|score| format!("{score:.3}")).collect();
+        let row = format!("| {} | {:.3} | {} |\n", split.name(), evaluate.loss, scores.join(" | "));
+        Ok((NamedMetrics::of::<N>(&evaluate), row))
     };
     let (train, of_train) = report(Split::Train, &training)?;
     let (validation, of_validation) = report(Split::Validation, &validation)?;
@@ -62,15 +63,15 @@ pub(super) fn run<N: Published>(
     let (test, of_test) = test.unzip();
     let text = format!(
         "kept the weights of round {best}\n| events | loss | {} |\n|---|---|{}\n{of_train}{of_validation}{}",
-        N::SCORES.join(" | "),
-        "---|".repeat(N::SCORES.len()),
+        N::METRICS.join(" | "),
+        "---|".repeat(N::METRICS.len()),
         of_test.unwrap_or_default(),
     );
     let finished = Final { train, validation, test };
     let value = json!({ "weights": options.out, "network": N::NAME, "best_round": best, "final": finished });
     let weights = to_safetensors(&network).map_err(TrainError::from)?;
     atomic::write(&options.out, &weights).map_err(TrainError::from)?;
-    kept.finish(finished)?;
+    training_files.finish(finished)?;
     options.output.print(text, &value)
 }
 
@@ -85,10 +86,10 @@ fn head(scores: &[&str]) -> String {
 }
 
 fn line(round: &Round) -> String {
-    let measure = |Measure { loss, scores }: &Measure| -> String {
+    let evaluate = |Metrics { loss, scores }: &Metrics| -> String {
         let scores: String = scores.iter().map(|score| format!(" {score:9.3}")).collect();
         format!("{loss:10.4}{scores}")
     };
     let star = if round.best { "*" } else { " " };
-    format!("{:5} {} {:>12}{star}", round.number, measure(&round.training), measure(&round.validation))
+    format!("{:5} {} {:>12}{star}", round.number, evaluate(&round.training), evaluate(&round.validation))
 }

@@ -2,7 +2,9 @@
 
 use super::{error::TrainError, events::Events, options::Options};
 use crate::{context::Context, error::CliError};
-use phase_baselines::strength::{Motion, Sample, Score, Settings, commonest, score, train};
+use phase_baselines::strength::{
+    AgentSamples, Sample, Score, StrengthTrainingSettings, most_common, score, train,
+};
 use phase_dataset::{atomic::AtomicFile, splits::Split};
 use phase_model::Strength;
 use phase_simple::StrengthRegressor;
@@ -23,23 +25,24 @@ pub(super) fn run(options: &Options, context: &Context) -> Result<(), CliError> 
     let training = motions(&events, Split::Train)?;
     let validation = motions(&events, Split::Validation)?;
     context.note("epoch  train  validation: whole  windows  together (RMSE in N)");
-    let regressor = train(&training, &validation, options.seed, &Settings::default(), &mut |epoch| {
-        context.note(format!(
-            "{:5} {:6.1} {:18.1} {:8.1} {:9.1}{}",
-            epoch.number,
-            epoch.training,
-            epoch.whole,
-            epoch.windows,
-            epoch.validation,
-            if epoch.best { " *" } else { "" },
-        ));
-    })
-    .map_err(TrainError::from)?;
+    let regressor =
+        train(&training, &validation, options.seed, &StrengthTrainingSettings::default(), &mut |epoch| {
+            context.note(format!(
+                "{:5} {:6.1} {:18.1} {:8.1} {:9.1}{}",
+                epoch.number,
+                epoch.training,
+                epoch.whole,
+                epoch.windows,
+                epoch.validation,
+                if epoch.best { " *" } else { "" },
+            ));
+        })
+        .map_err(TrainError::from)?;
     let weights = regressor.to_safetensors().map_err(TrainError::from)?;
     file.write_all(&weights).map_err(|source| TrainError::from(file.failed(source)))?;
     file.commit().map_err(TrainError::from)?;
 
-    let guess = commonest(training.iter().map(|motion| &motion.whole));
+    let guess = most_common(training.iter().map(|motion| &motion.whole));
     let mut rows = report(&regressor, Split::Train, &training, guess);
     rows.extend(report(&regressor, Split::Validation, &validation, guess));
     if options.test {
@@ -66,26 +69,31 @@ struct Row {
 impl Row {
     fn line(&self) -> String {
         let Self { split, motion, rmse, rmse_of_constant, accuracy, accuracy_of_commonest } = self;
-        let (accuracy, commonest) = (100.0 * accuracy, 100.0 * accuracy_of_commonest);
+        let (accuracy, most_common) = (100.0 * accuracy, 100.0 * accuracy_of_commonest);
         format!(
-            "| {split} | {motion} | {rmse:.1} | {rmse_of_constant:.1} | {accuracy:.1} % | {commonest:.1} % |\n"
+            "| {split} | {motion} | {rmse:.1} | {rmse_of_constant:.1} | {accuracy:.1} % | {most_common:.1} % |\n"
         )
     }
 }
 
-fn motions(events: &Events, split: Split) -> Result<Vec<Motion>, TrainError> {
+fn motions(events: &Events, split: Split) -> Result<Vec<AgentSamples>, TrainError> {
     let mut motions = Vec::new();
     for recording in events.of(split)? {
         let recording = recording?;
         let observed = recording
             .observed()
             .map_err(|source| TrainError::Observed { id: recording.id.clone(), source })?;
-        motions.extend(Motion::of_event(&observed, recording.scene.agents.map(|agent| agent.strength)));
+        motions.extend(AgentSamples::of_event(&observed, recording.scene.agents.map(|agent| agent.strength)));
     }
     Ok(motions)
 }
 
-fn report(regressor: &StrengthRegressor, split: Split, motions: &[Motion], guess: Strength) -> Vec<Row> {
+fn report(
+    regressor: &StrengthRegressor,
+    split: Split,
+    motions: &[AgentSamples],
+    guess: Strength,
+) -> Vec<Row> {
     let whole: Vec<&[Sample]> = motions.iter().map(|motion| core::slice::from_ref(&motion.whole)).collect();
     let windows = motions.iter().map(|motion| &*motion.windows).collect();
     let row = |(motion, groups)| {

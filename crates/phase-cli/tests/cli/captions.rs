@@ -1,7 +1,7 @@
 //! What is written below the picture of a mind.
 
 use phase_cli::captions::{COUNT, lines};
-use phase_event::{ActionValue, SubgoalValue, Thought};
+use phase_event::{ActionEvaluation, SubgoalValue, Thought};
 use phase_model::{Action, AgentId, Entity, LandmarkId, Literal, ObjectId, Predicate, Subgoal};
 use phase_render::{Caption, SizedFont, Style};
 
@@ -19,7 +19,7 @@ fn thought() -> Thought {
     let attach =
         Subgoal::Achieve(Literal { predicate: Predicate::Attach(AgentId::ZERO, ObjectId::ONE), holds: true });
     let proposed = |subgoal, value, particles| SubgoalValue { subgoal, value, particles };
-    let found = |action, visits, value| ActionValue { action, visits, value };
+    let found = |action, visits, value| ActionEvaluation { action, visits, value };
     Thought {
         subgoal: attach,
         subgoals: vec![

@@ -46,7 +46,7 @@ fn the_folder_holds_what_it_promises() {
         let simulation = events[0].simulation.as_ref().expect("a simulation");
         assert_eq!((events[0].id.as_str(), simulation.event.seed), (entry.id.as_str(), entry.seed));
         assert_eq!(simulation.event.steps.len(), 4);
-        events[0].scene.validate_apart().expect("nothing overlaps at the start");
+        events[0].scene.validate_without_overlap().expect("nothing overlaps at the start");
         let video = entry.video.as_ref().expect("a video");
         let video = fs::read(out.join(&video.path)).expect("its file");
         assert_eq!(&video[4..8], b"ftyp");

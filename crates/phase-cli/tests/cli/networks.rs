@@ -79,7 +79,7 @@ fn answers_do_not_depend_on_threads() {
 
 /// The weights that come with the program.
 #[cfg(feature = "networks")]
-fn shipped(name: &str) -> String {
+fn bundled(name: &str) -> String {
     let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data");
     data.join(format!("{name}.safetensors")).to_string_lossy().into_owned()
 }
@@ -92,14 +92,14 @@ fn networks_in_the_benchmark() {
     let path = folder.path();
     let [arg, stgat] = ["arg", "stgat"].map(|name| {
         let copy = path.join(format!("copy-of-{name}.safetensors"));
-        fs::copy(shipped(name), &copy).expect("copied");
+        fs::copy(bundled(name), &copy).expect("copied");
         copy.to_string_lossy().into_owned()
     });
     let arguments = ["benchmark", "--data", "tiny", "--methods", "arg,stgat", "--trained", &arg, &stgat];
     let sentence = refuse(path, &arguments);
     assert!(sentence.contains("copy-of-arg.safetensors.training.json: cannot be read"), "{sentence}");
     for (name, copy) in [("arg", &arg), ("stgat", &stgat)] {
-        fs::copy(format!("{}.training.json", shipped(name)), format!("{copy}.training.json"))
+        fs::copy(format!("{}.training.json", bundled(name)), format!("{copy}.training.json"))
             .expect("copied");
     }
     succeed(path, &arguments);
@@ -138,9 +138,9 @@ fn weights_of_ones_own() {
         assert!(refused("missing").contains("missing: cannot be read: no such file"));
         assert!(refused("rubbish").contains("rubbish: is not a complete file of weights"));
         let other = if name == "arg" { "stgat" } else { "arg" };
-        let sentence = refused(&shipped(other));
+        let sentence = refused(&bundled(other));
         assert!(sentence.contains(&format!("field `format` must be \"phase-{name}/1\"")), "{sentence}");
-        let arguments: Vec<String> = with(&shipped(name));
+        let arguments: Vec<String> = with(&bundled(name));
         succeed(path, &arguments.iter().map(String::as_str).collect::<Vec<_>>());
         // Those that come with the program are the same.
         let common = ["--events", "events.json", "--out", name];

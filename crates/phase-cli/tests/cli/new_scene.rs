@@ -20,7 +20,7 @@ fn a_new_scene_simulates_as_written() {
         let told = succeed(path, &["new-scene", "--kind", kind.name(), "--out", &file]);
         assert!(told.contains(&format!("phase simulate --events {file}")), "{told}");
         let scene = phase_events::read(&path.join(&file)).expect("a scene").remove(0).scene;
-        assert_eq!((scene.kind, scene.validate_apart()), (kind, Ok(())));
+        assert_eq!((scene.kind, scene.validate_without_overlap()), (kind, Ok(())));
         let text = fs::read_to_string(path.join(&file)).expect("text");
         assert!(text.contains("\"_comment\"") && text.contains("docs/formats.md"), "{text}");
         let told = simulated(path, &file, &format!("out/{}", kind.name()), &["--no-video"]);

@@ -1,7 +1,7 @@
 //! `simulate`, with agents that think little.
 
 use crate::support::{QUICK, fail, recording, refuse, succeed, tree, write_events};
-use phase_dataset::{phase_events, summary::Summary};
+use phase_dataset::{phase_events, summary::SimulationSummary};
 use serde_json::json;
 use std::path::Path;
 
@@ -39,7 +39,7 @@ fn every_scene_is_simulated_from_its_first_row() {
         assert_eq!(made.trajectory.steps(), 4);
         assert!(made.simulation.is_some());
     }
-    let summary = Summary::read(&path.join("out/summary.json")).expect("a summary");
+    let summary = SimulationSummary::read(&path.join("out/summary.json")).expect("a summary");
     summary.verify(&path.join("out")).expect("every checksum fits");
     // Agent 0 stands on its landmark from the start and agent 1 never gets to its own.
     let recorded = summary.events[0].agents.map(|agent| agent.recorded.reached);
@@ -107,7 +107,7 @@ fn several_seeds_are_pooled_and_resumed() {
     let names: Vec<String> = tree(&path.join("out")).keys().map(|name| name.display().to_string()).collect();
     let scenes = ["apart-seed7", "apart-seed8", "overlapping-seed7", "overlapping-seed8"];
     assert_eq!(names[..4], scenes.map(|id| format!("{id}.json")));
-    let summary = Summary::read(&path.join("out/summary.json")).expect("a summary");
+    let summary = SimulationSummary::read(&path.join("out/summary.json")).expect("a summary");
     let made: Vec<(&str, &str, u64)> = summary
         .events
         .iter()

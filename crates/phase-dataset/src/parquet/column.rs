@@ -54,14 +54,14 @@ pub(super) trait Column {
 }
 
 /// A column whose values are `C`.
-pub(super) struct Of<C: Cell> {
+pub(super) struct TypedColumn<C: Cell> {
     description: Description,
     get: fn(&Row<'_>) -> C,
     leaves: Leaves<C::Leaf>,
     events: usize,
 }
 
-impl<C: Cell> Of<C> {
+impl<C: Cell> TypedColumn<C> {
     pub(super) fn new(description: Description, get: fn(&Row<'_>) -> C) -> Self {
         Self { description, get, leaves: Leaves::default(), events: 0 }
     }
@@ -72,7 +72,7 @@ impl<C: Cell> Of<C> {
     }
 }
 
-impl<C: Cell> Column for Of<C> {
+impl<C: Cell> Column for TypedColumn<C> {
     fn description(&self) -> Description {
         self.description
     }

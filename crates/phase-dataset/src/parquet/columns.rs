@@ -1,10 +1,10 @@
 //! Which columns there are.
 
 use super::{
-    column::{Column, Description, Of},
+    column::{Column, Description, TypedColumn},
     row::{goal_kind, goal_other, number},
 };
-use crate::words;
+use crate::describe;
 use phase_model::{LandmarkId, arena};
 
 /// What every column holds, in the files' order.
@@ -16,7 +16,7 @@ pub fn descriptions() -> Vec<Description> {
 /// A list of columns, each with name, shape, type, unit, what it is, and how it is taken from an event.
 macro_rules! columns {
     ($(($name:literal, $shape:literal, $kind:literal, $unit:literal, $what:literal, $get:expr)),* $(,)?) => {
-        vec![$(Box::new(Of::new(
+        vec![$(Box::new(TypedColumn::new(
             Description { name: $name, shape: $shape, kind: $kind, unit: $unit, what: $what },
             $get,
         ))),*]
@@ -112,7 +112,7 @@ fn labels() -> Vec<Box<dyn Column>> {
             "`helping`, `hindering`, `chasing`, `competing`, `collaborating` or `independent`",
             |row| row.recording.scene.kind.name().to_owned()
         ),
-        ("relation", "", "string", "", "`friendly`, `adversarial` or `neutral`", |row| words::relation(
+        ("relation", "", "string", "", "`friendly`, `adversarial` or `neutral`", |row| describe::relation(
             row.recording.relation
         )
         .to_owned()),

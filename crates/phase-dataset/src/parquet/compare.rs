@@ -1,6 +1,6 @@
 //! Checking that a file still says what the event files say.
 
-use super::{EVENTS_PER_GROUP, Part, columns, push, read, schema};
+use super::{EVENTS_PER_GROUP, ParquetFile, columns, push, read, schema};
 use crate::{FileError, Problem};
 use parquet::{
     errors::ParquetError,
@@ -17,12 +17,12 @@ use std::{
 /// # Errors
 /// If a file cannot be read, if the Parquet file has other columns or another number of rows, or if a value in it
 /// differs; then the event and the column are named.
-pub fn compare(folder: &Path, part: &Part<'_>) -> Result<(), FileError> {
+pub fn compare(folder: &Path, part: &ParquetFile<'_>) -> Result<(), FileError> {
     (0..shares(part)).try_for_each(|share| compare_share(folder, part, share))
 }
 
 /// Into how many shares, about a row group each, the comparison of a file is divided.
-pub(crate) fn shares(part: &Part<'_>) -> usize {
+pub(crate) fn shares(part: &ParquetFile<'_>) -> usize {
     part.events.len().div_ceil(EVENTS_PER_GROUP)
 }
 
@@ -30,13 +30,13 @@ pub(crate) fn shares(part: &Part<'_>) -> usize {
 ///
 /// # Errors
 /// As [`compare`]; what concerns the whole file is noticed in every share.
-pub(crate) fn compare_share(folder: &Path, part: &Part<'_>, share: usize) -> Result<(), FileError> {
+pub(crate) fn compare_share(folder: &Path, part: &ParquetFile<'_>, share: usize) -> Result<(), FileError> {
     // The library panics on some files that were damaged on purpose; nothing that it has seen is used afterwards.
     catch_unwind(AssertUnwindSafe(|| compare_columns(folder, part, share)))
         .unwrap_or_else(|_| Err(FileError { file: folder.join(&part.path), problem: Problem::ParquetPages }))
 }
 
-fn compare_columns(folder: &Path, part: &Part<'_>, share: usize) -> Result<(), FileError> {
+fn compare_columns(folder: &Path, part: &ParquetFile<'_>, share: usize) -> Result<(), FileError> {
     let path = folder.join(&part.path);
     let fail = |problem| FileError { file: path.clone(), problem };
     let broken = |error: ParquetError| fail(Problem::Parquet(error.into()));

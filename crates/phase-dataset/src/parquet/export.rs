@@ -1,6 +1,6 @@
 //! Writing.
 
-use super::{EVENTS_PER_GROUP, FOLDER, Part, column::Column, columns, parts, push, read, schema};
+use super::{EVENTS_PER_GROUP, FOLDER, ParquetFile, column::Column, columns, parts, push, read, schema};
 use crate::{FileError, WriteError, atomic::AtomicFile, checksum::FileEntry, manifest::EventEntry};
 use parquet::{
     basic::{Compression, Encoding, ZstdLevel},
@@ -54,7 +54,7 @@ pub fn export(
 /// Writes one file; false if it was interrupted.
 fn write(
     folder: &Path,
-    part: &Part<'_>,
+    part: &ParquetFile<'_>,
     interrupted: &dyn Fn() -> bool,
 ) -> std::result::Result<bool, ExportError> {
     let path = folder.join(&part.path);

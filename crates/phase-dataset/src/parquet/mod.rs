@@ -37,7 +37,7 @@ const EVENTS_PER_GROUP: usize = 50;
 
 /// One file and the events in it, in order.
 #[derive(Debug)]
-pub struct Part<'a> {
+pub struct ParquetFile<'a> {
     /// Path relative to the dataset's folder, with `/`, such as `data/train-00000-of-00001.parquet`.
     pub path: String,
     /// Which part of the dataset.
@@ -48,14 +48,14 @@ pub struct Part<'a> {
 
 /// The files that a dataset's events go to: by split, and in the manifest's order within it.
 #[must_use]
-pub fn parts(events: &[EventEntry]) -> Vec<Part<'_>> {
+pub fn parts(events: &[EventEntry]) -> Vec<ParquetFile<'_>> {
     let mut parts = Vec::new();
     for split in Split::ALL {
         let chosen: Vec<&EventEntry> = events.iter().filter(|event| event.split() == split).collect();
         let files = chosen.len().div_ceil(EVENTS_PER_FILE);
         for (k, events) in chosen.chunks(EVENTS_PER_FILE).enumerate() {
             let path = format!("{FOLDER}/{}-{k:05}-of-{files:05}.parquet", split.name());
-            parts.push(Part { path, split, events: events.to_vec() });
+            parts.push(ParquetFile { path, split, events: events.to_vec() });
         }
     }
     parts

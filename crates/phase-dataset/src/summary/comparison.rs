@@ -3,7 +3,7 @@
 use super::Quartiles;
 use crate::{FileError, checksum::FileEntry};
 use phase_event::{Event, Recording};
-use phase_evidence::{Motion, Outcome, Track, motion::common_steps};
+use phase_evidence::{GoalOutcome, MotionStatistics, Track, motion::common_steps};
 use phase_model::{AGENT_COUNT, AgentId, EventKind, Goal, Sign};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -11,11 +11,11 @@ use std::path::Path;
 /// One event, recorded and simulated, as the summary keeps it.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Comparison {
+pub struct EventComparison {
     /// The simulated event's id.
     pub id: String,
     /// Which recording it started from, and with what seed.
-    pub source: Source,
+    pub source: RecordingSource,
     /// Its kind.
     pub kind: EventKind,
     /// Steps of the recording (0 if the input had the start alone).
@@ -35,7 +35,7 @@ pub struct Comparison {
 /// Where a simulated event comes from.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Source {
+pub struct RecordingSource {
     /// The recording's id in the input.
     pub id: String,
     /// The seed of the run that the event's own seed is derived from.
@@ -51,19 +51,19 @@ pub struct AgentComparison {
     /// Social utility weight.
     pub alpha: i8,
     /// In the recording.
-    pub recorded: Outcome,
+    pub recorded: GoalOutcome,
     /// In the simulation.
-    pub simulated: Outcome,
+    pub simulated: GoalOutcome,
     /// How it moved in the recording; null if there are no steps to compare.
-    pub recorded_motion: Option<Measures>,
+    pub recorded_motion: Option<MotionSummary>,
     /// How it moved in the simulation; likewise.
-    pub simulated_motion: Option<Measures>,
+    pub simulated_motion: Option<MotionSummary>,
 }
 
 /// One agent's motion in one event, over the steps compared.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Measures {
+pub struct MotionSummary {
     /// Quartiles of its speed over the steps (u per second of physics).
     pub speed: Quartiles,
     /// Length of its path (u).
@@ -74,13 +74,13 @@ pub struct Measures {
 
 /// A comparison with the motion of both agents step by step, which the file does not keep but pooling needs.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Pair {
+pub struct MeasuredPair {
     /// What the file keeps.
-    pub comparison: Comparison,
+    pub comparison: EventComparison,
     /// How both agents moved in the recording, over the steps compared.
-    pub recorded: [Motion; AGENT_COUNT],
+    pub recorded: [MotionStatistics; AGENT_COUNT],
     /// How both agents moved in the simulation.
-    pub simulated: [Motion; AGENT_COUNT],
+    pub simulated: [MotionStatistics; AGENT_COUNT],
 }
 
 impl AgentComparison {
@@ -98,14 +98,14 @@ impl AgentComparison {
     }
 }
 
-impl Measures {
-    fn of(motion: &Motion) -> Option<Self> {
+impl MotionSummary {
+    fn of(motion: &MotionStatistics) -> Option<Self> {
         let (speed, contact) = (Quartiles::of(&motion.speeds)?, motion.contact_share()?);
         Some(Self { speed, path: motion.path, contact })
     }
 }
 
-impl Pair {
+impl MeasuredPair {
     /// Compares a recording with the simulation of this id and seed, whose files are in a folder already.
     ///
     /// # Errors
@@ -118,23 +118,23 @@ impl Pair {
         event: &Event,
         video: bool,
     ) -> Result<Self, FileError> {
-        let track = Track { physique: recording.scene.physique(), states: recording.trajectory.states() };
+        let track = Track { physics: recording.scene.physics(), states: recording.trajectory.states() };
         let ours = Track::of_event(event);
         let steps = common_steps(&track, &ours);
-        let recorded = AgentId::ALL.map(|agent| Motion::of(&track, agent, steps));
-        let simulated = AgentId::ALL.map(|agent| Motion::of(&ours, agent, steps));
+        let recorded = AgentId::ALL.map(|agent| MotionStatistics::of(&track, agent, steps));
+        let simulated = AgentId::ALL.map(|agent| MotionStatistics::of(&ours, agent, steps));
         let agents = core::array::from_fn(|i| {
             let agent = &recording.scene.agents[i];
             AgentComparison {
                 goal: agent.goal,
                 alpha: agent.attitude.alpha(),
-                recorded: Outcome::of(&track, agent.goal),
-                simulated: Outcome::of(&ours, agent.goal),
-                recorded_motion: Measures::of(&recorded[i]),
-                simulated_motion: Measures::of(&simulated[i]),
+                recorded: GoalOutcome::of(&track, agent.goal),
+                simulated: GoalOutcome::of(&ours, agent.goal),
+                recorded_motion: MotionSummary::of(&recorded[i]),
+                simulated_motion: MotionSummary::of(&simulated[i]),
             }
         });
-        let comparison = Comparison {
+        let comparison = EventComparison {
             kind: recording.scene.kind,
             recorded_steps: recording.trajectory.steps(),
             simulated_steps: event.steps.len(),
@@ -142,7 +142,7 @@ impl Pair {
             agents,
             event: FileEntry::of(folder, format!("{id}.json"))?,
             video: video.then(|| FileEntry::of(folder, format!("{id}.mp4"))).transpose()?,
-            source: Source { id: recording.id.clone(), seed },
+            source: RecordingSource { id: recording.id.clone(), seed },
             id,
         };
         Ok(Self { comparison, recorded, simulated })

@@ -1,15 +1,15 @@
 //! Simulations against the recordings they started from: `summary.json`.
 //!
-//! A [`Pair`] is one recording and one simulation of its scene, measured; a [`Comparison`] is what the file keeps
+//! A [`MeasuredPair`] is one recording and one simulation of its scene, measured; a [`EventComparison`] is what the file keeps
 //! of it; a [`KindRow`] pools the pairs of one kind of event.
 
 mod comparison;
 mod quartiles;
 mod rows;
 
-pub use comparison::{AgentComparison, Comparison, Measures, Pair, Source};
+pub use comparison::{AgentComparison, EventComparison, MeasuredPair, MotionSummary, RecordingSource};
 pub use quartiles::Quartiles;
-pub use rows::{KindRow, Spreads, tabulate};
+pub use rows::{KindRow, MotionQuartiles, tabulate};
 
 use crate::{FileError, Problem, WriteError, atomic, json};
 use phase_model::json::check_format;
@@ -25,7 +25,7 @@ pub const SUMMARY_FILE: &str = "summary.json";
 /// What came out of simulating the scenes of a file.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Summary {
+pub struct SimulationSummary {
     /// Always [`SUMMARY_FORMAT`].
     pub format: String,
     /// The run: program, input, seeds, settings.
@@ -33,13 +33,13 @@ pub struct Summary {
     /// One line for each kind of event, and one for all.
     pub kinds: Vec<KindRow>,
     /// The simulated events, in the order of the input; those of one scene by seed.
-    pub events: Vec<Comparison>,
+    pub events: Vec<EventComparison>,
 }
 
-impl Summary {
+impl SimulationSummary {
     /// Puts the comparisons of a run together.
     #[must_use]
-    pub fn new(run: Value, pairs: Vec<Pair>) -> Self {
+    pub fn new(run: Value, pairs: Vec<MeasuredPair>) -> Self {
         let kinds = tabulate(&pairs);
         let events = pairs.into_iter().map(|pair| pair.comparison).collect();
         Self { format: SUMMARY_FORMAT.into(), run, kinds, events }

@@ -1,7 +1,7 @@
 //! Events pooled by kind.
 
-use super::{AgentComparison, Pair, Quartiles};
-use phase_evidence::Motion;
+use super::{AgentComparison, MeasuredPair, Quartiles};
+use phase_evidence::MotionStatistics;
 use phase_model::EventKind;
 use phase_statistics::median;
 use serde::{Deserialize, Serialize};
@@ -37,15 +37,15 @@ pub struct KindRow {
     /// Quartiles of each agent's steps to the goal in the simulation over those in the recording.
     pub time_ratio: Option<Quartiles>,
     /// How agents moved in the recordings.
-    pub recorded_motion: Spreads,
+    pub recorded_motion: MotionQuartiles,
     /// How agents moved in the simulations.
-    pub simulated_motion: Spreads,
+    pub simulated_motion: MotionQuartiles,
 }
 
 /// How motion is distributed, over the steps that recording and simulation both have; null without steps.
 #[derive(Clone, Copy, PartialEq, Debug, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Spreads {
+pub struct MotionQuartiles {
     /// Speed (u per second of physics) over events, agents and steps.
     pub speed: Option<Quartiles>,
     /// Length of path (u) over events and agents.
@@ -54,10 +54,10 @@ pub struct Spreads {
     pub contact: Option<Quartiles>,
 }
 
-impl Spreads {
-    fn of<'a>(motions: impl Iterator<Item = &'a Motion>) -> Self {
-        let motions: Vec<&Motion> = motions.filter(|motion| !motion.speeds.is_empty()).collect();
-        let over = |number: fn(&Motion) -> Option<f32>| {
+impl MotionQuartiles {
+    fn of<'a>(motions: impl Iterator<Item = &'a MotionStatistics>) -> Self {
+        let motions: Vec<&MotionStatistics> = motions.filter(|motion| !motion.speeds.is_empty()).collect();
+        let over = |number: fn(&MotionStatistics) -> Option<f32>| {
             let numbers: Vec<f32> = motions.iter().filter_map(|motion| number(motion)).collect();
             Quartiles::of(&numbers)
         };
@@ -65,7 +65,7 @@ impl Spreads {
         Self {
             speed: Quartiles::of(&speeds),
             path: over(|motion| Some(motion.path)),
-            contact: over(Motion::contact_share),
+            contact: over(MotionStatistics::contact_share),
         }
     }
 }
@@ -73,15 +73,16 @@ impl Spreads {
 /// One row for each kind that occurs, in the kinds' order, and one for all. Events without a recording do not
 /// count.
 #[must_use]
-pub fn tabulate(pairs: &[Pair]) -> Vec<KindRow> {
-    let recorded: Vec<&Pair> = pairs.iter().filter(|pair| pair.comparison.recorded_steps > 0).collect();
+pub fn tabulate(pairs: &[MeasuredPair]) -> Vec<KindRow> {
+    let recorded: Vec<&MeasuredPair> =
+        pairs.iter().filter(|pair| pair.comparison.recorded_steps > 0).collect();
     let of_kind =
         |kind| recorded.iter().copied().filter(|pair| pair.comparison.kind == kind).collect::<Vec<_>>();
     let rows = EventKind::ALL.map(|kind| row(Some(kind), &of_kind(kind)));
     rows.into_iter().filter(|row| row.events > 0).chain([row(None, &recorded)]).collect()
 }
 
-fn row(kind: Option<EventKind>, pairs: &[&Pair]) -> KindRow {
+fn row(kind: Option<EventKind>, pairs: &[&MeasuredPair]) -> KindRow {
     let agents: Vec<&AgentComparison> = pairs.iter().flat_map(|pair| &pair.comparison.agents).collect();
     let count = |condition: fn(&AgentComparison) -> bool| agents.iter().filter(|it| condition(it)).count();
     let timed = agents.iter().filter_map(|it| Some((it.recorded.steps?, it.simulated.steps?)));
@@ -101,7 +102,7 @@ fn row(kind: Option<EventKind>, pairs: &[&Pair]) -> KindRow {
         recorded_steps: median(&recorded),
         simulated_steps: median(&simulated),
         time_ratio: Quartiles::of(&ratios),
-        recorded_motion: Spreads::of(pairs.iter().flat_map(|pair| &pair.recorded)),
-        simulated_motion: Spreads::of(pairs.iter().flat_map(|pair| &pair.simulated)),
+        recorded_motion: MotionQuartiles::of(pairs.iter().flat_map(|pair| &pair.recorded)),
+        simulated_motion: MotionQuartiles::of(pairs.iter().flat_map(|pair| &pair.simulated)),
     }
 }

@@ -4,6 +4,7 @@ mod atomic;
 mod cache;
 mod checksum;
 mod croissant;
+mod describe;
 mod folder;
 mod import_pik;
 mod manifest;
@@ -16,4 +17,3 @@ mod summary;
 #[path = "../../../phase-event/tests/events/support.rs"]
 mod support;
 mod verify;
-mod words;

@@ -2,7 +2,7 @@
 
 use phase_dataset::{
     labels::goal_counts,
-    preset::{Preset, Selection, Slot},
+    preset::{EventSlot, Preset, Selection},
     splits::Split,
 };
 use phase_model::{AGENT_COUNT, EventKind, Relation};
@@ -12,7 +12,7 @@ use std::collections::{BTreeMap, BTreeSet};
 const DEMO: &str = include_str!("../../../../data/presets/demo.json");
 const PHASE_500: &str = include_str!("../../../../data/presets/phase-500.json");
 
-fn slots(preset: &Preset, count: usize) -> Vec<Slot> {
+fn slots(preset: &Preset, count: usize) -> Vec<EventSlot> {
     let composition = preset.composition();
     (0..count).map(|index| composition.slot(index)).collect()
 }
@@ -28,7 +28,7 @@ fn the_demo_has_two_of_each_kind() {
     }
     assert_eq!(preset.id(7), "demo-0007");
     assert_eq!(slots[12].variant, slots[0].variant);
-    assert!(slots[12].turn > slots[0].turn, "goals go on by turns");
+    assert!(slots[12].goal_index > slots[0].goal_index, "goals go on by turns");
     assert_eq!(preset.pool("all").len(), 90);
     assert_eq!(preset.pool("none").len(), 0);
 }
@@ -49,17 +49,17 @@ fn phase_500_has_the_papers_composition() {
     assert_eq!(preset.events(), 500);
     for times in [1, 3] {
         let slots = slots(&preset, 500 * times);
-        let count = |holds: &dyn Fn(&Slot) -> bool| slots.iter().filter(|slot| holds(slot)).count();
+        let count = |holds: &dyn Fn(&EventSlot) -> bool| slots.iter().filter(|slot| holds(slot)).count();
         for (wanted, events) in
             [(Relation::Friendly, 200), (Relation::Adversarial, 192), (Relation::Neutral, 108)]
         {
-            let found = count(&|slot: &Slot| relation(slot.variant.kind()) == wanted);
+            let found = count(&|slot: &EventSlot| relation(slot.variant.kind()) == wanted);
             assert_eq!(found, events * times, "{wanted:?}");
         }
         for (split, events) in [(Split::Train, 320), (Split::Validation, 80), (Split::Test, 100)] {
-            assert_eq!(count(&|slot: &Slot| slot.split == Some(split)), events * times, "{split:?}");
+            assert_eq!(count(&|slot: &EventSlot| slot.split == Some(split)), events * times, "{split:?}");
         }
-        assert_eq!(count(&|slot: &Slot| slot.layouts == "unseen"), 80 * times);
+        assert_eq!(count(&|slot: &EventSlot| slot.layouts == "unseen"), 80 * times);
         let agents = slots.iter().flat_map(|slot| {
             let kind = slot.variant.kind();
             let alphas = match kind {
@@ -67,7 +67,7 @@ fn phase_500_has_the_papers_composition() {
                 EventKind::Hindering => [-1, 0],
                 _ => [0; AGENT_COUNT],
             };
-            slot.variant.goals(slot.turn).into_iter().zip(alphas)
+            slot.variant.goals(slot.goal_index).into_iter().zip(alphas)
         });
         let goals = goal_counts(agents);
         assert_eq!(goals.len(), 16);
@@ -87,7 +87,7 @@ fn phase_500_keeps_layouts_and_one_type_for_the_test() {
     for slot in &slots {
         assert!(slot.layouts == "seen" || slot.split == Some(Split::Test), "{slot:?}");
     }
-    let tested = |slot: &&Slot| slot.split == Some(Split::Test);
+    let tested = |slot: &&EventSlot| slot.split == Some(Split::Test);
     let learnt: BTreeSet<Variant> = slots.iter().filter(|it| !tested(it)).map(|it| it.variant).collect();
     let only: Vec<Variant> =
         slots.iter().filter(tested).map(|it| it.variant).filter(|it| !learnt.contains(it)).collect();
@@ -106,7 +106,7 @@ fn groups_are_spread_evenly() {
         assert!(counts[&Split::Train].abs_diff(part * 16 / 25) <= part / 10, "{part}: {counts:?}");
     }
     let turns = |variant: Variant| -> Vec<usize> {
-        slots(&preset, 1500).into_iter().filter(|it| it.variant == variant).map(|it| it.turn).collect()
+        slots(&preset, 1500).into_iter().filter(|it| it.variant == variant).map(|it| it.goal_index).collect()
     };
     for variant in [Variant::Lift, Variant::Evade] {
         let turns = turns(variant);
@@ -120,15 +120,15 @@ fn ends_are_drawn_for_those_at_odds() {
     let selection = Preset::parse("phase-500", PHASE_500).expect("a preset").selection.expect("selects");
     let mut ends = [0; 101];
     for seed in 0..6100 {
-        assert_eq!(selection.drawn_end(Relation::Friendly, seed), None);
-        assert_eq!(selection.drawn_end(Relation::Neutral, seed), None);
-        ends[selection.drawn_end(Relation::Adversarial, seed).expect("is drawn")] += 1;
+        assert_eq!(selection.sampled_end(Relation::Friendly, seed), None);
+        assert_eq!(selection.sampled_end(Relation::Neutral, seed), None);
+        ends[selection.sampled_end(Relation::Adversarial, seed).expect("is drawn")] += 1;
     }
     assert!(ends[..40].iter().all(|&count| count == 0));
     // A hundred each, give or take five standard deviations.
     assert!(ends[40..].iter().all(|count| (50..=150).contains(count)), "{ends:?}");
     let undrawn = Selection { draw_ends: false, ..selection };
-    assert_eq!(undrawn.drawn_end(Relation::Adversarial, 1), None);
+    assert_eq!(undrawn.sampled_end(Relation::Adversarial, 1), None);
 }
 
 #[test]

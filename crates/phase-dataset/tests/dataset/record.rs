@@ -2,10 +2,10 @@
 
 use phase_dataset::{
     acceptance::Tally,
-    record::Record,
     shard::{Shard, slots},
+    slot_record::SlotRecord,
 };
-use phase_evidence::selection::Refusal;
+use phase_evidence::selection::RejectionReason;
 use phase_sampler::Variant;
 use std::fs;
 
@@ -13,33 +13,40 @@ use std::fs;
 fn a_record_of_another_program_or_a_damaged_one_counts_for_nothing() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("slot.json");
-    let empty = Record { fingerprint: "a".into(), ..Record::default() };
-    assert_eq!(Record::load(&path, "a"), empty, "there is none yet");
-    let record = Record { refused: vec![Refusal::GoalMissed, Refusal::NoEffect], ..empty.clone() };
+    let empty = SlotRecord { fingerprint: "a".into(), ..SlotRecord::default() };
+    assert_eq!(SlotRecord::load(&path, "a"), empty, "there is none yet");
+    let record =
+        SlotRecord { refused: vec![RejectionReason::GoalMissed, RejectionReason::NoEffect], ..empty.clone() };
     record.save(&path).expect("written");
-    assert_eq!(Record::load(&path, "a"), record);
-    assert_eq!(Record::load(&path, "b").refused, []);
+    assert_eq!(SlotRecord::load(&path, "a"), record);
+    assert_eq!(SlotRecord::load(&path, "b").refused, []);
     let text = fs::read_to_string(&path).expect("text");
     assert!(text.contains("goal-missed"), "{text}");
     for damaged in [&text[..text.len() / 2], "", "rubbish", &text.replace("no-effect", "no-idea")] {
         fs::write(&path, damaged).expect("written");
-        assert_eq!(Record::load(&path, "a"), empty, "{damaged}");
+        assert_eq!(SlotRecord::load(&path, "a"), empty, "{damaged}");
     }
 }
 
 #[test]
 fn attempts_are_counted_by_variant() {
     let mut tally = Tally::default();
-    tally.add(Variant::Chase, &[Refusal::NoFlight, Refusal::NoEffect, Refusal::NoFlight]);
+    tally.add(
+        Variant::Chase,
+        &[RejectionReason::NoFlight, RejectionReason::NoEffect, RejectionReason::NoFlight],
+    );
     tally.add(Variant::Lift, &[]);
     tally.add(Variant::Chase, &[]);
     let rows = tally.rows();
     assert_eq!(rows.iter().map(|row| row.variant).collect::<Vec<_>>(), [Variant::Lift, Variant::Chase]);
     assert_eq!((rows[1].events, rows[1].attempts), (2, 5));
-    let reasons: Vec<(Refusal, usize)> =
+    let reasons: Vec<(RejectionReason, usize)> =
         rows[1].refused.iter().map(|(&reason, &count)| (reason, count)).collect();
     assert_eq!(reasons.len(), 2);
-    assert!(reasons.contains(&(Refusal::NoFlight, 2)) && reasons.contains(&(Refusal::NoEffect, 1)));
+    assert!(
+        reasons.contains(&(RejectionReason::NoFlight, 2))
+            && reasons.contains(&(RejectionReason::NoEffect, 1))
+    );
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use phase_dataset::{
     labels::{goal_label, interaction_type},
-    splits::{Item, Quota, Split, check, make},
+    splits::{Item, Split, SplitQuota, check, make},
 };
 use phase_model::{AgentId, EventKind, Goal, LandmarkId, ObjectId, Sign};
 use proptest::prelude::*;
@@ -31,10 +31,10 @@ fn item(k: usize, kind: EventKind, goals: [Goal; 2], base: u8) -> Item {
 
 #[test]
 fn the_papers_quota() {
-    let quota = Quota { train: 320, validation: 80, test: 100, unseen: 80, exclusive: 9 };
-    assert_eq!(Quota::of(500), quota);
-    let double = Quota { train: 640, validation: 160, test: 200, unseen: 160, exclusive: 18 };
-    assert_eq!(Quota::of(1000), double);
+    let quota = SplitQuota { train: 320, validation: 80, test: 100, unseen: 80, exclusive: 9 };
+    assert_eq!(SplitQuota::of(500), quota);
+    let double = SplitQuota { train: 640, validation: 160, test: 200, unseen: 160, exclusive: 18 };
+    assert_eq!(SplitQuota::of(1000), double);
 }
 
 /// 25 events: 16, 4 and 5, of which 4 in layouts of their own; 9 in 500 are none of 25.

@@ -3,26 +3,32 @@
 use crate::support;
 use phase_dataset::{
     checksum::FileEntry,
-    summary::{AgentComparison, Comparison, Pair, Quartiles, Source, Summary, tabulate},
+    summary::{
+        AgentComparison, EventComparison, MeasuredPair, Quartiles, RecordingSource, SimulationSummary,
+        tabulate,
+    },
 };
 use phase_event::{Event, Recording};
-use phase_evidence::{Motion, Outcome};
+use phase_evidence::{GoalOutcome, MotionStatistics};
 use phase_model::{AgentId, EventKind, Goal, LandmarkId, Sign, arena::SUBSTEPS};
 use serde_json::{Value, json};
 use std::fs;
 
-fn outcome(steps: Option<usize>) -> Outcome {
-    Outcome { reached: steps.is_some(), steps }
+fn outcome(steps: Option<usize>) -> GoalOutcome {
+    GoalOutcome { reached: steps.is_some(), steps }
 }
 
 /// An event whose agents took these numbers of steps, recorded and simulated; `None` is never. Agent 0 moved at
 /// 2 u/s in the recording and at 1 u/s in the simulation, agent 1 at twice that and in contact.
-fn pair(id: &str, kind: EventKind, agents: [(Option<usize>, Option<usize>); 2]) -> Pair {
-    let motion =
-        |speed: f32, contact_steps| Motion { speeds: vec![speed; 4], path: speed / 3.0, contact_steps };
-    let comparison = Comparison {
+fn pair(id: &str, kind: EventKind, agents: [(Option<usize>, Option<usize>); 2]) -> MeasuredPair {
+    let motion = |speed: f32, contact_steps| MotionStatistics {
+        speeds: vec![speed; 4],
+        path: speed / 3.0,
+        contact_steps,
+    };
+    let comparison = EventComparison {
         id: id.into(),
-        source: Source { id: id.into(), seed: 1 },
+        source: RecordingSource { id: id.into(), seed: 1 },
         kind,
         recorded_steps: 50,
         simulated_steps: 60,
@@ -42,14 +48,14 @@ fn pair(id: &str, kind: EventKind, agents: [(Option<usize>, Option<usize>); 2]) 
         event: FileEntry { path: format!("{id}.json"), bytes: 0, sha256: String::new() },
         video: None,
     };
-    Pair {
+    MeasuredPair {
         comparison,
         recorded: [motion(2.0, 0), motion(4.0, 4)],
         simulated: [motion(1.0, 0), motion(2.0, 1)],
     }
 }
 
-fn example() -> Vec<Pair> {
+fn example() -> Vec<MeasuredPair> {
     let mut start_only = pair("d", EventKind::Chasing, [(None, None); 2]);
     start_only.comparison.recorded_steps = 0;
     start_only.recorded = Default::default();
@@ -91,13 +97,13 @@ fn the_table_counts_by_kind_and_in_all() {
 fn a_summary_is_read_as_it_was_written() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("summary.json");
-    let summary = Summary::new(json!({"seed": 1}), example());
+    let summary = SimulationSummary::new(json!({"seed": 1}), example());
     summary.write(&path).expect("written");
-    let read = Summary::read(&path).expect("our own summary");
+    let read = SimulationSummary::read(&path).expect("our own summary");
     assert_eq!(read, summary);
     read.verify(folder.path()).expect_err("the events' files are missing");
     fs::write(&path, "{\"format\": \"phase-dataset/1\"}").expect("written");
-    assert!(Summary::read(&path).is_err());
+    assert!(SimulationSummary::read(&path).is_err());
 }
 
 #[test]
@@ -106,7 +112,7 @@ fn an_older_summary_is_refused_by_its_format() {
     let path = folder.path().join("summary.json");
     let older = json!({"format": "phase-simulation/1", "run": {}, "kinds": [], "events": []});
     fs::write(&path, older.to_string()).expect("written");
-    let error = Summary::read(&path).expect_err("another format").to_string();
+    let error = SimulationSummary::read(&path).expect_err("another format").to_string();
     assert!(error.contains("phase-simulation/2") && error.contains("phase-simulation/1"), "{error}");
 }
 
@@ -191,7 +197,8 @@ fn a_pair_is_measured_over_the_steps_both_have() {
             state.bodies[2].position = state.bodies[1].position;
         }
     }
-    let pair = Pair::of(folder.path(), &recording, "a-seed3".into(), 3, &ours, false).expect("compared");
+    let pair =
+        MeasuredPair::of(folder.path(), &recording, "a-seed3".into(), 3, &ours, false).expect("compared");
     let kept = &pair.comparison;
     assert_eq!((kept.id.as_str(), kept.source.id.as_str(), kept.source.seed), ("a-seed3", "a", 3));
     assert_eq!((kept.recorded_steps, kept.simulated_steps, kept.compared_steps), (6, 4, 4));

@@ -11,7 +11,7 @@ const TOLERANCE: f64 = 1e-3;
 
 /// Why numbers are no answer. The text reads on from the field's name.
 #[derive(Clone, PartialEq, Eq, Debug, Error)]
-pub enum AnswerError {
+pub enum InvalidAnswer {
     /// A probability of a goal is no probability.
     #[error("`goals[{agent}][{place}].p` must be a number from 0 to 1")]
     Goal {
@@ -31,7 +31,7 @@ pub enum AnswerError {
 /// A goal and how likely it is.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Share {
+pub struct GoalProbability {
     /// The goal.
     pub goal: Goal,
     /// Its probability, 0 to 1.
@@ -42,7 +42,7 @@ pub struct Share {
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Answer {
     /// Goals of each agent, most likely first, no goal twice; those of equal probability as the method had them.
-    pub goals: [Vec<Share>; AGENT_COUNT],
+    pub goals: [Vec<GoalProbability>; AGENT_COUNT],
     /// The relations' probabilities.
     pub relation: RelationProbabilities,
 }
@@ -52,27 +52,27 @@ impl Answer {
     ///
     /// # Errors
     /// If a number is no probability.
-    pub fn of(judgement: &Judgement) -> Result<Self, AnswerError> {
-        let mut goals: [Vec<Share>; AGENT_COUNT] = Default::default();
+    pub fn of(judgement: &Judgement) -> Result<Self, InvalidAnswer> {
+        let mut goals: [Vec<GoalProbability>; AGENT_COUNT] = Default::default();
         for (agent, (ranked, given)) in AgentId::ALL.into_iter().zip(goals.iter_mut().zip(&judgement.goals)) {
             for (place, &(goal, p)) in given.iter().enumerate() {
                 if !probable(p) {
-                    return Err(AnswerError::Goal { agent, place });
+                    return Err(InvalidAnswer::Goal { agent, place });
                 }
                 match ranked.iter_mut().find(|share| canonical(share.goal) == canonical(goal)) {
                     Some(share) => share.p = (share.p + p).min(1.0),
-                    None => ranked.push(Share { goal, p: p.min(1.0) }),
+                    None => ranked.push(GoalProbability { goal, p: p.min(1.0) }),
                 }
             }
             if ranked.iter().map(|share| share.p).sum::<f64>() > 1.0 + TOLERANCE {
-                return Err(AnswerError::Goals(agent));
+                return Err(InvalidAnswer::Goals(agent));
             }
             ranked.sort_by(|a, b| b.p.total_cmp(&a.p));
         }
         let relation = judgement.relation;
         let three = [relation.friendly, relation.adversarial, relation.neutral];
         if !three.into_iter().all(probable) || (three.iter().sum::<f64>() - 1.0).abs() > TOLERANCE {
-            return Err(AnswerError::Relation);
+            return Err(InvalidAnswer::Relation);
         }
         // What is certain may come out of an addition a rounding error above 1.
         let [friendly, adversarial, neutral] = three.map(|p| p.min(1.0));
@@ -104,7 +104,7 @@ pub struct Label {
 
 /// A method's answer after a prefix of an event.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
-pub struct Glimpse {
+pub struct PartialAnswer {
     /// Length of the prefix (s of video).
     pub seconds: f64,
     /// The answer.
@@ -124,7 +124,7 @@ pub struct RecognisedEvent {
     pub label: Label,
     /// Answers after prefixes of the event, in the order requested.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub watched: Vec<Glimpse>,
+    pub watched: Vec<PartialAnswer>,
     /// CPU time for the answer to the whole event (s), where it was measured.
     pub cpu_seconds: Option<f64>,
     /// Details that the method attached.

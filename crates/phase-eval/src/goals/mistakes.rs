@@ -4,13 +4,13 @@ use super::{RecognisedEvent, canonical};
 use phase_model::Goal;
 use serde::Serialize;
 
-/// Kinds of goals, in the order of [`Mistakes::kinds`].
+/// Kinds of goals, in the order of [`ErrorBreakdown::kinds`].
 pub const GOAL_KINDS: [&str; 3] = ["agent on landmark", "object on landmark", "touch"];
 
 /// What is right and what is wrong about the goals that were thought likeliest, counted by agents. Whatever is neither
 /// right nor of another kind nor unnamed is in one of `sign`, `landmark`, `entity` and `both`.
 #[derive(Clone, PartialEq, Eq, Default, Debug, Serialize)]
-pub struct Mistakes {
+pub struct ErrorBreakdown {
     /// All of it right.
     pub right: usize,
     /// The kind, who or what, and the landmark are right, and the sign is wrong.
@@ -28,7 +28,7 @@ pub struct Mistakes {
     pub nothing: usize,
 }
 
-impl Mistakes {
+impl ErrorBreakdown {
     /// Counts those of all agents.
     #[must_use]
     pub fn of(events: &[RecognisedEvent]) -> Self {

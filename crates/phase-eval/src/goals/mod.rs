@@ -6,8 +6,8 @@ mod matching;
 mod mistakes;
 mod summary;
 
-pub use answer::{Answer, AnswerError, Glimpse, Label, RecognisedEvent, Share};
+pub use answer::{Answer, GoalProbability, InvalidAnswer, Label, PartialAnswer, RecognisedEvent};
 pub use calibration::{BINS, Bin, Calibration};
 pub use matching::canonical;
-pub use mistakes::{GOAL_KINDS, Mistakes};
-pub use summary::{RELATIONS, Scores, Summary};
+pub use mistakes::{ErrorBreakdown, GOAL_KINDS};
+pub use summary::{RELATIONS, RecognitionScores, RecognitionSummary};

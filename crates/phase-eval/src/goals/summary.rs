@@ -1,7 +1,7 @@
 //! Accuracy of a method over many events.
 
 use super::{Answer, Calibration, Label, RecognisedEvent};
-use crate::{Estimate, Group};
+use crate::{Estimate, GroupScores};
 use phase_model::{AGENT_COUNT, AgentId, EventKind, Relation};
 use phase_statistics::mean;
 use serde::{Deserialize, Serialize};
@@ -11,7 +11,7 @@ pub const RELATIONS: [Relation; 3] = [Relation::Friendly, Relation::Adversarial,
 
 /// Accuracies over some events.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
-pub struct Scores {
+pub struct RecognitionScores {
     /// Number of events; goals are two for each.
     pub n: usize,
     /// The right goal is the most likely one.
@@ -26,7 +26,7 @@ pub struct Scores {
     pub relation_human: Option<Estimate>,
 }
 
-impl Scores {
+impl RecognitionScores {
     /// Scores some answers; `None` without any.
     fn of(answers: &[(&Answer, &Label)], seed: u64) -> Option<Self> {
         let top = |k: usize| {
@@ -56,15 +56,15 @@ impl Scores {
 
 /// Accuracy of a method.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
-pub struct Summary {
+pub struct RecognitionSummary {
     /// Over all events.
-    pub all: Scores,
+    pub all: RecognitionScores,
     /// By kind of event.
-    pub kinds: Vec<Group<Scores>>,
+    pub kinds: Vec<GroupScores<RecognitionScores>>,
     /// In layouts that are in the training or validation events too, and in others; empty where nobody knows.
-    pub layouts: Vec<Group<Scores>>,
+    pub layouts: Vec<GroupScores<RecognitionScores>>,
     /// By how much had been seen, if that was asked for. Events that end earlier count with all of them.
-    pub watched: Vec<Group<Scores>>,
+    pub watched: Vec<GroupScores<RecognitionScores>>,
     /// How often (number of events) which relation was taken for which: `confusion[right][said]`, both in the
     /// order of [`RELATIONS`].
     pub confusion: [[usize; RELATIONS.len()]; RELATIONS.len()],
@@ -76,7 +76,7 @@ pub struct Summary {
     pub cpu_seconds_per_event: Option<f64>,
 }
 
-impl Summary {
+impl RecognitionSummary {
     /// Sums up what was said; `None` without events. The seed is that of the intervals.
     #[must_use]
     pub fn of(events: &[RecognisedEvent], seed: u64) -> Option<Self> {
@@ -86,7 +86,7 @@ impl Summary {
                 .filter(|event| chosen(event))
                 .map(|event| (&event.answer, &event.label))
                 .collect();
-            Some(Group { name: name.into(), scores: Scores::of(&answers, seed)? })
+            Some(GroupScores { name: name.into(), scores: RecognitionScores::of(&answers, seed)? })
         };
         let kinds = EventKind::ALL.into_iter();
         let kinds = kinds.filter_map(|kind| group(kind.name(), &|event| event.label.kind == kind)).collect();
@@ -109,13 +109,13 @@ impl Summary {
 }
 
 /// Scores of the answers to the first parts of events; which parts there are the first event says.
-fn watched(events: &[RecognisedEvent], seed: u64) -> Vec<Group<Scores>> {
+fn watched(events: &[RecognisedEvent], seed: u64) -> Vec<GroupScores<RecognitionScores>> {
     let parts = events.first().map_or(0, |event| event.watched.len());
     let part = |k: usize| {
         let seconds = events.first()?.watched.get(k)?.seconds;
         let glimpses = events.iter().filter_map(|event| Some((&event.watched.get(k)?.answer, &event.label)));
-        let scores = Scores::of(&glimpses.collect::<Vec<_>>(), seed)?;
-        Some(Group { name: format!("{seconds} s"), scores })
+        let scores = RecognitionScores::of(&glimpses.collect::<Vec<_>>(), seed)?;
+        Some(GroupScores { name: format!("{seconds} s"), scores })
     };
     (0..parts).filter_map(part).collect()
 }

@@ -4,7 +4,7 @@ mod errors;
 mod summary;
 
 pub use errors::{Errors, ForecastError, ForecastEvent};
-pub use summary::{Scores, Summary};
+pub use summary::{ForecastScores, ForecastSummary};
 
 /// Steps that are watched before the prediction (5 s of video).
 pub const WATCHED_STEPS: usize = 20;

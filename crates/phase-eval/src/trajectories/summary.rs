@@ -1,14 +1,14 @@
 //! Displacement errors of a method over many events.
 
 use super::{Errors, ForecastEvent, PREDICTED_STEPS};
-use crate::{Estimate, Group};
+use crate::{Estimate, GroupScores};
 use phase_model::{EventKind, Relation};
 use phase_statistics::mean;
 use serde::{Deserialize, Serialize};
 
 /// Displacement errors over some events, each of which counts alike (u).
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
-pub struct Scores {
+pub struct ForecastScores {
     /// Number of events.
     pub n: usize,
     /// Average displacement error of the agents.
@@ -21,7 +21,7 @@ pub struct Scores {
     pub fde_entities: Estimate,
 }
 
-impl Scores {
+impl ForecastScores {
     fn of(events: &[&ForecastEvent], seed: u64) -> Option<Self> {
         let estimate = |of: fn(&ForecastEvent) -> f64| {
             Estimate::of(&events.iter().map(|event| of(event)).collect::<Vec<f64>>(), seed)
@@ -38,15 +38,15 @@ impl Scores {
 
 /// Displacement errors of a method.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
-pub struct Summary {
+pub struct ForecastSummary {
     /// Events with a neutral relation; `None` if there are none.
-    pub independent: Option<Scores>,
+    pub independent: Option<ForecastScores>,
     /// Events with a friendly or adversarial relation; `None` if there are none.
-    pub social: Option<Scores>,
+    pub social: Option<ForecastScores>,
     /// All events.
-    pub all: Scores,
+    pub all: ForecastScores,
     /// By kind of event.
-    pub kinds: Vec<Group<Scores>>,
+    pub kinds: Vec<GroupScores<ForecastScores>>,
     /// The agents' error after 1, 2, 3 … steps, the mean over the events that have so many (u).
     pub by_step: Vec<f64>,
     /// Events that end before the last step to predict; their last step is the one before.
@@ -55,15 +55,15 @@ pub struct Summary {
     pub cpu_seconds_per_event: Option<f64>,
 }
 
-impl Summary {
+impl ForecastSummary {
     /// Sums up what was predicted; `None` without events. The seed is that of the intervals.
     #[must_use]
     pub fn of(events: &[ForecastEvent], seed: u64) -> Option<Self> {
         let scores = |chosen: &dyn Fn(&ForecastEvent) -> bool| {
-            Scores::of(&events.iter().filter(|event| chosen(event)).collect::<Vec<_>>(), seed)
+            ForecastScores::of(&events.iter().filter(|event| chosen(event)).collect::<Vec<_>>(), seed)
         };
         let kind = |kind: EventKind| {
-            Some(Group { name: kind.name().into(), scores: scores(&|event| event.kind == kind)? })
+            Some(GroupScores { name: kind.name().into(), scores: scores(&|event| event.kind == kind)? })
         };
         let longest = events.iter().map(|event| event.steps).max().unwrap_or_default();
         let after = |step: usize| {

@@ -3,7 +3,7 @@
 use crate::support::{event, file, plain_event};
 use phase_event::{Recording, Trajectory, parse, subgoal_of, to_json};
 use phase_model::{
-    AgentId, Entity, LandmarkId, Literal, ObjectId, Place, Predicate, Subgoal, arena::SUBSTEPS,
+    AgentId, Entity, LandmarkId, Literal, ObjectId, Predicate, PredicateTarget, Subgoal, arena::SUBSTEPS,
 };
 use proptest::prelude::*;
 use serde_json::{Value, json};
@@ -149,11 +149,11 @@ fn subgoals_are_read_as_they_are_written() {
         Subgoal::Achieve(Literal::not(Predicate::Attach(AgentId::ZERO, ObjectId::ONE))),
         Subgoal::Achieve(Literal::is(Predicate::Close(
             Entity::Agent(AgentId::ZERO),
-            Place::Landmark(LandmarkId::BOTTOM_RIGHT),
+            PredicateTarget::Landmark(LandmarkId::BOTTOM_RIGHT),
         ))),
         Subgoal::Achieve(Literal::is(Predicate::Close(
             Entity::Agent(AgentId::ZERO),
-            Place::Entity(Entity::Object(ObjectId::ONE)),
+            PredicateTarget::Entity(Entity::Object(ObjectId::ONE)),
         ))),
     ];
     for subgoal in all {

@@ -1,6 +1,6 @@
 //! Made-up scenes, events and files.
 
-use phase_event::{ActionValue, Event, Step, SubgoalValue, Thought};
+use phase_event::{ActionEvaluation, Event, Step, SubgoalValue, Thought};
 use phase_model::{
     Action, AgentId, AgentSpec, Attitude, Body, Entity, EventKind, Flip, Goal, Grip, LandmarkId, Layout,
     Literal, ObjectId, ObjectSpec, Predicate, Scene, Side, Sign, Size, State, Strength, Subgoal, Vec2,
@@ -102,7 +102,7 @@ fn thought(t: usize, number: &mut impl FnMut() -> f32) -> Thought {
         ],
         actions: Action::ALL
             .into_iter()
-            .map(|action| ActionValue { action, visits: 71, value: value() })
+            .map(|action| ActionEvaluation { action, visits: 71, value: value() })
             .collect(),
     }
 }

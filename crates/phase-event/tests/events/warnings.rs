@@ -105,20 +105,23 @@ fn an_event_to_be_simulated_may_bring_its_seed() {
 #[test]
 fn labels_that_disagree_are_warned_of() {
     let mut recording = from_json(&file().to_string()).expect("a good file").remove(0);
-    let words = |recording: &Recording| -> Vec<String> {
+    let describe = |recording: &Recording| -> Vec<String> {
         recording.warnings().iter().map(ToString::to_string).collect()
     };
     assert_eq!(recording.warnings(), []);
     recording.relation = Relation::Neutral;
-    assert_eq!(words(&recording), ["relation is \"neutral\", but goals and attitudes make it \"friendly\""]);
+    assert_eq!(
+        describe(&recording),
+        ["relation is \"neutral\", but goals and attitudes make it \"friendly\""]
+    );
     recording.relation = Relation::Friendly;
     recording.recorded_steps = Some(1);
-    assert_eq!(words(&recording), ["recorded_steps is 1, but trajectory has 2 steps"]);
+    assert_eq!(describe(&recording), ["recorded_steps is 1, but trajectory has 2 steps"]);
     recording.recorded_steps = None;
     recording.scene.objects[0].start.angle = 90.0;
     assert!(matches!(recording.warnings()[..], [EventWarning::Scene(_)]));
     let text = "trajectory.objects[0][0]: the angle 90 is in radians; 90 degrees are 1.5708 rad";
-    assert_eq!(words(&recording), [text]);
+    assert_eq!(describe(&recording), [text]);
 }
 
 #[test]

@@ -1,51 +1,51 @@
 //! What is asked of events of several kinds.
 
-use super::Refusal;
-use crate::{Outcome, Rest, Track, contact};
+use super::RejectionReason;
+use crate::{GoalOutcome, Rest, Track, contact};
 use phase_model::{AgentId, Entity, Goal, ObjectId, Relation, Scene, State};
 
 /// For how long something must be done to be seen (steps).
-pub(super) const VISIBLE: usize = 3;
+pub(super) const MIN_VISIBLE_STEPS: usize = 3;
 /// Steps at the end over which nothing may move.
-const AT_THE_END: usize = 4;
+const FINAL_REST_STEPS: usize = 4;
 /// A goal reached before this step was hardly pursued (2 s of video).
-const SOON: usize = 8;
+const MIN_STEPS_TO_GOAL: usize = 8;
 /// How much nearer to what it needs an agent has to come for its goal to be seen (u).
-const APPROACH: f32 = 2.0;
+const MIN_APPROACH: f32 = 2.0;
 
 /// Adversarial events may last to the maximum length; in all others both agents have released their objects and come
 /// to rest.
-pub(super) fn tidy(scene: &Scene, track: &Track) -> Result<(), Refusal> {
+pub(super) fn check_rest_at_end(scene: &Scene, track: &Track) -> Result<(), RejectionReason> {
     if scene.relation() == Relation::Adversarial {
         return Ok(());
     }
-    let from = track.steps().saturating_sub(AT_THE_END);
-    let still = track.physique.entities().all(|entity| Rest::after(track, entity, from).is_quiet());
+    let from = track.steps().saturating_sub(FINAL_REST_STEPS);
+    let still = track.physics.entities().all(|entity| Rest::after(track, entity, from).is_at_rest());
     let held = track.states.last().is_some_and(|state| state.grips.iter().any(Option::is_some));
-    if still && !held { Ok(()) } else { Err(Refusal::Restless) }
+    if still && !held { Ok(()) } else { Err(RejectionReason::Restless) }
 }
 
 /// An agent's goal is reached, and not before one could see it being pursued.
-pub(super) fn reached(scene: &Scene, track: &Track, agent: AgentId) -> Result<usize, Refusal> {
-    match Outcome::of(track, scene.agents[agent].goal) {
-        Outcome { reached: true, steps: Some(steps) } if steps >= SOON => Ok(steps),
-        Outcome { reached: true, .. } => Err(Refusal::TooSoon),
-        Outcome { reached: false, .. } => Err(Refusal::GoalMissed),
+pub(super) fn reached(scene: &Scene, track: &Track, agent: AgentId) -> Result<usize, RejectionReason> {
+    match GoalOutcome::of(track, scene.agents[agent].goal) {
+        GoalOutcome { reached: true, steps: Some(steps) } if steps >= MIN_STEPS_TO_GOAL => Ok(steps),
+        GoalOutcome { reached: true, .. } => Err(RejectionReason::TooSoon),
+        GoalOutcome { reached: false, .. } => Err(RejectionReason::GoalMissed),
     }
 }
 
 /// An agent with a positive goal was seen to be after it: it came clearly nearer to what it has to get to first,
 /// or touched it.
-pub(super) fn pursued(scene: &Scene, track: &Track, agent: AgentId) -> Result<(), Refusal> {
+pub(super) fn pursued(scene: &Scene, track: &Track, agent: AgentId) -> Result<(), RejectionReason> {
     let goal = scene.agents[agent].goal;
     let way = |state: &State| first_distance(goal, agent, state);
-    let Some(start) = track.states.first().map(way) else { return Err(Refusal::Aimless) };
+    let Some(start) = track.states.first().map(way) else { return Err(RejectionReason::Aimless) };
     let nearest = track.states.iter().map(way).fold(f32::INFINITY, f32::min);
     let touched = match goal {
         Goal::ObjectOnLandmark { object, .. } => touches(track, agent, object) > 0,
         Goal::AgentOnLandmark { .. } | Goal::Touch { .. } => false,
     };
-    if touched || start - nearest >= APPROACH { Ok(()) } else { Err(Refusal::Aimless) }
+    if touched || start - nearest >= MIN_APPROACH { Ok(()) } else { Err(RejectionReason::Aimless) }
 }
 
 /// Steps in which an agent touched or held an object.

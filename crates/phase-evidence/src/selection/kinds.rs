@@ -1,23 +1,23 @@
 //! What each kind of event demands.
 
 use super::{
-    Change, Comparison, Refusal,
-    common::{VISIBLE, object_of, pursued, reached, touches},
+    CausalEffect, Counterfactual, RejectionReason,
+    common::{MIN_VISIBLE_STEPS, object_of, pursued, reached, touches},
 };
-use crate::{Outcome, Track, blocking, contact, holding, pursuit::Pursuit};
+use crate::{GoalOutcome, Track, blocking, contact, holding, pursuit::Pursuit};
 use phase_model::{AgentId, Attitude, Entity, EventKind, Goal, ObjectId, Scene, Sign};
 use phase_planner::Routes;
 
 /// An object both pull at for so long is fought over (steps).
-const FOUGHT: usize = 5;
+const MIN_CONTESTED_STEPS: usize = 5;
 /// An object was carried if it went so far (u).
-const CARRIED: f32 = 1.0;
+const MIN_CARRIED_DISTANCE: f32 = 1.0;
 /// Minimum number of moving steps of a pursuit.
-const PURSUIT: usize = 8;
+const MIN_PURSUIT_STEPS: usize = 8;
 /// Independent agents may touch each other in one of this many steps.
-const CROSSING: usize = 5;
+const MAX_CONTACT_DIVISOR: usize = 5;
 
-pub(super) fn judge(scene: &Scene, track: &Track) -> Result<Option<Comparison>, Refusal> {
+pub(super) fn judge(scene: &Scene, track: &Track) -> Result<Option<Counterfactual>, RejectionReason> {
     match scene.kind {
         EventKind::Helping => helping(scene, track).map(Some),
         EventKind::Hindering => hindering(scene, track).map(Some),
@@ -31,24 +31,24 @@ pub(super) fn judge(scene: &Scene, track: &Track) -> Result<Option<Comparison>, 
 /// The helpee's goal is reached, and the helper has held an object. If the goal is about an object, the helpee pursued
 /// it visibly before the helper took it, and has held it as well; otherwise a viewer sees one agent move an object and
 /// the other stand idle.
-fn helping(scene: &Scene, track: &Track) -> Result<Comparison, Refusal> {
+fn helping(scene: &Scene, track: &Track) -> Result<Counterfactual, RejectionReason> {
     let helper = social(scene);
     let helpee = helper.other();
     reached(scene, track, helpee)?;
     let held = track.states.iter().filter(|state| state.grips[helper].is_some()).count();
-    demand(held >= VISIBLE, Refusal::NoContact)?;
+    require(held >= MIN_VISIBLE_STEPS, RejectionReason::NoContact)?;
     if let Some(object) = object_of(scene.agents[helpee].goal) {
         let taken = track.states.iter().position(|state| state.holds(helper, object));
         pursued(scene, &track.until(taken.unwrap_or(track.steps())), helpee)?;
         let lent_a_hand = holding::carried(track, helpee, object).steps;
-        demand(lent_a_hand >= VISIBLE, Refusal::Aimless)?;
+        require(lent_a_hand >= MIN_VISIBLE_STEPS, RejectionReason::Aimless)?;
     }
-    Ok(Comparison { idle: helper, judged: helpee, change: Change::Helped })
+    Ok(Counterfactual { idle: helper, judged: helpee, change: CausalEffect::Helped })
 }
 
 /// The victim is after its goal, and the hinderer is at it, in its way or at its object; where the goal is about
 /// touching, one goes after the other, which gets away.
-fn hindering(scene: &Scene, track: &Track) -> Result<Comparison, Refusal> {
+fn hindering(scene: &Scene, track: &Track) -> Result<Counterfactual, RejectionReason> {
     let hinderer = social(scene);
     let victim = hinderer.other();
     match scene.agents[victim].goal {
@@ -56,68 +56,72 @@ fn hindering(scene: &Scene, track: &Track) -> Result<Comparison, Refusal> {
         Goal::Touch { sign: Sign::Negative, .. } => chase(track, hinderer)?,
         goal => {
             pursued(scene, track, victim)?;
-            demand(is_in_the_way(scene, track, hinderer, goal), Refusal::NoContact)?;
+            require(is_in_the_way(scene, track, hinderer, goal), RejectionReason::NoContact)?;
         }
     }
-    Ok(Comparison { idle: hinderer, judged: victim, change: Change::Hindered })
+    Ok(Counterfactual { idle: hinderer, judged: victim, change: CausalEffect::Hindered })
 }
 
-fn chasing(scene: &Scene, track: &Track) -> Result<Comparison, Refusal> {
+fn chasing(scene: &Scene, track: &Track) -> Result<Counterfactual, RejectionReason> {
     let chases = |agent: &AgentId| scene.agents[*agent].goal.sign() == Sign::Positive;
     let chaser = AgentId::ALL.into_iter().find(chases).unwrap_or(AgentId::ZERO);
-    if Outcome::of(track, scene.agents[chaser].goal).reached {
+    if GoalOutcome::of(track, scene.agents[chaser].goal).reached {
         reached(scene, track, chaser)?;
     }
     chase(track, chaser)?;
-    Ok(Comparison { idle: chaser.other(), judged: chaser, change: Change::Hindered })
+    Ok(Counterfactual { idle: chaser.other(), judged: chaser, change: CausalEffect::Hindered })
 }
 
 /// Both get to the object; one wins, or they fight over it. Without the winner the loser would have won.
-fn competing(scene: &Scene, track: &Track) -> Result<Comparison, Refusal> {
+fn competing(scene: &Scene, track: &Track) -> Result<Counterfactual, RejectionReason> {
     let object = object_of(scene.agents[0].goal).unwrap_or(ObjectId::ZERO);
     for agent in AgentId::ALL {
         pursued(scene, track, agent)?;
-        demand(touches(track, agent, object) > 0, Refusal::Uncontested)?;
+        require(touches(track, agent, object) > 0, RejectionReason::Uncontested)?;
     }
-    let winner = AgentId::ALL.into_iter().find(|&it| Outcome::of(track, scene.agents[it].goal).reached);
+    let winner = AgentId::ALL.into_iter().find(|&it| GoalOutcome::of(track, scene.agents[it].goal).reached);
     let fought = holding::carried_together(track, object).steps;
-    demand(winner.is_some() || fought >= FOUGHT, Refusal::Uncontested)?;
+    require(winner.is_some() || fought >= MIN_CONTESTED_STEPS, RejectionReason::Uncontested)?;
     let winner = winner.unwrap_or(AgentId::ONE);
-    Ok(Comparison { idle: winner, judged: winner.other(), change: Change::Hindered })
+    Ok(Counterfactual { idle: winner, judged: winner.other(), change: CausalEffect::Hindered })
 }
 
 /// The object gets there, carried by both at once or by one after the other.
-fn collaborating(scene: &Scene, track: &Track) -> Result<(), Refusal> {
+fn collaborating(scene: &Scene, track: &Track) -> Result<(), RejectionReason> {
     reached(scene, track, AgentId::ZERO)?;
     let object = object_of(scene.agents[0].goal).unwrap_or(ObjectId::ZERO);
-    let much = |it: holding::Carrying| it.steps >= VISIBLE && it.distance >= CARRIED;
+    let much =
+        |it: holding::CarryStatistics| it.steps >= MIN_VISIBLE_STEPS && it.distance >= MIN_CARRIED_DISTANCE;
     let together = much(holding::carried_together(track, object));
     let in_turn = AgentId::ALL.into_iter().all(|agent| much(holding::carried_alone(track, agent, object)));
-    demand(together || in_turn, Refusal::NotTogether)
+    require(together || in_turn, RejectionReason::NotTogether)
 }
 
 /// Both reach their goals and keep out of each other's business; that they meet on the way is fine.
-fn independent(scene: &Scene, track: &Track) -> Result<(), Refusal> {
+fn independent(scene: &Scene, track: &Track) -> Result<(), RejectionReason> {
     for agent in AgentId::ALL {
         reached(scene, track, agent)?;
         if let Some(object) = object_of(scene.agents[agent.other()].goal) {
             let meddled = holding::carried(track, agent, object).steps;
-            demand(meddled == 0, Refusal::Interference)?;
+            require(meddled == 0, RejectionReason::Interference)?;
         }
     }
     let met = contact::steps_touching(track, Entity::Agent(AgentId::ZERO), Entity::Agent(AgentId::ONE)).len();
-    demand(met * CROSSING <= track.steps(), Refusal::Interference)
+    require(met * MAX_CONTACT_DIVISOR <= track.steps(), RejectionReason::Interference)
 }
 
 /// One goes after the other most of the time that it moves, and the other gets away for a while and is not in its grasp for
 /// more than half of the event.
-fn chase(track: &Track, chaser: AgentId) -> Result<(), Refusal> {
+fn chase(track: &Track, chaser: AgentId) -> Result<(), RejectionReason> {
     let (after, away) = (Pursuit::of(track, chaser), Pursuit::of(track, chaser.other()));
-    demand(after.moving >= PURSUIT && 2 * after.towards >= after.moving, Refusal::NoPursuit)?;
-    demand(away.away >= VISIBLE && away.away > away.towards, Refusal::NoFlight)?;
+    require(
+        after.moving >= MIN_PURSUIT_STEPS && 2 * after.towards >= after.moving,
+        RejectionReason::NoPursuit,
+    )?;
+    require(away.away >= MIN_VISIBLE_STEPS && away.away > away.towards, RejectionReason::NoFlight)?;
     let caught =
         contact::steps_touching(track, Entity::Agent(AgentId::ZERO), Entity::Agent(AgentId::ONE)).len();
-    demand(2 * caught <= track.steps(), Refusal::NoFlight)
+    require(2 * caught <= track.steps(), RejectionReason::NoFlight)
 }
 
 /// Whether a hinderer was seen at the victim, at its object, or in its way.
@@ -129,7 +133,10 @@ fn is_in_the_way(scene: &Scene, track: &Track, hinderer: AgentId, goal: Goal) ->
     let in_door =
         || blocking::steps_blocking_a_door(track, &Routes::new(scene.layout), hinderer, target).len();
     let between = || blocking::steps_between(track, hinderer, target).len();
-    met >= VISIBLE || handled >= VISIBLE || in_door() >= VISIBLE || between() >= VISIBLE
+    met >= MIN_VISIBLE_STEPS
+        || handled >= MIN_VISIBLE_STEPS
+        || in_door() >= MIN_VISIBLE_STEPS
+        || between() >= MIN_VISIBLE_STEPS
 }
 
 /// The agent with a social utility weight.
@@ -138,6 +145,6 @@ fn social(scene: &Scene) -> AgentId {
     AgentId::ALL.into_iter().find(is_social).unwrap_or(AgentId::ZERO)
 }
 
-const fn demand(holds: bool, otherwise: Refusal) -> Result<(), Refusal> {
+const fn require(holds: bool, otherwise: RejectionReason) -> Result<(), RejectionReason> {
     if holds { Ok(()) } else { Err(otherwise) }
 }

@@ -1,14 +1,14 @@
 //! Whether an event shows its label.
 //!
-//! [`first_look`] applies every test that needs the event alone: its length, its end, whether the goals can be
+//! [`check_event`] applies every test that needs the event alone: its length, its end, whether the goals can be
 //! read off it, and what its kind demands to be seen. Where the label speaks of what one agent does to the other,
-//! it names the [`Comparison`] that is still to be made: the same scene and seed with that agent neutral and
+//! it names the [`Counterfactual`] that is still to be made: the same scene and seed with that agent neutral and
 //! idle, which is as dear as the event itself and so comes last.
 
 mod common;
 mod kinds;
 
-use crate::{Effect, Outcome, Track, contact};
+use crate::{Effect, GoalOutcome, Track, contact};
 use core::ops::RangeInclusive;
 use phase_model::{AgentId, Attitude, Entity, Goal, Scene, Sign};
 use serde::{Deserialize, Serialize};
@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 /// Why an event does not show its label.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Refusal {
+pub enum RejectionReason {
     /// It ends before the shortest length.
     TooShort,
     /// It lasts beyond the greatest length.
@@ -45,7 +45,7 @@ pub enum Refusal {
     NoEffect,
 }
 
-impl Refusal {
+impl RejectionReason {
     /// All reasons, in the order in which they are looked for.
     pub const ALL: [Self; 13] = [
         Self::TooShort,
@@ -86,7 +86,7 @@ impl Refusal {
 
 /// What an agent is to have done to the other's goal.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Change {
+pub enum CausalEffect {
     /// Reached only thanks to it, or at least a tenth sooner.
     Helped,
     /// Missed because of it, or reached at least a tenth later; or, of a touch, from the first one on kept up for at
@@ -96,16 +96,16 @@ pub enum Change {
 
 /// A comparison with the same event in which one agent does nothing.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Comparison {
+pub struct Counterfactual {
     /// The agent that is to do nothing: `idle` of the simulation's settings.
     pub idle: AgentId,
     /// The agent whose goal is looked at.
     pub judged: AgentId,
     /// What has to come out.
-    pub change: Change,
+    pub change: CausalEffect,
 }
 
-impl Comparison {
+impl Counterfactual {
     /// The scene to simulate, with the event's own seed: the idle agent is neutral.
     #[must_use]
     pub fn scene(&self, scene: &Scene) -> Scene {
@@ -117,15 +117,15 @@ impl Comparison {
     /// Judges the event beside the one in which the agent did nothing. Goals are the event's own.
     ///
     /// # Errors
-    /// [`Refusal::NoEffect`].
-    pub fn judge(&self, scene: &Scene, event: &Track, without: &Track) -> Result<(), Refusal> {
+    /// [`RejectionReason::NoEffect`].
+    pub fn judge(&self, scene: &Scene, event: &Track, without: &Track) -> Result<(), RejectionReason> {
         let goal = scene.agents[self.judged].goal;
-        let effect = Effect { with: Outcome::of(event, goal), without: Outcome::of(without, goal) };
+        let effect = Effect { with: GoalOutcome::of(event, goal), without: GoalOutcome::of(without, goal) };
         let shown = match self.change {
-            Change::Helped => effect.helped(),
-            Change::Hindered => effect.hindered() || gets_loose(goal, event, without),
+            CausalEffect::Helped => effect.helped(),
+            CausalEffect::Hindered => effect.hindered() || escapes(goal, event, without),
         };
-        if shown { Ok(()) } else { Err(Refusal::NoEffect) }
+        if shown { Ok(()) } else { Err(RejectionReason::NoEffect) }
     }
 }
 
@@ -134,24 +134,24 @@ impl Comparison {
 ///
 /// # Errors
 /// The first reason against it.
-pub fn first_look(
+pub fn check_event(
     scene: &Scene,
     track: &Track,
     lengths: RangeInclusive<usize>,
-) -> Result<Option<Comparison>, Refusal> {
+) -> Result<Option<Counterfactual>, RejectionReason> {
     let steps = track.steps();
     if steps < *lengths.start() {
-        return Err(Refusal::TooShort);
+        return Err(RejectionReason::TooShort);
     }
     if steps > *lengths.end() {
-        return Err(Refusal::TooLong);
+        return Err(RejectionReason::TooLong);
     }
-    common::tidy(scene, track)?;
+    common::check_rest_at_end(scene, track)?;
     kinds::judge(scene, track)
 }
 
 /// Whether the touched agent escapes again: a chase with a catch and an escape still counts.
-fn gets_loose(goal: Goal, event: &Track, without: &Track) -> bool {
+fn escapes(goal: Goal, event: &Track, without: &Track) -> bool {
     if !matches!(goal, Goal::Touch { sign: Sign::Positive, .. }) {
         return false;
     }

@@ -22,7 +22,7 @@ fn gaps_of_all_pairs() {
     let track = track([moves]);
     for (a, b, expected) in cases {
         for (a, b) in [(a, b), (b, a)] {
-            let gap = gap(&track.physique, &track.states[0], a, b);
+            let gap = gap(&track.physics, &track.states[0], a, b);
             assert!((gap - expected).abs() < 1e-5, "{a:?} {b:?}: {gap}");
         }
     }

@@ -1,9 +1,9 @@
 //! Help and hindrance as differences.
 
-use phase_evidence::{Effect, Outcome};
+use phase_evidence::{Effect, GoalOutcome};
 
-fn outcome(steps: Option<usize>) -> Outcome {
-    Outcome { reached: steps.is_some(), steps }
+fn outcome(steps: Option<usize>) -> GoalOutcome {
+    GoalOutcome { reached: steps.is_some(), steps }
 }
 
 #[test]
@@ -29,7 +29,7 @@ fn a_tenth_counts() {
 
 #[test]
 fn goals_without_a_time_count_by_success_alone() {
-    let kept = |reached| Outcome { reached, steps: None };
+    let kept = |reached| GoalOutcome { reached, steps: None };
     assert!(Effect { with: kept(true), without: kept(false) }.helped());
     assert!(!Effect { with: kept(true), without: kept(true) }.helped());
 }

@@ -1,7 +1,7 @@
 //! Who held what, and carrying together.
 
 use crate::support::{Move, track};
-use phase_evidence::holding::{Hold, carried, carried_together, holds};
+use phase_evidence::holding::{HoldInterval, carried, carried_together, holds};
 use phase_model::{AgentId, ObjectId};
 
 /// Object 0 at x, held by some.
@@ -26,9 +26,9 @@ fn event() -> phase_evidence::Track {
 #[test]
 fn holds_are_found_with_their_times() {
     let expected = [
-        Hold { agent: AgentId::ZERO, object: ObjectId::ZERO, from: 1, to: 4 },
-        Hold { agent: AgentId::ZERO, object: ObjectId::ONE, from: 6, to: 7 },
-        Hold { agent: AgentId::ONE, object: ObjectId::ZERO, from: 3, to: 6 },
+        HoldInterval { agent: AgentId::ZERO, object: ObjectId::ZERO, from: 1, to: 4 },
+        HoldInterval { agent: AgentId::ZERO, object: ObjectId::ONE, from: 6, to: 7 },
+        HoldInterval { agent: AgentId::ONE, object: ObjectId::ZERO, from: 3, to: 6 },
     ];
     assert_eq!(holds(&event()), expected);
     assert_eq!(expected.map(|hold| hold.steps()), [4, 2, 4]);

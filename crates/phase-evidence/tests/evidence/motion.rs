@@ -1,7 +1,7 @@
 //! Speed, path and contact of made-up events.
 
 use crate::support::{Move, track};
-use phase_evidence::{Motion, Track, contact::TOUCH_GAP, motion::common_steps};
+use phase_evidence::{MotionStatistics, Track, contact::TOUCH_GAP, motion::common_steps};
 use phase_model::{AgentId, Contacts, Entity, ObjectId};
 
 /// Agent 0 at these x, facing up; agent 1 far away; an object at (20, 10).
@@ -17,21 +17,21 @@ fn walk(xs: &[f32]) -> Track {
 #[test]
 fn speed_and_path_go_by_the_origins() {
     // A step is 1/12 s of physics: 0.5 u in it are 6 u/s.
-    let motion = Motion::of(&walk(&[8.0, 8.5, 8.5, 7.5]), AgentId::ZERO, 3);
+    let motion = MotionStatistics::of(&walk(&[8.0, 8.5, 8.5, 7.5]), AgentId::ZERO, 3);
     let expected = [6.0, 0.0, 12.0];
     assert_eq!(motion.speeds.len(), expected.len());
     for (speed, expected) in motion.speeds.iter().zip(expected) {
         assert!((speed - expected).abs() < 1e-4, "{motion:?}");
     }
     assert!((motion.path - 1.5).abs() < 1e-5, "there and back both count: {motion:?}");
-    let other = Motion::of(&walk(&[8.0, 8.5, 8.5, 7.5]), AgentId::ONE, 3);
+    let other = MotionStatistics::of(&walk(&[8.0, 8.5, 8.5, 7.5]), AgentId::ONE, 3);
     assert_eq!((other.speeds, other.path), (vec![0.0; 3], 0.0));
 }
 
 #[test]
 fn turning_on_the_spot_is_no_motion() {
     let spin = (0..4).map(|t| Move { agents: [(8.0, 8.0, t as f32), (20.0, 8.0, 0.0)], ..Move::default() });
-    assert_eq!(Motion::of(&track(spin), AgentId::ZERO, 3).path, 0.0);
+    assert_eq!(MotionStatistics::of(&track(spin), AgentId::ZERO, 3).path, 0.0);
 }
 
 /// Agent 0 comes from below, facing up: its front is 1 u above its origin, the object's edge 1 u below (20, 10).
@@ -43,7 +43,7 @@ fn contact_is_counted_step_by_step_without_the_start() {
         objects: vec![(20.0, 10.0)],
         ..Move::default()
     });
-    let motion = Motion::of(&track(moves), AgentId::ZERO, 4);
+    let motion = MotionStatistics::of(&track(moves), AgentId::ZERO, 4);
     assert_eq!(motion.contact_steps, 2, "{motion:?}");
     assert_eq!(motion.contact_share(), Some(0.5));
 }
@@ -52,7 +52,7 @@ fn contact_is_counted_step_by_step_without_the_start() {
 fn both_agents_are_in_contact_with_each_other() {
     let at = |x: f32| Move { agents: [(x, 10.0, 0.0), (15.0, 10.0, 0.0)], ..Move::default() };
     let track = track([at(8.0), at(12.0), at(8.0)]);
-    let shares = [0, 1].map(|agent| Motion::of(&track, AgentId::ALL[agent], 2).contact_share());
+    let shares = [0, 1].map(|agent| MotionStatistics::of(&track, AgentId::ALL[agent], 2).contact_share());
     assert_eq!(shares, [Some(0.5); 2]);
 }
 
@@ -63,15 +63,15 @@ fn contacts_that_outlines_do_not_show_are_not_counted() {
     let mut contacts = Contacts::NONE;
     contacts.insert(Entity::Agent(AgentId::ZERO), Entity::Object(ObjectId::ZERO));
     track.states[1].contacts = contacts;
-    assert_eq!(Motion::of(&track, AgentId::ZERO, 1).contact_steps, 0);
+    assert_eq!(MotionStatistics::of(&track, AgentId::ZERO, 1).contact_steps, 0);
 }
 
 #[test]
 fn a_longer_event_is_cut_to_the_shorter_one() {
     let (long, short) = (walk(&[8.0, 8.5, 9.0, 12.0]), walk(&[8.0, 9.0]));
     assert_eq!((common_steps(&long, &short), common_steps(&short, &long)), (1, 1));
-    let motion = Motion::of(&long, AgentId::ZERO, 1);
+    let motion = MotionStatistics::of(&long, AgentId::ZERO, 1);
     assert!((motion.path - 0.5).abs() < 1e-5 && motion.speeds.len() == 1, "{motion:?}");
-    assert_eq!(Motion::of(&short, AgentId::ZERO, 5).speeds.len(), 1, "nothing lies past the end");
-    assert_eq!(Motion::of(&walk(&[8.0]), AgentId::ZERO, 5).contact_share(), None);
+    assert_eq!(MotionStatistics::of(&short, AgentId::ZERO, 5).speeds.len(), 1, "nothing lies past the end");
+    assert_eq!(MotionStatistics::of(&walk(&[8.0]), AgentId::ZERO, 5).contact_share(), None);
 }

@@ -1,7 +1,7 @@
 //! When a goal counts as reached.
 
 use crate::support::{Move, track};
-use phase_evidence::{Outcome, contact::TOUCH_GAP};
+use phase_evidence::{GoalOutcome, contact::TOUCH_GAP};
 use phase_model::{AgentId, Body, Goal, LandmarkId, ObjectId, Sign, Vec2};
 
 /// Agent 0 and object 0 move as told along y = 4.5; agent 1 stands at (16, 4.5), both face up.
@@ -29,10 +29,10 @@ fn being_somewhere_counts_at_the_end() {
     ];
     for (xs, reached, steps) in cases {
         let rows = trajectory(xs, &[20.0; 3]);
-        let outcome = Outcome::of(&rows, goal(Sign::Positive));
-        assert_eq!(outcome, Outcome { reached: *reached, steps: *steps }, "{xs:?}");
-        let outcome = Outcome::of(&rows, goal(Sign::Negative));
-        assert_eq!(outcome, Outcome { reached: !reached, steps: None }, "{xs:?} negated");
+        let outcome = GoalOutcome::of(&rows, goal(Sign::Positive));
+        assert_eq!(outcome, GoalOutcome { reached: *reached, steps: *steps }, "{xs:?}");
+        let outcome = GoalOutcome::of(&rows, goal(Sign::Negative));
+        assert_eq!(outcome, GoalOutcome { reached: !reached, steps: None }, "{xs:?} negated");
     }
 }
 
@@ -44,7 +44,7 @@ fn an_object_may_lie_farther_off_than_an_agent() {
         sign: Sign::Positive,
     };
     for (x, reached) in [(8.5 + 1.41, true), (8.5 + 1.42, false)] {
-        let outcome = Outcome::of(&trajectory(&[20.0; 2], &[20.0, x]), goal);
+        let outcome = GoalOutcome::of(&trajectory(&[20.0; 2], &[20.0, x]), goal);
         assert_eq!(outcome.reached, reached, "{x}");
     }
 }
@@ -64,10 +64,10 @@ fn touching_counts_at_any_time_and_getting_away_at_the_end() {
     ];
     for (xs, first, away) in cases {
         let rows = trajectory(xs, &[20.0; 3]);
-        let outcome = Outcome::of(&rows, goal(Sign::Positive));
-        assert_eq!(outcome, Outcome { reached: first.is_some(), steps: *first }, "{xs:?}");
-        let outcome = Outcome::of(&rows, goal(Sign::Negative));
-        assert_eq!(outcome, Outcome { reached: *away, steps: None }, "{xs:?}");
+        let outcome = GoalOutcome::of(&rows, goal(Sign::Positive));
+        assert_eq!(outcome, GoalOutcome { reached: first.is_some(), steps: *first }, "{xs:?}");
+        let outcome = GoalOutcome::of(&rows, goal(Sign::Negative));
+        assert_eq!(outcome, GoalOutcome { reached: *away, steps: None }, "{xs:?}");
     }
 }
 
@@ -79,5 +79,5 @@ fn head_on_agents_touch_by_their_flat_fronts() {
         state.bodies[1] = Body::at_rest(Vec2::new(16.0, y), core::f32::consts::PI);
     }
     let goal = Goal::Touch { agent: AgentId::ZERO, other: AgentId::ONE, sign: Sign::Positive };
-    assert_eq!(Outcome::of(&rows, goal).steps, Some(1));
+    assert_eq!(GoalOutcome::of(&rows, goal).steps, Some(1));
 }

@@ -17,9 +17,9 @@ fn what_is_still_moving() {
         Entity::Agent(AgentId::ZERO),
         1,
     );
-    assert_eq!((rest.steps, rest.restless), (2, 2));
+    assert_eq!((rest.steps, rest.moving_steps), (2, 2));
     assert!((rest.travelled - 1.0).abs() < 1e-5, "{rest:?}");
-    assert!((rest.strayed - 0.5).abs() < 1e-5, "{rest:?}");
+    assert!((rest.displacement - 0.5).abs() < 1e-5, "{rest:?}");
     assert!((rest.turned - 1.0).abs() < 1e-5, "both ways count: {rest:?}");
 }
 
@@ -34,7 +34,7 @@ fn quiet_is_staying_facing_and_not_trembling() {
     let cases = [(still, true), (drifting, false), (spinning, false), (trembling, false), (nudged, true)];
     for (poses, quiet) in cases {
         assert_eq!(
-            Rest::after(&event(&poses), Entity::Agent(AgentId::ZERO), 0).is_quiet(),
+            Rest::after(&event(&poses), Entity::Agent(AgentId::ZERO), 0).is_at_rest(),
             quiet,
             "{poses:?}"
         );
@@ -43,7 +43,7 @@ fn quiet_is_staying_facing_and_not_trembling() {
 
 #[test]
 fn past_the_end_everything_is_quiet() {
-    assert!(Rest::after(&event(&[(8.0, 0.0)]), Entity::Agent(AgentId::ZERO), 5).is_quiet());
+    assert!(Rest::after(&event(&[(8.0, 0.0)]), Entity::Agent(AgentId::ZERO), 5).is_at_rest());
 }
 
 #[test]
@@ -53,5 +53,5 @@ fn nobody_sees_a_disc_turn() {
         state.bodies[2].angle = t as f32;
     }
     let rest = Rest::after(&track, Entity::Object(ObjectId::ZERO), 0);
-    assert!(rest.is_quiet() && rest.turned == 0.0, "{rest:?}");
+    assert!(rest.is_at_rest() && rest.turned == 0.0, "{rest:?}");
 }

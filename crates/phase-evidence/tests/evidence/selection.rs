@@ -3,7 +3,7 @@
 use crate::support::{Move, track};
 use phase_evidence::{
     Track,
-    selection::{Change, Comparison, Refusal, first_look},
+    selection::{CausalEffect, Counterfactual, RejectionReason, check_event},
 };
 use phase_model::{
     AgentId, AgentSpec, Attitude, Body, EventKind, Goal, LandmarkId, Layout, ObjectId, ObjectSpec, Scene,
@@ -72,8 +72,8 @@ fn fetch(t: usize) -> Move {
     Move { agents: [facing(agent), (8.0, 18.0, 0.0)], objects: vec![object], held: [held, None] }
 }
 
-fn refusal(scene: &Scene, track: &Track) -> Option<Refusal> {
-    first_look(scene, track, STEPS..=100).err()
+fn refusal(scene: &Scene, track: &Track) -> Option<RejectionReason> {
+    check_event(scene, track, STEPS..=100).err()
 }
 
 #[test]
@@ -87,21 +87,22 @@ fn help_needs_a_goal_reached_in_time_a_hand_and_a_quiet_end() {
         Move { agents: [fetched.agents[0], facing(helpee)], held, ..fetched }
     };
     let good = event(helped);
-    let comparison = Comparison { idle: AgentId::ZERO, judged: AgentId::ONE, change: Change::Helped };
-    assert_eq!(first_look(&scene, &good, STEPS..=100), Ok(Some(comparison)));
-    assert_eq!(first_look(&scene, &good, 41..=100), Err(Refusal::TooShort));
-    assert_eq!(first_look(&scene, &good, 10..=39), Err(Refusal::TooLong));
+    let counterfactual =
+        Counterfactual { idle: AgentId::ZERO, judged: AgentId::ONE, change: CausalEffect::Helped };
+    assert_eq!(check_event(&scene, &good, STEPS..=100), Ok(Some(counterfactual)));
+    assert_eq!(check_event(&scene, &good, 41..=100), Err(RejectionReason::TooShort));
+    assert_eq!(check_event(&scene, &good, 10..=39), Err(RejectionReason::TooLong));
 
     type Spoil = fn(usize, &mut Move);
-    let cases: [(&str, Spoil, Refusal); 8] = [
-        ("not wanted by anybody else", |_, it| it.agents[1] = (8.0, 18.0, 0.0), Refusal::Aimless),
+    let cases: [(&str, Spoil, RejectionReason); 8] = [
+        ("not wanted by anybody else", |_, it| it.agents[1] = (8.0, 18.0, 0.0), RejectionReason::Aimless),
         (
             "wanted once it is gone",
             |t, it| it.agents[1] = facing(on_way(t, (8.0, 18.0), (18.0, 5.0), 12..30)),
-            Refusal::Aimless,
+            RejectionReason::Aimless,
         ),
-        ("left on the way", |_, it| it.objects[0].0 = it.objects[0].0.min(15.0), Refusal::GoalMissed),
-        ("never in hand", |_, it| it.held = [None, None], Refusal::NoContact),
+        ("left on the way", |_, it| it.objects[0].0 = it.objects[0].0.min(15.0), RejectionReason::GoalMissed),
+        ("never in hand", |_, it| it.held = [None, None], RejectionReason::NoContact),
         (
             "there at once",
             |t, it| {
@@ -109,11 +110,11 @@ fn help_needs_a_goal_reached_in_time_a_hand_and_a_quiet_end() {
                     it.objects[0] = (23.5, 4.5)
                 }
             },
-            Refusal::TooSoon,
+            RejectionReason::TooSoon,
         ),
-        ("never in its own hand", |_, it| it.held[1] = None, Refusal::Aimless),
-        ("still in hand", |t, it| it.held[0] = (t >= 10).then_some(0), Refusal::Restless),
-        ("turning to the end", |t, it| it.agents[1].2 = t as f32, Refusal::Restless),
+        ("never in its own hand", |_, it| it.held[1] = None, RejectionReason::Aimless),
+        ("still in hand", |t, it| it.held[0] = (t >= 10).then_some(0), RejectionReason::Restless),
+        ("turning to the end", |t, it| it.agents[1].2 = t as f32, RejectionReason::Restless),
     ];
     for (what, change, reason) in cases {
         let changed = |t| {
@@ -128,15 +129,16 @@ fn help_needs_a_goal_reached_in_time_a_hand_and_a_quiet_end() {
 #[test]
 fn an_effect_is_a_difference_to_the_event_without_the_agent() {
     let scene = scene(EventKind::Helping, [THING, THING], Attitude::Help);
-    let comparison = Comparison { idle: AgentId::ZERO, judged: AgentId::ONE, change: Change::Helped };
+    let counterfactual =
+        Counterfactual { idle: AgentId::ZERO, judged: AgentId::ONE, change: CausalEffect::Helped };
     let (with, without) = (event(fetch), event(|_| fetch(0)));
-    assert_eq!(comparison.judge(&scene, &with, &without), Ok(()));
-    assert_eq!(comparison.judge(&scene, &with, &with), Err(Refusal::NoEffect));
-    let hindered = Comparison { change: Change::Hindered, ..comparison };
-    assert_eq!(hindered.judge(&scene, &with, &without), Err(Refusal::NoEffect));
+    assert_eq!(counterfactual.judge(&scene, &with, &without), Ok(()));
+    assert_eq!(counterfactual.judge(&scene, &with, &with), Err(RejectionReason::NoEffect));
+    let hindered = Counterfactual { change: CausalEffect::Hindered, ..counterfactual };
+    assert_eq!(hindered.judge(&scene, &with, &without), Err(RejectionReason::NoEffect));
     assert_eq!(hindered.judge(&scene, &without, &with), Ok(()));
-    assert_eq!(comparison.scene(&scene).attitudes(), [Attitude::Neutral; 2]);
-    assert_eq!(comparison.scene(&scene).goals(), scene.goals());
+    assert_eq!(counterfactual.scene(&scene).attitudes(), [Attitude::Neutral; 2]);
+    assert_eq!(counterfactual.scene(&scene).goals(), scene.goals());
 }
 
 /// Agent 1 walks to within 3 u of landmark 1 (23.5, 19.5) and finds agent 0 there.
@@ -149,19 +151,21 @@ fn stopped(t: usize) -> Move {
 fn hindrance_needs_a_victim_after_something_and_somebody_in_its_way() {
     let goals = [place(1, 1).negated(), place(1, 1)];
     let scene = scene(EventKind::Hindering, goals, Attitude::Hinder);
-    let comparison = Comparison { idle: AgentId::ZERO, judged: AgentId::ONE, change: Change::Hindered };
-    assert_eq!(first_look(&scene, &event(stopped), STEPS..=100), Ok(Some(comparison)));
+    let counterfactual =
+        Counterfactual { idle: AgentId::ZERO, judged: AgentId::ONE, change: CausalEffect::Hindered };
+    assert_eq!(check_event(&scene, &event(stopped), STEPS..=100), Ok(Some(counterfactual)));
     let lazy = event(|t| Move { agents: [(22.4, 19.5, 0.0), (8.0, 19.5, t as f32)], ..stopped(t) });
-    assert_eq!(refusal(&scene, &lazy), Some(Refusal::Aimless));
+    assert_eq!(refusal(&scene, &lazy), Some(RejectionReason::Aimless));
     let aloof = event(|t| Move { agents: [(8.0, 4.0, 0.0), stopped(t).agents[1]], ..stopped(t) });
-    assert_eq!(refusal(&scene, &aloof), Some(Refusal::NoContact));
+    assert_eq!(refusal(&scene, &aloof), Some(RejectionReason::NoContact));
 }
 
 /// Touched in 13 of the 31 steps from the first touch on, in 16, and in all.
 #[test]
 fn who_gets_loose_was_chased() {
     let scene = scene(EventKind::Chasing, [TOUCH, TOUCH.negated()], Attitude::Neutral);
-    let comparison = Comparison { idle: AgentId::ONE, judged: AgentId::ZERO, change: Change::Hindered };
+    let counterfactual =
+        Counterfactual { idle: AgentId::ONE, judged: AgentId::ZERO, change: CausalEffect::Hindered };
     let touching = |share: usize| {
         event(move |t| {
             let apart = if t >= 10 && t % 10 < share { 2.0 } else { 6.0 };
@@ -170,10 +174,10 @@ fn who_gets_loose_was_chased() {
         })
     };
     let without = touching(10);
-    assert_eq!(comparison.judge(&scene, &touching(4), &without), Ok(()));
-    assert_eq!(comparison.judge(&scene, &touching(5), &without), Err(Refusal::NoEffect));
-    let helped = Comparison { change: Change::Helped, ..comparison };
-    assert_eq!(helped.judge(&scene, &touching(4), &without), Err(Refusal::NoEffect));
+    assert_eq!(counterfactual.judge(&scene, &touching(4), &without), Ok(()));
+    assert_eq!(counterfactual.judge(&scene, &touching(5), &without), Err(RejectionReason::NoEffect));
+    let helped = Counterfactual { change: CausalEffect::Helped, ..counterfactual };
+    assert_eq!(helped.judge(&scene, &touching(4), &without), Err(RejectionReason::NoEffect));
 }
 
 /// Agent 0 runs after agent 1, which gets away from step 5 on, and follows on its heels.
@@ -186,10 +190,11 @@ fn hunt(t: usize, speed: f32) -> Move {
 #[test]
 fn a_chase_needs_pursuit_and_flight() {
     let scene = scene(EventKind::Chasing, [TOUCH, TOUCH.negated()], Attitude::Neutral);
-    let comparison = Comparison { idle: AgentId::ONE, judged: AgentId::ZERO, change: Change::Hindered };
+    let counterfactual =
+        Counterfactual { idle: AgentId::ONE, judged: AgentId::ZERO, change: CausalEffect::Hindered };
     let good = event(|t| hunt(t, 0.2));
-    assert_eq!(first_look(&scene, &good, STEPS..=100), Ok(Some(comparison)));
-    assert_eq!(refusal(&scene, &event(|t| hunt(t, 0.0))), Some(Refusal::NoFlight));
+    assert_eq!(check_event(&scene, &good, STEPS..=100), Ok(Some(counterfactual)));
+    assert_eq!(refusal(&scene, &event(|t| hunt(t, 0.0))), Some(RejectionReason::NoFlight));
     // Whoever flees for a while and is then held down was not chased but caught.
     let pinned = |since: usize| {
         event(move |t| {
@@ -200,15 +205,16 @@ fn a_chase_needs_pursuit_and_flight() {
         })
     };
     assert_eq!(refusal(&scene, &pinned(22)), None);
-    assert_eq!(refusal(&scene, &pinned(18)), Some(Refusal::NoFlight));
+    assert_eq!(refusal(&scene, &pinned(18)), Some(RejectionReason::NoFlight));
     let idle = event(|t| Move { agents: [(7.0, 6.0, 0.0), hunt(t, 0.2).agents[1]], ..hunt(t, 0.2) });
-    assert_eq!(refusal(&scene, &idle), Some(Refusal::NoPursuit));
+    assert_eq!(refusal(&scene, &idle), Some(RejectionReason::NoPursuit));
     // The same between one who evades and one who is kept from touching it, agent 1 being the one that evades.
     let mut evading = scene.clone();
     evading.kind = EventKind::Hindering;
     evading.agents[1].attitude = Attitude::Hinder;
-    let comparison = Comparison { idle: AgentId::ONE, judged: AgentId::ZERO, change: Change::Hindered };
-    assert_eq!(first_look(&evading, &good, STEPS..=100), Ok(Some(comparison)));
+    let counterfactual =
+        Counterfactual { idle: AgentId::ONE, judged: AgentId::ZERO, change: CausalEffect::Hindered };
+    assert_eq!(check_event(&evading, &good, STEPS..=100), Ok(Some(counterfactual)));
 }
 
 #[test]
@@ -225,12 +231,13 @@ fn a_contest_needs_two_at_the_object_and_an_issue() {
         step.agents[1] = facing(on_way(t, (12.0, 12.0), (12.0, 6.4), 0..6));
         step
     };
-    let comparison = Comparison { idle: AgentId::ZERO, judged: AgentId::ONE, change: Change::Hindered };
-    assert_eq!(first_look(&scene, &event(met), STEPS..=100), Ok(Some(comparison)));
-    assert_eq!(refusal(&scene, &event(fetch)), Some(Refusal::Aimless));
+    let counterfactual =
+        Counterfactual { idle: AgentId::ZERO, judged: AgentId::ONE, change: CausalEffect::Hindered };
+    assert_eq!(check_event(&scene, &event(met), STEPS..=100), Ok(Some(counterfactual)));
+    assert_eq!(refusal(&scene, &event(fetch)), Some(RejectionReason::Aimless));
     let near_miss =
         |t| Move { agents: [met(t).agents[0], facing(on_way(t, (12.0, 14.0), (12.0, 9.0), 0..6))], ..met(t) };
-    assert_eq!(refusal(&scene, &event(near_miss)), Some(Refusal::Uncontested));
+    assert_eq!(refusal(&scene, &event(near_miss)), Some(RejectionReason::Uncontested));
     // They pull at it, and it stays where it is.
     let tug = |pulling: usize| {
         move |t: usize| {
@@ -239,8 +246,8 @@ fn a_contest_needs_two_at_the_object_and_an_issue() {
             Move { agents: [first, met(t).agents[1]], objects: vec![(12.0, 4.5)], held: [held, held] }
         }
     };
-    assert!(first_look(&scene, &event(tug(5)), STEPS..=100).is_ok());
-    assert_eq!(refusal(&scene, &event(tug(4))), Some(Refusal::Uncontested));
+    assert!(check_event(&scene, &event(tug(5)), STEPS..=100).is_ok());
+    assert_eq!(refusal(&scene, &event(tug(4))), Some(RejectionReason::Uncontested));
 }
 
 #[test]
@@ -256,8 +263,8 @@ fn collaborating_is_carrying_together_or_by_turns() {
         (10..30, 10..30, None),
         (10..30, 26..29, None),
         (10..20, 20..30, None),
-        (10..30, 28..30, Some(Refusal::NotTogether)),
-        (10..30, 0..0, Some(Refusal::NotTogether)),
+        (10..30, 28..30, Some(RejectionReason::NotTogether)),
+        (10..30, 0..0, Some(RejectionReason::NotTogether)),
     ];
     for (first, second, expected) in cases {
         let track = event(holding(first.clone(), second.clone()));
@@ -273,10 +280,10 @@ fn independent_agents_reach_their_goals_and_leave_each_other_alone() {
         step.agents[1] = facing(on_way(t, (8.0, 19.5), (23.5, 19.5), 0..20));
         step
     };
-    assert_eq!(first_look(&scene, &event(walk), STEPS..=100), Ok(None));
-    assert_eq!(refusal(&scene, &event(fetch)), Some(Refusal::GoalMissed));
+    assert_eq!(check_event(&scene, &event(walk), STEPS..=100), Ok(None));
+    assert_eq!(refusal(&scene, &event(fetch)), Some(RejectionReason::GoalMissed));
     let meddling = event(|t| Move { held: [walk(t).held[0], (t == 3).then_some(0)], ..walk(t) });
-    assert_eq!(refusal(&scene, &meddling), Some(Refusal::Interference));
+    assert_eq!(refusal(&scene, &meddling), Some(RejectionReason::Interference));
     let entangled = |t: usize| {
         let mut step = walk(t);
         if t < 10 {
@@ -284,5 +291,5 @@ fn independent_agents_reach_their_goals_and_leave_each_other_alone() {
         }
         step
     };
-    assert_eq!(refusal(&scene, &event(entangled)), Some(Refusal::Interference));
+    assert_eq!(refusal(&scene, &event(entangled)), Some(RejectionReason::Interference));
 }

@@ -1,7 +1,9 @@
 //! Tracks made up by hand: all bodies of radius 1, in an arena without walls.
 
 use phase_evidence::Track;
-use phase_model::{AgentBody, Body, Contacts, Grip, MAX_ENTITIES, ObjectId, Physique, Side, State, Vec2};
+use phase_model::{
+    AgentBody, Body, Contacts, Grip, MAX_ENTITIES, ObjectId, PhysicsConfig, Side, State, Vec2,
+};
 
 /// Where everybody is at one step.
 #[derive(Clone, Debug, Default)]
@@ -19,8 +21,8 @@ pub(crate) fn track(moves: impl IntoIterator<Item = Move>) -> Track {
     let moves: Vec<Move> = moves.into_iter().collect();
     let agent = AgentBody { radius: 1.0, max_force: 300.0 };
     let object_count = moves.first().map_or(0, |first| first.objects.len());
-    let physique = Physique { walls: vec![], agents: [agent; 2], object_radii: [1.0; 2], object_count };
-    Track { physique, states: moves.iter().map(state).collect() }
+    let physics = PhysicsConfig { walls: vec![], agents: [agent; 2], object_radii: [1.0; 2], object_count };
+    Track { physics, states: moves.iter().map(state).collect() }
 }
 
 fn state(step: &Move) -> State {

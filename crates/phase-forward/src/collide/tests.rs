@@ -3,10 +3,10 @@
 
 use super::{agent_disc, agents, discs, wall_agent, wall_disc};
 use crate::{
-    body::{Motion, Shape},
+    body::{BodyMotion, Shape},
+    constants::SKIN,
     manifold::Manifold,
     polygon::Polygon,
-    tuning::SKIN,
     wall::Wall,
 };
 use phase_model::{AgentBody, Body, Segment, Vec2, geometry::trapezoid};
@@ -34,7 +34,7 @@ fn dot(a: Point, b: Point) -> f64 {
 /// An agent at a pose, for the narrow phase and for the reference.
 struct Agent {
     shape: Shape,
-    motion: Motion,
+    motion: BodyMotion,
     polygon: Polygon,
     outline: [Point; 4],
 }
@@ -42,7 +42,7 @@ struct Agent {
 impl Agent {
     fn new(radius: f32, position: Vec2, angle: f32) -> Self {
         let shape = Shape::agent(&AgentBody { radius, max_force: 450.0 });
-        let motion = Motion::of_agent(&Body::at_rest(position, angle), &shape);
+        let motion = BodyMotion::of_agent(&Body::at_rest(position, angle), &shape);
         let (sin, cos) = f64::from(angle).sin_cos();
         let outline = trapezoid(radius).map(|corner| {
             let ((x, y), origin) = (point(corner), point(position));
@@ -87,21 +87,21 @@ fn distance_to_segment(p: Point, from: Point, to: Point) -> f64 {
 }
 
 /// The least gap over the points of a manifold (u); `None` without contact.
-fn least_gap(manifold: &Manifold, a: &Motion, b: &Motion, skins: f32) -> Option<f64> {
+fn least_gap(manifold: &Manifold, a: &BodyMotion, b: &BodyMotion, skins: f32) -> Option<f64> {
     (0..manifold.count).map(|k| f64::from(manifold.gap(a, b, skins, k).2)).min_by(f64::total_cmp)
 }
 
 /// Whether two shapes at a distance are in contact if the reference says so, and as near as it says.
-fn check(found: Option<f64>, expected: f64, tolerance: f64) -> Result<(), TestCaseError> {
-    match found {
+fn check(current: Option<f64>, expected: f64, tolerance: f64) -> Result<(), TestCaseError> {
+    match current {
         Some(gap) => prop_assert!((gap - expected).abs() <= tolerance, "gap {gap} u, not {expected} u"),
         None => prop_assert!(expected >= -tolerance, "no contact at a gap of {expected} u"),
     }
     Ok(())
 }
 
-fn disc(position: Vec2) -> Motion {
-    Motion::of_object(&Body::at_rest(position, 0.0))
+fn disc(position: Vec2) -> BodyMotion {
+    BodyMotion::of_object(&Body::at_rest(position, 0.0))
 }
 
 fn radius() -> impl Strategy<Value = f32> {
@@ -138,9 +138,9 @@ proptest! {
     fn discs_are_as_far_apart_as_their_centres_say(a in near(2.0), b in near(2.0), skins in 1.2..3.2_f32) {
         let away = minus(point(a), point(b));
         let expected = dot(away, away).sqrt() - f64::from(skins);
-        let found = least_gap(&discs(&disc(a), &disc(b), skins), &disc(a), &disc(b), skins);
-        check(found, expected, ROUNDING)?;
-        prop_assert!(found.is_none() || expected <= ROUNDING);
+        let current = least_gap(&discs(&disc(a), &disc(b), skins), &disc(a), &disc(b), skins);
+        check(current, expected, ROUNDING)?;
+        prop_assert!(current.is_none() || expected <= ROUNDING);
     }
 
     #[test]
@@ -149,9 +149,9 @@ proptest! {
         let skins = agent.shape.skin + radius;
         let expected = agent.signed_distance(point(centre)) - f64::from(skins);
         let manifold = agent_disc(&agent.shape, &agent.motion, &disc, skins);
-        let found = least_gap(&manifold, &agent.motion, &disc, skins);
-        check(found, expected, ROUNDING)?;
-        prop_assert!(found.is_none() || expected <= ROUNDING);
+        let current = least_gap(&manifold, &agent.motion, &disc, skins);
+        check(current, expected, ROUNDING)?;
+        prop_assert!(current.is_none() || expected <= ROUNDING);
     }
 
     #[test]
@@ -160,19 +160,19 @@ proptest! {
         let (wall, disc) = (Wall::new(a, b), disc(centre));
         let skins = SKIN + radius;
         let expected = f64::from(Segment { a, b }.distance(centre) - skins);
-        let found = least_gap(&wall_disc(&wall, &disc, skins), &Motion::STILL, &disc, skins);
-        check(found, expected, ROUNDING)?;
-        prop_assert!(found.is_none() || expected <= ROUNDING);
+        let current = least_gap(&wall_disc(&wall, &disc, skins), &BodyMotion::AT_REST, &disc, skins);
+        check(current, expected, ROUNDING)?;
+        prop_assert!(current.is_none() || expected <= ROUNDING);
     }
 
     #[test]
     fn agents_overlap_by_the_least_separating_axis(a in agent(), b in agent()) {
         let (first, second) = (Agent::new(a.0, a.1, a.2), Agent::new(b.0, b.1, b.2));
         let separation = separation(&first, &second);
-        let found = contact(&first, &second);
-        prop_assert!(found.is_none() || separation <= f64::from(2.0 * SKIN) + ROUNDING);
+        let current = contact(&first, &second);
+        prop_assert!(current.is_none() || separation <= f64::from(2.0 * SKIN) + ROUNDING);
         if (-SHALLOW..=0.0).contains(&separation) {
-            check(found, separation - f64::from(2.0 * SKIN), leeway(separation))?;
+            check(current, separation - f64::from(2.0 * SKIN), leeway(separation))?;
         }
     }
 
@@ -204,11 +204,11 @@ proptest! {
         let side = height(point(agent.motion.centre)).signum();
         let least = agent.outline.iter().map(|&corner| side * height(corner)).fold(f64::MAX, f64::min);
         let expected = least - f64::from(2.0 * SKIN);
-        let found = least_gap(&wall_agent(&wall, &agent.motion, &agent.polygon), &Motion::STILL, &agent.motion, 2.0 * SKIN);
+        let current = least_gap(&wall_agent(&wall, &agent.motion, &agent.polygon), &BodyMotion::AT_REST, &agent.motion, 2.0 * SKIN);
         // Deeper in, the way out may lead through the wall.
         if expected >= -SHALLOW {
-            check(found, expected, ROUNDING)?;
+            check(current, expected, ROUNDING)?;
         }
-        prop_assert!(found.is_none() || expected <= ROUNDING);
+        prop_assert!(current.is_none() || expected <= ROUNDING);
     }
 }

@@ -1,7 +1,8 @@
 //! Random scenes and actions, for tests that hold whatever the scene.
 
 use phase_model::{
-    Action, AgentBody, Body, Entity, Layout, Physique, Size, State, Strength, Vec2, arena, geometry::Outline,
+    Action, AgentBody, Body, Entity, Layout, PhysicsConfig, Size, State, Strength, Vec2, arena,
+    geometry::Outline,
 };
 use proptest::prelude::*;
 
@@ -11,12 +12,12 @@ const ROOM: f32 = 0.02;
 const DRAWS: usize = 24;
 
 /// Layouts, sizes and strengths of all kinds.
-pub(crate) fn physiques() -> impl Strategy<Value = Physique> {
+pub(crate) fn physiques() -> impl Strategy<Value = PhysicsConfig> {
     let layouts: Vec<Layout> = Layout::all_used().collect();
     let size = || prop::sample::select(Size::ALL.to_vec());
     let strength = || prop::sample::select(Strength::ALL.to_vec());
     (prop::sample::select(layouts), [size(), size(), size(), size()], [strength(), strength()], 0..=2_usize)
-        .prop_map(|(layout, sizes, strengths, object_count)| Physique {
+        .prop_map(|(layout, sizes, strengths, object_count)| PhysicsConfig {
             walls: layout.walls(),
             agents: [0, 1]
                 .map(|k| AgentBody { radius: sizes[k].radius(), max_force: strengths[k].max_force() }),
@@ -26,13 +27,13 @@ pub(crate) fn physiques() -> impl Strategy<Value = Physique> {
 }
 
 /// A scene whose bodies start at rest without overlaps; about half of them beside another.
-pub(crate) fn apart() -> impl Strategy<Value = (Physique, State)> {
+pub(crate) fn excluded_pairs() -> impl Strategy<Value = (PhysicsConfig, State)> {
     let place = (0.0..1.0_f32, 0.0..1.0_f32, -7.0..7.0_f32, any::<bool>());
     (physiques(), prop::collection::vec(place, 4 * DRAWS))
-        .prop_filter_map("no room for all", |(physique, places)| {
-            Some((place_all(&physique, &places)?, physique))
+        .prop_filter_map("no room for all", |(physics, places)| {
+            Some((place_all(&physics, &places)?, physics))
         })
-        .prop_map(|(state, physique)| (physique, state))
+        .prop_map(|(state, physics)| (physics, state))
 }
 
 /// Runs of actions of both agents, each held for one to five steps. Grabbing is drawn more often than the rest,
@@ -44,8 +45,8 @@ pub(crate) fn actions(runs: usize) -> impl Strategy<Value = Vec<[Action; 2]>> {
 }
 
 /// The outline of a body that is wider all round by about `margin` (u), or slimmer if that is negative.
-pub(crate) fn outline(physique: &Physique, state: &State, entity: Entity, margin: f32) -> Outline {
-    let mut other = physique.clone();
+pub(crate) fn outline(physics: &PhysicsConfig, state: &State, entity: Entity, margin: f32) -> Outline {
+    let mut other = physics.clone();
     // An agent's flanks come out by more than its radius grows, its corners by more than that.
     other.agents.iter_mut().for_each(|agent| agent.radius += margin);
     other.object_radii.iter_mut().for_each(|radius| *radius += margin);
@@ -53,15 +54,15 @@ pub(crate) fn outline(physique: &Physique, state: &State, entity: Entity, margin
 }
 
 /// Whether a body, wider by `margin`, is inside the arena and overlaps no wall.
-pub(crate) fn clear_of_walls(physique: &Physique, state: &State, entity: Entity, margin: f32) -> bool {
-    let outline = outline(physique, state, entity, margin);
-    outline.inside_arena() && !physique.walls.iter().any(|&wall| outline.overlaps_wall(wall))
+pub(crate) fn clear_of_walls(physics: &PhysicsConfig, state: &State, entity: Entity, margin: f32) -> bool {
+    let outline = outline(physics, state, entity, margin);
+    outline.inside_arena() && !physics.walls.iter().any(|&wall| outline.overlaps_wall(wall))
 }
 
-fn place_all(physique: &Physique, places: &[(f32, f32, f32, bool)]) -> Option<State> {
+fn place_all(physics: &PhysicsConfig, places: &[(f32, f32, f32, bool)]) -> Option<State> {
     let mut state = State::new([Body::default(); 4]);
-    for (entity, draws) in physique.entities().zip(places.chunks(DRAWS)) {
-        let earlier = || physique.entities().take(entity.index());
+    for (entity, draws) in physics.entities().zip(places.chunks(DRAWS)) {
+        let earlier = || physics.entities().take(entity.index());
         let free = draws.iter().find_map(|&(x, y, angle, beside)| {
             let position = match earlier().last() {
                 Some(other) if beside => state.position(other) + 6.0 * (Vec2::new(x, y) - 0.5),
@@ -69,9 +70,9 @@ fn place_all(physique: &Physique, places: &[(f32, f32, f32, bool)]) -> Option<St
             };
             let mut tried = state;
             *tried.body_mut(entity) = Body::at_rest(position, angle);
-            let shape = outline(physique, &tried, entity, ROOM);
-            let free = clear_of_walls(physique, &tried, entity, ROOM)
-                && !earlier().any(|other| shape.overlaps(&outline(physique, &tried, other, ROOM)));
+            let shape = outline(physics, &tried, entity, ROOM);
+            let free = clear_of_walls(physics, &tried, entity, ROOM)
+                && !earlier().any(|other| shape.overlaps(&outline(physics, &tried, other, ROOM)));
             free.then_some(tried)
         });
         state = free?;

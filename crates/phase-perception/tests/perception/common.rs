@@ -1,8 +1,8 @@
 //! Scenes to look at.
 
 use phase_model::{
-    AgentBody, AgentId, Body, Entity, Grip, Layout, MAX_ENTITIES, ObjectId, Physique, Segment, Side, Size,
-    State, Vec2,
+    AgentBody, AgentId, Body, Entity, Grip, Layout, MAX_ENTITIES, ObjectId, PhysicsConfig, Segment, Side,
+    Size, State, Vec2,
 };
 use proptest::prelude::*;
 
@@ -15,9 +15,9 @@ pub(crate) const BOX: Entity = Entity::Object(ObjectId::ONE);
 pub(crate) const AWAY: Vec2 = Vec2::new(-500.0, -500.0);
 
 /// Two agents and two objects, all of one size.
-pub(crate) fn physique(walls: Vec<Segment>, size: Size) -> Physique {
+pub(crate) fn physics(walls: Vec<Segment>, size: Size) -> PhysicsConfig {
     let agent = AgentBody { radius: size.radius(), max_force: 300.0 };
-    Physique { walls, agents: [agent; 2], object_radii: [size.radius(); 2], object_count: 2 }
+    PhysicsConfig { walls, agents: [agent; 2], object_radii: [size.radius(); 2], object_count: 2 }
 }
 
 pub(crate) fn wall(a: (f32, f32), b: (f32, f32)) -> Segment {
@@ -44,11 +44,11 @@ pub(crate) fn any_size() -> impl Strategy<Value = Size> {
     prop::sample::select(Size::ALL.to_vec())
 }
 
-pub(crate) fn any_physique() -> impl Strategy<Value = Physique> {
+pub(crate) fn any_physique() -> impl Strategy<Value = PhysicsConfig> {
     let layouts = prop::sample::select(Layout::all_used().collect::<Vec<_>>());
     (layouts, prop::array::uniform4(any_size()), 0_usize..=2).prop_map(|(layout, sizes, object_count)| {
         let [a, b, c, d] = sizes.map(Size::radius);
-        Physique {
+        PhysicsConfig {
             walls: layout.walls(),
             agents: [a, b].map(|radius| AgentBody { radius, max_force: 300.0 }),
             object_radii: [c, d],

@@ -1,31 +1,31 @@
 //! Footprints against the shared outline tests of the model.
 
 use crate::common::{any_body, any_physique};
-use phase_model::{Body, Entity, ObjectId, Physique, Size, Vec2, geometry::Outline};
+use phase_model::{Body, Entity, ObjectId, PhysicsConfig, Size, Vec2, geometry::Outline};
 use phase_perception::{Cell, footprint, footprint::covered};
 use proptest::prelude::*;
 
 #[test]
 fn balls_in_the_middle_of_a_cell_lie_on_as_many_cells_as_counted_by_hand() {
-    let physique = |size: Size| Physique {
+    let physics = |size: Size| PhysicsConfig {
         walls: Vec::new(),
         agents: [phase_model::AgentBody { radius: 0.8, max_force: 300.0 }; 2],
         object_radii: [size.radius(); 2],
         object_count: 2,
     };
     let body = Body::at_rest(Vec2::new(10.5, 10.5), 0.0);
-    let count = |size| footprint(&physique(size), Entity::Object(ObjectId::ZERO), &body).len();
+    let count = |size| footprint(&physics(size), Entity::Object(ObjectId::ZERO), &body).len();
     // The nearest corners of the diagonal neighbours are 0.707 u away, the next cells 1.5 u.
     assert_eq!(count(Size::Small), 9);
     assert_eq!(count(Size::Large), 9);
     assert_eq!(count(Size::Huge), 21);
-    let cells = covered(&Outline::of(&physique(Size::Small), Entity::Object(ObjectId::ZERO), &body));
+    let cells = covered(&Outline::of(&physics(Size::Small), Entity::Object(ObjectId::ZERO), &body));
     assert_eq!(cells.iter().map(Cell::centre).collect::<Vec<_>>(), [body.position]);
 }
 
 #[test]
 fn bodies_that_are_nowhere_lie_on_nothing() {
-    let physique = Physique {
+    let physics = PhysicsConfig {
         walls: Vec::new(),
         agents: [phase_model::AgentBody { radius: 1.6, max_force: 300.0 }; 2],
         object_radii: [1.6; 2],
@@ -39,11 +39,11 @@ fn bodies_that_are_nowhere_lie_on_nothing() {
         Vec2::splat(-50.0),
         Vec2::splat(1e30),
     ];
-    for entity in physique.entities() {
+    for entity in physics.entities() {
         for place in places {
             let body = Body::at_rest(place, 0.3);
-            assert!(footprint(&physique, entity, &body).is_empty(), "{entity:?} at {place}");
-            assert!(covered(&Outline::of(&physique, entity, &body)).is_empty(), "{entity:?} at {place}");
+            assert!(footprint(&physics, entity, &body).is_empty(), "{entity:?} at {place}");
+            assert!(covered(&Outline::of(&physics, entity, &body)).is_empty(), "{entity:?} at {place}");
         }
     }
 }
@@ -61,10 +61,10 @@ fn inside(outline: &Outline, point: Vec2) -> bool {
 
 proptest! {
     #[test]
-    fn a_footprint_is_where_squares_overlap(physique in any_physique(), body in any_body()) {
-        for entity in physique.entities() {
-            let outline = Outline::of(&physique, entity, &body);
-            let (cells, wholly) = (footprint(&physique, entity, &body), covered(&outline));
+    fn a_footprint_is_where_squares_overlap(physics in any_physique(), body in any_body()) {
+        for entity in physics.entities() {
+            let outline = Outline::of(&physics, entity, &body);
+            let (cells, wholly) = (footprint(&physics, entity, &body), covered(&outline));
             for cell in Cell::all() {
                 let surely = outline.overlaps(&Outline::Trapezoid(square(cell, -1e-3)));
                 let perhaps = outline.overlaps(&Outline::Trapezoid(square(cell, 1e-3)));

@@ -2,8 +2,8 @@
 
 mod cells;
 mod common;
-mod eye;
 mod footprint;
 mod observation;
 mod oracle;
 mod symmetry;
+mod viewpoint;

@@ -1,6 +1,6 @@
 //! Who is observed: sight, touch and what follows from them.
 
-use crate::common::{BALL, BOX, ME, OTHER, any_physique, any_state, grip, looking, physique, with};
+use crate::common::{BALL, BOX, ME, OTHER, any_physique, any_state, grip, looking, physics, with};
 use phase_model::{AgentId, BodySet, Entity, Size, State};
 use phase_perception::{observe, observed_set, sees};
 use proptest::prelude::*;
@@ -48,31 +48,31 @@ fn sight_touch_and_what_touches_that() {
         ),
         ("the others touch among themselves", touching(holding(unseen(), 1, 1), BALL, OTHER), &[], &[]),
     ];
-    let physique = physique(Vec::new(), Size::Small);
+    let physics = physics(Vec::new(), Size::Small);
     for (name, state, observed, touched) in cases {
-        let observation = observe(&physique, &state, AgentId::ZERO);
+        let observation = observe(&physics, &state, AgentId::ZERO);
         let expected = observed.iter().copied().chain([ME]).collect::<BodySet>();
         assert_eq!(observation.observed, expected, "{name}");
-        assert_eq!(observed_set(&physique, &state, AgentId::ZERO), expected, "{name}");
+        assert_eq!(observed_set(&physics, &state, AgentId::ZERO), expected, "{name}");
         assert_eq!(observation.touched, touched.iter().copied().collect(), "{name}");
     }
 }
 
 #[test]
 fn what_one_holds_hides_what_is_behind_it() {
-    let physique = physique(Vec::new(), Size::Small);
+    let physics = physics(Vec::new(), Size::Small);
     let ahead = with(looking((16.0, 8.0), 0.0), BOX, (16.0, 12.0));
-    assert!(observed_set(&physique, &ahead, AgentId::ZERO).contains(BOX));
+    assert!(observed_set(&physics, &ahead, AgentId::ZERO).contains(BOX));
     let carrying = holding(with(ahead, BALL, (16.0, 9.6)), 0, 0);
-    assert!(!observed_set(&physique, &carrying, AgentId::ZERO).contains(BOX));
+    assert!(!observed_set(&physics, &carrying, AgentId::ZERO).contains(BOX));
 }
 
 #[test]
 fn absent_objects_are_not_observed() {
-    let mut physique = physique(Vec::new(), Size::Small);
-    physique.object_count = 0;
+    let mut physics = physics(Vec::new(), Size::Small);
+    physics.object_count = 0;
     let state = holding(touching(with(unseen(), BALL, (16.0, 19.0)), ME, BOX), 0, 1);
-    let observation = observe(&physique, &state, AgentId::ZERO);
+    let observation = observe(&physics, &state, AgentId::ZERO);
     assert_eq!(observation.observed, [ME].into_iter().collect());
     assert!(observation.touched.is_empty());
 }
@@ -80,12 +80,12 @@ fn absent_objects_are_not_observed() {
 proptest! {
     #[test]
     fn observed_is_the_closure_of_seen_and_felt(
-        physique in any_physique(), state in any_state(), agent in 0_usize..2,
+        physics in any_physique(), state in any_state(), agent in 0_usize..2,
     ) {
-        let observation = observe(&physique, &state, AgentId::ALL[agent]);
-        prop_assert_eq!(observation.observed, observed_set(&physique, &state, AgentId::ALL[agent]));
+        let observation = observe(&physics, &state, AgentId::ALL[agent]);
+        prop_assert_eq!(observation.observed, observed_set(&physics, &state, AgentId::ALL[agent]));
         // Reachability over links of touch, by Warshall.
-        let entities = || physique.entities();
+        let entities = || physics.entities();
         let mut linked = [[false; 4]; 4];
         for (a, b) in entities().flat_map(|a| entities().map(move |b| (a, b))) {
             linked[a.index()][b.index()] = a == b || state.touching(a, b);
@@ -99,7 +99,7 @@ proptest! {
         }
         let own = Entity::Agent(AgentId::ALL[agent]);
         let sources: Vec<_> =
-            entities().filter(|&entity| entity == own || sees(&physique, &state, AgentId::ALL[agent], entity)).collect();
+            entities().filter(|&entity| entity == own || sees(&physics, &state, AgentId::ALL[agent], entity)).collect();
         let expected: BodySet = entities()
             .filter(|entity| sources.iter().any(|source| linked[source.index()][entity.index()]))
             .collect();
@@ -108,13 +108,13 @@ proptest! {
 
     #[test]
     fn what_is_observed_is_the_truth_and_the_rest_is_silence(
-        physique in any_physique(), state in any_state(), elsewhere in any_state(), agent in 0_usize..2,
+        physics in any_physique(), state in any_state(), elsewhere in any_state(), agent in 0_usize..2,
     ) {
-        let observation = observe(&physique, &state, AgentId::ALL[agent]);
-        for entity in physique.entities() {
+        let observation = observe(&physics, &state, AgentId::ALL[agent]);
+        for entity in physics.entities() {
             let known = observation.observed.contains(entity);
             prop_assert_eq!(observation.body(entity), known.then(|| state.body(entity)));
-            for other in physique.entities() {
+            for other in physics.entities() {
                 let either = known || observation.observed.contains(other);
                 let expected = either.then(|| state.touching(entity, other));
                 prop_assert_eq!(observation.touching(entity, other), expected);
@@ -128,10 +128,10 @@ proptest! {
         // Moving what is not observed to where it is not observed either makes no difference, unless it hid
         // cells that count as its own.
         let mut other = state;
-        for entity in physique.entities().filter(|&entity| !observation.observed.contains(entity)) {
+        for entity in physics.entities().filter(|&entity| !observation.observed.contains(entity)) {
             *other.body_mut(entity) = *elsewhere.body(entity);
         }
-        let moved = observe(&physique, &other, AgentId::ALL[agent]);
+        let moved = observe(&physics, &other, AgentId::ALL[agent]);
         if moved.observed == observation.observed && moved.visible == observation.visible {
             prop_assert_eq!(moved, observation);
         }

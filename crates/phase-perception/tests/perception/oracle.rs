@@ -1,6 +1,6 @@
 //! Seeing reckoned slowly, in other ways and with more digits.
 
-use phase_model::{AgentId, Entity, Physique, Segment, State};
+use phase_model::{AgentId, Entity, PhysicsConfig, Segment, State};
 use phase_perception::Cell;
 
 /// Whether a cell's centre is seen, and by how much the closest of the decisions was taken (u or rad).
@@ -10,11 +10,11 @@ pub(crate) struct Sight {
 }
 
 /// Angles by the arc tangent, discs by walking along the ray, walls by where the ray meets their line.
-pub(crate) fn look(physique: &Physique, state: &State, agent: usize, cell: Cell) -> Sight {
+pub(crate) fn look(physics: &PhysicsConfig, state: &State, agent: usize, cell: Cell) -> Sight {
     let body = &state.bodies[agent];
-    let (eye, heading) = centre_of_mass(physique, state, Entity::Agent(AgentId::ALL[agent]));
+    let (viewpoint, heading) = centre_of_mass(physics, state, Entity::Agent(AgentId::ALL[agent]));
     let centre = cell.centre();
-    let ray = (f64::from(centre.x) - eye.0, f64::from(centre.y) - eye.1);
+    let ray = (f64::from(centre.x) - viewpoint.0, f64::from(centre.y) - viewpoint.1);
     debug_assert!((heading - f64::from(body.angle)).abs() < 1e-9);
 
     let half_angle = (0.8_f64 / (17.0 / 30.0)).atan();
@@ -22,15 +22,15 @@ pub(crate) fn look(physique: &Physique, state: &State, agent: usize, cell: Cell)
     let mut visible = off_axis < half_angle;
     let mut margin = (off_axis - half_angle).abs();
 
-    for wall in &physique.walls {
-        let (meets, by) = meets(wall, eye, ray);
+    for wall in &physics.walls {
+        let (meets, by) = meets(wall, viewpoint, ray);
         visible &= !meets;
         margin = margin.min(by);
     }
-    for entity in physique.entities().filter(|&entity| entity != Entity::Agent(AgentId::ALL[agent])) {
-        let (disc, _) = centre_of_mass(physique, state, entity);
-        let radius = f64::from(physique.radius(entity));
-        let offset = (disc.0 - eye.0, disc.1 - eye.1);
+    for entity in physics.entities().filter(|&entity| entity != Entity::Agent(AgentId::ALL[agent])) {
+        let (disc, _) = centre_of_mass(physics, state, entity);
+        let radius = f64::from(physics.radius(entity));
+        let offset = (disc.0 - viewpoint.0, disc.1 - viewpoint.1);
         let nearest = walk(ray, offset);
         // An eye inside a body, or right beside it, is another matter.
         margin = margin.min(offset.0.hypot(offset.1) - radius);
@@ -54,12 +54,12 @@ fn walk(ray: (f64, f64), point: (f64, f64)) -> f64 {
 }
 
 /// Whether a ray meets a wall, which runs along an axis, and how far from not doing so or doing so it is.
-fn meets(wall: &Segment, eye: (f64, f64), ray: (f64, f64)) -> (bool, f64) {
+fn meets(wall: &Segment, viewpoint: (f64, f64), ray: (f64, f64)) -> (bool, f64) {
     let upright = wall.a.x == wall.b.x;
     assert!(upright || wall.a.y == wall.b.y);
     let turned = |(x, y): (f64, f64)| if upright { (x, y) } else { (y, x) };
     let ends = [wall.a, wall.b].map(|end| turned((f64::from(end.x), f64::from(end.y))));
-    let ((across, along), (ray_across, ray_along)) = (turned(eye), turned(ray));
+    let ((across, along), (ray_across, ray_along)) = (turned(viewpoint), turned(ray));
     let (line, low, high) = (ends[0].0, ends[0].1.min(ends[1].1), ends[0].1.max(ends[1].1));
     let (before, after) = (across - line, across + ray_across - line);
     if (before > 0.0) == (after > 0.0) {
@@ -70,11 +70,11 @@ fn meets(wall: &Segment, eye: (f64, f64), ray: (f64, f64)) -> (bool, f64) {
     ((low..=high).contains(&at), by.min(before.abs()).min(after.abs()))
 }
 
-fn centre_of_mass(physique: &Physique, state: &State, entity: Entity) -> ((f64, f64), f64) {
+fn centre_of_mass(physics: &PhysicsConfig, state: &State, entity: Entity) -> ((f64, f64), f64) {
     let body = state.body(entity);
     let heading = f64::from(body.angle);
     let behind = match entity {
-        Entity::Agent(_) => f64::from(physique.radius(entity)) / 6.0,
+        Entity::Agent(_) => f64::from(physics.radius(entity)) / 6.0,
         Entity::Object(_) => 0.0,
     };
     let (x, y) = (f64::from(body.position.x), f64::from(body.position.y));
@@ -87,6 +87,6 @@ fn wrapped(angle: f64) -> f64 {
 }
 
 /// The least margin of all cells: how far a state is from looking otherwise.
-pub(crate) fn least_margin(physique: &Physique, state: &State, agent: usize) -> f64 {
-    Cell::all().map(|cell| look(physique, state, agent, cell).margin).fold(f64::INFINITY, f64::min)
+pub(crate) fn least_margin(physics: &PhysicsConfig, state: &State, agent: usize) -> f64 {
+    Cell::all().map(|cell| look(physics, state, agent, cell).margin).fold(f64::INFINITY, f64::min)
 }

@@ -4,13 +4,13 @@ use crate::{
     common::{any_physique, any_state},
     oracle::least_margin,
 };
-use phase_model::{AgentId, Body, Flip, Physique, Segment, State};
+use phase_model::{AgentId, Body, Flip, PhysicsConfig, Segment, State};
 use phase_perception::{Cell, CellSet, field_of_view, footprint, observed_set};
 use proptest::prelude::*;
 
-fn mirrored(flip: Flip, physique: &Physique, state: &State) -> (Physique, State) {
-    let mut physique = physique.clone();
-    for wall in &mut physique.walls {
+fn mirrored(flip: Flip, physics: &PhysicsConfig, state: &State) -> (PhysicsConfig, State) {
+    let mut physics = physics.clone();
+    for wall in &mut physics.walls {
         *wall = Segment { a: flip.point(wall.a), b: flip.point(wall.b) };
     }
     let mut state = *state;
@@ -20,7 +20,7 @@ fn mirrored(flip: Flip, physique: &Physique, state: &State) -> (Physique, State)
         angle: flip.angle(body.angle),
         angular_velocity: -body.angular_velocity,
     });
-    (physique, state)
+    (physics, state)
 }
 
 fn image(flip: Flip, cells: &CellSet) -> CellSet {
@@ -28,12 +28,12 @@ fn image(flip: Flip, cells: &CellSet) -> CellSet {
 }
 
 /// Whether bodies a little smaller or larger would lie on other cells.
-fn is_on_the_line(physique: &Physique, state: &State) -> bool {
+fn is_on_the_line(physics: &PhysicsConfig, state: &State) -> bool {
     let cells = |grown: f32| -> Vec<CellSet> {
-        let mut physique = physique.clone();
-        physique.agents.iter_mut().for_each(|agent| agent.radius += grown);
-        physique.object_radii.iter_mut().for_each(|radius| *radius += grown);
-        physique.entities().map(|entity| footprint(&physique, entity, state.body(entity))).collect()
+        let mut physics = physics.clone();
+        physics.agents.iter_mut().for_each(|agent| agent.radius += grown);
+        physics.object_radii.iter_mut().for_each(|radius| *radius += grown);
+        physics.entities().map(|entity| footprint(&physics, entity, state.body(entity))).collect()
     };
     cells(-1e-4) != cells(1e-4)
 }
@@ -41,16 +41,16 @@ fn is_on_the_line(physique: &Physique, state: &State) -> bool {
 proptest! {
     #[test]
     fn mirrored_states_show_mirrored_cells_and_the_same_entities(
-        physique in any_physique(), state in any_state(), agent in 0_usize..2,
+        physics in any_physique(), state in any_state(), agent in 0_usize..2,
     ) {
-        prop_assume!(least_margin(&physique, &state, agent).abs() > 1e-4);
-        prop_assume!(!is_on_the_line(&physique, &state));
-        let visible = field_of_view(&physique, &state, AgentId::ALL[agent]);
-        let observed = observed_set(&physique, &state, AgentId::ALL[agent]);
+        prop_assume!(least_margin(&physics, &state, agent).abs() > 1e-4);
+        prop_assume!(!is_on_the_line(&physics, &state));
+        let visible = field_of_view(&physics, &state, AgentId::ALL[agent]);
+        let observed = observed_set(&physics, &state, AgentId::ALL[agent]);
         for flip in Flip::ALL {
-            let (physique, state) = mirrored(flip, &physique, &state);
-            prop_assert_eq!(field_of_view(&physique, &state, AgentId::ALL[agent]), image(flip, &visible), "{:?}", flip);
-            prop_assert_eq!(observed_set(&physique, &state, AgentId::ALL[agent]), observed, "{:?}", flip);
+            let (physics, state) = mirrored(flip, &physics, &state);
+            prop_assert_eq!(field_of_view(&physics, &state, AgentId::ALL[agent]), image(flip, &visible), "{:?}", flip);
+            prop_assert_eq!(observed_set(&physics, &state, AgentId::ALL[agent]), observed, "{:?}", flip);
         }
     }
 }

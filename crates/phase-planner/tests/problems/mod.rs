@@ -1,10 +1,10 @@
 //! Random problems of the symbolic search.
 
 use phase_model::{
-    AgentBody, AgentId, Body, BodySet, Entity, Goal, Grip, LandmarkId, Layout, ObjectId, Physique, Segment,
-    Side, Sign, Size, State, Strength, Vec2, arena,
+    AgentBody, AgentId, Body, BodySet, Entity, Goal, Grip, LandmarkId, Layout, ObjectId, PhysicsConfig,
+    Segment, Side, Sign, Size, State, Strength, Vec2, arena,
 };
-use phase_planner::{Situation, situation::obstruct, task::Task};
+use phase_planner::{PlanningProblem, problem::obstruct, task::Task};
 use proptest::prelude::*;
 
 /// One problem: a scene at some moment, a goal and who acts for it.
@@ -17,14 +17,14 @@ pub(crate) struct Problem {
     pub(crate) holds: [Option<ObjectId>; 2],
     pub(crate) goal: Goal,
     pub(crate) actors: [bool; 2],
-    pub(crate) effort: [f32; 2],
-    pub(crate) allied: bool,
+    pub(crate) effort_weights: [f32; 2],
+    pub(crate) cooperative: bool,
     /// Where a round body narrows doors for one agent, which this says.
     pub(crate) narrowed: Option<(AgentId, Vec2)>,
 }
 
 impl Problem {
-    pub(crate) fn physique(&self) -> Physique {
+    pub(crate) fn physics(&self) -> PhysicsConfig {
         let mut object_radii = [0.0; 2];
         for (radius, size) in object_radii.iter_mut().zip(&self.objects) {
             *radius = size.radius();
@@ -33,7 +33,7 @@ impl Problem {
         let agents = self
             .agents
             .map(|(size, strength)| AgentBody { radius: size.radius(), max_force: strength.max_force() });
-        Physique { walls, agents, object_radii, object_count: self.objects.len() }
+        PhysicsConfig { walls, agents, object_radii, object_count: self.objects.len() }
     }
 
     pub(crate) fn state(&self) -> State {
@@ -44,14 +44,15 @@ impl Problem {
         state
     }
 
-    pub(crate) fn task<'a>(&self, situation: &'a Situation<'a>) -> Task<'a> {
+    pub(crate) fn task<'a>(&self, problem: &'a PlanningProblem<'a>) -> Task<'a> {
         let narrowed = self.narrowed.map(|(agent, place)| {
-            let mut gaps = *situation.gaps(agent, BodySet::OBJECTS);
+            let mut gaps = *problem.gaps(agent, BodySet::OBJECTS);
             obstruct(&mut gaps, place, 1.0, 1.0);
             (agent, gaps)
         });
-        let (goal, actors, effort, allied) = (self.goal, self.actors, self.effort, self.allied);
-        Task { situation, goal, actors, effort, allied, narrowed }
+        let (goal, actors, effort_weights, cooperative) =
+            (self.goal, self.actors, self.effort_weights, self.cooperative);
+        Task { problem, goal, actors, effort_weights, cooperative, narrowed }
     }
 }
 
@@ -82,18 +83,23 @@ pub(crate) fn problems() -> impl Strategy<Value = Problem> {
     let size = || prop::sample::select(Size::ALL.to_vec());
     let body = || (size(), prop::sample::select(Strength::ALL.to_vec()));
     let actors = prop::sample::select(vec![[true, false], [false, true], [true, true]]);
-    let effort = prop::sample::select(vec![[1.0, 1.0], [0.5, 1.0], [1.0, 0.5]]);
+    let effort_weights = prop::sample::select(vec![[1.0, 1.0], [0.5, 1.0], [1.0, 0.5]]);
     let scene = (layout, [body(), body()], prop::collection::vec(size(), 0..=2));
-    (scene, [place(), place(), place(), place()], actors, effort, any::<bool>())
-        .prop_flat_map(|(scene, places, actors, effort, allied)| {
+    (scene, [place(), place(), place(), place()], actors, effort_weights, any::<bool>())
+        .prop_flat_map(|(scene, places, actors, effort_weights, cooperative)| {
             let count = scene.2.len();
             let held = || prop::option::weighted(0.3, prop::sample::select(ObjectId::ALL.to_vec()));
             let narrowed =
                 prop::option::weighted(0.2, (prop::sample::select(AgentId::ALL.to_vec()), place()));
-            (Just((scene, places, actors, effort, allied)), [held(), held()], goal(count), narrowed)
+            (
+                Just((scene, places, actors, effort_weights, cooperative)),
+                [held(), held()],
+                goal(count),
+                narrowed,
+            )
         })
         .prop_map(|(fixed, holds, goal, narrowed)| {
-            let ((layout, agents, objects), mut places, actors, effort, allied) = fixed;
+            let ((layout, agents, objects), mut places, actors, effort_weights, cooperative) = fixed;
             let holds = holds.map(|held| held.filter(|&object| object.index() < objects.len()));
             // What is held touches its holder; of an object held by both, the first has it where it is.
             for agent in [1, 0] {
@@ -108,6 +114,17 @@ pub(crate) fn problems() -> impl Strategy<Value = Problem> {
                 let arms = agents.map(|(size, _)| size.radius() + objects[a.index()].radius());
                 places[1] = places[Entity::Object(a)] + Vec2::new(0.0, arms[1]);
             }
-            Problem { layout, agents, objects, places, holds, goal, actors, effort, allied, narrowed }
+            Problem {
+                layout,
+                agents,
+                objects,
+                places,
+                holds,
+                goal,
+                actors,
+                effort_weights,
+                cooperative,
+                narrowed,
+            }
         })
 }

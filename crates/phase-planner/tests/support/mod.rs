@@ -1,8 +1,8 @@
 //! Hand-made situations.
 
 use phase_model::{
-    AgentId, Attitude, Body, BodySet, Flip, Goal, LandmarkId, Layout, ObjectId, Physique, Sign, Size, State,
-    Strength, Vec2, physique::AgentBody,
+    AgentId, Attitude, Body, BodySet, Flip, Goal, LandmarkId, Layout, ObjectId, PhysicsConfig, Sign, Size,
+    State, Strength, Vec2, physics::AgentBody,
 };
 use phase_planner::{Plan, Planner};
 
@@ -18,12 +18,12 @@ pub(crate) struct Setup {
 }
 
 impl Setup {
-    pub(crate) fn physique(&self) -> Physique {
+    pub(crate) fn physics(&self) -> PhysicsConfig {
         let mut object_radii = [0.0; 2];
         for (radius, (size, _)) in object_radii.iter_mut().zip(&self.objects) {
             *radius = size.radius();
         }
-        Physique {
+        PhysicsConfig {
             walls: self.layout.walls(),
             agents: self.agents.map(|(size, strength, _)| AgentBody {
                 radius: size.radius(),
@@ -54,7 +54,7 @@ impl Setup {
     }
 
     pub(crate) fn plan(&self, agent: usize) -> Plan {
-        Planner::new(self.physique(), self.layout, AgentId::ALL[agent], self.goals, self.attitudes[agent])
+        Planner::new(self.physics(), self.layout, AgentId::ALL[agent], self.goals, self.attitudes[agent])
             .plan(&self.state(), self.observed)
     }
 

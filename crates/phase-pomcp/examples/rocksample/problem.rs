@@ -1,7 +1,7 @@
 //! The problem: a rover among rocks, some of which are worth sampling.
 
 use crate::support::Problem;
-use phase_pomcp::{GenerativeModel, Outcome};
+use phase_pomcp::{GenerativeModel, Transition};
 use rand::{Rng, RngExt};
 
 /// Squares on a side.
@@ -49,7 +49,7 @@ impl GenerativeModel for RockSample {
         0.95
     }
 
-    fn step(&self, rover: &mut Rover, action: usize, random: &mut impl Rng) -> Outcome<Option<bool>> {
+    fn step(&self, rover: &mut Rover, action: usize, random: &mut impl Rng) -> Transition<Option<bool>> {
         let (mut observation, mut reward, mut terminal) = (None, 0.0, false);
         match action {
             0..SAMPLE => {
@@ -68,7 +68,7 @@ impl GenerativeModel for RockSample {
             }
             check => observation = rover.check(check - CHECK, random),
         }
-        Outcome { observation, reward, terminal }
+        Transition { observation, reward, terminal }
     }
 
     /// From rock to rock, the nearest promising one first; each is checked on the spot and sampled if good.

@@ -1,6 +1,6 @@
 //! A fully observed walk whose optimal values have a closed form.
 
-use phase_pomcp::{Decision, GenerativeModel, Outcome, Pomcp, PomcpSettings};
+use phase_pomcp::{Decision, GenerativeModel, Pomcp, PomcpSettings, Transition};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
@@ -25,14 +25,14 @@ impl GenerativeModel for Chain {
         0.9
     }
 
-    fn step(&self, distance: &mut u32, action: usize, random: &mut impl Rng) -> Outcome<u32> {
+    fn step(&self, distance: &mut u32, action: usize, random: &mut impl Rng) -> Transition<u32> {
         if action == BACK {
             *distance += 1;
         } else if random.random_bool(self.success) {
             *distance -= 1;
         }
         let terminal = *distance == 0;
-        Outcome { observation: *distance, reward: f64::from(terminal), terminal }
+        Transition { observation: *distance, reward: f64::from(terminal), terminal }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Every kind of bad input is its own error, and none of them spoils the planner.
 
-use phase_pomcp::{GenerativeModel, Outcome, Pomcp, PomcpError, PomcpSettings};
+use phase_pomcp::{GenerativeModel, Pomcp, PomcpError, PomcpSettings, Transition};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg32;
 
@@ -30,8 +30,8 @@ impl GenerativeModel for Promises {
         self.discount
     }
 
-    fn step(&self, _: &mut (), _: usize, _: &mut impl Rng) -> Outcome<()> {
-        Outcome { observation: (), reward: self.reward, terminal: false }
+    fn step(&self, _: &mut (), _: usize, _: &mut impl Rng) -> Transition<()> {
+        Transition { observation: (), reward: self.reward, terminal: false }
     }
 
     fn rollout_action(&self, _: &(), _: &mut impl Rng) -> usize {

@@ -1,6 +1,6 @@
 //! What holds for every search of every problem.
 
-use phase_pomcp::{GenerativeModel, Outcome, Pomcp, PomcpSettings};
+use phase_pomcp::{GenerativeModel, Pomcp, PomcpSettings, Transition};
 use proptest::prelude::*;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -29,12 +29,12 @@ impl GenerativeModel for Arbitrary {
         self.discount
     }
 
-    fn step(&self, state: &mut u64, action: usize, random: &mut impl rand::Rng) -> Outcome<u64> {
+    fn step(&self, state: &mut u64, action: usize, random: &mut impl rand::Rng) -> Transition<u64> {
         let key = self.seed ^ (*state << 32) ^ ((action as u64) << 16) ^ random.random_range(0..3);
         let mut fixed = Pcg64Mcg::seed_from_u64(key);
         *state = fixed.random_range(0..self.states);
         let (low, high) = self.rewards;
-        Outcome {
+        Transition {
             observation: fixed.random_range(0..self.observations),
             reward: low + (high - low) * fixed.random::<f64>(),
             terminal: fixed.random_bool(self.ends),
@@ -61,7 +61,7 @@ impl GenerativeModel for Certain {
         self.problem.discount
     }
 
-    fn step(&self, state: &mut u64, action: usize, _random: &mut impl rand::Rng) -> Outcome<u64> {
+    fn step(&self, state: &mut u64, action: usize, _random: &mut impl rand::Rng) -> Transition<u64> {
         self.problem.step(state, action, &mut Pcg64Mcg::seed_from_u64(0))
     }
 

@@ -1,7 +1,7 @@
 //! Selection against the formula worked out by hand, alone and inside a search.
 
 use phase_pomcp::puct::{ValueRange, exploration, score};
-use phase_pomcp::{GenerativeModel, Outcome, Pomcp, PomcpSettings};
+use phase_pomcp::{GenerativeModel, Pomcp, PomcpSettings, Transition};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg32;
 
@@ -51,8 +51,8 @@ impl GenerativeModel for Bandit {
         1.0
     }
 
-    fn step(&self, _: &mut (), action: usize, _: &mut impl Rng) -> Outcome<()> {
-        Outcome { observation: (), reward: self.pays[action], terminal: true }
+    fn step(&self, _: &mut (), action: usize, _: &mut impl Rng) -> Transition<()> {
+        Transition { observation: (), reward: self.pays[action], terminal: true }
     }
 
     fn prior_weight(&self, _: &(), action: usize) -> f64 {

@@ -1,6 +1,6 @@
 //! What a single simulation counts, and how the settings cut it off.
 
-use phase_pomcp::{GenerativeModel, Outcome, Pomcp, PomcpSettings, SearchEffort};
+use phase_pomcp::{GenerativeModel, Pomcp, PomcpSettings, SearchStatistics, Transition};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg32;
 
@@ -21,9 +21,9 @@ impl GenerativeModel for Salary {
         0.5
     }
 
-    fn step(&self, time: &mut usize, _: usize, _: &mut impl Rng) -> Outcome<()> {
+    fn step(&self, time: &mut usize, _: usize, _: &mut impl Rng) -> Transition<()> {
         *time += 1;
-        Outcome { observation: (), reward: 1.0, terminal: *time >= self.lasts }
+        Transition { observation: (), reward: 1.0, terminal: *time >= self.lasts }
     }
 
     fn value_estimate(&self, _: &usize) -> f64 {
@@ -52,7 +52,7 @@ fn one_simulation_is_one_step_and_one_rollout() {
         let expected = 2.0 - 2.0 * tail + if estimated { 100.0 * tail } else { 0.0 };
         assert_eq!(decision.value(), expected, "{lasts} {rollout_steps} {horizon}");
         let histories = if lasts > 1 && horizon > 1 { 2 } else { 1 };
-        let effort = SearchEffort { histories, depth: 1, steps: steps as usize };
+        let effort = SearchStatistics { histories, depth: 1, steps: steps as usize };
         assert_eq!(decision.effort, effort, "{lasts} {rollout_steps} {horizon}");
     }
 }
@@ -63,5 +63,5 @@ fn each_simulation_goes_one_history_deeper() {
     let mut pomcp = Pomcp::new(settings).unwrap();
     let decision = pomcp.search(&Salary { lasts: usize::MAX }, &[0], &mut Pcg32::seed_from_u64(1)).unwrap();
     // One action and one observation make the tree a path: simulation k takes k steps in it and 10 beyond.
-    assert_eq!(decision.effort, SearchEffort { histories: 6, depth: 5, steps: 1 + 2 + 3 + 4 + 5 + 50 });
+    assert_eq!(decision.effort, SearchStatistics { histories: 6, depth: 5, steps: 1 + 2 + 3 + 4 + 5 + 50 });
 }

@@ -1,6 +1,6 @@
 //! The tiger problem (Kaelbling, Littman & Cassandra 1998), its exact solution, and a belief for it.
 
-use phase_pomcp::{GenerativeModel, Outcome};
+use phase_pomcp::{GenerativeModel, Transition};
 use rand::{Rng, RngExt};
 
 pub(crate) const LISTEN: usize = 0;
@@ -48,7 +48,7 @@ impl GenerativeModel for Tiger {
         0.95
     }
 
-    fn step(&self, tiger: &mut Side, action: usize, random: &mut impl Rng) -> Outcome<Heard> {
+    fn step(&self, tiger: &mut Side, action: usize, random: &mut impl Rng) -> Transition<Heard> {
         let (observation, reward) = match action {
             LISTEN => {
                 let truly = random.random_bool(self.accuracy);
@@ -61,7 +61,7 @@ impl GenerativeModel for Tiger {
                 (None, reward)
             }
         };
-        Outcome { observation, reward, terminal: false }
+        Transition { observation, reward, terminal: false }
     }
 
     /// Opening doors blindly says nothing of what a belief is worth, so rollouts only listen.

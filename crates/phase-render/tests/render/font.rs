@@ -1,9 +1,9 @@
 //! The embedded font is the one it is said to be, and text is measured, shortened and placed as it says.
 
-use crate::common::{physique, state};
+use crate::common::{physics, state};
 use phase_model::AgentId;
 use phase_perception::CellSet;
-use phase_render::{Caption, Frame, Overlay, SizedFont, Stage, Style, font::Font};
+use phase_render::{Caption, Frame, Overlay, SceneRenderer, SizedFont, Style, font::Font};
 
 /// Advances in DejaVu Sans 2.37, in units of 1/2048 em, as fonttools reads them from the file published.
 const ADVANCES: [(char, u16); 13] = [
@@ -87,9 +87,9 @@ fn text_is_shortened_only_where_it_must_be_and_then_fits() {
 }
 
 fn captioned(style: Style, captions: &[Caption]) -> Frame {
-    let stage = Stage::new(&physique(), style).expect("a valid style");
+    let renderer = SceneRenderer::new(&physics(), style).expect("a valid style");
     let visible = CellSet::EMPTY;
-    stage.frame(
+    renderer.frame(
         &state(),
         Some(&Overlay { agent: AgentId::ZERO, visible: &visible, particles: &[], title: "", captions }),
     )

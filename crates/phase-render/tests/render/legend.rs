@@ -1,10 +1,10 @@
 //! The legend shows a sample of each mark, with its meaning beside it.
 
-use crate::common::{physique, state};
+use crate::common::{physics, state};
 use phase_model::{AgentId, State};
 use phase_perception::{Cell, CellSet};
 use phase_render::{
-    Frame, Overlay, Palette, SizedFont, Stage, Style,
+    Frame, Overlay, Palette, SceneRenderer, SizedFont, Style,
     legend::{ENTRIES, LINES, Mark},
 };
 
@@ -13,8 +13,8 @@ fn style(caption_lines: u32) -> Style {
 }
 
 fn draw(style: Style, visible: &CellSet) -> Frame {
-    let stage = Stage::new(&physique(), style).expect("a valid style");
-    stage.frame(
+    let renderer = SceneRenderer::new(&physics(), style).expect("a valid style");
+    renderer.frame(
         &state(),
         Some(&Overlay { agent: AgentId::ZERO, visible, particles: &[], title: "", captions: &[] }),
     )
@@ -35,8 +35,8 @@ fn samples_have_the_colours_of_what_they_explain() {
     let (style, palette) = (style(1), Palette::default());
     let visible: CellSet = Cell::all().filter(|&cell| Cell::min(cell).x >= 12.0).collect();
     let frame = draw(style, &visible);
-    let stage = Stage::new(&physique(), style).expect("a valid style");
-    let floor = |x: f32| crate::common::at(&stage, &frame, x, 15.0);
+    let renderer = SceneRenderer::new(&physics(), style).expect("a valid style");
+    let floor = |x: f32| crate::common::at(&renderer, &frame, x, 15.0);
     for (entry, (mark, label)) in (0..).zip(ENTRIES) {
         let [sample, text] = colours(&frame, &style, entry);
         let expected = match mark {
@@ -88,10 +88,10 @@ fn a_legend_takes_its_lines_and_leaves_the_rest_alone() {
 
 #[test]
 fn the_legend_does_not_depend_on_what_is_shown() {
-    let stage = Stage::new(&physique(), style(2)).expect("a valid style");
+    let renderer = SceneRenderer::new(&physics(), style(2)).expect("a valid style");
     let legend = |frame: Frame| frame.rgba()[480 * 480 * 4..].to_vec();
     let (state, visible): (State, CellSet) = (state(), Cell::all().collect());
     let overlay =
         Overlay { agent: AgentId::ONE, visible: &visible, particles: &[state; 3], title: "", captions: &[] };
-    assert!(legend(stage.frame(&state, None)) == legend(stage.frame(&state, Some(&overlay))));
+    assert!(legend(renderer.frame(&state, None)) == legend(renderer.frame(&state, Some(&overlay))));
 }

@@ -9,7 +9,7 @@ mod legend;
 mod mp4;
 mod overlay;
 mod palettes;
+mod renderer;
 mod sheet;
-mod stage;
 mod video;
 mod yuv;

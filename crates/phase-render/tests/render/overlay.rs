@@ -1,12 +1,12 @@
 //! What an agent sees is light, what it does not see is dim, what it believes is faint.
 
-use crate::common::{RADII, at, physique, state};
+use crate::common::{RADII, at, physics, state};
 use phase_model::{AgentId, Body, State, Vec2};
 use phase_perception::{Cell, CellSet};
-use phase_render::{Frame, Overlay, Palette, Stage, Style};
+use phase_render::{Frame, Overlay, Palette, SceneRenderer, Style};
 
-fn stage() -> Stage {
-    Stage::new(&physique(), Style::default()).expect("a valid style")
+fn renderer() -> SceneRenderer {
+    SceneRenderer::new(&physics(), Style::default()).expect("a valid style")
 }
 
 /// The cells right of x = 12 and above y = 14.
@@ -14,8 +14,8 @@ fn upper_right() -> CellSet {
     Cell::all().filter(|&cell| Cell::min(cell).x >= 12.0 && Cell::min(cell).y >= 14.0).collect()
 }
 
-fn draw(stage: &Stage, visible: &CellSet, particles: &[State]) -> Frame {
-    stage.frame(
+fn draw(renderer: &SceneRenderer, visible: &CellSet, particles: &[State]) -> Frame {
+    renderer.frame(
         &state(),
         Some(&Overlay { agent: AgentId::ZERO, visible, particles, title: "", captions: &[] }),
     )
@@ -27,10 +27,10 @@ fn lightness(colour: [u8; 3]) -> u32 {
 
 #[test]
 fn cells_out_of_sight_are_dimmed() {
-    let stage = stage();
-    let frame = draw(&stage, &upper_right(), &[]);
-    let seen = at(&stage, &frame, 14.0, 16.0);
-    let unseen = at(&stage, &frame, 9.0, 9.0);
+    let renderer = renderer();
+    let frame = draw(&renderer, &upper_right(), &[]);
+    let seen = at(&renderer, &frame, 14.0, 16.0);
+    let unseen = at(&renderer, &frame, 9.0, 9.0);
     assert!(lightness(seen) > lightness(unseen) + 120, "{seen:?} against {unseen:?}");
     let eps = 0.03;
     for (x, y, is_seen) in [
@@ -42,27 +42,27 @@ fn cells_out_of_sight_are_dimmed() {
         (14.5, 9.5, false),
     ] {
         let expected = if is_seen { seen } else { unseen };
-        assert_eq!(at(&stage, &frame, x, y), expected, "({x}, {y})");
+        assert_eq!(at(&renderer, &frame, x, y), expected, "({x}, {y})");
     }
-    assert_eq!(at(&stage, &frame, 16.0, 9.0), [0, 0, 0], "walls stay black");
-    assert_eq!(at(&stage, &frame, 5.5, 9.0), [255, 255, 255], "the margin stays white");
-    assert_eq!(at(&stage, &frame, 20.0, 6.0), Palette::default().objects[1], "bodies keep their colour");
+    assert_eq!(at(&renderer, &frame, 16.0, 9.0), [0, 0, 0], "walls stay black");
+    assert_eq!(at(&renderer, &frame, 5.5, 9.0), [255, 255, 255], "the margin stays white");
+    assert_eq!(at(&renderer, &frame, 20.0, 6.0), Palette::default().objects[1], "bodies keep their colour");
 }
 
 #[test]
 fn no_seams_between_cells_at_any_size() {
     for side in [100, 333, 480, 500] {
-        let mut empty = physique();
+        let mut empty = physics();
         empty.object_count = 0;
         empty.walls.clear();
-        let stage = Stage::new(&empty, Style::with_side(side)).unwrap();
+        let renderer = SceneRenderer::new(&empty, Style::with_side(side)).unwrap();
         let gone = State::new([Body::at_rest(Vec2::splat(-500.0), 0.0); 4]);
         let none = CellSet::EMPTY;
-        let frame = stage.frame(
+        let frame = renderer.frame(
             &gone,
             Some(&Overlay { agent: AgentId::ZERO, visible: &none, particles: &[], title: "", captions: &[] }),
         );
-        let inside = |x: f32, y: f32| stage.pixel(Vec2::new(x, y));
+        let inside = |x: f32, y: f32| renderer.pixel(Vec2::new(x, y));
         let (from, to) = (inside(11.5, 16.5), inside(20.5, 7.5));
         let first = frame.pixel(from.x as u32, from.y as u32).unwrap();
         for y in from.y as u32..to.y as u32 {
@@ -75,18 +75,18 @@ fn no_seams_between_cells_at_any_size() {
 
 #[test]
 fn beliefs_are_faint_and_add_up() {
-    let stage = stage();
+    let renderer = renderer();
     let visible = Cell::all().collect();
     let elsewhere = Vec2::new(12.5, 16.5);
     let believe = |entity: usize, count: usize| {
         let mut particle = state();
         particle.bodies[entity] = Body::at_rest(elsewhere, 0.0);
-        let frame = draw(&stage, &visible, &vec![particle; count]);
-        at(&stage, &frame, elsewhere.x, elsewhere.y)
+        let frame = draw(&renderer, &visible, &vec![particle; count]);
+        at(&renderer, &frame, elsewhere.x, elsewhere.y)
     };
     let floor = {
-        let frame = draw(&stage, &visible, &[]);
-        at(&stage, &frame, elsewhere.x, elsewhere.y)
+        let frame = draw(&renderer, &visible, &[]);
+        at(&renderer, &frame, elsewhere.x, elsewhere.y)
     };
     assert_eq!(believe(0, 50), floor, "the agent knows where it is itself");
     let palette = Palette::default();
@@ -102,18 +102,18 @@ fn beliefs_are_faint_and_add_up() {
 
 #[test]
 fn the_true_state_is_on_top_of_beliefs() {
-    let stage = stage();
+    let renderer = renderer();
     let visible = CellSet::EMPTY;
     let mut particle = state();
     particle.bodies[1] = Body::at_rest(Vec2::new(20.0, 6.0), 0.0);
-    let frame = draw(&stage, &visible, &[particle; 50]);
-    assert_eq!(at(&stage, &frame, 20.0, 6.0), Palette::default().objects[1]);
-    assert_eq!(at(&stage, &frame, 20.0, 6.0 + 0.9 * RADII[3]), Palette::default().objects[1]);
+    let frame = draw(&renderer, &visible, &[particle; 50]);
+    assert_eq!(at(&renderer, &frame, 20.0, 6.0), Palette::default().objects[1]);
+    assert_eq!(at(&renderer, &frame, 20.0, 6.0 + 0.9 * RADII[3]), Palette::default().objects[1]);
 }
 
 #[test]
 fn an_agent_is_drawn_as_a_belief_of_the_other_only() {
-    let stage = stage();
+    let renderer = renderer();
     let visible = CellSet::EMPTY;
     let mut particle = state();
     particle.bodies[0].position = Vec2::new(12.5, 16.5);
@@ -125,8 +125,8 @@ fn an_agent_is_drawn_as_a_belief_of_the_other_only() {
         captions: &[],
     };
     let (own, other) = (
-        stage.frame(&state(), Some(&overlay(AgentId::ZERO))),
-        stage.frame(&state(), Some(&overlay(AgentId::ONE))),
+        renderer.frame(&state(), Some(&overlay(AgentId::ZERO))),
+        renderer.frame(&state(), Some(&overlay(AgentId::ONE))),
     );
     assert_ne!(own, other);
 }

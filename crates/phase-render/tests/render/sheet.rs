@@ -1,15 +1,15 @@
 //! Key frames side by side.
 
-use crate::common::{physique, state};
-use phase_render::{Frame, RenderError, Stage, Style, contact_sheet, sheet::GAP, side_by_side};
+use crate::common::{physics, state};
+use phase_render::{Frame, RenderError, SceneRenderer, Style, contact_sheet, sheet::GAP, side_by_side};
 
 /// Frames of 100 × 100 pixels that differ.
 fn frames(count: usize) -> Vec<Frame> {
-    let stage = Stage::new(&physique(), Style::with_side(100)).expect("a valid style");
+    let renderer = SceneRenderer::new(&physics(), Style::with_side(100)).expect("a valid style");
     let move_right = |k: usize| {
         let mut state = state();
         state.bodies[0].position.x += k as f32;
-        stage.frame(&state, None)
+        renderer.frame(&state, None)
     };
     (0..count).map(move_right).collect()
 }
@@ -49,7 +49,7 @@ fn sheets_that_cannot_be_are_refused() {
     assert!(matches!(contact_sheet(&[], 3), Err(RenderError::NoFrames("contact sheet"))));
     assert!(matches!(contact_sheet(&frames(2), 0), Err(RenderError::Sheet { frames: 2, columns: 0 })));
     let mut mixed = frames(2);
-    mixed.push(Stage::new(&physique(), Style::with_side(120)).unwrap().frame(&state(), None));
+    mixed.push(SceneRenderer::new(&physics(), Style::with_side(120)).unwrap().frame(&state(), None));
     let refused = contact_sheet(&mixed, 2);
     assert!(matches!(refused, Err(RenderError::FrameSize { index: 2, found_width: 120, width: 100, .. })));
     let many = vec![frames(1).remove(0); 200];

@@ -1,20 +1,20 @@
 //! Videos are what they say they are: by their boxes, and by decoding them again.
 
-use crate::common::{physique, state};
+use crate::common::{physics, state};
 use crate::mp4::{boxes, content, pictures, table, word};
 use openh264::{decoder::Decoder, formats::YUVSource};
 use phase_model::Vec2;
-use phase_render::{Frame, RenderError, Stage, Style, VideoEncoder, yuv::Planes};
+use phase_render::{Frame, RenderError, SceneRenderer, Style, VideoEncoder, yuv::Planes};
 use std::io::{self, Write};
 
 /// Frames of an agent that moves and turns.
 fn frames(side: u32, count: usize) -> Vec<Frame> {
-    let stage = Stage::new(&physique(), Style::with_side(side)).expect("a valid video");
+    let renderer = SceneRenderer::new(&physics(), Style::with_side(side)).expect("a valid video");
     let step = |k: usize| {
         let mut state = state();
         state.bodies[0].position += Vec2::new(0.05, -0.03) * k as f32;
         state.bodies[0].angle = 0.1 * k as f32;
-        stage.frame(&state, None)
+        renderer.frame(&state, None)
     };
     (0..count).map(step).collect()
 }
@@ -139,10 +139,11 @@ fn what_no_video_can_hold_is_refused() {
 
 #[test]
 fn the_smallest_and_the_largest_video_are_made() {
-    let stage = Stage::new(&physique(), Style::with_side(64)).unwrap();
-    assert_eq!(pictures(&encode(&[stage.frame(&state(), None)], 20)).len(), 1);
-    let stage = Stage::new(&physique(), Style { caption_lines: 1, ..Style::with_side(2000) }).unwrap();
-    let frame = stage.frame(&state(), None);
+    let renderer = SceneRenderer::new(&physics(), Style::with_side(64)).unwrap();
+    assert_eq!(pictures(&encode(&[renderer.frame(&state(), None)], 20)).len(), 1);
+    let renderer =
+        SceneRenderer::new(&physics(), Style { caption_lines: 1, ..Style::with_side(2000) }).unwrap();
+    let frame = renderer.frame(&state(), None);
     assert!(frame.height() > 2000);
     assert_eq!(pictures(&encode(&[frame.clone(), frame], 120)).len(), 2);
 }

@@ -3,18 +3,18 @@
 use super::{BESIDE, Subject, bars_beside, cost, share};
 use crate::{
     document::{Block, Document, head},
-    plot::{Axis, Series, curves},
+    plot::{Axis, Series, line_chart},
     published,
 };
-use phase_dataset::words;
+use phase_dataset::describe;
 use phase_eval::{
-    Group,
-    goals::{Bin, Calibration, RELATIONS, Scores, Summary},
+    GroupScores,
+    goals::{Bin, Calibration, RELATIONS, RecognitionScores, RecognitionSummary},
 };
 
 /// How well goals and relations are recognised.
 #[must_use]
-pub fn goals(subject: Subject<'_>, summary: &Summary) -> Document {
+pub fn goals(subject: Subject<'_>, summary: &RecognitionSummary) -> Document {
     let ours = subject.label();
     let mut blocks = vec![
         Block::Text(format!(
@@ -49,7 +49,7 @@ pub fn goals(subject: Subject<'_>, summary: &Summary) -> Document {
     if !summary.watched.is_empty() {
         blocks.push(Block::Heading("By seconds watched".into()));
         blocks.push(Block::Text("Events that end earlier count with all of them.".into()));
-        let whole = Group { name: "to the end".into(), scores: summary.all.clone() };
+        let whole = GroupScores { name: "to the end".into(), scores: summary.all.clone() };
         blocks.push(groups("watched", &[&summary.watched[..], &[whole]].concat()));
         blocks.push(watched_plot(&summary.watched));
     }
@@ -68,7 +68,7 @@ pub fn goals(subject: Subject<'_>, summary: &Summary) -> Document {
     Document { title: format!("Goals and relations recognised by {}", subject.method), blocks }
 }
 
-fn beside_published(ours: &str, scores: &Scores) -> Block {
+fn beside_published(ours: &str, scores: &RecognitionScores) -> Block {
     let human = scores.relation_human.as_ref();
     let mut rows = vec![vec![
         ours.to_owned(),
@@ -101,8 +101,8 @@ fn published_plot(
     bars_beside(file, title, " %", (ours, 100.0 * value), published)
 }
 
-fn groups(what: &str, groups: &[Group<Scores>]) -> Block {
-    let row = |group: &Group<Scores>| {
+fn groups(what: &str, groups: &[GroupScores<RecognitionScores>]) -> Block {
+    let row = |group: &GroupScores<RecognitionScores>| {
         let scores = &group.scores;
         vec![
             group.name.clone(),
@@ -119,9 +119,10 @@ fn groups(what: &str, groups: &[Group<Scores>]) -> Block {
     }
 }
 
-fn watched_plot(groups: &[Group<Scores>]) -> Block {
-    let seconds = |group: &Group<Scores>| group.name.trim_end_matches(" s").parse::<f64>().ok();
-    let line = |of: fn(&Scores) -> f64| -> Vec<(f64, f64)> {
+fn watched_plot(groups: &[GroupScores<RecognitionScores>]) -> Block {
+    let seconds =
+        |group: &GroupScores<RecognitionScores>| group.name.trim_end_matches(" s").parse::<f64>().ok();
+    let line = |of: fn(&RecognitionScores) -> f64| -> Vec<(f64, f64)> {
         groups.iter().filter_map(|group| Some((seconds(group)?, of(&group.scores)))).collect()
     };
     let longest = groups.iter().filter_map(seconds).fold(1.0, f64::max);
@@ -132,15 +133,15 @@ fn watched_plot(groups: &[Group<Scores>]) -> Block {
     ];
     let title = "Share right by seconds watched";
     let axes = [Axis::linear("watched (s)", longest), Axis::linear("right", 1.0)];
-    Block::Plot { file: "watched.svg", title: title.into(), svg: curves(title, axes, &series) }
+    Block::Plot { file: "watched.svg", title: title.into(), svg: line_chart(title, axes, &series) }
 }
 
-fn confusion(summary: &Summary) -> Block {
+fn confusion(summary: &RecognitionSummary) -> Block {
     let row = |(right, counts): (_, &[usize; RELATIONS.len()])| {
         let counts = counts.iter().map(ToString::to_string);
-        [words::relation(right).to_owned()].into_iter().chain(counts).collect()
+        [describe::relation(right).to_owned()].into_iter().chain(counts).collect()
     };
-    let said = RELATIONS.map(|relation| format!("taken for {}", words::relation(relation)));
+    let said = RELATIONS.map(|relation| format!("taken for {}", describe::relation(relation)));
     Block::Table {
         head: ["made to show".to_owned()].into_iter().chain(said).collect(),
         rows: RELATIONS.into_iter().zip(&summary.confusion).map(row).collect(),
@@ -162,7 +163,7 @@ fn reliability(calibration: &Calibration) -> Block {
     }
 }
 
-fn reliability_plot(summary: &Summary) -> Block {
+fn reliability_plot(summary: &RecognitionSummary) -> Block {
     let points = |calibration: &Calibration| {
         let bins = calibration.bins.iter().filter(|bin| bin.n > 0);
         bins.map(|bin| (bin.confidence, bin.accuracy)).collect()
@@ -174,5 +175,5 @@ fn reliability_plot(summary: &Summary) -> Block {
     ];
     let title = "Right as often as said?";
     let axes = [Axis::linear("probability given", 1.0), Axis::linear("share right", 1.0)];
-    Block::Plot { file: "reliability.svg", title: title.into(), svg: curves(title, axes, &series) }
+    Block::Plot { file: "reliability.svg", title: title.into(), svg: line_chart(title, axes, &series) }
 }

@@ -3,17 +3,17 @@
 use super::{BESIDE, Subject, bars_beside, cost, length};
 use crate::{
     document::{Block, Document, head},
-    plot::{Axis, Series, curves},
+    plot::{Axis, Series, line_chart},
     published,
 };
 use phase_eval::{
     Estimate,
-    trajectories::{PREDICTED_STEPS, Scores, Summary, WATCHED_STEPS},
+    trajectories::{ForecastScores, ForecastSummary, PREDICTED_STEPS, WATCHED_STEPS},
 };
 
 /// How well trajectories are predicted.
 #[must_use]
-pub fn trajectories(subject: Subject<'_>, summary: &Summary) -> Document {
+pub fn trajectories(subject: Subject<'_>, summary: &ForecastSummary) -> Document {
     let ours = subject.label();
     let shorter = match summary.shorter {
         0 => String::new(),
@@ -43,10 +43,10 @@ pub fn trajectories(subject: Subject<'_>, summary: &Summary) -> Document {
     Document { title: format!("Trajectories predicted by {}", subject.method), blocks }
 }
 
-fn beside_published(ours: &str, summary: &Summary) -> Block {
+fn beside_published(ours: &str, summary: &ForecastSummary) -> Block {
     let parts = [summary.independent.as_ref(), summary.social.as_ref(), Some(&summary.all)];
-    let row = |name: String, ade: fn(&Scores) -> &Estimate, fde: fn(&Scores) -> &Estimate| {
-        let cell = |part: &Option<&Scores>, of: fn(&Scores) -> &Estimate| {
+    let row = |name: String, ade: fn(&ForecastScores) -> &Estimate, fde: fn(&ForecastScores) -> &Estimate| {
+        let cell = |part: &Option<&ForecastScores>, of: fn(&ForecastScores) -> &Estimate| {
             part.map_or_else(|| "-".into(), |scores| length(of(scores)))
         };
         let ade = parts.iter().map(|part| cell(part, ade));
@@ -82,7 +82,7 @@ fn published_plot(
     bars_beside(file, title, " u", (ours, value), published)
 }
 
-fn kinds(summary: &Summary) -> Block {
+fn kinds(summary: &ForecastSummary) -> Block {
     let rows = summary.kinds.iter().map(|group| {
         let scores = &group.scores;
         let errors = [&scores.ade, &scores.fde, &scores.ade_entities, &scores.fde_entities].map(length);
@@ -92,12 +92,12 @@ fn kinds(summary: &Summary) -> Block {
     Block::Table { head: head(&columns), rows: rows.collect() }
 }
 
-fn by_step(summary: &Summary) -> Block {
+fn by_step(summary: &ForecastSummary) -> Block {
     let points: Vec<(f64, f64)> =
         summary.by_step.iter().enumerate().map(|(k, &error)| ((k + 1) as f64, error)).collect();
     let highest = points.iter().map(|(_, error)| error.ceil()).fold(1.0, f64::max);
     let title = "Error of the agents' positions by steps ahead";
     let axes = [Axis::linear("steps ahead", points.len().max(1) as f64), Axis::linear("error (u)", highest)];
     let series = [Series { name: "agents", points }];
-    Block::Plot { file: "by-step.svg", title: title.into(), svg: curves(title, axes, &series) }
+    Block::Plot { file: "by-step.svg", title: title.into(), svg: line_chart(title, axes, &series) }
 }

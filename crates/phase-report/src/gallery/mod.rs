@@ -7,8 +7,8 @@ pub use timeline::Timeline;
 
 use crate::markup::{escape, escape_script};
 use phase_dataset::{
+    describe::{self, Fragment},
     manifest::{AgentEntry, EventEntry, Manifest},
-    words::{self, Piece},
 };
 use phase_model::{
     AgentId, Attitude, Entity, Goal, ObjectId, Sign, Size, Strength,
@@ -72,7 +72,7 @@ fn filters(events: &[EventEntry]) -> String {
     type Values = fn(&EventEntry) -> Vec<String>;
     let keys: [(&str, Values); 4] = [
         ("kind", |event| vec![event.kind.name().into()]),
-        ("relation", |event| vec![words::relation(event.relation).into()]),
+        ("relation", |event| vec![describe::relation(event.relation).into()]),
         ("goal", goals),
         ("split", |event| vec![event.split().name().into()]),
     ];
@@ -95,7 +95,7 @@ fn filters(events: &[EventEntry]) -> String {
 /// The distinct goals of an event's agents.
 fn goals(event: &EventEntry) -> Vec<String> {
     let text = |agent: &AgentEntry| {
-        let landmark = agent.goal.landmark().map_or("", words::landmark);
+        let landmark = agent.goal.landmark().map_or("", describe::landmark);
         let on = if agent.goal.sign() == Sign::Positive { "on" } else { "off" };
         match agent.goal {
             Goal::AgentOnLandmark { .. } => format!("agent {on} {landmark}"),
@@ -114,8 +114,8 @@ fn card(event: &EventEntry) -> String {
     let agents: String = AgentId::ALL.into_iter().map(|who| agent(who, &event.agents[who])).collect();
     let mut things = String::new();
     for (object, &level) in ObjectId::ALL.into_iter().zip(&event.object_size_levels) {
-        let size = Size::from_level(level).map_or("", words::size);
-        let _ = write!(things, "{} {size} · ", chip(Piece::Entity(Entity::Object(object))));
+        let size = Size::from_level(level).map_or("", describe::size);
+        let _ = write!(things, "{} {size} · ", chip(Fragment::Entity(Entity::Object(object))));
     }
     let flip = event.layout.flip.map_or_else(String::new, |flip| format!(", flip {flip}"));
     let button = |class: &str, label: &str, sign: &str| {
@@ -143,10 +143,10 @@ fn card(event: &EventEntry) -> String {
          <ul class=\"agents\">\n{agents}</ul>\n\
          <p class=\"meta\">{things}layout {base}{flip} · {steps} steps, {seconds:.1} s · \
          <a href=\"{json}\">data</a></p>\n</article>\n",
-        relation = words::relation(event.relation),
+        relation = describe::relation(event.relation),
         split = event.split().name(),
         goals = escape(&goals(event).join("|")),
-        what = escape(words::kind(event.kind)),
+        what = escape(describe::kind(event.kind)),
         video = event.video.as_ref().map_or_else(String::new, |video| escape(&video.path)),
         buttons = buttons.concat(),
         json = escape(&event.event.path),
@@ -157,15 +157,15 @@ fn card(event: &EventEntry) -> String {
 }
 
 fn agent(who: AgentId, agent: &AgentEntry) -> String {
-    let size = Size::from_level(agent.size_level).map_or("", words::size);
-    let strength = Strength::from_level(agent.strength_level).map_or("", words::strength);
-    let other = chip(Piece::Entity(Entity::Agent(who.other())));
+    let size = Size::from_level(agent.size_level).map_or("", describe::size);
+    let strength = Strength::from_level(agent.strength_level).map_or("", describe::strength);
+    let other = chip(Fragment::Entity(Entity::Agent(who.other())));
     let attitude = Attitude::try_from(agent.alpha).unwrap_or_default();
     let stance = match attitude {
         Attitude::Neutral => String::new(),
-        social => format!(" <strong>{}</strong> {other}:", words::attitude(social)),
+        social => format!(" <strong>{}</strong> {other}:", describe::attitude(social)),
     };
-    let goal: String = words::goal(who, agent.goal).into_iter().map(chip).collect();
+    let goal: String = describe::goal(who, agent.goal).into_iter().map(chip).collect();
     let outcome = match (agent.reached, agent.steps_to_goal) {
         (true, Some(steps)) => {
             format!("<span class=\"yes\">done after {:.1} s</span>", steps as f64 * SECONDS_PER_STEP)
@@ -181,21 +181,23 @@ fn agent(who: AgentId, agent: &AgentEntry) -> String {
          <div class=\"now\" data-agent=\"{who}\"{done}><span class=\"label\">now</span> \
          <span class=\"subgoal\">–</span> <span class=\"share\"></span></div></li>\n",
         done = agent.steps_to_goal.map_or_else(String::new, |steps| format!(" data-done=\"{steps}\"")),
-        me = chip(Piece::Entity(Entity::Agent(who))),
+        me = chip(Fragment::Entity(Entity::Agent(who))),
     )
 }
 
 /// A piece of a sentence as HTML; what has a colour in the video has it here.
-fn chip(piece: Piece) -> String {
+fn chip(piece: Fragment) -> String {
     let (class, text) = match piece {
-        Piece::Text(text) => return escape(text),
-        Piece::Entity(Entity::Agent(agent)) => {
-            (format!("agent agent{agent}"), words::entity(Entity::Agent(agent)))
+        Fragment::Text(text) => return escape(text),
+        Fragment::Entity(Entity::Agent(agent)) => {
+            (format!("agent agent{agent}"), describe::entity(Entity::Agent(agent)))
         }
-        Piece::Entity(Entity::Object(object)) => {
-            (format!("object object{object}"), words::entity(Entity::Object(object)))
+        Fragment::Entity(Entity::Object(object)) => {
+            (format!("object object{object}"), describe::entity(Entity::Object(object)))
         }
-        Piece::Landmark(landmark) => (format!("landmark landmark{landmark}"), words::landmark(landmark)),
+        Fragment::Landmark(landmark) => {
+            (format!("landmark landmark{landmark}"), describe::landmark(landmark))
+        }
     };
     format!("<span class=\"chip {class}\">{}</span>", escape(text))
 }

@@ -8,11 +8,11 @@ use std::collections::BTreeMap;
 
 /// What both agents were after.
 #[derive(Clone, PartialEq, Debug, Default)]
-pub struct Timeline(pub [Track; AGENT_COUNT]);
+pub struct Timeline(pub [SubgoalTrack; AGENT_COUNT]);
 
 /// What one agent was after.
 #[derive(Clone, PartialEq, Debug, Default)]
-pub struct Track {
+pub struct SubgoalTrack {
     /// The subgoal as it changed: steps (from 0) and the subgoal's text from then on.
     pub subgoals: Vec<(usize, String)>,
     /// The share of belief particles behind the subgoal in every step, 0 to 1.
@@ -24,7 +24,7 @@ impl Timeline {
     #[must_use]
     pub fn of(event: &Event) -> Self {
         Self(AgentId::ALL.map(|agent| {
-            let mut track = Track::default();
+            let mut track = SubgoalTrack::default();
             for (t, step) in event.steps.iter().enumerate() {
                 let thought = &step.thoughts[agent];
                 let text = thought.subgoal.to_string();

@@ -1,19 +1,19 @@
 //! The benchmark's report, with figures that can be counted on fingers.
 
 use phase_eval::{
-    benchmark::{BENCHMARK_FORMAT, Benchmark, Curve, EventSet, Familiarity, Origin, Part, Row, Training},
-    goals::{self, Answer, Label, Mistakes, RecognisedEvent},
-    trajectories::{Errors, ForecastEvent, Summary},
+    benchmark::{BENCHMARK_FORMAT, Benchmark, Curve, EventSet, Familiarity, Origin, Row, Subset, Training},
+    goals::{self, Answer, ErrorBreakdown, Label, RecognisedEvent},
+    trajectories::{Errors, ForecastEvent, ForecastSummary},
 };
 use phase_model::{AgentId, EventKind, Goal, Relation, RelationProbabilities, Sign};
 use phase_report::{
     evaluation,
-    plot::{Axis, Series, curves},
+    plot::{Axis, Series, line_chart},
 };
 use serde_json::{Value, json};
 
 /// Events in which the agents are always so far off.
-fn off_by(errors: &[f64]) -> Summary {
+fn off_by(errors: &[f64]) -> ForecastSummary {
     let event = |(k, &error): (usize, &f64)| {
         let errors = Errors { ade: error, fde: error, by_step: vec![error] };
         ForecastEvent {
@@ -28,11 +28,11 @@ fn off_by(errors: &[f64]) -> Summary {
             details: Value::Null,
         }
     };
-    Summary::of(&errors.iter().enumerate().map(event).collect::<Vec<_>>(), 1).expect("events")
+    ForecastSummary::of(&errors.iter().enumerate().map(event).collect::<Vec<_>>(), 1).expect("events")
 }
 
-fn row(method: &str, origin: Origin, training: Option<usize>, error: f64) -> Row<Summary> {
-    let part = |familiarity| Part { familiarity, summary: off_by(&[error, error]) };
+fn row(method: &str, origin: Origin, training: Option<usize>, error: f64) -> Row<ForecastSummary> {
+    let part = |familiarity| Subset { familiarity, summary: off_by(&[error, error]) };
     Row {
         method: method.into(),
         origin,
@@ -139,14 +139,14 @@ fn mistakes_stand_in_their_columns() {
         details: Value::Null,
     };
     let kinds = [[0, 6, 7], [8, 0, 9], [10, 11, 0]];
-    let mistakes = Mistakes { right: 1, sign: 2, landmark: 3, entity: 4, both: 5, kinds, nothing: 12 };
+    let mistakes = ErrorBreakdown { right: 1, sign: 2, landmark: 3, entity: 4, both: 5, kinds, nothing: 12 };
     let mut benchmark = benchmark();
     benchmark.goals.push(Row {
         method: "arg".into(),
         origin: Origin::Ours,
         set: 0,
         training: None,
-        summary: goals::Summary::of(&[event], 1).expect("an event"),
+        summary: goals::RecognitionSummary::of(&[event], 1).expect("an event"),
         mistakes: Some(mistakes),
         parts: Vec::new(),
     });
@@ -181,8 +181,8 @@ fn figures_for_programs() {
 #[test]
 fn doubling_is_always_the_same_way() {
     let points = [80.0, 160.0, 320.0, 640.0, 40.0, -1.0].map(|x| (x, 0.0)).to_vec();
-    let axes = [Axis::doubling("events", 80.0, 640.0), Axis::linear("y", 1.0)];
-    let svg = curves("Growth", axes, &[Series { name: "ours", points: points.clone() }]);
+    let axes = [Axis::logarithmic("events", 80.0, 640.0), Axis::linear("y", 1.0)];
+    let svg = line_chart("Growth", axes, &[Series { name: "ours", points: points.clone() }]);
     assert!(
         svg.contains("points=\"64.0,384.0 224.0,384.0 384.0,384.0 544.0,384.0 64.0,384.0 64.0,384.0\""),
         "{svg}"
@@ -192,8 +192,8 @@ fn doubling_is_always_the_same_way() {
     }
     // One place alone, or none: nothing comes apart.
     for (from, to) in [(80.0, 80.0), (0.0, 80.0), (f64::NAN, 1.0), (80.0, f64::INFINITY)] {
-        let axes = [Axis::doubling("events", from, to), Axis::linear("y", 1.0)];
-        let svg = curves("Growth", axes, &[Series { name: "ours", points: points.clone() }]);
+        let axes = [Axis::logarithmic("events", from, to), Axis::linear("y", 1.0)];
+        let svg = line_chart("Growth", axes, &[Series { name: "ours", points: points.clone() }]);
         assert!(!svg.contains("NaN"), "{from} {to}: {svg}");
     }
 }

@@ -2,7 +2,7 @@
 
 use phase_report::{
     document::{Block, Document},
-    plot::{Axis, Series, curves},
+    plot::{Axis, Series, line_chart},
     published,
 };
 
@@ -45,13 +45,13 @@ fn marks_are_round_numbers() {
         (-1.0, &["0", "0.2", "0.4", "0.6", "0.8", "1"]),
     ] {
         let axes = [Axis::linear("x", to), Axis::linear("y", 1.0)];
-        let svg = curves("Marks", axes, &[]);
-        let marks: Vec<&str> = svg
+        let svg = line_chart("Marks", axes, &[]);
+        let ticks: Vec<&str> = svg
             .lines()
             .filter(|line| line.starts_with("<path") && line.contains("text-anchor=\"middle\""))
             .filter_map(|line| line.strip_suffix("</text>")?.rsplit('>').next())
             .collect();
-        assert_eq!(marks, expected, "{to}");
+        assert_eq!(ticks, expected, "{to}");
     }
 }
 
@@ -59,7 +59,7 @@ fn marks_are_round_numbers() {
 fn curves_leave_out_what_is_no_number_and_stay_in_the_field() {
     let points = vec![(0.0, 0.0), (f64::NAN, 1.0), (5.0, f64::INFINITY), (20.0, 2.0), (10.0, 1.0)];
     let axes = [Axis::linear("x <s>", 10.0), Axis::linear("y", 1.0)];
-    let svg = curves("A & B", axes, &[Series { name: "ours", points }]);
+    let svg = line_chart("A & B", axes, &[Series { name: "ours", points }]);
     let [low, high] =
         [svg.find("points=\"").expect("a line") + 8, svg.find("\" fill=\"none\"").expect("its end")];
     let drawn: Vec<&str> = svg[low..high].split(' ').collect();

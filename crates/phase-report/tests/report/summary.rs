@@ -1,13 +1,13 @@
 //! Simulations against recordings, as tables.
 
-use phase_dataset::summary::{KindRow, Quartiles, Spreads};
+use phase_dataset::summary::{KindRow, MotionQuartiles, Quartiles};
 use phase_model::EventKind;
 use phase_report::summary::table;
 
 fn row(kind: Option<EventKind>, own_matched: usize, ratio: f32) -> KindRow {
     let quartiles = Some(Quartiles { p25: 0.0, median: 0.0, p75: 1.0 });
     let speed = Some(Quartiles { p25: 2.0, median: 2.0, p75: 4.0 });
-    let motion = Spreads { speed, path: quartiles, contact: quartiles };
+    let motion = MotionQuartiles { speed, path: quartiles, contact: quartiles };
     KindRow {
         kind,
         events: 3,
@@ -47,8 +47,8 @@ fn without_events_nothing_is_divided_by_zero() {
         matched: 0,
         own_agents: 0,
         time_ratio: None,
-        recorded_motion: Spreads::default(),
-        simulated_motion: Spreads::default(),
+        recorded_motion: MotionQuartiles::default(),
+        simulated_motion: MotionQuartiles::default(),
         ..row(None, 0, 1.0)
     };
     let table = table(&[empty]);

@@ -13,10 +13,10 @@ mod tracker;
 use path::Path;
 use phase_event::ObservedEvent;
 use phase_model::{AGENT_COUNT, Action, AgentId, State, Strength};
-use tracker::{Moment, Tracker};
+use tracker::{TrackedState, Tracker};
 
 /// States with different grips that are followed at once.
-const FOLLOWED: usize = 6;
+const BEAM_WIDTH: usize = 6;
 
 /// An event explained by what its agents did.
 #[derive(Clone, Debug)]
@@ -43,18 +43,18 @@ impl InverseDynamics {
         let mut paths = vec![tracker.path(start, false), tracker.path(start, true)];
         for (row, between) in observed.rows().iter().zip(&between).skip(1) {
             let mut longer: Vec<Path> =
-                paths.iter().flat_map(|path| tracker.continuations(path, row, between)).collect();
+                paths.iter().flat_map(|path| tracker.successors(path, row, between)).collect();
             longer.sort_by(|a, b| a.cost.total_cmp(&b.cost));
             paths.clear();
             for path in longer {
-                if paths.len() < FOLLOWED && !paths.iter().any(|better| better.same_grips(&path)) {
+                if paths.len() < BEAM_WIDTH && !paths.iter().any(|better| better.same_grips(&path)) {
                     paths.push(path);
                 }
             }
         }
         // Sorted by cost, and there is always one.
         let best = paths.swap_remove(0);
-        let (states, rest): (Vec<State>, Vec<_>) = best.trail.into_iter().unzip();
+        let (states, rest): (Vec<State>, Vec<_>) = best.history.into_iter().unzip();
         let (actions, residuals) = rest.into_iter().unzip();
         Self {
             states: [start].into_iter().chain(states).collect(),
@@ -68,7 +68,7 @@ impl InverseDynamics {
     /// The likeliest strengths; the weakest of those that are as likely.
     #[must_use]
     pub fn strengths(&self) -> [Strength; AGENT_COUNT] {
-        self.log_strengths.map(|logs| Strength::ALL[path::least(&logs.map(|log| -log))])
+        self.log_strengths.map(|logs| Strength::ALL[path::argmin(&logs.map(|log| -log))])
     }
 
     /// How much of every step stays unexplained (u) if an agent does each of its actions instead, by
@@ -81,16 +81,16 @@ impl InverseDynamics {
         let steps = self.states.iter().zip(&self.actions).zip(rows).enumerate();
         steps
             .map(|(step, ((state, actions), row))| {
-                let moment = Moment {
+                let tracked = TrackedState {
                     state: *state,
-                    memory: tracker.remember(state),
+                    cache: tracker.fresh_cache(state),
                     late: self.late_start && step == 0,
                 };
                 AgentId::ALL.map(|agent| {
                     Action::ALL.map(|action| {
                         let mut actions = *actions;
                         actions[agent] = action;
-                        tracker.step(&moment, row, levels, actions).residual
+                        tracker.step(&tracked, row, levels, actions).residual
                     })
                 })
             })

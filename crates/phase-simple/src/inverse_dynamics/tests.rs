@@ -39,12 +39,12 @@ fn simulate(
     let layout = Layout::new(2, None).expect("a known layout");
     let event = |rows| ObservedEvent::new(layout, [Size::Small, Size::Medium], object_sizes.clone(), rows);
     let blank = event(vec![start.bodies]).expect("an event of one row");
-    let world = Forward::new(&blank.physique(STRENGTHS.map(Strength::max_force)));
+    let world = Forward::new(&blank.physics(STRENGTHS.map(Strength::max_force)));
     let actions: Vec<_> = runs.iter().flat_map(|&(actions, steps)| vec![actions; steps]).collect();
     let (mut states, mut rows) = (vec![start], vec![start.bodies]);
-    let (mut state, mut memory) = (start, world.remember(&start));
+    let (mut state, mut cache) = (start, world.fresh_cache(&start));
     for &actions in &actions {
-        let substeps = world.step_warm(&mut state, &mut memory, actions);
+        let substeps = world.step_warm(&mut state, &mut cache, actions);
         states.push(state);
         rows.push(core::array::from_fn(|entity| mean(&substeps, entity)));
     }
@@ -79,27 +79,30 @@ fn pulled() -> Simulated {
 #[test]
 fn actions_and_strengths_of_free_agents_are_recovered() {
     let event = apart();
-    let found = InverseDynamics::new(&event.observed);
-    assert!(!found.late_start);
-    assert_eq!(found.strengths(), STRENGTHS);
-    assert_eq!(found.states.len(), event.states.len());
+    let action_likelihoods = InverseDynamics::new(&event.observed);
+    assert!(!action_likelihoods.late_start);
+    assert_eq!(action_likelihoods.strengths(), STRENGTHS);
+    assert_eq!(action_likelihoods.states.len(), event.states.len());
     let passive = |action: Action| matches!(action, Action::Stop | Action::NoForce);
-    for (step, (found, actions)) in found.actions.iter().zip(&event.actions).enumerate() {
+    for (step, (action_likelihoods, actions)) in
+        action_likelihoods.actions.iter().zip(&event.actions).enumerate()
+    {
         for agent in 0..AGENT_COUNT {
             // Stopping and doing nothing are the same to an agent at rest.
             let at_rest = event.states[step].bodies[agent].velocity.length() < 1e-4;
-            if !(at_rest && passive(found[agent]) && passive(actions[agent])) {
-                assert_eq!(found[agent], actions[agent], "agent {agent}, step {step}");
+            if !(at_rest && passive(action_likelihoods[agent]) && passive(actions[agent])) {
+                assert_eq!(action_likelihoods[agent], actions[agent], "agent {agent}, step {step}");
             }
         }
     }
-    for (step, (found, state)) in found.states.iter().zip(&event.states).enumerate() {
+    for (step, (action_likelihoods, state)) in action_likelihoods.states.iter().zip(&event.states).enumerate()
+    {
         for agent in 0..AGENT_COUNT {
-            let off = found.bodies[agent].position.distance(state.bodies[agent].position);
+            let off = action_likelihoods.bodies[agent].position.distance(state.bodies[agent].position);
             assert!(off < 1e-3, "agent {agent} is {off} u off after step {step}");
         }
     }
-    assert!(found.residuals.iter().all(|&residual| residual < 1e-3));
+    assert!(action_likelihoods.residuals.iter().all(|&residual| residual < 1e-3));
 }
 
 #[test]
@@ -107,26 +110,28 @@ fn grips_are_recovered() {
     let event = pulled();
     let held: Vec<_> = event.states.iter().map(|state| state.held_object(AgentId::ZERO)).collect();
     assert_eq!(held.iter().filter(|held| held.is_some()).count(), 7, "the simulation itself");
-    let found = InverseDynamics::new(&event.observed);
+    let action_likelihoods = InverseDynamics::new(&event.observed);
     // A grip does not show before it pulls, nor that it is gone before the object stays behind.
-    for (step, (found, held)) in found.states.iter().zip(&held).enumerate().skip(3).take(5) {
-        assert_eq!(found.held_object(AgentId::ZERO), *held, "after step {step}");
+    for (step, (action_likelihoods, held)) in
+        action_likelihoods.states.iter().zip(&held).enumerate().skip(3).take(5)
+    {
+        assert_eq!(action_likelihoods.held_object(AgentId::ZERO), *held, "after step {step}");
     }
-    assert_eq!(found.states.last().and_then(|state| state.held_object(AgentId::ZERO)), None);
+    assert_eq!(action_likelihoods.states.last().and_then(|state| state.held_object(AgentId::ZERO)), None);
     let object = |state: &State| state.bodies[AGENT_COUNT].position;
-    for (found, state) in found.states.iter().zip(&event.states) {
-        assert!(object(found).distance(object(state)) < 0.05);
+    for (action_likelihoods, state) in action_likelihoods.states.iter().zip(&event.states) {
+        assert!(object(action_likelihoods).distance(object(state)) < 0.05);
     }
 }
 
 #[test]
 fn what_was_done_explains_more_than_anything_else() {
     let event = apart();
-    let found = InverseDynamics::new(&event.observed);
-    for (step, residuals) in found.alternatives(&event.observed).iter().enumerate() {
+    let action_likelihoods = InverseDynamics::new(&event.observed);
+    for (step, residuals) in action_likelihoods.alternatives(&event.observed).iter().enumerate() {
         for (agent, residuals) in residuals.iter().enumerate() {
-            let done = residuals[event.actions[step][agent].index()];
-            assert!(residuals.iter().all(|&other| done <= other + 1e-4), "agent {agent}, step {step}");
+            let simulated = residuals[event.actions[step][agent].index()];
+            assert!(residuals.iter().all(|&other| simulated <= other + 1e-4), "agent {agent}, step {step}");
         }
     }
 }
@@ -137,10 +142,10 @@ fn an_explanation_repeats_bit_for_bit() {
     let [first, second] = [0, 1].map(|_| InverseDynamics::new(&event.observed));
     assert_eq!(first.states, second.states);
     assert_eq!(first.actions, second.actions);
-    let bits = |found: &InverseDynamics| {
-        let strengths = found.log_strengths.concat().into_iter().map(f64::to_bits);
+    let bits = |action_likelihoods: &InverseDynamics| {
+        let strengths = action_likelihoods.log_strengths.concat().into_iter().map(f64::to_bits);
         strengths
-            .chain(found.residuals.iter().map(|&residual| u64::from(residual.to_bits())))
+            .chain(action_likelihoods.residuals.iter().map(|&residual| u64::from(residual.to_bits())))
             .collect::<Vec<_>>()
     };
     assert_eq!(bits(&first), bits(&second));

@@ -1,8 +1,8 @@
 //! One step of an event, simulated under all possible actions.
 
-use super::path::{Path, least};
+use super::path::{Path, argmin};
 use phase_event::ObservedEvent;
-use phase_forward::{Forward, Memory};
+use phase_forward::{Forward, SolverCache};
 use phase_model::{
     AGENT_COUNT, Action, AgentId, Body, Entity, MAX_ENTITIES, State, Strength, Vec2,
     arena::{SUBSTEP_SECONDS, SUBSTEPS},
@@ -11,19 +11,19 @@ use phase_model::{
 /// How many strengths there are.
 pub(super) const LEVELS: usize = Strength::ALL.len();
 /// What physics leaves unexplained of a step that it explains (u).
-const SCALE: f64 = 0.02;
+const RESIDUAL_SCALE: f64 = 0.02;
 /// Prediction error beyond which a body is reset to the observation (u, rad).
-const LOST: f32 = 0.4;
+const RESET_THRESHOLD: f32 = 0.4;
 /// Nearer than this (u, rad), what a simulation knows of contacts still holds.
-const SAME: f32 = 0.02;
+const CACHE_TOLERANCE: f32 = 0.02;
 /// How long a step lasts (s).
 const STEP_SECONDS: f32 = SUBSTEP_SECONDS * SUBSTEPS as f32;
 /// What grabbing or letting go costs beside its residual, in logarithms: it is rare.
-const CHANGE: f64 = 2.0;
+const GRIP_CHANGE_COST: f64 = 2.0;
 /// Rounds in which agents are explained by turns, for what one does may show in where the other goes.
 const ROUNDS: usize = 3;
 /// Actions that change no grip.
-const CALM: [Action; 12] = [
+const GRIP_PRESERVING_ACTIONS: [Action; 12] = [
     Action::TurnLeft,
     Action::TurnRight,
     Action::Up,
@@ -40,16 +40,16 @@ const CALM: [Action; 12] = [
 
 /// A state to step from.
 #[derive(Clone, Debug)]
-pub(super) struct Moment {
+pub(super) struct TrackedState {
     pub(super) state: State,
-    pub(super) memory: Memory,
+    pub(super) cache: SolverCache,
     /// Whether a substep of the step has passed already.
     pub(super) late: bool,
 }
 
 /// A step as imagined, beside the row that was observed.
-pub(super) struct Imagined {
-    end: Moment,
+pub(super) struct PredictedStep {
+    end: TrackedState,
     differences: [Difference; MAX_ENTITIES],
     pub(super) residual: f32,
 }
@@ -74,13 +74,13 @@ impl<'a> Tracker<'a> {
     pub(super) fn new(observed: &'a ObservedEvent) -> Self {
         let forces = Strength::ALL.map(Strength::max_force);
         let pairs = forces.into_iter().flat_map(|first| forces.map(|second| [first, second]));
-        let worlds = pairs.map(|pair| Forward::new(&observed.physique(pair))).collect();
-        let physique = observed.physique([0.0; AGENT_COUNT]);
+        let worlds = pairs.map(|pair| Forward::new(&observed.physics(pair))).collect();
+        let physics = observed.physics([0.0; AGENT_COUNT]);
         let mut radii = [0.0; MAX_ENTITIES];
         for entity in observed.entities() {
             radii[entity.index()] = match entity {
-                Entity::Agent(agent) => physique.agents[agent].radius,
-                Entity::Object(object) => physique.object_radii[object],
+                Entity::Agent(agent) => physics.agents[agent].radius,
+                Entity::Object(object) => physics.object_radii[object],
             };
         }
         Self { observed, worlds, radii }
@@ -88,39 +88,39 @@ impl<'a> Tracker<'a> {
 
     /// The beginning of an event.
     pub(super) fn path(&self, state: State, late: bool) -> Path {
-        let moment = Moment { state, memory: self.remember(&state), late };
+        let tracked = TrackedState { state, cache: self.fresh_cache(&state), late };
         Path {
-            moment,
+            tracked,
             late_start: late,
             cost: 0.0,
             strength_costs: [[0.0; LEVELS]; AGENT_COUNT],
-            trail: Vec::new(),
+            history: Vec::new(),
         }
     }
 
     /// What a state by itself tells of contacts; strengths play no part in it.
-    pub(super) fn remember(&self, state: &State) -> Memory {
-        self.worlds[0].remember(state)
+    pub(super) fn fresh_cache(&self, state: &State) -> SolverCache {
+        self.worlds[0].fresh_cache(state)
     }
 
     /// A step of agents of these strengths, beside what was observed.
     pub(super) fn step(
         &self,
-        moment: &Moment,
+        tracked: &TrackedState,
         row: &[Body; MAX_ENTITIES],
         levels: [usize; AGENT_COUNT],
         actions: [Action; AGENT_COUNT],
-    ) -> Imagined {
-        let mut end = moment.clone();
+    ) -> PredictedStep {
+        let mut end = tracked.clone();
         let world = &self.worlds[levels[0] * LEVELS + levels[1]];
-        let mut substeps = world.step_warm(&mut end.state, &mut end.memory, actions);
-        if moment.late {
+        let mut substeps = world.step_warm(&mut end.state, &mut end.cache, actions);
+        if tracked.late {
             // The first substep is where it starts, and the last does not belong to it any more.
             substeps.rotate_right(1);
-            substeps[0] = moment.state;
+            substeps[0] = tracked.state;
             end.state = substeps[SUBSTEPS - 1];
             end.state.bodies.iter_mut().for_each(|body| body.angular_velocity = 0.0);
-            end.memory = self.remember(&end.state);
+            end.cache = self.fresh_cache(&end.state);
             end.late = false;
         }
         let mut differences = [Difference::default(); MAX_ENTITIES];
@@ -130,30 +130,25 @@ impl<'a> Tracker<'a> {
             squares += difference.square(self.radii[entity]);
             differences[entity] = difference;
         }
-        Imagined { end, differences, residual: squares.sqrt() }
+        PredictedStep { end, differences, residual: squares.sqrt() }
     }
 
     /// The ways in which a path can go on to a row: the best without a change of grips, and the best with one.
-    pub(super) fn continuations(
-        &self,
-        path: &Path,
-        row: &[Body; MAX_ENTITIES],
-        between: &State,
-    ) -> Vec<Path> {
+    pub(super) fn successors(&self, path: &Path, row: &[Body; MAX_ENTITIES], between: &State) -> Vec<Path> {
         // What has to do with grips comes further down.
         let mut actions = path.last_actions().map(|action| match action {
             Action::Attach | Action::Detach => Action::NoForce,
             action => action,
         });
-        let mut levels = path.strength_costs.map(|costs| least(&costs));
+        let mut levels = path.strength_costs.map(|costs| argmin(&costs));
         let mut costs = [[0.0; LEVELS]; AGENT_COUNT];
         for _ in 0..ROUNDS {
             let before = (actions, levels);
             for agent in AgentId::ALL {
-                let (by_level, best) = self.by_level(&path.moment, row, agent, levels, actions);
+                let (by_level, best) = self.by_level(&path.tracked, row, agent, levels, actions);
                 let sums: [f64; LEVELS] =
                     core::array::from_fn(|level| path.strength_costs[agent][level] + by_level[level]);
-                levels[agent] = least(&sums);
+                levels[agent] = argmin(&sums);
                 actions[agent] = best[levels[agent]];
                 costs[agent] = by_level;
             }
@@ -161,15 +156,15 @@ impl<'a> Tracker<'a> {
                 break;
             }
         }
-        let imagined = self.step(&path.moment, row, levels, actions);
-        let mut paths = vec![self.extended(path, actions, imagined, between, 0.0, Some(costs))];
+        let predicted = self.step(&path.tracked, row, levels, actions);
+        let mut paths = vec![self.extend(path, actions, predicted, between, 0.0, Some(costs))];
         for agent in AgentId::ALL {
-            let held = path.moment.state.grips[agent].is_some();
+            let held = path.tracked.state.grips[agent].is_some();
             let mut actions = actions;
             actions[agent] = if held { Action::Detach } else { Action::Attach };
-            let imagined = self.step(&path.moment, row, levels, actions);
-            if imagined.end.state.grips != path.moment.state.grips {
-                paths.push(self.extended(path, actions, imagined, between, CHANGE, None));
+            let predicted = self.step(&path.tracked, row, levels, actions);
+            if predicted.end.state.grips != path.tracked.state.grips {
+                paths.push(self.extend(path, actions, predicted, between, GRIP_CHANGE_COST, None));
             }
         }
         paths
@@ -178,7 +173,7 @@ impl<'a> Tracker<'a> {
     /// What it costs at best to explain an agent for each of its strengths, and by which action.
     fn by_level(
         &self,
-        moment: &Moment,
+        tracked: &TrackedState,
         row: &[Body; MAX_ENTITIES],
         agent: AgentId,
         levels: [usize; AGENT_COUNT],
@@ -186,7 +181,7 @@ impl<'a> Tracker<'a> {
     ) -> ([f64; LEVELS], [Action; LEVELS]) {
         let mut costs = [f64::INFINITY; LEVELS];
         let mut best = [Action::NoForce; LEVELS];
-        for action in CALM {
+        for action in GRIP_PRESERVING_ACTIONS {
             let mut known = None;
             for level in 0..LEVELS {
                 // Only pushing and turning need strength.
@@ -194,7 +189,7 @@ impl<'a> Tracker<'a> {
                 let cost = known.filter(|_| forceless).unwrap_or_else(|| {
                     let (mut levels, mut actions) = (levels, actions);
                     (levels[agent], actions[agent]) = (level, action);
-                    cost(self.step(moment, row, levels, actions).residual)
+                    cost(self.step(tracked, row, levels, actions).residual)
                 });
                 known = Some(cost);
                 if cost < costs[level] {
@@ -207,16 +202,16 @@ impl<'a> Tracker<'a> {
 
     /// A path with one more step, put right by what was observed. Where nothing tells strengths apart, all have
     /// to bear the cost of the step.
-    fn extended(
+    fn extend(
         &self,
         path: &Path,
         actions: [Action; AGENT_COUNT],
-        imagined: Imagined,
+        predicted: PredictedStep,
         between: &State,
         extra: f64,
         costs: Option<[[f64; LEVELS]; AGENT_COUNT]>,
     ) -> Path {
-        let Imagined { mut end, differences, residual } = imagined;
+        let PredictedStep { mut end, differences, residual } = predicted;
         let cost = cost(residual);
         let mut furthest = 0.0_f32;
         for entity in self.observed.entities().map(Entity::index) {
@@ -224,14 +219,14 @@ impl<'a> Tracker<'a> {
             let off = difference.position.length().max(difference.angle.abs());
             furthest = furthest.max(off);
             let body = &mut end.state.bodies[entity];
-            *body = if off > LOST {
+            *body = if off > RESET_THRESHOLD {
                 Body { angular_velocity: body.angular_velocity, ..between.bodies[entity] }
             } else {
                 difference.added_to(body)
             };
         }
-        if furthest > SAME {
-            end.memory = self.remember(&end.state);
+        if furthest > CACHE_TOLERANCE {
+            end.cache = self.fresh_cache(&end.state);
         }
         let mut strength_costs = path.strength_costs;
         for (agent, sums) in strength_costs.iter_mut().enumerate() {
@@ -239,24 +234,24 @@ impl<'a> Tracker<'a> {
                 *sum += costs.map_or(cost, |costs| costs[agent][level]);
             }
         }
-        let mut trail = path.trail.clone();
-        trail.push((end.state, (actions, residual)));
+        let mut history = path.history.clone();
+        history.push((end.state, (actions, residual)));
         Path {
-            moment: end,
+            tracked: end,
             late_start: path.late_start,
             cost: path.cost + cost + extra,
             strength_costs,
-            trail,
+            history,
         }
     }
 }
 
 impl Difference {
-    fn between(imagined: &Body, observed: &Body) -> Self {
+    fn between(predicted: &Body, observed: &Body) -> Self {
         Self {
-            position: observed.position - imagined.position,
-            velocity: observed.velocity - imagined.velocity,
-            angle: libm::remainderf(observed.angle - imagined.angle, core::f32::consts::TAU),
+            position: observed.position - predicted.position,
+            velocity: observed.velocity - predicted.velocity,
+            angle: libm::remainderf(observed.angle - predicted.angle, core::f32::consts::TAU),
         }
     }
 
@@ -278,7 +273,7 @@ impl Difference {
 
 /// What a residual costs, in logarithms: a heavy-tailed distribution, for what cannot be explained happens.
 fn cost(residual: f32) -> f64 {
-    let scaled = f64::from(residual) / SCALE;
+    let scaled = f64::from(residual) / RESIDUAL_SCALE;
     libm::log1p(scaled * scaled)
 }
 

@@ -46,13 +46,13 @@ fn length([x, y]: [f64; 2]) -> f64 {
 }
 
 /// Mean, greatest and least of some numbers that are not negative; zeros of none.
-fn summary(numbers: impl Iterator<Item = f64>) -> [f64; 3] {
-    let (mut sum, mut greatest, mut least, mut count) = (0.0, 0.0_f64, f64::INFINITY, 0_usize);
-    for number in numbers {
+fn summary(values: impl Iterator<Item = f64>) -> [f64; 3] {
+    let (mut sum, mut greatest, mut argmin, mut count) = (0.0, 0.0_f64, f64::INFINITY, 0_usize);
+    for number in values {
         sum += number;
         greatest = greatest.max(number);
-        least = least.min(number);
+        argmin = argmin.min(number);
         count += 1;
     }
-    if count == 0 { [0.0; 3] } else { [sum / count as f64, greatest, least] }
+    if count == 0 { [0.0; 3] } else { [sum / count as f64, greatest, argmin] }
 }

@@ -13,8 +13,8 @@ impl StrengthRegressor {
     /// [`WeightsError`] for bytes that are no such file, tensors that are missing or do not fit to each other, and
     /// numbers that are not finite or not above 0 where they must be.
     pub fn from_safetensors(bytes: &[u8]) -> Result<Self, WeightsError> {
-        let file = TensorFile::open_kind(bytes, "format", STRENGTH_FORMAT)?;
-        let rmse = file.numbers("validation.rmse", &[1])?;
+        let file = TensorFile::open_as(bytes, "format", STRENGTH_FORMAT)?;
+        let rmse = file.values("validation.rmse", &[1])?;
         Self::new(Weights {
             mean: vector(&file, "input.mean")?,
             scale: vector(&file, "input.scale")?,
@@ -43,11 +43,11 @@ fn dense(file: &TensorFile<'_>, name: &str) -> Result<Dense, TensorsError> {
             found: weight.shape,
         });
     };
-    Ok(Dense { inputs, outputs, weight: weight.numbers, bias })
+    Ok(Dense { inputs, outputs, weight: weight.values, bias })
 }
 
 fn vector(file: &TensorFile<'_>, name: &str) -> Result<Vec<f32>, TensorsError> {
-    let NamedTensor { shape, numbers, .. } = file.tensor(name)?;
-    check_shape(name, &[numbers.len()], &shape)?;
-    Ok(numbers)
+    let NamedTensor { shape, values, .. } = file.tensor(name)?;
+    check_shape(name, &[values.len()], &shape)?;
+    Ok(values)
 }

@@ -1,6 +1,6 @@
 //! Q(f | S): what a stretch of motion says about an agent's strength.
 //!
-//! [`AnyStrength`] says nothing; [`StrengthRegressor`] is the paper's network, whose weights `phase-baselines` trains.
+//! [`UniformStrength`] says nothing; [`StrengthRegressor`] is the paper's network, whose weights `phase-baselines` trains.
 
 mod features;
 mod file;
@@ -28,9 +28,9 @@ pub trait StrengthCue: Sync {
 
 /// The uninformative cue: all strengths are equally likely.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct AnyStrength;
+pub struct UniformStrength;
 
-impl StrengthCue for AnyStrength {
+impl StrengthCue for UniformStrength {
     fn log_proposal(
         &self,
         _rows: &[[Body; MAX_ENTITIES]],

@@ -1,6 +1,6 @@
 //! The paper's guess at strengths: a network with two hidden layers (appendix, "Bottom-up Proposals").
 
-use super::{AnyStrength, Dense, FEATURES, StrengthCue, Weights, WeightsError, features};
+use super::{Dense, FEATURES, StrengthCue, UniformStrength, Weights, WeightsError, features};
 use phase_model::{AgentId, Body, MAX_ENTITIES, Size, Strength};
 
 /// Estimates an agent's greatest force from its speeds and accelerations.
@@ -13,18 +13,18 @@ pub struct StrengthRegressor {
 }
 
 /// What `cargo train strength` learnt; `docs/networks.md` says from what.
-const SHIPPED: &[u8] = include_bytes!("../../../../data/strength.safetensors");
+const BUNDLED_WEIGHTS: &[u8] = include_bytes!("../../../../data/strength.safetensors");
 
 /// The middle of the levels (N).
-const MIDDLE: f64 = 0.5 * (Strength::Weak.max_force() + Strength::Mighty.max_force()) as f64;
+const MEAN_FORCE: f64 = 0.5 * (Strength::Weak.max_force() + Strength::Mighty.max_force()) as f64;
 
 impl StrengthRegressor {
     /// The regressor that comes with the program, trained on the training events of a PHASE-500 dataset.
     ///
     /// # Errors
     /// [`WeightsError`] if the program was built with a damaged file.
-    pub fn shipped() -> Result<Self, WeightsError> {
-        Self::from_safetensors(SHIPPED)
+    pub fn bundled() -> Result<Self, WeightsError> {
+        Self::from_safetensors(BUNDLED_WEIGHTS)
     }
 
     /// A regressor of these weights.
@@ -57,8 +57,8 @@ impl StrengthRegressor {
         let inputs: Vec<f64> = standardised
             .map(|((feature, &mean), &scale)| (feature - f64::from(mean)) / f64::from(scale))
             .collect();
-        let hidden = rectified(first.apply(&inputs));
-        let hidden = rectified(second.apply(&hidden));
+        let hidden = relu(first.apply(&inputs));
+        let hidden = relu(second.apply(&hidden));
         output.apply(&hidden).into_iter().sum()
     }
 }
@@ -73,13 +73,13 @@ impl StrengthCue for StrengthRegressor {
     ) -> [f64; Strength::ALL.len()] {
         let estimate = f64::from(self.estimate(rows, agent, size));
         if !estimate.is_finite() {
-            return AnyStrength.log_proposal(rows, agent, size);
+            return UniformStrength.log_proposal(rows, agent, size);
         }
         let variance = f64::from(self.weights.rmse) * f64::from(self.weights.rmse);
         // The exponents less that of the middle, so that nothing is lost however far off the estimate is.
         let mut logs = Strength::ALL.map(|strength| {
             let force = f64::from(strength.max_force());
-            (force - MIDDLE) * (2.0 * estimate - force - MIDDLE) / (2.0 * variance)
+            (force - MEAN_FORCE) * (2.0 * estimate - force - MEAN_FORCE) / (2.0 * variance)
         });
         crate::cue::normalise(&mut logs);
         logs
@@ -97,7 +97,7 @@ impl Dense {
     }
 }
 
-fn rectified(mut numbers: Vec<f64>) -> Vec<f64> {
-    numbers.iter_mut().for_each(|number| *number = number.max(0.0));
-    numbers
+fn relu(mut values: Vec<f64>) -> Vec<f64> {
+    values.iter_mut().for_each(|number| *number = number.max(0.0));
+    values
 }

@@ -61,12 +61,12 @@ impl Weights {
             let weight = format!("{name}.weight");
             check_shape(&weight, &[outputs, inputs], &[layer.outputs, layer.inputs])?;
             // A product that overflows is no length of anything.
-            let numbers = outputs.saturating_mul(inputs);
-            check_shape(&weight, &[numbers], &[layer.weight.len()])?;
+            let values = outputs.saturating_mul(inputs);
+            check_shape(&weight, &[values], &[layer.weight.len()])?;
             check_shape(&format!("{name}.bias"), &[outputs], &[layer.bias.len()])?;
         }
-        for NamedTensor { name, numbers, .. } in self.tensors() {
-            if !numbers.iter().all(|number| number.is_finite()) {
+        for NamedTensor { name, values, .. } in self.tensors() {
+            if !values.iter().all(|number| number.is_finite()) {
                 return Err(TensorsError::NotFinite(name).into());
             }
         }
@@ -82,12 +82,12 @@ impl Weights {
     pub(super) fn tensors(&self) -> [NamedTensor; 9] {
         let [first, second] = &self.hidden;
         let weight = |layer: &Dense| vec![layer.outputs, layer.inputs];
-        let tensor = |name: &str, shape: Vec<usize>, numbers: &[f32]| NamedTensor {
+        let tensor = |name: &str, shape: Vec<usize>, values: &[f32]| NamedTensor {
             name: name.into(),
             shape,
-            numbers: numbers.into(),
+            values: values.into(),
         };
-        let vector = |name, numbers: &[f32]| tensor(name, vec![numbers.len()], numbers);
+        let vector = |name, values: &[f32]| tensor(name, vec![values.len()], values);
         [
             vector("input.mean", &self.mean),
             vector("input.scale", &self.scale),

@@ -1,24 +1,24 @@
 //! The same inputs give the same bits.
 
-use crate::physique;
-use phase_model::{Action, Body, Layout, Physique, Size, State, Strength, Vec2};
+use crate::physics;
+use phase_model::{Action, Body, Layout, PhysicsConfig, Size, State, Strength, Vec2};
 use phase_world::World;
 
 /// A crowded scene in which everything bumps into everything.
-fn scene() -> (Physique, State) {
-    let mut physique = physique(
+fn scene() -> (PhysicsConfig, State) {
+    let mut physics = physics(
         [(Size::Small, Strength::Mighty), (Size::Large, Strength::Strong)],
         [Size::Medium, Size::Huge],
     );
-    physique.walls = Layout::new(21, None).expect("base 21 exists").walls();
+    physics.walls = Layout::new(21, None).expect("base 21 exists").walls();
     let bodies = [(8.0, 14.0, 0.3), (11.0, 15.0, -1.0), (8.0, 16.2, 0.0), (12.5, 19.0, 2.0)];
-    (physique, State::new(bodies.map(|(x, y, angle)| Body::at_rest(Vec2::new(x, y), angle))))
+    (physics, State::new(bodies.map(|(x, y, angle)| Body::at_rest(Vec2::new(x, y), angle))))
 }
 
 /// Every state of sixty steps of a fixed, lively sequence of actions.
 fn run() -> Vec<State> {
-    let (physique, state) = scene();
-    let mut world = World::new(&physique, &state);
+    let (physics, state) = scene();
+    let mut world = World::new(&physics, &state);
     let mut states = vec![world.state(), world.settle()];
     for step in 0..60 {
         let actions = [Action::ALL[(step * 5 + 12) % 14], Action::ALL[(step * step + 2) % 14]];
@@ -60,10 +60,10 @@ fn runs_repeat_bit_for_bit_on_any_thread() {
 
 #[test]
 fn worlds_do_not_share_anything() {
-    let (physique, state) = scene();
-    let mut disturbed = World::new(&physique, &state);
-    let mut bystander = World::new(&physique, &state);
-    let mut alone = World::new(&physique, &state);
+    let (physics, state) = scene();
+    let mut disturbed = World::new(&physics, &state);
+    let mut bystander = World::new(&physics, &state);
+    let mut alone = World::new(&physics, &state);
     for step in 0..20 {
         disturbed.step([Action::ALL[step % 14], Action::TurnLeft]);
         assert_eq!(bystander.step([Action::Up; 2]), alone.step([Action::Up; 2]));

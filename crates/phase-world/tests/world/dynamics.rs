@@ -6,21 +6,21 @@ use phase_world::{World, WorldDynamics};
 
 #[test]
 fn one_step_is_that_of_a_world_in_the_same_state() {
-    let physique = lone_agent(Size::Medium, Strength::Strong);
+    let physics = lone_agent(Size::Medium, Strength::Strong);
     let mut state = lone_state(Vec2::new(12.0, 12.0), 0.4);
-    let expected = World::new(&physique, &state).step([Action::UpLeft, Action::TurnRight])[4];
-    WorldDynamics { physique }.step(&mut state, [Action::UpLeft, Action::TurnRight]);
+    let expected = World::new(&physics, &state).step([Action::UpLeft, Action::TurnRight])[4];
+    WorldDynamics { physics }.step(&mut state, [Action::UpLeft, Action::TurnRight]);
     assert_eq!(state, expected);
 }
 
 #[test]
 fn many_steps_go_as_in_one_lasting_world() {
-    let physique = lone_agent(Size::Medium, Strength::Strong);
+    let physics = lone_agent(Size::Medium, Strength::Strong);
     let mut state = lone_state(Vec2::new(12.0, 8.0), 0.4);
     // Within reach of the agent's head, so that grabbing and carrying are part of the way.
     state.bodies[2].position = state.bodies[0].position + state.bodies[0].forward() * 2.0;
-    let mut world = World::new(&physique, &state);
-    let dynamics = WorldDynamics { physique };
+    let mut world = World::new(&physics, &state);
+    let dynamics = WorldDynamics { physics };
     for action in [Action::Attach, Action::Up, Action::Up, Action::TurnLeft, Action::Down, Action::Stop] {
         dynamics.step(&mut state, [action, Action::TurnLeft]);
         let lasting = step_both(&mut world, action);

@@ -1,8 +1,9 @@
 //! Grabbing, carrying and letting go.
 
-use crate::{ASIDE, OBJECT, assert_close, assert_share, lone_agent, physique, step};
+use crate::{ASIDE, OBJECT, assert_close, assert_share, lone_agent, physics, step};
 use phase_model::{
-    Action, AgentId, Body, Grip, ObjectId, Physique, Side, Size, State, Strength, Vec2, physique::object_mass,
+    Action, AgentId, Body, Grip, ObjectId, PhysicsConfig, Side, Size, State, Strength, Vec2,
+    physics::object_mass,
 };
 use phase_world::World;
 
@@ -10,8 +11,8 @@ const AGENT: Vec2 = Vec2::new(12.0, 8.0);
 const ANGLE: f32 = 0.6;
 
 /// Agent 0 with object 0 at one of its sides, leaving a gap between the side's grab point and the object.
-fn beside(physique: &Physique, side: Side, gap: f32) -> State {
-    let distance = physique.agents[0].radius + physique.object_radii[0] + gap;
+fn beside(physics: &PhysicsConfig, side: Side, gap: f32) -> State {
+    let distance = physics.agents[0].radius + physics.object_radii[0] + gap;
     let offset = Vec2::from_angle(ANGLE).rotate(side.direction()) * distance;
     let mut bodies = [Body::at_rest(ASIDE, 0.0); 4];
     bodies[0] = Body::at_rest(AGENT, ANGLE);
@@ -21,13 +22,13 @@ fn beside(physique: &Physique, side: Side, gap: f32) -> State {
 }
 
 /// Agent 0 below an object, agent 1 above it and facing it.
-fn around(physique: &Physique) -> State {
+fn around(physics: &PhysicsConfig) -> State {
     let middle = Vec2::new(12.0, 10.0);
-    let reach =
-        |agent: usize| Vec2::new(0.0, physique.agents[agent].radius + physique.object_radii[0] + 0.02);
+    let time_of_impact =
+        |agent: usize| Vec2::new(0.0, physics.agents[agent].radius + physics.object_radii[0] + 0.02);
     State::new([
-        Body::at_rest(middle - reach(0), 0.0),
-        Body::at_rest(middle + reach(1), core::f32::consts::PI),
+        Body::at_rest(middle - time_of_impact(0), 0.0),
+        Body::at_rest(middle + time_of_impact(1), core::f32::consts::PI),
         Body::at_rest(middle, 0.0),
         Body::at_rest(ASIDE, 0.0),
     ])
@@ -37,8 +38,8 @@ fn around(physique: &Physique) -> State {
 fn grabbing_reaches_half_a_unit_from_every_side() {
     for side in Side::ALL {
         for (gap, expected) in [(0.05, true), (0.49, true), (0.51, false), (1.0, false)] {
-            let physique = lone_agent(Size::Large, Strength::Fair);
-            let mut world = World::new(&physique, &beside(&physique, side, gap));
+            let physics = lone_agent(Size::Large, Strength::Fair);
+            let mut world = World::new(&physics, &beside(&physics, side, gap));
             let grip = step(&mut world, Action::Attach).grips[0];
             assert_eq!(
                 grip.map(|grip| (grip.object, grip.side)),
@@ -54,9 +55,9 @@ fn a_held_object_snaps_to_the_side_and_keeps_its_relative_angle() {
     for size in Size::ALL {
         for object in Size::ALL {
             for side in Side::ALL {
-                let mut physique = lone_agent(size, Strength::Fair);
-                physique.object_radii[0] = object.radius();
-                let mut world = World::new(&physique, &beside(&physique, side, 0.3));
+                let mut physics = lone_agent(size, Strength::Fair);
+                physics.object_radii[0] = object.radius();
+                let mut world = World::new(&physics, &beside(&physics, side, 0.3));
                 let what = format!("{size:?} {object:?} {side:?}");
                 for action in [Action::Attach, Action::TurnLeft, Action::Up, Action::Down] {
                     let state = step(&mut world, action);
@@ -76,10 +77,10 @@ fn a_held_object_snaps_to_the_side_and_keeps_its_relative_angle() {
 fn the_weakest_carries_and_pushes_nothing() {
     for size in Size::ALL {
         for object in Size::ALL {
-            let mut physique = lone_agent(size, Strength::Weak);
-            physique.object_radii[0] = object.radius();
+            let mut physics = lone_agent(size, Strength::Weak);
+            physics.object_radii[0] = object.radius();
             for first in [Action::Attach, Action::NoForce] {
-                let mut world = World::new(&physique, &beside(&physique, Side::Head, 0.0));
+                let mut world = World::new(&physics, &beside(&physics, Side::Head, 0.0));
                 let before = step(&mut world, first).position(OBJECT);
                 let after = [(); 6].map(|()| step(&mut world, Action::Up).position(OBJECT))[5];
                 assert_close(after.distance(before), 0.0, 1e-2, &format!("{size:?} {object:?} {first:?}"));
@@ -93,12 +94,12 @@ fn carrying_costs_a_hundred_newtons_for_each_body() {
     for size in Size::ALL {
         for object in Size::ALL {
             for strength in [Strength::Fair, Strength::Strong, Strength::Mighty] {
-                let mut physique = lone_agent(size, strength);
-                physique.object_radii[0] = object.radius();
-                let mut world = World::new(&physique, &beside(&physique, Side::Head, 0.0));
+                let mut physics = lone_agent(size, strength);
+                physics.object_radii[0] = object.radius();
+                let mut world = World::new(&physics, &beside(&physics, Side::Head, 0.0));
                 let before = step(&mut world, Action::Attach).position(OBJECT);
                 let state = step(&mut world, Action::Up);
-                let mass = physique.agents[0].mass() + object_mass(object.radius());
+                let mass = physics.agents[0].mass() + object_mass(object.radius());
                 let expected = (strength.max_force() - 200.0) * 15.0 / (3600.0 * mass);
                 let moved = (state.position(OBJECT) - before).dot(state.bodies[0].forward());
                 assert_share(moved, expected, 0.02, &format!("{size:?} {object:?} {strength:?}"));
@@ -115,8 +116,8 @@ fn two_agents_add_their_forces() {
             (Strength::Weak, Strength::Fair),
             (Strength::Mighty, Strength::Mighty),
         ] {
-            let physique = physique([(Size::Small, first), (Size::Small, second)], [object, Size::Small]);
-            let mut world = World::new(&physique, &around(&physique));
+            let physics = physics([(Size::Small, first), (Size::Small, second)], [object, Size::Small]);
+            let mut world = World::new(&physics, &around(&physics));
             let held = world.step([Action::Attach; 2])[4];
             assert_eq!(
                 [held.held_object(AgentId::ZERO), held.held_object(AgentId::ONE)],
@@ -138,11 +139,9 @@ fn two_agents_add_their_forces() {
 
 #[test]
 fn the_stronger_wins_a_tug_of_war() {
-    let physique = physique(
-        [(Size::Small, Strength::Weak), (Size::Small, Strength::Mighty)],
-        [Size::Small, Size::Small],
-    );
-    let mut world = World::new(&physique, &around(&physique));
+    let physics =
+        physics([(Size::Small, Strength::Weak), (Size::Small, Strength::Mighty)], [Size::Small, Size::Small]);
+    let mut world = World::new(&physics, &around(&physics));
     let before = world.step([Action::Attach; 2])[4].position(OBJECT);
     let after = [(); 4].map(|()| world.step([Action::Down; 2])[4].position(OBJECT))[3];
     // 600 N against 150 N and the friction of three bodies.
@@ -153,8 +152,8 @@ fn the_stronger_wins_a_tug_of_war() {
 #[test]
 fn letting_go_changes_nothing_else() {
     for side in Side::ALL {
-        let physique = lone_agent(Size::Huge, Strength::Mighty);
-        let mut world = World::new(&physique, &beside(&physique, side, 0.0));
+        let physics = lone_agent(Size::Huge, Strength::Mighty);
+        let mut world = World::new(&physics, &beside(&physics, side, 0.0));
         step(&mut world, Action::Attach);
         let away = match side {
             Side::Head => Action::Down,
@@ -181,8 +180,8 @@ fn letting_go_changes_nothing_else() {
 
 #[test]
 fn an_object_let_go_becomes_solid_once_clear() {
-    let physique = lone_agent(Size::Small, Strength::Mighty);
-    let mut world = World::new(&physique, &beside(&physique, Side::Head, 0.0));
+    let physics = lone_agent(Size::Small, Strength::Mighty);
+    let mut world = World::new(&physics, &beside(&physics, Side::Head, 0.0));
     for action in [Action::Attach, Action::Detach, Action::Down, Action::Stop] {
         step(&mut world, action);
     }
@@ -195,8 +194,8 @@ fn an_object_let_go_becomes_solid_once_clear() {
 
 #[test]
 fn letting_go_is_each_agents_own() {
-    let physique = physique([(Size::Small, Strength::Fair); 2], [Size::Small; 2]);
-    let mut world = World::new(&physique, &around(&physique));
+    let physics = physics([(Size::Small, Strength::Fair); 2], [Size::Small; 2]);
+    let mut world = World::new(&physics, &around(&physics));
     world.step([Action::Attach; 2]);
     let state = world.step([Action::Detach, Action::Attach])[4];
     assert_eq!(
@@ -209,10 +208,10 @@ fn letting_go_is_each_agents_own() {
 
 #[test]
 fn grips_of_a_given_state_are_real() {
-    let physique = lone_agent(Size::Small, Strength::Mighty);
-    let mut state = beside(&physique, Side::Tail, 0.0);
+    let physics = lone_agent(Size::Small, Strength::Mighty);
+    let mut state = beside(&physics, Side::Tail, 0.0);
     state.grips[0] = Some(Grip { object: ObjectId::ZERO, side: Side::Tail, relative_angle: 0.1 - ANGLE });
-    let mut world = World::new(&physique, &state);
+    let mut world = World::new(&physics, &state);
     assert_eq!(world.state().grips, state.grips);
     let after = [(); 3].map(|()| step(&mut world, Action::Up))[2];
     assert_eq!(after.grips, state.grips);
@@ -220,6 +219,6 @@ fn grips_of_a_given_state_are_real() {
     assert_close(after.position(OBJECT).distance(after.bodies[0].position), 1.6, 1e-2, "distance");
 
     state.grips[0] = Some(Grip { object: ObjectId::ONE, side: Side::Tail, relative_angle: 0.0 });
-    let physique = Physique { object_count: 1, ..physique };
-    assert_eq!(World::new(&physique, &state).state().grips, [None; 2], "no such object");
+    let physics = PhysicsConfig { object_count: 1, ..physics };
+    assert_eq!(World::new(&physics, &state).state().grips, [None; 2], "no such object");
 }

@@ -1,8 +1,8 @@
 //! Impacts on walls within a substep, against what can be said by hand.
 
-use crate::{assert_close, assert_share, lone_agent, lone_state, physique, step};
+use crate::{assert_close, assert_share, lone_agent, lone_state, physics, step};
 use phase_model::{
-    Action, Body, Segment, Size, State, Strength, Vec2, arena, arena::SUBSTEP_SECONDS, geometry, physique,
+    Action, Body, Segment, Size, State, Strength, Vec2, arena, arena::SUBSTEP_SECONDS, geometry, physics,
 };
 use phase_world::World;
 
@@ -20,7 +20,7 @@ fn an_impact_takes_the_speed_into_the_wall_and_leaves_the_rest() {
         let along = 12.0;
         let speed = across.hypot(along);
         // Friction takes its share before the impact, against the direction of motion.
-        let kept = 1.0 - 100.0 * SUBSTEP_SECONDS / physique::object_mass(0.8) / speed;
+        let kept = 1.0 - 100.0 * SUBSTEP_SECONDS / physics::object_mass(0.8) / speed;
         let start = Vec2::new(14.0, arena::MAX.y - 0.8 - gap);
         let after = thrown(start, Vec2::new(along, across))[0].bodies[2];
         let what = format!("at {across} u/s from {gap} u");
@@ -51,9 +51,9 @@ fn sliding_along_a_wall_costs_friction_only() {
 
 #[test]
 fn the_end_of_a_wall_behind_another_is_no_obstacle() {
-    let mut physique = lone_agent(Size::Small, Strength::Weak);
+    let mut physics = lone_agent(Size::Small, Strength::Weak);
     let corner = Vec2::new(16.0, 12.0);
-    physique.walls = vec![
+    physics.walls = vec![
         Segment { a: Vec2::new(16.0, 2.0), b: Vec2::new(16.0, 22.0) },
         Segment { a: corner, b: Vec2::new(8.5, 12.0) },
     ];
@@ -64,8 +64,8 @@ fn the_end_of_a_wall_behind_another_is_no_obstacle() {
         let start = corner + Vec2::new(flank + 0.016, -1.5 * direction);
         let mut state = lone_state(start, lean);
         state.bodies[0].velocity = Vec2::new(0.0, 40.0 * direction);
-        let after = World::new(&physique, &state).step([Action::NoForce; 2])[4].bodies[0];
-        let lost = 100.0 * SUBSTEP_SECONDS / physique.agents[0].mass();
+        let after = World::new(&physics, &state).step([Action::NoForce; 2])[4].bodies[0];
+        let lost = 100.0 * SUBSTEP_SECONDS / physics.agents[0].mass();
         let moved = (5.0 * 40.0 - 15.0 * lost) * SUBSTEP_SECONDS;
         assert_share((after.position.y - start.y) * direction, moved, 0.01, "distance");
     }
@@ -75,9 +75,9 @@ fn the_end_of_a_wall_behind_another_is_no_obstacle() {
 fn corners_do_not_turn_into_walls() {
     for size in Size::ALL {
         for turn in [Action::TurnLeft, Action::TurnRight] {
-            let physique = lone_agent(size, Strength::Fair);
+            let physics = lone_agent(size, Strength::Fair);
             let start = Vec2::new(14.0, arena::MIN.y + size.radius() + 0.1);
-            let mut world = World::new(&physique, &lone_state(start, 0.0));
+            let mut world = World::new(&physics, &lone_state(start, 0.0));
             for _ in 0..4 {
                 for state in world.step([turn, Action::NoForce]) {
                     let body = state.bodies[0];
@@ -93,13 +93,12 @@ fn corners_do_not_turn_into_walls() {
 
 #[test]
 fn what_pushes_from_behind_goes_on_while_the_front_stops() {
-    let physique =
-        physique([(Size::Small, Strength::Mighty), (Size::Small, Strength::Weak)], [Size::Small; 2]);
+    let physics = physics([(Size::Small, Strength::Mighty), (Size::Small, Strength::Weak)], [Size::Small; 2]);
     let mut state = lone_state(Vec2::new(14.0, arena::MAX.y - 0.8 - 0.2 - 1.6), 0.0);
     state.bodies[2].position = Vec2::new(14.0, arena::MAX.y - 0.8 - 0.2);
     state.bodies[0].velocity.y = 24.0;
     state.bodies[2].velocity.y = 24.0;
-    let mut world = World::new(&physique, &state);
+    let mut world = World::new(&physics, &state);
     let states = world.step([Action::NoForce; 2]);
     assert_close(
         states[0].bodies[2].velocity.y,

@@ -9,15 +9,15 @@ mod motion;
 mod probes;
 mod safety;
 
-use phase_model::{Action, AgentBody, Body, Entity, ObjectId, Physique, Size, State, Strength, Vec2};
+use phase_model::{Action, AgentBody, Body, Entity, ObjectId, PhysicsConfig, Size, State, Strength, Vec2};
 use phase_world::World;
 
 /// Somewhere in the upper right quarter of an empty arena, far from everything that matters.
 const ASIDE: Vec2 = Vec2::new(24.0, 20.0);
 
 /// An empty arena with two agents and two objects of radius 0.8.
-fn physique(agents: [(Size, Strength); 2], objects: [Size; 2]) -> Physique {
-    Physique {
+fn physics(agents: [(Size, Strength); 2], objects: [Size; 2]) -> PhysicsConfig {
+    PhysicsConfig {
         walls: Vec::new(),
         agents: agents
             .map(|(size, strength)| AgentBody { radius: size.radius(), max_force: strength.max_force() }),
@@ -27,8 +27,8 @@ fn physique(agents: [(Size, Strength); 2], objects: [Size; 2]) -> Physique {
 }
 
 /// One agent under test; the other bodies stand aside.
-fn lone_agent(size: Size, strength: Strength) -> Physique {
-    physique([(size, strength), (Size::Small, Strength::Weak)], [Size::Small; 2])
+fn lone_agent(size: Size, strength: Strength) -> PhysicsConfig {
+    physics([(size, strength), (Size::Small, Strength::Weak)], [Size::Small; 2])
 }
 
 /// Agent 0 at rest at a point, everything else aside and apart.

@@ -1,7 +1,7 @@
 //! Pushing, coasting, turning and stopping, against formulas.
 
 use crate::{assert_close, assert_share, lone_agent, lone_state, step};
-use phase_model::{Action, Body, Entity, Size, Strength, Vec2, physique};
+use phase_model::{Action, Body, Entity, Size, Strength, Vec2, physics};
 use phase_world::World;
 
 const MIDDLE: Vec2 = Vec2::new(14.0, 8.0);
@@ -13,11 +13,11 @@ fn cases() -> impl Iterator<Item = (Size, Strength)> {
 #[test]
 fn pushing_forward_follows_newton_with_constant_friction() {
     for (size, strength) in cases() {
-        let physique = lone_agent(size, strength);
-        let mass = physique.agents[0].mass();
+        let physics = lone_agent(size, strength);
+        let mass = physics.agents[0].mass();
         let surplus = strength.max_force() - 100.0;
         for angle in [0.0, 0.7, -2.5] {
-            let mut world = World::new(&physique, &lone_state(MIDDLE, angle));
+            let mut world = World::new(&physics, &lone_state(MIDDLE, angle));
             let state = step(&mut world, Action::Up);
             let body = state.bodies[0];
             let what = format!("{size:?} {strength:?} at {angle}");
@@ -58,11 +58,11 @@ fn every_direction_pushes_its_way() {
 #[test]
 fn pushing_sideways_turns_by_the_levers_of_push_and_friction() {
     for (size, strength) in cases() {
-        let physique = lone_agent(size, strength);
-        let agent = physique.agents[0];
+        let physics = lone_agent(size, strength);
+        let agent = physics.agents[0];
         // The push to the right acts R/12 ahead of the centre of mass, friction against it R/6 ahead.
         let torque = 100.0 * agent.radius / 6.0 - agent.max_force * agent.radius / 12.0;
-        let mut world = World::new(&physique, &lone_state(MIDDLE, 0.0));
+        let mut world = World::new(&physics, &lone_state(MIDDLE, 0.0));
         let angle = step(&mut world, Action::Right).bodies[0].angle;
         assert_close(
             angle,
@@ -86,16 +86,15 @@ fn coasting_distance(speed: f32, deceleration: f32) -> f32 {
 #[test]
 fn everything_coasts_to_a_stop_against_a_hundred_newtons() {
     for size in Size::ALL {
-        for (index, mass) in [
-            (0, lone_agent(size, Strength::Weak).agents[0].mass()),
-            (2, physique::object_mass(size.radius())),
-        ] {
-            let mut physique = lone_agent(size, Strength::Weak);
-            physique.object_radii[0] = size.radius();
+        for (index, mass) in
+            [(0, lone_agent(size, Strength::Weak).agents[0].mass()), (2, physics::object_mass(size.radius()))]
+        {
+            let mut physics = lone_agent(size, Strength::Weak);
+            physics.object_radii[0] = size.radius();
             let mut state = lone_state(MIDDLE, 0.0);
             state.bodies.swap(0, index);
             state.bodies[index].velocity = Vec2::new(0.0, 8.0);
-            let mut world = World::new(&physique, &state);
+            let mut world = World::new(&physics, &state);
             let mut last = state;
             for _ in 0..20 {
                 last = step(&mut world, Action::NoForce);

@@ -1,6 +1,6 @@
 //! Probes and runs of the published simulator, if they are at hand.
 
-use phase_calibration::{Probe, Run, WorldEngine, ahead, probes_report};
+use phase_calibration::{Probe, Run, WorldEngine, horizon_errors, probes_report};
 
 fn text(file: &str) -> Option<String> {
     let path = format!(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/reference/{}"), file);
@@ -41,7 +41,7 @@ fn one_step_ahead_the_world_is_near_the_record() {
     const P99: f32 = 0.2;
     let Some(text) = text("runs.json") else { return };
     let runs = Run::parse(&text).expect("good runs");
-    let one = ahead::<WorldEngine>(&runs, 1).expect("runs that are long enough");
-    println!("one step ahead: {one:.5?}; ten: {:.5?}", ahead::<WorldEngine>(&runs, 10));
+    let one = horizon_errors::<WorldEngine>(&runs, 1).expect("runs that are long enough");
+    println!("one step ahead: {one:.5?}; ten: {:.5?}", horizon_errors::<WorldEngine>(&runs, 10));
     assert!(one.p90 <= P90 && one.p99 <= P99);
 }

@@ -17,9 +17,9 @@ pub fn is_network(method: &str) -> bool {
 #[cfg(not(feature = "networks"))]
 mod absent;
 #[cfg(feature = "networks")]
-mod learnt;
+mod trained;
 
 #[cfg(not(feature = "networks"))]
 pub use absent::{forecaster, recogniser, require, training, training_of};
 #[cfg(feature = "networks")]
-pub use learnt::{forecaster, recogniser, require, training, training_of};
+pub use trained::{forecaster, recogniser, require, training, training_of};

@@ -3,7 +3,7 @@
 use super::super::{length, share};
 use crate::{
     document::{Block, head},
-    plot::{Axis, Series, curves},
+    plot::{Axis, Series, line_chart},
 };
 use phase_eval::{
     benchmark::{Benchmark, Origin, Row, Training},
@@ -26,9 +26,12 @@ pub(super) fn blocks(benchmark: &Benchmark) -> Vec<Block> {
         ),
     ];
     let Benchmark { goals, trajectories, .. } = benchmark;
-    blocks.extend(table(benchmark, goals, ["goal top-1", "relation"], |summary: &goals::Summary| {
-        [share(&summary.all.top1), share(&summary.all.relation)]
-    }));
+    blocks.extend(table(
+        benchmark,
+        goals,
+        ["goal top-1", "relation"],
+        |summary: &goals::RecognitionSummary| [share(&summary.all.top1), share(&summary.all.relation)],
+    ));
     blocks.extend(plot(
         benchmark,
         goals,
@@ -45,9 +48,12 @@ pub(super) fn blocks(benchmark: &Benchmark) -> Vec<Block> {
         ("share right", 1.0),
         |summary| summary.all.relation.value,
     ));
-    blocks.extend(table(benchmark, trajectories, ["ADE", "FDE"], |summary: &trajectories::Summary| {
-        [length(&summary.all.ade), length(&summary.all.fde)]
-    }));
+    blocks.extend(table(
+        benchmark,
+        trajectories,
+        ["ADE", "FDE"],
+        |summary: &trajectories::ForecastSummary| [length(&summary.all.ade), length(&summary.all.fde)],
+    ));
     blocks.extend(plot(
         benchmark,
         trajectories,
@@ -128,8 +134,8 @@ fn plot<S>(
     let simple = simple.map(|row| of(&row.summary));
     lines.extend(simple.map(|value| ("simple".into(), vec![(least, value), (most, value)])));
     let highest = lines.iter().flat_map(|(_, line)| line).map(|(_, value)| value.ceil()).fold(top, f64::max);
-    let axes = [Axis::doubling("events learnt from", least, most), Axis::linear(unit, highest)];
+    let axes = [Axis::logarithmic("events learnt from", least, most), Axis::linear(unit, highest)];
     let series: Vec<Series<'_>> =
         lines.iter().map(|(name, points)| Series { name, points: points.clone() }).collect();
-    Some(Block::Plot { file, title: title.into(), svg: curves(title, axes, &series) })
+    Some(Block::Plot { file, title: title.into(), svg: line_chart(title, axes, &series) })
 }

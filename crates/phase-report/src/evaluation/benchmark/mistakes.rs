@@ -4,7 +4,7 @@ use super::tables::{events, name};
 use crate::document::{Block, head};
 use phase_eval::{
     benchmark::{Benchmark, Origin},
-    goals::Mistakes,
+    goals::ErrorBreakdown,
 };
 
 /// A table of all methods but those trained to show a curve; nothing without any.
@@ -49,8 +49,9 @@ pub(super) fn blocks(benchmark: &Benchmark) -> Vec<Block> {
 }
 
 /// The counts in the order of the columns.
-fn cells(mistakes: &Mistakes) -> [usize; 12] {
-    let Mistakes { right, sign, landmark, entity, both, kinds: [place, object, touch], nothing } = *mistakes;
+fn cells(mistakes: &ErrorBreakdown) -> [usize; 12] {
+    let ErrorBreakdown { right, sign, landmark, entity, both, kinds: [place, object, touch], nothing } =
+        *mistakes;
     [
         right, sign, landmark, entity, both, place[1], place[2], object[0], object[2], touch[0], touch[1],
         nothing,

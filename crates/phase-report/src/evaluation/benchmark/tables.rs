@@ -66,7 +66,7 @@ fn goal_rows(benchmark: &Benchmark, (method, published): &(&str, &str)) -> Vec<V
     theirs.chain(ours.map(|row| goal_row(benchmark, row))).collect()
 }
 
-fn goal_row(benchmark: &Benchmark, row: &Row<goals::Summary>) -> Vec<String> {
+fn goal_row(benchmark: &Benchmark, row: &Row<goals::RecognitionSummary>) -> Vec<String> {
     let scores = &row.summary.all;
     vec![
         name(row),
@@ -111,10 +111,10 @@ pub(super) fn trajectories(benchmark: &Benchmark) -> Block {
     Block::Table { head: head(&columns), rows: TABLE_2.iter().flat_map(of_name).chain(others).collect() }
 }
 
-fn trajectory_row(benchmark: &Benchmark, row: &Row<trajectories::Summary>) -> Vec<String> {
+fn trajectory_row(benchmark: &Benchmark, row: &Row<trajectories::ForecastSummary>) -> Vec<String> {
     let summary = &row.summary;
     let parts = [summary.independent.as_ref(), summary.social.as_ref(), Some(&summary.all)];
-    let cells = |of: fn(&trajectories::Scores) -> &Estimate| {
+    let cells = |of: fn(&trajectories::ForecastScores) -> &Estimate| {
         parts.map(|part| part.map_or_else(|| NOTHING.into(), |scores| length(of(scores))))
     };
     let (ade, fde) = (cells(|scores| &scores.ade), cells(|scores| &scores.fde));
@@ -163,7 +163,7 @@ fn part_table<S>(
     let first = rows.iter().find(shown)?;
     let column = |familiarity: Familiarity| {
         let count = part(first, familiarity).map_or(0, |it| it.0);
-        columns.map(|column| format!("{column}, {} ({count})", familiarity.words()))
+        columns.map(|column| format!("{column}, {} ({count})", familiarity.description()))
     };
     let head = ["method".to_owned()].into_iter().chain(pair.into_iter().flat_map(column)).collect();
     Some(Block::Table { head, rows: lines })
@@ -201,8 +201,8 @@ fn seconds(seconds: Option<f64>) -> String {
 
 fn cost(benchmark: &Benchmark, training: Option<usize>) -> String {
     let training = training.and_then(|training| benchmark.trainings.get(training));
-    let words = |training: &Training| {
+    let describe = |training: &Training| {
         format!("{:.1} CPU min on {} events", training.cpu_seconds / 60.0, training.events)
     };
-    training.map_or_else(|| NOTHING.into(), words)
+    training.map_or_else(|| NOTHING.into(), describe)
 }

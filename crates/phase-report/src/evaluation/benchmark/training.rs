@@ -2,7 +2,7 @@
 
 use crate::{
     document::{Block, head},
-    plot::{Axis, Series, curves},
+    plot::{Axis, Series, line_chart},
 };
 use phase_eval::benchmark::{Benchmark, Curve, Origin, Training};
 
@@ -77,7 +77,7 @@ fn plot(training: &Training, file: &'static str) -> Block {
         Axis::linear("rounds", training.rounds.max(1) as f64),
         Axis::linear("measure", highest(&training.curves)),
     ];
-    Block::Plot { file, svg: curves(&title, axes, &series), title }
+    Block::Plot { file, svg: line_chart(&title, axes, &series), title }
 }
 
 /// Shares go up to 1, lengths as far as they do.

@@ -1,0 +1,177 @@
+//! The networks themselves.
+
+use crate::{context::Context, error::CliError};
+use candle_core::Result as NetworkResult;
+use phase_baselines::{
+    arg::Arg,
+    forecasting::Forecasting,
+    recognition::Recognition,
+    social_lstm::SocialLstm,
+    stgat::Stgat,
+    training::{NamedMetrics, NetworkError, PublishedNetwork, RecordedRound, TrainingRecord},
+    two_level_lstm::TwoLevelLstm,
+};
+use phase_dataset::{
+    checksum::{hexadecimal, sha256},
+    json,
+};
+use phase_eval::{
+    Forecaster, Recogniser,
+    benchmark::{Curve, Training},
+    method::{MethodError, MethodResult, ProgressCallback},
+};
+use phase_event::ObservedEvent;
+use phase_model::{Forecast, Judgement};
+use serde_json::{Value, json};
+use std::{
+    ffi::OsString,
+    path::{Path, PathBuf},
+};
+
+/// A network for goals and relations, with the weights of a file or those that come with the program; `None` if there
+/// is none of this name.
+///
+/// # Errors
+/// If the file cannot be used.
+pub fn recogniser(name: &str, weights: Option<&Path>) -> Result<Option<Box<dyn Recogniser>>, CliError> {
+    Ok(match name {
+        "two-level-lstm" => Some(Box::new(TrainedNetwork::<TwoLevelLstm>::open(weights)?)),
+        "arg" => Some(Box::new(TrainedNetwork::<Arg>::open(weights)?)),
+        _ => None,
+    })
+}
+
+/// A network for trajectories; see [`recogniser`].
+///
+/// # Errors
+/// If the file cannot be used.
+pub fn forecaster(name: &str, weights: Option<&Path>) -> Result<Option<Box<dyn Forecaster>>, CliError> {
+    Ok(match name {
+        "social-lstm" => Some(Box::new(TrainedNetwork::<SocialLstm>::open(weights)?)),
+        "stgat" => Some(Box::new(TrainedNetwork::<Stgat>::open(weights)?)),
+        _ => None,
+    })
+}
+
+/// How a network came by the weights that come with the program; `None` if there is none of this name.
+///
+/// # Errors
+/// If its record is damaged.
+pub fn training(name: &str) -> Result<Option<Training>, CliError> {
+    let record = match name {
+        "two-level-lstm" => TwoLevelLstm::BUNDLED_RECORD,
+        "arg" => Arg::BUNDLED_RECORD,
+        "social-lstm" => SocialLstm::BUNDLED_RECORD,
+        "stgat" => Stgat::BUNDLED_RECORD,
+        _ => return Ok(None),
+    };
+    record_of(Path::new(&format!("data/{name}.safetensors.training.json")), record.as_bytes()).map(Some)
+}
+
+/// How the weights of a file came about, as the record beside it says.
+///
+/// # Errors
+/// If there is none or it cannot be used.
+pub fn training_of(file: &Path) -> Result<Training, CliError> {
+    let mut beside = OsString::from(file);
+    beside.push(".training.json");
+    let beside = PathBuf::from(beside);
+    record_of(&beside, &json::bytes(&beside)?)
+}
+
+/// Checks that this program has networks, which it does.
+///
+/// # Errors
+/// None.
+pub const fn require(_: &Context) -> Result<(), CliError> {
+    Ok(())
+}
+
+fn record_of(file: &Path, bytes: &[u8]) -> Result<Training, CliError> {
+    let record = TrainingRecord::parse(bytes)
+        .map_err(|source| CliError::TrainingRecord { file: file.to_owned(), source })?;
+    let measures = record.rounds.first().map(|round| round.validation.scores.keys().cloned().collect());
+    let curve = |measure: String| Curve {
+        training: values(&record, &measure, |round| &round.training),
+        validation: values(&record, &measure, |round| &round.validation),
+        measure,
+    };
+    let measures: Vec<String> = measures.unwrap_or_default();
+    Ok(Training {
+        curves: measures.into_iter().map(curve).collect(),
+        network: record.network,
+        weights: record.weights,
+        seed: record.seed,
+        dataset: record.data.folder,
+        events: record.data.events,
+        round: record.settings.round,
+        rounds: record.rounds.len(),
+        best_round: record.best_round,
+        cpu_seconds: record.cpu_seconds,
+    })
+}
+
+/// A score of every round.
+fn values(record: &TrainingRecord, measure: &str, part: fn(&RecordedRound) -> &NamedMetrics) -> Vec<f64> {
+    let score = |round| part(round).scores.get(measure).copied().unwrap_or(f64::NAN);
+    record.rounds.iter().map(score).collect()
+}
+
+/// A network that has learnt something.
+struct TrainedNetwork<N> {
+    network: N,
+    /// Stands for its weights.
+    sha256: String,
+}
+
+impl<N: PublishedNetwork> TrainedNetwork<N> {
+    fn open(weights: Option<&Path>) -> Result<Self, CliError> {
+        let given = weights.map(json::bytes).transpose()?;
+        let bytes = given.as_deref().unwrap_or(N::BUNDLED_WEIGHTS);
+        let wrong = |source: NetworkError| CliError::Weights {
+            file: weights.map_or_else(|| format!("data/{}.safetensors", N::NAME).into(), Path::to_owned),
+            source,
+        };
+        let network = N::with_weights(bytes).map_err(wrong)?;
+        Ok(Self { network, sha256: hexadecimal(&sha256(bytes)) })
+    }
+
+    fn settings(&self) -> Value {
+        json!({ "weights_sha256": self.sha256 })
+    }
+}
+
+impl<N: PublishedNetwork + Recognition + Sync> Recogniser for TrainedNetwork<N> {
+    fn settings(&self) -> Value {
+        self.settings()
+    }
+
+    fn judge(
+        &self,
+        observed: &ObservedEvent,
+        _seed: u64,
+        _tick: ProgressCallback<'_>,
+    ) -> MethodResult<Judgement> {
+        answered(self.network.judge(observed))
+    }
+}
+
+impl<N: PublishedNetwork + Forecasting + Sync> Forecaster for TrainedNetwork<N> {
+    fn settings(&self) -> Value {
+        self.settings()
+    }
+
+    fn forecast(
+        &self,
+        observed: &ObservedEvent,
+        steps: usize,
+        _seed: u64,
+        _tick: ProgressCallback<'_>,
+    ) -> MethodResult<Forecast> {
+        answered(self.network.forecast(observed, steps))
+    }
+}
+
+fn answered<T>(answer: NetworkResult<T>) -> MethodResult<T> {
+    answer.map(|answer| Some((answer, Value::Null))).map_err(MethodError::new)
+}

@@ -1,0 +1,168 @@
+//! Making the files of one event: simulate it or take it from the cache, write its JSON and its video.
+
+use crate::{
+    context::Context,
+    engine::{self, GENERATOR},
+    error::CliError,
+    interrupt,
+    picture::{self, RenderedState},
+    progress::Progress,
+};
+use core::ops::ControlFlow;
+use phase_dataset::{atomic, cache::Cache, checksum::sha256, folder::Folder};
+use phase_event::{Event, Recording};
+use phase_model::{Relation, Scene};
+use phase_render::Palette;
+use phase_sim::SimulationSettings;
+use serde_json::Value;
+use std::{
+    path::{Path, PathBuf},
+    time::Instant,
+};
+
+/// What all events of a run have in common.
+#[derive(Debug)]
+pub struct EventWriter {
+    settings: SimulationSettings,
+    settings_value: Value,
+    cache: Cache,
+    progress: Progress,
+}
+
+/// What makes one event different from the others.
+#[derive(Debug)]
+pub struct EventJob {
+    /// Its id.
+    pub id: String,
+    /// Its seed.
+    pub seed: u64,
+    /// The relation it is to show, if that is not the scene's own.
+    pub relation: Option<Relation>,
+    /// Its greatest length, if that is not the run's (steps).
+    pub max_steps: Option<usize>,
+    /// Where its JSON goes.
+    pub json: PathBuf,
+    /// Where its video goes, if there is to be one.
+    pub video: Option<PathBuf>,
+}
+
+impl EventWriter {
+    /// A production of `events` events in a folder. `activity` says what goes on.
+    ///
+    /// # Errors
+    /// [`CliError::Serialise`].
+    pub fn new(
+        context: &Context,
+        activity: &str,
+        folder: &Folder,
+        settings: SimulationSettings,
+        events: usize,
+    ) -> Result<Self, CliError> {
+        let settings_value = settings_value(&settings)?;
+        let cache = Cache::new(&folder.cache(), fingerprint(&settings_value));
+        let progress = context.progress(activity, events, settings.max_steps);
+        Ok(Self { settings, settings_value, cache, progress })
+    }
+
+    /// Makes one event and its files; `None` if it was interrupted. The scene is asked for only if the event is
+    /// not in the cache.
+    ///
+    /// # Errors
+    /// Any of [`CliError`]'s failures.
+    pub fn make(
+        &self,
+        job: &EventJob,
+        scene: impl FnOnce() -> Result<Scene, CliError>,
+    ) -> Result<Option<Event>, CliError> {
+        let id = &job.id;
+        let begun = Instant::now();
+        let mut steps = 0;
+        let cached = self.cache.load(id, job.seed);
+        let fresh = cached.is_none();
+        let event = match cached {
+            Some(event) => event,
+            None => {
+                let mut on_step = |_: &_| {
+                    steps += 1;
+                    self.progress.step();
+                    if interrupt::requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+                };
+                let simulated = engine::simulate(id, &scene()?, job.seed, &self.settings, &mut on_step)?;
+                let Some(event) = simulated else { return Ok(None) };
+                // A video of an earlier build must not outlive the event it showed, wherever we are stopped.
+                if let Some(video) = &job.video {
+                    atomic::remove(video)?;
+                }
+                self.cache.store(id, &event)?;
+                event
+            }
+        };
+        self.write(job, &event, fresh)?;
+        let (kind, length) = (event.scene.kind.name(), event.steps.len());
+        let how = if fresh { format!("{:.1} s", begun.elapsed().as_secs_f64()) } else { "kept".into() };
+        self.finished(steps, &format!("{id} {kind}: {length} steps ({how})"));
+        Ok(Some(event))
+    }
+
+    /// Writes the files of an event; its video if the event is new or the video is not there.
+    ///
+    /// # Errors
+    /// If drawing or writing fails.
+    pub fn write(&self, job: &EventJob, event: &Event, fresh: bool) -> Result<(), CliError> {
+        self.write_json(job, event)?;
+        match &job.video {
+            Some(path) if fresh || !path.exists() => write_video(path, &job.id, event),
+            _ => Ok(()),
+        }
+    }
+
+    /// An event is done; see [`Progress::event`].
+    pub fn finished(&self, counted: usize, line: &str) {
+        self.progress.event(counted, line);
+    }
+
+    fn write_json(&self, job: &EventJob, event: &Event) -> Result<(), CliError> {
+        let (generator, mut settings) = (GENERATOR.into(), self.settings_value.clone());
+        if let Some(steps) = job.max_steps {
+            settings["max_steps"] = steps.into();
+        }
+        let mut recording = Recording::of_event(job.id.clone(), event.clone(), generator, settings);
+        if let Some(relation) = job.relation {
+            recording.relation = relation;
+        }
+        let text = phase_event::to_json(&[recording])?;
+        let there = std::fs::read(&job.json).is_ok_and(|bytes| bytes == text.as_bytes());
+        if there { Ok(()) } else { Ok(atomic::write(&job.json, text.as_bytes())?) }
+    }
+}
+
+/// Settings as they stand in files.
+///
+/// # Errors
+/// [`CliError::Serialise`].
+pub fn settings_value(settings: &SimulationSettings) -> Result<Value, CliError> {
+    serde_json::to_value(settings).map_err(|source| CliError::Serialise { what: "settings", source })
+}
+
+/// Writes the video of a simulated event, a frame for each substep.
+///
+/// # Errors
+/// As [`picture::write_video`].
+pub fn write_video(path: &Path, id: &str, event: &Event) -> Result<(), CliError> {
+    let items: Vec<RenderedState<'_>> =
+        event.frames().map(|&state| RenderedState { state, minds: Vec::new() }).collect();
+    picture::write_video(path, id, &event.scene.physics(), Palette::PAPER, &items)
+}
+
+/// Digest of everything that determines an event besides its scene and seed: the settings and this executable.
+/// An event cached by another build is made again, so that no dataset mixes two.
+fn fingerprint(settings: &Value) -> [u8; 32] {
+    sha256(&[&program()[..], settings.to_string().as_bytes()].concat())
+}
+
+/// Digest of this executable.
+#[must_use]
+pub fn program() -> [u8; 32] {
+    let program = std::env::current_exe().and_then(std::fs::read).map(|bytes| sha256(&bytes));
+    program.unwrap_or_else(|_| sha256(GENERATOR.as_bytes()))
+}

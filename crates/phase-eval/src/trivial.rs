@@ -1,0 +1,91 @@
+//! Trivial baselines: what is reached without perception.
+
+use crate::method::{Forecaster, MethodResult, ProgressCallback, Recogniser};
+use phase_event::ObservedEvent;
+use phase_model::{
+    AgentId, Entity, Forecast, Goal, Judgement, LandmarkId, ObjectId, RelationProbabilities, Sign, Vec2,
+    arena::{self, SUBSTEP_SECONDS, SUBSTEPS},
+    random::{Purpose, stream},
+};
+use rand::RngExt;
+use serde_json::Value;
+
+/// Every goal of an agent's own is as likely as any other, and so is every relation.
+#[derive(Clone, Copy, Debug)]
+pub struct Chance;
+
+impl Recogniser for Chance {
+    /// Goals that are equally likely come in an order drawn from the seed, so that none is first more often.
+    fn judge(&self, observed: &ObservedEvent, seed: u64, _: ProgressCallback<'_>) -> MethodResult<Judgement> {
+        let mut random = stream(seed, Purpose::Evaluation, 0);
+        let goals = AgentId::ALL.map(|agent| {
+            let mut goals = own_goals(agent, observed.object_sizes().len());
+            for k in (1..goals.len()).rev() {
+                goals.swap(k, random.random_range(0..=k));
+            }
+            let p = 1.0 / goals.len() as f64;
+            goals.into_iter().map(|goal| (goal, p)).collect()
+        });
+        Ok(Some((Judgement { goals, relation: RelationProbabilities::default() }, Value::Null)))
+    }
+}
+
+/// The goals an agent can have of its own: itself or an object on a landmark, to approach the other, to get away from
+/// it. As in labels, touching names the one that approaches first.
+#[must_use]
+pub fn own_goals(agent: AgentId, objects: usize) -> Vec<Goal> {
+    let (me, other) = (agent, agent.other());
+    let (landmarks, sign) = (LandmarkId::ALL.into_iter(), Sign::Positive);
+    let places = landmarks.clone().map(|landmark| Goal::AgentOnLandmark { agent: me, landmark, sign });
+    let things = ObjectId::ALL.into_iter().take(objects).flat_map(|object| {
+        landmarks.clone().map(move |landmark| Goal::ObjectOnLandmark { object, landmark, sign })
+    });
+    let approach = Goal::Touch { agent: me, other, sign };
+    let get_away = Goal::Touch { agent: other, other: me, sign: Sign::Negative };
+    places.chain(things).chain([approach, get_away]).collect()
+}
+
+/// Everything stays where it is.
+#[derive(Clone, Copy, Debug)]
+pub struct Stationary;
+
+impl Forecaster for Stationary {
+    fn forecast(
+        &self,
+        observed: &ObservedEvent,
+        steps: usize,
+        _: u64,
+        _: ProgressCallback<'_>,
+    ) -> MethodResult<Forecast> {
+        Ok(Some((straight_on(observed, steps, 0.0), Value::Null)))
+    }
+}
+
+/// Everything keeps the velocity of the last row, and stops at the walls around the arena. Inner walls, sizes and
+/// collisions play no part.
+#[derive(Clone, Copy, Debug)]
+pub struct ConstantVelocity;
+
+impl Forecaster for ConstantVelocity {
+    fn forecast(
+        &self,
+        observed: &ObservedEvent,
+        steps: usize,
+        _: u64,
+        _: ProgressCallback<'_>,
+    ) -> MethodResult<Forecast> {
+        Ok(Some((straight_on(observed, steps, 1.0), Value::Null)))
+    }
+}
+
+/// Every entity on its way from the last row on with a share of its velocity.
+fn straight_on(observed: &ObservedEvent, steps: usize, share: f32) -> Forecast {
+    let last = observed.rows().last().copied().unwrap_or_default();
+    let step_seconds = SUBSTEPS as f32 * SUBSTEP_SECONDS;
+    let path = |entity: Entity| -> Vec<Vec2> {
+        let body = last[entity];
+        let after = |step: usize| body.position + body.velocity * (share * step_seconds * step as f32);
+        (1..=steps).map(|step| after(step).clamp(arena::MIN, arena::MAX)).collect()
+    };
+    observed.entities().map(path).collect()
+}

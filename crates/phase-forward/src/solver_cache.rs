@@ -1,0 +1,167 @@
+//! What a replay carries from step to step beyond the state: impulses, and which pairs are up for contact.
+
+use crate::{
+    body::{BodyMotion, Shape},
+    constants::SKIN,
+    key::{KEYS, KeySet, PAIRS, bit, descending, pair_key, pair_of, wall_key},
+    polygon::Polygon,
+    touching::ContactSet,
+    world::{Impulses, World},
+};
+use phase_model::{AGENT_COUNT, Vec2};
+
+/// Room left around a body when its box is drawn anew (u).
+const MARGIN: f32 = 0.1;
+/// How much of its last move a body is expected to repeat, in boxes drawn anew.
+const AABB_MULTIPLIER: f32 = 2.0;
+
+/// The memory of a replay: impulses that contacts, grips and the ground gave last, and the original's
+/// broad phase. There, a pair of shapes is up for contact once their generous boxes overlap, and a box is
+/// drawn anew only when its body has left it. This decides which of several contacts is solved first, and
+/// why an object let go of inside an agent's outline does not touch it before one of them has moved.
+#[derive(Clone, Copy, Debug)]
+pub struct SolverCache {
+    impulses: Impulses,
+    pub(crate) touching: ContactSet,
+    /// When each pair came up for contact; 0 for pairs that are not.
+    since: [u32; KEYS],
+    now: u32,
+    active_pairs: KeySet,
+    boxes: [(Vec2, Vec2); 4],
+    moved: u8,
+    latest_grip: usize,
+}
+
+impl SolverCache {
+    pub(crate) fn new(world: &World<'_>) -> Self {
+        let mut solver_cache = Self {
+            impulses: Impulses::NONE,
+            touching: ContactSet::NONE,
+            since: [0; KEYS],
+            now: 1,
+            active_pairs: 0,
+            boxes: [(Vec2::ZERO, Vec2::ZERO); 4],
+            moved: 0,
+            latest_grip: 1,
+        };
+        for body in 0..world.model.count {
+            let (min, max) = bounds(&world.model.shapes[body], &world.motions[body]);
+            solver_cache.boxes[body] = (min - MARGIN, max + MARGIN);
+            solver_cache.moved |= 1 << body;
+        }
+        solver_cache.find_new_pairs(world);
+        solver_cache
+    }
+
+    /// Pairs that are up for contact.
+    pub(crate) fn active_pairs(&self) -> KeySet {
+        self.active_pairs
+    }
+
+    pub(crate) fn enter(&self, world: &mut World<'_>) {
+        world.impulses = self.impulses;
+        world.latest_grip = self.latest_grip;
+    }
+
+    pub(crate) fn leave(&mut self, world: &World<'_>) {
+        self.impulses = world.impulses;
+        self.latest_grip = world.latest_grip;
+    }
+
+    /// Forgets pairs that are held together or whose boxes have parted.
+    pub(crate) fn drop_stale(&mut self, world: &World<'_>) {
+        let held = held_pairs(world);
+        for key in descending(self.active_pairs) {
+            if held & bit(key) != 0 || !self.boxes_overlap(world, key) {
+                self.active_pairs &= !bit(key);
+            }
+        }
+    }
+
+    /// Sorts the contacts found so that the newest come first.
+    pub(crate) fn sort_newest_first(&mut self) {
+        let since = &self.since;
+        self.touching.contacts[..self.touching.count]
+            .sort_by_key(|contact| core::cmp::Reverse(since[usize::from(contact.key)]));
+    }
+
+    /// Draws the boxes of bodies anew that have left theirs, and finds what has come up for contact.
+    pub(crate) fn update_boxes(&mut self, world: &World<'_>) {
+        for body in 0..world.model.count {
+            let (centre, angle, right) = world.starts[body];
+            let before = BodyMotion { centre, angle, right, ..world.motions[body] };
+            self.refit_box(&world.model.shapes[body], body, &before, &world.motions[body]);
+        }
+        self.find_new_pairs(world);
+    }
+
+    /// The same for one body, after an impact.
+    pub(crate) fn update_box(&mut self, world: &World<'_>, body: usize) {
+        let now = world.motions[body];
+        self.refit_box(&world.model.shapes[body], body, &now, &now);
+    }
+
+    /// Brings up for contact whatever overlaps the boxes drawn anew.
+    pub(crate) fn find_new_pairs(&mut self, world: &World<'_>) {
+        if self.moved == 0 {
+            return;
+        }
+        let held = held_pairs(world);
+        for key in 0..KEYS {
+            let moved = if key < pair_key(0) {
+                key / 4 < world.model.wall_count && self.moved & 1 << (key % 4) != 0
+            } else {
+                let (a, b) = PAIRS[key - pair_key(0)];
+                b < world.model.count && self.moved & (1 << a | 1 << b) != 0
+            };
+            if moved && (self.active_pairs | held) & bit(key) == 0 && self.boxes_overlap(world, key) {
+                self.active_pairs |= bit(key);
+                self.since[key] = self.now;
+                self.now += 1;
+            }
+        }
+        self.moved = 0;
+    }
+
+    fn refit_box(&mut self, shape: &Shape, body: usize, before: &BodyMotion, after: &BodyMotion) {
+        let (start, end) = (bounds(shape, before), bounds(shape, after));
+        let (min, max) = (start.0.min(end.0), start.1.max(end.1));
+        let (old_min, old_max) = self.boxes[body];
+        if old_min.cmple(min).all() && old_max.cmpge(max).all() {
+            return;
+        }
+        let origin = |motion: &BodyMotion| motion.place(Vec2::new(0.0, shape.origin));
+        let ahead = (origin(after) - origin(before)) * AABB_MULTIPLIER;
+        self.boxes[body] = (min - MARGIN + ahead.min(Vec2::ZERO), max + MARGIN + ahead.max(Vec2::ZERO));
+        self.moved |= 1 << body;
+    }
+
+    fn boxes_overlap(&self, world: &World<'_>, key: usize) -> bool {
+        let ((min_a, max_a), (min_b, max_b)) = if key < pair_key(0) {
+            let wall = &world.model.walls[key / 4];
+            debug_assert!(wall_key(key / 4, key % 4) == key);
+            ((wall.min - MARGIN, wall.max + MARGIN), self.boxes[key % 4])
+        } else {
+            let (a, b) = PAIRS[key - pair_key(0)];
+            (self.boxes[a], self.boxes[b])
+        };
+        min_a.cmple(max_b).all() && min_b.cmple(max_a).all()
+    }
+}
+
+/// The pairs of agents and what they hold.
+fn held_pairs(world: &World<'_>) -> KeySet {
+    (0..AGENT_COUNT)
+        .filter_map(|agent| Some(bit(pair_key(pair_of(agent, world.held(agent)?)))))
+        .fold(0, |set, key| set | key)
+}
+
+/// The box around a body, skin included (u).
+fn bounds(shape: &Shape, motion: &BodyMotion) -> (Vec2, Vec2) {
+    if shape.origin > 0.0 {
+        let (min, max) = Polygon::new(shape, motion).bounds();
+        (min - SKIN, max + SKIN)
+    } else {
+        (motion.centre - shape.radius, motion.centre + shape.radius)
+    }
+}

@@ -1,0 +1,189 @@
+//! What physics needs to know of a scene: walls, radii and forces, and nothing of minds.
+
+use crate::{Entity, MAX_OBJECTS, ObjectId, Segment, entity::AGENT_COUNT};
+use serde::{Deserialize, Serialize};
+
+/// Size level of an entity; the levels are not in order of size.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
+pub enum Size {
+    /// Level 0, radius 0.8 u.
+    Small,
+    /// Level 1, radius 1.2 u.
+    Large,
+    /// Level 2, radius 1.6 u.
+    Huge,
+    /// Level 3, radius 1.01 u.
+    Medium,
+}
+
+impl Size {
+    /// All sizes, in level order.
+    pub const ALL: [Self; 4] = [Self::Small, Self::Large, Self::Huge, Self::Medium];
+
+    /// Level 0 to 3.
+    #[must_use]
+    pub const fn level(self) -> u8 {
+        self as u8
+    }
+
+    /// The size of a level, or `None` past 3.
+    #[must_use]
+    pub fn from_level(level: u8) -> Option<Self> {
+        Self::ALL.get(usize::from(level)).copied()
+    }
+
+    /// Radius R (u): an object's radius, or half an agent's height.
+    #[must_use]
+    pub const fn radius(self) -> f32 {
+        match self {
+            Self::Small => 0.8,
+            Self::Large => 1.2,
+            Self::Huge => 1.6,
+            Self::Medium => 1.01,
+        }
+    }
+}
+
+/// Strength level of an agent.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
+pub enum Strength {
+    /// Level 0, 150 N: moves itself, but no object alone.
+    Weak,
+    /// Level 1, 300 N.
+    Fair,
+    /// Level 2, 450 N.
+    Strong,
+    /// Level 3, 600 N.
+    Mighty,
+}
+
+impl Strength {
+    /// All strengths, in level order.
+    pub const ALL: [Self; 4] = [Self::Weak, Self::Fair, Self::Strong, Self::Mighty];
+
+    /// Level 0 to 3.
+    #[must_use]
+    pub const fn level(self) -> u8 {
+        self as u8
+    }
+
+    /// The strength of a level, or `None` past 3.
+    #[must_use]
+    pub fn from_level(level: u8) -> Option<Self> {
+        Self::ALL.get(usize::from(level)).copied()
+    }
+
+    /// Greatest force (N), held constant through a step.
+    #[must_use]
+    pub const fn max_force(self) -> f32 {
+        150.0 * (self as u8 + 1) as f32
+    }
+}
+
+/// Greatest force of ground friction on each body, whatever its mass (N).
+pub const GROUND_FRICTION: f32 = 100.0;
+/// Longest distance between a grab point and an object's surface at which grabbing works (u).
+pub const GRAB_REACH: f32 = 0.5;
+/// Mass per area of every body (kg/u²).
+pub const DENSITY: f32 = 1.0;
+
+/// An agent's body.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+pub struct AgentBody {
+    /// Half the height of the trapezoid, R (u). See [`crate::geometry::trapezoid`].
+    pub radius: f32,
+    /// Greatest force the agent can exert (N).
+    pub max_force: f32,
+}
+
+impl AgentBody {
+    /// Mass 4R² (kg).
+    #[must_use]
+    pub fn mass(self) -> f32 {
+        DENSITY * 4.0 * self.radius * self.radius
+    }
+
+    /// Moment of inertia about the centre of mass, 26R⁴/9 (kg u²).
+    #[must_use]
+    pub fn inertia(self) -> f32 {
+        let square = self.radius * self.radius;
+        DENSITY * square * square * (26.0 / 9.0)
+    }
+
+    /// Torque of a turn (N u); it does not depend on strength.
+    #[must_use]
+    pub fn turn_torque(self) -> f32 {
+        let scale = self.radius / 0.8;
+        300.0 * scale * scale
+    }
+
+    /// Distance of the centre of mass behind the body's origin, R/6 (u).
+    #[must_use]
+    pub fn centre_of_mass_offset(self) -> f32 {
+        self.radius / 6.0
+    }
+
+    /// Distance behind the origin at which pushes act, R/12 (u).
+    #[must_use]
+    pub fn push_point_offset(self) -> f32 {
+        self.radius / 12.0
+    }
+
+    /// Width of the gap the body needs when it moves forward: its base, 3R (u).
+    #[must_use]
+    pub fn width(self) -> f32 {
+        3.0 * self.radius
+    }
+}
+
+/// Mass of an object of radius r, πr² (kg).
+#[must_use]
+pub fn object_mass(radius: f32) -> f32 {
+    DENSITY * core::f32::consts::PI * radius * radius
+}
+
+/// Moment of inertia of an object of radius r about its centre, πr⁴/2 (kg u²).
+#[must_use]
+pub fn object_inertia(radius: f32) -> f32 {
+    0.5 * object_mass(radius) * radius * radius
+}
+
+/// Everything physics and perception need to know of a scene that does not change over time.
+#[derive(Clone, PartialEq, Debug)]
+pub struct PhysicsConfig {
+    /// Inner walls; the arena's boundary is implied.
+    pub walls: Vec<Segment>,
+    /// The two agents' bodies.
+    pub agents: [AgentBody; AGENT_COUNT],
+    /// Radii of the objects (u); only the first `object_count` count.
+    pub object_radii: [f32; MAX_OBJECTS],
+    /// Number of objects, 0 to 2.
+    pub object_count: usize,
+}
+
+impl PhysicsConfig {
+    /// Number of entities, agents included.
+    #[must_use]
+    pub const fn entity_count(&self) -> usize {
+        AGENT_COUNT + self.object_count
+    }
+
+    /// The entities present, agents first.
+    pub fn entities(&self) -> impl Iterator<Item = Entity> + use<> {
+        Entity::ALL.into_iter().take(self.entity_count())
+    }
+
+    /// The objects present.
+    pub fn objects(&self) -> impl Iterator<Item = ObjectId> + use<> {
+        ObjectId::ALL.into_iter().take(self.object_count)
+    }
+
+    /// Radius of an entity (u).
+    #[must_use]
+    pub fn radius(&self, entity: Entity) -> f32 {
+        match entity {
+            Entity::Agent(agent) => self.agents[agent].radius,
+            Entity::Object(object) => self.object_radii[object],
+        }
+    }
+}

@@ -1,0 +1,162 @@
+//! A physical state as the high level sees it: a handful of named spots and what lies between them.
+
+use crate::routes::{Gaps, Routes, point_in};
+use phase_model::{
+    AGENT_COUNT, AgentId, BodySet, Entity, LandmarkId, MAX_OBJECTS, ObjectId, PhysicsConfig, RoomId, SlotId,
+    State, Vec2, arena, layout::SLOT_DIRECTIONS, physics::GROUND_FRICTION,
+};
+
+/// A place that can be named in a plan: where an entity is now, or a landmark's centre.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum Location {
+    /// Where an entity is in the physical state that the plan starts from.
+    Current(Entity),
+    /// A landmark's centre.
+    Landmark(LandmarkId),
+    /// In a room, just inside the door in a slot.
+    Inside {
+        /// The slot of the door.
+        slot: SlotId,
+        /// The room.
+        room: RoomId,
+    },
+}
+
+/// How far inside a room things lie that were passed through its door (u).
+const INSIDE: f32 = 1.2;
+
+/// Everything a plan from one physical state needs to know.
+#[derive(Clone, Copy, Debug)]
+pub struct PlanningProblem<'a> {
+    /// Walls, bodies and forces.
+    pub physics: &'a PhysicsConfig,
+    /// The ways between rooms.
+    pub routes: &'a Routes,
+    /// The physical state.
+    pub state: &'a State,
+    /// What is passable of each door for each agent while a set of objects, the bits of the index, are still
+    /// where they are now.
+    gaps: [[Gaps; 1 << MAX_OBJECTS]; AGENT_COUNT],
+    /// Which objects block a door for some agent at their current positions.
+    blockers: [bool; MAX_OBJECTS],
+}
+
+impl<'a> PlanningProblem<'a> {
+    /// Works out which doors the objects obstruct.
+    #[must_use]
+    pub fn new(physics: &'a PhysicsConfig, routes: &'a Routes, state: &'a State) -> Self {
+        let gaps = AgentId::ALL.map(|agent| {
+            core::array::from_fn(|mask| {
+                let mut gaps = *routes.gaps();
+                for object in physics.objects().filter(|object| mask & 1 << object.index() != 0) {
+                    let radius = physics.object_radii[object];
+                    // What is in hand is not put down before there is room to turn between it and the door.
+                    let in_hand = AgentId::ALL.into_iter().any(|holder| state.holds(holder, object));
+                    let own = physics.agents[agent];
+                    let reach = radius + if in_hand { own.width() } else { own.radius };
+                    obstruct(&mut gaps, state.position(Entity::Object(object)), radius, reach);
+                }
+                gaps
+            })
+        });
+        let mut problem = Self { physics, routes, state, gaps, blockers: [false; MAX_OBJECTS] };
+        for object in physics.objects() {
+            problem.blockers[object] =
+                AgentId::ALL.into_iter().any(|agent| problem.narrows_a_door(object, agent));
+        }
+        problem
+    }
+
+    /// Whether an object, where it is now, narrows some door too much for an agent that would fit through it
+    /// otherwise.
+    #[must_use]
+    pub const fn blocks_a_door(&self, object: ObjectId) -> bool {
+        self.blockers[object.index()]
+    }
+
+    /// Where a spot lies (u).
+    #[must_use]
+    pub fn position(&self, location: Location) -> Vec2 {
+        match location {
+            Location::Current(entity) => self.state.position(entity),
+            Location::Landmark(landmark) => arena::LANDMARKS[landmark],
+            Location::Inside { slot, room } => {
+                let (low, high) = self.routes.gaps().0[slot].unwrap_or_default();
+                let middle = point_in(slot, 0.5 * (low + high));
+                let across = SLOT_DIRECTIONS[slot].perp();
+                let inwards = across.dot(arena::LANDMARKS[room.landmark()] - middle).signum();
+                middle + across * inwards * INSIDE
+            }
+        }
+    }
+
+    /// The doors as an agent finds them while the objects in `unmoved` are still where they are now. Agents in the
+    /// set do not matter.
+    #[must_use]
+    pub const fn gaps(&self, agent: AgentId, unmoved: BodySet) -> &Gaps {
+        &self.gaps[agent.index()][object_bits(unmoved)]
+    }
+
+    /// Width of an agent, with an object in hand or not (u).
+    #[must_use]
+    pub fn width(&self, agent: AgentId, held: Option<ObjectId>) -> f32 {
+        let own = self.physics.agents[agent].width();
+        held.map_or(own, |object| own.max(2.0 * self.physics.object_radii[object]))
+    }
+
+    /// Distance between the centres of an agent and an object that touch (u).
+    #[must_use]
+    pub fn arm(&self, agent: AgentId, object: ObjectId) -> f32 {
+        self.physics.agents[agent].radius + self.physics.radius(Entity::Object(object))
+    }
+
+    /// Force left over for moving an object when these agents hold it and pull the same way, each body's
+    /// ground friction taken off (N). The load moves only if it is positive.
+    #[must_use]
+    pub fn net_force(&self, holders: [bool; AGENT_COUNT]) -> f32 {
+        let mut net = -GROUND_FRICTION;
+        for agent in AgentId::ALL.into_iter().filter(|&agent| holders[agent]) {
+            net += self.physics.agents[agent].max_force - GROUND_FRICTION;
+        }
+        net
+    }
+}
+
+/// The objects of a set as bits from the lowest on.
+const fn object_bits(set: BodySet) -> usize {
+    (set.bits() >> AGENT_COUNT) as usize & ((1 << MAX_OBJECTS) - 1)
+}
+
+impl PlanningProblem<'_> {
+    fn narrows_a_door(&self, object: ObjectId, agent: AgentId) -> bool {
+        let width = self.width(agent, None);
+        SlotId::ALL.into_iter().any(|slot| {
+            let narrowed = self.gaps(agent, BodySet::from_iter([Entity::Object(object)]));
+            self.routes.gaps().width(slot) >= width && narrowed.width(slot) < width
+        })
+    }
+}
+
+/// Takes a round obstacle out of every door that it lies in or before, leaving the wider remainder. An
+/// obstacle counts when the door's line is nearer to its centre than `reach` (u).
+pub fn obstruct(gaps: &mut Gaps, centre: Vec2, radius: f32, reach: f32) {
+    for (slot, direction) in SlotId::ALL.into_iter().zip(SLOT_DIRECTIONS) {
+        let offset = centre - arena::CENTRE;
+        let (along, across) = (direction.dot(offset), direction.perp_dot(offset));
+        if across.abs() >= reach {
+            continue;
+        }
+        if let Some((from, to)) = gaps.0[slot] {
+            let (low, high) = ((along - radius).clamp(from, to), (along + radius).clamp(from, to));
+            if low < high {
+                let below = low - from;
+                let above = to - high;
+                gaps.0[slot] = match (below > 0.0, above > 0.0) {
+                    (false, false) => None,
+                    _ if below >= above => Some((from, low)),
+                    _ => Some((high, to)),
+                };
+            }
+        }
+    }
+}

@@ -1,0 +1,95 @@
+//! A symbolic plan in the words of the subgoal space.
+
+use crate::{
+    plan::{Plan, drop_satisfied, is, not, rooms},
+    problem::Location,
+    routes::Routes,
+    search::SymbolicPlan,
+    symbolic::{Node, Operator},
+    task::Task,
+};
+use phase_model::{AgentId, Entity, ObjectId, Predicate, PredicateTarget, Subgoal};
+
+/// One agent's own part of a symbolic plan in the words of the subgoal space, and how far all have to travel.
+#[must_use]
+pub(crate) fn to_subgoals(task: &Task<'_>, plan: &SymbolicPlan, agent: AgentId) -> Plan {
+    let mut subgoals = Vec::with_capacity(8);
+    let mut distance = 0.0;
+    for (node, operator) in &plan.steps {
+        distance += travel(task, node, *operator);
+        match *operator {
+            Operator::Approach { agent: who, object } if who == agent => {
+                let location = node.objects[object];
+                go(task, node, agent, None, location, &mut subgoals);
+                let target = PredicateTarget::Entity(Entity::Object(object));
+                subgoals.push(is(Predicate::Close(Entity::Agent(agent), target)));
+            }
+            Operator::Meet { agent: who } if who == agent => {
+                go(task, node, agent, None, node.agents[agent.other()], &mut subgoals);
+                subgoals.push(is(Predicate::Touch(agent, Entity::Agent(agent.other()))));
+            }
+            Operator::Go { agent: who, landmark } if who == agent => {
+                go(task, node, agent, None, Location::Landmark(landmark), &mut subgoals);
+                subgoals.push(is(Predicate::On(Entity::Agent(agent), landmark)));
+            }
+            Operator::Grab { agent: who, object } if who == agent => {
+                subgoals.push(is(Predicate::Attach(agent, object)));
+            }
+            Operator::Carry { object, landmark, .. } if node.holds[agent] == Some(object) => {
+                go(task, node, agent, Some(object), Location::Landmark(landmark), &mut subgoals);
+                subgoals.push(is(Predicate::On(Entity::Object(object), landmark)));
+            }
+            Operator::Pass { agent: who, object, slot, room } if who == agent => {
+                let near = Routes::neighbour_across(slot, room);
+                go(task, node, agent, Some(object), Location::Inside { slot, room: near }, &mut subgoals);
+                let place = PredicateTarget::Landmark(room.landmark());
+                subgoals.push(is(Predicate::Close(Entity::Object(object), place)));
+                subgoals.push(not(Predicate::Attach(agent, object)));
+            }
+            Operator::Release { agent: who, object } if who == agent => {
+                subgoals.push(not(Predicate::Attach(agent, object)));
+            }
+            _ => {}
+        }
+    }
+    drop_satisfied(task.problem, &mut subgoals);
+    Plan { subgoals, distance }
+}
+
+/// Distance travelled in one operator, whoever travels (u).
+fn travel(task: &Task<'_>, node: &Node, operator: Operator) -> f32 {
+    match operator {
+        Operator::Approach { agent, object } => task.distance(node, agent, None, node.objects[object]),
+        Operator::Meet { agent } => task.distance(node, agent, None, node.agents[agent.other()]),
+        Operator::Go { agent, landmark } => task.distance(node, agent, None, Location::Landmark(landmark)),
+        Operator::Carry { agent, object, landmark } => {
+            task.distance(node, agent, Some(object), Location::Landmark(landmark))
+        }
+        Operator::Pass { agent, object, slot, room } => {
+            let near = Routes::neighbour_across(slot, room);
+            task.distance(node, agent, Some(object), Location::Inside { slot, room: near })
+        }
+        Operator::Grab { .. } | Operator::Release { .. } => 0.0,
+    }
+}
+
+/// The rooms on the way to a spot, as Close(·, landmark) subgoals for the agent or for what it carries. Rooms
+/// that the straight way passes through anyway are not worth a subgoal.
+fn go(
+    task: &Task<'_>,
+    node: &Node,
+    agent: AgentId,
+    held: Option<ObjectId>,
+    location: Location,
+    subgoals: &mut Vec<Subgoal>,
+) {
+    let problem = task.problem;
+    let from_spot = held.map_or(node.agents[agent], |object| node.objects[object]);
+    let (from, to) = (problem.position(from_spot), problem.position(location));
+    let mover = held.map_or(Entity::Agent(agent), Entity::Object);
+    let width = problem.width(agent, held);
+    let gaps = task.gaps(node, agent, held);
+    if let Some(route) = problem.routes.best(from, to, width, &gaps) {
+        rooms(&route, from, to, mover, subgoals);
+    }
+}
