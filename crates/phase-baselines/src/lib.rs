@@ -17,6 +17,25 @@
 //!
 //! Nothing here reads a file, looks at a clock or prints; `train` in `phase-cli` does. No other crate of the library uses
 //! this one: the library for neural networks takes long to build.
+//!
+//! A network learns from two agents, of which the weak one was slow and the mighty one fast, how strong each is:
+//!
+//! ```
+//! use phase_baselines::strength::{Motion, Sample, Settings, nearest, train};
+//! use phase_model::Strength;
+//!
+//! let motions = [(1.0, Strength::Weak), (9.0, Strength::Mighty)].map(|(mean_speed, strength)| {
+//!     let whole = Sample { features: [mean_speed, 0.0, 0.0, 0.0, 0.0, 0.0, 0.8], strength };
+//!     Motion { whole, windows: vec![whole] }
+//! });
+//! let settings =
+//!     Settings { hidden: 8, learning_rate: 1e-2, epochs: 200, patience: 200, ..Settings::default() };
+//! let regressor = train(&motions, &motions, 1, &settings, &mut |_epoch| {})?;
+//! for Motion { whole, .. } in &motions {
+//!     assert_eq!(nearest(regressor.estimate_from(&whole.features)), whole.strength);
+//! }
+//! # Ok::<(), phase_baselines::strength::TrainingError>(())
+//! ```
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]

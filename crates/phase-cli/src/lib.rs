@@ -18,6 +18,26 @@
 //! The key design decision is that a command says what is wrong in one plain sentence and an exit code: 0 done,
 //! 1 a failure of the program or the machine, 2 something about the input or the output folder, 130 interrupted.
 //! The price is an error type that lists every way to fail.
+//!
+//! A dataset of one short event is made and verified; once a file of it is damaged, verification fails:
+//!
+//! ```
+//! use phase_cli::main_with;
+//! use std::{ffi::OsString, fs, process::ExitCode};
+//!
+//! let folder = tempfile::tempdir()?;
+//! let out = folder.path().to_string_lossy();
+//! let phase = |arguments: &[&str]| main_with(["phase"].iter().chain(arguments).map(OsString::from));
+//!
+//! let effort = ["--max-steps", "2", "--simulations", "10", "--particles", "5"];
+//! let made = phase(&[&["gen-dataset", "--events", "1", "--no-video", "--out", &out], &effort[..]].concat());
+//! assert_eq!(made, ExitCode::SUCCESS);
+//! assert_eq!(phase(&["verify", &out]), ExitCode::SUCCESS);
+//!
+//! fs::write(folder.path().join("events/demo-0000.json"), "{}")?;
+//! assert_eq!(phase(&["verify", &out]), ExitCode::from(2));
+//! # Ok::<(), std::io::Error>(())
+//! ```
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]

@@ -3,11 +3,10 @@
 use crate::{context::Context, error::CliError, output::Output, source::Source};
 use clap::Args;
 use phase_dataset::{
-    FileError, atomic,
+    FileError,
     manifest::{MANIFEST_FILE, Manifest},
     split_list::SplitList,
     splits::{self, Item, Rule, Split},
-    statistics,
 };
 use serde_json::json;
 use std::path::PathBuf;
@@ -42,7 +41,7 @@ pub fn run(arguments: &Splits, context: &Context) -> Result<(), CliError> {
         (Some(file), _) => {
             let parts = splits::make(&items, arguments.seed);
             let list = SplitList::of(&items, &parts);
-            atomic::write(file, list.to_json().as_bytes()).map_err(CliError::Output)?;
+            list.write(file).map_err(CliError::Output)?;
             context.note(format!("{} made", file.display()));
             parts
         }
@@ -76,7 +75,7 @@ fn events(arguments: &Splits, context: &Context) -> Result<(Vec<Item>, Option<Ve
     if manifest.is_file() {
         let manifest = Manifest::read(&manifest)?;
         let parts = manifest.events.iter().map(|event| event.split).collect();
-        return Ok((statistics::items(&manifest), parts));
+        return Ok((manifest.items(), parts));
     }
     let source = Source::open(&arguments.events, &[], context)?;
     let item = |index: usize| {

@@ -3,15 +3,19 @@
 use crate::{context::Context, error::CliError, output::Output, source::Source};
 use clap::Args;
 use phase_dataset::{
-    WriteError, atomic,
+    WriteError,
+    acceptance::Acceptance,
+    atomic,
     labels::goal_counts,
     manifest::{MANIFEST_FILE, Manifest},
-    plot::bars,
-    record::{self, Acceptance},
-    statistics::{self, Figure, Statistics},
     words,
 };
 use phase_model::Scene;
+use phase_report::{
+    acceptance,
+    plot::bars,
+    statistics::{self, Figure, Statistics},
+};
 use serde_json::{Value, json};
 use std::{
     collections::{BTreeMap, BTreeSet},
@@ -97,7 +101,7 @@ fn report(statistics: &Statistics, selection: &[Acceptance]) -> String {
     text +=
         &list("kind", "events", statistics.kinds.iter().map(|(kind, &count)| (kind.name().into(), count)));
     if !selection.is_empty() {
-        text += &format!("\n{}", record::table(selection));
+        text += &format!("\n{}", acceptance::table(selection));
     }
     text
 }

@@ -1,17 +1,40 @@
-//! How well a method perceives social events: the metrics of both tasks, intervals, tables and reports.
+//! How well a method perceives social events: the metrics of both tasks, with intervals.
 //!
 //! - [`method`] is what a method has to be: a [`Recogniser`] for Task 1 (goals and relations), a [`Forecaster`] for
 //!   Task 2 (trajectories); [`plain`] has the plainest of both, below which no method should fall.
 //! - [`goals`] and [`trajectories`] score answers; [`estimate`] puts intervals around every score.
 //! - [`benchmark`] puts many methods on the same events side by side.
 //! - [`results`] is what programs read, and [`predictions`] the answers of somebody else's method to either task.
-//! - [`published`] has the paper's rows, [`report`] puts them beside ours, as Markdown and as a page.
 //!
 //! The key design decision is that every score is a mean over events of one number for each event. So one bootstrap
 //! over events serves all of them, and whatever is kept of an event is enough to score it again. The price is
 //! that figures which are no such means (the calibration error, the confusion matrix) come without an interval.
 //!
 //! Nothing here reads a file, looks at a clock or prints.
+//!
+//! Extrapolation at constant velocity has agent 0 go on at 6 u/s, which is 0.5 u in each step of 1/12 s. In truth it
+//! stopped:
+//!
+//! ```
+//! use core::ops::ControlFlow;
+//! use phase_eval::{Forecaster, plain::ConstantVelocity, trajectories::Errors};
+//! use phase_event::ObservedEvent;
+//! use phase_model::{Body, Layout, Size, Vec2};
+//!
+//! let places = [Vec2::new(10.0, 5.0), Vec2::new(20.0, 15.0), Vec2::ZERO, Vec2::ZERO];
+//! let mut row = places.map(|place| Body::at_rest(place, 0.0));
+//! row[0].velocity = Vec2::new(6.0, 0.0);
+//! let observed = ObservedEvent::new(Layout::new(0, None)?, [Size::Small; 2], Vec::new(), vec![row])?;
+//!
+//! let answer = ConstantVelocity.forecast(&observed, 4, 1, &mut || ControlFlow::Continue(()))?;
+//! let (forecast, _details) = answer.ok_or("interrupted")?;
+//! let truth = vec![vec![row[0].position; 4], vec![row[1].position; 4]];
+//! let [agents, _entities] = Errors::of(&forecast, &truth)?;
+//! // The errors of agent 0 are 0.5, 1, 1.5 and 2 u, those of agent 1 are 0.
+//! assert!((agents.ade - 1.25 / 2.0).abs() < 1e-5);
+//! assert!((agents.fde - 2.0 / 2.0).abs() < 1e-5);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
@@ -23,8 +46,6 @@ mod group;
 pub mod method;
 pub mod plain;
 pub mod predictions;
-pub mod published;
-pub mod report;
 pub mod results;
 pub mod trajectories;
 

@@ -79,5 +79,5 @@ pub enum RenderError {
     Container(#[from] muxide::api::MuxerError),
     /// The .png could not be put together.
     #[error("encoding the .png failed: {0}")]
-    Png(String),
+    Png(#[source] Box<dyn core::error::Error + Send + Sync>),
 }

@@ -11,6 +11,31 @@
 //! not tell, have to be found out.
 //!
 //! `docs/simple.md` says where the paper's formulas were settled and where this goes beyond them.
+//!
+//! Agent 0 is observed for eight steps on its way from one landmark to the next, while agent 1 rests. The likeliest
+//! goal of agent 0 is to reach that next landmark:
+//!
+//! ```
+//! use phase_event::ObservedEvent;
+//! use phase_model::{AgentId, Body, Goal, LandmarkId, Layout, Sign, Size, Vec2};
+//! use phase_simple::{AnyStrength, Settings, explain};
+//!
+//! let rows = (0..=8_u8).map(|step| {
+//!     let places = [Vec2::new(23.5, 6.0 + f32::from(step)), Vec2::new(8.5, 19.5), Vec2::ZERO, Vec2::ZERO];
+//!     let mut row = places.map(|place| Body::at_rest(place, 0.0)); // both face +y
+//!     row[0].velocity = Vec2::new(0.0, 12.0); // 1 u in each step of 1/12 s
+//!     row
+//! });
+//! let observed = ObservedEvent::new(Layout::new(0, None)?, [Size::Small; 2], Vec::new(), rows.collect())?;
+//!
+//! let mut settings = Settings::default();
+//! (settings.minds.particles, settings.minds.simulations) = (5, 20);
+//! let posterior = explain(&observed, &AnyStrength, 1, &settings)?.posterior;
+//! let (likeliest, _probability) = posterior.goals(AgentId::ZERO)[0];
+//! let (agent, landmark) = (AgentId::ZERO, LandmarkId::TOP_RIGHT);
+//! assert_eq!(likeliest, Goal::AgentOnLandmark { agent, landmark, sign: Sign::Positive });
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]

@@ -12,14 +12,13 @@ use crate::{
     error::CliError,
     eval::{networks, task},
     gen_dataset::check_same,
-    output::json_text,
 };
 use options::Benchmark;
 use phase_dataset::{
     atomic,
     folder::{self, Contents, Folder},
 };
-use phase_eval::report;
+use phase_report::evaluation;
 use plan::{contestants, needs_networks};
 use rows::Rows;
 use serde_json::json;
@@ -59,10 +58,9 @@ pub fn run(arguments: &Benchmark, context: &Context) -> Result<(), CliError> {
         }
     }
     let benchmark = rows.finish();
-    let document = report::benchmark(&benchmark);
+    let document = evaluation::benchmark(&benchmark);
     task::write_report(out, &document)?;
-    let text = json_text(&benchmark, "the benchmark")?;
-    atomic::write(&out.join(BENCHMARK_FILE), text.as_bytes())?;
+    atomic::write_json(&out.join(BENCHMARK_FILE), &benchmark)?;
     folder.finish()?;
     let report = out.join(task::REPORT_FILE);
     let text = format!("{}\nreport in {}", document.first_table().trim_end(), report.display());

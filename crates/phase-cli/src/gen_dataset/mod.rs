@@ -14,15 +14,14 @@ use crate::{context::Context, error::CliError, interrupt, output::Output, parall
 use complete::complete;
 use options::GenDataset;
 use phase_dataset::{
-    atomic,
     checksum::FileEntry,
     folder::{self, Contents, Folder},
-    gallery::PAGE_FILE,
-    manifest::{EventEntry, MANIFEST_FILE, Manifest},
+    manifest::{EventEntry, MANIFEST_FILE, Manifest, PAGE_FILE},
     parquet,
-    record::{self, Record},
+    record::Record,
     shard::{SHARD_FILE, SHARD_FORMAT, Shard, Whole},
 };
+use phase_report::acceptance;
 use phase_sim::Engine;
 use plan::Plan;
 use serde_json::{Value, json};
@@ -64,7 +63,7 @@ pub fn run(arguments: &GenDataset, context: &Context) -> Result<(), CliError> {
     if let Some((shard, of)) = plan.shard {
         let (format, whole) = (SHARD_FORMAT.into(), plan.whole());
         let shard = Shard { format, shard, of, whole, slots: records };
-        atomic::write(&out.join(SHARD_FILE), shard.to_json().as_bytes())?;
+        shard.write(&out.join(SHARD_FILE))?;
         folder.finish()?;
         let events = indices.len();
         let text = format!("{events} events in {}; merge all {of} shards with merge", out.display());
@@ -81,7 +80,7 @@ pub fn run(arguments: &GenDataset, context: &Context) -> Result<(), CliError> {
 fn announce(out: &Path, manifest: &Manifest, output: Output, more: &str) -> Result<(), CliError> {
     let mut text = String::new();
     if !manifest.selection.is_empty() {
-        text += &format!("{}\n", record::table(&manifest.selection).trim_end());
+        text += &format!("{}\n", acceptance::table(&manifest.selection).trim_end());
     }
     text += &format!("{} events in {}\n{}{more}", manifest.events.len(), out.display(), page_line(out));
     let value = json!({

@@ -3,11 +3,11 @@
 use crate::{engine::GENERATOR, error::CliError};
 use phase_dataset::{
     atomic,
-    gallery::{PAGE_FILE, Timeline, page},
-    manifest::{DATASET_FORMAT, EventEntry, Manifest},
+    manifest::{DATASET_FORMAT, EventEntry, Manifest, PAGE_FILE},
     summary::Comparison,
 };
 use phase_event::Event;
+use phase_report::gallery::{Timeline, page};
 use serde_json::Value;
 use std::path::Path;
 

@@ -18,14 +18,14 @@ use crate::{
 use gallery::Shown;
 use options::Simulate;
 use phase_dataset::{
-    atomic,
     checksum::{hexadecimal, sha256},
     folder::{self, Contents, Folder},
-    gallery::PAGE_FILE,
+    manifest::PAGE_FILE,
     summary::{Pair, SUMMARY_FILE, Summary},
 };
 use phase_event::Recording;
 use phase_model::Relation;
+use phase_report::summary;
 use serde_json::{Value, json};
 
 /// An event of the input: its place there, and its recording without what an earlier simulation knows beyond it.
@@ -65,7 +65,7 @@ pub fn run(arguments: &Simulate, context: &Context) -> Result<(), CliError> {
         gallery::write(out, arguments.seed, shown)?;
     }
     let summary = Summary::new(run, pairs);
-    atomic::write(&out.join(SUMMARY_FILE), summary.to_json().as_bytes())?;
+    summary.write(&out.join(SUMMARY_FILE))?;
     folder.finish()?;
     let line = format!("{} simulated events in {}", summary.events.len(), out.display());
     print(arguments, &summary, &line, true)
@@ -114,14 +114,13 @@ fn seeds(arguments: &Simulate) -> Result<Vec<u64>, CliError> {
     Ok((arguments.seed..=last).collect())
 }
 
-/// The seed of a simulated event. That of an event without one of its own follows from its place in the file, so that
-/// the same event comes out with or without the others, unless all are to have the same; one's own counts on with
+/// The seed of a simulated event. An event without a seed of its own gets one by its place in the file, so that the same
+/// event comes out with or without the others; with `--same-chance` all get that of the first. An own seed counts up with
 /// `--seeds`.
 fn event_seed(arguments: &Simulate, index: usize, recording: &Recording, seed: u64) -> u64 {
     match recording.seed {
         Some(own) => own.wrapping_add(seed - arguments.seed),
-        None if arguments.same_chance => engine::event_seed(seed, 0),
-        None => engine::event_seed(seed, index),
+        None => engine::event_seed(seed, if arguments.same_chance { 0 } else { index }),
     }
 }
 
@@ -190,7 +189,7 @@ fn check_finished(arguments: &Simulate, run: &Value) -> Result<(), CliError> {
 /// Prints what came of the run: beside the recordings if there are any, else of the simulations alone.
 fn print(arguments: &Simulate, summary: &Summary, line: &str, new: bool) -> Result<(), CliError> {
     let recorded = summary.events.iter().any(|event| event.recorded_steps > 0);
-    let table = if recorded { summary.table() } else { outcomes::table(&summary.events) };
+    let table = if recorded { summary::table(&summary.kinds) } else { outcomes::table(&summary.events) };
     let page = Some(arguments.out.join(PAGE_FILE)).filter(|page| page.exists());
     let open = page.as_ref().map_or_else(String::new, |it| format!("\nopen {} to watch them", it.display()));
     let value = json!({
