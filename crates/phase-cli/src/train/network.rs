@@ -1,6 +1,7 @@
 //! Training a network of the baselines: round by round, so that the same command goes on after a break.
 
-use super::{error::TrainError, events::Events, options::NetworkOptions, training_files::TrainingFiles};
+use super::{events::Events, options::NetworkOptions, training_files::TrainingFiles};
+use crate::error::train::TrainError;
 use crate::{context::Context, error::CliError};
 use phase_baselines::training::{
     Final, Metrics, NamedMetrics, NetworkError, PublishedNetwork, Round, TrainingRun, TrainingSettings,

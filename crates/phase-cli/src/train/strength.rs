@@ -1,6 +1,7 @@
 //! `strength`: trains The strength regressor of SIMPLE and says how good it is.
 
-use super::{error::TrainError, events::Events, options::Options};
+use super::{events::Events, options::Options};
+use crate::error::train::TrainError;
 use crate::{context::Context, error::CliError};
 use phase_baselines::strength::{
     AgentSamples, Sample, Score, StrengthTrainingSettings, most_common, score, train,
