@@ -3,11 +3,21 @@
 use thiserror::Error;
 
 /// Why a file of probes or runs cannot be used, in one plain sentence.
-#[derive(Clone, PartialEq, Eq, Debug, Error)]
+#[derive(Debug, Error)]
 pub enum ReadError {
     /// It is not JSON, or holds a number too large to be one.
     #[error("is not JSON: {0}")]
-    NotJson(String),
+    NotJson(#[from] serde_json::Error),
+    /// A field is of another type or shape than it has to be.
+    #[error("field `{field}` must be {shape}: {source}")]
+    Shape {
+        /// Where in the file, such as `probes[3].actions`.
+        field: String,
+        /// What it must be, such as `four numbers`.
+        shape: String,
+        /// Why it is not.
+        source: serde_json::Error,
+    },
     /// A field breaks a rule.
     #[error("field `{field}` {rule}")]
     Field {

@@ -55,7 +55,7 @@ mod read;
 mod replay;
 mod report;
 mod run;
-mod statistics;
+mod spread;
 
 pub use deviation::Deviation;
 pub use engine::Engine;
@@ -69,4 +69,4 @@ pub use report::{
     Ahead, FamilyReport, ProbeReport, ProbesReport, Report, RunReport, StateAlone, SubstepReport,
 };
 pub use run::{Run, grip_of};
-pub use statistics::{Spread, percentile};
+pub use spread::Spread;

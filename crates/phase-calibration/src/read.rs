@@ -18,7 +18,7 @@ const MAX_RADIUS: f32 = 0.5 * arena::SIDE;
 
 /// Parses a whole file.
 pub(crate) fn json(text: &str) -> Result<Value, ReadError> {
-    serde_json::from_str(text).map_err(|error| ReadError::NotJson(error.to_string()))
+    Ok(serde_json::from_str(text)?)
 }
 
 /// One entry of the list a file consists of.
@@ -55,8 +55,11 @@ pub(crate) fn entries<'a>(
 
 impl<'a> Entry<'a> {
     pub(crate) fn error(&self, key: &str, rule: impl Into<String>) -> ReadError {
-        let field = if self.path.is_empty() { key.into() } else { format!("{}.{key}", self.path) };
-        ReadError::Field { field, rule: rule.into() }
+        ReadError::Field { field: self.field(key), rule: rule.into() }
+    }
+
+    fn field(&self, key: &str) -> String {
+        if self.path.is_empty() { key.into() } else { format!("{}.{key}", self.path) }
     }
 
     fn member(&self, key: &str) -> Result<&'a Value, ReadError> {
@@ -70,7 +73,11 @@ impl<'a> Entry<'a> {
     /// A member of some shape, described in words.
     pub(crate) fn take<T: Deserialize<'a>>(&self, key: &str, shape: &str) -> Result<T, ReadError> {
         let value = self.member(key)?;
-        T::deserialize(value).map_err(|error| self.error(key, format!("must be {shape}: {error}")))
+        T::deserialize(value).map_err(|source| ReadError::Shape {
+            field: self.field(key),
+            shape: shape.into(),
+            source,
+        })
     }
 
     /// The same for a member that may be absent or null.

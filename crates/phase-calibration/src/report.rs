@@ -1,6 +1,7 @@
 //! What came out, ready to be written as JSON. Positions are in u, angles in rad; what is not finite is null.
 
-use crate::{Deviation, Spread, percentile};
+use crate::{Deviation, Spread};
+use phase_statistics::percentile;
 use serde::Serialize;
 use std::collections::BTreeMap;
 

@@ -4,7 +4,7 @@ use phase_event::{ActionValue, SubgoalValue, Thought};
 use phase_render::Caption;
 
 /// Lines that [`lines`] returns.
-pub const COUNT: usize = 3 + SUBGOALS + PLANNED + ACTIONS;
+pub const COUNT: usize = 2 + SUBGOALS + PLANNED + ACTIONS;
 /// Subgoals shown.
 pub const SUBGOALS: usize = 3;
 /// Steps of the symbolic plan shown.
@@ -12,21 +12,21 @@ pub const PLANNED: usize = 2;
 /// Root actions shown.
 pub const ACTIONS: usize = 4;
 
-/// A title; the most valuable subgoals with V, particles and a bar for the share of particles; the first steps of
+/// The most valuable subgoals with V, particles and a bar for the share of particles; the first steps of
 /// the symbolic plan; and the actions most searched with visits, mean return and a bar for the share of visits.
 ///
 /// There are always [`COUNT`] lines, so that nothing jumps from step to step of a video.
 #[must_use]
-pub fn lines(title: String, thought: &Thought) -> Vec<Caption> {
-    let mut lines = vec![title.into(), "V, particles (bar), subgoal".to_owned().into()];
+pub fn lines(thought: &Thought) -> Vec<Caption> {
+    let mut lines = vec![heading(["V", "particles"], "subgoal (bar: share of particles)")];
     let particles: usize = thought.subgoals.iter().map(|proposed| proposed.particles).sum();
     let subgoals = thought.subgoals.iter().take(SUBGOALS);
     lines.extend(subgoals.map(|proposed| subgoal_line(proposed, particles)));
-    lines.resize(2 + SUBGOALS, Caption::default());
+    lines.resize(1 + SUBGOALS, Caption::default());
     lines.extend(plan_lines(thought));
     let searched = !thought.actions.is_empty();
-    let heading = if searched { "visits (bar), mean return, action" } else { "no search needed" };
-    lines.push(heading.to_owned().into());
+    let columns = heading(["visits", "return"], "action (bar: share of visits)");
+    lines.push(if searched { columns } else { "no search needed".to_owned().into() });
     let visits: u32 = thought.actions.iter().map(|found| found.visits).sum();
     let mut actions: Vec<&ActionValue> = thought.actions.iter().collect();
     // The sort is stable: of equally visited actions the first of the action set comes first.
@@ -39,20 +39,29 @@ pub fn lines(title: String, thought: &Thought) -> Vec<Caption> {
 fn subgoal_line(proposed: &SubgoalValue, particles: usize) -> Caption {
     let SubgoalValue { subgoal, value, particles: count } = proposed;
     let bar = *count as f32 / particles.max(1) as f32;
-    Caption { text: format!("{value:5.2} {count:2} {subgoal}"), bar }
+    Caption { cells: vec![number(*value, 2), count.to_string()], text: subgoal.to_string(), bar }
 }
 
 fn action_line(found: &ActionValue, visits: u32) -> Caption {
     let ActionValue { action, visits: count, value } = found;
     let bar = *count as f32 / visits.max(1) as f32;
-    Caption { text: format!("{count:5} {value:7.3} {}", action.name()), bar }
+    Caption { cells: vec![count.to_string(), number(*value, 3)], text: action.name().into(), bar }
+}
+
+fn heading(cells: [&str; 2], text: &str) -> Caption {
+    Caption { cells: cells.map(str::to_owned).to_vec(), text: text.into(), bar: 0.0 }
+}
+
+/// A number with so many decimals, and a minus sign instead of a hyphen.
+fn number(value: f64, decimals: usize) -> String {
+    format!("{value:.decimals$}").replace('-', "−")
 }
 
 /// One step of the plan a line; the last line also says how many more there are.
 fn plan_lines(thought: &Thought) -> [Caption; PLANNED] {
     core::array::from_fn(|k| {
         let Some(subgoal) = thought.plan.get(k) else { return Caption::default() };
-        let start = if k == 0 { "plan:" } else { "  >" };
+        let start = if k == 0 { "plan:" } else { "→" };
         let more = thought.plan.len().saturating_sub(PLANNED);
         let end = if k + 1 == PLANNED && more > 0 { format!(" +{more}") } else { String::new() };
         format!("{start} {subgoal}{end}").into()

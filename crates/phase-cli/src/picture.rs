@@ -4,7 +4,9 @@ use crate::error::CliError;
 use phase_dataset::atomic;
 use phase_model::{AgentId, Physique, State, arena::FRAMES_PER_SECOND};
 use phase_perception::CellSet;
-use phase_render::{Caption, Frame, Overlay, RenderError, Stage, Style, VideoEncoder, contact_sheet};
+use phase_render::{
+    Caption, Frame, Overlay, Palette, RenderError, Stage, Style, VideoEncoder, contact_sheet, side_by_side,
+};
 use std::path::Path;
 
 /// Side of each frame of a contact sheet (pixels).
@@ -21,34 +23,46 @@ pub struct Mind {
     pub visible: CellSet,
     /// What it holds possible.
     pub particles: Vec<State>,
+    /// What to write above.
+    pub title: String,
     /// What to write below.
     pub captions: Vec<Caption>,
 }
 
-/// A state to draw and the mind to draw over it, if any. Several frames may share a mind.
+/// A state to draw and the minds to draw over it, each in a picture of its own beside the others'; without any the state
+/// alone. Several frames may share a mind.
 #[derive(Clone, Debug)]
 pub struct Shot<'a> {
     /// The true state.
     pub state: State,
-    /// The mind.
-    pub mind: Option<&'a Mind>,
+    /// The minds, as many for every frame of an event.
+    pub minds: Vec<&'a Mind>,
 }
 
 /// Writes a video.
 ///
 /// # Errors
 /// [`CliError::Write`] or [`CliError::Render`]; then there is no file.
-pub fn write_video(path: &Path, id: &str, physique: &Physique, shots: &[Shot<'_>]) -> Result<(), CliError> {
-    let failed = |source| CliError::Render { id: id.into(), source };
-    let stage = Stage::new(physique, style(Style::default(), shots)).map_err(failed)?;
-    let mut bytes = Vec::new();
-    let mut video =
-        VideoEncoder::new(&mut bytes, stage.width(), stage.height(), FRAMES_PER_SECOND).map_err(failed)?;
-    for shot in shots {
-        video.push(&frame(&stage, shot)).map_err(failed)?;
-    }
-    video.finish().map_err(failed)?;
-    Ok(atomic::write(path, &bytes)?)
+pub fn write_video(
+    path: &Path,
+    id: &str,
+    physique: &Physique,
+    palette: Palette,
+    shots: &[Shot<'_>],
+) -> Result<(), CliError> {
+    let mp4 = || -> Result<Vec<u8>, RenderError> {
+        let stage = Stage::new(physique, style(Style::default(), palette, shots))?;
+        let mut frames = shots.iter().map(|shot| frame(&stage, shot));
+        let first = frames.next().ok_or(RenderError::NoFrames("video"))??;
+        let mut video = VideoEncoder::new(Vec::new(), first.width(), first.height(), FRAMES_PER_SECOND)?;
+        video.push(&first)?;
+        for frame in frames {
+            video.push(&frame?)?;
+        }
+        video.finish()
+    };
+    let mp4 = mp4().map_err(|source| CliError::Render { id: id.into(), source })?;
+    Ok(atomic::write(path, &mp4)?)
 }
 
 /// Writes one picture of `count` frames spread evenly from the first to the last.
@@ -59,15 +73,16 @@ pub fn write_sheet(
     path: &Path,
     id: &str,
     physique: &Physique,
+    palette: Palette,
     shots: &[Shot<'_>],
     count: usize,
 ) -> Result<(), CliError> {
     let png = || -> Result<Vec<u8>, RenderError> {
-        let stage = Stage::new(physique, style(Style::with_side(SHEET_SIDE), shots))?;
+        let stage = Stage::new(physique, style(Style::with_side(SHEET_SIDE), palette, shots))?;
         let count = count.min(shots.len());
         let last = shots.len().saturating_sub(1);
         let chosen = (0..count).map(|k| if count > 1 { k * last / (count - 1) } else { last });
-        let frames: Vec<Frame> = chosen.map(|k| frame(&stage, &shots[k])).collect();
+        let frames = chosen.map(|k| frame(&stage, &shots[k])).collect::<Result<Vec<Frame>, RenderError>>()?;
         let columns = columns(count);
         contact_sheet(&frames, columns)?.png()
     };
@@ -82,17 +97,28 @@ fn columns(count: usize) -> usize {
     (squarest..=widest).min_by_key(|columns| count.next_multiple_of(*columns)).unwrap_or(widest)
 }
 
-fn style(style: Style, shots: &[Shot<'_>]) -> Style {
-    let caption_lines = if shots.iter().any(|shot| shot.mind.is_some()) { CAPTION_LINES } else { 0 };
-    Style { caption_lines, ..style }
+/// Title, legend and captions are for minds.
+fn style(style: Style, palette: Palette, shots: &[Shot<'_>]) -> Style {
+    let explained = shots.iter().any(|shot| !shot.minds.is_empty());
+    let caption_lines = if explained { CAPTION_LINES } else { 0 };
+    Style { palette, title: explained, legend: explained, caption_lines, ..style }
 }
 
-fn frame(stage: &Stage, shot: &Shot<'_>) -> Frame {
-    let overlay = shot.mind.map(|mind| Overlay {
-        agent: mind.agent,
-        visible: &mind.visible,
-        particles: &mind.particles,
-        captions: &mind.captions,
-    });
-    stage.frame(&shot.state, overlay.as_ref())
+fn frame(stage: &Stage, shot: &Shot<'_>) -> Result<Frame, RenderError> {
+    let view = |mind: &&Mind| {
+        let overlay = Overlay {
+            agent: mind.agent,
+            visible: &mind.visible,
+            particles: &mind.particles,
+            title: &mind.title,
+            captions: &mind.captions,
+        };
+        stage.frame(&shot.state, Some(&overlay))
+    };
+    let mut views: Vec<Frame> = shot.minds.iter().map(view).collect();
+    match views.len() {
+        0 => Ok(stage.frame(&shot.state, None)),
+        1 => Ok(views.remove(0)),
+        _ => side_by_side(&views),
+    }
 }

@@ -11,6 +11,7 @@ use core::ops::ControlFlow;
 use phase_dataset::{atomic, cache::Cache, checksum::sha256, folder::Folder};
 use phase_event::{Event, Recording};
 use phase_model::{Relation, Scene};
+use phase_render::Palette;
 use phase_sim::Settings;
 use serde_json::Value;
 use std::{
@@ -137,8 +138,8 @@ pub fn settings_value(settings: &Settings) -> Value {
 /// # Errors
 /// As [`picture::write_video`].
 pub fn write_video(path: &Path, id: &str, event: &Event) -> Result<(), CliError> {
-    let shots: Vec<Shot<'_>> = event.frames().map(|&state| Shot { state, mind: None }).collect();
-    picture::write_video(path, id, &event.scene.physique(), &shots)
+    let shots: Vec<Shot<'_>> = event.frames().map(|&state| Shot { state, minds: Vec::new() }).collect();
+    picture::write_video(path, id, &event.scene.physique(), Palette::PAPER, &shots)
 }
 
 /// Stands for everything that decides an event besides its scene and seed: the settings and this very program.

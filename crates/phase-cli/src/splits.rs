@@ -3,11 +3,10 @@
 use crate::{console::tell, error::CliError, source::Source};
 use clap::Args;
 use phase_dataset::{
-    FileError, atomic,
+    FileError,
     manifest::{MANIFEST_FILE, Manifest},
     split_list::SplitList,
     splits::{self, Item, Rule, Split},
-    statistics,
 };
 use std::path::PathBuf;
 
@@ -38,7 +37,7 @@ pub fn run(arguments: &Splits) -> Result<(), CliError> {
         (Some(file), _) => {
             let parts = splits::make(&items, arguments.seed);
             let list = SplitList::of(&items, &parts);
-            atomic::write(file, list.to_json().as_bytes()).map_err(CliError::Output)?;
+            list.write(file).map_err(CliError::Output)?;
             tell(format!("{} made", file.display()));
             parts
         }
@@ -65,7 +64,7 @@ fn events(arguments: &Splits) -> Result<(Vec<Item>, Option<Vec<Split>>), CliErro
     if manifest.is_file() {
         let manifest = Manifest::read(&manifest)?;
         let parts = manifest.events.iter().map(|event| event.split).collect();
-        return Ok((statistics::items(&manifest), parts));
+        return Ok((manifest.items(), parts));
     }
     let source = Source::open(&arguments.events, &[])?;
     let item = |index: usize| {

@@ -3,12 +3,16 @@
 use crate::{console::tell, error::CliError};
 use clap::Args;
 use phase_dataset::{
-    WriteError, atomic,
+    WriteError,
+    acceptance::Acceptance,
+    atomic,
     manifest::{MANIFEST_FILE, Manifest},
-    plot::bars,
-    record::{self, Acceptance},
-    statistics::{self, Statistics},
     words,
+};
+use phase_report::{
+    acceptance,
+    plot::bars,
+    statistics::{self, Statistics},
 };
 use std::{
     collections::BTreeMap,
@@ -56,7 +60,7 @@ fn report(statistics: &Statistics, selection: &[Acceptance]) -> String {
     text +=
         &list("kind", "events", statistics.kinds.iter().map(|(kind, &count)| (kind.name().into(), count)));
     if !selection.is_empty() {
-        text += &format!("\n{}", record::table(selection));
+        text += &format!("\n{}", acceptance::table(selection));
     }
     text
 }

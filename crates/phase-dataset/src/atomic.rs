@@ -1,6 +1,7 @@
 //! Files that are there whole or not at all: written beside, synced, renamed.
 
 use crate::WriteError;
+use serde::Serialize;
 use std::{
     ffi::OsString,
     fs::{self, File},
@@ -19,6 +20,24 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     let mut file = AtomicFile::create(path)?;
     file.write_all(bytes).map_err(|source| file.failed(source))?;
     file.commit()
+}
+
+/// Writes a value as a file of JSON with line breaks, whole or not at all. Folders on the way must exist.
+///
+/// # Errors
+/// If the value cannot be written as JSON, or as [`write`].
+pub fn write_json(path: &Path, value: &impl Serialize) -> Result<(), WriteError> {
+    let text = serde_json::to_string_pretty(value).map_err(|error| WriteError::json(path, error))?;
+    write(path, format!("{text}\n").as_bytes())
+}
+
+/// The same in one line, for files that are large or for this program alone.
+///
+/// # Errors
+/// As [`write_json`].
+pub fn write_json_line(path: &Path, value: &impl Serialize) -> Result<(), WriteError> {
+    let text = serde_json::to_string(value).map_err(|error| WriteError::json(path, error))?;
+    write(path, format!("{text}\n").as_bytes())
 }
 
 /// Removes a file; that there is none is fine.

@@ -55,7 +55,7 @@ impl Cache {
         let path = self.path(id);
         let config = bincode::config::standard().with_limit::<LIMIT>();
         let payload = bincode::serde::encode_to_vec(CachedEvent::of(event), config).map_err(|error| {
-            let source = std::io::Error::other(error.to_string());
+            let source = std::io::Error::other(error);
             WriteError { path: path.clone(), action: "encode the event", source }
         })?;
         let bytes = [&self.head(id, event.seed)[..], &sha256(&payload), &payload].concat();

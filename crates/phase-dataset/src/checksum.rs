@@ -1,6 +1,6 @@
 //! Sizes and SHA-256 checksums of files.
 
-use crate::{FileError, Problem, error::plain_reason};
+use crate::{FileError, Problem};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::{
@@ -30,8 +30,8 @@ impl FileEntry {
     pub fn of(folder: &Path, path: impl Into<String>) -> Result<Self, FileError> {
         let path = path.into();
         let file = folder.join(&path);
-        let (bytes, sha256) = digest(&file)
-            .map_err(|error| FileError { problem: Problem::Unreadable(plain_reason(&error)), file })?;
+        let (bytes, sha256) =
+            digest(&file).map_err(|error| FileError { problem: Problem::Unreadable(error), file })?;
         Ok(Self { path, bytes, sha256 })
     }
 

@@ -31,9 +31,7 @@ pub fn croissant(manifest: &Manifest, about: &str) -> String {
         "distribution": manifest.files.iter().map(file).collect::<Vec<_>>(),
         "recordSet": parts.iter().map(|part| record_set(part, &parts, &columns)).collect::<Vec<_>>(),
     });
-    // Writing plain data of ours to a string cannot fail.
-    let text = serde_json::to_string_pretty(&value).unwrap_or_default();
-    format!("{text}\n")
+    format!("{value:#}\n")
 }
 
 /// The files with checksums in a description, for checking them against the manifest.

@@ -2,7 +2,10 @@
 
 use phase_event::EventReadError;
 use phase_model::json::JsonError;
-use std::{io, path::PathBuf};
+use std::{
+    io,
+    path::{Path, PathBuf},
+};
 use thiserror::Error;
 
 /// A file that cannot be used, and why. The text names the file first.
@@ -12,15 +15,16 @@ pub struct FileError {
     /// The file.
     pub file: PathBuf,
     /// What is wrong with it.
+    #[source]
     pub problem: Problem,
 }
 
 /// What is wrong with a file, without its name.
-#[derive(Clone, PartialEq, Debug, Error)]
+#[derive(Debug, Error)]
 pub enum Problem {
     /// It cannot be opened or read.
-    #[error("cannot be read: {0}")]
-    Unreadable(String),
+    #[error("cannot be read: {}", plain_reason(.0))]
+    Unreadable(#[source] io::Error),
     /// It is a folder.
     #[error("is a folder; a file is needed")]
     IsFolder,
@@ -30,7 +34,15 @@ pub enum Problem {
     /// An event in it is not as it has to be.
     #[error(transparent)]
     Event(EventReadError),
-    /// It is JSON of the right format, but some of it is missing or of the wrong type.
+    /// It is JSON of the right format, but some of it is missing, unknown or of the wrong type.
+    #[error("is no complete {what}: {source}")]
+    Incomplete {
+        /// What it should be.
+        what: &'static str,
+        /// What is wrong.
+        source: serde_json::Error,
+    },
+    /// It is JSON of the right format and complete, but its parts do not agree.
     #[error("is no complete {what}: {rule}")]
     Shape {
         /// What it should be.
@@ -43,7 +55,13 @@ pub enum Problem {
     Altered(&'static str),
     /// It is no Parquet file, or a damaged one.
     #[error("is no whole Parquet file: {0}")]
-    Parquet(String),
+    Parquet(#[source] Box<dyn core::error::Error + Send + Sync>),
+    /// It is a Parquet file whose pages are damaged.
+    #[error("is no whole Parquet file: its pages cannot be decoded")]
+    ParquetPages,
+    /// What it says cannot be put into JSON, and so not be compared with its manifest.
+    #[error("cannot be compared with its manifest: {0}")]
+    Encode(#[source] serde_json::Error),
     /// A Parquet file says something else than the event's own file or the manifest.
     #[error("event {event}: column `{column}` differs from the event's own file or the manifest")]
     Disagrees {
@@ -80,6 +98,14 @@ pub struct WriteError {
     /// The system's answer.
     #[source]
     pub source: io::Error,
+}
+
+impl WriteError {
+    /// A file whose contents cannot be written as JSON.
+    #[must_use]
+    pub fn json(path: &Path, error: serde_json::Error) -> Self {
+        Self { path: path.to_owned(), action: "encode the file as JSON", source: error.into() }
+    }
 }
 
 /// The system's answer in words, without its number.

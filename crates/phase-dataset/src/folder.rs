@@ -43,12 +43,12 @@ pub enum FolderError {
         entry: String,
     },
     /// It cannot be looked into.
-    #[error("{}: cannot be read: {reason}", path.display())]
+    #[error("{}: cannot be read: {}", path.display(), plain_reason(source))]
     Unreadable {
         /// The folder.
         path: PathBuf,
-        /// Why.
-        reason: String,
+        /// The system's answer.
+        source: io::Error,
     },
     /// It cannot be written.
     #[error(transparent)]
@@ -69,9 +69,7 @@ pub fn inspect(path: &Path, last_file: &str) -> Result<Contents, FolderError> {
         Err(_) if path.is_file() => return Err(FolderError::IsFile(path.to_owned())),
         // A file on the way to the folder makes it impossible to create; the claim reports that.
         Err(error) if error.kind() == io::ErrorKind::NotADirectory => return Ok(Contents::Nothing),
-        Err(error) => {
-            return Err(FolderError::Unreadable { path: path.to_owned(), reason: plain_reason(&error) });
-        }
+        Err(source) => return Err(FolderError::Unreadable { path: path.to_owned(), source }),
     };
     let mut names: Vec<String> =
         entries.flatten().map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();

@@ -1,9 +1,9 @@
 //! Files of JSON.
 
-use crate::{FileError, Problem, error::plain_reason};
+use crate::{FileError, Problem};
 use phase_model::json::parse;
 use serde_json::Value;
-use std::{io, path::Path};
+use std::path::Path;
 
 /// Reads a whole file as JSON.
 ///
@@ -22,10 +22,5 @@ pub fn bytes(path: &Path) -> Result<Vec<u8>, FileError> {
     if path.is_dir() {
         return Err(fail(Problem::IsFolder));
     }
-    std::fs::read(path).map_err(|error| {
-        fail(match error.kind() {
-            io::ErrorKind::NotFound => Problem::Unreadable("no such file".into()),
-            _ => Problem::Unreadable(plain_reason(&error)),
-        })
-    })
+    std::fs::read(path).map_err(|error| fail(Problem::Unreadable(error)))
 }

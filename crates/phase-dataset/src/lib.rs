@@ -1,10 +1,10 @@
 //! PHASE events at rest: files, formats, checksums, and folders that several runs may meet in.
 //!
 //! - [`phase_events`] reads files of the exchange format `phase-events/1`, whose events `phase-event` describes.
-//! - [`manifest`], [`gallery`] and [`card`] describe a generated dataset to programs and to people.
+//! - [`manifest`] describes a generated dataset to programs; pages and tables for people are made elsewhere.
 //! - [`parquet`] and [`croissant`] are for everyone else's tools; [`mod@verify`] checks that all of it agrees.
-//! - [`preset`] says what a dataset is composed of, [`splits`] how it is divided, [`mod@statistics`] what came of it, [`record`] and [`shard`] what was
-//!   tried for each of its events.
+//! - [`preset`] says what a dataset is composed of, [`splits`] how it is divided, [`record`], [`acceptance`] and
+//!   [`shard`] what was tried for each of its events.
 //! - [`summary`] compares simulations with recordings.
 //! - [`atomic`], [`folder`] and [`cache`] let a run be interrupted at any moment and nothing be half-written.
 //!
@@ -36,26 +36,23 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod acceptance;
 pub mod atomic;
 pub mod cache;
-pub mod card;
 pub mod checksum;
 pub mod croissant;
 pub mod error;
 pub mod folder;
-pub mod gallery;
 pub mod json;
 pub mod labels;
 pub mod manifest;
 pub mod parquet;
 pub mod phase_events;
-pub mod plot;
 pub mod preset;
 pub mod record;
 pub mod shard;
 pub mod split_list;
 pub mod splits;
-pub mod statistics;
 pub mod summary;
 pub mod verify;
 pub mod words;

@@ -1,6 +1,13 @@
 //! `manifest.json`: what a dataset holds, how it was made, and the checksum of every file.
 
-use crate::{FileError, Problem, checksum::FileEntry, json, record::Acceptance, splits::Split};
+use crate::{
+    FileError, Problem, WriteError,
+    acceptance::Acceptance,
+    atomic,
+    checksum::FileEntry,
+    json,
+    splits::{Item, Split},
+};
 use phase_event::Event;
 use phase_evidence::{Outcome, Track};
 use phase_model::{AGENT_COUNT, EventKind, Goal, Relation, json::check_format};
@@ -13,6 +20,10 @@ use std::path::Path;
 pub const DATASET_FORMAT: &str = "phase-dataset/1";
 /// The manifest's file name. It is written last: a folder with a manifest is complete.
 pub const MANIFEST_FILE: &str = "manifest.json";
+/// File name of the dataset card.
+pub const CARD_FILE: &str = "README.md";
+/// File name of the gallery, the page that shows every video; a dataset without videos has none.
+pub const PAGE_FILE: &str = "index.html";
 
 /// A whole dataset.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
@@ -174,18 +185,28 @@ impl Manifest {
         let fail = |problem| FileError { file: path.to_owned(), problem };
         let value = json::read(path)?;
         check_format(&value, DATASET_FORMAT).map_err(|error| fail(error.into()))?;
-        serde_json::from_value(value).map_err(|error| {
-            let rule = error.to_string();
-            fail(Problem::Shape { what: "dataset manifest", rule })
-        })
+        let what = "dataset manifest";
+        serde_json::from_value(value).map_err(|source| fail(Problem::Incomplete { what, source }))
     }
 
-    /// The manifest as a file's text.
+    /// Writes the manifest whole or not at all.
+    ///
+    /// # Errors
+    /// If it cannot be written as JSON, or the file cannot be written.
+    pub fn write(&self, path: &Path) -> Result<(), WriteError> {
+        atomic::write_json(path, self)
+    }
+
+    /// What of each event decides which part of the dataset it may belong to, in the events' order.
     #[must_use]
-    pub fn to_json(&self) -> String {
-        // Writing plain data of ours to a string cannot fail.
-        let text = serde_json::to_string_pretty(self).unwrap_or_default();
-        format!("{text}\n")
+    pub fn items(&self) -> Vec<Item> {
+        let item = |event: &EventEntry| Item {
+            id: event.id.clone(),
+            kind: event.kind,
+            goals: event.agents.map(|agent| agent.goal),
+            base: event.layout.base,
+        };
+        self.events.iter().map(item).collect()
     }
 
     /// Checks that every file is there and unchanged.

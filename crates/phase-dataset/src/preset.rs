@@ -102,12 +102,11 @@ impl Preset {
     /// # Errors
     /// If the text is no preset, lists no events, or names layouts that there are not.
     pub fn parse(name: &str, text: &str) -> Result<Self, FileError> {
-        let fail = |rule: String| FileError {
-            file: Path::new(name).to_owned(),
-            problem: Problem::Shape { what: "preset", rule },
-        };
-        let preset: Self = serde_json::from_str(text).map_err(|error| fail(error.to_string()))?;
-        preset.check().map_err(fail)?;
+        let what = "preset";
+        let fail = |problem| FileError { file: Path::new(name).to_owned(), problem };
+        let preset: Self =
+            serde_json::from_str(text).map_err(|source| fail(Problem::Incomplete { what, source }))?;
+        preset.check().map_err(|rule| fail(Problem::Shape { what, rule }))?;
         Ok(preset)
     }
 

@@ -1,6 +1,6 @@
 //! `shard.json`: one part of a dataset that is made in several places.
 
-use crate::{FileError, Problem, json, record::Record};
+use crate::{FileError, Problem, WriteError, atomic, json, record::Record};
 use phase_model::json::check_format;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -61,10 +61,12 @@ impl Shard {
     /// If it is no JSON, of another format, or incomplete.
     pub fn read(path: &Path) -> Result<Self, FileError> {
         let fail = |problem| FileError { file: path.to_owned(), problem };
-        let shape = |rule: String| Problem::Shape { what: "shard of a dataset", rule };
+        let what = "shard of a dataset";
+        let shape = |rule: String| Problem::Shape { what, rule };
         let value = json::read(path)?;
         check_format(&value, SHARD_FORMAT).map_err(|error| fail(error.into()))?;
-        let shard: Self = serde_json::from_value(value).map_err(|error| fail(shape(error.to_string())))?;
+        let shard: Self =
+            serde_json::from_value(value).map_err(|source| fail(Problem::Incomplete { what, source }))?;
         if shard.shard == 0 || shard.shard > shard.of {
             return Err(fail(shape(format!("there is no shard {} of {}", shard.shard, shard.of))));
         }
@@ -76,11 +78,12 @@ impl Shard {
         Ok(shard)
     }
 
-    /// The shard as a file's text.
-    #[must_use]
-    pub fn to_json(&self) -> String {
-        // Writing plain data of ours to a string cannot fail.
-        format!("{}\n", serde_json::to_string(self).unwrap_or_default())
+    /// Writes the shard whole or not at all.
+    ///
+    /// # Errors
+    /// If it cannot be written as JSON, or the file cannot be written.
+    pub fn write(&self, path: &Path) -> Result<(), WriteError> {
+        atomic::write_json_line(path, self)
     }
 }
 

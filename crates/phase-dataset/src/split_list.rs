@@ -1,7 +1,7 @@
 //! `phase-splits/1`: a split as lists of ids.
 
 use crate::{
-    FileError, Problem, json,
+    FileError, Problem, WriteError, atomic, json,
     splits::{Item, Split},
 };
 use phase_model::json::check_format;
@@ -10,6 +10,9 @@ use std::{collections::BTreeMap, path::Path};
 
 /// The value of the field `format` of split files.
 pub const SPLITS_FORMAT: &str = "phase-splits/1";
+
+/// What such a file is called in messages.
+const WHAT: &str = "list of splits";
 
 /// Which events belong to which part.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
@@ -45,7 +48,7 @@ impl SplitList {
         let fail = |problem| FileError { file: path.to_owned(), problem };
         let value = json::read(path)?;
         check_format(&value, SPLITS_FORMAT).map_err(|error| fail(error.into()))?;
-        serde_json::from_value(value).map_err(|error| fail(shape(error.to_string())))
+        serde_json::from_value(value).map_err(|source| fail(Problem::Incomplete { what: WHAT, source }))
     }
 
     /// The part of each event.
@@ -73,14 +76,15 @@ impl SplitList {
         }
     }
 
-    /// The list as a file's text.
-    #[must_use]
-    pub fn to_json(&self) -> String {
-        // Writing plain data of ours to a string cannot fail.
-        format!("{}\n", serde_json::to_string_pretty(self).unwrap_or_default())
+    /// Writes the list whole or not at all.
+    ///
+    /// # Errors
+    /// If it cannot be written as JSON, or the file cannot be written.
+    pub fn write(&self, path: &Path) -> Result<(), WriteError> {
+        atomic::write_json(path, self)
     }
 }
 
 const fn shape(rule: String) -> Problem {
-    Problem::Shape { what: "list of splits", rule }
+    Problem::Shape { what: WHAT, rule }
 }

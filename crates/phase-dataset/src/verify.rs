@@ -3,12 +3,10 @@
 
 use crate::{
     FileError, Problem,
-    card::CARD_FILE,
     checksum::FileEntry,
     croissant::{CROISSANT_FILE, checksums},
-    gallery::PAGE_FILE,
     json,
-    manifest::{EventEntry, MANIFEST_FILE, Manifest},
+    manifest::{CARD_FILE, EventEntry, MANIFEST_FILE, Manifest, PAGE_FILE},
     parquet::{self, Part},
 };
 use core::convert::Infallible;
@@ -155,7 +153,7 @@ fn extra(root: &Path, folder: &Path, files: &BTreeMap<&str, &FileEntry>, problem
     let entries = match fs::read_dir(folder).and_then(Iterator::collect::<io::Result<Vec<_>>>) {
         Ok(entries) => entries,
         Err(error) => {
-            let problem = Problem::Unreadable(crate::error::plain_reason(&error));
+            let problem = Problem::Unreadable(error);
             return problems.push(FileError { file: folder.to_owned(), problem });
         }
     };
@@ -192,9 +190,11 @@ fn event(folder: &Path, entry: &EventEntry) -> Result<(), FileError> {
     let mut found = EventEntry::with_files(&recording.id, &simulation.event, json, video);
     found.relation = recording.relation;
     (found.variant, found.split) = (entry.variant, entry.split);
-    let (Ok(found), Ok(expected)) = (serde_json::to_value(found), serde_json::to_value(entry)) else {
-        return Ok(());
+    let encode = |entry: &EventEntry| {
+        serde_json::to_value(entry)
+            .map_err(|error| FileError { file: file.clone(), problem: Problem::Encode(error) })
     };
+    let (found, expected) = (encode(&found)?, encode(entry)?);
     let members = expected.as_object().into_iter().flatten();
     match members.into_iter().find(|(key, value)| found.get(key.as_str()) != Some(value)) {
         Some((key, value)) => {

@@ -1,7 +1,7 @@
 //! Means over events, with intervals.
 
 use phase_model::random::{Purpose, stream};
-use rand::RngExt;
+use phase_statistics::{Interval, bootstrap_mean, mean};
 use serde::{Deserialize, Serialize};
 
 /// How often events are drawn anew for an interval.
@@ -25,17 +25,9 @@ impl Estimate {
     /// drawn with replacement as there are, [`RESAMPLES`] times. `None` without events. The numbers must be finite.
     #[must_use]
     pub fn of(values: &[f64], seed: u64) -> Option<Self> {
-        if values.is_empty() {
-            return None;
-        }
-        let count = values.len();
         let mut random = stream(seed, Purpose::Bootstrap, 0);
-        let mut draw = || (0..count).map(|_| values[random.random_range(0..count)]).sum::<f64>();
-        let mut means: Vec<f64> = (0..RESAMPLES).map(|_| draw() / count as f64).collect();
-        means.sort_by(f64::total_cmp);
-        let outside = ((1.0 - CONFIDENCE) / 2.0 * RESAMPLES as f64).round() as usize;
-        let value = values.iter().sum::<f64>() / count as f64;
-        Some(Self { value, low: means[outside], high: means[RESAMPLES - 1 - outside] })
+        let Interval { low, high } = bootstrap_mean(values, RESAMPLES, CONFIDENCE, &mut random)?;
+        Some(Self { value: mean(values)?, low, high })
     }
 
     /// The interval as a pair, as files have it beside the mean.

@@ -1,11 +1,10 @@
-//! How well a method perceives social events: the metrics of both tasks, intervals, tables and reports.
+//! How well a method perceives social events: the metrics of both tasks, with intervals.
 //!
 //! - [`method`] is what a method has to be: a [`Recogniser`] for Task 1 (goals and relations), a [`Forecaster`] for
 //!   Task 2 (trajectories); [`plain`] has the plainest of both, below which no method should fall.
 //! - [`goals`] and [`trajectories`] score answers; [`estimate`] puts intervals around every score.
 //! - [`benchmark`] puts many methods on the same events side by side.
 //! - [`results`] is what programs read, and [`predictions`] the answers of somebody else's method to either task.
-//! - [`published`] has the paper's rows, [`report`] puts them beside ours, as Markdown and as a page.
 //!
 //! The key design decision is that every score is a mean over events of one number for each event. So one bootstrap
 //! over events serves all of them, and whatever is kept of an event is enough to score it again. The price is
@@ -47,8 +46,6 @@ mod group;
 pub mod method;
 pub mod plain;
 pub mod predictions;
-pub mod published;
-pub mod report;
 pub mod results;
 pub mod trajectories;
 

@@ -1,15 +1,32 @@
 //! What a method of perception has to be.
 
+use crate::{goals::AnswerError, trajectories::ForecastError};
 use core::ops::ControlFlow;
 use phase_event::ObservedEvent;
 use phase_model::{Forecast, Judgement};
 use serde_json::Value;
 use thiserror::Error;
 
-/// Why a method has no answer, in a sentence.
-#[derive(Clone, PartialEq, Eq, Debug, Error)]
-#[error("{0}")]
-pub struct MethodError(pub String);
+/// Why there is no answer to an event, in a sentence.
+#[derive(Debug, Error)]
+pub enum MethodError {
+    /// The method gave none, for a reason of its own.
+    #[error("{0}")]
+    NoAnswer(#[source] Box<dyn core::error::Error + Send + Sync>),
+    /// The probabilities of goals or relations that it gave are none.
+    #[error("the method's {0}")]
+    Answer(#[from] AnswerError),
+    /// The positions that it predicted cannot be compared with those that came.
+    #[error(transparent)]
+    Forecast(#[from] ForecastError),
+}
+
+impl MethodError {
+    /// The error of a method that gives no answer, or a sentence that says why.
+    pub fn new(error: impl Into<Box<dyn core::error::Error + Send + Sync>>) -> Self {
+        Self::NoAnswer(error.into())
+    }
+}
 
 /// To be called now and then while a method thinks; the method gives up, with `Ok(None)`, when told to break.
 pub type Tick<'a> = &'a mut dyn FnMut() -> ControlFlow<()>;

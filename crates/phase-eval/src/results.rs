@@ -5,8 +5,7 @@ use crate::{
     goals::{self, RecognisedEvent},
     trajectories::{self, ForecastEvent},
 };
-use serde::Serialize;
-use serde_json::{Value, json};
+use serde_json::{Value, json, to_value};
 
 /// The value of the field `format` of results of Task 1.
 pub const GOALS_FORMAT: &str = "phase-eval-goals/1";
@@ -14,11 +13,13 @@ pub const GOALS_FORMAT: &str = "phase-eval-goals/1";
 pub const TRAJECTORIES_FORMAT: &str = "phase-eval-trajectories/1";
 
 /// Results of Task 1. `run` is what was run, with its `method` and `seed`.
-#[must_use]
-pub fn goals(run: &Value, summary: &goals::Summary, events: &[RecognisedEvent]) -> Value {
+///
+/// # Errors
+/// If a part of them cannot be written as JSON.
+pub fn goals(run: &Value, summary: &goals::Summary, events: &[RecognisedEvent]) -> serde_json::Result<Value> {
     let all = &summary.all;
     let human = all.relation_human;
-    json!({
+    Ok(json!({
         "format": GOALS_FORMAT, "run": run, "method": run["method"], "seed": run["seed"],
         "n_events": all.n,
         "goal": { "top1": all.top1.value, "top2": all.top2.value, "top3": all.top3.value },
@@ -35,18 +36,24 @@ pub fn goals(run: &Value, summary: &goals::Summary, events: &[RecognisedEvent]) 
                 "human_accuracy": human.map(|estimate| estimate.interval()),
             },
         },
-        "kinds": plain(&summary.kinds), "layouts": plain(&summary.layouts), "watched": plain(&summary.watched),
-        "confusion": { "order": plain(&goals::RELATIONS), "right_by_said": summary.confusion },
+        "kinds": to_value(&summary.kinds)?, "layouts": to_value(&summary.layouts)?, "watched": to_value(&summary.watched)?,
+        "confusion": { "order": to_value(goals::RELATIONS)?, "right_by_said": summary.confusion },
         "calibration": {
-            "goal": plain(&summary.goal_calibration), "relation": plain(&summary.relation_calibration),
+            "goal": to_value(&summary.goal_calibration)?, "relation": to_value(&summary.relation_calibration)?,
         },
-        "events": plain(&events),
-    })
+        "events": to_value(events)?,
+    }))
 }
 
 /// Results of Task 2. `run` is what was run, with its `method` and `seed`.
-#[must_use]
-pub fn trajectories(run: &Value, summary: &trajectories::Summary, events: &[ForecastEvent]) -> Value {
+///
+/// # Errors
+/// If a part of them cannot be written as JSON.
+pub fn trajectories(
+    run: &Value,
+    summary: &trajectories::Summary,
+    events: &[ForecastEvent],
+) -> serde_json::Result<Value> {
     let (independent, social) = (summary.independent.as_ref(), summary.social.as_ref());
     let parts = |of: fn(&trajectories::Scores) -> Estimate| {
         let (independent, social) = (independent.map(of), social.map(of));
@@ -63,7 +70,7 @@ pub fn trajectories(run: &Value, summary: &trajectories::Summary, events: &[Fore
     let ([ade, ade_interval], [fde, fde_interval]) = (parts(|it| it.ade), parts(|it| it.fde));
     let ([ade_entities, ade_entities_interval], [fde_entities, fde_entities_interval]) =
         (parts(|it| it.ade_entities), parts(|it| it.fde_entities));
-    json!({
+    Ok(json!({
         "format": TRAJECTORIES_FORMAT, "run": run, "method": run["method"], "seed": run["seed"],
         "n_events": summary.all.n, "ade": ade, "fde": fde,
         "ade_entities": ade_entities, "fde_entities": fde_entities,
@@ -73,12 +80,7 @@ pub fn trajectories(run: &Value, summary: &trajectories::Summary, events: &[Fore
         },
         "cpu_seconds_per_event": summary.cpu_seconds_per_event,
         "watched_steps": trajectories::WATCHED_STEPS, "predicted_steps": trajectories::PREDICTED_STEPS,
-        "shorter": summary.shorter, "by_step": summary.by_step, "kinds": plain(&summary.kinds),
-        "events": plain(&events),
-    })
-}
-
-/// Plain data of ours, which always has a JSON form.
-fn plain(data: &impl Serialize) -> Value {
-    serde_json::to_value(data).unwrap_or_default()
+        "shorter": summary.shorter, "by_step": summary.by_step, "kinds": to_value(&summary.kinds)?,
+        "events": to_value(events)?,
+    }))
 }

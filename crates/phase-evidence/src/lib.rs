@@ -4,7 +4,7 @@
 //! [`mod@holding`] who held what when, [`mod@contact`] who touched whom, [`mod@blocking`] who stood in whose
 //! way, [`mod@pursuit`] who went after whom, [`mod@exploration`] where someone looked first, [`mod@motion`] how
 //! fast and how far someone moved and [`mod@rest`] how quietly an event ended. [`Effect`] compares an event with the same one in which an agent did nothing,
-//! which is what tells help from company. [`mod@selection`] asks whether an event shows its label. [`mod@statistics`] says how sure one may be after some events.
+//! which is what tells help from company. [`mod@selection`] asks whether an event shows its label.
 //!
 //! The key design decision is that nobody's thoughts are asked: an event in which help was meant and nothing
 //! came of it shows no help. The same functions so serve simulated events, measured recordings (which know
@@ -45,12 +45,10 @@ pub mod outcome;
 pub mod pursuit;
 pub mod rest;
 pub mod selection;
-pub mod statistics;
 pub mod track;
 
 pub use effect::Effect;
 pub use motion::Motion;
 pub use outcome::Outcome;
 pub use rest::Rest;
-pub use statistics::Quartiles;
 pub use track::Track;

@@ -4,6 +4,7 @@ mod scenes;
 
 use phase_forward::Forward;
 use phase_model::{Action, Contacts, Dynamics, Entity, Physique, State, arena};
+use phase_statistics::percentile;
 use phase_world::World;
 use proptest::{prelude::*, strategy::ValueTree, test_runner::TestRunner};
 use scenes::{actions, apart, clear_of_walls, outline};
@@ -128,7 +129,7 @@ fn one_step_ahead_over_many_scenes() {
         report(going, "rad", &mut angles);
         assert!(positions.len() >= 50, "too few steps to say anything about {going:?}");
         for &(percent, limit) in limits {
-            let reached = percentile(&positions, percent);
+            let reached = percentile(&positions, percent).expect("some steps");
             assert!(reached <= limit, "{going:?}: p{percent} is {reached} u, not {limit}");
         }
     }
@@ -137,15 +138,11 @@ fn one_step_ahead_over_many_scenes() {
 /// Sorts and prints errors.
 fn report(going: Going, unit: &str, errors: &mut [f32]) {
     errors.sort_by(f32::total_cmp);
-    let [p50, p90, p99, worst] = [50, 90, 99, 100].map(|p| percentile(errors, p));
+    let [p50, p90, p99, worst] = [50, 90, 99, 100].map(|p| percentile(errors, p).expect("some steps"));
     let near = errors.partition_point(|&error| error <= 0.01) as f32 / errors.len() as f32;
     println!(
         "{going:?}, {} steps: p50 {p50:.1e} p90 {p90:.1e} p99 {p99:.1e} worst {worst:.1e} {unit}, {:.1} % within 0.01",
         errors.len(),
         100.0 * near
     );
-}
-
-fn percentile(sorted: &[f32], percent: usize) -> f32 {
-    sorted[(sorted.len() * percent / 100).min(sorted.len() - 1)]
 }

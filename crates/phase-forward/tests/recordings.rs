@@ -3,9 +3,10 @@
 mod records;
 
 use phase_calibration::{
-    Ahead, ColdForward, Deviation, Engine, Replay, Run, WarmForward, ahead, percentile, replay_reports,
+    Ahead, ColdForward, Deviation, Engine, Replay, Run, WarmForward, ahead, replay_reports,
 };
 use phase_dataset::phase_events;
+use phase_statistics::percentile;
 use records::{path, text};
 
 /// For some steps ahead, what nine in ten and 99 in 100 predictions stay under (u): from a state alone, and with

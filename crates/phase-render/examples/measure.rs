@@ -1,11 +1,13 @@
 //! Draws and encodes a made-up event of 500 frames, and prints time per frame and the size of the video.
 //!
-//! With a directory as argument it leaves `plain.mp4`, `belief.mp4`, `plain.png`, `belief.png` and
-//! `sheet.png` there, to look at.
+//! With a directory as argument it leaves `plain.mp4`, `belief.mp4`, `plain.png`, `belief.png`, `both.png` (accessible
+//! palette) and `sheet.png` there, to look at.
 
 use phase_model::{AgentBody, AgentId, Body, Grip, Layout, ObjectId, Physique, Side, State, Vec2, arena};
 use phase_perception::{Cell, CellSet};
-use phase_render::{Frame, Overlay, Stage, Style, VideoEncoder, contact_sheet};
+use phase_render::{
+    Caption, Frame, Overlay, Palette, Stage, Style, VideoEncoder, contact_sheet, side_by_side,
+};
 use std::{error::Error, f32::consts::PI, path::Path, time::Instant};
 
 const FRAMES: usize = 500;
@@ -18,22 +20,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         object_count: 2,
     };
     let plain = Stage::new(&physique, Style::default())?;
-    let captioned = Stage::new(&physique, Style { caption_lines: 2, ..Style::default() })?;
+    let annotated = Style { title: true, legend: true, caption_lines: 3, ..Style::default() };
+    let captioned = Stage::new(&physique, annotated)?;
+    let accessible = Stage::new(&physique, Style { palette: Palette::ACCESSIBLE, ..annotated })?;
 
     let (frames, mp4) = run("plain", &plain, |stage, k| stage.frame(&event(k), None))?;
-    let (beliefs, belief_mp4) = run("belief", &captioned, |stage, k| {
-        let state = event(k);
-        let visible = cone(&state.bodies[0]);
-        let captions = [
-            format!("agent 0: {}", if k < 250 { "get object 1" } else { "put object 1 on landmark 2" })
-                .into(),
-            format!("V = {:+.3} ({} of 400 cells seen)", 0.9 - k as f32 / 1000.0, visible.len()).into(),
-        ];
-        let particles: Vec<State> = (0..50).map(|particle| guess(&state, particle)).collect();
-        let overlay =
-            Overlay { agent: AgentId::ZERO, visible: &visible, particles: &particles, captions: &captions };
-        stage.frame(&state, Some(&overlay))
-    })?;
+    let (beliefs, belief_mp4) = run("belief", &captioned, |stage, k| belief(stage, k, AgentId::ZERO))?;
 
     if let Some(directory) = std::env::args().nth(1) {
         let directory = Path::new(&directory);
@@ -41,10 +33,34 @@ fn main() -> Result<(), Box<dyn Error>> {
         std::fs::write(directory.join("belief.mp4"), belief_mp4)?;
         std::fs::write(directory.join("plain.png"), frames[320].png()?)?;
         std::fs::write(directory.join("belief.png"), beliefs[320].png()?)?;
+        let both = AgentId::ALL.map(|agent| belief(&accessible, 320, agent));
+        std::fs::write(directory.join("both.png"), side_by_side(&both)?.png()?)?;
         let keys: Vec<Frame> = frames.iter().step_by(63).cloned().collect();
         std::fs::write(directory.join("sheet.png"), contact_sheet(&keys, 4)?.png()?)?;
     }
     Ok(())
+}
+
+/// One frame with what an agent might see and believe.
+fn belief(stage: &Stage, frame: usize, agent: AgentId) -> Frame {
+    let state = event(frame);
+    let visible = cone(&state.bodies[agent.index()]);
+    let subgoal = if frame < 250 { "get object 1" } else { "put object 1 on landmark 2" };
+    let line = |cells: [&str; 2], text: &str, bar| Caption {
+        cells: cells.map(str::to_owned).to_vec(),
+        text: text.into(),
+        bar,
+    };
+    let captions = [
+        line(["V", "particles"], "subgoal (bar: share of particles)", 0.0),
+        line(["0.90", "38"], subgoal, 0.76),
+        line(["−0.25", "12"], &format!("look around ({} of 400 cells seen)", visible.len()), 0.24),
+    ];
+    let particles: Vec<State> = (0..50).map(|particle| guess(&state, particle, agent)).collect();
+    let title = format!("Agent {agent}, step {}", frame / arena::SUBSTEPS);
+    let overlay =
+        Overlay { agent, visible: &visible, particles: &particles, title: &title, captions: &captions };
+    stage.frame(&state, Some(&overlay))
 }
 
 /// Draws all frames, then encodes them, and prints how long each took.
@@ -104,13 +120,13 @@ fn cone(body: &Body) -> CellSet {
         .collect()
 }
 
-/// A made-up particle: everything the agent does not hold lies somewhere else.
-fn guess(state: &State, particle: usize) -> State {
+/// A made-up particle: the other agent and object 0 lie somewhere else.
+fn guess(state: &State, particle: usize, agent: AgentId) -> State {
     let mut guess = *state;
     let spread = particle as f32 * 2.399;
     let ring = 0.35 * (particle as f32).sqrt();
-    guess.bodies[1].position += Vec2::from_angle(spread) * ring;
-    guess.bodies[1].angle += particle as f32;
+    guess.bodies[agent.other().index()].position += Vec2::from_angle(spread) * ring;
+    guess.bodies[agent.other().index()].angle += particle as f32;
     guess.bodies[2].position += Vec2::from_angle(-spread) * ring;
     guess
 }

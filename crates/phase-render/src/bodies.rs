@@ -1,6 +1,6 @@
 //! Agents and objects, solid or as a faint belief.
 
-use crate::{Palette, painter::Painter};
+use crate::{Colour, Palette, painter::Painter};
 use phase_model::{AgentId, Body, Entity, Physique, State, Vec2, geometry};
 
 /// Width of the outline of a body, all of it inside the body's shape (u).
@@ -17,6 +17,10 @@ const EYE_WHITE: f32 = 0.291;
 const PUPIL: Vec2 = Vec2::new(0.5, 0.7);
 const PUPIL_RADIUS: f32 = 0.224;
 
+/// Half length and half depth of a grip's bar and of the rim around it, as multiples of the agent's radius.
+pub(crate) const GRIP_BAR: Vec2 = Vec2::new(0.40, 0.09);
+pub(crate) const GRIP_RIM: Vec2 = Vec2::new(0.48, 0.16);
+
 /// The entities of a physique in the order in which they are drawn, at most what a state can hold.
 pub(crate) fn entities(physique: &Physique) -> impl Iterator<Item = Entity> + use<> {
     physique.entities()
@@ -30,8 +34,7 @@ pub(crate) fn draw(painter: &mut Painter, palette: &Palette, physique: &Physique
             Entity::Agent(agent) => draw_agent(painter, palette, agent, radius, body),
             Entity::Object(object) => {
                 let colour = palette.objects[object];
-                painter.disc(body.position, radius, palette.outline, 255);
-                painter.disc(body.position, radius - OUTLINE, colour, 255);
+                draw_disc(painter, palette, body.position, radius, colour);
             }
         }
     }
@@ -58,10 +61,21 @@ pub(crate) fn draw_believed(
         }
         Entity::Object(object) => {
             let colour = palette.objects[object];
-            painter.disc(body.position, radius - OUTLINE, colour, BELIEF_FILL);
-            painter.ring(body.position, radius, radius - OUTLINE, colour, BELIEF_EDGE);
+            draw_believed_disc(painter, body.position, radius, colour);
         }
     }
+}
+
+/// A disc with an outline, as objects are drawn.
+pub(crate) fn draw_disc(painter: &mut Painter, palette: &Palette, centre: Vec2, radius: f32, colour: Colour) {
+    painter.disc(centre, radius, palette.outline, 255);
+    painter.disc(centre, radius - OUTLINE, colour, 255);
+}
+
+/// A faint disc, as believed objects are drawn.
+pub(crate) fn draw_believed_disc(painter: &mut Painter, centre: Vec2, radius: f32, colour: Colour) {
+    painter.disc(centre, radius - OUTLINE, colour, BELIEF_FILL);
+    painter.ring(centre, radius, radius - OUTLINE, colour, BELIEF_EDGE);
 }
 
 fn draw_agent(painter: &mut Painter, palette: &Palette, agent: AgentId, radius: f32, body: &Body) {
@@ -87,8 +101,8 @@ fn draw_grip(painter: &mut Painter, palette: &Palette, physique: &Physique, stat
         [(-length, -depth), (length, -depth), (length, depth), (-length, depth)]
             .map(|(across, deep)| place(along * (1.0 + deep) + along.perp() * across))
     };
-    painter.polygon(&bar(0.48, 0.16), palette.agents[agent], 255);
-    painter.polygon(&bar(0.40, 0.09), palette.outline, 255);
+    painter.polygon(&bar(GRIP_RIM.x, GRIP_RIM.y), palette.agents[agent], 255);
+    painter.polygon(&bar(GRIP_BAR.x, GRIP_BAR.y), palette.outline, 255);
 }
 
 /// From the agent's frame in multiples of its radius to the world.

@@ -62,6 +62,12 @@ pub enum RenderError {
         /// Number of columns.
         columns: usize,
     },
+    /// The embedded font could not be parsed.
+    #[error("the embedded font cannot be parsed")]
+    Font,
+    /// There is no such layout to draw.
+    #[error(transparent)]
+    Layout(#[from] phase_model::LayoutError),
     /// The video encoder gave nothing for a frame.
     #[error("the video encoder skipped frame {0}")]
     SkippedFrame(usize),
@@ -73,5 +79,5 @@ pub enum RenderError {
     Container(#[from] muxide::api::MuxerError),
     /// The .png could not be put together.
     #[error("encoding the .png failed: {0}")]
-    Png(String),
+    Png(#[source] Box<dyn core::error::Error + Send + Sync>),
 }

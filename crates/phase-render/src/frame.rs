@@ -41,7 +41,7 @@ impl Frame {
     /// # Errors
     /// [`RenderError::Png`] if the encoder fails, which it does only when memory runs out.
     pub fn png(&self) -> Result<Vec<u8>, RenderError> {
-        self.pixmap.encode_png().map_err(|error| RenderError::Png(error.to_string()))
+        self.pixmap.encode_png().map_err(|error| RenderError::Png(error.into()))
     }
 
     /// A frame of what has been drawn. The painters only draw on an opaque ground, so it stays opaque.

@@ -2,7 +2,8 @@
 //!
 //! A [`Stage`] knows what does not change in an event (walls, landmarks, radii, colours) and turns each
 //! [`phase_model::State`] into a [`Frame`]; a [`VideoEncoder`] turns frames into an H.264 .mp4 that browsers
-//! play and seek in. With an [`Overlay`] a frame also shows what one agent sees and believes.
+//! play and seek in. With an [`Overlay`] a frame also shows what one agent sees and believes, and
+//! [`side_by_side`] joins the views of both. Text is drawn in an embedded font ([`SizedFont`]); colours are a [`Palette`].
 //!
 //! The key design decision is that the pixels are the whole interface: drawing and encoding meet in a
 //! [`Frame`] and know nothing of each other, and neither touches a file or a clock. Everything is drawn and
@@ -31,24 +32,32 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod caption;
 pub mod error;
 pub mod font;
 pub mod frame;
+pub mod layouts;
+pub mod legend;
 pub mod overlay;
+pub mod palette;
 pub mod sheet;
 pub mod stage;
 pub mod style;
+pub mod text;
 pub mod video;
 pub mod yuv;
 
 mod bodies;
 mod painter;
-mod text;
 
+pub use caption::Caption;
 pub use error::RenderError;
 pub use frame::Frame;
-pub use overlay::{Caption, Overlay};
-pub use sheet::contact_sheet;
+pub use layouts::layout_chart;
+pub use overlay::Overlay;
+pub use palette::{Colour, Palette, PaletteName};
+pub use sheet::{contact_sheet, side_by_side};
 pub use stage::Stage;
-pub use style::{Colour, Palette, Style};
+pub use style::Style;
+pub use text::SizedFont;
 pub use video::VideoEncoder;

@@ -1,6 +1,6 @@
 //! What one agent sees and believes, drawn over the true state.
 
-use crate::{Palette, bodies, painter::Painter};
+use crate::{Caption, Palette, bodies, painter::Painter};
 use phase_model::{AgentId, Entity, Physique, State, Vec2};
 use phase_perception::{Cell, CellSet};
 
@@ -13,30 +13,16 @@ pub struct Overlay<'a> {
     pub visible: &'a CellSet,
     /// The states it holds possible, each drawn faintly; where many agree the picture becomes solid.
     pub particles: &'a [State],
-    /// Lines below the arena, such as the subgoal and its value. Lines past [`crate::Style::caption_lines`]
-    /// and characters past [`crate::Style::caption_columns`] are left out.
+    /// A line above the arena, drawn if [`crate::Style::title`] is set.
+    pub title: &'a str,
+    /// Lines below the arena, such as the subgoal and its value. Lines past [`crate::Style::caption_lines`] are left
+    /// out.
     pub captions: &'a [Caption],
 }
 
-/// One line below the arena.
-#[derive(Clone, PartialEq, Debug, Default)]
-pub struct Caption {
-    /// What is written, in printable ASCII.
-    pub text: String,
-    /// A pale bar behind the text, as a share of the arena's width: 0 or less for none, 1 for all of it.
-    pub bar: f32,
-}
-
-impl From<String> for Caption {
-    /// A line without a bar.
-    fn from(text: String) -> Self {
-        Self { text, bar: 0.0 }
-    }
-}
-
 /// Opacity of the cover over cells out of sight, and of the tint of cells in sight.
-const UNSEEN: u8 = 120;
-const SEEN: u8 = 45;
+pub(crate) const UNSEEN: u8 = 120;
+pub(crate) const SEEN: u8 = 45;
 
 /// Covers the cells out of sight and tints those in sight.
 pub(crate) fn shade(painter: &mut Painter, palette: &Palette, visible: &CellSet) {

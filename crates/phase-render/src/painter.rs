@@ -2,7 +2,7 @@
 
 use crate::{Colour, Style};
 use phase_model::{Vec2, arena};
-use tiny_skia::{Color, FillRule, Paint, Path, PathBuilder, Pixmap, Rect, Transform};
+use tiny_skia::{Color, FillRule, Paint, Path, PathBuilder, Pixmap, PremultipliedColorU8, Rect, Transform};
 
 /// Where the world lies in the picture.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -10,19 +10,26 @@ pub(crate) struct View {
     /// Pixels per world unit.
     pub(crate) scale: f32,
     /// The arena's upper left corner (pixels).
-    pub(crate) corner: f32,
+    pub(crate) corner: Vec2,
 }
 
 impl View {
     pub(crate) fn of(style: &Style) -> Self {
         let inner = style.side.saturating_sub(2 * style.margin);
-        Self { scale: inner as f32 / arena::SIDE, corner: style.margin as f32 }
+        let corner = Vec2::new(style.margin as f32, (style.title_height() + style.margin) as f32);
+        Self { scale: inner as f32 / arena::SIDE, corner }
     }
 
     /// The place of a world point in the picture (pixels, y down).
     pub(crate) fn pixel(self, point: Vec2) -> Vec2 {
         let offset = Vec2::new(point.x - arena::MIN.x, arena::MAX.y - point.y);
-        Vec2::splat(self.corner) + offset * self.scale
+        self.corner + offset * self.scale
+    }
+
+    /// The world point at a place in the picture (pixels, y down).
+    pub(crate) fn point(self, pixel: Vec2) -> Vec2 {
+        let offset = (pixel - self.corner) / self.scale;
+        Vec2::new(arena::MIN.x + offset.x, arena::MAX.y - offset.y)
     }
 }
 
@@ -99,6 +106,23 @@ impl Painter {
         if let Some(path) = builder.finish() {
             let paint = paint(colour, alpha);
             self.pixmap.fill_path(&path, &paint, FillRule::EvenOdd, Transform::identity(), None);
+        }
+    }
+}
+
+/// Fills a rectangle with its upper left corner at a pixel and so many pixels wide and high, as far as it lies
+/// in the picture.
+pub(crate) fn fill(
+    pixmap: &mut Pixmap,
+    (left, top): (u32, u32),
+    (across, down): (u32, u32),
+    [red, green, blue]: Colour,
+) {
+    let (width, height) = (pixmap.width(), pixmap.height());
+    let Some(colour) = PremultipliedColorU8::from_rgba(red, green, blue, 255) else { return };
+    for y in top..(top + down).min(height) {
+        for x in left..(left + across).min(width) {
+            pixmap.pixels_mut()[(y * width + x) as usize] = colour;
         }
     }
 }

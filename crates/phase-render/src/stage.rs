@@ -1,11 +1,11 @@
 //! The stage on which an event plays: what does not change, and the frames of what does.
 
 use crate::{
-    Caption, Frame, Overlay, RenderError, Style, bodies, overlay,
+    Frame, Overlay, Palette, RenderError, Style, bodies, caption, legend, overlay,
     painter::{Painter, View},
-    text,
+    text::{Align, SizedFont},
 };
-use phase_model::{Physique, State, Vec2, arena};
+use phase_model::{Physique, Segment, State, Vec2, arena};
 use tiny_skia::{Color, Pixmap};
 
 /// Thickness of an inner wall (u); physically walls have none.
@@ -18,7 +18,8 @@ const BOUNDARY_THICKNESS: f32 = 2.0 / 22.0;
 pub struct Stage {
     physique: Physique,
     style: Style,
-    /// Landmarks, walls and boundary: drawn once, copied for each frame.
+    font: SizedFont,
+    /// Landmarks, walls, boundary and legend: drawn once, copied for each frame.
     background: Pixmap,
 }
 
@@ -26,7 +27,8 @@ impl Stage {
     /// A stage for the events of one physique.
     ///
     /// # Errors
-    /// [`RenderError::Style`] if the style's sizes are out of range; [`Style::default`] never is.
+    /// [`RenderError::Style`] if the style's sizes are out of range; [`Style::default`] never is. [`RenderError::Font`]
+    /// if the embedded font cannot be parsed, which a test excludes.
     pub fn new(physique: &Physique, style: Style) -> Result<Self, RenderError> {
         style.validate()?;
         let mut pixmap = Pixmap::new(style.width(), style.height()).ok_or_else(|| RenderError::Style {
@@ -37,15 +39,16 @@ impl Stage {
         let [red, green, blue] = style.palette.background;
         pixmap.fill(Color::from_rgba8(red, green, blue, 255));
         let mut painter = Painter { pixmap, view: View::of(&style) };
-        for (centre, colour) in arena::LANDMARKS.into_iter().zip(style.palette.landmarks) {
-            let half = Vec2::splat(arena::LANDMARK_HALF_SIDE);
-            painter.rectangle(centre - half, centre + half, colour, 255);
+        draw_landmarks(&mut painter, &style.palette);
+        draw_walls(&mut painter, &physique.walls, &style.palette);
+        let font = SizedFont::new(style.text_size())?;
+        if style.legend {
+            legend::draw(&mut painter, &style, &font);
         }
-        draw_walls(&mut painter, physique, &style);
-        Ok(Self { physique: physique.clone(), style, background: painter.pixmap })
+        Ok(Self { physique: physique.clone(), style, font, background: painter.pixmap })
     }
 
-    /// Draws a state; with an overlay also what an agent sees and believes of it, and captions.
+    /// Draws a state; with an overlay also what an agent sees and believes of it, the title and captions.
     ///
     /// Bodies whose pose is not finite, or which lie outside the picture, are left out.
     #[must_use]
@@ -54,12 +57,13 @@ impl Stage {
         let mut painter = Painter { pixmap: self.background.clone(), view: View::of(&self.style) };
         if let Some(overlay) = overlay {
             overlay::shade(&mut painter, palette, overlay.visible);
-            draw_walls(&mut painter, &self.physique, &self.style);
+            draw_walls(&mut painter, &self.physique.walls, palette);
             overlay::draw_particles(&mut painter, palette, &self.physique, overlay);
         }
         bodies::draw(&mut painter, palette, &self.physique, state);
         if let Some(overlay) = overlay {
-            self.write_captions(&mut painter.pixmap, overlay.captions);
+            self.draw_title(&mut painter.pixmap, overlay.title);
+            caption::draw(&mut painter.pixmap, &self.style, &self.font, overlay.captions);
         }
         Frame::of(painter.pixmap)
     }
@@ -70,7 +74,7 @@ impl Stage {
         self.style.width()
     }
 
-    /// Height of the frames, captions included (pixels).
+    /// Height of the frames, title, legend and captions included (pixels).
     #[must_use]
     pub const fn height(&self) -> u32 {
         self.style.height()
@@ -82,30 +86,34 @@ impl Stage {
         View::of(&self.style).pixel(point)
     }
 
-    fn write_captions(&self, pixmap: &mut Pixmap, captions: &[Caption]) {
+    fn draw_title(&self, pixmap: &mut Pixmap, title: &str) {
         let style = &self.style;
-        let (scale, left) = (style.text_scale(), style.margin);
-        let full = style.side.saturating_sub(2 * left);
-        let mut top = style.side;
-        for caption in captions.iter().take(style.caption_lines as usize) {
-            // The cast takes what is not a number for nothing. The two dots left free tell bars apart.
-            let across = (caption.bar.clamp(0.0, 1.0) * full as f32).round() as u32;
-            let down = style.line_height() - 2 * scale;
-            text::fill(pixmap, (left, top), (across, down), style.palette.bar);
-            text::write(pixmap, (left, top), scale, &caption.text, style.palette.ink);
-            top += style.line_height();
+        if style.title {
+            let title = self.font.clip(title, style.text_width() as f32);
+            // The margin above the arena is room enough below the title.
+            let baseline = self.font.baseline(style.margin / 2, style.title_height());
+            let place = (style.margin as f32, baseline);
+            self.font.draw(pixmap, &title, place, Align::Left, style.palette.ink);
         }
     }
 }
 
+/// Draws the landmarks.
+pub(crate) fn draw_landmarks(painter: &mut Painter, palette: &Palette) {
+    for (centre, colour) in arena::LANDMARKS.into_iter().zip(palette.landmarks) {
+        let half = Vec2::splat(arena::LANDMARK_HALF_SIDE);
+        painter.rectangle(centre - half, centre + half, colour, 255);
+    }
+}
+
 /// Draws the inner walls and the boundary.
-fn draw_walls(painter: &mut Painter, physique: &Physique, style: &Style) {
-    let ink = style.palette.ink;
-    for (k, &wall) in physique.walls.iter().enumerate() {
+pub(crate) fn draw_walls(painter: &mut Painter, walls: &[Segment], palette: &Palette) {
+    let ink = palette.ink;
+    for (k, &wall) in walls.iter().enumerate() {
         // Where walls meet, each reaches over the other's half, so that the corner is filled; a free end
         // stops where the wall stops, so that doors are as wide as they look.
         let meets = |end: Vec2| {
-            let others = physique.walls.iter().enumerate().filter(|(other, _)| *other != k);
+            let others = walls.iter().enumerate().filter(|(other, _)| *other != k);
             others.into_iter().any(|(_, other)| other.distance(end) == 0.0)
         };
         let along = (wall.b - wall.a).normalize_or_zero() * (0.5 * WALL_THICKNESS);

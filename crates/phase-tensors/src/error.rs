@@ -4,11 +4,11 @@ use safetensors::SafeTensorError;
 use thiserror::Error;
 
 /// Why bytes are not the file they should be.
-#[derive(Clone, PartialEq, Eq, Debug, Error)]
+#[derive(Debug, Error)]
 pub enum TensorsError {
     /// The bytes are something else.
     #[error("is no safetensors file: {0}")]
-    Container(String),
+    Container(#[from] SafeTensorError),
     /// It is a file of tensors, but of another kind.
     #[error("field `{field}` must be {expected:?}")]
     Kind {
@@ -39,10 +39,4 @@ pub enum TensorsError {
     /// A number is none.
     #[error("tensor `{0}` must hold finite numbers")]
     NotFinite(String),
-}
-
-impl From<SafeTensorError> for TensorsError {
-    fn from(error: SafeTensorError) -> Self {
-        Self::Container(error.to_string())
-    }
 }

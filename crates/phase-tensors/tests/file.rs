@@ -17,8 +17,10 @@ fn what_is_written_is_read() {
     assert_eq!(bytes, write(&example(), "format", "example/1").unwrap());
     let file = TensorFile::open_kind(&bytes, "format", "example/1").unwrap();
     assert_eq!(file.says(), Some("example/1"));
-    assert_eq!(file.check_names(|name| name == "weight" || name == "bias"), Ok(()));
-    assert_eq!(file.check_names(|name| name == "weight"), Err(TensorsError::Unknown("bias".into())));
+    file.check_names(|name| name == "weight" || name == "bias").expect("these are all");
+    assert!(
+        matches!(file.check_names(|name| name == "weight"), Err(TensorsError::Unknown(name)) if name == "bias")
+    );
     let mut names: Vec<&str> = file.names().collect();
     names.sort_unstable();
     assert_eq!(names, ["bias", "weight"]);
@@ -33,15 +35,16 @@ fn what_is_written_is_read() {
 fn what_is_not_there_or_of_another_kind_is_refused() {
     let bytes = write(&example(), "format", "example/1").unwrap();
     let kind = |field, expected: &str| TensorFile::open_kind(&bytes, field, expected).err();
-    let other = |field, expected: &str| Some(TensorsError::Kind { field, expected: expected.into() });
-    assert_eq!(kind("format", "example/2"), other("format", "example/2"));
-    assert_eq!(kind("training", "example/1"), other("training", "example/1"));
+    for (field, expected) in [("format", "example/2"), ("training", "example/1")] {
+        let refused = kind(field, expected).expect("another kind").to_string();
+        assert_eq!(refused, format!("field `{field}` must be {expected:?}"));
+    }
     assert_eq!(TensorFile::open(&bytes, "training").unwrap().says(), None);
     let file = TensorFile::open(&bytes, "format").unwrap();
     assert!(!file.has("scale"));
-    assert_eq!(file.tensor("scale").unwrap_err(), TensorsError::Missing("scale".into()));
-    let (name, expected, found) = ("weight".into(), vec![3, 2], vec![2, 3]);
-    assert_eq!(file.numbers("weight", &[3, 2]).unwrap_err(), TensorsError::Shape { name, expected, found });
+    assert!(matches!(file.tensor("scale"), Err(TensorsError::Missing(name)) if name == "scale"));
+    let refused = file.numbers("weight", &[3, 2]).unwrap_err().to_string();
+    assert_eq!(refused, "tensor `weight` must have the shape [3, 2], not [2, 3]");
 }
 
 #[test]
@@ -49,13 +52,13 @@ fn numbers_that_are_none_and_other_types_are_refused() {
     for number in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
         let bytes = write(&[tensor("bias", &[2], &[1.0, number])], "format", "example/1").unwrap();
         let file = TensorFile::open(&bytes, "format").unwrap();
-        assert_eq!(file.tensor("bias").unwrap_err(), TensorsError::NotFinite("bias".into()));
+        assert!(matches!(file.tensor("bias"), Err(TensorsError::NotFinite(name)) if name == "bias"));
     }
     let mut bytes = write(&[tensor("bias", &[1], &[1.0])], "format", "example/1").unwrap();
     let at = bytes.windows(3).position(|part| part == b"F32").unwrap();
     bytes[at..at + 3].copy_from_slice(b"I32");
     let file = TensorFile::open(&bytes, "format").unwrap();
-    assert_eq!(file.tensor("bias").unwrap_err(), TensorsError::Type("bias".into()));
+    assert!(matches!(file.tensor("bias"), Err(TensorsError::Type(name)) if name == "bias"));
 }
 
 #[test]

@@ -22,6 +22,7 @@ use phase_dataset::{
     phase_events,
 };
 use phase_model::{Scene, arena::SUBSTEPS};
+use phase_render::Palette;
 use report::{SceneResult, Trial};
 use rows::PARTS;
 use serde_json::{Value, json};
@@ -139,8 +140,8 @@ fn sheet(
         return Err(CliError::Interrupted(path.to_owned()));
     };
     let shots: Vec<Shot<'_>> =
-        event.frames().step_by(SUBSTEPS).map(|&state| Shot { state, mind: None }).collect();
-    picture::write_sheet(path, id, &event.scene.physique(), &shots, SHEET_FRAMES)
+        event.frames().step_by(SUBSTEPS).map(|&state| Shot { state, minds: Vec::new() }).collect();
+    picture::write_sheet(path, id, &event.scene.physique(), Palette::PAPER, &shots, SHEET_FRAMES)
 }
 
 fn complete(arguments: &CheckBehaviour, folder: Folder, report: &Value) -> Result<(), CliError> {

@@ -4,11 +4,9 @@ use super::{
     judge::Verdict,
     rows::{Criterion, PARTS, Part},
 };
-use phase_evidence::{
-    Outcome,
-    statistics::{fisher, median, wilson},
-};
+use phase_evidence::Outcome;
 use phase_model::Flip;
+use phase_statistics::{Interval, fisher_exact_greater, median, wilson_interval};
 use serde_json::{Value, json};
 
 /// The value of the field `format` of reports.
@@ -70,7 +68,7 @@ impl Rates {
     }
 
     fn to_json(&self) -> Value {
-        let (low, high) = wilson(self.successes, self.trials);
+        let Interval { low, high } = wilson_interval(self.successes, self.trials);
         let reached = |it: &Reached| json!({ "reached": it.count, "median_steps": it.median });
         json!({
             "events": self.trials, "successes": self.successes, "wilson_95": [low, high], "shown": self.shown,
@@ -80,7 +78,7 @@ impl Rates {
 
     /// Columns of the table.
     fn cells(&self) -> String {
-        let (low, high) = wilson(self.successes, self.trials);
+        let Interval { low, high } = wilson_interval(self.successes, self.trials);
         let rate = format!("{}/{}", self.successes, self.trials);
         let interval = format!("{:.0}-{:.0} %", 100.0 * low, 100.0 * high);
         let shown = self.shown.map_or_else(|| "-".into(), |shown| format!("{shown}/{}", self.trials));
@@ -180,5 +178,8 @@ fn search_p(scenes: &[SceneResult]) -> Option<f64> {
         (!own.is_empty()).then(|| Rates::of(trials(&own)))
     };
     let (near, larger) = (searches(0)?, searches(1)?);
-    Some(fisher((near.successes, near.trials), (larger.trials - larger.successes, larger.trials)))
+    Some(fisher_exact_greater(
+        (near.successes, near.trials),
+        (larger.trials - larger.successes, larger.trials),
+    ))
 }

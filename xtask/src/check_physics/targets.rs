@@ -1,6 +1,7 @@
 //! The published targets of both engines, and whether they are met.
 
-use phase_calibration::{Ahead, Report, RunReport, percentile};
+use phase_calibration::{Ahead, Report, RunReport};
+use phase_statistics::percentile;
 use serde::Serialize;
 
 /// One target and what was measured.

@@ -4,9 +4,10 @@ use super::Workspace;
 use std::path::{Path, PathBuf};
 
 /// The crates from the ground floor up. A crate may use those before it, never those after it.
-pub const LAYERS: [&str; 22] = [
+pub const LAYERS: [&str; 24] = [
     "phase-model",
     "phase-event",
+    "phase-statistics",
     "phase-golden",
     "phase-world",
     "phase-forward",
@@ -26,6 +27,7 @@ pub const LAYERS: [&str; 22] = [
     "phase-simple",
     "phase-baselines",
     "phase-eval",
+    "phase-report",
     "phase-cli",
 ];
 

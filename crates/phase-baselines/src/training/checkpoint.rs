@@ -34,14 +34,14 @@ struct Said {
 }
 
 /// Why a training cannot go on from some bytes.
-#[derive(Clone, PartialEq, Eq, Debug, Error)]
+#[derive(Debug, Error)]
 pub enum CheckpointError {
     /// They are no checkpoint of this network.
     #[error(transparent)]
     Network(#[from] NetworkError),
     /// They are a checkpoint whose text cannot be read.
     #[error("field `{FIELD}` cannot be read: {0}")]
-    Text(String),
+    Text(#[from] serde_json::Error),
     /// They belong to another training.
     #[error("belongs to a training with another {0}")]
     Other(&'static str),
@@ -77,7 +77,7 @@ impl<N: Network> Run<N> {
             }
         }
         let said = Said { of: self.checkpoint_of(data), steps: self.adam.steps, rounds: self.rounds.clone() };
-        let said = serde_json::to_string(&said).map_err(|error| CheckpointError::Text(error.to_string()))?;
+        let said = serde_json::to_string(&said)?;
         Ok(write(&tensors, FIELD, &said)?)
     }
 
@@ -89,8 +89,7 @@ impl<N: Network> Run<N> {
         let file = TensorFile::open(bytes, FIELD)?;
         let missing = || TensorsError::Kind { field: FIELD, expected: "a training's state".into() };
         let said = file.says().ok_or_else(missing)?;
-        let said: Said =
-            serde_json::from_str(said).map_err(|error| CheckpointError::Text(error.to_string()))?;
+        let said: Said = serde_json::from_str(said)?;
         let (theirs, ours) = (&said.of, self.checkpoint_of(data));
         let differences = [
             (theirs.network != ours.network, "network"),

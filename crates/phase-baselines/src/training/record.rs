@@ -89,11 +89,11 @@ pub struct Final {
 }
 
 /// Why some bytes are no record, or not that of a training.
-#[derive(Clone, PartialEq, Eq, Debug, Error)]
+#[derive(Debug, Error)]
 pub enum RecordError {
     /// They cannot be read.
     #[error("is no record of a training: {0}")]
-    Text(String),
+    Text(#[from] serde_json::Error),
     /// Rounds are missing or do not stand in their order.
     #[error("field `rounds` must have the rounds 1, 2, 3 … in this order")]
     Order,
@@ -184,8 +184,7 @@ impl Record {
     /// # Errors
     /// [`RecordError`], but not [`RecordError::Other`].
     pub fn parse(bytes: &[u8]) -> Result<Self, RecordError> {
-        let record: Self =
-            serde_json::from_slice(bytes).map_err(|error| RecordError::Text(error.to_string()))?;
+        let record: Self = serde_json::from_slice(bytes)?;
         if record.rounds.iter().zip(1..).any(|(round, number)| round.number != number) {
             return Err(RecordError::Order);
         }
@@ -203,10 +202,11 @@ impl Record {
     }
 
     /// The record as a file.
-    #[must_use]
-    pub fn to_json(&self) -> String {
-        // Numbers, texts and lists can always be laid out.
-        serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
+    ///
+    /// # Errors
+    /// If it cannot be written as JSON.
+    pub fn to_json(&self) -> serde_json::Result<String> {
+        Ok(serde_json::to_string_pretty(self)? + "\n")
     }
 
     fn sum_up(&mut self) {

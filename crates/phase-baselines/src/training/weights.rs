@@ -8,20 +8,14 @@ use thiserror::Error;
 const FIELD: &str = "format";
 
 /// Why a network cannot be kept, or cannot be what was kept.
-#[derive(Clone, PartialEq, Eq, Debug, Error)]
+#[derive(Debug, Error)]
 pub enum NetworkError {
     /// The file is no such file, or not of this network.
     #[error(transparent)]
     Tensors(#[from] TensorsError),
     /// The network cannot be read or changed.
     #[error("the network cannot be read or changed: {0}")]
-    Network(String),
-}
-
-impl From<candle_core::Error> for NetworkError {
-    fn from(error: candle_core::Error) -> Self {
-        Self::Network(error.to_string())
-    }
+    Network(#[from] candle_core::Error),
 }
 
 /// The network's weights as a file. The same weights always give the same bytes.

@@ -160,10 +160,10 @@ fn files_of_others_are_refused() {
     let lstm_run = run(lstm, 1, QUICK);
     let kept = lstm_run.checkpoint("data").unwrap();
     let resumed = |seed, settings, data| run(lstm, seed, settings).resume(&kept, data).unwrap_err();
-    assert_eq!(resumed(2, QUICK, "data"), CheckpointError::Other("seed"));
-    assert_eq!(resumed(1, Settings { batch: 5, ..QUICK }, "data"), CheckpointError::Other("settings"));
-    assert_eq!(resumed(1, QUICK, "others"), CheckpointError::Other("data"));
-    assert_eq!(run(arg, 1, QUICK).resume(&kept, "data").unwrap_err(), CheckpointError::Other("network"));
+    assert!(matches!(resumed(2, QUICK, "data"), CheckpointError::Other("seed")));
+    assert!(matches!(resumed(1, Settings { batch: 5, ..QUICK }, "data"), CheckpointError::Other("settings")));
+    assert!(matches!(resumed(1, QUICK, "others"), CheckpointError::Other("data")));
+    assert!(matches!(run(arg, 1, QUICK).resume(&kept, "data"), Err(CheckpointError::Other("network"))));
     let weights = to_safetensors(&lstm(&mut random(0))).unwrap();
     for length in [0, 1, 8, 100, weights.len() - 1] {
         let error = from_safetensors(lstm(&mut random(0)), &weights[..length]).unwrap_err();

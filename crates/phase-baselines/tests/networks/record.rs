@@ -33,12 +33,16 @@ fn go_on(run: &mut Run<TwoLevelLstm>, record: &mut Record, rounds: usize) {
     }
 }
 
+fn text(record: &Record) -> String {
+    record.to_json().expect("JSON")
+}
+
 #[test]
 fn what_is_written_is_read() {
     let mut run = run(1);
     let mut record = record(&run);
     assert_eq!((record.best_round, &record.finished), (None, &None));
-    assert_eq!(Record::parse(record.to_json().as_bytes()), Ok(record.clone()));
+    assert_eq!(Record::parse(text(&record).as_bytes()).expect("our own record"), record);
     go_on(&mut run, &mut record, 3);
     assert_eq!((record.cpu_seconds, record.seconds), (12.0, 6.0));
     assert_eq!(record.best_round, run.best_round().map(|round| round.number));
@@ -47,7 +51,7 @@ fn what_is_written_is_read() {
     assert_eq!(record.rounds[2].validation.scores["relation"], last.validation.scores[1]);
     let measure = NamedMeasure::of::<TwoLevelLstm>(&last.validation);
     record.finished = Some(Final { train: measure.clone(), validation: measure, test: None });
-    assert_eq!(Record::parse(record.to_json().as_bytes()), Ok(record.clone()));
+    assert_eq!(Record::parse(text(&record).as_bytes()).expect("our own record"), record);
     // Every number of the file of weights counts: four bytes each, after the header.
     let network = run.into_best().expect("a network");
     let file = to_safetensors(&network).expect("a file");
@@ -92,7 +96,7 @@ fn records_of_others_are_refused() {
         (|record| record.rounds[1].training.loss += 1e-9, "course"),
     ];
     for (change, what) in cases {
-        assert_eq!(refused(change), RecordError::Other(what));
+        assert!(matches!(refused(change), RecordError::Other(found) if found == what));
     }
 }
 
@@ -101,7 +105,7 @@ fn what_is_no_record_is_refused() {
     let mut run = run(1);
     let mut record = record(&run);
     go_on(&mut run, &mut record, 2);
-    let text = record.to_json();
+    let text = text(&record);
     for length in [0, 1, text.len() / 2, text.len() - 3] {
         assert!(matches!(Record::parse(&text.as_bytes()[..length]), Err(RecordError::Text(_))));
     }
@@ -127,8 +131,8 @@ fn what_is_no_record_is_refused() {
         let error = refused(pointer, value);
         assert!(matches!(error, RecordError::Text(_)), "{pointer}: {error}");
     }
-    assert_eq!(refused("/rounds/0/number", json!(2)), RecordError::Order);
-    assert_eq!(refused("/best_round", Value::Null), RecordError::Best);
-    assert_eq!(refused("/cpu_seconds", json!(-1.0)), RecordError::Time("cpu_seconds"));
-    assert_eq!(refused("/rounds/1/seconds", json!(-1.0)), RecordError::Time("seconds"));
+    assert!(matches!(refused("/rounds/0/number", json!(2)), RecordError::Order));
+    assert!(matches!(refused("/best_round", Value::Null), RecordError::Best));
+    assert!(matches!(refused("/cpu_seconds", json!(-1.0)), RecordError::Time("cpu_seconds")));
+    assert!(matches!(refused("/rounds/1/seconds", json!(-1.0)), RecordError::Time("seconds")));
 }

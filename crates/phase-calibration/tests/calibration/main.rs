@@ -3,5 +3,5 @@
 mod family;
 mod measure;
 mod read;
-mod statistics;
+mod spread;
 mod support;

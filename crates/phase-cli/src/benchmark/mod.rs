@@ -19,7 +19,7 @@ use phase_dataset::{
     atomic,
     folder::{self, Contents, Folder},
 };
-use phase_eval::report;
+use phase_report::evaluation;
 use plan::{contestants, needs_networks};
 use rows::Rows;
 use serde_json::json;
@@ -59,11 +59,9 @@ pub fn run(arguments: &Benchmark, context: &Context) -> Result<(), CliError> {
         }
     }
     let benchmark = rows.finish();
-    let document = report::benchmark(&benchmark);
+    let document = evaluation::benchmark(&benchmark);
     task::write_report(out, &document)?;
-    // Plain data of ours always has a JSON form.
-    let text = serde_json::to_string_pretty(&benchmark).unwrap_or_default() + "\n";
-    atomic::write(&out.join(BENCHMARK_FILE), text.as_bytes())?;
+    atomic::write_json(&out.join(BENCHMARK_FILE), &benchmark)?;
     folder.finish()?;
     tell(document.first_table().trim_end());
     tell(format!("report in {}", out.join(task::REPORT_FILE).display()));

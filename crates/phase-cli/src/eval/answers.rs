@@ -72,6 +72,6 @@ impl<A: Clone> Given<A> {
     /// # Errors
     /// If there is none.
     pub(super) fn answer(&self, event: &Event) -> Result<A, MethodError> {
-        self.answers.get(&event.id).cloned().ok_or_else(|| MethodError("has no prediction".into()))
+        self.answers.get(&event.id).cloned().ok_or_else(|| MethodError::new("has no prediction"))
     }
 }

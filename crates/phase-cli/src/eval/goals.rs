@@ -12,11 +12,13 @@ use cpu_time::ThreadTime;
 use phase_eval::{
     MethodError, Recogniser, Tick,
     goals::{Answer, Glimpse, Label, RecognisedEvent, Summary},
-    predictions,
-    report::{self, Document, Subject},
-    results,
+    predictions, results,
 };
 use phase_event::{ObservedEvent, Recording};
+use phase_report::{
+    document::Document,
+    evaluation::{self, Subject},
+};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -102,7 +104,7 @@ impl Task for Goals {
         let (answer, details, cpu_seconds, watched) = match &self.answers {
             Answers::Given(given) => (given.answer(event)?, Value::Null, None, Vec::new()),
             Answers::Method(method) => {
-                let observed = recording.observed().map_err(|error| MethodError(error.to_string()))?;
+                let observed = recording.observed().map_err(MethodError::new)?;
                 let begun = ThreadTime::now();
                 let judged = judge(method.as_ref(), &observed, seed, tick)?;
                 let cpu_seconds = begun.elapsed().as_secs_f64();
@@ -127,9 +129,12 @@ impl Task for Goals {
         run: &Value,
         subject: Subject<'_>,
         events: &[RecognisedEvent],
-    ) -> Option<(Value, Document)> {
+    ) -> Option<serde_json::Result<(Value, Document)>> {
         let summary = Summary::of(events, subject.seed)?;
-        Some((results::goals(run, &summary, events), report::goals(subject, &summary)))
+        Some(
+            results::goals(run, &summary, events)
+                .map(|results| (results, evaluation::goals(subject, &summary))),
+        )
     }
 }
 
@@ -140,7 +145,7 @@ fn judge(
     tick: Tick<'_>,
 ) -> Result<Option<(Answer, Value)>, MethodError> {
     let Some((judgement, details)) = method.judge(observed, seed, tick)? else { return Ok(None) };
-    let answer = Answer::of(&judgement).map_err(|error| MethodError(format!("the method's {error}")))?;
+    let answer = Answer::of(&judgement)?;
     Ok(Some((answer, details)))
 }
 

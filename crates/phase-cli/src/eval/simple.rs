@@ -41,8 +41,8 @@ impl Simple {
     }
 
     fn infer(&self, stage: &Stage<'_>, seed: u64, tick: Tick<'_>) -> Result<Option<Inference>, MethodError> {
-        let strengths = StrengthRegressor::shipped().map_err(|error| MethodError(error.to_string()))?;
-        infer(stage, &strengths, seed, &self.settings, tick).map_err(|error| MethodError(error.to_string()))
+        let strengths = StrengthRegressor::shipped().map_err(MethodError::new)?;
+        infer(stage, &strengths, seed, &self.settings, tick).map_err(MethodError::new)
     }
 }
 
@@ -80,8 +80,8 @@ impl Forecaster for Simple {
     ) -> Answered<Forecast> {
         let stage = Stage::new(observed, self.settings.minds, seed);
         let Some(inference) = self.infer(&stage, seed, &mut *tick)? else { return Ok(None) };
-        let forecast = forecast(&stage, &inference, steps, seed, &self.forecast, tick)
-            .map_err(|error| MethodError(error.to_string()))?;
+        let forecast =
+            forecast(&stage, &inference, steps, seed, &self.forecast, tick).map_err(MethodError::new)?;
         Ok(forecast.map(|forecast| (forecast, details(&inference))))
     }
 }

@@ -14,17 +14,15 @@ use crate::{
     progress::Progress,
 };
 use phase_dataset::{
-    FileError, Problem, atomic,
+    FileError, Problem, WriteError, atomic,
     checksum::{hexadecimal, sha256},
     folder::{self, Contents, Folder},
     json,
 };
-use phase_eval::{
-    MethodError, Tick,
-    report::{Document, Subject},
-};
+use phase_eval::{MethodError, Tick};
 use phase_event::Recording;
 use phase_model::random::{Purpose, derive_seed};
+use phase_report::{document::Document, evaluation::Subject};
 use serde::{Serialize, de::DeserializeOwned};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -80,7 +78,7 @@ pub(crate) trait Task: Sync {
         run: &Value,
         subject: Subject<'_>,
         events: &[Self::Answered],
-    ) -> Option<(Value, Document)>;
+    ) -> Option<serde_json::Result<(Value, Document)>>;
 }
 
 /// A task that is done.
@@ -145,11 +143,11 @@ pub(crate) fn evaluate<T: Task>(
     })?;
     drop(progress);
     let Some(answered) = answered else { return Err(CliError::Interrupted(out)) };
-    let Some((results, document)) = task.sum_up(&run, subject, &answered) else {
-        return Err(no_events(&out));
-    };
+    let Some(summed_up) = task.sum_up(&run, subject, &answered) else { return Err(no_events(&out)) };
+    let results_file = out.join(RESULTS_FILE);
+    let (results, document) = summed_up.map_err(|error| WriteError::json(&results_file, error))?;
     write_report(&out, &document)?;
-    atomic::write(&out.join(RESULTS_FILE), text_of(&results).as_bytes())?;
+    atomic::write(&results_file, text_of(&results).as_bytes())?;
     folder.finish()?;
     Ok(Evaluation { events: answered, results, document, out, was_there: false })
 }
@@ -254,7 +252,8 @@ fn finished<T: Task>(
     };
     let events: Vec<T::Answered> =
         serde_json::from_value(results["events"].clone()).map_err(|error| altered(error.to_string()))?;
-    let Some((again, document)) = task.sum_up(run, subject, &events) else { return Err(no_events(&out)) };
+    let Some(summed_up) = task.sum_up(run, subject, &events) else { return Err(no_events(&out)) };
+    let (again, document) = summed_up.map_err(|error| WriteError::json(&file, error))?;
     if again != results {
         return Err(altered("its figures are not those of its events".into()));
     }

@@ -10,13 +10,15 @@ use super::{
 use crate::error::CliError;
 use cpu_time::ThreadTime;
 use phase_eval::{
-    Forecaster, MethodError, Tick, predictions,
-    report::{self, Document, Subject},
-    results,
+    Forecaster, MethodError, Tick, predictions, results,
     trajectories::{Errors, ForecastEvent, PREDICTED_STEPS, Summary, WATCHED_STEPS},
 };
 use phase_event::Recording;
 use phase_model::Forecast;
+use phase_report::{
+    document::Document,
+    evaluation::{self, Subject},
+};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
@@ -111,7 +113,7 @@ impl Task for Trajectories {
         seed: u64,
         tick: Tick<'_>,
     ) -> Result<Option<ForecastEvent>, MethodError> {
-        let observed = recording.observed().map_err(|error| MethodError(error.to_string()))?;
+        let observed = recording.observed().map_err(MethodError::new)?;
         let truth: Forecast = observed.entities().map(|entity| path(&observed, entity.index())).collect();
         let steps = truth.first().map_or(0, Vec::len);
         let (forecast, details, cpu_seconds) = match &self.answers {
@@ -124,8 +126,7 @@ impl Task for Trajectories {
                 (forecast, details, Some(cpu_seconds))
             }
         };
-        let [agents, entities] =
-            Errors::of(&forecast, &truth).map_err(|error| MethodError(error.to_string()))?;
+        let [agents, entities] = Errors::of(&forecast, &truth)?;
         Ok(Some(ForecastEvent {
             id: event.id.clone(),
             kind: recording.scene.kind,
@@ -147,9 +148,12 @@ impl Task for Trajectories {
         run: &Value,
         subject: Subject<'_>,
         events: &[ForecastEvent],
-    ) -> Option<(Value, Document)> {
+    ) -> Option<serde_json::Result<(Value, Document)>> {
         let summary = Summary::of(events, subject.seed)?;
-        Some((results::trajectories(run, &summary, events), report::trajectories(subject, &summary)))
+        Some(
+            results::trajectories(run, &summary, events)
+                .map(|results| (results, evaluation::trajectories(subject, &summary))),
+        )
     }
 }
 

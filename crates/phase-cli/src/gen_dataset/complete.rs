@@ -5,17 +5,21 @@
 
 use crate::{error::CliError, interrupt};
 use phase_dataset::{
-    FileError, Problem, atomic,
-    card::{self, CARD_FILE, card},
+    FileError, Problem,
+    acceptance::Tally,
+    atomic,
     checksum::FileEntry,
     croissant::{CROISSANT_FILE, croissant},
-    gallery::{self, PAGE_FILE, Timeline},
-    manifest::{DATASET_FORMAT, EventEntry, MANIFEST_FILE, Manifest},
+    manifest::{CARD_FILE, DATASET_FORMAT, EventEntry, MANIFEST_FILE, Manifest, PAGE_FILE},
     parquet, phase_events,
-    record::{Record, Tally},
+    record::Record,
     shard::Whole,
 };
 use phase_event::Event;
+use phase_report::{
+    card::{self, card},
+    gallery::{self, Timeline},
+};
 use std::path::Path;
 
 /// Writes what describes the whole; the manifest last, since with it the dataset is complete. `records` are those of
@@ -59,7 +63,7 @@ pub fn complete(
     describe(out, &mut manifest, CARD_FILE, &text)?;
     let text = croissant(&manifest, card::about());
     describe(out, &mut manifest, CROISSANT_FILE, &text)?;
-    atomic::write(&out.join(MANIFEST_FILE), manifest.to_json().as_bytes())?;
+    manifest.write(&out.join(MANIFEST_FILE))?;
     Ok(manifest)
 }
 

@@ -19,15 +19,14 @@ use crate::{
 use complete::complete;
 use options::GenDataset;
 use phase_dataset::{
-    atomic,
     checksum::FileEntry,
     folder::{self, Contents, Folder},
-    gallery::PAGE_FILE,
-    manifest::{EventEntry, MANIFEST_FILE, Manifest},
+    manifest::{EventEntry, MANIFEST_FILE, Manifest, PAGE_FILE},
     parquet,
-    record::{self, Record},
+    record::Record,
     shard::{SHARD_FILE, SHARD_FORMAT, Shard, Whole},
 };
+use phase_report::acceptance;
 use phase_sim::Engine;
 use plan::Plan;
 use serde_json::{Value, json};
@@ -67,7 +66,7 @@ pub fn run(arguments: &GenDataset) -> Result<(), CliError> {
         let slots: Vec<Record> = records().collect();
         let (format, whole) = (SHARD_FORMAT.into(), plan.whole());
         let shard = Shard { format, shard, of, whole, slots };
-        atomic::write(&out.join(SHARD_FILE), shard.to_json().as_bytes())?;
+        shard.write(&out.join(SHARD_FILE))?;
         folder.finish()?;
         tell(format!("{} events in {}; merge all {of} shards with merge", indices.len(), out.display()));
         return Ok(());
@@ -81,7 +80,7 @@ pub fn run(arguments: &GenDataset) -> Result<(), CliError> {
 /// Says what a finished dataset holds, and how it came to it.
 fn announce(out: &Path, manifest: &Manifest) {
     if !manifest.selection.is_empty() {
-        tell(record::table(&manifest.selection).trim_end());
+        tell(acceptance::table(&manifest.selection).trim_end());
     }
     tell(format!("{} events in {}", manifest.events.len(), out.display()));
     tell_page(out);

@@ -12,10 +12,11 @@ use crate::{
     picture::{self, Mind, Shot},
     source::Source,
 };
-use options::Render;
+use options::{Belief, Render};
 use phase_dataset::WriteError;
 use phase_event::{Recording, Row, Simulation, Trajectory};
 use phase_model::{AgentId, State, arena::SUBSTEPS};
+use phase_render::Palette;
 use phase_sim::Settings;
 use std::path::{Path, PathBuf};
 
@@ -67,11 +68,11 @@ impl Target {
         Ok(if is_file { Self::File(out.to_owned()) } else { Self::Folder(out.to_owned()) })
     }
 
-    fn path(&self, id: &str, belief: Option<AgentId>, extension: &str) -> PathBuf {
+    fn path(&self, id: &str, belief: Option<Belief>, extension: &str) -> PathBuf {
         match self {
             Self::File(path) => path.clone(),
             Self::Folder(folder) => {
-                let belief = belief.map_or_else(String::new, |agent| format!(".belief{agent}"));
+                let belief = belief.map_or("", Belief::suffix);
                 folder.join(format!("{id}{belief}.{extension}"))
             }
         }
@@ -81,9 +82,12 @@ impl Target {
 /// Renders one event and returns what there is to say about it.
 fn render(arguments: &Render, recording: &Recording, path: &Path) -> Result<&'static str, CliError> {
     let (id, physique) = (&recording.id, recording.scene.physique());
-    let minds = match (arguments.belief, &recording.simulation) {
+    let palette = arguments.palette.palette();
+    let minds: Vec<Vec<Mind>> = match (arguments.belief, &recording.simulation) {
         (None, _) => Vec::new(),
-        (Some(agent), Some(simulation)) => minds(simulation, agent),
+        (Some(belief), Some(simulation)) => {
+            belief.agents().iter().map(|&agent| minds(simulation, agent, &palette)).collect()
+        }
         (Some(_), None) => {
             let (file, rule) = (arguments.file.display(), "--belief needs a simulated event");
             let why = "a measured recording does not tell what its agents saw and did";
@@ -95,12 +99,15 @@ fn render(arguments: &Render, recording: &Recording, path: &Path) -> Result<&'st
         None => (interpolated(&recording.trajectory), " (frames interpolated between recorded steps)"),
     };
     // The mind that chose a step is shown while the step lasts.
-    let mind_at = |frame: usize| minds.get(frame.saturating_sub(1) / SUBSTEPS).or(minds.last());
+    let minds_at = |frame: usize| {
+        let step = frame.saturating_sub(1) / SUBSTEPS;
+        minds.iter().filter_map(|minds| minds.get(step).or(minds.last())).collect()
+    };
     let frames = states.into_iter().enumerate();
-    let shots: Vec<Shot<'_>> = frames.map(|(k, state)| Shot { state, mind: mind_at(k) }).collect();
+    let shots: Vec<Shot<'_>> = frames.map(|(k, state)| Shot { state, minds: minds_at(k) }).collect();
     let result = match arguments.contact_sheet {
-        Some(count) => picture::write_sheet(path, id, &physique, &shots, count.into()),
-        None => picture::write_video(path, id, &physique, &shots),
+        Some(count) => picture::write_sheet(path, id, &physique, palette, &shots, count.into()),
+        None => picture::write_video(path, id, &physique, palette, &shots),
     };
     result.map(|()| note).map_err(|error| match error {
         CliError::Write(error) => CliError::Output(error),
@@ -109,11 +116,11 @@ fn render(arguments: &Render, recording: &Recording, path: &Path) -> Result<&'st
 }
 
 /// What an agent saw, believed and was after at every step.
-fn minds(simulation: &Simulation, agent: AgentId) -> Vec<Mind> {
+fn minds(simulation: &Simulation, agent: AgentId, palette: &Palette) -> Vec<Mind> {
     let event = &simulation.event;
     let settings: Settings = serde_json::from_value(simulation.settings.clone()).unwrap_or_default();
     let snapshots = engine::beliefs(event, agent, &settings);
-    let colour = ["red", "green"][agent];
+    let colour = palette.agent_names[agent];
     let steps = event.steps.iter().enumerate();
     let mind = |((t, step), snapshot): ((usize, &phase_event::Step), phase_sim::BeliefSnapshot)| {
         let thought = &step.thoughts[agent];
@@ -121,10 +128,8 @@ fn minds(simulation: &Simulation, agent: AgentId) -> Vec<Mind> {
             agent,
             visible: snapshot.visible,
             particles: snapshot.particles,
-            captions: captions::lines(
-                format!("agent {agent} ({colour}), step {t}: {}", step.actions[agent].name()),
-                thought,
-            ),
+            title: format!("Agent {agent} ({colour}), step {t}: {}", step.actions[agent].name()),
+            captions: captions::lines(thought),
         }
     };
     steps.zip(snapshots).map(mind).collect()

@@ -1,8 +1,13 @@
 //! The options of `render`.
 
 use crate::parallel::Jobs;
-use clap::{Args, builder::TypedValueParser, value_parser};
+use clap::{
+    Args, ValueEnum,
+    builder::{PossibleValuesParser, TypedValueParser},
+    value_parser,
+};
 use phase_model::AgentId;
+use phase_render::PaletteName;
 use std::path::PathBuf;
 
 /// Options of `render`.
@@ -17,9 +22,13 @@ pub struct Render {
     /// Folder for the results, or for a single event a file ending in .mp4 (.png with --contact-sheet)
     #[arg(long, value_name = "DIR|FILE", default_value = "out/render")]
     pub out: PathBuf,
-    /// Draw too what agent 0 or 1 sees and believes, and write below why it acts as it does (simulated events only)
-    #[arg(long, value_name = "AGENT", value_parser = agent())]
-    pub belief: Option<AgentId>,
+    /// Draw too what agent 0 or 1 sees and believes, or both side by side, and write below why it acts as it does
+    /// (simulated events only)
+    #[arg(long, value_name = "AGENT")]
+    pub belief: Option<Belief>,
+    /// Colours: as in the paper, or ones that colour-blind viewers can tell apart
+    #[arg(long, value_name = "PALETTE", default_value = PaletteName::Paper.name(), value_parser = palettes())]
+    pub palette: PaletteName,
     /// Instead of a video, one picture of N frames spread evenly over the event
     #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=100))]
     pub contact_sheet: Option<u16>,
@@ -28,7 +37,46 @@ pub struct Render {
     pub jobs: Jobs,
 }
 
-/// An agent by its number.
-fn agent() -> impl TypedValueParser<Value = AgentId> {
-    value_parser!(u8).range(0..=1).try_map(AgentId::try_from)
+/// Whose beliefs `render` shows.
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Belief {
+    /// Agent 0's.
+    #[value(name = "0", help = "agent 0")]
+    First,
+    /// Agent 1's.
+    #[value(name = "1", help = "agent 1")]
+    Second,
+    /// Both agents', side by side.
+    #[value(name = "both", help = "both agents side by side")]
+    Both,
+}
+
+impl Belief {
+    /// The agents shown, from left to right.
+    #[must_use]
+    pub const fn agents(self) -> &'static [AgentId] {
+        match self {
+            Self::First => &[AgentId::ZERO],
+            Self::Second => &[AgentId::ONE],
+            Self::Both => &AgentId::ALL,
+        }
+    }
+
+    /// What is added to the names of files.
+    #[must_use]
+    pub const fn suffix(self) -> &'static str {
+        match self {
+            Self::First => ".belief0",
+            Self::Second => ".belief1",
+            Self::Both => ".belief-both",
+        }
+    }
+}
+
+/// Reads a palette by its name.
+fn palettes() -> impl TypedValueParser<Value = PaletteName> {
+    let names = PossibleValuesParser::new(PaletteName::ALL.map(PaletteName::name));
+    names.try_map(|name| {
+        PaletteName::ALL.into_iter().find(|palette| palette.name() == name).ok_or("no such palette")
+    })
 }

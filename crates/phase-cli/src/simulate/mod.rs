@@ -14,13 +14,13 @@ use crate::{
 };
 use options::Simulate;
 use phase_dataset::{
-    atomic,
     checksum::{hexadecimal, sha256},
     folder::{self, Contents, Folder},
     summary::{Pair, SUMMARY_FILE, Summary},
 };
 use phase_event::Recording;
 use phase_model::Relation;
+use phase_report::summary;
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -52,9 +52,9 @@ pub fn run(arguments: &Simulate) -> Result<(), CliError> {
     drop(production);
     let Some(pairs) = made else { return Err(CliError::Interrupted(out.clone())) };
     let summary = Summary::new(run, pairs);
-    atomic::write(&out.join(SUMMARY_FILE), summary.to_json().as_bytes())?;
+    summary.write(&out.join(SUMMARY_FILE))?;
     folder.finish()?;
-    tell(summary.table().trim_end());
+    tell(summary::table(&summary.kinds).trim_end());
     tell(format!("{} simulated events in {}", summary.events.len(), out.display()));
     Ok(())
 }
@@ -156,7 +156,7 @@ fn check_finished(out: &Path, run: &Value) -> Result<(), CliError> {
     if folder::has_leftovers(out) {
         Folder::claim(out, run)?.finish()?;
     }
-    tell(summary.table().trim_end());
+    tell(summary::table(&summary.kinds).trim_end());
     tell(format!("{} holds these {} simulated events already", out.display(), summary.events.len()));
     Ok(())
 }

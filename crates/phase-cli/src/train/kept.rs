@@ -4,7 +4,7 @@ use super::error::TrainError;
 use crate::console::remark;
 use cpu_time::ProcessTime;
 use phase_baselines::training::{Final, Network, Record, Run, Source};
-use phase_dataset::{atomic, json};
+use phase_dataset::{WriteError, atomic, json};
 use std::{
     ffi::OsString,
     path::{Path, PathBuf},
@@ -88,13 +88,15 @@ impl Kept {
     /// If a file cannot be written or removed.
     pub(super) fn finish(mut self, finished: Final) -> Result<(), TrainError> {
         self.record.finished = Some(finished);
-        atomic::write(&self.file, self.record.to_json().as_bytes())?;
+        let record = self.record.to_json().map_err(|error| WriteError::json(&self.file, error))?;
+        atomic::write(&self.file, record.as_bytes())?;
         Ok(atomic::remove(&self.checkpoint)?)
     }
 
     /// The record comes first: after a break between the two it has rounds too many, which are dropped, and never too few.
     fn write<N: Network>(&self, run: &Run<N>) -> Result<(), TrainError> {
-        atomic::write(&self.file, self.record.to_json().as_bytes())?;
+        let record = self.record.to_json().map_err(|error| WriteError::json(&self.file, error))?;
+        atomic::write(&self.file, record.as_bytes())?;
         let wrong = |source| TrainError::Checkpoint { file: self.checkpoint.clone(), source };
         Ok(atomic::write(&self.checkpoint, &run.checkpoint(&self.data).map_err(wrong)?)?)
     }

@@ -31,7 +31,8 @@ fn numbers_and_names_out_of_range() {
         ),
         (&[&simulate[..], &["--jobs", "0"]].concat(), &["--jobs"]),
         (&["render"], &["FILE"]),
-        (&["render", "events.json", "--belief", "7"], &["--belief", "'7'"]),
+        (&["render", "events.json", "--belief", "7"], &["--belief", "'7'", "both"]),
+        (&["render", "events.json", "--palette", "grey"], &["--palette", "'grey'", "accessible"]),
         (&["render", "events.json", "--belief", "0"], &["events.json", "some-event-1", "--belief"]),
         (&["render", "events.json", "--contact-sheet", "0"], &["--contact-sheet"]),
         (&["render", "events.json", "--id", "other"], &["events.json", "\"other\""]),
@@ -83,7 +84,7 @@ fn rubbish_instead_of_events() {
             changed("/trajectory/agents/0/0/0", json!(null)),
             &["my-event", "`trajectory.agents[0][0][0]`", "null"],
         ),
-        (changed("/agents/0/goal/landmark", json!(9)), &["my-event", "agents[0].goal", "landmark 9"]),
+        (changed("/agents/0/goal/landmark", json!(9)), &["my-event", "agents[0].goal.landmark", "not 9"]),
         (
             changed(
                 "/agents/0/goal",

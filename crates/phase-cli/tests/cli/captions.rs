@@ -3,7 +3,7 @@
 use phase_cli::captions::{COUNT, lines};
 use phase_event::{ActionValue, SubgoalValue, Thought};
 use phase_model::{Action, AgentId, Entity, LandmarkId, Literal, ObjectId, Predicate, Subgoal};
-use phase_render::Style;
+use phase_render::{Caption, SizedFont, Style};
 
 fn on(object: u8, landmark: u8, holds: bool) -> Subgoal {
     Subgoal::Achieve(Literal {
@@ -42,41 +42,44 @@ fn thought() -> Thought {
 #[test]
 fn a_thought_is_told_in_order_with_bars_for_shares() {
     let expected = [
-        ("agent 0 (red), step 7: down", 0.0),
-        ("V, particles (bar), subgoal", 0.0),
-        (" 0.25 30 Attach(agent 0, object 1)", 0.6),
-        ("-0.50 10 not On(object 1, landmark 2)", 0.2),
-        ("-1.00  6 Stay", 0.12),
-        ("plan: Attach(agent 0, object 1)", 0.0),
-        ("  > On(object 1, landmark 2) +2", 0.0),
-        ("visits (bar), mean return, action", 0.0),
-        ("  600  -0.125 down", 0.6),
-        ("  150   0.000 left", 0.15),
-        ("  100   0.500 up", 0.1),
-        ("  100   0.000 stop", 0.1),
-    ];
-    let found = lines("agent 0 (red), step 7: down".into(), &thought());
-    let found: Vec<_> = found.iter().map(|line| (line.text.as_str(), line.bar)).collect();
+        (&["V", "particles"][..], "subgoal (bar: share of particles)", 0.0),
+        (&["0.25", "30"], "Attach(agent 0, object 1)", 0.6),
+        (&["−0.50", "10"], "not On(object 1, landmark 2)", 0.2),
+        (&["−1.00", "6"], "Stay", 0.12),
+        (&[], "plan: Attach(agent 0, object 1)", 0.0),
+        (&[], "→ On(object 1, landmark 2) +2", 0.0),
+        (&["visits", "return"], "action (bar: share of visits)", 0.0),
+        (&["600", "−0.125"], "down", 0.6),
+        (&["150", "0.000"], "left", 0.15),
+        (&["100", "0.500"], "up", 0.1),
+        (&["100", "0.000"], "stop", 0.1),
+    ]
+    .map(|(cells, text, bar)| (cells.iter().map(ToString::to_string).collect(), text.to_owned(), bar));
+    let found: Vec<(Vec<String>, String, f32)> =
+        lines(&thought()).into_iter().map(|line| (line.cells, line.text, line.bar)).collect();
     assert_eq!(found, expected);
 }
 
 #[test]
 fn there_are_always_as_many_lines() {
     let mut thought = thought();
-    assert_eq!(lines(String::new(), &thought).len(), COUNT);
+    assert_eq!(lines(&thought).len(), COUNT);
     thought.actions.clear();
-    let unsearched = lines(String::new(), &thought);
+    let unsearched = lines(&thought);
     assert_eq!(unsearched.len(), COUNT);
     assert!(unsearched.iter().any(|line| line.text == "no search needed"));
-    assert_eq!(lines(String::new(), &Thought::IDLE).len(), COUNT);
+    assert_eq!(lines(&Thought::IDLE).len(), COUNT);
 }
 
 #[test]
 fn lines_fit_below_a_video_and_a_contact_sheet() {
     for style in [Style::default(), Style::with_side(320)] {
-        for line in lines("agent 1 (green), step 100: downright".into(), &thought()) {
-            let (length, columns) = (line.text.len(), style.caption_columns());
-            assert!(length <= columns, "{:?} has {length} of {columns} columns", line.text);
+        let font = SizedFont::new(style.text_size()).expect("the embedded font is a font");
+        let (cell, line) = (style.cell_width() as f32, style.text_width() as f32);
+        for Caption { cells, text, .. } in lines(&thought()) {
+            assert!(cells.iter().all(|text| font.width(text) < cell), "{cells:?} in {cell} pixels");
+            let room = line - cells.len() as f32 * cell - 0.5 * style.text_size() as f32;
+            assert!(font.width(&text) <= room, "{text:?} in {room} pixels");
         }
     }
 }

@@ -130,7 +130,7 @@ fn the_engine_is_recorded_and_kept_to() {
     let file = path.join("world/manifest.json");
     let mut manifest = Manifest::read(&file).expect("a manifest");
     manifest.settings.as_object_mut().expect("settings").remove("engine").expect("an engine");
-    fs::write(&file, manifest.to_json()).expect("written");
+    manifest.write(&file).expect("written");
     assert!(succeed(path, &generate("world", &["--engine", "world"])).contains("already"));
     refuse(path, &generate("world", &["--engine", "forward"]));
 }

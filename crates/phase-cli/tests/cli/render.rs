@@ -19,10 +19,20 @@ fn recordings_become_videos_and_pictures() {
     assert_eq!(&fs::read(path.join("b.mp4")).expect("a video")[4..8], b"ftyp");
     succeed(path, &["render", "events.json", "--id", "a", "--contact-sheet", "6", "--out", "a.png"]);
     let png = fs::read(path.join("a.png")).expect("a picture");
+    // Three columns and two rows of 320 pixels, 4 apart.
+    assert_eq!(png_size(&png), (3 * 324 + 4, 2 * 324 + 4));
+    let accessible = ["--palette", "accessible", "--contact-sheet", "6", "--out", "b.png"];
+    succeed(path, &[&["render", "events.json", "--id", "a"], &accessible[..]].concat());
+    let other = fs::read(path.join("b.png")).expect("a picture");
+    assert_eq!(png_size(&other), png_size(&png));
+    assert_ne!(other, png, "other colours");
+}
+
+/// Width and height of a .png (pixels).
+fn png_size(png: &[u8]) -> (u32, u32) {
     let size = |at: usize| u32::from_be_bytes(png[at..at + 4].try_into().expect("four bytes"));
     assert_eq!(&png[1..4], b"PNG");
-    // Three columns and two rows of 320 pixels, 4 apart.
-    assert_eq!((size(16), size(20)), (3 * 324 + 4, 2 * 324 + 4));
+    (size(16), size(20))
 }
 
 #[test]
@@ -37,4 +47,20 @@ fn datasets_are_rendered_as_they_were_made() {
     assert_eq!(names(&path.join("minds")), ["demo-0001.belief1.mp4"]);
     let mind = fs::read(path.join("minds/demo-0001.belief1.mp4")).expect("a video");
     assert!(mind != set[Path::new("demo-0001.mp4")]);
+
+    let sheet = |belief: &str, out: &str| {
+        let arguments = ["--id", "demo-0001", "--belief", belief, "--contact-sheet", "1", "--out", out];
+        succeed(path, &[&["render", "set"], &arguments[..]].concat());
+        png_size(&fs::read(path.join(out)).expect("a picture"))
+    };
+    let ((one_wide, one_high), (both_wide, both_high)) = (sheet("0", "one.png"), sheet("both", "both.png"));
+    // Around a single frame there are 4 pixels, and as many between the two views.
+    assert_eq!((both_wide - 8, both_high), (2 * (one_wide - 8) + 4, one_high));
+    let video = |jobs: &str, out: &str| {
+        succeed(path, &["render", "set", "--belief", "both", "--jobs", jobs, "--out", out]);
+        tree(&path.join(out))
+    };
+    let (alone, together) = (video("1", "alone"), video("2", "together"));
+    assert_eq!(names(&path.join("alone")), ["demo-0000.belief-both.mp4", "demo-0001.belief-both.mp4"]);
+    assert!(alone == together, "the number of threads changes nothing");
 }

@@ -1,7 +1,7 @@
 //! Checking that a file still says what the event files say.
 
 use super::{EVENTS_PER_GROUP, Part, columns, push, read, schema};
-use crate::{FileError, Problem, error::plain_reason};
+use crate::{FileError, Problem};
 use parquet::{
     errors::ParquetError,
     file::reader::{FileReader, SerializedFileReader},
@@ -32,17 +32,15 @@ pub(crate) fn shares(part: &Part<'_>) -> usize {
 /// As [`compare`]; what concerns the whole file is noticed in every share.
 pub(crate) fn compare_share(folder: &Path, part: &Part<'_>, share: usize) -> Result<(), FileError> {
     // The library panics on some files that were damaged on purpose; nothing that it has seen is used afterwards.
-    catch_unwind(AssertUnwindSafe(|| compare_columns(folder, part, share))).unwrap_or_else(|_| {
-        let problem = Problem::Parquet("its pages cannot be decoded".into());
-        Err(FileError { file: folder.join(&part.path), problem })
-    })
+    catch_unwind(AssertUnwindSafe(|| compare_columns(folder, part, share)))
+        .unwrap_or_else(|_| Err(FileError { file: folder.join(&part.path), problem: Problem::ParquetPages }))
 }
 
 fn compare_columns(folder: &Path, part: &Part<'_>, share: usize) -> Result<(), FileError> {
     let path = folder.join(&part.path);
     let fail = |problem| FileError { file: path.clone(), problem };
-    let broken = |error: ParquetError| fail(Problem::Parquet(error.to_string()));
-    let file = File::open(&path).map_err(|error| fail(Problem::Unreadable(plain_reason(&error))))?;
+    let broken = |error: ParquetError| fail(Problem::Parquet(error.into()));
+    let file = File::open(&path).map_err(|error| fail(Problem::Unreadable(error)))?;
     let reader = SerializedFileReader::new(file).map_err(broken)?;
     let mut columns = columns::all();
     let expected = schema(&columns).map_err(broken)?;

@@ -63,7 +63,7 @@ fn write(
         action: "write the file",
         source: match error {
             ParquetError::External(inner) => io::Error::other(inner),
-            other => io::Error::other(other.to_string()),
+            other => io::Error::other(other),
         },
     };
     let mut columns = columns::all();

@@ -1,8 +1,9 @@
 //! One event, recorded and simulated.
 
+use super::Quartiles;
 use crate::{FileError, checksum::FileEntry};
 use phase_event::{Event, Recording};
-use phase_evidence::{Motion, Outcome, Quartiles, Track, motion::common_steps};
+use phase_evidence::{Motion, Outcome, Track, motion::common_steps};
 use phase_model::{AGENT_COUNT, AgentId, EventKind, Goal, Sign};
 use serde::{Deserialize, Serialize};
 use std::path::Path;

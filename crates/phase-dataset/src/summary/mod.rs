@@ -1,17 +1,17 @@
-//! Simulations against the recordings they started from: `summary.json` and its table.
+//! Simulations against the recordings they started from: `summary.json`.
 //!
 //! A [`Pair`] is one recording and one simulation of its scene, measured; a [`Comparison`] is what the file keeps
 //! of it; a [`KindRow`] pools the pairs of one kind of event.
 
 mod comparison;
+mod quartiles;
 mod rows;
-mod table;
 
 pub use comparison::{AgentComparison, Comparison, Measures, Pair, Source};
+pub use quartiles::Quartiles;
 pub use rows::{KindRow, Spreads, tabulate};
-pub use table::{OWN_SHARE_TARGET, TIME_RATIO_TARGET};
 
-use crate::{FileError, Problem, json};
+use crate::{FileError, Problem, WriteError, atomic, json};
 use phase_model::json::check_format;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -53,16 +53,15 @@ impl Summary {
         let fail = |problem| FileError { file: path.to_owned(), problem };
         let value = json::read(path)?;
         check_format(&value, SUMMARY_FORMAT).map_err(|error| fail(error.into()))?;
-        serde_json::from_value(value)
-            .map_err(|error| fail(Problem::Shape { what: "summary", rule: error.to_string() }))
+        serde_json::from_value(value).map_err(|source| fail(Problem::Incomplete { what: "summary", source }))
     }
 
-    /// The summary as a file's text.
-    #[must_use]
-    pub fn to_json(&self) -> String {
-        // Writing plain data of ours to a string cannot fail.
-        let text = serde_json::to_string_pretty(self).unwrap_or_default();
-        format!("{text}\n")
+    /// Writes the summary whole or not at all.
+    ///
+    /// # Errors
+    /// If it cannot be written as JSON, or the file cannot be written.
+    pub fn write(&self, path: &Path) -> Result<(), WriteError> {
+        atomic::write_json(path, self)
     }
 
     /// Checks that every file is there and unchanged.
@@ -72,11 +71,5 @@ impl Summary {
     pub fn verify(&self, folder: &Path) -> Result<(), FileError> {
         let files = self.events.iter().flat_map(|event| [Some(&event.event), event.video.as_ref()]);
         files.flatten().try_for_each(|file| file.verify(folder))
-    }
-
-    /// The tables for people: outcomes and motion, each with a line for each kind and one for all.
-    #[must_use]
-    pub fn table(&self) -> String {
-        table::text(&self.kinds)
     }
 }

@@ -1,8 +1,9 @@
 //! Events pooled by kind.
 
-use super::{AgentComparison, Pair};
-use phase_evidence::{Motion, Quartiles, statistics::median};
+use super::{AgentComparison, Pair, Quartiles};
+use phase_evidence::Motion;
 use phase_model::EventKind;
+use phase_statistics::median;
 use serde::{Deserialize, Serialize};
 
 /// All events of one kind; `None` stands for all kinds together. Where a scene was simulated with several seeds,

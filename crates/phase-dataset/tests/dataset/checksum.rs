@@ -32,10 +32,11 @@ fn changes_are_noticed() {
     fs::write(&path, "text").expect("written");
     let entry = FileEntry::of(folder.path(), "file").expect("measured");
     entry.verify(folder.path()).expect("unchanged");
-    for (text, problem) in [("tex", Problem::Altered("size")), ("tert", Problem::Altered("checksum"))] {
+    for (text, expected) in [("tex", "size"), ("tert", "checksum")] {
         fs::write(&path, text).expect("written");
         let error = entry.verify(folder.path()).expect_err(text);
-        assert_eq!((error.file.as_path(), error.problem), (path.as_path(), problem));
+        assert_eq!(error.file, path);
+        assert!(matches!(error.problem, Problem::Altered(what) if what == expected), "{error}");
     }
     fs::remove_file(&path).expect("removed");
     let error = entry.verify(folder.path()).expect_err("gone");
@@ -51,6 +52,7 @@ fn a_path_that_leads_out_of_the_folder_is_refused() {
     let absolute = folder.path().join("secret").to_string_lossy().into_owned();
     for path in ["../secret", "", "a/../../secret", absolute.as_str()] {
         let entry = FileEntry { path: path.into(), bytes: 4, sha256: hexadecimal(&sha256(b"text")) };
-        assert_eq!(entry.verify(&inside).expect_err(path).problem, Problem::OutsideFolder, "{path}");
+        let error = entry.verify(&inside).expect_err(path);
+        assert!(matches!(error.problem, Problem::OutsideFolder), "{path}: {error}");
     }
 }

@@ -2,11 +2,9 @@
 
 mod atomic;
 mod cache;
-mod card;
 mod checksum;
 mod croissant;
 mod folder;
-mod gallery;
 mod import_pik;
 mod manifest;
 mod parquet;

@@ -50,7 +50,7 @@ fn a_manifest_is_read_as_it_was_written() {
     let folder = tempfile::tempdir().expect("a folder");
     let manifest = dataset(folder.path(), "demo-0000");
     let path = folder.path().join(MANIFEST_FILE);
-    fs::write(&path, manifest.to_json()).expect("written");
+    manifest.write(&path).expect("written");
     let read = Manifest::read(&path).expect("our own manifest");
     assert_eq!(read, manifest);
     read.verify(folder.path()).expect("unchanged");
@@ -62,7 +62,7 @@ fn a_manifest_is_read_as_it_was_written() {
 #[test]
 fn what_is_no_manifest_is_refused() {
     let folder = tempfile::tempdir().expect("a folder");
-    let good: Value = serde_json::from_str(&dataset(folder.path(), "a").to_json()).expect("JSON");
+    let good: Value = serde_json::to_value(dataset(folder.path(), "a")).expect("JSON");
     let path = folder.path().join(MANIFEST_FILE);
     let read = |text: &str| {
         fs::write(&path, text).expect("written");

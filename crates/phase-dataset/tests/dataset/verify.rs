@@ -25,7 +25,7 @@ fn dataset(folder: &Path) -> Manifest {
         let text = if name == "croissant.json" { croissant(&manifest, "about") } else { name.into() };
         describe(folder, &mut manifest, name, &text);
     }
-    fs::write(folder.join(MANIFEST_FILE), manifest.to_json()).expect("written");
+    manifest.write(&folder.join(MANIFEST_FILE)).expect("written");
     manifest
 }
 

@@ -3,6 +3,7 @@
 use super::{Answer, Calibration, Label, RecognisedEvent};
 use crate::{Estimate, Group};
 use phase_model::{AGENT_COUNT, AgentId, EventKind, Relation};
+use phase_statistics::mean;
 use serde::{Deserialize, Serialize};
 
 /// The relations in the order of the confusion matrix.
@@ -102,7 +103,7 @@ impl Summary {
             confusion: confusion(events),
             goal_calibration: Calibration::of(&goal_answers(events)),
             relation_calibration: Calibration::of(&relation_answers(events)),
-            cpu_seconds_per_event: (!cpu.is_empty()).then(|| cpu.iter().sum::<f64>() / cpu.len() as f64),
+            cpu_seconds_per_event: mean(&cpu),
         })
     }
 }

@@ -3,6 +3,7 @@
 use super::{Errors, ForecastEvent, PREDICTED_STEPS};
 use crate::{Estimate, Group};
 use phase_model::{EventKind, Relation};
+use phase_statistics::mean;
 use serde::{Deserialize, Serialize};
 
 /// Displacement errors over some events, each of which counts alike (u).
@@ -22,15 +23,15 @@ pub struct Scores {
 
 impl Scores {
     fn of(events: &[&ForecastEvent], seed: u64) -> Option<Self> {
-        let mean = |of: fn(&ForecastEvent) -> f64| {
+        let estimate = |of: fn(&ForecastEvent) -> f64| {
             Estimate::of(&events.iter().map(|event| of(event)).collect::<Vec<f64>>(), seed)
         };
         Some(Self {
             n: events.len(),
-            ade: mean(|event| event.agents.ade)?,
-            fde: mean(|event| event.agents.fde)?,
-            ade_entities: mean(|event| event.entities.ade)?,
-            fde_entities: mean(|event| event.entities.fde)?,
+            ade: estimate(|event| event.agents.ade)?,
+            fde: estimate(|event| event.agents.fde)?,
+            ade_entities: estimate(|event| event.entities.ade)?,
+            fde_entities: estimate(|event| event.entities.fde)?,
         })
     }
 }
@@ -67,8 +68,7 @@ impl Summary {
         let longest = events.iter().map(|event| event.steps).max().unwrap_or_default();
         let after = |step: usize| {
             let errors = events.iter().filter_map(|event| step_error(&event.agents, step));
-            let errors: Vec<f64> = errors.collect();
-            errors.iter().sum::<f64>() / errors.len().max(1) as f64
+            mean(&errors.collect::<Vec<f64>>()).unwrap_or_default()
         };
         let cpu: Vec<f64> = events.iter().filter_map(|event| event.cpu_seconds).collect();
         Some(Self {
@@ -78,7 +78,7 @@ impl Summary {
             kinds: EventKind::ALL.into_iter().filter_map(kind).collect(),
             by_step: (0..longest).map(after).collect(),
             shorter: events.iter().filter(|event| event.steps < PREDICTED_STEPS).count(),
-            cpu_seconds_per_event: (!cpu.is_empty()).then(|| cpu.iter().sum::<f64>() / cpu.len() as f64),
+            cpu_seconds_per_event: mean(&cpu),
         })
     }
 }

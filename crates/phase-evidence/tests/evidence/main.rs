@@ -9,6 +9,5 @@ mod outcome;
 mod pursuit;
 mod rest;
 mod selection;
-mod statistics;
 mod support;
 mod way;

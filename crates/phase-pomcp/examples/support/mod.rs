@@ -1,6 +1,7 @@
 //! Whole episodes of a problem: a belief of particles between real steps, and what is earned with a 95 % interval.
 
 use phase_pomcp::{GenerativeModel, Pomcp, PomcpError, PomcpSettings};
+use phase_statistics::{mean, standard_error};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
@@ -76,18 +77,12 @@ pub(crate) fn table<P: Problem>(
         let returns: Result<Vec<f64>, PomcpError> = (0..episodes)
             .map(|k| episode(problem, &mut pomcp, &mut Pcg64Mcg::seed_from_u64(seed.wrapping_add(k))))
             .collect();
-        let (mean, error) = mean_and_error(&returns?);
+        let returns = returns?;
+        let (mean, error) =
+            (mean(&returns).unwrap_or(f64::NAN), standard_error(&returns).unwrap_or_default());
         println!("{simulations:11}  {mean:.2} ± {:.2}", 1.96 * error);
     }
     Ok(())
-}
-
-/// The mean of a sample and its standard error.
-fn mean_and_error(sample: &[f64]) -> (f64, f64) {
-    let count = sample.len() as f64;
-    let mean = sample.iter().sum::<f64>() / count;
-    let variance = sample.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / (count - 1.0).max(1.0);
-    (mean, (variance / count).sqrt())
 }
 
 /// The number of episodes and the seed from the command line.

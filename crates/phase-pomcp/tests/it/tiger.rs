@@ -1,6 +1,7 @@
 //! A partially observed problem with an exact solution: do searches find it, and do episodes earn it?
 
 use phase_pomcp::{GenerativeModel, Pomcp, PomcpSettings};
+use phase_statistics::{mean, standard_error};
 use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 
@@ -131,16 +132,10 @@ fn episodes_earn_nearly_the_optimum() {
         losses.push(lost);
         surprises.push(earned - (optimum - lost));
     }
-    let (loss, _) = mean_and_error(&losses);
+    let loss = mean(&losses).expect("some episodes");
     assert!(loss < 2.5, "gave away {loss} of {optimum}");
-    let (surprise, error) = mean_and_error(&surprises);
+    let surprise = mean(&surprises).expect("some episodes");
+    let error = standard_error(&surprises).expect("some episodes");
     assert!(error < 4.0, "returns vary too much for a test: {error}");
     assert!(surprise.abs() < 3.0 * error, "earned {surprise} ± {error} more than decided");
-}
-
-fn mean_and_error(sample: &[f64]) -> (f64, f64) {
-    let count = sample.len() as f64;
-    let mean = sample.iter().sum::<f64>() / count;
-    let variance = sample.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / (count - 1.0);
-    (mean, (variance / count).sqrt())
 }

@@ -1,7 +1,7 @@
 //! Key frames side by side.
 
 use crate::common::{physique, state};
-use phase_render::{Frame, RenderError, Stage, Style, contact_sheet, sheet::GAP};
+use phase_render::{Frame, RenderError, Stage, Style, contact_sheet, sheet::GAP, side_by_side};
 
 /// Frames of 100 × 100 pixels that differ.
 fn frames(count: usize) -> Vec<Frame> {
@@ -28,6 +28,20 @@ fn frames_keep_their_pixels() {
         }
         assert_eq!(sheet.pixel(0, 0), Some([128; 3]), "the ground is grey");
     }
+}
+
+#[test]
+fn frames_beside_each_other_have_a_gap_and_no_border() {
+    let frames = frames(2);
+    let both = side_by_side(&frames).unwrap();
+    assert_eq!((both.width(), both.height()), (2 * 100 + GAP, 100));
+    assert!(both.width().is_multiple_of(2), "or it could not become a video");
+    for (x, y) in (0..100).flat_map(|y| (0..100).map(move |x| (x, y))) {
+        assert_eq!(both.pixel(x, y), frames[0].pixel(x, y), "left at ({x}, {y})");
+        assert_eq!(both.pixel(100 + GAP + x, y), frames[1].pixel(x, y), "right at ({x}, {y})");
+    }
+    assert!((100..100 + GAP).all(|x| both.pixel(x, 50) == Some([128; 3])), "the gap is grey");
+    assert!(matches!(side_by_side(&[]), Err(RenderError::NoFrames(_))));
 }
 
 #[test]

@@ -197,8 +197,9 @@ fn sizes_out_of_range_are_refused() {
     for (style, width, height) in [
         (Style::default(), 480, 480),
         (style(481, 20, 0), 481, 481),
-        (Style { caption_lines: 2, ..Style::with_side(240) }, 240, 240 + 2 * 12),
-        (style(480, 20, 3), 480, 480 + 3 * 24),
+        (Style { caption_lines: 2, ..Style::with_side(240) }, 240, 240 + 2 * 16),
+        (style(480, 20, 3), 480, 480 + 3 * 18),
+        (Style { title: true, legend: true, caption_lines: 1, ..Style::default() }, 480, 480 + 4 * 18 + 6),
     ] {
         let stage = Stage::new(&physique(), style).unwrap();
         let frame = stage.frame(&state(), None);

@@ -33,7 +33,7 @@ pub struct Weights {
 }
 
 /// Why some numbers cannot be a strength regressor.
-#[derive(Clone, PartialEq, Eq, Debug, Error)]
+#[derive(Debug, Error)]
 pub enum WeightsError {
     /// The bytes are no such file, or a tensor is not what it has to be.
     #[error(transparent)]

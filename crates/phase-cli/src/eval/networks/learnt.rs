@@ -169,5 +169,5 @@ impl<N: Published + Forecasting + Sync> Forecaster for Learnt<N> {
 }
 
 fn answered<T>(answer: NetworkResult<T>) -> Answered<T> {
-    answer.map(|answer| Some((answer, Value::Null))).map_err(|error| MethodError(error.to_string()))
+    answer.map(|answer| Some((answer, Value::Null))).map_err(MethodError::new)
 }

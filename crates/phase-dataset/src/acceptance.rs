@@ -1,0 +1,43 @@
+//! How many scenes were tried for the events of a dataset, and why most were refused.
+
+use phase_evidence::selection::Refusal;
+use phase_sampler::Variant;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// How often scenes of one variant came to show their label.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Acceptance {
+    /// The variant.
+    pub variant: Variant,
+    /// Events accepted.
+    pub events: usize,
+    /// Scenes simulated for them.
+    pub attempts: usize,
+    /// How many were refused for each reason.
+    pub refused: BTreeMap<Refusal, usize>,
+}
+
+/// Counts attempts by variant, one slot after the other.
+#[derive(Clone, Debug, Default)]
+pub struct Tally(BTreeMap<Variant, Acceptance>);
+
+impl Tally {
+    /// Adds what was tried for one accepted event.
+    pub fn add(&mut self, variant: Variant, refused: &[Refusal]) {
+        let empty = Acceptance { variant, events: 0, attempts: 0, refused: BTreeMap::new() };
+        let row = self.0.entry(variant).or_insert(empty);
+        row.events += 1;
+        row.attempts += 1 + refused.len();
+        for &reason in refused {
+            *row.refused.entry(reason).or_default() += 1;
+        }
+    }
+
+    /// The counts, in the order of [`Variant::ALL`].
+    #[must_use]
+    pub fn rows(self) -> Vec<Acceptance> {
+        self.0.into_values().collect()
+    }
+}

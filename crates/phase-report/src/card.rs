@@ -1,0 +1,137 @@
+//! The `README.md` inside a generated dataset, which is also a dataset card: its front matter tells
+//! `datasets.load_dataset` which files to read.
+
+use phase_dataset::{
+    manifest::Manifest,
+    parquet::{self, FOLDER},
+    splits::Split,
+    words,
+};
+use phase_model::EventKind;
+
+const PAGE: &str = "| `index.html` | opens in a browser, offline, and shows every video with its labels |\n";
+const VIDEOS: &str = "| `videos/<id>.mp4` | H.264, 20 frames a second, five frames a step |\n";
+
+/// The dataset's file for people: what it is, how it was made, what is in it, and its licence.
+#[must_use]
+pub fn card(manifest: &Manifest, command: &str) -> String {
+    let has_videos = manifest.events.iter().any(|event| event.video.is_some());
+    format!(
+        "{front}# {preset}: {count} PHASE events\n\n\
+         {about}\n\n\
+         ```python\nfrom datasets import load_dataset\n\nevents = load_dataset(\"path/to/this/folder\")\n```\n\n\
+         ## What is in it\n\n\
+         | kind | events | what it is meant to show |\n|---|---|---|\n{kinds}\n\
+         {splits}\
+         | file | what it is |\n|---|---|\n\
+         {page}| `{FOLDER}/*.parquet` | every event as a row, by split; the columns are below |\n\
+         | `events/<id>.json` | format `phase-events/1`: the same and every thought of the agents |\n\
+         {videos}| `croissant.json` | the dataset in the vocabulary Croissant 1.0 |\n\
+         | `manifest.json` | format `phase-dataset/1`: settings, seeds, and the checksum of every file |\n\n\
+         ## Columns\n\n\
+         Lengths are in world units u (the arena is 20 u wide, x from 6 to 26, y from 2 to 22), angles in \
+         radians (0 faces +y, positive ones turn counter-clockwise). A step takes 5/60 s of physics and is shown \
+         for 0.25 s of video. Lists for both agents have agent 0 (red) first.\n\n\
+         | column | shape | type | unit | what it is |\n|---|---|---|---|---|\n{columns}\n\
+         ## How it was made\n\n\
+         By {generator}, a simulator after Netanyahu, Shu, Katz, Barbu and Tenenbaum, *PHASE: \
+         PHysically-grounded Abstract Social Events for Machine Social Perception* (AAAI 2021). Each agent \
+         has a belief of 50 particles unless the command says otherwise, plans symbolically in them, and \
+         searches its actions with POMCP.\n\n```sh\n{command}\n```\n\n\
+         The same command makes the same files, byte for byte, on the same platform. \
+         `cargo xtask verify` checks that all of them are whole and agree.\n\n\
+         ## Known limits\n\n\
+         - Everything here is simulated; no person acted or was recorded.\n\
+         - There are never more than two agents and two objects, in a square arena with four landmarks.\n\
+         - At most one agent helps or hinders; the other minds its own goal.\n\
+         - `kind`, `relation` and goals are what a scene was set up for. {selected} An agent need not get what it \
+         wants: see `reached`.\n\
+         - Beliefs are in it as far as they show in subgoals and their shares; the particles themselves are \
+         recomputed from an event file.\n\n\
+         ## Licence\n\nMIT OR Apache-2.0, as the program's.\n",
+        front = front_matter(manifest),
+        page = if has_videos { PAGE } else { "" },
+        videos = if has_videos { VIDEOS } else { "" },
+        preset = manifest.preset,
+        count = manifest.events.len(),
+        about = about(),
+        kinds = kinds(manifest),
+        splits = splits(manifest),
+        columns = columns(),
+        selected = selected(manifest),
+        generator = manifest.generator,
+    )
+}
+
+/// Whether anything has checked that events show their labels.
+const fn selected(manifest: &Manifest) -> &'static str {
+    if manifest.selection.is_empty() {
+        "Nothing has checked that it shows."
+    } else {
+        "Events in which a program did not find it shown were left out; how many, and why, is in `selection` of \
+         `manifest.json`."
+    }
+}
+
+/// What the events are, in two sentences.
+#[must_use]
+pub const fn about() -> &'static str {
+    "Physically grounded social events: two agents see, believe, plan and act in a physical world, and what they \
+     want of each other shows in how they move. Each event has its scene, labels, trajectories, actions, \
+     subgoals and a video."
+}
+
+/// What programs read: licence, size, and which files make up which split.
+fn front_matter(manifest: &Manifest) -> String {
+    let size = match manifest.events.len() {
+        0..1_000 => "n<1K",
+        1_000..10_000 => "1K<n<10K",
+        10_000..100_000 => "10K<n<100K",
+        100_000..1_000_000 => "100K<n<1M",
+        _ => "1M<n<10M",
+    };
+    let mut files = String::new();
+    for split in used_splits(manifest) {
+        let name = split.name();
+        files.push_str(&format!("  - split: {name}\n    path: {FOLDER}/{name}-*.parquet\n"));
+    }
+    // JSON strings are YAML strings, whatever is in them.
+    let name = serde_json::Value::from(format!("PHASE events: {}", manifest.preset));
+    format!(
+        "---\npretty_name: {name}\nlicense:\n- mit\n- apache-2.0\nlanguage:\n- en\nsize_categories:\n- {size}\n\
+         task_categories:\n- time-series-forecasting\n- video-classification\n\
+         tags:\n- social-perception\n- theory-of-mind\n- multi-agent\n- physics\n- simulation\n- goal-inference\n\
+         configs:\n- config_name: default\n  data_files:\n{files}---\n\n"
+    )
+}
+
+fn kinds(manifest: &Manifest) -> String {
+    let mut lines = String::new();
+    for kind in EventKind::ALL {
+        let count = manifest.events.iter().filter(|event| event.kind == kind).count();
+        if count > 0 {
+            lines.push_str(&format!("| {} | {count} | {} |\n", kind.name(), words::kind(kind)));
+        }
+    }
+    lines
+}
+
+fn splits(manifest: &Manifest) -> String {
+    let lines = used_splits(manifest).map(|split| {
+        let count = manifest.events.iter().filter(|event| event.split() == split).count();
+        format!("| {} | {count} |\n", split.name())
+    });
+    format!("| split | events |\n|---|---|\n{}\n", lines.collect::<String>())
+}
+
+fn used_splits(manifest: &Manifest) -> impl Iterator<Item = Split> + '_ {
+    Split::ALL.into_iter().filter(|&split| manifest.events.iter().any(|event| event.split() == split))
+}
+
+fn columns() -> String {
+    let line = |column: parquet::Description| {
+        let shape = if column.shape.is_empty() { String::new() } else { format!("`{}`", column.shape) };
+        format!("| `{}` | {shape} | {} | {} | {} |\n", column.name, column.kind, column.unit, column.what)
+    };
+    parquet::descriptions().into_iter().map(line).collect()
+}

@@ -1,0 +1,178 @@
+//! The report of Task 1.
+
+use super::{BESIDE, Subject, bars_beside, cost, share};
+use crate::{
+    document::{Block, Document, head},
+    plot::{Axis, Series, curves},
+    published,
+};
+use phase_dataset::words;
+use phase_eval::{
+    Group,
+    goals::{Bin, Calibration, RELATIONS, Scores, Summary},
+};
+
+/// How well goals and relations are recognised.
+#[must_use]
+pub fn goals(subject: Subject<'_>, summary: &Summary) -> Document {
+    let ours = subject.label();
+    let mut blocks = vec![
+        Block::Text(format!(
+            "{}, seed {}: {} events. A goal counts as right if kind, entity, landmark and sign all match, over both \
+             agents of each event; of equally likely relations the first of friendly, adversarial and neutral counts.",
+            subject.events, subject.seed, summary.all.n
+        )),
+        beside_published(&ours, &summary.all),
+        Block::Text(BESIDE.into()),
+        Block::Text(cost(summary.cpu_seconds_per_event)),
+        published_plot(
+            "goals.svg",
+            "Goals right (most likely one), %",
+            &ours,
+            summary.all.top1.value,
+            |row| row.goal[0],
+        ),
+        published_plot("relations.svg", "Relations right, %", &ours, summary.all.relation.value, |row| {
+            row.relation
+        }),
+        Block::Heading("By kind of event".into()),
+        groups("kind", &summary.kinds),
+    ];
+    if !summary.layouts.is_empty() {
+        blocks.push(Block::Heading("By layout".into()));
+        blocks.push(Block::Text(
+            "Seen: the base layout, in whatever reflection, is in the training or validation events too."
+                .into(),
+        ));
+        blocks.push(groups("layout", &summary.layouts));
+    }
+    if !summary.watched.is_empty() {
+        blocks.push(Block::Heading("By seconds watched".into()));
+        blocks.push(Block::Text("Events that end earlier count with all of them.".into()));
+        let whole = Group { name: "to the end".into(), scores: summary.all.clone() };
+        blocks.push(groups("watched", &[&summary.watched[..], &[whole]].concat()));
+        blocks.push(watched_plot(&summary.watched));
+    }
+    blocks.push(Block::Heading("Relations taken for one another".into()));
+    blocks.push(confusion(summary));
+    blocks.push(Block::Heading("Calibration".into()));
+    blocks.push(Block::Text(format!(
+        "Expected calibration error: {:.3} of the most likely goals, {:.3} of the most likely relations.",
+        summary.goal_calibration.error, summary.relation_calibration.error
+    )));
+    blocks.push(reliability_plot(summary));
+    blocks.push(Block::Text("Most likely goals:".into()));
+    blocks.push(reliability(&summary.goal_calibration));
+    blocks.push(Block::Text("Most likely relations:".into()));
+    blocks.push(reliability(&summary.relation_calibration));
+    Document { title: format!("Goals and relations recognised by {}", subject.method), blocks }
+}
+
+fn beside_published(ours: &str, scores: &Scores) -> Block {
+    let human = scores.relation_human.as_ref();
+    let mut rows = vec![vec![
+        ours.to_owned(),
+        share(&scores.top1),
+        share(&scores.top2),
+        share(&scores.top3),
+        share(&scores.relation),
+        human.map_or_else(|| "-".into(), share),
+        "this run".into(),
+    ]];
+    rows.extend(published::GOALS.iter().map(|row| {
+        let goals = row.goal.map(|accuracy| format!("{accuracy:.3}"));
+        let rest = [format!("{:.2}", row.relation), "-".into(), row.source.into()];
+        [row.method.to_owned()].into_iter().chain(goals).chain(rest).collect()
+    }));
+    let columns =
+        ["method", "goal top-1", "top-2", "top-3", "relation", "relation as people saw it", "source"];
+    Block::Table { head: head(&columns), rows }
+}
+
+/// Bars of shares, ours first.
+fn published_plot(
+    file: &'static str,
+    title: &str,
+    ours: &str,
+    value: f64,
+    theirs: fn(&published::GoalRow) -> f64,
+) -> Block {
+    let published = published::GOALS.iter().map(|row| (row.method, 100.0 * theirs(row)));
+    bars_beside(file, title, " %", (ours, 100.0 * value), published)
+}
+
+fn groups(what: &str, groups: &[Group<Scores>]) -> Block {
+    let row = |group: &Group<Scores>| {
+        let scores = &group.scores;
+        vec![
+            group.name.clone(),
+            scores.n.to_string(),
+            share(&scores.top1),
+            share(&scores.top2),
+            share(&scores.top3),
+            share(&scores.relation),
+        ]
+    };
+    Block::Table {
+        head: head(&[what, "events", "goal top-1", "top-2", "top-3", "relation"]),
+        rows: groups.iter().map(row).collect(),
+    }
+}
+
+fn watched_plot(groups: &[Group<Scores>]) -> Block {
+    let seconds = |group: &Group<Scores>| group.name.trim_end_matches(" s").parse::<f64>().ok();
+    let line = |of: fn(&Scores) -> f64| -> Vec<(f64, f64)> {
+        groups.iter().filter_map(|group| Some((seconds(group)?, of(&group.scores)))).collect()
+    };
+    let longest = groups.iter().filter_map(seconds).fold(1.0, f64::max);
+    let series = [
+        Series { name: "goal top-1", points: line(|scores| scores.top1.value) },
+        Series { name: "goal top-3", points: line(|scores| scores.top3.value) },
+        Series { name: "relation", points: line(|scores| scores.relation.value) },
+    ];
+    let title = "Share right by seconds watched";
+    let axes = [Axis::linear("watched (s)", longest), Axis::linear("right", 1.0)];
+    Block::Plot { file: "watched.svg", title: title.into(), svg: curves(title, axes, &series) }
+}
+
+fn confusion(summary: &Summary) -> Block {
+    let row = |(right, counts): (_, &[usize; RELATIONS.len()])| {
+        let counts = counts.iter().map(ToString::to_string);
+        [words::relation(right).to_owned()].into_iter().chain(counts).collect()
+    };
+    let said = RELATIONS.map(|relation| format!("taken for {}", words::relation(relation)));
+    Block::Table {
+        head: ["made to show".to_owned()].into_iter().chain(said).collect(),
+        rows: RELATIONS.into_iter().zip(&summary.confusion).map(row).collect(),
+    }
+}
+
+fn reliability(calibration: &Calibration) -> Block {
+    let row = |bin: &Bin| {
+        vec![
+            format!("{:.1} to {:.1}", bin.from, bin.to),
+            bin.n.to_string(),
+            format!("{:.3}", bin.confidence),
+            format!("{:.3}", bin.accuracy),
+        ]
+    };
+    Block::Table {
+        head: head(&["probability", "answers", "mean probability", "share right"]),
+        rows: calibration.bins.iter().filter(|bin| bin.n > 0).map(row).collect(),
+    }
+}
+
+fn reliability_plot(summary: &Summary) -> Block {
+    let points = |calibration: &Calibration| {
+        let bins = calibration.bins.iter().filter(|bin| bin.n > 0);
+        bins.map(|bin| (bin.confidence, bin.accuracy)).collect()
+    };
+    let series = [
+        Series { name: "goals", points: points(&summary.goal_calibration) },
+        Series { name: "relations", points: points(&summary.relation_calibration) },
+        Series { name: "perfect", points: vec![(0.0, 0.0), (1.0, 1.0)] },
+    ];
+    let title = "Right as often as said?";
+    let axes = [Axis::linear("probability given", 1.0), Axis::linear("share right", 1.0)];
+    Block::Plot { file: "reliability.svg", title: title.into(), svg: curves(title, axes, &series) }
+}

@@ -1,0 +1,201 @@
+//! `index.html`: a page that opens offline and shows every video of a dataset with its labels, and what its agents
+//! were after at every moment.
+
+mod timeline;
+
+pub use timeline::Timeline;
+
+use crate::markup::{escape, escape_script};
+use phase_dataset::{
+    manifest::{AgentEntry, EventEntry, Manifest},
+    words::{self, Piece},
+};
+use phase_model::{
+    AgentId, Attitude, Entity, Goal, ObjectId, Sign, Size, Strength,
+    arena::{FRAMES_PER_SECOND, SUBSTEPS},
+};
+use std::{collections::BTreeMap, fmt::Write as _};
+
+/// How long a step is shown (s).
+const SECONDS_PER_STEP: f64 = SUBSTEPS as f64 / FRAMES_PER_SECOND as f64;
+const PAGE: &str = include_str!("../../assets/page.html");
+const STYLE: &str = include_str!("../../assets/style.css");
+const SCRIPT: &str = include_str!("../../assets/script.js");
+
+/// The most events on a page; browsers get slow beyond. The page says so if there are more.
+pub const MOST_SHOWN: usize = 2000;
+
+/// The page for a dataset; one timeline for each of the manifest's events.
+#[must_use]
+pub fn page(manifest: &Manifest, timelines: &[Timeline]) -> String {
+    let shown = &manifest.events[..manifest.events.len().min(MOST_SHOWN)];
+    let heading = format!("PHASE: {}", manifest.preset);
+    let count = match manifest.events.len() {
+        all if all > MOST_SHOWN => format!("The first {MOST_SHOWN} of {all} events"),
+        all => format!("{all} events"),
+    };
+    let intro = format!(
+        "{count} by {}, seed {}. Two agents see, believe, plan and act; what they want of each other shows in how \
+         they move.",
+        manifest.generator, manifest.seed
+    );
+    let parts = [
+        ("title", escape(&heading)),
+        ("intro", escape(&intro)),
+        ("style", STYLE.to_owned()),
+        ("filters", filters(shown)),
+        ("cards", shown.iter().map(card).collect()),
+        ("timelines", escape_script(&timeline::table(shown, timelines).to_string())),
+        ("script", SCRIPT.to_owned()),
+    ];
+    fill(PAGE, &parts)
+}
+
+/// Puts parts into a template's `{{name}}` places in one pass, so that text which looks like a place and came
+/// in with a part is left alone.
+fn fill(template: &str, parts: &[(&str, String)]) -> String {
+    let mut page = String::new();
+    let mut rest = template;
+    while let Some((before, after)) = rest.split_once("{{") {
+        page.push_str(before);
+        let Some((name, after)) = after.split_once("}}") else { break };
+        if let Some((_, text)) = parts.iter().find(|(part, _)| *part == name) {
+            page.push_str(text);
+        }
+        rest = after;
+    }
+    page + rest
+}
+
+/// A choice for each thing that events can be told apart by, with how many there are of each.
+fn filters(events: &[EventEntry]) -> String {
+    type Values = fn(&EventEntry) -> Vec<String>;
+    let keys: [(&str, Values); 4] = [
+        ("kind", |event| vec![event.kind.name().into()]),
+        ("relation", |event| vec![words::relation(event.relation).into()]),
+        ("goal", goals),
+        ("split", |event| vec![event.split().name().into()]),
+    ];
+    let mut selects = String::new();
+    for (name, of) in keys {
+        let mut counts: BTreeMap<String, usize> = BTreeMap::new();
+        for value in events.iter().flat_map(of) {
+            *counts.entry(value).or_default() += 1;
+        }
+        let _ =
+            write!(selects, "<label>{name} <select data-filter=\"{name}\"><option value=\"\">all</option>");
+        for (value, count) in counts {
+            let _ = write!(selects, "<option value=\"{0}\">{0} ({count})</option>", escape(&value));
+        }
+        selects.push_str("</select></label>\n");
+    }
+    selects
+}
+
+/// What the agents of an event want, whoever wants it: each goal once.
+fn goals(event: &EventEntry) -> Vec<String> {
+    let text = |agent: &AgentEntry| {
+        let landmark = agent.goal.landmark().map_or("", words::landmark);
+        let on = if agent.goal.sign() == Sign::Positive { "on" } else { "off" };
+        match agent.goal {
+            Goal::AgentOnLandmark { .. } => format!("agent {on} {landmark}"),
+            Goal::ObjectOnLandmark { .. } => format!("object {on} {landmark}"),
+            Goal::Touch { sign: Sign::Positive, .. } => "catch the other".into(),
+            Goal::Touch { sign: Sign::Negative, .. } => "get away from the other".into(),
+        }
+    };
+    let mut texts: Vec<String> = event.agents.iter().map(text).collect();
+    texts.dedup();
+    texts
+}
+
+fn card(event: &EventEntry) -> String {
+    let (id, kind) = (escape(&event.id), event.kind.name());
+    let agents: String = AgentId::ALL.into_iter().map(|who| agent(who, &event.agents[who])).collect();
+    let mut things = String::new();
+    for (object, &level) in ObjectId::ALL.into_iter().zip(&event.object_size_levels) {
+        let size = Size::from_level(level).map_or("", words::size);
+        let _ = write!(things, "{} {size} · ", chip(Piece::Entity(Entity::Object(object))));
+    }
+    let flip = event.layout.flip.map_or_else(String::new, |flip| format!(", flip {flip}"));
+    let button = |class: &str, label: &str, sign: &str| {
+        format!(
+            "<button type=\"button\" class=\"{class}\" aria-label=\"{label}\" title=\"{label}\">{sign}</button>"
+        )
+    };
+    let buttons = [
+        button("toggle", "play", "▶"),
+        button("step-back", "one step back", "«"),
+        button("back", "one frame back", "‹"),
+        button("next", "one frame on", "›"),
+        button("step-next", "one step on", "»"),
+    ];
+    format!(
+        "<article class=\"card\" tabindex=\"0\" data-id=\"{id}\" data-kind=\"{kind}\" \
+         data-relation=\"{relation}\" data-split=\"{split}\" data-goal=\"{goals}\" data-steps=\"{steps}\" \
+         aria-label=\"{kind}, {id}\">\n\
+         <header><h2>{kind}</h2><span class=\"tag {relation}\">{relation}</span><span class=\"tag\">{split}</span>\
+         <code>{id}</code></header>\n\
+         <video muted playsinline preload=\"none\" data-src=\"{video}\" title=\"{what}\"></video>\n\
+         <div class=\"player\">{buttons}<output>0.0 s</output></div>\n\
+         <canvas class=\"timeline\" title=\"subgoals over time; the height is the share of belief particles \
+         behind them\"></canvas>\n\
+         <ul class=\"agents\">\n{agents}</ul>\n\
+         <p class=\"meta\">{things}layout {base}{flip} · {steps} steps, {seconds:.1} s · \
+         <a href=\"{json}\">data</a></p>\n</article>\n",
+        relation = words::relation(event.relation),
+        split = event.split().name(),
+        goals = escape(&goals(event).join("|")),
+        what = escape(words::kind(event.kind)),
+        video = event.video.as_ref().map_or_else(String::new, |video| escape(&video.path)),
+        buttons = buttons.concat(),
+        json = escape(&event.event.path),
+        base = event.layout.base,
+        steps = event.steps,
+        seconds = event.steps as f64 * SECONDS_PER_STEP,
+    )
+}
+
+fn agent(who: AgentId, agent: &AgentEntry) -> String {
+    let size = Size::from_level(agent.size_level).map_or("", words::size);
+    let strength = Strength::from_level(agent.strength_level).map_or("", words::strength);
+    let other = chip(Piece::Entity(Entity::Agent(who.other())));
+    let attitude = Attitude::try_from(agent.alpha).unwrap_or_default();
+    let stance = match attitude {
+        Attitude::Neutral => String::new(),
+        social => format!(" <strong>{}</strong> {other}:", words::attitude(social)),
+    };
+    let goal: String = words::goal(who, agent.goal).into_iter().map(chip).collect();
+    let outcome = match (agent.reached, agent.steps_to_goal) {
+        (true, Some(steps)) => {
+            format!("<span class=\"yes\">done after {:.1} s</span>", steps as f64 * SECONDS_PER_STEP)
+        }
+        (true, None) => "<span class=\"yes\">so at the end</span>".into(),
+        (false, _) if agent.goal.sign() == Sign::Negative => {
+            "<span class=\"no\">not so at the end</span>".into()
+        }
+        (false, _) => "<span class=\"no\">not done</span>".into(),
+    };
+    format!(
+        "<li>{me} <span class=\"body\">{size}, {strength}</span>{stance} wants to {goal} {outcome}\
+         <div class=\"now\" data-agent=\"{who}\"{done}><span class=\"label\">now</span> \
+         <span class=\"subgoal\">–</span> <span class=\"share\"></span></div></li>\n",
+        done = agent.steps_to_goal.map_or_else(String::new, |steps| format!(" data-done=\"{steps}\"")),
+        me = chip(Piece::Entity(Entity::Agent(who))),
+    )
+}
+
+/// A piece of a sentence as HTML; what has a colour in the video has it here.
+fn chip(piece: Piece) -> String {
+    let (class, text) = match piece {
+        Piece::Text(text) => return escape(text),
+        Piece::Entity(Entity::Agent(agent)) => {
+            (format!("agent agent{agent}"), words::entity(Entity::Agent(agent)))
+        }
+        Piece::Entity(Entity::Object(object)) => {
+            (format!("object object{object}"), words::entity(Entity::Object(object)))
+        }
+        Piece::Landmark(landmark) => (format!("landmark landmark{landmark}"), words::landmark(landmark)),
+    };
+    format!("<span class=\"chip {class}\">{}</span>", escape(text))
+}

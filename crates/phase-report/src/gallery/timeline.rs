@@ -1,0 +1,69 @@
+//! What the agents of an event were after, step by step, in few bytes.
+
+use phase_dataset::manifest::EventEntry;
+use phase_event::Event;
+use phase_model::{AGENT_COUNT, AgentId};
+use serde_json::{Map, Value, json};
+use std::collections::BTreeMap;
+
+/// What both agents were after.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Timeline(pub [Track; AGENT_COUNT]);
+
+/// What one agent was after.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Track {
+    /// The subgoal as it changed: steps (from 0) and the subgoal's text from then on.
+    pub subgoals: Vec<(usize, String)>,
+    /// The share of belief particles behind the subgoal in every step, 0 to 1.
+    pub shares: Vec<f32>,
+}
+
+impl Timeline {
+    /// The timeline of an event.
+    #[must_use]
+    pub fn of(event: &Event) -> Self {
+        Self(AgentId::ALL.map(|agent| {
+            let mut track = Track::default();
+            for (t, step) in event.steps.iter().enumerate() {
+                let thought = &step.thoughts[agent];
+                let text = thought.subgoal.to_string();
+                if track.subgoals.last().is_none_or(|(_, last)| *last != text) {
+                    track.subgoals.push((t, text));
+                }
+                track.shares.push(thought.share());
+            }
+            track
+        }))
+    }
+}
+
+/// All timelines for the page's script: `texts`, and for each event and agent the changes, as steps and places in
+/// `texts` by turns, and the shares, a base-36 digit for each step from 0 for none to z for all.
+pub(super) fn table(events: &[EventEntry], timelines: &[Timeline]) -> Value {
+    let mut places: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut texts: Vec<&str> = Vec::new();
+    let mut table = Map::new();
+    for (event, timeline) in events.iter().zip(timelines) {
+        let mut tracks = Vec::with_capacity(AGENT_COUNT);
+        for track in &timeline.0 {
+            let mut changes = Vec::with_capacity(2 * track.subgoals.len());
+            for (step, text) in &track.subgoals {
+                let place = *places.entry(text).or_insert_with(|| {
+                    texts.push(text);
+                    texts.len() - 1
+                });
+                changes.extend([*step, place]);
+            }
+            let shares: String = track.shares.iter().map(|&share| digit(share)).collect();
+            tracks.push(json!([changes, shares]));
+        }
+        table.insert(event.id.clone(), tracks.into());
+    }
+    json!({ "texts": texts, "events": table })
+}
+
+fn digit(share: f32) -> char {
+    // Out of range and not a number become the nearest digit: `as` saturates.
+    char::from_digit(((share * 35.0).round() as u32).min(35), 36).unwrap_or('0')
+}

@@ -1,0 +1,197 @@
+//! Bar charts and curves as SVG, which every browser shows and every paper takes.
+
+use crate::markup::escape;
+use std::fmt::Write as _;
+
+/// Measures of the drawing (px).
+const ROW: usize = 22;
+const LABELS: usize = 210;
+const BARS: usize = 420;
+const TOP: usize = 44;
+
+/// A chart with one horizontal bar for each name, its number behind it. `unit` stands behind every number; bars of
+/// numbers that are not finite or negative are empty.
+#[must_use]
+pub fn bars(title: &str, unit: &str, rows: &[(String, f64)]) -> String {
+    let (width, height) = (LABELS + BARS + 90, TOP + ROW * rows.len() + 12);
+    let longest = rows.iter().map(|(_, number)| length(*number)).fold(f64::MIN_POSITIVE, f64::max);
+    let mut svg = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+         viewBox=\"0 0 {width} {height}\" font-family=\"sans-serif\" font-size=\"13\">\n\
+         <rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n\
+         <text x=\"12\" y=\"26\" font-size=\"16\" font-weight=\"bold\">{}</text>\n",
+        escape(title)
+    );
+    for (k, (name, number)) in rows.iter().enumerate() {
+        let (y, long) = (TOP + ROW * k, BARS as f64 * length(*number) / longest);
+        let (label, value) = (LABELS - 8, LABELS as f64 + long + 6.0);
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            svg,
+            "<text x=\"{label}\" y=\"{}\" text-anchor=\"end\">{}</text>\
+             <rect x=\"{LABELS}\" y=\"{}\" width=\"{long:.1}\" height=\"{}\" fill=\"#4477aa\"/>\
+             <text x=\"{value:.1}\" y=\"{}\">{}{}</text>",
+            y + 15,
+            escape(name),
+            y + 3,
+            ROW - 6,
+            y + 15,
+            (number * 10.0).round() / 10.0,
+            escape(unit)
+        );
+    }
+    svg + "</svg>\n"
+}
+
+/// An axis.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Axis<'a> {
+    name: &'a str,
+    scale: Scale,
+}
+
+/// How numbers lie along an axis.
+#[derive(Clone, Copy, PartialEq, Debug)]
+enum Scale {
+    Linear { step: f64, steps: usize },
+    Doubling { from: f64, to: f64 },
+}
+
+impl<'a> Axis<'a> {
+    /// An axis from 0 to a number above 0, or somewhat further to the next mark, evenly; marks are at round numbers. The
+    /// name tells the unit too.
+    #[must_use]
+    pub fn linear(name: &'a str, to: f64) -> Self {
+        // Steps of numbers beyond these are 0 or infinite.
+        let to = if to.is_finite() && to > 0.0 { to.clamp(1e-300, 1e300) } else { 1.0 };
+        let least = to / MARKS as f64;
+        let power = libm::pow(10.0, libm::log10(least).floor());
+        // A rounding error must not lead to the next step.
+        let reaches = |step: &f64| *step >= least * (1.0 - 1e-9);
+        let step = [1.0, 2.0, 5.0].map(|digit| digit * power).into_iter().find(reaches);
+        let step = step.unwrap_or(10.0 * power);
+        let steps = (to / step * (1.0 - 1e-9)).ceil() as usize;
+        Self { name, scale: Scale::Linear { step, steps } }
+    }
+
+    /// An axis between two numbers above 0, on which doubling is always the same way.
+    #[must_use]
+    pub const fn doubling(name: &'a str, from: f64, to: f64) -> Self {
+        Self { name, scale: Scale::Doubling { from, to } }
+    }
+
+    /// Where a number lies, from 0 to 1.
+    fn place(&self, number: f64) -> f64 {
+        let place = match self.scale {
+            Scale::Linear { step, steps } => number / (step * steps as f64),
+            Scale::Doubling { from, to } => libm::log2(number / from) / libm::log2(to / from),
+        };
+        // With both ends alike everything lies at the one place there is.
+        if place.is_nan() { 0.0 } else { place.clamp(0.0, 1.0) }
+    }
+
+    /// The numbers written along it.
+    fn marks(&self) -> Vec<f64> {
+        match self.scale {
+            Scale::Linear { step, steps } => (0..=steps).map(|k| step * k as f64).collect(),
+            // Between what is no number above 0 there is nothing to write.
+            Scale::Doubling { from, to } if from > 0.0 && to >= from => {
+                let doublings = libm::log2(to / from).min(16.0) as u32;
+                (0..=doublings).map(|k| from * f64::from(1_u32 << k)).collect()
+            }
+            Scale::Doubling { .. } => Vec::new(),
+        }
+    }
+}
+
+/// A line through points.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Series<'a> {
+    /// What it shows.
+    pub name: &'a str,
+    /// The points, x and y.
+    pub points: Vec<(f64, f64)>,
+}
+
+/// Measures of a drawing with two axes (px): of the field between the axes, and of what is left, below and above it.
+const FIELD: (f64, f64) = (480.0, 320.0);
+const MARGIN: f64 = 64.0;
+/// Room for the names of lines beside the field (px): at least, and for each letter.
+const LEAST_NAMES: f64 = 100.0;
+const LETTER: f64 = 7.0;
+/// Colours of lines, which are told apart by people who see few colours too.
+const COLOURS: [&str; 7] = ["#4477aa", "#cc6677", "#888888", "#228833", "#aa3377", "#66ccee", "#ccbb44"];
+/// Marks along an axis at the most, beside that at 0.
+const MARKS: usize = 5;
+
+/// A chart with two axes, x and y, and a line with dots for each series. Points that are not finite are left out; those
+/// beyond an axis are drawn at its end.
+#[must_use]
+pub fn curves(title: &str, [x_axis, y_axis]: [Axis<'_>; 2], series: &[Series<'_>]) -> String {
+    let longest = series.iter().map(|line| line.name.chars().count()).max().unwrap_or_default() as f64;
+    let names = f64::max(LEAST_NAMES, LETTER * longest);
+    let (width, height) = (FIELD.0 + 2.0 * MARGIN + names, FIELD.1 + 2.0 * MARGIN);
+    let at =
+        |(x, y): (f64, f64)| (MARGIN + FIELD.0 * x_axis.place(x), MARGIN + FIELD.1 * (1.0 - y_axis.place(y)));
+    let (right, bottom, middle) = (MARGIN + FIELD.0, MARGIN + FIELD.1, MARGIN + FIELD.0 / 2.0);
+    let mut svg = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+         viewBox=\"0 0 {width} {height}\" font-family=\"sans-serif\" font-size=\"13\">\n\
+         <rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n\
+         <text x=\"12\" y=\"26\" font-size=\"16\" font-weight=\"bold\">{}</text>\n\
+         <text x=\"{middle}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n\
+         <text x=\"12\" y=\"{}\">{}</text>\n",
+        escape(title),
+        bottom + 44.0,
+        escape(x_axis.name),
+        MARGIN - 14.0,
+        escape(y_axis.name),
+    );
+    let shown = |mark: f64| (mark * 100.0).round() / 100.0;
+    // Writing to a string cannot fail.
+    for mark in x_axis.marks() {
+        let (left, below) = (MARGIN + FIELD.0 * x_axis.place(mark), bottom + 20.0);
+        let _ = writeln!(
+            svg,
+            "<path d=\"M{left:.1} {MARGIN}V{bottom}\" stroke=\"#dddddd\"/>\
+             <text x=\"{left:.1}\" y=\"{below}\" text-anchor=\"middle\">{}</text>",
+            shown(mark),
+        );
+    }
+    for mark in y_axis.marks() {
+        let (up, beside) = (MARGIN + FIELD.1 * (1.0 - y_axis.place(mark)), MARGIN - 8.0);
+        let _ = writeln!(
+            svg,
+            "<path d=\"M{MARGIN} {up:.1}H{right}\" stroke=\"#dddddd\"/>\
+             <text x=\"{beside}\" y=\"{:.1}\" text-anchor=\"end\">{}</text>",
+            up + 5.0,
+            shown(mark),
+        );
+    }
+    for (k, line) in series.iter().enumerate() {
+        let colour = COLOURS[k % COLOURS.len()];
+        let finite = line.points.iter().filter(|(x, y)| x.is_finite() && y.is_finite());
+        let points: Vec<(f64, f64)> = finite.map(|&point| at(point)).collect();
+        let path: Vec<String> = points.iter().map(|(x, y)| format!("{x:.1},{y:.1}")).collect();
+        let dots: String = points
+            .iter()
+            .map(|(x, y)| format!("<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3.5\" fill=\"{colour}\"/>"))
+            .collect();
+        let (from, y) = (right + 10.0, MARGIN + 20.0 * (k + 1) as f64);
+        let _ = writeln!(
+            svg,
+            "<polyline points=\"{}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"2\"/>{dots}\
+             <circle cx=\"{from}\" cy=\"{}\" r=\"5\" fill=\"{colour}\"/><text x=\"{}\" y=\"{y}\">{}</text>",
+            path.join(" "),
+            y - 4.0,
+            from + 10.0,
+            escape(line.name)
+        );
+    }
+    svg + "</svg>\n"
+}
+
+/// A number as the length of a bar.
+const fn length(number: f64) -> f64 {
+    if number.is_finite() && number > 0.0 { number } else { 0.0 }
+}

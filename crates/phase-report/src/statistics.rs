@@ -1,0 +1,116 @@
+//! The paper's figures about its dataset (section "Dataset Statistics") beside those of another.
+
+use phase_dataset::{
+    labels::goal_counts,
+    manifest::Manifest,
+    splits::{self, Split},
+};
+use phase_model::{EventKind, Relation};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Seconds of video in a step.
+const STEP_SECONDS: f64 = 0.25;
+
+/// What a dataset is made up of.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Statistics {
+    /// Events.
+    pub events: usize,
+    /// How many events there are of each length (steps).
+    pub lengths: BTreeMap<usize, usize>,
+    /// How many agents there are with each goal; see [`phase_dataset::labels::goal_label`].
+    pub goals: BTreeMap<String, usize>,
+    /// How many events show each relation.
+    pub relations: BTreeMap<Relation, usize>,
+    /// How many events there are of each kind.
+    pub kinds: BTreeMap<EventKind, usize>,
+    /// Different layouts.
+    pub layouts: usize,
+    /// How many events are in each part, and how many of the test events are in unseen layouts and of a type of
+    /// their own; `None` if some event is in no part.
+    pub parts: Option<[usize; 5]>,
+}
+
+/// One figure.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Figure {
+    /// In words.
+    pub what: &'static str,
+    /// What the paper says.
+    pub paper: &'static str,
+    /// What is the case.
+    pub ours: String,
+}
+
+impl Statistics {
+    /// Of a dataset.
+    #[must_use]
+    pub fn of(manifest: &Manifest) -> Self {
+        let events = &manifest.events;
+        let agents = events.iter().flat_map(|event| &event.agents).map(|agent| (agent.goal, agent.alpha));
+        let layouts: BTreeSet<(u8, Option<u8>)> =
+            events.iter().map(|event| (event.layout.base, event.layout.flip)).collect();
+        let parts: Option<Vec<Split>> = events.iter().map(|event| event.split).collect();
+        let parts = parts.filter(|parts| !parts.is_empty());
+        let parts = parts.and_then(|parts| {
+            let found: Vec<usize> =
+                splits::check(&manifest.items(), &parts).iter().map(|rule| rule.found).collect();
+            found.try_into().ok()
+        });
+        Self {
+            events: events.len(),
+            lengths: counts(events.iter().map(|event| event.steps)),
+            goals: goal_counts(agents),
+            relations: counts(events.iter().map(|event| event.relation)),
+            kinds: counts(events.iter().map(|event| event.kind)),
+            layouts: layouts.len(),
+            parts,
+        }
+    }
+
+    /// Every figure of the paper's, beside ours.
+    #[must_use]
+    pub fn figures(&self) -> Vec<Figure> {
+        let figure = |what, paper, ours: String| Figure { what, paper, ours };
+        let seconds = |steps: Option<(&usize, &usize)>| {
+            steps.map_or_else(|| "–".into(), |(&steps, _)| format!("{} s", steps as f64 * STEP_SECONDS))
+        };
+        let relation = |relation| self.relations.get(&relation).copied().unwrap_or_default().to_string();
+        let part = |k: usize| self.parts.map_or_else(|| "–".into(), |parts| parts[k].to_string());
+        let goal = |count: Option<&usize>| count.copied().unwrap_or_default().to_string();
+        vec![
+            figure("videos", "500", self.events.to_string()),
+            figure("shortest", "10 s", seconds(self.lengths.first_key_value())),
+            figure("longest", "25 s", seconds(self.lengths.last_key_value())),
+            figure("examples of the rarest goal", "47", goal(self.goals.values().min())),
+            figure("examples of the most frequent goal", "129", goal(self.goals.values().max())),
+            figure("friendly", "200", relation(Relation::Friendly)),
+            figure("adversarial", "192", relation(Relation::Adversarial)),
+            figure("neutral", "108", relation(Relation::Neutral)),
+            figure("train", "320", part(0)),
+            figure("validation", "80", part(1)),
+            figure("test", "100", part(2)),
+            figure("test in layouts seen nowhere else", "80", part(3)),
+            figure("test of interaction types seen nowhere else", "9", part(4)),
+            figure("layouts", "90 to draw from", self.layouts.to_string()),
+        ]
+    }
+}
+
+/// The figures as a table in Markdown.
+#[must_use]
+pub fn table(figures: &[Figure]) -> String {
+    let mut text = String::from("| figure | paper | here |\n|---|---|---|\n");
+    for Figure { what, paper, ours } in figures {
+        text += &format!("| {what} | {paper} | {ours} |\n");
+    }
+    text
+}
+
+fn counts<T: Ord>(things: impl Iterator<Item = T>) -> BTreeMap<T, usize> {
+    let mut counts = BTreeMap::new();
+    for thing in things {
+        *counts.entry(thing).or_default() += 1;
+    }
+    counts
+}

@@ -1,0 +1,147 @@
+//! The page for people.
+
+use crate::support::plain_event;
+use phase_dataset::{manifest::EventEntry, splits::Split};
+use phase_report::{
+    gallery::{MOST_SHOWN, Timeline, page},
+    markup::{escape, escape_script},
+};
+use serde_json::{Value, json};
+
+fn example(id: &str) -> (phase_dataset::manifest::Manifest, Vec<Timeline>) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let manifest = crate::support::dataset(folder.path(), id);
+    (manifest, vec![Timeline::of(&plain_event(4))])
+}
+
+/// The JSON that the page's script reads.
+fn embedded(page: &str) -> Value {
+    let (_, rest) = page.split_once("id=\"timelines\">").expect("the data");
+    let (json, _) = rest.split_once("</script>").expect("its end");
+    serde_json::from_str(json).expect("JSON")
+}
+
+#[test]
+fn a_card_says_what_the_event_is() {
+    let (manifest, timelines) = example("demo-0000");
+    let page = page(&manifest, &timelines);
+    for part in [
+        "data-src=\"videos/demo-0000.mp4\"",
+        "href=\"events/demo-0000.json\"",
+        "data-kind=\"helping\"",
+        "data-relation=\"friendly\"",
+        "data-split=\"train\"",
+        "data-goal=\"object on green landmark (top right)\"",
+        "friendly",
+        "red agent",
+        "green agent",
+        "blue object",
+        "<strong>helps</strong>",
+        "green landmark (top right)",
+        "layout 20, flip 3",
+        "2 steps, 0.5 s",
+        "medium, strong",
+    ] {
+        assert!(page.contains(part), "{part}");
+    }
+    assert!(!page.contains("{{"), "a place was left empty");
+}
+
+#[test]
+fn the_page_needs_nothing_from_elsewhere() {
+    let (manifest, timelines) = example("demo-0000");
+    let page = page(&manifest, &timelines);
+    for part in ["http:", "https:", "//cdn", "@import", "<link", "fetch("] {
+        assert!(!page.contains(part), "{part}");
+    }
+}
+
+#[test]
+fn the_filters_count() {
+    let (mut manifest, mut timelines) = example("demo-0000");
+    let mut other = manifest.events[0].clone();
+    other.id = "demo-0001".into();
+    other.split = Some(Split::Test);
+    manifest.events.push(other);
+    timelines.push(timelines[0].clone());
+    let page = page(&manifest, &timelines);
+    for (filter, option) in [
+        ("kind", "helping (2)"),
+        ("relation", "friendly (2)"),
+        ("goal", "object on green landmark (top right) (2)"),
+        ("split", "train (1)"),
+        ("split", "test (1)"),
+    ] {
+        let (_, select) = page.split_once(&format!("data-filter=\"{filter}\"")).expect(filter);
+        let (select, _) = select.split_once("</select>").expect("its end");
+        assert!(select.contains(option), "{filter}: {select}");
+    }
+    assert!(!page.contains("chasing ("), "no event is of this kind");
+}
+
+#[test]
+fn subgoals_and_shares_change_with_the_steps() {
+    let timeline = Timeline::of(&plain_event(4));
+    let attach = "Attach(agent 0, object 1)".to_owned();
+    let avoid = "not Touch(agent 0, agent 1)".to_owned();
+    let expected = vec![(0, attach.clone()), (1, avoid.clone()), (2, attach), (3, avoid)];
+    assert_eq!(timeline.0[0].subgoals, expected);
+    assert_eq!(timeline.0[1].subgoals, [(0, "Stay".to_owned())]);
+    // 40 of 50 particles; nobody proposed the idle agent's subgoal.
+    assert_eq!(timeline.0[0].shares, [0.8; 4]);
+    assert_eq!(timeline.0[1].shares, [0.0; 4]);
+    let (manifest, timelines) = example("demo-0000");
+    let value = embedded(&page(&manifest, &timelines));
+    assert_eq!(value["texts"], json!(["Attach(agent 0, object 1)", "not Touch(agent 0, agent 1)", "Stay"]));
+    let tracks = &value["events"]["demo-0000"];
+    assert_eq!(*tracks, json!([[[0, 0, 1, 1, 2, 0, 3, 1], "ssss"], [[0, 2], "0000"]]));
+}
+
+#[test]
+fn nothing_breaks_out_of_its_place() {
+    let nasty = "</script><script>alert('x')</script>\"&{{cards}}<!--";
+    let (mut manifest, mut timelines) = example("demo-0000");
+    manifest.preset = nasty.into();
+    manifest.generator = nasty.into();
+    manifest.events[0].id = nasty.into();
+    manifest.events[0].video.as_mut().expect("a video").path = nasty.into();
+    manifest.events[0].event.path = nasty.into();
+    timelines[0].0[0].subgoals[0].1 = nasty.into();
+    let page = page(&manifest, &timelines);
+    assert!(!page.contains("alert('x')</script>"));
+    assert!(!page.contains(nasty));
+    assert_eq!(page.matches("</script>").count(), 2, "the data's and the script's own");
+    let value = embedded(&page);
+    assert_eq!(value["texts"][0], nasty, "and yet the text arrives");
+    assert!(value["events"][nasty].is_array());
+    assert_eq!(page.matches("<article").count(), 1);
+}
+
+#[test]
+fn escapes_are_those_of_html_and_json() {
+    assert_eq!(escape("a<b>&\"'"), "a&lt;b&gt;&amp;&quot;&#39;");
+    let text = "</script>\u{2028}";
+    let json = Value::from(text).to_string();
+    let escaped = escape_script(&json);
+    assert!(!escaped.contains('<'));
+    assert_eq!(serde_json::from_str::<String>(&escaped).expect("JSON"), text);
+}
+
+/// Long events whose subgoals change every step are the worst case.
+#[test]
+fn five_hundred_events_make_a_page_of_reasonable_size() {
+    let (mut manifest, _) = example("demo-0000");
+    let event = manifest.events[0].clone();
+    let numbered = |k| EventEntry { id: format!("demo-{k:04}"), ..event.clone() };
+    manifest.events = (0..500).map(numbered).collect();
+    let timelines = vec![Timeline::of(&plain_event(100)); 500];
+    let text = page(&manifest, &timelines);
+    assert_eq!(text.matches("<video").count(), 500);
+    assert_eq!(text.matches(" src=").count(), 0, "no video is loaded at once");
+    assert!(text.len() < 2_500_000, "{} bytes", text.len());
+
+    manifest.events = (0..=MOST_SHOWN).map(numbered).collect();
+    let text = page(&manifest, &timelines);
+    assert_eq!(text.matches("<video").count(), MOST_SHOWN);
+    assert!(text.contains("The first 2000 of 2001 events"));
+}
