@@ -8,7 +8,10 @@ use crate::{
     tidy,
 };
 use clap::{Parser, Subcommand};
-use phase_cli::{context::Context, program::Interface};
+use phase_cli::{
+    context::{Context, Verbosity},
+    program::Interface,
+};
 
 /// The commands of phase, and the chores of this workspace
 #[derive(Parser, Debug)]
@@ -17,6 +20,9 @@ pub struct Cli {
     /// What to do.
     #[command(subcommand)]
     pub command: Command,
+    /// How much to say.
+    #[command(flatten)]
+    pub verbosity: Verbosity,
 }
 
 /// What to do.
@@ -38,11 +44,15 @@ pub enum Command {
 impl Interface for Cli {
     type Error = XtaskError;
 
+    fn verbosity(&self) -> Verbosity {
+        self.verbosity
+    }
+
     fn run(&self, context: &Context) -> Result<(), XtaskError> {
         match &self.command {
             Command::Phase(command) => Ok(command.run(context)?),
-            Command::CheckPhysics(arguments) => check_physics::run(arguments),
-            Command::CheckBehaviour(arguments) => Ok(check_behaviour::run(arguments)?),
+            Command::CheckPhysics(arguments) => check_physics::run(arguments, context),
+            Command::CheckBehaviour(arguments) => Ok(check_behaviour::run(arguments, context)?),
             Command::Golden(options) => golden::run(options),
             Command::Tidy => tidy::run(),
         }

@@ -12,12 +12,12 @@ pub enum XtaskError {
     #[error(transparent)]
     Cli(#[from] CliError),
     /// A file of probes or runs cannot be used.
-    #[error("{}: {problem}", file.display())]
+    #[error("{}: {source}", file.display())]
     Record {
         /// The file.
         file: PathBuf,
         /// What is wrong with it.
-        problem: ReadError,
+        source: ReadError,
     },
     /// A file or folder of the workspace cannot be read.
     #[error("{}: cannot be read: {source}", file.display())]

@@ -2,7 +2,7 @@
 
 use crate::error::XtaskError;
 use clap::Args;
-use phase_cli::console::tell;
+use phase_cli::console::print_result;
 use phase_golden::{BLESS, table::differences};
 use std::{
     collections::{BTreeMap, BTreeSet},
@@ -47,12 +47,12 @@ pub fn run(options: &GoldenOptions) -> Result<(), XtaskError> {
     let after = tables(root, &packages)?;
     let changed = changes(&before, &after);
     for line in &changed {
-        tell(line);
+        print_result(line);
     }
     match (options.bless, changed.is_empty()) {
-        (true, true) => tell("golden values: nothing changed"),
-        (true, false) => tell("golden values rewritten; say why in CHANGELOG.md"),
-        (false, _) => tell("golden values: all as recorded"),
+        (true, true) => print_result("golden values: nothing changed"),
+        (true, false) => print_result("golden values rewritten; say why in CHANGELOG.md"),
+        (false, _) => print_result("golden values: all as recorded"),
     }
     Ok(())
 }

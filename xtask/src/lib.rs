@@ -18,12 +18,17 @@ pub mod error;
 pub mod golden;
 pub mod tidy;
 
+use clap::CommandFactory;
 use phase_cli::{context::Program, program};
 use std::{ffi::OsString, process::ExitCode};
 
 /// The program `cargo xtask`.
-pub const XTASK: Program =
-    Program { name: "cargo xtask", networks_hint: "use `cargo xtask-networks` in place of `cargo xtask`" };
+pub const XTASK: Program = Program {
+    name: "cargo xtask",
+    networks_hint: "use `cargo xtask-networks` in place of `cargo xtask`",
+    // What is installed is `phase`.
+    interface: phase_cli::cli::Cli::command,
+};
 
 /// Runs a command line, program name first, and returns its exit code.
 pub fn main_with(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {

@@ -2,13 +2,16 @@
 
 use crate::{
     benchmark::{self, options::Benchmark},
-    context::Context,
+    completions::{self, Completions},
+    context::{Context, Verbosity},
     error::CliError,
     eval::{self, options::Eval},
     gen_dataset::{
         self, merge,
         options::{GenDataset, Merge},
     },
+    man::{self, ManPages},
+    new_scene::{self, options::NewScene},
     program::Interface,
     render::{self, options::Render},
     simulate::{self, options::Simulate},
@@ -26,11 +29,16 @@ pub struct Cli {
     /// What to do.
     #[command(subcommand)]
     pub command: Command,
+    /// How much to say.
+    #[command(flatten)]
+    pub verbosity: Verbosity,
 }
 
 /// What to do.
 #[derive(Subcommand, Debug)]
 pub enum Command {
+    /// Write a scene to start from, with comments, for simulate
+    NewScene(NewScene),
     /// Make a dataset of social events, with videos and a page to look at them
     GenDataset(GenDataset),
     /// Put the shards of a dataset together
@@ -53,10 +61,18 @@ pub enum Command {
     Train(Train),
     /// Measure all methods at both tasks and put them beside what is published, in one report
     Benchmark(Benchmark),
+    /// Print a script with which a shell completes the commands and options of phase
+    Completions(Completions),
+    /// Write the manual pages of phase
+    Man(ManPages),
 }
 
 impl Interface for Cli {
     type Error = CliError;
+
+    fn verbosity(&self) -> Verbosity {
+        self.verbosity
+    }
 
     fn run(&self, context: &Context) -> Result<(), CliError> {
         self.command.run(context)
@@ -70,16 +86,19 @@ impl Command {
     /// Any [`CliError`].
     pub fn run(&self, context: &Context) -> Result<(), CliError> {
         match self {
-            Self::GenDataset(arguments) => gen_dataset::run(arguments),
-            Self::Verify(arguments) => verify::run(arguments),
-            Self::Merge(arguments) => merge::run(arguments),
-            Self::Splits(arguments) => splits::run(arguments),
-            Self::Stats(arguments) => stats::run(arguments),
-            Self::Simulate(arguments) => simulate::run(arguments),
-            Self::Render(arguments) => render::run(arguments),
+            Self::NewScene(arguments) => new_scene::run(arguments, context),
+            Self::GenDataset(arguments) => gen_dataset::run(arguments, context),
+            Self::Verify(arguments) => verify::run(arguments, context),
+            Self::Merge(arguments) => merge::run(arguments, context),
+            Self::Splits(arguments) => splits::run(arguments, context),
+            Self::Stats(arguments) => stats::run(arguments, context),
+            Self::Simulate(arguments) => simulate::run(arguments, context),
+            Self::Render(arguments) => render::run(arguments, context),
             Self::Eval(arguments) => eval::run(arguments, context),
             Self::Train(arguments) => train::run(arguments, context),
             Self::Benchmark(arguments) => benchmark::run(arguments, context),
+            Self::Completions(arguments) => completions::run(arguments, context),
+            Self::Man(arguments) => man::run(arguments, context),
         }
     }
 }

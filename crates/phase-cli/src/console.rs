@@ -1,4 +1,4 @@
-//! Talking to whoever started us.
+//! Lines for whoever started the program.
 //!
 //! The standard macros panic when nobody listens any more (`… | head`); a run must not end for that.
 
@@ -7,12 +7,18 @@ use std::{
     io::{self, Write},
 };
 
-/// Writes a result to stdout, on a line of its own.
-pub fn tell(line: impl Display) {
+/// Writes a line to stdout, where results go.
+pub fn print_result(line: impl Display) {
     let _ = writeln!(io::stdout(), "{line}");
 }
 
-/// Writes a remark to stderr, on a line of its own.
-pub fn remark(line: impl Display) {
+/// A number of events in words: `1 event`, `12 events`.
+#[must_use]
+pub fn events(count: usize) -> String {
+    if count == 1 { "1 event".into() } else { format!("{count} events") }
+}
+
+/// Writes a line to stderr, where progress, notes and errors go.
+pub fn print_message(line: impl Display) {
     let _ = writeln!(io::stderr(), "{line}");
 }

@@ -50,6 +50,18 @@ impl Effort {
         settings
     }
 
+    /// The settings in words.
+    #[must_use]
+    pub fn description(&self) -> String {
+        let Settings { engine, max_steps, minds, .. } = self.settings();
+        let (engine, foresight) = (engine.name(), minds.foresight.name());
+        let (particles, simulations) = (minds.particles, minds.simulations);
+        format!(
+            "engine {engine}, foresight {foresight}, {particles} particles, {simulations} simulations, at most \
+             {max_steps} steps"
+        )
+    }
+
     /// The options as they were given, to repeat the command.
     #[must_use]
     pub fn as_given(&self) -> String {

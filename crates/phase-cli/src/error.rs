@@ -3,12 +3,16 @@
 use crate::program::Failure;
 #[cfg(feature = "networks")]
 use crate::train::error::TrainError;
+#[cfg(feature = "networks")]
+use phase_baselines::training::{NetworkError, RecordError};
 use phase_dataset::{FileError, WriteError, folder::FolderError, parquet::ExportError};
 use phase_eval::MethodError;
 use phase_event::EventWriteError;
+use phase_model::EventKind;
 use phase_render::RenderError;
 use phase_sampler::{SampleError, Variant};
 use phase_sim::SimulationError;
+use rayon::ThreadPoolBuildError;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -36,7 +40,7 @@ pub enum CliError {
     },
     /// A finished folder is no longer what was written into it.
     #[error("{0}; remove the folder or choose another")]
-    Altered(FileError),
+    Altered(#[source] FileError),
     /// There is no preset of this name.
     #[error("--preset: there is no preset {name:?}; there is {known}")]
     UnknownPreset {
@@ -95,7 +99,7 @@ pub enum CliError {
     Write(#[from] WriteError),
     /// A file written a moment ago cannot be read back.
     #[error("{0}; what is finished is kept, and the same command goes on from there")]
-    ReadBack(FileError),
+    ReadBack(#[source] FileError),
     /// An event cannot be written.
     #[error(transparent)]
     EventWrite(#[from] EventWriteError),
@@ -108,12 +112,50 @@ pub enum CliError {
         source: RenderError,
     },
     /// The threads could not be started.
-    #[error("cannot start {jobs} threads: {reason}")]
+    #[error("cannot start {jobs} threads: {source}")]
     Threads {
         /// How many.
         jobs: usize,
         /// Why.
-        reason: String,
+        source: ThreadPoolBuildError,
+    },
+    /// Something has no form in JSON.
+    #[error("{what} cannot be written as JSON: {source}")]
+    Serialise {
+        /// What.
+        what: &'static str,
+        /// Why.
+        source: serde_json::Error,
+    },
+    /// The settings that an event was made with cannot be used.
+    #[error("{}: event {id}: field `settings`: {source}", file.display())]
+    Settings {
+        /// The file.
+        file: PathBuf,
+        /// The event.
+        id: String,
+        /// Why.
+        source: serde_json::Error,
+    },
+    /// An event is too short for what is to be done with it.
+    #[error("{}: event {id} has only one row, its start; {needed}", file.display())]
+    StartAlone {
+        /// The file.
+        file: PathBuf,
+        /// The event.
+        id: String,
+        /// What an event with more rows is needed for.
+        needed: &'static str,
+    },
+    /// No scene to start from could be drawn.
+    #[error("--layout {layout}: no {} scene fits this layout; choose another", kind.name())]
+    NoScene {
+        /// The layout's number.
+        layout: u8,
+        /// The kind of event.
+        kind: EventKind,
+        /// Why none of its variants does.
+        source: SampleError,
     },
     /// A dataset is not what its manifest says; the problems have been told.
     #[error("{}: {problems} problem(s)", folder.display())]
@@ -138,6 +180,24 @@ pub enum CliError {
     #[cfg(feature = "networks")]
     #[error(transparent)]
     Train(#[from] TrainError),
+    /// A file of weights cannot be used.
+    #[cfg(feature = "networks")]
+    #[error("{}: is no complete file of weights: {source}", file.display())]
+    Weights {
+        /// The file.
+        file: PathBuf,
+        /// Why.
+        source: NetworkError,
+    },
+    /// The record of a training cannot be used.
+    #[cfg(feature = "networks")]
+    #[error("{}: {source}", file.display())]
+    TrainingRecord {
+        /// The file.
+        file: PathBuf,
+        /// Why.
+        source: RecordError,
+    },
     /// A neural network was asked for in a program that has none.
     #[error("neural networks are needed, which this program was built without; {hint}")]
     NoNetworks {
@@ -173,6 +233,9 @@ impl Failure for CliError {
             | Self::Unfinished(_)
             | Self::RulesBroken { .. }
             | Self::NoNetworks { .. }
+            | Self::Settings { .. }
+            | Self::StartAlone { .. }
+            | Self::NoScene { .. }
             | Self::Usage(_) => 2,
             Self::Interrupted(_) => 130,
             Self::Simulation { .. }
@@ -183,7 +246,10 @@ impl Failure for CliError {
             | Self::ReadBack(_)
             | Self::EventWrite(_)
             | Self::Render { .. }
+            | Self::Serialise { .. }
             | Self::Threads { .. } => 1,
+            #[cfg(feature = "networks")]
+            Self::Weights { .. } | Self::TrainingRecord { .. } => 2,
             #[cfg(feature = "networks")]
             Self::Train(error) => error.exit_code(),
         }

@@ -1,6 +1,6 @@
 //! Ctrl-C: once to stop in good order, twice to stop at once.
 
-use crate::console::remark;
+use crate::console::print_message;
 use std::sync::{
     Once,
     atomic::{AtomicBool, Ordering},
@@ -17,10 +17,10 @@ pub fn listen() {
             if REQUESTED.swap(true, Ordering::Relaxed) {
                 std::process::exit(130);
             }
-            remark("stopping; once more to stop at once");
+            print_message("stopping after this step; press Ctrl-C again to stop at once");
         });
         if let Err(error) = heard {
-            remark(format!("note: cannot listen for Ctrl-C ({error}); it will stop at once"));
+            print_message(format!("note: cannot listen for Ctrl-C ({error}); it will stop at once"));
         }
     });
 }

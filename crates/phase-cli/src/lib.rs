@@ -1,5 +1,6 @@
 //! The commands of PHASE, and the program `phase` that runs them.
 //!
+//! - `new-scene` writes a scene to start from,
 //! - `gen-dataset` makes social events from a preset and a seed,
 //! - `verify` checks that a dataset is whole,
 //! - `merge` puts the shards of a dataset together,
@@ -9,7 +10,8 @@
 //! - `render` turns events into videos and pictures,
 //! - `eval` measures how well a method perceives events,
 //! - `train` trains neural networks (feature `networks`),
-//! - `benchmark` measures all methods and puts them beside what is published.
+//! - `benchmark` measures all methods and puts them beside what is published,
+//! - `completions` and `man` describe the program to shells and to `man`.
 //!
 //! `cargo xtask` runs the same commands and those that need the source of this workspace.
 //!
@@ -43,6 +45,7 @@
 pub mod benchmark;
 pub mod captions;
 pub mod cli;
+pub mod completions;
 pub mod console;
 pub mod context;
 pub mod effort;
@@ -51,6 +54,9 @@ pub mod error;
 pub mod eval;
 pub mod gen_dataset;
 pub mod interrupt;
+pub mod man;
+pub mod new_scene;
+pub mod output;
 pub mod parallel;
 pub mod picture;
 pub mod production;
@@ -64,9 +70,18 @@ pub mod stats;
 pub mod train;
 pub mod verify;
 
+use clap::CommandFactory;
+use context::Program;
 use std::{ffi::OsString, process::ExitCode};
+
+/// The program `phase`.
+pub const PHASE: Program = Program {
+    name: "phase",
+    networks_hint: "install `phase` with its default features (`cargo install --path crates/phase-cli`)",
+    interface: cli::Cli::command,
+};
 
 /// Runs a command line of `phase`, program name first, and returns its exit code.
 pub fn main_with(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
-    program::main_with::<cli::Cli>(context::PHASE, arguments)
+    program::main_with::<cli::Cli>(PHASE, arguments)
 }

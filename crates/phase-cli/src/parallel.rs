@@ -107,5 +107,5 @@ fn pool(jobs: &Jobs, count: usize) -> Result<ThreadPool, CliError> {
     let cores = std::thread::available_parallelism().map_or(1, Into::into);
     let threads = jobs.jobs.map_or(cores, usize::from).min(count.max(1));
     let pool = ThreadPoolBuilder::new().num_threads(threads).build();
-    pool.map_err(|error| CliError::Threads { jobs: threads, reason: error.to_string() })
+    pool.map_err(|source| CliError::Threads { jobs: threads, source })
 }

@@ -1,6 +1,7 @@
 //! Making the files of one event: simulate it or take it from the cache, write its JSON and its video.
 
 use crate::{
+    context::Context,
     engine::{self, GENERATOR},
     error::CliError,
     interrupt,
@@ -46,12 +47,21 @@ pub struct Order {
 }
 
 impl Production {
-    /// A production of `events` events in a folder.
-    #[must_use]
-    pub fn new(folder: &Folder, settings: Settings, events: usize) -> Self {
-        let settings_value = settings_value(&settings);
+    /// A production of `events` events in a folder. `activity` says what goes on.
+    ///
+    /// # Errors
+    /// [`CliError::Serialise`].
+    pub fn new(
+        context: &Context,
+        activity: &str,
+        folder: &Folder,
+        settings: Settings,
+        events: usize,
+    ) -> Result<Self, CliError> {
+        let settings_value = settings_value(&settings)?;
         let cache = Cache::new(&folder.cache(), fingerprint(&settings_value));
-        Self { settings, settings_value, cache, progress: Progress::new(events, settings.max_steps) }
+        let progress = context.progress(activity, events, settings.max_steps);
+        Ok(Self { settings, settings_value, cache, progress })
     }
 
     /// Makes one event and its files; `None` if it was interrupted. The scene is asked for only if the event is
@@ -127,10 +137,11 @@ impl Production {
 }
 
 /// Settings as they stand in files.
-#[must_use]
-pub fn settings_value(settings: &Settings) -> Value {
-    // Plain numbers of ours always have a JSON form.
-    serde_json::to_value(settings).unwrap_or_default()
+///
+/// # Errors
+/// [`CliError::Serialise`].
+pub fn settings_value(settings: &Settings) -> Result<Value, CliError> {
+    serde_json::to_value(settings).map_err(|source| CliError::Serialise { what: "settings", source })
 }
 
 /// Writes the video of a simulated event, a frame for each substep.

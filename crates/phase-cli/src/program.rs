@@ -1,8 +1,8 @@
 //! From a command line to an exit code.
 
 use crate::{
-    console::remark,
-    context::{Context, Program},
+    console::print_message,
+    context::{Context, Program, Verbosity},
 };
 use clap::{Parser, error::ErrorKind};
 use std::{error::Error, ffi::OsString, process::ExitCode};
@@ -11,6 +11,9 @@ use std::{error::Error, ffi::OsString, process::ExitCode};
 pub trait Interface: Parser {
     /// Why a command fails.
     type Error: Failure;
+
+    /// How much the program is to say.
+    fn verbosity(&self) -> Verbosity;
 
     /// Runs the command that was parsed.
     ///
@@ -30,23 +33,32 @@ pub fn main_with<I: Interface>(program: Program, arguments: impl IntoIterator<It
     let command = I::command().name(program.name).bin_name(program.name);
     let parsed = command.try_get_matches_from(arguments);
     match parsed.and_then(|matches| I::from_arg_matches(&matches)) {
-        Ok(interface) => match interface.run(&Context { program }) {
-            Ok(()) => ExitCode::SUCCESS,
-            Err(error) => {
-                remark(format!("error: {error}"));
-                ExitCode::from(error.exit_code())
+        Ok(interface) => {
+            let context = Context { program, verbosity: interface.verbosity() };
+            match interface.run(&context) {
+                Ok(()) => ExitCode::SUCCESS,
+                Err(error) => {
+                    print_message(format!("error: {error}"));
+                    causes(&error).for_each(|cause| context.detail(format!("  caused by: {cause}")));
+                    ExitCode::from(error.exit_code())
+                }
             }
-        },
+        }
         Err(error) if !error.use_stderr() => {
             // Help or version was asked for; a closed pipe is no reason to complain.
             let _ = error.print();
             ExitCode::SUCCESS
         }
         Err(error) => {
-            remark(one_sentence(&error));
+            print_message(one_sentence(&error));
             ExitCode::from(2)
         }
     }
+}
+
+/// The errors behind an error, the nearest first.
+fn causes(error: &dyn Error) -> impl Iterator<Item = &(dyn Error + 'static)> {
+    std::iter::successors(error.source(), |cause| (*cause).source())
 }
 
 /// What is wrong with a command line, on one line; the whole help for a line without a command.

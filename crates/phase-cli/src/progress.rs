@@ -1,45 +1,55 @@
 //! How far a run has come: a bar with the time left on a terminal, a line for each event elsewhere.
 
-use crate::console::remark;
-use indicatif::{ProgressBar, ProgressStyle};
+use crate::console::print_message;
+use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 use std::{
+    fmt::Write,
     io::IsTerminal,
     sync::atomic::{AtomicUsize, Ordering},
     time::Duration,
 };
 
-/// Progress over events that take a known greatest number of steps each. Goes to stderr.
+/// The bar. What may be cut to the width of the terminal comes last.
+const TEMPLATE: &str = "{bar:16} {percent:>3} %{times} · {wide_msg}";
+/// How often the bar is drawn again while nothing happens.
+const TICK: Duration = Duration::from_millis(500);
+
+/// Progress on stderr, from the first moment on: what goes on, and how much of it is done. The bar is cleared when this is
+/// dropped, so results are to be printed afterwards.
 #[derive(Debug)]
 pub struct Progress {
     bar: Option<ProgressBar>,
+    quiet: bool,
     events: usize,
     steps_each: usize,
     finished: AtomicUsize,
 }
 
 impl Progress {
-    /// Nothing done yet.
+    /// Nothing done yet. `activity` says what goes on; `steps` is how much there is to do, of which each of the `events`
+    /// is at most `steps_each`.
     #[must_use]
-    pub fn new(events: usize, steps_each: usize) -> Self {
-        let mut progress = Self::over(events * steps_each, events);
-        progress.steps_each = steps_each;
-        progress
-    }
-
-    /// Nothing done yet of so many steps that belong to no event in particular.
-    #[must_use]
-    pub fn over(steps: usize, events: usize) -> Self {
-        let bar = std::io::stderr().is_terminal().then(|| {
+    pub fn new(activity: &str, events: usize, steps: usize, steps_each: usize, quiet: bool) -> Self {
+        let terminal = std::io::stderr().is_terminal();
+        if !quiet && !terminal {
+            print_message(activity);
+        }
+        let bar = (!quiet && terminal).then(|| {
             let bar = ProgressBar::new(steps as u64);
-            let style = ProgressStyle::with_template(
-                "{bar:30} {percent:>3} % of {msg} · {elapsed} gone, about {eta} left",
-            );
-            bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-            bar.set_message(format!("{events} events"));
-            bar.enable_steady_tick(Duration::from_millis(500));
+            if let Ok(style) = ProgressStyle::with_template(TEMPLATE) {
+                let write = |state: &ProgressState, text: &mut dyn Write| {
+                    let done = state.fraction() >= 1.0;
+                    let remaining = (state.pos() > 0 && !done).then(|| state.eta());
+                    let _ = text.write_str(&times(state.elapsed(), remaining));
+                };
+                bar.set_style(style.with_key("times", write));
+            }
+            bar.set_message(activity.to_owned());
+            bar.enable_steady_tick(TICK);
+            bar.tick();
             bar
         });
-        Self { bar, events, steps_each: 0, finished: AtomicUsize::new(0) }
+        Self { bar, quiet, events, steps_each, finished: AtomicUsize::new(0) }
     }
 
     /// One step of some event is done.
@@ -63,7 +73,8 @@ impl Progress {
                 bar.inc(self.steps_each.saturating_sub(counted) as u64);
                 bar.println(text);
             }
-            None => remark(&text),
+            None if self.quiet => {}
+            None => print_message(&text),
         }
     }
 }
@@ -73,5 +84,27 @@ impl Drop for Progress {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();
         }
+    }
+}
+
+/// The time since the beginning and the time that remains, as far as there is something to say of them: nothing in the
+/// first second, and nothing of what remains until it is known.
+#[must_use]
+pub fn times(elapsed: Duration, remaining: Option<Duration>) -> String {
+    if elapsed < Duration::from_secs(1) {
+        return String::new();
+    }
+    let remaining = remaining.filter(|remaining| *remaining >= Duration::from_secs(1));
+    let remaining = remaining.map_or_else(String::new, |it| format!(", about {} remaining", duration(it)));
+    format!(" · {} elapsed{remaining}", duration(elapsed))
+}
+
+/// A duration in its two largest units, such as `2 h 5 min`, `3 min 20 s` or `45 s`.
+fn duration(duration: Duration) -> String {
+    let seconds = duration.as_secs();
+    match (seconds / 3600, seconds / 60 % 60, seconds % 60) {
+        (0, 0, seconds) => format!("{seconds} s"),
+        (0, minutes, seconds) => format!("{minutes} min {seconds} s"),
+        (hours, minutes, _) => format!("{hours} h {minutes} min"),
     }
 }

@@ -1,9 +1,10 @@
 //! Where events come from: a file, or the folder of a dataset.
 
-use crate::{console::remark, error::CliError};
+use crate::{context::Context, error::CliError};
 use phase_dataset::{
     manifest::{MANIFEST_FILE, Manifest},
     phase_events,
+    shard::SHARD_FILE,
     summary::{SUMMARY_FILE, Summary},
 };
 use phase_event::Recording;
@@ -12,10 +13,21 @@ use std::path::{Path, PathBuf};
 /// Events that can be loaded one at a time.
 #[derive(Debug)]
 pub enum Source {
-    /// Read already, from one file.
-    Loaded(Vec<Recording>),
+    /// Read already, from one file, each with its place there.
+    Loaded(Vec<(usize, Recording)>),
     /// Files with one event each.
-    Files(Vec<(String, PathBuf)>),
+    Files(Vec<EventFile>),
+}
+
+/// An event of a folder, in a file of its own.
+#[derive(Debug)]
+pub struct EventFile {
+    /// Its place among the events of the folder, from 0.
+    pub place: usize,
+    /// Its id.
+    pub id: String,
+    /// Its file.
+    pub path: PathBuf,
 }
 
 impl Source {
@@ -24,12 +36,14 @@ impl Source {
     /// # Errors
     /// If there is nothing of the kind, or no event of one of the ids. Files of a folder are only looked at
     /// when they are loaded.
-    pub fn open(path: &Path, ids: &[String]) -> Result<Self, CliError> {
+    pub fn open(path: &Path, ids: &[String], context: &Context) -> Result<Self, CliError> {
         if !path.is_dir() {
-            let chosen = read(path, ids)?;
-            return Ok(Self::Loaded(chosen.into_iter().map(|(_, recording)| recording).collect()));
+            return read(path, ids, context).map(Self::Loaded);
         }
         let is_dataset = path.join(MANIFEST_FILE).is_file();
+        if !is_dataset && path.join(SHARD_FILE).is_file() {
+            return Err(CliError::Usage(format!("{}: is a shard; merge all shards first", path.display())));
+        }
         if !is_dataset && !path.join(SUMMARY_FILE).is_file() {
             return Err(CliError::NotADataset(path.to_owned()));
         }
@@ -41,9 +55,9 @@ impl Source {
             manifest.events.into_iter().map(|event| (event.id, event.event.path)).collect()
         };
         check_ids(path, files.iter().map(|(id, _)| id.as_str()), ids)?;
-        let wanted = |id: &String| ids.is_empty() || ids.contains(id);
-        let chosen = files.into_iter().filter(|(id, _)| wanted(id));
-        Ok(Self::Files(chosen.map(|(id, file)| (id, path.join(file))).collect()))
+        let chosen = files.into_iter().enumerate().filter(|(_, (id, _))| wanted(id, ids));
+        let events = chosen.map(|(place, (id, file))| EventFile { place, id, path: path.join(file) });
+        Ok(Self::Files(events.collect()))
     }
 
     /// Number of events.
@@ -53,6 +67,15 @@ impl Source {
             Self::Loaded(recordings) => recordings.len(),
             Self::Files(files) => files.len(),
         }
+    }
+
+    /// The events that are in memory already.
+    pub fn loaded(&self) -> impl Iterator<Item = &Recording> {
+        let recordings = match self {
+            Self::Loaded(recordings) => &recordings[..],
+            Self::Files(_) => &[],
+        };
+        recordings.iter().map(|(_, recording)| recording)
     }
 
     /// Whether there is no event.
@@ -65,8 +88,17 @@ impl Source {
     #[must_use]
     pub fn id(&self, index: usize) -> &str {
         match self {
-            Self::Loaded(recordings) => &recordings[index].id,
-            Self::Files(files) => &files[index].0,
+            Self::Loaded(recordings) => &recordings[index].1.id,
+            Self::Files(files) => &files[index].id,
+        }
+    }
+
+    /// The place of an event among all events of its file or folder, from 0, whichever of them were chosen.
+    #[must_use]
+    pub fn place(&self, index: usize) -> usize {
+        match self {
+            Self::Loaded(recordings) => recordings[index].0,
+            Self::Files(files) => files[index].place,
         }
     }
 
@@ -76,9 +108,9 @@ impl Source {
     /// If its file cannot be used.
     pub fn load(&self, index: usize) -> Result<Recording, CliError> {
         match self {
-            Self::Loaded(recordings) => Ok(recordings[index].clone()),
+            Self::Loaded(recordings) => Ok(recordings[index].1.clone()),
             Self::Files(files) => {
-                let (id, path) = &files[index];
+                let EventFile { id, path, .. } = &files[index];
                 let recordings = phase_events::read(path)?;
                 let ids: Vec<String> = recordings.iter().map(|recording| recording.id.clone()).collect();
                 let found = recordings.into_iter().find(|recording| recording.id == *id);
@@ -88,20 +120,23 @@ impl Source {
     }
 }
 
+fn wanted(id: &String, ids: &[String]) -> bool {
+    ids.is_empty() || ids.contains(id)
+}
+
 /// The events of a file with these ids (all, if there are none), each with its place in the file. What is odd about
 /// them is told to whoever runs the command.
 ///
 /// # Errors
 /// If the file cannot be used, or [`CliError::UnknownId`].
-pub fn read(file: &Path, ids: &[String]) -> Result<Vec<(usize, Recording)>, CliError> {
+pub fn read(file: &Path, ids: &[String], context: &Context) -> Result<Vec<(usize, Recording)>, CliError> {
     let recordings = phase_events::read(file)?;
     check_ids(file, recordings.iter().map(|recording| recording.id.as_str()), ids)?;
-    let wanted = |recording: &Recording| ids.is_empty() || ids.contains(&recording.id);
     let chosen: Vec<_> =
-        recordings.into_iter().enumerate().filter(|(_, recording)| wanted(recording)).collect();
+        recordings.into_iter().enumerate().filter(|(_, recording)| wanted(&recording.id, ids)).collect();
     for (_, recording) in &chosen {
         for warning in recording.warnings() {
-            remark(format!("warning: {}: event {}: {warning}", file.display(), recording.id));
+            context.note(format!("warning: {}: event {}: {warning}", file.display(), recording.id));
         }
     }
     Ok(chosen)

@@ -1,6 +1,6 @@
 //! `splits`: makes or checks the split of a dataset.
 
-use crate::{console::tell, error::CliError, source::Source};
+use crate::{context::Context, error::CliError, output::Output, source::Source};
 use clap::Args;
 use phase_dataset::{
     FileError,
@@ -8,6 +8,7 @@ use phase_dataset::{
     split_list::SplitList,
     splits::{self, Item, Rule, Split},
 };
+use serde_json::json;
 use std::path::PathBuf;
 
 /// Options of `splits`.
@@ -25,20 +26,23 @@ pub struct Splits {
     /// Seed of what the rules leave open, with --make
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub seed: u64,
+    /// How the result is printed.
+    #[command(flatten)]
+    pub output: Output,
 }
 
 /// Runs the command.
 ///
 /// # Errors
 /// Any [`CliError`]; [`CliError::RulesBroken`] if the split breaks a rule.
-pub fn run(arguments: &Splits) -> Result<(), CliError> {
-    let (items, own) = events(arguments)?;
+pub fn run(arguments: &Splits, context: &Context) -> Result<(), CliError> {
+    let (items, own) = events(arguments, context)?;
     let parts = match (&arguments.make, &arguments.splits) {
         (Some(file), _) => {
             let parts = splits::make(&items, arguments.seed);
             let list = SplitList::of(&items, &parts);
             list.write(file).map_err(CliError::Output)?;
-            tell(format!("{} made", file.display()));
+            context.note(format!("{} made", file.display()));
             parts
         }
         (None, Some(file)) => SplitList::read(file)?
@@ -46,12 +50,19 @@ pub fn run(arguments: &Splits) -> Result<(), CliError> {
             .map_err(|problem| FileError { file: file.clone(), problem })?,
         (None, None) => own.ok_or_else(|| {
             let place = arguments.events.display();
-            CliError::Usage(format!("{place}: is not divided; give --make FILE or --splits FILE"))
+            CliError::Usage(format!(
+                "{place}: is not divided into train, validation and test; use --make FILE or --splits FILE"
+            ))
         })?,
     };
     let rules = splits::check(&items, &parts);
     let lines = rules.iter().map(line).collect::<Vec<_>>().join("\n");
-    tell(format!("| rule | wanted | found | |\n|---|---|---|---|\n{lines}"));
+    let text = format!("| rule | wanted | found | |\n|---|---|---|---|\n{lines}");
+    let each = |rule: &Rule| json!({ "rule": rule.what, "wanted": rule.wanted, "found": rule.found, "met": rule.met() });
+    let value = json!({
+        "events": items.len(), "split": arguments.make, "rules": rules.iter().map(each).collect::<Vec<_>>(),
+    });
+    arguments.output.print(text, &value)?;
     match rules.iter().filter(|rule| !rule.met()).count() {
         0 => Ok(()),
         broken => Err(CliError::RulesBroken { events: arguments.events.clone(), broken }),
@@ -59,14 +70,14 @@ pub fn run(arguments: &Splits) -> Result<(), CliError> {
 }
 
 /// The events of a dataset or file, and the parts they are in if all are in one.
-fn events(arguments: &Splits) -> Result<(Vec<Item>, Option<Vec<Split>>), CliError> {
+fn events(arguments: &Splits, context: &Context) -> Result<(Vec<Item>, Option<Vec<Split>>), CliError> {
     let manifest = arguments.events.join(MANIFEST_FILE);
     if manifest.is_file() {
         let manifest = Manifest::read(&manifest)?;
         let parts = manifest.events.iter().map(|event| event.split).collect();
         return Ok((manifest.items(), parts));
     }
-    let source = Source::open(&arguments.events, &[])?;
+    let source = Source::open(&arguments.events, &[], context)?;
     let item = |index: usize| {
         let recording = source.load(index)?;
         let scene = &recording.scene;

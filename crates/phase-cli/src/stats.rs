@@ -1,21 +1,24 @@
-//! `stats`: the paper's figures beside a dataset's own, and plots of them.
+//! `stats`: the paper's figures beside those of a dataset or of other events, and plots of them.
 
-use crate::{console::tell, error::CliError};
+use crate::{context::Context, error::CliError, output::Output, source::Source};
 use clap::Args;
 use phase_dataset::{
     WriteError,
     acceptance::Acceptance,
     atomic,
+    labels::goal_counts,
     manifest::{MANIFEST_FILE, Manifest},
     words,
 };
+use phase_model::Scene;
 use phase_report::{
     acceptance,
     plot::bars,
-    statistics::{self, Statistics},
+    statistics::{self, Figure, Statistics},
 };
+use serde_json::{Value, json};
 use std::{
-    collections::BTreeMap,
+    collections::{BTreeMap, BTreeSet},
     fs,
     path::{Path, PathBuf},
 };
@@ -23,12 +26,15 @@ use std::{
 /// Options of `stats`.
 #[derive(Args, Debug)]
 pub struct Stats {
-    /// The folder of a dataset
-    #[arg(value_name = "DIR")]
-    pub dataset: PathBuf,
+    /// A file in the format phase-events/1, or the folder of a dataset or of simulations
+    #[arg(value_name = "FILE|DIR")]
+    pub events: PathBuf,
     /// Also write the figures and plots (SVG) into this folder
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// How the result is printed.
+    #[command(flatten)]
+    pub output: Output,
 }
 
 /// Width of the bars in the plot of lengths (s).
@@ -42,16 +48,51 @@ type Plot = (&'static str, &'static str, &'static str, Vec<(String, f64)>);
 /// Runs the command.
 ///
 /// # Errors
-/// If the manifest cannot be used or the plots cannot be written.
-pub fn run(arguments: &Stats) -> Result<(), CliError> {
-    let manifest = Manifest::read(&arguments.dataset.join(MANIFEST_FILE))?;
-    let statistics = Statistics::of(&manifest);
-    let text = report(&statistics, &manifest.selection);
-    tell(text.trim_end());
-    match &arguments.out {
-        Some(out) => write(out, &text, &statistics, &manifest.selection).map_err(CliError::Output),
-        None => Ok(()),
+/// If the events cannot be used or the plots cannot be written.
+pub fn run(arguments: &Stats, context: &Context) -> Result<(), CliError> {
+    let (statistics, selection) = statistics(&arguments.events, context)?;
+    let text = report(&statistics, &selection);
+    if let Some(out) = &arguments.out {
+        write(out, &text, &statistics, &selection).map_err(CliError::Output)?;
+        context.note(format!("figures and plots in {}", out.display()));
     }
+    arguments.output.print(text, &value(&statistics, &selection))
+}
+
+/// The figures of a dataset, with what its manifest says of the selection; or those of other events, which are in no split.
+fn statistics(path: &Path, context: &Context) -> Result<(Statistics, Vec<Acceptance>), CliError> {
+    let manifest = path.join(MANIFEST_FILE);
+    if manifest.is_file() {
+        let manifest = Manifest::read(&manifest)?;
+        return Ok((Statistics::of(&manifest), manifest.selection));
+    }
+    let source = Source::open(path, &[], context)?;
+    let (mut agents, mut layouts) = (Vec::new(), BTreeSet::new());
+    let (mut lengths, mut relations, mut kinds) = (BTreeMap::new(), BTreeMap::new(), BTreeMap::new());
+    for index in 0..source.len() {
+        let recording = source.load(index)?;
+        let Scene { layout, kind, agents: specs, .. } = &recording.scene;
+        agents.extend(specs.each_ref().map(|agent| (agent.goal, agent.attitude.alpha())));
+        layouts.insert((layout.base(), layout.flip()));
+        *lengths.entry(recording.trajectory.steps()).or_default() += 1;
+        *relations.entry(recording.relation).or_default() += 1;
+        *kinds.entry(*kind).or_default() += 1;
+    }
+    let (events, goals, layouts) = (source.len(), goal_counts(agents), layouts.len());
+    Ok((Statistics { events, lengths, goals, relations, kinds, layouts, parts: None }, Vec::new()))
+}
+
+/// The figures for programs.
+fn value(statistics: &Statistics, selection: &[Acceptance]) -> Value {
+    let Statistics { events, lengths, goals, relations, kinds, layouts, .. } = statistics;
+    let figure =
+        |figure: &Figure| json!({ "figure": figure.what, "paper": figure.paper, "here": figure.ours });
+    let figures: Vec<Value> = statistics.figures().iter().map(figure).collect();
+    let kinds: BTreeMap<&str, usize> = kinds.iter().map(|(kind, &count)| (kind.name(), count)).collect();
+    json!({
+        "events": events, "figures": figures, "lengths": lengths, "goals": goals, "relations": relations,
+        "kinds": kinds, "layouts": layouts, "selection": selection,
+    })
 }
 
 fn report(statistics: &Statistics, selection: &[Acceptance]) -> String {

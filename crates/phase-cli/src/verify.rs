@@ -1,10 +1,11 @@
 //! `verify`: whether a dataset is whole and its files agree.
 
 use crate::{
-    console::{remark, tell},
+    console::{self, print_message},
+    context::Context,
     error::CliError,
+    output::{Output, print_json},
     parallel::{Jobs, make_all},
-    progress::Progress,
 };
 use clap::Args;
 use phase_dataset::{
@@ -12,6 +13,7 @@ use phase_dataset::{
     manifest::{MANIFEST_FILE, Manifest},
     verify::{Check, verify_with, work},
 };
+use serde_json::json;
 use std::path::PathBuf;
 
 /// Options of `verify`.
@@ -20,6 +22,9 @@ pub struct Verify {
     /// Folder of a finished dataset
     #[arg(value_name = "DIR")]
     pub folder: PathBuf,
+    /// How the result is printed.
+    #[command(flatten)]
+    pub output: Output,
     /// How many files at once.
     #[command(flatten)]
     pub jobs: Jobs,
@@ -30,7 +35,7 @@ pub struct Verify {
 /// # Errors
 /// [`CliError::NotWhole`] if there is a problem; [`CliError::Usage`], [`CliError::Unfinished`] or a
 /// [`CliError::File`] if there is no manifest to check against; [`CliError::Threads`].
-pub fn run(arguments: &Verify) -> Result<(), CliError> {
+pub fn run(arguments: &Verify, context: &Context) -> Result<(), CliError> {
     let folder = &arguments.folder;
     match folder::inspect(folder, MANIFEST_FILE) {
         Ok(Contents::Finished) => {}
@@ -45,7 +50,8 @@ pub fn run(arguments: &Verify) -> Result<(), CliError> {
     // panics are not to be seen.
     let hook = std::panic::take_hook();
     std::panic::set_hook(Box::new(|_| {}));
-    let progress = Progress::over(work(&manifest), manifest.events.len());
+    let progress = context
+        .progress_over(&format!("verifying {}", console::events(manifest.events.len())), work(&manifest));
     let run = |count: usize, check: &Check<'_>| {
         let answers = make_all(&arguments.jobs, count, |k| Ok(Some(check(k))))?;
         // There is always an answer: only who listens for interruptions stops early, and nothing is written here.
@@ -56,12 +62,18 @@ pub fn run(arguments: &Verify) -> Result<(), CliError> {
     std::panic::set_hook(hook);
     let problems = problems?;
     for problem in &problems {
-        remark(problem);
+        print_message(problem);
     }
+    let events = manifest.events.len();
+    let sentences: Vec<String> = problems.iter().map(ToString::to_string).collect();
+    let value =
+        json!({ "folder": folder, "events": events, "whole": problems.is_empty(), "problems": sentences });
     if problems.is_empty() {
-        tell(format!("all {} events are whole", manifest.events.len()));
-        Ok(())
+        arguments.output.print(format!("all {events} events are whole"), &value)
     } else {
+        if arguments.output.json {
+            print_json(&value)?;
+        }
         Err(CliError::NotWhole { folder: folder.clone(), problems: problems.len() })
     }
 }

@@ -39,7 +39,7 @@ pub fn card(manifest: &Manifest, command: &str) -> String {
          has a belief of 50 particles unless the command says otherwise, plans symbolically in them, and \
          searches its actions with POMCP.\n\n```sh\n{command}\n```\n\n\
          The same command makes the same files, byte for byte, on the same platform. \
-         `cargo xtask verify` checks that all of them are whole and agree.\n\n\
+         `phase verify` checks that all of them are whole and agree.\n\n\
          ## Known limits\n\n\
          - Everything here is simulated; no person acted or was recorded.\n\
          - There are never more than two agents and two objects, in a square arena with four landmarks.\n\

@@ -8,7 +8,8 @@ mod trial;
 
 use options::CheckBehaviour;
 use phase_cli::{
-    console::tell,
+    console::print_result,
+    context::Context,
     engine::GENERATOR,
     error::CliError,
     interrupt,
@@ -40,18 +41,18 @@ const SHEET_FRAMES: usize = 15;
 ///
 /// # Errors
 /// Any [`CliError`].
-pub fn run(arguments: &CheckBehaviour) -> Result<(), CliError> {
+pub fn run(arguments: &CheckBehaviour, context: &Context) -> Result<(), CliError> {
     let scenes = scenes(arguments)?;
     let seeds = arguments.seeds as usize;
     let run = json!({
         "command": "check-behaviour", "generator": GENERATOR, "seeds": seeds,
-        "settings": settings_value(&arguments.effort.settings()),
+        "settings": settings_value(&arguments.effort.settings())?,
     });
     let folder = prepare(&arguments.out, &run)?;
     interrupt::listen();
     let controls = scenes.iter().filter(|(part, ..)| PARTS[*part].control.is_some()).count();
     let events = seeds * (scenes.len() + controls);
-    let laboratory = Laboratory::new(&folder, arguments.effort.settings(), events);
+    let laboratory = Laboratory::new(&folder, arguments.effort.settings(), events, context);
     let made = make_all(&arguments.jobs, scenes.len() * seeds, |k| {
         let (part, id, scene) = &scenes[k / seeds];
         laboratory.trial(&PARTS[*part], id, scene, k % seeds)
@@ -71,9 +72,14 @@ pub fn run(arguments: &CheckBehaviour) -> Result<(), CliError> {
         draw(&laboratory, &sheets, result, scene)?;
     }
     drop(laboratory);
-    complete(arguments, folder, &report::to_json(&run, &results))?;
-    tell(report::table(&results).trim_end());
-    tell(format!("contact sheets in {}", arguments.out.join(SHEETS).display()));
+    let report = report::to_json(&run, &results);
+    complete(arguments, folder, &report)?;
+    if to_stdout(arguments) {
+        print_result(format!("{report:#}"));
+        return Ok(());
+    }
+    print_result(report::table(&results).trim_end());
+    print_result(format!("contact sheets in {}", arguments.out.join(SHEETS).display()));
     Ok(())
 }
 
@@ -147,10 +153,15 @@ fn sheet(
 fn complete(arguments: &CheckBehaviour, folder: Folder, report: &Value) -> Result<(), CliError> {
     let text = format!("{report:#}\n");
     atomic::write(&folder.path().join(REPORT_FILE), text.as_bytes())?;
-    if let Some(path) = &arguments.json {
+    if let Some(path) = arguments.json.as_ref().filter(|_| !to_stdout(arguments)) {
         atomic::write(path, text.as_bytes()).map_err(CliError::Output)?;
     }
     Ok(folder.finish()?)
+}
+
+/// Whether the report is to be all that stands on stdout.
+fn to_stdout(arguments: &CheckBehaviour) -> bool {
+    arguments.json.as_deref() == Some(Path::new("-"))
 }
 
 /// The folder of the scenes that come with the program.

@@ -7,8 +7,8 @@ use std::path::PathBuf;
 /// Options of `check-behaviour`.
 #[derive(Args, Debug)]
 pub struct CheckBehaviour {
-    /// Also write the report, as JSON, here
-    #[arg(long, value_name = "OUT")]
+    /// Print the report as one JSON object on stdout, and nothing else there; or, with a file, write it there too
+    #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = "-")]
     pub json: Option<PathBuf>,
     /// Only these rows of the table in docs/behaviour.md
     #[arg(long, value_name = "N", num_args = 1.., value_parser = value_parser!(u8).range(1..=10))]

@@ -3,6 +3,8 @@
 use super::{judge, report::Trial, rows::Part};
 use core::ops::ControlFlow;
 use phase_cli::{
+    console,
+    context::Context,
     engine,
     error::CliError,
     interrupt,
@@ -35,9 +37,11 @@ pub(super) fn key(part: &Part) -> String {
 }
 
 impl Laboratory {
-    pub(super) fn new(folder: &Folder, settings: Settings, events: usize) -> Self {
+    pub(super) fn new(folder: &Folder, settings: Settings, events: usize, context: &Context) -> Self {
         let program = production::program();
-        Self { settings, cache: folder.cache(), program, progress: Progress::new(events, settings.max_steps) }
+        let progress =
+            context.progress(&format!("simulating {}", console::events(events)), events, settings.max_steps);
+        Self { settings, cache: folder.cache(), program, progress }
     }
 
     /// Plays a scene with the seed of this index and judges it; `None` if interrupted.
@@ -108,7 +112,7 @@ impl Laboratory {
     ) -> Result<Option<Event>, CliError> {
         let seed = index as u64 + 1;
         let name = format!("{name}.{seed}");
-        let key = format!("{} {scene:?}", settings_value(settings));
+        let key = format!("{} {scene:?}", settings_value(settings)?);
         let cache = Cache::new(&self.cache, sha256(&[&self.program[..], key.as_bytes()].concat()));
         if let Some(event) = cache.load(&name, seed) {
             return Ok(Some(event));

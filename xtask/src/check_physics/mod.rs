@@ -10,14 +10,19 @@ use phase_calibration::{
     ColdForward, Engine, Probe, ReadError, Replay, Report, Run, StateAlone, WarmForward, WorldEngine, ahead,
     probes_report, replay_reports, run_reports,
 };
-use phase_cli::{console::tell, error::CliError};
-use phase_dataset::{atomic, json, phase_events};
+use phase_cli::{
+    console::print_result, context::Context, error::CliError, output::json_text, source::Source,
+};
+use phase_dataset::{atomic, json};
 use serde::Serialize;
 use serde_json::Value;
 use std::path::Path;
 use targets::Target;
 
-/// What the engine is held against.
+/// What stands for stdout where a file may be named.
+const STDOUT: &str = "-";
+
+/// What the engine is compared with.
 struct Records {
     probes: Option<Vec<Probe>>,
     runs: Option<Vec<Run>>,
@@ -30,16 +35,17 @@ struct Records {
 ///
 /// # Errors
 /// Any [`XtaskError`] about the files.
-pub fn run(arguments: &CheckPhysics) -> Result<(), XtaskError> {
+pub fn run(arguments: &CheckPhysics, context: &Context) -> Result<(), XtaskError> {
     let files = [&arguments.probes, &arguments.runs, &arguments.events];
     if files.iter().all(|file| file.is_none()) {
         let rule = "check-physics needs at least one of --probes, --runs and --events";
         return Err(CliError::Usage(rule.into()).into());
     }
-    if let Some(out) = &arguments.json {
+    if let Some(out) = arguments.json.as_ref().filter(|out| *out != Path::new(STDOUT)) {
         check_output(out, files.into_iter().flatten().map(|file| file.as_path()))?;
     }
-    let records = Records::read(arguments)?;
+    let records = Records::read(arguments, context)?;
+    context.note(format!("measuring the engine {}", arguments.engine.name()));
     let (report, targets) = match arguments.engine {
         phase_sim::Engine::World => {
             let report = records.measure::<WorldEngine>("world");
@@ -56,20 +62,24 @@ pub fn run(arguments: &CheckPhysics) -> Result<(), XtaskError> {
             (report, targets)
         }
     };
-    tell(table::print(&report, &targets, records.mirrored).trim_end());
     if let Some(out) = &arguments.json {
-        let text = to_json(&report, &targets, records.mirrored);
+        let text = to_json(&report, &targets, records.mirrored)?;
+        if out == Path::new(STDOUT) {
+            print_result(text.trim_end());
+            return Ok(());
+        }
         atomic::write(out, text.as_bytes()).map_err(CliError::Output)?;
     }
+    print_result(table::print(&report, &targets, records.mirrored).trim_end());
     Ok(())
 }
 
 impl Records {
-    fn read(arguments: &CheckPhysics) -> Result<Self, XtaskError> {
+    fn read(arguments: &CheckPhysics, context: &Context) -> Result<Self, XtaskError> {
         let (replays, mirrored) = match &arguments.events {
             None => (None, 0),
             Some(file) => {
-                let (replays, mirrored) = replays(file)?;
+                let (replays, mirrored) = replays(file, context)?;
                 (Some(replays), mirrored)
             }
         };
@@ -97,12 +107,13 @@ impl Records {
 
 fn read<T>(file: &Path, parse: impl Fn(&Value) -> Result<T, ReadError>) -> Result<T, XtaskError> {
     let value = json::read(file).map_err(CliError::File)?;
-    parse(&value).map_err(|problem| XtaskError::Record { file: file.to_owned(), problem })
+    parse(&value).map_err(|source| XtaskError::Record { file: file.to_owned(), source })
 }
 
 /// The events of a file that can be replayed, and the number of those that could be but for being mirrored.
-fn replays(file: &Path) -> Result<(Vec<Replay>, usize), CliError> {
-    let mut recordings = phase_events::read(file)?;
+fn replays(file: &Path, context: &Context) -> Result<(Vec<Replay>, usize), CliError> {
+    let source = Source::open(file, &[], context)?;
+    let mut recordings = (0..source.len()).map(|k| source.load(k)).collect::<Result<Vec<_>, _>>()?;
     recordings.retain(|recording| recording.recovered_actions.is_some());
     let replays: Vec<Replay> = recordings.iter().filter_map(Replay::of_recording).collect();
     let mirrored = recordings.iter().filter(|recording| recording.scene.layout.flip().is_some()).count();
@@ -137,8 +148,7 @@ struct Output<'a> {
     mirrored_left_out: Option<usize>,
 }
 
-fn to_json(report: &Report, targets: &[Target], mirrored: usize) -> String {
+fn to_json(report: &Report, targets: &[Target], mirrored: usize) -> Result<String, CliError> {
     let mirrored_left_out = report.replays.as_ref().map(|_| mirrored);
-    // Plain numbers of ours always have a JSON form.
-    serde_json::to_string_pretty(&Output { report, targets, mirrored_left_out }).unwrap_or_default() + "\n"
+    json_text(&Output { report, targets, mirrored_left_out }, "the report")
 }

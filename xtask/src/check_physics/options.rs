@@ -14,13 +14,13 @@ pub struct CheckPhysics {
     /// File of runs: many steps of everything
     #[arg(long, value_name = "FILE")]
     pub runs: Option<PathBuf>,
-    /// File in the format phase-events/1; its events with recovered actions are replayed
-    #[arg(long, value_name = "FILE")]
+    /// A file in the format phase-events/1 or a folder of events; those with recovered actions are replayed
+    #[arg(long, value_name = "FILE|DIR")]
     pub events: Option<PathBuf>,
     /// The engine to check
     #[arg(long, value_name = "ENGINE", default_value = Engine::World.name(), value_parser = engines())]
     pub engine: Engine,
-    /// Also write the numbers into this file
-    #[arg(long, value_name = "OUT")]
+    /// Print the measurements as one JSON object on stdout, and nothing else there; or, with a file, write it there too
+    #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = "-")]
     pub json: Option<PathBuf>,
 }

@@ -8,7 +8,7 @@ mod texts;
 pub use layers::LAYERS;
 
 use crate::error::XtaskError;
-use phase_cli::console::{remark, tell};
+use phase_cli::console::{print_message, print_result};
 use std::{
     fmt, fs, io,
     path::{Path, PathBuf},
@@ -39,10 +39,10 @@ pub fn run() -> Result<(), XtaskError> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."));
     let findings = check(root);
     for finding in &findings {
-        remark(finding);
+        print_message(finding);
     }
     if findings.is_empty() {
-        tell("tidy");
+        print_result("tidy");
         Ok(())
     } else {
         Err(XtaskError::Untidy(findings.len()))

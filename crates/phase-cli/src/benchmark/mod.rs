@@ -8,7 +8,6 @@ pub mod plan;
 mod rows;
 
 use crate::{
-    console::{remark, tell},
     context::Context,
     error::CliError,
     eval::{networks, task},
@@ -36,7 +35,7 @@ pub fn run(arguments: &Benchmark, context: &Context) -> Result<(), CliError> {
         networks::require(context)?;
     }
     let contestants = contestants(arguments)?;
-    let mut rows = Rows::open(arguments)?;
+    let mut rows = Rows::open(arguments, context)?;
     for file in &arguments.results {
         rows.add_results(file)?;
     }
@@ -54,8 +53,8 @@ pub fn run(arguments: &Benchmark, context: &Context) -> Result<(), CliError> {
         let training = training.map(|training| rows.add_training(training));
         for set in 0..rows.sets() {
             begun += 1;
-            remark(format!("{begun} of {all}: {}, {}", contestant.words(), rows.name(set)));
-            rows.add(contestant, training, set)?;
+            context.note(format!("{begun} of {all}: {}, {}", contestant.words(), rows.name(set)));
+            rows.add(contestant, training, set, context)?;
         }
     }
     let benchmark = rows.finish();
@@ -63,7 +62,7 @@ pub fn run(arguments: &Benchmark, context: &Context) -> Result<(), CliError> {
     task::write_report(out, &document)?;
     atomic::write_json(&out.join(BENCHMARK_FILE), &benchmark)?;
     folder.finish()?;
-    tell(document.first_table().trim_end());
-    tell(format!("report in {}", out.join(task::REPORT_FILE).display()));
-    Ok(())
+    let report = out.join(task::REPORT_FILE);
+    let text = format!("{}\nreport in {}", document.first_table().trim_end(), report.display());
+    arguments.output.print(text, &benchmark)
 }

@@ -1,7 +1,7 @@
 //! The options of `benchmark`.
 
 use super::plan::METHODS;
-use crate::parallel::Jobs;
+use crate::{output::Output, parallel::Jobs};
 use clap::{Args, builder::PossibleValuesParser, value_parser};
 use std::path::PathBuf;
 
@@ -11,8 +11,8 @@ pub struct Benchmark {
     /// Folder of a finished dataset that is divided; its test events are what methods are measured on
     #[arg(long, value_name = "DIR")]
     pub data: PathBuf,
-    /// Measure on these recordings too (phase-events/1)
-    #[arg(long, value_name = "FILE")]
+    /// Measure on these recordings too (a phase-events/1 file, or a folder of events)
+    #[arg(long, value_name = "FILE|DIR")]
     pub real: Option<PathBuf>,
     /// Only these methods, such as simple,arg,stgat [default: all]
     #[arg(long, value_name = "METHODS", value_delimiter = ',', value_parser = PossibleValuesParser::new(METHODS))]
@@ -36,6 +36,9 @@ pub struct Benchmark {
     /// Folder for the report; new, empty, or of a benchmark, which is written over
     #[arg(long, value_name = "DIR", default_value = "out/benchmark")]
     pub out: PathBuf,
+    /// How the result is printed.
+    #[command(flatten)]
+    pub output: Output,
     /// How many events at once.
     #[command(flatten)]
     pub jobs: Jobs,

@@ -5,6 +5,7 @@ use super::{
     plan::{Contestant, Task},
 };
 use crate::{
+    context::Context,
     engine::GENERATOR,
     error::CliError,
     eval::{
@@ -50,7 +51,7 @@ impl<'a> Rows<'a> {
     ///
     /// # Errors
     /// If the events cannot be used.
-    pub(super) fn open(arguments: &'a Benchmark) -> Result<Self, CliError> {
+    pub(super) fn open(arguments: &'a Benchmark, context: &Context) -> Result<Self, CliError> {
         let common = |events: &Path, split| Common {
             predictions: None,
             events: events.to_owned(),
@@ -65,7 +66,7 @@ impl<'a> Rows<'a> {
         let real = arguments.real.as_deref().map(|file| ("recorded", common(file, None)));
         let (mut inputs, mut sets) = (Vec::new(), Vec::new());
         for (label, common) in [generated].into_iter().chain(real) {
-            let input = Input::open(&common)?;
+            let input = Input::open(&common, context)?;
             let (name, label, sha256) = (input.words.clone(), label.into(), input.sha256.clone());
             sets.push(EventSet { name, label, sha256, events: input.events.len() });
             inputs.push((input, common));
@@ -110,6 +111,7 @@ impl<'a> Rows<'a> {
         contestant: &Contestant,
         training: Option<usize>,
         set: usize,
+        context: &Context,
     ) -> Result<(), CliError> {
         let Contestant { task, name, method, weights } = contestant;
         let (input, common) = &mut self.inputs[set];
@@ -123,12 +125,13 @@ impl<'a> Rows<'a> {
         let (name, seed) = (name.clone(), self.arguments.seed);
         match task {
             Task::Goals => {
-                let events = evaluate(&Goals::by_method(&name, method, weights)?, input, common)?.events;
+                let events =
+                    evaluate(&Goals::by_method(&name, method, weights)?, input, common, context)?.events;
                 self.benchmark.goals.extend(row(name, origin, set, training, input, &events, seed));
             }
             Task::Trajectories => {
-                let task = Trajectories::by_method(&name, method, weights, &common.events)?;
-                let events = evaluate(&task, input, common)?.events;
+                let task = Trajectories::by_method(&name, method, weights)?;
+                let events = evaluate(&task, input, common, context)?.events;
                 self.benchmark.trajectories.extend(row(name, origin, set, training, input, &events, seed));
             }
         }

@@ -1,7 +1,7 @@
 //! Where answers come from: a method of ours, or somebody else's, from a file.
 
 use super::input::{Event, Input};
-use crate::{console::remark, error::CliError};
+use crate::{context::Context, error::CliError};
 use phase_dataset::{
     FileError, Problem,
     checksum::{hexadecimal, sha256},
@@ -37,6 +37,7 @@ impl<A> Given<A> {
     pub(super) fn read(
         file: &Path,
         input: &Input,
+        context: &Context,
         parse: impl Fn(&Value) -> Result<BTreeMap<String, A>, EventReadError>,
         fit: impl Fn(&Event, A) -> Result<A, FieldError>,
     ) -> Result<Self, CliError> {
@@ -54,7 +55,7 @@ impl<A> Given<A> {
         }
         if !others.is_empty() {
             let others = others.len();
-            remark(format!("note: {}: {others} of its events are not asked for", file.display()));
+            context.note(format!("note: {}: {others} of its events are not evaluated", file.display()));
         }
         let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         Ok(Self { name, answers, sha256: hexadecimal(&sha256(value.to_string().as_bytes())) })

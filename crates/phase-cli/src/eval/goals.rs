@@ -7,7 +7,7 @@ use super::{
     options::{EvalGoals, steps_of},
     task::{self, Task},
 };
-use crate::error::CliError;
+use crate::{context::Context, error::CliError};
 use cpu_time::ThreadTime;
 use phase_eval::{
     MethodError, Recogniser, Tick,
@@ -26,11 +26,11 @@ use std::path::Path;
 ///
 /// # Errors
 /// Any [`CliError`].
-pub(super) fn run(arguments: &EvalGoals) -> Result<(), CliError> {
-    let input = Input::open(&arguments.common)?;
+pub(super) fn run(arguments: &EvalGoals, context: &Context) -> Result<(), CliError> {
+    let input = Input::open(&arguments.common, context)?;
     let goals = match (&arguments.common.predictions, &arguments.method) {
         (Some(file), _) => {
-            let given = Given::read(file, &input, predictions::goals, |_, answer| Ok(answer))?;
+            let given = Given::read(file, &input, context, predictions::goals, |_, answer| Ok(answer))?;
             Goals { name: given.name.clone(), answers: Answers::Given(given), watched: Vec::new() }
         }
         (None, method) => {
@@ -41,7 +41,7 @@ pub(super) fn run(arguments: &EvalGoals) -> Result<(), CliError> {
             Goals { watched, ..Goals::by_method(method, method, arguments.weights.as_deref())? }
         }
     };
-    task::run(&goals, &input, &arguments.common)
+    task::run(&goals, &input, &arguments.common, context)
 }
 
 /// The task.
@@ -90,8 +90,12 @@ impl Task for Goals {
         }
     }
 
-    fn check(&self, _: &Event) -> Result<(), CliError> {
-        Ok(())
+    fn check(&self, event: &Event, file: &Path) -> Result<(), CliError> {
+        if event.steps > 0 {
+            return Ok(());
+        }
+        let needed = "goals and relations are recognised from motion";
+        Err(CliError::StartAlone { file: file.to_owned(), id: event.id.clone(), needed })
     }
 
     fn ask(

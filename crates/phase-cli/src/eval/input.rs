@@ -1,7 +1,7 @@
 //! The events that a method is measured on.
 
 use super::options::Common;
-use crate::{error::CliError, source::Source};
+use crate::{context::Context, error::CliError, source::Source};
 use phase_dataset::{
     checksum::{hexadecimal, sha256},
     manifest::{MANIFEST_FILE, Manifest},
@@ -48,14 +48,14 @@ impl Input {
     ///
     /// # Errors
     /// If it cannot be used, or holds nothing of what was asked for.
-    pub(crate) fn open(arguments: &Common) -> Result<Self, CliError> {
+    pub(crate) fn open(arguments: &Common, context: &Context) -> Result<Self, CliError> {
         let path = &arguments.events;
-        let source = Source::open(path, &[])?;
+        let source = Source::open(path, &[], context)?;
         let manifest = path.join(MANIFEST_FILE);
         let mut events = if manifest.is_file() {
             of_manifest(&Manifest::read(&manifest)?, arguments.split)
         } else if arguments.split.is_some() {
-            let rule = "is no dataset, so --split chooses nothing";
+            let rule = "is not a dataset with a manifest: --split needs a dataset";
             return Err(CliError::Usage(format!("{}: {rule}", path.display())));
         } else {
             (0..source.len())

@@ -29,7 +29,7 @@ pub fn run(arguments: &Eval, context: &Context) -> Result<(), CliError> {
         networks::require(context)?;
     }
     match arguments {
-        Eval::Goals(arguments) => goals::run(arguments),
-        Eval::Trajectories(arguments) => trajectories::run(arguments),
+        Eval::Goals(arguments) => goals::run(arguments, context),
+        Eval::Trajectories(arguments) => trajectories::run(arguments, context),
     }
 }

@@ -61,8 +61,8 @@ pub struct Common {
     /// Score the answers in this file instead of asking a method (`events` as in results.json; see docs/formats.md)
     #[arg(long, value_name = "FILE", conflicts_with = "method")]
     pub predictions: Option<PathBuf>,
-    /// A file in the format phase-events/1 or the folder of a finished dataset
-    #[arg(long, value_name = "FILE|DATASET")]
+    /// A file in the format phase-events/1, or the folder of a dataset or of simulations
+    #[arg(long, value_name = "FILE|DIR")]
     pub events: PathBuf,
     /// Only this part of a dataset: train, validation or test
     #[arg(long, value_name = "SPLIT", hide_possible_values = true, value_parser = splits())]
@@ -73,8 +73,8 @@ pub struct Common {
     /// Seed of all chance in the method and in the intervals
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub seed: u64,
-    /// Also write the results, as JSON, here
-    #[arg(long, value_name = "OUT")]
+    /// Print the results as one JSON object on stdout, and nothing else there; or, with a file, write them there too
+    #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = "-")]
     pub json: Option<PathBuf>,
     /// Folder for results and report; new, empty, or of this very run [default: out/eval/TASK-METHOD-EVENTS]
     #[arg(long, value_name = "DIR")]

@@ -5,10 +5,12 @@ use super::{
     options::Common,
 };
 use crate::{
-    console::{remark, tell},
+    console::{self, print_result},
+    context::Context,
     error::CliError,
     gen_dataset::check_same,
     interrupt,
+    output::print_json,
     parallel::make_all,
     production::program,
     progress::Progress,
@@ -29,6 +31,8 @@ use std::path::{Path, PathBuf};
 
 /// The results' file name; it is written last.
 const RESULTS_FILE: &str = "results.json";
+/// What stands for stdout where a file may be named.
+const STDOUT: &str = "-";
 /// The report as a page.
 pub(crate) const REPORT_FILE: &str = "report.html";
 /// Where what was said of each event is kept.
@@ -54,11 +58,11 @@ pub(crate) trait Task: Sync {
     /// About how often a method ticks for an event.
     fn ticks(&self) -> usize;
 
-    /// Whether an event can be asked about.
+    /// Whether an event of a file can be asked about.
     ///
     /// # Errors
     /// Says what is wrong with it, reading on from its name.
-    fn check(&self, event: &Event) -> Result<(), CliError>;
+    fn check(&self, event: &Event, file: &Path) -> Result<(), CliError>;
 
     /// Asks the method; `None` if it was told to break.
     ///
@@ -96,11 +100,19 @@ pub(crate) struct Evaluation<A> {
 ///
 /// # Errors
 /// Any [`CliError`].
-pub(super) fn run<T: Task>(task: &T, input: &Input, arguments: &Common) -> Result<(), CliError> {
+pub(super) fn run<T: Task>(
+    task: &T,
+    input: &Input,
+    arguments: &Common,
+    context: &Context,
+) -> Result<(), CliError> {
     check_place(arguments)?;
-    let done = evaluate(task, input, arguments)?;
+    let done = evaluate(task, input, arguments, context)?;
+    if arguments.json.as_deref() == Some(Path::new(STDOUT)) {
+        return print_json(&done.results);
+    }
     hand_over(arguments, &done.results, &done.document)?;
-    tell(if done.was_there {
+    print_result(if done.was_there {
         format!("{} holds this evaluation already", done.out.display())
     } else {
         format!("{} events; report in {}", done.events.len(), done.out.join(REPORT_FILE).display())
@@ -116,8 +128,9 @@ pub(crate) fn evaluate<T: Task>(
     task: &T,
     input: &Input,
     arguments: &Common,
+    context: &Context,
 ) -> Result<Evaluation<T::Answered>, CliError> {
-    input.events.iter().try_for_each(|event| task.check(event))?;
+    input.events.iter().try_for_each(|event| task.check(event, &arguments.events))?;
     let out = arguments.out.clone().unwrap_or_else(|| default_folder(task, input));
     let run = json!({
         "command": format!("eval {}", T::NAME), "generator": crate::engine::GENERATOR, "method": task.method(),
@@ -130,14 +143,15 @@ pub(crate) fn evaluate<T: Task>(
         Contents::Finished => return finished(task, &run, subject, out),
         Contents::Unfinished(other) => {
             check_same(&out, "an unfinished", &other, &run)?;
-            remark(format!("going on in {}", out.display()));
+            context.note(format!("continuing in {}", out.display()));
         }
         Contents::Nothing => {}
     }
     interrupt::listen();
     let folder = Folder::claim(&out, &run)?;
     let kept = Kept { folder: folder.subfolder(EVENTS)?, program: hexadecimal(&program()) };
-    let progress = Progress::new(input.events.len(), task.ticks());
+    let activity = format!("evaluating {} on {}", task.method(), console::events(input.events.len()));
+    let progress = context.progress(&activity, input.events.len(), task.ticks());
     let answered = make_all(&arguments.jobs, input.events.len(), |k| {
         one(task, input, &input.events[k], arguments.seed, &kept, &progress)
     })?;
@@ -232,7 +246,7 @@ fn hand_over(arguments: &Common, results: &Value, document: &Document) -> Result
     if let Some(path) = &arguments.json {
         atomic::write(path, text_of(results).as_bytes()).map_err(CliError::Output)?;
     }
-    tell(document.first_table().trim_end());
+    print_result(document.first_table().trim_end());
     Ok(())
 }
 
@@ -273,7 +287,7 @@ fn default_folder<T: Task>(task: &T, input: &Input) -> PathBuf {
 
 /// Checks before hours of work that there is a folder for the file to be written at their end.
 fn check_place(arguments: &Common) -> Result<(), CliError> {
-    let Some(path) = &arguments.json else { return Ok(()) };
+    let Some(path) = arguments.json.as_ref().filter(|path| *path != Path::new(STDOUT)) else { return Ok(()) };
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let rule = if path.is_dir() {
         "is a folder; --json needs a file"

@@ -7,7 +7,7 @@ use super::{
     options::EvalTrajectories,
     task::{self, Task},
 };
-use crate::error::CliError;
+use crate::{context::Context, error::CliError};
 use cpu_time::ThreadTime;
 use phase_eval::{
     Forecaster, MethodError, Tick, predictions, results,
@@ -20,52 +20,44 @@ use phase_report::{
     evaluation::{self, Subject},
 };
 use serde_json::{Value, json};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Runs the command.
 ///
 /// # Errors
 /// Any [`CliError`].
-pub(super) fn run(arguments: &EvalTrajectories) -> Result<(), CliError> {
-    let input = Input::open(&arguments.common)?;
-    let events = &arguments.common.events;
+pub(super) fn run(arguments: &EvalTrajectories, context: &Context) -> Result<(), CliError> {
+    let input = Input::open(&arguments.common, context)?;
     let task = match (&arguments.common.predictions, &arguments.method) {
         (Some(file), _) => {
             let fit = |event: &Event, forecast| {
                 predictions::fit(&forecast, event.entities, steps_to_predict(event.steps))
             };
-            let given = Given::read(file, &input, predictions::forecasts, fit)?;
-            Trajectories { name: given.name.clone(), answers: Answers::Given(given), file: events.clone() }
+            let given = Given::read(file, &input, context, predictions::forecasts, fit)?;
+            Trajectories { name: given.name.clone(), answers: Answers::Given(given) }
         }
         (None, method) => {
             let method = method.as_deref().unwrap_or_default();
-            Trajectories::by_method(method, method, arguments.weights.as_deref(), events)?
+            Trajectories::by_method(method, method, arguments.weights.as_deref())?
         }
     };
-    task::run(&task, &input, &arguments.common)
+    task::run(&task, &input, &arguments.common, context)
 }
 
 /// The task.
 pub(crate) struct Trajectories {
     name: String,
     answers: Answers<dyn Forecaster, Forecast>,
-    /// Where the events come from.
-    file: PathBuf,
 }
 
 impl Trajectories {
-    /// The task for one of our methods, under any name; see [`methods::forecaster`]. The file is that of the events.
+    /// The task for one of our methods, under any name; see [`methods::forecaster`].
     ///
     /// # Errors
     /// As there.
-    pub(crate) fn by_method(
-        name: &str,
-        method: &str,
-        weights: Option<&Path>,
-        file: &Path,
-    ) -> Result<Self, CliError> {
+    pub(crate) fn by_method(name: &str, method: &str, weights: Option<&Path>) -> Result<Self, CliError> {
         let answers = Answers::Method(methods::forecaster(method, weights)?);
-        Ok(Self { name: name.into(), answers, file: file.to_owned() })
+        Ok(Self { name: name.into(), answers })
     }
 }
 
@@ -96,11 +88,11 @@ impl Task for Trajectories {
         }
     }
 
-    fn check(&self, event: &Event) -> Result<(), CliError> {
+    fn check(&self, event: &Event, file: &Path) -> Result<(), CliError> {
         if event.steps > WATCHED_STEPS {
             return Ok(());
         }
-        let (file, id, steps) = (self.file.display(), &event.id, event.steps);
+        let (file, id, steps) = (file.display(), &event.id, event.steps);
         Err(CliError::Usage(format!(
             "{file}: event {id} has {steps} steps; {WATCHED_STEPS} are watched and at least one more is to be predicted"
         )))

@@ -1,11 +1,7 @@
 //! `merge`: the shards of a dataset become the dataset.
 
 use super::{announce, complete::complete, options::Merge, run_value};
-use crate::{
-    console::{remark, tell},
-    error::CliError,
-    interrupt,
-};
+use crate::{context::Context, error::CliError, interrupt};
 use phase_dataset::{
     atomic,
     checksum::FileEntry,
@@ -26,7 +22,7 @@ use std::{
 ///
 /// # Errors
 /// Any [`CliError`].
-pub fn run(arguments: &Merge) -> Result<(), CliError> {
+pub fn run(arguments: &Merge, context: &Context) -> Result<(), CliError> {
     let (shards, out) = (Shards::read(&arguments.shards)?, &arguments.out);
     let mut run = run_value(&shards.first().whole, None);
     run["command"] = "merge".into();
@@ -37,7 +33,7 @@ pub fn run(arguments: &Merge) -> Result<(), CliError> {
         }
         Contents::Unfinished(other) => {
             super::check_same(out, "an unfinished", &other, &run)?;
-            remark(format!("going on in {}", out.display()));
+            context.note(format!("continuing in {}", out.display()));
         }
         Contents::Nothing => {}
     }
@@ -48,6 +44,7 @@ pub fn run(arguments: &Merge) -> Result<(), CliError> {
         folder.subfolder("videos")?;
     }
     folder.subfolder(parquet::FOLDER)?;
+    context.note(format!("copying the events of {} shards", shards.0.len()));
     for (shard, from) in &shards.0 {
         for entry in shard.slots.iter().filter_map(|slot| slot.entry.as_ref()) {
             if interrupt::requested() {
@@ -59,11 +56,11 @@ pub fn run(arguments: &Merge) -> Result<(), CliError> {
         }
     }
     let whole = shards.first().whole.clone();
+    context.note("writing tables, page and manifest");
     let manifest = complete(out, &whole, shards.records())?;
     folder.finish()?;
-    announce(out, &manifest);
-    tell(format!("the {} shards are no longer needed", shards.0.len()));
-    Ok(())
+    let more = format!("the {} shards are no longer needed", shards.0.len());
+    announce(out, &manifest, arguments.output, &more)
 }
 
 /// All shards of one dataset, in order, with their folders; never empty.

@@ -10,12 +10,7 @@ pub mod options;
 pub mod plan;
 pub mod slot;
 
-use crate::{
-    console::{remark, tell},
-    error::CliError,
-    interrupt,
-    parallel::for_all,
-};
+use crate::{context::Context, error::CliError, interrupt, output::Output, parallel::for_all};
 use complete::complete;
 use options::GenDataset;
 use phase_dataset::{
@@ -31,25 +26,26 @@ use phase_sim::Engine;
 use plan::Plan;
 use serde_json::{Value, json};
 use slot::Slots;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Runs the command.
 ///
 /// # Errors
 /// Any [`CliError`].
-pub fn run(arguments: &GenDataset) -> Result<(), CliError> {
+pub fn run(arguments: &GenDataset, context: &Context) -> Result<(), CliError> {
     let plan = Plan::of(arguments)?;
     let out = arguments.out.clone().unwrap_or_else(|| plan.default_folder());
     let last_file = if plan.shard.is_some() { SHARD_FILE } else { MANIFEST_FILE };
     match folder::inspect(&out, last_file)? {
-        Contents::Finished => return check_finished(&plan, &out),
+        Contents::Finished => return check_finished(&plan, &out, arguments.output),
         Contents::Unfinished(run) => {
             check_same(&out, "an unfinished", &run, &plan.run())?;
-            remark(format!("going on in {}", out.display()));
+            context.note(format!("continuing in {}", out.display()));
         }
         Contents::Nothing => {}
     }
     interrupt::listen();
+    context.detail(format!("seed {}: {}", plan.seed, arguments.effort.description()));
     let folder = Folder::claim(&out, &plan.run())?;
     folder.subfolder("events")?;
     if plan.videos {
@@ -57,45 +53,54 @@ pub fn run(arguments: &GenDataset) -> Result<(), CliError> {
     }
     folder.subfolder(parquet::FOLDER)?;
     let indices = plan.slots();
-    let slots = Slots::new(&plan, &folder, indices.len());
+    let slots = Slots::new(&plan, &folder, indices.len(), *context)?;
     if !for_all(&arguments.jobs, indices.len(), |k| slots.fill(indices[k]))? {
         return Err(CliError::Interrupted(out));
     }
-    let records = || indices.iter().map(|&index| slots.record(index));
+    let records: Vec<Record> = indices.iter().map(|&index| slots.record(index)).collect();
+    // The progress bar goes with them, before anything else is printed.
+    drop(slots);
     if let Some((shard, of)) = plan.shard {
-        let slots: Vec<Record> = records().collect();
         let (format, whole) = (SHARD_FORMAT.into(), plan.whole());
-        let shard = Shard { format, shard, of, whole, slots };
+        let shard = Shard { format, shard, of, whole, slots: records };
         shard.write(&out.join(SHARD_FILE))?;
         folder.finish()?;
-        tell(format!("{} events in {}; merge all {of} shards with merge", indices.len(), out.display()));
-        return Ok(());
+        let events = indices.len();
+        let text = format!("{events} events in {}; merge all {of} shards with merge", out.display());
+        let value = json!({ "folder": out, "events": events, "shard": shard.shard, "of": of, "new": true });
+        return arguments.output.print(text, &value);
     }
-    let manifest = complete(&out, &plan.whole(), records())?;
+    context.note("writing tables, page and manifest");
+    let manifest = complete(&out, &plan.whole(), records.into_iter())?;
     folder.finish()?;
-    announce(&out, &manifest);
-    Ok(())
+    announce(&out, &manifest, arguments.output, "")
 }
 
-/// Says what a finished dataset holds, and how it came to it.
-fn announce(out: &Path, manifest: &Manifest) {
+/// Prints what a finished dataset holds, and how it came to it.
+fn announce(out: &Path, manifest: &Manifest, output: Output, more: &str) -> Result<(), CliError> {
+    let mut text = String::new();
     if !manifest.selection.is_empty() {
-        tell(acceptance::table(&manifest.selection).trim_end());
+        text += &format!("{}\n", acceptance::table(&manifest.selection).trim_end());
     }
-    tell(format!("{} events in {}", manifest.events.len(), out.display()));
-    tell_page(out);
+    text += &format!("{} events in {}\n{}{more}", manifest.events.len(), out.display(), page_line(out));
+    let value = json!({
+        "folder": out, "events": manifest.events.len(), "seed": manifest.seed, "page": page(out),
+        "selection": manifest.selection, "new": true,
+    });
+    output.print(text, &value)
 }
 
-/// Says where the events can be watched, if they have videos.
-fn tell_page(out: &Path) {
-    let page = out.join(PAGE_FILE);
-    if page.exists() {
-        tell(format!("open {} to watch them", page.display()));
-    }
+/// The page on which the events can be watched, if they have videos.
+fn page(out: &Path) -> Option<PathBuf> {
+    Some(out.join(PAGE_FILE)).filter(|page| page.exists())
+}
+
+fn page_line(out: &Path) -> String {
+    page(out).map_or_else(String::new, |page| format!("open {} to watch them\n", page.display()))
 }
 
 /// A finished dataset or shard is taken as it is if it is the one asked for and whole.
-fn check_finished(plan: &Plan, out: &Path) -> Result<(), CliError> {
+fn check_finished(plan: &Plan, out: &Path, output: Output) -> Result<(), CliError> {
     let (whole, files) = if plan.shard.is_some() {
         let shard = Shard::read(&out.join(SHARD_FILE))?;
         let entries = shard.slots.into_iter().filter_map(|slot| slot.entry);
@@ -123,9 +128,9 @@ fn check_finished(plan: &Plan, out: &Path) -> Result<(), CliError> {
         Folder::claim(out, &whole)?.finish()?;
     }
     let (count, what) = (plan.slots().len(), if plan.shard.is_some() { "shard" } else { "dataset" });
-    tell(format!("{} holds this {what} already; all {count} events are whole", out.display()));
-    tell_page(out);
-    Ok(())
+    let text = format!("{} holds this {what} already; all {count} events are whole\n", out.display());
+    let value = json!({ "folder": out, "events": count, "page": page(out), "new": false });
+    output.print(text + &page_line(out), &value)
 }
 
 /// What a run is, as it stands in the folder it works in.

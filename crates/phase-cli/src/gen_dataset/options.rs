@@ -1,6 +1,6 @@
 //! The options of `gen-dataset` and `merge`.
 
-use crate::{effort::Effort, parallel::Jobs};
+use crate::{effort::Effort, output::Output, parallel::Jobs};
 use clap::{Args, value_parser};
 use std::path::PathBuf;
 
@@ -26,6 +26,9 @@ pub struct GenDataset {
     /// Make only the events K, K + N, K + 2 N … of the dataset, to be merged with the other shards by merge
     #[arg(long, value_name = "K/N", value_parser = shard)]
     pub shard: Option<(usize, usize)>,
+    /// How the result is printed.
+    #[command(flatten)]
+    pub output: Output,
     /// How the agents think.
     #[command(flatten)]
     pub effort: Effort,
@@ -43,6 +46,9 @@ pub struct Merge {
     /// Folder for the dataset; new, empty, or of this very merge
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
+    /// How the result is printed.
+    #[command(flatten)]
+    pub output: Output,
 }
 
 /// Reads a shard such as `3/16`.

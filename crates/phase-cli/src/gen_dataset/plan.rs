@@ -7,10 +7,13 @@ use crate::{
     production::{program, settings_value},
 };
 use phase_dataset::{
+    FileError,
     checksum::{hexadecimal, sha256},
+    json,
     preset::{Composition, Preset},
     shard::{self, Whole},
 };
+use phase_model::json::JsonError;
 use phase_sim::{Engine, Settings};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -42,6 +45,7 @@ pub struct Plan {
     /// Stands for everything that decides an event besides its slot and the seed: this very program, its settings,
     /// the preset.
     pub fingerprint: String,
+    settings_value: Value,
     command: String,
 }
 
@@ -57,14 +61,25 @@ impl Plan {
         let seed = arguments.seed.unwrap_or(preset.seed);
         let (name, effort) = (&arguments.preset, arguments.effort.as_given());
         let (videos, no_video) = (!arguments.no_video, if arguments.no_video { " --no-video" } else { "" });
-        let command = format!(
-            "cargo xtask gen-dataset --preset {name} --events {count} --seed {seed}{effort}{no_video}"
-        );
+        let command =
+            format!("phase gen-dataset --preset {name} --events {count} --seed {seed}{effort}{no_video}");
         let settings = arguments.effort.settings();
-        let facts = format!("{} {seed} {text}", settings_value(&settings));
+        let settings_value = settings_value(&settings)?;
+        let facts = format!("{settings_value} {seed} {text}");
         let fingerprint = hexadecimal(&sha256(&[&program()[..], facts.as_bytes()].concat()));
         let (composition, shard) = (preset.composition(), arguments.shard);
-        Ok(Self { preset, composition, count, seed, settings, videos, shard, fingerprint, command })
+        Ok(Self {
+            preset,
+            composition,
+            count,
+            seed,
+            settings,
+            videos,
+            shard,
+            fingerprint,
+            settings_value,
+            command,
+        })
     }
 
     /// A folder that differs with everything a user is likely to vary.
@@ -95,7 +110,7 @@ impl Plan {
             events: self.count,
             seed: self.seed,
             generator: GENERATOR.into(),
-            settings: settings_value(&self.settings),
+            settings: self.settings_value.clone(),
             selected: self.preset.selection.is_some(),
             videos: self.videos,
             command: self.command.clone(),
@@ -115,15 +130,16 @@ fn preset_text(name: &str) -> Result<String, CliError> {
         return Ok((*text).into());
     }
     let is_file = Path::new(name).extension().is_some_and(|ending| ending == "json");
-    match std::fs::read_to_string(name) {
-        Ok(text) => Ok(text),
+    let file = Path::new(name);
+    match json::bytes(file) {
+        Ok(bytes) => String::from_utf8(bytes).map_err(|error| {
+            let problem = JsonError::NotText(error.utf8_error().valid_up_to()).into();
+            FileError { file: file.to_owned(), problem }.into()
+        }),
         Err(_) if !is_file => Err(CliError::UnknownPreset {
             name: name.into(),
             known: PRESETS.map(|(name, _)| name).join(", "),
         }),
-        Err(error) => Err(CliError::Usage(format!(
-            "{name}: cannot be read: {}",
-            phase_dataset::error::plain_reason(&error)
-        ))),
+        Err(error) => Err(error.into()),
     }
 }

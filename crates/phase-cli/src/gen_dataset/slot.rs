@@ -2,6 +2,8 @@
 
 use super::plan::Plan;
 use crate::{
+    console,
+    context::Context,
     engine,
     error::CliError,
     interrupt,
@@ -31,6 +33,7 @@ pub struct Slots<'a> {
     folder: &'a Folder,
     production: Production,
     pools: BTreeMap<String, Vec<Layout>>,
+    context: Context,
 }
 
 /// What came of an attempt.
@@ -42,10 +45,14 @@ enum Attempt {
 
 impl<'a> Slots<'a> {
     /// So many slots are to be filled.
-    #[must_use]
-    pub fn new(plan: &'a Plan, folder: &'a Folder, count: usize) -> Self {
+    ///
+    /// # Errors
+    /// [`CliError::Serialise`].
+    pub fn new(plan: &'a Plan, folder: &'a Folder, count: usize, context: Context) -> Result<Self, CliError> {
         let pools = plan.preset.layouts.keys().map(|name| (name.clone(), plan.preset.pool(name))).collect();
-        Self { plan, folder, production: Production::new(folder, plan.settings, count), pools }
+        let activity = format!("making {}", console::events(count));
+        let production = Production::new(&context, &activity, folder, plan.settings, count)?;
+        Ok(Self { plan, folder, production, pools, context })
     }
 
     /// What is known of a slot.
@@ -77,7 +84,11 @@ impl<'a> Slots<'a> {
             let seed = engine::attempt_seed(self.plan.seed, index, record.refused.len());
             match self.attempt(&id, &slot, seed)? {
                 Attempt::Interrupted => return Ok(None),
-                Attempt::Refused(reason) => record.refused.push(reason),
+                Attempt::Refused(reason) => {
+                    let attempt = record.refused.len() + 1;
+                    self.context.detail(format!("{id} attempt {attempt}: {}", reason.name()));
+                    record.refused.push(reason);
+                }
                 Attempt::Accepted(event) => record.entry = Some(self.keep(&id, &slot, &event)?),
             }
             record.save(&self.record_path(index))?;

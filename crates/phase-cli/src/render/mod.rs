@@ -3,8 +3,8 @@
 pub mod options;
 
 use crate::{
-    captions,
-    console::tell,
+    captions, console,
+    context::Context,
     engine,
     error::CliError,
     interrupt,
@@ -18,25 +18,54 @@ use phase_event::{Recording, Row, Simulation, Trajectory};
 use phase_model::{AgentId, State, arena::SUBSTEPS};
 use phase_render::Palette;
 use phase_sim::Settings;
+use serde::Serialize;
+use serde_json::json;
 use std::path::{Path, PathBuf};
 
 /// Runs the command.
 ///
 /// # Errors
 /// Any [`CliError`].
-pub fn run(arguments: &Render) -> Result<(), CliError> {
-    let source = Source::open(&arguments.file, &arguments.id)?;
+pub fn run(arguments: &Render, context: &Context) -> Result<(), CliError> {
+    let source = Source::open(&arguments.file, &arguments.id, context)?;
     let extension = if arguments.contact_sheet.is_some() { "png" } else { "mp4" };
     let target = Target::of(&arguments.out, extension, source.len())?;
+    // Known before the work of events in files that are read already; folders hold simulated events.
+    if arguments.belief.is_some()
+        && let Some(recording) = source.loaded().find(|recording| recording.simulation.is_none())
+    {
+        return Err(unsimulated(arguments, &recording.id));
+    }
     interrupt::listen();
+    let progress = context.progress(&format!("rendering {}", console::events(source.len())), source.len(), 1);
     let made = make_all(&arguments.jobs, source.len(), |index| {
         let recording = source.load(index)?;
         let path = target.path(&recording.id, arguments.belief, extension);
-        let note = render(arguments, &recording, &path)?;
-        tell(format!("{}{note}", path.display()));
-        Ok(Some(()))
+        render(arguments, &recording, &path)?;
+        progress.event(0, &recording.id);
+        let interpolated = recording.simulation.is_none();
+        Ok(Some(Rendered { id: recording.id, file: path, interpolated }))
     })?;
-    made.map(|_| ()).ok_or_else(|| CliError::Interrupted(arguments.out.clone()))
+    drop(progress);
+    let made = made.ok_or_else(|| CliError::Interrupted(arguments.out.clone()))?;
+    let lines = made.iter().map(Rendered::line).collect::<String>();
+    arguments.output.print(lines, &json!({ "files": made }))
+}
+
+/// A video or picture that was made.
+#[derive(Serialize)]
+struct Rendered {
+    id: String,
+    file: PathBuf,
+    /// Whether its frames between the recorded steps are interpolated.
+    interpolated: bool,
+}
+
+impl Rendered {
+    fn line(&self) -> String {
+        let note = if self.interpolated { " (frames interpolated between recorded steps)" } else { "" };
+        format!("{}{note}\n", self.file.display())
+    }
 }
 
 /// Where pictures go.
@@ -48,6 +77,7 @@ enum Target {
 impl Target {
     fn of(out: &Path, extension: &str, count: usize) -> Result<Self, CliError> {
         let is_file = out.extension().is_some_and(|found| found == extension);
+        check_ending(out, extension)?;
         let folder = if is_file { out.parent().unwrap_or(Path::new("")) } else { out };
         if is_file && out.is_dir() {
             return Err(CliError::Usage(format!("--out: {} is a folder; a file is needed", out.display())));
@@ -79,24 +109,35 @@ impl Target {
     }
 }
 
-/// Renders one event and returns what there is to say about it.
-fn render(arguments: &Render, recording: &Recording, path: &Path) -> Result<&'static str, CliError> {
+/// Refuses a file of a kind that is not written, which would become a folder of that name.
+fn check_ending(out: &Path, extension: &str) -> Result<(), CliError> {
+    const KNOWN: [&str; 12] =
+        ["gif", "webm", "mkv", "mov", "avi", "m4v", "apng", "webp", "jpg", "jpeg", "svg", "pdf"];
+    let found = out.extension().map(|found| found.to_string_lossy().to_lowercase()).unwrap_or_default();
+    let foreign =
+        KNOWN.contains(&found.as_str()) || (found != extension && ["mp4", "png"].contains(&&*found));
+    if !foreign || out.is_dir() {
+        return Ok(());
+    }
+    let rule = "cannot be written; a video ends in .mp4, and with --contact-sheet N a picture in .png";
+    Err(CliError::Usage(format!("--out: {}: .{found} {rule}", out.display())))
+}
+
+/// Renders one event.
+fn render(arguments: &Render, recording: &Recording, path: &Path) -> Result<(), CliError> {
     let (id, physique) = (&recording.id, recording.scene.physique());
     let palette = arguments.palette.palette();
     let minds: Vec<Vec<Mind>> = match (arguments.belief, &recording.simulation) {
         (None, _) => Vec::new(),
         (Some(belief), Some(simulation)) => {
-            belief.agents().iter().map(|&agent| minds(simulation, agent, &palette)).collect()
+            let settings = settings(arguments, id, simulation)?;
+            belief.agents().iter().map(|&agent| minds(simulation, agent, &palette, &settings)).collect()
         }
-        (Some(_), None) => {
-            let (file, rule) = (arguments.file.display(), "--belief needs a simulated event");
-            let why = "a measured recording does not tell what its agents saw and did";
-            return Err(CliError::Usage(format!("{file}: event {id}: {rule}; {why}")));
-        }
+        (Some(_), None) => return Err(unsimulated(arguments, id)),
     };
-    let (states, note) = match &recording.simulation {
-        Some(simulation) => (simulation.event.frames().copied().collect(), ""),
-        None => (interpolated(&recording.trajectory), " (frames interpolated between recorded steps)"),
+    let states = match &recording.simulation {
+        Some(simulation) => simulation.event.frames().copied().collect(),
+        None => interpolated(&recording.trajectory),
     };
     // The mind that chose a step is shown while the step lasts.
     let minds_at = |frame: usize| {
@@ -109,17 +150,29 @@ fn render(arguments: &Render, recording: &Recording, path: &Path) -> Result<&'st
         Some(count) => picture::write_sheet(path, id, &physique, palette, &shots, count.into()),
         None => picture::write_video(path, id, &physique, palette, &shots),
     };
-    result.map(|()| note).map_err(|error| match error {
+    result.map_err(|error| match error {
         CliError::Write(error) => CliError::Output(error),
         other => other,
     })
 }
 
+/// An event that was not simulated does not tell what its agents believe.
+fn unsimulated(arguments: &Render, id: &str) -> CliError {
+    let (file, rule) = (arguments.file.display(), "--belief needs a simulated event");
+    let why = "a measured recording does not tell what its agents saw and did";
+    CliError::Usage(format!("{file}: event {id}: {rule}; {why}"))
+}
+
+/// The settings that an event was simulated with.
+fn settings(arguments: &Render, id: &str, simulation: &Simulation) -> Result<Settings, CliError> {
+    let settings = serde_json::from_value(simulation.settings.clone());
+    settings.map_err(|source| CliError::Settings { file: arguments.file.clone(), id: id.to_owned(), source })
+}
+
 /// What an agent saw, believed and was after at every step.
-fn minds(simulation: &Simulation, agent: AgentId, palette: &Palette) -> Vec<Mind> {
+fn minds(simulation: &Simulation, agent: AgentId, palette: &Palette, settings: &Settings) -> Vec<Mind> {
     let event = &simulation.event;
-    let settings: Settings = serde_json::from_value(simulation.settings.clone()).unwrap_or_default();
-    let snapshots = engine::beliefs(event, agent, &settings);
+    let snapshots = engine::beliefs(event, agent, settings);
     let colour = palette.agent_names[agent];
     let steps = event.steps.iter().enumerate();
     let mind = |((t, step), snapshot): ((usize, &phase_event::Step), phase_sim::BeliefSnapshot)| {

@@ -1,6 +1,6 @@
 //! The options of `render`.
 
-use crate::parallel::Jobs;
+use crate::{output::Output, parallel::Jobs};
 use clap::{
     Args, ValueEnum,
     builder::{PossibleValuesParser, TypedValueParser},
@@ -13,8 +13,8 @@ use std::path::PathBuf;
 /// Options of `render`.
 #[derive(Args, Debug)]
 pub struct Render {
-    /// An event file (phase-events/1) or the folder of a dataset
-    #[arg(value_name = "FILE")]
+    /// A file in the format phase-events/1, or the folder of a dataset or of simulations
+    #[arg(value_name = "FILE|DIR")]
     pub file: PathBuf,
     /// Only the event with this id; may be given several times
     #[arg(long, value_name = "ID")]
@@ -32,6 +32,9 @@ pub struct Render {
     /// Instead of a video, one picture of N frames spread evenly over the event
     #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=100))]
     pub contact_sheet: Option<u16>,
+    /// How the result is printed.
+    #[command(flatten)]
+    pub output: Output,
     /// How many events at once.
     #[command(flatten)]
     pub jobs: Jobs,

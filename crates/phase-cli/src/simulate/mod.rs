@@ -1,62 +1,81 @@
-//! `simulate`: the scenes of a `phase-events/1` file, each from its first row and with one or several seeds.
+//! `simulate`: the scenes of a `phase-events/1` file or of a folder, each from its first row and with one or several seeds.
 
+mod gallery;
 pub mod options;
+mod outcomes;
 
 use crate::{
-    console::{remark, tell},
+    console,
+    context::Context,
     engine::{self, GENERATOR},
     error::CliError,
     gen_dataset::check_same,
     interrupt,
     parallel::make_all,
     production::{Order, Production, settings_value},
-    source,
+    source::Source,
 };
+use gallery::Shown;
 use options::Simulate;
 use phase_dataset::{
     checksum::{hexadecimal, sha256},
     folder::{self, Contents, Folder},
+    manifest::PAGE_FILE,
     summary::{Pair, SUMMARY_FILE, Summary},
 };
 use phase_event::Recording;
 use phase_model::Relation;
 use phase_report::summary;
 use serde_json::{Value, json};
-use std::path::Path;
+
+/// An event of the input: its place there, and its recording without what an earlier simulation knows beyond it.
+type Input = (usize, Recording);
 
 /// Runs the command.
 ///
 /// # Errors
 /// Any [`CliError`].
-pub fn run(arguments: &Simulate) -> Result<(), CliError> {
-    let chosen = source::read(&arguments.events, &arguments.id)?;
+pub fn run(arguments: &Simulate, context: &Context) -> Result<(), CliError> {
+    let chosen = inputs(arguments, context)?;
     let seeds = seeds(arguments)?;
     check_ids(arguments, &chosen, &seeds)?;
-    let (run, out) = (run_value(arguments, &chosen), &arguments.out);
+    let (run, out) = (run_value(arguments, &chosen)?, &arguments.out);
     match folder::inspect(out, SUMMARY_FILE)? {
-        Contents::Finished => return check_finished(out, &run),
+        Contents::Finished => return check_finished(arguments, &run),
         Contents::Unfinished(other) => {
             check_same(out, "an unfinished", &other, &run)?;
-            remark(format!("going on in {}", out.display()));
+            context.note(format!("continuing in {}", out.display()));
         }
         Contents::Nothing => {}
     }
     interrupt::listen();
+    context.detail(format!("seed {}: {}", arguments.seed, arguments.effort.description()));
     let folder = Folder::claim(out, &run)?;
     let events = chosen.len() * seeds.len();
-    let production = Production::new(&folder, arguments.effort.settings(), events);
+    let activity = format!("simulating {}", console::events(events));
+    let production = Production::new(context, &activity, &folder, arguments.effort.settings(), events)?;
     let made = make_all(&arguments.jobs, events, |k| {
         let (index, recording) = &chosen[k / seeds.len()];
         make(&production, arguments, *index, recording, seeds[k % seeds.len()])
     })?;
     drop(production);
-    let Some(pairs) = made else { return Err(CliError::Interrupted(out.clone())) };
+    let Some(made) = made else { return Err(CliError::Interrupted(out.clone())) };
+    let (pairs, shown): (Vec<_>, Vec<_>) = made.into_iter().unzip();
+    if !arguments.no_video {
+        gallery::write(out, arguments.seed, shown)?;
+    }
     let summary = Summary::new(run, pairs);
     summary.write(&out.join(SUMMARY_FILE))?;
     folder.finish()?;
-    tell(summary::table(&summary.kinds).trim_end());
-    tell(format!("{} simulated events in {}", summary.events.len(), out.display()));
-    Ok(())
+    let line = format!("{} simulated events in {}", summary.events.len(), out.display());
+    print(arguments, &summary, &line, true)
+}
+
+/// The events to simulate, in the order of the input.
+fn inputs(arguments: &Simulate, context: &Context) -> Result<Vec<Input>, CliError> {
+    let source = Source::open(&arguments.events, &arguments.id, context)?;
+    let input = |k: usize| Ok((source.place(k), Recording { simulation: None, ..source.load(k)? }));
+    (0..source.len()).map(input).collect()
 }
 
 fn make(
@@ -65,7 +84,7 @@ fn make(
     index: usize,
     recording: &Recording,
     seed: u64,
-) -> Result<Option<Pair>, CliError> {
+) -> Result<Option<(Pair, Shown)>, CliError> {
     let (id, out) = (simulated_id(arguments, recording, seed), &arguments.out);
     let video = !arguments.no_video;
     let order = Order {
@@ -77,8 +96,9 @@ fn make(
         video: video.then(|| out.join(format!("{id}.mp4"))),
     };
     let Some(event) = production.make(&order, || Ok(recording.scene.clone()))? else { return Ok(None) };
-    let pair = Pair::of(out, recording, id, seed, &event, video);
-    Ok(Some(pair.map_err(CliError::ReadBack)?))
+    let pair = Pair::of(out, recording, id, seed, &event, video).map_err(CliError::ReadBack)?;
+    let shown = Shown::of(&pair.comparison, &event);
+    Ok(Some((pair, shown)))
 }
 
 /// The seeds of the run, in order.
@@ -94,12 +114,13 @@ fn seeds(arguments: &Simulate) -> Result<Vec<u64>, CliError> {
     Ok((arguments.seed..=last).collect())
 }
 
-/// The seed of a simulated event. That of an event without one of its own follows from its place in the file, so that
-/// the same event comes out with or without the others; one's own counts on with `--seeds`.
+/// The seed of a simulated event. An event without a seed of its own gets one by its place in the file, so that the same
+/// event comes out with or without the others; with `--same-chance` all get that of the first. An own seed counts up with
+/// `--seeds`.
 fn event_seed(arguments: &Simulate, index: usize, recording: &Recording, seed: u64) -> u64 {
     match recording.seed {
         Some(own) => own.wrapping_add(seed - arguments.seed),
-        None => engine::event_seed(seed, index),
+        None => engine::event_seed(seed, if arguments.same_chance { 0 } else { index }),
     }
 }
 
@@ -109,7 +130,7 @@ fn simulated_id(arguments: &Simulate, recording: &Recording, seed: u64) -> Strin
 }
 
 /// Ids of simulated events are names of files that are read again, so they must be usable as such.
-fn check_ids(arguments: &Simulate, chosen: &[(usize, Recording)], seeds: &[u64]) -> Result<(), CliError> {
+fn check_ids(arguments: &Simulate, chosen: &[Input], seeds: &[u64]) -> Result<(), CliError> {
     for (_, recording) in chosen {
         for &seed in seeds {
             let id = simulated_id(arguments, recording, seed);
@@ -131,14 +152,18 @@ fn check_ids(arguments: &Simulate, chosen: &[(usize, Recording)], seeds: &[u64])
 }
 
 /// What decides the results: the events themselves and not the file they came in, the seeds, the settings.
-fn run_value(arguments: &Simulate, chosen: &[(usize, Recording)]) -> Value {
+fn run_value(arguments: &Simulate, chosen: &[Input]) -> Result<Value, CliError> {
     let events: Vec<Value> = chosen.iter().map(|(index, recording)| json!([index, recording.id])).collect();
     let read: String = chosen.iter().map(|(index, recording)| input_of(*index, recording)).collect();
-    json!({
+    let mut run = json!({
         "command": "simulate", "generator": GENERATOR, "seed": arguments.seed, "seeds": arguments.seeds,
-        "videos": !arguments.no_video, "settings": settings_value(&arguments.effort.settings()),
+        "videos": !arguments.no_video, "settings": settings_value(&arguments.effort.settings())?,
         "events": events, "input_sha256": hexadecimal(&sha256(read.as_bytes())),
-    })
+    });
+    if arguments.same_chance {
+        run["same_chance"] = true.into();
+    }
+    Ok(run)
 }
 
 /// Everything the results depend on in one event of the input: the scene, the labels, the seed and the recorded rows.
@@ -149,14 +174,27 @@ fn input_of(index: usize, recording: &Recording) -> String {
     format!("{index} {} {seed}{relation:?} {scene:?} {rows:?}\n", recording.id)
 }
 
-fn check_finished(out: &Path, run: &Value) -> Result<(), CliError> {
+fn check_finished(arguments: &Simulate, run: &Value) -> Result<(), CliError> {
+    let out = &arguments.out;
     let summary = Summary::read(&out.join(SUMMARY_FILE))?;
     check_same(out, "a finished", &summary.run, run)?;
     summary.verify(out).map_err(CliError::Altered)?;
     if folder::has_leftovers(out) {
         Folder::claim(out, run)?.finish()?;
     }
-    tell(summary::table(&summary.kinds).trim_end());
-    tell(format!("{} holds these {} simulated events already", out.display(), summary.events.len()));
-    Ok(())
+    let line = format!("{} holds these {} simulated events already", out.display(), summary.events.len());
+    print(arguments, &summary, &line, false)
+}
+
+/// Prints what came of the run: beside the recordings if there are any, else of the simulations alone.
+fn print(arguments: &Simulate, summary: &Summary, line: &str, new: bool) -> Result<(), CliError> {
+    let recorded = summary.events.iter().any(|event| event.recorded_steps > 0);
+    let table = if recorded { summary::table(&summary.kinds) } else { outcomes::table(&summary.events) };
+    let page = Some(arguments.out.join(PAGE_FILE)).filter(|page| page.exists());
+    let open = page.as_ref().map_or_else(String::new, |it| format!("\nopen {} to watch them", it.display()));
+    let value = json!({
+        "folder": arguments.out, "page": page, "new": new, "recorded": recorded,
+        "kinds": summary.kinds, "events": summary.events,
+    });
+    arguments.output.print(format!("{}\n{line}{open}", table.trim_end()), &value)
 }

@@ -1,14 +1,14 @@
 //! The options of `simulate`.
 
-use crate::{effort::Effort, parallel::Jobs};
+use crate::{effort::Effort, output::Output, parallel::Jobs};
 use clap::{Args, value_parser};
 use std::path::PathBuf;
 
 /// Options of `simulate`.
 #[derive(Args, Debug)]
 pub struct Simulate {
-    /// File in the format phase-events/1
-    #[arg(long, value_name = "FILE")]
+    /// A file in the format phase-events/1, or the folder of a dataset or of simulations
+    #[arg(long, value_name = "FILE|DIR")]
     pub events: PathBuf,
     /// Only the event with this id; may be given several times
     #[arg(long, value_name = "ID")]
@@ -19,12 +19,19 @@ pub struct Simulate {
     /// Simulate every scene with the seeds S to S + N - 1; with more than one, ids end in -seedK
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = value_parser!(u16).range(1..=10_000))]
     pub seeds: u16,
-    /// Make no videos
+    /// Give all events of the file the same random numbers: the seed of each is drawn from S alone, and not also from the
+    /// event's place in the file, so that scenes which differ in one thing (a goal, an attitude) differ in nothing else
+    #[arg(long)]
+    pub same_chance: bool,
+    /// Make no videos and no page
     #[arg(long)]
     pub no_video: bool,
     /// Folder for the results; new, empty, or of this very run
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
+    /// How the result is printed.
+    #[command(flatten)]
+    pub output: Output,
     /// How the agents think.
     #[command(flatten)]
     pub effort: Effort,

@@ -37,6 +37,14 @@ impl Events {
         Ok(Self { data, validation, count })
     }
 
+    /// Checks that there are events to learn from and to validate on.
+    ///
+    /// # Errors
+    /// [`TrainError::NoEvents`].
+    pub(super) fn check(&self) -> Result<(), TrainError> {
+        [Split::Train, Split::Validation].into_iter().try_for_each(|split| self.of(split).map(|_| ()))
+    }
+
     /// Reads the events of a split, in the manifest's order, each when it is asked for.
     ///
     /// # Errors

@@ -1,7 +1,7 @@
 //! What is kept of a training beside its weights: the checkpoint that the same command goes on from, and the record.
 
 use super::error::TrainError;
-use crate::console::remark;
+use crate::context::Context;
 use cpu_time::ProcessTime;
 use phase_baselines::training::{Final, Network, Record, Run, Source};
 use phase_dataset::{WriteError, atomic, json};
@@ -37,6 +37,7 @@ impl Kept {
         out: &Path,
         training: Source,
         validation: Source,
+        context: &Context,
     ) -> Result<Self, TrainError> {
         let data = format!("{} {} {}", training.sha256, training.events, validation.sha256);
         let (checkpoint, file) = (beside(out, ".checkpoint"), beside(out, ".training.json"));
@@ -52,7 +53,7 @@ impl Kept {
             };
             let earlier = Record::parse(&json::bytes(&kept.file)?).map_err(wrong)?;
             kept.record.resume(earlier, run).map_err(wrong)?;
-            remark(format!("going on after round {}", run.rounds().len()));
+            context.note(format!("continuing after round {}", run.rounds().len()));
         } else {
             kept.write(run)?;
         }

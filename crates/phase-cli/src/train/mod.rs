@@ -25,22 +25,21 @@ use options::Train;
 /// [`CliError::Train`], or [`CliError::NoNetworks`] where the program was built without the feature `networks`.
 pub fn run(arguments: &Train, context: &Context) -> Result<(), CliError> {
     networks::require(context)?;
-    train(arguments)
+    train(arguments, context)
 }
 
 #[cfg(feature = "networks")]
-fn train(arguments: &Train) -> Result<(), CliError> {
+fn train(arguments: &Train, context: &Context) -> Result<(), CliError> {
     match arguments {
-        Train::Strength(options) => strength::run(options),
-        Train::TwoLevelLstm(options) => recognition::two_level_lstm(options),
-        Train::Arg(options) => recognition::arg(options),
-        Train::SocialLstm(options) => forecasting::social_lstm(options),
-        Train::Stgat(options) => forecasting::stgat(options),
-    }?;
-    Ok(())
+        Train::Strength(options) => strength::run(options, context),
+        Train::TwoLevelLstm(options) => recognition::two_level_lstm(options, context),
+        Train::Arg(options) => recognition::arg(options, context),
+        Train::SocialLstm(options) => forecasting::social_lstm(options, context),
+        Train::Stgat(options) => forecasting::stgat(options, context),
+    }
 }
 
 #[cfg(not(feature = "networks"))]
-const fn train(_: &Train) -> Result<(), CliError> {
+const fn train(_: &Train, _: &Context) -> Result<(), CliError> {
     Ok(())
 }

@@ -1,12 +1,13 @@
 //! Training a network of the baselines: round by round, so that the same command goes on after a break.
 
 use super::{error::TrainError, events::Events, kept::Kept, options::NetworkOptions};
-use crate::console::{remark, tell};
+use crate::{context::Context, error::CliError};
 use phase_baselines::training::{
     Final, Measure, NamedMeasure, NetworkError, Published, Round, Run, Settings, measure, to_safetensors,
 };
 use phase_dataset::{atomic, splits::Split};
 use phase_event::{ObservedEvent, Recording};
+use serde_json::json;
 
 /// Trains a network on what `sample` makes of events.
 ///
@@ -14,9 +15,10 @@ use phase_event::{ObservedEvent, Recording};
 /// If the datasets cannot be used, nothing can be learnt or a file cannot be written.
 pub(super) fn run<N: Published>(
     options: &NetworkOptions,
+    context: &Context,
     mut settings: Settings,
     sample: impl Fn(&Recording, &ObservedEvent) -> Result<N::Sample, TrainError>,
-) -> Result<(), TrainError> {
+) -> Result<(), CliError> {
     let NetworkOptions { options, rounds } = options;
     settings.rounds = rounds.unwrap_or(settings.rounds);
     let events = Events::open(options)?;
@@ -30,38 +32,51 @@ pub(super) fn run<N: Published>(
         };
         events.of(split)?.map(each).collect()
     };
+    events.check()?;
+    context.note("reading the events");
     let (training, validation) = (samples(Split::Train)?, samples(Split::Validation)?);
-    let network = N::published(&mut Run::<N>::first_weights(options.seed)).map_err(NetworkError::from)?;
+    let network = N::published(&mut Run::<N>::first_weights(options.seed)).map_err(failed)?;
     let mut run = Run::new(network, options.seed, settings);
     let sources = (events.source(Split::Train), events.source(Split::Validation));
-    let mut kept = Kept::open(&mut run, &options.out, sources.0, sources.1)?;
+    let mut kept = Kept::open(&mut run, &options.out, sources.0, sources.1, context)?;
 
-    remark(head(N::SCORES));
-    run.rounds().iter().for_each(|round| remark(line(round)));
+    context.note(head(N::SCORES));
+    run.rounds().iter().for_each(|round| context.note(line(round)));
     while !run.is_finished() {
         let seconds = kept.round(&mut run, &training, &validation)?;
         let left = settings.rounds.saturating_sub(run.rounds().len()) as f64 * seconds / 60.0;
         let said = run.rounds().last().map_or_else(String::new, line);
-        remark(format!("{said}  {seconds:.1} s, at most {left:.0} min left"));
+        context.note(format!("{said}  {seconds:.1} s, at most {left:.0} min remaining"));
     }
     let best = run.best_round().map_or(0, |round| round.number);
-    let network = run.into_best().map_err(NetworkError::from)?;
-    tell(format!("the weights are those of round {best}"));
-    tell(format!("| events | loss | {} |", N::SCORES.join(" | ")));
-    tell(format!("|---|---|{}", "---|".repeat(N::SCORES.len())));
-    let report = |split: Split, samples: &[N::Sample]| -> Result<NamedMeasure, TrainError> {
-        let measure = measure(&network, samples, settings.batch).map_err(NetworkError::from)?;
+    let network = run.into_best().map_err(failed)?;
+    let report = |split: Split, samples: &[N::Sample]| -> Result<(NamedMeasure, String), CliError> {
+        let measure = measure(&network, samples, settings.batch).map_err(failed)?;
         let scores: Vec<String> = measure.scores.iter().map(|score| format!("{score:.3}")).collect();
-        tell(format!("| {} | {:.3} | {} |", split.name(), measure.loss, scores.join(" | ")));
-        Ok(NamedMeasure::of::<N>(&measure))
+        let row = format!("| {} | {:.3} | {} |\n", split.name(), measure.loss, scores.join(" | "));
+        Ok((NamedMeasure::of::<N>(&measure), row))
     };
-    let finished = Final {
-        train: report(Split::Train, &training)?,
-        validation: report(Split::Validation, &validation)?,
-        test: if options.test { Some(report(Split::Test, &samples(Split::Test)?)?) } else { None },
-    };
-    atomic::write(&options.out, &to_safetensors(&network)?)?;
-    kept.finish(finished)
+    let (train, of_train) = report(Split::Train, &training)?;
+    let (validation, of_validation) = report(Split::Validation, &validation)?;
+    let test = if options.test { Some(report(Split::Test, &samples(Split::Test)?)?) } else { None };
+    let (test, of_test) = test.unzip();
+    let text = format!(
+        "the weights are those of round {best}\n| events | loss | {} |\n|---|---|{}\n{of_train}{of_validation}{}",
+        N::SCORES.join(" | "),
+        "---|".repeat(N::SCORES.len()),
+        of_test.unwrap_or_default(),
+    );
+    let finished = Final { train, validation, test };
+    let value = json!({ "weights": options.out, "network": N::NAME, "best_round": best, "final": finished });
+    let weights = to_safetensors(&network).map_err(TrainError::from)?;
+    atomic::write(&options.out, &weights).map_err(TrainError::from)?;
+    kept.finish(finished)?;
+    options.output.print(text, &value)
+}
+
+/// A failure of the library for neural networks.
+fn failed(error: impl Into<NetworkError>) -> TrainError {
+    TrainError::Network(error.into())
 }
 
 fn head(scores: &[&str]) -> String {

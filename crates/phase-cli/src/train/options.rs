@@ -1,5 +1,6 @@
 //! The options of `train`.
 
+use crate::output::Output;
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
 
@@ -39,6 +40,9 @@ pub struct Options {
     /// Also measure what was learnt on the test events, once, at the end
     #[arg(long)]
     pub test: bool,
+    /// How the result is printed.
+    #[command(flatten)]
+    pub output: Output,
 }
 
 /// The same, and how long.

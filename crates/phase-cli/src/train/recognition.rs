@@ -1,6 +1,7 @@
 //! `two-level-lstm` and `arg`: the baselines for Task 1.
 
 use super::{error::TrainError, network, options::NetworkOptions};
+use crate::{context::Context, error::CliError};
 use phase_baselines::{
     arg::Arg,
     recognition::{LabelledEvent, SETTINGS},
@@ -12,16 +13,16 @@ use phase_event::{ObservedEvent, Recording};
 ///
 /// # Errors
 /// Those of [`network::run`].
-pub(super) fn two_level_lstm(options: &NetworkOptions) -> Result<(), TrainError> {
-    network::run::<TwoLevelLstm>(options, SETTINGS, sample)
+pub(super) fn two_level_lstm(options: &NetworkOptions, context: &Context) -> Result<(), CliError> {
+    network::run::<TwoLevelLstm>(options, context, SETTINGS, sample)
 }
 
 /// Trains an actor relation graph.
 ///
 /// # Errors
 /// Those of [`network::run`].
-pub(super) fn arg(options: &NetworkOptions) -> Result<(), TrainError> {
-    network::run::<Arg>(options, SETTINGS, sample)
+pub(super) fn arg(options: &NetworkOptions, context: &Context) -> Result<(), CliError> {
+    network::run::<Arg>(options, context, SETTINGS, sample)
 }
 
 fn sample(recording: &Recording, observed: &ObservedEvent) -> Result<LabelledEvent, TrainError> {

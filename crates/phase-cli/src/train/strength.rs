@@ -1,26 +1,30 @@
 //! `strength`: trains SIMPLE's guess at the agents' strengths and says how good it is.
 
 use super::{error::TrainError, events::Events, options::Options};
-use crate::console::{remark, tell};
+use crate::{context::Context, error::CliError};
 use phase_baselines::strength::{Motion, Sample, Score, Settings, commonest, score, train};
 use phase_dataset::{atomic::AtomicFile, splits::Split};
 use phase_model::Strength;
 use phase_simple::StrengthRegressor;
+use serde::Serialize;
+use serde_json::json;
 use std::io::Write;
 
 /// Runs the command.
 ///
 /// # Errors
 /// If the dataset cannot be used, nothing can be learnt or the file cannot be written.
-pub(super) fn run(options: &Options) -> Result<(), TrainError> {
+pub(super) fn run(options: &Options, context: &Context) -> Result<(), CliError> {
     let events = Events::open(options)?;
     // Where nothing can be written is to be known before the work.
-    let mut file = AtomicFile::create(&options.out)?;
+    let mut file = AtomicFile::create(&options.out).map_err(TrainError::from)?;
+    events.check()?;
+    context.note("reading the events");
     let training = motions(&events, Split::Train)?;
     let validation = motions(&events, Split::Validation)?;
-    remark("epoch  train  validation: whole  windows  together (RMSE in N)");
+    context.note("epoch  train  validation: whole  windows  together (RMSE in N)");
     let regressor = train(&training, &validation, options.seed, &Settings::default(), &mut |epoch| {
-        remark(format!(
+        context.note(format!(
             "{:5} {:6.1} {:18.1} {:8.1} {:9.1}{}",
             epoch.number,
             epoch.training,
@@ -29,21 +33,44 @@ pub(super) fn run(options: &Options) -> Result<(), TrainError> {
             epoch.validation,
             if epoch.best { " *" } else { "" },
         ));
-    })?;
-    file.write_all(&regressor.to_safetensors()?).map_err(|source| file.failed(source))?;
-    file.commit()?;
+    })
+    .map_err(TrainError::from)?;
+    let weights = regressor.to_safetensors().map_err(TrainError::from)?;
+    file.write_all(&weights).map_err(|source| TrainError::from(file.failed(source)))?;
+    file.commit().map_err(TrainError::from)?;
 
     let guess = commonest(training.iter().map(|motion| &motion.whole));
-    tell(
-        "| events | motion | RMSE (N) | RMSE of a constant (N) | nearest level right | commonest level right |",
-    );
-    tell("|---|---|---|---|---|---|");
-    report(&regressor, Split::Train, &training, guess);
-    report(&regressor, Split::Validation, &validation, guess);
+    let mut rows = report(&regressor, Split::Train, &training, guess);
+    rows.extend(report(&regressor, Split::Validation, &validation, guess));
     if options.test {
-        report(&regressor, Split::Test, &motions(&events, Split::Test)?, guess);
+        rows.extend(report(&regressor, Split::Test, &motions(&events, Split::Test)?, guess));
     }
-    Ok(())
+    let text = "| events | motion | RMSE (N) | RMSE of a constant (N) | nearest level right | commonest level right |\n\
+        |---|---|---|---|---|---|\n"
+        .to_owned();
+    let lines = rows.iter().map(Row::line).collect::<String>();
+    options.output.print(text + &lines, &json!({ "weights": options.out, "scores": rows }))
+}
+
+/// How good the network is in one part of the data.
+#[derive(Serialize)]
+struct Row {
+    split: &'static str,
+    motion: &'static str,
+    rmse: f64,
+    rmse_of_constant: f64,
+    accuracy: f64,
+    accuracy_of_commonest: f64,
+}
+
+impl Row {
+    fn line(&self) -> String {
+        let Self { split, motion, rmse, rmse_of_constant, accuracy, accuracy_of_commonest } = self;
+        let (accuracy, commonest) = (100.0 * accuracy, 100.0 * accuracy_of_commonest);
+        format!(
+            "| {split} | {motion} | {rmse:.1} | {rmse_of_constant:.1} | {accuracy:.1} % | {commonest:.1} % |\n"
+        )
+    }
 }
 
 fn motions(events: &Events, split: Split) -> Result<Vec<Motion>, TrainError> {
@@ -58,16 +85,13 @@ fn motions(events: &Events, split: Split) -> Result<Vec<Motion>, TrainError> {
     Ok(motions)
 }
 
-fn report(regressor: &StrengthRegressor, split: Split, motions: &[Motion], guess: Strength) {
+fn report(regressor: &StrengthRegressor, split: Split, motions: &[Motion], guess: Strength) -> Vec<Row> {
     let whole: Vec<&[Sample]> = motions.iter().map(|motion| core::slice::from_ref(&motion.whole)).collect();
     let windows = motions.iter().map(|motion| &*motion.windows).collect();
-    for (name, groups) in [("whole events", whole), ("windows of 10 steps", windows)] {
+    let row = |(motion, groups)| {
         let Score { rmse, rmse_of_constant, accuracy, accuracy_of_guess } = score(regressor, groups, guess);
-        tell(format!(
-            "| {} | {name} | {rmse:.1} | {rmse_of_constant:.1} | {:.1} % | {:.1} % |",
-            split.name(),
-            100.0 * accuracy,
-            100.0 * accuracy_of_guess,
-        ));
-    }
+        let (split, accuracy_of_commonest) = (split.name(), accuracy_of_guess);
+        Row { split, motion, rmse, rmse_of_constant, accuracy, accuracy_of_commonest }
+    };
+    [("whole events", whole), ("windows of 10 steps", windows)].map(row).into()
 }

@@ -38,7 +38,18 @@ fn numbers_and_names_out_of_range() {
         (&["render", "events.json", "--id", "other"], &["events.json", "\"other\""]),
         (&["render", "events.json", "--out", "one.mp4"], &["one.mp4", "2 events"]),
         (&["render", "events.json", "--out", "events.json"], &["events.json", "folder"]),
+        (&["render", "events.json", "--out", "x.gif"], &["x.gif", ".gif cannot be written", ".mp4", ".png"]),
+        (
+            &["render", "events.json", "--out", "x.png"],
+            &["x.png", ".png cannot be written", "--contact-sheet"],
+        ),
         (&["render", "."], &["manifest.json"]),
+        (&["new-scene", "--kind", "dancing"], &["dancing", "helping", "chasing"]),
+        (&["new-scene", "--layout", "22"], &["--layout", "22"]),
+        (&["new-scene", "--out", "events.json"], &["events.json exists"]),
+        (&["completions", "cmd"], &["cmd", "bash"]),
+        (&["man"], &["--out"]),
+        (&["verify", ".", "--quiet", "--verbose"], &["--quiet", "--verbose"]),
         (&["dance"], &["dance"]),
     ];
     let before = tree(folder.path());

@@ -133,7 +133,11 @@ fn methods_from_outside_stand_beside_ours() {
         ),
         ("tiny", "none.json", "none.json: is no complete results file: field `run.events_sha256`"),
         ("tiny", "missing.json", "missing.json: cannot be read: no such file"),
-        ("events.json", "none.json", "events.json: is no dataset, so --split chooses nothing"),
+        (
+            "events.json",
+            "none.json",
+            "events.json: is not a dataset with a manifest: --split needs a dataset",
+        ),
         ("missing", "none.json", "missing: cannot be read"),
     ] {
         let arguments = benchmark(data, &[file]);

@@ -1,7 +1,7 @@
 //! Damaged shards and full disks: nothing wrong is made of them, and what was made stays.
 #![cfg(unix)]
 
-use crate::support::{phase, refuse, run, succeed, text, tree};
+use crate::support::{fail, phase, refuse, run, succeed, text, tree};
 use std::{
     fs,
     path::Path,
@@ -70,7 +70,7 @@ fn merge_refuses_damaged_shards_and_goes_on_once_they_are_mended() {
         let (out, good) = (format!("merged{k}"), fs::read(path.join(file)).expect("a file"));
         damage(&path.join(file));
         let shards = (tree(&path.join("one")), tree(&path.join("two")));
-        let sentence = refuse(path, &["merge", "one", "two", "--out", &out]);
+        let sentence = fail(path, &["merge", "one", "two", "--out", &out]);
         assert!(sentence.contains(rule) && sentence.contains("two"), "{file}: {sentence}");
         assert!(!path.join(&out).join("manifest.json").exists(), "{file}");
         assert!((tree(&path.join("one")), tree(&path.join("two"))) == shards, "{file}: a shard was changed");

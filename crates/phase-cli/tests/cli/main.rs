@@ -3,12 +3,17 @@
 mod bad_input;
 mod benchmark;
 mod captions;
+mod console;
 mod damage;
 mod eval;
 mod gen_dataset;
 mod interruption;
+mod json;
+mod manual;
 mod networks;
+mod new_scene;
 mod predictions;
+mod progress;
 mod render;
 mod selection;
 mod simulate;

@@ -112,7 +112,7 @@ fn forecasts_of_ours_score_as_before() {
     let output = run(path, &[&few[..], &["--out", "few"]].concat());
     let said = text(&output.stderr);
     assert!(
-        output.status.success() && said.contains("note: ours.json: 4 of its events are not asked for"),
+        output.status.success() && said.contains("note: ours.json: 4 of its events are not evaluated"),
         "{said}"
     );
     assert!(succeed(path, &[&few[..], &["--out", "few"]].concat()).contains("holds this evaluation already"));

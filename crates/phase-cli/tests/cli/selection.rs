@@ -1,6 +1,6 @@
 //! Selected datasets: attempts, resuming between them, shards, splits and figures.
 
-use crate::support::{phase, refuse, run, succeed, text, tree};
+use crate::support::{fail, phase, refuse, run, succeed, text, tree};
 use phase_dataset::manifest::Manifest;
 use std::{
     fs,
@@ -57,7 +57,7 @@ fn shards_interruptions_and_jobs_leave_no_trace() {
         .spawn()
         .expect("the program starts");
     let stderr = child.stderr.take().expect("a pipe");
-    BufReader::new(stderr).lines().next().expect("a line").expect("text");
+    BufReader::new(stderr).lines().nth(1).expect("a line").expect("text");
     Command::new("kill").args(["-KILL", &child.id().to_string()]).status().expect("kill runs");
     child.wait().expect("it ends");
     assert!(!path.join("stopped/manifest.json").exists());
@@ -85,7 +85,7 @@ fn check_merge_refusals(path: &Path) {
     let sentence = refuse(path, &["merge", "shard1", "shard2", "--out", "whole"]);
     assert!(sentence.contains("finished dataset"), "{sentence}");
     fs::write(path.join("shard2/events/tiny-0001.json"), "rubbish").expect("written");
-    let sentence = refuse(path, &["merge", "shard1", "shard2", "--out", "spoilt"]);
+    let sentence = fail(path, &["merge", "shard1", "shard2", "--out", "spoilt"]);
     assert!(sentence.contains("shard2/events/tiny-0001.json: differs in size"), "{sentence}");
 }
 

@@ -43,6 +43,17 @@ pub(crate) fn refuse(folder: &Path, arguments: &[&str]) -> String {
     sentence
 }
 
+/// Runs the program and checks that it fails over its input after it has begun: what goes on, then one plain sentence, which
+/// is returned.
+pub(crate) fn fail(folder: &Path, arguments: &[&str]) -> String {
+    let output = run(folder, arguments);
+    let told = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {told}");
+    let errors: Vec<&str> = told.lines().filter(|line| line.starts_with("error: ")).collect();
+    assert_eq!((errors.len(), told.lines().last()), (1, errors.first().copied()), "{arguments:?}: {told}");
+    errors.concat()
+}
+
 pub(crate) fn text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
 }

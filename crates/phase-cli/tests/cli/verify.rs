@@ -19,6 +19,7 @@ fn problems_are_told_one_a_line_with_exit_code_2() {
     assert_eq!(
         lines,
         [
+            "verifying 2 events",
             "out/videos/demo-0001.mp4: cannot be read: no such file or directory",
             "out/notes.txt: is not in the manifest",
             "error: out: 2 problem(s)",

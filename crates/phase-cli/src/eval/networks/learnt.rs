@@ -12,7 +12,6 @@ use phase_baselines::{
     two_level_lstm::TwoLevelLstm,
 };
 use phase_dataset::{
-    FileError, Problem,
     checksum::{hexadecimal, sha256},
     json,
 };
@@ -90,7 +89,7 @@ pub const fn require(_: &Context) -> Result<(), CliError> {
 
 fn record_of(file: &Path, bytes: &[u8]) -> Result<Training, CliError> {
     let record =
-        Record::parse(bytes).map_err(|error| CliError::Usage(format!("{}: {error}", file.display())))?;
+        Record::parse(bytes).map_err(|source| CliError::TrainingRecord { file: file.to_owned(), source })?;
     let measures = record.rounds.first().map(|round| round.validation.scores.keys().cloned().collect());
     let curve = |measure: String| Curve {
         training: values(&record, &measure, |round| &round.training),
@@ -129,9 +128,9 @@ impl<N: Published> Learnt<N> {
     fn open(weights: Option<&Path>) -> Result<Self, CliError> {
         let given = weights.map(json::bytes).transpose()?;
         let bytes = given.as_deref().unwrap_or(N::SHIPPED);
-        let wrong = |error: NetworkError| FileError {
+        let wrong = |source: NetworkError| CliError::Weights {
             file: weights.map_or_else(|| format!("data/{}.safetensors", N::NAME).into(), Path::to_owned),
-            problem: Problem::Shape { what: "file of weights", rule: error.to_string() },
+            source,
         };
         let network = N::with_weights(bytes).map_err(wrong)?;
         Ok(Self { network, sha256: hexadecimal(&sha256(bytes)) })

@@ -1,0 +1,59 @@
+//! `new-scene`: a scene to start from, in a file with comments.
+//!
+//! JSON has no comments; the reader of `phase-events/1` ignores members whose names begin with `_`, so they are in one named
+//! `_comment`.
+
+pub mod options;
+mod text;
+
+use crate::{context::Context, error::CliError};
+use options::NewScene;
+use phase_dataset::atomic;
+use phase_model::{Layout, Scene, layout::USED_BASES, random};
+use phase_sampler::{Request, Variant, sample};
+use serde_json::json;
+
+/// Runs the command.
+///
+/// # Errors
+/// [`CliError::Usage`] if the file exists, [`CliError::NoScene`] if no scene of the kind fits the layout,
+/// [`CliError::Output`] if it cannot be written, [`CliError::Serialise`].
+pub fn run(arguments: &NewScene, context: &Context) -> Result<(), CliError> {
+    let (out, kind) = (&arguments.out, arguments.kind);
+    if out.exists() {
+        return Err(CliError::Usage(format!("--out: {} exists; choose another file", out.display())));
+    }
+    let scene = scene(arguments)?;
+    let file = text::file(kind.name(), &scene, context.program.name)?;
+    atomic::write(out, file.as_bytes()).map_err(CliError::Output)?;
+    let next =
+        format!("{} simulate --events {} --out out/{}", context.program.name, out.display(), kind.name());
+    let value = json!({
+        "file": out, "id": kind.name(), "kind": kind, "layout": scene.layout, "seed": arguments.seed,
+    });
+    arguments
+        .output
+        .print(format!("{} holds a {} scene; simulate it with\n{next}", out.display(), kind.name()), &value)
+}
+
+/// A scene of the kind, in the layout if one is given. The variants of the kind are tried in an order that the seed decides.
+fn scene(arguments: &NewScene) -> Result<Scene, CliError> {
+    let bases = arguments.layout.map_or_else(|| USED_BASES.to_vec(), |base| vec![base]);
+    let layouts: Vec<Layout> = bases.into_iter().filter_map(|base| Layout::new(base, None).ok()).collect();
+    let variants = Variant::of(arguments.kind);
+    let mut failure = None;
+    for k in 0..variants.len() {
+        let variant = variants[(arguments.seed as usize + k) % variants.len()];
+        let turn = arguments.seed as usize % variant.goal_count();
+        let mut random = random::stream(arguments.seed, random::Purpose::Scene, k as u64);
+        match sample(&Request { variant, turn, layouts: &layouts }, &mut random) {
+            Ok(scene) => return Ok(scene),
+            Err(error) => failure = failure.or(Some(error)),
+        }
+    }
+    let (kind, layout) = (arguments.kind, arguments.layout.unwrap_or_default());
+    Err(failure.map_or_else(
+        || CliError::Usage(format!("--kind {}: has no variants", kind.name())),
+        |source| CliError::NoScene { layout, kind, source },
+    ))
+}

@@ -1,0 +1,38 @@
+//! The options of `new-scene`.
+
+use crate::output::Output;
+use clap::{
+    Args,
+    builder::{PossibleValuesParser, TypedValueParser},
+    value_parser,
+};
+use phase_model::EventKind;
+use std::path::PathBuf;
+
+/// Options of `new-scene`.
+#[derive(Args, Debug)]
+pub struct NewScene {
+    /// The kind of event that the scene is set up for
+    #[arg(long, value_name = "KIND", default_value = EventKind::Helping.name(), value_parser = kinds())]
+    pub kind: EventKind,
+    /// The base layout, 0 to 21 [default: one that fits the kind]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u8).range(0..=21))]
+    pub layout: Option<u8>,
+    /// Seed of what is drawn: goals, sizes, strengths, places
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    pub seed: u64,
+    /// File for the scene; it must not exist
+    #[arg(long, value_name = "FILE", default_value = "scene.json")]
+    pub out: PathBuf,
+    /// How the result is printed.
+    #[command(flatten)]
+    pub output: Output,
+}
+
+/// Reads a kind of event by its name.
+fn kinds() -> impl TypedValueParser<Value = EventKind> {
+    let names = PossibleValuesParser::new(EventKind::ALL.map(EventKind::name));
+    names.try_map(|name| {
+        EventKind::ALL.into_iter().find(|kind| kind.name() == name).ok_or("no such kind of event")
+    })
+}

@@ -1,0 +1,46 @@
+//! The result of a command: text for people, or one JSON object for programs.
+
+use crate::{console::print_result, error::CliError};
+use clap::Args;
+use serde::Serialize;
+use std::fmt::Display;
+
+/// How the result is printed.
+#[derive(Args, Clone, Copy, Debug, Default)]
+pub struct Output {
+    /// Print the result as one JSON object on stdout, and nothing else there
+    #[arg(long)]
+    pub json: bool,
+}
+
+impl Output {
+    /// Prints a result, as text without the white space at its end or as JSON.
+    ///
+    /// # Errors
+    /// [`CliError::Serialise`].
+    pub fn print(self, text: impl Display, value: &impl Serialize) -> Result<(), CliError> {
+        if self.json {
+            return print_json(value);
+        }
+        print_result(text.to_string().trim_end());
+        Ok(())
+    }
+}
+
+/// Prints a value as one JSON object.
+///
+/// # Errors
+/// [`CliError::Serialise`].
+pub fn print_json(value: &impl Serialize) -> Result<(), CliError> {
+    print_result(json_text(value, "the result")?.trim_end());
+    Ok(())
+}
+
+/// A value as the text of a JSON file, its last line ended. `what` names it in errors.
+///
+/// # Errors
+/// [`CliError::Serialise`].
+pub fn json_text(value: &impl Serialize, what: &'static str) -> Result<String, CliError> {
+    let text = serde_json::to_string_pretty(value);
+    text.map(|text| text + "\n").map_err(|source| CliError::Serialise { what, source })
+}

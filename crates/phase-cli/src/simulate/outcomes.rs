@@ -1,0 +1,31 @@
+//! What became of simulated events that have no recording to be compared with.
+
+use phase_dataset::summary::{AgentComparison, Comparison};
+use phase_model::{Attitude, Sign};
+
+/// A table in Markdown, a line for each event.
+pub(super) fn table(events: &[Comparison]) -> String {
+    let line = |event: &Comparison| {
+        let [first, second] = event.agents.each_ref().map(outcome);
+        let (id, kind, steps) = (&event.id, event.kind.name(), event.simulated_steps);
+        format!("| {id} | {kind} | {steps} | {first} | {second} |\n")
+    };
+    let lines = events.iter().map(line).collect::<String>();
+    format!("| event | kind | steps | agent 0 (red) | agent 1 (green) |\n|---|---|---|---|---|\n{lines}")
+}
+
+/// What became of an agent's goal, in words.
+fn outcome(agent: &AgentComparison) -> String {
+    let attitude = match Attitude::try_from(agent.alpha) {
+        Ok(Attitude::Help) => "helps; ",
+        Ok(Attitude::Hinder) => "hinders; ",
+        _ => "",
+    };
+    let outcome = match (agent.simulated.reached, agent.simulated.steps) {
+        (true, Some(steps)) => format!("goal reached after {steps} steps"),
+        (true, None) => "goal holds at the end".into(),
+        (false, _) if agent.goal.sign() == Sign::Negative => "goal does not hold at the end".into(),
+        (false, _) => "goal not reached".into(),
+    };
+    format!("{attitude}{outcome}")
+}
