@@ -130,6 +130,10 @@ fn check_output<'a>(out: &Path, mut inputs: impl Iterator<Item = &'a Path>) -> R
     if out.is_dir() {
         return Err(usage("is a folder; a file is needed"));
     }
+    let folder = out.parent().filter(|folder| !folder.as_os_str().is_empty());
+    if folder.is_some_and(|folder| !folder.is_dir()) {
+        return Err(usage("cannot be written, for its folder does not exist"));
+    }
     let same = |input: &Path| {
         out == input
             || out.canonicalize().is_ok_and(|out| input.canonicalize().is_ok_and(|input| out == input))

@@ -1,6 +1,7 @@
 //! The events to learn from, to validate on and to test with.
 
-use super::{error::TrainError, options::Options};
+use super::options::Options;
+use crate::error::train::TrainError;
 use phase_baselines::training::Source;
 use phase_dataset::{
     checksum::{hexadecimal, sha256},

@@ -1,7 +1,7 @@
 //! What is kept of a training beside its weights: the checkpoint that the same command goes on from, and the record.
 
-use super::error::TrainError;
 use crate::context::Context;
+use crate::error::train::TrainError;
 use cpu_time::ProcessTime;
 use phase_baselines::training::{Final, Network, Record, Run, Source};
 use phase_dataset::{WriteError, atomic, json};

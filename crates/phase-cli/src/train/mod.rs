@@ -1,8 +1,6 @@
 //! `train`: neural networks learn from a dataset.
 
 #[cfg(feature = "networks")]
-pub mod error;
-#[cfg(feature = "networks")]
 mod events;
 #[cfg(feature = "networks")]
 mod forecasting;

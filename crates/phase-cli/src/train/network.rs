@@ -1,6 +1,7 @@
 //! Training a network of the baselines: round by round, so that the same command goes on after a break.
 
-use super::{error::TrainError, events::Events, kept::Kept, options::NetworkOptions};
+use super::{events::Events, kept::Kept, options::NetworkOptions};
+use crate::error::train::TrainError;
 use crate::{context::Context, error::CliError};
 use phase_baselines::training::{
     Final, Measure, NamedMeasure, NetworkError, Published, Round, Run, Settings, measure, to_safetensors,

@@ -1,6 +1,7 @@
 //! `two-level-lstm` and `arg`: the baselines for Task 1.
 
-use super::{error::TrainError, network, options::NetworkOptions};
+use super::{network, options::NetworkOptions};
+use crate::error::train::TrainError;
 use crate::{context::Context, error::CliError};
 use phase_baselines::{
     arg::Arg,

@@ -1,6 +1,7 @@
 //! `strength`: trains SIMPLE's guess at the agents' strengths and says how good it is.
 
-use super::{error::TrainError, events::Events, options::Options};
+use super::{events::Events, options::Options};
+use crate::error::train::TrainError;
 use crate::{context::Context, error::CliError};
 use phase_baselines::strength::{Motion, Sample, Score, Settings, commonest, score, train};
 use phase_dataset::{atomic::AtomicFile, splits::Split};

@@ -1,8 +1,9 @@
 //! Every way in which a command can fail, and its exit code.
 
-use crate::program::Failure;
 #[cfg(feature = "networks")]
-use crate::train::error::TrainError;
+pub mod train;
+
+use crate::program::Failure;
 #[cfg(feature = "networks")]
 use phase_baselines::training::{NetworkError, RecordError};
 use phase_dataset::{FileError, WriteError, folder::FolderError, parquet::ExportError};
@@ -15,6 +16,8 @@ use phase_sim::SimulationError;
 use rayon::ThreadPoolBuildError;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
+#[cfg(feature = "networks")]
+use train::TrainError;
 
 /// Why a command failed. The text is one plain sentence.
 #[derive(Debug, Error)]
