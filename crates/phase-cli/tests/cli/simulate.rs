@@ -148,3 +148,38 @@ fn seeds_and_ids_must_leave_room() {
     refuse(path, &simulate("out", &["--seeds", "0"]));
     assert!(!path.join("out").exists());
 }
+
+#[test]
+fn events_with_the_same_seed_have_the_same_chance() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    let seeded = |id: &str| {
+        let mut event = recording(id);
+        event["seed"] = json!(7);
+        event
+    };
+    write_events(&path.join("events.json"), &[seeded("first"), seeded("second"), recording("third")]);
+    succeed(path, &simulate("once", &["--no-video"]));
+    succeed(path, &simulate("twice", &["--no-video", "--seeds", "2"]));
+    let event = |file: &str| {
+        let made = phase_events::read(&path.join(file)).expect("an event").remove(0);
+        made.simulation.expect("a simulation").event
+    };
+    let first = event("once/first.json");
+    assert_eq!(first.seed, 7);
+    assert_eq!(event("once/second.json"), first);
+    assert_ne!(event("once/third.json").seed, 7, "from --seed and its place");
+    assert_eq!(event("twice/first-seed1.json"), first);
+    assert_eq!(event("twice/second-seed2.json").seed, 8);
+}
+
+#[test]
+fn oddities_of_the_input_are_told() {
+    let folder = folder();
+    let output = crate::support::run(folder.path(), &simulate("out", &["--no-video"]));
+    let told = crate::support::text(&output.stderr);
+    let warning = "warning: events.json: event overlapping: trajectory.agents[1][0] and trajectory.objects[0][0]: the \
+                   bodies overlap by";
+    assert!(output.status.success() && told.contains(warning), "{told}");
+    assert!(!told.contains("event apart: "), "{told}");
+}
