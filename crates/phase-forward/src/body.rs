@@ -162,7 +162,7 @@ impl BodyMotion {
 
     /// A vector of the world's frame in the body's.
     #[inline]
-    pub(crate) fn to_local(&self, vector: Vec2) -> Vec2 {
+    pub(crate) fn local_vector(&self, vector: Vec2) -> Vec2 {
         Vec2::new(vector.dot(self.right), vector.dot(self.right.perp()))
     }
 

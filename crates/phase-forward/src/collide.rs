@@ -28,7 +28,7 @@ pub(crate) fn discs(a: &BodyMotion, b: &BodyMotion, skins: f32) -> Manifold {
 
 /// Contact of an agent (first) and a disc (second).
 pub(crate) fn agent_disc(shape: &Shape, agent: &BodyMotion, disc: &BodyMotion, skins: f32) -> Manifold {
-    let centre = agent.to_local(disc.centre - agent.centre);
+    let centre = agent.local_vector(disc.centre - agent.centre);
     let (mut side, mut gap) = (0, f32::MIN);
     for k in 0..4 {
         let along = shape.normals[k].dot(centre - shape.corners[k]);
@@ -113,13 +113,13 @@ pub(crate) fn agents(first: (&BodyMotion, &Polygon), second: (&BodyMotion, &Poly
     };
     let mut manifold = Manifold {
         reference: if flipped { Reference::Second } else { Reference::First },
-        normal: reference.0.to_local(normal),
-        anchor: reference.0.to_local((face[0] + face[1]) * 0.5 - reference.0.centre),
+        normal: reference.0.local_vector(normal),
+        anchor: reference.0.local_vector((face[0] + face[1]) * 0.5 - reference.0.centre),
         ..Manifold::NONE
     };
     for (point, name) in clipped {
         if normal.dot(point - face[0]) <= SKINS {
-            manifold.points[manifold.count] = incident.0.to_local(point - incident.0.centre);
+            manifold.points[manifold.count] = incident.0.local_vector(point - incident.0.centre);
             manifold.names[manifold.count] = if flipped { name.swap_bytes() } else { name };
             manifold.count += 1;
         }
@@ -172,8 +172,8 @@ pub(crate) fn wall_agent(wall: &Wall, agent: &BodyMotion, polygon: &Polygon) -> 
     let mut manifold = Manifold::NONE;
     if by_side {
         manifold.reference = Reference::Second;
-        manifold.normal = agent.to_local(normal);
-        manifold.anchor = agent.to_local(face[0].0 - agent.centre);
+        manifold.normal = agent.local_vector(normal);
+        manifold.anchor = agent.local_vector(face[0].0 - agent.centre);
     } else {
         manifold.reference = Reference::First;
         manifold.normal = normal;
@@ -182,7 +182,7 @@ pub(crate) fn wall_agent(wall: &Wall, agent: &BodyMotion, polygon: &Polygon) -> 
     for (point, name) in clipped {
         if normal.dot(point - face[0].0) <= SKINS {
             manifold.points[manifold.count] =
-                if by_side { point } else { agent.to_local(point - agent.centre) };
+                if by_side { point } else { agent.local_vector(point - agent.centre) };
             manifold.names[manifold.count] = if by_side { name.swap_bytes() } else { name };
             manifold.count += 1;
         }

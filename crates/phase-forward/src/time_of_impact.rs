@@ -205,7 +205,7 @@ impl Search<'_> {
             for k in 0..4 {
                 let (from, to) = (self.corners[k], self.corners[(k + 1) % 4]);
                 for end in [wall.a, wall.b] {
-                    let end = motion.to_local(end - motion.centre);
+                    let end = motion.local_vector(end - motion.centre);
                     if (end - from).dot(to - from) > 0.0 && (end - to).dot(from - to) > 0.0 {
                         let gap = self.shape.normals[k].dot(end - from);
                         if gap >= 0.0 && gap < best.0 {
@@ -236,8 +236,8 @@ impl Search<'_> {
             if axis.dot(self.wall.b) > axis.dot(self.wall.a) { self.wall.b } else { self.wall.a }
         };
         let (corner, end) = match *axis {
-            Axis::Points(axis) => (self.corner_against(motion.to_local(axis)), end_along(axis)),
-            Axis::Wall(normal) => (self.corner_against(motion.to_local(normal)), self.wall.a),
+            Axis::Points(axis) => (self.corner_against(motion.local_vector(axis)), end_along(axis)),
+            Axis::Wall(normal) => (self.corner_against(motion.local_vector(normal)), self.wall.a),
             Axis::Side(normal, _) => (Vec2::ZERO, end_along(-motion.turn(normal))),
         };
         (gap(axis, &motion, corner, end), corner, end)
