@@ -17,7 +17,7 @@
 //!
 //! ```
 //! use core::ops::ControlFlow;
-//! use phase_eval::{Forecaster, plain::ConstantVelocity, trajectories::Errors};
+//! use phase_eval::{Forecaster, trajectories::Errors, trivial::ConstantVelocity};
 //! use phase_event::ObservedEvent;
 //! use phase_model::{Body, Layout, Size, Vec2};
 //!
