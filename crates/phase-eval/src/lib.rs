@@ -1,7 +1,7 @@
 //! How well a method perceives social events: the metrics of both tasks, with confidence intervals.
 //!
 //! - [`method`] is the interface of methods: a [`Recogniser`] for Task 1 (goals and relations), a
-//!   [`Forecaster`] for Task 2 (trajectories); [`plain`] has trivial baselines for both, below which no
+//!   [`Forecaster`] for Task 2 (trajectories); [`trivial`] has trivial baselines for both, below which no
 //!   method should fall.
 //! - [`goals`] and [`trajectories`] score answers; [`estimate`] puts intervals around every score.
 //! - [`benchmark`] compares many methods on the same events.
@@ -20,7 +20,7 @@
 //!
 //! ```
 //! use core::ops::ControlFlow;
-//! use phase_eval::{Forecaster, plain::ConstantVelocity, trajectories::Errors};
+//! use phase_eval::{Forecaster, trajectories::Errors, trivial::ConstantVelocity};
 //! use phase_event::ObservedEvent;
 //! use phase_model::{Body, Layout, Size, Vec2};
 //!
