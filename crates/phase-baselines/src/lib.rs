@@ -21,17 +21,22 @@
 //! A network learns from two agents, of which the weak one was slow and the mighty one fast, how strong each is:
 //!
 //! ```
-//! use phase_baselines::strength::{Motion, Sample, TrainingSettings, nearest, train};
+//! use phase_baselines::strength::{AgentSamples, Sample, StrengthTrainingSettings, nearest, train};
 //! use phase_model::Strength;
 //!
 //! let motions = [(1.0, Strength::Weak), (9.0, Strength::Mighty)].map(|(mean_speed, strength)| {
 //!     let whole = Sample { features: [mean_speed, 0.0, 0.0, 0.0, 0.0, 0.0, 0.8], strength };
-//!     Motion { whole, windows: vec![whole] }
+//!     AgentSamples { whole, windows: vec![whole] }
 //! });
-//! let settings =
-//!     TrainingSettings { hidden: 8, learning_rate: 1e-2, epochs: 200, patience: 200, ..TrainingSettings::default() };
+//! let settings = StrengthTrainingSettings {
+//!     hidden: 8,
+//!     learning_rate: 1e-2,
+//!     epochs: 200,
+//!     patience: 200,
+//!     ..StrengthTrainingSettings::default()
+//! };
 //! let regressor = train(&motions, &motions, 1, &settings, &mut |_epoch| {})?;
-//! for Motion { whole, .. } in &motions {
+//! for AgentSamples { whole, .. } in &motions {
 //!     assert_eq!(nearest(regressor.estimate_from(&whole.features)), whole.strength);
 //! }
 //! # Ok::<(), phase_baselines::strength::TrainingError>(())

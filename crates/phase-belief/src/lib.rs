@@ -15,20 +15,21 @@
 //!
 //! ```
 //! use phase_belief::{Belief, PARTICLE_COUNT};
-//! use phase_model::{AgentBody, AgentId, Body, Entity, ObjectId, PhysicsConfig, State, Vec2};
+//! use phase_model::{
+//!     AgentBody, AgentId, Body, Entity, ObjectId, PhysicsConfig, State, Vec2,
+//!     random::{Purpose, stream},
+//! };
 //! use phase_perception::{observe, sees};
-//! use rand::SeedableRng;
-//! use rand_pcg::Pcg32;
 //!
 //! let body = AgentBody { radius: 0.8, max_force: 450.0 };
 //! let physics = PhysicsConfig { walls: Vec::new(), agents: [body; 2], object_radii: [0.8; 2], object_count: 1 };
-//! let grid_poses = [Vec2::new(16.0, 9.0), Vec2::new(16.0, 15.0), Vec2::new(16.0, 4.0), Vec2::ZERO];
-//! let state = State::new(grid_poses.map(|place| Body::at_rest(place, 0.0)));
+//! let positions = [Vec2::new(16.0, 9.0), Vec2::new(16.0, 15.0), Vec2::new(16.0, 4.0), Vec2::ZERO];
+//! let state = State::new(positions.map(|position| Body::at_rest(position, 0.0)));
 //!
 //! let observation = observe(&physics, &state, AgentId::ZERO);
-//! let belief = Belief::new(&physics, &observation, PARTICLE_COUNT, &mut Pcg32::seed_from_u64(1));
+//! let belief = Belief::new(&physics, &observation, PARTICLE_COUNT, &mut stream(1, Purpose::Belief, 0));
 //! for particle in belief.particles() {
-//!     assert_eq!(particle.position(Entity::Agent(AgentId::ONE)), grid_poses[1]);
+//!     assert_eq!(particle.position(Entity::Agent(AgentId::ONE)), positions[1]);
 //!     assert!(!sees(&physics, particle, AgentId::ZERO, Entity::Object(ObjectId::ZERO)));
 //! }
 //! ```

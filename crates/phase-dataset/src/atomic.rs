@@ -25,7 +25,7 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
 /// Writes a value as a file of JSON with line breaks, whole or not at all. Folders on the way must exist.
 ///
 /// # Errors
-/// If the value cannot be written as JSON, or as [`write`].
+/// If the value cannot be written as JSON, or as [`write()`].
 pub fn write_json(path: &Path, value: &impl Serialize) -> Result<(), WriteError> {
     let text = serde_json::to_string_pretty(value).map_err(|error| WriteError::json(path, error))?;
     write(path, format!("{text}\n").as_bytes())

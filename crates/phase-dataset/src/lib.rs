@@ -3,7 +3,7 @@
 //! - [`phase_events`] reads files of the exchange format `phase-events/1`, whose events `phase-event` describes.
 //! - [`manifest`] describes a generated dataset to programs; pages and tables for people are made elsewhere.
 //! - [`parquet`] and [`croissant`] are for everyone else's tools; [`mod@verify`] checks that all of it agrees.
-//! - [`preset`] says what a dataset is composed of, [`splits`] how it is divided, [`record`], [`acceptance`] and
+//! - [`preset`] says what a dataset is composed of, [`splits`] how it is divided, [`slot_record`], [`acceptance`] and
 //!   [`shard`] what was tried for each of its events.
 //! - [`summary`] compares simulations with recordings.
 //! - [`atomic`], [`folder`] and [`cache`] let a run be interrupted at any moment and nothing be half-written.

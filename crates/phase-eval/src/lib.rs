@@ -1,7 +1,7 @@
 //! How well a method perceives social events: the metrics of both tasks, with intervals.
 //!
 //! - [`method`] is what a method has to be: a [`Recogniser`] for Task 1 (goals and relations), a [`Forecaster`] for
-//!   Task 2 (trajectories); [`plain`] has the plainest of both, below which no method should fall.
+//!   Task 2 (trajectories); [`trivial`] has the plainest of both, below which no method should fall.
 //! - [`goals`] and [`trajectories`] score answers; [`estimate`] puts intervals around every score.
 //! - [`benchmark`] puts many methods on the same events side by side.
 //! - [`results`] is what programs read, and [`predictions`] the answers of somebody else's method to either task.
@@ -17,7 +17,7 @@
 //!
 //! ```
 //! use core::ops::ControlFlow;
-//! use phase_eval::{Forecaster, plain::ConstantVelocity, trajectories::Errors};
+//! use phase_eval::{Forecaster, trajectories::Errors, trivial::ConstantVelocity};
 //! use phase_event::ObservedEvent;
 //! use phase_model::{Body, Layout, Size, Vec2};
 //!

@@ -29,7 +29,7 @@ pub enum SceneError {
         y: f32,
     },
     /// A goal is about an object that the scene does not have.
-    #[error("agents[{agent}].goal names object {object}, but the scene has only {count}")]
+    #[error("agents[{agent}].goal refers to object {object}, but the scene has only {count}")]
     GoalOfAbsentObject {
         /// Whose goal.
         agent: AgentId,

@@ -5,12 +5,11 @@ use crate::{
     bodies::{self, GRIP_BAR, GRIP_RIM},
     overlay::{SEEN, UNSEEN},
     painter::{Painter, fill},
+    style::LEGEND_LINES,
     text::{Align, SizedFont},
 };
 use phase_model::Vec2;
 
-/// Lines that a legend takes.
-pub const LINES: u32 = 2;
 /// Entries in one line.
 const COLUMNS: u32 = 3;
 
@@ -32,7 +31,7 @@ pub enum Mark {
 }
 
 /// The marks in the order of the legend, with what is written beside them.
-pub const ENTRIES: [(Mark, &str); (LINES * COLUMNS) as usize] = [
+pub const ENTRIES: [(Mark, &str); (LEGEND_LINES * COLUMNS) as usize] = [
     (Mark::Seen, "field of view"),
     (Mark::TrueState, "true state"),
     (Mark::Grip, "grip"),

@@ -1,6 +1,9 @@
 //! How a picture is laid out.
 
-use crate::{Palette, RenderError, legend};
+use crate::{Palette, RenderError};
+
+/// Lines of text that the legend takes.
+pub const LEGEND_LINES: u32 = 2;
 
 /// How a picture is laid out: a square with the arena in the middle; above it room for a title, below it for a legend
 /// and captions.
@@ -99,7 +102,7 @@ impl Style {
     #[must_use]
     pub const fn caption_top(&self) -> u32 {
         let legend =
-            if self.legend { self.line_height().saturating_mul(legend::LINES) + LEGEND_GAP } else { 0 };
+            if self.legend { self.line_height().saturating_mul(LEGEND_LINES) + LEGEND_GAP } else { 0 };
         self.legend_top().saturating_add(legend)
     }
 

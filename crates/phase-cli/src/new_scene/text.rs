@@ -43,7 +43,7 @@ fn comments(program: &str) -> Vec<String> {
             .into(),
         "event: the label: helping, hindering, chasing, competing, collaborating or independent.".into(),
         "layout: base 0 to 21 is one of the paper's layouts of walls; flip null, or 0 to 3 for a reflection \
-         (docs/layouts.png)."
+         (docs/images/layouts.png)."
             .into(),
         "agents: two, red and green. alpha: 1 helps the other, -1 hinders it, 0 minds its own goal. A helping agent has \
          the other's goal, a hindering one the other's goal with the opposite sign."

@@ -5,7 +5,8 @@ use phase_model::{AgentId, State};
 use phase_perception::{Cell, CellSet};
 use phase_render::{
     Frame, Overlay, Palette, SceneRenderer, SizedFont, Style,
-    legend::{ENTRIES, LINES, Mark},
+    legend::{ENTRIES, Mark},
+    style::LEGEND_LINES,
 };
 
 fn style(caption_lines: u32) -> Style {
@@ -77,7 +78,7 @@ fn a_legend_takes_its_lines_and_leaves_the_rest_alone() {
     let style = style(0);
     let (with, without) =
         (draw(style, &CellSet::EMPTY), draw(Style { legend: false, ..style }, &CellSet::EMPTY));
-    assert_eq!(with.height(), without.height() + LINES * style.line_height() + 6);
+    assert_eq!(with.height(), without.height() + LEGEND_LINES * style.line_height() + 6);
     let size = without.rgba().len();
     assert!(with.rgba()[..size] == *without.rgba());
     let share = ENTRIES.iter().position(|(mark, _)| *mark == Mark::Share).expect("there is one") as u32;
