@@ -1,5 +1,5 @@
-//! Seeing, believing, planning and deciding, a whole event, and how thinking grows with its settings; with a plain
-//! workload beside them by which the machine's noise can be told.
+//! Perception, belief updates, planning and decisions, a whole event, and the cost of decisions as a function
+//! of settings; with a reference workload by which the machine's noise can be estimated.
 
 use core::hint::black_box;
 use criterion::{BenchmarkId, Criterion, SamplingMode};
@@ -70,7 +70,7 @@ fn main() {
             Planner::new(physics.clone(), scene.layout, AgentId::ZERO, scene.goals(), scene.attitudes()[0]);
         let mut random = stream(1, Purpose::Belief, 0);
         let mut turned = state;
-        // Turned away from everybody, so that every particle has them elsewhere.
+        // Turned away from every other entity, so that every particle has them elsewhere.
         turned.bodies[0].angle += core::f32::consts::PI;
         let blind = observe(&physics, &turned, AgentId::ZERO);
         let belief = Belief::new(&physics, &blind, 50, &mut random);
@@ -99,13 +99,15 @@ fn main() {
     criterion.final_summary();
 }
 
-/// One decision and one belief update, one setting varied at a time, the others as in the paper but where named.
+/// One decision and one belief update, one setting varied at a time, the others as in the paper unless
+/// stated.
 fn scaling(criterion: &mut Criterion, scene: &Scene) {
     let (physics, state) = (scene.physics(), scene.initial_state());
     let observation = observe(&physics, &state, AgentId::ZERO);
     let paper = MindParameters::default();
     let with_simulations = |simulations| (simulations, MindParameters { simulations, ..paper });
-    // One simulation, since the search does not grow with particles, but what they agree to search may change.
+    // One simulation, since the search does not grow with the number of particles, but the subgoal that they
+    // agree on may change.
     let with_particles = |particles| (particles, MindParameters { particles, simulations: 1, ..paper });
     let with_rollout = |rollout_steps| (rollout_steps, MindParameters { rollout_steps, ..paper });
     for (name, settings) in [
@@ -123,7 +125,7 @@ fn scaling(criterion: &mut Criterion, scene: &Scene) {
             group.bench_function(BenchmarkId::from_parameter(count), |bencher| {
                 bencher.iter(|| {
                     let decision = agent.decide(&mut search);
-                    // Nobody moves, so that every round thinks about the same.
+                    // Nothing moves, so that every round decides on the same state.
                     agent.perceive(Action::NoForce, &observation, &mut random);
                     decision
                 });
@@ -133,7 +135,7 @@ fn scaling(criterion: &mut Criterion, scene: &Scene) {
     }
 }
 
-/// The sampler's first scene of each kind at the paper's settings, made to last exactly 100 steps.
+/// The sampler's first scene of each kind at the paper's settings, forced to last exactly 100 steps.
 fn whole_events(criterion: &mut Criterion) {
     let settings = phase_sim::SimulationSettings {
         min_steps: 100,

@@ -1,4 +1,5 @@
-//! Four steps of the true world and of the forward model, exact and coarse: free, pushing an object, carrying it.
+//! Four steps of the reference world and of the forward model, exact and coarse: free, pushing an object,
+//! carrying it.
 
 use core::hint::black_box;
 use criterion::Criterion;
@@ -21,7 +22,7 @@ fn scene(gap: f32) -> (PhysicsConfig, State) {
     (physics, state)
 }
 
-/// What the first agent does in each case, and how far off the object lies (u).
+/// The first agent's action in each case, and the distance of the object (u).
 const CASES: [(&str, f32, &[Action]); 3] = [
     ("free", 8.0, &[Action::Up, Action::Up, Action::TurnLeft, Action::Up]),
     ("contact", 0.02, &[Action::Up, Action::Up, Action::Up, Action::Up]),

@@ -16,13 +16,13 @@ use std::path::Path;
 const SCENES: u64 = 3;
 const STEPS: usize = 40;
 const HELD: usize = 4;
-/// Steps made from each state of a recording.
+/// Steps from each state of a recording.
 const AHEAD: usize = 10;
 
 type Actions = [Action; 2];
 type Step = fn(&Forward, &mut State, Actions);
 
-/// A state to start from, with the dynamics of its scene and the actions to come.
+/// An initial state, with the dynamics of its scene and the actions to come.
 struct Start<'a> {
     forward: &'a Forward,
     state: State,
@@ -50,7 +50,7 @@ fn main() {
     criterion.final_summary();
 }
 
-/// The states of a scene after each step of random held actions in the true world.
+/// The states of a scene after each step of random held actions in the reference world.
 fn play(kind: EventKind, index: u64, random: &mut Pcg64Mcg) -> (Forward, Vec<State>) {
     let scene = phase_sampler::sample_kind(kind, &mut stream(1, Purpose::Scene, index))
         .expect("a scene of every kind");
@@ -78,7 +78,7 @@ fn recorded(path: &Path) -> Result<Vec<(Forward, Vec<State>)>, phase_dataset::Fi
     Ok(recordings.iter().map(rows).collect())
 }
 
-/// Measures steps one by one, going round all starts.
+/// Measures steps one by one, cycling through all initial states.
 fn bench(
     criterion: &mut Criterion,
     name: &str,

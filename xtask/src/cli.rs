@@ -13,14 +13,14 @@ use phase_cli::{
     program::Interface,
 };
 
-/// The commands of phase, and the chores of this workspace
+/// The commands of phase, and the development commands of this workspace
 #[derive(Parser, Debug)]
 #[command(version)]
 pub struct Cli {
     /// What to do.
     #[command(subcommand)]
     pub command: Command,
-    /// How much to say.
+    /// Verbosity.
     #[command(flatten)]
     pub verbosity: Verbosity,
 }

@@ -1,4 +1,4 @@
-//! Every way in which a chore can fail, and its exit code.
+//! Every way in which a development command can fail, and its exit code.
 
 use phase_calibration::ReadError;
 use phase_cli::{error::CliError, program::Failure};
@@ -8,7 +8,7 @@ use thiserror::Error;
 /// Why a command of `cargo xtask` failed. The text is one plain sentence.
 #[derive(Debug, Error)]
 pub enum XtaskError {
-    /// A command of `phase` failed, or what chores have in common with them.
+    /// A command of `phase` failed, or code that development commands share with them.
     #[error(transparent)]
     Cli(#[from] CliError),
     /// A file of probes or runs cannot be used.
@@ -30,7 +30,7 @@ pub enum XtaskError {
     /// Cargo cannot be started.
     #[error("cargo cannot be started: {0}")]
     Cargo(#[source] io::Error),
-    /// A golden test failed; it has said what differs.
+    /// A golden test failed; it has reported the differences.
     #[error("golden values differ from what is computed, or their tests cannot be built; see above")]
     GoldenTests,
     /// Tidy found something.

@@ -28,7 +28,7 @@ pub fn run(options: &GoldenOptions) -> Result<(), XtaskError> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."));
     let packages = packages(root)?;
     let before = tables(root, &packages)?;
-    // Cargo says which of its programs started this one.
+    // Cargo names the executable that started this one.
     let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let mut tests = Command::new(cargo);
     tests.current_dir(root).args(["test", "--test", "golden"]);
@@ -62,7 +62,7 @@ pub fn run(options: &GoldenOptions) -> Result<(), XtaskError> {
 struct Package(PathBuf);
 
 impl Package {
-    /// Packages bear the names of their folders.
+    /// Packages have the names of their folders.
     fn name(&self) -> &str {
         self.0.file_name().and_then(|name| name.to_str()).unwrap_or_default()
     }

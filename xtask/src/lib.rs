@@ -1,12 +1,13 @@
-//! `cargo xtask`: the commands of `phase` (the crate `phase_cli`), and the chores that need the source of this workspace.
+//! `cargo xtask`: the commands of `phase` (the crate `phase_cli`), and development commands that need the
+//! source of this workspace.
 //!
 //! - `check-physics` compares an engine with recorded motion,
 //! - `check-behaviour` shows how reliably agents do what they are planned to do,
 //! - `golden` runs the golden tests, or rewrites what they compare with,
 //! - `tidy` checks what the compiler cannot.
 //!
-//! The key design decision is that chores are not installed: they are of use to nobody without the source. The price is a
-//! second program with the same commands.
+//! Key design decision: development commands are not installed, since they are useless without the source.
+//! The trade-off is a second program with the same commands.
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
@@ -26,7 +27,7 @@ use std::{ffi::OsString, process::ExitCode};
 pub const XTASK: Program = Program {
     name: "cargo xtask",
     networks_hint: "use `cargo xtask-networks` in place of `cargo xtask`",
-    // What is installed is `phase`.
+    // The installed program is `phase`.
     interface: phase_cli::cli::Cli::command,
 };
 

@@ -1,4 +1,4 @@
-//! Which actions the low level considers for a subgoal.
+//! The actions that the low-level planner considers for a subgoal.
 
 use phase_model::{Action, AgentId, Entity, Literal, Predicate, PredicateTarget, State, Subgoal};
 
@@ -8,11 +8,11 @@ const WALK_ACTIONS: [Action; 5] =
 /// The same with a backward push, for agents in contact: face to face there is no clearance to turn.
 const BACKOFF_ACTIONS: [Action; 6] =
     [Action::TurnLeft, Action::TurnRight, Action::Up, Action::Stop, Action::NoForce, Action::Down];
-/// For releasing: come to rest first, so that the object stays in place.
+/// For releasing: stop first, so that the object stays in place.
 const RELEASE_ACTIONS: [Action; 3] = [Action::Stop, Action::NoForce, Action::Detach];
-/// Number of leading actions of [`Action::ALL`] without grabbing and letting go.
+/// Number of leading actions of [`Action::ALL`] without attach and detach.
 const ACTIONS_WITHOUT_GRASP: usize = 12;
-/// Number of leading actions of [`Action::ALL`] without letting go.
+/// Number of leading actions of [`Action::ALL`] without detach.
 const ACTIONS_WITHOUT_RELEASE: usize = 13;
 
 /// The actions to search, never empty; a single one needs no search. With `backs_off`, pushing backward is included.

@@ -1,4 +1,4 @@
-//! Belief to subgoal to action: one agent of Algorithm 1.
+//! From belief to subgoal to action: one agent of Algorithm 1.
 
 use crate::{BeliefView, Mind, MindParameters};
 use phase_belief::Belief;
@@ -8,7 +8,7 @@ use phase_perception::Observation;
 use phase_pomcp::PomcpError;
 use rand::Rng;
 
-/// A mind with a belief of its own.
+/// A mind with its own belief.
 #[derive(Debug)]
 pub struct Agent<D> {
     mind: Mind<D>,
@@ -18,9 +18,10 @@ pub struct Agent<D> {
 }
 
 impl<D: Dynamics> Agent<D> {
-    /// The mind of an agent of a scene, with a first belief from its first observation.
+    /// The agent of a scene, with its initial belief from its first observation.
     ///
-    /// # Errors Invalid search parameters.
+    /// # Errors
+    /// Invalid search parameters.
     pub fn new(
         scene: &Scene,
         agent: AgentId,
@@ -40,7 +41,7 @@ impl<D: Dynamics> Agent<D> {
         &self.belief
     }
 
-    /// Takes in what has become of its last action.
+    /// Updates the belief with the observation after the last action.
     pub fn perceive(&mut self, action: Action, observation: &Observation, random: &mut impl Rng) {
         self.observed = observation.observed;
         self.belief.update(self.mind.dynamics(), &self.physics, action, observation, random);

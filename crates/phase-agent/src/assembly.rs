@@ -29,7 +29,7 @@ pub struct CarriedAssembly {
 /// How an assembly approaches a door: the waypoint for the load and the path length left to the crossing (u).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct DoorApproach {
-    /// The point for the load to head for (u).
+    /// The point that the load should head for (u).
     pub waypoint: Vec2,
     /// Path length until the load reaches the door's line (u), alignment included.
     pub remaining: f32,
@@ -63,9 +63,9 @@ impl CarriedAssembly {
         self.bodies().map(|(_, outline)| farthest(outline, centre)).fold(0.0, f32::max)
     }
 
-    /// How the assembly approaches a door that is open between two distances from the arena's centre, from the side
-    /// that the load is on. `None` if the door is wide enough for every orientation of the assembly, or the load
-    /// has no holder.
+    /// The approach of the assembly to a door that is open between two distances from the arena's centre,
+    /// from the side that the load is on. `None` if the door is wide enough for every orientation of the
+    /// assembly, or the load has no holder.
     ///
     /// The part that has not passed yet must fit between the door's ends in its present orientation. If it
     /// does not, the assembly turns where there is clearance; otherwise the leading body would enter the door

@@ -23,8 +23,8 @@ impl Objective<'_> {
         (0.5 * mass * speed * speed / physics::GROUND_FRICTION).min(ARENA_DIAGONAL)
     }
 
-    /// Distance left for a held object, with a share of its carrier's: the carrier has to pass the door too
-    /// and may have to turn first.
+    /// Remaining distance of a held object, with a share of its carrier's: the carrier has to pass the door
+    /// too and may have to turn first.
     pub(crate) fn with_carrier_terms(
         &self,
         state: &State,
@@ -46,8 +46,8 @@ impl Objective<'_> {
         remaining + if leads { lag.abs() } else { CARRIER_LAG_WEIGHT * lag.max(0.0) }
     }
 
-    /// How far outside the arena the agent would lie with its load on the landmark, holding it as it does (u). A
-    /// carrier stopped by the wall behind it cannot pull the load onto the landmark.
+    /// Distance by which the agent would lie outside the arena with its load on the landmark, in its present
+    /// grip (u). A carrier stopped by the wall behind it cannot pull the load onto the landmark.
     fn carrier_overhang(&self, state: &State, load: Entity, target: Vec2) -> f32 {
         let Subgoal::Achieve(Literal { predicate: Predicate::On(..), holds: true }) = self.subgoal else {
             return 0.0;

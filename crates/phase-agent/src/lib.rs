@@ -1,10 +1,10 @@
-//! One PHASE agent's mind: from belief to subgoal to action (paper, Algorithm 1).
+//! The policy of one PHASE agent, its mind: from belief to subgoal to action (paper, Algorithm 1).
 //!
 //! [`Agent::perceive`] updates the belief; [`Agent::decide`] plans from every particle, evaluates the subgoals, and
 //! searches for an action with the particles that agree on the best one. [`Mind::decide`] does the latter for a
 //! given belief, such as one estimated by inference.
 //!
-//! Key design decision: a mind owns its model of the world ([`phase_model::Dynamics`]) and has no access to
+//! Key design decision: a mind has its own model of the world ([`phase_model::Dynamics`]) and no access to
 //! the true state; everything it knows comes from observations. The cost is a second simulation of the
 //! physics.
 //!

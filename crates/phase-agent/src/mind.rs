@@ -43,7 +43,8 @@ pub struct BeliefView<'a> {
 impl<D: Dynamics> Mind<D> {
     /// The mind of an agent of a scene.
     ///
-    /// # Errors Invalid search parameters.
+    /// # Errors
+    /// Invalid search parameters.
     pub fn new(
         scene: &Scene,
         agent: AgentId,
@@ -164,7 +165,7 @@ impl<D: Dynamics> Mind<D> {
         let routes = self.planner.routes();
         let objective =
             Objective { physics: &self.physics, routes, agent: self.agent, subgoal, backoff: None };
-        // A hinderer does not back off: being in the way is its purpose.
+        // A hinderer does not back off: obstructing is its purpose.
         let backoff = match self.attitude {
             Attitude::Hinder => None,
             _ => self.stall.update(&objective, &roots[0], random),

@@ -1,4 +1,4 @@
-//! A subgoal as the low-level planner sees it: a distance to minimise and a waypoint.
+//! A subgoal in the low-level planner: a distance to minimise and a waypoint.
 
 use crate::steering::{self, PlannedPath, Steering};
 use phase_model::{
@@ -33,11 +33,11 @@ const INTRUSION_PENALTY: f32 = 8.0;
 pub struct Objective<'a> {
     /// Bodies and walls.
     pub physics: &'a PhysicsConfig,
-    /// The ways between rooms.
+    /// The routes between rooms.
     pub routes: &'a Routes,
-    /// Who pursues it.
+    /// The agent that pursues it.
     pub agent: AgentId,
-    /// What is pursued.
+    /// The subgoal pursued.
     pub subgoal: Subgoal,
     /// Back-off point to visit first if the agent has stalled (u).
     pub backoff: Option<Vec2>,

@@ -16,8 +16,8 @@ use phase_pomcp::{GenerativeModel, Transition};
 use phase_predicates::achieved;
 use rand::{Rng, RngExt};
 
-/// Number of further steps for which the distance at the end of a rollout is charged as the leaf value:
-/// steps beyond the search depth count, but less than those within it.
+/// Number of further steps for which the distance at the end of a rollout is charged as the leaf value: steps
+/// beyond the search depth count, but less than those within it.
 const LEAF_VALUE_STEPS: f64 = 8.0;
 /// Prior weight of the heuristic's action relative to any other. It decides where all actions have equal
 /// value, as for an agent too weak to move its load.
@@ -38,7 +38,7 @@ pub struct SearchModel<'a, D> {
     /// Both agents' goals.
     pub goals: [Goal; AGENT_COUNT],
     /// Whether satisfied goals are rewarded. Not while the agent goes to verify one: the particles in which
-    /// it holds already would make approaching look worthless.
+    /// it holds already would make approaching appear worthless.
     pub rewards_goals: bool,
     /// The agent's attitude.
     pub attitude: Attitude,

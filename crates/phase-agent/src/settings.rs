@@ -1,4 +1,4 @@
-//! Parameters of a mind.
+//! Parameters of an agent's mind.
 
 use serde::{Deserialize, Serialize};
 
@@ -9,12 +9,12 @@ pub enum Foresight {
     /// By [`Dynamics::step_approximate`](phase_model::Dynamics::step_approximate), at a fraction of the cost.
     #[default]
     Coarse,
-    /// By [`Dynamics::step`](phase_model::Dynamics::step), as the world itself moves.
+    /// By [`Dynamics::step`](phase_model::Dynamics::step), the exact dynamics.
     Exact,
 }
 
 impl Foresight {
-    /// Both.
+    /// Both levels of fidelity.
     pub const ALL: [Self; 2] = [Self::Coarse, Self::Exact];
 
     /// The name used in files and options.
@@ -34,7 +34,7 @@ pub struct MindParameters {
     pub particles: usize,
     /// λ of the subgoal value.
     pub lambda: f64,
-    /// POMCP simulations a decision; at least 1.
+    /// POMCP simulations per decision; at least 1.
     pub simulations: usize,
     /// Steps of the rollout policy after a leaf of the tree.
     pub rollout_steps: usize,

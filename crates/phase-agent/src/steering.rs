@@ -27,7 +27,8 @@ const ROOM_ENTRY_DEPTH: f32 = 1.5;
 pub struct Steering {
     /// The point to head for now (u).
     pub waypoint: Vec2,
-    /// Length of the whole way (u), with [`IMPASSABLE_DOOR_COST`] for doors that the body does not fit through.
+    /// Length of the whole path (u), with [`IMPASSABLE_DOOR_COST`] for doors that the body does not fit
+    /// through.
     pub remaining: f32,
 }
 
@@ -43,7 +44,7 @@ pub struct PlannedPath<'a> {
 }
 
 impl<'a> PlannedPath<'a> {
-    /// Finds the way for a width (u), through doors as the layout has them.
+    /// Finds the path for a width (u), through doors as the layout has them.
     #[must_use]
     pub fn find(routes: &'a Routes, from: Vec2, to: Vec2, width: f32) -> Self {
         Self { routes, from, to, width, route: routes.best(from, to, width, routes.gaps()), assembly: None }
@@ -55,20 +56,20 @@ impl<'a> PlannedPath<'a> {
         Self { assembly: Some(assembly), ..self }
     }
 
-    /// Whether the body fits through every door on the way.
+    /// Whether the body fits through every door on the path.
     #[must_use]
     pub fn fits(&self) -> bool {
         self.route.is_some_and(|route| route.impassable == 0)
     }
 
-    /// Where the way crosses its first door, if the body does not fit through that.
+    /// Where the path crosses its first door, if the body does not fit through that.
     #[must_use]
     pub fn impassable_crossing(&self) -> Option<Vec2> {
         let &(slot, crossing) = self.route?.doors().first()?;
         (self.routes.gaps().width(slot) < self.width).then_some(crossing)
     }
 
-    /// The course where no door leads there at all.
+    /// The steering where no door leads there at all.
     fn straight_line(&self) -> Steering {
         let remaining = self.routes.cost(self.from, self.to, self.width, self.routes.gaps());
         Steering { waypoint: self.to, remaining }
@@ -140,7 +141,7 @@ pub fn avoid_discs(steering: Steering, from: Vec2, discs: impl Iterator<Item = (
     Steering { waypoint: corner, remaining: steering.remaining + detour }
 }
 
-/// The course along a way to its end.
+/// The steering along a route to its end.
 #[must_use]
 pub fn to_point(way: &PlannedPath<'_>) -> Steering {
     let PlannedPath { routes, from, to, width, route, .. } = *way;
@@ -158,7 +159,7 @@ pub fn to_point(way: &PlannedPath<'_>) -> Steering {
     Steering { waypoint, remaining: left(&route) + detour }
 }
 
-/// The course along a way to a room's centre, but only just past the room's border.
+/// The steering along a route to a room's centre, but only just past the room's border.
 #[must_use]
 pub fn into_room(way: &PlannedPath<'_>) -> Steering {
     let PlannedPath { routes, from, to: centre, width, route, .. } = *way;
@@ -179,12 +180,13 @@ pub fn into_room(way: &PlannedPath<'_>) -> Steering {
     Steering { waypoint, remaining }
 }
 
-/// What is left of a route (u).
+/// Remaining length of a route (u).
 fn left(route: &Route) -> f32 {
     route.length + IMPASSABLE_DOOR_COST * f32::from(route.impassable)
 }
 
-/// The point to head for before a door, and how much longer than the straight way to the crossing that is (u).
+/// The point to head for before a door, and the additional length compared with the straight line to the
+/// crossing (u).
 fn through(way: &PlannedPath<'_>, slot: SlotId, crossing: Vec2) -> (Vec2, f32) {
     let PlannedPath { routes, from, width, assembly, .. } = *way;
     let gaps = routes.gaps();

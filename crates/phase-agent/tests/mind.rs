@@ -1,4 +1,4 @@
-//! Guidance, repertoire, reward and decisions in hand-made states.
+//! Steering, action sets, reward and decisions in hand-made states.
 
 use phase_agent::{
     Agent, Foresight, MindParameters, action_set,
@@ -43,10 +43,10 @@ fn achieve(predicate: Predicate) -> Subgoal {
     Subgoal::Achieve(Literal::is(predicate))
 }
 
-/// What an agent does to walk.
+/// The actions for locomotion.
 const WALK_ACTIONS: [Action; 3] = [Action::TurnLeft, Action::TurnRight, Action::Up];
 
-/// The rule of thumb's action for a subgoal of agent 0.
+/// The heuristic's action for a subgoal of agent 0.
 fn thumb(scene: &Scene, state: &State, subgoal: Subgoal, actions: &[Action]) -> Action {
     let (physics, routes) = (scene.physics(), Routes::new(scene.layout));
     let objective =
@@ -144,7 +144,7 @@ fn rewards_follow_equation_1() {
             assert!((distance - 15.0).abs() < 0.7, "landmark 1 is 15 u above landmark 2: {distance}");
             let expected = social - cost - f64::from(distance / ARENA_DIAGONAL);
             assert!((reward - expected).abs() < 1e-6, "{attitude:?} {action:?}: {reward} {expected}");
-            // Going to see whether a goal holds, an agent counts none.
+            // While an agent goes to verify whether a goal holds, no satisfied goal is rewarded.
             let looking = SearchModel { rewards_goals: false, ..model };
             let mut after = SearchState::new(&objective, state);
             let reward = looking.rollout_step(&mut after, 0, &mut stream(1, Purpose::Search, 0)).reward;
@@ -153,7 +153,7 @@ fn rewards_follow_equation_1() {
     }
 }
 
-/// The first decision of agent 0 with a modest search.
+/// The first decision of agent 0 with a small search.
 fn decide(scene: &Scene, seed: u64) -> (Action, Subgoal) {
     let (physics, state) = (scene.physics(), scene.initial_state());
     let observation = observe(&physics, &state, AgentId::ZERO);

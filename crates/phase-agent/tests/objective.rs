@@ -1,4 +1,4 @@
-//! Objectives in hand-made states: where to look, how to carry, how to let go, when to stand aside.
+//! Objectives in hand-made states: heading, carrying, releasing, yielding.
 
 use phase_agent::objective::Objective;
 use phase_model::{
@@ -33,7 +33,7 @@ fn state(agent: Vec2, angle: f32, other: Vec2, object: Vec2) -> State {
     ])
 }
 
-/// Distance and point headed for, of agent 0.
+/// Distance and waypoint of agent 0.
 fn evaluate(size: Size, state: &State, literal: Literal) -> (f32, Vec2) {
     let (physics, routes) = (physics(size), Routes::new(layout()));
     let objective = Objective {
@@ -60,7 +60,7 @@ fn who_does_not_fit_through_a_door_faces_it() {
         evaluate(Size::Large, &state(at, angle, ZERO_WEIGHT_DISTANCE, ZERO_WEIGHT_DISTANCE), to_room).0
     };
     assert!(facing(DOWN) < facing(0.0) - 0.5);
-    // Whoever fits has no need to.
+    // An agent that fits need not do so.
     let facing = |angle| {
         evaluate(Size::Small, &state(at, angle, ZERO_WEIGHT_DISTANCE, ZERO_WEIGHT_DISTANCE), to_room).0
     };
@@ -82,15 +82,15 @@ fn a_load_goes_first_where_its_carrier_cannot_follow() {
     let (pulled, heading) = holding(Size::Large, below, above);
     let (pushed, _) = holding(Size::Large, above, below);
     assert!(pulled > pushed + 4.0, "behind its carrier it has farther to go than 2 u: {pulled} {pushed}");
-    // Not straight at the door, for there its carrier stands.
+    // Not straight to the door, since its carrier stands there.
     let (straight, round) = ((Vec2::new(7.25, 12.0) - above).normalize(), (heading - above).normalize());
     assert!(straight.dot(round) < 0.95, "{heading}");
-    // A carrier that fits may go before it.
+    // A carrier that fits may pass before its load.
     let difference = holding(Size::Small, below, above).0 - holding(Size::Small, above, below).0;
     assert!(difference < 4.0, "{difference}");
 }
 
-/// Agent 0 holding the object that lies in some direction from it.
+/// Agent 0 holding an object in some direction from it.
 fn carrying(agent: Vec2, towards: Vec2) -> State {
     let heading = libm::atan2f(-towards.x, towards.y);
     let mut state =
@@ -102,7 +102,7 @@ fn carrying(agent: Vec2, towards: Vec2) -> State {
 #[test]
 fn a_load_and_its_carrier_get_in_line_before_a_narrow_door() {
     let bring = Literal::is(Predicate::On(Entity::Object(ObjectId::ZERO), LandmarkId::BOTTOM_LEFT));
-    // Jammed at the door's corner, the load in the door; back; turned; into the door; through it.
+    // Jammed at the door's corner, the load in the door; moved back; turned; into the door; through it.
     let way = [
         carrying(Vec2::new(8.7, 12.9), Vec2::new(-1.0, -0.3)),
         carrying(Vec2::new(8.5, 14.0), Vec2::new(-1.0, -0.3)),
@@ -116,7 +116,7 @@ fn a_load_and_its_carrier_get_in_line_before_a_narrow_door() {
     let jammed = way[0].position(Entity::Object(ObjectId::ZERO));
     let backoff_point = evaluate(Size::Small, &way[0], bring).1 - jammed;
     assert!(backoff_point.y > 1.0, "away from the door: {backoff_point}");
-    // From where there is room enough one goes straight on, side by side or not.
+    // From where there is enough clearance the assembly proceeds straight on, side by side or not.
     let ways = [Vec2::NEG_X, Vec2::NEG_Y].map(|towards| {
         let state = carrying(Vec2::new(20.0, 8.0), towards);
         evaluate(
@@ -143,7 +143,7 @@ fn with_a_wall_between_them_carrier_and_load_slide_to_the_door() {
 #[test]
 fn a_load_is_not_pulled_to_its_place_from_where_there_is_no_room() {
     let bring = Literal::is(Predicate::On(Entity::Object(ObjectId::ZERO), LandmarkId::BOTTOM_RIGHT));
-    // Landmark 2 is 2.5 u from the walls: a huge agent, 1.6 u, has no room beyond a load of 0.8 u.
+    // Landmark 2 is 2.5 u from the walls: a large agent, 1.6 u, has no room beyond a load of 0.8 u.
     let holding = |direction: Vec2| {
         let load = arena::LANDMARKS[2] - Vec2::new(3.0, -3.0);
         let mut state = state(load + direction * 2.4, 0.0, ZERO_WEIGHT_DISTANCE, load);

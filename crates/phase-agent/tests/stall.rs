@@ -1,4 +1,4 @@
-//! Who loses its patience, and where it goes then.
+//! Which agents back off after a stall, and where to.
 
 use phase_agent::{objective::Objective, stall::StallDetector};
 use phase_model::{
@@ -9,7 +9,7 @@ use phase_model::{
 };
 use phase_planner::Routes;
 
-/// No walls at all but the arena's own and a narrow door (x 6 to 8.5, y 12); agent 0 of some force; a small object.
+/// Layout 4, with a narrow door (x 6 to 8.5, y 12); agent 0 of some force; a small object.
 fn place_to_go_to(force: f32, state: &State, literal: Literal, moves: f32) -> Option<Vec2> {
     let layout = Layout::new(4, None).expect("layout 4");
     let physics = PhysicsConfig {
@@ -34,7 +34,7 @@ fn place_to_go_to(force: f32, state: &State, literal: Literal, moves: f32) -> Op
     })
 }
 
-/// Agent 0 at a place, the object before it, in hand or not; the other far away.
+/// Agent 0 at a position, the object before it, held or not; the other far away.
 fn state(at: Vec2, held: bool) -> State {
     let mut state = State::new([
         Body::at_rest(at, 0.0),

@@ -1,4 +1,4 @@
-//! Courses by hand.
+//! Steering compared with hand calculations.
 
 use phase_agent::steering::{
     IMPASSABLE_DOOR_COST, PlannedPath, Steering, avoid_discs, into_room, to_point, yield_to,

@@ -16,7 +16,7 @@ use rand::seq::SliceRandom;
 
 /// Frames in a graph.
 pub const FRAMES: usize = 10;
-/// Rows from one window of frames to the next when all of an event is looked at.
+/// Rows between consecutive windows of frames when the whole event is used.
 pub const STRIDE: usize = 5;
 
 /// Node embeddings of ten frames, related to each other by dot-product attention with a residual connection. Goals come
@@ -47,7 +47,9 @@ struct Window {
 impl Arg {
     /// A network with the given number of hidden units and of relation graphs over the same nodes.
     ///
-    /// # Errors If a tensor cannot be allocated.
+    /// # Errors
+    ///
+    /// If a tensor cannot be allocated.
     pub fn new(hidden: usize, graphs: usize, random: &mut Pcg64Mcg) -> Result<Self> {
         let nodes = NodeEmbedding::new(hidden, random)?;
         let mut layer = || Layer::new(hidden, hidden, random);
@@ -60,8 +62,8 @@ impl Arg {
         })
     }
 
-    /// What it says of each event by [`FRAMES`] of its rows, in whatever order: nothing tells one frame from the next but
-    /// what the LSTM of the nodes has made of it.
+    /// The logits for each event from [`FRAMES`] of its rows, in any order: frames are distinguished only by
+    /// the node embeddings of the LSTM.
     ///
     /// # Errors
     /// If there are not that many events in the batch, or an event has no such row.
@@ -70,7 +72,7 @@ impl Arg {
         self.look(batch, &self.nodes.forward(batch)?, &windows.collect::<Vec<_>>())
     }
 
-    /// The answers for windows: windows × 2 × [`CLASSES`] and windows × 3.
+    /// The logits for windows: windows × 2 × [`CLASSES`] and windows × 3.
     fn look(&self, batch: &Batch, embeddings: &[Tensor], windows: &[Window]) -> Result<Logits> {
         let (events, count) = (batch.events(), windows.len());
         let rows =
@@ -161,7 +163,7 @@ impl PublishedNetwork for Arg {
     const BUNDLED_WEIGHTS: &'static [u8] = include_bytes!("../../../data/arg.safetensors");
     const BUNDLED_RECORD: &'static str = include_str!("../../../data/arg.safetensors.training.json");
 
-    /// How many graphs there are the paper does not say; we have four.
+    /// The paper does not give the number of graphs; four are used here.
     fn published(random: &mut Pcg64Mcg) -> Result<Self> {
         Self::new(64, 4, random)
     }

@@ -1,4 +1,4 @@
-//! What the networks for Task 2 have in common: what they are asked, loss, forecasts.
+//! What the networks for Task 2 have in common: inputs, loss, forecasts.
 
 use crate::{
     nodes::{Batch, MOVING, Nodes},
@@ -14,7 +14,7 @@ use phase_model::{
 
 /// Steps that the networks predict at a time.
 pub const HORIZON: usize = 10;
-/// How the networks are trained: batch and rate are the paper's.
+/// How the networks are trained: batch size and learning rate are the paper's.
 pub const SETTINGS: TrainingSettings = TrainingSettings {
     batch: 8,
     learning_rate: 1e-2,
@@ -23,15 +23,15 @@ pub const SETTINGS: TrainingSettings = TrainingSettings {
     patience: 15,
     rounds: 200,
 };
-/// What is measured beside the loss: the same distance over agents alone (u).
+/// Metric beside the loss: the same distance over agents alone (u).
 pub(crate) const METRICS: [&str; 1] = ["agents"];
-/// Keeps the slope of a distance finite where it is 0 (u²).
+/// Keeps the gradient of a distance finite where it is 0 (u²).
 const EPSILON: f64 = 1e-6;
 
-/// A moment of one of the events of a batch: all that comes after it is to be predicted from all before.
+/// A moment of one event of a batch: everything after it is to be predicted from everything before.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct ForecastOrigin {
-    /// The event's place in the batch.
+    /// The event's index in the batch.
     pub event: usize,
     /// The last row that is known.
     pub row: usize,
@@ -39,14 +39,16 @@ pub struct ForecastOrigin {
 
 /// A network that predicts trajectories.
 pub trait Forecasting {
-    /// How far everything that moves will have come [`HORIZON`] steps on from some moments (u), in that order:
-    /// (moments · [`MOVING`]) × [`HORIZON`] × 2. What it says of absent objects means nothing.
+    /// Displacements of all moving nodes over the [`HORIZON`] steps after some moments (u), in that order:
+    /// (moments · [`MOVING`]) × [`HORIZON`] × 2. The values of absent objects are meaningless.
     ///
-    /// # Errors If there is no such origin, or a tensor cannot be allocated.
+    /// # Errors
+    ///
+    /// If there is no such origin, or a tensor cannot be allocated.
     fn displacements(&self, batch: &Batch, origins: &[ForecastOrigin]) -> Result<Tensor>;
 
-    /// The moments of a batch it learns from, and those it is measured at. All but the last row of each event, unless
-    /// that is too much.
+    /// The moments of a batch used for training and for evaluation. All but the last row of each event,
+    /// unless that is too many.
     fn origins(&self, batch: &Batch, _chance: Option<&mut Pcg64Mcg>) -> Vec<ForecastOrigin> {
         let each = batch.lengths().iter().enumerate();
         each.flat_map(|(event, &length)| {
@@ -55,10 +57,12 @@ pub trait Forecasting {
         .collect()
     }
 
-    /// Where everything will be in the next `steps` steps. [`HORIZON`] of them are predicted; if there are more, the
-    /// network is shown what it predicted as if it had come, and asked again.
+    /// Positions of all moving entities in the next `steps` steps. [`HORIZON`] of them are predicted at a
+    /// time; for more, the network is given its own predictions as input.
     ///
-    /// # Errors If a tensor cannot be allocated.
+    /// # Errors
+    ///
+    /// If a tensor cannot be allocated.
     fn forecast(&self, event: &ObservedEvent, steps: usize) -> Result<Forecast> {
         let entities = event.entities().count();
         let mut forecast = vec![Vec::with_capacity(steps + HORIZON); entities];
@@ -96,7 +100,7 @@ fn continued(event: &ObservedEvent, forecast: &Forecast) -> Option<ObservedEvent
     ObservedEvent::new(event.layout(), event.agent_sizes(), event.object_sizes().to_vec(), rows).ok()
 }
 
-/// Mean distance between predicted and true positions (u), over everything that is there and every step that comes.
+/// Mean distance between predicted and true positions (u), over everything present and all steps to predict.
 pub(crate) fn loss(
     network: &impl Forecasting,
     events: &[&Nodes],
@@ -129,7 +133,8 @@ pub(crate) fn loss(
     Ok(Loss { loss: mean(all)?, scores: vec![agents] })
 }
 
-/// The rows of stacked numbers (rows of the event, events of the batch, what moves) that belong to some moments.
+/// The rows of stacked values (rows of the event, events of the batch, moving nodes) that belong to some
+/// moments.
 pub(crate) fn places(batch: &Batch, origins: &[ForecastOrigin]) -> Result<Tensor> {
     let rows = origins.iter().flat_map(|&ForecastOrigin { event, row }| {
         (0..MOVING).map(move |node| ((row * batch.events() + event) * MOVING + node) as u32)

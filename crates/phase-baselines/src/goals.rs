@@ -1,8 +1,8 @@
-//! The goals that a network tells apart: one list of classes, said of an agent rather than of a numbered one.
+//! The goal classes of the networks: one list, relative to an agent rather than by agent number.
 
 use phase_model::{AgentId, Goal, LandmarkId, MAX_OBJECTS, ObjectId, Sign, arena::LANDMARKS};
 
-/// Number of goals told apart.
+/// Number of classes.
 pub const CLASSES: usize = PLACES + 2 * PLACES + MAX_OBJECTS * 2 * PLACES + 2;
 
 /// Number of landmarks.
@@ -12,9 +12,9 @@ const PLACES: usize = LANDMARKS.len();
 /// then kept off each, as helpers and hinderers have it (8); each object on each landmark, then kept off each (8 an
 /// object); approaching the other, getting away from it (2).
 ///
-/// "The other" makes the list the same for both agents, so that one network speaks for both. These are the goals of
-/// `phase_simple::physical_goals` with what becomes of the other's own if one helps or hinders it. Oneself kept off
-/// a landmark is not among them: an agent that hinders itself does not exist.
+/// "The other" makes the list the same for both agents, so that one network serves both. These are the goals
+/// of `phase_simple::physical_goals` together with what the other's become if one helps or hinders it.
+/// Keeping oneself off a landmark is not among them: an agent that hinders itself does not exist.
 #[must_use]
 pub fn classes(agent: AgentId) -> [Goal; CLASSES] {
     let (me, other) = (agent, agent.other());
@@ -39,8 +39,8 @@ pub fn classes(agent: AgentId) -> [Goal; CLASSES] {
     core::array::from_fn(|_| goals.next().unwrap_or(approach))
 }
 
-/// The class of an agent's goal; `None` if it is none of them. Of touching only the sign counts, since it is
-/// about both agents alike.
+/// The class of an agent's goal; `None` if it has none. Of touching goals only the sign counts, since they
+/// are about both agents alike.
 #[must_use]
 pub fn class_of(agent: AgentId, goal: Goal) -> Option<usize> {
     match goal {

@@ -1,4 +1,4 @@
-//! Layers whose first weights come from our own generators.
+//! Layers whose initial weights come from PHASE's own generators.
 
 use crate::parameters::Parameter;
 use candle_core::{Device, Module, Result, Tensor, Var};
@@ -15,10 +15,12 @@ pub struct Layer {
 }
 
 impl Layer {
-    /// A layer from `inputs` numbers (at least 1) to `outputs`; weights and biases are uniformly sampled
+    /// A layer from `inputs` features (at least 1) to `outputs`; weights and biases are uniformly sampled
     /// from ±1/√inputs, the usual initialisation.
     ///
-    /// # Errors If a tensor cannot be allocated.
+    /// # Errors
+    ///
+    /// If a tensor cannot be allocated.
     pub fn new(inputs: usize, outputs: usize, random: &mut Pcg64Mcg) -> Result<Self> {
         let bound = 1.0 / (inputs.max(1) as f32).sqrt();
         let mut draw = |count: usize| -> Vec<f32> {
@@ -30,7 +32,7 @@ impl Layer {
         Ok(Self { weight, bias, linear })
     }
 
-    /// What is to be learnt, for an optimiser.
+    /// The trainable parameters, for an optimiser.
     #[must_use]
     pub fn variables(&self) -> [Var; 2] {
         [self.weight.clone(), self.bias.clone()]
@@ -42,7 +44,7 @@ impl Layer {
         vec![(format!("{name}.weight"), self.weight.clone()), (format!("{name}.bias"), self.bias.clone())]
     }
 
-    /// The weights row by row, one row for each output, and the biases, as they are now.
+    /// The current weights row by row, one row for each output, and biases.
     ///
     /// # Errors
     /// If they cannot be read.

@@ -1,24 +1,27 @@
 //! Training of neural networks on social events.
 //!
-//! - [`strength`] trains SIMPLE's guess at agents' strengths, which `phase_simple::StrengthRegressor` evaluates,
+//! - [`strength`] trains SIMPLE's estimate of agents' strengths, which `phase_simple::StrengthRegressor`
+//!   evaluates,
 //! - [`two_level_lstm`] and [`arg`] are the paper's baselines for Task 1,
 //! - [`social_lstm`] and [`stgat`] are those for Task 2,
-//! - [`nodes`] is what they all see of an event; [`recognition`] with [`goals`], and [`forecasting`], are what those for one
-//!   task have in common,
+//! - [`nodes`] is the input of all of them; [`recognition`] with [`goals`], and [`forecasting`], are what
+//!   those for one task have in common,
 //! - [`training`] trains any of them,
-//! - [`layer`], [`perceptron`], [`lstm`] and attention are what networks are put together from.
+//! - [`layer`], [`perceptron`], [`lstm`] and attention are the building blocks of networks.
 //!
-//! The key design decision is that all chance (first weights, order of samples, what is drawn from an event) comes from
-//! one seed through `phase_model::random`, none from the library for neural networks. So the same seed and samples give
-//! the same weights, bit for bit, and a training that was broken off goes on as if it had not been. The price is that
-//! the optimiser and the LSTM are our own, and that the promise holds only for processors with the same
-//! matrix-multiplication instructions. Those of the strengths are small enough for one thread; those of the baselines
-//! take as many as `RAYON_NUM_THREADS` says; one and two gave the same weights (`docs/networks.md`).
+//! Key design decision: all randomness (initial weights, order of samples, sampling of events) comes from one
+//! seed through `phase_model::random`, none from the neural-network library. So the same seed and samples
+//! give the same weights, bit for bit, and an interrupted training resumes as if it had not been interrupted.
+//! The trade-off is that the optimiser and the LSTM are implemented here, and that reproducibility holds only
+//! for processors with the same matrix-multiplication instructions. Strength networks are small enough for
+//! one thread; baselines use as many as `RAYON_NUM_THREADS` gives; one and two gave the same weights
+//! (`docs/networks.md`).
 //!
-//! Nothing here reads a file, looks at a clock or prints; `train` in `phase-cli` does. No other crate of the library uses
-//! this one: the library for neural networks takes long to build.
+//! Nothing here reads a file, accesses a clock or prints; `train` in `phase-cli` does. No other crate of the
+//! library depends on this one, because the neural-network library takes long to build.
 //!
-//! A network learns from two agents, of which the weak one was slow and the mighty one fast, how strong each is:
+//! A network is trained to estimate strength from two agents, of which the weak one was slow and the mighty
+//! one fast:
 //!
 //! ```
 //! use phase_baselines::strength::{AgentSamples, Sample, StrengthTrainingSettings, nearest, train};

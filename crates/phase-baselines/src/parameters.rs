@@ -1,11 +1,11 @@
-//! What networks have learnt: named tensors, out of a network and into it.
+//! Trainable parameters as named tensors, read from a network and written to it.
 
 use candle_core::{Result, Tensor, Var};
 
-/// A tensor to be learnt and its name, which is different from all others of its network.
+/// A trainable tensor and its name, which is unique in its network.
 pub type Parameter = (String, Var);
 
-/// The numbers of parameters as they are now, each row by row.
+/// The current values of the parameters, each row by row.
 ///
 /// # Errors
 /// If they cannot be read.
@@ -13,10 +13,10 @@ pub fn values(parameters: &[Parameter]) -> Result<Vec<Vec<f32>>> {
     parameters.iter().map(|(_, variable)| variable.flatten_all()?.to_vec1()).collect()
 }
 
-/// Gives parameters other numbers, in the same order.
+/// Sets the values of parameters, in the same order.
 ///
 /// # Errors
-/// If there are too few or too many numbers for one of them.
+/// If there are too few or too many values for one of them.
 pub fn set_values(parameters: &[Parameter], values: &[Vec<f32>]) -> Result<()> {
     for ((_, variable), values) in parameters.iter().zip(values) {
         variable.set(&Tensor::from_slice(values, variable.shape(), variable.device())?)?;

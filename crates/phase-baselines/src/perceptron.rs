@@ -11,17 +11,21 @@ pub struct Perceptron {
 }
 
 impl Perceptron {
-    /// Layers between each two sizes that follow each other, at least two of them.
+    /// Layers between consecutive sizes, of which there are at least two.
     ///
-    /// # Errors If a tensor cannot be allocated.
+    /// # Errors
+    ///
+    /// If a tensor cannot be allocated.
     pub fn new(sizes: &[usize], random: &mut Pcg64Mcg) -> Result<Self> {
         let layers = sizes.windows(2).map(|pair| Layer::new(pair[0], pair[1], random));
         Ok(Self { layers: layers.collect::<Result<_>>()? })
     }
 
-    /// The paper's head: three hidden layers of as many numbers as come in, then one for each answer.
+    /// The paper's head: three hidden layers as wide as the input, then one output for each class.
     ///
-    /// # Errors If a tensor cannot be allocated.
+    /// # Errors
+    ///
+    /// If a tensor cannot be allocated.
     pub fn head(hidden: usize, logits: usize, random: &mut Pcg64Mcg) -> Result<Self> {
         Self::new(&[hidden, hidden, hidden, hidden, logits], random)
     }

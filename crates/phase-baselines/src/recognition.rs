@@ -1,4 +1,4 @@
-//! What the networks for Task 1 have in common: labels, loss, answers.
+//! What the networks for Task 1 have in common: labels, loss, predictions.
 
 use crate::{
     goals::{CLASSES, class_of, classes, is_absent},
@@ -11,9 +11,9 @@ use phase_event::ObservedEvent;
 use phase_model::{AGENT_COUNT, AgentId, Goal, Judgement, Relation, RelationProbabilities, random::Pcg64Mcg};
 use thiserror::Error;
 
-/// The relations in the order of the networks' answers.
+/// The relations in the order of the networks' outputs.
 pub const RELATIONS: [Relation; 3] = [Relation::Friendly, Relation::Adversarial, Relation::Neutral];
-/// How the networks are trained: batch and rate are the paper's.
+/// How the networks are trained: batch size and learning rate are the paper's.
 pub const SETTINGS: TrainingSettings = TrainingSettings {
     batch: 8,
     learning_rate: 1e-3,
@@ -22,12 +22,12 @@ pub const SETTINGS: TrainingSettings = TrainingSettings {
     patience: 25,
     rounds: 200,
 };
-/// What is measured beside the loss: shares of right goals and of right relations.
+/// Metrics beside the loss: shares of correct goals and of correct relations.
 pub(crate) const METRICS: [&str; 2] = ["goal", "relation"];
-/// Added to what cannot be: its probability is 0.
+/// Added to logits of impossible classes: their probability is 0.
 const MASKED_LOGIT: f32 = -1e9;
 
-/// An event with its right answers, to learn from.
+/// A training example: an event with its labels.
 #[derive(Clone, PartialEq, Debug)]
 pub struct LabelledEvent {
     pub(crate) nodes: Nodes,
@@ -64,7 +64,7 @@ impl LabelledEvent {
     }
 }
 
-/// What a network says of some events, before the softmax.
+/// The logits of a network for some events.
 #[derive(Clone, Debug)]
 pub struct Logits {
     /// events × 2 × [`CLASSES`].
@@ -77,7 +77,7 @@ impl Logits {
     /// The logarithms of the probabilities, those of goals about absent objects so low that they are 0.
     ///
     /// # Errors
-    /// If shapes do not fit to the events.
+    /// If shapes do not match the events.
     pub fn log_probabilities(&self, batch: &Batch) -> Result<Self> {
         let possible = batch.objects().iter().flat_map(|&objects| {
             (0..CLASSES).map(move |class| if is_absent(class, objects) { MASKED_LOGIT } else { 0.0 })
@@ -93,15 +93,19 @@ impl Logits {
 
 /// A network that recognises goals and relations.
 pub trait Recognition {
-    /// What it says of some events. Networks that look at a part of what they are shown draw it while they learn; without
-    /// a generator they look at everything.
+    /// The logits for some events. Networks that use a part of their input sample it in training mode;
+    /// without a generator they use all of it.
     ///
-    /// # Errors If a tensor cannot be allocated.
+    /// # Errors
+    ///
+    /// If a tensor cannot be allocated.
     fn logits(&self, batch: &Batch, random: Option<&mut Pcg64Mcg>) -> Result<Logits>;
 
-    /// The answer to one event, goals most likely first.
+    /// The prediction for one event, goals most likely first.
     ///
-    /// # Errors If a tensor cannot be allocated.
+    /// # Errors
+    ///
+    /// If a tensor cannot be allocated.
     fn judge(&self, event: &ObservedEvent) -> Result<Judgement> {
         let nodes = Nodes::of(event);
         let batch = Batch::new(&[&nodes])?;
@@ -123,7 +127,7 @@ pub trait Recognition {
     }
 }
 
-/// Cross-entropy of goals, a mean over the agents, and of relations, added up.
+/// Cross-entropy of goals, a mean over the agents, plus that of relations.
 pub(crate) fn loss(
     network: &impl Recognition,
     events: &[&LabelledEvent],
@@ -139,8 +143,8 @@ pub(crate) fn loss(
     Ok(Loss { loss: (goal_loss + relation_loss)?, scores: vec![goal_score, relation_score] })
 }
 
-/// The shares of goals and of relations that are wrong, added up. The loss soon grows again for being too sure of what is
-/// wrong, while more and more comes out right.
+/// The sum of the error rates of goals and of relations. The loss soon rises again because of overconfident
+/// errors, while accuracy still improves.
 pub(crate) fn selection_loss(evaluate: &Metrics) -> f64 {
     evaluate.scores.iter().map(|right| 1.0 - right).sum()
 }
@@ -154,7 +158,7 @@ fn cross_entropy(logs: &Tensor, right: Vec<u32>) -> Result<(Tensor, f64)> {
     Ok((loss, f64::from(hits.to_scalar::<f32>()?)))
 }
 
-/// Probabilities that add up to 1, of their logarithms.
+/// Probabilities that sum to 1, from their logarithms.
 fn probabilities(logs: &[f32]) -> Vec<f64> {
     let shares: Vec<f64> = logs.iter().map(|&log| libm::exp(f64::from(log))).collect();
     let sum: f64 = shares.iter().sum();

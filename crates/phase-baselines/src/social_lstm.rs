@@ -1,4 +1,5 @@
-//! Social-LSTM, after Alahi et al. (2016): an LSTM for everything that moves, which sees what those near it remember.
+//! Social-LSTM, after Alahi et al. (2016): an LSTM for each moving node, which pools the hidden states of its
+//! neighbours.
 
 use crate::{
     forecasting::{self, ForecastOrigin, Forecasting, HORIZON, places},
@@ -32,7 +33,9 @@ pub struct SocialLstm {
 impl SocialLstm {
     /// A network with the given number of hidden units in every layer.
     ///
-    /// # Errors If a tensor cannot be allocated.
+    /// # Errors
+    ///
+    /// If a tensor cannot be allocated.
     pub fn new(hidden: usize, random: &mut Pcg64Mcg) -> Result<Self> {
         Ok(Self {
             features: Layer::new(FEATURES, hidden, random)?,
@@ -48,7 +51,7 @@ impl SocialLstm {
 impl Forecasting for SocialLstm {
     fn displacements(&self, batch: &Batch, origins: &[ForecastOrigin]) -> Result<Tensor> {
         let (events, hidden) = (batch.events(), self.hidden);
-        // Between −1 and 1, as what LSTMs put out.
+        // Between −1 and 1, as the outputs of LSTMs.
         let fixed = self.fixed.forward(&batch.fixed)?.tanh()?.index_select(&batch.fixed_places, 0)?;
         let fixed = fixed.reshape((events, FIXED, hidden))?;
         let mut state = self.memory.start(events * MOVING)?;
@@ -95,13 +98,13 @@ impl PublishedNetwork for SocialLstm {
     const BUNDLED_WEIGHTS: &'static [u8] = include_bytes!("../../../data/social-lstm.safetensors");
     const BUNDLED_RECORD: &'static str = include_str!("../../../data/social-lstm.safetensors.training.json");
 
-    /// How many numbers the paper does not say; it is as many as the other networks have.
+    /// The paper does not give the number of hidden units; it is that of the other networks.
     fn published(random: &mut Pcg64Mcg) -> Result<Self> {
         Self::new(64, random)
     }
 }
 
-/// Who is in which cell around everything that moves, 0 or 1: events × ([`MOVING`] · cells) × [`NODES`].
+/// Which node is in which cell around each moving node, 0 or 1: events × ([`MOVING`] · cells) × [`NODES`].
 fn grids(batch: &Batch, row: usize) -> Result<Tensor> {
     let shape = (batch.events(), MOVING * CELLS * CELLS, NODES);
     let mut grids = vec![0.0_f32; shape.0 * shape.1 * shape.2];

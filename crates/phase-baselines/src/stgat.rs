@@ -16,18 +16,20 @@ use phase_model::{
 };
 use rand::seq::SliceRandom;
 
-/// Moments of each event from which futures are unrolled in one pass of training; all would take ten times as long.
+/// Moments of each event from which futures are unrolled in one training pass; all of them would take ten
+/// times as long.
 pub const TRAINING_ORIGINS: usize = 8;
-/// Rows from one moment to the next at which it is measured.
+/// Rows between two moments at which it is evaluated.
 pub const STRIDE: usize = 5;
-/// How much of a negative score is left before the softmax, as in graph attention networks.
+/// Negative slope of the leaky ReLU of scores before the softmax, as in graph attention networks.
 const NEGATIVE_SLOPE: f64 = 0.2;
-/// Velocities as features are a tenth of those in u/s.
+/// Velocity features are a tenth of those in u/s.
 const SPEED: f64 = 10.0;
 
-/// A motion LSTM for everything that moves; at every step graph attention over all nodes (landmarks and walls with an
-/// embedding); a graph LSTM over what that gives; and a decoder LSTM that begins with what both remember and goes on
-/// for ten steps, each from the one before. Without the noise of the original: one future is asked for.
+/// A motion LSTM for every moving node; at every step graph attention over all nodes (landmarks and walls
+/// with an embedding); a graph LSTM over its output; and a decoder LSTM that starts from the states of both
+/// and predicts ten steps, each from the one before. Without the noise of the original: a single future is
+/// predicted.
 #[derive(Clone, Debug)]
 pub struct Stgat {
     features: Layer,
@@ -41,19 +43,21 @@ pub struct Stgat {
     hidden: usize,
 }
 
-/// One head of attention.
+/// One attention head.
 #[derive(Clone, Debug)]
 struct Head {
-    /// From what a node is to what others take from it.
+    /// Projection from a node's features to its value.
     taken: Layer,
-    /// From that to how much it looks at others, and how much others look at it.
+    /// From that to its scores as source and as target of attention.
     scores: Layer,
 }
 
 impl Stgat {
     /// A network with the given number of hidden units in every layer, a multiple of the number of attention heads.
     ///
-    /// # Errors If a tensor cannot be allocated.
+    /// # Errors
+    ///
+    /// If a tensor cannot be allocated.
     pub fn new(hidden: usize, heads: usize, random: &mut Pcg64Mcg) -> Result<Self> {
         let features = Layer::new(FEATURES, hidden, random)?;
         let motion = Lstm::new(hidden, hidden, random)?;
@@ -75,7 +79,7 @@ impl Stgat {
         })
     }
 
-    /// What moves after looking at all nodes: (events · [`MOVING`]) × hidden.
+    /// The moving nodes after attending to all nodes: (events · [`MOVING`]) × hidden.
     fn look(&self, nodes: &Tensor, mask: &Tensor) -> Result<Tensor> {
         let mut seen = Vec::with_capacity(self.heads.len());
         for Head { taken, scores } in &self.heads {
@@ -92,7 +96,7 @@ impl Stgat {
         seen.reshape((seen.dim(0)? * MOVING, seen.dim(2)?))
     }
 
-    /// What motion and graph LSTM put out after each row: (events · [`MOVING`]) × 2·hidden.
+    /// Hidden states of motion and graph LSTM after each row: (events · [`MOVING`]) × 2·hidden.
     fn encoded(&self, batch: &Batch) -> Result<Vec<Tensor>> {
         let (events, hidden) = (batch.events(), self.hidden);
         let fixed = self.fixed.forward(&batch.fixed)?.tanh()?.index_select(&batch.fixed_places, 0)?;
@@ -121,7 +125,7 @@ impl Forecasting for Stgat {
         let places = places(batch, origins)?;
         let known = Tensor::cat(&self.encoded(batch)?, 0)?.index_select(&places, 0)?;
         let velocity = Tensor::cat(&batch.moving, 0)?.index_select(&places, 0)?.narrow(1, FEATURES - 2, 2)?;
-        // What was covered in the last step (u).
+        // Displacement in the last step (u).
         let mut covered = (velocity * (SPEED * f64::from(SUBSTEP_SECONDS) * SUBSTEPS as f64))?;
         let mut state = Tensor::cat(&[&known, &known.zeros_like()?], 1)?;
         let mut position = covered.zeros_like()?;
@@ -182,7 +186,8 @@ impl PublishedNetwork for Stgat {
     const BUNDLED_WEIGHTS: &'static [u8] = include_bytes!("../../../data/stgat.safetensors");
     const BUNDLED_RECORD: &'static str = include_str!("../../../data/stgat.safetensors.training.json");
 
-    /// How many numbers and heads the paper does not say; of numbers it is as many as the other networks have.
+    /// The paper does not give the numbers of hidden units and heads; hidden units are as many as in the
+    /// other networks.
     fn published(random: &mut Pcg64Mcg) -> Result<Self> {
         Self::new(64, 4, random)
     }

@@ -1,4 +1,5 @@
-//! 2-Level LSTM, after Ibrahim et al. (2016) as the paper has it: what each node does, then what all do together.
+//! 2-Level LSTM, after Ibrahim et al. (2016) as adapted in the paper: first each node alone, then all
+//! together.
 
 use crate::{
     goals::CLASSES,
@@ -13,8 +14,8 @@ use crate::{
 use candle_core::{D, Module, Result};
 use phase_model::{AGENT_COUNT, random::Pcg64Mcg};
 
-/// Node embeddings; from an agent's, its goal; from the greatest of all nodes' at every step, through another LSTM, the
-/// relation. Both are asked for after the last row.
+/// Node embeddings; from an agent's, its goal; from the max-pool over all nodes at every step, through
+/// another LSTM, the relation. Both are read after the last row.
 #[derive(Clone, Debug)]
 pub struct TwoLevelLstm {
     nodes: NodeEmbedding,
@@ -26,7 +27,9 @@ pub struct TwoLevelLstm {
 impl TwoLevelLstm {
     /// A network with the given number of hidden units in every layer.
     ///
-    /// # Errors If a tensor cannot be allocated.
+    /// # Errors
+    ///
+    /// If a tensor cannot be allocated.
     pub fn new(hidden: usize, random: &mut Pcg64Mcg) -> Result<Self> {
         Ok(Self {
             nodes: NodeEmbedding::new(hidden, random)?,

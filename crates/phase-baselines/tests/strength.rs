@@ -1,4 +1,4 @@
-//! Learning strengths: from made-up motion, where the answer is known.
+//! Training on strengths: from synthetic motion, where the answer is known.
 
 use phase_baselines::strength::{
     AgentSamples, Epoch, Sample, StrengthTrainingSettings, TrainingError, WINDOW, most_common, nearest,
@@ -42,7 +42,7 @@ fn small() -> StrengthTrainingSettings {
     }
 }
 
-/// Trains and also returns what was told.
+/// Trains and also returns the progress reported.
 fn trained(
     training: &[AgentSamples],
     seed: u64,
@@ -76,7 +76,7 @@ fn windows_are_as_long_as_those_of_inference() {
 fn the_error_becomes_small() {
     let (regressor, epochs) = trained(&motions(0), 1, &small());
     let (first, best) = (epochs.first().unwrap(), epochs.iter().rfind(|epoch| epoch.best).unwrap());
-    // Always saying the same is wrong by 168 N.
+    // A constant prediction is wrong by 168 N.
     assert!(best.training < 0.3 * first.training, "{first:?} {best:?}");
     assert!(best.validation < 60.0, "{best:?}");
     let rmse = f64::from(regressor.weights().rmse);
@@ -85,7 +85,7 @@ fn the_error_becomes_small() {
 
 #[test]
 fn what_is_trained_is_what_is_evaluated_later() {
-    // Without learning, the error that training sees is that of the regressor in plain Rust on the same samples.
+    // Without updates, the training error is that of the regressor in plain Rust on the same samples.
     let settings = StrengthTrainingSettings { learning_rate: 0.0, windows: 0, patience: 1, ..small() };
     let (_, epochs) = trained(&motions(3), 1, &settings);
     let Epoch { training, whole, .. } = epochs[0];
@@ -102,7 +102,7 @@ fn one_seed_one_result() {
 
 #[test]
 fn eight_samples_are_learnt_by_heart() {
-    // Features that tell nothing of the strength, one tall tale for each agent.
+    // Features that carry no information about strength, one outlier for each agent.
     let motions: Vec<AgentSamples> = [2_u8, 0, 3, 1, 1, 3, 0, 2]
         .into_iter()
         .enumerate()
@@ -149,7 +149,7 @@ fn what_cannot_be_learnt_from_is_refused() {
 
 #[test]
 fn scores_by_hand() {
-    // A network that always says 400 N.
+    // A network that always predicts 400 N.
     let mut weights =
         trained(&motions(0), 1, &StrengthTrainingSettings { epochs: 1, ..small() }).0.weights().clone();
     weights.output.weight.fill(0.0);

@@ -1,4 +1,4 @@
-//! Measures what believing costs: `cargo run --release -p phase-belief --example belief_cost`.
+//! Measures the cost of belief updates: `cargo run --release -p phase-belief --example belief_cost`.
 
 use phase_belief::{Belief, PARTICLE_COUNT};
 use phase_forward::Forward;
@@ -16,7 +16,7 @@ use std::time::{Duration, Instant};
 const EVENTS: usize = 10;
 const STEPS: usize = 60;
 
-/// Nothing moves, and nothing is spent on it.
+/// Nothing moves, at no computational cost.
 struct StaticDynamics;
 
 impl Dynamics for StaticDynamics {
@@ -58,7 +58,7 @@ fn main() -> Result<(), LayoutError> {
     Ok(())
 }
 
-/// One event in which both agents do something at random for a few steps each.
+/// One event in which both agents act at random, each action being held for a few steps.
 fn event(physics: &PhysicsConfig, random: &mut Pcg64Mcg, total: &mut Total) {
     let forward = Forward::new(physics);
     let mut truth = legal_state(physics, random);
@@ -80,7 +80,7 @@ fn event(physics: &PhysicsConfig, random: &mut Pcg64Mcg, total: &mut Total) {
             std::hint::black_box(&particle);
         }
         total.predicting += start.elapsed();
-        // The shortest of three, so that other programs on the machine do not count.
+        // The minimum of three, so that other programs on the machine do not affect it.
         let (before, chance) = (belief.clone(), random.clone());
         let spent = (0..3)
             .map(|_| {
@@ -100,7 +100,7 @@ fn event(physics: &PhysicsConfig, random: &mut Pcg64Mcg, total: &mut Total) {
     }
 }
 
-/// Time for an update of a copy in which only perceiving costs.
+/// Time for an update of a copy in which only the observation has a cost.
 fn still_update(
     belief: &Belief,
     physics: &PhysicsConfig,

@@ -1,4 +1,4 @@
-//! The belief itself: particles, memory, and one step of both.
+//! The belief itself: particles, memory, and their update.
 
 use crate::{consistency::contradicted, memory::CellMemory, predict::predict, resampling::PoseSampler};
 use phase_model::{
@@ -22,10 +22,11 @@ pub struct Belief {
 }
 
 impl Belief {
-    /// The belief of the observing agent after its first observation. Observed entities are as they are; the
-    /// others are uniform over all places where they overlap neither walls nor the boundary nor another body
-    /// and would not have been seen. (The paper's main text has possible states uniform, its appendix
-    /// headings 0; headings are uniform here.) All bodies that are not observed rest and hold nothing.
+    /// The belief of the observing agent after its first observation. Observed entities are as observed; the
+    /// others are uniform over all positions where they would overlap neither walls nor the boundary nor
+    /// another body and would not have been seen. (The paper's main text has possible states uniform, its
+    /// appendix headings 0; headings are uniform here.) All bodies that are not observed are at rest and hold
+    /// nothing.
     #[must_use]
     pub fn new(
         physics: &PhysicsConfig,
@@ -54,7 +55,7 @@ impl Belief {
     }
 
     /// One step from t to t + 1: predicts every particle under the action the agent took at t, overwrites it
-    /// with what the agent observes at t + 1, and redraws what contradicts that.
+    /// with the agent's observation at t + 1, and resamples the bodies that contradict it.
     pub fn update(
         &mut self,
         dynamics: &impl Dynamics,
@@ -80,7 +81,7 @@ impl Belief {
         }
     }
 
-    /// Whose belief it is.
+    /// The agent whose belief it is.
     #[must_use]
     pub fn agent(&self) -> AgentId {
         self.agent
@@ -92,14 +93,14 @@ impl Belief {
         &self.particles
     }
 
-    /// When the agent last saw each cell. A cell that a known body covers wholly counts as seen, for nothing
-    /// else can be there.
+    /// When the agent last saw each cell. A cell that a known body covers entirely counts as seen, since
+    /// nothing else can be there.
     #[must_use]
     pub fn memory(&self) -> &CellMemory {
         &self.memory
     }
 
-    /// Cells known to hold nothing unknown right now.
+    /// Cells known to contain nothing unknown at present.
     pub fn seen_now(&self) -> impl Iterator<Item = Cell> {
         Cell::all().filter(|&cell| self.memory.age(cell) == Some(0))
     }
@@ -109,23 +110,23 @@ impl Belief {
         Cell::all().filter(|&cell| self.memory.age(cell).is_none())
     }
 
-    /// How many bodies, over all particles, were redrawn in the last step.
+    /// Number of bodies, over all particles, that were resampled in the last step.
     #[must_use]
     pub fn resampled(&self) -> usize {
         self.resampled
     }
 
-    /// How many of these found no possible place, neither in 200 draws nor when 3600 places all over the
-    /// arena were gone through. Such a body lies in view, or in a body, or in a wall, in this order of
-    /// preference; the next step tries again.
+    /// Number of these for which no feasible place was found, neither in 200 draws nor among 3600 places all
+    /// over the arena. Such a body lies in view, or in a body, or in a wall, in this order of preference; the
+    /// next step tries again.
     #[must_use]
     pub fn unresolved(&self) -> usize {
         self.unresolved
     }
 }
 
-/// Entities that the prediction puts in the agent's grip although no touch is observed, which rules them out
-/// there. Predicted contacts are not precise enough for the same conclusion.
+/// Entities that the prediction puts in the agent's grip although no touch is observed, which is a
+/// contradiction. Predicted contacts are not precise enough for the same conclusion.
 fn contradicted_by_touch(
     physics: &PhysicsConfig,
     particle: &State,
@@ -136,7 +137,7 @@ fn contradicted_by_touch(
     physics.entities().filter(|&entity| !observed.contains(entity) && Some(entity) == in_hand).collect()
 }
 
-/// Cells in which the agent knows that nothing unobserved is.
+/// Cells in which the agent knows that there is no unobserved body.
 fn seen_or_covered(physics: &PhysicsConfig, observation: &Observation) -> CellSet {
     let mut cells = observation.visible;
     for entity in observation.observed.iter() {
@@ -147,8 +148,8 @@ fn seen_or_covered(physics: &PhysicsConfig, observation: &Observation) -> CellSe
     cells
 }
 
-/// Replaces what is observed by the truth in a particle, and drops what cannot be true beside it: an unobserved agent's
-/// hold of an observed object, and contacts between what is observed and what is not.
+/// Overwrites a particle with the observation, and drops what contradicts it: an unobserved agent's grip of
+/// an observed object, and contacts between observed and unobserved bodies.
 pub fn overwrite(particle: &mut State, observation: &Observation) {
     let observed = observation.observed;
     for entity in observed.iter() {
@@ -168,8 +169,8 @@ pub fn overwrite(particle: &mut State, observation: &Observation) {
     });
 }
 
-/// Gives some entities new places, in which they neither hold nor touch anything. Returns how many found
-/// none.
+/// Gives some entities new places, in which they neither hold nor touch anything. Returns for how many no
+/// place was found.
 fn resample(
     particle: &mut State,
     which: BodySet,

@@ -1,4 +1,4 @@
-//! Which bodies of a particle contradict what is observed.
+//! Contradictions between a particle and the observation.
 
 use phase_model::{
     Body, BodySet, Entity, PhysicsConfig, State, Vec2,
@@ -6,16 +6,16 @@ use phase_model::{
 };
 use phase_perception::{CellSet, footprint::any_cell};
 
-/// How deep bodies may lie in walls and in one another before a particle counts as impossible (u). Solvers
-/// let resting contacts sink in a little, and a belief must not lose a body for leaning on a wall.
+/// Overlap with walls and other bodies beyond which a particle counts as impossible (u). Solvers let resting
+/// contacts penetrate slightly, and a belief must not lose a body for leaning on a wall.
 pub(crate) const PENETRATION_TOLERANCE: f32 = 0.05;
 
-/// How deep an object may lie in an agent, in its own radius: 1 − 2/√5. This is how deep one held by a flank
-/// lies in the slanting side, and there it stays when it is let go.
+/// Maximum penetration of an object into an agent, relative to its radius: 1 − 2/√5. This is the depth at
+/// which an object held by a flank lies in the slanting side, and it stays there when it is released.
 const SIDE_GRIP_PENETRATION: f32 = 0.105_573;
 
-/// The entities, of those not observed, whose bodies cannot be where a particle has them. Of two that
-/// overlap, the later by index is the one that cannot.
+/// The unobserved entities whose bodies cannot be where a particle has them. Of two that overlap, the later
+/// by index is chosen.
 pub(crate) fn contradicted(
     physics: &PhysicsConfig,
     particle: &State,
@@ -42,12 +42,12 @@ pub(crate) fn contradicted(
     impossible
 }
 
-/// Whether an outline lies inside the arena and no inner wall runs through it.
+/// Whether an outline lies inside the arena and no inner wall passes through it.
 pub(crate) fn is_clear_of_walls(physics: &PhysicsConfig, outline: &Outline) -> bool {
     outline.inside_arena() && !physics.walls.iter().any(|&wall| outline.overlaps_wall(wall))
 }
 
-/// The outline of an entity whose radius is less by a number (u).
+/// The outline of an entity with its radius reduced by a number (u).
 pub(crate) fn shrunk_outline(physics: &PhysicsConfig, entity: Entity, body: &Body, by: f32) -> Outline {
     let radius = physics.radius(entity) - by;
     match entity {
@@ -59,14 +59,14 @@ pub(crate) fn shrunk_outline(physics: &PhysicsConfig, entity: Entity, body: &Bod
     }
 }
 
-/// Whether two bodies overlap by more than solvers and letting go account for.
+/// Whether two bodies overlap by more than solvers and releases account for.
 pub(crate) fn overlap_beyond_tolerance(
     physics: &PhysicsConfig,
     (a, body_a): (Entity, &Body),
     (b, body_b): (Entity, &Body),
 ) -> bool {
     let reach = farthest(physics, a) + farthest(physics, b);
-    // Written so that NaN goes on to the exact test, which says no.
+    // Written so that NaN reaches the exact test, which returns false.
     if body_a.position.distance_squared(body_b.position) > reach * reach {
         return false;
     }

@@ -1,16 +1,16 @@
-//! A PHASE agent's belief: complete-world particles that are predicted, checked and redrawn.
+//! A PHASE agent's belief: particles that are complete states of the world, predicted, checked and resampled.
 //!
-//! An agent does not know where the bodies are that it does not observe. Its [`Belief`] is a set of
+//! An agent does not know the positions of the bodies that it does not observe. Its [`Belief`] is a set of
 //! [`PARTICLE_COUNT`] possible states of the whole world (paper, "Belief Representation and Update"). In
 //! every step each particle is
 //!
 //! 1. predicted by one step of the dynamics under the agent's own action and constant motion of the other,
-//! 2. overwritten with the truth about everything observed, and
-//! 3. checked: whatever contradicts the observation is redrawn in unseen free space.
+//! 2. overwritten with the observed part of the true state, and
+//! 3. checked: bodies that contradict the observation are resampled in unseen free space.
 //!
 //! A body contradicts the observation if it lies where the agent sees that nothing is, in a wall or out of
-//! the arena, or in another body, or if its numbers are not finite.
-//! An agent sees the other and not the object behind its back. Every particle has the other where it is, and the
+//! the arena, or in another body, or if its numbers are not finite. In this example an agent sees the other
+//! one, but not the object behind its back. Every particle has the other agent at its true position, and the
 //! object in some place that the agent does not see:
 //!
 //! ```
@@ -34,24 +34,23 @@
 //! }
 //! ```
 //!
-//! # The one key decision
+//! # Key design decision
 //!
 //! Particles have no weights and are never copied from one another. The observation is exact, so a hypothesis
-//! is either possible or not; an impossible body is drawn anew rather than replaced by a copy of another
-//! particle's. Particles therefore never collapse into copies of a few. The price: what is
-//! redrawn forgets where it had been thought to be, and how the redrawing is done *is* the prior of the
-//! search for hidden things.
+//! is either possible or not; an impossible body is resampled rather than replaced by a copy of another
+//! particle's. Particles therefore never collapse into copies of a few. The trade-off: a resampled body loses
+//! its previous hypothesis, and the resampling distribution *is* the prior of the search for hidden bodies.
 //!
-//! # Where bodies are redrawn
+//! # Where bodies are resampled
 //!
-//! The place of a redrawn body is uniform over the free space, weighted by how well a body can have got there
-//! unseen: a cell counts 0 while it is visible, 1 if it has never been seen, and 1 − exp(−age/τ) if it was
-//! last seen `age` steps ago ([`occupancy_weight`]). A place that was seen empty is likely empty still, the more
-//! so the shorter ago; τ is 20 steps for an agent, which moves by itself, and 200 steps, longer than an
-//! event, for an object, which lies until somebody moves it. So a searcher turns to what it has not looked
-//! at, yet never runs out of places when it has seen everything. A body lies on many cells, and the least of
-//! their weights counts: it would have been noticed in any of them. Strips between cells that happen to have
-//! been missed would otherwise attract bodies that do not fit into them.
+//! The place of a resampled body is uniform over the free space, weighted by the probability that a body got
+//! there unseen: a cell has weight 0 while it is visible, 1 if it has never been seen, and 1 − exp(−age/τ) if
+//! it was last seen `age` steps ago ([`occupancy_weight`]). A place that was seen empty is likely to be still
+//! empty, the more so the more recently it was seen; τ is 20 steps for an agent, which moves on its own, and
+//! 200 steps, longer than an event, for an object, which lies until an agent moves it. So a searching agent
+//! turns to unseen places first, yet never runs out of places when it has seen everything. A body lies on
+//! many cells, and the minimum of their weights counts: it would have been noticed in any of them. Strips
+//! between cells that happen to have been missed would otherwise attract bodies that do not fit into them.
 //!
 //! A resampled body is at rest and neither holds nor is held; an agent's heading is uniform. If either side
 //! of a grip is resampled, the grip is dropped and the other body stays.

@@ -1,9 +1,9 @@
-//! What an agent remembers of places: how long ago it last saw each cell.
+//! An agent's memory of cells: how long ago it last saw each.
 
 use phase_model::Entity;
 use phase_perception::{Cell, CellSet, cells::CELL_COUNT};
 
-/// The τ of [`occupancy_weight`] for agents, which move by themselves (steps).
+/// The τ of [`occupancy_weight`] for agents, which move on their own (steps).
 pub const AGENT_DECAY_STEPS: f32 = 20.0;
 /// The τ for objects, which move only when moved (steps). Events are 40 to 100 steps long.
 pub const OBJECT_DECAY_STEPS: f32 = 200.0;
@@ -15,7 +15,7 @@ pub fn occupancy_weight(age: Option<u32>, decay_steps: f32) -> f32 {
     age.map_or(1.0, |age| -libm::expm1f(-(age as f32) / decay_steps))
 }
 
-/// The age of every cell's last sighting.
+/// The number of steps since each cell was last seen.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct CellMemory {
     ages: [u32; CELL_COUNT],
@@ -25,13 +25,13 @@ pub struct CellMemory {
 const NEVER: u32 = u32::MAX;
 
 impl CellMemory {
-    /// The memory of an agent that has seen nothing yet.
+    /// The memory of an agent that has not seen anything yet.
     #[must_use]
     pub const fn new() -> Self {
         Self { ages: [NEVER; CELL_COUNT] }
     }
 
-    /// Lets one step pass and notes the cells seen at its end.
+    /// Advances by one step and records the cells seen at its end.
     pub fn record_seen(&mut self, seen: &CellSet) {
         for (cell, age) in Cell::all().zip(&mut self.ages) {
             *age = match *age {
@@ -49,7 +49,7 @@ impl CellMemory {
         (age != NEVER).then_some(age)
     }
 
-    /// How well an entity may have got into a cell unseen; see [`occupancy_weight`].
+    /// The weight of an entity having got into a cell unseen; see [`occupancy_weight`].
     #[must_use]
     pub fn weight(&self, entity: Entity, cell: Cell) -> f32 {
         let decay_steps = match entity {

@@ -5,12 +5,12 @@ use phase_model::{
     AGENT_COUNT, Action, AgentId, BodySet, Dynamics, Entity, PhysicsConfig, State, Vec2, arena,
 };
 
-/// Advances a particle by one step in which the believing agent acts and the other goes on as it was going.
+/// Advances a particle by one step in which the believing agent acts and the other continues its motion.
 ///
-/// Without an action the dynamics would let the other agent coast to a stop. The constant-motion assumption
+/// Without an action the dynamics would let the other agent slide to a stop. The constant-motion assumption
 /// keeps its velocity instead, and that of the object it holds, unless something is in the way; then the
-/// result of the dynamics stands. This is skipped if the other agent is observed at the end of the step. Free
-/// objects coast.
+/// result of the dynamics is kept. This is skipped if the other agent is observed at the end of the step.
+/// Free objects slide under friction.
 pub(crate) fn predict(
     dynamics: &impl Dynamics,
     physics: &PhysicsConfig,
@@ -29,7 +29,7 @@ pub(crate) fn predict(
     }
 }
 
-/// Puts an agent and what it holds where constant motion would have taken them, if the way is free.
+/// Moves an agent and the object it holds as constant motion would have, if the path is free.
 fn apply_constant_motion(physics: &PhysicsConfig, before: &State, after: &mut State, agent: AgentId) {
     let velocity = before.body(Entity::Agent(agent)).velocity;
     let held = before.held_object(agent).filter(|&object| object.index() < physics.object_count);
@@ -56,8 +56,8 @@ fn apply_constant_motion(physics: &PhysicsConfig, before: &State, after: &mut St
     }
 }
 
-/// Whether an entity that has been moved by a vector lies in no wall and in no body, neither where that was
-/// before the step nor where it is after it: pushing something is left to the dynamics.
+/// Whether an entity that has been moved by a vector overlaps no wall and no body, neither where that was
+/// before the step nor where it is after it: pushing is left to the dynamics.
 fn is_free(
     physics: &PhysicsConfig,
     before: &State,

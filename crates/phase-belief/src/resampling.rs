@@ -1,4 +1,4 @@
-//! Drawing a place for a body that is not observed.
+//! Sampling a place for a body that is not observed.
 
 use crate::{
     consistency::is_clear_of_walls,
@@ -12,14 +12,14 @@ use phase_model::{
 use phase_perception::Cell;
 use rand::{Rng, RngExt};
 
-/// Tries at a place for one body before all places are gone through.
+/// Draws of a place for one body before all places are enumerated.
 const MAX_REJECTIONS: usize = 200;
-/// Draws of all bodies of a particle together, before those that overlap are drawn one after the other.
+/// Joint draws of all bodies of a particle, before those that overlap are drawn one after the other.
 const MAX_JOINT_REJECTIONS: usize = 8;
-/// Places tried in a cell, along each side, when all cells are gone through.
+/// Places tried in a cell, along each side, when all cells are enumerated.
 const GRID_POSES_PER_SIDE: usize = 3;
 
-/// Draws places in one step of a belief, for all its particles.
+/// Samples places in one step of a belief, for all its particles.
 pub(crate) struct PoseSampler<'a> {
     physics: &'a PhysicsConfig,
     memory: &'a CellMemory,
@@ -33,8 +33,8 @@ impl<'a> PoseSampler<'a> {
     }
 
     /// Gives some entities of a particle new bodies at rest, which overlap neither walls, nor the other
-    /// bodies, nor one another. All are drawn together and together rejected, so that none has the first
-    /// choice. Returns how many could not be placed.
+    /// bodies, nor one another. All are drawn jointly and rejected jointly, so that the order does not
+    /// matter. Returns how many could not be placed.
     pub(crate) fn resample(&mut self, particle: &mut State, which: BodySet, rng: &mut impl Rng) -> usize {
         let mut outlines = [None; MAX_ENTITIES];
         for entity in self.physics.entities().filter(|&entity| !which.contains(entity)) {
@@ -63,7 +63,8 @@ impl<'a> PoseSampler<'a> {
         unresolved
     }
 
-    /// Draws each entity clear of the outlines given; false if two overlap, `None` if one found no place.
+    /// Draws each entity clear of the outlines given; false if two overlap, `None` if no place was found for
+    /// one.
     fn sample_jointly(
         &mut self,
         particle: &mut State,

@@ -1,4 +1,4 @@
-//! Choosing in proportion to weights.
+//! Sampling in proportion to weights.
 
 use crate::memory::CellMemory;
 use phase_model::{Body, Entity, geometry::Outline};
@@ -36,7 +36,7 @@ impl Weights {
         Cell::from_index(self.sums.partition_point(|&sum| sum <= mark))
     }
 
-    /// The least weight of the cells an outline lies on, 0 if it lies on none.
+    /// The minimum weight of the cells an outline lies on, 0 if it lies on none.
     pub(crate) fn min_weight(&self, outline: &Outline) -> f32 {
         let mut min_weight = f32::INFINITY;
         let nothing = any_cell(outline, |cell| {
@@ -47,7 +47,7 @@ impl Weights {
     }
 }
 
-/// One of many bodies, kept with a probability in proportion to its weight.
+/// A body, kept with a probability in proportion to its weight.
 #[derive(Default)]
 pub(crate) struct Reservoir {
     pub(crate) kept: Option<Body>,

@@ -1,4 +1,4 @@
-//! How far a state lies from a recorded one.
+//! Deviation of a state from a recorded one.
 
 use phase_model::{
     AGENT_COUNT, AgentId, Body, MAX_ENTITIES, ObjectId, PhysicsConfig, State, Vec2, arena::SUBSTEPS,
@@ -55,7 +55,7 @@ pub(crate) fn held(state: &State) -> [Option<ObjectId>; AGENT_COUNT] {
     AgentId::ALL.map(|agent| state.held_object(agent))
 }
 
-/// `f32::max` passes over NaN, which must not make an error disappear.
+/// `f32::max` ignores NaN, which must not make an error disappear.
 fn finite(error: f32) -> f32 {
     if error.is_nan() { f32::INFINITY } else { error }
 }

@@ -5,7 +5,7 @@ use phase_forward::{Forward, SolverCache};
 use phase_model::{AGENT_COUNT, Action, PhysicsConfig, State, Vec2, arena::SUBSTEPS};
 use phase_world::World;
 
-/// The true world.
+/// The reference world.
 pub struct WorldEngine {
     physics: PhysicsConfig,
     world: World,
@@ -22,7 +22,7 @@ impl Engine for WorldEngine {
         self.world.settle();
     }
 
-    /// The world remembers nothing but poses, velocities and grips, so it may as well be set up anew.
+    /// The world's state consists only of poses, velocities and grips, so it can be rebuilt from them.
     fn set_velocity(&mut self, body: usize, velocity: Vec2) {
         let mut state = self.world.state();
         state.bodies[body].velocity = velocity;
@@ -38,13 +38,13 @@ impl Engine for WorldEngine {
     }
 }
 
-/// The kernel with its memory from step to step, which is its faithful mode.
+/// The kernel with its cache from step to step, which is its faithful mode.
 pub struct WarmForward {
     /// The kernel.
     pub forward: Forward,
-    /// The state it is in; a replay may put it back onto the record.
+    /// Its state; a replay may reset it to the record.
     pub state: State,
-    /// What it remembers from step to step.
+    /// Its cache from step to step.
     pub cache: SolverCache,
 }
 

@@ -1,6 +1,6 @@
 //! Which probes belong together.
 
-/// Beginnings of names that belong to a family of another name, longest first where one begins another.
+/// Prefixes of names that belong to a family of another name, longest first where one is a prefix of another.
 const PREFIXES: [(&str, &str); 6] = [
     ("items_collide", "items_collide"),
     ("push_off", "push_off_centre"),
@@ -10,8 +10,8 @@ const PREFIXES: [(&str, &str); 6] = [
     ("turn", "turn"),
 ];
 
-/// The family of a probe: what its name begins with, up to the first `_`, except for a few that are named
-/// after a variation of their family. A beginning that is not known is a family of its own.
+/// The family of a probe: the prefix of its name up to the first `_`, except for a few that are named after a
+/// variation of their family. An unknown prefix is a family of its own.
 #[must_use]
 pub fn family(name: &str) -> &str {
     let special = PREFIXES.into_iter().find(|(prefix, _)| name.starts_with(prefix));

@@ -1,30 +1,30 @@
 //! Errors of a physics engine with respect to recorded motion.
 //!
-//! Three kinds of record are replayed with the actions that made them: [`Probe`]s, each a few steps of one
-//! effect; [`Run`]s, a hundred steps of everything; and [`Replay`]s, real recordings whose actions are known.
-//! Any [`Engine`] can be held against them with [`probes_report`], [`run_reports`], [`replay_reports`] and
-//! [`horizon_errors`]; what comes out is a [`Report`] of medians and percentiles.
+//! Three kinds of record are replayed with their actions: [`Probe`]s, a few steps of one effect each;
+//! [`Run`]s, a hundred steps of varied actions each; and [`Replay`]s, measured recordings whose actions are
+//! known. Any [`Engine`] can be compared with them by [`probes_report`], [`run_reports`], [`replay_reports`]
+//! and [`horizon_errors`]; the result is a [`Report`] of medians and percentiles.
 //!
-//! The key design decision is that an engine is whatever can be set up in a state, settle, and be stepped. So
-//! the command line and the tests of every engine measure with the same reader, the same replay and the same
-//! statistics, and numbers from different places can be held side by side. The price is a small adapter for
-//! each engine; those of the project's own, [`WorldEngine`], [`WarmForward`] and [`ColdForward`], are here, so
-//! that the command line and the tests drive them alike, and the engines use this crate in their tests only.
+//! Key design decision: an engine is anything that can be set up in a state, settle, and be stepped. So the
+//! command line and the tests of every engine measure with the same reader, the same replay and the same
+//! statistics, and their figures are comparable. The trade-off is a small adapter for each engine; those of
+//! the project's own, [`WorldEngine`], [`WarmForward`] and [`ColdForward`], are here, so that the command
+//! line and the tests drive them alike, and the engines use this crate in their tests only.
 //!
 //! # What is measured
 //!
-//! The error of a step is the largest over all bodies, of the distance between positions (u) and, separately,
-//! of the difference of the unbounded angles (rad). Motion with contacts is chaotic, so a run that is followed
-//! freely says little after the first divergence. It is therefore also restarted from each of its recorded
-//! states and followed for one and for ten steps.
+//! The error of a step is the maximum over all bodies, of the distance between positions (u) and, separately,
+//! of the difference of the unbounded angles (rad). Motion with contacts is chaotic, so a run simulated
+//! freely is hardly informative after the first divergence. It is therefore also restarted from each of its
+//! recorded states and simulated for one and for ten steps.
 //!
-//! Real recordings are not restarted: their rows are means over the five substeps of a step and no states, and
-//! a state of our own replay would hold the engine against itself.
+//! Measured recordings are not restarted: their rows are means over the five substeps of a step and not
+//! states, and a state of our own replay would compare the engine with itself.
 //!
 //! # Example
 //!
-//! A run of one step in which nobody acts, and which nevertheless claims that agent 0 moved by 0.25 u. The engine leaves
-//! it where it was, so that is its error:
+//! A run of one step without actions, whose record nevertheless has agent 0 moved by 0.25 u. The engine
+//! leaves it in place, so that is its error:
 //!
 //! ```
 //! use phase_calibration::{Run, WorldEngine, run_reports};

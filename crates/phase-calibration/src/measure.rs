@@ -1,4 +1,4 @@
-//! Comparing an engine with many recordings.
+//! Comparison of an engine with many recordings.
 
 use crate::{
     Deviation, Engine, ErrorQuantiles, FamilyReport, HorizonErrors, Probe, ProbeErrors, ProbeReport,
@@ -21,7 +21,7 @@ pub fn probes_report<E: Engine>(probes: &[Probe]) -> ProbesReport {
     ProbesReport { n: probes.len(), families: families.collect(), each }
 }
 
-/// Follows all runs freely from their starts.
+/// Simulates all runs freely from their starts.
 #[must_use]
 pub fn run_reports<E: Engine>(runs: &[Run]) -> Vec<RunReport> {
     let report = |run: &Run| {
@@ -31,14 +31,14 @@ pub fn run_reports<E: Engine>(runs: &[Run]) -> Vec<RunReport> {
     runs.iter().filter_map(report).collect()
 }
 
-/// Follows real recordings freely from their starts.
+/// Simulates measured recordings freely from their starts.
 #[must_use]
 pub fn replay_reports<E: Engine>(replays: &[Replay]) -> Vec<RunReport> {
     replays.iter().filter_map(|replay| RunReport::of(&replay.id, &replay.follow::<E>(), None)).collect()
 }
 
-/// Restarts all runs from every state that is followed by as many steps, and takes the position error after
-/// the last of them. `None` if no run is long enough.
+/// Restarts all runs from every state with at least the given number of steps after it, and takes the
+/// position error after the last of these. `None` if no run is long enough.
 #[must_use]
 pub fn horizon_errors<E: Engine>(runs: &[Run], steps: usize) -> Option<HorizonErrors> {
     let starts = |run: &Run| 0..(run.states.len()).saturating_sub(steps);

@@ -8,8 +8,8 @@ use crate::{
 use phase_model::{AGENT_COUNT, Action, MAX_ENTITIES, ObjectId, PhysicsConfig, State, Vec2, arena::SUBSTEPS};
 use serde_json::Value;
 
-/// One probe. It starts in `start`, runs one idle substep, then some bodies are given velocities, and that is
-/// `initial`; then both agents act.
+/// One probe. It starts in `start`, runs one idle substep, then some bodies are given velocities, which
+/// results in `initial`; then both agents act.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Probe {
     /// Its name, which begins with its [`crate::family`].
@@ -35,14 +35,14 @@ pub struct Probe {
 /// Errors of an engine on a probe.
 #[derive(Clone, PartialEq, Debug)]
 pub struct ProbeErrors {
-    /// Before the first step, after the engine's own idle substep; only where bodies overlap at the start can
-    /// it be wrong.
+    /// Before the first step, after the engine's own idle substep; nonzero only where bodies overlap at the
+    /// start.
     pub start: Deviation,
     /// After each step.
     pub steps: Vec<Deviation>,
     /// After each substep.
     pub substeps: Vec<Deviation>,
-    /// Steps after which an agent holds something else than recorded.
+    /// Steps after which an agent's grip differs from the recorded one.
     pub grip_mismatches: usize,
 }
 

@@ -11,9 +11,9 @@ use std::collections::BTreeSet;
 /// Numbers of one body in a recorded state: x, y, vx, vy, angle, angular velocity.
 pub(crate) type BodyRow = [f32; 6];
 
-/// Most inner walls of a layout.
+/// Maximum number of inner walls of a layout.
 const MAX_WALLS: usize = 4;
-/// Largest radius that makes sense: half the arena (u).
+/// Maximum valid radius: half the arena (u).
 const MAX_RADIUS: f32 = 0.5 * arena::SIDE;
 
 /// Parses a whole file.
@@ -27,7 +27,7 @@ pub(crate) struct Entry<'a> {
     path: String,
 }
 
-/// The entries of the list `key`, of which there must be at least one, each an object with a `name` of its own.
+/// The entries of the list `key`, of which there must be at least one, each an object with a unique `name`.
 pub(crate) fn entries<'a>(
     file: &'a Value,
     key: &str,
@@ -154,7 +154,7 @@ impl<'a> Entry<'a> {
         Err(self.error(key, format!("must hold {what}, {expected} in all, not {found}")))
     }
 
-    /// A state without grips from a row for each body; `at` says where in the member `key` it stands.
+    /// A state without grips from a row for each body; `at` is its location in the member `key`.
     pub(crate) fn state(
         &self,
         key: &str,

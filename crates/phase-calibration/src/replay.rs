@@ -1,10 +1,10 @@
-//! Replays: real recordings whose actions are known.
+//! Replays: measured recordings whose actions are known.
 
 use crate::{Deviation, Engine, deviation::mean};
 use phase_event::Recording;
 use phase_model::{AGENT_COUNT, Action, Body, MAX_ENTITIES, PhysicsConfig, State};
 
-/// One real recording. One idle substep lies between its initial state and its first step.
+/// One measured recording. One idle substep lies between its initial state and its first step.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Replay {
     /// The recording's id.
@@ -22,9 +22,9 @@ pub struct Replay {
 impl Replay {
     /// A recording with its recovered actions, as far as they are known.
     ///
-    /// The recorder turned every agent counter-clockwise, whichever way it wanted to turn, so both turns are
-    /// left turns here. `None` without recovered actions, and for a mirrored recording: its row 0 lies within
-    /// the first step, so no engine can start from it.
+    /// The recorder turned every agent counter-clockwise, whichever way it intended to turn, so both turns
+    /// are left turns here. `None` without recovered actions, and for a mirrored recording: its row 0 lies
+    /// within the first step, so no engine can start from it.
     #[must_use]
     pub fn of_recording(recording: &Recording) -> Option<Self> {
         let recovered =
@@ -43,7 +43,7 @@ impl Replay {
         })
     }
 
-    /// How far the means over an engine's substeps come out from each row, as long as actions are known.
+    /// Errors of the means over an engine's substeps with respect to each row, as long as actions are known.
     #[must_use]
     pub fn follow<E: Engine>(&self) -> Vec<Deviation> {
         let mut engine = E::set_up(&self.physics, &self.initial);

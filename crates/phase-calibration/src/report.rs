@@ -1,14 +1,14 @@
-//! What came out, ready to be written as JSON. Positions are in u, angles in rad; what is not finite is null.
+//! Results, ready to be written as JSON. Positions are in u, angles in rad; non-finite values are null.
 
 use crate::{Deviation, ErrorQuantiles};
 use phase_statistics::percentile;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// Within how far of a run its engine is said to follow it (u).
+/// Maximum error up to which an engine counts as following a run (u).
 pub(crate) const TRACKING_TOLERANCE: f32 = 0.5;
 
-/// Everything measured of one engine. What was not asked for is absent.
+/// All measurements of one engine. Those not requested are absent.
 #[derive(Clone, PartialEq, Debug, Default, Serialize)]
 pub struct Report {
     /// The engine's name.
@@ -16,10 +16,10 @@ pub struct Report {
     /// Errors on probes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub probes: Option<ProbesReport>,
-    /// Errors on runs, followed freely from their start.
+    /// Errors on runs, simulated freely from their start.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub runs: Option<Vec<RunReport>>,
-    /// Errors on real recordings, followed freely from their start.
+    /// Errors on measured recordings, simulated freely from their start.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub replays: Option<Vec<RunReport>>,
     /// Errors one step after a restart from each recorded state of the runs.
@@ -28,7 +28,7 @@ pub struct Report {
     /// Errors ten steps after a restart from each recorded state of the runs.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ten_steps: Option<HorizonErrors>,
-    /// The last two for an engine without its memory, where it has one.
+    /// The last two for an engine without its internal memory, where it has one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub state_alone: Option<StatelessErrors>,
 }
@@ -61,7 +61,7 @@ pub struct FamilyReport {
     pub within_0_1: f64,
     /// Errors after all substeps.
     pub substeps: SubstepReport,
-    /// Steps after which an agent holds something else than recorded.
+    /// Steps after which an agent's grip differs from the recorded one.
     pub grip_mismatches: usize,
 }
 
@@ -89,11 +89,11 @@ pub struct ProbeReport {
     pub position: ErrorQuantiles,
     /// Angle errors after steps (rad).
     pub angle: ErrorQuantiles,
-    /// Steps after which an agent holds something else than recorded.
+    /// Steps after which an agent's grip differs from the recorded one.
     pub grip_mismatches: usize,
 }
 
-/// Errors on one run or real recording.
+/// Errors on one run or measured recording.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct RunReport {
     /// Its name or id.
@@ -108,7 +108,7 @@ pub struct RunReport {
     pub steps_within_0_5: usize,
     /// Position error after each step (u).
     pub position_by_step: Vec<f32>,
-    /// Steps after which an agent holds something else than recorded; absent where that is not recorded.
+    /// Steps after which an agent's grip differs from the recorded one; absent where grips are not recorded.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub grip_mismatches: Option<usize>,
 }
@@ -126,7 +126,7 @@ pub struct HorizonErrors {
     pub p99: f32,
 }
 
-/// Errors after restarts of an engine that is given a state and nothing else before every step.
+/// Errors after restarts of an engine that is given only a state before every step.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize)]
 pub struct StatelessErrors {
     /// After one step.
@@ -136,7 +136,7 @@ pub struct StatelessErrors {
 }
 
 impl RunReport {
-    /// From the errors after each step; `None` of no steps.
+    /// From the errors after each step; `None` for no steps.
     #[must_use]
     pub fn of(id: &str, deviations: &[Deviation], grip_mismatches: Option<usize>) -> Option<Self> {
         let (positions, angles) = columns(deviations);
@@ -154,7 +154,7 @@ impl RunReport {
 }
 
 impl HorizonErrors {
-    /// Of some position errors; `None` of none.
+    /// Of some position errors; `None` for none.
     #[must_use]
     pub fn of(errors: &[f32]) -> Option<Self> {
         let [median, p90, p99] = [50, 90, 99].map(|hundredths| percentile(errors, hundredths));

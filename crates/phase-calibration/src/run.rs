@@ -1,4 +1,4 @@
-//! Runs: many steps of everything, recorded step by step.
+//! Runs: many steps of varied actions, recorded step by step.
 
 use crate::{
     Deviation, Engine, ReadError,
@@ -41,9 +41,9 @@ impl Run {
         read::entries(file, "runs")?.map(|(entry, name)| run(&entry, name)).collect()
     }
 
-    /// Follows the run from a recorded state for some steps: how far the engine comes out after each, and
-    /// after how many of them an agent holds something else than recorded. A start at state 0 has the idle
-    /// substep before it. Ends where the run ends.
+    /// Simulates the run from a recorded state for some steps: the errors after each, and after how many of
+    /// them an agent's grip differs from the recorded one. A start at state 0 has the idle substep before it.
+    /// Ends where the run ends.
     #[must_use]
     pub fn follow<E: Engine>(&self, start: usize, steps: usize) -> (Vec<Deviation>, usize) {
         let Some(state) = self.states.get(start) else { return (Vec::new(), 0) };
@@ -62,8 +62,8 @@ impl Run {
     }
 }
 
-/// The grip an agent must have on an object that it is known to hold: on the side where the object lies, at
-/// the relative angle that both have.
+/// The grip of an agent on an object that it is known to hold: on the side where the object lies, at their
+/// relative angle.
 #[must_use]
 pub fn grip_of(state: &State, agent: AgentId, object: ObjectId) -> Grip {
     let (holder, object_body) = (state.body(Entity::Agent(agent)), state.body(Entity::Object(object)));

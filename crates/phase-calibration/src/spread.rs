@@ -1,9 +1,9 @@
-//! How errors are distributed.
+//! Distributions of errors.
 
 use phase_statistics::percentile;
 use serde::Serialize;
 
-/// The middle and the end of a distribution of errors.
+/// The median and the upper tail of a distribution of errors.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize)]
 pub struct ErrorQuantiles {
     /// 50th percentile.
@@ -15,7 +15,7 @@ pub struct ErrorQuantiles {
 }
 
 impl ErrorQuantiles {
-    /// Of some values; `None` of none.
+    /// Of some values; `None` for none.
     #[must_use]
     pub fn of(values: &[f32]) -> Option<Self> {
         Some(Self {

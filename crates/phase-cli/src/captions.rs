@@ -1,4 +1,4 @@
-//! Why an agent does what it does, in a few lines to be written below its picture.
+//! Explanation of an agent's decision, in a few lines below its picture.
 
 use phase_event::{ActionEvaluation, SubgoalValue, Thought};
 use phase_render::Caption;
@@ -12,10 +12,11 @@ pub const PLANNED: usize = 2;
 /// Root actions shown.
 pub const ACTIONS: usize = 4;
 
-/// The most valuable subgoals with V, particles and a bar for the share of particles; the first steps of
-/// the symbolic plan; and the actions most searched with visits, mean return and a bar for the share of visits.
+/// The subgoals of highest value with V, particles and a bar for the share of particles; the first steps of
+/// the symbolic plan; and the most visited actions with visits, mean return and a bar for the share of
+/// visits.
 ///
-/// There are always [`COUNT`] lines, so that nothing jumps from step to step of a video.
+/// There are always [`COUNT`] lines, so that the layout does not change between steps of a video.
 #[must_use]
 pub fn lines(thought: &Thought) -> Vec<Caption> {
     let mut lines = vec![heading(["V", "particles"], "subgoal (bar: share of particles)")];
@@ -29,7 +30,7 @@ pub fn lines(thought: &Thought) -> Vec<Caption> {
     lines.push(if searched { columns } else { "no search needed".to_owned().into() });
     let visits: u32 = thought.actions.iter().map(|found| found.visits).sum();
     let mut actions: Vec<&ActionEvaluation> = thought.actions.iter().collect();
-    // The sort is stable: of equally visited actions the first of the action set comes first.
+    // The sort is stable: ties are in the order of the action set.
     actions.sort_by_key(|found| core::cmp::Reverse(found.visits));
     lines.extend(actions.into_iter().take(ACTIONS).map(|found| action_line(found, visits)));
     lines.resize(COUNT, Caption::default());
@@ -52,12 +53,12 @@ fn heading(cells: [&str; 2], text: &str) -> Caption {
     Caption { cells: cells.map(str::to_owned).to_vec(), text: text.into(), bar: 0.0 }
 }
 
-/// A number with so many decimals, and a minus sign instead of a hyphen.
+/// A number with the given number of decimals, and a minus sign instead of a hyphen.
 fn number(value: f64, decimals: usize) -> String {
     format!("{value:.decimals$}").replace('-', "−")
 }
 
-/// One step of the plan a line; the last line also says how many more there are.
+/// One step of the plan per line; the last line also states how many more there are.
 fn plan_lines(thought: &Thought) -> [Caption; PLANNED] {
     core::array::from_fn(|k| {
         let Some(subgoal) = thought.plan.get(k) else { return Caption::default() };

@@ -1,4 +1,4 @@
-//! The commands of `phase`. The options of each stand beside what it does.
+//! The commands of `phase`. The options of each are defined beside its implementation.
 
 use crate::{
     benchmark::{self, options::Benchmark},
@@ -29,7 +29,7 @@ pub struct Cli {
     /// What to do.
     #[command(subcommand)]
     pub command: Command,
-    /// How much to say.
+    /// Verbosity.
     #[command(flatten)]
     pub verbosity: Verbosity,
 }
@@ -37,29 +37,29 @@ pub struct Cli {
 /// What to do.
 #[derive(Subcommand, Debug)]
 pub enum Command {
-    /// Write a scene to start from, with comments, for simulate
+    /// Write an initial scene, with comments, for simulate
     NewScene(NewScene),
-    /// Make a dataset of social events, with videos and a page to look at them
+    /// Generate a dataset of social events, with videos and a page to view them
     GenDataset(GenDataset),
     /// Merge the shards of a dataset
     Merge(Merge),
     /// Check how a dataset is divided into train, validation and test, or divide it
     Splits(Splits),
-    /// Show the figures of the paper's dataset beside those of another, and plot them
+    /// Compare the figures of the paper's dataset with those of another, and plot them
     Stats(Stats),
     /// Simulate the scenes of a phase-events/1 file, each from its first row
     Simulate(Simulate),
-    /// Check that a dataset is whole: every checksum, no file too many, and that its files agree
+    /// Check that a dataset is complete: all checksums, no extra files, and that its files agree
     Verify(Verify),
     /// Turn events into videos, or into pictures of their key frames
     Render(Render),
-    /// Measure how well a method perceives events: recognises goals and relations, or predicts trajectories
+    /// Evaluate how well a method perceives events: recognises goals and relations, or predicts trajectories
     #[command(subcommand)]
     Eval(Eval),
     /// Train a neural network on a dataset
     #[command(subcommand)]
     Train(Train),
-    /// Measure all methods at both tasks and put them beside what is published, in one report
+    /// Evaluate all methods at both tasks and compare them with published results, in one report
     Benchmark(Benchmark),
     /// Print a script with which a shell completes the commands and options of phase
     Completions(Completions),

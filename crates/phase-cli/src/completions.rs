@@ -15,13 +15,13 @@ pub struct Completions {
 /// Runs the command: the script goes to stdout.
 ///
 /// # Errors
-/// None today; whoever reads the script may stop at any time.
+/// None at present; the reader of the script may stop at any time.
 pub fn run(arguments: &Completions, context: &Context) -> Result<(), CliError> {
     let mut command = (context.program.interface)();
     let name = command.get_name().to_owned();
     let mut script = Vec::new();
     generate(arguments.shell, &mut command, name, &mut script);
-    // That nobody listens any more is no failure.
+    // A closed pipe is not a failure.
     let _ = std::io::stdout().write_all(&script);
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! Lines for whoever started the program.
+//! Lines for the user.
 //!
 //! The standard macros panic on a closed pipe (`… | head`), which must not end a run.
 

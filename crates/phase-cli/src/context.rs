@@ -1,21 +1,21 @@
-//! What every command is given beside its own options.
+//! Context of every command beside its own options.
 
 use crate::{console::print_message, progress::Progress};
 use clap::Args;
 use std::fmt::Display;
 
-/// A program that runs the commands of this crate, as its messages name it.
+/// A program that runs the commands of this crate, as named in its messages.
 #[derive(Clone, Copy, Debug)]
 pub struct Program {
-    /// What is typed to start it.
+    /// The command that starts it.
     pub name: &'static str,
-    /// What to do for neural networks where it was built without them.
+    /// Instructions for neural networks if it was built without them.
     pub networks_hint: &'static str,
-    /// The command line that completions and man pages are made for.
+    /// The command line for which completions and man pages are generated.
     pub interface: fn() -> clap::Command,
 }
 
-/// How much is said on stderr; results on stdout do not depend on it.
+/// Verbosity on stderr; results on stdout do not depend on it.
 #[derive(Args, Clone, Copy, Debug, Default)]
 pub struct Verbosity {
     /// Print nothing but errors on stderr: no progress and no notes
@@ -26,38 +26,38 @@ pub struct Verbosity {
     pub verbose: bool,
 }
 
-/// What every command is given beside its own options.
+/// Context of every command beside its own options.
 #[derive(Clone, Copy, Debug)]
 pub struct Context {
     /// The program that was started.
     pub program: Program,
-    /// How much it says.
+    /// Its verbosity.
     pub verbosity: Verbosity,
 }
 
 impl Context {
-    /// Says something worth knowing, on stderr, unless told to be quiet.
+    /// Prints a note on stderr, unless `--quiet` is given.
     pub fn note(&self, line: impl Display) {
         if !self.verbosity.quiet {
             print_message(line);
         }
     }
 
-    /// Says something of interest to few, on stderr, if told to be verbose.
+    /// Prints details on stderr, if `--verbose` is given.
     pub fn detail(&self, line: impl Display) {
         if self.verbosity.verbose {
             print_message(line);
         }
     }
 
-    /// Progress over events that take at most `steps_each` steps each. `activity` says what goes on, such as
+    /// Progress over events that take at most `steps_each` steps each. `activity` describes the work, such as
     /// `simulating 12 events`.
     #[must_use]
     pub fn progress(&self, activity: &str, events: usize, steps_each: usize) -> Progress {
         Progress::new(activity, events, events * steps_each, steps_each, self.verbosity.quiet)
     }
 
-    /// Progress over so many steps that belong to no event in particular.
+    /// Progress over the given number of steps that do not belong to a particular event.
     #[must_use]
     pub fn progress_over(&self, activity: &str, steps: usize) -> Progress {
         Progress::new(activity, 0, steps, 0, self.verbosity.quiet)

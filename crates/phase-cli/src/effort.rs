@@ -1,4 +1,4 @@
-//! Which physics events play in, how long they last and how hard agents think: options that several commands share.
+//! Physics engine, length of events and search effort of agents: options shared by several commands.
 
 use clap::{
     Args,
@@ -8,7 +8,7 @@ use clap::{
 use phase_agent::Foresight;
 use phase_sim::{Engine, SimulationSettings};
 
-/// What events play in, how long they last and how hard agents think; the defaults are the paper's.
+/// Physics engine, length of events and search effort of agents; the defaults are the paper's.
 #[derive(Args, Debug)]
 pub struct SimulationOptions {
     /// Physics engine of the events: `world` (rapier2d) or `forward` (the kernel that the agents' search
@@ -25,13 +25,13 @@ pub struct SimulationOptions {
     /// POMCP simulations a decision [default: 1000]
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=10_000_000))]
     pub simulations: Option<u32>,
-    /// Longest an event may last, in steps of 0.25 s [default: 100]
+    /// Maximum length of an event, in steps of 0.25 s [default: 100]
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=10_000))]
     pub max_steps: Option<u32>,
 }
 
 impl SimulationOptions {
-    /// The settings asked for.
+    /// The requested settings.
     #[must_use]
     pub fn settings(&self) -> SimulationSettings {
         let mut settings =
@@ -63,7 +63,7 @@ impl SimulationOptions {
         )
     }
 
-    /// The options as they were given, to repeat the command.
+    /// The options as given, to repeat the command.
     #[must_use]
     pub fn as_given(&self) -> String {
         let options =
@@ -82,7 +82,7 @@ pub fn engines() -> impl TypedValueParser<Value = Engine> {
     names.try_map(|name| Engine::ALL.into_iter().find(|engine| engine.name() == name).ok_or("no such engine"))
 }
 
-/// Reads by its name how exactly to imagine.
+/// Reads the fidelity of the search's dynamics by its name.
 fn foresights() -> impl TypedValueParser<Value = Foresight> {
     let names = PossibleValuesParser::new(Foresight::ALL.map(Foresight::name));
     names.try_map(|name| {

@@ -9,7 +9,7 @@ use phase_model::{
 };
 use phase_sim::{BeliefSnapshot, SimulationSettings};
 
-/// Name and version of this program, as files bear it.
+/// Name and version of this program, as stored in files.
 pub const GENERATOR: &str = concat!("phase ", env!("CARGO_PKG_VERSION"));
 
 /// The seed of one event of a file of scenes.
@@ -18,13 +18,14 @@ pub fn event_seed(seed: u64, index: usize) -> u64 {
     random::derive_seed(seed, Purpose::Event, index as u64)
 }
 
-/// The seed of an attempt at one slot of a dataset, from which its scene and all chance in its event are derived.
+/// The seed of an attempt at one slot of a dataset, from which its scene and all randomness in its event are
+/// derived.
 #[must_use]
 pub fn attempt_seed(dataset_seed: u64, slot: usize, attempt: usize) -> u64 {
     random::derive_seed(event_seed(dataset_seed, slot), Purpose::Attempt, attempt as u64)
 }
 
-/// Simulates an event; `None` if `on_step` broke it off.
+/// Simulates an event; `None` if `on_step` cancelled it.
 ///
 /// # Errors
 /// [`CliError::Simulation`].

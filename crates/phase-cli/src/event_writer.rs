@@ -1,4 +1,4 @@
-//! Making the files of one event: simulate it or take it from the cache, write its JSON and its video.
+//! Producing the files of one event: simulate it or take it from the cache, write its JSON and its video.
 
 use crate::{
     context::Context,
@@ -38,16 +38,16 @@ pub struct EventJob {
     pub seed: u64,
     /// The relation it is to show, if that is not the scene's own.
     pub relation: Option<Relation>,
-    /// Its greatest length, if that is not the run's (steps).
+    /// Its maximum length, if that is not the run's (steps).
     pub max_steps: Option<usize>,
-    /// Where its JSON goes.
+    /// Path of its JSON.
     pub json: PathBuf,
-    /// Where its video goes, if there is to be one.
+    /// Path of its video, if there is to be one.
     pub video: Option<PathBuf>,
 }
 
 impl EventWriter {
-    /// A production of `events` events in a folder. `activity` says what goes on.
+    /// A production of `events` events in a folder. `activity` describes it in the progress display.
     ///
     /// # Errors
     /// [`CliError::Serialise`].
@@ -64,8 +64,8 @@ impl EventWriter {
         Ok(Self { settings, settings_value, cache, progress })
     }
 
-    /// Makes one event and its files; `None` if it was interrupted. The scene is asked for only if the event is
-    /// not in the cache.
+    /// Produces one event and its files; `None` if it was interrupted. The scene is requested only if the
+    /// event is not in the cache.
     ///
     /// # Errors
     /// Any of [`CliError`]'s failures.
@@ -89,7 +89,8 @@ impl EventWriter {
                 };
                 let simulated = engine::simulate(id, &scene()?, job.seed, &self.settings, &mut on_step)?;
                 let Some(event) = simulated else { return Ok(None) };
-                // A video of an earlier build must not outlive the event it showed, wherever we are stopped.
+                // A video of an earlier build must not outlive the event it showed, even if the run is
+                // interrupted.
                 if let Some(video) = &job.video {
                     atomic::remove(video)?;
                 }
@@ -104,7 +105,7 @@ impl EventWriter {
         Ok(Some(event))
     }
 
-    /// Writes the files of an event; its video if the event is new or the video is not there.
+    /// Writes the files of an event; its video if the event is new or the video is missing.
     ///
     /// # Errors
     /// If drawing or writing fails.
@@ -136,7 +137,7 @@ impl EventWriter {
     }
 }
 
-/// Settings as they stand in files.
+/// Settings as stored in files.
 ///
 /// # Errors
 /// [`CliError::Serialise`].
@@ -154,8 +155,8 @@ pub fn write_video(path: &Path, id: &str, event: &Event) -> Result<(), CliError>
     picture::write_video(path, id, &event.scene.physics(), Palette::PAPER, &items)
 }
 
-/// Digest of everything that determines an event besides its scene and seed: the settings and this executable.
-/// An event cached by another build is made again, so that no dataset mixes two.
+/// Digest of everything that determines an event besides its scene and seed: the settings and this
+/// executable. An event cached by another build is simulated again, so that no dataset mixes two.
 fn fingerprint(settings: &Value) -> [u8; 32] {
     sha256(&[&program()[..], settings.to_string().as_bytes()].concat())
 }

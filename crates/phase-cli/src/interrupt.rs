@@ -8,8 +8,8 @@ use std::sync::{
 
 static REQUESTED: AtomicBool = AtomicBool::new(false);
 
-/// Begins to listen. Without it, or where the system does not let us listen, Ctrl-C ends the program at once;
-/// nothing is half-written then either, but the event at work is lost.
+/// Installs the handler. Without it, or where the system does not allow it, Ctrl-C ends the program at once;
+/// nothing is half-written then either, but the current event is lost.
 pub fn listen() {
     static LISTENING: Once = Once::new();
     LISTENING.call_once(|| {
@@ -25,7 +25,7 @@ pub fn listen() {
     });
 }
 
-/// Whether someone wants us to stop.
+/// Whether an interruption was requested.
 #[must_use]
 pub fn requested() -> bool {
     REQUESTED.load(Ordering::Relaxed)

@@ -1,25 +1,25 @@
 //! The commands of PHASE, and the program `phase` that runs them.
 //!
-//! - `new-scene` writes a scene to start from,
-//! - `gen-dataset` makes social events from a preset and a seed,
-//! - `verify` checks that a dataset is whole,
-//! - `merge` puts the shards of a dataset together,
+//! - `new-scene` writes an initial scene,
+//! - `gen-dataset` generates social events from a preset and a seed,
+//! - `verify` checks that a dataset is complete,
+//! - `merge` combines the shards of a dataset,
 //! - `splits` checks how a dataset is divided, or divides it,
-//! - `stats` shows the paper's figures beside a dataset's own,
-//! - `simulate` plays the scenes of a `phase-events/1` file,
+//! - `stats` compares the paper's figures with a dataset's own,
+//! - `simulate` simulates the scenes of a `phase-events/1` file,
 //! - `render` turns events into videos and pictures,
 //! - `eval` measures how well a method perceives events,
 //! - `train` trains neural networks (feature `networks`),
-//! - `benchmark` measures all methods and puts them beside what is published,
+//! - `benchmark` evaluates all methods and compares them with published results,
 //! - `completions` and `man` describe the program to shells and to `man`.
 //!
 //! `cargo xtask` runs the same commands and those that need the source of this workspace.
 //!
-//! The key design decision is that a command says what is wrong in one plain sentence and an exit code: 0 done,
-//! 1 a failure of the program or the machine, 2 something about the input or the output folder, 130 interrupted.
-//! The price is an error type that lists every way to fail.
+//! Key design decision: a command reports an error as one plain sentence and an exit code: 0 done, 1 a
+//! failure of the program or the machine, 2 a problem of the input or the output folder, 130 interrupted. The
+//! trade-off is an error type that lists every way to fail.
 //!
-//! A dataset of one short event is made and verified; once a file of it is damaged, verification fails:
+//! A dataset of one short event is generated and verified; once a file of it is damaged, verification fails:
 //!
 //! ```
 //! use phase_cli::main_with;

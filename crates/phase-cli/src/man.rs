@@ -30,7 +30,7 @@ pub fn run(arguments: &ManPages, context: &Context) -> Result<(), CliError> {
 
 /// Writes the page of a command and those of the commands below it, and returns how many there are.
 fn write(out: &Path, command: &clap::Command) -> Result<usize, CliError> {
-    // Of a command below another one the words joined: `phase-eval-goals`.
+    // For a command below another one the joined words: `phase-eval-goals`.
     let name = command.get_display_name().unwrap_or_else(|| command.get_name());
     let file = out.join(format!("{name}.1"));
     let mut page = Vec::new();

@@ -11,7 +11,7 @@ use std::sync::{
     atomic::{AtomicBool, AtomicUsize, Ordering},
 };
 
-/// How many events at once.
+/// Number of events at once.
 #[derive(Args, Clone, Debug)]
 pub struct Jobs {
     /// Events to work on at once; results do not depend on it [default: all cores]
@@ -19,11 +19,11 @@ pub struct Jobs {
     pub jobs: Option<u16>,
 }
 
-/// Makes `count` things on as many threads as asked for. `make` returns `None` when it was interrupted; then,
-/// and after the first failure, no new thing is begun.
+/// Makes `count` items on the requested number of threads. `make` returns `None` when it was interrupted;
+/// then, and after the first failure, no new item is begun.
 ///
 /// # Errors
-/// The failure of the thing with the lowest number, or [`CliError::Threads`]. `Ok(None)` means interrupted.
+/// The failure of the item with the lowest number, or [`CliError::Threads`]. `Ok(None)` means interrupted.
 pub fn make_all<T: Send>(
     jobs: &Jobs,
     count: usize,
@@ -56,11 +56,11 @@ pub fn make_all<T: Send>(
     Ok((!interrupted).then_some(made))
 }
 
-/// Does `count` things on as many threads as asked for and keeps nothing of them. `act` returns `None` when it was
-/// interrupted; then, and after the first failure, no new thing is begun. Whether all were done.
+/// Processes `count` items on the requested number of threads without results. `act` returns `None` when it
+/// was interrupted; then, and after the first failure, no new item is begun. Returns whether all were done.
 ///
 /// # Errors
-/// The failure of the thing with the lowest number of those that failed, or [`CliError::Threads`].
+/// The failure of the item with the lowest number of those that failed, or [`CliError::Threads`].
 pub fn for_all(
     jobs: &Jobs,
     count: usize,
@@ -86,7 +86,7 @@ pub fn for_all(
             }
         }
     };
-    // In order, one at a time for each thread: what is finished is then nearly a beginning of the whole.
+    // In order, one at a time for each thread, so that the finished items are nearly a prefix of all.
     let next = AtomicUsize::new(0);
     pool.broadcast(|_| {
         loop {

@@ -12,31 +12,31 @@ use std::path::Path;
 
 /// Side of each frame of a contact sheet (pixels).
 const SHEET_SIDE: u32 = 320;
-/// Lines of text below frames that show a mind at work.
+/// Lines of text below frames that show an agent's decisions.
 const CAPTION_LINES: u32 = crate::captions::COUNT as u32;
 
 /// One agent's field of view and belief at one frame.
 #[derive(Clone, Debug)]
 pub struct BeliefFrame {
-    /// Whose.
+    /// The agent.
     pub agent: AgentId,
-    /// What it sees.
+    /// Its field of view.
     pub visible: CellSet,
     /// Its belief particles.
     pub particles: Vec<State>,
-    /// What to write above.
+    /// The text above.
     pub title: String,
-    /// What to write below.
+    /// The text below.
     pub captions: Vec<Caption>,
 }
 
-/// A state to draw and the minds to draw over it, each in a picture of its own beside the others'; without any the state
-/// alone. Several frames may share a mind.
+/// A state to draw and the agents' views to draw over it, each in a separate picture beside the others';
+/// without any only the state. Several frames may share a view.
 #[derive(Clone, Debug)]
 pub struct RenderedState<'a> {
     /// The true state.
     pub state: State,
-    /// The minds, as many for every frame of an event.
+    /// The views, the same number for every frame of an event.
     pub minds: Vec<&'a BeliefFrame>,
 }
 
@@ -66,7 +66,7 @@ pub fn write_video(
     Ok(atomic::write(path, &mp4)?)
 }
 
-/// Writes one picture of `count` frames spread evenly from the first to the last.
+/// Writes one picture of `count` frames evenly spaced from the first to the last.
 ///
 /// # Errors
 /// [`CliError::Write`] or [`CliError::Render`]; then there is no file.
@@ -92,14 +92,14 @@ pub fn write_sheet(
     Ok(atomic::write(path, &png)?)
 }
 
-/// Columns for a shape between a square and a page on its side that leaves the fewest places empty.
+/// Number of columns for a shape between square and landscape that leaves the fewest places empty.
 fn columns(count: usize) -> usize {
     let widest = (1..=count).find(|columns| columns * columns >= 2 * count).unwrap_or(count).max(1);
     let squarest = (1..=widest).find(|columns| columns * columns >= count).unwrap_or(widest);
     (squarest..=widest).min_by_key(|columns| count.next_multiple_of(*columns)).unwrap_or(widest)
 }
 
-/// Title, legend and captions are for minds.
+/// Title, legend and captions are only for views of agents.
 fn style(style: Style, palette: Palette, items: &[RenderedState<'_>]) -> Style {
     let explained = items.iter().any(|item| !item.minds.is_empty());
     let caption_lines = if explained { CAPTION_LINES } else { 0 };

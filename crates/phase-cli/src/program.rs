@@ -12,7 +12,7 @@ pub trait Interface: Parser {
     /// Why a command fails.
     type Error: Failure;
 
-    /// How much the program is to say.
+    /// The program's verbosity.
     fn verbosity(&self) -> Verbosity;
 
     /// Runs the command that was parsed.
@@ -45,7 +45,7 @@ pub fn main_with<I: Interface>(program: Program, arguments: impl IntoIterator<It
             }
         }
         Err(error) if !error.use_stderr() => {
-            // Help or version was asked for; a closed pipe is no reason to complain.
+            // Help or version was requested; a closed pipe is not reported.
             let _ = error.print();
             ExitCode::SUCCESS
         }
@@ -56,12 +56,12 @@ pub fn main_with<I: Interface>(program: Program, arguments: impl IntoIterator<It
     }
 }
 
-/// The errors behind an error, the nearest first.
+/// The chain of causes of an error, nearest first.
 fn causes(error: &dyn Error) -> impl Iterator<Item = &(dyn Error + 'static)> {
     std::iter::successors(error.source(), |cause| (*cause).source())
 }
 
-/// What is wrong with a command line, on one line; the whole help for a line without a command.
+/// The problem of a command line, on one line; the whole help for a line without a command.
 fn one_sentence(error: &clap::Error) -> String {
     let text = error.render().to_string();
     if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {

@@ -1,4 +1,4 @@
-//! How far a run has come: a bar with the time left on a terminal, a line for each event elsewhere.
+//! Progress of a run: a bar with the remaining time on a terminal, a line for each event elsewhere.
 
 use crate::console::print_message;
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
@@ -9,13 +9,13 @@ use std::{
     time::Duration,
 };
 
-/// The bar. What may be cut to the width of the terminal comes last.
+/// The bar. The part that may be cut to the width of the terminal comes last.
 const TEMPLATE: &str = "{bar:16} {percent:>3} %{times} · {wide_msg}";
 /// How often the bar is drawn again while nothing happens.
 const TICK: Duration = Duration::from_millis(500);
 
-/// Progress on stderr, from the first moment on: what goes on, and how much of it is done. The bar is cleared when this is
-/// dropped, so results are to be printed afterwards.
+/// Progress on stderr, from the first moment on: the current activity, and how much of it is done. The bar is
+/// cleared when this is dropped, so results must be printed afterwards.
 #[derive(Debug)]
 pub struct Progress {
     bar: Option<ProgressBar>,
@@ -26,8 +26,8 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// Nothing done yet. `activity` says what goes on; `steps` is how much there is to do, of which each of the `events`
-    /// is at most `steps_each`.
+    /// Nothing done yet. `activity` describes the work; `steps` is its total amount, of which each of the
+    /// `events` is at most `steps_each`.
     #[must_use]
     pub fn new(activity: &str, events: usize, steps: usize, steps_each: usize, quiet: bool) -> Self {
         let terminal = std::io::stderr().is_terminal();
@@ -57,14 +57,14 @@ impl Progress {
         self.steps(1);
     }
 
-    /// So many steps are done.
+    /// The given number of steps is done.
     pub fn steps(&self, count: usize) {
         if let Some(bar) = &self.bar {
             bar.inc(count as u64);
         }
     }
 
-    /// An event is done. `counted` of its steps were reported with [`Progress::step`]; `line` says what it is.
+    /// An event is done. `counted` of its steps were reported with [`Progress::step`]; `line` describes it.
     pub fn event(&self, counted: usize, line: &str) {
         let number = 1 + self.finished.fetch_add(1, Ordering::Relaxed);
         let text = format!("{number}/{} {line}", self.events);
@@ -87,8 +87,8 @@ impl Drop for Progress {
     }
 }
 
-/// The time since the beginning and the time that remains, as far as there is something to say of them: nothing in the
-/// first second, and nothing of what remains until it is known.
+/// The elapsed and the remaining time, as far as known: nothing in the first second, and no remaining time
+/// until it can be estimated.
 #[must_use]
 pub fn times(elapsed: Duration, remaining: Option<Duration>) -> String {
     if elapsed < Duration::from_secs(1) {

@@ -13,16 +13,16 @@ use std::path::{Path, PathBuf};
 /// Events that can be loaded one at a time.
 #[derive(Debug)]
 pub enum EventInput {
-    /// Read already, from one file, each with its place there.
+    /// Already read, from one file, each with its index there.
     Loaded(Vec<(usize, Recording)>),
     /// Files with one event each.
     Files(Vec<EventFile>),
 }
 
-/// An event of a folder, in a file of its own.
+/// An event of a folder, in a separate file.
 #[derive(Debug)]
 pub struct EventFile {
-    /// Its place among the events of the folder, from 0.
+    /// Its index among the events of the folder, from 0.
     pub place: usize,
     /// Its id.
     pub id: String,
@@ -34,8 +34,8 @@ impl EventInput {
     /// Opens an event file, or the folder of a dataset or of simulations.
     ///
     /// # Errors
-    /// If there is nothing of the kind, or no event of one of the ids. Files of a folder are only looked at
-    /// when they are loaded.
+    /// If there is nothing of the kind, or no event of one of the ids. Files of a folder are only read when
+    /// they are loaded.
     pub fn open(path: &Path, ids: &[String], context: &Context) -> Result<Self, CliError> {
         if !path.is_dir() {
             return read(path, ids, context).map(Self::Loaded);
@@ -69,7 +69,7 @@ impl EventInput {
         }
     }
 
-    /// The events that are in memory already.
+    /// The events that are already in memory.
     pub fn loaded(&self) -> impl Iterator<Item = &Recording> {
         let recordings = match self {
             Self::Loaded(recordings) => &recordings[..],
@@ -93,7 +93,7 @@ impl EventInput {
         }
     }
 
-    /// The place of an event among all events of its file or folder, from 0, whichever of them were chosen.
+    /// The index of an event among all events of its file or folder, from 0, independent of the selection.
     #[must_use]
     pub fn place(&self, index: usize) -> usize {
         match self {
@@ -124,8 +124,8 @@ fn wanted(id: &String, ids: &[String]) -> bool {
     ids.is_empty() || ids.contains(id)
 }
 
-/// The events of a file with these ids (all, if there are none), each with its place in the file. What is odd about
-/// them is told to whoever runs the command.
+/// The events of a file with these ids (all, if there are none), each with its index in the file. Warnings
+/// about them are printed.
 ///
 /// # Errors
 /// If the file cannot be used, or [`CliError::UnknownId`].

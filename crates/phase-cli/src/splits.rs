@@ -23,7 +23,7 @@ pub struct Splits {
     /// Divide the events and write the split (phase-splits/1) here
     #[arg(long, value_name = "FILE")]
     pub make: Option<PathBuf>,
-    /// Seed of what the rules leave open, with --make
+    /// Random seed of the choices that the rules leave open, with --make
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub seed: u64,
     /// How the result is printed.
@@ -69,7 +69,7 @@ pub fn run(arguments: &Splits, context: &Context) -> Result<(), CliError> {
     }
 }
 
-/// The events of a dataset or file, and the parts they are in if all are in one.
+/// The events of a dataset or file, and their splits if all have one.
 fn events(arguments: &Splits, context: &Context) -> Result<(Vec<Item>, Option<Vec<Split>>), CliError> {
     let manifest = arguments.events.join(MANIFEST_FILE);
     if manifest.is_file() {

@@ -1,4 +1,4 @@
-//! `stats`: the paper's figures beside those of a dataset or of other events, and plots of them.
+//! `stats`: the paper's figures compared with those of a dataset or of other events, and plots of them.
 
 use crate::{context::Context, error::CliError, output::Output, source::EventInput};
 use clap::Args;
@@ -58,7 +58,8 @@ pub fn run(arguments: &Stats, context: &Context) -> Result<(), CliError> {
     arguments.output.print(text, &value(&statistics, &selection))
 }
 
-/// The figures of a dataset, with what its manifest says of the selection; or those of other events, which are in no split.
+/// The figures of a dataset, with its manifest's data on the selection; or those of other events, which are
+/// in no split.
 fn statistics(path: &Path, context: &Context) -> Result<(Statistics, Vec<Acceptance>), CliError> {
     let manifest = path.join(MANIFEST_FILE);
     if manifest.is_file() {

@@ -1,4 +1,4 @@
-//! `verify`: whether a dataset is whole and its files agree.
+//! `verify`: whether a dataset is complete and its files agree.
 
 use crate::{
     console::{self, print_message},
@@ -30,7 +30,7 @@ pub struct Verify {
     pub jobs: Jobs,
 }
 
-/// Runs the command: a sentence for each problem, or one that there is none.
+/// Runs the command: a sentence for each problem, or one stating that there is none.
 ///
 /// # Errors
 /// [`CliError::NotWhole`] if there is a problem; [`CliError::Usage`], [`CliError::Unfinished`] or a
@@ -46,15 +46,15 @@ pub fn run(arguments: &Verify, context: &Context) -> Result<(), CliError> {
         }
     }
     let manifest = Manifest::read(&folder.join(MANIFEST_FILE))?;
-    // What the Parquet library has to say about a file that was damaged on purpose comes back as a problem; its
-    // panics are not to be seen.
+    // Errors of the Parquet library about a file that was damaged on purpose are returned as a problem; its
+    // panics must not be visible.
     let hook = std::panic::take_hook();
     std::panic::set_hook(Box::new(|_| {}));
     let progress = context
         .progress_over(&format!("verifying {}", console::events(manifest.events.len())), work(&manifest));
     let run = |count: usize, check: &Check<'_>| {
         let answers = make_all(&arguments.jobs, count, |k| Ok(Some(check(k))))?;
-        // There is always an answer: only who listens for interruptions stops early, and nothing is written here.
+        // There is always a result: interruptions are not handled here, and nothing is written.
         Ok::<_, CliError>(answers.unwrap_or_default())
     };
     let problems = verify_with(folder, &manifest, &|steps| progress.steps(steps), run);

@@ -5,7 +5,7 @@ use phase_sampler::Variant;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// How often scenes of one variant came to show their label.
+/// How often scenes of one variant showed their label.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Acceptance {
@@ -24,7 +24,7 @@ pub struct Acceptance {
 pub struct Tally(BTreeMap<Variant, Acceptance>);
 
 impl Tally {
-    /// Adds what was tried for one accepted event.
+    /// Adds the attempts at one accepted event.
     pub fn add(&mut self, variant: Variant, refused: &[RejectionReason]) {
         let empty = Acceptance { variant, events: 0, attempts: 0, refused: BTreeMap::new() };
         let row = self.0.entry(variant).or_insert(empty);

@@ -1,4 +1,4 @@
-//! Files that are there whole or not at all: written beside, synced, renamed.
+//! Files that are complete or absent: written to a temporary file, synced, renamed.
 
 use crate::WriteError;
 use serde::Serialize;
@@ -12,17 +12,17 @@ use std::{
 /// Suffix of files that are still being written.
 pub const PART_SUFFIX: &str = ".part";
 
-/// Writes a file whole or not at all. Folders on the way must exist.
+/// Writes a file atomically. Folders on the way must exist.
 ///
 /// # Errors
-/// If the file cannot be written; then nothing of it is left and an older file of this name is untouched.
+/// If the file cannot be written; then no part of it remains and an older file of this name is unchanged.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     let mut file = AtomicFile::create(path)?;
     file.write_all(bytes).map_err(|source| file.failed(source))?;
     file.commit()
 }
 
-/// Writes a value as a file of JSON with line breaks, whole or not at all. Folders on the way must exist.
+/// Writes a value atomically as a JSON file with line breaks. Folders on the way must exist.
 ///
 /// # Errors
 /// If the value cannot be written as JSON, or as [`write()`].
@@ -31,7 +31,7 @@ pub fn write_json(path: &Path, value: &impl Serialize) -> Result<(), WriteError>
     write(path, format!("{text}\n").as_bytes())
 }
 
-/// The same in one line, for files that are large or for this program alone.
+/// The same on one line, for files that are large or for internal use.
 ///
 /// # Errors
 /// As [`write_json`].
@@ -43,7 +43,7 @@ pub fn write_json_line(path: &Path, value: &impl Serialize) -> Result<(), WriteE
 /// Removes a file if it exists.
 ///
 /// # Errors
-/// If it is there and stays.
+/// If it exists and cannot be removed.
 pub fn remove(path: &Path) -> Result<(), WriteError> {
     match fs::remove_file(path) {
         Err(source) if source.kind() != io::ErrorKind::NotFound => {
@@ -62,7 +62,7 @@ pub struct AtomicFile {
 }
 
 impl AtomicFile {
-    /// Begins a file beside the path under which it is to appear.
+    /// Creates the temporary file beside the path under which it is to appear.
     ///
     /// # Errors
     /// If no file can be created there.
@@ -77,7 +77,7 @@ impl AtomicFile {
     /// Syncs the file and gives it its name.
     ///
     /// # Errors
-    /// If either fails; then nothing is left of it.
+    /// If either fails; then no part of it remains.
     pub fn commit(mut self) -> Result<(), WriteError> {
         self.finish().map_err(|source| error(&self.path, source))
     }

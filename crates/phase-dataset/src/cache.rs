@@ -1,8 +1,8 @@
 //! Finished events kept for a later run, in `bincode`.
 //!
-//! This is the only place that knows the encoding. It is for our own use between two runs of the same
-//! program: a cache that is foreign, damaged, or of another program or other settings is not an error, it is
-//! no cache, and the event is made again.
+//! This is the only place that knows the encoding. It is for internal use between two runs of the same
+//! program: a cache that is foreign, damaged, or of another program or other settings is not an error; it is
+//! ignored, and the event is generated again.
 
 use crate::{WriteError, atomic, checksum::sha256};
 use phase_event::{Event, Step, Thought};
@@ -15,10 +15,10 @@ use std::path::{Path, PathBuf};
 
 /// First bytes of every cache file; the last is the version of what follows.
 const MAGIC: [u8; 8] = *b"PHASEch1";
-/// No event comes near this size (bytes); a length beyond it is damage.
+/// No event comes near this size (bytes); a greater length indicates damage.
 const LIMIT: usize = 1 << 28;
 
-/// A folder of cached events that were all made in the same way.
+/// A folder of cached events that were all generated in the same way.
 #[derive(Clone, Debug)]
 pub struct Cache {
     folder: PathBuf,
@@ -26,14 +26,14 @@ pub struct Cache {
 }
 
 impl Cache {
-    /// A cache in a folder, which must exist when something is stored. `fingerprint` stands for everything that
-    /// decides an event besides its id and seed: the program and its settings.
+    /// A cache in a folder, which must exist when something is stored. `fingerprint` is a digest of
+    /// everything that determines an event besides its id and seed: the program and its settings.
     #[must_use]
     pub fn new(folder: &Path, fingerprint: [u8; 32]) -> Self {
         Self { folder: folder.to_owned(), fingerprint }
     }
 
-    /// The event stored under an id and seed, if there is one that can be trusted.
+    /// The event stored under an id and seed, if there is a valid one.
     #[must_use]
     pub fn load(&self, id: &str, seed: u64) -> Option<Event> {
         let bytes = std::fs::read(self.path(id)).ok()?;
@@ -66,14 +66,14 @@ impl Cache {
         self.folder.join(format!("{id}.bin"))
     }
 
-    /// What every file that can be trusted begins with.
+    /// The header of every valid cache file.
     fn head(&self, id: &str, seed: u64) -> Vec<u8> {
         let key = [&self.fingerprint[..], id.as_bytes(), &seed.to_le_bytes()].concat();
         [&MAGIC[..], &sha256(&key)].concat()
     }
 }
 
-/// An event in types that need no description of themselves, which `bincode` does not write.
+/// An event in types that do not describe themselves; `bincode` does not write such descriptions.
 #[derive(Serialize, Deserialize)]
 struct CachedEvent {
     layout: (u8, Option<u8>),

@@ -10,7 +10,7 @@ use std::{
     path::{Component, Path},
 };
 
-/// A file of a dataset as its manifest knows it.
+/// A file of a dataset as listed in its manifest.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FileEntry {
@@ -35,7 +35,7 @@ impl FileEntry {
         Ok(Self { path, bytes, sha256 })
     }
 
-    /// Checks that the file is still what it was.
+    /// Checks that the file is unchanged.
     ///
     /// # Errors
     /// [`Problem::Unreadable`] if it is gone, [`Problem::Altered`] if it differs, [`Problem::OutsideFolder`] if

@@ -10,9 +10,9 @@ use serde_json::{Value, json};
 /// The file's name.
 pub const CROISSANT_FILE: &str = "croissant.json";
 
-/// The description of a dataset whose Parquet files are described in its manifest: every file that belongs to no single
-/// event with its checksum, and a record set for each Parquet file. The manifest itself, which is written
-/// later, has the checksums of the events' own files.
+/// The description of a dataset whose Parquet files are described in its manifest: every file that does not
+/// belong to a single event with its checksum, and a record set for each Parquet file. The manifest itself,
+/// which is written later, has the checksums of the events' own files.
 #[must_use]
 pub fn croissant(manifest: &Manifest, about: &str) -> String {
     let parts = parquet::parts(&manifest.events);

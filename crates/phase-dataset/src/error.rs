@@ -28,10 +28,10 @@ pub enum Problem {
     /// It is a folder.
     #[error("is a folder; a file is needed")]
     IsFolder,
-    /// It is no JSON, or JSON of another format.
+    /// It is not JSON, or JSON of another format.
     #[error(transparent)]
     Json(#[from] JsonError),
-    /// An event in it is not as it has to be.
+    /// An event in it is invalid.
     #[error(transparent)]
     Event(EventReadError),
     /// It is JSON of the right format, but some of it is missing, unknown or of the wrong type.
@@ -53,16 +53,16 @@ pub enum Problem {
     /// Its size or checksum is not the one in the manifest.
     #[error("differs in {0} from what its manifest says")]
     Altered(&'static str),
-    /// It is no Parquet file, or a damaged one.
+    /// It is not a Parquet file, or a damaged one.
     #[error("is not a complete Parquet file: {0}")]
     Parquet(#[source] Box<dyn core::error::Error + Send + Sync>),
     /// It is a Parquet file whose pages are damaged.
     #[error("is no whole Parquet file: its pages cannot be decoded")]
     ParquetPages,
-    /// What it says cannot be put into JSON, and so not be compared with its manifest.
+    /// Its contents cannot be converted to JSON, and so cannot be compared with its manifest.
     #[error("cannot be compared with its manifest: {0}")]
     Encode(#[source] serde_json::Error),
-    /// A Parquet file says something else than the event's own file or the manifest.
+    /// A Parquet file contradicts the event's own file or the manifest.
     #[error("event {event}: column `{column}` differs from the event's own file or the manifest")]
     Disagrees {
         /// The event's `id`.
@@ -76,7 +76,7 @@ pub enum Problem {
     /// A finished dataset must have it, but its manifest does not name it.
     #[error("is not in the manifest, but every dataset has it")]
     Unlisted,
-    /// It lies in a dataset's folder, but the manifest does not name it.
+    /// It is in a dataset's folder, but the manifest does not name it.
     #[error("is not in the manifest")]
     Extra,
     /// The manifest names it, but there are no events for it.
@@ -93,9 +93,9 @@ pub enum Problem {
 pub struct WriteError {
     /// The file or folder.
     pub path: PathBuf,
-    /// What was tried, such as `write the file`.
+    /// The operation that failed, such as `write the file`.
     pub action: &'static str,
-    /// The system's answer.
+    /// The system's error.
     #[source]
     pub source: io::Error,
 }
@@ -108,7 +108,7 @@ impl WriteError {
     }
 }
 
-/// The system's answer in words, without its number.
+/// The system's error message without its number.
 #[must_use]
 pub fn plain_reason(error: &io::Error) -> String {
     let text = error.to_string();

@@ -1,4 +1,4 @@
-//! Output folders: whose they are, and that one run at a time writes into them.
+//! Output folders: which run they belong to, and that only one run at a time writes into them.
 
 use crate::{WriteError, atomic, error::plain_reason, json};
 use serde_json::{Value, json};
@@ -9,22 +9,22 @@ use std::{
 };
 use thiserror::Error;
 
-/// The file that says which run a folder that is not finished yet belongs to.
+/// The file that states which run an unfinished folder belongs to.
 const MARKER: &str = ".phase-run.json";
-/// The file that a running program keeps locked. The system unlocks it when the program ends, however it ends.
+/// The file that a running program keeps locked. The system unlocks it however the program ends.
 const LOCK: &str = ".phase-lock";
 /// Where a run keeps what it may need again if it is interrupted.
 const CACHE: &str = ".cache";
 const MARKER_FORMAT: &str = "phase-run/1";
 
-/// What a folder holds.
+/// What a folder contains.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Contents {
     /// Nothing, or it is not there at all.
     Nothing,
     /// An interrupted run, with its description.
     Unfinished(Value),
-    /// A run that came to its end: the file that is written last is there.
+    /// A finished run: the file that is written last is present.
     Finished,
 }
 
@@ -34,7 +34,7 @@ pub enum FolderError {
     /// There is a file of this name.
     #[error("{}: is a file; the output needs a folder", .0.display())]
     IsFile(PathBuf),
-    /// It holds something that is not ours.
+    /// It contains files that no run has written.
     #[error("{}: contains other files ({entry}); choose an empty or a new folder", path.display())]
     Foreign {
         /// The folder.
@@ -42,12 +42,12 @@ pub enum FolderError {
         /// One of the things in it.
         entry: String,
     },
-    /// It cannot be looked into.
+    /// It cannot be read.
     #[error("{}: cannot be read: {}", path.display(), plain_reason(source))]
     Unreadable {
         /// The folder.
         path: PathBuf,
-        /// The system's answer.
+        /// The system's error.
         source: io::Error,
     },
     /// It cannot be written.
@@ -58,7 +58,8 @@ pub enum FolderError {
     Busy(PathBuf),
 }
 
-/// Looks what a folder holds, without touching it. `last_file` is the name of the file a run writes last.
+/// Inspects what a folder contains, without changing it. `last_file` is the name of the file a run writes
+/// last.
 ///
 /// # Errors
 /// [`FolderError::IsFile`], [`FolderError::Foreign`] or [`FolderError::Unreadable`].
@@ -67,7 +68,7 @@ pub fn inspect(path: &Path, last_file: &str) -> Result<Contents, FolderError> {
         Ok(entries) => entries,
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Contents::Nothing),
         Err(_) if path.is_file() => return Err(FolderError::IsFile(path.to_owned())),
-        // A file on the way to the folder makes it impossible to create; the claim reports that.
+        // A file on the path to the folder makes it impossible to create; the claim reports that.
         Err(error) if error.kind() == io::ErrorKind::NotADirectory => return Ok(Contents::Nothing),
         Err(source) => return Err(FolderError::Unreadable { path: path.to_owned(), source }),
     };
@@ -87,7 +88,7 @@ pub fn inspect(path: &Path, last_file: &str) -> Result<Contents, FolderError> {
     }
 }
 
-/// A folder that this run alone writes into, until it is dropped.
+/// A folder that only this run writes into, until it is dropped.
 #[derive(Debug)]
 pub struct Folder {
     path: PathBuf,
@@ -96,7 +97,7 @@ pub struct Folder {
 }
 
 impl Folder {
-    /// Creates the folder if need be, locks it and leaves word whose it is. Only for folders that
+    /// Creates the folder if necessary, locks it and records which run it belongs to. Only for folders that
     /// [`inspect`] has found usable.
     ///
     /// # Errors
@@ -125,13 +126,13 @@ impl Folder {
         &self.path
     }
 
-    /// The folder's place for what is needed only until the run ends.
+    /// The folder's directory for files that are needed only until the run ends.
     #[must_use]
     pub fn cache(&self) -> PathBuf {
         self.path.join(CACHE)
     }
 
-    /// Creates a folder in the folder and clears it of files that an earlier run left unfinished.
+    /// Creates a folder in the folder and removes unfinished files of an earlier run from it.
     ///
     /// # Errors
     /// If it cannot be created.
@@ -146,7 +147,7 @@ impl Folder {
         Ok(path)
     }
 
-    /// Takes away everything that served the run and is no part of its result.
+    /// Removes everything that served the run and is not part of its result.
     ///
     /// # Errors
     /// If something cannot be removed.
@@ -158,7 +159,7 @@ impl Folder {
     }
 }
 
-/// Whether a finished folder still holds what served its run.
+/// Whether a finished folder still contains files that served its run.
 #[must_use]
 pub fn has_leftovers(path: &Path) -> bool {
     path.join(MARKER).exists()
@@ -174,7 +175,7 @@ fn clear_parts(folder: &Path) {
     let Ok(entries) = fs::read_dir(folder) else { return };
     for entry in entries.flatten() {
         if atomic::is_part(&entry.file_name().to_string_lossy()) {
-            // What cannot be removed is only litter; the run does not depend on it.
+            // Files that cannot be removed are harmless; the run does not depend on them.
             let _ = fs::remove_file(entry.path());
         }
     }

@@ -13,7 +13,7 @@ pub fn read(path: &Path) -> Result<Value, FileError> {
     parse(&bytes(path)?).map_err(|error| FileError { file: path.to_owned(), problem: error.into() })
 }
 
-/// Reads a whole file, whatever is in it.
+/// Reads a whole file, whatever its contents.
 ///
 /// # Errors
 /// [`Problem::IsFolder`] or [`Problem::Unreadable`].

@@ -1,4 +1,4 @@
-//! What learners are asked for: goals and kinds of interaction, as classes.
+//! What classifiers predict: goals and kinds of interaction, as classes.
 
 use phase_model::{AGENT_COUNT, EventKind, Goal, LandmarkId, ObjectId, Sign};
 use std::collections::BTreeMap;

@@ -1,21 +1,21 @@
-//! PHASE events at rest: files, formats, checksums, and folders that several runs may meet in.
+//! PHASE events on disk: files, formats, checksums, and folders shared by several runs.
 //!
 //! - [`phase_events`] reads files of the exchange format `phase-events/1`, whose events `phase-event` describes.
 //! - [`manifest`] describes a generated dataset to programs; pages and tables for people are made elsewhere.
-//! - [`parquet`] and [`croissant`] are for everyone else's tools; [`mod@verify`] checks that all of it agrees.
-//! - [`preset`] says what a dataset is composed of, [`splits`] how it is divided, [`slot_record`], [`acceptance`] and
-//!   [`shard`] what was tried for each of its events.
+//! - [`parquet`] and [`croissant`] are for external tools; [`mod@verify`] checks that all files agree.
+//! - [`preset`] defines the composition of a dataset, [`splits`] how it is divided, [`slot_record`],
+//!   [`acceptance`] and [`shard`] what was tried for each of its events.
 //! - [`summary`] compares simulations with recordings.
-//! - [`atomic`], [`folder`] and [`cache`] let a run be interrupted at any moment and nothing be half-written.
+//! - [`atomic`], [`folder`] and [`cache`] allow a run to be interrupted at any moment without half-written
+//!   files.
 //!
-//! Key design decision: files are read by hand from a tree of JSON values instead of by derived readers, so
+//! Key design decision: files are read manually from a tree of JSON values instead of by derived readers, so
 //! that errors name the event, the field and the rule. The cost is a reader four times as long, and a file
 //! has to fit in memory twice.
 //!
-//! Together with the command line this crate is where the outside world is touched; it does so only at paths
-//! it is given.
+//! Apart from the command line, only this crate accesses the file system, and only at paths that it is given.
 //!
-//! A file is written atomically and entered with its checksum; when somebody alters it, that is found:
+//! A file is written atomically and entered with its checksum; later changes are detected:
 //!
 //! ```
 //! use phase_dataset::{Problem, atomic, checksum::FileEntry};

@@ -1,4 +1,4 @@
-//! `manifest.json`: what a dataset holds, how it was made, and the checksum of every file.
+//! `manifest.json`: what a dataset contains, how it was generated, and the checksum of every file.
 
 use crate::{
     FileError, Problem, WriteError,
@@ -31,20 +31,20 @@ pub const PAGE_FILE: &str = "index.html";
 pub struct Manifest {
     /// Always [`DATASET_FORMAT`].
     pub format: String,
-    /// Name and version of the program that made it.
+    /// Name and version of the program that generated it.
     pub generator: String,
-    /// Name of the preset it was made from.
+    /// Name of the preset it was generated from.
     pub preset: String,
     /// The random seed of the dataset.
     pub seed: u64,
-    /// Settings of simulation and minds.
+    /// Settings of simulation and agents.
     pub settings: Value,
-    /// How many scenes were tried and why most were refused, by variant; empty where nothing was selected.
+    /// How many scenes were tried and why most were rejected, by variant; empty where nothing was selected.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub selection: Vec<Acceptance>,
     /// The events, in order.
     pub events: Vec<EventEntry>,
-    /// The files that belong to no single event.
+    /// The files that do not belong to a single event.
     pub files: Vec<FileEntry>,
 }
 
@@ -56,7 +56,7 @@ pub struct EventEntry {
     pub id: String,
     /// The intended kind of event.
     pub kind: EventKind,
-    /// How its kind was to come about; not known of other programs' events.
+    /// The variant of its kind; unknown for events of other programs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub variant: Option<Variant>,
     /// The part of the dataset it belongs to, if the dataset is divided.
@@ -66,7 +66,7 @@ pub struct EventEntry {
     pub relation: Relation,
     /// The event's own seed.
     pub seed: u64,
-    /// Where the walls stand.
+    /// The positions of the walls.
     pub layout: LayoutEntry,
     /// The agents.
     pub agents: [AgentEntry; AGENT_COUNT],
@@ -76,12 +76,12 @@ pub struct EventEntry {
     pub steps: usize,
     /// The event with everything known about it.
     pub event: FileEntry,
-    /// The video, unless the dataset was made without.
+    /// The video, unless the dataset was generated without.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub video: Option<FileEntry>,
 }
 
-/// A layout by its numbers.
+/// A layout by its base and reflection.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LayoutEntry {
@@ -91,7 +91,7 @@ pub struct LayoutEntry {
     pub flip: Option<u8>,
 }
 
-/// One agent of an event and what became of its goal.
+/// One agent of an event and the outcome of its goal.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AgentEntry {
@@ -105,12 +105,12 @@ pub struct AgentEntry {
     pub alpha: i8,
     /// Whether the goal was reached; see [`GoalOutcome`].
     pub reached: bool,
-    /// Steps until it was reached, of positive goals.
+    /// Steps until it was reached, for positive goals.
     pub steps_to_goal: Option<usize>,
 }
 
 impl EventEntry {
-    /// Describes an event whose files, its JSON and perhaps its video, are in a dataset's folder already.
+    /// Describes an event whose files, its JSON and perhaps its video, are already in a dataset's folder.
     ///
     /// # Errors
     /// If a file cannot be read.
@@ -119,7 +119,7 @@ impl EventEntry {
         Ok(Self::with_files(id, event, FileEntry::of(folder, event_path(id))?, video))
     }
 
-    /// Describes an event whose files are described already.
+    /// Describes an event whose files are already described.
     #[must_use]
     pub fn with_files(id: &str, event: &Event, json: FileEntry, video: Option<FileEntry>) -> Self {
         let scene = &event.scene;
@@ -180,7 +180,7 @@ impl Manifest {
     /// Reads a manifest.
     ///
     /// # Errors
-    /// If it is no JSON, of another format, or incomplete.
+    /// If it is not JSON, of another format, or incomplete.
     pub fn read(path: &Path) -> Result<Self, FileError> {
         let fail = |problem| FileError { file: path.to_owned(), problem };
         let value = json::read(path)?;
@@ -189,7 +189,7 @@ impl Manifest {
         serde_json::from_value(value).map_err(|source| fail(Problem::Incomplete { what, source }))
     }
 
-    /// Writes the manifest whole or not at all.
+    /// Writes the manifest atomically.
     ///
     /// # Errors
     /// If it cannot be written as JSON, or the file cannot be written.
@@ -197,7 +197,7 @@ impl Manifest {
         atomic::write_json(path, self)
     }
 
-    /// What of each event decides which part of the dataset it may belong to, in the events' order.
+    /// The properties of each event that determine which splits it may belong to, in the events' order.
     #[must_use]
     pub fn items(&self) -> Vec<Item> {
         let item = |event: &EventEntry| Item {
@@ -209,7 +209,7 @@ impl Manifest {
         self.events.iter().map(item).collect()
     }
 
-    /// Checks that every file is there and unchanged.
+    /// Checks that every file is present and unchanged.
     ///
     /// # Errors
     /// Names the first file that is not.

@@ -1,4 +1,4 @@
-//! What a generated dataset is made of.
+//! The composition of a generated dataset.
 
 use crate::{FileError, Problem, splits::Split};
 use phase_model::{
@@ -26,15 +26,15 @@ pub struct Preset {
     pub name: String,
     /// Seed unless another is given.
     pub seed: u64,
-    /// Names for sets of base layouts; each is used as it is and in its four reflections.
+    /// Names for sets of base layouts; each is used unchanged and in its four reflections.
     pub layouts: BTreeMap<String, Vec<u8>>,
-    /// What an event has to satisfy; without it the first scene drawn is taken.
+    /// What an event has to satisfy; without it the first scene drawn is accepted.
     pub selection: Option<Selection>,
     /// What the dataset is composed of.
     pub groups: Vec<PresetGroup>,
 }
 
-/// Which events are let in.
+/// Which events are accepted.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Selection {
@@ -42,9 +42,9 @@ pub struct Selection {
     pub min_steps: usize,
     /// The longest event (steps).
     pub max_steps: usize,
-    /// Scenes tried for an event before the run is given up.
+    /// Maximum number of scenes tried for an event before the run fails.
     pub attempts: usize,
-    /// Whether adversarial events, which need not end by themselves, end at a step uniformly sampled from
+    /// Whether adversarial events, which need not end on their own, end at a step uniformly sampled from
     /// `min_steps` to `max_steps`. Otherwise all of them last to the maximum, and their length reveals the
     /// relation.
     #[serde(default)]
@@ -52,17 +52,17 @@ pub struct Selection {
 }
 
 impl Selection {
-    /// The step at which an event of this relation and seed ends at the latest, if that is drawn.
+    /// The step at which an event of this relation and seed ends at the latest, if that is sampled.
     #[must_use]
     pub fn sampled_end(&self, relation: Relation, seed: u64) -> Option<usize> {
         let ends = self.max_steps.saturating_sub(self.min_steps) as u64 + 1;
-        // So few ends that the remainder favours none of them noticeably.
+        // The range is so small that the remainder introduces no noticeable bias.
         let drawn = random::derive_seed(seed, Purpose::Length, 0) % ends;
         (self.draw_ends && relation == Relation::Adversarial).then_some(self.min_steps + drawn as usize)
     }
 }
 
-/// Events that have everything in common but their goals.
+/// Events that have everything in common except their goals.
 #[derive(Clone, PartialEq, Eq, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PresetGroup {
@@ -72,7 +72,7 @@ pub struct PresetGroup {
     pub split: Option<Split>,
     /// One of the names in `layouts`.
     pub layouts: String,
-    /// How many.
+    /// Number of events.
     pub events: usize,
 }
 
@@ -81,7 +81,7 @@ pub struct PresetGroup {
 pub struct EventSlot {
     /// The variant.
     pub variant: Variant,
-    /// Whose goals' turn it is; see [`Variant::goals`].
+    /// Index of the pair of goals; see [`Variant::goals`].
     pub goal_index: usize,
     /// The part of the dataset, if it is divided.
     pub split: Option<Split>,
@@ -98,10 +98,10 @@ pub struct Composition {
 }
 
 impl Preset {
-    /// Reads a preset from text; `name` stands for it in messages.
+    /// Reads a preset from text; `name` refers to it in messages.
     ///
     /// # Errors
-    /// If the text is no preset, lists no events, or names layouts that there are not.
+    /// If the text is not a preset, lists no events, or names layouts that do not exist.
     pub fn parse(name: &str, text: &str) -> Result<Self, FileError> {
         let what = "preset";
         let fail = |problem| FileError { file: Path::new(name).to_owned(), problem };
@@ -137,7 +137,7 @@ impl Preset {
         Ok(())
     }
 
-    /// How many events there are unless told otherwise.
+    /// Default number of events.
     #[must_use]
     pub fn events(&self) -> usize {
         self.groups.iter().map(|group| group.events).sum()

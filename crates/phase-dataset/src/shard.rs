@@ -1,4 +1,4 @@
-//! `shard.json`: one part of a dataset that is made in several places.
+//! `shard.json`: one part of a dataset that is generated in several places.
 
 use crate::{FileError, Problem, WriteError, atomic, json, slot_record::SlotRecord};
 use phase_model::json::check_format;
@@ -23,14 +23,14 @@ pub struct DatasetDescription {
     pub seed: u64,
     /// Name and version of the program.
     pub generator: String,
-    /// Settings of simulation and minds.
+    /// Settings of simulation and agents.
     pub settings: Value,
     /// Whether events were selected.
     pub selected: bool,
-    /// Whether events have videos, as they have unless told otherwise; then nothing is written of it.
+    /// Whether events have videos; not written if true, which is the default.
     #[serde(default = "with_videos", skip_serializing_if = "Clone::clone")]
     pub videos: bool,
-    /// The command that makes the whole.
+    /// The command that generates the whole dataset.
     pub command: String,
 }
 
@@ -50,7 +50,7 @@ pub struct Shard {
     pub of: usize,
     /// The dataset it is a part of.
     pub whole: DatasetDescription,
-    /// What became of its slots, in order.
+    /// The records of its slots, in order.
     pub slots: Vec<SlotRecord>,
 }
 
@@ -58,7 +58,7 @@ impl Shard {
     /// Reads a shard and checks that it has an event for each of its slots.
     ///
     /// # Errors
-    /// If it is no JSON, of another format, or incomplete.
+    /// If it is not JSON, of another format, or incomplete.
     pub fn read(path: &Path) -> Result<Self, FileError> {
         let fail = |problem| FileError { file: path.to_owned(), problem };
         let what = "shard of a dataset";
@@ -78,7 +78,7 @@ impl Shard {
         Ok(shard)
     }
 
-    /// Writes the shard whole or not at all.
+    /// Writes the shard atomically.
     ///
     /// # Errors
     /// If it cannot be written as JSON, or the file cannot be written.

@@ -5,16 +5,16 @@ use phase_evidence::selection::RejectionReason;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
-/// Everything that became of one slot of a dataset so far. Attempts are numbered from 0; those before the accepted
-/// one were refused.
+/// The history of one slot of a dataset so far. Attempts are numbered from 0; those before the accepted one
+/// were rejected.
 #[derive(Clone, PartialEq, Debug, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SlotRecord {
-    /// Stands for the program, its settings and the preset; a record of others counts for nothing.
+    /// Digest of the program, its settings and the preset; records with another digest are ignored.
     pub fingerprint: String,
-    /// Why each attempt was refused, in order.
+    /// Why each attempt was rejected, in order.
     pub refused: Vec<RejectionReason>,
-    /// The accepted event, once its files are there.
+    /// The accepted event, once its files exist.
     pub entry: Option<EventEntry>,
 }
 
@@ -29,7 +29,7 @@ impl SlotRecord {
             .unwrap_or_else(|| Self { fingerprint: fingerprint.into(), ..Self::default() })
     }
 
-    /// Writes the record whole or not at all.
+    /// Writes the record atomically.
     ///
     /// # Errors
     /// If the record cannot be written as JSON, or the file cannot be written.

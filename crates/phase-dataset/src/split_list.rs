@@ -20,11 +20,11 @@ const WHAT: &str = "list of splits";
 pub struct SplitList {
     /// Always [`SPLITS_FORMAT`].
     pub format: String,
-    /// Ids of the events to learn from.
+    /// Ids of the training events.
     pub train: Vec<String>,
-    /// Ids of the events to choose by.
+    /// Ids of the validation events.
     pub validation: Vec<String>,
-    /// Ids of the events to be judged by.
+    /// Ids of the test events.
     pub test: Vec<String>,
 }
 
@@ -43,7 +43,7 @@ impl SplitList {
     /// Reads a list.
     ///
     /// # Errors
-    /// If it is no JSON, of another format, or incomplete.
+    /// If it is not JSON, of another format, or incomplete.
     pub fn read(path: &Path) -> Result<Self, FileError> {
         let fail = |problem| FileError { file: path.to_owned(), problem };
         let value = json::read(path)?;
@@ -54,7 +54,7 @@ impl SplitList {
     /// The part of each event.
     ///
     /// # Errors
-    /// [`Problem::Shape`] if an event is named twice or not at all, or something is named that is no event.
+    /// [`Problem::Shape`] if an event is named twice or not at all, or an id does not belong to any event.
     pub fn parts(&self, items: &[Item]) -> Result<Vec<Split>, Problem> {
         let mut parts: BTreeMap<&str, Split> = BTreeMap::new();
         for (split, ids) in Split::ALL.into_iter().zip([&self.train, &self.validation, &self.test]) {
@@ -76,7 +76,7 @@ impl SplitList {
         }
     }
 
-    /// Writes the list whole or not at all.
+    /// Writes the list atomically.
     ///
     /// # Errors
     /// If it cannot be written as JSON, or the file cannot be written.

@@ -14,11 +14,11 @@ use std::collections::{BTreeMap, BTreeSet};
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Split {
-    /// To learn from.
+    /// For training.
     Train,
-    /// To choose by.
+    /// For validation (model selection).
     Validation,
-    /// To be judged by.
+    /// For testing.
     Test,
 }
 
@@ -37,7 +37,7 @@ impl Split {
     }
 }
 
-/// What of an event decides where it may go.
+/// The properties of an event that determine which splits it may belong to.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Item {
     /// Its name.
@@ -50,18 +50,18 @@ pub struct Item {
     pub base: u8,
 }
 
-/// How many events of a dataset go where.
+/// How many events of a dataset belong to each split.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct SplitQuota {
-    /// Events to learn from.
+    /// Training events.
     pub train: usize,
-    /// Events to choose by.
+    /// Validation events.
     pub validation: usize,
-    /// Events to be judged by.
+    /// Test events.
     pub test: usize,
-    /// Of the test events, those in layouts of their own.
+    /// Of the test events, those in held-out layouts.
     pub unseen: usize,
-    /// Of the test events, those of an interaction type of their own.
+    /// Of the test events, those of a held-out interaction type.
     pub exclusive: usize,
 }
 
@@ -81,7 +81,7 @@ impl SplitQuota {
     }
 }
 
-/// One rule, what it wants and what there is.
+/// One rule, with the required and the actual number.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Rule {
     /// In words.
@@ -119,8 +119,8 @@ pub fn check(items: &[Item], parts: &[Split]) -> Vec<Rule> {
     ]
 }
 
-/// Divides a dataset by the rules, as far as its events allow; [`check`] tells how far that is. Within the rules the
-/// seed decides, and kinds are spread evenly.
+/// Divides a dataset by the rules, as far as its events allow; [`check`] tells how far that is. Within the
+/// rules the seed decides, and kinds are distributed evenly.
 #[must_use]
 pub fn make(items: &[Item], seed: u64) -> Vec<Split> {
     let quota = SplitQuota::of(items.len());
@@ -150,8 +150,8 @@ pub fn make(items: &[Item], seed: u64) -> Vec<Split> {
     parts
 }
 
-/// The interaction type that has most nearly as many events as wanted, and not more than the test set holds beside
-/// unseen layouts; the first of several.
+/// The interaction type whose number of events is closest to the wanted one and does not exceed what the test
+/// set has room for beside unseen layouts; the first of several.
 fn exclusive_type(items: &[Item], quota: &SplitQuota) -> Option<String> {
     let mut counts: BTreeMap<String, usize> = BTreeMap::new();
     for item in items {
@@ -165,8 +165,8 @@ fn exclusive_type(items: &[Item], quota: &SplitQuota) -> Option<String> {
         .map(|(it, _)| it)
 }
 
-/// Base layouts that together have as many events as there are to be in unseen layouts, or as nearly as may be
-/// without having more.
+/// Base layouts that together have as many events as there are to be in unseen layouts, or as close to it as
+/// possible without exceeding it.
 fn held_out_bases(items: &[Item], quota: &SplitQuota, seed: u64) -> BTreeSet<u8> {
     let mut counts: BTreeMap<u8, usize> = BTreeMap::new();
     for item in items {
@@ -188,7 +188,7 @@ fn held_out_bases(items: &[Item], quota: &SplitQuota, seed: u64) -> BTreeSet<u8>
     sets.pop_last().map(|(_, set)| set).unwrap_or_default()
 }
 
-/// So many of some things, at even distances.
+/// The given number of items, evenly spaced.
 fn evenly(things: &[usize], count: usize) -> BTreeSet<usize> {
     let count = count.min(things.len());
     (0..count).map(|k| things[(2 * k + 1) * things.len() / (2 * count)]).collect()

@@ -1,5 +1,5 @@
-//! Whether a dataset's folder holds what its manifest says, no more and no less, and whether its files agree with
-//! each other.
+//! Whether a dataset's folder contains exactly what its manifest lists, and whether its files agree with each
+//! other.
 
 use crate::{
     FileError, Problem,
@@ -19,12 +19,12 @@ use std::{
     path::Path,
 };
 
-/// One of several checks that do not depend on each other, by its number; the answer is what is wrong, if anything.
+/// One of several independent checks, by its number; the result is the problem found, if any.
 pub type Check<'a> = dyn Fn(usize) -> Option<FileError> + Sync + 'a;
 
-/// Everything that is wrong with a finished dataset, one error for each problem: files that are missing, changed or
-/// extra, and event files, Parquet files and descriptions that say something else than the manifest. What a
-/// file that is not whole says is not looked at. Files are read one after the other; besides the manifest, one
+/// Everything that is wrong with a finished dataset, one error for each problem: files that are missing,
+/// changed or extra, and event files, Parquet files and descriptions that contradict the manifest. The
+/// contents of a damaged file are not checked. Files are read one after the other; besides the manifest, one
 /// group of events is in memory.
 #[must_use]
 pub fn verify(folder: &Path, manifest: &Manifest) -> Vec<FileError> {
@@ -95,7 +95,7 @@ pub fn verify_with<E>(
     Ok(problems)
 }
 
-/// How much there is to verify: every file, every event's file again, and every event's row.
+/// The amount of work: every file, every event's file again, and every event's row.
 #[must_use]
 pub fn work(manifest: &Manifest) -> usize {
     4 * manifest.events.len() + manifest.files.len()
@@ -172,7 +172,7 @@ fn extra(root: &Path, folder: &Path, files: &BTreeMap<&str, &FileEntry>, problem
     }
 }
 
-/// Checks that an event's file says what the manifest says.
+/// Checks that an event's file agrees with the manifest.
 fn event(folder: &Path, entry: &EventEntry) -> Result<(), FileError> {
     let file = folder.join(&entry.event.path);
     let recording = parquet::read(folder, entry)?;

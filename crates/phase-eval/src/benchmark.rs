@@ -1,4 +1,4 @@
-//! Many methods on the same events, side by side: all that the benchmark's report says, as data.
+//! Many methods on the same events, side by side: the contents of the benchmark's report, as data.
 
 use crate::{goals, trajectories};
 use serde::Serialize;
@@ -21,7 +21,7 @@ pub struct Benchmark {
     pub goals: Vec<Row<goals::RecognitionSummary>>,
     /// Task 2.
     pub trajectories: Vec<Row<trajectories::ForecastSummary>>,
-    /// What the networks among the methods cost, and how they learnt.
+    /// The training cost and learning curves of the networks among the methods.
     pub trainings: Vec<Training>,
 }
 
@@ -32,21 +32,21 @@ pub struct EventSet {
     pub name: String,
     /// What they are called in a table.
     pub label: String,
-    /// Stands for everything in them.
+    /// Digest of the events.
     pub sha256: String,
-    /// How many there are.
+    /// Number of events.
     pub events: usize,
 }
 
-/// Where a row comes from.
+/// The origin of a row.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Origin {
-    /// A method that comes with the program.
+    /// A method bundled with the program.
     Ours,
-    /// One of our networks with weights from elsewhere: a point of a learning curve.
+    /// One of PHASE's networks with other weights: a point of a learning curve.
     Trained,
-    /// Somebody else's method.
+    /// An external method.
     Given,
 }
 
@@ -55,13 +55,13 @@ pub enum Origin {
 pub struct Row<S> {
     /// The method's name.
     pub method: String,
-    /// Where it comes from.
+    /// Its origin.
     pub origin: Origin,
-    /// Which of [`Benchmark::sets`].
+    /// Index into [`Benchmark::sets`].
     pub set: usize,
-    /// Which of [`Benchmark::trainings`] is its own, if it learnt anything.
+    /// Index of its training in [`Benchmark::trainings`], if it was trained.
     pub training: Option<usize>,
-    /// How well it does.
+    /// Its scores.
     pub summary: S,
     /// Error breakdown of its goals; Task 1 only.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -75,7 +75,7 @@ pub struct Row<S> {
 pub struct Subset<S> {
     /// What they have in common.
     pub familiarity: Familiarity,
-    /// How well the method does on them.
+    /// The method's scores on them.
     pub summary: S,
 }
 
@@ -85,11 +85,11 @@ pub struct Subset<S> {
 pub enum Familiarity {
     /// Its base layout.
     SeenLayout,
-    /// Not even its base layout.
+    /// Its base layout does not occur there.
     UnseenLayout,
     /// Its type of interaction.
     SeenInteraction,
-    /// Not even its type of interaction.
+    /// Its type of interaction does not occur there.
     UnseenInteraction,
 }
 
@@ -106,7 +106,7 @@ pub struct Training {
     pub dataset: String,
     /// Number of training events.
     pub events: usize,
-    /// Events of a round.
+    /// Events in a round.
     pub round: usize,
     /// Rounds.
     pub rounds: usize,
@@ -114,14 +114,14 @@ pub struct Training {
     pub best_round: Option<usize>,
     /// CPU time of all rounds (s).
     pub cpu_seconds: f64,
-    /// What was measured after each round, in the order of rounds.
+    /// The metrics after each round, in the order of rounds.
     pub curves: Vec<Curve>,
 }
 
-/// A measure over the rounds of a training.
+/// A metric over the rounds of a training.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Curve {
-    /// What is measured.
+    /// The metric.
     pub measure: String,
     /// On the training events, during training.
     pub training: Vec<f64>,
@@ -134,7 +134,7 @@ impl Familiarity {
     pub const ALL: [Self; 4] =
         [Self::SeenLayout, Self::UnseenLayout, Self::SeenInteraction, Self::UnseenInteraction];
 
-    /// What is like and what is unlike, layouts and interactions apart.
+    /// The similar and the dissimilar one, layouts and interactions apart.
     pub const PAIRS: [[Self; 2]; 2] =
         [[Self::SeenLayout, Self::UnseenLayout], [Self::SeenInteraction, Self::UnseenInteraction]];
 

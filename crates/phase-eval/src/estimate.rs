@@ -1,10 +1,10 @@
-//! Means over events, with intervals.
+//! Means over events, with confidence intervals.
 
 use phase_model::random::{Purpose, stream};
 use phase_statistics::{Interval, bootstrap_mean, mean};
 use serde::{Deserialize, Serialize};
 
-/// How often events are drawn anew for an interval.
+/// Number of bootstrap resamples for an interval.
 pub const RESAMPLES: usize = 10_000;
 /// The share of resampled means that lies in an interval.
 pub const CONFIDENCE: f64 = 0.95;
@@ -21,8 +21,9 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// The mean of one number for each event, and the percentile bootstrap interval over events: as many events are
-    /// drawn with replacement as there are, [`RESAMPLES`] times. `None` without events. The numbers must be finite.
+    /// The mean of one number for each event, and the percentile bootstrap interval over events: as many
+    /// events are drawn with replacement as there are, [`RESAMPLES`] times. `None` without events. The
+    /// numbers must be finite.
     #[must_use]
     pub fn of(values: &[f64], seed: u64) -> Option<Self> {
         let mut random = stream(seed, Purpose::Bootstrap, 0);

@@ -1,19 +1,22 @@
-//! How well a method perceives social events: the metrics of both tasks, with intervals.
+//! How well a method perceives social events: the metrics of both tasks, with confidence intervals.
 //!
-//! - [`method`] is what a method has to be: a [`Recogniser`] for Task 1 (goals and relations), a [`Forecaster`] for
-//!   Task 2 (trajectories); [`trivial`] has the plainest of both, below which no method should fall.
+//! - [`method`] is the interface of methods: a [`Recogniser`] for Task 1 (goals and relations), a
+//!   [`Forecaster`] for Task 2 (trajectories); [`trivial`] has trivial baselines for both, below which no
+//!   method should fall.
 //! - [`goals`] and [`trajectories`] score answers; [`estimate`] puts intervals around every score.
-//! - [`benchmark`] puts many methods on the same events side by side.
-//! - [`results`] is what programs read, and [`predictions`] the answers of somebody else's method to either task.
+//! - [`benchmark`] compares many methods on the same events.
+//! - [`results`] is output for programs, and [`predictions`] the answers of an external method to either
+//!   task.
 //!
-//! The key design decision is that every score is a mean over events of one number for each event. So one bootstrap
-//! over events serves all of them, and whatever is kept of an event is enough to score it again. The price is
-//! that figures which are no such means (the calibration error, the confusion matrix) come without an interval.
+//! Key design decision: every score is a mean over events of one number for each event. So one bootstrap over
+//! events serves all of them, and the stored data of an event suffices to score it again. The trade-off is
+//! that figures which are not such means (the calibration error, the confusion matrix) come without an
+//! interval.
 //!
-//! Nothing here reads a file, looks at a clock or prints.
+//! Nothing here reads a file, accesses a clock or prints.
 //!
-//! Extrapolation at constant velocity has agent 0 go on at 6 u/s, which is 0.5 u in each step of 1/12 s. In truth it
-//! stopped:
+//! Extrapolation at constant velocity predicts that agent 0 continues at 6 u/s, which is 0.5 u in each step
+//! of 1/12 s. In truth it stopped:
 //!
 //! ```
 //! use core::ops::ControlFlow;

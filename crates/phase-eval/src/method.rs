@@ -10,13 +10,13 @@ use thiserror::Error;
 /// Why there is no answer to an event, in a sentence.
 #[derive(Debug, Error)]
 pub enum MethodError {
-    /// The method gave none, for a reason of its own.
+    /// The method gave none, for the reason stated.
     #[error("{0}")]
     NoAnswer(#[source] Box<dyn core::error::Error + Send + Sync>),
-    /// The probabilities of goals or relations that it gave are none.
+    /// The probabilities of goals or relations are invalid.
     #[error("the method's {0}")]
     Answer(#[from] InvalidAnswer),
-    /// The positions that it predicted cannot be compared with those that came.
+    /// The predicted positions cannot be compared with the true ones.
     #[error(transparent)]
     Forecast(#[from] ForecastError),
 }
@@ -36,20 +36,21 @@ pub type MethodResult<T> = Result<Option<(T, Value)>, MethodError>;
 
 /// A method for Task 1, joint inference of goals and relations.
 ///
-/// Everything a method draws comes from the seed, and it thinks on the calling thread alone: other events are at
-/// work on the other cores, and its CPU time is that thread's.
+/// All randomness of a method comes from the seed, and it runs on the calling thread only: the other cores
+/// process other events, and its CPU time is that thread's.
 pub trait Recogniser: Sync {
-    /// What decides the answers beside event and seed, to be kept with them; null for a method without settings.
+    /// The settings that determine the answers beside event and seed, to be stored with them; null for a
+    /// method without settings.
     fn settings(&self) -> Value {
         Value::Null
     }
 
-    /// About how often [`ProgressCallback`] is called for an event, for the time left.
+    /// About how often [`ProgressCallback`] is called for an event, to estimate the remaining time.
     fn ticks(&self) -> usize {
         1
     }
 
-    /// What the agents want and how they relate, given what has been seen so far.
+    /// The agents' goals and relation, given what has been seen so far.
     ///
     /// # Errors
     /// If the method has no answer for such an event.
@@ -63,17 +64,18 @@ pub trait Recogniser: Sync {
 
 /// A method for Task 2, multi-entity trajectory prediction. See [`Recogniser`] for seeds and threads.
 pub trait Forecaster: Sync {
-    /// What decides the answers beside event and seed, to be kept with them; null for a method without settings.
+    /// The settings that determine the answers beside event and seed, to be stored with them; null for a
+    /// method without settings.
     fn settings(&self) -> Value {
         Value::Null
     }
 
-    /// About how often [`ProgressCallback`] is called for an event, for the time left.
+    /// About how often [`ProgressCallback`] is called for an event, to estimate the remaining time.
     fn ticks(&self) -> usize {
         1
     }
 
-    /// Where every entity will be in the next `steps` steps.
+    /// The positions of all entities in the next `steps` steps.
     ///
     /// # Errors
     /// If the method has no answer for such an event.

@@ -12,12 +12,13 @@ use phase_model::{
 use serde_json::Value;
 use std::collections::BTreeMap;
 
-/// Reads answers to Task 1 by the ids of their events: `{"events": [{"id", "goals": [[{"goal", "p"}…], […]], "relation":
-/// {"friendly", "adversarial", "neutral"}}…]}`. Other members are left to whoever put them there, so results of
-/// ours are predictions too.
+/// Reads answers to Task 1 by the ids of their events: `{"events": [{"id", "goals": [[{"goal", "p"}…], […]],
+/// "relation": {"friendly", "adversarial", "neutral"}}…]}`. Other members are ignored, so results of PHASE
+/// are valid predictions too.
 ///
 /// # Errors
-/// If there is no event, one comes twice, a field is missing or of the wrong type, or a number is no probability.
+/// If there is no event, one occurs twice, a field is missing or of the wrong type, or a probability is
+/// invalid.
 pub fn goals(value: &Value) -> Result<BTreeMap<String, Answer>, EventReadError> {
     by_id(value, |event, id| {
         let judgement = judgement(event).map_err(|problem| of_event(id, problem))?;
@@ -27,19 +28,21 @@ pub fn goals(value: &Value) -> Result<BTreeMap<String, Answer>, EventReadError> 
     })
 }
 
-/// Reads answers to Task 2 by the ids of their events: `{"events": [{"id", "forecast": [[[x, y], …steps] …entities]}…]}`,
-/// positions in u. Other members are left to whoever put them there, so results of ours are predictions too. Whether a
-/// forecast has the shape of its event is for [`fit`] to say.
+/// Reads answers to Task 2 by the ids of their events: `{"events": [{"id", "forecast": [[[x, y], …steps]
+/// …entities]}…]}`, positions in u. Other members are ignored, so results of PHASE are valid predictions too.
+/// Whether a forecast has the shape of its event is checked by [`fit`].
 ///
 /// # Errors
-/// If there is no event, one comes twice, a field is missing or of the wrong type, or a number is not finite.
+/// If there is no event, one occurs twice, a field is missing or of the wrong type, or a number is not
+/// finite.
 pub fn forecasts(value: &Value) -> Result<BTreeMap<String, Forecast>, EventReadError> {
     by_id(value, |event, id| forecast(event).map_err(|problem| of_event(id, problem)))
 }
 
-/// What a forecast says of an event with so many entities and steps to predict, at most [`PREDICTED_STEPS`]. It may go on
-/// after the event's end, up to that many, for a method need not know how long an event is; what is beyond is dropped.
-/// More would be positions of something else, such as the whole event.
+/// The part of a forecast for an event with the given number of entities and steps to predict, at most
+/// [`PREDICTED_STEPS`]. It may extend beyond the event's end, up to that many, since a method need not know
+/// how long an event is; the excess is dropped. Longer forecasts would be positions of something else, such
+/// as the whole event.
 ///
 /// # Errors
 /// If there are more or fewer entities, or some entity has too few or too many positions.

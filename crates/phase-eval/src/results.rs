@@ -1,4 +1,4 @@
-//! Results for programs: the members that every evaluation of PHASE has, and ours beside them.
+//! Results for programs: the members common to all PHASE evaluations, with additional ones.
 
 use crate::{
     Estimate,
@@ -12,7 +12,7 @@ pub const GOALS_FORMAT: &str = "phase-eval-goals/1";
 /// The value of the field `format` of results of Task 2.
 pub const TRAJECTORIES_FORMAT: &str = "phase-eval-trajectories/1";
 
-/// Results of Task 1. `run` is what was run, with its `method` and `seed`.
+/// Results of Task 1. `run` describes the run, with its `method` and `seed`.
 ///
 /// # Errors
 /// If a part of them cannot be written as JSON.
@@ -49,7 +49,7 @@ pub fn goals(
     }))
 }
 
-/// Results of Task 2. `run` is what was run, with its `method` and `seed`.
+/// Results of Task 2. `run` describes the run, with its `method` and `seed`.
 ///
 /// # Errors
 /// If a part of them cannot be written as JSON.

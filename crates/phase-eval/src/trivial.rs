@@ -1,4 +1,4 @@
-//! Trivial baselines: what is reached without perception.
+//! Trivial baselines: the scores that are reached without perception.
 
 use crate::method::{Forecaster, MethodResult, ProgressCallback, Recogniser};
 use phase_event::ObservedEvent;
@@ -10,12 +10,12 @@ use phase_model::{
 use rand::RngExt;
 use serde_json::Value;
 
-/// Every goal of an agent's own is as likely as any other, and so is every relation.
+/// All own goals of an agent are equally likely, and so are all relations.
 #[derive(Clone, Copy, Debug)]
 pub struct Chance;
 
 impl Recogniser for Chance {
-    /// Goals that are equally likely come in an order drawn from the seed, so that none is first more often.
+    /// Equally likely goals come in an order drawn from the seed, so that none is first more often.
     fn judge(&self, observed: &ObservedEvent, seed: u64, _: ProgressCallback<'_>) -> MethodResult<Judgement> {
         let mut random = stream(seed, Purpose::Evaluation, 0);
         let goals = AgentId::ALL.map(|agent| {
@@ -30,8 +30,8 @@ impl Recogniser for Chance {
     }
 }
 
-/// The goals an agent can have of its own: itself or an object on a landmark, to approach the other, to get away from
-/// it. As in labels, touching names the one that approaches first.
+/// The possible own goals of an agent: itself or an object on a landmark, to approach the other, to get away
+/// from it. As in labels, touching names the one that approaches first.
 #[must_use]
 pub fn own_goals(agent: AgentId, objects: usize) -> Vec<Goal> {
     let (me, other) = (agent, agent.other());
@@ -78,7 +78,7 @@ impl Forecaster for ConstantVelocity {
     }
 }
 
-/// Every entity on its way from the last row on with a share of its velocity.
+/// Every entity continued from the last row with a share of its velocity.
 fn straight_on(observed: &ObservedEvent, steps: usize, share: f32) -> Forecast {
     let last = observed.rows().last().copied().unwrap_or_default();
     let step_seconds = SUBSTEPS as f32 * SUBSTEP_SECONDS;

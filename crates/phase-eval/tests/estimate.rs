@@ -1,4 +1,4 @@
-//! Bootstrap intervals, held against known distributions.
+//! Bootstrap intervals, compared with known distributions.
 
 use phase_eval::Estimate;
 
@@ -11,8 +11,8 @@ fn without_spread_there_is_no_interval_and_without_events_no_mean() {
 
 #[test]
 fn the_interval_of_a_share_is_that_of_the_binomial_distribution() {
-    // 100 events, 30 of them right: a resampled share is binomial (100, 0.3) over 100, whose 2.5 % and 97.5 %
-    // quantiles are 0.21 and 0.39; one step of 0.01 is left for the resamples' own chance.
+    // 100 events, 30 of them correct: a resampled share is binomial (100, 0.3) over 100, whose 2.5 % and 97.5
+    // % quantiles are 0.21 and 0.39; one step of 0.01 is the tolerance for the randomness of resampling.
     let values: Vec<f64> = (0..100).map(|k| if k < 30 { 1.0 } else { 0.0 }).collect();
     for seed in 0..5 {
         let estimate = Estimate::of(&values, seed).expect("events");

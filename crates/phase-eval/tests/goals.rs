@@ -1,4 +1,4 @@
-//! Scores of Task 1, held against numbers worked out by hand.
+//! Scores of Task 1, compared with numbers computed by hand.
 
 use phase_eval::{
     GroupScores,
@@ -60,7 +60,7 @@ fn a_goal_is_right_only_if_everything_matches() {
         // A hinderer bears the other's goal negated.
         (place(1, 3, MINUS), &[place(1, 3, MINUS)], Some(0)),
         (place(1, 3, MINUS), &[place(1, 3, PLUS)], None),
-        // Whoever is named first, they touch each other.
+        // Whichever agent is named first, they touch each other.
         (touch(1, 0, MINUS), &[touch(0, 1, MINUS)], Some(0)),
         (touch(1, 0, MINUS), &[touch(1, 0, PLUS)], None),
         (touch(0, 1, PLUS), &[], None),
@@ -130,7 +130,8 @@ fn numbers_that_are_no_probabilities_are_refused() {
     }
 }
 
-/// Two events: in the first agent 0 is right at once and agent 1 at the third guess, in the second nobody is.
+/// Two events: in the first agent 0 is correct at once and agent 1 at the third goal, in the second neither
+/// is.
 fn two_events() -> Vec<RecognisedEvent> {
     let (a, b, c) = (place(0, 0, PLUS), place(0, 1, PLUS), place(0, 2, PLUS));
     let label = |kind, relation, relation_human, layout_seen| Label {
@@ -163,7 +164,7 @@ fn two_events_summed_up_by_hand() {
     let all = &summary.all;
     assert_eq!((all.n, all.top1.value, all.top2.value, all.top3.value), (2, 0.25, 0.25, 0.5));
     assert_eq!(all.relation.value, 0.5);
-    // People were asked about the first event only, and saw something else.
+    // Human judgement exists for the first event only, and differs.
     assert_eq!(all.relation_human.map(|estimate| estimate.value), Some(0.0));
     assert_eq!(summary.confusion, [[1, 0, 0], [0, 0, 1], [0, 0, 0]]);
     assert_eq!(summary.cpu_seconds_per_event, Some(2.0));
@@ -202,7 +203,7 @@ fn an_agents_own_goals_are_all_different() {
             assert_eq!(goals.len(), count, "{objects} objects");
         }
     }
-    // As labels of a chase have it: whoever approaches is named first.
+    // As in labels of a chase: the agent that approaches is named first.
     assert!(
         own_goals(AgentId::ZERO, 0).contains(&touch(1, 0, MINUS))
             && own_goals(AgentId::ONE, 0).contains(&touch(1, 0, PLUS))
@@ -248,7 +249,7 @@ fn predictions_that_will_not_do() {
 }
 
 proptest! {
-    /// More guesses never hurt, no share leaves 0 to 1, and the mean lies in its interval.
+    /// Further goals never reduce a score, no share leaves 0 to 1, and the mean lies in its interval.
     #[test]
     fn scores_are_ordered(orders in prop::collection::vec((0..14_usize, 0..14_usize, 0..3_usize), 1..12)) {
         let goals = own_goals(AgentId::ZERO, 2);

@@ -1,4 +1,4 @@
-//! Scores of Task 2 and the plain methods, held against numbers worked out by hand.
+//! Scores of Task 2 and the trivial baselines, compared with numbers computed by hand.
 
 use core::ops::ControlFlow;
 use phase_eval::{
@@ -18,7 +18,7 @@ fn path(y: f32, steps: usize) -> Vec<Vec2> {
 
 #[test]
 fn errors_by_hand() {
-    // Agent 0 is hit exactly, agent 1 missed by 3 and 4 (5 u) throughout, the object by 0, then 6.
+    // Agent 0 is predicted exactly, agent 1 missed by 3 and 4 (5 u) throughout, the object by 0, then 6.
     let truth = vec![path(0.0, 2), path(0.0, 2), path(0.0, 2)];
     let off: Vec<Vec2> = path(0.0, 2).into_iter().map(|point| point + Vec2::new(3.0, 4.0)).collect();
     let late = vec![Vec2::new(0.0, 0.0), Vec2::new(1.0, 6.0)];
@@ -78,7 +78,7 @@ fn events_count_alike_and_are_told_apart_by_relation() {
     assert_eq!(of(summary.social.as_ref()), Some((2, 5.0, 5.5)));
     assert_eq!(of(Some(&summary.all)), Some((3, 11.0 / 3.0, 4.0)));
     assert_eq!(summary.shorter, 1);
-    // From the third step on the second event has nothing to say.
+    // From the third step on the second event does not contribute.
     assert_eq!(summary.by_step[..3], [10.0 / 3.0, 4.0, 4.0]);
     assert_eq!(ForecastSummary::of(&events[..1], 1).expect("an event").social, None);
     assert_eq!(ForecastSummary::of(&[], 1), None);
@@ -139,7 +139,7 @@ fn position() -> impl Strategy<Value = Vec2> {
 }
 
 proptest! {
-    /// What is kept of a forecast reads back to the same bits, and is as far off as any finite numbers are.
+    /// A stored forecast reads back to the same bits, and has the same errors.
     #[test]
     fn forecasts_read_back(paths in prop::collection::vec(prop::collection::vec(position(), 20), 2..=4)) {
         let kept = ForecastEvent {
@@ -155,7 +155,7 @@ proptest! {
         }
     }
 
-    /// Whatever stands where a forecast should be, it is refused in a sentence that names the event.
+    /// Any invalid forecast is rejected in a sentence that names the event.
     #[test]
     fn rubbish_is_no_forecast(depth in 0..5_usize, leaf in prop_oneof![
         Just(Value::Null), Just(json!(true)), Just(json!("1")), Just(json!({})), any::<f64>().prop_map(|x| json!(x)),

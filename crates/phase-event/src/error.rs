@@ -1,4 +1,4 @@
-//! What can be wrong with events, in one plain sentence each.
+//! Errors in events, each displayed as one plain sentence.
 
 use phase_model::{
     AGENT_COUNT, MAX_OBJECTS, SceneError,
@@ -9,16 +9,16 @@ use thiserror::Error;
 /// Why a text is not `phase-events/1`, or an event of it cannot be used.
 #[derive(Clone, PartialEq, Debug, Error)]
 pub enum EventReadError {
-    /// It is no JSON, or JSON of another format.
+    /// It is not JSON, or JSON of another format.
     #[error(transparent)]
     Json(#[from] JsonError),
-    /// There is nothing in it to work on.
+    /// It contains no events.
     #[error("field `events` must hold at least one event")]
     NoEvents,
-    /// Two events have the same name.
+    /// Two events have the same id.
     #[error("event {0}: field `id` must differ from that of every other event")]
     DuplicateId(String),
-    /// A field breaks a rule.
+    /// A field violates a rule.
     #[error("{}{problem}", event_prefix(event))]
     Field {
         /// The event it belongs to, by its `id` or its number; `None` if it belongs to none, or to the only one.
@@ -27,7 +27,7 @@ pub enum EventReadError {
         #[source]
         problem: FieldError,
     },
-    /// The scene breaks a rule of [`phase_model::validate`].
+    /// The scene violates a rule of [`phase_model::validate`].
     #[error("{}{}", event_prefix(event), in_trajectory(&source.to_string()))]
     Scene {
         /// The event's `id`; `None` if it has none.
@@ -40,10 +40,10 @@ pub enum EventReadError {
 /// Why events cannot be written.
 #[derive(Debug, Error)]
 pub enum EventWriteError {
-    /// An event holds a number that JSON cannot express.
+    /// An event contains a number that JSON cannot express.
     #[error("event {0} holds a number that is not finite and cannot be written")]
     NotFinite(String),
-    /// An event cannot be put into JSON for another reason.
+    /// An event cannot be serialised for another reason.
     #[error("event {event} cannot be written: {source}")]
     Json {
         /// The event's `id`.
@@ -57,7 +57,7 @@ fn event_prefix(event: &Option<String>) -> String {
     event.as_ref().map_or_else(String::new, |event| format!("event {event}: "))
 }
 
-/// The model's checks know a start pose where an event has a trajectory's first row.
+/// The scene's checks refer to a start pose where an event has the first row of a trajectory.
 pub(crate) fn in_trajectory(rule: &str) -> String {
     ["agents", "objects"].into_iter().fold(rule.to_owned(), |rule, group| {
         (0..MAX_OBJECTS.max(AGENT_COUNT)).fold(rule, |rule, k| {

@@ -1,20 +1,20 @@
-//! A social event: what a simulation leaves behind.
+//! A social event: the result of a simulation.
 
 use crate::Thought;
 use phase_model::{AGENT_COUNT, Action, Scene, State, arena::SUBSTEPS};
 
-/// One step of an event: what both agents did and why, and what became of it.
+/// One step of an event: the actions of both agents, their explanations and the resulting states.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Step {
     /// The actions of both agents.
     pub actions: [Action; AGENT_COUNT],
-    /// Why they chose them.
+    /// The explanations of the actions.
     pub thoughts: [Thought; AGENT_COUNT],
     /// The state after each substep of 1/60 s; the last is the state after the step.
     pub substeps: [State; SUBSTEPS],
 }
 
-/// A social event: a scene and what happened in it.
+/// A social event: a scene and the simulated motion.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Event {
     /// The scene.

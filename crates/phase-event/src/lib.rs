@@ -1,8 +1,8 @@
 //! PHASE events in memory and as JSON of the format `phase-events/1`.
 //!
-//! A [`Recording`] is one event of such a file: its [`Scene`](phase_model::Scene), its labels, and the [`Trajectory`]
-//! of everybody in it. A simulated event has its whole [`Event`] beside: every substep, what both agents did
-//! ([`Step`]) and why ([`Thought`]). This is all that is needed to read a file of events:
+//! A [`Recording`] is one event of such a file: its [`Scene`](phase_model::Scene), its labels, and the
+//! [`Trajectory`] of all entities. A simulated event additionally has its whole [`Event`]: every substep,
+//! both agents' actions ([`Step`]) and their explanations ([`Thought`]). Reading a file of events:
 //!
 //! ```
 //! let text = r#"{"format": "phase-events/1", "events": [{"id": "chase", "layout": {"base": 0},
@@ -20,13 +20,13 @@
 //! # Ok::<(), phase_event::EventReadError>(())
 //! ```
 //!
-//! `docs/formats.md` describes every field. Reading and writing are each other's inverse, to the bit. Every part can
-//! be read and written by itself too: [`Recording`], [`Event`] and [`Scene`](phase_model::Scene) have `from_json` and
-//! `to_json`, and implement serde's traits.
+//! `docs/formats.md` describes every field. Reading and writing are exact inverses, bit for bit. Every part
+//! can also be read and written separately: [`Recording`], [`Event`] and [`Scene`](phase_model::Scene) have
+//! `from_json` and `to_json`, and implement serde's traits.
 //!
-//! The key design decision is that events are read by hand from a tree of JSON values instead of by derived readers:
-//! whoever made the file learns which field of which event breaks which rule. The price is a reader four times as
-//! long, and a file has to fit in memory twice.
+//! Key design decision: events are read by hand from a tree of JSON values instead of by derived readers, so
+//! that errors name the field, the event and the rule that is violated. The trade-off is a reader four times
+//! as long, and a file has to fit in memory twice.
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]

@@ -1,9 +1,9 @@
-//! JSON with one line for each member of the outermost object, which people and `diff` can read.
+//! JSON with one line for each member of the outermost object, readable for people and `diff`.
 
 use serde_json::ser::Formatter;
 use std::io::{self, Write};
 
-/// As compact as can be, but for a line break between the members of the outermost object.
+/// Compact JSON, except for a line break between the members of the outermost object.
 #[derive(Default)]
 pub(crate) struct LineFormatter {
     depth: usize,

@@ -1,10 +1,10 @@
-//! One state for each step: the means that files and judgements are made of.
+//! One state for each step: the means stored in files and used for evaluation.
 
 use crate::Step;
 use phase_model::{Body, Contacts, MAX_ENTITIES, State, arena::SUBSTEPS};
 
-/// What stands for a whole step: bodies are means over its five substeps (angles are unbounded, so theirs is
-/// plain), grips are those at its end, and contacts are all there were in it.
+/// The state that represents a whole step: bodies are means over its five substeps (angles are unbounded, so
+/// a plain mean is valid), grips are those at its end, and contacts are the union over its substeps.
 #[must_use]
 pub fn mean_state(step: &Step) -> State {
     let mut state = step.substeps[SUBSTEPS - 1];

@@ -1,4 +1,4 @@
-//! An event as a viewer has it: walls, sizes and motion, and nothing that would answer the viewer's questions.
+//! An event as observed by a viewer: walls, sizes and motion, without labels.
 
 use phase_model::{
     AGENT_COUNT, AgentBody, AgentId, Body, Entity, Layout, MAX_ENTITIES, MAX_OBJECTS, PhysicsConfig, Size,
@@ -6,23 +6,23 @@ use phase_model::{
 };
 use thiserror::Error;
 
-/// Why something cannot be an observed event.
+/// Why something is not a valid observed event.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Error)]
 pub enum ObservedError {
-    /// There is nothing to look at.
+    /// There are no rows.
     #[error("an observed event needs at least one row")]
     Empty,
     /// More objects than a scene can have.
     #[error("an observed event has at most {MAX_OBJECTS} objects")]
     TooManyObjects,
-    /// A position, velocity or angle is no number.
+    /// A position, velocity or angle is not finite.
     #[error("row {0} of an observed event has a number that is not finite")]
     NotFinite(usize),
 }
 
-/// What can be seen of an event up to some moment: the layout with its landmarks, the sizes of all bodies, and
-/// where everything was. Goals, attitudes, strengths, the kind of event and how long it goes on are not in it, so
-/// whatever is inferred from it alone is inferred.
+/// The observable part of an event up to some moment: the layout with its landmarks, the sizes of all bodies,
+/// and all positions. Goals, attitudes, strengths, the kind of event and its remaining length are not
+/// included, so inference from it cannot access them.
 #[derive(Clone, PartialEq, Debug)]
 pub struct ObservedEvent {
     layout: Layout,
@@ -32,11 +32,11 @@ pub struct ObservedEvent {
 }
 
 impl ObservedEvent {
-    /// An event of which rows 0 to t have been seen. Row 0 is the initial state, row t ≥ 1 the mean over the
-    /// substeps of step t, bodies by [`Entity::index`]. Bodies past the last object mean nothing.
+    /// An event of which rows 0 to t have been observed. Row 0 is the initial state, row t ≥ 1 the mean over
+    /// the substeps of step t, bodies by [`Entity::index`]. Bodies past the last object are meaningless.
     ///
     /// # Errors
-    /// [`ObservedError`] for no rows, too many objects, or numbers that are not finite.
+    /// [`ObservedError`] for no rows, too many objects, or non-finite numbers.
     pub fn new(
         layout: Layout,
         agent_sizes: [Size; AGENT_COUNT],
@@ -56,14 +56,14 @@ impl ObservedEvent {
         }
     }
 
-    /// The first steps of the event; all of it if it has no more.
+    /// The first steps of the event; the whole event if it has no more.
     #[must_use]
     pub fn prefix(&self, steps: usize) -> Self {
         let rows = self.rows.iter().take(steps.saturating_add(1)).copied().collect();
         Self { rows, object_sizes: self.object_sizes.clone(), ..*self }
     }
 
-    /// Where the walls stand.
+    /// The wall layout.
     #[must_use]
     pub const fn layout(&self) -> Layout {
         self.layout
@@ -81,8 +81,8 @@ impl ObservedEvent {
         &self.object_sizes
     }
 
-    /// The bodies at row 0 and after each step, by [`Entity::index`]; never empty. Angular velocities are 0 where
-    /// nobody measured them.
+    /// The bodies at row 0 and after each step, by [`Entity::index`]; never empty. Angular velocities are 0
+    /// where they were not measured.
     #[must_use]
     pub fn rows(&self) -> &[[Body; MAX_ENTITIES]] {
         &self.rows
@@ -99,7 +99,7 @@ impl ObservedEvent {
         Entity::ALL.into_iter().take(AGENT_COUNT + self.object_sizes.len())
     }
 
-    /// The physics of the event if its agents had these greatest forces (N).
+    /// The physics of the event if its agents had these maximum forces (N).
     #[must_use]
     pub fn physics(&self, max_forces: [f32; AGENT_COUNT]) -> PhysicsConfig {
         let mut object_radii = [0.0; MAX_OBJECTS];

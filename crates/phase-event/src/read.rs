@@ -41,7 +41,7 @@ const MEMBERS: [&str; 22] = [
     "thoughts",
 ];
 
-/// The most letters an id may have.
+/// Maximum number of letters of an id.
 pub const LONGEST_ID: usize = 100;
 
 /// Reads all events of a `phase-events/1` file and checks each.
@@ -52,7 +52,7 @@ pub fn from_json(text: &str) -> Result<Vec<Recording>, EventReadError> {
     all_of(&json::parse_text(text)?)
 }
 
-/// The same for bytes, which may not be text.
+/// The same for bytes, which need not be valid UTF-8.
 ///
 /// # Errors
 /// [`EventReadError`] names event, field and rule.
@@ -84,7 +84,7 @@ fn all_of(document: &Value) -> Result<Vec<Recording>, EventReadError> {
 }
 
 impl Recording {
-    /// Reads one event as it stands in the list `events` of a file.
+    /// Reads one event in its form as an element of a file's list `events`.
     ///
     /// # Errors
     /// [`EventReadError`] names field and rule.
@@ -92,7 +92,7 @@ impl Recording {
         Self::from_value(&json::parse_text(text)?)
     }
 
-    /// The same for JSON that is parsed already.
+    /// The same for JSON that is already parsed.
     ///
     /// # Errors
     /// [`EventReadError`] names field and rule.
@@ -102,8 +102,8 @@ impl Recording {
 }
 
 impl Event {
-    /// Reads a simulated event as it stands in the list `events` of a file. What a [`Recording`] has beside (`id`,
-    /// `generator`, `settings`, labels) may be there or not.
+    /// Reads a simulated event in its form as an element of a file's list `events`. The additional members of
+    /// a [`Recording`] (`id`, `generator`, `settings`, labels) are optional.
     ///
     /// # Errors
     /// [`EventReadError`] names field and rule.
@@ -111,7 +111,7 @@ impl Event {
         Self::from_value(&json::parse_text(text)?)
     }
 
-    /// The same for JSON that is parsed already.
+    /// The same for JSON that is already parsed.
     ///
     /// # Errors
     /// [`EventReadError`] names field and rule.
@@ -124,7 +124,7 @@ impl Event {
     }
 }
 
-/// `name` is what to call an event that has no good `id`.
+/// `name` is used for an event without a valid `id`.
 fn recording(event: &Field<'_>, name: impl FnOnce() -> Option<String>) -> Result<Recording, EventReadError> {
     let id = id_of(event).map_err(|problem| EventReadError::Field { event: name(), problem })?;
     let in_event = |problem| EventReadError::Field { event: Some(id.clone()), problem };
@@ -166,7 +166,7 @@ fn start_and_motion(event: &Field<'_>, id: Option<&str>) -> Result<(Scene, Traje
     }
 }
 
-/// An id becomes a file name, so it must be one on every system.
+/// An id becomes a file name, so it must be valid on every system.
 fn id_of(event: &Field<'_>) -> Result<String, FieldError> {
     let field = event.required("id")?;
     let id = field.text()?;

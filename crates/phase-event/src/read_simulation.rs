@@ -1,4 +1,4 @@
-//! What a simulated event keeps beside its trajectory.
+//! The data that a simulated event stores in addition to its trajectory.
 
 use crate::{
     ActionEvaluation, Event, Row, SUBSTEP_COLUMNS, Simulation, Step, SubgoalValue, Thought, Trajectory,
@@ -13,10 +13,10 @@ use phase_model::{
 };
 use serde_json::Value;
 
-/// How far a mean row may lie from the substeps it is the mean of.
+/// Tolerance of a mean row with respect to the mean of its substeps.
 const TOLERANCE: f32 = 1e-3;
 
-/// Reads the simulation of an event that has one (`substeps` is there).
+/// Reads the simulation of an event that has one (`substeps` is present).
 pub(crate) fn simulation_of(
     event: &Field<'_>,
     scene: &mut Scene,
@@ -30,7 +30,8 @@ pub(crate) fn simulation_of(
     }))
 }
 
-/// The whole event. Its first substep completes the scene's start, of which a row leaves the angular velocity out.
+/// The whole event. Its first substep completes the scene's start, since a row does not contain the angular
+/// velocity.
 pub(crate) fn event_of(
     event: &Field<'_>,
     substeps: &Field<'_>,
@@ -140,7 +141,7 @@ fn states(field: &Field<'_>, objects: usize, frames: usize) -> Result<Vec<State>
     Ok(states)
 }
 
-/// Unrolls a list of `[frame, value]`, each of which holds until the next.
+/// Expands a list of `[frame, value]`, each of which holds until the next.
 fn changes<T: Copy>(
     field: &Field<'_>,
     frames: usize,

@@ -4,19 +4,19 @@ use crate::{Event, ObservedError, ObservedEvent, Trajectory};
 use phase_model::{AGENT_COUNT, Action, Relation, Scene};
 use serde_json::Value;
 
-/// The exact actions of the first steps of a recording, where they are known.
+/// The exact actions of a recording's first steps, where they are known.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Recovered {
     /// The actions of both agents, by step.
     pub steps: Vec<[Action; AGENT_COUNT]>,
-    /// What the recording says about them.
+    /// The recording's remark on them.
     pub note: Option<String>,
 }
 
-/// What a simulated event knows beyond a recording: all substeps, actions and thoughts.
+/// Additional data of a simulated event: all substeps, actions and thoughts.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Simulation {
-    /// The event, whole.
+    /// The complete event.
     pub event: Event,
     /// The program that made it, such as `phase 0.1.0`.
     pub generator: String,
@@ -24,29 +24,29 @@ pub struct Simulation {
     pub settings: Value,
 }
 
-/// One event: its scene, what its labels say, and where everybody went.
+/// One event: its scene, labels and trajectory.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Recording {
-    /// Name, different for every event of a file.
+    /// Name, unique among the events of a file.
     pub id: String,
     /// The scene, starting at row 0.
     pub scene: Scene,
     /// The intended relation.
     pub relation: Relation,
-    /// The relation that human viewers saw.
+    /// The human judgement of the relation.
     pub relation_human: Option<Relation>,
-    /// What row 0 is, in the recording's words.
+    /// The meaning of row 0, in the recording's words.
     pub row_0: Option<String>,
-    /// Steps the recorder ran, which may be more than there are rows.
+    /// Steps that were recorded, which may exceed the number of rows.
     pub recorded_steps: Option<u32>,
-    /// Where everybody went.
+    /// The trajectories of all entities.
     pub trajectory: Trajectory,
-    /// The first actions, where they are known of a measured event.
+    /// The actions of the first steps, where they are known for a measured event.
     pub recovered_actions: Option<Recovered>,
-    /// The seed that an event yet to be simulated is to be simulated with, so that several have the same chance. A
-    /// simulated event has its seed in [`Recording::simulation`].
+    /// The seed with which an event that is not yet simulated is to be simulated, so that several events can
+    /// share their random draws. A simulated event has its seed in [`Recording::simulation`].
     pub seed: Option<u64>,
-    /// Everything else, of a simulated event.
+    /// All other data of a simulated event.
     pub simulation: Option<Simulation>,
 }
 
@@ -68,10 +68,11 @@ impl Recording {
         }
     }
 
-    /// What a viewer has of the event: none of its labels, and no more of a simulated event than of a measured one.
+    /// The part of the event that a viewer observes: no labels, and the same data for simulated as for
+    /// measured events.
     ///
     /// # Errors
-    /// [`ObservedError`] for recordings that no file can hold.
+    /// [`ObservedError`] for recordings that cannot occur in a file.
     pub fn observed(&self) -> Result<ObservedEvent, ObservedError> {
         let rows = self.trajectory.states().iter().map(|state| state.bodies).collect();
         let objects = self.scene.objects.iter().map(|object| object.size).collect();

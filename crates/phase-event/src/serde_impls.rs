@@ -1,4 +1,4 @@
-//! Recordings and events for serde: written as in files, read by the same reader that checks files.
+//! Recordings and events for serde: written as in files, read by the validating reader.
 
 use crate::{
     Event, EventWriteError, Recording, Trajectory,
@@ -17,7 +17,7 @@ impl Serialize for Recording {
     }
 }
 
-/// For formats that describe themselves, such as JSON.
+/// For self-describing formats such as JSON.
 impl<'de> Deserialize<'de> for Recording {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         Self::from_value(&Value::deserialize(deserializer)?).map_err(de::Error::custom)
@@ -36,7 +36,7 @@ impl Serialize for Event {
     }
 }
 
-/// For formats that describe themselves, such as JSON.
+/// For self-describing formats such as JSON.
 impl<'de> Deserialize<'de> for Event {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         Self::from_value(&Value::deserialize(deserializer)?).map_err(de::Error::custom)

@@ -1,4 +1,4 @@
-//! Subgoals as texts, and back.
+//! Conversion between subgoals and their texts.
 
 use phase_model::{AgentId, Entity, LandmarkId, Literal, ObjectId, Predicate, PredicateTarget, Subgoal};
 use std::{collections::BTreeMap, sync::LazyLock};
@@ -6,7 +6,8 @@ use std::{collections::BTreeMap, sync::LazyLock};
 /// The subgoal that is displayed as a text, such as `not Attach(agent 0, object 1)`.
 #[must_use]
 pub fn subgoal_of(text: &str) -> Option<Subgoal> {
-    // There are so few subgoals that listing them all beats parsing, and cannot disagree with the display.
+    // There are so few subgoals that a lookup in the full list is simpler than parsing, and always agrees
+    // with the display.
     static BY_TEXT: LazyLock<BTreeMap<String, Subgoal>> =
         LazyLock::new(|| all_subgoals().map(|subgoal| (subgoal.to_string(), subgoal)).collect());
     BY_TEXT.get(text).copied()

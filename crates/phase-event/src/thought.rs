@@ -1,4 +1,4 @@
-//! Why an agent did what it did, for the event record and for pictures.
+//! Explanations of decisions, for the event record and for visualisation.
 
 use phase_model::{Action, Subgoal};
 use serde::{Deserialize, Serialize};
@@ -32,14 +32,15 @@ pub struct Thought {
     pub subgoal: Subgoal,
     /// All subgoals proposed, the most valuable first.
     pub subgoals: Vec<SubgoalValue>,
-    /// The symbolic plan of the first particle that agrees with the subgoal, own subgoals only, in order.
+    /// The symbolic plan of the first particle that agrees with the subgoal: the agent's own subgoals, in
+    /// order.
     pub plan: Vec<Subgoal>,
     /// Every action searched, in the order of the action set; empty where no search was needed.
     pub actions: Vec<ActionEvaluation>,
 }
 
 impl Thought {
-    /// The thought of an agent that does nothing.
+    /// The thought of an idle agent.
     pub const IDLE: Self =
         Self { subgoal: Subgoal::Stay, subgoals: Vec::new(), plan: Vec::new(), actions: Vec::new() };
 

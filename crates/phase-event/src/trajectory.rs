@@ -1,4 +1,4 @@
-//! Where everybody was at every step.
+//! Trajectories of all entities, step by step.
 
 use crate::{Event, mean_state};
 use phase_model::{AGENT_COUNT, Body, State, Vec2};
@@ -14,8 +14,8 @@ pub type Row = [f32; COLUMNS.len()];
 /// The same and the angular velocity (rad/s), in the order of [`SUBSTEP_COLUMNS`].
 pub type SubstepRow = [f32; SUBSTEP_COLUMNS.len()];
 
-/// Where every entity was: `agents[i][t]` and `objects[k][t]`, all of one length, which is at least 1.
-/// Row 0 is the initial state; row t ≥ 1 is the mean over the five substeps of step t.
+/// Trajectories of all entities: `agents[i][t]` and `objects[k][t]`, all of the same length, which is at
+/// least 1. Row 0 is the initial state; row t ≥ 1 is the mean over the five substeps of step t.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Trajectory {
     /// Rows of the two agents.
@@ -44,7 +44,7 @@ impl Trajectory {
         self.agents[0].len().saturating_sub(1)
     }
 
-    /// Every row as a state, for judging what a trajectory shows.
+    /// Every row as a state, for evaluating goals and contacts along the trajectory.
     #[must_use]
     pub fn states(&self) -> Vec<State> {
         (0..=self.steps()).map_while(|t| self.state(t)).collect()
@@ -55,7 +55,7 @@ impl Trajectory {
         self.agents.iter().chain(&self.objects)
     }
 
-    /// The bodies at row `t` as a state without contacts and grips, which a trajectory does not tell.
+    /// The bodies at row `t` as a state without contacts and grips, which a trajectory does not contain.
     /// `None` past the last row.
     #[must_use]
     pub fn state(&self, t: usize) -> Option<State> {
@@ -79,7 +79,7 @@ pub const fn substep_row(body: &Body) -> SubstepRow {
     [x, y, vx, vy, angle, body.angular_velocity]
 }
 
-/// The body of a row; its angular velocity is unknown and taken to be 0.
+/// The body of a row; its angular velocity is unknown and set to 0.
 pub(crate) const fn body_of(&[x, y, vx, vy, angle]: &Row) -> Body {
     let (position, velocity) = (Vec2::new(x, y), Vec2::new(vx, vy));
     Body { position, velocity, angle, angular_velocity: 0.0 }

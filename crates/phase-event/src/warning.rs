@@ -1,4 +1,4 @@
-//! What is odd about an event, though it can be used.
+//! Suspicious properties of an event that can nevertheless be used.
 
 use crate::{Recording, error::in_trajectory};
 use core::fmt;
@@ -7,9 +7,9 @@ use phase_model::{Relation, SceneWarning};
 /// Something in an event that is likely to be a mistake. The text names the field and the rule, not the event.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum EventWarning {
-    /// Something in its scene.
+    /// A warning about its scene.
     Scene(SceneWarning),
-    /// The relation is not the one that follows from goals and attitudes.
+    /// The relation does not follow from goals and attitudes.
     Relation {
         /// The relation given.
         relation: Relation,
@@ -18,7 +18,7 @@ pub enum EventWarning {
     },
     /// There are more steps than were recorded.
     RecordedSteps {
-        /// The steps said to be recorded.
+        /// The stated number of recorded steps.
         recorded: u32,
         /// The steps of the trajectory.
         steps: usize,
@@ -41,8 +41,8 @@ impl fmt::Display for EventWarning {
 }
 
 impl Recording {
-    /// What is odd about the event: see [`phase_model::Scene::warnings`], and labels that do not agree with what they
-    /// label. Empty for most events.
+    /// Suspicious properties of the event: see [`phase_model::Scene::warnings`], and labels that are
+    /// inconsistent with the event. Empty for most events.
     #[must_use]
     pub fn warnings(&self) -> Vec<EventWarning> {
         let mut warnings: Vec<_> = self.scene.warnings().into_iter().map(EventWarning::Scene).collect();

@@ -26,10 +26,10 @@ pub fn to_json(recordings: &[Recording]) -> Result<String, EventWriteError> {
 }
 
 impl Recording {
-    /// The event as it stands in the list `events` of a file, one line for each field.
+    /// The event in its form as an element of a file's list `events`, one line for each field.
     ///
     /// # Errors
-    /// [`EventWriteError`] if the event holds a number that is not finite.
+    /// [`EventWriteError`] if the event contains a number that is not finite.
     pub fn to_json(&self) -> Result<String, EventWriteError> {
         if !is_recording_finite(self) {
             return Err(EventWriteError::NotFinite(self.id.clone()));
@@ -40,11 +40,11 @@ impl Recording {
 }
 
 impl Event {
-    /// The event as it stands in the list `events` of a file, without the members that only a [`Recording`] has;
-    /// one line for each field.
+    /// The event in its form as an element of a file's list `events`, without the members that only a
+    /// [`Recording`] has; one line for each field.
     ///
     /// # Errors
-    /// If the event holds a number that is not finite.
+    /// If the event contains a number that is not finite.
     pub fn to_json(&self) -> serde_json::Result<String> {
         lines(self)
     }
@@ -133,7 +133,7 @@ impl<'a> EventMembers<'a> {
     }
 }
 
-/// What a simulated event has beside.
+/// The additional members of a simulated event.
 #[derive(Serialize)]
 struct SimulationMembers<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -247,7 +247,7 @@ impl Substeps {
     }
 }
 
-/// What holds from which frame on, where it differs from the frame before.
+/// A list of `[frame, value]` with an entry wherever the value differs from the frame before.
 fn changes<T: PartialEq>(values: impl Iterator<Item = T>) -> Vec<(usize, T)> {
     let mut changes: Vec<(usize, T)> = Vec::new();
     for (frame, value) in values.enumerate() {

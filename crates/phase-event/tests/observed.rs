@@ -1,4 +1,4 @@
-//! What a viewer has of an event.
+//! The observable part of an event.
 
 use phase_event::{ObservedError, ObservedEvent};
 use phase_model::{Body, Entity, Layout, MAX_ENTITIES, Size, Vec2};
@@ -23,7 +23,7 @@ fn nonsense_is_refused() {
         (vec![row(1.0)], 3, Some(ObservedError::TooManyObjects)),
         (vec![row(1.0), present], 1, Some(ObservedError::NotFinite(1))),
         (vec![absent], 2, Some(ObservedError::NotFinite(0))),
-        // A body that is not there may hold anything.
+        // The slot of an absent body may contain any value.
         (vec![absent], 1, None),
     ];
     for (rows, objects, expected) in cases {

@@ -1,13 +1,13 @@
-//! Who stood in whose way.
+//! Which agent obstructed the other.
 
 use crate::Track;
 use phase_model::{AgentId, Entity, Goal, SlotId, State, Vec2, arena};
 use phase_planner::{Routes, problem::obstruct, routes::point_in};
 
-/// Steps in which an agent's body narrowed a door on another's cheapest way to a point, so much that the other
-/// no longer fitted through. `target` gives the point for each state (u); `None` where there is none.
+/// Steps in which an agent's body narrowed a door on another's cheapest path to a point so much that the
+/// other no longer fitted through. `target` gives the point for each state (u); `None` where there is none.
 ///
-/// What counts is the door of the layout and the agent's body alone: objects in the door do not.
+/// Only the door of the layout and the agent's body are considered: objects in the door are not.
 #[must_use]
 pub fn steps_blocking_a_door(
     track: &Track,
@@ -34,7 +34,7 @@ pub fn steps_blocking_a_door(
     (0..track.states.len()).filter(|&t| in_the_way(&track.states[t])).collect()
 }
 
-/// Steps in which an agent stood between the other and a point: nearer to the point than the other, and no
+/// Steps in which an agent stood between the other and a point: closer to the point than the other, and no
 /// farther from the straight line between them than both radii.
 #[must_use]
 pub fn steps_between(track: &Track, blocker: AgentId, target: impl Fn(&State) -> Option<Vec2>) -> Vec<usize> {
@@ -50,8 +50,8 @@ pub fn steps_between(track: &Track, blocker: AgentId, target: impl Fn(&State) ->
     (0..track.states.len()).filter(|&t| between(&track.states[t])).collect()
 }
 
-/// The door an agent stands in, if any, by its slot: its origin is nearer to the door's line than its radius, and
-/// within the opening.
+/// The door an agent stands in, if any, by its slot: its origin is closer to the door's line than its radius,
+/// and within the opening.
 #[must_use]
 pub fn door_of(track: &Track, routes: &Routes, state: &State, agent: AgentId) -> Option<SlotId> {
     let position = state.position(Entity::Agent(agent));

@@ -1,4 +1,4 @@
-//! Who touched whom, and how near they came.
+//! Which entities touched, and how close they came.
 
 use crate::Track;
 use phase_model::{Entity, PhysicsConfig, Segment, State, Vec2, geometry::Outline};
@@ -31,8 +31,8 @@ pub fn touching(physics: &PhysicsConfig, state: &State, a: Entity, b: Entity) ->
     state.touching(a, b) || near(physics, state, a, b)
 }
 
-/// Whether the outlines of two entities are no farther apart than [`TOUCH_GAP`]: touching as far as recordings
-/// tell it.
+/// Whether the outlines of two entities are no farther apart than [`TOUCH_GAP`]: touching as far as
+/// recordings show it.
 #[must_use]
 pub fn near(physics: &PhysicsConfig, state: &State, a: Entity, b: Entity) -> bool {
     gap(physics, state, a, b) <= TOUCH_GAP

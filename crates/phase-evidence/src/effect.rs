@@ -1,18 +1,18 @@
-//! What an agent changed: an event beside the same event in which that agent did nothing.
+//! What an agent changed: an event compared with the same event in which that agent did nothing.
 
 use crate::GoalOutcome;
 use serde::{Deserialize, Serialize};
 
-/// The outcome of one goal with and without an agent's doing.
+/// The outcome of one goal with and without an agent's contribution.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
 pub struct Effect {
-    /// With it.
+    /// With the agent.
     pub with: GoalOutcome,
-    /// Without.
+    /// Without the agent.
     pub without: GoalOutcome,
 }
 
-/// A time counts as shorter or longer only from a difference of this many percent on; less is chance.
+/// Minimum difference in percent for a time to count as shorter or longer; smaller differences are chance.
 const MARGIN_PERCENT: usize = 10;
 
 impl Effect {

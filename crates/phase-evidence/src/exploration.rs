@@ -1,12 +1,13 @@
-//! Where someone looked first.
+//! Which region an agent explored first.
 
 use crate::Track;
 use phase_model::layout::room_of;
 use phase_model::{AgentId, RoomId};
 use phase_perception::{Cell, CellSet, observe};
 
-/// Of several regions, each a list of rooms, the one of which an agent first came to see half of what it did not
-/// see at the start, and when. `None` if it never saw so much of any, or saw everything from the start.
+/// Of several regions, each a list of rooms, the one of which an agent first came to see half of the part
+/// that it did not see at the start, and when. `None` if it never saw that much of any, or saw everything
+/// from the start.
 #[must_use]
 pub fn searched_first(track: &Track, agent: AgentId, regions: &[&[RoomId]]) -> Option<(usize, usize)> {
     let first = track.states.first()?;

@@ -7,9 +7,9 @@ use serde::{Deserialize, Serialize};
 /// A time during which one agent held one object without a break.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
 pub struct HoldInterval {
-    /// Who.
+    /// The agent.
     pub agent: AgentId,
-    /// What.
+    /// The object.
     pub object: ObjectId,
     /// The first step at whose end it was held.
     pub from: usize,
@@ -67,7 +67,7 @@ pub struct CarryStatistics {
     pub steps: usize,
     /// Distance the object travelled in them (u).
     pub distance: f32,
-    /// How much nearer to each landmark it came in them (u); negative where it went away.
+    /// How much closer to each landmark it came in them (u); negative where it moved away.
     pub approach: [f32; 4],
 }
 

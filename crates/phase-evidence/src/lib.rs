@@ -1,15 +1,17 @@
 //! What an event shows, judged from its trajectory.
 //!
 //! A [`Track`] is one state for each step. From it [`GoalOutcome`] tells whether and when a goal was reached,
-//! [`mod@holding`] who held what when, [`mod@contact`] who touched whom, [`mod@blocking`] who stood in whose
-//! way, [`mod@pursuit`] who went after whom, [`mod@exploration`] where someone looked first, [`mod@motion`] how
-//! fast and how far someone moved and [`mod@rest`] how quietly an event ended. [`Effect`] compares an event with the same one in which an agent did nothing,
-//! which is what tells help from company. [`mod@selection`] asks whether an event shows its label.
+//! [`mod@holding`] which agent held what and when, [`mod@contact`] which entities touched, [`mod@blocking`]
+//! which agent obstructed the other, [`mod@pursuit`] which agent pursued the other, [`mod@exploration`] which
+//! region an agent explored first, [`mod@motion`] how fast and how far an agent moved and [`mod@rest`] how
+//! quietly an event ended. [`Effect`] compares an event with the same one in which an agent did nothing,
+//! which distinguishes help from mere presence. [`mod@selection`] checks whether an event shows its label:
+//! whether the intended social event is visible in it.
 //!
 //! Key design decision: intentions are not consulted. An event in which helping was intended but had no
-//! effect shows no help. The same functions so serve simulated events, measured recordings (which know
-//! neither grips nor contacts; outlines stand in for contacts) and imagined ones. The price is that what
-//! happens between two steps, a quarter of a second apart, is not seen.
+//! effect shows no help. The same functions therefore serve simulated events, measured recordings (which
+//! contain neither grips nor contacts; outlines replace contacts) and predicted ones. The trade-off is that
+//! what happens between two steps, a quarter of a second apart, is not seen.
 //!
 //! Agent 0 goes 2 u a step towards a landmark and arrives in step 3; agent 1 rests far from its own:
 //!

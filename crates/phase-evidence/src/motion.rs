@@ -10,8 +10,8 @@ use phase_model::{
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct MotionStatistics {
     /// Its speed in each step (u per second of physics): the distance between its origins before and after,
-    /// over five substeps of 1/60 s. Turning on the spot is no motion, so it is not the velocity of the centre
-    /// of mass. Means over substeps stand for all states but the first, so the first step is measured over
+    /// over five substeps of 1/60 s. Turning on the spot is not motion, so it is not the velocity of the
+    /// centre of mass. All states but the first are means over substeps, so the first step is measured over
     /// three substeps only.
     pub speeds: Vec<f32>,
     /// Length of its path (u), from state to state.
@@ -21,7 +21,7 @@ pub struct MotionStatistics {
 }
 
 impl MotionStatistics {
-    /// Of an agent in steps 1 to `steps` of a track, or to its end if that comes first. Contact is
+    /// Motion of an agent in steps 1 to `steps` of a track, or to its end if that comes first. Contact is
     /// judged by outlines alone, so that recordings and simulations are measured alike.
     #[must_use]
     pub fn of(track: &Track, agent: AgentId, steps: usize) -> Self {
@@ -38,7 +38,7 @@ impl MotionStatistics {
         }
     }
 
-    /// Share of the steps in which it was in contact, 0 to 1; `None` without steps.
+    /// Share of the steps in which it was in contact, 0 to 1; `None` if there are no steps.
     #[must_use]
     pub fn contact_share(&self) -> Option<f32> {
         let steps = self.speeds.len();
@@ -46,8 +46,8 @@ impl MotionStatistics {
     }
 }
 
-/// The steps that two tracks both have. What is summed up or counted over an event can only be compared over
-/// these, since one may have been cut earlier than the other.
+/// The steps that two tracks both have. Quantities that are summed or counted over an event can only be
+/// compared over these, since one track may have been cut earlier than the other.
 #[must_use]
 pub fn common_steps(a: &Track, b: &Track) -> usize {
     a.steps().min(b.steps())

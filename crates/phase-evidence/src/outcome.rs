@@ -5,20 +5,20 @@ use phase_model::{Entity, Goal, LandmarkId, PhysicsConfig, Sign, State, arena};
 use phase_predicates::threshold::{ON_AGENT, ON_OBJECT};
 use serde::{Deserialize, Serialize};
 
-/// What became of one agent's goal.
+/// The outcome of one agent's goal.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GoalOutcome {
-    /// Whether it was reached. To be (or to keep someone off) somewhere counts at the end of the event, to
-    /// touch someone at any time, and to get away from someone at the end again.
+    /// Whether it was reached. Goals of being (or keeping another) somewhere are evaluated at the end of the
+    /// event, touching at any time, and getting away from another again at the end.
     pub reached: bool,
     /// Steps until a positive goal was reached permanently, or for the first time for touch goals.
     pub steps: Option<usize>,
 }
 
 impl GoalOutcome {
-    /// Judges a goal on the states of a track, and on bodies alone: what recordings do not tell (contacts and
-    /// grips) is not asked of simulations either.
+    /// Judges a goal on the states of a track, using bodies alone: contacts and grips, which recordings lack,
+    /// are not used for simulations either.
     #[must_use]
     pub fn of(track: &Track, goal: Goal) -> Self {
         let holds: Vec<bool> =
@@ -38,7 +38,7 @@ impl GoalOutcome {
     }
 }
 
-/// Whether what the goal speaks of is the case, whatever the goal's sign.
+/// Whether the condition of the goal holds, whatever the goal's sign.
 #[must_use]
 pub fn condition(physics: &PhysicsConfig, state: &State, goal: Goal) -> bool {
     let near = |entity: Entity, landmark: LandmarkId, limit: f32| {

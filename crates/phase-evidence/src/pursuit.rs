@@ -1,33 +1,33 @@
-//! Who went after whom, and who got away.
+//! Which agent pursued which, and which one escaped.
 
 use crate::Track;
 use phase_model::{AgentId, Entity, layout::room_of};
 use serde::{Deserialize, Serialize};
 
-/// Slower than this an agent is not going anywhere (u a step of 0.083 s of physics).
+/// Below this speed an agent counts as stationary (u a step of 0.083 s of physics).
 const MIN_SPEED: f32 = 0.1;
 /// Heading for something means that most of the motion goes towards it: the cosine of 60°.
 const TOWARDS_COSINE: f32 = 0.5;
 
-/// How one agent moved with regard to the other, over a whole event.
+/// How one agent moved relative to the other, over a whole event.
 #[derive(Clone, Copy, PartialEq, Debug, Default, Serialize, Deserialize)]
 pub struct Pursuit {
-    /// Steps in which it went anywhere at all.
+    /// Steps in which it moved at all.
     pub moving: usize,
-    /// Of these, steps in which it went towards where the other had just been.
+    /// Of these, steps in which it moved towards where the other had just been.
     pub towards: usize,
-    /// Of these, steps in which it went away from where the other had just been.
+    /// Of these, steps in which it moved away from where the other had just been.
     pub away: usize,
-    /// How much nearer the two were at the end than at the start (u); negative if farther.
+    /// How much closer the two were at the end than at the start (u); negative if farther.
     pub closed: f32,
-    /// The nearest they came, between origins (u).
+    /// Minimum distance between their origins (u).
     pub nearest: f32,
     /// How often it changed rooms.
     pub rooms_changed: usize,
 }
 
 impl Pursuit {
-    /// Looks at how an agent moved with regard to the other.
+    /// Measures how an agent moved relative to the other.
     #[must_use]
     pub fn of(track: &Track, agent: AgentId) -> Self {
         let (who, other) = (Entity::Agent(agent), Entity::Agent(agent.other()));

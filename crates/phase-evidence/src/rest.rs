@@ -4,14 +4,14 @@ use crate::Track;
 use phase_model::Entity;
 use serde::{Deserialize, Serialize};
 
-/// What an entity still did after some step.
+/// What an entity still did after a given step.
 #[derive(Clone, Copy, PartialEq, Debug, Default, Serialize, Deserialize)]
 pub struct Rest {
-    /// Steps looked at.
+    /// Steps considered.
     pub steps: usize,
     /// Distance travelled in them (u).
     pub travelled: f32,
-    /// Greatest distance from where it was at the beginning of them (u).
+    /// Maximum distance from where it was at the beginning of them (u).
     pub displacement: f32,
     /// Sum of all turning, either way (rad); 0 for objects, since a disc that turns looks like one that does not.
     pub turned: f32,
@@ -45,8 +45,8 @@ impl Rest {
         rest
     }
 
-    /// Whether nothing of any account happened: it stayed within 0.3 u, turned by less than a quarter turn
-    /// altogether, and was still in nine steps of ten.
+    /// Whether nothing significant happened: it stayed within 0.3 u, turned by less than a quarter turn in
+    /// total, and was still in nine steps of ten.
     #[must_use]
     pub fn is_at_rest(&self) -> bool {
         self.displacement < 0.3

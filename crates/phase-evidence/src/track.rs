@@ -1,14 +1,14 @@
-//! One state for each step: what all judgements are made on.
+//! One state for each step: the basis of all judgements.
 
 use phase_event::{Event, mean_state};
 use phase_model::{Entity, PhysicsConfig, State};
 
-/// Where everybody was at every step of one event.
+/// Where every entity was at every step of one event.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Track {
     /// Walls, radii and forces.
     pub physics: PhysicsConfig,
-    /// State 0 is where the event starts; state t ≥ 1 stands for step t. Recordings know no grips and contacts.
+    /// State 0 is the initial state; state t ≥ 1 belongs to step t. Recordings contain no grips or contacts.
     pub states: Vec<State>,
 }
 
@@ -30,15 +30,15 @@ impl Track {
         self.states.len().saturating_sub(1)
     }
 
-    /// The track as it was up to a step, that included.
+    /// The track up to and including a step.
     #[must_use]
     pub fn until(&self, step: usize) -> Self {
         let states = self.states.iter().take(step.saturating_add(1)).copied().collect();
         Self { physics: self.physics.clone(), states }
     }
 
-    /// Distance an entity travelled in the steps of a range, from state to state (u). What lies past the end
-    /// counts nothing.
+    /// Distance an entity travelled in the steps of a range, from state to state (u). Steps past the end
+    /// contribute nothing.
     #[must_use]
     pub fn distance_travelled(&self, entity: Entity, steps: core::ops::Range<usize>) -> f32 {
         steps.map(|step| self.distance_in_step(entity, step)).sum()

@@ -7,7 +7,7 @@ use phase_model::{
 };
 use std::time::Instant;
 
-/// Steps between fresh starts.
+/// Steps between resets to the start state.
 const EPISODE: usize = 60;
 
 fn main() {
@@ -88,7 +88,7 @@ fn main() {
     actions.roll(2);
 }
 
-/// Times steps. `scene` gives the kernel and start state for a step, and whether to start afresh.
+/// Times steps. `scene` returns the kernel and start state for a step, and whether to restart from it.
 fn report<'a>(
     name: &str,
     steps: usize,
@@ -116,13 +116,13 @@ fn report<'a>(
     );
 }
 
-/// Time this process has spent on a processor (ns), where the system tells.
+/// CPU time of this process (ns), where the system reports it.
 fn active() -> Option<u128> {
     let text = std::fs::read_to_string("/proc/self/schedstat").ok()?;
     text.split_whitespace().next()?.parse().ok()
 }
 
-/// A small generator of random numbers.
+/// A small pseudorandom number generator.
 struct SmallRng(u64);
 
 impl SmallRng {

@@ -1,4 +1,4 @@
-//! One body: what never changes of it, and how it moves.
+//! One body: its constant properties and its motion.
 
 use crate::{
     constants::{H, MAX_FRICTION_IMPULSE, MAX_ROTATION, MAX_TRANSLATION, SKIN},
@@ -26,13 +26,13 @@ pub(crate) struct Shape {
     pub(crate) radius: f32,
     /// Thickness around the corners (or the one point of a disc) within which contacts act (u).
     pub(crate) skin: f32,
-    /// Radius of the circle about the centre of mass that holds the body, skin included (u).
+    /// Radius of the circle about the centre of mass that encloses the body, skin included (u).
     pub(crate) bounding_radius: f32,
     /// Corners of an agent, counter-clockwise from the right end of its base.
     pub(crate) corners: [Vec2; 4],
     /// Outward normals of the sides that begin at those corners.
     pub(crate) normals: [Vec2; 4],
-    /// Greatest push (N); 0 for objects.
+    /// Maximum push (N); 0 for objects.
     pub(crate) max_force: f32,
     /// Torque of a turn (N u); 0 for objects.
     pub(crate) turn_torque: f32,
@@ -83,7 +83,7 @@ impl Shape {
         }
     }
 
-    /// What does not move, walls above all.
+    /// The static body, walls above all.
     pub(crate) const fn immovable() -> Self {
         Self {
             inverse_mass: 0.0,
@@ -120,7 +120,7 @@ pub(crate) struct BodyMotion {
 }
 
 impl BodyMotion {
-    /// At rest at the origin, which is the frame that walls are given in.
+    /// At rest at the origin, the frame in which walls are given.
     pub(crate) const AT_REST: Self =
         Self { centre: Vec2::ZERO, velocity: Vec2::ZERO, right: Vec2::X, angle: 0.0, spin: 0.0 };
 
@@ -154,25 +154,25 @@ impl BodyMotion {
         }
     }
 
-    /// A vector of the body's frame in the world's.
+    /// Transforms a vector from the body's frame to the world's.
     #[inline]
     pub(crate) fn turn(&self, local: Vec2) -> Vec2 {
         self.right * local.x + self.right.perp() * local.y
     }
 
-    /// A vector of the world's frame in the body's.
+    /// Transforms a vector from the world's frame to the body's.
     #[inline]
     pub(crate) fn local_vector(&self, vector: Vec2) -> Vec2 {
         Vec2::new(vector.dot(self.right), vector.dot(self.right.perp()))
     }
 
-    /// A point of the body's frame in the world.
+    /// Transforms a point from the body's frame to the world's.
     #[inline]
     pub(crate) fn place(&self, local: Vec2) -> Vec2 {
         self.centre + self.turn(local)
     }
 
-    /// Moves the pose as an impulse at an offset would move the velocity.
+    /// Moves the pose as an impulse at an offset would change the velocity.
     #[inline]
     pub(crate) fn shift(&mut self, shape: &Shape, offset: Vec2, impulse: Vec2, twist: f32) {
         self.centre += impulse * shape.inverse_mass;
@@ -184,14 +184,14 @@ impl BodyMotion {
     pub(crate) fn rotate(&mut self, by: f32, shape: &Shape) {
         if by != 0.0 {
             self.angle += by;
-            // Only an agent's shape shows how it is turned.
+            // Only an agent's shape depends on its angle.
             if shape.origin > 0.0 {
                 self.right = turned(self.right, by);
             }
         }
     }
 
-    /// Lets an agent's action act for one substep, before friction and contacts.
+    /// Applies an agent's action for one substep, before friction and contacts.
     #[inline]
     pub(crate) fn act(&mut self, shape: &Shape, action: Action) {
         if let Some(push) = action.push() {
@@ -211,7 +211,7 @@ impl BodyMotion {
         self.velocity == Vec2::ZERO && self.spin == 0.0
     }
 
-    /// Moves on for one substep with nothing but the ground's friction. Returns the impulse of the friction.
+    /// Advances by one substep under ground friction alone. Returns the impulse of the friction.
     #[inline]
     pub(crate) fn coast(&mut self, shape: &Shape) -> Vec2 {
         if self.is_at_rest() {
@@ -224,7 +224,7 @@ impl BodyMotion {
         rubbed
     }
 
-    /// The velocity in one vector.
+    /// The velocity as one vector.
     #[inline]
     pub(crate) fn twist(&self) -> Twist {
         Twist(Vec3::new(self.velocity.x, self.velocity.y, self.spin))
@@ -236,7 +236,7 @@ impl BodyMotion {
         (self.velocity, self.spin) = twist.parts();
     }
 
-    /// Moves on for some seconds, after limiting the velocity.
+    /// Advances by some seconds, after limiting the velocity.
     #[inline]
     pub(crate) fn advance(&mut self, shape: &Shape, seconds: f32) {
         let sweep = self.velocity * seconds;
@@ -253,21 +253,21 @@ impl BodyMotion {
     }
 }
 
-/// A velocity (x, y and spin), or an impulse in the same three directions, in one vector that is read and
-/// written as a whole: the velocity solver does little else.
+/// A velocity (x, y and spin), or an impulse in the same three coordinates, as one vector that is read and
+/// written as a whole, since the velocity solver does little else.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Twist(pub(crate) Vec3);
 
 impl Twist {
     pub(crate) const ZERO: Self = Self(Vec3::ZERO);
 
-    /// The velocity (or the impulse) and the spin in it.
+    /// The linear part (velocity or impulse) and the spin.
     #[inline]
     pub(crate) fn parts(self) -> (Vec2, f32) {
         (Vec2::new(self.0.x, self.0.y), self.0.z)
     }
 
-    /// What a unit impulse in a direction at an offset from the centre of mass is.
+    /// The twist of a unit impulse in a direction at an offset from the centre of mass.
     #[inline]
     pub(crate) fn of_impulse(direction: Vec2, offset: Vec2) -> Self {
         Self(Vec3::new(direction.x, direction.y, offset.perp_dot(direction)))
@@ -279,21 +279,21 @@ impl Twist {
         self.0.dot(other.0)
     }
 
-    /// The velocity along this impulse's direction that a unit of another impulse gives a body.
+    /// The velocity along this impulse's direction that a unit of another impulse causes.
     #[inline]
     pub(crate) fn through(self, other: Self, inverse_mass_vector: Vec3) -> f32 {
         self.dot(Self(other.0 * inverse_mass_vector))
     }
 
-    /// Adds what a multiple of an impulse does to a body.
+    /// Adds the effect of a multiple of an impulse on a body.
     #[inline]
     pub(crate) fn push(&mut self, impulse: Self, times: f32, inverse_mass_vector: Vec3) {
         self.0 += impulse.0 * inverse_mass_vector * times;
     }
 
-    /// One iteration of ground friction, which acts at the body's origin and gives at most 100 N. Takes and
-    /// returns the impulse given so far in this substep. For a body that nothing else acts on, one
-    /// iteration is exact whatever the first guess.
+    /// One iteration of ground friction, which acts at the body's origin with at most 100 N. Takes and
+    /// returns the accumulated impulse of this substep. For a body on which nothing else acts, one iteration
+    /// is exact whatever the initial value.
     #[inline]
     pub(crate) fn solve_friction(&mut self, shape: &Shape, right: Vec2, so_far: Vec2) -> Vec2 {
         let (velocity, spin) = self.parts();

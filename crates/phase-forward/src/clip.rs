@@ -1,4 +1,4 @@
-//! Cutting a side of one shape off at the ends of a face of another, with names for the points that result.
+//! Clipping a side of one shape at the ends of a face of another, with names for the resulting points.
 
 use phase_model::Vec2;
 
@@ -10,8 +10,8 @@ pub(crate) const fn name(first_is_corner: bool, first: usize, second_is_corner: 
     half(first_is_corner, first) << 8 | half(second_is_corner, second)
 }
 
-/// Cuts a line of two named points off at the two ends of a face, given as (corner, leeway, number).
-/// `tangent` leads from the first end to the second. `None` if nothing is left.
+/// Clips a line of two named points at the two ends of a face, given as (corner, leeway, number). `tangent`
+/// leads from the first end to the second. `None` if nothing remains.
 #[inline]
 pub(crate) fn clip(
     line: [(Vec2, u16); 2],
@@ -22,7 +22,7 @@ pub(crate) fn clip(
     clip_at(once, tangent, ends[1])
 }
 
-/// Keeps what lies behind the plane through a corner.
+/// Keeps the part behind the plane through a corner.
 #[inline]
 fn clip_at(
     line: [(Vec2, u16); 2],
@@ -39,7 +39,7 @@ fn clip_at(
             let cut = line[0].0 + (line[1].0 - line[0].0) * share;
             // The cut point lies where a corner of the face meets a side of the line.
             let named = (cut, name(true, number, false, usize::from((line[0].1 & 0xff) >> 1)));
-            // The point that stays comes first, whichever it was.
+            // The point that is kept comes first, whichever it was.
             Some(if first_stays { [line[0], named] } else { [line[1], named] })
         }
     }

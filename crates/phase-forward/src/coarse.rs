@@ -15,15 +15,15 @@ use crate::{
 use arrayvec::ArrayVec;
 use phase_model::{AGENT_COUNT, Action, State, Vec2, arena, arena::SUBSTEPS};
 
-/// How a step is divided, in substeps of 1/60 s, where bodies may run into each other.
+/// Division of a step, in substeps of 1/60 s, where bodies may collide with each other.
 const SUBSTEPS_NEAR_BODIES: &[u8] = &[3, 2];
-/// The same where nothing but walls can be met; impacts on walls are found in time.
+/// The same where only walls can be hit; impacts on walls are found in time.
 const SUBSTEPS_NEAR_WALLS: &[u8] = &[SUBSTEPS as u8];
-/// Most iterations of the velocity solver.
+/// Maximum number of iterations of the velocity solver.
 const ITERATIONS: usize = 10;
-/// Impulses that change by less than this many times the exact solver's measure are settled.
+/// Convergence threshold of impulse changes, relative to that of the exact solver.
 const TOLERANCE_FACTOR: f32 = 10.0;
-/// Iterations of the position solver, and the share of an overlap that each takes back.
+/// Iterations of the position solver, and the share of an overlap that each corrects.
 const POSITION_ITERATIONS: usize = 3;
 const BAUMGARTE: f32 = 0.5;
 
@@ -56,7 +56,7 @@ pub(crate) fn step(model: &Model, state: &mut State, actions: [Action; AGENT_COU
 }
 
 impl World<'_> {
-    /// One long substep of some bodies, whole groups of them.
+    /// One long substep of some bodies, given as whole groups.
     fn substep_coarse(
         &mut self,
         groups: &mut Groups,
@@ -87,14 +87,14 @@ impl World<'_> {
             }
         }
         for body in bodies(active) {
-            // Bodies deep inside each other can be thrown anywhere.
+            // Deeply overlapping bodies can be thrown anywhere.
             if !arena::contains(self.motions[body].centre) {
                 self.contain(body, 0);
             }
         }
     }
 
-    /// Lets forces, friction and contacts act and moves all given bodies.
+    /// Applies forces, friction and contacts, and moves all given bodies.
     fn solve_coarse(
         &mut self,
         groups: &mut Groups,
@@ -103,8 +103,8 @@ impl World<'_> {
         substeps: u8,
     ) {
         let seconds = f32::from(substeps) * H;
-        // The exact kernel moves bodies with the speed at the end of each short substep. Of speed gained
-        // evenly, that is this share of a long one.
+        // The exact kernel moves bodies with the speed at the end of each short substep. With uniform
+        // acceleration, that corresponds to this share of the speed gained in a long one.
         let share = f32::from(substeps + 1) / f32::from(2 * substeps);
         let named = groups.names_of(active);
         let mut still: BodyMask = 0;
@@ -129,7 +129,7 @@ impl World<'_> {
             grounds[body] =
                 GroundFriction::new(body, groups, &self.model.shapes[body], &self.motions[body], seconds);
         }
-        // Of a body that nothing but the ground touches, one iteration is exact.
+        // For a body that touches only the ground, one iteration is exact.
         let one_by_one = touching.is_empty() && named == active;
         let mut touched: BodyMask = 0;
         for contact in touching.iter_mut() {
@@ -187,8 +187,8 @@ impl World<'_> {
         }
     }
 
-    /// Resolves impacts of a group on walls: it stops at the first wall that one of the given bodies of it
-    /// reaches, loses its speed into it, and goes on from there for the time left.
+    /// Resolves impacts of a group on walls: it stops at the first wall that one of the given bodies reaches,
+    /// loses its normal velocity, and continues from there for the remaining time.
     fn resolve_wall_impacts(&mut self, groups: &mut Groups, name: usize, met: BodyMask, seconds: f32) {
         if groups.bodies[name].count_ones() < 2 {
             let walls = reach::walls_swept(self, name);
@@ -243,8 +243,8 @@ impl World<'_> {
         }
     }
 
-    /// Takes the given bodies of a group out of walls that they have turned or been pushed into, and their speed
-    /// into those walls with it.
+    /// Moves the given bodies of a group out of walls that they have turned or been pushed into, and removes
+    /// their velocity into those walls.
     fn resolve_wall_overlaps(&mut self, groups: &mut Groups, name: usize, met: BodyMask) {
         self.outline(met);
         let near = bodies(met).fold(0, |keys, body| keys | reach::walls_near(self, body));
@@ -265,14 +265,14 @@ impl World<'_> {
         groups.distribute_velocity(name, self);
     }
 
-    /// A body's way through the substep.
+    /// A body's path through the substep.
     fn sweep(&self, body: usize) -> Sweep {
         let (from, from_angle, right) = self.starts[body];
         let motion = &self.motions[body];
         Sweep { from, to: motion.centre, from_angle, to_angle: motion.angle, right }
     }
 
-    /// Takes a group back to where it was after a share of the substep.
+    /// Resets a group to its pose after a share of the substep.
     fn rewind(&mut self, groups: &mut Groups, name: usize, share: f32) {
         let mut turn = 0.0;
         let centre = groups.centres[name];

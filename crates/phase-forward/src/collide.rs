@@ -10,12 +10,12 @@ use crate::{
 };
 use phase_model::Vec2;
 
-/// Sides whose gaps differ by less than this tie, and the first wins (u). Bodies that start in the same place
-/// are such ties, and rounding must not decide where they go.
+/// Sides whose gaps differ by less than this tie, and the first wins (u). Bodies that start at the same point
+/// are such ties, and rounding must not decide their direction.
 const TIE_TOLERANCE: f32 = 1e-5;
 
-/// The first shape's side is the reference unless the second's gap exceeds this share of the first's and
-/// this much on top (u).
+/// The first shape's side is the reference unless the second's gap exceeds this share of the first's plus
+/// this margin (u).
 const REFERENCE_BIAS: (f32, f32) = (0.98, 0.001);
 
 /// Contact of two discs.
@@ -165,7 +165,7 @@ pub(crate) fn wall_agent(wall: &Wall, agent: &BodyMotion, polygon: &Polygon) -> 
         let incident = [named(facing), named((facing + 1) % 4)];
         (wall_normal, face, incident)
     };
-    // The side planes stand on the face itself: what sticks out beyond its ends does not count.
+    // The side planes lie at the ends of the face itself: parts beyond its ends do not count.
     let Some(clipped) = clip(incident, normal.perp(), face) else {
         return Manifold::NONE;
     };

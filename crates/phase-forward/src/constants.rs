@@ -2,7 +2,7 @@
 
 /// Duration of one substep (s).
 pub(crate) const H: f32 = phase_model::arena::SUBSTEP_SECONDS;
-/// Greatest impulse of ground friction in one substep (N s).
+/// Maximum impulse of ground friction in one substep (N s).
 pub(crate) const MAX_FRICTION_IMPULSE: f32 = phase_model::physics::GROUND_FRICTION * H;
 /// Iterations of the velocity solver.
 pub(crate) const VELOCITY_ITERATIONS: usize = 10;
@@ -12,23 +12,23 @@ pub(crate) const POSITION_ITERATIONS: usize = 10;
 pub(crate) const IMPACT_POSITION_ITERATIONS: usize = 20;
 /// The velocity solver stops when no impulse changes by more than this (N s).
 pub(crate) const IMPULSE_TOLERANCE: f32 = 1e-3;
-/// Depth of overlap that contacts keep on purpose, so that they do not flicker (u).
+/// Overlap that contacts deliberately keep, so that they do not flicker (u).
 pub(crate) const LINEAR_SLOP: f32 = 0.005;
-/// Error of a joint's angle that counts as none (rad).
+/// Tolerated error of a joint's angle (rad).
 pub(crate) const ANGULAR_SLOP: f32 = 2.0 / 180.0 * core::f32::consts::PI;
 /// Thickness of the skin around polygons and walls (u).
 pub(crate) const SKIN: f32 = 0.01;
-/// Share of an overlap that one position iteration takes back.
+/// Share of an overlap that one position iteration corrects.
 pub(crate) const BAUMGARTE: f32 = 0.2;
 /// The same after an impact on a wall.
 pub(crate) const IMPACT_BAUMGARTE: f32 = 0.75;
-/// Longest correction of one position iteration (u).
+/// Maximum correction of one position iteration (u).
 pub(crate) const MAX_CORRECTION: f32 = 0.2;
-/// Longest way of one substep (u).
+/// Maximum displacement in one substep (u).
 pub(crate) const MAX_TRANSLATION: f32 = 2.0;
-/// Greatest turn of one substep (rad).
+/// Maximum rotation in one substep (rad).
 pub(crate) const MAX_ROTATION: f32 = 0.5 * core::f32::consts::PI;
-/// Most impacts on one wall that one substep resolves.
+/// Maximum number of impacts on one wall that one substep resolves.
 pub(crate) const MAX_IMPACTS: u8 = 8;
-/// Least distance of a centre of mass from the boundary (u).
+/// Minimum distance of a centre of mass from the boundary (u).
 pub(crate) const BOUNDARY_MARGIN: f32 = 0.01;

@@ -11,26 +11,26 @@ use phase_model::Vec2;
 /// Two points whose effective masses differ by more than this are solved as one.
 const MAX_CONDITION_NUMBER: f32 = 1000.0;
 
-/// A touching contact and all that its solution needs.
+/// A touching contact and all data for its solution.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Contact {
-    /// Which pair of shapes it belongs to.
+    /// The key of its pair of shapes.
     pub(crate) key: u8,
     /// First body; [`STATIC`] for walls.
     pub(crate) a: usize,
     /// Second body, never static.
     pub(crate) b: usize,
-    /// The groups that it acts on: the bodies themselves, unless they are solved as part of something rigid.
+    /// The groups that it acts on: the bodies themselves, unless they are solved as part of a rigid group.
     pub(crate) groups: (usize, usize),
     pub(crate) manifold: Manifold,
-    /// Impulse so far at each point (N s).
+    /// Accumulated impulse at each point (N s).
     pub(crate) impulses: [f32; 2],
     skins: f32,
     /// Number of points the velocity solver uses.
     count: usize,
-    /// What a unit impulse at each point is to the first and to the second body.
+    /// The twist of a unit impulse at each point for the first and for the second body.
     rows: [(Twist, Twist); 2],
-    /// What a unit impulse at point i does to the speed at point j: (0, 0), (0, 1) and (1, 1).
+    /// Effect of a unit impulse at point i on the speed at point j: (0, 0), (0, 1) and (1, 1).
     response: [f32; 3],
     /// The inverse of the same matrix, if both points are solved together.
     inverse: [f32; 3],
@@ -51,12 +51,12 @@ impl Contact {
         inverse: [0.0; 3],
     };
 
-    /// A contact of two bodies that starts without impulses.
+    /// A contact of two bodies with zero initial impulses.
     pub(crate) fn new(key: u8, (a, b): (usize, usize), manifold: Manifold) -> Self {
         Self { key, a, b, groups: (a, b), manifold, ..Self::NONE }
     }
 
-    /// Works out where impulses act and what they do, at the present poses.
+    /// Computes the points of application and the effect of impulses, at the present poses.
     pub(crate) fn prepare(&mut self, shapes: &[Shape; 5], motions: &[BodyMotion; 5]) {
         let (a, b) = (&motions[self.a], &motions[self.b]);
         self.place(&shapes[self.a], &shapes[self.b], a, b, [a.centre, b.centre], false);
@@ -80,14 +80,15 @@ impl Contact {
         self.compute_response(inverse_mass_vector[0], inverse_mass_vector[1], self.a == STATIC);
     }
 
-    /// The same for a contact with a wall, of which only the second body has a say.
+    /// The same for a contact with a wall, where only the second body moves.
     pub(crate) fn prepare_alone(&mut self, shapes: &[Shape; 5], motion: &BodyMotion) {
         let (wall, shape) = (&shapes[STATIC], &shapes[self.b]);
         self.place(wall, shape, &BodyMotion::AT_REST, motion, [Vec2::ZERO, motion.centre], true);
         self.compute_response(wall.inverse_mass_vector, shape.inverse_mass_vector, true);
     }
 
-    /// Works out where impulses act, and so what a unit of them is to each side, about its centre of mass.
+    /// Computes the points of application and the twist of a unit impulse for each side, about its centre of
+    /// mass.
     #[inline(always)]
     fn place(
         &mut self,
@@ -109,7 +110,7 @@ impl Contact {
         }
     }
 
-    /// Works out what impulses do to both sides, of which the first may be a wall.
+    /// Computes the effect of impulses on both sides, of which the first may be a wall.
     #[inline(always)]
     fn compute_response(&mut self, yielding_a: Vec3, yielding_b: Vec3, alone: bool) {
         let rows = &self.rows;
@@ -131,7 +132,7 @@ impl Contact {
         }
     }
 
-    /// Applies the impulses so far, those of the substep before as a first guess.
+    /// Applies the accumulated impulses, those of the preceding substep as an initial value.
     pub(crate) fn warm_start(&self, shapes: &[Shape; 5], twists: &mut [Twist; 5]) {
         for point in 0..self.count {
             self.apply(|body| shapes[body].inverse_mass_vector, twists, point, self.impulses[point]);
@@ -146,8 +147,8 @@ impl Contact {
         }
     }
 
-    /// One iteration of the velocity solver, for bodies or groups that yield as told ([`Shape::inverse_mass_vector`]).
-    /// Returns the greatest change of an impulse (N s).
+    /// One iteration of the velocity solver, for bodies or groups with the given inverse masses
+    /// ([`Shape::inverse_mass_vector`]). Returns the maximum change of an impulse (N s).
     #[inline]
     pub(crate) fn solve(
         &mut self,
@@ -178,7 +179,7 @@ impl Contact {
         changes[0].abs().max(changes[1].abs())
     }
 
-    /// By how much the impulses at the points have to change, for the speed at which the bodies part there.
+    /// The changes of the impulses at the points, for the given separating speeds.
     #[inline(always)]
     fn changes(&self, speed: impl Fn(&(Twist, Twist)) -> f32) -> [f32; 2] {
         let before = self.impulses;
@@ -187,7 +188,7 @@ impl Contact {
             return [(before[0] - speed / self.response[0]).max(0.0) - before[0], 0.0];
         }
         let [first, cross, second] = self.response;
-        // Speeds there would be without the impulses so far.
+        // The speeds without the accumulated impulses.
         let free_speeds = [
             speed(&self.rows[0]) - first * before[0] - cross * before[1],
             speed(&self.rows[1]) - cross * before[0] - second * before[1],
@@ -195,7 +196,7 @@ impl Contact {
         self.solve_lcp(free_speeds).map_or([0.0; 2], |after| [after[0] - before[0], after[1] - before[1]])
     }
 
-    /// The normal at one of the points, where that lies, and the gap there, negative where shapes overlap (u).
+    /// The normal at one of the points, its position, and the gap there, negative where shapes overlap (u).
     #[inline]
     pub(crate) fn gap(&self, motions: &[BodyMotion; 5], point: usize) -> (Vec2, Vec2, f32) {
         if self.a == STATIC {
@@ -205,8 +206,8 @@ impl Contact {
         }
     }
 
-    /// One iteration of the position solver, which takes back a share of the overlap. Returns the gap found
-    /// before, negative where shapes overlap (u).
+    /// One iteration of the position solver, which corrects a share of the overlap. Returns the gap before
+    /// the correction, negative where shapes overlap (u).
     pub(crate) fn separate(&self, shapes: &[Shape; 5], motions: &mut [BodyMotion; 5], share: f32) -> f32 {
         if self.a == STATIC {
             return self.separate_alone(&shapes[self.b], &mut motions[self.b], share);
@@ -265,9 +266,9 @@ impl Contact {
         twists[b].push(row_b, impulse, inverse_mass_vector(b));
     }
 
-    /// Impulses at both points such that nothing approaches, nothing pulls, and no impulse acts where the
-    /// bodies part: a complementarity problem small enough to try all four cases. Takes the speeds without
-    /// any impulse.
+    /// Impulses at both points such that the bodies do not approach, no impulse is negative, and no impulse
+    /// acts where the bodies separate: a complementarity problem small enough to try all four cases. Takes
+    /// the speeds without any impulse.
     #[inline]
     fn solve_lcp(&self, free_speeds: [f32; 2]) -> Option<[f32; 2]> {
         let [first, cross, second] = self.response;
@@ -291,7 +292,7 @@ impl Contact {
     }
 }
 
-/// How far one iteration of the position solver takes bodies apart that overlap (u).
+/// Distance by which one iteration of the position solver separates overlapping bodies (u).
 #[inline]
 pub(crate) fn correction(share: f32, gap: f32) -> f32 {
     (-share * (gap + LINEAR_SLOP)).min(MAX_CORRECTION)

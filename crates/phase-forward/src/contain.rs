@@ -8,8 +8,8 @@ use crate::{
 use phase_model::{Segment, Vec2, arena};
 
 impl World<'_> {
-    /// Brings a body back if its centre of mass crossed one of the candidate walls or left the arena. Deeply
-    /// overlapping bodies that push one another can do that to the solver, which only looks at impacts of
+    /// Moves a body back if its centre of mass crossed one of the candidate walls or left the arena. Deeply
+    /// overlapping bodies that push one another can cause this, since the solver only detects impacts of
     /// bodies that were clear of the wall before.
     pub(crate) fn contain(&mut self, body: usize, candidates: KeySet) {
         let start = self.starts[body].0;

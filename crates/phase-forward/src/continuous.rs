@@ -1,4 +1,5 @@
-//! Impacts on walls within a substep: stop at the wall, lose the speed into it, go on for the time left.
+//! Impacts on walls within a substep: stop at the wall, lose the normal velocity, continue for the remaining
+//! time.
 
 use crate::{
     body::STATIC,
@@ -15,12 +16,12 @@ use crate::{
 };
 use phase_model::Vec2;
 
-/// Most walls that one impact takes into account.
+/// Maximum number of walls that one impact takes into account.
 const MAX_SIMULTANEOUS_WALLS: usize = 8;
 
 impl World<'_> {
-    /// Resolves the impacts of one body on the walls among the candidates. Returns whether there were any,
-    /// with the body's centre at the last of them.
+    /// Resolves the impacts of one body on the candidate walls. Returns whether there were any, with the
+    /// body's centre at the last of them.
     pub(crate) fn impacts(&mut self, body: usize, candidates: KeySet) -> Option<Vec2> {
         let (start, start_angle, right) = self.starts[body];
         let shape = &self.model.shapes[body];
@@ -93,7 +94,7 @@ impl World<'_> {
         }
     }
 
-    /// Separates a body from walls it has just reached, takes away its speed into them, and moves it on.
+    /// Separates a body from walls it has just reached, removes its velocity into them, and moves it on.
     fn bounce(&mut self, body: usize, contacts: &mut [Contact], spent: f32, sweep: &mut Sweep) {
         let shapes = &self.model.shapes;
         let (shape, motion) = (&shapes[body], &mut self.motions[body]);
@@ -131,7 +132,7 @@ impl World<'_> {
         self.moved(body);
     }
 
-    /// Sets a body's pose to the start of a way.
+    /// Sets a body's pose to the start of a path.
     fn put(&mut self, body: usize, sweep: &Sweep) {
         let motion = &mut self.motions[body];
         motion.centre = sweep.from;

@@ -1,4 +1,4 @@
-//! What a step leaves behind in the state.
+//! Writing the result of a step into the state.
 
 use crate::{
     key::{KeySet, PAIRS, bit, pair_key},
@@ -22,7 +22,7 @@ impl World<'_> {
     }
 }
 
-/// Agents do not go on turning from one step to the next.
+/// Agents do not continue turning from one step to the next.
 pub(crate) fn stop_turning(state: &mut State) {
     for body in &mut state.bodies[..AGENT_COUNT] {
         body.angular_velocity = 0.0;

@@ -1,4 +1,4 @@
-//! The kernel: what never changes of a scene's physics, and steps from state to state.
+//! The kernel: the constants of a scene's physics, and steps from state to state.
 
 use crate::{
     coarse, constants::VELOCITY_ITERATIONS, finish::stop_turning, key::BodyMask, model::Model, reach,
@@ -6,12 +6,12 @@ use crate::{
 };
 use phase_model::{AGENT_COUNT, Action, Dynamics, PhysicsConfig, State, arena::SUBSTEPS};
 
-/// Iterations of the velocity solver in a substep that starts without impulses.
+/// Iterations of the velocity solver in a substep without warm starting.
 const COLD_ITERATIONS: usize = 20;
 
 /// The dynamics of one scene: walls, shapes, masses and forces, prepared for stepping.
 ///
-/// At most two objects and four inner walls count, which is all that PHASE has; more are left out.
+/// At most two objects and four inner walls are used, which is all that PHASE has; more are ignored.
 #[derive(Clone, Debug)]
 pub struct Forward {
     model: Model,
@@ -25,7 +25,7 @@ impl Forward {
     }
 
     /// One step (five substeps) from a state alone, with the state after each substep. Impulses of contacts
-    /// and grips start from nothing, as [`Dynamics::step`] does; the last state is the one it leaves.
+    /// and grips start from zero, as in [`Dynamics::step`]; the last state is the resulting one.
     pub fn step_substeps(&self, state: &mut State, actions: [Action; AGENT_COUNT]) -> [State; SUBSTEPS] {
         let mut substeps = [*state; SUBSTEPS];
         self.step_cold::<true>(state, actions, |world, substep| {
@@ -35,8 +35,8 @@ impl Forward {
         substeps
     }
 
-    /// One step (five substeps) that goes on from the impulses of the step before, with the state after each
-    /// substep: for replaying recordings as faithfully as possible. The memory must come from
+    /// One step (five substeps) warm-started with the impulses of the step before, with the state after each
+    /// substep: for replaying recordings as faithfully as possible. The cache must come from
     /// [`Forward::fresh_cache`] or from the step that led to this state.
     pub fn step_warm(
         &self,
@@ -64,14 +64,14 @@ impl Forward {
         coarse::step(&self.model, state, actions);
     }
 
-    /// The memory of a world that has just been set up in a state: no impulses, every pair in reach ready
-    /// to touch.
+    /// The cache of a world that has just been set up in a state: no impulses, every pair in reach ready to
+    /// touch.
     #[must_use]
     pub fn fresh_cache(&self, state: &State) -> SolverCache {
         SolverCache::new(&World::new(&self.model, state, [Action::NoForce; AGENT_COUNT]))
     }
 
-    /// One substep of 1/60 s in which nobody acts. The original runs one before the first step, which pushes
+    /// One substep of 1/60 s without actions. The original runs one before the first step, which pushes
     /// overlapping bodies apart.
     pub fn settle(&self, state: &mut State) {
         let mut world = World::new(&self.model, state, [Action::NoForce; AGENT_COUNT]);
@@ -81,7 +81,7 @@ impl Forward {
         stop_turning(state);
     }
 
-    /// [`Forward::settle`] with memory.
+    /// [`Forward::settle`] with warm starting.
     pub fn settle_warm(&self, state: &mut State, solver_cache: &mut SolverCache) {
         let mut world = World::new(&self.model, state, [Action::NoForce; AGENT_COUNT]);
         solver_cache.enter(&mut world);
@@ -91,8 +91,8 @@ impl Forward {
         stop_turning(state);
     }
 
-    /// A step from a state alone. `observe` is shown the bodies after each substep if any of them may touch
-    /// something, or if `ALL` asks for it.
+    /// A step from a state alone. `observe` is called with the bodies after each substep if any of them may
+    /// touch something, or if `ALL` requests it.
     fn step_cold<const ALL: bool>(
         &self,
         state: &mut State,
@@ -107,7 +107,7 @@ impl Forward {
             for body in AGENT_COUNT..self.model.count {
                 self.drift(&mut world, body, SUBSTEPS);
             }
-            // Taking turns lets the processor work on both agents at once.
+            // Interleaving lets the processor work on both agents at once.
             for _ in 0..SUBSTEPS {
                 self.drift(&mut world, 0, 1);
                 self.drift(&mut world, 1, 1);
@@ -142,7 +142,7 @@ impl Forward {
         }
     }
 
-    /// Some substeps of a body that nothing can reach.
+    /// Several substeps of a body that cannot reach anything.
     #[inline]
     fn drift(&self, world: &mut World<'_>, body: usize, substeps: usize) {
         let (shape, motion) = (&self.model.shapes[body], &mut world.motions[body]);
@@ -196,7 +196,7 @@ impl Forward {
 }
 
 impl Dynamics for Forward {
-    /// One step from a state alone: impulses of contacts and grips start from nothing.
+    /// One step from a state alone: impulses of contacts and grips start from zero.
     fn step(&self, state: &mut State, actions: [Action; AGENT_COUNT]) {
         self.step_cold::<false>(state, actions, |_, _| {});
     }

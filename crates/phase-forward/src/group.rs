@@ -1,4 +1,4 @@
-//! Bodies that hold each other, taken as one rigid body.
+//! Bodies that hold each other, treated as one rigid body.
 
 use crate::{
     body::{BodyMotion, STATIC, Shape, Twist},
@@ -11,20 +11,20 @@ use crate::{
 use glam::Vec3;
 use phase_model::{AGENT_COUNT, Action, Vec2, physics::GROUND_FRICTION};
 
-/// Fastest that anything goes (u/s) and turns (rad/s), as in the exact kernel.
+/// Maximum speed (u/s) and angular velocity (rad/s), as in the exact kernel.
 const MAX_SPEED: f32 = MAX_TRANSLATION / H;
 const MAX_SPIN: f32 = MAX_ROTATION / H;
 
 /// All bodies of a step in rigid groups. A body that neither holds nor is held is a group of one.
 #[derive(Clone, Debug)]
 pub(crate) struct Groups {
-    /// For each body, the body that its group is named after: the one of lowest index in it.
+    /// For each body, the body that names its group: the one of lowest index in it.
     pub(crate) names: [usize; 5],
     /// The bodies of each group, by name.
     pub(crate) bodies: [BodyMask; 5],
     /// Pairs of bodies that belong to the same group, and so cannot touch.
     pub(crate) within: KeySet,
-    /// How groups yield, by name; see [`Shape::inverse_mass_vector`].
+    /// Inverse masses of groups, by name; see [`Shape::inverse_mass_vector`].
     pub(crate) inverse_mass_vector: [Vec3; 5],
     /// Centres of mass of groups, by name (u).
     pub(crate) centres: [Vec2; 5],
@@ -81,7 +81,7 @@ impl Groups {
         (0..4).filter(|body| bodies & 1 << body != 0).fold(0, |names, body| names | 1 << self.names[body])
     }
 
-    /// Works out mass, centre and moment of inertia of a group of several.
+    /// Computes mass, centre and moment of inertia of a group of several bodies.
     fn compute_mass(&mut self, name: usize, world: &World<'_>) {
         if self.bodies[name].count_ones() < 2 {
             return;
@@ -102,7 +102,7 @@ impl Groups {
         self.inverse_mass_vector[name] = Vec3::new(1.0 / mass, 1.0 / mass, 1.0 / inertia);
     }
 
-    /// Takes over the velocities of a group's bodies: their momentum and angular momentum stay what they are.
+    /// Takes over the velocities of a group's bodies: total momentum and angular momentum are conserved.
     pub(crate) fn gather_momentum(&mut self, name: usize, world: &World<'_>) {
         if self.bodies[name].count_ones() < 2 {
             let motion = &world.motions[name];
@@ -130,8 +130,8 @@ impl Groups {
         }
     }
 
-    /// Lets `stop` act on a body for some substeps. It takes an agent's own speed away in every substep, and
-    /// what it holds gives it some of its own back each time.
+    /// Applies `stop` to a body for some substeps. It sets the agent's own velocity to zero in every substep,
+    /// and the object it holds transfers some of its velocity back each time.
     pub(crate) fn stop(&mut self, body: usize, world: &World<'_>, substeps: u8) {
         let name = self.names[body];
         let (shape, motion) = (&world.model.shapes[body], &world.motions[body]);
@@ -147,7 +147,7 @@ impl Groups {
         self.twists[name].push(Twist::of_impulse(impulse, arm), 1.0, self.inverse_mass_vector[name]);
     }
 
-    /// Lets an agent's push or turn act for some seconds.
+    /// Applies an agent's push or turn for some seconds.
     pub(crate) fn act(&mut self, body: usize, world: &World<'_>, seconds: f32) {
         let (action, name) = (world.actions[body], self.names[body]);
         let (shape, motion) = (&world.model.shapes[body], &world.motions[body]);
@@ -190,7 +190,7 @@ impl Groups {
         self.centres[name] += sweep;
     }
 
-    /// Works out what impulses of a contact do to the groups that it acts on.
+    /// Computes the effect of a contact's impulses on the groups that it acts on.
     pub(crate) fn prepare(&self, contact: &mut Contact, shapes: &[Shape; 5], motions: &[BodyMotion; 5]) {
         let names = (self.names[contact.a], self.names[contact.b]);
         let centres = [self.centres[names.0], self.centres[names.1]];
@@ -198,8 +198,8 @@ impl Groups {
         contact.prepare_rigid(names, centres, inverse_mass_vector, shapes, motions);
     }
 
-    /// Takes back a share of the overlap at a contact. Returns the gap found before, negative where shapes
-    /// overlap (u).
+    /// Corrects a share of the overlap at a contact. Returns the gap before the correction, negative where
+    /// shapes overlap (u).
     pub(crate) fn separate(&mut self, contact: &Contact, world: &mut World<'_>, share: f32) -> f32 {
         let (a, b) = contact.groups;
         let mut least = f32::MAX;
@@ -212,7 +212,7 @@ impl Groups {
             let arms = [a, b].map(|name| Twist::of_impulse(normal, at - self.centres[name]));
             let response = arms[0].through(arms[0], self.inverse_mass_vector[a])
                 + arms[1].through(arms[1], self.inverse_mass_vector[b]);
-            // Where two centres coincide there is no way apart.
+            // Where two centres coincide no direction separates the bodies.
             if response <= 0.0 {
                 continue;
             }
@@ -234,7 +234,7 @@ impl Groups {
 pub(crate) struct GroundFriction {
     /// From the group's centre of mass to the body's origin (u).
     offset: Vec2,
-    /// The impulse that a unit of slip takes: (xx, xy, yy).
+    /// The impulse per unit of slip: (xx, xy, yy).
     mass: [f32; 3],
     impulse: Vec2,
     greatest: f32,
@@ -266,7 +266,7 @@ impl GroundFriction {
         }
     }
 
-    /// One iteration. Returns the greatest change of the impulse (N s).
+    /// One iteration. Returns the maximum change of the impulse (N s).
     #[inline]
     pub(crate) fn solve_friction(&mut self, twist: &mut Twist, inverse_mass_vector: Vec3) -> f32 {
         let (velocity, spin) = twist.parts();

@@ -1,9 +1,9 @@
-//! Where two shapes touch: one normal and up to two points, in the frames of the two bodies.
+//! Contact manifolds of two shapes: one normal and up to two points, in the frames of the two bodies.
 
 use crate::body::BodyMotion;
 use phase_model::Vec2;
 
-/// Which shape the normal belongs to.
+/// The shape that the normal belongs to.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Reference {
     /// Neither: the normal leads from the one point of the first shape to the one point of the second.
@@ -26,7 +26,7 @@ pub(crate) struct Manifold {
     pub(crate) anchor: Vec2,
     /// The touching points of the other shape, in the frame of its body.
     pub(crate) points: [Vec2; 2],
-    /// Names of the features that made the points, by which impulses find them again.
+    /// Names of the features that made the points, by which impulses are matched between substeps.
     pub(crate) names: [u16; 2],
 }
 
@@ -45,8 +45,8 @@ impl Manifold {
         Self { reference, count: 1, normal, anchor, points: [point; 2], names: [0; 2] }
     }
 
-    /// The normal (from the first shape to the second) and, for one of the points, where it lies and how far
-    /// the shapes with their skins are apart there, for bodies at the given poses.
+    /// The normal (from the first shape to the second) and, for one of the points, its position and the
+    /// distance of the shapes with their skins there, for bodies at the given poses.
     #[inline]
     pub(crate) fn gap(&self, a: &BodyMotion, b: &BodyMotion, skins: f32, point: usize) -> (Vec2, Vec2, f32) {
         match self.reference {
@@ -89,7 +89,7 @@ impl Manifold {
         }
     }
 
-    /// The normal and the middles of the overlaps, where impulses act.
+    /// The normal and the midpoints of the overlaps, where impulses act.
     #[inline]
     pub(crate) fn middles(
         &self,

@@ -1,4 +1,4 @@
-//! What never changes of a scene: walls, shapes, masses and forces.
+//! The constants of a scene: walls, shapes, masses and forces.
 
 use crate::{
     body::Shape,
@@ -9,7 +9,7 @@ use phase_model::{AGENT_COUNT, PhysicsConfig};
 
 /// The constants of one scene's dynamics, prepared for stepping.
 ///
-/// At most two objects and four inner walls count, which is all that PHASE has; more are left out.
+/// At most two objects and four inner walls are used, which is all that PHASE has; more are ignored.
 #[derive(Clone, Debug)]
 pub(crate) struct Model {
     pub(crate) physics: PhysicsConfig,

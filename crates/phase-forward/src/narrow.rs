@@ -1,4 +1,4 @@
-//! The narrow phase: which shapes touch where bodies are now.
+//! The narrow phase: which shapes touch at the present poses.
 
 use crate::{
     body::STATIC,
@@ -13,8 +13,8 @@ use crate::{
 use phase_model::AGENT_COUNT;
 
 impl World<'_> {
-    /// Finds which of the pairs of shapes in a set touch, newest first. The outlines of the bodies must be
-    /// up to date.
+    /// Finds the touching pairs of shapes in a set, newest first. The outlines of the bodies must be up to
+    /// date.
     pub(crate) fn contacts(&self, candidates: KeySet) -> impl Iterator<Item = Contact> {
         descending(candidates).filter_map(|key| {
             let (bodies, manifold) = self.collide(key, &self.outlines.polygons);
@@ -46,7 +46,7 @@ impl World<'_> {
         ((a, b), manifold)
     }
 
-    /// The pairs of bodies that touch as they are now, among the given keys.
+    /// The pairs of bodies that touch at their present poses, among the given keys.
     pub(crate) fn touching(&mut self, candidates: KeySet) -> KeySet {
         let pairs = candidates >> pair_key(0) << pair_key(0);
         if pairs == 0 {

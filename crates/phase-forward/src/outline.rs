@@ -1,12 +1,12 @@
-//! What bodies occupy where they are now, worked out once for every pose.
+//! The space occupied by bodies at their present poses, computed once for every pose.
 
 use crate::{body::BodyMotion, key::BodyMask, model::Model, polygon::Polygon};
 use phase_model::{AGENT_COUNT, Vec2};
 
-/// A box with sides along the axes: lower left and upper right corner (u).
+/// An axis-aligned box: lower left and upper right corner (u).
 pub(crate) type Aabb = (Vec2, Vec2);
 
-/// Outlines of the bodies at the poses at which they were last looked at.
+/// Outlines of the bodies at the poses at which they were last updated.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Outlines {
     /// Corners and sides of the agents.
@@ -21,7 +21,7 @@ impl Outlines {
     pub(crate) const NONE: Self =
         Self { polygons: [Polygon::NONE; AGENT_COUNT], boxes: [(Vec2::ZERO, Vec2::ZERO); 4], current: 0 };
 
-    /// Brings those of some bodies up to date.
+    /// Updates the outlines of some bodies.
     #[inline]
     pub(crate) fn update(&mut self, bodies: BodyMask, model: &Model, motions: &[BodyMotion; 5]) {
         let stale = bodies & !self.current;
@@ -44,7 +44,7 @@ impl Outlines {
         self.current |= stale;
     }
 
-    /// Notes that a body has another pose now.
+    /// Records that a body's pose has changed.
     #[inline]
     pub(crate) fn moved(&mut self, body: usize) {
         self.current &= !(1 << body);

@@ -31,8 +31,9 @@ impl Polygon {
         (a.min(b).min(c).min(d), a.max(b).max(c).max(d))
     }
 
-    /// The side whose normal separates the other polygon most, and by how much. Found by climbing from the
-    /// side that looks most towards the other's centre of mass, which matters where polygons overlap deeply.
+    /// The side with the maximum separation from the other polygon, and that separation. Found by hill
+    /// climbing from the side that faces the other's centre of mass most directly, which matters for deep
+    /// overlaps.
     #[inline]
     pub(crate) fn max_separation(&self, other: &Self, towards: Vec2) -> (usize, f32) {
         let side = self.incident_side(-towards);
@@ -56,7 +57,7 @@ impl Polygon {
         }
     }
 
-    /// How far the other polygon is beyond a side; negative if it reaches behind it.
+    /// Distance of the other polygon beyond a side; negative if it reaches behind it.
     #[inline]
     fn gap(&self, side: usize, other: &Self) -> f32 {
         let normal = self.normals[side];
@@ -64,7 +65,7 @@ impl Polygon {
         nearest - normal.dot(self.corners[side])
     }
 
-    /// The side that looks most against a direction.
+    /// The side whose normal is most opposed to a direction.
     #[inline]
     pub(crate) fn incident_side(&self, direction: Vec2) -> usize {
         let mut best = (0, f32::MAX);

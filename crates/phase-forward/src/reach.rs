@@ -1,4 +1,4 @@
-//! What can touch what: coarse tests that spare the exact ones.
+//! Conservative reachability tests that avoid exact ones.
 
 use crate::{
     constants::{H, SKIN},
@@ -12,15 +12,16 @@ use phase_model::{AGENT_COUNT, arena};
 
 /// Substeps in a step, as seconds.
 const STEP: f32 = arena::SUBSTEPS as f32 * H;
-/// Way in a step per unit of constant acceleration, since each substep moves with its final speed (s²).
+/// Displacement in a step per unit of constant acceleration, since each substep moves with its final speed
+/// (s²).
 const DISPLACEMENT_PER_ACCELERATION: f32 = 15.0 * H * H;
-/// Room for position corrections in a group of bodies (u).
+/// Margin for position corrections in a group of bodies (u).
 const CORRECTION_MARGIN: f32 = 0.5;
 /// Leeway of all tests (u).
 const MARGIN: f32 = 0.02;
 
 /// The bodies that may touch or hold anything in the coming step, whatever happens; all others move alone.
-/// Notes for each of them which walls it can reach.
+/// Records for each of them which walls it can reach.
 pub(crate) fn reachable_bodies(world: &mut World<'_>) -> BodyMask {
     let model = world.model;
     let mut reachable_bodies: BodyMask = 0;
@@ -55,7 +56,7 @@ pub(crate) fn reachable_bodies(world: &mut World<'_>) -> BodyMask {
     if grouped == 0 {
         return reachable_bodies;
     }
-    // Bodies that hit each other may go anywhere that their speeds together could take them.
+    // Bodies that collide may go anywhere that the sum of their speeds could take them.
     let mut before = 0;
     let mut together = 0.0;
     while grouped != before {
@@ -101,8 +102,9 @@ pub(crate) fn groups_may_collide(world: &World<'_>, groups: &Groups) -> bool {
     })
 }
 
-/// Those of the given bodies that the coming substep can change, and all pairs of shapes that may touch in it, but
-/// for those that are kept apart. `None` if nothing can change. Their outlines are up to date afterwards.
+/// Those of the given bodies that the coming substep can change, and all pairs of shapes that may touch in
+/// it, except those that are kept apart. `None` if nothing can change. Their outlines are up to date
+/// afterwards.
 pub(crate) fn active_set(
     world: &mut World<'_>,
     reachable_bodies: BodyMask,
@@ -150,7 +152,7 @@ fn active(world: &mut World<'_>, reachable_bodies: BodyMask, pairs: KeySet) -> B
     active
 }
 
-/// The pairs of bodies in a set whose circles overlap now.
+/// The pairs of bodies in a set whose bounding circles overlap now.
 pub(crate) fn pairs_near(world: &World<'_>, reachable_bodies: BodyMask) -> KeySet {
     let model = world.model;
     let mut near = 0;
@@ -165,7 +167,7 @@ pub(crate) fn pairs_near(world: &World<'_>, reachable_bodies: BodyMask) -> KeySe
     near
 }
 
-/// The walls in reach in this step whose box a body's box reaches now. Its outline must be up to date.
+/// The walls reachable in this step whose box overlaps a body's box now. Its outline must be up to date.
 #[inline]
 pub(crate) fn walls_near(world: &World<'_>, body: usize) -> KeySet {
     if world.walls[body] == 0 {
@@ -176,21 +178,22 @@ pub(crate) fn walls_near(world: &World<'_>, body: usize) -> KeySet {
     wall_keys(world.walls[body] & world.model.boxes.near(min - skin, max + skin), body)
 }
 
-/// Whether a body may have reached a wall on its way through this substep: whether its boxes at the two ends
-/// of the way do not lie both beyond each wall, on one side. The outline at the end must be up to date.
+/// Whether a body may have reached a wall on its path through this substep: false only if, for each wall, its
+/// boxes at both ends of the path lie on the same side of the wall. The outline at the end must be up to
+/// date.
 #[inline]
 pub(crate) fn may_meet_wall(world: &World<'_>, body: usize, (from_min, from_max): Aabb) -> bool {
     let (to_min, to_max) = world.outlines.boxes[body];
     if world.walls[body] == 0 || from_min == to_min && from_max == to_max {
         return false;
     }
-    // Walls have their skin in their boxes.
+    // The boxes of walls include their skin.
     let room = time_of_impact::room(&world.model.shapes[body]) - SKIN;
     let (min, max) = (from_min.min(to_min) - room, from_max.max(to_max) + room);
     world.walls[body] & world.model.boxes.near(min, max) != 0
 }
 
-/// The walls whose box a body's circle has swept over in this substep.
+/// The walls whose box overlaps the region swept by a body's circle in this substep.
 pub(crate) fn walls_swept(world: &World<'_>, body: usize) -> KeySet {
     let (start, angle, _) = world.starts[body];
     let motion = &world.motions[body];
@@ -202,7 +205,7 @@ pub(crate) fn walls_swept(world: &World<'_>, body: usize) -> KeySet {
     wall_keys(world.model.boxes.near(min, max), body)
 }
 
-/// Room that a body's box leaves for the body's skin (u): discs have theirs inside.
+/// Margin of a body's box for the body's skin (u); that of discs lies inside.
 const fn agent_skin(body: usize) -> f32 {
     if body < AGENT_COUNT { SKIN } else { 0.0 }
 }

@@ -7,18 +7,19 @@ use crate::{
 };
 use phase_model::{AGENT_COUNT, AgentId, Entity, State, Vec2};
 
-/// How far from the place where it was let go of an object is clear of its holder (u).
+/// Distance from the point of release beyond which an object is clear of its holder (u).
 const CLEARANCE: f32 = 0.1;
-/// How many substeps' way at the speed of that moment it has to go beyond that.
+/// Additional distance, in substeps at the body's current speed.
 const CLEARANCE_SUBSTEPS: f32 = 4.0;
 
 impl World<'_> {
-    /// Sets apart the pairs that may not touch: what is held, what is let go of in this step, and what looks
-    /// as if it had been let go of just before. Objects held at an agent's flank lie 0.1 r deep in it and
-    /// stay out of contact, once let go of, until they have moved; a state does not say so, but an object
-    /// that deep at exactly that place, that does not come nearer and did not touch, can be nothing else.
+    /// Keeps apart the pairs that may not touch: held objects, objects released in this step, and objects
+    /// that appear to have been released just before. Objects held at an agent's flank penetrate it by 0.1 r
+    /// and stay out of contact after their release until they have moved; a state does not contain this
+    /// information, but an object at that depth in exactly that place, which does not approach and did not
+    /// touch, can have no other cause.
     pub(crate) fn exclude_pairs(&mut self, state: &State, released: [Option<usize>; AGENT_COUNT]) {
-        /// Speed of approach at which it has not just been let go of (u/s).
+        /// Speed of approach above which it was not just released (u/s).
         const APPROACH: f32 = 1.0;
         for (holder, released) in AgentId::ALL.into_iter().zip(released) {
             let agent = holder.index();

@@ -1,4 +1,4 @@
-//! What a replay carries from step to step beyond the state: impulses, and which pairs are up for contact.
+//! The state that a replay carries from step to step in addition to bodies: impulses, and broad-phase pairs.
 
 use crate::{
     body::{BodyMotion, Shape},
@@ -10,20 +10,20 @@ use crate::{
 };
 use phase_model::{AGENT_COUNT, Vec2};
 
-/// Room left around a body when its box is drawn anew (u).
+/// Margin around a body when its box is updated (u).
 const MARGIN: f32 = 0.1;
-/// How much of its last move a body is expected to repeat, in boxes drawn anew.
+/// Share of its last displacement that a body is expected to repeat, in updated boxes.
 const AABB_MULTIPLIER: f32 = 2.0;
 
-/// The memory of a replay: impulses that contacts, grips and the ground gave last, and the original's
-/// broad phase. There, a pair of shapes is up for contact once their generous boxes overlap, and a box is
-/// drawn anew only when its body has left it. This decides which of several contacts is solved first, and
-/// why an object let go of inside an agent's outline does not touch it before one of them has moved.
+/// The cache of a replay: the last impulses of contacts, grips and ground friction, and the original's broad
+/// phase. There, a pair of shapes becomes a contact candidate once their enlarged boxes overlap, and a box is
+/// updated only when its body has left it. This decides which of several contacts is solved first, and why an
+/// object released inside an agent's outline does not touch it before one of them has moved.
 #[derive(Clone, Copy, Debug)]
 pub struct SolverCache {
     impulses: Impulses,
     pub(crate) touching: ContactSet,
-    /// When each pair came up for contact; 0 for pairs that are not.
+    /// When each pair became a contact candidate; 0 for pairs that are not.
     since: [u32; KEYS],
     now: u32,
     active_pairs: KeySet,
@@ -53,7 +53,7 @@ impl SolverCache {
         solver_cache
     }
 
-    /// Pairs that are up for contact.
+    /// Pairs that are contact candidates.
     pub(crate) fn active_pairs(&self) -> KeySet {
         self.active_pairs
     }
@@ -68,7 +68,7 @@ impl SolverCache {
         self.latest_grip = world.latest_grip;
     }
 
-    /// Forgets pairs that are held together or whose boxes have parted.
+    /// Removes pairs that are held together or whose boxes no longer overlap.
     pub(crate) fn drop_stale(&mut self, world: &World<'_>) {
         let held = held_pairs(world);
         for key in descending(self.active_pairs) {
@@ -78,14 +78,14 @@ impl SolverCache {
         }
     }
 
-    /// Sorts the contacts found so that the newest come first.
+    /// Sorts the contacts found from newest to oldest.
     pub(crate) fn sort_newest_first(&mut self) {
         let since = &self.since;
         self.touching.contacts[..self.touching.count]
             .sort_by_key(|contact| core::cmp::Reverse(since[usize::from(contact.key)]));
     }
 
-    /// Draws the boxes of bodies anew that have left theirs, and finds what has come up for contact.
+    /// Updates the boxes of bodies that have left theirs, and finds the new contact candidates.
     pub(crate) fn update_boxes(&mut self, world: &World<'_>) {
         for body in 0..world.model.count {
             let (centre, angle, right) = world.starts[body];
@@ -101,7 +101,7 @@ impl SolverCache {
         self.refit_box(&world.model.shapes[body], body, &now, &now);
     }
 
-    /// Brings up for contact whatever overlaps the boxes drawn anew.
+    /// Adds all pairs that overlap the updated boxes to the contact candidates.
     pub(crate) fn find_new_pairs(&mut self, world: &World<'_>) {
         if self.moved == 0 {
             return;

@@ -18,7 +18,7 @@ impl World<'_> {
     /// Applies forces and solves all given bodies, group by group.
     pub(crate) fn solve(&mut self, reachable_bodies: BodyMask, touching: &mut ContactSet) {
         let mut welds: [Option<Weld>; AGENT_COUNT] = [None; AGENT_COUNT];
-        // Bodies that lean on walls, and bodies that hang together with others.
+        // Bodies that lean on walls, and bodies that are connected with others.
         let (mut leaning, mut linked): (BodyMask, BodyMask) = (0, 0);
         for (agent, weld) in welds.iter_mut().enumerate() {
             if let (Some(grip), Some(held)) = (&self.grips[agent], self.held(agent)) {
@@ -80,7 +80,7 @@ impl World<'_> {
         touching.keep();
     }
 
-    /// Everything that hangs together with a body by contacts and grips, in the order of solution.
+    /// All bodies connected with a body by contacts and grips, in the order of solution.
     fn island(
         &self,
         seed: usize,
@@ -251,7 +251,7 @@ impl World<'_> {
     }
 }
 
-/// Bodies that hang together, with what holds them.
+/// Connected bodies, with their constraints.
 struct Island {
     bodies: [u8; 4],
     body_count: usize,

@@ -1,8 +1,8 @@
 //! The moment at which a moving body reaches a wall, so that nothing tunnels.
 //!
-//! The method is conservative advancement along a separating axis: find the features of body and wall that
-//! are nearest at the present time, find the latest time at which they are still apart along their axis, and
-//! repeat from there.
+//! The method is conservative advancement along a separating axis: find the closest features of body and wall
+//! at the present time, find the latest time at which they are still apart along their axis, and repeat from
+//! there.
 
 use crate::{
     body::{BodyMotion, Shape},
@@ -13,25 +13,25 @@ use crate::{
 };
 use phase_model::Vec2;
 
-/// Slack of the distance at which a body is said to have reached a wall (u).
+/// Tolerance of the distance at which a body counts as having reached a wall (u).
 const TOLERANCE: f32 = 0.25 * LINEAR_SLOP;
 const AXES: usize = 20;
 const DEEPER: usize = 8;
 const ROOTS: usize = 50;
 
-/// A body's way through (part of) a substep, straight and evenly turning, from 0 to 1.
+/// A body's path through (part of) a substep, straight and with uniform rotation, from 0 to 1.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sweep {
     pub(crate) from: Vec2,
     pub(crate) to: Vec2,
     pub(crate) from_angle: f32,
     pub(crate) to_angle: f32,
-    /// Unit vector to the body's right at the start of the way.
+    /// Unit vector to the body's right at the start of the path.
     pub(crate) right: Vec2,
 }
 
 impl Sweep {
-    /// Cuts off the first share of the way.
+    /// Removes the first share of the path.
     pub(crate) fn skip(&mut self, share: f32) {
         self.from += (self.to - self.from) * share;
         let by = (self.to_angle - self.from_angle) * share;
@@ -50,8 +50,8 @@ impl Sweep {
     }
 }
 
-/// When on its way a body reaches a wall, as a share of the way; `None` if it does not, or if it overlaps the
-/// wall from the start.
+/// When a body on its path reaches a wall, as a share of the path; `None` if it does not, or if it overlaps
+/// the wall from the start.
 pub(crate) fn time_of_impact(shape: &Shape, sweep: &Sweep, wall: &Wall) -> Option<f32> {
     let polygon = shape.origin > 0.0;
     let target = target(shape);
@@ -103,23 +103,23 @@ pub(crate) fn time_of_impact(shape: &Shape, sweep: &Sweep, wall: &Wall) -> Optio
     None
 }
 
-/// The distance from a wall, without skins, at which a body is said to have reached it (u).
+/// The distance from a wall, without skins, at which a body counts as having reached it (u).
 fn target(shape: &Shape) -> f32 {
     (shape.skin + SKIN - 3.0 * LINEAR_SLOP).max(LINEAR_SLOP)
 }
 
-/// The room around its box that a body needs to have to be clear of what it does not overlap (u).
+/// The margin around its box within which a body has to be free of overlaps to be clear (u).
 pub(crate) fn room(shape: &Shape) -> f32 {
     let inside = if shape.origin > 0.0 { 0.0 } else { shape.radius };
     target(shape) + TOLERANCE - inside
 }
 
-/// A body's outlines at the two ends of its way, against which most walls can be ruled out at once.
+/// A body's outlines at the two ends of its path, by which most walls can be excluded at once.
 pub(crate) struct SweepEnds {
     pub(crate) centres: [Vec2; 2],
     /// An agent's outlines.
     pub(crate) polygons: Option<[Polygon; 2]>,
-    /// Distance from the outline (or from a disc's centre) within which walls are not ruled out (u).
+    /// Distance from the outline (or from a disc's centre) within which walls are not excluded (u).
     pub(crate) clear: f32,
 }
 
@@ -130,8 +130,8 @@ impl SweepEnds {
         Self { centres: [sweep.from, sweep.to], polygons, clear: target(shape) + TOLERANCE }
     }
 
-    /// Whether some axis keeps body and wall clear of each other at both ends of the way: the wall's normal,
-    /// also for bodies that lean on it, or the normal of one of the body's sides.
+    /// Whether some axis separates body and wall at both ends of the path: the wall's normal, also for bodies
+    /// that lean on it, or the normal of one of the body's sides.
     #[inline]
     pub(crate) fn clear_of(&self, wall: &Wall) -> bool {
         let side = |centre: Vec2| wall.normal.dot(centre - wall.a);
@@ -175,7 +175,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Distance without skins and the axis of the nearest features; `None` where body and wall overlap.
+    /// Distance without skins and the axis of the closest features; `None` where body and wall overlap.
     fn nearest(&self, share: f32) -> Option<(f32, Axis)> {
         let motion = self.sweep.at(share);
         let wall = self.wall;
@@ -218,7 +218,7 @@ impl Search<'_> {
         (best.0 > 0.0).then_some(best)
     }
 
-    /// Whether no side of the body and not the wall itself separates the two.
+    /// Whether neither a side of the body nor the wall itself separates the two.
     fn overlap(&self, motion: &BodyMotion, side: Vec2) -> bool {
         let polygon = Polygon::new(self.shape, motion);
         let (a, b) = (self.wall.a, self.wall.b);
@@ -229,7 +229,7 @@ impl Search<'_> {
             })
     }
 
-    /// The least gap along an axis, and the corner and the wall's end between which it is.
+    /// The minimum gap along an axis, and the corner and the wall's end between which it is attained.
     fn deepest(&self, axis: &Axis, share: f32) -> (f32, Vec2, Vec2) {
         let motion = self.sweep.at(share);
         let end_along = |axis: Vec2| {

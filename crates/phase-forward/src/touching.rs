@@ -1,11 +1,11 @@
-//! The contacts of a substep, and what the next substep keeps of them.
+//! The contacts of a substep, and the data kept for the next substep.
 
 use crate::contact::Contact;
 
-/// Most contacts that are solved at once; more than four bodies between walls ever have.
+/// Maximum number of contacts solved at once; more than four bodies between walls ever have.
 pub(crate) const MAX_CONTACTS: usize = 16;
 
-/// What is kept of a contact for the next substep.
+/// The data of a contact that is kept for the next substep.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CachedContact {
     pub(crate) key: u8,
@@ -18,7 +18,7 @@ impl CachedContact {
     pub(crate) const NONE: Self = Self { key: u8::MAX, count: 0, names: [0; 2], impulses: [0.0; 2] };
 }
 
-/// The contacts found in a substep, newest first, and what is kept of those of the substep before.
+/// The contacts found in a substep, newest first, and the data kept from the substep before.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ContactSet {
     pub(crate) contacts: [Contact; MAX_CONTACTS],
@@ -40,8 +40,8 @@ impl ContactSet {
         &mut self.contacts[..self.count]
     }
 
-    /// Takes over what has been found now, with the impulses the points had in the last substep. Drops what is
-    /// too many.
+    /// Takes over the contacts found now, with the impulses their points had in the last substep. Contacts
+    /// past the maximum are dropped.
     pub(crate) fn replace(&mut self, current: impl Iterator<Item = Contact>) {
         self.count = 0;
         for (place, mut contact) in self.contacts.iter_mut().zip(current) {
@@ -51,7 +51,7 @@ impl ContactSet {
         }
     }
 
-    /// Keeps what the next substep needs.
+    /// Keeps the data for the next substep.
     pub(crate) fn keep(&mut self) {
         self.traces.count = self.count;
         for (trace, contact) in self.traces.list.iter_mut().zip(&self.contacts[..self.count]) {
@@ -65,7 +65,7 @@ impl ContactSet {
     }
 }
 
-/// What is kept of all contacts of a substep.
+/// The data kept of all contacts of a substep.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CachedContacts {
     list: [CachedContact; MAX_CONTACTS],
@@ -75,7 +75,7 @@ pub(crate) struct CachedContacts {
 impl CachedContacts {
     pub(crate) const NONE: Self = Self { list: [CachedContact::NONE; MAX_CONTACTS], count: 0 };
 
-    /// Gives a contact's points the impulses they had.
+    /// Restores the impulses of a contact's points.
     fn warm_start(&self, contact: &mut Contact) {
         let Some(trace) = self.list[..self.count].iter().find(|trace| trace.key == contact.key) else {
             return;

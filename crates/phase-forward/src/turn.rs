@@ -1,4 +1,4 @@
-//! Turning a unit vector by an angle, with nothing but multiplications and additions for angles as small as
+//! Rotation of a unit vector by an angle, with only multiplications and additions for angles as small as
 //! those of one substep.
 
 use phase_model::Vec2;

@@ -1,14 +1,14 @@
-//! Walls: the arena's boundary, the inner walls, and the stray points at their ends.
+//! Walls: the arena's boundary, the inner walls, and the degenerate points at their ends.
 
 use crate::constants::SKIN;
 use phase_model::{Segment, Vec2, arena};
 use wide::f32x4;
 
-/// Most inner walls a kernel holds; PHASE has at most four.
+/// Maximum number of inner walls in a kernel; PHASE has at most four.
 pub(crate) const MAX_INNER: usize = 4;
-/// Pieces of the boundary: four sides and one stray point.
+/// Pieces of the boundary: four sides and one degenerate point.
 const BOUNDARY: usize = 5;
-/// Most wall pieces: five for the boundary, two for every inner wall.
+/// Maximum number of wall pieces: five for the boundary, two for every inner wall.
 pub(crate) const MAX_WALLS: usize = BOUNDARY + 2 * MAX_INNER;
 
 /// A straight piece of wall without thickness, or a single point if its ends coincide.
@@ -16,7 +16,7 @@ pub(crate) const MAX_WALLS: usize = BOUNDARY + 2 * MAX_INNER;
 pub(crate) struct Wall {
     pub(crate) a: Vec2,
     pub(crate) b: Vec2,
-    /// Unit normal, to the right of the way from `a` to `b`; zero for a point.
+    /// Unit normal, to the right of the direction from `a` to `b`; zero for a point.
     pub(crate) normal: Vec2,
     /// Lower left corner of the box around it, skin included (u).
     pub(crate) min: Vec2,
@@ -31,7 +31,7 @@ impl Wall {
         Self { a, b, normal, min: a.min(b) - skin, max: a.max(b) + skin }
     }
 
-    /// Whether it is just a point.
+    /// Whether it is a single point.
     #[inline]
     pub(crate) fn is_point(&self) -> bool {
         self.a == self.b
@@ -70,7 +70,7 @@ impl WallBoxes {
         }
     }
 
-    /// The walls whose boxes come nearer to a point than some room, along both axes.
+    /// The walls whose boxes come within a margin of a point, along both axes.
     #[inline]
     pub(crate) fn near_point(&self, point: Vec2, room: f32) -> WallSet {
         self.near(point - room, point + room)

@@ -7,7 +7,7 @@ use crate::{
 use glam::Vec3;
 use phase_model::{Entity, Grip, Vec2};
 
-/// An agent's hold of an object and all that its solution needs.
+/// An agent's grip of an object and all data for its solution.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Weld {
     pub(crate) agent: usize,
@@ -17,7 +17,7 @@ pub(crate) struct Weld {
     relative_angle: f32,
     offset: Vec2,
     inverse: Symmetric,
-    /// Impulse so far (N s) and angular impulse so far (N u s).
+    /// Accumulated impulse (N s) and angular impulse (N u s).
     pub(crate) impulse: (Vec2, f32),
 }
 
@@ -38,7 +38,7 @@ impl Weld {
         }
     }
 
-    /// Works out what impulses do at the present poses, and applies those so far.
+    /// Computes the effect of impulses at the present poses, and applies the accumulated ones.
     pub(crate) fn prepare(
         &mut self,
         shapes: &[Shape; 5],
@@ -51,7 +51,7 @@ impl Weld {
         self.apply(shapes, twists, impulse, twist);
     }
 
-    /// One iteration of the velocity solver. Returns the greatest change of an impulse.
+    /// One iteration of the velocity solver. Returns the maximum change of an impulse.
     #[inline]
     pub(crate) fn solve(&mut self, shapes: &[Shape; 5], twists: &mut [Twist; 5]) -> f32 {
         let ((agent, agent_spin), (object, object_spin)) =
@@ -64,7 +64,7 @@ impl Weld {
         impulse.x.abs().max(impulse.y.abs()).max(twist.abs())
     }
 
-    /// One iteration of the position solver. Returns whether there was nothing to speak of to do.
+    /// One iteration of the position solver. Returns whether the error was negligible.
     pub(crate) fn join(&self, shapes: &[Shape; 5], motions: &mut [BodyMotion; 5]) -> bool {
         let (shape_a, shape_b) = (&shapes[self.agent], &shapes[self.object]);
         let (agent, object) = (&motions[self.agent], &motions[self.object]);
@@ -91,7 +91,7 @@ pub(crate) fn held_body(grip: &Grip) -> usize {
     Entity::Object(grip.object).index()
 }
 
-/// What a unit impulse and a unit twist between an agent, at an offset, and an object's centre do.
+/// The effect of a unit impulse and a unit twist between an agent, at an offset, and an object's centre.
 fn response(agent: &Shape, object: &Shape, offset: Vec2) -> Symmetric {
     let mass = agent.inverse_mass + object.inverse_mass;
     let inverse_mass_vector = agent.inverse_inertia;

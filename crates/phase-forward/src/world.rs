@@ -11,7 +11,7 @@ use crate::{
 };
 use phase_model::{AGENT_COUNT, Action, AgentId, Body, Entity, Grip, State, Vec2, arena};
 
-/// Impulses of the last substep other than contacts', with which the next starts.
+/// Impulses of the last substep other than contacts', used for warm starting.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Impulses {
     /// Of ground friction on each body (N s).
@@ -24,24 +24,24 @@ impl Impulses {
     pub(crate) const NONE: Self = Self { ground: [Vec2::ZERO; 4], welds: [(Vec2::ZERO, 0.0); AGENT_COUNT] };
 }
 
-/// Everything that one step works on.
+/// The working data of one step.
 pub(crate) struct World<'a> {
     pub(crate) model: &'a Model,
-    /// The four bodies and the one that stands for all walls.
+    /// The four bodies and the static body for all walls.
     pub(crate) motions: [BodyMotion; 5],
     /// Where each body was at the start of the substep: centre, angle, unit vector to its right.
     pub(crate) starts: [(Vec2, f32, Vec2); 4],
     pub(crate) outlines: Outlines,
-    /// For each body, the walls that it can reach in this step at all.
+    /// For each body, the walls that it can reach in this step.
     pub(crate) walls: [WallSet; 4],
     pub(crate) grips: [Option<Grip>; AGENT_COUNT],
     /// The agent that grabbed last; its weld comes first.
     pub(crate) latest_grip: usize,
     pub(crate) actions: [Action; AGENT_COUNT],
     pub(crate) impulses: Impulses,
-    /// Pairs that may not touch: held, or let go of and not yet clear.
+    /// Pairs that may not touch: held, or released and not yet clear.
     pub(crate) excluded_pairs: KeySet,
-    /// Those of them that were let go of, and where all bodies were then.
+    /// The released ones among them, and where all bodies were at the release.
     pub(crate) released: KeySet,
     pub(crate) let_go_at: [Vec2; 4],
     /// How far each body has to move from there before it counts as clear (u).
@@ -50,7 +50,7 @@ pub(crate) struct World<'a> {
     pub(crate) sleeping: u8,
     /// Iterations of the velocity solver in the coming substep.
     pub(crate) iterations: usize,
-    /// How far each body may come in the step by itself (u).
+    /// Maximum displacement of each body in the step on its own (u).
     pub(crate) max_displacements: [f32; 4],
     /// Duration of the substep (s).
     pub(crate) seconds: f32,
@@ -103,7 +103,7 @@ impl<'a> World<'a> {
         (body < self.model.count).then_some(body)
     }
 
-    /// How far what an agent holds is from where it holds it (u).
+    /// Distance between a held object and the point where its agent holds it (u).
     pub(crate) fn joint_error(&self, agent: usize) -> Option<f32> {
         let (grip, held) = (self.grips[agent].as_ref()?, self.held(agent)?);
         let (shape, holder) = (&self.model.shapes[agent], &self.motions[agent]);
@@ -112,7 +112,7 @@ impl<'a> World<'a> {
         Some(place.distance(self.motions[held].centre))
     }
 
-    /// Writes the bodies and grips into a state, whose contacts stay as they are.
+    /// Writes the bodies and grips into a state, whose contacts are not changed.
     pub(crate) fn write(&self, state: &mut State) {
         for index in 0..self.model.count {
             state.bodies[index] = self.motions[index].body(&self.model.shapes[index]);
@@ -120,15 +120,15 @@ impl<'a> World<'a> {
         state.grips = self.grips;
     }
 
-    /// Lets both agents grab or let go, which happens once and before anything moves. Returns the agents
-    /// that let go of something, with the body they held.
+    /// Lets both agents grab or release, once and before anything moves. Returns the agents that released
+    /// something, with the body they held.
     pub(crate) fn grab(&mut self, state: &State) -> [Option<usize>; AGENT_COUNT] {
         let mut released = [None; AGENT_COUNT];
         for agent in AgentId::ALL {
             match self.actions[agent] {
                 Action::Attach => {
                     if let Some((object, side)) = state.attachable(&self.model.physics, agent) {
-                        // Not the state's angles, which may have had to be mended.
+                        // Not the state's angles, which may have been corrected.
                         let angle = |entity: Entity| self.motions[entity.index()].angle;
                         let relative_angle = angle(Entity::Object(object)) - angle(Entity::Agent(agent));
                         self.grips[agent] = Some(Grip { object, side, relative_angle });
@@ -146,13 +146,13 @@ impl<'a> World<'a> {
         released
     }
 
-    /// Brings the outlines of some bodies up to date.
+    /// Updates the outlines of some bodies.
     #[inline]
     pub(crate) fn outline(&mut self, bodies: BodyMask) {
         self.outlines.update(bodies, self.model, &self.motions);
     }
 
-    /// Notes that a body has another pose now.
+    /// Records that a body's pose has changed.
     #[inline]
     pub(crate) fn moved(&mut self, body: usize) {
         self.outlines.moved(body);
@@ -167,20 +167,20 @@ impl<'a> World<'a> {
 /// Largest accepted speed (u/s) and angular velocity (rad/s) of an input state; free motion is limited to far
 /// less.
 const MAX_SPEED: f32 = 1e4;
-/// Greatest angle that is taken seriously (rad); beyond it, neighbouring numbers are a visible turn apart.
+/// Maximum accepted angle (rad); beyond it, adjacent floating-point numbers differ by a visible rotation.
 const MAX_ANGLE: f32 = 1e5;
 
-/// Greatest twist of a grip that is taken seriously (rad); the strongest agents do not come near it.
+/// Maximum accepted twist of a grip (rad); the strongest agents stay far below it.
 const MAX_GRIP_ANGLE: f32 = 1.0;
 
-/// The same grip, at the angle at which its object is if the angle it says is far from that or no number.
+/// The same grip, at the actual angle of its object if the stated angle differs much from that or is NaN.
 fn sanitized_grip(grip: Grip, agent: usize, motions: &[BodyMotion; 5]) -> Grip {
     let angle = motions[held_body(&grip)].angle - motions[agent].angle;
     let is_sane = (grip.relative_angle - angle).abs() <= MAX_GRIP_ANGLE;
     Grip { relative_angle: if is_sane { grip.relative_angle } else { angle }, ..grip }
 }
 
-/// Whether all numbers of a body make sense.
+/// Whether all numbers of a body are valid.
 fn is_sane(body: &Body) -> bool {
     body.position.is_finite()
         && body.velocity.abs().max_element() <= MAX_SPEED
@@ -189,7 +189,7 @@ fn is_sane(body: &Body) -> bool {
         && !body.velocity.is_nan()
 }
 
-/// The body with invalid values replaced: 0 for non-finite ones, the nearest bound for those out of range.
+/// The body with invalid values replaced: 0 for non-finite ones, the closest bound for those out of range.
 fn sanitized(body: Body) -> Body {
     let number = |x: f32, most: f32| if x.is_nan() { 0.0 } else { x.clamp(-most, most) };
     Body {

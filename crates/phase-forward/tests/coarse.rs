@@ -1,4 +1,4 @@
-//! Steps for imagination, held against exact steps from the same states.
+//! Coarse steps compared with exact steps from the same states.
 
 mod scenes;
 mod walls;
@@ -12,12 +12,12 @@ use walls::passes;
 /// Scenes of the statistics, and runs of held actions in each.
 const SCENES: usize = 300;
 const RUNS: usize = 12;
-/// What of all steps of a kind stays under which distance of the exact step (u): percent and limit. A body goes
-/// about 1 u in a step.
+/// Bounds on the distance to the exact step for a share of all steps of a kind (u): percent and limit. A body
+/// moves about 1 u in a step.
 const MOVING: [(usize, f32); 2] = [(50, 0.1), (90, 0.4)];
 const CARRYING: [(usize, f32); 2] = [(50, 0.1), (90, 0.35)];
 const TOUCHING: [(usize, f32); 2] = [(50, 0.15), (90, 0.5)];
-/// How deep a corner or rim may be in a wall after a coarse step (u).
+/// Maximum penetration of a corner or rim into a wall after a coarse step (u).
 const SUNK: f32 = 0.5;
 
 #[test]
@@ -62,7 +62,8 @@ fn coarse_steps_are_near_exact_ones() {
     }
 }
 
-/// Where nothing is near, a long substep gains as much way from a steady push ahead as five short ones.
+/// For a free body under a constant forward push, a long substep gives the same displacement as five short
+/// ones.
 #[test]
 fn a_push_in_the_open_takes_bodies_as_far() {
     let physics = PhysicsConfig {
@@ -90,7 +91,7 @@ fn a_push_in_the_open_takes_bodies_as_far() {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// Nothing goes through walls, and nothing sinks deep into them.
+    /// No body passes through walls or sinks deep into them.
     #[test]
     fn walls_hold((physics, mut state) in excluded_pairs(), actions in actions(16)) {
         let forward = Forward::new(&physics);
@@ -108,7 +109,7 @@ proptest! {
         }
     }
 
-    /// What is held stays exactly where it is held.
+    /// Held objects stay exactly in place.
     #[test]
     fn grips_do_not_give((physics, mut state) in excluded_pairs(), actions in actions(16)) {
         let forward = Forward::new(&physics);

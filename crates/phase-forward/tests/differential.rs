@@ -1,4 +1,4 @@
-//! The kernel held against the true world: from each state of an event in the world, one step ahead by both.
+//! The kernel compared with the reference world: one step by each from every state of a simulated event.
 
 mod scenes;
 
@@ -15,28 +15,28 @@ const CLEARANCE: f32 = 0.05;
 const SCENES: usize = 400;
 const RUNS: usize = 12;
 
-/// Where free bodies are after a step, by either engine (u and rad): every step agrees to this.
+/// Tolerance for free bodies after a step, between the two engines (u and rad): every step satisfies it.
 const FREE: f32 = 1e-4;
-/// What of all other steps stays under which distance (u): percent and limit.
+/// Bounds on the distance for a share of all other steps (u): percent and limit.
 const CARRYING: [(usize, f32); 2] = [(50, 5e-4), (90, 0.008)];
 const CONTACT: [(usize, f32); 3] = [(50, 0.001), (80, 0.01), (90, 0.025)];
 
-/// What went on in a step.
+/// What occurred in a step.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 enum Going {
-    /// Nothing touched anything.
+    /// No contact and no grip.
     Free,
-    /// Something was held, and nothing else touched anything.
+    /// A grip, but no contact besides it.
     CarryStatistics,
-    /// Bodies touched each other or walls.
+    /// Contacts between bodies or with walls.
     Contact,
 }
 
-/// One step by both.
+/// One step by both engines.
 #[derive(Debug)]
 struct Compared {
     going: Going,
-    /// Greatest distance between the positions of any body (u) and between its angles (rad).
+    /// Maximum distance between the positions of any body (u) and between its angles (rad).
     error: [f32; 2],
     same_grips: bool,
 }
@@ -66,7 +66,7 @@ fn compare(physics: &PhysicsConfig, start: &State, actions: &[[Action; 2]]) -> V
     actions.iter().map(one).collect()
 }
 
-/// What went on in a step, judged by the states that either engine went through.
+/// What occurred in a step, determined from the states of either engine.
 fn going(physics: &PhysicsConfig, states: &[State]) -> Going {
     let contact = states.iter().any(|state| {
         let wide = |entity| outline(physics, state, entity, margin(physics, state, entity));
@@ -88,7 +88,7 @@ fn going(physics: &PhysicsConfig, states: &[State]) -> Going {
     }
 }
 
-/// How far a body may come in one substep, and a little more (u): nothing may happen between two states either.
+/// Upper bound of a body's displacement in one substep (u): nothing may occur between two states either.
 fn margin(physics: &PhysicsConfig, state: &State, entity: Entity) -> f32 {
     let body = state.body(entity);
     let corners = 2.0 * physics.radius(entity) * body.angular_velocity.abs();
@@ -109,7 +109,7 @@ proptest! {
     }
 }
 
-/// Contact is chaotic, so single steps may part company; the bulk of them may not.
+/// Contact is chaotic, so single steps may diverge; the bulk of them may not.
 #[test]
 fn one_step_ahead_over_many_scenes() {
     let mut runner = TestRunner::deterministic();

@@ -1,4 +1,4 @@
-//! What the kernel computes is pinned bit for bit: exact, with memory, and coarse.
+//! The results of the kernel are pinned bit for bit: exact, warm-started, and coarse.
 
 use phase_forward::Forward;
 use phase_golden::{Digest, Golden, fixtures};

@@ -1,4 +1,4 @@
-//! What holds in every state and under all actions.
+//! Invariants of every state under all actions.
 
 mod scenes;
 mod walls;
@@ -14,7 +14,8 @@ use proptest::{prelude::*, strategy::ValueTree, test_runner::TestRunner};
 use scenes::{actions, clear_of_walls, excluded_pairs, physiques};
 use walls::passes;
 
-/// How deep a corner or rim may be in a wall (u): 0.02 nearly always, more where a fast body is hit into it.
+/// Maximum penetration of a corner or rim into a wall (u): 0.02 nearly always, more for impacts of a fast
+/// body.
 const SUNK: f32 = 0.3;
 
 /// No grip, or one of any object at any side and angle, wherever its object may be.
@@ -85,7 +86,7 @@ fn momentum(physics: &PhysicsConfig, state: &State) -> Vec2 {
     state.bodies.iter().zip(inertias(physics)).map(|(body, (mass, _))| body.velocity * mass).sum()
 }
 
-/// A check of what one substep did.
+/// A check of the result of one substep.
 fn check(physics: &PhysicsConfig, before: &State, after: &State) -> Result<(), TestCaseError> {
     prop_assert!(after.is_finite(physics), "{after:?}");
     for entity in physics.entities() {
@@ -128,7 +129,8 @@ proptest! {
         }
     }
 
-    /// From starts without overlaps, no corner and no rim sinks deeper into a wall or the boundary than `SUNK`.
+    /// From starts without overlaps, no corner and no rim penetrates a wall or the boundary deeper than
+    /// `SUNK`.
     #[test]
     fn nothing_sinks_into_walls((physics, start) in excluded_pairs(), actions in actions(16)) {
         let forward = Forward::new(&physics);
@@ -144,10 +146,10 @@ proptest! {
     }
 
     /// Momentum comes from pushes, from the ground (100 N a body) and from walls, which only push away from
-    /// themselves, and only what is at them.
+    /// themselves, and only bodies in contact with them.
     #[test]
     fn momentum_comes_from_somewhere((physics, start) in excluded_pairs(), actions in actions(16)) {
-        // Inner walls push both ways.
+        // Inner walls push in both directions.
         let physics = PhysicsConfig { walls: Vec::new(), ..physics };
         let forward = Forward::new(&physics);
         let mut state = start;
@@ -162,7 +164,8 @@ proptest! {
                         stopped -= before.bodies[agent].velocity * body.mass();
                     }
                 }
-                // Whatever is farther from a wall than this cannot have got there, even if it was thrown or pulled.
+                // A body farther from a wall than this cannot have touched it, even if it was thrown or
+                // pulled.
                 let fastest = [before, after].into_iter().flat_map(|state| state.bodies).map(|body| {
                     body.velocity.length() + 4.0 * body.angular_velocity.abs()
                 });
@@ -184,7 +187,7 @@ proptest! {
         }
     }
 
-    /// Any numbers at all in bodies and grips, in any layout.
+    /// Arbitrary numbers in bodies and grips, in any layout.
     #[test]
     fn any_state_is_survived(
         physics in physiques(),
@@ -213,7 +216,7 @@ proptest! {
             for state in [&state, &coarse, &warm, &settled] {
                 prop_assert!(state.is_finite(&physics), "{state:?}");
                 for entity in physics.entities() {
-                    // The origin lies ahead of the centre of mass, and nearer than this.
+                    // The origin lies ahead of the centre of mass, and closer than this.
                     let place = state.position(entity);
                     let outside = place.distance(place.clamp(arena::MIN, arena::MAX));
                     prop_assert!(outside <= 0.3, "{entity:?} is {outside} u outside: {state:?}");
@@ -241,7 +244,7 @@ proptest! {
             for after in substeps {
                 let now = after.bodies[moving].velocity.length();
                 prop_assert!(now <= speed + 1e-4, "{speed} -> {now}");
-                // It never takes more than 100 N, and takes all of them as long as a disc slides.
+                // Its force never exceeds 100 N, and equals 100 N as long as a disc slides.
                 let loss = 100.0 / 60.0 / mass;
                 prop_assert!(now >= speed - loss - 1e-3);
                 if moving == 2 && speed > loss && speed < 40.0 {
@@ -279,12 +282,13 @@ proptest! {
     }
 }
 
-/// What is not pushed only loses energy, whatever it runs into, grabs or lets go. A solver that keeps impulses
-/// from substep to substep does not quite hold to that in hard impacts between several bodies, so this speaks of
-/// nearly all substeps, of many scenes.
+/// Bodies that are not pushed only lose energy, whatever they collide with, grab or release. A warm-started
+/// solver does not quite satisfy this in hard impacts between several bodies, so the test covers nearly all
+/// substeps, of many scenes.
 #[test]
 fn nothing_gains_energy_by_itself() {
-    /// Energy that a scene may seem to gain in a substep (J), and the share of substeps that keep to it.
+    /// Energy that a scene may seem to gain in a substep (J), and the share of substeps that satisfy the
+    /// bound.
     const GAIN: f32 = 0.01;
     const SHARE: f32 = 0.999;
     let idle = |action: Action| {
@@ -313,7 +317,7 @@ fn nothing_gains_energy_by_itself() {
             for ((run, before), gains) in runs.into_iter().zip(&mut energies).zip(&mut gains) {
                 for after in run {
                     let now = energy(&physics, &after);
-                    // While anything moves; a scene at rest would make the share look good.
+                    // Only while anything moves; scenes at rest would raise the share.
                     if *before > GAIN {
                         gains.push(now - *before);
                     }

@@ -6,8 +6,8 @@ use phase_calibration::{ColdForward, ErrorQuantiles, Probe, WarmForward};
 use records::text;
 use std::collections::BTreeMap;
 
-/// The families of probes by the start of their names, with the position errors (u) that nine in ten substeps
-/// stay under: with memory, and step by step without.
+/// The families of probes by the prefix of their names, with bounds on the position errors (u) of nine in ten
+/// substeps: warm-started, and step by step without the cache.
 const FAMILIES: [(&str, f32, f32); 16] = [
     ("free_action", 1e-5, 1e-5),
     ("free", 1e-5, 1e-5),
@@ -26,7 +26,7 @@ const FAMILIES: [(&str, f32, f32); 16] = [
     ("items_collide", 1e-3, 1e-2),
     ("collide", 1e-3, 1e-3),
 ];
-/// The greatest error of any substep with memory (u).
+/// The maximum error of any warm-started substep (u).
 const WORST: f32 = 0.005;
 
 #[test]

@@ -9,8 +9,8 @@ use phase_dataset::phase_events;
 use phase_statistics::percentile;
 use records::{path, text};
 
-/// For some steps ahead, what nine in ten and 99 in 100 predictions stay under (u): from a state alone, and with
-/// the memory of a world freshly set up in it.
+/// For several horizons in steps, bounds on nine in ten and 99 in 100 predictions (u): from a state alone,
+/// and with the cache of a world newly set up in it.
 const HORIZONS: [(usize, [f32; 2], [f32; 2]); 2] =
     [(1, [0.001, 0.03], [0.001, 0.03]), (10, [0.045, 1.5], [0.01, 1.0])];
 
@@ -30,14 +30,14 @@ fn predictions_from_recorded_states_hold() {
 
 #[test]
 fn long_runs_are_followed() {
-    /// What nine in ten steps stay under (u).
+    /// Bound on nine in ten steps (u).
     const LIMIT: f32 = 1e-4;
     let Some(runs) = runs() else { return };
     let mut errors = Vec::new();
     for run in &runs {
         let mut kernel = WarmForward::set_up(&run.physics, &run.states[0]);
         kernel.settle();
-        // The memory goes on from step to step while the bodies are put back onto the record.
+        // The cache carries over from step to step while the bodies are reset to the record.
         for (&actions, recorded) in run.actions.iter().zip(&run.states[1..]) {
             kernel.step(actions);
             let deviation = Deviation::between(&run.physics, &kernel.state.bodies, &recorded.bodies);
@@ -52,7 +52,7 @@ fn long_runs_are_followed() {
 
 #[test]
 fn real_recordings_are_replayed() {
-    /// The greatest error of any step's mean position, to the end of what is known (u).
+    /// The maximum error of any step's mean position, up to the last known action (u).
     const LIMIT: f32 = 0.02;
     let Some(path) = path("real-phase/dev.json") else { return };
     let recordings = phase_events::read(&path).expect("good recordings");

@@ -3,18 +3,18 @@
 use phase_model::{Entity, PhysicsConfig, State};
 use sha2::{Digest as _, Sha256};
 
-/// A digest that grows with everything it is shown. The order matters; lengths are part of what is digested.
+/// A digest that is updated with each value added. The order matters; lengths are included.
 #[derive(Clone, Debug, Default)]
 pub struct Digest(Sha256);
 
 impl Digest {
-    /// The digest of nothing.
+    /// The digest of no values.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Adds a whole number.
+    /// Adds an integer.
     pub fn integer(&mut self, number: u64) {
         self.0.update(number.to_le_bytes());
     }
@@ -29,18 +29,18 @@ impl Digest {
         self.0.update(number.to_bits().to_le_bytes());
     }
 
-    /// Adds bytes and their number.
+    /// Adds bytes and their count.
     pub fn bytes(&mut self, bytes: &[u8]) {
         self.integer(bytes.len() as u64);
         self.0.update(bytes);
     }
 
-    /// Adds a text.
+    /// Adds a string.
     pub fn text(&mut self, text: &str) {
         self.bytes(text.as_bytes());
     }
 
-    /// Adds the bodies present in a state, what is held, and which bodies touch.
+    /// Adds the bodies present in a state, the grips, and the contacts between bodies.
     pub fn state(&mut self, physics: &PhysicsConfig, state: &State) {
         let entities: Vec<Entity> = physics.entities().collect();
         for &entity in &entities {

@@ -1,4 +1,4 @@
-//! Physical scenes and random actions to take golden values of.
+//! Physical scenes and random actions for golden values.
 
 use phase_model::{
     AGENT_COUNT, Action, AgentBody, Body, Flip, Layout, PhysicsConfig, Size, State, Strength, Vec2,
@@ -9,8 +9,9 @@ use rand::RngExt;
 /// Steps in each golden run (0.25 s of video each).
 pub const STEPS: usize = 500;
 
-/// Six scenes in which bodies start near each other and near walls, so that random actions lead to contacts,
-/// grips and hand-overs: no, one and two objects, all sizes and strengths, open and divided arenas, mirrored ones.
+/// Six scenes in which bodies start close to each other and to walls, so that random actions lead to
+/// contacts, grips and hand-overs: zero to two objects, all sizes and strengths, open and divided arenas,
+/// mirrored ones.
 #[must_use]
 pub fn scenes() -> Vec<(PhysicsConfig, State)> {
     use Size::{Huge, Large, Medium, Small};
@@ -55,8 +56,8 @@ pub fn scenes() -> Vec<(PhysicsConfig, State)> {
     ]
 }
 
-/// Actions of both agents for [`STEPS`] steps. Each agent keeps an action for one to eight steps, because actions
-/// drawn anew at every step cancel each other.
+/// Actions of both agents for [`STEPS`] steps. Each agent keeps an action for one to eight steps, because
+/// actions resampled at every step cancel each other.
 #[must_use]
 pub fn actions(scene: u64) -> Vec<[Action; AGENT_COUNT]> {
     let mut random = stream(2021, Purpose::Search, scene);

@@ -1,14 +1,14 @@
-//! Golden values: what one seed computes, pinned bit for bit by the ordinary tests.
+//! Golden values: the results for one seed, pinned bit for bit by the ordinary tests.
 //!
-//! A test of any crate builds a [`Golden`] table from names and SHA-256 digests over raw bits ([`Digest`]) and
-//! compares it with a text file beside it. [`fixtures`] holds physical scenes and seeded random actions, so that
-//! both engines are pinned on the same material.
+//! A test of any crate builds a [`Golden`] table from names and SHA-256 digests over raw bits ([`Digest`])
+//! and compares it with a text file next to it. [`fixtures`] contains physical scenes and seeded random
+//! actions, so that both engines are pinned on the same inputs.
 //!
-//! The key design decision is that a digest covers the bits of every number, not its text or its memory layout:
-//! names and types may change, results may not. The price is that a digest says *that* something changed, not
+//! Key design decision: a digest covers the bits of every number, not its text or its memory layout: names
+//! and types may change, results may not. The trade-off is that a digest shows *that* something changed, not
 //! what; tables therefore have a line for each part.
 //!
-//! This crate is used by tests alone. `cargo xtask golden --bless` rewrites the files and prints what changed.
+//! This crate is used only by tests. `cargo xtask golden --bless` rewrites the files and prints what changed.
 //!
 //! ```
 //! use phase_golden::{Digest, fixtures};

@@ -1,8 +1,9 @@
-//! Golden values at rest: a text file with a name and a value on each line.
+//! Golden values on disk: a text file with a name and a value on each line.
 
 use std::{env, fs, io, path::PathBuf};
 
-/// The environment variable that has the files rewritten instead of compared, as `cargo xtask golden --bless` does.
+/// The environment variable that causes the files to be rewritten instead of compared, as `cargo xtask golden
+/// --bless` does.
 pub const BLESS: &str = "PHASE_GOLDEN_BLESS";
 
 /// Names and values in the order in which they were computed.
@@ -13,7 +14,7 @@ pub struct Golden {
 }
 
 impl Golden {
-    /// An empty table that is kept in `tests/golden/NAME.txt` of a crate, whose root is given as
+    /// An empty table that is stored in `tests/golden/NAME.txt` of a crate, whose root is given as
     /// `env!("CARGO_MANIFEST_DIR")`.
     #[must_use]
     pub fn new(root: &str, name: &str) -> Self {
@@ -21,7 +22,7 @@ impl Golden {
         Self { file, lines: Vec::new() }
     }
 
-    /// Adds a value under a name. Neither may hold a line break, nor the name a space.
+    /// Adds a value under a name. Neither may contain a line break, and the name may not contain a space.
     pub fn add(&mut self, name: impl Into<String>, value: impl Into<String>) {
         self.lines.push((name.into(), value.into()));
     }
@@ -29,7 +30,7 @@ impl Golden {
     /// Compares the table with its file, or rewrites the file where [`BLESS`] is set.
     ///
     /// # Errors
-    /// Every line that differs, in words; or why the file cannot be read or written.
+    /// Every line that differs, as text; or why the file cannot be read or written.
     pub fn check(&self) -> Result<(), String> {
         let text: String = self.lines.iter().map(|(name, value)| format!("{name} {value}\n")).collect();
         let cannot = |what: &str, error: io::Error| format!("cannot {what} {}: {error}", self.file.display());
@@ -53,7 +54,7 @@ impl Golden {
     }
 }
 
-/// The lines in which two tables differ: `- name value` as kept, `+ name value` as computed.
+/// The lines in which two tables differ: `- name value` as stored, `+ name value` as computed.
 #[must_use]
 pub fn differences(kept: &str, computed: &str) -> Vec<String> {
     let missing = |from: &str, lines: &str, mark: char| -> Vec<String> {

@@ -1,4 +1,4 @@
-//! Digests see every bit, and tables say what differs.
+//! Digests depend on every bit, and tables report the differences.
 
 use phase_golden::{Digest, fixtures, table::differences};
 use phase_model::Vec2;
@@ -21,7 +21,7 @@ fn one_bit_changes_a_digest() {
     let mut changed = *state;
     changed.bodies[2].velocity = Vec2::new(-0.0, 0.0);
     assert_ne!(digest_of(state), digest_of(&changed));
-    // The scene has one object: what stands for the second is no part of it.
+    // The scene has one object: the unused slot of the second is not part of the digest.
     let mut absent = *state;
     absent.bodies[3].position = Vec2::ONE;
     assert_eq!(digest_of(state), digest_of(&absent));

@@ -30,11 +30,11 @@ pub enum Action {
     DownRight,
     /// Lose all linear velocity.
     Stop,
-    /// Nothing; coast against the ground's friction.
+    /// No force; the body slides under the ground's friction.
     NoForce,
     /// Grab the nearest object within reach of one of the four sides.
     Attach,
-    /// Let go of the object held.
+    /// Release the object held.
     Detach,
 }
 
@@ -66,8 +66,8 @@ impl Action {
         self as usize
     }
 
-    /// Direction of the push in the agent's frame (x right, y forward) as a multiple of the agent's
-    /// greatest force; diagonals are (±0.707, ±0.707). `None` for actions that do not push.
+    /// Direction of the push in the agent's frame (x right, y forward) as a multiple of the agent's maximum
+    /// force; diagonals are (±0.707, ±0.707). `None` for actions that do not push.
     #[must_use]
     pub const fn push(self) -> Option<Vec2> {
         match self {

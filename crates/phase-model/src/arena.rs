@@ -1,4 +1,4 @@
-//! The square arena: where it lies, its four rooms, landmarks and start points.
+//! The square arena: its position, four rooms, landmarks and start points.
 
 use crate::Vec2;
 

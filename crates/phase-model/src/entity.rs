@@ -5,9 +5,9 @@ use serde::{Deserialize, Serialize};
 
 /// Number of agents in every scene (the paper: "always exactly two").
 pub const AGENT_COUNT: usize = 2;
-/// Greatest number of objects in a scene.
+/// Maximum number of objects in a scene.
 pub const MAX_OBJECTS: usize = 2;
-/// Greatest number of entities in a scene.
+/// Maximum number of entities in a scene.
 pub const MAX_ENTITIES: usize = AGENT_COUNT + MAX_OBJECTS;
 
 /// One agent or object.
@@ -62,12 +62,12 @@ impl<T> core::ops::IndexMut<Entity> for [T; MAX_ENTITIES] {
     }
 }
 
-/// A set of bodies, each that of an agent or an object.
+/// A set of entities, agents and objects.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default, Serialize, Deserialize)]
 pub struct BodySet(u8);
 
 impl BodySet {
-    /// The set with nothing in it.
+    /// The empty set.
     pub const EMPTY: Self = Self(0);
 
     /// The set of all objects that a scene may have.
@@ -78,7 +78,7 @@ impl BodySet {
         self.0 |= 1 << entity.index();
     }
 
-    /// Takes an entity out.
+    /// Removes an entity.
     pub const fn remove(&mut self, entity: Entity) {
         self.0 &= !(1 << entity.index());
     }
@@ -95,7 +95,7 @@ impl BodySet {
         Self(self.0 | other.0)
     }
 
-    /// Whether nothing is in the set.
+    /// Whether the set is empty.
     #[must_use]
     pub const fn is_empty(self) -> bool {
         self.0 == 0

@@ -64,8 +64,8 @@ pub fn forward(angle: f32) -> Vec2 {
     Vec2::new(-sin, cos)
 }
 
-/// An agent's four corners in its own frame (x right, y forward), counter-clockwise from the rear left:
-/// base 3R wide at the rear, top R wide at the front, 2R high.
+/// An agent's four corners in its own frame (x right, y forward), counter-clockwise from the rear left: base
+/// 3R wide at the rear, top R wide at the front, 2R high.
 #[must_use]
 pub const fn trapezoid(radius: f32) -> [Vec2; 4] {
     [
@@ -104,7 +104,7 @@ impl Outline {
         }
     }
 
-    /// How far the outline reaches in each direction: lower left and upper right corner (u).
+    /// Bounding box of the outline: lower left and upper right corner (u).
     #[must_use]
     pub fn bounds(&self) -> (Vec2, Vec2) {
         match *self {
@@ -113,7 +113,7 @@ impl Outline {
         }
     }
 
-    /// Whether the outline lies wholly inside the arena.
+    /// Whether the outline lies entirely inside the arena.
     #[must_use]
     pub fn inside_arena(&self) -> bool {
         let (min, max) = self.bounds();

@@ -1,9 +1,9 @@
-//! What agents want of the world and of each other.
+//! Goals, social attitudes and relations.
 
 use crate::{AgentId, Entity, Flip, LandmarkId, ObjectId, State, arena};
 use serde::{Deserialize, Serialize};
 
-/// Whether a goal's condition is to hold or to be kept from holding; −1 and +1 in files.
+/// Whether a goal's condition is to be achieved or avoided; +1 and −1 in files.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 #[serde(into = "i8", try_from = "i8")]
 pub enum Sign {
@@ -109,7 +109,7 @@ impl Goal {
         }
     }
 
-    /// The goal in a mirrored arena: the landmark becomes the one that lies at its image.
+    /// The goal in a mirrored arena: the landmark becomes its mirror image.
     #[must_use]
     pub const fn mirrored(self, flip: Flip) -> Self {
         match self {
@@ -123,7 +123,7 @@ impl Goal {
         }
     }
 
-    /// The entity that has to be somewhere, and the landmark or entity it has to be at.
+    /// The goal's subject, and the landmark or entity that it has to reach.
     #[must_use]
     pub const fn subject(self) -> Entity {
         match self {
@@ -143,7 +143,7 @@ impl Goal {
         }
     }
 
-    /// Straight distance between the subject and its target in a state (u): 0 is as near as can be.
+    /// Straight-line distance between the subject and its target in a state (u); 0 is the minimum.
     #[must_use]
     pub fn distance(self, state: &State) -> f32 {
         let subject = state.position(self.subject());

@@ -1,9 +1,9 @@
-//! Numbers that name things: agents, objects, landmarks, rooms and wall slots.
+//! Typed ids of agents, objects, landmarks, rooms and wall slots.
 //!
-//! Every number has a type of its own, so that an object cannot be taken for an agent nor a room for a wall slot. A
-//! value always names something that a scene may have: numbers from outside are checked once, when they become an id.
-//! In files an id is the bare number. Arrays with one element for each agent, object, landmark, room or slot are
-//! indexed by ids.
+//! Every kind of id has its own type, so that an object cannot be confused with an agent or a room with a
+//! wall slot. A value always refers to something that a scene may have: numbers from outside are checked
+//! once, when they become an id. In files an id is the bare number. Arrays with one element for each agent,
+//! object, landmark, room or slot are indexed by ids.
 
 use crate::{AGENT_COUNT, MAX_OBJECTS};
 use serde::{Deserialize, Serialize};
@@ -14,13 +14,13 @@ pub const LANDMARK_COUNT: usize = 4;
 /// Number of slots from the arena's centre to its boundary that can hold a wall.
 pub const SLOT_COUNT: usize = 4;
 
-/// A number that names nothing of its kind.
+/// An id that is out of range for its kind.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Error)]
 #[error("{kind} must be 0 to {last}, not {number}")]
 pub struct IdError {
-    /// What the number was to name, such as `agent`.
+    /// The kind of the id, such as `agent`.
     pub kind: &'static str,
-    /// The greatest valid number.
+    /// The maximum valid number.
     pub last: u8,
     /// The number.
     pub number: u64,
@@ -45,7 +45,7 @@ macro_rules! id {
             /// The value with a number.
             ///
             /// # Errors
-            /// [`IdError`] for a number that is too great.
+            /// [`IdError`] for a number that is too large.
             pub const fn new(number: u8) -> Result<Self, IdError> {
                 if (number as usize) < $count {
                     Ok(Self(number))
@@ -54,7 +54,7 @@ macro_rules! id {
                 }
             }
 
-            /// The number, as files have it.
+            /// The number, as in files.
             #[must_use]
             pub const fn number(self) -> u8 {
                 self.0
@@ -163,8 +163,8 @@ id! {
 }
 
 id! {
-    /// One of the four slots from the arena's centre to its boundary that can hold a wall. What a wall leaves open of
-    /// its slot is a door.
+    /// One of the four slots from the arena's centre to its boundary that can hold a wall. The part of its
+    /// slot that a wall leaves open is a door.
     SlotId: "wall slot", SLOT_COUNT;
     /// Slot 0, between rooms 0 and 1.
     UP = 0,

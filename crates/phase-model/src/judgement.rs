@@ -1,19 +1,19 @@
-//! What a model of social perception answers: Task 1 and Task 2 of the paper.
+//! The output of a model of social perception: Task 1 and Task 2 of the paper.
 
 use crate::{AGENT_COUNT, Goal, Relation, Vec2};
 use serde::{Deserialize, Serialize};
 
-/// Task 1, joint inference of goals and relations: how likely each answer is to a viewer.
+/// Task 1, joint inference of goals and relations: the predicted probability of each answer.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Judgement {
-    /// Goals of each agent with their probabilities, most likely first, no goal twice. A helper bears the other's
-    /// goal, a hinderer the other's goal negated, as labels have it.
+    /// Goals of each agent with their probabilities, most likely first, no goal twice. A helper has the
+    /// other's goal, a hinderer the other's goal negated, as in the labels.
     pub goals: [Vec<(Goal, f64)>; AGENT_COUNT],
     /// The relation between the two.
     pub relation: RelationProbabilities,
 }
 
-/// How likely each relation is; the three add up to 1.
+/// The probability of each relation; the three sum to 1.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RelationProbabilities {
@@ -42,7 +42,7 @@ impl RelationProbabilities {
         }
     }
 
-    /// The most likely relation; of equals the first in the order friendly, adversarial, neutral.
+    /// The most likely relation; ties are resolved in the order friendly, adversarial, neutral.
     #[must_use]
     pub fn most_likely(&self) -> Relation {
         let mut best = Relation::Friendly;
@@ -55,6 +55,6 @@ impl RelationProbabilities {
     }
 }
 
-/// Task 2, multi-entity trajectory prediction: `forecast[k][step]` is where the entity with index `k` (agents first)
-/// will be so many steps after the last one watched, from 1 on (u).
+/// Task 2, multi-entity trajectory prediction: `forecast[k][step]` is the predicted position of the entity
+/// with index `k` (agents first), `step` + 1 steps after the last observed one (u).
 pub type Forecast = Vec<Vec<Vec2>>;

@@ -1,7 +1,7 @@
 //! The twenty-two wall layouts and their reflections.
 //!
-//! Up to four walls radiate from the arena's centre, one in each *slot*: up (between rooms 0 and 1), left
-//! (0 and 3), down (3 and 2) and right (1 and 2). What a wall leaves open of its slot is a door.
+//! Up to four walls radiate from the arena's centre, one in each *slot*: up (between rooms 0 and 1), left (0
+//! and 3), down (3 and 2) and right (1 and 2). The part of its slot that a wall leaves open is a door.
 
 use crate::{LandmarkId, RoomId, Segment, SlotId, Vec2, arena};
 use serde::{Deserialize, Serialize};
@@ -67,13 +67,13 @@ pub const USED_BASES: [u8; 18] = [0, 2, 4, 6, 7, 8, 9, 10, 12, 13, 14, 15, 16, 1
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 #[serde(into = "u8", try_from = "u8")]
 pub enum Flip {
-    /// 0: up and down change places.
+    /// 0: swaps up and down.
     UpDown,
-    /// 1: left and right change places.
+    /// 1: swaps left and right.
     LeftRight,
-    /// 2: about the diagonal y = x through the centre.
+    /// 2: in the diagonal y = x through the centre.
     Diagonal,
-    /// 3: about the diagonal y = −x through the centre.
+    /// 3: in the diagonal y = −x through the centre.
     AntiDiagonal,
 }
 
@@ -111,7 +111,7 @@ impl Flip {
         }
     }
 
-    /// The landmark on which a landmark comes to lie.
+    /// The image of a landmark.
     #[must_use]
     pub const fn landmark(self, landmark: LandmarkId) -> LandmarkId {
         let images = match self {
@@ -123,13 +123,13 @@ impl Flip {
         LandmarkId::ALL[images[landmark.index()]]
     }
 
-    /// The room on which a room comes to lie.
+    /// The image of a room.
     #[must_use]
     pub const fn room(self, room: RoomId) -> RoomId {
         self.landmark(room.landmark()).room()
     }
 
-    /// The slot whose wall comes to lie in a slot.
+    /// The slot whose wall is mapped to a slot.
     const fn slot(self, slot: SlotId) -> SlotId {
         let sources = match self {
             Self::UpDown => [2, 1, 0, 3],
@@ -158,15 +158,15 @@ impl TryFrom<u8> for Flip {
 /// An invalid layout number.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Error)]
 pub enum LayoutError {
-    /// The base number is past the last.
+    /// The base number is out of range.
     #[error("layout.base must be 0 to 21, not {0}")]
     Base(u64),
-    /// The flip number is past the last.
+    /// The flip number is out of range.
     #[error("layout.flip must be null or 0 to 3, not {0}")]
     Flip(u64),
 }
 
-/// Where the inner walls stand: one of 22 base layouts, as it is or reflected.
+/// Positions of the inner walls: one of 22 base layouts, as it is or reflected.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize)]
 pub struct Layout {
     base: u8,
@@ -194,7 +194,7 @@ impl Layout {
         })
     }
 
-    /// The base layout of this one in a mirror.
+    /// The reflection of this layout's base layout.
     #[must_use]
     pub const fn flipped(self, flip: Flip) -> Self {
         Self { base: self.base, flip: Some(flip) }
@@ -228,8 +228,8 @@ impl Layout {
             .collect()
     }
 
-    /// What is open of a slot, from the end nearer the centre to the end nearer the boundary;
-    /// `None` where a full wall closes it.
+    /// The open part of a slot, from the end nearer to the centre to the end nearer to the boundary; `None`
+    /// where a full wall closes it.
     #[must_use]
     pub fn opening(self, slot: SlotId) -> Option<Segment> {
         let (from, to) = match self.wall(slot) {

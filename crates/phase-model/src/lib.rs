@@ -1,13 +1,13 @@
 //! The vocabulary of PHASE: plain types without physics or I/O.
 //!
-//! PHASE (Netanyahu et al., AAAI 2021) describes social events as a decentralised partially observable
-//! Markov decision process: two agents share a physical state, see parts of it and act at once. This crate
-//! holds the nouns every other crate speaks in: [`Scene`], [`Layout`], [`Entity`], [`State`], [`Action`],
-//! [`Goal`], [`Attitude`], the ids in [`id`], and the one verb [`Dynamics`].
+//! PHASE (Netanyahu et al., AAAI 2021) describes social events as a decentralised partially observable Markov
+//! decision process: two agents share a physical state, observe parts of it and act simultaneously. This
+//! crate defines the types that all other crates share: [`Scene`], [`Layout`], [`Entity`], [`State`],
+//! [`Action`], [`Goal`], [`Attitude`], the ids in [`id`], and the trait [`Dynamics`].
 //!
-//! The key design decision is that a [`State`] is plain `Copy` data of fixed size (two agents, at most two
-//! objects). A planner that imagines a hundred million steps copies states, it does not clone graphs. The
-//! price is that the numbers of agents and objects are compile-time limits.
+//! Key design decision: a [`State`] is plain `Copy` data of fixed size (two agents, at most two objects). A
+//! planner that simulates a hundred million steps copies states instead of cloning graphs. The trade-off is
+//! that the maximum numbers of agents and objects are compile-time limits.
 //!
 //! Units everywhere: world units (u), radians, seconds, newtons. Angle 0 faces +y and forward is
 //! (−sin θ, cos θ); positive angles turn left (counter-clockwise).

@@ -1,4 +1,4 @@
-//! How deep outlines are in each other, in walls and in the arena's boundary.
+//! Penetration depths of outlines in each other, in walls and in the arena's boundary.
 
 use crate::{
     Segment, Vec2, arena,
@@ -6,8 +6,8 @@ use crate::{
 };
 
 impl Outline {
-    /// How far one of two outlines has to be moved at least to overlap the other no longer (u); `None` if they do
-    /// not overlap.
+    /// Minimum distance by which one of two outlines has to be moved to end their overlap (u); `None` if they
+    /// do not overlap.
     #[must_use]
     pub fn depth(&self, other: &Self) -> Option<f32> {
         let depth = match (*self, *other) {
@@ -24,8 +24,8 @@ impl Outline {
         (depth > 0.0).then_some(depth)
     }
 
-    /// How far the outline has to be moved at least to lie beside a wall (u); `None` if the wall does not pass
-    /// through it.
+    /// Minimum distance by which the outline has to be moved to lie beside a wall (u); `None` if the wall
+    /// does not pass through it.
     #[must_use]
     pub fn depth_in_wall(&self, wall: Segment) -> Option<f32> {
         let depth = match *self {
@@ -35,7 +35,7 @@ impl Outline {
         (depth > 0.0).then_some(depth)
     }
 
-    /// How far the outline reaches beyond the arena's boundary (u); `None` if it does not.
+    /// Distance by which the outline extends beyond the arena's boundary (u); `None` if it does not.
     #[must_use]
     pub fn depth_in_boundary(&self) -> Option<f32> {
         let (min, max) = self.bounds();
@@ -44,8 +44,8 @@ impl Outline {
     }
 }
 
-/// The least overlap of two convex shapes along the normals of their edges (separating axis theorem); negative or 0
-/// if they are apart. The corners of a shape go round it, two corners are a segment.
+/// The minimum overlap of two convex shapes along the normals of their edges (separating axis theorem); zero
+/// or negative if they are apart. The corners of a shape are in cyclic order; two corners are a segment.
 fn convex_depth(a: &[Vec2], b: &[Vec2]) -> f32 {
     let normals = |corners: &[Vec2]| -> Vec<Vec2> {
         let ends = corners.iter().zip(corners.iter().cycle().skip(1));

@@ -1,4 +1,4 @@
-//! What physics needs to know of a scene: walls, radii and forces, and nothing of minds.
+//! The parameters of a scene's physics: walls, radii and forces, but no goals or attitudes.
 
 use crate::{Entity, MAX_OBJECTS, ObjectId, Segment, entity::AGENT_COUNT};
 use serde::{Deserialize, Serialize};
@@ -73,16 +73,16 @@ impl Strength {
         Self::ALL.get(usize::from(level)).copied()
     }
 
-    /// Greatest force (N), held constant through a step.
+    /// Maximum force (N), held constant through a step.
     #[must_use]
     pub const fn max_force(self) -> f32 {
         150.0 * (self as u8 + 1) as f32
     }
 }
 
-/// Greatest force of ground friction on each body, whatever its mass (N).
+/// Maximum force of ground friction on each body, whatever its mass (N).
 pub const GROUND_FRICTION: f32 = 100.0;
-/// Longest distance between a grab point and an object's surface at which grabbing works (u).
+/// Maximum distance between a grab point and an object's surface at which grabbing works (u).
 pub const GRAB_REACH: f32 = 0.5;
 /// Mass per area of every body (kg/u²).
 pub const DENSITY: f32 = 1.0;
@@ -92,7 +92,7 @@ pub const DENSITY: f32 = 1.0;
 pub struct AgentBody {
     /// Half the height of the trapezoid, R (u). See [`crate::geometry::trapezoid`].
     pub radius: f32,
-    /// Greatest force the agent can exert (N).
+    /// Maximum force the agent can exert (N).
     pub max_force: f32,
 }
 
@@ -129,7 +129,7 @@ impl AgentBody {
         self.radius / 12.0
     }
 
-    /// Width of the gap the body needs when it moves forward: its base, 3R (u).
+    /// Width of the gap the body needs to move forward: its base, 3R (u).
     #[must_use]
     pub fn width(self) -> f32 {
         3.0 * self.radius
@@ -148,14 +148,14 @@ pub fn object_inertia(radius: f32) -> f32 {
     0.5 * object_mass(radius) * radius * radius
 }
 
-/// Everything physics and perception need to know of a scene that does not change over time.
+/// Everything that physics and perception need to know about a scene and that does not change over time.
 #[derive(Clone, PartialEq, Debug)]
 pub struct PhysicsConfig {
     /// Inner walls; the arena's boundary is implied.
     pub walls: Vec<Segment>,
     /// The two agents' bodies.
     pub agents: [AgentBody; AGENT_COUNT],
-    /// Radii of the objects (u); only the first `object_count` count.
+    /// Radii of the objects (u); only the first `object_count` are used.
     pub object_radii: [f32; MAX_OBJECTS],
     /// Number of objects, 0 to 2.
     pub object_count: usize,

@@ -1,4 +1,4 @@
-//! The four predicates and their negations, as words.
+//! The four predicates and their negations, with their textual form.
 
 use crate::{AgentId, Entity, Goal, LandmarkId, ObjectId, Sign};
 use core::fmt;
@@ -33,7 +33,7 @@ pub enum Predicate {
 pub struct Literal {
     /// The predicate.
     pub predicate: Predicate,
-    /// Whether it is to hold (`true`) or not to hold.
+    /// Whether the predicate has to hold (`true`) or not to hold.
     pub holds: bool,
 }
 

@@ -3,7 +3,7 @@
 use rand::SeedableRng;
 pub use rand_pcg::Pcg64Mcg;
 
-/// What a random stream is for. Two purposes never share numbers, whatever the seed.
+/// The purpose of a random stream. Streams of different purposes are independent, whatever the seed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[repr(u64)]
 pub enum Purpose {
@@ -21,11 +21,12 @@ pub enum Purpose {
     Inference = 6,
     /// Sampled lengths of events.
     Length = 7,
-    /// What a method of perception draws on one event, by the hash of its id.
+    /// Random draws of a perception method on one event, by the hash of its id.
     Evaluation = 8,
     /// Resampling events for an interval.
     Bootstrap = 9,
-    /// First weights of a network (index 0) and what its training draws (by epoch, or by round and pass, from 1).
+    /// Initial weights of a network (index 0) and random draws of its training (by epoch, or by round and
+    /// pass, from 1).
     Training = 10,
 }
 
@@ -35,7 +36,7 @@ pub fn stream(seed: u64, purpose: Purpose, index: u64) -> Pcg64Mcg {
     Pcg64Mcg::seed_from_u64(derive_seed(seed, purpose, index))
 }
 
-/// The seed of [`stream`], for handing on to something that derives streams of its own.
+/// The seed of [`stream`], for code that derives further streams from it.
 #[must_use]
 pub fn derive_seed(seed: u64, purpose: Purpose, index: u64) -> u64 {
     mix(mix(mix(seed) ^ purpose as u64) ^ index)

@@ -1,4 +1,4 @@
-//! A scene: everything that has to be said for two minds and a world to make an event.
+//! A scene: the complete configuration from which two agents and an environment generate an event.
 
 use crate::{
     AGENT_COUNT, AgentBody, AgentId, Attitude, Body, Entity, Flip, Goal, Layout, MAX_ENTITIES, MAX_OBJECTS,
@@ -6,7 +6,7 @@ use crate::{
 };
 use serde::{Deserialize, Serialize};
 
-/// What kind of social event a scene is set up for.
+/// The kind of social event that a scene is set up for.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum EventKind {
@@ -35,8 +35,8 @@ impl EventKind {
         Self::Independent,
     ];
 
-    /// The kind that goals and attitudes make, as scenes are labelled: an attitude that is not neutral decides, else
-    /// the relation and what the goals are about.
+    /// The kind that follows from goals and attitudes, as scenes are labelled: a non-neutral attitude
+    /// decides, otherwise the relation and the subjects of the goals.
     #[must_use]
     pub fn of(goals: [Goal; AGENT_COUNT], attitudes: [Attitude; AGENT_COUNT]) -> Self {
         match Relation::of(goals, attitudes) {
@@ -68,9 +68,9 @@ impl EventKind {
 pub struct AgentSpec {
     /// Size of the body.
     pub size: Size,
-    /// Greatest force.
+    /// Maximum force.
     pub strength: Strength,
-    /// The goal. A helping agent bears the other's goal, a hindering one the other's goal negated.
+    /// The goal. A helping agent has the other's goal, a hindering one the other's goal negated.
     pub goal: Goal,
     /// Social utility weight α towards the other agent.
     pub attitude: Attitude,
@@ -88,21 +88,21 @@ pub struct ObjectSpec {
 }
 
 /// The physical and the social configuration of an event (paper, "Joint Physical-Social Simulation").
-/// [`crate::validate`] says which scenes make sense.
+/// [`crate::validate`] states which scenes are valid.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Scene {
     /// Where the walls stand.
     pub layout: Layout,
     /// The two agents.
     pub agents: [AgentSpec; AGENT_COUNT],
-    /// No, one or two objects.
+    /// Zero to two objects.
     pub objects: Vec<ObjectSpec>,
     /// The kind of event the scene was made for.
     pub kind: EventKind,
 }
 
 impl Scene {
-    /// The part of the scene that physics knows. Objects past the second are left out.
+    /// The part of the scene that physics depends on. Objects past the second are ignored.
     #[must_use]
     pub fn physics(&self) -> PhysicsConfig {
         let mut object_radii = [0.0; MAX_OBJECTS];
@@ -120,7 +120,7 @@ impl Scene {
         }
     }
 
-    /// The state in which the event starts: nothing held, no contacts known yet.
+    /// The state in which the event starts, without grips and contacts.
     #[must_use]
     pub fn initial_state(&self) -> State {
         let mut bodies = [Body::default(); MAX_ENTITIES];
@@ -151,8 +151,8 @@ impl Scene {
         Relation::of(self.goals(), self.attitudes())
     }
 
-    /// The whole scene in a mirror: walls, starts and the landmarks of the goals. `None` if the layout is a
-    /// reflection already, because two reflections one after the other need not be one.
+    /// The whole scene mirrored: walls, starts and the landmarks of the goals. `None` if the layout is
+    /// already reflected, because the composition of two reflections need not be a reflection.
     #[must_use]
     pub fn mirrored(&self, flip: Flip) -> Option<Self> {
         if self.layout.flip().is_some() {

@@ -82,14 +82,14 @@ impl Side {
     }
 }
 
-/// An agent's rigid hold of an object: the object's centre sits at distance R + r on the given side.
+/// An agent's rigid grip of an object: the object's centre is at distance R + r on the given side.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Grip {
     /// The object held.
     pub object: ObjectId,
     /// The side that holds it.
     pub side: Side,
-    /// The object's angle minus the agent's, kept from the moment of grabbing (rad).
+    /// The object's angle minus the agent's, constant from the moment of grabbing (rad).
     pub relative_angle: f32,
 }
 
@@ -98,10 +98,10 @@ pub struct Grip {
 pub struct Contacts(u8);
 
 impl Contacts {
-    /// No body touches another.
+    /// No contacts.
     pub const NONE: Self = Self(0);
 
-    /// Records that two different entities touch. Touching oneself is ignored.
+    /// Records a contact between two different entities. A pair of equal entities is ignored.
     pub const fn insert(&mut self, a: Entity, b: Entity) {
         self.0 |= Self::bit(a, b);
     }
@@ -112,7 +112,7 @@ impl Contacts {
         self.0 & Self::bit(a, b) != 0
     }
 
-    /// Pairs that touch in either.
+    /// The union of two sets of pairs.
     #[must_use]
     pub const fn union(self, other: Self) -> Self {
         Self(self.0 | other.0)
@@ -134,10 +134,10 @@ impl Contacts {
     }
 }
 
-/// The whole physical state: at most four bodies, who holds what, who touches whom.
+/// The complete physical state: at most four bodies, with grips and contacts.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 pub struct State {
-    /// Bodies by [`Entity::index`]; those past [`PhysicsConfig::entity_count`] mean nothing.
+    /// Bodies by [`Entity::index`]; those past [`PhysicsConfig::entity_count`] are meaningless.
     pub bodies: [Body; MAX_ENTITIES],
     /// What each agent holds.
     pub grips: [Option<Grip>; AGENT_COUNT],
@@ -158,7 +158,7 @@ impl State {
         &self.bodies[entity.index()]
     }
 
-    /// The body of an entity, to change.
+    /// The body of an entity, mutably.
     pub const fn body_mut(&mut self, entity: Entity) -> &mut Body {
         &mut self.bodies[entity.index()]
     }
@@ -192,9 +192,9 @@ impl State {
             }
     }
 
-    /// The object that `attach` would grab, and with which side: of the objects whose centre is nearer than
-    /// r + [`crate::physics::GRAB_REACH`] to one of the agent's four grab points, the nearest.
-    /// `None` if the agent already holds something.
+    /// The object that `attach` would grab, and with which side: of the objects whose centre is closer
+    /// than r + [`crate::physics::GRAB_REACH`] to one of the agent's four grab points, the closest. `None` if
+    /// the agent already holds something.
     #[must_use]
     pub fn attachable(&self, physics: &PhysicsConfig, agent: AgentId) -> Option<(ObjectId, Side)> {
         if self.grips[agent].is_some() {
@@ -218,7 +218,7 @@ impl State {
         best.map(|(_, object, side)| (object, side))
     }
 
-    /// Whether every number of the bodies present is finite.
+    /// Whether all numbers of the bodies present are finite.
     #[must_use]
     pub fn is_finite(&self, physics: &PhysicsConfig) -> bool {
         self.bodies[..physics.entity_count()].iter().all(Body::is_finite)

@@ -1,14 +1,14 @@
-//! What the high level hands to the low level.
+//! The interface between the high-level and the low-level planner.
 
 use crate::Literal;
 use core::fmt;
 use serde::{Deserialize, Serialize};
 
-/// An element of the paper's subgoal space: a predicate to bring about, or nothing left to do.
+/// An element of the paper's subgoal space: a predicate to achieve, or no remaining subgoal.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Subgoal {
-    /// Bring about a predicate or its negation.
+    /// Achieve a predicate or its negation.
     Achieve(Literal),
     /// Nothing to do: stop and stay.
     Stay,

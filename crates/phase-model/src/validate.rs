@@ -1,4 +1,4 @@
-//! Which scenes make sense, and what is wrong with the others.
+//! Validity of scenes, and the errors of invalid ones.
 
 use crate::{
     AGENT_COUNT, AgentId, Attitude, Entity, EventKind, Goal, MAX_OBJECTS, ObjectId, Scene, arena,
@@ -6,10 +6,10 @@ use crate::{
 };
 use thiserror::Error;
 
-/// A rule that a scene breaks. The text names the field and the rule.
+/// A rule that a scene violates. The text names the field and the rule.
 #[derive(Clone, PartialEq, Debug, Error)]
 pub enum SceneError {
-    /// There are more objects than the world holds.
+    /// There are more objects than the maximum.
     #[error("objects must number 0 to 2, not {0}")]
     TooManyObjects(usize),
     /// A number of a start state is NaN or infinite.
@@ -23,9 +23,9 @@ pub enum SceneError {
     OutsideArena {
         /// The field.
         field: String,
-        /// Where it lies instead (u).
+        /// Its position (u).
         x: f32,
-        /// Where it lies instead (u).
+        /// Its position (u).
         y: f32,
     },
     /// A goal is about an object that the scene does not have.
@@ -44,25 +44,25 @@ pub enum SceneError {
         /// Whose goal.
         agent: AgentId,
     },
-    /// The kind of event says that one agent helps or hinders the other, but none does.
+    /// The kind of event requires that one agent helps or hinders the other, but neither does.
     #[error("event is {:?}, but no agent has the social utility weight {alpha}", .kind.name())]
     NobodySocial {
         /// The kind.
         kind: EventKind,
-        /// α of an agent that does what the kind says.
+        /// α that the kind requires of one agent.
         alpha: i8,
     },
     /// Both agents are social.
     #[error("at most one agent may have a social utility weight other than 0")]
     BothSocial,
-    /// A helper's or hinderer's goal is not the other's.
+    /// A helper's or hinderer's goal is not derived from the other's.
     #[error("agents[{agent}].goal of a {role} agent must be the other agent's goal{sign}")]
     SocialGoal {
         /// The social agent.
         agent: AgentId,
         /// `helping` or `hindering`.
         role: &'static str,
-        /// What has to be done to the other's goal.
+        /// How the goal has to be derived from the other's.
         sign: &'static str,
     },
     /// Two bodies overlap at the start.
@@ -77,11 +77,11 @@ pub enum SceneError {
 
 impl Scene {
     /// Checks everything a scene must satisfy to be simulated: finite starts inside the arena, goals about
-    /// things that are there, at most one social agent whose goal is the other's. Overlapping starts pass:
-    /// the physics pushes them apart, and some real recordings begin so.
+    /// entities that exist, at most one social agent, with a goal derived from the other's. Overlapping
+    /// starts are valid: the physics pushes the bodies apart, and some measured recordings begin like this.
     ///
     /// # Errors
-    /// The first rule that is broken.
+    /// The first rule that is violated.
     pub fn validate(&self) -> Result<(), SceneError> {
         if self.objects.len() > MAX_OBJECTS {
             return Err(SceneError::TooManyObjects(self.objects.len()));
@@ -101,8 +101,8 @@ impl Scene {
         check_attitudes(&self.agents)
     }
 
-    /// Checks that somebody helps in a scene that was made for helping, and hinders in one for hindering. The
-    /// label decides nothing in a simulation, so only readers of files ask for it.
+    /// Checks that one agent helps in a scene labelled as helping, and that one hinders in a scene labelled
+    /// as hindering. The label does not affect a simulation, so only readers of files check it.
     ///
     /// # Errors
     /// [`SceneError::NobodySocial`].
@@ -119,7 +119,7 @@ impl Scene {
         }
     }
 
-    /// Checks that every number of the starts is finite.
+    /// Checks that all numbers of the starts are finite.
     pub(crate) fn check_finite(&self) -> Result<(), SceneError> {
         let state = self.initial_state();
         match self.physics().entities().find(|&entity| !state.body(entity).is_finite()) {
@@ -128,11 +128,11 @@ impl Scene {
         }
     }
 
-    /// The stricter check for scenes of our own making: [`Scene::validate`], and no body overlaps a wall,
-    /// the boundary or another body.
+    /// The stricter check for generated scenes: [`Scene::validate`], and no body overlaps a wall, the
+    /// boundary or another body.
     ///
     /// # Errors
-    /// The first rule that is broken.
+    /// The first rule that is violated.
     pub fn validate_without_overlap(&self) -> Result<(), SceneError> {
         self.validate()?;
         let (physics, state) = (self.physics(), self.initial_state());
@@ -153,7 +153,7 @@ impl Scene {
     }
 }
 
-/// The field an entity has in files, such as `agents[0]`.
+/// The path of an entity in files, such as `agents[0]`.
 pub(crate) fn field_name(entity: Entity) -> String {
     match entity {
         Entity::Agent(agent) => format!("agents[{agent}]"),

@@ -1,13 +1,13 @@
-//! What is odd about a scene, though it can be simulated.
+//! Suspicious properties of a scene that can nevertheless be simulated.
 
 use crate::{Entity, EventKind, Scene, geometry::Outline, validate::field_name};
 use core::{f32::consts::PI, fmt};
 
-/// Bodies that overlap by no more than this are only in touch (u).
+/// Bodies that overlap by no more than this are merely in contact (u).
 const TOUCH: f32 = 0.01;
 
-/// A start angle beyond this is likely to be meant in degrees (rad). Published recordings begin with angles of up to
-/// 1.3 turns.
+/// A start angle beyond this is likely to be in degrees by mistake (rad). Published recordings begin with
+/// angles of up to 1.3 turns.
 const LARGEST_ANGLE: f32 = 4.0 * PI;
 
 /// Something in a scene that is likely to be a mistake. The text names the field and the rule.
@@ -19,24 +19,24 @@ pub enum SceneWarning {
         first: Entity,
         /// The other body.
         second: Entity,
-        /// How far one of them would have to be moved (u).
+        /// Minimum distance by which one of them has to be moved (u).
         depth: f32,
     },
-    /// A body stands across a wall or the arena's boundary at the start. The physics will push it to one side.
+    /// A body overlaps a wall or the arena's boundary at the start. The physics will push it to one side.
     AcrossWall {
         /// The body.
         body: Entity,
-        /// How far it would have to be moved (u).
+        /// Minimum distance by which it has to be moved (u).
         depth: f32,
     },
-    /// The kind of event is not the one that goals and attitudes make.
+    /// The kind of event does not follow from goals and attitudes.
     Kind {
         /// The kind given.
         kind: EventKind,
         /// The kind that follows from goals and attitudes.
         follows: EventKind,
     },
-    /// An angle at the start looks like one in degrees.
+    /// An angle at the start appears to be in degrees.
     Degrees {
         /// The body.
         body: Entity,
@@ -71,9 +71,10 @@ impl fmt::Display for SceneWarning {
 }
 
 impl Scene {
-    /// What is odd about the scene: bodies that overlap or stand across walls at the start, a kind of event that does
-    /// not follow from goals and attitudes, angles that look like degrees. Empty for most scenes. A scene may be
-    /// simulated in spite of it; what must not be in it is an error of [`Scene::validate`].
+    /// Suspicious properties of the scene: bodies that overlap each other or walls at the start, a kind of
+    /// event that does not follow from goals and attitudes, angles that appear to be in degrees. Empty for
+    /// most scenes. A scene with warnings can be simulated; violations that prevent a simulation are errors
+    /// of [`Scene::validate`].
     #[must_use]
     pub fn warnings(&self) -> Vec<SceneWarning> {
         let (physics, state) = (self.physics(), self.initial_state());

@@ -1,4 +1,4 @@
-//! Overlap tests against parry2d, which knows nothing of ours.
+//! Overlap tests compared with parry2d as an independent reference.
 
 use core::f32::consts::PI;
 use parry2d::{
@@ -12,7 +12,7 @@ use phase_model::{
 };
 use proptest::prelude::*;
 
-/// Nearer than this to touching, the two sides may disagree.
+/// Closer than this to touching, the two sides may disagree.
 const DOUBT: f32 = 1e-3;
 
 fn physics(agent: f32, object: f32) -> PhysicsConfig {
@@ -43,7 +43,7 @@ proptest! {
         let physics = physics(r, s);
         let ours = Outline::of(&physics, Entity::Agent(AgentId::ZERO), &agent)
             .overlaps(&Outline::of(&physics, Entity::Object(ObjectId::ZERO), &object));
-        // parry reports 0 for overlap, so overlap by more than the doubt is asked of a smaller disc.
+        // parry reports 0 for overlap, so overlap beyond the tolerance is tested with a smaller disc.
         let (a, b) = (pose(&agent), pose(&object));
         let apart = distance(&a, &polygon(r), &b, &Ball::new(s)).expect("supported").distance;
         let deep = distance(&a, &polygon(r), &b, &Ball::new(s - DOUBT)).expect("supported").distance;

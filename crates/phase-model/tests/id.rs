@@ -4,8 +4,8 @@ use phase_model::{
     AgentId, BodySet, Entity, Goal, IdError, LandmarkId, ObjectId, RoomId, SlotId, arena, layout::room_of,
 };
 
-/// All numbers from 0 to `last` make a value that has them, in order, and is written as the bare number; greater ones
-/// are refused with the same sentence by every conversion.
+/// All numbers from 0 to `last` make a value with that number, in order, which is written as the bare number;
+/// larger numbers are rejected with the same message by every conversion.
 macro_rules! check {
     ($id:ident, $kind:literal, $last:literal) => {
         assert_eq!($id::ALL.len(), $last + 1);
@@ -28,7 +28,7 @@ macro_rules! check {
             let refused = serde_json::from_str::<$id>(&number.to_string()).expect_err("too great");
             assert!(refused.to_string().starts_with(&sentence), "{refused}");
         }
-        // A number that a u8 cannot hold must not come round.
+        // A number that does not fit a u8 must not wrap around.
         let error = $id::try_from(256_usize).expect_err("too great");
         assert_eq!(error.number, 256);
         for text in ["-1", "256", "0.5", "null", "\"0\""] {

@@ -1,4 +1,4 @@
-//! What a model of social perception answers.
+//! The output of a model of social perception.
 
 use phase_model::{Relation, RelationProbabilities};
 

@@ -1,4 +1,4 @@
-//! Random streams are their own.
+//! Random streams are independent.
 
 use phase_model::random::{Purpose, derive_seed};
 
@@ -18,7 +18,7 @@ fn no_two_streams_share_a_seed() {
 
 #[test]
 fn seeds_never_change() {
-    // Recorded events name only their seed; a change here would make them irreproducible.
+    // Recorded events store only their seed; a change here would make them irreproducible.
     assert_eq!(derive_seed(0, Purpose::Scene, 0), GOLDEN);
 }
 

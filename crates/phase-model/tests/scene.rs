@@ -1,4 +1,4 @@
-//! Which scenes are refused, and what relations follow from goals and attitudes.
+//! Which scenes are rejected, and which relations follow from goals and attitudes.
 
 use phase_model::{
     AgentId, AgentSpec, Attitude, Body, EventKind, Flip, Goal, LandmarkId, Layout, ObjectId, ObjectSpec,
@@ -32,7 +32,7 @@ fn scene() -> Scene {
     }
 }
 
-/// A change to a good scene, and what the complaint must say.
+/// A change to a valid scene, and the expected content of the error message.
 type Fault = (fn(&mut Scene), &'static str);
 
 #[test]
@@ -106,7 +106,7 @@ fn goals_are_written_as_the_recordings_write_them() {
 fn a_mirror_turns_everything_over() {
     let scene = scene();
     let mirrored = scene.mirrored(Flip::LeftRight).expect("layout 0 is no reflection");
-    // x about 16; landmarks 0 and 1, 2 and 3 change places; turning left becomes turning right.
+    // Reflection about x = 16; landmarks 0 and 1, 2 and 3 swap; left turns become right turns.
     let positions = [mirrored.agents[0].start, mirrored.agents[1].start, mirrored.objects[0].start];
     assert_eq!(positions.map(|body| body.position.x), [24.0, 8.0, 16.0]);
     assert_eq!(positions.map(|body| body.position.y), [8.0, 8.0, 18.0]);

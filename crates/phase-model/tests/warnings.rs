@@ -1,4 +1,4 @@
-//! What is odd about a scene is said; scenes that make sense are left in peace.
+//! Suspicious scenes cause warnings; ordinary ones do not.
 
 use core::f32::consts::{FRAC_PI_2, PI};
 use phase_model::{
@@ -56,7 +56,8 @@ fn overlapping_bodies_are_named_with_their_depth() {
     assert_eq!(warning(&crowded), "agents[0].start and agents[1].start: the bodies overlap by 0.10 u");
 }
 
-/// The depth is the least way out: moved so far the bodies are apart, moved a little less they are not.
+/// The depth is the minimum translation: after that distance the bodies are apart, after slightly less they
+/// are not.
 #[test]
 fn the_depth_of_discs_is_the_way_out() {
     let mut crowded = scene();

@@ -1,4 +1,4 @@
-//! Measures what seeing costs: `cargo run --release -p phase-perception --example perception_cost`.
+//! Measures the cost of observing: `cargo run --release -p phase-perception --example perception_cost`.
 
 use phase_model::{
     AgentBody, AgentId, Body, Entity, Layout, LayoutError, ObjectId, PhysicsConfig, Size, State, Vec2,
@@ -7,9 +7,9 @@ use phase_model::{
 use phase_perception::{field_of_view, observe, observed_set, sees};
 use std::{hint::black_box, time::Instant};
 
-/// States looked at, over and over.
+/// States observed repeatedly.
 const STATES: usize = 1000;
-/// Times that each is looked at.
+/// Repetitions for each state.
 const ROUNDS: usize = 50;
 
 fn main() -> Result<(), LayoutError> {

@@ -28,8 +28,8 @@ impl Cell {
         Some(Self((clamp(offset.y) * CELLS_PER_SIDE + clamp(offset.x)) as u16))
     }
 
-    /// The cells that a box (lower left and upper right corner, u) has inner points in common with; what lies
-    /// outside the arena is cut off. A box with NaN in it has none.
+    /// The cells that have inner points in common with a box (lower left and upper right corner, u); parts
+    /// outside the arena are ignored. A box with NaN in it has none.
     pub fn in_box(min: Vec2, max: Vec2) -> impl Iterator<Item = Self> {
         let max = if min.cmple(max).all() { max } else { arena::MIN };
         let low = (min - arena::MIN).floor().max(Vec2::ZERO);
@@ -46,7 +46,7 @@ impl Cell {
         self.0 as usize
     }
 
-    /// The cell at an index as [`Cell::index`] gives it, or `None` past the last.
+    /// The cell at an index as in [`Cell::index`], or `None` past the last.
     #[must_use]
     pub fn from_index(index: usize) -> Option<Self> {
         (index < CELL_COUNT).then_some(Self(index as u16))
@@ -71,7 +71,7 @@ impl Cell {
 pub struct CellSet([u64; 7]);
 
 impl CellSet {
-    /// The set with no cell in it.
+    /// The empty set.
     pub const EMPTY: Self = Self([0; 7]);
 
     /// Adds a cell.
@@ -91,7 +91,7 @@ impl CellSet {
         self.0.iter().map(|word| word.count_ones() as usize).sum()
     }
 
-    /// Whether no cell is in the set.
+    /// Whether the set is empty.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.0 == [0; 7]

@@ -1,4 +1,4 @@
-//! Which cells a body lies on.
+//! The cells that a body lies on.
 
 use crate::cells::{Cell, CellSet};
 use phase_model::{Body, Entity, PhysicsConfig, Vec2, geometry::Outline};
@@ -14,15 +14,15 @@ pub fn footprint(physics: &PhysicsConfig, entity: Entity, body: &Body) -> CellSe
     cells
 }
 
-/// Whether a condition holds for one of the cells of an outline's footprint. Cells are tried row by row, and
-/// none after the first that satisfies it.
+/// Whether a condition holds for one of the cells of an outline's footprint. Cells are tried row by row,
+/// until one satisfies it.
 #[must_use]
 pub fn any_cell(outline: &Outline, mut condition: impl FnMut(Cell) -> bool) -> bool {
     let shape = Shape::of(outline);
     near(outline).any(|cell| shape.overlaps(cell) && condition(cell))
 }
 
-/// The cells that an outline covers wholly, so that no other body can have a part in them.
+/// The cells that an outline covers entirely, so that no part of another body can be in them.
 #[must_use]
 pub fn covered(outline: &Outline) -> CellSet {
     let shape = Shape::of(outline);
@@ -40,8 +40,8 @@ fn near(outline: &Outline) -> impl Iterator<Item = Cell> {
 
 /// An outline prepared for overlap tests with many cells of equal size.
 enum Shape {
-    /// The outward normals of the four edges, how far along each the outline reaches, and how much more or
-    /// less a cell's centre may lie along it for the cell to be touched or covered.
+    /// The outward normals of the four edges, the extent of the outline along each, and the margins by which
+    /// a cell's centre may lie beyond or must lie within it for the cell to be touched or covered.
     Trapezoid([(Vec2, f32, f32); 4]),
     Disc {
         centre: Vec2,

@@ -1,9 +1,9 @@
-//! What a PHASE agent sees and feels: a conical field of view with occlusion, and touch.
+//! The observation model of a PHASE agent: a conical field of view with occlusion, and touch.
 //!
-//! An agent knows the walls, but of the other bodies only what it observes (paper, "Formulation" and "Belief
-//! Representation and Update"): itself, what it sees, what it touches, and whatever touches something it
-//! observes. [`observe`] answers in full and gives an [`Observation`]; [`observed_set`] answers only *which*
-//! bodies are observed, for the millions of states that a planner imagines.
+//! An agent knows the walls, but of the other bodies only those it observes (paper, "Formulation" and "Belief
+//! Representation and Update"): itself, those it sees, those it touches, and those that touch something it
+//! observes. [`observe`] returns a full [`Observation`]; [`observed_set`] returns only *which* bodies are
+//! observed, for the millions of states simulated in a search.
 //! An agent that faces +y sees the other ahead of it, and not the object behind its back:
 //!
 //! ```
@@ -23,28 +23,30 @@
 //!
 //! # What is seen
 //!
-//! The eye sits in the agent's centre of mass and looks along its heading, [54.69°](viewpoint::TAN_HALF_ANGLE) to
-//! either side, as far as the arena reaches. Inner walls, objects and the other agent stand in the way, the
-//! bodies as discs. A held object is no exception, so an agent that carries something in front of its head
+//! The eye is at the agent's centre of mass and looks along its heading, [54.69°](viewpoint::TAN_HALF_ANGLE)
+//! to either side, as far as the arena extends. Inner walls, objects and the other agent occlude the view,
+//! the bodies as discs. This includes a held object, so an agent that carries something in front of its head
 //! sees little else: in the paper all entities obstruct the view.
 //!
-//! # The key design decisions
+//! # Key design decisions
 //!
-//! Seeing is reckoned in [cells](Cell) of 1 × 1 u, and by their centres, as in the paper and the published
+//! Visibility is computed for [cells](Cell) of 1 × 1 u, by their centres, as in the paper and the published
 //! simulator, so that the question "where could it still be?" has an exact answer for a particle. A body is
-//! seen if one of the cells of its [footprint](footprint()) is visible, leaving that body itself out of what
-//! stands in the way; otherwise a large body straight ahead would hide its own cells and go unseen. The price
-//! is that a body shows as soon as the centre of one of its cells does, and hides as long as none does.
+//! seen if one of the cells of its [footprint](footprint()) is visible, with that body itself excluded from
+//! the occluders; otherwise a large body straight ahead would hide its own cells and remain unseen. The
+//! trade-off is that a body becomes visible as soon as the centre of one of its cells does, and remains
+//! hidden as long as none is visible.
 //!
-//! What is observed is the *least set* that satisfies the paper's sentence "entities that are in contact with
-//! observed entities are also defined as observed": touching is followed from body to body until nothing new
-//! comes up. Stopping after one link, as the published simulator does, would make the answer depend on the
-//! order in which links are followed, and could show an agent without what it holds. With the closure, a body
-//! that is not observed touches nothing that is, and nobody unobserved holds anything observed, so that a
-//! belief never has to guess half of a grip. The price: a row of touching bodies is known as a whole as soon
-//! as one of them is.
+//! The set of observed entities is the *smallest set* that satisfies the paper's sentence "entities that are
+//! in contact with observed entities are also defined as observed": the transitive closure of contacts.
+//! Stopping after one link, as the published simulator does, would make the result depend on the order in
+//! which links are followed, and an agent could be observed without the object it holds. With the closure, no
+//! unobserved body touches an observed one, and no unobserved agent holds an observed object, so that a
+//! belief never has to complete half of a grip. The trade-off: a row of touching bodies is observed as a
+//! whole as soon as one of them is.
 //!
-//! An [`Observation`] holds copies of the observed bodies only, so that nothing built upon it can peek.
+//! An [`Observation`] contains copies of the observed bodies only, so that code built on it cannot access
+//! hidden state.
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]

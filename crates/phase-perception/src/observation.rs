@@ -1,4 +1,4 @@
-//! What one agent observes of one state: what it sees, what it feels, and what touches that.
+//! The observation of one agent in one state: what it sees, what it feels, and what touches that.
 
 use crate::{
     cells::{Cell, CellSet},
@@ -30,8 +30,8 @@ pub fn observe(physics: &PhysicsConfig, state: &State, agent: AgentId) -> Observ
     }
 }
 
-/// Which entities an agent observes, itself included: the coarse observation for imagined states.
-/// Equal to [`Observation::observed`] of [`observe`], but looks only at the cells that bodies lie on.
+/// Which entities an agent observes, itself included: the coarse observation for simulated states. Equal to
+/// [`Observation::observed`] of [`observe`], but tests only the cells that bodies lie on.
 #[must_use]
 pub fn observed_set(physics: &PhysicsConfig, state: &State, agent: AgentId) -> BodySet {
     let mut observed = contact_closure(physics, state, [Entity::Agent(agent)].into_iter().collect());
@@ -47,11 +47,11 @@ pub fn observed_set(physics: &PhysicsConfig, state: &State, agent: AgentId) -> B
     observed
 }
 
-/// What an agent observes at one moment. Of what it does not observe, nothing is in here, so that two
-/// observations are equal if the agent cannot tell them apart.
+/// An agent's observation at one moment. It contains nothing unobserved, so two observations are equal if the
+/// agent cannot distinguish them.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Observation {
-    /// Who observes.
+    /// The observing agent.
     pub agent: AgentId,
     /// The cells whose centre the agent sees.
     pub visible: CellSet,
@@ -59,7 +59,7 @@ pub struct Observation {
     pub observed: BodySet,
     /// The entities that the agent feels: those in contact with it or attached to it.
     pub touched: BodySet,
-    /// The state as far as it is observed; the rest is blank.
+    /// The observed part of the state; the remainder is blank.
     known: State,
 }
 
@@ -70,8 +70,8 @@ impl Observation {
         self.observed.contains(entity).then(|| self.known.body(entity))
     }
 
-    /// What an agent holds, or the outer `None` if the agent is not observed. Whatever an observed
-    /// agent holds is observed, too.
+    /// The object that an agent holds, or the outer `None` if the agent is not observed. The object held by
+    /// an observed agent is observed, too.
     #[must_use]
     pub fn grip(&self, agent: AgentId) -> Option<Option<Grip>> {
         self.observed.contains(Entity::Agent(agent)).then(|| self.known.grips[agent])
@@ -96,7 +96,7 @@ impl Observation {
     }
 }
 
-/// A set of entities, all that touch one of them, all that touch one of those, and so on.
+/// The transitive closure of a set of entities under touch.
 fn contact_closure(physics: &PhysicsConfig, state: &State, mut set: BodySet) -> BodySet {
     loop {
         let touching = |entity: Entity| set.iter().any(|known| state.touching(known, entity));

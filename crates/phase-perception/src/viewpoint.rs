@@ -1,4 +1,4 @@
-//! The eye: what lies in an agent's cone of view and is not hidden.
+//! The viewpoint: which points are in an agent's cone of view and not occluded.
 
 use crate::{
     cells::{Cell, CellSet},
@@ -18,14 +18,14 @@ pub fn field_of_view(physics: &PhysicsConfig, state: &State, agent: AgentId) -> 
     Cell::all().filter(|&cell| viewpoint.sees_cell(cell)).collect()
 }
 
-/// Whether an agent sees an entity: whether one of the cells of the entity's footprint is visible
-/// when the entity itself hides nothing. No agent sees itself.
+/// Whether an agent sees an entity: whether one of the cells of the entity's footprint is visible when the
+/// entity itself does not occlude. No agent sees itself.
 #[must_use]
 pub fn sees(physics: &PhysicsConfig, state: &State, agent: AgentId, entity: Entity) -> bool {
     Viewpoint::new(physics, state, agent).sees(entity)
 }
 
-/// An agent's eye in one state of the world, ready to look at many things.
+/// An agent's viewpoint in one state of the world, prepared for many queries.
 #[derive(Clone, Debug)]
 pub struct Viewpoint<'a> {
     physics: &'a PhysicsConfig,
@@ -33,12 +33,12 @@ pub struct Viewpoint<'a> {
     agent: AgentId,
     apex: Vec2,
     axis: Vec2,
-    /// The bodies that may hide something, by [`Entity::index`].
+    /// The bodies that may occlude, by [`Entity::index`].
     discs: [Disc; MAX_ENTITIES],
 }
 
 impl<'a> Viewpoint<'a> {
-    /// The eye of an agent in a state.
+    /// The viewpoint of an agent in a state.
     #[must_use]
     pub fn new(physics: &'a PhysicsConfig, state: &'a State, agent: AgentId) -> Self {
         let own = Entity::Agent(agent);
@@ -54,13 +54,13 @@ impl<'a> Viewpoint<'a> {
         Self { physics, state, agent, apex, axis, discs }
     }
 
-    /// Where the eye sits: in the agent's centre of mass (u).
+    /// Position of the eye: the agent's centre of mass (u).
     #[must_use]
     pub fn apex(&self) -> Vec2 {
         self.apex
     }
 
-    /// Whether the centre of a cell is in view and not hidden.
+    /// Whether the centre of a cell is in view and not occluded.
     #[must_use]
     pub fn sees_cell(&self, cell: Cell) -> bool {
         self.sees_point_ignoring(cell.centre(), None)
@@ -82,11 +82,11 @@ impl<'a> Viewpoint<'a> {
             return false;
         }
         let seen = |cell: Cell| self.sees_point_ignoring(cell.centre(), Some(entity));
-        // The cell of the origin is always part of the footprint, and most often decides.
+        // The cell of the origin is always part of the footprint, and is usually decisive.
         Cell::at(body.position).is_some_and(seen) || any_cell(&Outline::of(self.physics, entity, body), seen)
     }
 
-    /// Whether a point is in view and not hidden by anything but perhaps one body.
+    /// Whether a point is in view and not occluded, except possibly by one given body.
     fn sees_point_ignoring(&self, point: Vec2, see_through: Option<Entity>) -> bool {
         let ray = point - self.apex;
         in_cone(ray, self.axis)
@@ -97,9 +97,9 @@ impl<'a> Viewpoint<'a> {
     }
 
     /// Whether everything within a distance of a point lies outside the cone; the point is relative to the
-    /// apex. May say no where the answer is yes.
+    /// apex. Conservative: may return false where the answer is true.
     fn out_of_cone(&self, point: Vec2, distance: f32) -> bool {
-        // Distance from the nearer edge of the cone, on a scale of tan² + 1 instead of 1.
+        // Distance from the closer edge of the cone, on a scale of tan² + 1 instead of 1.
         let outside = self.axis.perp_dot(point).abs() - TAN_HALF_ANGLE * self.axis.dot(point);
         outside > 0.0 && outside * outside > distance * distance * (1.0 + TAN_SQUARED)
     }
@@ -117,8 +117,8 @@ fn in_cone(ray: Vec2, axis: Vec2) -> bool {
     ahead > 0.0 && across * across < TAN_SQUARED * (ahead * ahead)
 }
 
-/// Whether a wall stands between two points. Points on the wall's line are on neither side of it; a ray
-/// through a wall's end does not pass.
+/// Whether a wall lies between two points. Points on the wall's line are on neither side of it; a ray through
+/// a wall's end is blocked.
 fn blocks(wall: Segment, apex: Vec2, point: Vec2) -> bool {
     let along = wall.b - wall.a;
     let (eye_side, point_side) = (along.perp_dot(apex - wall.a), along.perp_dot(point - wall.a));
@@ -129,7 +129,7 @@ fn blocks(wall: Segment, apex: Vec2, point: Vec2) -> bool {
     ray.perp_dot(wall.a - apex) * ray.perp_dot(wall.b - apex) <= 0.0
 }
 
-/// The centre of the disc as which an entity hides what is behind it: the centre of mass (u).
+/// The centre of the disc that represents an entity as an occluder: the centre of mass (u).
 fn disc_centre(physics: &PhysicsConfig, entity: Entity, body: &Body) -> Vec2 {
     match entity {
         Entity::Agent(agent) => {
@@ -140,7 +140,7 @@ fn disc_centre(physics: &PhysicsConfig, entity: Entity, body: &Body) -> Vec2 {
     }
 }
 
-/// A disc that hides what is behind it, its centre relative to the apex.
+/// An occluding disc, its centre relative to the apex.
 #[derive(Clone, Copy, Debug)]
 struct Disc {
     centre: Vec2,
@@ -148,12 +148,11 @@ struct Disc {
 }
 
 impl Disc {
-    /// A disc that hides nothing.
+    /// A disc that occludes nothing.
     const NOTHING: Self = Self { centre: Vec2::ZERO, radius_squared: 0.0 };
 
-    /// Whether the disc has inner points on the straight way from the apex to the end of a ray. A disc whose
-    /// centre is not ahead does not block: an eye that is itself inside a body still sees what is away from
-    /// it.
+    /// Whether the disc has inner points on the straight line from the apex to the end of a ray. A disc whose
+    /// centre is not ahead does not block: an eye inside a body still sees in the direction away from it.
     fn blocks(&self, ray: Vec2) -> bool {
         let ahead = ray.dot(self.centre);
         let length_squared = ray.length_squared();

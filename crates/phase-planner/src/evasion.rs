@@ -13,8 +13,8 @@ const EFFORT_WEIGHT: f32 = 0.5;
 /// Path length to the pursuer beyond which the evader stays (u).
 const SAFE_DISTANCE: f32 = 20.0;
 
-/// The refuge: of the four rooms and the present position, the one with the greatest separation, provided
-/// the evader reaches every door on its path before the pursuer.
+/// The refuge: of the four rooms and the present position, the one with the maximum separation, provided the
+/// evader reaches every door on its path before the pursuer.
 #[must_use]
 pub fn plan(problem: &PlanningProblem<'_>, agent: AgentId) -> Plan {
     let (me, other) = (Entity::Agent(agent), Entity::Agent(agent.other()));

@@ -1,8 +1,7 @@
 //! Keeping the other agent from its goal.
 //!
-//! For every candidate interference, the hinderer computes by A* what the other's best plan would then
-//! cost, and subtracts a share of its own travel. The estimate therefore accounts for doors, widths and
-//! strengths.
+//! For every candidate interference, the hinderer computes by A* the resulting cost of the other's best plan,
+//! and subtracts a share of its own travel. The estimate therefore accounts for doors, widths and strengths.
 
 use crate::{
     evasion,
@@ -44,7 +43,7 @@ pub fn plan(problem: &PlanningProblem<'_>, agent: AgentId, goal: Goal) -> Plan {
         }
         Goal::Touch { sign, .. } => vec![evade_or_pursue(problem, agent, sign)],
     };
-    // The first of equals, so that the order above decides ties.
+    // The first of equals, so that the order above breaks ties.
     let mut best: Option<(f32, Plan)> = None;
     for (value, plan) in candidates.drain(..) {
         if best.as_ref().is_none_or(|(highest, _)| value > *highest) {
@@ -54,8 +53,8 @@ pub fn plan(problem: &PlanningProblem<'_>, agent: AgentId, goal: Goal) -> Plan {
     best.map_or(Plan::STAY, |(_, plan)| plan)
 }
 
-/// Achieves what the other tries to avoid. An agent that is to be on a landmark against its own goal has to be pushed
-/// there.
+/// Achieves what the other tries to avoid. An agent that is to be on a landmark against its own goal has to
+/// be pushed there.
 fn achieve_unwanted(problem: &PlanningProblem<'_>, agent: AgentId, goal: Goal) -> Plan {
     let task = single_agent_task(problem, agent, goal, None);
     let subject = goal.subject();
@@ -90,7 +89,7 @@ fn evade_or_pursue(problem: &PlanningProblem<'_>, agent: AgentId, sign: Sign) ->
     (0.0, Plan { subgoals, distance: route.map_or(0.0, |route| route.length) })
 }
 
-/// Block a door on the other's way, or stand between it and its landmark.
+/// Block a door on the other's path, or stand between it and its landmark.
 fn obstruct_agent(
     problem: &PlanningProblem<'_>,
     agent: AgentId,
@@ -113,7 +112,7 @@ fn obstruct_agent(
     candidates
 }
 
-/// Each door on the other's way that the hinderer's body can close and that it can reach in time.
+/// Each door on the other's path that the hinderer's body can close and that it can reach in time.
 fn block_doors(
     problem: &PlanningProblem<'_>,
     agent: AgentId,
@@ -154,7 +153,7 @@ fn block_doors(
     candidates
 }
 
-/// The doors as the victim finds them when the hinderer stands in one.
+/// The doors as they are for the other agent when the hinderer stands in one.
 fn gaps_with_blocker(problem: &PlanningProblem<'_>, agent: AgentId, victim: AgentId, at: Vec2) -> Gaps {
     let mut gaps = *problem.gaps(victim, BodySet::OBJECTS);
     let half_width = 0.5 * problem.width(agent, None);
@@ -162,7 +161,7 @@ fn gaps_with_blocker(problem: &PlanningProblem<'_>, agent: AgentId, victim: Agen
     gaps
 }
 
-/// Take the object away, pull against the other, or failing that stand in the way.
+/// Take the object away, pull against the other, or otherwise obstruct the other.
 fn obstruct_object(
     problem: &PlanningProblem<'_>,
     agent: AgentId,
@@ -228,14 +227,14 @@ fn obstruct_object(
 }
 
 /// The present symbolic state with the hinderer's hands free, so that releasing does not appear effective
-/// only because holding is.
+/// merely because holding is.
 fn without_held_object(problem: &PlanningProblem<'_>, agent: AgentId) -> Node {
     let mut node = Node::start(problem);
     node.holds[agent] = None;
     node
 }
 
-/// What the other's best plan costs from a symbolic state, acting alone.
+/// The cost of the other's best plan from a symbolic state, acting alone.
 fn other_cost(
     problem: &PlanningProblem<'_>,
     other: AgentId,

@@ -1,17 +1,18 @@
-//! High-level planning in PHASE: what an agent should bring about next.
+//! High-level planning in PHASE: which subgoal an agent should achieve next.
 //!
 //! From one possible world (a belief particle) [`Planner::plan`] finds the agent's best plan: the physical
-//! state is reduced to a few named spots, doors, widths, forces and holds, A* searches the symbolic actions
-//! of one or both agents, and the agent's own part of the cheapest plan is put into predicates
-//! ([`Subgoal`](phase_model::Subgoal)). [`value::candidates`] then weighs the first subgoals of all particles (V with λ = 0.05).
+//! state is reduced to a few named locations, doors, widths, forces and grips, A* searches the symbolic
+//! actions of one or both agents, and the agent's own part of the cheapest plan is translated into predicates
+//! ([`Subgoal`](phase_model::Subgoal)). [`value::candidates`] then evaluates the first subgoals of all
+//! particles (V with λ = 0.05).
 //!
-//! Key design decision: nothing that can be attempted is pruned. A door that is too narrow or a load that is
-//! too heavy costs more than any detour. A weak agent without help still pulls at its load, as viewers
-//! expect. The cost is that the existence of a plan does not imply success; its cost does.
+//! Key design decision: no action that can be attempted is pruned. A door that is too narrow or a load that
+//! is too heavy costs more than any detour. A weak agent without help still pulls at its load, as viewers
+//! expect. The cost is that the existence of a plan does not imply its success; only a low plan cost does.
 //!
-//! This crate knows no physics engine: widths, forces and straight distances are all it uses, so it plans for
-//! whoever has a map. One agent is to get from the upper left room to the lower right one, where walls leave one
-//! way round:
+//! This crate does not depend on a physics engine: it uses only widths, forces and straight-line distances,
+//! so it can plan for any agent with a map. In this example one agent has to get from the upper left room to
+//! the upper right one, where walls leave a single path:
 //!
 //! ```
 //! use phase_model::{

@@ -1,4 +1,4 @@
-//! An agent's plan, and the parts that plans of all kinds are made of.
+//! An agent's plan, and the building blocks of plans of all kinds.
 
 use crate::{
     problem::PlanningProblem,
@@ -14,7 +14,7 @@ use phase_predicates::is_true;
 pub struct Plan {
     /// The agent's own subgoals in order. Empty when there is nothing for it to do.
     pub subgoals: Vec<Subgoal>,
-    /// Ĉ: distance that has to be travelled, by whoever travels in the plan, before the final goal state is
+    /// Ĉ: distance that has to be travelled, by all agents in the plan, before the final goal state is
     /// reached (u).
     pub distance: f32,
 }
@@ -30,7 +30,7 @@ impl Plan {
     }
 }
 
-/// The plan of going to an entity to see it.
+/// The plan of going to an entity in order to see it.
 pub(crate) fn inspect(problem: &PlanningProblem<'_>, agent: AgentId, entity: Entity) -> Plan {
     let me = Entity::Agent(agent);
     let (from, to) = (problem.state.position(me), problem.state.position(entity));
@@ -41,7 +41,7 @@ pub(crate) fn inspect(problem: &PlanningProblem<'_>, agent: AgentId, entity: Ent
         rooms(route, from, to, me, &mut subgoals);
     }
     subgoals.push(is(Predicate::Close(me, PredicateTarget::Entity(entity))));
-    // Close and yet unobserved means behind the agent's back: approaching it means turning round.
+    // Close and yet unobserved means behind the agent's back: approaching it means turning around.
     subgoals.push(is(Predicate::Touch(agent, entity)));
     drop_satisfied(problem, &mut subgoals);
     Plan { subgoals, distance: route.map_or(0.0, |route| route.cost()) }
@@ -59,7 +59,7 @@ pub(crate) fn drop_satisfied(problem: &PlanningProblem<'_>, subgoals: &mut Vec<S
     subgoals.drain(..done);
 }
 
-/// The plan of letting go of whatever is in hand and then staying.
+/// The plan of releasing whatever is held and then staying.
 #[must_use]
 pub(crate) fn release(problem: &PlanningProblem<'_>, agent: AgentId) -> Plan {
     problem.state.grips[agent].map_or(Plan::STAY, |grip| Plan {

@@ -1,4 +1,4 @@
-//! One agent's planner: which kind of plan its goal and attitude call for.
+//! One agent's planner: which kind of plan its goal and attitude require.
 
 use crate::{
     evasion, hindrance,
@@ -16,8 +16,8 @@ use phase_model::{
 };
 use phase_predicates::achieved;
 
-/// Effort weight of a helper's own travel relative to the helpee's: of two equally short plans it takes the
-/// one that spares the other.
+/// Effort weight of a helper's own travel relative to the helpee's: of two equally short plans it chooses the
+/// one with less travel for the other.
 const HELPER_EFFORT_WEIGHT: f32 = 0.5;
 
 /// A plan that costs this much contains something nearly impossible (u): see
@@ -48,7 +48,7 @@ impl Planner {
         Self { physics, routes: Routes::new(layout), agent, goals, attitude }
     }
 
-    /// The ways between rooms.
+    /// The routes between rooms.
     #[must_use]
     pub const fn routes(&self) -> &Routes {
         &self.routes
@@ -124,8 +124,8 @@ impl Planner {
         }
     }
 
-    /// A helper looks for the cheapest way in which both together reach the other's goal, and does its own
-    /// part of it; if the other does best alone, that part is nothing.
+    /// A helper searches for the cheapest plan in which both together achieve the other's goal, and does its
+    /// own part of it; if the other does best alone, that part is empty.
     fn help(&self, problem: &PlanningProblem<'_>, goal: Goal, observed: BodySet) -> Plan {
         if goal.sign() == Sign::Negative {
             return self.help_to_avoid(problem, goal);
@@ -144,7 +144,7 @@ impl Planner {
         }
     }
 
-    /// A negated goal of one's own: flight from the other, or keeping something off a landmark.
+    /// A negated goal of the agent itself: evading the other, or keeping something off a landmark.
     fn avoid(&self, problem: &PlanningProblem<'_>, goal: Goal) -> Plan {
         match goal {
             Goal::Touch { .. } => evasion::plan(problem, self.agent),
@@ -152,8 +152,9 @@ impl Planner {
         }
     }
 
-    /// What to do once the goal holds: let go of whatever is in hand, else nothing. An agent that believes an
-    /// object to be where it should be without observing it goes and looks. `None` while the goal does not hold.
+    /// What to do once the goal holds: release whatever is held, otherwise nothing. An agent that believes an
+    /// object to be in its goal position without observing it goes to verify that. `None` while the goal does
+    /// not hold.
     fn finish(&self, problem: &PlanningProblem<'_>, goal: Goal, observed: BodySet) -> Option<Plan> {
         if !achieved(problem.physics, problem.state, goal) {
             return None;

@@ -1,4 +1,5 @@
-//! A physical state as the high level sees it: a handful of named spots and what lies between them.
+//! A physical state as represented in the high-level planner: a few named locations and what lies between
+//! them.
 
 use crate::routes::{Gaps, Routes, point_in};
 use phase_model::{
@@ -6,7 +7,7 @@ use phase_model::{
     State, Vec2, arena, layout::SLOT_DIRECTIONS, physics::GROUND_FRICTION,
 };
 
-/// A place that can be named in a plan: where an entity is now, or a landmark's centre.
+/// A location that a plan can refer to: where an entity is now, or a landmark's centre.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum Location {
     /// Where an entity is in the physical state that the plan starts from.
@@ -22,7 +23,7 @@ pub enum Location {
     },
 }
 
-/// How far inside a room things lie that were passed through its door (u).
+/// Distance inside a room at which things lie that were passed through its door (u).
 const INSIDE: f32 = 1.2;
 
 /// Everything a plan from one physical state needs to know.
@@ -30,11 +31,11 @@ const INSIDE: f32 = 1.2;
 pub struct PlanningProblem<'a> {
     /// Walls, bodies and forces.
     pub physics: &'a PhysicsConfig,
-    /// The ways between rooms.
+    /// The routes between rooms.
     pub routes: &'a Routes,
     /// The physical state.
     pub state: &'a State,
-    /// What is passable of each door for each agent while a set of objects, the bits of the index, are still
+    /// The passable part of each door for each agent while a set of objects, the bits of the index, are still
     /// where they are now.
     gaps: [[Gaps; 1 << MAX_OBJECTS]; AGENT_COUNT],
     /// Which objects block a door for some agent at their current positions.
@@ -42,7 +43,7 @@ pub struct PlanningProblem<'a> {
 }
 
 impl<'a> PlanningProblem<'a> {
-    /// Works out which doors the objects obstruct.
+    /// Computes which doors the objects obstruct.
     #[must_use]
     pub fn new(physics: &'a PhysicsConfig, routes: &'a Routes, state: &'a State) -> Self {
         let gaps = AgentId::ALL.map(|agent| {
@@ -50,7 +51,7 @@ impl<'a> PlanningProblem<'a> {
                 let mut gaps = *routes.gaps();
                 for object in physics.objects().filter(|object| mask & 1 << object.index() != 0) {
                     let radius = physics.object_radii[object];
-                    // What is in hand is not put down before there is room to turn between it and the door.
+                    // A held object is not put down before there is room to turn between it and the door.
                     let in_hand = AgentId::ALL.into_iter().any(|holder| state.holds(holder, object));
                     let own = physics.agents[agent];
                     let reach = radius + if in_hand { own.width() } else { own.radius };
@@ -67,14 +68,14 @@ impl<'a> PlanningProblem<'a> {
         problem
     }
 
-    /// Whether an object, where it is now, narrows some door too much for an agent that would fit through it
-    /// otherwise.
+    /// Whether an object, where it is now, narrows some door too much for an agent that would otherwise fit
+    /// through it.
     #[must_use]
     pub const fn blocks_a_door(&self, object: ObjectId) -> bool {
         self.blockers[object.index()]
     }
 
-    /// Where a spot lies (u).
+    /// Position of a location (u).
     #[must_use]
     pub fn position(&self, location: Location) -> Vec2 {
         match location {
@@ -90,14 +91,14 @@ impl<'a> PlanningProblem<'a> {
         }
     }
 
-    /// The doors as an agent finds them while the objects in `unmoved` are still where they are now. Agents in the
-    /// set do not matter.
+    /// The doors as they are for an agent while the objects in `unmoved` are still where they are now. Agents
+    /// in the set are ignored.
     #[must_use]
     pub const fn gaps(&self, agent: AgentId, unmoved: BodySet) -> &Gaps {
         &self.gaps[agent.index()][object_bits(unmoved)]
     }
 
-    /// Width of an agent, with an object in hand or not (u).
+    /// Width of an agent, with or without a held object (u).
     #[must_use]
     pub fn width(&self, agent: AgentId, held: Option<ObjectId>) -> f32 {
         let own = self.physics.agents[agent].width();
@@ -110,8 +111,8 @@ impl<'a> PlanningProblem<'a> {
         self.physics.agents[agent].radius + self.physics.radius(Entity::Object(object))
     }
 
-    /// Force left over for moving an object when these agents hold it and pull the same way, each body's
-    /// ground friction taken off (N). The load moves only if it is positive.
+    /// Net force for moving an object when these agents hold it and pull in the same direction, each body's
+    /// ground friction subtracted (N). The load moves only if it is positive.
     #[must_use]
     pub fn net_force(&self, holders: [bool; AGENT_COUNT]) -> f32 {
         let mut net = -GROUND_FRICTION;
@@ -137,8 +138,8 @@ impl PlanningProblem<'_> {
     }
 }
 
-/// Takes a round obstacle out of every door that it lies in or before, leaving the wider remainder. An
-/// obstacle counts when the door's line is nearer to its centre than `reach` (u).
+/// Removes a round obstacle from every door that it lies in or before, leaving the wider remainder. An
+/// obstacle counts when the door's line is closer to its centre than `reach` (u).
 pub fn obstruct(gaps: &mut Gaps, centre: Vec2, radius: f32, reach: f32) {
     for (slot, direction) in SlotId::ALL.into_iter().zip(SLOT_DIRECTIONS) {
         let offset = centre - arena::CENTRE;

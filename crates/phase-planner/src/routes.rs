@@ -1,7 +1,7 @@
-//! Ways through rooms and doors, and how long they are.
+//! Routes through rooms and doors, and their lengths.
 //!
-//! Rooms are convex, so the shortest way between two points is a sequence of doors with a crossing point in
-//! each. The room graph says which sequences there are; a few passes of coordinate descent place the crossings.
+//! Rooms are convex, so the shortest path between two points is a sequence of doors with a crossing point in
+//! each. The room graph gives the possible sequences; a few passes of coordinate descent place the crossings.
 
 use petgraph::graph::{NodeIndex, UnGraph};
 use phase_model::{
@@ -9,15 +9,16 @@ use phase_model::{
     layout::{SLOT_DIRECTIONS, SLOT_ROOMS, room_of},
 };
 
-/// Added to a route's cost for each door that is too narrow or blocked for the body (u): more than any way
-/// round, so that such doors are a last resort, yet finite, so that an agent without a better way still tries.
+/// Added to a route's cost for each door that is too narrow or blocked for the body (u): more than any
+/// detour, so that such doors are a last resort, yet finite, so that an agent without a better route still
+/// tries.
 pub const IMPASSABLE_COST: f32 = 100.0;
-/// Room kept between a body and the edge of a door (u).
+/// Clearance between a body and the edge of a door (u).
 const CLEARANCE: f32 = 0.1;
 /// Longest sequence of doors without visiting a room twice.
 const MAX_DOORS: usize = 3;
 
-/// What is passable of each slot, as distances from the arena's centre (u); `None` where a wall or bodies
+/// The passable part of each slot, as distances from the arena's centre (u); `None` where walls or bodies
 /// leave nothing.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Gaps(pub [Option<(f32, f32)>; 4]);
@@ -30,19 +31,19 @@ impl Gaps {
     }
 }
 
-/// One way from a point to another.
+/// A route from one point to another.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Route {
     /// Length along the doors (u).
     pub length: f32,
-    /// Number of doors on the way that the body does not fit through.
+    /// Number of doors on the route that the body does not fit through.
     pub impassable: u8,
     doors: [(SlotId, Vec2); MAX_DOORS],
     door_count: u8,
 }
 
 impl Route {
-    /// The way between two points of a room.
+    /// The route between two points of a room.
     fn straight(from: Vec2, to: Vec2) -> Self {
         let doors = [(SlotId::UP, Vec2::ZERO); MAX_DOORS];
         Self { length: from.distance(to), impassable: 0, doors, door_count: 0 }
@@ -54,7 +55,7 @@ impl Route {
         self.length + IMPASSABLE_COST * f32::from(self.impassable)
     }
 
-    /// The doors on the way, by slot, with the point at which each is crossed (u).
+    /// The doors on the route, by slot, with the point at which each is crossed (u).
     #[must_use]
     pub fn doors(&self) -> &[(SlotId, Vec2)] {
         &self.doors[..usize::from(self.door_count)]
@@ -66,7 +67,7 @@ impl Route {
         self.doors().first().map(|&(_, point)| point)
     }
 
-    /// The point of this way, which leads between two ends, that is nearest to some point (u).
+    /// The point of this route, which leads between two ends, that is closest to some point (u).
     #[must_use]
     pub fn nearest(&self, from: Vec2, to: Vec2, point: Vec2) -> Vec2 {
         let mut nearest = from;
@@ -122,8 +123,8 @@ impl Routes {
         &self.gaps
     }
 
-    /// The cheapest way for a body of some width (u) when the doors have these gaps; `None` if walls
-    /// separate the two points altogether.
+    /// The cheapest route for a body of some width (u) when the doors have these gaps; `None` if walls
+    /// separate the two points completely.
     #[must_use]
     pub fn best(&self, from: Vec2, to: Vec2, width: f32, gaps: &Gaps) -> Option<Route> {
         let (here, there) = (room_of(from), room_of(to));
@@ -143,8 +144,8 @@ impl Routes {
         best
     }
 
-    /// Length of the cheapest way with its penalties (u); the straight distance plus penalties for all doors
-    /// if there is no way at all, so that it is always finite.
+    /// Length of the cheapest route with its penalties (u); the straight distance plus penalties for all
+    /// doors if there is no route at all, so that it is always finite.
     #[must_use]
     pub fn cost(&self, from: Vec2, to: Vec2, width: f32, gaps: &Gaps) -> f32 {
         self.best(from, to, width, gaps)
@@ -158,7 +159,7 @@ impl Routes {
         if a == room { b } else { a }
     }
 
-    /// A length that no way through several doors falls short of (u), at little cost.
+    /// A lower bound on the length of routes through several doors (u), cheap to compute.
     fn length_lower_bound(&self, sequence: &[SlotId], from: Vec2, to: Vec2) -> f32 {
         let near = |slot: &SlotId, point: Vec2| {
             let (low, high) = self.gaps.0[*slot].unwrap_or((0.0, 0.0));
@@ -197,7 +198,7 @@ impl Routes {
                 let before = if k == 0 { from } else { doors[k - 1].1 };
                 let after = if k + 1 == count { to } else { doors[k + 1].1 };
                 let slot = doors[k].0;
-                // Not clamp: rounding may leave a range of no width upside down.
+                // Not `clamp`: rounding may leave the ends of an interval of zero width in the wrong order.
                 let (low, high) = ranges[k];
                 doors[k].1 = point_in(slot, crossing(slot, before, after).max(low).min(high));
             }
@@ -224,7 +225,7 @@ fn door_sequences(graph: &UnGraph<(), SlotId>, from: NodeIndex, to: NodeIndex) -
         path.windows(2).filter_map(|pair| graph.find_edge(pair[0], pair[1]).map(|edge| graph[edge])).collect()
     })
     .collect();
-    // The order must not depend on how the graph library walks.
+    // The order must not depend on the traversal order of the graph library.
     sequences.sort_by_key(|sequence| (sequence.len(), sequence.clone()));
     sequences
 }

@@ -8,7 +8,7 @@ use crate::{
 /// A* needs a totally ordered cost; this many units make one world unit.
 const COST_RESOLUTION: f32 = 256.0;
 
-/// A symbolic plan: what is done in which symbolic state, in order, and what it all costs.
+/// A symbolic plan: operators with the symbolic states they are applied in, in order, and the total cost.
 #[derive(Clone, Debug)]
 pub struct SymbolicPlan {
     /// Each operator with the symbolic state it is applied in.
@@ -20,10 +20,10 @@ pub struct SymbolicPlan {
 }
 
 /// The cheapest sequence of operators from a symbolic state to one where the task is done; `None` if there is
-/// none, as when nobody acts.
+/// none, as when no agent acts.
 ///
-/// Where the heuristic is no lower bound, a second search without it finds out whether there is a cheaper plan.
-/// Of equally cheap plans the one that the heuristic leads to is taken.
+/// Where the heuristic is not a lower bound, a second search without it determines whether there is a cheaper
+/// plan. Of equally cheap plans the one found with the heuristic is returned.
 #[must_use]
 pub fn solve(task: &Task<'_>, start: Node) -> Option<SymbolicPlan> {
     let (mut nodes, mut cost) = search(task, &start, |node| (task.heuristic(node) * COST_RESOLUTION) as u32)?;
@@ -47,8 +47,8 @@ pub fn solve(task: &Task<'_>, start: Node) -> Option<SymbolicPlan> {
     Some(SymbolicPlan { steps, end, cost: cost as f32 / COST_RESOLUTION })
 }
 
-/// A* with a heuristic in its units: symbolic states on the way and the cost. A state is opened again when a
-/// cheaper way to it turns up, so the heuristic need not be consistent.
+/// A* with a heuristic in its units: symbolic states on the path and the cost. A state is reopened when a
+/// cheaper path to it is found, so the heuristic need not be consistent.
 fn search(task: &Task<'_>, start: &Node, heuristic: impl Fn(&Node) -> u32) -> Option<(Vec<Node>, u32)> {
     pathfinding::prelude::astar(
         start,
@@ -58,7 +58,7 @@ fn search(task: &Task<'_>, start: &Node, heuristic: impl Fn(&Node) -> u32) -> Op
     )
 }
 
-/// A cost in A*'s units, rounded up so that a lower bound stays one. Not a number counts as very far.
+/// A cost in A*'s units, rounded up so that a lower bound remains one. NaN counts as very far.
 fn quantise(cost: f32) -> u32 {
     libm::ceilf(cost.clamp(0.0, 1e6) * COST_RESOLUTION) as u32
 }

@@ -3,12 +3,12 @@
 use crate::problem::{Location, PlanningProblem};
 use phase_model::{AGENT_COUNT, AgentId, BodySet, Entity, LandmarkId, MAX_OBJECTS, ObjectId, RoomId, SlotId};
 
-/// A symbolic state of the search: positions are spots.
+/// A symbolic state of the search: positions are locations.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Node {
     /// Where each agent is.
     pub agents: [Location; AGENT_COUNT],
-    /// Where each object is; with its holders, if any.
+    /// Where each object is, and its holders, if any.
     pub objects: [Location; MAX_OBJECTS],
     /// What each agent holds.
     pub holds: [Option<ObjectId>; AGENT_COUNT],
@@ -46,53 +46,53 @@ impl Node {
 pub enum Operator {
     /// Go to where an object is.
     Approach {
-        /// Who.
+        /// The agent.
         agent: AgentId,
         /// The object.
         object: ObjectId,
     },
     /// Go to where the other agent is.
     Meet {
-        /// Who.
+        /// The agent.
         agent: AgentId,
     },
-    /// Go to a landmark, hands free.
+    /// Go to a landmark, with free hands.
     Go {
-        /// Who.
+        /// The agent.
         agent: AgentId,
         /// The landmark.
         landmark: LandmarkId,
     },
-    /// Take hold of an object.
+    /// Grasp an object.
     Grab {
-        /// Who.
+        /// The agent.
         agent: AgentId,
         /// The object.
         object: ObjectId,
     },
-    /// Move a held object, and with it everyone who holds it, to a landmark.
+    /// Move a held object, and with it all agents that hold it, to a landmark.
     Carry {
-        /// Who leads.
+        /// The leading agent.
         agent: AgentId,
         /// The object.
         object: ObjectId,
-        /// Where to.
+        /// The destination.
         landmark: LandmarkId,
     },
-    /// Bring an object to a door that one does not fit through oneself, push it through and let go.
+    /// Bring an object to a door that its holder does not fit through, push it through and release it.
     Pass {
-        /// Who.
+        /// The agent.
         agent: AgentId,
         /// The object.
         object: ObjectId,
         /// The slot of the door.
         slot: SlotId,
-        /// The room that the object comes to lie in.
+        /// The room that the object ends up in.
         room: RoomId,
     },
-    /// Let go.
+    /// Release the object held.
     Release {
-        /// Who.
+        /// The agent.
         agent: AgentId,
         /// The object.
         object: ObjectId,

@@ -10,7 +10,7 @@ use phase_model::{
     layout::{SLOT_ROOMS, room_of},
 };
 
-/// Cost of grabbing or letting go (u of travel).
+/// Cost of grabbing or releasing (u of travel).
 const GRASP_COST: f32 = 1.0;
 /// Added when the holders are too weak to move an object, so that carrying it is the last resort.
 const IMMOVABLE_COST: f32 = 60.0;
@@ -22,22 +22,22 @@ const CARRYING_FORCE_SCALE: f32 = 100.0;
 /// A goal to be reached by some agents' actions.
 #[derive(Clone, Copy, Debug)]
 pub struct Task<'a> {
-    /// Where everything is.
+    /// The planning problem.
     pub problem: &'a PlanningProblem<'a>,
-    /// What is to hold in the end; its sign is taken as positive.
+    /// The goal; its sign is taken as positive.
     pub goal: Goal,
     /// Which agents act.
     pub actors: [bool; AGENT_COUNT],
     /// Effort weight of each agent's travel: 1 in full, less for an agent willing to travel more.
     pub effort_weights: [f32; AGENT_COUNT],
-    /// Whether both agents pull the same way when both hold an object.
+    /// Whether both agents pull in the same direction when both hold an object.
     pub cooperative: bool,
     /// Doors narrowed for one agent by something that is not an object, such as the other agent's body.
     pub narrowed: Option<(AgentId, Gaps)>,
 }
 
 impl Task<'_> {
-    /// Whether the goal holds in a symbolic state and no actor has its hands full.
+    /// Whether the goal holds in a symbolic state and no acting agent holds anything.
     #[must_use]
     pub fn is_done(&self, node: &Node) -> bool {
         let reached = match self.goal {
@@ -52,8 +52,9 @@ impl Task<'_> {
         reached && AgentId::ALL.into_iter().all(|agent| !self.actors[agent] || node.holds[agent].is_none())
     }
 
-    /// An estimate of the cost still to come (u): the straight distance of what has to move, at the effort of the
-    /// agent to whom travel costs least. [`Task::heuristic_is_admissible`] says whether it is a lower bound.
+    /// An estimate of the remaining cost (u): the straight distance that the subject has to move, at the
+    /// lowest effort weight among the agents. [`Task::heuristic_is_admissible`] states whether it is a lower
+    /// bound.
     #[must_use]
     pub fn heuristic(&self, node: &Node) -> f32 {
         let distance =
@@ -72,27 +73,28 @@ impl Task<'_> {
 
     /// Whether [`Task::heuristic`] never exceeds the cost of the cheapest plan from a symbolic state.
     ///
-    /// It never does for an object that is to be on a landmark. Let e be the lesser effort. Only two operators
-    /// move the object. `Carry` costs at least e times the length of a route between the object's spots, since
-    /// the longest way of object and holders counts, slowness is at least 1 and penalties are not negative; so
-    /// it costs at least what it takes off the heuristic. `Pass` is charged for the way to the near side of a
-    /// door and leaves the object on the far side, 2.4 u further on, for 2 u of handling; so it falls short by
-    /// 0.4 u at most, as e ≤ 1. It also ends its agent's hold. A pass never ends a plan, so after k ≥ 1 of them
-    /// the object has been in k + 1 holds at least. At most two of these existed at the start, the others cost
-    /// 1 u each to take, and the last costs 1 u to let go of, as only agents with free hands are done and only
-    /// when both agents act is there a `Pass`. That adds up to k u, which is more than 0.4 k u. Costs are
-    /// rounded up and the heuristic down, both to whole units of the search.
+    /// It never does for an object that is to be on a landmark. Let e be the lesser effort weight. Only two
+    /// operators move the object. `Carry` costs at least e times the length of a route between the object's
+    /// locations, since the longest path of object and holders counts, the slowness factor is at least 1 and
+    /// penalties are not negative; so it costs at least the decrease of the heuristic. `Pass` is charged for
+    /// the path to the near side of a door and leaves the object on the far side, 2.4 u further on, for 2 u
+    /// of handling; so it falls short by at most 0.4 u, as e ≤ 1. It also ends its agent's grip. A pass never
+    /// ends a plan, so after k ≥ 1 of them there have been at least k + 1 grips of the object. At most two of
+    /// these existed at the start; each other one costs 1 u for grasping, and the last costs 1 u for
+    /// releasing, as only agents with free hands are done and `Pass` exists only when both agents act. The
+    /// total is k u, which is more than 0.4 k u. Costs are rounded up and the heuristic down, both to whole
+    /// units of the search.
     ///
-    /// It may for an agent that is to be somewhere. Approaching an object costs the way less the arm's length
-    /// that agent and object are apart when they touch, yet leaves the agent at the object's own spot; carrying
-    /// credits holders likewise. A way by one or two objects, or with one in hand, can therefore cost several
-    /// units less than the straight line.
+    /// It may for an agent that is to be somewhere. Approaching an object costs the path less the arm's
+    /// length between agent and object when they touch, yet leaves the agent at the object's own location;
+    /// carrying credits holders likewise. A path via one or two objects, or with one held, can therefore cost
+    /// several units less than the straight line.
     #[must_use]
     pub const fn heuristic_is_admissible(&self) -> bool {
         matches!(self.goal, Goal::ObjectOnLandmark { .. })
     }
 
-    /// Everything the actors can do next: operator, symbolic state after it, cost (u).
+    /// All possible next actions of the acting agents: operator, symbolic state after it, cost (u).
     #[must_use]
     pub fn successors(&self, node: &Node) -> Vec<(Operator, Node, f32)> {
         let mut successors = Vec::with_capacity(12);
@@ -228,7 +230,7 @@ impl Task<'_> {
             }
             let here = room_of(self.problem.position(node.objects[object]));
             for (near, neighbour_across) in [(a, b), (b, a)] {
-                // What lies beyond the door already is only to be let go of.
+                // An object already beyond the door only has to be released.
                 if here == neighbour_across {
                     continue;
                 }
@@ -248,8 +250,8 @@ impl Task<'_> {
         }
     }
 
-    /// The object of the goal is carried to where it belongs, or, when both agents act, anywhere to be handed
-    /// over; an object in the way is carried out of the way.
+    /// The object of the goal is carried to its landmark, or, when both agents act, anywhere to be handed
+    /// over; an obstructing object is carried away.
     fn may_place(&self, object: ObjectId, landmark: LandmarkId) -> bool {
         match self.goal {
             Goal::ObjectOnLandmark { object: wanted, landmark: goal, .. } if wanted == object => {
@@ -269,7 +271,7 @@ impl Task<'_> {
         let net = if self.cooperative || holders != [true; AGENT_COUNT] {
             self.problem.net_force(holders)
         } else {
-            // The other pulls the other way.
+            // The other agent pulls in the opposite direction.
             let mut alone = [false; AGENT_COUNT];
             alone[agent] = true;
             self.problem.net_force(alone) - self.problem.physics.agents[agent.other()].max_force
@@ -296,7 +298,7 @@ impl Task<'_> {
     }
 
     /// Whether an agent stands at an object that still blocks a door. It may be on either side of it, so
-    /// walking on as if past it would be a way through the blocked door.
+    /// continuing as if past it would be a path through the blocked door.
     fn is_at_blocking_object(&self, node: &Node, agent: AgentId) -> bool {
         self.problem.physics.objects().any(|object| {
             let location = Location::Current(Entity::Object(object));
@@ -306,7 +308,8 @@ impl Task<'_> {
         })
     }
 
-    /// The doors as an agent finds them in a symbolic state; an object it holds or heads for is no obstacle.
+    /// The doors as they are for an agent in a symbolic state; an object it holds or heads for is not an
+    /// obstacle.
     pub(crate) fn gaps(&self, node: &Node, agent: AgentId, ignored: Option<ObjectId>) -> Gaps {
         if let Some((narrowed, gaps)) = self.narrowed
             && narrowed == agent

@@ -1,4 +1,4 @@
-//! A symbolic plan in the words of the subgoal space.
+//! Translation of a symbolic plan into subgoals.
 
 use crate::{
     plan::{Plan, drop_satisfied, is, not, rooms},
@@ -10,7 +10,7 @@ use crate::{
 };
 use phase_model::{AgentId, Entity, ObjectId, Predicate, PredicateTarget, Subgoal};
 
-/// One agent's own part of a symbolic plan in the words of the subgoal space, and how far all have to travel.
+/// One agent's own part of a symbolic plan as subgoals, and the distance that all agents have to travel.
 #[must_use]
 pub(crate) fn to_subgoals(task: &Task<'_>, plan: &SymbolicPlan, agent: AgentId) -> Plan {
     let mut subgoals = Vec::with_capacity(8);
@@ -56,7 +56,7 @@ pub(crate) fn to_subgoals(task: &Task<'_>, plan: &SymbolicPlan, agent: AgentId) 
     Plan { subgoals, distance }
 }
 
-/// Distance travelled in one operator, whoever travels (u).
+/// Distance travelled in one operator, by whichever agent (u).
 fn travel(task: &Task<'_>, node: &Node, operator: Operator) -> f32 {
     match operator {
         Operator::Approach { agent, object } => task.distance(node, agent, None, node.objects[object]),
@@ -73,8 +73,8 @@ fn travel(task: &Task<'_>, node: &Node, operator: Operator) -> f32 {
     }
 }
 
-/// The rooms on the way to a spot, as Close(·, landmark) subgoals for the agent or for what it carries. Rooms
-/// that the straight way passes through anyway are not worth a subgoal.
+/// The rooms on the path to a location, as Close(·, landmark) subgoals for the agent or for its load. Rooms
+/// that the straight line passes through anyway do not become subgoals.
 fn go(
     task: &Task<'_>,
     node: &Node,

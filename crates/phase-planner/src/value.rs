@@ -6,7 +6,7 @@ use phase_model::Subgoal;
 /// λ of the paper: weight of the cost against the share of particles.
 pub const LAMBDA: f64 = 0.05;
 
-/// A subgoal that is the best of some particles.
+/// A subgoal that is the best for some particles.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Candidate {
     /// The subgoal h.

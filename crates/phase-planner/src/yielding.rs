@@ -16,9 +16,9 @@ const CLEARANCE: f32 = 0.4;
 /// An agent that obstructs the other agent's path to a landmark.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct PathObstruction {
-    /// The nearest point of the other's way (u).
+    /// The closest point of the other's path (u).
     pub nearest: Vec2,
-    /// The place beside that way to step to (u).
+    /// The place beside that path to step to (u).
     pub place: Vec2,
 }
 

@@ -1,4 +1,4 @@
-//! Plans in hand-made situations: own goals, help and hindrance of each kind.
+//! Plans in hand-made situations: own goals, and each kind of help and hindrance.
 
 mod support;
 
@@ -26,7 +26,7 @@ fn one_walks_to_a_landmark_directly_where_nothing_is_in_the_way() {
 
 #[test]
 fn one_walks_round_a_wall_room_by_room() {
-    // Full wall between rooms 0 and 1, so from 0 to 1 by way of 3 and 2.
+    // Full wall between rooms 0 and 1, so the path from 0 to 1 leads through 3 and 2.
     let setup = Setup { layout: layout(2, None), goals: [agent_on(0, 1), agent_on(1, 0)], ..plain() };
     assert_eq!(
         setup.words(0),
@@ -113,7 +113,7 @@ fn one_clears_an_object_out_of_a_door_when_one_can() {
     assert_eq!(words.last().map(String::as_str), Some("On(agent 0, landmark 0)"), "{words:?}");
 }
 
-/// Each kind of help: what the helper (agent 0) does first.
+/// Each kind of help: the first subgoal of the helper (agent 0).
 #[test]
 fn helpers_help() {
     let help = |setup: Setup| Setup { attitudes: [Attitude::Help, Attitude::Neutral], ..setup };
@@ -192,12 +192,12 @@ fn helpers_stay_out_of_the_way_when_not_needed() {
         ..plain()
     };
     assert_eq!(walking(Vec2::new(23.0, 15.0)).plan(0).first(), Subgoal::Stay);
-    // Nor does one stay where the other wants to be.
+    // Nor does an agent stay where the other intends to go.
     for on_its_way in [Vec2::new(8.5, 19.0), Vec2::new(9.5, 16.0), Vec2::new(8.0, 9.0)] {
         let first = walking(on_its_way).plan(0).first();
         assert_eq!(first.to_string(), "not On(agent 0, landmark 0)", "{on_its_way}");
     }
-    // Behind the other, or well beside its way, one is in nobody's way.
+    // An agent behind the other, or well beside its path, does not obstruct it.
     for elsewhere in [Vec2::new(9.0, 3.5), Vec2::new(12.5, 17.0)] {
         assert_eq!(walking(elsewhere).plan(0).first(), Subgoal::Stay, "{elsewhere}");
     }
@@ -210,7 +210,7 @@ fn helpers_stay_out_of_the_way_when_not_needed() {
         ..plain()
     };
     assert_eq!(carrying.plan(0).first(), Subgoal::Stay);
-    // Who wants the very same and can do nothing for it leaves the door to the other.
+    // An agent with the same goal that cannot contribute to it leaves the door to the other.
     let met = Setup {
         layout: layout(4, None),
         agents: [(Large, Weak, Vec2::new(7.25, 11.4)), (Small, Mighty, Vec2::new(8.0, 17.0))],
@@ -237,7 +237,8 @@ fn one_steps_beside_the_others_way() {
     assert!(found.place.x > 8.5 + 2.4, "to the side it is on: {found:?}");
 }
 
-/// Holding what does not fit nearer than its arm is long must not look like a reason to let go and take it anew.
+/// Holding an object that does not fit closer than the arm's length must not look like a reason to release it
+/// and grasp it again.
 #[test]
 fn whoever_holds_an_object_carries_it() {
     let setup = Setup {
@@ -250,7 +251,7 @@ fn whoever_holds_an_object_carries_it() {
     assert_eq!(setup.words(0)[0], "On(object 0, landmark 1)");
 }
 
-/// Each kind of hindrance: what the hinderer (agent 0) does first.
+/// Each kind of hindrance: the first subgoal of the hinderer (agent 0).
 #[test]
 fn hinderers_hinder() {
     let cases = [
@@ -326,7 +327,7 @@ fn hinderers_hinder() {
 
 #[test]
 fn a_stolen_object_goes_where_the_other_does_not_fit() {
-    // Room 0 of layout 21 has only a narrow door, and the victim is big.
+    // Room 0 of layout 21 has only a narrow door, and the other agent is large.
     let setup = Setup {
         layout: layout(21, None),
         agents: [(Small, Strong, Vec2::new(8.0, 10.0)), (Huge, Strong, Vec2::new(20.0, 8.0))],

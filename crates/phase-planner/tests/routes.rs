@@ -1,4 +1,4 @@
-//! Ways through doors against lengths worked out by hand.
+//! Routes through doors compared with lengths computed by hand.
 
 use phase_model::{Layout, SlotId, Vec2};
 use phase_planner::{Routes, problem::obstruct, routes::IMPASSABLE_COST};
@@ -23,7 +23,7 @@ fn a_narrow_door_is_crossed_in_its_middle() {
     let routes = narrow();
     let (from, to) = (Vec2::new(14.0, 14.0), Vec2::new(14.0, 10.0));
     let route = routes.best(from, to, 2.4, routes.gaps()).unwrap();
-    // The gap of 2.5 leaves a body 2.4 wide nothing to choose: x = 7.25.
+    // The gap of 2.5 leaves a body of width 2.4 no choice: x = 7.25.
     let crossing = Vec2::new(7.25, 12.0);
     assert!((route.length - 2.0 * from.distance(crossing)).abs() < 0.2, "{}", route.length);
     assert_eq!(route.impassable, 0);
@@ -51,7 +51,7 @@ fn the_shorter_way_round_is_taken() {
 #[test]
 fn obstacles_narrow_doors() {
     let routes = narrow();
-    // (centre, radius, reach, what is left of the left slot's door, from 7.5 to 10)
+    // (centre, radius, reach, remaining part of the left slot's door, from 7.5 to 10)
     let cases = [
         (Vec2::new(7.25, 12.0), 0.8, 1.6, Some((7.5_f32, 7.95_f32))),
         (Vec2::new(8.5, 12.0), 0.8, 1.6, Some((8.3, 10.0))),

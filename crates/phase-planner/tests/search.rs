@@ -1,6 +1,6 @@
-//! A* against Dijkstra's algorithm on random problems.
+//! A* compared with Dijkstra's algorithm on random problems.
 //!
-//! `PHASE_SEARCH_PROBLEMS` sets how many problems are tried.
+//! `PHASE_SEARCH_PROBLEMS` sets the number of problems.
 
 mod problems;
 
@@ -17,13 +17,13 @@ use proptest::{
 };
 use std::collections::HashMap;
 
-/// Problems tried unless the environment says otherwise.
+/// Default number of problems.
 const PROBLEMS: usize = 4000;
 /// Costs are compared in units of this many to one world unit, rounded up.
 const COST_RESOLUTION: f32 = 256.0;
 
-/// Every symbolic state that can be reached, by the cost of each operator, and a last node to which all states
-/// lead in which the task is done.
+/// Every reachable symbolic state, with edges weighted by the cost of each operator, and a final node
+/// connected to all states in which the task is done.
 struct Reachable {
     graph: DiGraph<Option<Node>, u32>,
     start: NodeIndex,
@@ -53,7 +53,7 @@ impl Reachable {
         Self { graph, start: first, end }
     }
 
-    /// The least cost from each state to the end.
+    /// The minimum cost from each state to the end.
     fn remaining(&self) -> HashMap<NodeIndex, u32> {
         dijkstra(Reversed(&self.graph), self.end, None, |edge| *edge.weight()).into_iter().collect()
     }
@@ -92,6 +92,6 @@ fn no_plan_is_cheaper_and_admissible_heuristics_are_lower_bounds() {
     println!(
         "{solved} of {count} problems have a plan; {misleading} states are nearer than the heuristic says"
     );
-    // The problems are of the kind that the second search is for.
+    // The problems are of the kind that requires the second search.
     assert!(solved > count / 2 && misleading > 0);
 }

@@ -1,4 +1,4 @@
-//! V(B, h, g) by hand.
+//! V(B, h, g) computed by hand.
 
 use phase_model::{AgentId, Entity, LandmarkId, Literal, Predicate, Subgoal};
 use phase_planner::{Plan, value::candidates};

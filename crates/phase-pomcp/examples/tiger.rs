@@ -1,8 +1,8 @@
-//! A problem of one's own, stated and solved: the tiger behind one of two doors (Kaelbling, Littman &
+//! Definition and solution of a custom problem: the tiger behind one of two doors (Kaelbling, Littman &
 //! Cassandra 1998).
 //!
-//! The problem is the `impl` block, the solution is `one_episode`; a table then shows what whole episodes earn
-//! with growing numbers of simulations. Run it with
+//! The problem is the `impl` block, the solution is `one_episode`; a table then shows the returns of whole
+//! episodes with growing numbers of simulations. Run it with
 //! `cargo run --release -p phase-pomcp --example tiger -- [EPISODES [SEED]]`.
 
 mod support;
@@ -13,13 +13,13 @@ use support::Problem;
 
 const NAMES: [&str; 3] = ["listen", "open left", "open right"];
 
-/// Listening costs 1 and is right 85 times in 100; the tiger's door costs 100, the other earns 10, and either
-/// starts the problem anew.
+/// Listening costs 1 and is correct 85 times in 100; the tiger's door costs 100, the other earns 10, and
+/// either restarts the problem.
 struct Tiger;
 
 impl GenerativeModel for Tiger {
     type State = bool; // whether the tiger is on the left
-    type Observation = Option<bool>; // whether it was heard there; nothing is heard while opening a door
+    type Observation = Option<bool>; // whether it was heard there; nothing is heard when a door is opened
 
     fn action_count(&self) -> usize {
         NAMES.len()
@@ -39,7 +39,7 @@ impl GenerativeModel for Tiger {
         Transition { observation: None, reward, terminal: false }
     }
 
-    /// Opening doors blindly says nothing of what a belief is worth, so rollouts only listen.
+    /// Opening doors blindly says nothing about the value of a belief, so rollouts only listen.
     fn rollout_action(&self, _: &bool, _: &mut impl Rng) -> usize {
         0
     }
@@ -51,8 +51,8 @@ impl Problem for Tiger {
     }
 }
 
-/// The tiger's worst return sets the scale of values, some −130 to 20, on which a listening that pays is but a
-/// hundredth better than one that does not; a small exploration rate tells them apart.
+/// The tiger's worst return sets the scale of values, about −130 to 20, on which a listening action that pays
+/// is only a hundredth better than one that does not; a small exploration rate distinguishes them.
 const SETTINGS: PomcpSettings = PomcpSettings {
     stop_when_decided: false,
     simulations: 1000,
@@ -71,7 +71,7 @@ fn main() -> Result<(), PomcpError> {
     Ok(())
 }
 
-/// Shows what is done in one episode, and why.
+/// Prints the actions of one episode and their explanations.
 fn one_episode(seed: u64) -> Result<(), PomcpError> {
     let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(seed);
     let mut pomcp = Pomcp::new(PomcpSettings { simulations: 4096, ..SETTINGS })?;

@@ -1,14 +1,13 @@
 //! The result of a search.
 
-/// The chosen action with the evidence for it.
+/// The chosen action with the statistics that support it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Decision {
-    /// The action to take: the most visited at the root; among equals the one of greater value, then of
-    /// smaller index.
+    /// The action to take: the most visited at the root; ties are broken by larger value, then smaller index.
     pub action: usize,
-    /// The evidence for every action, by action index.
+    /// The statistics of every action, by action index.
     pub actions: Vec<ActionStatistics>,
-    /// What the search cost.
+    /// The cost of the search.
     pub effort: SearchStatistics,
 }
 
@@ -36,18 +35,18 @@ impl Decision {
 /// Statistics of the simulations that began with one action.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ActionStatistics {
-    /// How many simulations began with it.
+    /// Number of simulations that began with it.
     pub visits: usize,
     /// The mean of their discounted returns, in the reward's unit; 0 where there were none.
     pub value: f64,
 }
 
-/// What one search cost.
+/// The cost of one search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct SearchStatistics {
-    /// Histories in the tree at the end, the root among them.
+    /// Histories in the final tree, including the root.
     pub histories: usize,
-    /// The longest way from the root that a simulation went by selection, in actions; rollouts not counted.
+    /// The longest path from the root that a simulation took by selection, in actions; rollouts not counted.
     pub depth: usize,
     /// Steps of the model, rollouts included.
     pub steps: usize,

@@ -1,17 +1,17 @@
-//! Everything that can be wrong with a search.
+//! Errors of a search.
 
 use thiserror::Error;
 
 /// Why a search could not be set up or finished.
 ///
-/// A failed search leaves its [`Pomcp`](crate::Pomcp) fit for the next one.
+/// A failed search leaves its [`Pomcp`](crate::Pomcp) usable for the next one.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PomcpError {
-    /// The settings ask for no simulation at all.
+    /// The settings specify zero simulations.
     #[error("`simulations` is 0; a decision needs at least one")]
     ZeroSimulations,
-    /// The settings forbid even the first step.
+    /// The settings do not allow even the first step.
     #[error("`horizon` is 0; a decision looks at least one step ahead")]
     ZeroHorizon,
     /// The PUCT constants are outside their ranges.
@@ -22,13 +22,13 @@ pub enum PomcpError {
         /// The rejected visit scale.
         c_base: f64,
     },
-    /// There is no particle to start from.
+    /// There is no root particle.
     #[error("the belief has no particles; give at least one root state")]
     NoRoots,
-    /// The model offers nothing to do.
+    /// The model has no actions.
     #[error("the model has no actions; `action_count` must be at least 1")]
     NoActions,
-    /// The tree could outgrow its 32-bit indices.
+    /// The tree could exceed its 32-bit indices.
     #[error("{simulations} simulations of {action_count} actions could need more than 2^32 nodes; use fewer")]
     TooLarge {
         /// Simulations per search.
@@ -36,42 +36,42 @@ pub enum PomcpError {
         /// The model's number of actions.
         action_count: usize,
     },
-    /// The model's discount is not a weight.
+    /// The model's discount is not in the valid range.
     #[error("`discount` is {discount}; it must lie in 0..=1")]
     InvalidDiscount {
         /// The rejected discount.
         discount: f64,
     },
-    /// A step earned an infinity or a NaN.
+    /// The reward of a step is infinite or NaN.
     #[error("action {action} earned {reward}; every reward must be finite")]
     NonFiniteReward {
         /// The action taken.
         action: usize,
-        /// What the model said it earned.
+        /// The reward that the model returned.
         reward: f64,
     },
-    /// The value of a simulation's last state is an infinity or a NaN.
+    /// The value estimate of a simulation's last state is infinite or NaN.
     #[error("`value_estimate` said {estimate}; it must be finite")]
     NonFiniteEstimate {
-        /// What the model said.
+        /// The value that the model returned.
         estimate: f64,
     },
-    /// The rewards are finite, but their sum is beyond what can be averaged.
+    /// The rewards are finite, but their sum is too large to be averaged.
     #[error("a simulation's return is {value}, too large to average; scale the rewards down")]
     ReturnOverflow {
         /// The return.
         value: f64,
     },
-    /// A prior weight is negative, infinite or NaN, or the weights of a history are all zero or sum to more
-    /// than can be represented.
+    /// A prior weight is negative, infinite or NaN, or the weights of a history are all zero or their sum
+    /// overflows.
     #[error("prior weight {weight} (or sum {sum}) must be finite and not negative, the sum positive")]
     InvalidPrior {
-        /// The weight last asked for.
+        /// The last weight queried.
         weight: f64,
         /// The sum of the history's weights up to it.
         sum: f64,
     },
-    /// The default policy named an action that is not there.
+    /// The default policy returned an invalid action.
     #[error("`rollout_action` chose {action}, but there are only {action_count} actions")]
     RolloutActionOutOfRange {
         /// The action it chose.

@@ -1,12 +1,13 @@
 //! POMCP with PUCT over any generative model.
 //!
-//! A problem says what one step does ([`GenerativeModel`]); [`Pomcp`] looks ahead by simulating, from
-//! particles of a belief, and says what to do and why ([`Decision`]). The tree search is POMCP (Silver &
-//! Veness 2010), its selection the PUCT of AlphaZero (Silver et al. 2018) with the constants of the PHASE
-//! paper's appendix. It knows nothing of PHASE, of physics or of how beliefs are kept.
+//! A problem defines the result of one step ([`GenerativeModel`]); [`Pomcp`] looks ahead by simulating from
+//! the particles of a belief, and returns an action with its statistics ([`Decision`]). The tree search is
+//! POMCP (Silver & Veness 2010), its selection the PUCT of AlphaZero (Silver et al. 2018) with the constants
+//! of the PHASE paper's appendix. It does not depend on PHASE, on physics or on the representation of
+//! beliefs.
 //!
-//! A problem of one's own takes ten lines. A coin lies under one of two cups; guessing (actions 0 and 1) earns
-//! 1 if right and ends it, peeking (action 2) costs 0.1 and shows the coin:
+//! A custom problem takes ten lines. A coin lies under one of two cups; guessing (actions 0 and 1) earns 1 if
+//! correct and ends the problem, peeking (action 2) costs 0.1 and reveals the coin:
 //!
 //! ```
 //! use phase_pomcp::{GenerativeModel, Transition, Pomcp, PomcpSettings};
@@ -33,27 +34,29 @@
 //! # Ok::<(), phase_pomcp::PomcpError>(())
 //! ```
 //!
-//! The hidden lines import `rand`, name the problem (`struct Cups;`) and seed a generator. `examples/tiger.rs` and
-//! `examples/rocksample` play whole episodes, with a belief of particles between the real steps.
+//! The hidden lines import `rand`, declare the problem (`struct Cups;`) and seed a generator.
+//! `examples/tiger.rs` and `examples/rocksample` simulate whole episodes, with a particle belief between the
+//! real steps.
 //!
-//! # The one key decision
+//! # Key design decision
 //!
-//! The tree branches on histories of own actions **and observations**, compared by equality, and holds no
-//! states. So a plan can react to what it will see, which is what makes looking worth its cost, and the whole
-//! tree is three flat vectors of a few words per node that are reused from search to search. Only where a model says
-//! that nothing in it is left to chance does a search keep the states it came to, and takes no step of the tree twice.
+//! The tree branches on histories of own actions **and observations**, compared by equality, and contains no
+//! states. So a plan can react to future observations, which gives information gathering its value, and the
+//! whole tree is three flat vectors of a few words per node that are reused from search to search. Only for a
+//! model that declares itself deterministic does a search keep the states it reached, and computes no step of
+//! the tree twice.
 //!
-//! The price: the model must give observations coarse enough for simulations to meet again, for the tree
-//! cannot tell near from far; branches of an action are searched one after another, fine for dozens and slow
-//! for thousands; and a search starts afresh, as updating the belief by the particles of a subtree, which
-//! POMCP offers, is left to whoever keeps the belief.
+//! The trade-off: the model must return observations coarse enough for simulations to meet again, since the
+//! tree has no notion of similar observations; branches of an action are searched linearly, fine for dozens
+//! and slow for thousands; and every search starts from an empty tree, as updating the belief by the
+//! particles of a subtree, which POMCP offers, is left to the owner of the belief.
 //!
 //! # Determinism
 //!
-//! A search is a function of its settings, model, particles and generator, to the last bit: nothing iterates
-//! over hashes, nothing reads a clock, and the logarithm is that of the `libm` crate on every platform.
+//! A search is a function of its settings, model, particles and generator, to the last bit: it does not
+//! iterate over hashes or read a clock, and the logarithm is that of the `libm` crate on every platform.
 //!
-//! # Where it departs from the sources
+//! # Deviations from the sources
 //!
 //! PUCT is undefined for actions never tried while the parent has no visits: here every action of a history
 //! is tried once, in random order, before they are compared. A search may end once it is decided, see

@@ -1,4 +1,4 @@
-//! Which action to try next: PUCT, and the scale it sees values on.
+//! PUCT selection, and the normalisation of values.
 
 use crate::PomcpSettings;
 
@@ -16,10 +16,10 @@ pub fn score(value: f64, prior: f64, exploration: f64, visits: u32) -> f64 {
     value + prior * exploration / (1.0 + f64::from(visits))
 }
 
-/// The smallest and the greatest mean value that any action in the tree has had so far.
+/// The minimum and maximum mean value of any action in the tree so far.
 ///
-/// Means, not single returns, as in MuZero: the scale is to tell actions apart, and one unlucky rollout deep
-/// in an average would only squeeze them together.
+/// Means, not single returns, as in MuZero: the scale has to distinguish actions, and one unlucky rollout
+/// deep in an average would only compress it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ValueRange {
     min: f64,
@@ -27,17 +27,17 @@ pub struct ValueRange {
 }
 
 impl ValueRange {
-    /// The range of no values.
+    /// The empty range.
     pub const EMPTY: Self = Self { min: f64::INFINITY, max: f64::NEG_INFINITY };
 
-    /// Widens the range to hold `value`.
+    /// Extends the range to include `value`.
     pub fn include(&mut self, value: f64) {
         self.min = self.min.min(value);
         self.max = self.max.max(value);
     }
 
-    /// Maps a value within the range to 0..=1; to 0 where the range is a single value or empty, since then
-    /// nothing distinguishes one action from another.
+    /// Maps a value within the range to 0..=1; to 0 where the range is a single value or empty, since it then
+    /// distinguishes no actions.
     pub fn normalise(&self, value: f64) -> f64 {
         if self.max > self.min { (value - self.min) / (self.max - self.min) } else { 0.0 }
     }

@@ -1,4 +1,4 @@
-//! The planner and its memory: one search from the question to the decision.
+//! The planner and its memory: one search from root particles to a decision.
 
 use rand::{Rng, RngExt};
 
@@ -11,8 +11,8 @@ use crate::{ActionStatistics, Decision, GenerativeModel, PomcpError, PomcpSettin
 /// of type `O`.
 ///
 /// Every search starts from an empty tree, and its result depends on the settings, the model, the particles
-/// and the generator alone: not on what was searched before. Only the memory is kept, so that from the first
-/// few searches on a search allocates its [`Decision`] and one copy of a state, and nothing per simulation; of a
+/// and the generator alone, not on earlier searches. Only the memory is reused, so that after the first few
+/// searches a search allocates its [`Decision`] and one copy of a state, and nothing per simulation; for a
 /// [deterministic](GenerativeModel::is_deterministic) model, a copy of every state in the tree.
 #[derive(Debug, Clone)]
 pub struct Pomcp<O> {
@@ -36,16 +36,16 @@ impl<O: Eq> Pomcp<O> {
         &self.settings
     }
 
-    /// Finds what to do when the present is one of `roots`, all equally likely.
+    /// Finds the action to take when the present state is one of `roots`, all equally likely.
     ///
-    /// Each simulation draws one of them, follows PUCT down the tree, grows the tree by the first history it
-    /// does not know, plays the default policy from there, and averages the discounted return into every
-    /// action it chose on the way. Actions never tried at a history are sampled uniformly, so that each is
+    /// Each simulation samples one of them, follows PUCT down the tree, adds the first history that is not in
+    /// the tree yet, follows the default policy from there, and backs up the discounted return to every
+    /// action it chose on the path. Actions never tried at a history are sampled uniformly, so that each is
     /// tried once before PUCT compares them.
     ///
     /// # Errors
-    /// [`PomcpError::NoRoots`], [`PomcpError::NoActions`] and [`PomcpError::TooLarge`] for what cannot be
-    /// searched; the other kinds for a model that breaks one of its promises.
+    /// [`PomcpError::NoRoots`], [`PomcpError::NoActions`] and [`PomcpError::TooLarge`] for invalid inputs;
+    /// the other kinds for a model that violates its contract.
     pub fn search<M>(
         &mut self,
         model: &M,
@@ -91,7 +91,7 @@ fn checked_action_count(model: &impl GenerativeModel, simulations: usize) -> Res
     if action_count == 0 {
         return Err(PomcpError::NoActions);
     }
-    // A simulation grows at most one history and gives at most one its actions.
+    // A simulation adds at most one history and expands at most one.
     let most_nodes = simulations.checked_add(1).and_then(|histories| histories.checked_mul(action_count));
     if most_nodes.is_none_or(|most| most >= u32::MAX as usize) {
         return Err(PomcpError::TooLarge { simulations, action_count });

@@ -2,39 +2,40 @@
 
 use crate::PomcpError;
 
-/// How much to search, and how.
+/// Effort and parameters of a search.
 ///
 /// The defaults are those of the PHASE paper's appendix: 1000 simulations, 10 rollout steps, c_init 1.25 and
 /// c_base 1000.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PomcpSettings {
-    /// Simulations per search, one or more; each grows the tree by at most one history. Fewer are run where
+    /// Simulations per search, one or more; each adds at most one history to the tree. Fewer are run where
     /// `stop_when_decided` allows it.
     pub simulations: usize,
-    /// Steps of the default policy played from a newly grown leaf. Zero values a leaf by
+    /// Steps of the default policy from a new leaf. With zero, a leaf is evaluated by
     /// [`value_estimate`](crate::GenerativeModel::value_estimate) alone.
     pub rollout_steps: usize,
     /// The exploration rate of PUCT at few visits; finite, zero or more.
     pub c_init: f64,
     /// The number of visits on the scale of which the exploration rate starts to grow; finite, above zero.
     pub c_base: f64,
-    /// The greatest number of steps from the root that a simulation takes, tree and rollout together; one or
-    /// more. With it the search solves the problem of exactly that many steps. [`usize::MAX`], the default,
-    /// is no bound: every simulation goes to its leaf and `rollout_steps` beyond.
+    /// The maximum number of steps from the root in a simulation, tree and rollout together; one or more.
+    /// With it the search solves the problem with exactly that horizon. [`usize::MAX`], the default, is no
+    /// bound: every simulation goes to its leaf and `rollout_steps` beyond.
     pub horizon: usize,
-    /// Whether selection first maps values to 0..1 by the smallest and greatest value in the tree, as MuZero
+    /// Whether selection first maps values to 0..1 by the minimum and maximum value in the tree, as MuZero
     /// does (Schrittwieser et al. 2020, appendix B).
     ///
-    /// PUCT adds an exploration term of order one to the value, which is meant for values in 0..1. Where a
-    /// step earns 0.01, say, an unscaled value would never be heard over that term and the search would
-    /// spread evenly over all actions; where it earns 100, the term would never be heard. Reported values are
-    /// never mapped.
+    /// PUCT adds an exploration term of order one to the value, which is intended for values in 0..1. If a
+    /// step earns 0.01, say, an unscaled value would be negligible compared with that term and the search
+    /// would be spread uniformly over all actions; if it earns 100, the term would be negligible. Reported
+    /// values are never mapped.
     ///
-    /// The price: a rare disaster anywhere in the tree sets the scale for all other values. Where returns
-    /// range far wider than the differences that matter, take a smaller `c_init` or more simulations.
+    /// The trade-off: a rare disaster anywhere in the tree sets the scale for all other values. Where the
+    /// range of returns is far wider than the differences that matter, use a smaller `c_init` or more
+    /// simulations.
     pub normalise_values: bool,
-    /// Whether a search ends as soon as the simulations left could not make any other action the most
-    /// visited, even if all of them began with it. The action chosen is the one that all simulations would
+    /// Whether a search ends as soon as the remaining simulations could not make any other action the most
+    /// visited, even if all of them began with it. The chosen action is the one that all simulations would
     /// have chosen; visits and values are those of the simulations that were run.
     pub stop_when_decided: bool,
 }
@@ -54,7 +55,7 @@ impl Default for PomcpSettings {
 }
 
 impl PomcpSettings {
-    /// Checks every number against its stated range.
+    /// Checks every parameter against its stated range.
     ///
     /// # Errors
     /// [`PomcpError::ZeroSimulations`], [`PomcpError::ZeroHorizon`] or [`PomcpError::InvalidExploration`].

@@ -1,4 +1,4 @@
-//! One simulation: down the tree, one history more, a rollout, and back up.
+//! One simulation: selection, expansion, rollout and backup.
 
 use rand::Rng;
 
@@ -6,7 +6,7 @@ use crate::puct::ValueRange;
 use crate::tree::{ActionId, HistoryId, Tree};
 use crate::{GenerativeModel, PomcpError, PomcpSettings};
 
-/// What the simulations of one search share.
+/// The data shared by the simulations of one search.
 pub(crate) struct Simulation<'a, M: GenerativeModel> {
     pub(crate) model: &'a M,
     pub(crate) settings: &'a PomcpSettings,
@@ -14,7 +14,7 @@ pub(crate) struct Simulation<'a, M: GenerativeModel> {
     pub(crate) discount: f64,
     pub(crate) tree: &'a mut Tree<M::Observation>,
     pub(crate) path: &'a mut Vec<PathStep>,
-    /// Where every history of the tree leads and what its last step earned, if that is always the same.
+    /// The next state and reward of every history of the tree, for a deterministic model.
     pub(crate) known: Option<Vec<(M::State, f64)>>,
     pub(crate) range: ValueRange,
     /// The longest path so far.
@@ -35,14 +35,14 @@ pub(crate) struct PathStep {
 const RETURN_LIMIT: f64 = f64::MAX / 4.0;
 
 impl<M: GenerativeModel> Simulation<'_, M> {
-    /// Runs one simulation from `state`, which it uses up.
+    /// Runs one simulation from `state`, which it consumes.
     pub(crate) fn run(&mut self, state: &mut M::State, random: &mut impl Rng) -> Result<(), PomcpError> {
         let rest = self.descend(state, random)?;
         self.depth = self.depth.max(self.path.len());
         self.back_up(rest)
     }
 
-    /// Follows the tree down to its edge, leaving the way in `path`, and returns what was earned beyond it.
+    /// Follows the tree down to a leaf, stores the path in `path`, and returns the return beyond it.
     fn descend(&mut self, state: &mut M::State, random: &mut impl Rng) -> Result<f64, PomcpError> {
         self.path.clear();
         let mut history = HistoryId::ROOT;
@@ -107,7 +107,7 @@ impl<M: GenerativeModel> Simulation<'_, M> {
         Ok(total + weight * self.estimate(state)?)
     }
 
-    /// Counts a step of the model and checks what it earned.
+    /// Counts a step of the model and checks its reward.
     fn check(&mut self, action: usize, reward: f64) -> Result<(), PomcpError> {
         self.steps += 1;
         if reward.is_finite() { Ok(()) } else { Err(PomcpError::NonFiniteReward { action, reward }) }
@@ -118,7 +118,7 @@ impl<M: GenerativeModel> Simulation<'_, M> {
         if estimate.is_finite() { Ok(estimate) } else { Err(PomcpError::NonFiniteEstimate { estimate }) }
     }
 
-    /// Averages what was earned from each step of the path on into that step's action, the last step first.
+    /// Averages the return from each step of the path on into that step's action, the last step first.
     fn back_up(&mut self, rest: f64) -> Result<(), PomcpError> {
         let mut value = rest;
         for step in self.path.iter().rev() {

@@ -14,18 +14,18 @@ pub(crate) struct HistoryId(u32);
 pub(crate) struct ActionId(u32);
 
 impl HistoryId {
-    /// The history of nothing done and nothing seen yet.
+    /// The empty history.
     pub(crate) const ROOT: Self = Self(0);
 
-    /// Histories are numbered from 0 in the order in which they are grown.
+    /// Histories are numbered from 0 in the order in which they are added.
     pub(crate) fn index(self) -> usize {
         self.0 as usize
     }
 }
 
-/// Histories of own actions and observations, with what was earned after them.
+/// Histories of own actions and observations, with the returns after them.
 ///
-/// The caller sees to it that histories × actions stays within 32 bits.
+/// The caller ensures that histories × actions fits 32 bits.
 #[derive(Debug, Clone)]
 pub(crate) struct Tree<O> {
     histories: Vec<History>,
@@ -33,7 +33,7 @@ pub(crate) struct Tree<O> {
     branches: Vec<Branch<O>>,
 }
 
-/// A point reached by acting and observing. Its actions lie side by side; they are added when the history is
+/// A node reached by actions and observations. Its actions are contiguous; they are added when the history is
 /// reached for the second time, since most leaves never are.
 #[derive(Debug, Clone, Copy)]
 struct History {
@@ -46,14 +46,14 @@ struct History {
 #[derive(Debug, Clone, Copy)]
 struct Action {
     visits: u32,
-    /// The newest of the branches grown after this action, or [`NONE`].
+    /// The newest of the branches added after this action, or [`NONE`].
     branch: u32,
     value: f64,
     prior: f64,
 }
 
-/// An observation made after an action, and the history it leads to. An action's branches form a chain, so
-/// that growing one moves no other and needs no vector of its own.
+/// An observation made after an action, and the history it leads to. An action's branches form a linked list,
+/// so that adding one does not move any other and needs no separate vector.
 #[derive(Debug, Clone)]
 struct Branch<O> {
     observation: O,
@@ -68,7 +68,7 @@ impl<O: Eq> Tree<O> {
         Self { histories: Vec::new(), actions: Vec::new(), branches: Vec::new() }
     }
 
-    /// Cuts the tree back to an untouched root.
+    /// Resets the tree to an unvisited root.
     pub(crate) fn reset(&mut self) {
         self.histories.clear();
         self.actions.clear();
@@ -84,7 +84,7 @@ impl<O: Eq> Tree<O> {
         self.histories[history.0 as usize].action_count > 0
     }
 
-    /// Gives a leaf its actions, whose priors are proportional to `weights`.
+    /// Expands a leaf with its actions, whose priors are proportional to `weights`.
     pub(crate) fn add_actions(
         &mut self,
         history: HistoryId,
@@ -113,8 +113,8 @@ impl<O: Eq> Tree<O> {
         Ok(())
     }
 
-    /// Which action to try next after a history that has actions: while there are actions never tried, one
-    /// of them, drawn evenly; afterwards the one of greatest PUCT score, of smallest index among equals.
+    /// The next action to try after an expanded history: while there are actions never tried, one of them,
+    /// uniformly sampled; afterwards the one with the maximum PUCT score, of smallest index among equals.
     pub(crate) fn select(
         &self,
         history: HistoryId,
@@ -146,7 +146,7 @@ impl<O: Eq> Tree<O> {
         ActionId(self.histories[history.0 as usize].first_action + action as u32)
     }
 
-    /// The history that an observation after an action leads to, and whether it had to be grown.
+    /// The history that an observation after an action leads to, and whether it had to be added.
     pub(crate) fn child(&mut self, action: ActionId, observation: O) -> (HistoryId, bool) {
         let newest = self.actions[action.0 as usize].branch;
         let mut next = newest;
@@ -164,13 +164,13 @@ impl<O: Eq> Tree<O> {
         (HistoryId(child), true)
     }
 
-    /// The history grown last after an action.
+    /// The history added last after an action.
     pub(crate) fn newest_child(&self, action: ActionId) -> Option<HistoryId> {
         let branch = self.branches.get(self.actions[action.0 as usize].branch as usize)?;
         Some(HistoryId(branch.child))
     }
 
-    /// Counts one more visit that earned `value` from here on, and returns the action's new mean.
+    /// Counts one more visit with return `value`, and returns the action's new mean.
     pub(crate) fn record(&mut self, history: HistoryId, action: ActionId, value: f64) -> f64 {
         let node = &mut self.histories[history.0 as usize];
         let action = &mut self.actions[action.0 as usize];
@@ -189,7 +189,7 @@ impl<O: Eq> Tree<O> {
         actions.iter().map(|action| (action.visits, action.value))
     }
 
-    /// Whether the most visited action at the root stays that whatever the next `left` simulations do.
+    /// Whether the most visited action at the root remains so whatever the next `left` simulations do.
     pub(crate) fn is_decided(&self, left: usize) -> bool {
         let (mut most, mut second) = (0, 0);
         for (visits, _) in self.evidence(HistoryId::ROOT) {

@@ -1,4 +1,4 @@
-//! On, Touch, Attach and Close: the words in which PHASE agents plan.
+//! On, Touch, Attach and Close: the predicates with which PHASE agents plan.
 //!
 //! A physical [`State`](phase_model::State) becomes a [`SymbolicState`], the set of predicates true in it
 //! (paper, appendix "Predicates, Symbolic States, Goals, and Subgoals"). Goals and subgoals are
@@ -24,10 +24,10 @@
 //! assert!(!symbolic.holds(Predicate::Touch(agent, Entity::Agent(agent.other()))));
 //! ```
 //!
-//! The key design decision is that *Close to a landmark* means *in the landmark's room*. The paper says "within
-//! a certain distance" and gives no number; with the room as that distance, going through a door is a change
-//! of one predicate, and symbolic plans can speak of rooms without a fifth kind of predicate. The price is
-//! that two points a hand's breadth apart on either side of a border are close to different landmarks.
+//! Key design decision: *Close to a landmark* means *in the landmark's room*. The paper defines it as "within
+//! a certain distance" without a number; with the room as that distance, passing through a door changes one
+//! predicate, and symbolic plans can refer to rooms without a fifth kind of predicate. The trade-off is that
+//! two nearby points on either side of a border are close to different landmarks.
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]

@@ -41,7 +41,7 @@ impl SymbolicState {
         Self::predicates().filter(move |&predicate| self.holds(predicate))
     }
 
-    /// Every predicate there is, for the greatest number of entities.
+    /// All predicates, for the maximum number of entities.
     pub fn predicates() -> impl Iterator<Item = Predicate> {
         let entities = || Entity::ALL.into_iter();
         let landmarks = || LandmarkId::ALL.into_iter();
@@ -60,7 +60,7 @@ impl SymbolicState {
     }
 }
 
-/// Each predicate's own bit; Close is symmetric, Touch of two agents is not stored twice.
+/// The bit of each predicate; Close is symmetric, Touch of two agents is not stored twice.
 const fn bit(predicate: Predicate) -> usize {
     match predicate {
         Predicate::On(entity, landmark) => entity.index() * 4 + landmark.index(),

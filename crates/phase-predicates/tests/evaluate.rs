@@ -24,7 +24,7 @@ fn state(positions: [Vec2; 3]) -> State {
     State::new(bodies)
 }
 
-/// Three places well apart, none near a landmark.
+/// Three positions well apart, none near a landmark.
 const APART: [Vec2; 3] = [Vec2::new(15.0, 13.0), Vec2::new(17.5, 6.0), Vec2::new(20.0, 15.0)];
 
 #[test]
@@ -92,7 +92,7 @@ fn touch_and_attach() {
     state.grips[1] = Some(Grip { object: ObjectId::ZERO, side: Side::Tail, relative_angle: 0.0 });
     assert!(holds(&physics(), &state, Predicate::Attach(AgentId::ONE, ObjectId::ZERO)));
     assert!(!holds(&physics(), &state, Predicate::Attach(AgentId::ZERO, ObjectId::ZERO)));
-    // What is attached is felt.
+    // Attached objects are felt.
     assert!(holds(&physics(), &state, touch(AgentId::ONE, Entity::Object(ObjectId::ZERO))));
 }
 

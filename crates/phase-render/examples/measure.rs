@@ -1,4 +1,4 @@
-//! Draws and encodes a made-up event of 500 frames, and prints time per frame and the size of the video.
+//! Draws and encodes a synthetic event of 500 frames, and prints time per frame and the size of the video.
 //!
 //! With a directory as argument it leaves `plain.mp4`, `belief.mp4`, `plain.png`, `belief.png`, `both.png` (accessible
 //! palette) and `sheet.png` there, to look at.
@@ -93,7 +93,7 @@ fn run(
     Ok((frames, mp4))
 }
 
-/// Agent 0 fetches object 1 from the bottom right; agent 1 wanders to and fro; object 0 is pushed a bit.
+/// Agent 0 fetches object 1 from the bottom right; agent 1 wanders back and forth; object 0 is pushed a bit.
 fn event(frame: usize) -> State {
     let time = frame as f32 / FRAMES as f32;
     let swing = |rate: f32| libm::sinf(2.0 * PI * rate * time);
@@ -123,7 +123,7 @@ fn cone(body: &Body) -> CellSet {
         .collect()
 }
 
-/// A made-up particle: the other agent and object 0 lie somewhere else.
+/// A synthetic particle: the other agent and object 0 lie somewhere else.
 fn guess(state: &State, particle: usize, agent: AgentId) -> State {
     let mut guess = *state;
     let spread = particle as f32 * 2.399;

@@ -43,7 +43,7 @@ pub(crate) fn draw(painter: &mut Painter, palette: &Palette, physics: &PhysicsCo
     }
 }
 
-/// Draws one body faintly, as something believed and not known.
+/// Draws one body faintly, as believed rather than known.
 pub(crate) fn draw_believed(
     painter: &mut Painter,
     palette: &Palette,

@@ -32,7 +32,7 @@ pub enum RenderError {
         /// Height asked for (pixels).
         height: u32,
     },
-    /// The frame rate of a video is 0 or beyond reason.
+    /// The frame rate of a video is 0 or too high.
     #[error("frames per second must be 1 to 120, not {0}")]
     FrameRate(u32),
     /// A frame differs in size from the video or from the other frames of a contact sheet.
@@ -65,10 +65,10 @@ pub enum RenderError {
     /// The embedded font could not be parsed.
     #[error("the embedded font cannot be parsed")]
     Font,
-    /// There is no such layout to draw.
+    /// The layout to draw does not exist.
     #[error(transparent)]
     Layout(#[from] phase_model::LayoutError),
-    /// The video encoder gave nothing for a frame.
+    /// The video encoder returned nothing for a frame.
     #[error("the video encoder skipped frame {0}")]
     SkippedFrame(usize),
     /// The video encoder failed.

@@ -5,10 +5,10 @@
 //! play and seek in. With an [`Overlay`] a frame also shows what one agent sees and believes, and
 //! [`side_by_side`] joins the views of both. Text is drawn in an embedded font ([`SizedFont`]); colours are a [`Palette`].
 //!
-//! The key design decision is that the pixels are the whole interface: drawing and encoding meet in a
-//! [`Frame`] and know nothing of each other, and neither touches a file or a clock. Everything is drawn and
-//! encoded on one thread in a fixed order, so the same states make the same bytes. The price is that a frame
-//! costs a full picture in memory, and that one video cannot use more than one core; many videos can.
+//! Key design decision: pixels are the whole interface. Drawing and encoding meet in a [`Frame`] and do not
+//! depend on each other, and neither accesses a file or a clock. Everything is drawn and encoded on one
+//! thread in a fixed order, so the same states give the same bytes. The trade-off is that a frame costs a
+//! full picture in memory, and that one video cannot use more than one core; many videos can.
 //!
 //! ```
 //! use phase_model::{AgentBody, Body, PhysicsConfig, State, Vec2};

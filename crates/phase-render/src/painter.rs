@@ -33,7 +33,7 @@ impl View {
     }
 }
 
-/// A picture being drawn. Shapes with a number that is not finite leave no trace.
+/// A picture being drawn. Shapes with a value that is not finite are not drawn.
 pub(crate) struct Painter {
     pub(crate) pixmap: Pixmap,
     pub(crate) view: View,
@@ -110,8 +110,8 @@ impl Painter {
     }
 }
 
-/// Fills a rectangle with its upper left corner at a pixel and so many pixels wide and high, as far as it lies
-/// in the picture.
+/// Fills a rectangle with its upper left corner at a pixel and the given width and height in pixels, as far
+/// as it lies in the picture.
 pub(crate) fn fill(
     pixmap: &mut Pixmap,
     (left, top): (u32, u32),

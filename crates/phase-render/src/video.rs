@@ -13,9 +13,9 @@ use openh264::{
 use std::io::Write;
 
 /// Turns frames into an H.264 (constrained baseline, 4:2:0, BT.709) .mp4 that starts playing before it is
-/// fully loaded. Every two seconds a picture stands on its own, so that seeking is quick.
+/// fully loaded. There is a key frame every two seconds, so that seeking is quick.
 ///
-/// Equal frames make equal bytes: one thread, constant quality, no clock.
+/// Equal frames give equal bytes: one thread, constant quality, no clock.
 ///
 /// Nothing is written before [`VideoEncoder::finish`]; an encoder that is dropped leaves its writer as it
 /// was. Until then the encoded pictures are kept in memory (a few hundred bytes each).
@@ -125,7 +125,7 @@ impl<W: Write> VideoEncoder<W> {
     }
 }
 
-/// Constant quality, regular key frames, and none of the encoder's own ideas about either.
+/// Constant quality, regular key frames, and no scene-dependent decisions of the encoder about either.
 fn config(frames_per_second: u32) -> EncoderConfig {
     EncoderConfig::new()
         .profile(Profile::Baseline)

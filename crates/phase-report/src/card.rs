@@ -12,7 +12,7 @@ use phase_model::EventKind;
 const PAGE: &str = "| `index.html` | opens in a browser, offline, and shows every video with its labels |\n";
 const VIDEOS: &str = "| `videos/<id>.mp4` | H.264, 20 frames a second, five frames a step |\n";
 
-/// The dataset's file for people: what it is, how it was made, what is in it, and its licence.
+/// The dataset's file for people: what it is, how it was generated, what it contains, and its licence.
 #[must_use]
 pub fn card(manifest: &Manifest, command: &str) -> String {
     let has_videos = manifest.events.iter().any(|event| event.video.is_some());
@@ -63,7 +63,7 @@ pub fn card(manifest: &Manifest, command: &str) -> String {
     )
 }
 
-/// Whether anything has checked that events show their labels.
+/// Whether events were checked to show their labels.
 const fn selected(manifest: &Manifest) -> &'static str {
     if manifest.selection.is_empty() {
         "Nothing has checked that it shows."
@@ -81,7 +81,7 @@ pub const fn about() -> &'static str {
      subgoals and a video."
 }
 
-/// What programs read: licence, size, and which files make up which split.
+/// Metadata for programs: licence, size, and which files make up which split.
 fn front_matter(manifest: &Manifest) -> String {
     let size = match manifest.events.len() {
         0..1_000 => "n<1K",
@@ -95,7 +95,7 @@ fn front_matter(manifest: &Manifest) -> String {
         let name = split.name();
         files.push_str(&format!("  - split: {name}\n    path: {FOLDER}/{name}-*.parquet\n"));
     }
-    // JSON strings are YAML strings, whatever is in them.
+    // JSON strings are valid YAML strings.
     let name = serde_json::Value::from(format!("PHASE events: {}", manifest.preset));
     format!(
         "---\npretty_name: {name}\nlicense:\n- mit\n- apache-2.0\nlanguage:\n- en\nsize_categories:\n- {size}\n\

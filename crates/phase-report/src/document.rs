@@ -32,7 +32,7 @@ pub enum Block {
 pub struct Document {
     /// Its title.
     pub title: String,
-    /// What it says.
+    /// Its contents.
     pub blocks: Vec<Block>,
 }
 

@@ -1,17 +1,18 @@
-//! What people read of PHASE datasets and evaluations: plots, pages, cards and tables.
+//! Reports on PHASE datasets and evaluations for people: plots, pages, cards and tables.
 //!
 //! - [`plot`] draws bar charts and curves as SVG; [`document`] builds a text with tables and plots, as Markdown and
 //!   as a page that opens offline.
 //! - [`evaluation`] reports how well a method, or a benchmark of many, perceives events, beside the [`published`]
 //!   results.
-//! - [`gallery`] is a dataset's page with every video, [`card`] its dataset card, [`mod@statistics`] the paper's
-//!   figures beside its own, and [`acceptance`] and [`summary`] are tables of how it was made and how simulations
-//!   compare with recordings.
+//! - [`gallery`] is a dataset's page with every video, [`card`] its dataset card, [`mod@statistics`] the
+//!   paper's figures compared with its own, and [`acceptance`] and [`summary`] are tables of how it was
+//!   generated and how simulations compare with recordings.
 //!
-//! The key design decision is that a report is a function from data to text: measures are computed by `phase-eval`,
-//! files are written by the command line, and nothing here knows how an event was simulated. So the same numbers
-//! serve programs (as JSON) and people (as pages), and a page can be tested as text. The price is that pages and
-//! plots are assembled by hand, without a template engine or a plotting library, and whole pages are held in memory.
+//! Key design decision: a report is a function from data to text. Measures are computed by `phase-eval`,
+//! files are written by the command line, and nothing here depends on how an event was simulated. So the same
+//! numbers serve programs (as JSON) and people (as pages), and a page can be tested as text. The trade-off is
+//! that pages and plots are assembled manually, without a template engine or a plotting library, and whole
+//! pages are held in memory.
 //!
 //! # Example
 //!

@@ -1,6 +1,6 @@
 //! Text inside HTML, SVG and scripts.
 
-/// Text made safe between tags and inside quoted attributes.
+/// Text escaped for use between tags and inside quoted attributes.
 #[must_use]
 pub fn escape(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
@@ -17,7 +17,7 @@ pub fn escape(text: &str) -> String {
     safe
 }
 
-/// JSON made safe inside a script element: `<` occurs only within strings, where it may be spelled otherwise.
+/// JSON escaped for use inside a script element: `<` occurs only within strings, where it can be escaped.
 #[must_use]
 pub fn escape_script(json: &str) -> String {
     json.replace('<', "\\u003c").replace('\u{2028}', "\\u2028").replace('\u{2029}', "\\u2029")

@@ -1,4 +1,4 @@
-//! Bar charts and curves as SVG, which every browser shows and every paper takes.
+//! Bar charts and curves as SVG, for browsers and papers.
 
 use crate::markup::escape;
 use std::fmt::Write as _;
@@ -9,8 +9,8 @@ const LABELS: usize = 210;
 const BARS: usize = 420;
 const TOP: usize = 44;
 
-/// A chart with one horizontal bar for each name, its number behind it. `unit` stands behind every number; bars of
-/// numbers that are not finite or negative are empty.
+/// A chart with one horizontal bar for each name, its value behind it. `unit` follows every value; bars of
+/// values that are not finite or negative are empty.
 #[must_use]
 pub fn bars(title: &str, unit: &str, rows: &[(String, f64)]) -> String {
     let (width, height) = (LABELS + BARS + 90, TOP + ROW * rows.len() + 12);
@@ -50,7 +50,7 @@ pub struct Axis<'a> {
     scale: Scale,
 }
 
-/// How numbers lie along an axis.
+/// The scale of an axis.
 #[derive(Clone, Copy, PartialEq, Debug)]
 enum Scale {
     Linear { step: f64, steps: usize },
@@ -58,11 +58,11 @@ enum Scale {
 }
 
 impl<'a> Axis<'a> {
-    /// An axis from 0 to a number above 0, or somewhat further to the next mark, evenly; marks are at round numbers. The
-    /// name tells the unit too.
+    /// A linear axis from 0 to a value above 0, or somewhat further to the next mark; marks are at round
+    /// values. The name includes the unit.
     #[must_use]
     pub fn linear(name: &'a str, to: f64) -> Self {
-        // Steps of numbers beyond these are 0 or infinite.
+        // Steps between values beyond these are 0 or infinite.
         let to = if to.is_finite() && to > 0.0 { to.clamp(1e-300, 1e300) } else { 1.0 };
         let least = to / MAX_TICKS as f64;
         let power = libm::pow(10.0, libm::log10(least).floor());
@@ -74,27 +74,27 @@ impl<'a> Axis<'a> {
         Self { name, scale: Scale::Linear { step, steps } }
     }
 
-    /// An axis between two numbers above 0, on which doubling is always the same way.
+    /// A logarithmic axis between two values above 0.
     #[must_use]
     pub const fn logarithmic(name: &'a str, from: f64, to: f64) -> Self {
         Self { name, scale: Scale::Logarithmic { from, to } }
     }
 
-    /// Where a number lies, from 0 to 1.
+    /// Position of a value, from 0 to 1.
     fn place(&self, number: f64) -> f64 {
         let place = match self.scale {
             Scale::Linear { step, steps } => number / (step * steps as f64),
             Scale::Logarithmic { from, to } => libm::log2(number / from) / libm::log2(to / from),
         };
-        // With both ends alike everything lies at the one place there is.
+        // If both ends are equal, every value has the same position.
         if place.is_nan() { 0.0 } else { place.clamp(0.0, 1.0) }
     }
 
-    /// The numbers written along it.
+    /// The values written along it.
     fn ticks(&self) -> Vec<f64> {
         match self.scale {
             Scale::Linear { step, steps } => (0..=steps).map(|k| step * k as f64).collect(),
-            // Between what is no number above 0 there is nothing to write.
+            // If a limit is not a number above 0, nothing is written.
             Scale::Logarithmic { from, to } if from > 0.0 && to >= from => {
                 let doublings = libm::log2(to / from).min(16.0) as u32;
                 (0..=doublings).map(|k| from * f64::from(1_u32 << k)).collect()
@@ -119,9 +119,9 @@ const MARGIN: f64 = 64.0;
 /// Room for the names of lines beside the field (px): at least, and for each letter.
 const MIN_LEGEND_WIDTH: f64 = 100.0;
 const CHARACTER_WIDTH: f64 = 7.0;
-/// Colours of lines, which are told apart by people who see few colours too.
+/// Colours of lines, chosen to be distinguishable with a colour vision deficiency too.
 const COLOURS: [&str; 7] = ["#4477aa", "#cc6677", "#888888", "#228833", "#aa3377", "#66ccee", "#ccbb44"];
-/// Marks along an axis at the most, beside that at 0.
+/// Maximum number of marks along an axis, beside that at 0.
 const MAX_TICKS: usize = 5;
 
 /// A chart with two axes, x and y, and a line with dots for each series. Points that are not finite are left out; those
@@ -191,7 +191,7 @@ pub fn line_chart(title: &str, [x_axis, y_axis]: [Axis<'_>; 2], series: &[Series
     svg + "</svg>\n"
 }
 
-/// A number as the length of a bar.
+/// A value as the length of a bar.
 const fn length(number: f64) -> f64 {
     if number.is_finite() && number > 0.0 { number } else { 0.0 }
 }

@@ -1,11 +1,11 @@
-//! What was published of the 100 test recordings of PHASE, to stand beside ours.
+//! Published results on the 100 test recordings of PHASE, for comparison.
 
 /// A published row of Task 1.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct GoalRow {
     /// The method.
     pub method: &'static str,
-    /// Where it stands.
+    /// Where it is published.
     pub source: &'static str,
     /// Goal accuracy of the one, two and three most likely.
     pub goal: [f64; 3],
@@ -18,7 +18,7 @@ pub struct GoalRow {
 pub struct TrajectoryRow {
     /// The method.
     pub method: &'static str,
-    /// Where it stands.
+    /// Where it is published.
     pub source: &'static str,
     /// Average displacement error: independent, social, all events.
     pub ade: [f64; 3],
@@ -30,7 +30,7 @@ const TABLE_1: &str = "paper, Table 1";
 const ABLATION: &str = "paper, appendix, ablation study";
 const TABLE_2: &str = "paper, Table 2";
 
-/// Task 1, from the best down.
+/// Task 1, best first.
 pub const GOALS: [GoalRow; 7] = [
     GoalRow { method: "humans", source: TABLE_1, goal: [0.970, 0.990, 0.995], relation: 0.99 },
     GoalRow { method: "SIMPLE", source: TABLE_1, goal: [0.870, 0.890, 0.910], relation: 0.88 },
@@ -46,7 +46,7 @@ pub const GOALS: [GoalRow; 7] = [
     GoalRow { method: "2-Level LSTM", source: TABLE_1, goal: [0.405, 0.610, 0.735], relation: 0.77 },
 ];
 
-/// Task 2, from the best down.
+/// Task 2, best first.
 pub const TRAJECTORIES: [TrajectoryRow; 3] = [
     TrajectoryRow { method: "SIMPLE", source: TABLE_2, ade: [3.39, 4.14, 3.84], fde: [4.42, 5.75, 5.23] },
     TrajectoryRow {

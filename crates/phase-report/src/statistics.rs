@@ -1,4 +1,4 @@
-//! The paper's figures about its dataset (section "Dataset Statistics") beside those of another.
+//! The paper's figures about its dataset (section "Dataset Statistics") compared with those of another.
 
 use phase_dataset::{
     labels::goal_counts,
@@ -11,7 +11,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Seconds of video in a step.
 const STEP_SECONDS: f64 = 0.25;
 
-/// What a dataset is made up of.
+/// The composition of a dataset.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Statistics {
     /// Events.
@@ -36,9 +36,9 @@ pub struct Statistics {
 pub struct StatisticsRow {
     /// In words.
     pub what: &'static str,
-    /// What the paper says.
+    /// The paper's value.
     pub paper: &'static str,
-    /// What is the case.
+    /// The value for this dataset.
     pub ours: String,
 }
 
@@ -68,7 +68,7 @@ impl Statistics {
         }
     }
 
-    /// Every figure of the paper's, beside ours.
+    /// All figures of the paper with the measured ones.
     #[must_use]
     pub fn figures(&self) -> Vec<StatisticsRow> {
         let figure = |what, paper, ours: String| StatisticsRow { what, paper, ours };

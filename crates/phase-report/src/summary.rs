@@ -3,9 +3,9 @@
 use phase_dataset::summary::{KindRow, MotionQuartiles, Quartiles};
 use phase_model::EventKind;
 
-/// Least share of agents with positive goals of their own whose outcome should be the recorded one.
+/// Minimum share of agents with own positive goals whose outcome should be the recorded one.
 pub const OWN_SHARE_TARGET: f32 = 0.85;
-/// Where the median ratio of completion times, simulated to recorded, should lie.
+/// The target range of the median ratio of completion times, simulated to recorded.
 pub const TIME_RATIO_TARGET: (f32, f32) = (0.75, 1.33);
 
 const OUTCOMES: &str = "outcomes        events   as recorded        own, positive      reached: recorded  \
@@ -13,7 +13,7 @@ const OUTCOMES: &str = "outcomes        events   as recorded        own, positiv
 const MOTION: &str = "quartiles       speed (u/s): recorded        simulated   path (u): recorded          simulated   \
                       contact (%): recorded      simulated\n";
 
-/// Both tables and what they say of the targets, each line ended.
+/// Both tables and their comparison with the targets, each line ended.
 #[must_use]
 pub fn table(rows: &[KindRow]) -> String {
     let lines = |line: fn(&KindRow) -> String| rows.iter().map(line).collect::<String>();
@@ -71,7 +71,7 @@ fn motion(row: &KindRow) -> String {
     )
 }
 
-/// What the row for all says of the targets; nothing where there is nothing to judge.
+/// Comparison of the row for all kinds with the targets; nothing where there is nothing to judge.
 fn verdict(all: &KindRow) -> String {
     let met = |met: bool| if met { "met" } else { "missed" };
     let mut text = String::new();

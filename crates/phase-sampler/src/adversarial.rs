@@ -17,7 +17,7 @@ pub(crate) fn hinder(goals: [Goal; 2], random: &mut impl Rng) -> Option<SceneDra
         random,
     ));
     let about_object = object_of(goals[1]).is_some();
-    // Going somewhere takes no strength.
+    // Moving without an object takes no strength.
     let strengths = if about_object { &SELF_SUFFICIENT[..] } else { &Strength::ALL[..] };
     let room = draft::other_room(&[target], random)?;
     let victim = agent(any_size(random), choose(strengths, random), goals[1], room, random);

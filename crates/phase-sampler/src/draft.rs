@@ -54,7 +54,7 @@ impl SceneDraft {
     }
 }
 
-/// One of several equally likely things. The slice must not be empty.
+/// One of several equally likely items. The slice must not be empty.
 pub fn choose<T: Copy>(options: &[T], random: &mut impl Rng) -> T {
     options[random.random_range(0..options.len())]
 }
@@ -105,13 +105,13 @@ pub fn agent(size: Size, strength: Strength, goal: Goal, room: RoomId, random: &
     AgentSpec { size, strength, goal, attitude: Attitude::Neutral, start: start_in(room, random) }
 }
 
-/// The same agent with the wish to help.
+/// The same agent with the attitude of helping.
 #[must_use]
 pub const fn helping(agent: AgentSpec) -> AgentSpec {
     AgentSpec { attitude: Attitude::Help, ..agent }
 }
 
-/// The same agent with the wish to hinder.
+/// The same agent with the attitude of hindering.
 #[must_use]
 pub const fn hindering(agent: AgentSpec) -> AgentSpec {
     AgentSpec { attitude: Attitude::Hinder, ..agent }
@@ -130,7 +130,7 @@ pub const fn agent_on(agent: AgentId, landmark: LandmarkId) -> Goal {
     Goal::AgentOnLandmark { agent, landmark, sign: Sign::Positive }
 }
 
-/// The goal of an object's being on a landmark.
+/// The goal that an object is on a landmark.
 #[must_use]
 pub const fn object_on(object: ObjectId, landmark: LandmarkId) -> Goal {
     Goal::ObjectOnLandmark { object, landmark, sign: Sign::Positive }

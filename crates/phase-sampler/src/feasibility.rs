@@ -1,4 +1,4 @@
-//! Whether a scene can show what it is meant to, asked of the planner.
+//! Whether a scene can show the intended event, as judged by the planner.
 
 use phase_model::{AGENT_COUNT, AgentId, Goal, Scene};
 use phase_planner::{PlanningProblem, Routes, search, symbolic::Node, task::Task};
@@ -24,7 +24,7 @@ pub fn cost(scene: &Scene, goal: Goal, actors: [bool; AGENT_COUNT]) -> f32 {
     search::solve(&task, Node::start(&problem)).map_or(f32::INFINITY, |plan| plan.cost)
 }
 
-/// Whether an agent reaches a goal on its own.
+/// Whether an agent reaches a goal alone.
 #[must_use]
 pub fn alone(scene: &Scene, agent: AgentId, goal: Goal) -> bool {
     cost(scene, goal, AgentId::ALL.map(|who| who == agent)) < INFEASIBLE_COST
@@ -36,7 +36,7 @@ pub fn together(scene: &Scene, goal: Goal) -> bool {
     cost(scene, goal, [true; AGENT_COUNT]) < INFEASIBLE_COST
 }
 
-/// Whether a goal holds at the start already.
+/// Whether a goal already holds at the start.
 #[must_use]
 pub fn is_achieved(scene: &Scene, goal: Goal) -> bool {
     achieved(&scene.physics(), &scene.initial_state(), goal)

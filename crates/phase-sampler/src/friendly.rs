@@ -43,7 +43,8 @@ pub(crate) fn clear(layout: Layout, goals: [Goal; 2], random: &mut impl Rng) -> 
     let middle = layout.opening(slot)?.middle();
     let across = SLOT_DIRECTIONS[slot].perp();
     let towards = across * across.dot(arena::LANDMARKS[beyond] - middle).signum();
-    // The door is narrower than the object is wide, so the object stands off its middle, clear of the boundary.
+    // The door is narrower than the object is wide, so the object stands off its centre, clear of the
+    // boundary.
     let margin = Vec2::splat(Size::Huge.radius() + CLEARANCE);
     let position = middle + towards * (Size::Huge.radius() + BLOCKING_GAP);
     blocker.start.position = position.clamp(arena::MIN + margin, arena::MAX - margin);

@@ -1,8 +1,8 @@
 //! Scenes for every kind of PHASE event.
 //!
-//! [`sample`] draws the physical and social variables of the paper (section "Procedural Generation") so that a
-//! scene can show its label: help is needed, hindrance is possible. A [`Request`] says which [`Variant`] of a
-//! kind, whose goals' turn it is, and which layouts may be drawn.
+//! [`sample`] draws the physical and social variables of the paper (section "Procedural Generation") so that
+//! a scene can show its label: help is needed, hindrance is possible. A [`Request`] names the [`Variant`] of
+//! a kind, the index of the pair of goals and the layouts that may be drawn.
 //!
 //! Key design decision: rejection sampling. A recipe for each variant proposes scenes, and common checks, some of
 //! them by the planner, reject infeasible ones. The cost is a few hundred proposals a scene, microseconds each.

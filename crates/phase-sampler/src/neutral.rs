@@ -4,7 +4,7 @@ use crate::draft::{self, SELF_SUFFICIENT, SceneDraft, agent, any_room, any_size,
 use phase_model::{Goal, Strength};
 use rand::Rng;
 
-/// Each agent has a goal of its own; goals about different objects, each in another room than its landmark.
+/// Each agent has its own goal; goals about different objects, each in another room than its landmark.
 pub(crate) fn independent(goals: [Goal; 2], random: &mut impl Rng) -> Option<SceneDraft> {
     let mut objects = Vec::new();
     let mut agents = Vec::new();

@@ -9,33 +9,33 @@ use phase_model::{AgentId, AgentSpec, Entity, EventKind, Goal, Layout, Scene, Si
 use rand::{Rng, RngExt};
 use thiserror::Error;
 
-/// Draws before a variant is given up; in practice some dozens suffice.
+/// Maximum number of draws before a variant fails; in practice some dozens suffice.
 const MAX_DRAWS: usize = 20_000;
 /// Minimum ratio of a goal's cost without the helper to its cost with the helper.
 const MIN_COST_RATIO: f32 = 1.5;
 
-/// What scene is wanted.
+/// Which scene is requested.
 #[derive(Clone, Copy, Debug)]
 pub struct Request<'a> {
     /// The variant.
     pub variant: Variant,
-    /// Whose goals' turn it is; see [`Variant::goals`].
+    /// Index of the pair of goals; see [`Variant::goals`].
     pub goal_index: usize,
     /// The layouts to draw from.
     pub layouts: &'a [Layout],
 }
 
-/// No scene of the variant turned up.
+/// No scene of the variant was found.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Error)]
 #[error("no {} scene ({}) was found in {MAX_DRAWS} draws; its layouts may not allow any", .0.kind().name(), .0.name())]
 pub struct SampleError(pub Variant);
 
-/// Draws a scene. No body overlaps another or a wall, no goal holds at the start, and what the variant asks of
-/// the agents is within their means. Which agent plays which role is drawn, too, so that an agent's number
-/// gives nothing away.
+/// Draws a scene. No body overlaps another or a wall, no goal holds at the start, and the agents can do what
+/// the variant requires of them. The assignment of roles to agents is random too, so that an agent's number
+/// reveals nothing.
 ///
 /// # Errors
-/// [`SampleError`] if the draws run out, because no layout fits the variant for example.
+/// [`SampleError`] if the draws are exhausted, for example because no layout fits the variant.
 pub fn sample(request: &Request<'_>, random: &mut impl Rng) -> Result<Scene, SampleError> {
     let goals = request.variant.goals(request.goal_index);
     for _ in 0..MAX_DRAWS {
@@ -85,7 +85,7 @@ fn is_unsolved(scene: &Scene) -> bool {
     })
 }
 
-/// Whether the agents can do what the kind asks of them; role 0 is agent 0.
+/// Whether the agents can do what the kind requires of them; role 0 is agent 0.
 fn is_feasible(scene: &Scene) -> bool {
     let [first, second] = scene.goals();
     match scene.kind {

@@ -94,7 +94,7 @@ impl Variant {
         Self::ALL.into_iter().filter(|variant| variant.kind() == kind).collect()
     }
 
-    /// How many pairs of goals there are.
+    /// Number of pairs of goals.
     #[must_use]
     pub const fn goal_count(self) -> usize {
         match self {
@@ -106,8 +106,8 @@ impl Variant {
         }
     }
 
-    /// The goals of roles 0 and 1 in turn `goal_index`; they repeat after [`Variant::goal_count`] turns, and any four
-    /// turns in a row name every landmark equally often.
+    /// The goals of roles 0 and 1 at `goal_index`; they repeat after [`Variant::goal_count`] indices, and any
+    /// four consecutive indices name every landmark equally often.
     #[must_use]
     pub const fn goals(self, goal_index: usize) -> [Goal; 2] {
         let at = LandmarkId::ALL;
@@ -145,7 +145,7 @@ impl Variant {
     }
 }
 
-/// An agent's touching the other one.
+/// The goal that an agent touches the other one.
 const fn touch(agent: AgentId, sign: Sign) -> Goal {
     Goal::Touch { agent, other: agent.other(), sign }
 }

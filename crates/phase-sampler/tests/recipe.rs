@@ -1,4 +1,4 @@
-//! Every kind of scene keeps its promises.
+//! Every kind of scene satisfies its specification.
 
 use phase_model::{
     AgentId, Attitude, EventKind, Goal, LandmarkId, Layout, Relation, Sign,
@@ -23,7 +23,7 @@ fn relation_of(kind: EventKind) -> (Relation, Attitude) {
     }
 }
 
-/// A goal whoever has it: an agent's own number does not matter.
+/// A goal independent of its owner: an agent's own number does not matter.
 fn anonymous(goal: Goal) -> Goal {
     match goal {
         Goal::AgentOnLandmark { landmark, sign, .. } => {
@@ -88,7 +88,7 @@ fn all_values_of_every_variable_occur() {
     assert_eq!(used.len(), 90);
     assert_eq!((sizes.len(), strengths.len()), (4, 4));
     assert_eq!(objects.into_iter().collect::<Vec<_>>(), [0, 1, 2]);
-    // Seven variants of 60 have a social agent, which is as often the one as the other.
+    // Seven variants of 60 have a social agent, which is equally often the one and the other.
     assert_eq!(social[0] + social[1], 420);
     assert!(social[0].abs_diff(social[1]) < 80, "{social:?}");
 }
@@ -129,7 +129,7 @@ fn layouts_come_from_the_pool_alone() {
             .collect();
         assert!(!drawn.is_empty() && drawn.iter().all(|layout| pool.contains(layout)), "{variant:?}");
     }
-    // Without a narrow door nobody is kept out by one.
+    // Without a narrow door no agent is kept out by one.
     let open = [Layout::new(0, None).unwrap()];
     let request = Request { variant: Variant::Blocked, goal_index: 0, layouts: &open };
     let refused = sample(&request, &mut stream(1, Purpose::Scene, 0));

@@ -1,4 +1,4 @@
-//! What an agent of a recorded event believed, recomputed.
+//! Beliefs of an agent in a recorded event, recomputed.
 
 use crate::simulation::belief_stream;
 use phase_belief::Belief;
@@ -7,7 +7,7 @@ use phase_forward::Forward;
 use phase_model::{AgentId, State, arena::SUBSTEPS};
 use phase_perception::{CellSet, observe};
 
-/// What one agent saw and believed before one of its decisions.
+/// The field of view and belief of one agent before one of its decisions.
 #[derive(Clone, Debug)]
 pub struct BeliefSnapshot {
     /// Cells in its field of view.
@@ -16,8 +16,8 @@ pub struct BeliefSnapshot {
     pub particles: Vec<State>,
 }
 
-/// The beliefs of an agent before each step of an event, and one more after the last. They depend only on
-/// what it observed and did and on the event's seed, so this needs no planning.
+/// The beliefs of an agent before each step of an event, and one more after the last. They depend only on its
+/// observations and actions and on the event's seed, so this needs no planning.
 #[must_use]
 pub fn beliefs(event: &Event, agent: AgentId, particle_count: usize) -> Vec<BeliefSnapshot> {
     let physics = event.scene.physics();

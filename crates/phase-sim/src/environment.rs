@@ -1,18 +1,18 @@
-//! The world that an event plays in, by either engine.
+//! The environment that an event is simulated in, by either engine.
 
 use crate::Engine;
 use phase_forward::{Forward, SolverCache};
 use phase_model::{AGENT_COUNT, Action, PhysicsConfig, State, arena::SUBSTEPS};
 use phase_world::World;
 
-/// The environment: the true world, as opposed to the agents' models of it.
+/// The environment: the true dynamics, as opposed to the agents' models of it.
 pub(crate) enum Environment {
     World(Box<World>),
     Forward(Box<StatefulForward>),
 }
 
 impl Environment {
-    /// A world at rest in the given state, which remembers nothing from before.
+    /// A newly set-up world in the given state, without any memory of earlier steps.
     pub(crate) fn new(engine: Engine, physics: &PhysicsConfig, state: &State) -> Self {
         match engine {
             Engine::World => Self::World(Box::new(World::new(physics, state))),
@@ -33,7 +33,7 @@ impl Environment {
     }
 }
 
-/// The kernel with its memory, which is how it comes nearest to the published simulator.
+/// The kernel with its cache, which is its closest approximation of the published simulator.
 pub(crate) struct StatefulForward {
     forward: Forward,
     state: State,

@@ -1,15 +1,18 @@
-//! Two PHASE agents and a world make a social event (paper, Algorithm 1).
+//! Simulation of social events: two PHASE agents in an environment (paper, Algorithm 1).
 //!
-//! [`simulate`] takes a scene and a seed and returns the [`Event`](phase_event::Event): what both did at every step and why, and
-//! all substeps of what became of it. The event plays in `phase-world`, or on request in `phase-forward`
-//! ([`Engine`]); what agents perceive, believe and imagine is made in the same way for both.
+//! [`simulate`] takes a scene and a seed and returns the [`Event`](phase_event::Event): both agents' actions
+//! at every step with their explanations, and all substeps of the resulting motion. The event is simulated in
+//! `phase-world`, or on request in `phase-forward` ([`Engine`]); the agents' observations, beliefs and
+//! searches are computed in the same way for both.
 //!
-//! The key design decision is that every random stream belongs to one agent and one purpose. The same seed
-//! makes the same event bit for bit, and what an agent believed can be recomputed from the recorded
-//! trajectory without planning ([`beliefs()`]). From its search stream an agent draws once a decision, for a generator
-//! of that decision's own. The price is that a change in how often a belief draws changes all its later draws.
+//! Key design decision: every random stream belongs to one agent and one purpose. The same seed reproduces
+//! the same event bit for bit, and an agent's beliefs can be recomputed from the recorded trajectory without
+//! planning ([`beliefs()`]). An agent draws from its search stream once per decision, to seed a separate
+//! generator for that decision. The trade-off is that a change in the number of draws of a belief update
+//! changes all its later draws.
 //!
-//! Two agents go to two landmarks straight ahead, with less search than in the paper. After six steps both are nearer:
+//! Two agents go to two landmarks straight ahead, with less search than in the paper. After six steps both
+//! are closer:
 //!
 //! ```
 //! use phase_model::{AgentId, Entity, LandmarkId, Scene, arena};

@@ -3,14 +3,14 @@
 use phase_model::AgentId;
 use serde::{Deserialize, Serialize};
 
-/// The physics in which an event itself plays. Agents imagine with `phase-forward` in either case.
+/// The physics that an event itself is simulated in. The agents' searches use `phase-forward` in either case.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Engine {
-    /// `phase-world`: the true world, simulated by rapier2d.
+    /// `phase-world`: the reference world, simulated by rapier2d.
     #[default]
     World,
-    /// `phase-forward` with memory of its last impulses: nearest to the published simulator, and faster.
+    /// `phase-forward` with its warm-starting cache: closest to the published simulator, and faster.
     Forward,
 }
 
@@ -28,26 +28,27 @@ impl Engine {
     }
 }
 
-/// Physics, lengths and minds. The defaults are the paper's.
+/// Physics, lengths and parameters of the minds. The defaults are the paper's.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 pub struct SimulationSettings {
-    /// What the event plays in. Files written before there was a choice mean the default.
+    /// The engine that simulates the event. Absent in older files, which means the default.
     #[serde(default)]
     pub engine: Engine,
     /// Maximum length (steps of 0.25 s; the paper's 25 s).
     pub max_steps: usize,
     /// Minimum length unless `max_steps` is smaller (steps; the paper's 10 s).
     pub min_steps: usize,
-    /// An event ends once, for this many steps in a row, neither agent had anything to do and nothing moved.
+    /// An event ends once, for this many consecutive steps, neither agent had anything to do and nothing
+    /// moved.
     pub rest_steps: usize,
     /// An event also ends once nothing has moved for this many consecutive steps, whatever the subgoals.
     #[serde(default = "legacy_still_steps")]
     pub still_steps: usize,
-    /// An agent that stops and stays whatever its goal, so that an event can be compared with what
-    /// would have happened without it; usually none.
+    /// An agent that stops and stays whatever its goal, so that an event can be compared with its
+    /// counterfactual without that agent; usually none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub idle: Option<AgentId>,
-    /// How both agents think.
+    /// Parameters of both agents' minds.
     pub minds: phase_agent::MindParameters,
 }
 

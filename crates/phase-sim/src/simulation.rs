@@ -1,4 +1,4 @@
-//! Algorithm 1 of the paper: both agents observe, update their beliefs, plan and act at once.
+//! Algorithm 1 of the paper: both agents observe, update their beliefs, plan and act simultaneously.
 
 use crate::{SimulationSettings, environment::Environment};
 use core::ops::ControlFlow;
@@ -13,22 +13,22 @@ use phase_model::{
 use phase_perception::observe;
 use thiserror::Error;
 
-/// Below this speed a body counts as being at rest (u/s).
+/// Speed below which a body counts as being at rest (u/s).
 const REST_SPEED: f32 = 0.05;
 
-/// A body that moves or turns by less than this in a step is not seen to (u; rad).
+/// Displacement or rotation in a step below which a body is not seen to move (u; rad).
 const MOTION_TOLERANCE: f32 = 0.02;
 
 /// Why a scene could not be simulated.
 #[derive(Clone, PartialEq, Debug, Error)]
 pub enum SimulationError {
-    /// The scene makes no sense.
+    /// The scene is invalid.
     #[error(transparent)]
     Scene(#[from] SceneError),
-    /// The settings allow no search, or the search broke off.
+    /// The settings are invalid for a search, or the search failed.
     #[error(transparent)]
     Search(#[from] phase_pomcp::PomcpError),
-    /// There is no particle to believe in.
+    /// The number of particles is zero.
     #[error("minds.particles must be at least 1")]
     NoParticles,
 }
@@ -36,17 +36,17 @@ pub enum SimulationError {
 /// Simulates a scene from its start to its end.
 ///
 /// # Errors
-/// [`SimulationError`] for scenes and settings that make no sense.
+/// [`SimulationError`] for invalid scenes and settings.
 pub fn simulate(scene: &Scene, seed: u64, settings: &SimulationSettings) -> Result<Event, SimulationError> {
     let (event, _) = simulate_with(scene, seed, settings, &mut |_| ControlFlow::Continue(()))?;
     Ok(event)
 }
 
-/// As [`simulate`], showing every step to `on_step` as it comes. When that breaks, the event ends early;
-/// the flag returned says whether it came to its end.
+/// As [`simulate`], calling `on_step` with every step as it is computed. When that breaks, the event ends
+/// early; the returned flag says whether the event was completed.
 ///
 /// # Errors
-/// [`SimulationError`] for scenes and settings that make no sense.
+/// [`SimulationError`] for invalid scenes and settings.
 pub fn simulate_with(
     scene: &Scene,
     seed: u64,
@@ -88,7 +88,7 @@ pub fn simulate_with(
     Ok((event, true))
 }
 
-/// Whether a viewer would say that nothing has moved in a step.
+/// Whether a viewer would judge that nothing has moved in a step.
 fn is_unmoved(physics: &PhysicsConfig, before: &State, after: &State) -> bool {
     physics.entities().all(|entity| {
         let (before, after) = (before.body(entity), after.body(entity));
@@ -101,7 +101,7 @@ fn is_at_rest(physics: &PhysicsConfig, state: &State) -> bool {
     physics.entities().all(|entity| state.body(entity).velocity.length() < REST_SPEED)
 }
 
-/// The generator of an agent's belief. It is a stream of its own, so that beliefs can be recomputed from a
+/// The generator of an agent's belief. It is a separate stream, so that beliefs can be recomputed from a
 /// recorded event without planning again.
 pub(crate) fn belief_stream(seed: u64, agent: AgentId) -> Pcg64Mcg {
     random::stream(seed, Purpose::Belief, agent.number().into())

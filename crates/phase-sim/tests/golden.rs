@@ -1,4 +1,4 @@
-//! Whole events are pinned bit for bit: scene, actions, reasons and every substep.
+//! Whole events are pinned bit for bit: scene, actions, explanations and every substep.
 
 use phase_event::Event;
 use phase_golden::{Digest, Golden};
@@ -46,7 +46,7 @@ fn digest(event: &Event) -> String {
 }
 
 fn check(name: &str, events: &[(EventKind, SimulationSettings)]) -> Result<(), String> {
-    // One event a thread: the seed alone decides what comes of each.
+    // One event per thread: the result depends on the seed alone.
     let events = std::thread::scope(|scope| {
         let threads: Vec<_> = events
             .iter()

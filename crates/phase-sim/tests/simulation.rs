@@ -13,7 +13,7 @@ fn scene(kind: EventKind) -> Scene {
     phase_sampler::sample_kind(kind, &mut stream(5, Purpose::Scene, 0)).expect("a scene of every kind")
 }
 
-/// Small minds and short events, so that a test takes a moment.
+/// Small searches and short events, so that a test takes a moment.
 fn quick() -> SimulationSettings {
     let mut settings = SimulationSettings { max_steps: 12, min_steps: 4, ..SimulationSettings::default() };
     settings.minds.particles = 10;
@@ -32,7 +32,7 @@ fn one_seed_makes_one_event_on_any_thread() {
             threads.into_iter().map(|thread| thread.join().unwrap()).collect()
         });
         for other in others {
-            // PartialEq would take 0 for -0; the text does not.
+            // `PartialEq` considers 0 and −0 equal; the text does not.
             assert_eq!(format!("{first:?}"), format!("{other:?}"));
         }
         let different = simulate(&scene, 12, &quick()).unwrap();
@@ -52,12 +52,12 @@ fn both_engines_repeat_themselves_and_differ() {
         });
         assert_eq!(world.initial, forward.initial);
         assert_ne!(world.steps, forward.steps);
-        // Before anything has happened, agents do not know what they are in.
+        // Before the first step, agents do not know which engine simulates the event.
         assert_eq!(world.steps[0].actions, forward.steps[0].actions);
     }
 }
 
-/// In the kernel, an event is what its own actions lead to when they are replayed with memory.
+/// In the kernel, replaying an event's own actions with the cache reproduces it.
 #[test]
 fn events_of_the_kernel_are_replays_of_it() {
     let scene = scene(EventKind::Collaborating);
@@ -138,7 +138,7 @@ fn beliefs_are_recomputed_from_the_record() {
                 }
             }
         }
-        // The agent's own thoughts name as many particles as it believed in.
+        // The agent's own thoughts refer to as many particles as its belief has.
         for step in &event.steps {
             let named: usize = step.thoughts[agent].subgoals.iter().map(|value| value.particles).sum();
             assert_eq!(named, 10);
@@ -154,7 +154,7 @@ fn an_idle_agent_stays_and_leaves_the_other_its_own_chance() {
         let settings = SimulationSettings { idle: Some(idle), ..quick() };
         let without = simulate(&scene, 3, &settings).unwrap();
         assert!(without.steps.iter().all(|step| step.actions[idle] == phase_model::Action::Stop));
-        // Both decide on the same first observation with streams of their own.
+        // Both agents decide on the same first observation with separate streams.
         let other = idle.other();
         assert_eq!(without.steps[0].actions[other], event.steps[0].actions[other]);
         assert_eq!(without.steps[0].thoughts[other], event.steps[0].thoughts[other]);

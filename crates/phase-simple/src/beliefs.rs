@@ -9,8 +9,8 @@ use phase_model::{
 };
 use phase_perception::{Observation, observe};
 
-/// One agent's belief at the end of every step, from bottom up: it is made once for an event and shared by all
-/// hypotheses. Forces play no part in it, for what an agent does itself it observes.
+/// One agent's belief at the end of every step, computed bottom-up: once for an event and shared by all
+/// hypotheses. Forces play no part in it, since an agent observes the outcome of its own actions.
 #[derive(Clone, Debug)]
 pub struct EstimatedBeliefs {
     particles: Vec<Vec<State>>,
@@ -19,7 +19,7 @@ pub struct EstimatedBeliefs {
 
 impl EstimatedBeliefs {
     /// The beliefs of an agent along the states of an event (those of
-    /// [`InverseDynamics`](crate::InverseDynamics)), by so many particles at least.
+    /// [`InverseDynamics`](crate::InverseDynamics)), with at least this number of particles.
     #[must_use]
     pub fn new(
         observed: &ObservedEvent,
@@ -42,8 +42,9 @@ impl EstimatedBeliefs {
         Self { particles, last }
     }
 
-    /// What the agent believes after so many steps if the world is in this state: what it has observed until then
-    /// in the event, and what it observes now. The particles, and the entities that it observes.
+    /// What the agent believes after the given number of steps if the world is in this state: from what it
+    /// has observed until then in the event, and what it observes now. The particles, and the entities that
+    /// it observes.
     #[must_use]
     pub fn belief_view(&self, physics: &PhysicsConfig, step: usize, state: &State) -> (Vec<State>, BodySet) {
         let observation = observe(physics, state, self.last.agent());
@@ -53,7 +54,7 @@ impl EstimatedBeliefs {
         (particles, observation.observed)
     }
 
-    /// The belief after the last step watched, to go on from.
+    /// The belief after the last observed step, to continue from.
     #[must_use]
     pub const fn last(&self) -> &Belief {
         &self.last

@@ -1,4 +1,5 @@
-//! Q(g | S): what a stretch of motion by itself says about goals (appendix, "Bottom-up Proposals").
+//! Q(g | S): the distribution of goals suggested by a time window of motion alone (appendix, "Bottom-up
+//! Proposals").
 
 use phase_model::{AgentId, Body, Entity, Goal, MAX_ENTITIES, Sign, State, arena};
 use phase_predicates::threshold::ON_OBJECT;
@@ -8,13 +9,13 @@ const SAFE_DISTANCE: f32 = 14.0;
 
 /// γ of the goal proposal's exponent, per unit of distance (1/u).
 ///
-/// The paper has γ = 10 and does not say of which unit. Ten per world unit would make every proposal the same:
-/// that of the goal whose distance shrank most. Over the side of the arena it is a cue that leaves room for doubt.
+/// The paper has γ = 10 and does not state the unit. Ten per world unit would make every proposal the same:
+/// the goal whose distance shrank most. Per side of the arena it is a cue that leaves uncertainty.
 pub const GAMMA: f64 = 10.0 / arena::SIDE as f64;
 
 /// ‖s − s_g‖ of the proposal: how far an agent has to go until the goal holds, in straight lines (u). What
-/// has to be moved must be got to first; once it is in place nobody need be near. Of getting away it is what is
-/// missing to a safe distance.
+/// has to be moved must be reached first; once it is in place no agent need be near. For getting away it is
+/// the remainder to a safe distance.
 #[must_use]
 pub fn distance_left(goal: Goal, agent: AgentId, state: &State) -> f32 {
     let apart = goal.distance(state);
@@ -27,9 +28,10 @@ pub fn distance_left(goal: Goal, agent: AgentId, state: &State) -> f32 {
     }
 }
 
-/// ln Q(g | S) for each of some goals of an agent, from the rows of a stretch of motion; not empty. The probabilities
-/// sum to 1. The paper prints e^{γ(2‖s^t2 − s_g‖ − ‖s^t1 − s_g‖)}, under which the goal farthest away would be the
-/// likeliest; the sentence below it has it the other way round, and so have we.
+/// ln Q(g | S) for each of some goals of an agent, from the rows of a time window; not empty. The
+/// probabilities sum to 1. The paper prints e^{γ(2‖s^t2 − s_g‖ − ‖s^t1 − s_g‖)}, under which the goal
+/// farthest away would be the most likely; the sentence below it states the opposite, which is implemented
+/// here.
 #[must_use]
 pub fn log_proposal(goals: &[Goal], agent: AgentId, rows: &[[Body; MAX_ENTITIES]], gamma: f64) -> Vec<f64> {
     let (Some(first), Some(last)) = (rows.first(), rows.last()) else {
@@ -47,10 +49,10 @@ pub(crate) fn normalised(mut logs: Vec<f64>) -> Vec<f64> {
     logs
 }
 
-/// The same where they are.
+/// The same in place.
 pub(crate) fn normalise(logs: &mut [f64]) {
     let greatest = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    // The greatest first: beside thousands a logarithm of a few would lose its digits.
+    // Relative to the maximum: beside thousands a logarithm of a few would lose its digits.
     logs.iter_mut().for_each(|log| *log -= greatest);
     let whole = libm::log(logs.iter().map(|log| libm::exp(*log)).sum());
     logs.iter_mut().for_each(|log| *log -= whole);

@@ -1,4 +1,4 @@
-//! Task 2: where everything will be, by the hypotheses that explain best what has been watched.
+//! Task 2: future positions, predicted by the hypotheses that best explain what has been observed.
 
 use crate::{Inference, generative::PreparedEvent};
 use core::ops::ControlFlow;
@@ -11,7 +11,7 @@ use phase_pomcp::PomcpError;
 /// Iterations of Weiszfeld's algorithm.
 const ROUNDS: usize = 30;
 
-/// How the future is put together; the defaults were chosen on the validation events of PHASE-500.
+/// How futures are combined; the defaults were selected on the validation events of PHASE-500.
 #[derive(Clone, Copy, PartialEq, Debug, serde::Serialize, serde::Deserialize)]
 pub struct ForecastSettings {
     /// Number of most likely hypotheses to simulate; at least 1.
@@ -29,11 +29,13 @@ impl Default for ForecastSettings {
     }
 }
 
-/// Plays the most likely hypotheses on for so many steps and takes, for every entity and step, the point nearest to
-/// all places that they lead to, weighted by how likely they are: the displacement to expect is least there. `None`
-/// if `tick` broke it off.
+/// Simulates the most likely hypotheses for the given number of further steps and takes, for every entity and
+/// step, the geometric median of the resulting positions, weighted by probability, which minimises the
+/// expected displacement. `None` if `tick` cancelled it.
 ///
-/// # Errors Invalid parameters of the minds' search.
+/// # Errors
+///
+/// Invalid parameters of the agents' search.
 pub fn forecast(
     prepared: &PreparedEvent<'_>,
     inference: &Inference,
@@ -67,11 +69,11 @@ pub fn forecast(
     Ok(Some((0..entities).map(|entity| (0..steps).map(|step| place(entity, step)).collect()).collect()))
 }
 
-/// The point with the least weighted sum of distances to some places (Weiszfeld's algorithm from their mean); the
-/// origin if there are none.
+/// The point with the minimum weighted sum of distances to some places (Weiszfeld's algorithm from their
+/// mean); the origin if there are none.
 #[must_use]
 pub fn geometric_median(places: &[(Vec2, f64)]) -> Vec2 {
-    /// Nearer than this to a place the search has arrived at it (u).
+    /// Below this distance to a place the iteration has converged to it (u).
     const CONVERGENCE_TOLERANCE: f64 = 1e-4;
     let mean = |weights: &dyn Fn(&(Vec2, f64)) -> f64| {
         let (mut x, mut y, mut sum) = (0.0, 0.0, 0.0);

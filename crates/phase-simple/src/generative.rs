@@ -43,7 +43,7 @@ impl<'a> PreparedEvent<'a> {
         self.observed
     }
 
-    /// What was done in it, and the states between its steps.
+    /// The inferred actions, and the states between steps.
     #[must_use]
     pub const fn motion(&self) -> &InverseDynamics {
         &self.motion
@@ -53,7 +53,9 @@ impl<'a> PreparedEvent<'a> {
     /// resynchronised with the observed state; with `None` it runs freely from the start, as in the paper. It
     /// stops early once the sum of deviations exceeds `limit`; then fewer deviations are returned.
     ///
-    /// # Errors Invalid parameters of the minds' search.
+    /// # Errors
+    ///
+    /// Invalid parameters of the agents' search.
     pub fn simulate(
         &self,
         hypothesis: &Hypothesis,
@@ -90,10 +92,12 @@ impl<'a> PreparedEvent<'a> {
         libm::sqrt(self.observed.entities().map(square).sum())
     }
 
-    /// Lets one agent decide as a hypothesis has it, while the other does what it was found to do. Every
-    /// `resync_interval` steps the simulation is put back to where the observed event is.
+    /// Lets one agent decide under a hypothesis, while the other replays its inferred actions. Every
+    /// `resync_interval` steps the simulation is resynchronised with the observed event.
     ///
-    /// # Errors Invalid parameters of the minds' search.
+    /// # Errors
+    ///
+    /// Invalid parameters of the agents' search.
     pub fn simulate_agent(
         &self,
         hypothesis: &Hypothesis,
@@ -118,10 +122,13 @@ impl<'a> PreparedEvent<'a> {
         Ok(decided)
     }
 
-    /// Goes on from the last state watched for so many steps: where every entity will be after each, if the
-    /// hypothesis is true. Beliefs go on from those estimated, by what the agents observe in the simulation.
+    /// Continues from the last observed state for the given number of steps: where every entity will be after
+    /// each, if the hypothesis is true. Beliefs continue from those estimated, by what the agents observe in
+    /// the simulation.
     ///
-    /// # Errors Invalid parameters of the minds' search.
+    /// # Errors
+    ///
+    /// Invalid parameters of the agents' search.
     pub fn predict(
         &self,
         hypothesis: &Hypothesis,
@@ -158,9 +165,9 @@ impl<'a> PreparedEvent<'a> {
 pub struct AgentDecision {
     /// The action.
     pub action: Action,
-    /// Why.
+    /// The explanation of the decision.
     pub thought: Thought,
-    /// As [`Deviations`] have it (u).
+    /// As in [`Deviations`] (u).
     pub deviation: f64,
 }
 
@@ -195,13 +202,13 @@ impl SimulationRun {
         Ok(Self { physics, forward, minds, random, state, cache })
     }
 
-    /// Puts the world into a state.
+    /// Sets the world to a state.
     fn set_state(&mut self, state: State) {
         self.state = state;
         self.cache = self.forward.fresh_cache(&state);
     }
 
-    /// Both decide and act: the mean positions of all bodies over the step, and what they did.
+    /// Both decide and act: the mean positions of all bodies over the step, and their actions.
     fn step(
         &mut self,
         outlooks: &BeliefViews,

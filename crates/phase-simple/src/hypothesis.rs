@@ -9,20 +9,22 @@ use serde::{Deserialize, Serialize};
 
 /// Goals, attitudes and strengths of both agents.
 ///
-/// The goal of an agent that helps or hinders is the other's, negated for a hinderer: that is how labels have it,
-/// and an own goal of a social agent would make no difference (Equation 1).
+/// The goal of an agent that helps or hinders is the other's, negated for a hinderer: labels are defined this
+/// way, and an own goal of a social agent would make no difference (Equation 1).
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 pub struct Hypothesis {
     /// Goal of each agent.
     pub goals: [Goal; AGENT_COUNT],
     /// α of each agent towards the other.
     pub attitudes: [Attitude; AGENT_COUNT],
-    /// Strength of each agent. The paper's f is a force; ours is one of its four levels, for there are no others.
+    /// Strength of each agent. The paper's f is a force; here it is one of its four levels, which are the
+    /// only ones used.
     pub strengths: [Strength; AGENT_COUNT],
 }
 
 impl Hypothesis {
-    /// A hypothesis in which a social agent bears the goal that goes with its attitude, whatever was given for it.
+    /// A hypothesis in which a social agent is given the goal that follows from its attitude, whatever was
+    /// passed for it.
     #[must_use]
     pub fn new(
         goals: [Goal; AGENT_COUNT],
@@ -43,9 +45,9 @@ impl Hypothesis {
         AgentId::ALL.into_iter().find(|&agent| self.attitudes[agent] != Attitude::Neutral)
     }
 
-    /// ln P(g_i)P(g_j)P(α_ij, α_ji)P(f_i)P(f_j) of Equation 2, everything evenly: so many goals an agent, nobody, one
-    /// helping or one hindering, either of the two, and four strengths each. A social agent's own goal, which makes no
-    /// difference, is summed over.
+    /// ln P(g_i)P(g_j)P(α_ij, α_ji)P(f_i)P(f_j) of Equation 2, all uniform: over the goals of each agent,
+    /// over no agent, one helping or one hindering, either of the two, and over four strengths each. A social
+    /// agent's own goal, which makes no difference, is summed over.
     #[must_use]
     pub fn log_prior(&self, goals: usize) -> f64 {
         let (attitudes, free_goals) = if self.social_agent().is_some() { (6.0, 1.0) } else { (3.0, 2.0) };
@@ -53,13 +55,13 @@ impl Hypothesis {
         -libm::log(attitudes) - free_goals * libm::log(goals as f64) - strengths
     }
 
-    /// The relation that it amounts to.
+    /// The relation that it implies.
     #[must_use]
     pub fn relation(&self) -> Relation {
         Relation::of(self.goals, self.attitudes)
     }
 
-    /// The greatest forces of both (N).
+    /// The maximum forces of both (N).
     #[must_use]
     pub fn max_forces(&self) -> [f32; AGENT_COUNT] {
         self.strengths.map(Strength::max_force)
@@ -87,8 +89,9 @@ impl Hypothesis {
     }
 }
 
-/// The physical goals that an agent can have in an event with so many objects: being on each landmark,
-/// each object on each landmark, approaching the other and getting away from it. Fourteen with two objects.
+/// The physical goals that an agent can have in an event with the given number of objects: being on each
+/// landmark, each object on each landmark, approaching the other and getting away from it. Fourteen with two
+/// objects.
 #[must_use]
 pub fn physical_goals(agent: AgentId, objects: usize) -> Vec<Goal> {
     let (me, other) = (agent, agent.other());

@@ -16,15 +16,17 @@ pub struct Inference {
     pub posterior: Posterior,
     /// How many chains accepted their proposal, for each iteration of Algorithm 2; empty for inverse planning.
     pub accepted: Vec<usize>,
-    /// Hypotheses that Algorithm 2 simulated, to the end or until they could not matter any more; 0 for inverse
+    /// Hypotheses that Algorithm 2 simulated, completely or until rejection was certain; 0 for inverse
     /// planning.
     pub simulated: usize,
 }
 
-/// Infers what explains an event. The same seed gives the same answer. `tick` is called about once a simulation;
-/// when it breaks, the answer is `None`.
+/// Infers what explains an event. The same seed gives the same result. `tick` is called about once a
+/// simulation; if it breaks, the result is `None`.
 ///
-/// # Errors Invalid parameters of the minds' search.
+/// # Errors
+///
+/// Invalid parameters of the agents' search.
 pub fn infer(
     prepared: &PreparedEvent<'_>,
     strengths: &dyn StrengthCue,

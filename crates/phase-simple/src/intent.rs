@@ -3,7 +3,7 @@
 use crate::{Hypothesis, hypothesis::physical_goals};
 use phase_model::{AGENT_COUNT, AgentId, Attitude, Goal, Strength};
 
-/// One agent's intent: a goal of its own, or helping or hindering the other with one of the other's goals.
+/// One agent's intent: its own goal, or helping or hindering the other with one of the other's goals.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub struct Intent {
     /// α towards the other.
@@ -13,8 +13,8 @@ pub struct Intent {
 }
 
 impl Intent {
-    /// All that an agent can want in an event with so many objects: 42 wants with two of them, its own
-    /// goals first.
+    /// All possible intents of an agent in an event with the given number of objects: 42 with two of them,
+    /// its own goals first.
     #[must_use]
     pub fn all(agent: AgentId, objects: usize) -> Vec<Self> {
         let own = physical_goals(agent, objects).into_iter();
@@ -25,8 +25,8 @@ impl Intent {
         neutral.chain(social).collect()
     }
 
-    /// The hypothesis that an agent wants this while the other pursues a goal of its own, which is the
-    /// wanted one if the agent is social and `others` if it is not.
+    /// The hypothesis that an agent has this intent while the other pursues its own goal, which is the
+    /// intent's goal if the agent is social and `others` if it is not.
     #[must_use]
     pub fn hypothesis(&self, agent: AgentId, others: Goal, strengths: [Strength; AGENT_COUNT]) -> Hypothesis {
         let mut attitudes = [Attitude::Neutral; AGENT_COUNT];

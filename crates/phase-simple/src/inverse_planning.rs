@@ -25,10 +25,12 @@ type WeightedIntents = Vec<(Intent, f64)>;
 /// Refinement passes: how often the intents are re-evaluated with an updated goal of the other agent.
 const REFINEMENT_PASSES: usize = 2;
 
-/// P(Y | motion) of every hypothesis, strengths being those that the physics tells; `None` if `tick`, which is
-/// called once a want, broke it off.
+/// P(Y | motion) of every hypothesis, with the strengths inferred from the physics; `None` if `tick`, which
+/// is called once per intent, cancelled it.
 ///
-/// # Errors Invalid parameters of the minds' search.
+/// # Errors
+///
+/// Invalid parameters of the agents' search.
 pub(crate) fn posterior(
     prepared: &PreparedEvent<'_>,
     settings: &InversePlanningSettings,
@@ -84,7 +86,7 @@ pub(crate) fn posterior(
     Ok(Some(posterior))
 }
 
-/// What wants are weighed by.
+/// The data from which intents are weighted.
 struct Evidence<'a> {
     prepared: &'a PreparedEvent<'a>,
     settings: &'a InversePlanningSettings,
@@ -93,7 +95,7 @@ struct Evidence<'a> {
 }
 
 impl Evidence<'_> {
-    /// ln P(motion | want) of an agent's part of the motion, the other being after `others`.
+    /// ln P(motion | intent) of an agent's part of the motion, the other pursuing `others`.
     fn log_likelihood(&self, agent: AgentId, intent: &Intent, others: Goal) -> Result<f64, PomcpError> {
         let hypothesis = intent.hypothesis(agent, others, self.strengths);
         let every_step = self.prepared.simulate_agent(&hypothesis, agent, 1)?;
@@ -177,7 +179,7 @@ fn log_choice_probability(
     libm::log(same.sum::<f64>().max(f64::MIN_POSITIVE))
 }
 
-/// Where an action stands among the choices.
+/// Index of an action among the choices.
 const fn choice(action: Action) -> usize {
     match action {
         Action::TurnLeft | Action::TurnRight => 0,

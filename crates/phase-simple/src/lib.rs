@@ -1,19 +1,21 @@
-//! SIMPLE (SIMulation, Planning and Local Estimation): what explains the motion of a social event, and how it goes on.
+//! SIMPLE (SIMulation, Planning and Local Estimation): infers what explains the motion of a social event, and
+//! predicts how it continues.
 //!
-//! An event is first prepared ([`PreparedEvent`]): what was done ([`InverseDynamics`]), and what each agent can have observed
-//! and so believed. Each [`Hypothesis`] is then put to the very minds and physics that make events, and is the
-//! likelier the better they do what was observed. [`infer`] weighs hypotheses, either all of them by what each
-//! agent would do next at every step (`inverse_planning`), or as Algorithm 2 of the paper some of them by simulations of
-//! whole events ([`metropolis`]), and returns a [`Posterior`]; [`forecast()`] plays the likeliest on.
+//! An event is first prepared ([`PreparedEvent`]): actions are inferred ([`InverseDynamics`]), and the
+//! observations and beliefs that each agent can have had. Each [`Hypothesis`] is then tested with the same
+//! agents and physics that generate events, and is more likely the better they reproduce what was observed.
+//! [`infer`] weighs hypotheses, either all of them by what each agent would do next at every step
+//! (`inverse_planning`), or, as in Algorithm 2 of the paper, some of them by simulations of whole events
+//! ([`metropolis`]), and returns a [`Posterior`]; [`forecast()`] simulates the most likely ones further.
 //!
-//! The key design decision is that everything starts from an [`ObservedEvent`](phase_event::ObservedEvent), a type
-//! without labels: what is inferred cannot have been read. The price is that actions and grips, which trajectories do
-//! not tell, have to be found out.
+//! Key design decision: everything starts from an [`ObservedEvent`](phase_event::ObservedEvent), a type
+//! without labels, so that labels cannot leak into the inference. The trade-off is that actions and grips,
+//! which trajectories do not contain, have to be inferred.
 //!
-//! `docs/simple.md` says where the paper's formulas were settled and where this goes beyond them.
+//! `docs/simple.md` states how the paper's formulas were interpreted and where this goes beyond them.
 //!
-//! Agent 0 is observed for eight steps on its way from one landmark to the next, while agent 1 rests. The likeliest
-//! goal of agent 0 is to reach that next landmark:
+//! Agent 0 is observed for eight steps on its way from one landmark to the next, while agent 1 rests. The
+//! most likely goal of agent 0 is to reach that next landmark:
 //!
 //! ```
 //! use phase_event::ObservedEvent;

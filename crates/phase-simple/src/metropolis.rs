@@ -1,4 +1,5 @@
-//! Algorithm 2 of the paper: Metropolis–Hastings chains whose proposals come from short stretches of the event.
+//! Algorithm 2 of the paper: Metropolis–Hastings chains whose proposals come from short time windows of the
+//! event.
 
 use crate::{
     ChainSettings, Hypothesis, Proposal, Update, cue::normalised, generative::PreparedEvent,
@@ -9,12 +10,13 @@ use phase_model::random::Pcg64Mcg;
 use phase_pomcp::PomcpError;
 use rand::RngExt;
 
-/// The log likelihood that a proposal must exceed to be accepted, known before it has been simulated:
-/// ln P(s | Y′) > ln u + ln P(s | Y) + ln Q(Y′ | S′) − ln Q(Y | S′) for u drawn evenly from 0 to 1.
+/// The log-likelihood that a proposal must exceed to be accepted, known before it has been simulated: ln P(s
+/// | Y′) > ln u + ln P(s | Y) + ln Q(Y′ | S′) − ln Q(Y | S′) for u uniformly sampled from 0 to 1.
 ///
-/// The paper prints min{1, Q(Y′)P(s | Y′) / Q(Y)P(s | Y)}, with the proposals' ratio upside down: a chain by that
-/// rule favours what is proposed often twice over. The rule of Metropolis and Hastings, which it names, divides by how
-/// often a hypothesis is proposed, so that the chain comes to the posterior whatever proposes.
+/// The paper prints min{1, Q(Y′)P(s | Y′) / Q(Y)P(s | Y)}, with the proposals' ratio inverted: a chain with
+/// that rule favours frequently proposed hypotheses twice over. The Metropolis–Hastings rule, which the paper
+/// names, divides by the proposal probability, so that the chain converges to the posterior for any proposal
+/// distribution.
 #[must_use]
 pub fn threshold(log_u: f64, log_likelihood: f64, log_proposed: f64, log_current: f64) -> f64 {
     log_u + log_likelihood + log_proposed - log_current
@@ -31,8 +33,8 @@ pub(crate) struct Chains<'a, 's> {
 }
 
 impl Chains<'_, '_> {
-    /// Runs one chain: its last hypothesis with ln P(s | Y), and which iterations accepted their proposal; `None`
-    /// if `tick` broke it off.
+    /// Runs one chain: its last hypothesis with ln P(s | Y), and which iterations accepted their proposal;
+    /// `None` if `tick` cancelled it.
     pub(crate) fn run(
         &self,
         simulations: &mut Simulations<'_>,
@@ -66,7 +68,7 @@ impl Chains<'_, '_> {
         Ok(Some((current, likelihood, accepted)))
     }
 
-    /// The stretch of ΔT steps to propose from next, drawn by e^{η Σ ‖ŝ − s‖₂}; `None` for the whole event.
+    /// The window of ΔT steps to propose from next, drawn by e^{η Σ ‖ŝ − s‖₂}; `None` for the whole event.
     fn sample_window(
         &self,
         current: &Hypothesis,

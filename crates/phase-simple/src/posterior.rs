@@ -1,10 +1,10 @@
-//! From weighted hypotheses to what they say of goals, attitudes and relations.
+//! From weighted hypotheses to marginals over goals, attitudes and relations.
 
 use crate::Hypothesis;
 use phase_model::{AGENT_COUNT, AgentId, Attitude, Goal, Judgement, Relation, RelationProbabilities};
 use std::collections::BTreeMap;
 
-/// Weighted hypotheses; the weights are not negative and add up to 1 unless there are none.
+/// Weighted hypotheses; the weights are not negative and sum to 1 unless there are none.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Posterior {
     /// Different hypotheses with their weights, heaviest first.
@@ -26,7 +26,7 @@ impl Posterior {
         Self { hypotheses }
     }
 
-    /// P(g_i | s) of an agent, likeliest first, without those of no weight.
+    /// P(g_i | s) of an agent, most likely first, without those of zero weight.
     #[must_use]
     pub fn goals(&self, agent: AgentId) -> Vec<(Goal, f64)> {
         let mut goals: BTreeMap<Goal, f64> = BTreeMap::new();
@@ -45,8 +45,8 @@ impl Posterior {
     }
 
     /// P(friendly | s), P(adversarial | s) and P(neutral | s). The paper multiplies P(g_i = g_j | s) by
-    /// P(α_ij = 0, α_ji = 0 | s), which holds if goals and attitudes are independent given the event. They are
-    /// known jointly here, so their joint probability stands in place of the product.
+    /// P(α_ij = 0, α_ji = 0 | s), which holds if goals and attitudes are independent given the event. Here
+    /// their joint distribution is known, so their joint probability replaces the product.
     #[must_use]
     pub fn relation(&self) -> RelationProbabilities {
         if self.hypotheses.is_empty() {

@@ -1,4 +1,4 @@
-//! Q(Y | S): where hypotheses come from (appendix, "Bottom-up Proposals").
+//! Q(Y | S): the proposal distribution of hypotheses (appendix, "Bottom-up Proposals").
 
 use crate::{Hypothesis, Posterior, cue, hypothesis::physical_goals, strength::StrengthCue};
 use core::ops::RangeInclusive;
@@ -6,8 +6,9 @@ use phase_event::ObservedEvent;
 use phase_model::{AGENT_COUNT, AgentId, Attitude, Goal, Strength};
 use rand::{Rng, RngExt};
 
-/// The distribution of hypotheses that a stretch of an observed event suggests: goals and strengths of both agents
-/// each by themselves, attitudes evenly from nobody, one helping and one hindering, either of the two.
+/// The distribution of hypotheses that a time window of an observed event suggests: goals and strengths of
+/// both agents independently; attitudes uniformly over no agent being social, one helping and one hindering,
+/// either of the two.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Proposal {
     goals: [Vec<Goal>; AGENT_COUNT],
@@ -16,7 +17,7 @@ pub struct Proposal {
 }
 
 impl Proposal {
-    /// What the rows of a range suggest; the part of the range that the event has not got does not count.
+    /// What the rows of a range suggest; rows of the range past the event's end are ignored.
     #[must_use]
     pub fn new(
         observed: &ObservedEvent,
@@ -67,8 +68,8 @@ impl Proposal {
         &self.goals[agent]
     }
 
-    /// Every hypothesis as likely as it is to be drawn; strengths, which say nothing of goals and relations, are left
-    /// at the lowest.
+    /// Every hypothesis weighted by its proposal probability; strengths, which carry no information about
+    /// goals and relations, are left at the lowest.
     #[must_use]
     pub fn posterior(&self) -> Posterior {
         let strengths = [Strength::Weak; AGENT_COUNT];
@@ -93,7 +94,8 @@ impl Proposal {
         Posterior::new(hypotheses.iter().map(|hypothesis| (*hypothesis, self.log_probability(hypothesis))))
     }
 
-    /// ln Q(Y | S), −∞ for what is never drawn. The goal of a social agent counts for nothing: it follows.
+    /// ln Q(Y | S), −∞ for what is never drawn. The goal of a social agent is ignored, since it follows from
+    /// the other's.
     #[must_use]
     pub fn log_probability(&self, hypothesis: &Hypothesis) -> f64 {
         let strength =
@@ -110,7 +112,7 @@ impl Proposal {
     }
 }
 
-/// A place drawn by logarithms of probabilities that add up to 1.
+/// An index drawn by logarithms of probabilities that sum to 1.
 pub(crate) fn sample_index(logs: &[f64], random: &mut impl Rng) -> usize {
     let mut left = random.random::<f64>();
     for (place, log) in logs.iter().enumerate() {
@@ -119,6 +121,6 @@ pub(crate) fn sample_index(logs: &[f64], random: &mut impl Rng) -> usize {
             return place;
         }
     }
-    // Rounding may leave a trifle over.
+    // Rounding may leave a small remainder.
     logs.len().saturating_sub(1)
 }

@@ -4,15 +4,15 @@ use crate::cue::GAMMA;
 use phase_model::AGENT_COUNT;
 use serde::{Deserialize, Serialize};
 
-/// From what hypotheses are proposed anew.
+/// The source of new proposals.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Update {
-    /// Not at all: the initial proposals stand (SIMPLE (Initial) of the ablation).
+    /// None: the initial proposals are kept (SIMPLE (Initial) of the ablation).
     Initial,
     /// From the whole event (SIMPLE (Global)).
     Global,
-    /// From a short stretch where simulation and observation are at odds (SIMPLE (Full)).
+    /// From a short time window in which simulation and observation disagree (SIMPLE (Full)).
     Local,
 }
 
@@ -20,20 +20,20 @@ pub enum Update {
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Algorithm {
-    /// All hypotheses, by what each agent would do at every step if it wanted this or that. Not in the paper.
+    /// All hypotheses, by what each agent would do at every step under each intent. Not in the paper.
     InversePlanning(InversePlanningSettings),
     /// Some hypotheses, by simulations of whole events: the paper's Algorithm 2.
     Chains(ChainSettings),
 }
 
-/// How to infer. The defaults are what serves best; [`InferenceSettings::published`] is the paper's.
+/// How to infer. The defaults perform best; [`InferenceSettings::published`] is the paper's.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 pub struct InferenceSettings {
     /// How hypotheses are found and weighed.
     pub algorithm: Algorithm,
     /// γ of the goal proposal (1/u).
     pub gamma: f64,
-    /// How the agents of a simulation think.
+    /// Parameters of the agents in a simulation.
     pub minds: phase_agent::MindParameters,
 }
 
@@ -45,8 +45,8 @@ pub struct InversePlanningSettings {
     pub lapse_rate: f64,
     /// σ, scale of the residuals (u): a residual larger by σ divides an action's likelihood by e.
     pub tolerance: f64,
-    /// κ, inverse temperature of the action likelihood; below 1 because errors of a simulated mind are correlated
-    /// over steps.
+    /// κ, inverse temperature of the action likelihood; below 1 because errors of a simulated agent are
+    /// correlated over steps.
     #[serde(rename = "temper")]
     pub inverse_temperature: f64,
     /// Steps between resynchronisations of the simulations whose deviation is measured; at least 1.
@@ -59,17 +59,17 @@ pub struct InversePlanningSettings {
 /// Parameters of Algorithm 2.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 pub struct ChainSettings {
-    /// Which proposals there are after the first.
+    /// The source of proposals after the initial ones.
     pub update: Update,
     /// L, iterations after the initial proposals.
     pub iterations: usize,
-    /// M, particles, each a chain of its own; at least 1.
+    /// M, particles, each a separate chain; at least 1.
     pub particles: usize,
     /// β of the likelihood (1/u).
     pub beta: f64,
-    /// η of the choice of a stretch (1/u).
+    /// η of the choice of a window (1/u).
     pub eta: f64,
-    /// ΔT, length of a stretch (steps).
+    /// ΔT, length of a window (steps).
     pub window: usize,
     /// Steps between resynchronisations with the observed state; `None` (the paper) for none.
     #[serde(rename = "anchor")]
@@ -78,12 +78,13 @@ pub struct ChainSettings {
 
 /// POMCP simulations a decision within an inference.
 const SIMULATIONS: usize = 50;
-/// What an agent can want in an event with two objects.
+/// Number of intents of an agent in an event with two objects.
 const INTENTS: usize = 42;
 
 impl InferenceSettings {
-    /// The paper's: Algorithm 2 with M = 15, L = 6, β = 0.05, η = 0.1 and ΔT = 10, over simulations that go their own
-    /// way from the start. Only γ is not the printed one (see [`GAMMA`]), and agents search with fewer simulations.
+    /// The paper's: Algorithm 2 with M = 15, L = 6, β = 0.05, η = 0.1 and ΔT = 10, over simulations that run
+    /// freely from the start. Only γ is not the printed one (see [`GAMMA`]), and agents search with fewer
+    /// simulations.
     #[must_use]
     pub fn published() -> Self {
         Self::chains(ChainSettings {
@@ -99,7 +100,7 @@ impl InferenceSettings {
         Self { algorithm: Algorithm::Chains(chains), ..Self::default() }
     }
 
-    /// About how often an inference ticks.
+    /// Approximate number of ticks of an inference.
     #[must_use]
     pub const fn ticks(&self) -> usize {
         match self.algorithm {

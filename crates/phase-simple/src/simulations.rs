@@ -7,7 +7,8 @@ use crate::{
 use phase_pomcp::PomcpError;
 use std::collections::BTreeMap;
 
-/// Simulations of one event. Each hypothesis is simulated once: its simulation would draw the same numbers again.
+/// Simulations of one event. Each hypothesis is simulated once: repeating it would use the same random
+/// numbers again.
 #[derive(Debug)]
 pub struct Simulations<'a> {
     prepared: &'a PreparedEvent<'a>,
@@ -17,7 +18,8 @@ pub struct Simulations<'a> {
 }
 
 impl<'a> Simulations<'a> {
-    /// None so far. `resync_interval` is that of [`PreparedEvent::simulate`], `beta` that of the likelihood (1/u).
+    /// An empty cache. `resync_interval` is that of [`PreparedEvent::simulate`], `beta` that of the
+    /// likelihood (1/u).
     #[must_use]
     pub const fn new(prepared: &'a PreparedEvent<'a>, resync_interval: Option<usize>, beta: f64) -> Self {
         Self { prepared, resync_interval, beta, simulated: BTreeMap::new() }
@@ -25,15 +27,19 @@ impl<'a> Simulations<'a> {
 
     /// ln P(s | Y) = −β Σ ‖sᵗ − ŝᵗ‖₂.
     ///
-    /// # Errors Invalid parameters of the minds' search.
+    /// # Errors
+    ///
+    /// Invalid parameters of the agents' search.
     pub fn log_likelihood(&mut self, hypothesis: &Hypothesis) -> Result<f64, PomcpError> {
         Ok(self.log_likelihood_above(hypothesis, f64::NEG_INFINITY)?.unwrap_or(f64::NEG_INFINITY))
     }
 
-    /// The same if it is above a threshold. A simulation that has come too far from the event to get above it is
-    /// broken off, which changes nothing: deviations only add up.
+    /// The same if it is above a threshold. A simulation whose deviation is already too large to reach it is
+    /// stopped early, which does not change the result: deviations only add up.
     ///
-    /// # Errors Invalid parameters of the minds' search.
+    /// # Errors
+    ///
+    /// Invalid parameters of the agents' search.
     pub fn log_likelihood_above(
         &mut self,
         hypothesis: &Hypothesis,

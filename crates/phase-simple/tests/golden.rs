@@ -12,7 +12,7 @@ use phase_simple::{InferenceSettings, StrengthRegressor, explain};
 /// Seed of the scene, of the event and of the inference.
 const SEED: u64 = 2021;
 
-/// What a viewer has of an event: the initial bodies, then the mean over the substeps of each step.
+/// What a viewer sees of an event: the initial bodies, then the mean over the substeps of each step.
 fn observed(event: &Event) -> ObservedEvent {
     let mean = |bodies: [[Body; MAX_ENTITIES]; SUBSTEPS], k: usize| {
         let mut mean = Body::default();
@@ -49,7 +49,7 @@ fn golden_posterior_is_unchanged() -> Result<(), String> {
     let mut digest = Digest::new();
     for (hypothesis, weight) in &inference.posterior.hypotheses {
         for goal in hypothesis.goals {
-            // The goal in the words of the file formats.
+            // The goal in the notation of the file formats.
             digest.text(&serde_json::to_string(&goal).map_err(|error| error.to_string())?);
         }
         for attitude in hypothesis.attitudes {

@@ -1,4 +1,4 @@
-//! Whole inferences, on events whose labels are known to the test and to nobody else.
+//! Whole inferences, on events whose labels are known only to the test.
 
 use phase_event::{Event, ObservedEvent, Recording};
 use phase_model::{
@@ -11,7 +11,7 @@ use phase_simple::{
     explain,
 };
 
-/// An event of a variant, by minds that think less than the paper's.
+/// An event of a variant, by agents with smaller searches than the paper's.
 fn event(variant: Variant, seed: u64) -> Event {
     let layouts: Vec<Layout> = Layout::all_used().collect();
     let request = Request { variant, goal_index: seed as usize, layouts: &layouts };
@@ -29,7 +29,7 @@ fn recording(event: Event) -> Recording {
     Recording::of_event("event", event, "test".into(), serde_json::Value::Null)
 }
 
-/// Inverse planning and Algorithm 2, by minds that think little.
+/// Inverse planning and Algorithm 2, with agents that search little.
 fn quick() -> [InferenceSettings; 2] {
     let chains =
         ChainSettings { particles: 4, iterations: 2, ..ChainSettings::resynchronised(Update::Local) };
@@ -77,8 +77,8 @@ fn the_same_seed_gives_the_same_answer() {
     }
 }
 
-/// Inverse planning weighs every hypothesis, and agents who are not social say nothing of each other: the odds between
-/// two goals of one are the same whatever goal the other has.
+/// Inverse planning weighs every hypothesis, and agents that are not social carry no information about each
+/// other: the odds between two goals of one are the same whatever goal the other has.
 #[test]
 fn every_hypothesis_is_weighed_and_neutral_agents_are_independent() {
     let event = observed(&event(Variant::Carry, 1)).prefix(6);
@@ -101,7 +101,7 @@ fn every_hypothesis_is_weighed_and_neutral_agents_are_independent() {
     }
 }
 
-/// Both walk to their landmarks and stop: the plainest event there is.
+/// Both walk to their landmarks and stop: the simplest event.
 #[test]
 fn two_who_walk_to_their_landmarks_are_understood() {
     let event = event(Variant::Places, 3);
@@ -114,10 +114,10 @@ fn two_who_walk_to_their_landmarks_are_understood() {
     }
 }
 
-/// What agents did and how strong they are is found again from rows alone, which are means over steps.
+/// Actions and strengths are recovered from rows alone, which are means over steps.
 #[test]
 fn actions_strengths_and_grips_are_found_again() {
-    /// Log odds by which a strength shows.
+    /// Log-odds by which a strength is identified.
     const SURE: f64 = 10.0;
     let (mut pushes, mut pushes_found, mut held, mut held_found, mut strengths) = (0, 0, 0, 0, 0);
     for (seed, variant) in
@@ -129,7 +129,7 @@ fn actions_strengths_and_grips_are_found_again() {
             let truth = usize::from(agent.strength.level());
             let others = logs.iter().enumerate().filter(|(level, _)| *level != truth);
             let best_other = others.map(|(_, log)| *log).fold(f64::NEG_INFINITY, f64::max);
-            // Whoever hardly moves does not show how strong it is.
+            // An agent that hardly moves does not reveal its strength.
             assert!(logs[truth] > best_other - SURE, "{variant:?} {seed}: {logs:?}");
             strengths += usize::from(logs[truth] > best_other + SURE);
         }
@@ -169,8 +169,8 @@ fn a_late_start_is_noticed() {
     assert!(motion.residuals[0] < 0.01, "{}", motion.residuals[0]);
 }
 
-/// Simulated with the very beliefs that led to it, an anchored event deviates less under what is true than under
-/// what is false.
+/// Simulated with the same beliefs that led to it, a resynchronised event deviates less under the true
+/// hypothesis than under a false one.
 #[test]
 fn the_truth_deviates_least() {
     let event = event(Variant::Places, 5);
@@ -191,7 +191,7 @@ fn the_truth_deviates_least() {
         other => other,
     });
     assert!(truth < deviation(swapped), "{truth}");
-    // Whoever asks for no more than a part gets no more.
+    // A caller that requests only a part gets only that part.
     let hypothesis = phase_simple::Hypothesis::new(swapped, [Attitude::Neutral; 2], strengths);
     let part = prepared.simulate(&hypothesis, Some(10), truth).expect("is sound");
     assert!(part.len() < seen.steps() && part.iter().sum::<f64>() > truth);

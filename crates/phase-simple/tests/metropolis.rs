@@ -4,7 +4,7 @@ use phase_model::random::{Purpose, stream};
 use phase_simple::metropolis::threshold;
 use rand::RngExt;
 
-/// Four hypotheses, proposed unevenly and nothing like how likely they are.
+/// Four hypotheses, proposed non-uniformly and independently of their likelihoods.
 const LIKELIHOODS: [f64; 4] = [0.1, 0.4, 0.05, 0.45];
 const PROPOSED: [f64; 4] = [0.55, 0.1, 0.3, 0.05];
 
@@ -39,8 +39,8 @@ fn chains_come_to_the_posterior_whatever_proposes() {
         visits[current] += 1;
     }
     for (visits, likelihood) in visits.iter().zip(LIKELIHOODS) {
-        // The prior is even, so the posterior is the likelihood. The chain moves seldom; 0.01 is several of its
-        // standard deviations, while the ratio upside down would put 0.03 for 0.45.
+        // The prior is uniform, so the posterior is the likelihood. The chain moves seldom; 0.01 is several
+        // of its standard deviations, while the inverted ratio would give 0.03 instead of 0.45.
         let share = f64::from(*visits) / f64::from(STEPS);
         assert!((share - likelihood).abs() < 0.01, "{share} for {likelihood}");
     }

@@ -1,4 +1,4 @@
-//! What weighted hypotheses say, by hand.
+//! Marginals of weighted hypotheses, computed by hand.
 
 use phase_model::{AgentId, Attitude, Goal, LandmarkId, ObjectId, Relation, Sign, Strength};
 use phase_simple::{Hypothesis, Posterior, forecast::geometric_median, physical_goals};
@@ -79,7 +79,7 @@ fn equal_particles_add_up() {
     assert!((posterior.attitude(AgentId::ONE, Attitude::Neutral) - 1.0).abs() < 1e-12);
 }
 
-/// Every kind of friendship and conflict that the paper names, and none.
+/// Every kind of friendly and adversarial relation that the paper names, and neither.
 #[test]
 fn relations_follow_from_goals_and_attitudes() {
     let cases = [
@@ -101,8 +101,8 @@ fn relations_follow_from_goals_and_attitudes() {
     }
 }
 
-/// With 14 goals: nobody social 1/3 · (1/14)², one social in a given way 1/6 · 1/14, strengths 1/16 each time; all
-/// hypotheses together 1.
+/// With 14 goals: no agent social 1/3 · (1/14)², one social in a given way 1/6 · 1/14, strengths 1/16 each
+/// time; all hypotheses together 1.
 #[test]
 fn the_prior_adds_up_to_one() {
     let goals = [physical_goals(AgentId::ZERO, 2), physical_goals(AgentId::ONE, 2)];

@@ -1,4 +1,4 @@
-//! What motion says about strength: features and the network's arithmetic by hand, and what is refused.
+//! Strength from motion: features and the network's arithmetic by hand, and invalid input.
 
 use phase_model::{AgentBody, AgentId, Body, MAX_ENTITIES, Size, Strength, Vec2, physics::GROUND_FRICTION};
 use phase_simple::{
@@ -8,7 +8,7 @@ use phase_simple::{
 use phase_tensors::TensorsError;
 use proptest::prelude::*;
 
-/// Rows in which agent 1 has these velocities and everybody else rests.
+/// Rows in which agent 1 has these velocities and everything else rests.
 fn motion(velocities: &[(f32, f32)]) -> Vec<[Body; MAX_ENTITIES]> {
     let row = |&(x, y): &(f32, f32)| {
         let mut row = [Body::default(); MAX_ENTITIES];
@@ -203,7 +203,7 @@ fn first_tensor(bytes: &[u8]) -> String {
 }
 
 proptest! {
-    // No file of past failures beside the tests.
+    // Keep no file of past failures beside the tests.
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]

@@ -3,10 +3,10 @@
 use crate::Interval;
 use rand::{Rng, RngExt};
 
-/// The percentile bootstrap interval of a mean (Efron and Tibshirani, *An Introduction to the Bootstrap*, 1993,
-/// chapter 13): `resamples` times as many values are drawn with replacement as there are, and of the means the
-/// central share of `confidence` (0 to 1, such as 0.95) is kept. The values must be finite. `None` without values or
-/// without resamples.
+/// The percentile bootstrap interval of a mean (Efron and Tibshirani, *An Introduction to the Bootstrap*,
+/// 1993, chapter 13): `resamples` samples of the original size are drawn with replacement, and the interval
+/// is the central share `confidence` (0 to 1, such as 0.95) of their means. The values must be finite. `None`
+/// without values or without resamples.
 #[must_use]
 pub fn bootstrap_mean<R: Rng>(
     values: &[f64],

@@ -1,4 +1,4 @@
-//! Comparing two proportions.
+//! Comparison of two proportions.
 
 /// Fisher's exact test of two independent proportions, one-sided: the probability, if both groups have the same
 /// rate, that the first has as many successes or more, given the number of successes in both together. Each group

@@ -6,11 +6,11 @@
 //! - [`wilson_interval`] for a proportion and [`bootstrap_mean`] for the mean of anything.
 //! - [`fisher_exact_greater`] to compare two proportions.
 //!
-//! The key design decision is that every function works on plain slices and counts and names its definition: there
-//! are nine quantile rules and half a dozen intervals for a proportion in use, and two reports can only be compared
-//! if both used the same. Random numbers come from a generator that the caller seeds, and transcendental functions
-//! from `libm`, so that a report is the same on every platform. The price is that a statistic of a structure needs a
-//! vector of numbers first, and that percentiles sort a copy for each call.
+//! Key design decision: every function takes plain slices and counts and names its definition. Nine quantile
+//! definitions and half a dozen intervals for a proportion are in use, and two reports are comparable only if
+//! both use the same ones. Random numbers come from a generator that the caller seeds, and transcendental
+//! functions from `libm`, so that a report is the same on every platform. The trade-off is that a statistic
+//! of a structure needs a vector of numbers first, and that percentiles sort a copy for each call.
 //!
 //! # Example
 //!

@@ -1,6 +1,6 @@
-//! Means and how precisely they are known.
+//! Means and their standard errors.
 
-/// The arithmetic mean, summed from first to last; `None` of no values.
+/// The arithmetic mean, summed from first to last; `None` for an empty slice.
 #[must_use]
 pub fn mean(values: &[f64]) -> Option<f64> {
     (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)

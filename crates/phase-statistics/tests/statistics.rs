@@ -1,4 +1,4 @@
-//! Statistics against published tables and values worked out from their definitions.
+//! Statistics compared with published tables and values derived from their definitions.
 
 use phase_statistics::{
     Interval, bootstrap_mean, fisher_exact_greater, mean, median, percentile, quartiles, standard_error,
@@ -50,7 +50,7 @@ fn fisher_sums_hypergeometric_probabilities() {
 fn percentiles_are_by_nearest_rank() {
     let ten: Vec<f32> = (1..=10).rev().map(|k| k as f32).collect();
     let ten_more = [3.0, 6.0, 7.0, 8.0, 8.0, 10.0, 13.0, 15.0, 16.0, 20.0];
-    // (values, hundredths, the smallest value that so many do not exceed)
+    // (values, hundredths, the smallest value that this share does not exceed)
     let cases: [(&[f32], usize, Option<f32>); 15] = [
         (&[], 50, None),
         (&[7.0], 0, Some(7.0)),
@@ -138,7 +138,8 @@ proptest! {
         prop_assert!(0.0 <= low && low <= rate + 1e-12 && rate <= high + 1e-12 && high <= 1.0);
     }
 
-    /// At least the share asked for is no greater than a percentile, and fewer are below it.
+    /// At least the requested share of the values does not exceed a percentile, and a smaller share is below
+    /// it.
     #[test]
     fn percentiles_keep_their_promise(
         values in prop::collection::vec(-9.0_f32..9.0, 1..40),

@@ -14,13 +14,13 @@ pub enum TensorsError {
     Kind {
         /// The entry of its metadata.
         field: &'static str,
-        /// What it must say.
+        /// The value it must have.
         expected: String,
     },
-    /// A tensor is not there.
+    /// A tensor is missing.
     #[error("tensor `{0}` is missing")]
     Missing(String),
-    /// A tensor is none of those that belong there.
+    /// A tensor is not one of those expected.
     #[error("tensor `{0}` does not belong there")]
     Unknown(String),
     /// A tensor holds another type of numbers.
@@ -36,7 +36,7 @@ pub enum TensorsError {
         /// What it has.
         found: Vec<usize>,
     },
-    /// A number is none.
+    /// A value is not finite.
     #[error("tensor `{0}` must hold finite numbers")]
     NotFinite(String),
 }

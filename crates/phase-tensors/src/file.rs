@@ -4,21 +4,22 @@ use crate::TensorsError;
 use safetensors::{Dtype, SafeTensors, tensor::TensorView};
 use std::collections::HashMap;
 
-/// A tensor as it stands in a file.
+/// A tensor as stored in a file.
 #[derive(Clone, PartialEq, Debug)]
 pub struct NamedTensor {
-    /// Its name, one of a kind in its file.
+    /// Its name, unique in its file.
     pub name: String,
-    /// Its lengths, the outermost first.
+    /// Its dimensions, the outermost first.
     pub shape: Vec<usize>,
-    /// Its values in row-major order; as many as the product of its lengths.
+    /// Its values in row-major order; as many as the product of its dimensions.
     pub values: Vec<f32>,
 }
 
-/// The bytes of a file with these tensors, whose entry `field` says `metadata_value`. The same tensors always give the same bytes.
+/// The bytes of a file with these tensors, whose entry `field` is `metadata_value`. The same tensors always
+/// give the same bytes.
 ///
 /// # Errors
-/// [`TensorsError::Container`] if a shape does not go with its numbers, or the tensors cannot be laid out.
+/// [`TensorsError::Container`] if a shape does not match its values, or the tensors cannot be laid out.
 pub fn write(tensors: &[NamedTensor], field: &str, metadata_value: &str) -> Result<Vec<u8>, TensorsError> {
     let bytes: Vec<Vec<u8>> = tensors
         .iter()
@@ -42,17 +43,17 @@ impl<'a> TensorFile<'a> {
     /// Opens bytes with the entry `field` in their metadata.
     ///
     /// # Errors
-    /// [`TensorsError::Container`] if they are no such file.
+    /// [`TensorsError::Container`] if they are not such a file.
     pub fn open(bytes: &'a [u8], field: &'static str) -> Result<Self, TensorsError> {
         let (_, metadata) = SafeTensors::read_metadata(bytes)?;
         let metadata_value = metadata.metadata().as_ref().and_then(|entries| entries.get(field)).cloned();
         Ok(Self { tensors: SafeTensors::deserialize(bytes)?, metadata_value })
     }
 
-    /// The same, and checks what the entry says.
+    /// The same, and checks the value of the entry.
     ///
     /// # Errors
-    /// As [`open`](Self::open), and [`TensorsError::Kind`] if it says something else or is not there.
+    /// As [`open`](Self::open), and [`TensorsError::Kind`] if it has another value or is missing.
     pub fn open_as(bytes: &'a [u8], field: &'static str, expected: &str) -> Result<Self, TensorsError> {
         let file = Self::open(bytes, field)?;
         if file.metadata_value() == Some(expected) {
@@ -62,7 +63,7 @@ impl<'a> TensorFile<'a> {
         }
     }
 
-    /// What the entry says, if it is there.
+    /// The value of the entry, if it exists.
     #[must_use]
     pub fn metadata_value(&self) -> Option<&str> {
         self.metadata_value.as_deref()
@@ -93,7 +94,7 @@ impl<'a> TensorFile<'a> {
     /// A tensor of any shape.
     ///
     /// # Errors
-    /// If there is none of this name, or its numbers are of another type or not finite.
+    /// If there is none of this name, or its values are of another type or not finite.
     pub fn tensor(&self, name: &str) -> Result<NamedTensor, TensorsError> {
         let view = self.tensors.tensor(name).map_err(|_| TensorsError::Missing(name.into()))?;
         if view.dtype() != Dtype::F32 {
@@ -107,7 +108,7 @@ impl<'a> TensorFile<'a> {
         Ok(NamedTensor { name: name.into(), shape: view.shape().into(), values })
     }
 
-    /// The numbers of a tensor of this shape.
+    /// The values of a tensor of this shape.
     ///
     /// # Errors
     /// As [`tensor`](Self::tensor), and [`TensorsError::Shape`] for another shape.

@@ -1,11 +1,12 @@
 //! Weights on disk: named 32-bit float tensors in a safetensors file, with one metadata entry that identifies them.
 //!
-//! [`write()`] makes such a file, [`TensorFile`] looks into one, [`TensorsError`] says what is wrong with it.
+//! [`write()`] makes such a file, [`TensorFile`] reads one, [`TensorsError`] describes what is wrong with it.
 //!
-//! The key design decision is that there is one kind of number and one entry of metadata: it is all that our networks and
-//! their trainings need, more entries would stand in a file in an order that changes from run to run, and so the same
-//! tensors are always the same bytes. The price is that files of others with other numbers are refused. Nothing here knows
-//! any network, so that who evaluates one in plain Rust and who trains one in a library share it.
+//! Key design decision: there is one numeric type and one metadata entry. PHASE's networks and their training
+//! need no more, and further entries would be stored in an order that changes from run to run; so the same
+//! tensors always give the same bytes. The trade-off is that files with other numeric types are rejected.
+//! Nothing here depends on a particular network, so evaluation in plain Rust and training in a library share
+//! it.
 //!
 //! Two numbers are written and read again. By the safetensors format they are the last bytes of the file, little-endian:
 //!

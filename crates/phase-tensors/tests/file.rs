@@ -1,4 +1,4 @@
-//! Files of tensors: what is written is read, what is damaged is refused.
+//! Files of tensors: what is written is read back, damaged files are rejected.
 
 use phase_tensors::{NamedTensor, TensorFile, TensorsError, write};
 use proptest::prelude::*;
@@ -68,7 +68,7 @@ fn shapes_that_do_not_go_with_their_numbers_are_not_written() {
 }
 
 proptest! {
-    // No file of past failures beside the tests.
+    // Keep no file of past failures beside the tests.
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]

@@ -1,17 +1,18 @@
-//! The bodies and walls as rapier sees them.
+//! The bodies and walls in rapier's terms.
 
 use crate::{contact, settings};
 use phase_model::{Body, Entity, PhysicsConfig, Segment, Vec2, arena, geometry, physics};
 use rapier2d::prelude::*;
 
-/// Thickness of the skin around agents; objects have none (u).
+/// Thickness of the skin around agents; objects have no skin (u).
 const AGENT_SKIN: f32 = 0.01;
-/// Thickness of the skin around walls (u). Less the penetration of skins that is tolerated, an agent rests 0.015 u from
-/// a wall and an object 0.005 u.
+/// Thickness of the skin around walls (u). With the tolerated penetration of skins subtracted, an agent rests
+/// 0.015 u from a wall and an object 0.005 u.
 const WALL_SKIN: f32 = 0.01;
-/// Half the thickness of the arena's boundary (u). Nothing gets deep enough to be pushed out on the far side.
+/// Half the thickness of the arena's boundary (u). No body penetrates deeply enough to be pushed out on the
+/// far side.
 const BOUNDARY_HALF_THICKNESS: f32 = 10.0;
-/// Greatest angular velocity that a start may have (rad/s).
+/// Maximum angular velocity of a start state (rad/s).
 const MAX_SPIN: f32 = 1000.0;
 
 /// The rotation by an angle (rad), the same on every platform.
@@ -27,7 +28,7 @@ pub(crate) fn pose(position: Vec2, angle: f32) -> Pose {
     Pose::from_parts(position, rotation(angle))
 }
 
-/// The nearest start that makes sense: finite, inside the arena, not faster than anything can be.
+/// The closest valid start: finite, inside the arena, below the maximum speeds.
 #[must_use]
 pub(crate) fn sanitized(body: &Body) -> Body {
     let or = |vector: Vec2, default| if vector.is_finite() { vector } else { default };
@@ -40,7 +41,7 @@ pub(crate) fn sanitized(body: &Body) -> Body {
     }
 }
 
-/// Adds the fixed body that bears the arena's boundary and the inner walls, and to which ground friction is
+/// Adds the fixed body that carries the arena's boundary and the inner walls, and to which ground friction is
 /// anchored.
 pub(crate) fn insert_ground(engine: &mut PhysicsWorld, walls: &[Segment]) -> RigidBodyHandle {
     let ground = engine.insert_body(RigidBodyBuilder::fixed());
@@ -72,7 +73,7 @@ pub(crate) fn insert_body(
             let agent = &physics.agents[agent];
             let centre_of_mass = Vec2::new(0.0, -agent.centre_of_mass_offset());
             ColliderBuilder::convex_polyline(geometry::trapezoid(radius).to_vec())
-                // Only a radius that is no length has no hull.
+                // Only an invalid radius yields no hull.
                 .unwrap_or_else(|| ColliderBuilder::ball(radius))
                 .contact_skin(AGENT_SKIN)
                 .mass_properties(MassProperties::new(centre_of_mass, agent.mass(), agent.inertia()))

@@ -1,4 +1,4 @@
-//! Which contacts count: what the engine is told, and what it reports.
+//! Contact rules: the engine's hooks, and the contacts that are reported.
 
 use crate::dynamic_body::DynamicBody;
 use phase_model::{Entity, MAX_ENTITIES, Vec2, arena::SUBSTEP_SECONDS};
@@ -10,38 +10,38 @@ use rapier2d::{
     prelude::*,
 };
 
-/// Penetration of skins that is left alone, so that bodies at rest keep touching (u).
+/// Penetration of skins that is not corrected, so that bodies at rest keep touching (u).
 const SLOP: f32 = 0.005;
-/// Greatest distance between two surfaces that counts as touching (u); above all skins together.
+/// Maximum distance between two surfaces that counts as touching (u); more than all skins together.
 const TOUCHING_DISTANCE: f32 = 0.02;
 
-/// How far from where it was let go of a body at rest is clear of its former partner (u).
+/// Distance from the point of release beyond which a body at rest is clear of its former partner (u).
 const CLEARANCE: f32 = 0.1;
-/// How many substeps' way at the speed of that moment it has to go beyond that.
+/// Additional distance, in substeps at the body's current speed.
 const CLEARANCE_SUBSTEPS: f32 = 4.0;
 
-/// The mark of an entity's collider; walls bear 0.
+/// The user data of an entity's collider; walls have 0.
 #[must_use]
 pub(crate) fn tag(entity: Entity) -> u128 {
     entity.index() as u128 + 1
 }
 
-/// The index of the entity whose mark a collider bears, or `None` for a wall.
+/// The index of the entity that a collider's user data encodes, or `None` for a wall.
 fn tagged(colliders: &ColliderSet, handle: ColliderHandle) -> Option<usize> {
     let tag = colliders.get(handle)?.user_data;
     (1..=MAX_ENTITIES as u128).contains(&tag).then(|| tag as usize - 1)
 }
 
-/// The contact rules: what touches at the start of a substep collides, and an object that was let go passes
+/// The contact rules: bodies that touch at the start of a substep collide, and a released object passes
 /// through the agent that held it until one of them has moved away from where it then was.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct ContactRules {
-    /// For every pair that was let go, where the first of both may be without touching the second.
+    /// For every released pair, where the first of the two may overlap the second.
     released: [[Option<Aabb>; MAX_ENTITIES]; MAX_ENTITIES],
 }
 
 impl ContactRules {
-    /// Lets a pair overlap until one of them has left the place where it is.
+    /// Lets a pair overlap until one of them has left its present place.
     pub(crate) fn release(&mut self, engine: &PhysicsWorld, a: &DynamicBody, b: &DynamicBody) {
         for (one, other) in [(a, b), (b, a)] {
             let body = &engine.bodies[one.body];
@@ -51,7 +51,7 @@ impl ContactRules {
         }
     }
 
-    /// Makes released pairs solid again of which one has left its place.
+    /// Makes released pairs collide again once one of them has left its place.
     pub(crate) fn restore_clear(&mut self, engine: &PhysicsWorld, dynamic_bodies: &[DynamicBody]) {
         for dynamic_body in dynamic_bodies {
             let (this, centre) =

@@ -1,16 +1,16 @@
-//! One body that moves: its parts in the engine and what the engine does not keep of it.
+//! One moving body: its parts in the engine and the state that the engine does not store.
 
 use crate::{bodies, friction, friction::FrictionDirection};
 use phase_model::{Action, AgentBody, Body, Entity, PhysicsConfig, Vec2, arena};
 use rapier2d::prelude::*;
 
-/// Where a body is and how it moves, as the engine has it.
+/// Pose and velocity of a body in the engine.
 pub(crate) type PoseAndVelocity = (Pose, RigidBodyVelocity<f32>);
 
 /// One agent's or object's parts in the engine.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct DynamicBody {
-    /// Whose parts they are.
+    /// The entity.
     pub(crate) entity: Entity,
     /// The rigid body.
     pub(crate) body: RigidBodyHandle,
@@ -18,12 +18,12 @@ pub(crate) struct DynamicBody {
     pub(crate) collider: ColliderHandle,
     /// Its ground friction.
     pub(crate) friction: ImpulseJointHandle,
-    /// The unbounded angle; the engine knows it only modulo a full turn (rad).
+    /// The unbounded angle; the engine stores it only modulo a full turn (rad).
     pub(crate) angle: f32,
 }
 
 impl DynamicBody {
-    /// Adds an entity to the engine, as near to the given start as makes sense.
+    /// Adds an entity to the engine, at the closest valid state to the given start.
     pub(crate) fn insert(
         engine: &mut PhysicsWorld,
         ground: RigidBodyHandle,
@@ -64,7 +64,7 @@ impl DynamicBody {
         }
     }
 
-    /// Takes the angular velocity away.
+    /// Sets the angular velocity to zero.
     pub(crate) fn stop_turning(&self, engine: &mut PhysicsWorld) {
         engine.bodies[self.body].set_angvel(0.0, true);
     }
@@ -76,14 +76,14 @@ impl DynamicBody {
         (*body.position(), *body.vels())
     }
 
-    /// Puts the body back to an earlier pose and velocity.
+    /// Restores an earlier pose and velocity.
     pub(crate) fn restore(&self, engine: &mut PhysicsWorld, (pose, velocities): PoseAndVelocity) {
         let body = &mut engine.bodies[self.body];
         body.set_position(pose, true);
         body.set_vels(velocities, true);
     }
 
-    /// The aim of the friction that the substep just taken calls for; `before` is the motion it began with.
+    /// The friction direction that follows from the last substep; `before` is the motion at its start.
     #[must_use]
     pub(crate) fn corrected_direction(
         &self,
@@ -93,10 +93,10 @@ impl DynamicBody {
         FrictionDirection::after(engine, &engine.bodies[self.body], &before.0.rotation, self.friction)
     }
 
-    /// Counts the turn since `before` and sets it right.
+    /// Accumulates the rotation since `before` and corrects its integration error.
     ///
-    /// The engine turns a body by moving its axis along the tangent, so that where it should have turned by Δθ
-    /// it has turned by atan Δθ. The centre of mass stays where it is.
+    /// The engine rotates a body by moving its axis along the tangent, so that instead of Δθ it has rotated
+    /// by atan Δθ. The centre of mass is not affected.
     pub(crate) fn correct_turn(&mut self, engine: &mut PhysicsWorld, before: &PoseAndVelocity) {
         let body = &engine.bodies[self.body];
         let turn = turn_between(&before.0.rotation, body.rotation());
@@ -107,7 +107,8 @@ impl DynamicBody {
         }
     }
 
-    /// Brings an origin back that bodies starting in one spot of the boundary have squeezed out of the arena.
+    /// Moves an origin back that bodies starting at the same point of the boundary have squeezed out of the
+    /// arena.
     pub(crate) fn clamp_to_arena(&self, engine: &mut PhysicsWorld) {
         let body = &mut engine.bodies[self.body];
         if !arena::contains(body.translation()) {
@@ -117,11 +118,11 @@ impl DynamicBody {
     }
 }
 
-/// The turn that the engine should have made where it went from one rotation to another along the tangent
-/// (rad).
+/// The rotation that the engine should have made where it moved from one rotation to another along the
+/// tangent (rad).
 pub(crate) fn turn_between(before: &Rotation, after: &Rotation) -> f32 {
     let turned = before.inverse() * *after;
-    // Nothing turns by a right angle along a tangent; the guard only keeps the quotient finite.
+    // No body rotates by a right angle along a tangent; the guard only keeps the quotient finite.
     turned.im / turned.re.max(f32::EPSILON)
 }
 

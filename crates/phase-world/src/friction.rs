@@ -1,28 +1,28 @@
 //! Ground friction: force-limited motors between each body's origin and the ground.
 //!
 //! The ground resists with at most 100 N at a body's origin, against the direction in which the origin slides.
-//! rapier's motors limit the force along each axis by itself. So a body that slides gets one motor, aimed
-//! along the impulse that would stop its origin, and a body that does not is held by a second one across.
-//! For a body on its own the direction is known before the substep, from its velocity and its push. Where
-//! contacts and welds have a say it is only known afterwards; [`FrictionDirection::after`] then tells whether the substep
-//! has to be taken again with a better aim.
+//! rapier's motors limit the force along each axis separately. So a sliding body gets one motor, aligned with
+//! the impulse that would stop its origin, and a body that does not slide is held by a second one,
+//! perpendicular to the first. For a free body the direction is known before the substep, from its velocity
+//! and its push. With contacts and welds it is only known afterwards; [`FrictionDirection::after`] then
+//! determines whether the substep has to be repeated with a better direction.
 
 use phase_model::{Vec2, arena::SUBSTEP_SECONDS, physics::GROUND_FRICTION};
 use rapier2d::prelude::*;
 
-/// The main motor's axis and the one across.
+/// The axes of the main motor and of the perpendicular one.
 const AXES: [JointAxis; 2] = [JointAxis::LinX, JointAxis::LinY];
 /// Gain of the motors' velocity target; so large that only the force limit matters.
 const MOTOR_GAIN: f32 = 1.0e8;
-/// Greatest impulse of friction in one substep (N s).
+/// Maximum impulse of friction in one substep (N s).
 const MAX_IMPULSE: f32 = GROUND_FRICTION * SUBSTEP_SECONDS;
-/// Impulse below which what it would stop counts as resting (N s); such a body creeps by less than 1e-4 u in
-/// a whole event.
+/// Stopping impulse below which a body counts as resting (N s); such a body creeps by less than 1e-4 u in a
+/// whole event.
 const REST_IMPULSE: f32 = 1.0e-5;
-/// Sine of the angle by which two aims may differ without making a difference.
+/// Sine of the angle below which two directions count as equal.
 const DIRECTION_TOLERANCE: f32 = 1.0e-3;
 
-/// Ties a body's origin to the ground by two motors at right angles that aim at standing still.
+/// Connects a body's origin to the ground by two perpendicular motors with target velocity zero.
 pub(crate) fn insert(
     engine: &mut PhysicsWorld,
     ground: RigidBodyHandle,
@@ -39,12 +39,12 @@ pub(crate) fn insert(
 pub(crate) struct FrictionDirection {
     /// Unit vector of the main motor, or zero for no friction at all.
     axis: Vec2,
-    /// Whether the motor across acts, too.
+    /// Whether the perpendicular motor is also active.
     hold: bool,
 }
 
 impl FrictionDirection {
-    /// The aim for a body on its own, whose forces are set for the coming substep.
+    /// The direction for a free body whose forces are set for the coming substep.
     #[must_use]
     pub(crate) fn predicted(body: &RigidBody) -> Self {
         let mass = &body.mass_properties().local_mprops;
@@ -54,8 +54,8 @@ impl FrictionDirection {
         Self::against(slip)
     }
 
-    /// The aim that the motion after a substep calls for: against the slip that would have been without
-    /// friction. `rotation` is the body's before the substep.
+    /// The direction that follows from the motion after a substep: against the slip that would have occurred
+    /// without friction. `rotation` is the body's before the substep.
     pub(crate) fn after(
         engine: &PhysicsWorld,
         body: &RigidBody,
@@ -66,17 +66,18 @@ impl FrictionDirection {
         Self::against(slip + exerted(engine, joint))
     }
 
-    /// The aim against a slip, given as the impulse that would stop it.
+    /// The direction against a slip, given as the impulse that would stop it.
     fn against(slip: Vec2) -> Self {
         let impulse = slip.length();
         if impulse <= REST_IMPULSE {
-            // Others may be about to move what rests; which way, a take without its friction shows.
+            // Other bodies may be about to move a resting body; an iteration without its friction shows in
+            // which direction.
             return Self { axis: Vec2::ZERO, hold: false };
         }
         Self { axis: slip / impulse, hold: impulse <= MAX_IMPULSE }
     }
 
-    /// Whether two aims come to the same.
+    /// Whether two directions are equivalent.
     #[must_use]
     pub(crate) fn is_close_to(&self, other: &Self) -> bool {
         self.axis == other.axis
@@ -93,7 +94,7 @@ impl FrictionDirection {
             joint.data.local_frame1.rotation == rotation
                 && AXES.map(|axis| joint.data.motor(axis).map(|motor| motor.max_force)) == forces.map(Some)
         };
-        // Asking for a joint to change it has the engine go over all joints again.
+        // Accessing a joint mutably makes the engine process all joints again.
         if engine.impulse_joints.get(joint).is_none_or(is_set) {
             return;
         }
@@ -106,7 +107,7 @@ impl FrictionDirection {
     }
 }
 
-/// The impulse at a body's origin that, taken from it, stops its origin (N s).
+/// The impulse at a body's origin that, subtracted from its momentum, stops the origin (N s).
 fn stopping_impulse(body: &RigidBody, rotation: &Rotation, velocity: Vec2, spin: f32) -> Vec2 {
     let mass = &body.mass_properties().local_mprops;
     let arm = *rotation * -mass.local_com;

@@ -6,7 +6,7 @@ use rapier2d::prelude::*;
 /// A grip and the joint that enforces it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Weld {
-    /// What is held, where and at which relative angle.
+    /// The object held, the side and the relative angle.
     pub(crate) grip: Grip,
     joint: ImpulseJointHandle,
 }
@@ -27,7 +27,7 @@ impl Weld {
         Self { grip, joint: engine.insert_impulse_joint(agent, object, joint) }
     }
 
-    /// Lets go.
+    /// Releases the object.
     pub(crate) fn remove(self, engine: &mut PhysicsWorld) {
         engine.remove_impulse_joint(self.joint);
     }

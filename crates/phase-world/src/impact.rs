@@ -1,11 +1,12 @@
-//! Impacts on walls within a substep: stop at the wall, lose the speed into it, go on for the time left.
+//! Impacts on walls within a substep: stop at the wall, lose the normal velocity, continue for the remaining
+//! time.
 //!
-//! A substep of the engine knows the contacts of its start. What then moves onto a wall is put back to the
-//! moment at which it reached it, which the engine's own sweep test finds. There the engine resolves the
-//! contact between that body and the walls, and nothing else: an impact is over before forces, friction or
-//! other bodies count. For the time left the body goes on with what velocity remains. So a corner that lands
-//! can turn the body onto its next corner within the substep, and what pushes from behind does so from the
-//! next substep on.
+//! A substep of the engine uses the contacts at its start. A body that then moves onto a wall is reset to the
+//! moment of impact, which the engine's own sweep test finds. There the engine resolves the contact between
+//! that body and the walls, and nothing else: an impact is instantaneous compared with forces, friction and
+//! other bodies. For the remaining time the body continues with its remaining velocity. So a corner that hits
+//! a wall can turn the body onto its next corner within the substep, and a body pushing from behind acts from
+//! the next substep on.
 
 use crate::{
     bodies,
@@ -25,12 +26,14 @@ use rapier2d::{
     prelude::*,
 };
 
-/// Impacts of one body that are played out in one substep; at the next it loses the time left.
+/// Maximum number of impacts of one body resolved in one substep; at a further one it loses the remaining
+/// time.
 const MAX_IMPACTS: usize = 6;
-/// Distance of an agent's outline from a wall, or depth of an object's in it, at which it has hit (u).
+/// Distance of an agent's outline from a wall, or penetration depth of an object's, at which it counts as an
+/// impact (u).
 const IMPACT_DISTANCE: f32 = 0.005;
 
-/// What bodies can hit, and how they are made.
+/// The obstacles that bodies can hit, and their construction.
 #[derive(Clone, Copy)]
 pub(crate) struct Impacts<'a> {
     physics: &'a PhysicsConfig,
@@ -52,8 +55,8 @@ impl<'a> Impacts<'a> {
         Self { physics, walls }
     }
 
-    /// Plays out the impacts of a body on its way from `before`, at which its angle was `angle`, to where it
-    /// is now.
+    /// Resolves the impacts of a body on its path from `before`, at which its angle was `angle`, to its
+    /// present pose.
     pub(crate) fn resolve(
         self,
         engine: &mut PhysicsWorld,
@@ -91,7 +94,7 @@ impl<'a> Impacts<'a> {
         }
     }
 
-    /// When on its way a shape first reaches a wall, as a share of the way.
+    /// When a moving shape first reaches a wall, as a share of its path.
     fn first(self, shape: &dyn Shape, sweep: &Sweep) -> Option<f32> {
         let [start, end] = [0.0, 1.0].map(|share| shape.compute_aabb(&sweep.transform_at(share)));
         let near = start.merged(&end).loosened(2.0 * IMPACT_DISTANCE);
@@ -102,7 +105,8 @@ impl<'a> Impacts<'a> {
             }
             let mut hit = time_of_impact(wall, &ToiProxy::from_shape(shape)?, sweep, first);
             if hit.status == SweepToiStatus::Overlapped {
-                // What starts across a wall may come out on either side, but its middle stays on its own.
+                // A body that starts across a wall may come out on either side, but its centre stays on its
+                // own side.
                 let core = CORE_FRACTION * shape.ccd_thickness();
                 hit = time_of_impact(wall, &ToiProxy::point(sweep.local_center, core), sweep, first);
             }
@@ -113,7 +117,8 @@ impl<'a> Impacts<'a> {
         (first < 1.0).then_some(first)
     }
 
-    /// A body's motion once it has been parted from the walls that it touches and moves into none of them.
+    /// A body's motion after it has been separated from the walls that it touches and no longer moves into
+    /// any of them.
     fn bounce(
         self,
         dynamic_body: &DynamicBody,
@@ -139,15 +144,15 @@ impl<'a> Impacts<'a> {
         let mut after = *body.vels();
         let gain = energy(after) / energy(velocities);
         if gain > 1.0 {
-            // A wall does no work, so energy gained by a body wedged between two walls is a solver error and is
-            // removed.
+            // A wall does no work, so energy gained by a body wedged between two walls is a solver error and
+            // is removed.
             after = after * libm::sqrtf(1.0 / gain);
         }
         (*body.position(), after)
     }
 }
 
-/// When a shape on its way reaches a wall, if it does so before the share `latest` of it.
+/// When a moving shape reaches a wall, if it does so before the share `latest` of its path.
 fn time_of_impact(wall: &Segment, shape: &ToiProxy, sweep: &Sweep, latest: f32) -> SweepToiOutput {
     let ends = [wall.a, wall.b];
     let still = Sweep::constant(&Pose::IDENTITY, Vec2::ZERO);

@@ -9,22 +9,22 @@ pub(crate) const MAX_SPEED: f32 = 2.0 / SUBSTEP_SECONDS;
 const CORRECTION: f32 = 0.893;
 /// The same after an impact on a wall.
 const IMPACT_CORRECTION: f32 = 0.75;
-/// Longest way by which an impact parts a body from a wall (u).
+/// Maximum correction by which an impact separates a body from a wall (u).
 const MAX_IMPACT_SEPARATION: f32 = 0.05;
 /// Duration of an impact (s).
 pub(crate) const IMPACT_SECONDS: f32 = 0.01 * SUBSTEP_SECONDS;
 /// Sweeps over all constraints in one substep, before and again after positions have moved.
 const SOLVER_PASSES: usize = 10;
-/// Damping ratio at which contacts no longer give way.
+/// Damping ratio at which contacts are no longer compliant.
 const DAMPING_RATIO: f32 = 1.0e4;
 
 /// An empty engine without gravity, with the solver settings of this crate.
 ///
-/// One solver iteration of many sweeps: rapier spreads forces over its iterations, so that more of them
-/// would let a pushed body go less far. No warm starting and no recycled contacts: nothing is remembered from
-/// one substep to the next but poses and velocities. The engine's own continuous collision detection is off,
-/// because it leaves a body where it first comes near a wall and drops the rest of its substep, also along the
-/// wall; `impact` takes its place.
+/// One solver iteration of many sweeps: rapier spreads forces over its iterations, so that with more of them
+/// a pushed body would move less far. No warm starting and no recycled contacts: only poses and velocities
+/// are carried over from one substep to the next. The engine's own continuous collision detection is off,
+/// because it leaves a body where it first comes near a wall and drops the rest of its substep, also along
+/// the wall; `impact` takes its place.
 #[must_use]
 pub(crate) fn engine() -> PhysicsWorld {
     let softness = rigid_contact(CORRECTION, SUBSTEP_SECONDS);
@@ -46,8 +46,8 @@ pub(crate) fn engine() -> PhysicsWorld {
     PhysicsWorld { gravity: Vector::ZERO, integration_parameters, ..PhysicsWorld::default() }
 }
 
-/// An empty engine for impacts, one step of which takes next to no time, so that overlaps are undone and
-/// velocities into walls taken away, but little else happens.
+/// An empty engine for impacts, whose step is so short that overlaps are resolved and velocities into walls
+/// removed, but little else happens.
 #[must_use]
 pub(crate) fn impact_engine() -> PhysicsWorld {
     let mut engine = engine();

@@ -1,4 +1,4 @@
-//! One substep of the engine, with ground friction aimed where the bodies slide.
+//! One substep of the engine, with ground friction along the direction in which bodies slide.
 
 use crate::{
     contact::ContactRules,
@@ -8,14 +8,15 @@ use crate::{
 };
 use rapier2d::prelude::*;
 
-/// How often a substep is taken at most. Free bodies need one take, bodies in contact mostly two or three.
+/// Maximum number of iterations of a substep. Free bodies need one, bodies in contact mostly two or three.
 const MAX_ITERATIONS: usize = 3;
 
 /// Advances all bodies by one substep of 1/60 s, their forces being set.
 ///
-/// The direction of friction follows from the motion it acts on. So the substep is taken with the direction
-/// foreseen from each body's own push, and if contacts or welds made a body slide another way, it is taken
-/// again from the same start with the direction found. Impacts on walls are played out last, body by body.
+/// The direction of friction depends on the motion it acts on. So the substep is computed with the direction
+/// predicted from each body's own push, and if contacts or welds made a body slide in another direction, it
+/// is repeated from the same start with the direction found. Impacts on walls are resolved last, body by
+/// body.
 pub(crate) fn advance(
     engine: &mut PhysicsWorld,
     impacts: Impacts,
@@ -47,7 +48,7 @@ pub(crate) fn advance(
     }
 }
 
-/// Replaces the aims by those that the motion found calls for; tells whether any differs.
+/// Replaces the friction directions by those that follow from the motion found; returns whether any differs.
 fn update_directions(
     directions: &mut [FrictionDirection],
     engine: &PhysicsWorld,

@@ -9,7 +9,7 @@ use phase_model::{
 };
 use rapier2d::prelude::*;
 
-/// A scene's bodies in motion.
+/// A simulated scene and its bodies.
 pub struct World {
     physics: PhysicsConfig,
     engine: PhysicsWorld,
@@ -20,10 +20,10 @@ pub struct World {
 }
 
 impl World {
-    /// A world in the given state. Any start will do: bodies that overlap are pushed apart over the first
-    /// substeps and hardly gain speed by it, grips become rigid welds that pull their object into place, and numbers
-    /// that are not finite or lie outside the arena are replaced by the nearest that make sense. A body that
-    /// starts across an inner wall may come out on either side of it.
+    /// A world in the given state. Any start is accepted: overlapping bodies are pushed apart over the first
+    /// substeps and hardly gain speed by it, grips become rigid welds that pull their object into place, and
+    /// numbers that are not finite or lie outside the arena are replaced by the closest valid ones. A body
+    /// that starts across an inner wall may come out on either side of it.
     #[must_use]
     pub fn new(physics: &PhysicsConfig, state: &State) -> Self {
         let mut physics = physics.clone();
@@ -52,7 +52,7 @@ impl World {
     }
 
     /// The present state, with grips and with the contacts between bodies that the engine finds. A body and
-    /// the one that holds it are in no contact; their grip says that they touch.
+    /// its holder have no contact entry; their grip implies that they touch.
     #[must_use]
     pub fn state(&self) -> State {
         let mut state = State::new(Default::default());
@@ -69,7 +69,7 @@ impl World {
         state
     }
 
-    /// Lets one substep of 1/60 s pass in which nobody acts, and returns the state after it. The published
+    /// Advances by one substep of 1/60 s without actions, and returns the state after it. The published
     /// simulator does so once before the first step.
     pub fn settle(&mut self) -> State {
         self.substep([Action::NoForce; AGENT_COUNT]);
@@ -78,8 +78,9 @@ impl World {
 
     /// Advances by one step under both agents' actions: five substeps of 1/60 s. Returns the state after each.
     ///
-    /// Attaching and detaching happen once, before the first substep; pushes and torques act and `stop` takes
-    /// the velocity away in every substep; the agents' angular velocities are zero after the last.
+    /// Attaching and detaching happen once, before the first substep; pushes and torques act in every
+    /// substep, and `stop` sets the velocity to zero in every substep; the agents' angular velocities are
+    /// zero after the last.
     pub fn step(&mut self, actions: [Action; AGENT_COUNT]) -> [State; SUBSTEPS] {
         for (agent, action) in AgentId::ALL.into_iter().zip(actions) {
             match action {
@@ -117,7 +118,7 @@ impl World {
         }
     }
 
-    /// Makes a grip real; one on an object that is not there, or at no angle, is dropped.
+    /// Applies a grip; a grip on an object that does not exist, or at an invalid angle, is dropped.
     fn weld(&mut self, agent: AgentId, grip: Grip) {
         let object = grip.object;
         if object.index() < self.physics.object_count && grip.relative_angle.is_finite() {

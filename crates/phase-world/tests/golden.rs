@@ -1,4 +1,4 @@
-//! What the true world computes is pinned bit for bit.
+//! The results of the reference world are pinned bit for bit.
 
 use phase_golden::{Digest, Golden, fixtures};
 use phase_world::World;

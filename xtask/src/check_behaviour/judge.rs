@@ -7,11 +7,11 @@ use phase_evidence::{
 use phase_model::{AgentId, Entity, Goal, ObjectId, RoomId, Scene, State};
 use phase_planner::Routes;
 
-/// Steps an agent may take to let go and come to rest after its goal is reached.
+/// Maximum number of steps for an agent to release its object and come to rest after its goal is reached.
 const SETTLING_STEPS: usize = 8;
 /// Steps at the end over which nothing may move after fetching.
 const FINAL_REST_STEPS: usize = 4;
-/// For how long something must be done to be seen (steps).
+/// Minimum duration for something to be seen (steps).
 const MIN_VISIBLE_STEPS: usize = 3;
 
 /// The judgement of one event.
@@ -19,11 +19,11 @@ const MIN_VISIBLE_STEPS: usize = 3;
 pub(super) struct Verdict {
     /// Whether the row's criterion holds.
     pub success: bool,
-    /// Whether the means the row is named for was seen; `None` where the row names none.
+    /// Whether the means named by the row was seen; `None` where the row names none.
     pub shown: Option<bool>,
-    /// What became of the judged agent's goal.
+    /// The outcome of the judged agent's goal.
     pub with: GoalOutcome,
-    /// The same without the other's doing.
+    /// The same without the other's contribution.
     pub without: Option<GoalOutcome>,
     /// What was seen, in words, for people.
     pub notes: String,
@@ -101,7 +101,7 @@ impl Case<'_> {
     }
 
     fn search(&self, wanted: usize) -> Assessment {
-        // In the scene as it is written the near region is room 1 and the larger one rooms 0 and 3.
+        // In the original scene the near region is room 1 and the larger one rooms 0 and 3.
         let image = |room: RoomId| self.scene.layout.flip().map_or(room, |flip| flip.room(room));
         let (near, larger) =
             ([image(RoomId::TOP_RIGHT)], [image(RoomId::TOP_LEFT), image(RoomId::BOTTOM_LEFT)]);
@@ -222,7 +222,7 @@ impl Case<'_> {
         self.track.states.iter().filter(|state| state.grips[agent].is_some()).count()
     }
 
-    /// Whether in the end an object lies where an agent does not fit through the doors.
+    /// Whether an object finally lies where an agent does not fit through the doors.
     fn out_of_reach(&self, agent: AgentId, object: ObjectId) -> bool {
         let Some(state) = self.track.states.last() else { return false };
         let routes = Routes::new(self.scene.layout);

@@ -1,4 +1,4 @@
-//! `check-behaviour`: whether agents do what they are planned to do, over seeds and mirrored scenes.
+//! `check-behaviour`: whether agents show the intended behaviour, over seeds and reflected scenes.
 
 mod judge;
 pub mod options;
@@ -83,7 +83,7 @@ pub fn run(arguments: &CheckBehaviour, context: &Context) -> Result<(), CliError
     Ok(())
 }
 
-/// The scenes asked for: part of the table, id, scene.
+/// The requested scenes: part of the table, id, scene.
 fn scenes(arguments: &CheckBehaviour) -> Result<Vec<(usize, String, Scene)>, CliError> {
     let mut scenes = Vec::new();
     let wanted = |row: u8| arguments.row.is_empty() || arguments.row.contains(&row);
@@ -105,8 +105,8 @@ fn scenes(arguments: &CheckBehaviour) -> Result<Vec<(usize, String, Scene)>, Cli
     Ok(scenes)
 }
 
-/// Takes the folder. What a check that came to its end left in it is replaced; what one that did not has kept is
-/// used as far as this very program made it.
+/// Prepares the folder. The results of a finished check are replaced; those of an unfinished one are kept and
+/// used if they are of this executable.
 fn prepare(out: &Path, run: &Value) -> Result<Folder, CliError> {
     folder::inspect(out, REPORT_FILE)?;
     let folder = Folder::claim(out, run)?;
@@ -159,12 +159,12 @@ fn complete(arguments: &CheckBehaviour, folder: Folder, report: &Value) -> Resul
     Ok(folder.finish()?)
 }
 
-/// Whether the report is to be all that stands on stdout.
+/// Whether stdout contains only the report.
 fn to_stdout(arguments: &CheckBehaviour) -> bool {
     arguments.json.as_deref() == Some(Path::new("-"))
 }
 
-/// The folder of the scenes that come with the program.
+/// The folder of the bundled scenes.
 #[must_use]
 pub fn default_scenes() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new(".")).join("data/behaviour")

@@ -13,7 +13,7 @@ pub struct CheckBehaviour {
     /// Only these rows of the table in docs/behaviour.md
     #[arg(long, value_name = "N", num_args = 1.., value_parser = value_parser!(u8).range(1..=10))]
     pub row: Vec<u8>,
-    /// Events of each scene: seeds 1 to N, which take the five mirrors in turn
+    /// Events of each scene: seeds 1 to N, which use the five reflections in rotation
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = value_parser!(u16).range(1..=10_000))]
     pub seeds: u16,
     /// Folder for report and contact sheets; new, empty, or of such a check, whose results are replaced
@@ -22,7 +22,7 @@ pub struct CheckBehaviour {
     /// Folder with the scenes [default: data/behaviour of the source]
     #[arg(long, value_name = "DIR")]
     pub scenes: Option<PathBuf>,
-    /// How the agents think.
+    /// Parameters of the agents.
     #[command(flatten)]
     pub effort: SimulationOptions,
     /// How many events at once.

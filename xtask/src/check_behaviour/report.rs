@@ -1,4 +1,4 @@
-//! What a check comes to: rates, medians, and a table.
+//! The results of a check: rates, medians, and a table.
 
 use super::{
     judge::Verdict,
@@ -12,14 +12,14 @@ use serde_json::{Value, json};
 /// The value of the field `format` of reports.
 pub(super) const FORMAT: &str = "phase-behaviour/1";
 
-/// One event and what was made of it.
+/// One event and its judgement.
 #[derive(Clone, Debug)]
 pub(super) struct Trial {
     /// The seed of the event.
     pub seed: u64,
-    /// The mirror the scene was seen in.
+    /// The reflection of the scene.
     pub flip: Option<Flip>,
-    /// How long the event was (steps).
+    /// Length of the event (steps).
     pub steps: usize,
     /// The judgement.
     pub verdict: Verdict,
@@ -99,7 +99,7 @@ impl Reached {
     }
 }
 
-/// The whole report as JSON; `run` says how it was made.
+/// The whole report as JSON; `run` describes how it was made.
 #[must_use]
 pub(super) fn to_json(run: &Value, scenes: &[SceneResult]) -> Value {
     let row = |(index, part): (usize, &BehaviourTest)| {
@@ -169,8 +169,8 @@ fn scene_value(scene: &SceneResult) -> Value {
     json!({ "id": scene.id, "result": Rates::of(scene.trials.iter()).to_json(), "events": events })
 }
 
-/// How likely it is that the near region is searched first as much more often at the usual λ as it was, if λ
-/// made no difference. `None` unless both were played.
+/// Probability that the near region is searched first more often at the usual λ by at least the observed
+/// difference, if λ made no difference. `None` unless both were simulated.
 fn search_p(scenes: &[SceneResult]) -> Option<f64> {
     let searches = |wanted: usize| {
         let own = scenes.iter().filter(|it| PARTS[it.part].criterion == Criterion::SearchFirst(wanted));

@@ -2,7 +2,7 @@
 
 use phase_model::AgentId;
 
-/// One line of the table: scenes in a file of their own, how they are played, and what counts as success.
+/// One row of the table: scenes in a separate file, how they are simulated, and what counts as success.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BehaviourTest {
     /// The row, from 1.
@@ -11,15 +11,15 @@ pub(super) struct BehaviourTest {
     pub name: &'static str,
     /// What is checked, in words.
     pub title: &'static str,
-    /// An agent that does nothing because the scene is about the other alone.
+    /// An agent that is idle because the scene is about the other alone.
     pub idle: Option<AgentId>,
-    /// An agent that does nothing in the scene's counterfactual, if it has one.
+    /// An agent that is idle in the scene's counterfactual, if it has one.
     pub control: Option<AgentId>,
-    /// The agent whose goal is timed, with and without the other's doing.
+    /// The agent whose goal is timed, with and without the other's contribution.
     pub judged: AgentId,
     /// λ of the subgoal value, if it is not the usual one.
     pub lambda: Option<f64>,
-    /// Whether the event goes on to its greatest length however quiet it is.
+    /// Whether the event lasts to its maximum length however quiet it is.
     pub runs_full_length: bool,
     /// What counts as success.
     pub criterion: Criterion,
@@ -38,22 +38,22 @@ pub(super) enum Criterion {
     CarryTogether,
     /// The goal is reached only with the helper, or at least a tenth sooner.
     Help,
-    /// The goal is reached, not a tenth later than without the other, and the other did not touch anyone.
+    /// The goal is reached, not a tenth later than without the other, and the other did not touch any entity.
     StayOut,
     /// The goal is missed because of the hinderer, or reached at least a tenth later.
     Hinder(Form),
-    /// The chaser goes for the other, which by fleeing is caught at least a tenth later or not at all.
+    /// The chaser pursues the other, which by fleeing is caught at least a tenth later or not at all.
     Chase,
     /// Both have touched the object, and it is decided or fought over.
     Compete,
-    /// Everybody reaches its goal, lets go, and stays still to the end of a long event.
+    /// Every agent reaches its goal, releases its object, and stays still to the end of a long event.
     Rest,
 }
 
-/// How someone is hindered.
+/// How an agent is hindered.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Form {
-    /// By standing in its way.
+    /// By obstructing it.
     Block,
     /// By taking the object.
     Take,
@@ -63,7 +63,7 @@ pub(super) enum Form {
     Hide,
     /// By not being touched.
     Evade,
-    /// By bringing about what the other wants not to be.
+    /// By causing what the other wants to avoid.
     Undo,
 }
 

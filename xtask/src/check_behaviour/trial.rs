@@ -18,7 +18,7 @@ use phase_model::{AgentId, Attitude, Flip, Scene};
 use phase_sim::SimulationSettings;
 use std::{path::PathBuf, time::Instant};
 
-/// The mirrors that seeds take in turn.
+/// The reflections that seeds use in rotation.
 const FLIPS: [Option<Flip>; 5] =
     [None, Some(Flip::UpDown), Some(Flip::LeftRight), Some(Flip::Diagonal), Some(Flip::AntiDiagonal)];
 
@@ -31,7 +31,7 @@ pub(super) struct TrialRunner {
     progress: Progress,
 }
 
-/// The name of a part that no other has: parts may share scenes.
+/// The unique name of a part: parts may share scenes.
 pub(super) fn key(part: &BehaviourTest) -> String {
     part.lambda.map_or_else(|| part.name.into(), |lambda| format!("{}-lambda{lambda}", part.name))
 }
@@ -49,7 +49,7 @@ impl TrialRunner {
         Self { settings, cache: folder.cache(), program, progress }
     }
 
-    /// Plays a scene with the seed of this index and judges it; `None` if interrupted.
+    /// Simulates a scene with the seed of this index and judges it; `None` if interrupted.
     pub(super) fn trial(
         &self,
         part: &BehaviourTest,
@@ -82,7 +82,7 @@ impl TrialRunner {
         self.play(&format!("{}.{id}", key(part)), mirrored(scene, index), index, &settings)
     }
 
-    /// The same without an agent's doing: it is neutral and stays where it is.
+    /// The same without an agent's contribution: it is neutral and stays where it is.
     fn control(
         &self,
         part: &BehaviourTest,
@@ -139,7 +139,7 @@ impl TrialRunner {
     }
 }
 
-/// A scene in the mirror whose turn it is. Scenes that are mirrored already were refused before.
+/// A scene in the reflection of the given index. Scenes that are already reflected were rejected before.
 fn mirrored(scene: &Scene, index: usize) -> Scene {
     let flip = FLIPS[index % FLIPS.len()];
     flip.and_then(|flip| scene.mirrored(flip)).unwrap_or_else(|| scene.clone())

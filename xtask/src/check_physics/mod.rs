@@ -1,4 +1,4 @@
-//! `check-physics`: how far an engine comes out from recorded motion.
+//! `check-physics`: the error of an engine with respect to recorded motion.
 
 pub mod options;
 mod table;
@@ -19,7 +19,7 @@ use serde_json::Value;
 use std::path::Path;
 use targets::Target;
 
-/// What stands for stdout where a file may be named.
+/// The name that means stdout where a file may be named.
 const STDOUT: &str = "-";
 
 /// What the engine is compared with.
@@ -27,11 +27,11 @@ struct Records {
     probes: Option<Vec<Probe>>,
     runs: Option<Vec<Run>>,
     replays: Option<Vec<Replay>>,
-    /// Events with recovered actions that cannot be replayed because they are mirrored.
+    /// Events with recovered actions that cannot be replayed because they are reflected.
     mirrored: usize,
 }
 
-/// Runs the command. That a target is missed is a result and no error.
+/// Runs the command. A missed target is a result, not an error.
 ///
 /// # Errors
 /// Any [`XtaskError`] about the files.
@@ -110,7 +110,8 @@ fn read<T>(file: &Path, parse: impl Fn(&Value) -> Result<T, ReadError>) -> Resul
     parse(&value).map_err(|source| XtaskError::Calibration { file: file.to_owned(), source })
 }
 
-/// The events of a file that can be replayed, and the number of those that could be but for being mirrored.
+/// The events of a file that can be replayed, and the number of those that cannot only because they are
+/// reflected.
 fn replays(file: &Path, context: &Context) -> Result<(Vec<Replay>, usize), CliError> {
     let source = EventInput::open(file, &[], context)?;
     let mut recordings = (0..source.len()).map(|k| source.load(k)).collect::<Result<Vec<_>, _>>()?;
@@ -124,7 +125,7 @@ fn replays(file: &Path, context: &Context) -> Result<(Vec<Replay>, usize), CliEr
     Ok((replays, mirrored))
 }
 
-/// Nothing may be lost by writing the report.
+/// Writing the report must not overwrite anything.
 fn check_output<'a>(out: &Path, mut inputs: impl Iterator<Item = &'a Path>) -> Result<(), CliError> {
     let usage = |rule: &str| CliError::Usage(format!("--json {}: {rule}", out.display()));
     if out.is_dir() {
@@ -147,7 +148,7 @@ struct Output<'a> {
     #[serde(flatten)]
     report: &'a Report,
     targets: &'a [Target],
-    /// Events with recovered actions that were left out because they are mirrored.
+    /// Events with recovered actions that were skipped because they are reflected.
     #[serde(skip_serializing_if = "Option::is_none")]
     mirrored_left_out: Option<usize>,
 }

@@ -11,11 +11,11 @@ pub(super) struct Target {
     pub(super) what: String,
     /// What was measured.
     pub(super) measured: f32,
-    /// The most that will do, or the least.
+    /// The upper or lower limit.
     limit: f32,
-    /// Whether the limit is the least.
+    /// Whether the limit is a lower limit.
     at_least: bool,
-    /// Whether it is met; a number that is none meets nothing.
+    /// Whether it is met; NaN meets nothing.
     pub(super) met: bool,
 }
 
@@ -43,7 +43,7 @@ impl Target {
     }
 }
 
-/// Targets of the true world, as far as they were measured.
+/// Targets of the reference world, as far as they were measured.
 pub(super) fn of_world(report: &Report) -> Vec<Target> {
     let mut targets = Vec::new();
     for (name, family) in report.probes.iter().flat_map(|probes| &probes.families) {

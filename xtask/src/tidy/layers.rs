@@ -3,7 +3,7 @@
 use super::Workspace;
 use std::path::{Path, PathBuf};
 
-/// The crates from the ground floor up. A crate may use those before it, never those after it.
+/// The crates from the bottom layer up. A crate may use those before it, never those after it.
 pub const LAYERS: [&str; 24] = [
     "phase-model",
     "phase-event",
@@ -63,7 +63,7 @@ fn check_uses(workspace: &mut Workspace, name: &str, manifest: &Path) {
             section = line.trim();
             continue;
         }
-        // Tests may look down from above; the library may not.
+        // Tests may use crates of higher layers; the library may not.
         if section != "[dependencies]" {
             continue;
         }

@@ -74,7 +74,7 @@ impl Workspace {
         self.findings.push(Finding { file: file.into(), line, rule: rule.into() });
     }
 
-    /// The text of a file. That it cannot be read is a finding; then there is nothing more to find in it.
+    /// The text of a file. An unreadable file is a finding; then nothing else is reported for it.
     fn read(&mut self, file: &Path) -> Option<String> {
         let text = fs::read_to_string(self.root.join(file));
         text.map_err(|error| self.report(file, 1, format!("cannot be read: {error}"))).ok()

@@ -3,11 +3,11 @@
 use super::Workspace;
 use std::path::{Path, PathBuf};
 
-/// Longest a Rust file may be (lines).
+/// Maximum length of a Rust file (lines).
 const LONGEST: usize = 400;
 /// The one file that may know the cache's encoding.
 const CACHE: &str = "crates/phase-dataset/src/cache.rs";
-/// What every crate root says.
+/// Attributes that every crate root must contain.
 const ROOT_ATTRIBUTES: [&str; 2] = ["#![forbid(unsafe_code)]", "#![deny(missing_docs)]"];
 
 /// Checks every Rust file of crates and command line.
@@ -28,7 +28,7 @@ pub(super) fn check(workspace: &mut Workspace) {
 }
 
 fn check_file(workspace: &mut Workspace, file: &Path) {
-    // Spelled in two parts, so that this file does not find itself.
+    // Split in two, so that this file does not match itself.
     let unfinished = [concat!("todo", "!("), concat!("dbg", "!("), concat!("unimplemented", "!(")];
     let encoding = concat!("bin", "code");
     let Some(text) = workspace.read(file) else { return };

@@ -1,11 +1,11 @@
-//! What the documents promise.
+//! Checks of the documents.
 
 use super::Workspace;
 use std::path::{Component, Path, PathBuf};
 
 const README: &str = "README.md";
 const CI: &str = ".ci/run";
-/// The two commands a newcomer is told.
+/// The two commands given to newcomers.
 const COMMANDS: [&str; 2] = ["cargo xtask gen-dataset", "cargo test --workspace"];
 
 /// Checks commands, links and lines of the documents.

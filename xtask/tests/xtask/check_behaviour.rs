@@ -1,4 +1,4 @@
-//! `check-behaviour`, with agents that think little.
+//! `check-behaviour`, with agents that search little.
 
 use crate::support::{QUICK, recording, refuse, succeed, tree, write_events};
 use phase_dataset::phase_events;
@@ -106,7 +106,7 @@ fn a_check_is_repeatable_and_replaces_the_one_before() {
     assert!(sentence.contains("contains other files"), "{sentence}");
 }
 
-/// Every scene that comes with the program can be played, as it is and in every mirror.
+/// Every bundled scene can be simulated, unchanged and in every reflection.
 #[test]
 fn the_scenes_of_the_house_are_sound() {
     let mut scenes = 0;

@@ -1,4 +1,4 @@
-//! `check-physics` on small files of our own, and against the recordings where they are at hand.
+//! `check-physics` on small synthetic files, and compared with the recordings where they are available.
 
 use crate::support::{recording, refuse, succeed, tree, write_events};
 use serde_json::{Value, json};
@@ -9,7 +9,7 @@ fn still() -> Value {
     json!([[10, 12, 0, 0, 0, 0], [22, 12, 0, 0, 0, 0], [12, 5, 0, 0, 0, 0], [20, 18, 0, 0, 0, 0]])
 }
 
-/// A probe in which nobody does anything for two steps, but the record says that object 1 moved by 0.3 u in the
+/// A probe in which no agent acts for two steps, but the record states that object 1 moved by 0.3 u in the
 /// second.
 fn probe(name: &str) -> Value {
     let (still, mut moved) = (still(), still());
@@ -35,8 +35,8 @@ fn run(name: &str, steps: usize) -> Value {
     })
 }
 
-/// A recording in which both agents wanted to turn right twice and therefore turned left, by so much (rad) at
-/// the mean of each step.
+/// A recording in which both agents intended to turn right twice and therefore turned left, by this angle
+/// (rad) at the mean of each step.
 fn turned(id: &str, means: [f64; 2]) -> Value {
     let mut event = recording(id);
     event["recovered_actions"] = json!({"steps": [["turnright", "turnleft"], ["turnright", "turnright"]]});
@@ -78,7 +78,7 @@ fn a_report_says_what_was_measured() {
         assert_eq!(report["probes"]["n"], json!(2));
         let family = &report["probes"]["families"]["spin"];
         assert_eq!((&family["n"], &family["steps"]), (&json!(1), &json!(2)));
-        // Nothing moves, so the errors are 0 and the 0.3 u that the record makes up.
+        // Nothing moves, so the errors are 0 and the 0.3 u of the synthetic record.
         let near = |value: &Value, expected: f64| {
             let found = value.as_f64().expect("a number");
             assert!((found - expected).abs() < 1e-4, "{engine}: {found}, not {expected}");
@@ -224,7 +224,7 @@ fn the_published_records_give_a_full_report() {
         if engine == "forward" {
             assert_eq!(missed, [""; 0]);
         } else {
-            // docs/physics.md names what the world misses; nothing may be added to it.
+            // docs/physics.md lists the world's deviations; none may be added.
             assert!(missed.iter().all(|what| what.contains("p99")), "{missed:?}");
         }
     }

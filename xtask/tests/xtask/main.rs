@@ -1,4 +1,4 @@
-//! The chores of `cargo xtask`, run as a program.
+//! The development commands of `cargo xtask`, run as a program.
 
 mod check_behaviour;
 mod check_physics;

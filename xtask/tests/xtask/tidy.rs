@@ -1,4 +1,4 @@
-//! `tidy` on made-up workspaces, and on this one.
+//! `tidy` on synthetic workspaces, and on this one.
 
 use std::{fs, path::Path};
 use xtask::tidy::{LAYERS, check};

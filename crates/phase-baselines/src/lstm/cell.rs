@@ -1,27 +1,27 @@
-//! One step of an LSTM after the matrix, in one pass over the numbers.
+//! One step of an LSTM after the matrix product, in one pass over the values.
 //!
-//! Put together from the library's own operations the same takes some twenty tensors forward and more than twice as
-//! many back, for every step of every event.
+//! Composed of the library's own operations, the same takes some twenty tensors forward and more than twice
+//! as many backward, for every step of every event.
 
 use candle_core::{CpuStorage, CustomOp2, Layout, Result, Shape, Tensor, bail};
 use std::sync::Arc;
 
-/// From gates before their sigmoids (rows × 4·size: input, forget, new, output) and state (rows × 2·size: output,
-/// memory) to the next state.
+/// From gates before their sigmoids (rows × 4·size: input, forget, new, output) and state (rows × 2·size:
+/// hidden state, cell state) to the next state.
 pub(super) struct Cell {
     pub(super) size: usize,
     /// Rows that have a next state; the others keep theirs.
     pub(super) active: Option<Arc<[bool]>>,
 }
 
-/// What becomes of one number of memory.
+/// The update of one element of the cell state.
 struct Unit {
     input: f32,
     forget: f32,
     new: f32,
     output: f32,
     memory: f32,
-    /// tanh of the memory.
+    /// tanh of the cell state.
     shown: f32,
 }
 
@@ -108,7 +108,7 @@ impl CustomOp2 for Cell {
     }
 }
 
-/// The numbers of a tensor that lie one after the other.
+/// The values of a contiguous tensor.
 fn values<'a>(storage: &'a CpuStorage, layout: &Layout) -> Result<&'a [f32]> {
     let all = storage.as_slice::<f32>()?;
     let Some((from, to)) = layout.contiguous_offsets() else {

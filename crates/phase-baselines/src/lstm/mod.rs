@@ -8,9 +8,9 @@ use cell::Cell;
 use phase_model::random::Pcg64Mcg;
 use std::sync::Arc;
 
-/// An LSTM: one layer from input and last output to its four gates.
+/// An LSTM: one layer from input and previous output to its four gates.
 ///
-/// Its state is one tensor, rows × 2·`size`: what it puts out, then its memory.
+/// Its state is one tensor, rows × 2·`size`: hidden state, then cell state.
 #[derive(Clone, Debug)]
 pub struct Lstm {
     gates: Layer,
@@ -18,16 +18,20 @@ pub struct Lstm {
 }
 
 impl Lstm {
-    /// From `inputs` numbers to `size`, with first weights as [`Layer::new`] draws them.
+    /// From `inputs` features to `size` units, with initial weights drawn as in [`Layer::new`].
     ///
-    /// # Errors If a tensor cannot be allocated.
+    /// # Errors
+    ///
+    /// If a tensor cannot be allocated.
     pub fn new(inputs: usize, size: usize, random: &mut Pcg64Mcg) -> Result<Self> {
         Ok(Self { gates: Layer::new(inputs + size, 4 * size, random)?, size })
     }
 
-    /// The state before the first step: zeros.
+    /// The initial state: zeros.
     ///
-    /// # Errors If a tensor cannot be allocated.
+    /// # Errors
+    ///
+    /// If a tensor cannot be allocated.
     pub fn start(&self, rows: usize) -> Result<Tensor> {
         Tensor::zeros((rows, 2 * self.size), DType::F32, &Device::Cpu)
     }
@@ -36,16 +40,16 @@ impl Lstm {
     /// all are.
     ///
     /// # Errors
-    /// If shapes do not fit.
+    /// If shapes do not match.
     pub fn step(&self, input: &Tensor, state: &Tensor, active: Option<Arc<[bool]>>) -> Result<Tensor> {
         let gates = self.gates.forward(&Tensor::cat(&[input, &self.output(state)?], 1)?)?;
         gates.apply_op2(state, Cell { size: self.size, active })
     }
 
-    /// What a state puts out, rows × `size`, numbers between −1 and 1.
+    /// The hidden state, rows × `size`, values between −1 and 1.
     ///
     /// # Errors
-    /// If the state is not of this LSTM.
+    /// If the state does not belong to this LSTM.
     pub fn output(&self, state: &Tensor) -> Result<Tensor> {
         state.narrow(1, 0, self.size)?.contiguous()
     }

@@ -1,4 +1,4 @@
-//! Some events side by side, step by step.
+//! Several events side by side, step by step.
 
 use super::{FEATURES, FIXED, MOVING, NODES, Nodes};
 use candle_core::{Device, Result, Tensor};
@@ -11,37 +11,41 @@ const PADDING_BIAS: f32 = -4.0;
 /// A padded batch of events. Rows past an event's end and absent objects or walls are padded and masked.
 #[derive(Clone, Debug)]
 pub struct Batch {
-    /// Features of what moves, by row: (events · [`MOVING`]) × [`FEATURES`].
+    /// Features of moving nodes, by row: (events · [`MOVING`]) × [`FEATURES`].
     pub(crate) moving: Vec<Tensor>,
-    /// Features of every different landmark or wall, once: × [`FEATURES`].
+    /// Features of every distinct landmark or wall, once: × [`FEATURES`].
     pub(crate) fixed: Tensor,
-    /// Which of these stands where: events · [`FIXED`] places in [`fixed`](Self::fixed).
+    /// Indices of fixed nodes: events · [`FIXED`] places in [`fixed`](Self::fixed).
     pub(crate) fixed_places: Tensor,
-    /// events × [`NODES`]: 0 for what is there, else so low that it is never the greatest.
+    /// events × [`NODES`]: 0 for present nodes, otherwise so low that it is never the maximum.
     pub(crate) padding_mask: Tensor,
     /// Rows of each event.
     lengths: Vec<usize>,
     /// Objects of each event.
     objects: Vec<usize>,
-    /// events × [`NODES`]: what is there.
+    /// events × [`NODES`]: which nodes are present.
     present: Vec<bool>,
-    /// Where everything that moves is (u), by event and row.
+    /// Positions of moving nodes (u), by event and row.
     positions: Vec<Vec<[Vec2; MOVING]>>,
-    /// Where everything that does not move is (u), by event.
+    /// Positions of fixed nodes (u), by event.
     places: Vec<Vec<Vec2>>,
 }
 
 impl Batch {
-    /// Puts events side by side, at least one.
+    /// Batches events, at least one.
     ///
-    /// # Errors If a tensor cannot be allocated.
+    /// # Errors
+    ///
+    /// If a tensor cannot be allocated.
     pub fn new(events: &[&Nodes]) -> Result<Self> {
         Self::padded_with(events, 0.0)
     }
 
-    /// The same with some number instead of zeros wherever nothing is. What networks say does not depend on it.
+    /// The same with some value instead of zeros as padding. The networks' outputs do not depend on it.
     ///
-    /// # Errors If a tensor cannot be allocated.
+    /// # Errors
+    ///
+    /// If a tensor cannot be allocated.
     pub fn padded_with(events: &[&Nodes], padding: f32) -> Result<Self> {
         let max_norm = events.iter().map(|nodes| nodes.rows()).max().unwrap_or(0);
         let moving = (0..max_norm).map(|row| {
@@ -98,13 +102,13 @@ impl Batch {
         self.present.get(event * NODES + node).copied().unwrap_or(false)
     }
 
-    /// Where what moves is in a row of an event (u); `None` past its end.
+    /// Position of a moving node in a row of an event (u); `None` past its end.
     #[must_use]
     pub fn positions(&self, event: usize, row: usize) -> Option<&[Vec2; MOVING]> {
         self.positions.get(event)?.get(row)
     }
 
-    /// Where a node is in a row of an event (u); `None` if it is not there.
+    /// Position of a node in a row of an event (u); `None` if it is absent.
     #[must_use]
     pub fn position(&self, event: usize, node: usize, row: usize) -> Option<Vec2> {
         if !self.has(event, node) {
@@ -126,13 +130,13 @@ impl Batch {
     }
 }
 
-/// Every different landmark and wall once, in the order in which they come, and where each stands.
+/// Every distinct landmark and wall once, in order of appearance, and the index of each.
 fn fixed(events: &[&Nodes]) -> Result<(Tensor, Tensor)> {
     let mut different: Vec<&[f32; FEATURES]> = Vec::new();
     let mut places = Vec::with_capacity(events.len() * FIXED);
     for nodes in events {
         for k in 0..FIXED {
-            // What is not there may be anything: it is masked.
+            // Absent entries may have any value: they are masked.
             let place = nodes.fixed.get(k).map_or(0, |features| {
                 different.iter().position(|known| *known == features).unwrap_or_else(|| {
                     different.push(features);

@@ -15,7 +15,9 @@ pub struct NodeEmbedding {
 impl NodeEmbedding {
     /// With the given number of hidden units.
     ///
-    /// # Errors If a tensor cannot be allocated.
+    /// # Errors
+    ///
+    /// If a tensor cannot be allocated.
     pub fn new(hidden: usize, random: &mut Pcg64Mcg) -> Result<Self> {
         Ok(Self {
             features: Layer::new(FEATURES, hidden, random)?,
@@ -23,12 +25,15 @@ impl NodeEmbedding {
         })
     }
 
-    /// The embeddings of all nodes after each row: events × [`NODES`](super::NODES) × hidden. Past an event's end what
-    /// moves keeps its last ones.
+    /// The embeddings of all nodes after each row: events × [`NODES`](super::NODES) × hidden. Past an event's
+    /// end moving nodes keep their last ones.
     ///
-    /// A landmark or wall is the same through an event and in all events that have it, so each is followed once.
+    /// A landmark or wall is the same throughout an event and in all events that contain it, so each is
+    /// processed once.
     ///
-    /// # Errors If a tensor cannot be allocated.
+    /// # Errors
+    ///
+    /// If a tensor cannot be allocated.
     pub fn forward(&self, batch: &Batch) -> Result<Vec<Tensor>> {
         let events = batch.events();
         let by_event = |values: &Tensor, each: usize| values.reshape((events, each, ()));

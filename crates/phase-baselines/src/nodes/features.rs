@@ -1,17 +1,17 @@
-//! The numbers of one node at one step.
+//! The features of one node at one step.
 
 use phase_model::{
     AGENT_COUNT, Body, Segment, Vec2,
     arena::{self, LANDMARKS},
 };
 
-/// Numbers of a node: type (4, one of them 1), colour, that is which of its type it is (4, one of them 1; walls have
+/// Features of a node: type (4, one-hot), colour, that is its index within its type (4, one-hot; walls have
 /// none), half its length, position (2), direction it faces (2), velocity (2).
 pub const FEATURES: usize = 15;
 
-/// Half the arena's side (u): what lengths and places are divided by, so that they lie between −1 and 1.
+/// Half the arena's side (u): the scale of lengths and positions, so that they lie between −1 and 1.
 const LENGTH: f32 = arena::SIDE / 2.0;
-/// What velocities are divided by (u/s); most are below it.
+/// The scale of velocities (u/s); most are below it.
 const SPEED: f32 = 10.0;
 
 /// An agent or object by its index, with its radius (u).

@@ -1,5 +1,5 @@
-//! What all networks see: an event as nodes, one for each agent, object, landmark and inner wall (appendix, "Baseline
-//! Implementation").
+//! The input of all networks: an event as nodes, one for each agent, object, landmark and inner wall
+//! (appendix, "Baseline Implementation").
 
 mod batch;
 mod embedding;
@@ -15,23 +15,23 @@ use phase_model::{MAX_ENTITIES, Vec2, arena::LANDMARKS};
 
 /// Nodes that move: agents, then objects.
 pub const MOVING: usize = MAX_ENTITIES;
-/// Nodes that do not: landmarks, then inner walls, of which there are at most four.
+/// Fixed nodes: landmarks, then inner walls, of which there are at most four.
 pub const FIXED: usize = LANDMARKS.len() + 4;
-/// All nodes, those that move first. Absent objects and walls keep their places.
+/// All nodes, moving ones first. Absent objects and walls keep their places.
 pub const NODES: usize = MOVING + FIXED;
 
-/// An event as numbers for networks. It is made of an [`ObservedEvent`], so no label can be in it.
+/// An event as features for networks. It is made of an [`ObservedEvent`], so it cannot contain labels.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Nodes {
-    /// Objects there are, 0 to 2.
+    /// Number of objects, 0 to 2.
     objects: usize,
     /// Features of agents and objects, by row.
     moving: Vec<[[f32; FEATURES]; MOVING]>,
-    /// Features of landmarks and of the walls there are.
+    /// Features of landmarks and of the existing walls.
     fixed: Vec<[f32; FEATURES]>,
-    /// Where agents and objects are (u), by row.
+    /// Positions of agents and objects (u), by row.
     positions: Vec<[Vec2; MOVING]>,
-    /// Where landmarks and walls are (u), walls by their middles.
+    /// Positions of landmarks and walls (u), walls by their centres.
     places: Vec<Vec2>,
 }
 
@@ -68,7 +68,7 @@ impl Nodes {
         self.moving.len()
     }
 
-    /// Whether there is such a node (0 to [`NODES`] − 1).
+    /// Whether such a node exists (0 to [`NODES`] − 1).
     #[must_use]
     pub fn has(&self, node: usize) -> bool {
         if node < MOVING { self.has_moving(node) } else { node - MOVING < self.fixed.len() }

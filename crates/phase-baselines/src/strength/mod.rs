@@ -1,8 +1,8 @@
 //! SIMPLE's strength regressor: two hidden layers from speeds and accelerations to a force (appendix, "Bottom-up
 //! Proposals").
 //!
-//! It is trained on what it is asked about later: whole events, for the first proposals, and stretches of ΔT steps,
-//! for those after.
+//! It is trained on the inputs that it is used for: whole events, for the initial proposals, and windows of
+//! ΔT steps, for those after.
 
 mod network;
 mod samples;

@@ -1,4 +1,4 @@
-//! The network while it is trained, and what becomes of it.
+//! The network during training, and its conversion to weights.
 
 use super::Sample;
 use crate::layer::Layer;
@@ -6,21 +6,21 @@ use candle_core::{Device, Module, Result, Tensor, Var};
 use phase_model::random::Pcg64Mcg;
 use phase_simple::strength::{Dense, FEATURES, Weights};
 
-/// Numbers as means of 0 and standard deviations of 1, and back.
+/// Standardises values to mean 0 and standard deviation 1, and back.
 #[derive(Clone, Debug)]
 pub(super) struct Standardisation {
     features: [MeanAndDeviation; FEATURES],
     force: MeanAndDeviation,
 }
 
-/// Mean and standard deviation, in the precision in which they are kept.
+/// Mean and standard deviation, in the precision in which they are stored.
 #[derive(Clone, Copy, Debug)]
 struct MeanAndDeviation {
     mean: f32,
     deviation: f32,
 }
 
-/// Two hidden layers, max(0, ·) after each.
+/// Two hidden layers, each followed by max(0, ·).
 #[derive(Debug)]
 pub(super) struct Network {
     layers: [Layer; 3],
@@ -51,7 +51,7 @@ impl Network {
         candle_nn::loss::mse(&third.forward(&hidden)?, &forces)
     }
 
-    /// The network as it is now, answering in N.
+    /// The current network, with outputs in N.
     pub(super) fn weights(&self, standard: &Standardisation) -> Result<Weights> {
         let [first, second, third] = &self.layers;
         let dense = |layer: &Layer, inputs, outputs| -> Result<Dense> {
@@ -74,7 +74,7 @@ impl Network {
 }
 
 impl Standardisation {
-    /// Of samples to learn from.
+    /// Of the training samples.
     pub(super) fn of<'a>(samples: impl Iterator<Item = &'a Sample> + Clone) -> Self {
         let features =
             core::array::from_fn(|k| MeanAndDeviation::of(samples.clone().map(|sample| sample.features[k])));
@@ -96,7 +96,7 @@ impl MeanAndDeviation {
         let count = values.clone().count().max(1) as f64;
         let mean = values.clone().sum::<f64>() / count;
         let variance = values.map(|number| (number - mean) * (number - mean)).sum::<f64>() / count;
-        // What is always the same tells nothing, and must not be blown up.
+        // A constant feature carries no information and must not be amplified.
         let deviation = if variance > 1e-12 { variance.sqrt() as f32 } else { 1.0 };
         Self { mean: mean as f32, deviation }
     }

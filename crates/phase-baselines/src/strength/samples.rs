@@ -1,18 +1,18 @@
-//! What there is to learn strengths from.
+//! Training samples of the strength regressor.
 
 use phase_event::ObservedEvent;
 use phase_model::{AGENT_COUNT, AgentId, Strength};
 use phase_simple::strength::{FEATURES, features};
 
-/// Length of the stretches (steps), ΔT of SIMPLE.
+/// Length of the time windows (steps), ΔT of SIMPLE.
 pub const WINDOW: usize = 10;
 
-/// A stretch of motion and the strength of who moved.
+/// A time window of motion and the strength of the agent that moved.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Sample {
-    /// The stretch's [`features`].
+    /// The window's [`features`].
     pub features: [f64; FEATURES],
-    /// The answer.
+    /// The label.
     pub strength: Strength,
 }
 
@@ -21,7 +21,7 @@ pub struct Sample {
 pub struct AgentSamples {
     /// The whole event.
     pub whole: Sample,
-    /// Every stretch of [`WINDOW`] steps in order; the whole event alone if it is shorter than that.
+    /// Every window of [`WINDOW`] steps in order; the whole event alone if it is shorter than that.
     pub windows: Vec<Sample>,
 }
 

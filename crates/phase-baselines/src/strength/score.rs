@@ -1,4 +1,4 @@
-//! How good estimates of strengths are.
+//! Accuracy of strength estimates.
 
 use super::Sample;
 use phase_model::Strength;
@@ -9,11 +9,11 @@ use phase_simple::StrengthRegressor;
 pub struct Score {
     /// Root mean squared error (N).
     pub rmse: f64,
-    /// The same of always saying the same best number (N): the standard deviation of the forces.
+    /// The same of the best constant prediction (N): the standard deviation of the forces.
     pub rmse_of_constant: f64,
-    /// Share of estimates that are nearest to the right level (0 to 1).
+    /// Share of estimates that are closest to the correct level (0 to 1).
     pub accuracy: f64,
-    /// Share of the level one would always guess (0 to 1).
+    /// Share of correct predictions of the most common level (0 to 1).
     pub accuracy_of_guess: f64,
 }
 
@@ -50,7 +50,7 @@ pub fn score<'a>(
     }
 }
 
-/// The level nearest to a force (N); the weaker one in a tie.
+/// The level closest to a force (N); the weaker one in a tie.
 #[must_use]
 pub fn nearest(force: f64) -> Strength {
     let off = |strength: Strength| (f64::from(strength.max_force()) - force).abs();

@@ -1,4 +1,5 @@
-//! Learning strengths: Adam on the squared error, until events not trained on are estimated no better.
+//! Training the strength regressor: Adam on the squared error, until the error on validation events stops
+//! improving.
 
 use super::{
     AgentSamples, Sample, most_common,
@@ -11,20 +12,20 @@ use phase_simple::{StrengthRegressor, strength::WeightsError};
 use rand::{RngExt, seq::SliceRandom};
 use thiserror::Error;
 
-/// How to train. The paper gives the hidden layers' size; the rest is the custom of the field.
+/// How to train. The paper gives the hidden layers' size; the rest is standard.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct StrengthTrainingSettings {
     /// Size of both hidden layers, at least 1.
     pub hidden: usize,
-    /// Samples between two changes of the weights, at least 1.
+    /// Batch size (samples), at least 1.
     pub batch: usize,
     /// Adam's learning rate.
     pub learning_rate: f64,
-    /// Stretches drawn from each agent's motion in each epoch, beside the whole of it.
+    /// Windows drawn from each agent's motion in each epoch, beside the whole of it.
     pub windows: usize,
-    /// Epochs without any progress on the validation events after which training ends.
+    /// Epochs without progress on the validation events after which training ends.
     pub patience: usize,
-    /// Epochs at most, at least 1.
+    /// Maximum number of epochs, at least 1.
     pub epochs: usize,
 }
 
@@ -34,7 +35,7 @@ impl Default for StrengthTrainingSettings {
     }
 }
 
-/// How far training has come. All errors are root mean squared, in N.
+/// Progress of training. All errors are root mean squared, in N.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Epoch {
     /// The epoch, from 1.
@@ -43,18 +44,18 @@ pub struct Epoch {
     pub training: f64,
     /// On whole validation events.
     pub whole: f64,
-    /// On all stretches of validation events.
+    /// On all windows of validation events.
     pub windows: f64,
-    /// Over both, each alike: what has to become better.
+    /// Over both with equal weight: the criterion to minimise.
     pub validation: f64,
-    /// Whether it is the best yet.
+    /// Whether it is the best so far.
     pub best: bool,
 }
 
-/// Why nothing could be learnt.
+/// Why training fails.
 #[derive(Debug, Error)]
 pub enum TrainingError {
-    /// There is nothing to learn from, or to validate on.
+    /// There are no training or no validation samples.
     #[error("there are no {0} events to learn strengths from")]
     NoMotion(&'static str),
     /// The neural-network library failed.
@@ -70,8 +71,8 @@ pub enum TrainingError {
     },
 }
 
-/// Trains a regressor; the weights are those of the best epoch. The same seed and motion give the same weights.
-/// `on_epoch` hears of every epoch.
+/// Trains a regressor; the weights are those of the best epoch. The same seed and motion give the same
+/// weights. `on_epoch` is called after every epoch.
 ///
 /// # Errors
 /// [`TrainingError`].
@@ -90,7 +91,7 @@ pub fn train(
     let standard =
         Standardisation::of(training.iter().flat_map(|motion| motion.windows.iter().chain([&motion.whole])));
     let network = Network::new(settings.hidden.max(1), &mut random::stream(seed, Purpose::Training, 0))?;
-    // Without decay of weights, AdamW is Adam.
+    // Without weight decay, AdamW is Adam.
     let adam = ParamsAdamW { lr: settings.learning_rate, weight_decay: 0.0, ..ParamsAdamW::default() };
     let mut optimiser = AdamW::new(network.variables(), adam)?;
     let mut best: Option<(f64, usize, StrengthRegressor)> = None;
@@ -127,7 +128,7 @@ pub fn train(
     best.map(|(_, _, regressor)| regressor).ok_or(TrainingError::NoMotion("training"))
 }
 
-/// The samples of an epoch: each motion as a whole and some stretches of it, in random order.
+/// The samples of an epoch: each motion as a whole and some windows of it, in random order.
 fn sample_rows(motions: &[AgentSamples], windows: usize, random: &mut Pcg64Mcg) -> Vec<Sample> {
     let mut samples = Vec::with_capacity(motions.len() * (1 + windows));
     for motion in motions {
@@ -140,7 +141,7 @@ fn sample_rows(motions: &[AgentSamples], windows: usize, random: &mut Pcg64Mcg) 
     samples
 }
 
-/// Errors on whole motions and on stretches (N).
+/// Errors on whole motions and on windows (N).
 fn validated(regressor: &StrengthRegressor, motions: &[AgentSamples]) -> (f64, f64) {
     let guess = most_common(motions.iter().map(|motion| &motion.whole));
     let whole = motions.iter().map(|motion| core::slice::from_ref(&motion.whole));

@@ -7,19 +7,19 @@ const BETA_1: f64 = 0.9;
 const BETA_2: f64 = 0.999;
 const EPSILON: f32 = 1e-8;
 
-/// The optimiser's memory.
+/// The optimiser's state.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct Adam {
-    /// Changes made so far.
+    /// Updates made so far.
     pub(super) steps: u32,
-    /// Running means of slopes, by parameter.
+    /// Running means of gradients, by parameter.
     pub(super) first: Vec<Vec<f32>>,
     /// Running means of their squares.
     pub(super) second: Vec<Vec<f32>>,
 }
 
 impl Adam {
-    /// Nothing remembered yet.
+    /// The initial state.
     pub(super) fn new(parameters: &[Parameter]) -> Self {
         let zeros: Vec<Vec<f32>> =
             parameters.iter().map(|(_, variable)| vec![0.0; variable.elem_count()]).collect();

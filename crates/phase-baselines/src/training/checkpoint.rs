@@ -1,4 +1,4 @@
-//! A training between two rounds, at rest.
+//! A training between two rounds, on disk.
 
 use super::{Network, NetworkError, Round, TrainingRun, TrainingSettings, adam::Adam};
 use crate::parameters::{self, Parameter};
@@ -7,10 +7,10 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 const FIELD: &str = "training";
-/// What stands before the names of parameters: as they are, Adam's two moments, and as they were in the best round.
+/// Prefixes of parameter names: current values, Adam's two moments, and the values of the best round.
 const PARTS: [&str; 4] = ["now.", "first.", "second.", "best."];
 
-/// What a training is of. Only one of the same goes on from a checkpoint.
+/// The identity of a training. Only the same training resumes from a checkpoint.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Checkpoint {
@@ -24,7 +24,7 @@ pub struct Checkpoint {
     pub data: String,
 }
 
-/// What the metadata says.
+/// The contents of the metadata.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct CheckpointMetadata {
@@ -33,10 +33,10 @@ struct CheckpointMetadata {
     rounds: Vec<Round>,
 }
 
-/// Why a training cannot go on from some bytes.
+/// Why a training cannot resume from some bytes.
 #[derive(Debug, Error)]
 pub enum CheckpointError {
-    /// They are no checkpoint of this network.
+    /// They are not a checkpoint of this network.
     #[error(transparent)]
     Network(#[from] NetworkError),
     /// They are a checkpoint whose text cannot be read.
@@ -61,7 +61,7 @@ impl<N: Network> TrainingRun<N> {
         Checkpoint { network: N::NAME.into(), seed, settings, data: data.into() }
     }
 
-    /// All that the next round depends on, as a safetensors file.
+    /// The state that the next round depends on, as a safetensors file.
     ///
     /// # Errors
     /// If it cannot be read or laid out in a file.
@@ -85,10 +85,10 @@ impl<N: Network> TrainingRun<N> {
         Ok(write(&tensors, FIELD, &said)?)
     }
 
-    /// Puts a new run where another one of the same kind left off.
+    /// Restores the state of a run of the same kind.
     ///
     /// # Errors
-    /// [`CheckpointError`]; the run is then as it was.
+    /// [`CheckpointError`]; the run is then unchanged.
     pub fn resume(&mut self, bytes: &[u8], data: &str) -> Result<(), CheckpointError> {
         let file = TensorFile::open(bytes, FIELD)?;
         let missing = || TensorsError::Kind { field: FIELD, expected: "a training's state".into() };

@@ -1,19 +1,19 @@
-//! What can be trained.
+//! The interface of trainable networks.
 
 use super::Metrics;
 use crate::parameters::Parameter;
 use candle_core::{Result, Tensor};
 use phase_model::random::Pcg64Mcg;
 
-/// A network, from where its training sees it.
+/// A network, as seen by training.
 pub trait Network {
-    /// What it learns from and is measured on: an event and whatever it is to say of it.
+    /// What it is trained and evaluated on: an event with its targets.
     type Sample;
 
     /// Its name, in commands and files.
     const NAME: &'static str;
 
-    /// What is measured beside the loss, by name.
+    /// The names of the metrics beside the loss.
     const METRICS: &'static [&'static str];
 
     /// Trainable parameters, always in the same order.
@@ -22,7 +22,9 @@ pub trait Network {
     /// Loss and metrics over some samples, at least one. With a generator the network is in training mode and may
     /// sample its input; without one it is evaluated deterministically.
     ///
-    /// # Errors If a tensor cannot be allocated.
+    /// # Errors
+    ///
+    /// If a tensor cannot be allocated.
     fn loss(&self, samples: &[&Self::Sample], random: Option<&mut Pcg64Mcg>) -> Result<Loss>;
 
     /// The criterion minimised over rounds on the validation events; the loss unless overridden.
@@ -32,11 +34,11 @@ pub trait Network {
     }
 }
 
-/// How wrong a network is about some samples, each of them counting alike.
+/// Loss and metrics of a network over some samples, each with equal weight.
 #[derive(Clone, Debug)]
 pub struct Loss {
-    /// What is to become less: one number that knows where it comes from.
+    /// The loss to minimise: a scalar with its computation graph.
     pub loss: Tensor,
-    /// A number for each of [`Network::METRICS`].
+    /// One value for each of [`Network::METRICS`].
     pub scores: Vec<f64>,
 }

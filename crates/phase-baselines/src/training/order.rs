@@ -1,12 +1,13 @@
-//! Which samples come when: passes without end, cut into rounds.
+//! The order of training samples: an endless sequence of passes, cut into rounds.
 
 use phase_model::random::{self, Pcg64Mcg, Purpose};
 use rand::seq::SliceRandom;
 
 /// The samples of a round (`number` from 1), in training order.
 ///
-/// Pass follows pass, each all samples once in an order of its own; a round is the next `length` of them, wherever passes begin
-/// and end. A pass's order comes from (seed, number of the pass) alone, so that any round can be the first one after a break.
+/// Each pass contains all samples once in its own random order; a round is the next `length` of them, across
+/// pass boundaries. A pass's order depends only on (seed, number of the pass), so that training can resume at
+/// any round.
 pub(super) fn samples<T>(samples: &[T], seed: u64, number: usize, length: usize) -> Vec<&T> {
     let mut round = Vec::with_capacity(length);
     let mut place = number.saturating_sub(1).saturating_mul(length);
@@ -21,7 +22,8 @@ pub(super) fn samples<T>(samples: &[T], seed: u64, number: usize, length: usize)
     round
 }
 
-/// What networks draw in a round. Index 0 is that of first weights; rounds and passes take even and odd ones.
+/// The random stream of a network in a round. Index 0 is that of the initial weights; rounds and passes take
+/// even and odd ones.
 pub(super) fn random_of_round(seed: u64, number: usize) -> Pcg64Mcg {
     random::stream(seed, Purpose::Training, 2 * number as u64)
 }

@@ -1,19 +1,21 @@
-//! The networks as the paper has them, and as they come with the program.
+//! The networks of the paper, as bundled with the program.
 
 use super::{Network, NetworkError, TrainingRun, from_safetensors};
 use candle_core::Result;
 use phase_model::random::Pcg64Mcg;
 
-/// A network of the paper's size, whose weights come with the program.
+/// A network of the paper's size, whose weights are bundled with the program.
 pub trait PublishedNetwork: Network + Sized {
-    /// What `cargo train` learnt; `docs/networks.md` says from what.
+    /// The weights trained by `cargo train`; `docs/networks.md` describes the training data.
     const BUNDLED_WEIGHTS: &'static [u8];
     /// The [`TrainingRecord`](super::TrainingRecord) of that training, as a file.
     const BUNDLED_RECORD: &'static str;
 
     /// The untrained network with 64 hidden units in every layer.
     ///
-    /// # Errors If a tensor cannot be allocated.
+    /// # Errors
+    ///
+    /// If a tensor cannot be allocated.
     fn published(random: &mut Pcg64Mcg) -> Result<Self>;
 
     /// The network with the weights in a file of [`to_safetensors`](super::to_safetensors), such as
@@ -22,7 +24,7 @@ pub trait PublishedNetwork: Network + Sized {
     /// # Errors
     /// As [`from_safetensors`].
     fn with_weights(bytes: &[u8]) -> core::result::Result<Self, NetworkError> {
-        // What is drawn is overwritten.
+        // The initial random weights are overwritten.
         from_safetensors(Self::published(&mut TrainingRun::<Self>::first_weights(0))?, bytes)
     }
 }

@@ -1,11 +1,11 @@
-//! What is written down of a training: on what, how, how well and how long.
+//! The record of a training: data, settings, results and duration.
 
 use super::{Metrics, Network, Round, TrainingRun, TrainingSettings};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use thiserror::Error;
 
-/// A training from its first round on; `docs/formats.md` has the file.
+/// A training from its first round on; `docs/formats.md` describes the file.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TrainingRecord {
@@ -20,7 +20,7 @@ pub struct TrainingRecord {
     pub settings: TrainingSettings,
     /// Training data.
     pub data: DataSource,
-    /// What is validated on.
+    /// Validation data.
     pub validation: DataSource,
     /// All rounds so far.
     pub rounds: Vec<RecordedRound>,
@@ -28,9 +28,9 @@ pub struct TrainingRecord {
     pub best_round: Option<usize>,
     /// Processor time of all rounds (s).
     pub cpu_seconds: f64,
-    /// What a clock showed for them (s).
+    /// Wall-clock time of all rounds (s).
     pub seconds: f64,
-    /// How good the weights of the best round are; `None` until training is finished.
+    /// Scores of the weights of the best round; `None` until training is finished.
     #[serde(rename = "final")]
     pub finished: Option<Final>,
 }
@@ -59,9 +59,9 @@ pub struct RecordedRound {
     pub validation: NamedMetrics,
     /// Whether it was the best up to then.
     pub best: bool,
-    /// Processor time of learning and validation, all threads together (s).
+    /// CPU time of training and validation, all threads together (s).
     pub cpu_seconds: f64,
-    /// What a clock showed for both (s).
+    /// Wall-clock time of both (s).
     pub seconds: f64,
 }
 
@@ -71,11 +71,11 @@ pub struct RecordedRound {
 pub struct NamedMetrics {
     /// The loss.
     pub loss: f64,
-    /// What else is measured.
+    /// The other metrics.
     pub scores: BTreeMap<String, f64>,
 }
 
-/// The weights of the best round, measured once more after training.
+/// The weights of the best round, evaluated once more after training.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Final {
@@ -83,18 +83,18 @@ pub struct Final {
     pub train: NamedMetrics,
     /// On the validation events.
     pub validation: NamedMetrics,
-    /// On the test events, if that was asked for.
+    /// On the test events, if requested.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub test: Option<NamedMetrics>,
 }
 
-/// Why some bytes are no record, or not that of a training.
+/// Why bytes are not a record, or not that of the given training.
 #[derive(Debug, Error)]
 pub enum TrainingRecordError {
     /// They cannot be read.
     #[error("is not a training record: {0}")]
     Text(#[from] serde_json::Error),
-    /// Rounds are missing or do not stand in their order.
+    /// Rounds are missing or out of order.
     #[error("field `rounds` must have the rounds 1, 2, 3 … in this order")]
     Order,
     /// A time is negative or not finite.
@@ -103,7 +103,7 @@ pub enum TrainingRecordError {
     /// The best round is not the last one marked as best.
     #[error("field `best_round` must be the last round with `best`")]
     Best,
-    /// It is the record of another training than the one that is to go on.
+    /// It is the record of another training than the one to resume.
     #[error("belongs to a training with another {0}")]
     Other(&'static str),
 }
@@ -115,7 +115,7 @@ enum Format {
 }
 
 impl NamedMetrics {
-    /// Gives what a network of this kind is measured by its names.
+    /// Names the metrics of a network of this kind.
     #[must_use]
     pub fn of<N: Network>(evaluate: &Metrics) -> Self {
         let names = N::METRICS.iter().map(|&name| name.to_owned());
@@ -143,7 +143,7 @@ impl TrainingRecord {
         }
     }
 
-    /// Writes down a round and what it took (s).
+    /// Records a round and its duration (s).
     pub fn add<N: Network>(&mut self, round: &Round, cpu_seconds: f64, seconds: f64) {
         self.rounds.push(RecordedRound {
             number: round.number,
@@ -156,11 +156,11 @@ impl TrainingRecord {
         self.sum_up();
     }
 
-    /// Takes up what an earlier record of the same training says of the rounds of a run that goes on. It may have more of
-    /// them, for it is written before a checkpoint is; those are dropped, since they are gone through again.
+    /// Takes over the rounds of an earlier record of the same training for a run that resumes. It may contain
+    /// more rounds, since it is written before a checkpoint is; those are dropped, since they are repeated.
     ///
     /// # Errors
-    /// [`TrainingRecordError::Other`]; this record is then as it was.
+    /// [`TrainingRecordError::Other`]; this record is then unchanged.
     pub fn resume<N: Network>(
         &mut self,
         earlier: Self,

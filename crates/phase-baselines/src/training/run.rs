@@ -1,4 +1,4 @@
-//! The loop itself.
+//! The training loop.
 
 use super::{Loss, Network, adam::Adam, order};
 use crate::parameters;
@@ -19,11 +19,11 @@ pub struct TrainingSettings {
     /// Maximum global norm of the gradients; larger ones are scaled down to it.
     #[serde(rename = "longest_slope")]
     pub max_gradient_norm: f64,
-    /// Events in a round, at least 1. Events that are fewer come several times, of more it is the next part.
+    /// Events in a round, at least 1. Fewer events are repeated; of more, each round takes the next part.
     pub round: usize,
-    /// Rounds without any progress on the validation events after which training ends.
+    /// Rounds without progress on the validation events after which training ends.
     pub patience: usize,
-    /// Rounds at most.
+    /// Maximum number of rounds.
     pub rounds: usize,
 }
 
@@ -32,7 +32,7 @@ pub struct TrainingSettings {
 pub struct Metrics {
     /// The loss.
     pub loss: f64,
-    /// What else is measured, in the order of [`Network::METRICS`].
+    /// The other metrics, in the order of [`Network::METRICS`].
     pub scores: Vec<f64>,
 }
 
@@ -43,16 +43,16 @@ pub struct Round {
     pub number: usize,
     /// On the training events, during training.
     pub training: Metrics,
-    /// On the validation events afterwards; [`Network::selection_loss`] is what has to become less.
+    /// On the validation events afterwards; [`Network::selection_loss`] is the criterion to minimise.
     pub validation: Metrics,
     /// Whether it was the best up to then.
     pub best: bool,
 }
 
-/// Why nothing can be learnt.
+/// Why training fails.
 #[derive(Debug, Error)]
 pub enum TrainingError {
-    /// There is nothing to learn from, or to validate on.
+    /// There are no training or no validation events.
     #[error("there are no {0} events to learn from")]
     NoEvents(&'static str),
     /// The neural-network library failed.
@@ -77,7 +77,7 @@ pub struct TrainingRun<N: Network> {
 }
 
 impl<N: Network> TrainingRun<N> {
-    /// A run before its first round, of a network with its first weights; those are drawn from
+    /// A run before its first round, of a network with its initial weights; those are drawn from
     /// [`first_weights`](Self::first_weights).
     #[must_use]
     pub fn new(network: N, seed: u64, settings: TrainingSettings) -> Self {
@@ -85,7 +85,7 @@ impl<N: Network> TrainingRun<N> {
         Self { network, adam, seed, settings, rounds: Vec::new(), best: None }
     }
 
-    /// The generator of the first weights of a run.
+    /// The generator of the initial weights of a run.
     #[must_use]
     pub fn first_weights(seed: u64) -> Pcg64Mcg {
         random::stream(seed, Purpose::Training, 0)
@@ -109,7 +109,7 @@ impl<N: Network> TrainingRun<N> {
         self.rounds.iter().rfind(|round| round.best)
     }
 
-    /// Whether it has gone on for as long as it may, or as it is any use.
+    /// Whether it has reached the maximum number of rounds or stopped improving.
     #[must_use]
     pub fn is_finished(&self) -> bool {
         let done = self.rounds.len();
@@ -156,9 +156,11 @@ impl<N: Network> TrainingRun<N> {
         self.rounds.last().ok_or(TrainingError::NoEvents("training"))
     }
 
-    /// The network with the weights of its best round, or its first ones.
+    /// The network with the weights of its best round, or its initial ones.
     ///
-    /// # Errors If they cannot be restored.
+    /// # Errors
+    ///
+    /// If they cannot be restored.
     pub fn into_best(self) -> Result<N> {
         if let Some(best) = &self.best {
             parameters::set_values(&self.network.parameters(), best)?;
@@ -167,9 +169,11 @@ impl<N: Network> TrainingRun<N> {
     }
 }
 
-/// How good a network is on some samples; zeros without any.
+/// Metrics of a network on some samples; zeros without any.
 ///
-/// # Errors If a tensor cannot be allocated.
+/// # Errors
+///
+/// If a tensor cannot be allocated.
 pub fn evaluate<N: Network>(network: &N, samples: &[N::Sample], batch: usize) -> Result<Metrics> {
     let mut mean = Mean::default();
     let samples: Vec<&N::Sample> = samples.iter().collect();
@@ -179,7 +183,7 @@ pub fn evaluate<N: Network>(network: &N, samples: &[N::Sample], batch: usize) ->
     Ok(mean.evaluate())
 }
 
-/// A mean over batches, each sample counting alike.
+/// A mean over batches in which each sample has equal weight.
 #[derive(Default)]
 struct Mean {
     samples: f64,

@@ -1,4 +1,4 @@
-//! A network at rest: a safetensors file.
+//! A network on disk: a safetensors file.
 
 use super::Network;
 use crate::parameters;
@@ -7,10 +7,10 @@ use thiserror::Error;
 
 const FIELD: &str = "format";
 
-/// Why a network cannot be kept, or cannot be what was kept.
+/// Why a network cannot be saved or loaded.
 #[derive(Debug, Error)]
 pub enum NetworkError {
-    /// The file is no such file, or not of this network.
+    /// The bytes are not such a file, or belong to another network.
     #[error(transparent)]
     Tensors(#[from] TensorsError),
     /// The network cannot be read or changed.
@@ -35,7 +35,9 @@ pub fn to_safetensors<N: Network>(network: &N) -> Result<Vec<u8>, NetworkError> 
 
 /// Gives a network the weights that [`to_safetensors`] wrote; its own must have the same shapes.
 ///
-/// # Errors For bytes that are not such a file or belong to another network, and for tensors that are missing,
+/// # Errors
+///
+/// For bytes that are not such a file or belong to another network, and for tensors that are missing,
 /// unexpected, of another shape or not finite. The network is then unchanged.
 pub fn from_safetensors<N: Network>(network: N, bytes: &[u8]) -> Result<N, NetworkError> {
     let file = TensorFile::open_as(bytes, FIELD, &format::<N>())?;
@@ -47,7 +49,7 @@ pub fn from_safetensors<N: Network>(network: N, bytes: &[u8]) -> Result<N, Netwo
     Ok(network)
 }
 
-/// What the entry `format` of the metadata says.
+/// The value of the entry `format` of the metadata.
 fn format<N: Network>() -> String {
     format!("phase-{}/1", N::NAME)
 }

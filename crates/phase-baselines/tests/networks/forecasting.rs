@@ -16,7 +16,7 @@ fn networks() -> [Box<dyn Forecasting>; 2] {
     [Box::new(social), Box::new(Stgat::new(8, 2, &mut random(0)).expect("a network"))]
 }
 
-/// What a network says of an event's row, for what is there.
+/// A network's outputs for an event's row, for present nodes.
 fn said(network: &dyn Forecasting, batch: &Batch, moment: ForecastOrigin) -> Vec<f32> {
     let displacements = network.displacements(batch, &[moment]).expect("an answer");
     assert_eq!(displacements.dims(), [MOVING, HORIZON, 2]);
@@ -75,7 +75,7 @@ fn neighbours_matter_where_they_can_be_seen() {
     }
 }
 
-/// Says that everything goes on as in its last step, and 1 u a step upwards as well.
+/// Predicts that every entity continues as in its last step, and 1 u a step upwards as well.
 struct Onwards;
 
 impl Forecasting for Onwards {

@@ -42,7 +42,7 @@ fn classes_are_the_same_for_both_agents() {
         class_of(AgentId::ZERO, landmark(AgentId::ONE, Sign::Positive)),
         class_of(AgentId::ONE, landmark(AgentId::ONE, Sign::Positive))
     );
-    // Who touches whom does not matter, and nobody keeps itself off a landmark.
+    // Which agent touches which does not matter, and no agent keeps itself off a landmark.
     let touch = |agent, other| Goal::Touch { agent, other, sign: Sign::Positive };
     assert_eq!(
         class_of(AgentId::ZERO, touch(AgentId::ZERO, AgentId::ONE)),

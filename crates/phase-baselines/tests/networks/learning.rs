@@ -1,4 +1,4 @@
-//! Learning: slopes, learning by heart, determinism, going on after a break.
+//! Training: gradients, overfitting, determinism, resuming after an interruption.
 
 use crate::support::{event, labelled, random, unlike, without_slope};
 use phase_baselines::{
@@ -73,7 +73,7 @@ fn learns_by_heart<N: Network>(
     run.round(events, events).expect("a round");
     let (first, best) = (run.rounds()[0].validation.clone(), run.best_round().expect("a best one").clone());
     assert!(learnt(&first, &best.validation), "{}: {first:?} {best:?}", N::NAME);
-    // What is kept is what was best, whatever came after it.
+    // The best weights are kept, whatever came after them.
     let again = evaluate(&run.into_best().expect("a network"), events, QUICK.batch).expect("a measure");
     assert_eq!(again, best.validation);
 }
@@ -99,11 +99,11 @@ fn goes_on_as_if_nothing_had_happened<N: Network>(new: fn(&mut Pcg64Mcg) -> N, e
     let bytes = |run: TrainingRun<N>| to_safetensors(&run.into_best().expect("a network")).expect("a file");
     let straight = bytes(straight);
     assert_eq!(straight, bytes(later));
-    // Another seed is another training.
+    // Another seed gives another training.
     let mut other = run(new, 2, settings);
     rounds(&mut other, 1);
     assert_ne!(straight, bytes(other));
-    // And the file gives the network back.
+    // And loading the file restores the network.
     let read = from_safetensors(new(&mut random(9)), &straight).expect("a network");
     assert_eq!(to_safetensors(&read).expect("a file"), straight);
 }
@@ -195,7 +195,7 @@ fn files_of_others_are_refused() {
     assert!(matches!(refused(&many), Some(TensorsError::Unknown(_))));
     let few = to_safetensors(&Arg::new(16, 1, &mut random(0)).unwrap()).unwrap();
     assert!(matches!(refused(&few), Some(TensorsError::Missing(_))));
-    // The last number is made one that is none.
+    // The last value is replaced by NaN.
     let mut broken = to_safetensors(&arg(&mut random(0))).unwrap();
     let end = broken.len() - 4;
     broken[end..].copy_from_slice(&f32::NAN.to_le_bytes());

@@ -1,4 +1,4 @@
-//! What is not there changes nothing, and what order means.
+//! Absent nodes change nothing, and what order means.
 
 use crate::support::{difference, event, random, unlike};
 use phase_baselines::{
@@ -10,7 +10,7 @@ use phase_baselines::{
 use phase_event::ObservedEvent;
 use phase_model::{Layout, Size};
 
-/// All that a network says of a batch, event by event.
+/// All outputs of a network for a batch, event by event.
 fn said(network: &dyn Recognition, batch: &Batch) -> Vec<Vec<f32>> {
     let Logits { goals, relations } = network.logits(batch, None).expect("numbers");
     (0..batch.events())
@@ -44,7 +44,7 @@ fn company_and_padding_change_nothing() {
             let alone = said(&*network, &Batch::new(&[nodes]).unwrap());
             assert!(difference(&alone[0], among) < 1e-5);
         }
-        // They do say different things of different events.
+        // Outputs for different events differ.
         assert!(difference(&together[0], &together[1]) > 1e-4);
     }
 }

@@ -1,4 +1,4 @@
-//! Records of trainings: what is summed up, how they go on, what is refused.
+//! Records of trainings: what they aggregate, how they resume, what is rejected.
 
 use crate::support::{labelled, random};
 use phase_baselines::{
@@ -34,7 +34,7 @@ fn record(run: &TrainingRun<TwoLevelLstm>) -> TrainingRecord {
     TrainingRecord::new(run, source(8), source(2))
 }
 
-/// Goes through so many rounds, each of 2 s on two threads.
+/// Runs the given number of rounds, each of 2 s on two threads.
 fn go_on(run: &mut TrainingRun<TwoLevelLstm>, record: &mut TrainingRecord, rounds: usize) {
     let events = labelled();
     for _ in 0..rounds {
@@ -61,7 +61,7 @@ fn what_is_written_is_read() {
     let evaluate = NamedMetrics::of::<TwoLevelLstm>(&last.validation);
     record.finished = Some(Final { train: evaluate.clone(), validation: evaluate, test: None });
     assert_eq!(TrainingRecord::parse(text(&record).as_bytes()).expect("our own record"), record);
-    // Every number of the file of weights counts: four bytes each, after the header.
+    // Every weight in the file counts: four bytes each, after the header.
     let network = run.into_best().expect("a network");
     let file = to_safetensors(&network).expect("a file");
     let header = u64::from_le_bytes(*file.first_chunk().expect("a length")) as usize;
@@ -74,7 +74,7 @@ fn times_add_up_after_a_break() {
     let mut earlier = record(&before);
     go_on(&mut before, &mut earlier, 2);
     let training_files = before.checkpoint("data").expect("a checkpoint");
-    // The record is written first, so it may know of a round more than the checkpoint.
+    // The record is written first, so it may contain a round more than the checkpoint.
     go_on(&mut before, &mut earlier, 1);
     after.resume(&training_files, "data").expect("the same training");
     let mut later = record(&after);

@@ -1,4 +1,4 @@
-//! Which samples a round learns from, held against counting: a network that only notes what it is shown.
+//! The samples of a round, tested against counting: a network that only records its input.
 
 use candle_core::{Device, Result, Tensor, Var};
 use phase_baselines::{
@@ -9,7 +9,7 @@ use phase_model::random::Pcg64Mcg;
 use rand::RngExt;
 use std::cell::RefCell;
 
-/// Its one weight goes after the samples and what it draws, so that it depends on all that ever happened.
+/// Its one weight depends on the samples and its random numbers, so that it depends on the whole history.
 struct Noting {
     weight: Var,
     seen: RefCell<Vec<usize>>,
@@ -53,7 +53,7 @@ fn new(seed: u64, settings: TrainingSettings) -> TrainingRun<Noting> {
     TrainingRun::new(network, seed, settings)
 }
 
-/// What is shown in so many more rounds, round by round.
+/// The samples of the given number of further rounds, round by round.
 fn shown(run: &mut TrainingRun<Noting>, samples: usize, rounds: usize) -> Vec<Vec<usize>> {
     let samples: Vec<usize> = (0..samples).collect();
     (0..rounds)

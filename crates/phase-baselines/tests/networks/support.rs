@@ -1,4 +1,4 @@
-//! Made-up events.
+//! Synthetic events.
 
 use phase_baselines::{nodes::Nodes, parameters::Parameter, recognition::LabelledEvent};
 use phase_event::ObservedEvent;
@@ -13,8 +13,8 @@ pub(crate) fn random(index: u64) -> Pcg64Mcg {
     stream(7, Purpose::Training, index)
 }
 
-/// An event of so many rows in which agent 0 goes to a landmark and agent 1 to another one, past some objects.
-/// What is past the last object is `rubbish`.
+/// An event with the given number of rows in which agent 0 goes to a landmark and agent 1 to another one,
+/// past some objects. Entries past the last object are `rubbish`.
 pub(crate) fn event(number: usize, rows: usize, objects: usize, rubbish: f32) -> ObservedEvent {
     let targets = [LANDMARKS[number % 4], LANDMARKS[(number / 2) % 4]];
     let row = |t: usize| {
@@ -60,13 +60,13 @@ pub(crate) fn unlike() -> Vec<Nodes> {
         .into()
 }
 
-/// The greatest difference between two lists of numbers.
+/// The maximum difference between two lists of values.
 pub(crate) fn difference(a: &[f32], b: &[f32]) -> f32 {
     assert_eq!(a.len(), b.len());
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
 }
 
-/// Whether a loss has a slope other than 0 by every parameter; the names of those where it has none.
+/// Whether a loss has a non-zero gradient for every parameter; the names of those for which it is zero.
 pub(crate) fn without_slope(parameters: &[Parameter], loss: &candle_core::Tensor) -> Vec<String> {
     let gradients = loss.backward().expect("slopes");
     let flat = |(_, variable): &&Parameter| {

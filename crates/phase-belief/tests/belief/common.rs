@@ -1,4 +1,4 @@
-//! Scenes to hold beliefs about, and ways for the world to go.
+//! Scenes for beliefs, and test dynamics.
 
 use phase_model::{
     AGENT_COUNT, Action, AgentBody, AgentId, Body, Dynamics, Entity, Layout, MAX_ENTITIES, ObjectId,
@@ -71,7 +71,7 @@ pub(crate) fn clear_of_walls(physics: &PhysicsConfig, outline: &Outline) -> bool
     outline.inside_arena() && !physics.walls.iter().any(|&wall| outline.overlaps_wall(wall))
 }
 
-/// The same scene with all bodies a little smaller.
+/// The same scene with all bodies slightly smaller.
 pub(crate) fn shrunk_outline(physics: &PhysicsConfig, by: f32) -> PhysicsConfig {
     let mut physics = physics.clone();
     physics.agents.iter_mut().for_each(|agent| agent.radius -= by);
@@ -86,7 +86,7 @@ impl Dynamics for StaticDynamics {
     fn step(&self, _: &mut State, _: [Action; AGENT_COUNT]) {}
 }
 
-/// Some entities end up where they cannot be.
+/// Some entities end up in impossible places.
 pub(crate) struct Lost<'a>(pub(crate) &'a [Entity]);
 
 impl Dynamics for Lost<'_> {
@@ -97,8 +97,8 @@ impl Dynamics for Lost<'_> {
     }
 }
 
-/// Whatever the numbers say: bodies out of the arena, in walls and in one another, grips and contacts that
-/// nobody expected.
+/// Arbitrary predictions: bodies out of the arena, in walls and in one another, unexpected grips and
+/// contacts.
 #[derive(Clone, Debug)]
 pub(crate) struct Mad(pub(crate) [f32; 12]);
 

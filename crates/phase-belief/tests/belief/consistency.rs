@@ -1,4 +1,4 @@
-//! What contradicts an observation, what does not, and what becomes of grips.
+//! Contradictions of an observation, and the treatment of grips.
 
 use crate::common::{BALL, BOX, ME, OTHER, StaticDynamics, physics, random, state};
 use core::f32::consts::PI;
@@ -8,7 +8,7 @@ use phase_model::{
 };
 use phase_perception::observe;
 
-/// Dynamics that put the world into one state, whatever it was.
+/// Dynamics that lead to one given state, whatever the state before.
 struct Into(State);
 
 impl Dynamics for Into {
@@ -56,7 +56,8 @@ fn only_what_cannot_be_is_redrawn() {
     let mut nan = truth;
     nan.body_mut(BALL).angular_velocity = f32::NAN;
     let flank = |state: State| {
-        // Let go at the right flank of the other agent: a tenth of its radius deep in the slanting side.
+        // Released at the right flank of the other agent: penetrating the slanting side by a tenth of its
+        // radius.
         moved(state, BALL, state.position(OTHER).x + 1.6, state.position(OTHER).y)
     };
     let cases: [(&str, State, &[phase_model::Entity]); 12] = [
@@ -94,7 +95,7 @@ fn walls_count_too() {
         let mut chance = random(1);
         let mut belief = Belief::new(&physics, &observation, 20, &mut chance);
         let imagined = Into(moved(truth, BALL, x, 18.0));
-        // The other object out of the way.
+        // The other object far away.
         let imagined = Into(moved(imagined.0, BOX, 24.0, 14.0));
         belief.update(&imagined, &physics, Action::NoForce, &observation, &mut chance);
         assert_eq!(belief.resampled(), resampled, "{x}");
@@ -179,7 +180,7 @@ fn contacts_are_the_truth_where_observed_and_imagined_elsewhere() {
 #[test]
 fn what_should_be_felt_and_is_not_is_not_there() {
     let truth = hidden();
-    // In reach behind one's back, and predicted in the own grip.
+    // In reach behind the agent's back, and predicted in its own grip.
     let behind = moved(truth, BALL, 16.0, 5.6);
     let mut gripped = behind;
     gripped.grips[0] = Some(Grip { object: ObjectId::ZERO, side: Side::Tail, relative_angle: 0.0 });

@@ -1,4 +1,4 @@
-//! What holds of every particle, whatever happens.
+//! Invariants of every particle.
 
 use crate::common::{Mad, any_physique, clear_of_walls, legal_state, random, shrunk_outline};
 use phase_belief::Belief;
@@ -8,7 +8,7 @@ use phase_perception::{Observation, footprint, observe};
 use proptest::prelude::*;
 use rand::RngExt;
 
-/// How deep particles may let bodies sink into others, and a little for rounding (u).
+/// Maximum overlap of bodies in particles, plus a margin for rounding (u).
 const PENETRATION_TOLERANCE: f32 = 0.051;
 
 /// Every particle agrees with the observation and is physically possible.
@@ -57,7 +57,8 @@ fn check_unobserved(
             if particle.touching(entity, other) {
                 continue;
             }
-            // Objects let go at a flank stay where they were held, a tenth of their radius deep.
+            // Objects released at a flank stay where they were held, penetrating it by a tenth of their
+            // radius.
             smaller.object_radii.iter_mut().for_each(|radius| *radius *= 0.89);
         }
         let a = Outline::of(&smaller, entity, body);
@@ -74,7 +75,7 @@ fn any_action() -> impl Strategy<Value = Action> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(40))]
 
-    /// Both agents act at random in a true world, and each believes.
+    /// Both agents act at random in a simulated world, and each updates its belief.
     #[test]
     fn beliefs_stay_consistent_through_events(
         physics in any_physique(),
@@ -102,7 +103,7 @@ proptest! {
         }
     }
 
-    /// No prediction can spoil a belief.
+    /// No prediction can corrupt a belief.
     #[test]
     fn beliefs_survive_any_dynamics(
         physics in any_physique(),
@@ -120,7 +121,7 @@ proptest! {
         }
     }
 
-    /// At first nothing overlaps at all, and whoever is not observed rests and holds nothing.
+    /// At first nothing overlaps at all, and unobserved entities are at rest and hold nothing.
     #[test]
     fn first_beliefs_are_clean(physics in any_physique(), agent in 0_usize..2, seed in any::<u64>()) {
         let mut chance = random(seed);
@@ -146,7 +147,7 @@ proptest! {
         }
     }
 
-    /// The same generator gives the same particles, and another one others.
+    /// The same generator gives the same particles, another generator different ones.
     #[test]
     fn beliefs_are_a_function_of_the_generator(physics in any_physique(), seed in any::<u64>()) {
         let truth = legal_state(&physics, &mut random(seed));

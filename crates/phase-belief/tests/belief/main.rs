@@ -1,4 +1,4 @@
-//! Beliefs: their invariants, their statistics, and what they do in drawn cases.
+//! Beliefs: their invariants, their statistics, and drawn cases.
 
 mod common;
 mod consistency;

@@ -1,4 +1,4 @@
-//! What is remembered of cells.
+//! The memory of cells.
 
 use phase_belief::{AGENT_DECAY_STEPS, CellMemory, OBJECT_DECAY_STEPS, occupancy_weight};
 use phase_model::{AgentId, Entity, ObjectId, Vec2};

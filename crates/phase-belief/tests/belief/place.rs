@@ -1,4 +1,4 @@
-//! Where bodies are redrawn when there is hardly any place left, or none.
+//! Resampling of bodies when there is hardly any place left, or none.
 
 use crate::common::{BALL, Lost, OTHER, clear_of_walls, physics, random, state};
 use core::f32::consts::PI;
@@ -6,7 +6,7 @@ use phase_belief::Belief;
 use phase_model::{Action, AgentId, PhysicsConfig, Size, State, Vec2, geometry::Outline};
 use phase_perception::{Cell, CellSet, Observation, footprint, observe};
 
-/// Agent 0 in a corner, its face to the wall; the others far away.
+/// Agent 0 in a corner, facing the wall; the others far away.
 fn truth() -> State {
     state([(7.5, 3.5, PI), (20.0, 8.0, 0.0), (20.0, 15.0, 0.0), (0.0, 0.0, 0.0)])
 }
@@ -102,7 +102,7 @@ fn where_no_place_is_left_bodies_lie_in_view_and_are_counted() {
             }
             belief.update(&Lost(&[BALL]), &physics, Action::Stop, &observation, &mut chance);
         }
-        // As soon as there is room, they are redrawn into it.
+        // As soon as there is room, they are resampled into it.
         let roomy = all_but(&physics, (12.0, 17.0), 5);
         belief.update(&Lost(&[]), &physics, Action::Stop, &roomy, &mut chance);
         assert_eq!(belief.unresolved(), 0, "{name}");

@@ -1,4 +1,4 @@
-//! Constant motion of what is not observed.
+//! Constant motion of unobserved bodies.
 
 use crate::common::{BALL, BOX, ME, OTHER, physics, random, state, wall};
 use core::f32::consts::PI;
@@ -11,7 +11,7 @@ use phase_model::{
 use phase_perception::observe;
 
 /// Agent 0 sees everything at the top of the arena, then turns away at once and sees none of it; the state
-/// that its particles then predict of it after some steps.
+/// that its particles predict after some steps.
 fn step_approximate(physics: &PhysicsConfig, first: State, steps: usize) -> State {
     imagine_by(&Forward::new(physics), physics, first, steps)
 }
@@ -142,7 +142,7 @@ fn what_gets_in_the_way_stops_it() {
 
 #[test]
 fn the_agents_own_action_is_known_and_the_other_does_nothing() {
-    /// The second object shows what the dynamics were told.
+    /// The second object shows the actions passed to the dynamics.
     struct Tell;
     impl Dynamics for Tell {
         fn step(&self, state: &mut State, actions: [Action; AGENT_COUNT]) {

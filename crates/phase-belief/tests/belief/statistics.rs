@@ -1,4 +1,4 @@
-//! How particles are distributed over the arena. All generators are seeded, so nothing here can flicker.
+//! Distribution of particles over the arena. All generators are seeded, so these tests are deterministic.
 
 use crate::common::{BALL, Lost, ME, OTHER, StaticDynamics, physics, random, state, wall};
 use core::f32::consts::{FRAC_PI_2, PI};
@@ -6,7 +6,7 @@ use phase_belief::Belief;
 use phase_model::{Action, AgentId, Body, Dynamics, Entity, PhysicsConfig, Size, State, Vec2};
 use phase_perception::{Cell, Observation, observe};
 
-/// Looks of agent 0 in turn: the state before, one after each look.
+/// A sequence of observations of agent 0: the state before, and one after each.
 fn looks(
     physics: &PhysicsConfig,
     dynamics: &impl Dynamics,
@@ -27,7 +27,7 @@ fn looks(
     (belief, observation)
 }
 
-/// Cells whose neighbours up to a distance all satisfy a condition; cells at the boundary are none.
+/// Cells whose neighbours up to a distance all satisfy a condition; cells at the boundary are excluded.
 fn amid(distance: i32, condition: impl Fn(Cell) -> bool) -> Vec<Cell> {
     let satisfied = |point: Vec2| Cell::at(point).is_some_and(&condition);
     let around = |cell: Cell| {
@@ -49,7 +49,7 @@ fn counts(belief: &Belief, entity: Entity, cells: &[Cell]) -> Vec<f64> {
     cells.iter().map(|cell| counts[cell.index()]).collect()
 }
 
-/// χ² of counts that should all be equal, as standard deviations above what chance gives.
+/// χ² of counts that should all be equal, in standard deviations above its expectation.
 fn excess(counts: &[f64]) -> f64 {
     let mean = counts.iter().sum::<f64>() / counts.len() as f64;
     let chi_squared: f64 = counts.iter().map(|count| (count - mean) * (count - mean) / mean).sum();
@@ -59,7 +59,7 @@ fn excess(counts: &[f64]) -> f64 {
 
 #[test]
 fn the_first_belief_is_uniform() {
-    // Agent 0 in a corner, its face to the wall; the other agent leans on it.
+    // Agent 0 in a corner, facing the wall; the other agent leans on it.
     let physics = physics(Vec::new(), Size::Small, 1);
     let mut truth = state([(7.5, 3.5, PI), (10.0, 3.5, 0.0), (20.0, 15.0, 0.0), (0.0, 0.0, 0.0)]);
     truth.contacts.insert(ME, OTHER);
@@ -84,7 +84,7 @@ fn the_first_belief_is_uniform() {
         }
         assert!(excess(&tenths).abs() < 4.0, "{tenths:?}");
     }
-    // The test can tell: with a tenth of the cells counted twice, it is far off.
+    // The test has power: with a tenth of the cells counted twice, the statistic is far off.
     let skewed: Vec<f64> =
         counts.iter().enumerate().map(|(k, count)| if k % 10 == 0 { count * 2.0 } else { *count }).collect();
     assert!(excess(&skewed) > 40.0);
@@ -95,7 +95,7 @@ fn headings_of_unseen_agents_are_uniform() {
     let physics = physics(Vec::new(), Size::Small, 0);
     let truth = state([(7.5, 3.5, PI), (20.0, 15.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)]);
     let (belief, _) = looks(&physics, &StaticDynamics, 20_000, &[truth]);
-    // In mid arena, where walls favour no heading.
+    // In the middle of the arena, where walls favour no heading.
     let mut counts = [0.0; 16];
     for particle in belief.particles() {
         let Body { position, angle, .. } = *particle.body(OTHER);
@@ -124,7 +124,7 @@ fn share_on_the_left(belief: &Belief, entity: Entity) -> f64 {
 
 #[test]
 fn after_a_look_at_half_the_arena_all_is_in_the_other_half() {
-    // At first with its face to the wall, then from two corners, and from the middle to both sides.
+    // At first facing the wall, then from two corners, and from the middle to both sides.
     let looking = [
         in_left_room(7.0, 12.0, FRAC_PI_2),
         in_left_room(7.2, 3.2, -0.6),
@@ -142,15 +142,15 @@ fn after_a_look_at_half_the_arena_all_is_in_the_other_half() {
         let before = share_on_the_left(&first, entity);
         assert!((before - 0.47).abs() < 0.06, "{entity:?}: {before}");
     }
-    // Six steps of forgetting leave a little chance that a body slipped back, more for an agent.
+    // Six steps of decay leave a small probability that a body moved back unseen, larger for an agent.
     let (agent, object) = (share_on_the_left(&last, OTHER), share_on_the_left(&last, BALL));
     assert!(agent < 0.05 && object < 0.005, "{agent} {object}");
 }
 
 #[test]
 fn a_place_last_seen_five_steps_ago_counts_as_stated() {
-    // One look across the left room, then five with the face to the wall; then everything is lost from sight
-    // and mind at once.
+    // One observation of the left room, then five steps facing the wall; then all bodies are lost from sight
+    // and from the belief at once.
     let physics = two_rooms();
     let mut states = vec![in_left_room(7.0, 12.0, -FRAC_PI_2)];
     states.extend([in_left_room(7.0, 12.0, FRAC_PI_2); 5]);
@@ -171,8 +171,8 @@ fn a_place_last_seen_five_steps_ago_counts_as_stated() {
 
 #[test]
 fn bodies_do_not_slip_into_gaps_between_what_was_just_seen() {
-    // Three looks leave three wedges of 10.6° unseen, everywhere narrower than an object. If only the cell of
-    // a body's centre counted, some would end up there.
+    // Three observations leave three wedges of 10.6° unseen, everywhere narrower than an object. If only the
+    // cell of a body's centre counted, some would be placed there.
     let physics = two_rooms();
     let states = [0.0, 1.0, 2.0].map(|thirds| in_left_room(12.0, 12.0, thirds * 2.0 * PI / 3.0));
     let (belief, _) = looks(&physics, &Lost(&[BALL]), 20_000, &states);

@@ -1,4 +1,4 @@
-//! Reading, replaying and statistics, on small records of our own and engines whose errors are known.
+//! Reading, replaying and statistics, on small synthetic records and engines whose errors are known.
 
 mod family;
 mod measure;

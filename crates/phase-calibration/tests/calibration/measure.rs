@@ -62,7 +62,7 @@ fn real_rows_are_means_over_substeps() {
     };
     let rest = [Body::default(); MAX_ENTITIES];
     let mut off = rest;
-    // An object that is not there does not count.
+    // An absent object does not count.
     off[3].position.x = 9.0;
     let replay = Replay {
         id: "one".into(),

@@ -19,7 +19,7 @@ fn good_files_are_read() {
     assert_eq!(probes[0].physics.object_radii, [0.8, 1.6]);
 }
 
-/// A change to a good entry, and what has to be in the sentence about it.
+/// A change to a valid entry, and the expected content of the error message.
 type Case = (&'static str, Value, &'static [&'static str]);
 
 fn check(kind: &str, good: &Value, cases: &[Case], parse: impl Fn(&str) -> Option<ReadError>) {

@@ -37,11 +37,11 @@ pub(crate) fn runs(entries: &[Value]) -> String {
     json!({ "runs": entries }).to_string()
 }
 
-/// An engine in which agent 0 goes 0.25 u to the right in every substep, the idle one too, and agent 1 turns by
-/// 0.5 rad in every step. Nobody ever grabs anything.
+/// An engine in which agent 0 moves 0.25 u to the right in every substep, the idle one too, and agent 1 turns
+/// by 0.5 rad in every step. No agent ever grabs anything.
 pub(crate) struct Drifting<const RUNS_IDLE_SUBSTEP: bool>(State);
 
-/// How far agent 0 goes in a substep (u).
+/// Displacement of agent 0 in a substep (u).
 pub(crate) const DRIFT: f32 = 0.25;
 
 impl<const RUNS_IDLE_SUBSTEP: bool> Engine for Drifting<RUNS_IDLE_SUBSTEP> {

@@ -1,7 +1,8 @@
-//! `benchmark`: every method at both tasks, beside what is published, in one report.
+//! `benchmark`: every method at both tasks, compared with published results, in one report.
 //!
-//! [`plan`] says who takes part, `rows` has each of them evaluated, exactly as `eval` would, and what comes of it goes
-//! into one report. Evaluations stay in their folders, so a benchmark can be broken off, and goes on where it was.
+//! [`plan`] selects the methods, `rows` has each of them evaluated, exactly as `eval` would, and the results
+//! are combined in one report. Evaluations stay in their folders, so a benchmark can be interrupted and
+//! resumed.
 
 pub mod options;
 pub mod plan;

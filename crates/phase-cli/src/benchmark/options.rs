@@ -8,17 +8,17 @@ use std::path::PathBuf;
 /// Options of `benchmark`.
 #[derive(Args, Debug)]
 pub struct Benchmark {
-    /// Folder of a finished dataset that is divided; its test events are what methods are measured on
+    /// Folder of a finished dataset that is divided; methods are evaluated on its test events
     #[arg(long, value_name = "DIR")]
     pub data: PathBuf,
-    /// Measure on these recordings too (a phase-events/1 file, or a folder of events)
+    /// Also evaluate on these recordings (a phase-events/1 file, or a folder of events)
     #[arg(long, value_name = "FILE|DIR")]
     pub real: Option<PathBuf>,
     /// Only these methods, such as simple,arg,stgat [default: all]
     #[arg(long, value_name = "METHODS", value_delimiter = ',', value_parser = PossibleValuesParser::new(METHODS))]
     pub methods: Vec<String>,
-    /// Also measure networks with these weights, as `train` writes them, and show how they grow with what they learnt
-    /// from
+    /// Also evaluate networks with these weights, as `train` writes them, and show how they improve with the
+    /// amount of training data
     #[arg(long, value_name = "FILES", num_args = 1..)]
     pub trained: Vec<PathBuf>,
     /// Also show these results.json of `eval`, of the same events
@@ -30,10 +30,11 @@ pub struct Benchmark {
     /// Random seed of methods and intervals
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub seed: u64,
-    /// Folder with a folder for each method and task, as `eval` leaves them; what is there already is not done again
+    /// Folder with a folder for each method and task, as `eval` leaves them; finished evaluations are not
+    /// repeated
     #[arg(long, value_name = "DIR", default_value = "out/eval")]
     pub evaluations: PathBuf,
-    /// Folder for the report; new, empty, or of a benchmark, which is written over
+    /// Folder for the report; new, empty, or of a benchmark, which is overwritten
     #[arg(long, value_name = "DIR", default_value = "out/benchmark")]
     pub out: PathBuf,
     /// How the result is printed.

@@ -1,4 +1,4 @@
-//! Which methods are measured at which task.
+//! Which methods are evaluated at which task.
 
 use super::options::Benchmark;
 use crate::{error::CliError, eval::networks};
@@ -51,16 +51,16 @@ pub enum Task {
 pub struct BenchmarkEntry {
     /// The task.
     pub task: Task,
-    /// What it is called in the report.
+    /// Its name in the report.
     pub name: String,
     /// The method's own name.
     pub method: String,
-    /// Weights other than those that come with the program.
+    /// Weights other than the bundled ones.
     pub weights: Option<PathBuf>,
 }
 
 impl BenchmarkEntry {
-    /// What it does, in words.
+    /// Description of the method.
     #[must_use]
     pub fn description(&self) -> String {
         format!("{} by {}", self.task.name(), self.name)
@@ -68,7 +68,7 @@ impl BenchmarkEntry {
 }
 
 impl Task {
-    /// The name of its evaluations.
+    /// The folder name of its evaluations.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -78,14 +78,14 @@ impl Task {
     }
 }
 
-/// Whether anything that was asked for is a neural network.
+/// Whether any requested method is a neural network.
 #[must_use]
 pub fn needs_networks(arguments: &Benchmark) -> bool {
     let mut names = networks::RECOGNISING.iter().chain(&networks::FORECASTING);
     !arguments.trained.is_empty() || names.any(|name| wanted(arguments, name))
 }
 
-/// All that is to be measured, the quickest first, so that what is wrong shows early.
+/// All evaluations, the quickest first, so that errors show early.
 ///
 /// # Errors
 /// If a file of weights cannot be used.
@@ -110,7 +110,7 @@ pub fn entries(arguments: &Benchmark) -> Result<Vec<BenchmarkEntry>, CliError> {
         weights: None,
     });
     entries.extend(own);
-    // The four ways of SIMPLE take seconds for an event, the others less than a tenth of one.
+    // The four variants of SIMPLE take seconds for an event, the others less than a tenth of one.
     entries.sort_by_key(|entry| entry.method.starts_with("simple"));
     Ok(entries)
 }

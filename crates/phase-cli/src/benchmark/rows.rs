@@ -34,7 +34,7 @@ pub(super) struct Rows<'a> {
     benchmark: benchmark::Benchmark,
 }
 
-/// An event with what a method said of it.
+/// An event with a method's answer.
 trait ScoredEvent: Sized + Clone + DeserializeOwned {
     type Summary;
 
@@ -42,7 +42,7 @@ trait ScoredEvent: Sized + Clone + DeserializeOwned {
 
     fn sum_up(events: &[Self], seed: u64) -> Option<Self::Summary>;
 
-    /// What goals were taken for, if they were asked for.
+    /// Error breakdown of goals, for Task 1.
     fn mistakes(events: &[Self]) -> Option<ErrorBreakdown>;
 }
 
@@ -83,7 +83,7 @@ impl<'a> Rows<'a> {
         Ok(Self { arguments, inputs, benchmark })
     }
 
-    /// How many sets of events there are.
+    /// Number of sets of events.
     pub(super) const fn sets(&self) -> usize {
         self.inputs.len()
     }
@@ -93,7 +93,7 @@ impl<'a> Rows<'a> {
         &self.benchmark.sets[set].name
     }
 
-    /// Keeps a training and says where.
+    /// Adds a training and returns its index.
     pub(super) fn add_training(&mut self, training: Training) -> usize {
         let known = self.benchmark.trainings.iter().position(|other| *other == training);
         known.unwrap_or_else(|| {
@@ -102,7 +102,7 @@ impl<'a> Rows<'a> {
         })
     }
 
-    /// Has a method evaluated, unless that is done already.
+    /// Has a method evaluated, unless that is already done.
     ///
     /// # Errors
     /// Any [`CliError`].
@@ -141,7 +141,7 @@ impl<'a> Rows<'a> {
     /// Takes over a finished evaluation.
     ///
     /// # Errors
-    /// If it is none, or one of other events.
+    /// If it is invalid, or one of other events.
     pub(super) fn add_results(&mut self, file: &Path) -> Result<(), CliError> {
         let results = json::read(file)?;
         let fail = |rule: String| {
@@ -171,7 +171,7 @@ impl<'a> Rows<'a> {
         Ok(())
     }
 
-    /// All of it.
+    /// The whole benchmark.
     pub(super) fn finish(self) -> benchmark::Benchmark {
         self.benchmark
     }

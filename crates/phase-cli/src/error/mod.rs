@@ -28,7 +28,7 @@ pub enum CliError {
     /// The output folder cannot be used.
     #[error(transparent)]
     Folder(#[from] FolderError),
-    /// The output cannot be written where it was asked for.
+    /// The output cannot be written to the given path.
     #[error(transparent)]
     Output(WriteError),
     /// The folder belongs to a run with other options.
@@ -41,7 +41,7 @@ pub enum CliError {
         /// How that run differs from this one.
         difference: String,
     },
-    /// A finished folder is no longer what was written into it.
+    /// The files of a finished folder have changed.
     #[error("{0}; remove the folder or choose another")]
     Altered(#[source] FileError),
     /// There is no preset of this name.
@@ -49,7 +49,7 @@ pub enum CliError {
     UnknownPreset {
         /// The name given.
         name: String,
-        /// The names there are.
+        /// The available names.
         known: String,
     },
     /// The file has no event of this id.
@@ -59,13 +59,13 @@ pub enum CliError {
         file: PathBuf,
         /// The id given.
         id: String,
-        /// Ids that look like it, in words.
+        /// Similar ids, in words.
         near: String,
     },
     /// A folder holds nothing to render.
     #[error("{}: is a folder without manifest.json or summary.json; give an event file or a finished dataset", .0.display())]
     NotADataset(PathBuf),
-    /// An option does not go with the input.
+    /// An option is not compatible with the input.
     #[error("{0}")]
     Usage(String),
     /// A scene cannot be simulated.
@@ -92,15 +92,15 @@ pub enum CliError {
     Exhausted {
         /// The event.
         id: String,
-        /// What was tried.
+        /// The attempts.
         variant: Variant,
-        /// Why the scenes were refused, with numbers.
+        /// Why the scenes were rejected, with numbers.
         reasons: String,
     },
-    /// Writing broke off, with the disk full for example.
+    /// Writing failed, for example because the disk is full.
     #[error("{0}; what is finished is kept, and the same command goes on from there")]
     Write(#[from] WriteError),
-    /// A file written a moment ago cannot be read back.
+    /// A file that was just written cannot be read back.
     #[error("{0}; what is finished is kept, and the same command goes on from there")]
     ReadBack(#[source] FileError),
     /// An event cannot be written.
@@ -122,7 +122,7 @@ pub enum CliError {
         /// Why.
         source: ThreadPoolBuildError,
     },
-    /// Something has no form in JSON.
+    /// A value cannot be converted to JSON.
     #[error("{what} cannot be written as JSON: {source}")]
     Serialise {
         /// What.
@@ -140,27 +140,27 @@ pub enum CliError {
         /// Why.
         source: serde_json::Error,
     },
-    /// An event is too short for what is to be done with it.
+    /// An event is too short for the requested operation.
     #[error("{}: event {id} has only one row, its start; {needed}", file.display())]
     StartAlone {
         /// The file.
         file: PathBuf,
         /// The event.
         id: String,
-        /// What an event with more rows is needed for.
+        /// The operation that requires more rows.
         needed: &'static str,
     },
-    /// No scene to start from could be drawn.
+    /// No initial scene could be drawn.
     #[error("--layout {layout}: no {} scene fits this layout; choose another", kind.name())]
     NoScene {
         /// The layout's number.
         layout: u8,
         /// The kind of event.
         kind: EventKind,
-        /// Why none of its variants does.
+        /// Why all of its variants failed.
         source: SampleError,
     },
-    /// A dataset is not what its manifest says; the problems have been told.
+    /// A dataset disagrees with its manifest; the problems have been reported.
     #[error("{}: {problems} problem(s)", folder.display())]
     NotWhole {
         /// The dataset.
@@ -168,7 +168,7 @@ pub enum CliError {
         /// How many.
         problems: usize,
     },
-    /// A dataset has no manifest because its run was broken off.
+    /// A dataset has no manifest because its run was interrupted.
     #[error("{}: is unfinished; the command that began it goes on from there", .0.display())]
     Unfinished(PathBuf),
     /// A split breaks rules.
@@ -201,13 +201,13 @@ pub enum CliError {
         /// Why.
         source: TrainingRecordError,
     },
-    /// A neural network was asked for in a program that has none.
+    /// A neural network was requested from a program built without them.
     #[error("neural networks are needed, which this program was built without; {hint}")]
     NoNetworks {
         /// What to do instead.
         hint: &'static str,
     },
-    /// The user broke off.
+    /// The user interrupted the run.
     #[error("interrupted; what is finished is kept in {}, and the same command goes on from there", .0.display())]
     Interrupted(PathBuf),
 }
@@ -260,7 +260,7 @@ impl Failure for CliError {
 }
 
 impl CliError {
-    /// An id that a file does not have, with those that come nearest to it.
+    /// An id that a file does not contain, with the most similar ones.
     #[must_use]
     pub fn unknown_id<'a>(file: &Path, id: &str, ids: impl Iterator<Item = &'a str>) -> Self {
         const SHOWN: usize = 5;
@@ -277,7 +277,7 @@ impl CliError {
     }
 }
 
-/// Fewest letters to insert, remove or replace to get from one text to the other.
+/// Edit distance: minimum number of letters to insert, remove or replace to get from one text to the other.
 fn edit_distance(a: &str, b: &str) -> usize {
     let b: Vec<char> = b.chars().collect();
     let mut row: Vec<usize> = (0..=b.len()).collect();

@@ -20,7 +20,7 @@ pub enum TrainError {
     /// The folder is not a finished dataset.
     #[error("{}: is not a finished dataset; give a folder with manifest.json", .0.display())]
     NotADataset(PathBuf),
-    /// The dataset has no events to learn from, or none to validate on.
+    /// The dataset has no training events, or no validation events.
     #[error("{}: has no {split} events", folder.display())]
     NoEvents {
         /// The dataset.
@@ -28,25 +28,25 @@ pub enum TrainError {
         /// What it lacks.
         split: &'static str,
     },
-    /// The dataset has fewer events to learn from than are asked for.
+    /// The dataset has fewer training events than requested.
     #[error("{}: has {found} train events, fewer than the {asked} of --events", folder.display())]
     TooFewEvents {
         /// The dataset.
         folder: PathBuf,
-        /// How many are asked for.
+        /// The number requested.
         asked: usize,
-        /// How many it has.
+        /// The number available.
         found: usize,
     },
-    /// A file does not hold the event it should.
+    /// A file does not contain the event it should.
     #[error("{}: has no event {id:?}", file.display())]
     UnknownId {
         /// The file.
         file: PathBuf,
-        /// What the manifest says is in it.
+        /// The event according to the manifest.
         id: String,
     },
-    /// An event cannot be looked at.
+    /// An event cannot be used.
     #[error("event {id}: {source}")]
     Observed {
         /// The event.
@@ -57,7 +57,7 @@ pub enum TrainError {
     /// The weights cannot be written.
     #[error(transparent)]
     Output(#[from] WriteError),
-    /// An event has a label that networks do not know.
+    /// An event has a label without a class in the networks.
     #[error("event {id}: {source}")]
     Label {
         /// The event.
@@ -65,7 +65,7 @@ pub enum TrainError {
         /// Why.
         source: LabelError,
     },
-    /// What was kept of a training cannot be used.
+    /// The checkpoint of a training cannot be used.
     #[error("{}: {source}; give the options of that training, choose another file or remove this one", file.display())]
     Checkpoint {
         /// The file.
@@ -78,21 +78,21 @@ pub enum TrainError {
     TrainingRecord {
         /// The file.
         file: PathBuf,
-        /// What the training would go on from.
+        /// What the training would resume from.
         checkpoint: PathBuf,
         /// Why.
         source: TrainingRecordError,
     },
-    /// No strengths could be learnt.
+    /// Training of the strength regressor failed.
     #[error(transparent)]
     Strength(#[from] strength::TrainingError),
-    /// Nothing could be learnt.
+    /// Training of a network failed.
     #[error(transparent)]
     Training(#[from] TrainingError),
-    /// What was learnt cannot be kept.
+    /// The trained weights cannot be saved.
     #[error("the weights: {0}")]
     Network(#[from] NetworkError),
-    /// What was learnt cannot be kept.
+    /// The trained weights cannot be saved.
     #[error("the weights: {0}")]
     Weights(#[from] WeightsError),
 }

@@ -1,4 +1,4 @@
-//! Sources of answers: one of our methods, or a predictions file.
+//! Sources of answers: one of PHASE's methods, or a predictions file.
 
 use super::input::{Event, Input};
 use crate::{context::Context, error::CliError};
@@ -13,27 +13,27 @@ use phase_model::json::FieldError;
 use serde_json::{Value, json};
 use std::{collections::BTreeMap, path::Path};
 
-/// Where answers come from.
+/// The source of answers.
 pub(super) enum AnswerSource<M: ?Sized, A> {
-    /// A method of ours.
+    /// A method of PHASE.
     Method(Box<M>),
-    /// Somebody else's.
+    /// An external method.
     PredictionsFile(PredictionsFile<A>),
 }
 
-/// The answers of a file, one to each event that is asked for.
+/// The answers of a file, one for each requested event.
 pub(super) struct PredictionsFile<A> {
-    /// What the method is called: the file's name without its ending.
+    /// The name of the method: the file's name without its ending.
     pub name: String,
     answers: BTreeMap<String, A>,
     sha256: String,
 }
 
 impl<A> PredictionsFile<A> {
-    /// Reads a file. `parse` finds the answers by the ids of their events, `fit` makes of each what goes with its event.
+    /// Reads a file. `parse` finds the answers by the ids of their events, `fit` adapts each to its event.
     ///
     /// # Errors
-    /// If the file cannot be used, or an event has no answer or one that does not go with it.
+    /// If the file cannot be used, or an event has no answer or an invalid one.
     pub(super) fn read(
         file: &Path,
         input: &Input,
@@ -61,7 +61,7 @@ impl<A> PredictionsFile<A> {
         Ok(Self { name, answers, sha256: hexadecimal(&sha256(value.to_string().as_bytes())) })
     }
 
-    /// What decides the answers: what is in the file.
+    /// Everything that determines the answers: the contents of the file.
     pub(super) fn settings(&self) -> Value {
         json!({ "predictions_sha256": self.sha256 })
     }

@@ -1,4 +1,4 @@
-//! Task 1: how often goals and relations are recognised.
+//! Task 1: accuracy of goals and relations.
 
 use super::{
     answers::{AnswerSource, PredictionsFile},
@@ -53,12 +53,12 @@ pub(super) fn run(arguments: &EvalGoals, context: &Context) -> Result<(), CliErr
 pub(crate) struct Goals {
     name: String,
     answers: AnswerSource<dyn Recogniser, Answer>,
-    /// Parts of each event to ask about too, by their lengths (s).
+    /// Prefixes of each event to evaluate too, by their lengths (s).
     watched: Vec<f64>,
 }
 
 impl Goals {
-    /// The task for one of our methods, under any name; see [`methods::recogniser`].
+    /// The task for one of PHASE's methods, under any name; see [`methods::recogniser`].
     ///
     /// # Errors
     /// As there.

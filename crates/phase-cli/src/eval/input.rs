@@ -1,4 +1,4 @@
-//! The events that a method is measured on.
+//! The events that a method is evaluated on.
 
 use super::options::Common;
 use crate::{context::Context, error::CliError, source::EventInput};
@@ -15,11 +15,11 @@ use std::{collections::BTreeSet, path::Path};
 /// The events of a run, loaded one at a time.
 #[derive(Debug)]
 pub(crate) struct Input {
-    /// What they are called in the name of a folder.
+    /// Their name in the name of a folder.
     pub name: String,
-    /// What they are called in a report.
+    /// Their name in a report.
     pub description: String,
-    /// Stands for everything that is in them.
+    /// Digest of their contents.
     pub sha256: String,
     /// The events.
     pub events: Vec<Event>,
@@ -33,7 +33,7 @@ pub(crate) struct Event {
     pub id: String,
     /// Its length (steps).
     pub steps: usize,
-    /// Its agents and objects, how many.
+    /// Its numbers of agents and objects.
     pub entities: usize,
     /// Whether its base layout is in the training or validation events too, if the dataset is divided.
     pub layout_seen: Option<bool>,
@@ -44,10 +44,10 @@ pub(crate) struct Event {
 }
 
 impl Input {
-    /// Opens a file or dataset and chooses what was asked for.
+    /// Opens a file or dataset and applies the selection.
     ///
     /// # Errors
-    /// If it cannot be used, or holds nothing of what was asked for.
+    /// If it cannot be used, or the selection is empty.
     pub(crate) fn open(arguments: &Common, context: &Context) -> Result<Self, CliError> {
         let path = &arguments.events;
         let source = EventInput::open(path, &[], context)?;
@@ -101,7 +101,7 @@ fn of_manifest(manifest: &Manifest, split: Option<Split>) -> Vec<Event> {
     event.collect()
 }
 
-/// An event of a file; its contents are its labels and rows, however they are laid out in the file.
+/// An event of a file; its digest covers labels and rows, independent of the layout of the file.
 fn of_recording(index: usize, recording: &Recording) -> Result<Event, CliError> {
     let (scene, rows) = (&recording.scene, &recording.trajectory);
     let relations = (recording.relation, recording.relation_human);
@@ -116,7 +116,7 @@ fn of_recording(index: usize, recording: &Recording) -> Result<Event, CliError> 
     })
 }
 
-/// What the events are called in the name of a folder, and in a report.
+/// The name of the events in the name of a folder, and in a report.
 fn names(path: &Path, split: Option<Split>) -> (String, String) {
     // A folder may be given as `.` or end in `..`.
     let whole = path.canonicalize().unwrap_or_else(|_| path.to_owned());

@@ -27,8 +27,7 @@ pub const RECOGNISERS: [&str; 9] = [
 pub const FORECASTERS: [&str; 6] =
     ["simple", "simple-published", "social-lstm", "stgat", "constant-velocity", "still"];
 
-/// A method for goals and relations, networks with the weights of a file or, without one, those that come with the
-/// program.
+/// A method for goals and relations; networks with the weights of a file or, without one, the bundled ones.
 ///
 /// # Errors
 /// If there is none of this name in this build, or the file cannot be used.

@@ -1,7 +1,8 @@
 //! `eval`: how well a method perceives events.
 //!
-//! [`methods`] knows the methods by name, `task` asks one of them event by event and keeps what it said, so that a
-//! run can be broken off; `goals` and `trajectories` are the two tasks, `given` the answers of somebody else's method.
+//! [`methods`] knows the methods by name, `task` asks one of them event by event and stores its answers, so
+//! that a run can be interrupted; `goals` and `trajectories` are the two tasks, `given` the answers of an
+//! external method.
 
 mod answers;
 pub(crate) mod goals;

@@ -11,12 +11,12 @@ use phase_dataset::splits::Split;
 use phase_model::arena::{FRAMES_PER_SECOND, SUBSTEPS};
 use std::path::PathBuf;
 
-/// What to measure.
+/// What to evaluate.
 #[derive(Subcommand, Debug)]
 pub enum Eval {
-    /// Task 1 of the paper: how often goals and relations are recognised
+    /// Task 1 of the paper: accuracy of recognised goals and relations
     Goals(EvalGoals),
-    /// Task 2 of the paper: how far predicted trajectories are off, 20 steps after the first 20
+    /// Task 2 of the paper: errors of predicted trajectories, 20 steps after the first 20
     Trajectories(EvalTrajectories),
 }
 
@@ -31,10 +31,11 @@ pub struct EvalGoals {
     /// program]
     #[arg(long, value_name = "FILE", conflicts_with = "predictions")]
     pub weights: Option<PathBuf>,
-    /// Also ask the method after so many seconds of each event, such as 5,10,15,20; each takes as long again
+    /// Also ask the method after the given numbers of seconds of each event, such as 5,10,15,20; each takes
+    /// as long again
     #[arg(long, value_name = "SECONDS", value_delimiter = ',', value_parser = seconds, conflicts_with = "predictions")]
     pub watched: Vec<f64>,
-    /// On what, and where to.
+    /// Events and output.
     #[command(flatten)]
     pub common: Common,
 }
@@ -50,7 +51,7 @@ pub struct EvalTrajectories {
     /// program]
     #[arg(long, value_name = "FILE", conflicts_with = "predictions")]
     pub weights: Option<PathBuf>,
-    /// On what, and where to.
+    /// Events and output.
     #[command(flatten)]
     pub common: Common,
 }
@@ -76,7 +77,7 @@ pub struct Common {
     /// Print the results as one JSON object on stdout, and nothing else there; or, with a file, write them there too
     #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = "-")]
     pub json: Option<PathBuf>,
-    /// Folder for results and report; new, empty, or of this very run [default: out/eval/TASK-METHOD-EVENTS]
+    /// Folder for results and report; new, empty, or of the same run [default: out/eval/TASK-METHOD-EVENTS]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// How many events at once.

@@ -1,4 +1,4 @@
-//! SIMPLE and its variants as methods to be measured.
+//! SIMPLE and its variants as methods to be evaluated.
 
 use phase_eval::{
     Forecaster, Recogniser,
@@ -23,9 +23,10 @@ pub struct Simple {
 }
 
 impl Simple {
-    /// The variant of a name: `simple` is inverse planning, the default; `simple-initial`, `simple-global` and
-    /// `simple-local` are Algorithm 2 of the paper and its ablation, over simulations that are put back to the event now
-    /// and then; `simple-published` is Algorithm 2 with simulations that never are. `None` for other names.
+    /// The variant of a name: `simple` is inverse planning, the default; `simple-initial`, `simple-global`
+    /// and `simple-local` are Algorithm 2 of the paper and its ablation, over simulations that are
+    /// periodically resynchronised with the observed event; `simple-published` is Algorithm 2 with
+    /// simulations that are not. `None` for other names.
     #[must_use]
     pub fn of(name: &str) -> Option<Self> {
         let algorithm_2 = |update| InferenceSettings::chains(ChainSettings::resynchronised(update));
@@ -96,7 +97,7 @@ impl Forecaster for Simple {
     }
 }
 
-/// What motion alone suggests, without any simulation: the first proposals of SIMPLE, all of them.
+/// The initial proposals of SIMPLE from motion alone, without any simulation: all of them.
 #[derive(Clone, Copy, Debug)]
 pub struct Cue;
 

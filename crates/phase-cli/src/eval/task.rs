@@ -1,4 +1,4 @@
-//! What the two tasks have in common: ask a method event by event, keep what it said, sum up, report.
+//! What the two tasks have in common: ask a method event by event, store its answers, aggregate, report.
 
 use super::{
     input::{Event, Input},
@@ -31,16 +31,16 @@ use std::path::{Path, PathBuf};
 
 /// The results' file name; it is written last.
 const RESULTS_FILE: &str = "results.json";
-/// What stands for stdout where a file may be named.
+/// The name that means stdout where a file may be named.
 const STDOUT: &str = "-";
 /// The report as a page.
 pub(crate) const REPORT_FILE: &str = "report.html";
-/// Where what was said of each event is kept.
+/// Folder of the stored answers.
 const EVENTS: &str = "events";
 
 /// A task and the method that does it.
 pub(crate) trait Task: Sync {
-    /// One event with what the method said of it.
+    /// One event with the method's answer.
     type ScoredEvent: Serialize + DeserializeOwned + Send;
 
     /// The task's name.
@@ -49,24 +49,26 @@ pub(crate) trait Task: Sync {
     /// The method's name.
     fn method(&self) -> &str;
 
-    /// Whether the method is somebody else's, whose answers came from a file.
+    /// Whether the method is external, with answers from a file.
     fn is_external(&self) -> bool;
 
-    /// What decides the answers beside events and seed.
+    /// Everything that determines the answers beside events and seed.
     fn settings(&self) -> Value;
 
     /// About how often a method ticks for an event.
     fn ticks(&self) -> usize;
 
-    /// Whether an event of a file can be asked about.
+    /// Whether an event of a file can be evaluated.
     ///
     /// # Errors
-    /// Says what is wrong with it, reading on from its name.
+    /// Describes the problem, continuing from the event's name.
     fn check(&self, event: &Event, file: &Path) -> Result<(), CliError>;
 
     /// Runs the method; `None` if it was cancelled.
     ///
-    /// # Errors If it has no answer, or an invalid one.
+    /// # Errors
+    ///
+    /// If it has no answer, or an invalid one.
     fn ask(
         &self,
         event: &Event,
@@ -86,16 +88,16 @@ pub(crate) trait Task: Sync {
 
 /// A task that is done.
 pub(crate) struct Evaluation<A> {
-    /// Every event with what the method said of it.
+    /// Every event with the method's answer.
     pub events: Vec<A>,
     results: Value,
     document: Document,
     out: PathBuf,
-    /// Whether it was done already.
+    /// Whether it had already been done.
     already_finished: bool,
 }
 
-/// Does a task and says what came of it.
+/// Does a task and reports the result.
 ///
 /// # Errors
 /// Any [`CliError`].
@@ -119,7 +121,7 @@ pub(super) fn run<T: Task>(
     Ok(())
 }
 
-/// Does a task, or takes it as done if it is.
+/// Does a task, or reuses its results if it is already done.
 ///
 /// # Errors
 /// Any [`CliError`].
@@ -169,7 +171,7 @@ pub(crate) fn evaluate<T: Task>(
     Ok(Evaluation { events: answered, results, document, out, already_finished: false })
 }
 
-/// One event: taken from what was kept, or asked for and kept.
+/// One event: its stored answer, or a new one that is stored.
 fn one<T: Task>(
     task: &T,
     input: &Input,
@@ -208,10 +210,10 @@ fn event_seed(seed: u64, id: &str) -> u64 {
     derive_seed(seed, Purpose::Evaluation, index)
 }
 
-/// What was said of each event, in a file each.
+/// The stored answers, in a file for each event.
 struct AnswerStore {
     folder: PathBuf,
-    /// Stands for this very program; what another build said is not taken.
+    /// Digest of this executable; answers of another build are ignored.
     program: String,
 }
 
@@ -244,7 +246,7 @@ pub(crate) fn write_report(out: &Path, document: &Document) -> Result<(), CliErr
     Ok(atomic::write(&out.join(REPORT_FILE), document.to_html().as_bytes())?)
 }
 
-/// Prints the table and writes the results where else they were asked for.
+/// Prints the table and writes the results to the other requested places.
 fn write_copies(arguments: &Common, results: &Value, document: &Document) -> Result<(), CliError> {
     if let Some(path) = &arguments.json {
         atomic::write(path, text_of(results).as_bytes()).map_err(CliError::Output)?;
@@ -253,7 +255,7 @@ fn write_copies(arguments: &Common, results: &Value, document: &Document) -> Res
     Ok(())
 }
 
-/// A finished folder is taken as it is if it is of this very run.
+/// A finished folder of the same run is used unchanged.
 fn finished<T: Task>(
     task: &T,
     run: &Value,
@@ -288,7 +290,7 @@ fn default_folder<T: Task>(task: &T, input: &Input) -> PathBuf {
     Path::new("out/eval").join(format!("{}-{}-{}", T::NAME, task.method(), input.name))
 }
 
-/// Checks before hours of work that there is a folder for the file to be written at their end.
+/// Checks before hours of work that the folder of the file to be written at the end exists.
 fn check_output_path(arguments: &Common) -> Result<(), CliError> {
     let Some(path) = arguments.json.as_ref().filter(|path| *path != Path::new(STDOUT)) else { return Ok(()) };
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));

@@ -1,4 +1,4 @@
-//! Task 2: how far predicted trajectories are off.
+//! Task 2: errors of predicted trajectories.
 
 use super::{
     answers::{AnswerSource, PredictionsFile},
@@ -51,7 +51,7 @@ pub(crate) struct Trajectories {
 }
 
 impl Trajectories {
-    /// The task for one of our methods, under any name; see [`methods::forecaster`].
+    /// The task for one of PHASE's methods, under any name; see [`methods::forecaster`].
     ///
     /// # Errors
     /// As there.
@@ -149,12 +149,12 @@ impl Task for Trajectories {
     }
 }
 
-/// How many steps there are to predict in an event of so many.
+/// Number of steps to predict in an event with the given number of steps.
 fn steps_to_predict(steps: usize) -> usize {
     steps.saturating_sub(WATCHED_STEPS).min(PREDICTED_STEPS)
 }
 
-/// Where an entity went in the steps to be predicted.
+/// The path of an entity in the steps to be predicted.
 fn path(observed: &phase_event::ObservedEvent, entity: usize) -> Vec<phase_model::Vec2> {
     let rows = observed.rows().iter().skip(1 + WATCHED_STEPS).take(PREDICTED_STEPS);
     rows.map(|row| row[entity].position).collect()

@@ -1,7 +1,7 @@
-//! What is written once all events of a dataset are there: everything that describes the whole.
+//! Files written once all events of a dataset exist: everything that describes the whole.
 //!
-//! Events are read back from the folder one at a time, so memory grows with the number of events by their entries
-//! in the manifest alone. Further files of a dataset have their place here.
+//! Events are read back from the folder one at a time, so memory grows with the number of events only by
+//! their entries in the manifest. Code for further files of a dataset belongs here.
 
 use crate::{error::CliError, interrupt};
 use phase_dataset::{
@@ -22,8 +22,8 @@ use phase_report::{
 };
 use std::path::Path;
 
-/// Writes what describes the whole; the manifest last, since with it the dataset is complete. `records` are those of
-/// all slots, in order.
+/// Writes the files that describe the whole; the manifest last, since with it the dataset is complete.
+/// `records` are those of all slots, in order.
 ///
 /// # Errors
 /// If an event cannot be read back, a file cannot be written, or the run was interrupted.
@@ -67,7 +67,7 @@ pub fn complete(
     Ok(manifest)
 }
 
-/// Writes a file that belongs to no single event, and has the manifest name it.
+/// Writes a file that does not belong to a single event, and adds it to the manifest.
 fn describe(out: &Path, manifest: &mut Manifest, name: &str, text: &str) -> Result<(), CliError> {
     atomic::write(&out.join(name), text.as_bytes())?;
     manifest.files.push(FileEntry::of(out, name).map_err(CliError::ReadBack)?);

@@ -1,4 +1,4 @@
-//! `merge`: the shards of a dataset become the dataset.
+//! `merge`: combines the shards of a dataset.
 
 use super::{announce, complete::complete, options::Merge, run_value};
 use crate::{context::Context, error::CliError, interrupt};
@@ -17,8 +17,8 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// Runs the command. The shards stay as they are; the result is the same, byte for byte, as that of a run in one
-/// piece.
+/// Runs the command. The shards are unchanged; the result is the same, byte for byte, as that of a single
+/// run.
 ///
 /// # Errors
 /// Any [`CliError`].
@@ -67,7 +67,7 @@ pub fn run(arguments: &Merge, context: &Context) -> Result<(), CliError> {
 struct Shards(Vec<(Shard, PathBuf)>);
 
 impl Shards {
-    /// Reads shards in any order and checks that they are all there and belong together.
+    /// Reads shards in any order and checks that they are complete and belong together.
     fn read(folders: &[PathBuf]) -> Result<Self, CliError> {
         let mut shards = Vec::new();
         for folder in folders {
@@ -84,7 +84,7 @@ impl Shards {
         };
         let print = |shard: &Shard| shard.slots.first().map(|slot| slot.fingerprint.clone());
         for (shard, folder) in &shards {
-            // A shard without slots was made by nobody in particular.
+            // A shard without slots does not depend on the program that generated it.
             let same_program = match (print(shard), print(first)) {
                 (Some(one), Some(other)) => one == other,
                 _ => true,
@@ -126,7 +126,7 @@ impl Shards {
     }
 }
 
-/// Copies a file that is what its shard says, unless it is there already.
+/// Copies a file that agrees with its shard, unless it already exists.
 fn copy(file: &FileEntry, from: &Path, to: &Path) -> Result<(), CliError> {
     if file.verify(to).is_ok() {
         return Ok(());

@@ -1,8 +1,8 @@
-//! `gen-dataset`: a preset and a seed make a dataset, or one shard of it.
+//! `gen-dataset`: generates a dataset, or one shard of it, from a preset and a seed.
 //!
-//! A dataset is a list of slots, each of which tries scenes until one shows its label ([`slot`]). What a slot comes
-//! to depends on the dataset's seed and the slot's number alone, so threads, interruptions and shards leave no
-//! trace. When all slots are filled, [`mod@complete`] writes what describes the whole.
+//! A dataset is a list of slots, each of which tries scenes until one shows its label ([`slot`]). The result
+//! of a slot depends only on the dataset's seed and the slot's number, so threads, interruptions and shards
+//! do not affect it. When all slots are filled, [`mod@complete`] writes the files that describe the whole.
 
 pub mod complete;
 pub mod merge;
@@ -76,7 +76,7 @@ pub fn run(arguments: &GenDataset, context: &Context) -> Result<(), CliError> {
     announce(&out, &manifest, arguments.output, "")
 }
 
-/// Prints what a finished dataset holds, and how it came to it.
+/// Prints what a finished dataset contains, and how it was generated.
 fn announce(out: &Path, manifest: &Manifest, output: Output, more: &str) -> Result<(), CliError> {
     let mut text = String::new();
     if !manifest.selection.is_empty() {
@@ -99,7 +99,7 @@ fn page_line(out: &Path) -> String {
     page(out).map_or_else(String::new, |page| format!("open {} to watch them\n", page.display()))
 }
 
-/// A finished dataset or shard is taken as it is if it is the one asked for and whole.
+/// A finished and complete dataset or shard is used unchanged if it is the requested one.
 fn check_finished(plan: &Plan, out: &Path, output: Output) -> Result<(), CliError> {
     let (whole, files) = if plan.shard.is_some() {
         let shard = Shard::read(&out.join(SHARD_FILE))?;
@@ -133,7 +133,7 @@ fn check_finished(plan: &Plan, out: &Path, output: Output) -> Result<(), CliErro
     output.print(text + &page_line(out), &value)
 }
 
-/// What a run is, as it stands in the folder it works in.
+/// The identity of a run, as stored in the folder it works in.
 fn run_value(whole: &DatasetDescription, shard: Option<(usize, usize)>) -> Value {
     let mut value = json!({
         "command": "gen-dataset", "preset": whole.preset, "events": whole.events, "seed": whole.seed,
@@ -155,7 +155,7 @@ fn run_value(whole: &DatasetDescription, shard: Option<(usize, usize)>) -> Value
 pub fn check_same(out: &Path, state: &'static str, other: &Value, run: &Value) -> Result<(), CliError> {
     let mut other = other.clone();
     if let Some(settings) = other.get_mut("settings").and_then(Value::as_object_mut) {
-        // Runs from before there was a choice.
+        // For runs from before there was a choice.
         settings.entry("engine").or_insert_with(|| Engine::default().name().into());
     }
     match difference(&other, run) {
@@ -164,14 +164,14 @@ pub fn check_same(out: &Path, state: &'static str, other: &Value, run: &Value) -
     }
 }
 
-/// The first thing in which another run differs from this one, in words.
+/// The first difference between another run and this one, in words.
 fn difference(other: &Value, this: &Value) -> Option<String> {
     match (other, this) {
         (Value::Object(a), Value::Object(b)) => {
             let mut keys: Vec<&String> = b.keys().chain(a.keys()).collect();
             keys.sort();
             keys.dedup();
-            // The command first: with another one nothing else compares.
+            // The command first: with another command the remainder cannot be compared.
             keys.sort_by_key(|key| *key != "command");
             keys.into_iter().find_map(|key| {
                 let (a, b) = (a.get(key).unwrap_or(&Value::Null), b.get(key).unwrap_or(&Value::Null));

@@ -7,8 +7,9 @@ use std::path::PathBuf;
 /// Options of `gen-dataset`.
 #[derive(Args, Debug)]
 pub struct GenDataset {
-    /// What to make: demo (twelve events, two of each kind, as they come), phase-500 (the paper's composition,
-    /// selected), phase-training (as much of the same to learn from as is wanted), or a file in the format phase-preset/2 whose name ends in .json
+    /// What to generate: demo (twelve events, two of each kind, without selection), phase-500 (the paper's
+    /// composition, selected), phase-training (as many training events of the same kind as requested), or a
+    /// file in the format phase-preset/2 whose name ends in .json
     #[arg(long, default_value = "demo")]
     pub preset: String,
     /// Number of events [default: the preset's]
@@ -17,19 +18,20 @@ pub struct GenDataset {
     /// Random seed of the dataset [default: the preset's]
     #[arg(long, value_name = "S")]
     pub seed: Option<u64>,
-    /// Folder for the dataset; new, empty, or of this very run [default: out/PRESET-seedS]
+    /// Folder for the dataset; new, empty, or of the same run [default: out/PRESET-seedS]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Make no videos and no page, for training data
+    /// Write no videos and no page, for training data
     #[arg(long)]
     pub no_video: bool,
-    /// Make only the events K, K + N, K + 2 N … of the dataset, to be merged with the other shards by merge
+    /// Generate only the events K, K + N, K + 2 N … of the dataset, to be combined with the other shards by
+    /// merge
     #[arg(long, value_name = "K/N", value_parser = shard)]
     pub shard: Option<(usize, usize)>,
     /// How the result is printed.
     #[command(flatten)]
     pub output: Output,
-    /// How the agents think.
+    /// Parameters of the agents.
     #[command(flatten)]
     pub effort: SimulationOptions,
     /// How many events at once.
@@ -43,7 +45,7 @@ pub struct Merge {
     /// The folders of all shards, in any order
     #[arg(value_name = "DIR", required = true)]
     pub shards: Vec<PathBuf>,
-    /// Folder for the dataset; new, empty, or of this very merge
+    /// Folder for the dataset; new, empty, or of the same merge
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
     /// How the result is printed.

@@ -18,14 +18,14 @@ use phase_sim::{Engine, SimulationSettings};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
-/// The presets that come with the program.
+/// The presets bundled with the program.
 const PRESETS: [(&str, &str); 3] = [
     ("demo", include_str!("../../../../data/presets/demo.json")),
     ("phase-500", include_str!("../../../../data/presets/phase-500.json")),
     ("phase-training", include_str!("../../../../data/presets/phase-training.json")),
 ];
 
-/// A preset with all that was asked for on the command line.
+/// A preset with all options of the command line.
 #[derive(Clone, Debug)]
 pub struct Plan {
     /// The recipe.
@@ -40,10 +40,10 @@ pub struct Plan {
     pub settings: SimulationSettings,
     /// Whether events get videos.
     pub videos: bool,
-    /// The shard to make (from 1) and of how many, if not the whole.
+    /// The shard to generate (from 1) and the number of shards, if not the whole.
     pub shard: Option<(usize, usize)>,
-    /// Stands for everything that decides an event besides its slot and the seed: this very program, its settings,
-    /// the preset.
+    /// Digest of everything that determines an event besides its slot and the seed: this executable, its
+    /// settings, the preset.
     pub fingerprint: String,
     settings_value: Value,
     command: String,
@@ -82,7 +82,7 @@ impl Plan {
         })
     }
 
-    /// A folder that differs with everything a user is likely to vary.
+    /// A default folder that depends on every option a user is likely to vary.
     #[must_use]
     pub fn default_folder(&self) -> PathBuf {
         let count =
@@ -102,7 +102,7 @@ impl Plan {
         shard::slots(shard, of, self.count).collect()
     }
 
-    /// What the dataset is, apart from its events.
+    /// The dataset's properties, apart from its events.
     #[must_use]
     pub fn whole(&self) -> DatasetDescription {
         DatasetDescription {
@@ -117,14 +117,14 @@ impl Plan {
         }
     }
 
-    /// What this run is, for the folder it works in.
+    /// The identity of this run, for the folder it works in.
     #[must_use]
     pub fn run(&self) -> Value {
         run_value(&self.whole(), self.shard)
     }
 }
 
-/// The text of a preset: one that comes with the program, or a file.
+/// The text of a preset: a bundled one, or a file.
 fn preset_text(name: &str) -> Result<String, CliError> {
     if let Some((_, text)) = PRESETS.iter().find(|(known, _)| *known == name) {
         return Ok((*text).into());

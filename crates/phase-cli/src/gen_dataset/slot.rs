@@ -1,4 +1,4 @@
-//! Filling one slot of a dataset: scene after scene is tried until one shows its label.
+//! Filling one slot of a dataset: scenes are tried one after the other until one shows its label.
 
 use super::plan::Plan;
 use crate::{
@@ -26,7 +26,7 @@ use phase_sampler::Request;
 use phase_sim::SimulationSettings;
 use std::{collections::BTreeMap, path::PathBuf, time::Instant};
 
-/// The slots of a dataset that is being made in a folder.
+/// The slots of a dataset that is being generated in a folder.
 #[derive(Debug)]
 pub struct Slots<'a> {
     plan: &'a Plan,
@@ -36,7 +36,7 @@ pub struct Slots<'a> {
     context: Context,
 }
 
-/// What came of an attempt.
+/// The result of an attempt.
 enum Attempt {
     Interrupted,
     Refused(RejectionReason),
@@ -44,7 +44,7 @@ enum Attempt {
 }
 
 impl<'a> Slots<'a> {
-    /// So many slots are to be filled.
+    /// Prepares to fill the given number of slots.
     ///
     /// # Errors
     /// [`CliError::Serialise`].
@@ -55,14 +55,14 @@ impl<'a> Slots<'a> {
         Ok(Self { plan, folder, event_writer, pools, context })
     }
 
-    /// What is known of a slot.
+    /// The record of a slot.
     #[must_use]
     pub fn record(&self, index: usize) -> SlotRecord {
         SlotRecord::load(&self.record_path(index), &self.plan.fingerprint)
     }
 
-    /// Fills a slot, going on where an earlier run stopped; `None` if interrupted. After every attempt the slot's
-    /// record is written, so that no more than one attempt is ever lost.
+    /// Fills a slot, resuming where an earlier run stopped; `None` if interrupted. After every attempt the
+    /// slot's record is written, so that no more than one attempt is ever lost.
     ///
     /// # Errors
     /// [`CliError::Exhausted`] and any failure of sampling, simulating and writing.
@@ -116,7 +116,7 @@ impl<'a> Slots<'a> {
         self.judge(id, event, selection)
     }
 
-    /// Cheap tests first; what would have happened without an agent has to be simulated and comes last.
+    /// Cheap tests first; the counterfactual has to be simulated and comes last.
     fn judge(&self, id: &str, event: Event, selection: &Selection) -> Result<Attempt, CliError> {
         let (scene, track) = (&event.scene, Track::of_event(&event));
         let counterfactual = match check_event(scene, &track, selection.min_steps..=selection.max_steps) {
@@ -134,7 +134,7 @@ impl<'a> Slots<'a> {
         })
     }
 
-    /// The run's settings, with an end drawn for those who are at odds if the preset wants it so.
+    /// The run's settings, with a sampled end for adversarial events if the preset requires it.
     fn settings(&self, scene: &Scene, seed: u64) -> SimulationSettings {
         let mut settings = self.plan.settings;
         if let Some(end) = self.plan.preset.selection.and_then(|it| it.sampled_end(scene.relation(), seed)) {

@@ -6,7 +6,7 @@ use phase_model::{AgentSpec, Body, ObjectSpec, Scene, Size, Strength, arena};
 use serde::Serialize;
 use serde_json::json;
 
-/// The text of a file with one scene. `program` is what starts this program.
+/// The text of a file with one scene. `program` is the command that starts this program.
 ///
 /// # Errors
 /// [`CliError::Serialise`].
@@ -28,7 +28,7 @@ pub(super) fn file(id: &str, scene: &Scene, program: &str) -> Result<String, Cli
     ))
 }
 
-/// What there is to know for whoever edits the scene.
+/// Instructions for editing the scene.
 fn comments(program: &str) -> Vec<String> {
     let sizes = Size::ALL.map(|size| format!("{} = {} u", size.level(), size.radius())).join(", ");
     let strengths =
@@ -76,7 +76,7 @@ fn row(body: &Body) -> [f32; COLUMNS.len()] {
     [body.position.x, body.position.y, body.velocity.x, body.velocity.y, body.angle]
 }
 
-/// A list with each item on a line of its own.
+/// A list with each item on a separate line.
 fn list(items: &[impl Serialize], indent: &str) -> Result<String, CliError> {
     if items.is_empty() {
         return Ok("[]".into());

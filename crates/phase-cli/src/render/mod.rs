@@ -30,7 +30,7 @@ pub fn run(arguments: &Render, context: &Context) -> Result<(), CliError> {
     let source = EventInput::open(&arguments.file, &arguments.id, context)?;
     let extension = if arguments.contact_sheet.is_some() { "png" } else { "mp4" };
     let target = Target::of(&arguments.out, extension, source.len())?;
-    // Known before the work of events in files that are read already; folders hold simulated events.
+    // Known before the work for events in files that are already read; folders contain simulated events.
     if arguments.belief.is_some()
         && let Some(recording) = source.loaded().find(|recording| recording.simulation.is_none())
     {
@@ -68,7 +68,7 @@ impl Rendered {
     }
 }
 
-/// Where pictures go.
+/// The output paths of pictures.
 enum Target {
     File(PathBuf),
     Folder(PathBuf),
@@ -109,7 +109,7 @@ impl Target {
     }
 }
 
-/// Refuses a file of a kind that is not written, which would become a folder of that name.
+/// Rejects a path with an unsupported file extension, which would become a folder of that name.
 fn check_ending(out: &Path, extension: &str) -> Result<(), CliError> {
     const KNOWN: [&str; 12] =
         ["gif", "webm", "mkv", "mov", "avi", "m4v", "apng", "webp", "jpg", "jpeg", "svg", "pdf"];
@@ -139,7 +139,7 @@ fn render(arguments: &Render, recording: &Recording, path: &Path) -> Result<(), 
         Some(simulation) => simulation.event.frames().copied().collect(),
         None => interpolated(&recording.trajectory),
     };
-    // The mind that chose a step is shown while the step lasts.
+    // The decision that chose a step is shown while the step lasts.
     let minds_at = |frame: usize| {
         let step = frame.saturating_sub(1) / SUBSTEPS;
         minds.iter().filter_map(|minds| minds.get(step).or(minds.last())).collect()
@@ -157,7 +157,7 @@ fn render(arguments: &Render, recording: &Recording, path: &Path) -> Result<(), 
     })
 }
 
-/// An event that was not simulated does not tell what its agents believe.
+/// An event that was not simulated does not contain its agents' beliefs.
 fn unsimulated(arguments: &Render, id: &str) -> CliError {
     let (file, rule) = (arguments.file.display(), "--belief needs a simulated event");
     let why = "a measured recording does not tell what its agents saw and did";
@@ -174,7 +174,7 @@ fn settings(arguments: &Render, id: &str, simulation: &Simulation) -> Result<Sim
     })
 }
 
-/// What an agent saw, believed and was after at every step.
+/// What an agent saw, believed and pursued at every step.
 fn minds(
     simulation: &Simulation,
     agent: AgentId,

@@ -22,14 +22,14 @@ pub struct Render {
     /// Folder for the results, or for a single event a file ending in .mp4 (.png with --contact-sheet)
     #[arg(long, value_name = "DIR|FILE", default_value = "out/render")]
     pub out: PathBuf,
-    /// Draw too what agent 0 or 1 sees and believes, or both side by side, and write below why it acts as it does
+    /// Overlay what agent 0 or 1 sees and believes, or both side by side, and explain its actions below
     /// (simulated events only)
     #[arg(long, value_name = "AGENT")]
     pub belief: Option<Belief>,
-    /// Colours: as in the paper, or ones that colour-blind viewers can tell apart
+    /// Colours: as in the paper, or distinguishable with a colour vision deficiency
     #[arg(long, value_name = "PALETTE", default_value = PaletteName::Paper.name(), value_parser = palettes())]
     pub palette: PaletteName,
-    /// Instead of a video, one picture of N frames spread evenly over the event
+    /// Instead of a video, one picture of N frames evenly spaced over the event
     #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=100))]
     pub contact_sheet: Option<u16>,
     /// How the result is printed.
@@ -65,7 +65,7 @@ impl Belief {
         }
     }
 
-    /// What is added to the names of files.
+    /// The suffix of file names.
     #[must_use]
     pub const fn suffix(self) -> &'static str {
         match self {

@@ -19,7 +19,7 @@ pub(super) struct Shown {
 }
 
 impl Shown {
-    /// Of an event whose files are described already.
+    /// For an event whose files are already described.
     pub(super) fn of(comparison: &EventComparison, event: &Event) -> Self {
         let EventComparison { id, event: json, video, .. } = comparison;
         let entry = EventEntry::with_files(id, event, json.clone(), video.clone());

@@ -28,7 +28,8 @@ use phase_model::Relation;
 use phase_report::summary;
 use serde_json::{Value, json};
 
-/// An event of the input: its place there, and its recording without what an earlier simulation knows beyond it.
+/// An event of the input: its index there, and its recording without additional data of an earlier
+/// simulation.
 type Input = (usize, Recording);
 
 /// Runs the command.
@@ -114,9 +115,9 @@ fn seeds(arguments: &Simulate) -> Result<Vec<u64>, CliError> {
     Ok((arguments.seed..=last).collect())
 }
 
-/// The seed of a simulated event. An event without a seed of its own gets one by its place in the file, so that the same
-/// event comes out with or without the others; with `--same-chance` all get that of the first. An own seed counts up with
-/// `--seeds`.
+/// The seed of a simulated event. An event without its own seed gets one by its index in the file, so that
+/// the result is the same with or without the other events; with `--same-chance` all get that of the first.
+/// Own seeds are incremented with `--seeds`.
 fn event_seed(arguments: &Simulate, index: usize, recording: &Recording, seed: u64) -> u64 {
     match recording.seed {
         Some(own) => own.wrapping_add(seed - arguments.seed),
@@ -124,7 +125,7 @@ fn event_seed(arguments: &Simulate, index: usize, recording: &Recording, seed: u
     }
 }
 
-/// The id of a simulated event: the recording's, told apart by seed if there are several.
+/// The id of a simulated event: the recording's, with the seed appended if there are several.
 fn simulated_id(arguments: &Simulate, recording: &Recording, seed: u64) -> String {
     if arguments.seeds > 1 { format!("{}-seed{seed}", recording.id) } else { recording.id.clone() }
 }
@@ -151,7 +152,8 @@ fn check_ids(arguments: &Simulate, chosen: &[Input], seeds: &[u64]) -> Result<()
     Ok(())
 }
 
-/// What decides the results: the events themselves and not the file they came in, the seeds, the settings.
+/// Everything that determines the results: the events themselves and not the file they came in, the seeds,
+/// the settings.
 fn run_value(arguments: &Simulate, chosen: &[Input]) -> Result<Value, CliError> {
     let events: Vec<Value> = chosen.iter().map(|(index, recording)| json!([index, recording.id])).collect();
     let read: String = chosen.iter().map(|(index, recording)| input_of(*index, recording)).collect();
@@ -186,7 +188,8 @@ fn check_finished(arguments: &Simulate, run: &Value) -> Result<(), CliError> {
     print(arguments, &summary, &line, false)
 }
 
-/// Prints what came of the run: beside the recordings if there are any, else of the simulations alone.
+/// Prints the result of the run: compared with the recordings if there are any, otherwise of the simulations
+/// alone.
 fn print(arguments: &Simulate, summary: &SimulationSummary, line: &str, new: bool) -> Result<(), CliError> {
     let recorded = summary.events.iter().any(|event| event.recorded_steps > 0);
     let table = if recorded { summary::table(&summary.kinds) } else { outcomes::table(&summary.events) };

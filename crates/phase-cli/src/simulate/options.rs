@@ -13,7 +13,7 @@ pub struct Simulate {
     /// Only the event with this id; may be given several times
     #[arg(long, value_name = "ID")]
     pub id: Vec<String>,
-    /// Random seed of the simulations of events that have no `seed` of their own
+    /// Random seed of the simulations of events without their own `seed`
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub seed: u64,
     /// Simulate every scene with the seeds S to S + N - 1; with more than one, ids end in -seedK
@@ -26,13 +26,13 @@ pub struct Simulate {
     /// Make no videos and no page
     #[arg(long)]
     pub no_video: bool,
-    /// Folder for the results; new, empty, or of this very run
+    /// Folder for the results; new, empty, or of the same run
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
     /// How the result is printed.
     #[command(flatten)]
     pub output: Output,
-    /// How the agents think.
+    /// Parameters of the agents.
     #[command(flatten)]
     pub effort: SimulationOptions,
     /// How many events at once.

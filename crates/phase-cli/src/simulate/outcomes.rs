@@ -1,4 +1,4 @@
-//! What became of simulated events that have no recording to be compared with.
+//! Outcomes of simulated events that have no recording to be compared with.
 
 use phase_dataset::summary::{AgentComparison, EventComparison};
 use phase_model::{Attitude, Sign};
@@ -14,7 +14,7 @@ pub(super) fn table(events: &[EventComparison]) -> String {
     format!("| event | kind | steps | agent 0 (red) | agent 1 (green) |\n|---|---|---|---|---|\n{lines}")
 }
 
-/// What became of an agent's goal, in words.
+/// The outcome of an agent's goal, in words.
 fn outcome(agent: &AgentComparison) -> String {
     let attitude = match Attitude::try_from(agent.alpha) {
         Ok(Attitude::Help) => "helps; ",

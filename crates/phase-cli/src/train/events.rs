@@ -1,4 +1,4 @@
-//! The events to learn from, to validate on and to test with.
+//! The training, validation and test events.
 
 use super::options::Options;
 use crate::error::train::TrainError;
@@ -12,21 +12,23 @@ use phase_dataset::{
 use phase_event::Recording;
 use std::path::{Path, PathBuf};
 
-/// What the options choose.
+/// The datasets selected by the options.
 #[derive(Debug)]
 pub(super) struct Events {
     data: Dataset,
-    /// Where validation and test events are from, if not from there.
+    /// The source of validation and test events, if it is another dataset.
     validation: Option<Dataset>,
-    /// How many training events to learn from, of as many as there are.
+    /// Number of training events to use, and the number available.
     count: usize,
 }
 
 impl Events {
     /// Opens the datasets.
     ///
-    /// # Errors If a folder is not a dataset, its manifest cannot be used, or there are fewer training
-    /// events than requested.
+    /// # Errors
+    ///
+    /// If a folder is not a dataset, its manifest cannot be used, or there are fewer training events than
+    /// requested.
     pub(super) fn open(options: &Options) -> Result<Self, TrainError> {
         let data = Dataset::open(&options.data)?;
         let validation = options.validation.as_deref().map(Dataset::open).transpose()?;
@@ -38,7 +40,7 @@ impl Events {
         Ok(Self { data, validation, count })
     }
 
-    /// Checks that there are events to learn from and to validate on.
+    /// Checks that there are training and validation events.
     ///
     /// # Errors
     /// [`TrainError::NoEvents`].
@@ -46,10 +48,10 @@ impl Events {
         [Split::Train, Split::Validation].into_iter().try_for_each(|split| self.of(split).map(|_| ()))
     }
 
-    /// Reads the events of a split, in the manifest's order, each when it is asked for.
+    /// Reads the events of a split lazily, in the manifest's order.
     ///
     /// # Errors
-    /// If there are none; each event's own if its file cannot be used.
+    /// If there are none; for each event, if its file cannot be used.
     pub(super) fn of(
         &self,
         split: Split,
@@ -65,7 +67,7 @@ impl Events {
         }))
     }
 
-    /// What a record says of the events of a split.
+    /// The record's description of the events of a split.
     pub(super) fn source(&self, split: Split) -> DataSource {
         let (dataset, count) = self.chosen(split);
         let events = dataset.entries(split).take(count).count();
@@ -106,7 +108,7 @@ impl Dataset {
         entries.map(|entry| format!("{} {:?} {}\n", entry.id, entry.split, entry.event.sha256)).collect()
     }
 
-    /// The folder's own name, whatever way leads to it.
+    /// The folder's own name, independent of the path to it.
     fn name(&self) -> String {
         let folder = self.folder.canonicalize().unwrap_or_else(|_| self.folder.clone());
         folder.file_name().unwrap_or_default().to_string_lossy().into_owned()

@@ -1,4 +1,4 @@
-//! `train`: neural networks learn from a dataset.
+//! `train`: trains neural networks on a dataset.
 
 #[cfg(feature = "networks")]
 mod events;

@@ -1,4 +1,4 @@
-//! Training a network of the baselines: round by round, so that the same command goes on after a break.
+//! Training a baseline network round by round, so that the same command resumes after an interruption.
 
 use super::{events::Events, options::NetworkOptions, training_files::TrainingFiles};
 use crate::error::train::TrainError;
@@ -11,10 +11,10 @@ use phase_dataset::{atomic, splits::Split};
 use phase_event::{ObservedEvent, Recording};
 use serde_json::json;
 
-/// Trains a network on what `sample` makes of events.
+/// Trains a network on the samples that `sample` makes of events.
 ///
 /// # Errors
-/// If the datasets cannot be used, nothing can be learnt or a file cannot be written.
+/// If the datasets cannot be used, training fails or a file cannot be written.
 pub(super) fn run<N: PublishedNetwork>(
     options: &NetworkOptions,
     context: &Context,
@@ -76,7 +76,7 @@ pub(super) fn run<N: PublishedNetwork>(
     options.output.print(text, &value)
 }
 
-/// A failure of the library for neural networks.
+/// A failure of the neural-network library.
 fn failed(error: impl Into<NetworkError>) -> TrainError {
     TrainError::Network(error.into())
 }

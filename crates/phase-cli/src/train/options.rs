@@ -19,16 +19,16 @@ pub enum Train {
     Stgat(NetworkOptions),
 }
 
-/// On what, and where to.
+/// Datasets and output.
 #[derive(Args, Debug)]
 pub struct Options {
     /// Folder of a finished dataset that is divided into train, validation and test
     #[arg(long, value_name = "DIR")]
     pub data: PathBuf,
-    /// Learn from the first N training events only
+    /// Train on the first N training events only
     #[arg(long, value_name = "N", value_parser = at_least_one)]
     pub events: Option<usize>,
-    /// Folder of the dataset to validate on, and to test with; by default the one to learn from
+    /// Folder of the dataset for validation and testing; by default the one for training
     #[arg(long, value_name = "DIR")]
     pub validation: Option<PathBuf>,
     /// File for the weights (safetensors)
@@ -45,10 +45,10 @@ pub struct Options {
     pub output: Output,
 }
 
-/// The same, and how long.
+/// The same, with the maximum duration.
 #[derive(Args, Debug)]
 pub struct NetworkOptions {
-    /// On what, and where to.
+    /// Datasets and output.
     #[command(flatten)]
     pub options: Options,
     /// Maximum number of rounds

@@ -1,4 +1,4 @@
-//! `strength`: trains The strength regressor of SIMPLE and says how good it is.
+//! `strength`: trains the strength regressor of SIMPLE and evaluates it.
 
 use super::{events::Events, options::Options};
 use crate::error::train::TrainError;
@@ -16,10 +16,10 @@ use std::io::Write;
 /// Runs the command.
 ///
 /// # Errors
-/// If the dataset cannot be used, nothing can be learnt or the file cannot be written.
+/// If the dataset cannot be used, training fails or the file cannot be written.
 pub(super) fn run(options: &Options, context: &Context) -> Result<(), CliError> {
     let events = Events::open(options)?;
-    // Where nothing can be written is to be known before the work.
+    // An unwritable output is detected before the work.
     let mut file = AtomicFile::create(&options.out).map_err(TrainError::from)?;
     events.check()?;
     context.note("reading the events");
@@ -56,7 +56,7 @@ pub(super) fn run(options: &Options, context: &Context) -> Result<(), CliError> 
     options.output.print(text + &lines, &json!({ "weights": options.out, "scores": rows }))
 }
 
-/// How good the network is in one part of the data.
+/// Accuracy of the network on one part of the data.
 #[derive(Serialize)]
 struct Row {
     split: &'static str,

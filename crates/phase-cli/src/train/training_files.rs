@@ -1,4 +1,4 @@
-//! What is kept of a training beside its weights: the checkpoint that the same command goes on from, and the record.
+//! Training files beside the weights: the checkpoint from which the same command resumes, and the record.
 
 use crate::context::Context;
 use crate::error::train::TrainError;
@@ -11,10 +11,10 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Least time between two checkpoints. Quick rounds are not each worth the wait for the disk.
+/// Minimum time between two checkpoints. Quick rounds are not each worth the wait for the disk.
 const CHECKPOINT_INTERVAL: Duration = Duration::from_secs(2);
 
-/// The files of a training under way.
+/// The files of a training in progress.
 #[derive(Debug)]
 pub(super) struct TrainingFiles {
     checkpoint: PathBuf,
@@ -22,7 +22,7 @@ pub(super) struct TrainingFiles {
     record: TrainingRecord,
     /// Digest of the events, stored in checkpoints.
     data: String,
-    /// When there was last a checkpoint after a round of this process.
+    /// Time of the last checkpoint after a round of this process.
     last: Option<Instant>,
 }
 
@@ -64,7 +64,7 @@ impl TrainingFiles {
     /// Also returns the duration of the round (s).
     ///
     /// # Errors
-    /// If nothing can be learnt or written.
+    /// If training fails or a file cannot be written.
     pub(super) fn round<N: Network>(
         &mut self,
         run: &mut TrainingRun<N>,
@@ -94,7 +94,8 @@ impl TrainingFiles {
         Ok(atomic::remove(&self.checkpoint)?)
     }
 
-    /// The record comes first: after a break between the two it has rounds too many, which are dropped, and never too few.
+    /// The record is written first: after an interruption between the two it has too many rounds, which are
+    /// dropped, and never too few.
     fn write<N: Network>(&self, run: &TrainingRun<N>) -> Result<(), TrainError> {
         let record = self.record.to_json().map_err(|error| WriteError::json(&self.file, error))?;
         atomic::write(&self.file, record.as_bytes())?;
@@ -103,12 +104,12 @@ impl TrainingFiles {
     }
 }
 
-/// What the processor has spent on this program since it began.
+/// CPU time of this process so far.
 fn processor_time() -> Duration {
     ProcessTime::now().as_duration()
 }
 
-/// A file beside another, with something after its whole name.
+/// A path with a suffix added to the whole file name.
 fn beside(path: &Path, ending: &str) -> PathBuf {
     let mut name = OsString::from(path);
     name.push(ending);

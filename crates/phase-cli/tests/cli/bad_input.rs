@@ -1,4 +1,4 @@
-//! Whatever is wrong with the input: one sentence, exit code 2, nothing written.
+//! For all invalid input: one sentence, exit code 2, nothing written.
 
 use crate::support::{recording, refuse, run, text, tree, write_events};
 use serde_json::{Value, json};
@@ -139,7 +139,7 @@ fn output_folders_that_will_not_do() {
         ("someones", "thesis.tex"),
         ("events.json", "is a file"),
         ("events.json/below", "cannot create the folder"),
-        // Nobody can create folders here, whoever runs the test.
+        // Folders cannot be created here, not even by root.
         #[cfg(target_os = "linux")]
         ("/proc/phase", "cannot create the folder"),
     ];

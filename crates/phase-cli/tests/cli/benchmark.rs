@@ -1,4 +1,4 @@
-//! `benchmark`, with methods that think little and events that take little.
+//! `benchmark`, with agents that search little and short events.
 
 use crate::{
     eval::{events_of, results},
@@ -7,7 +7,7 @@ use crate::{
 use serde_json::{Value, json};
 use std::{fs, path::Path};
 
-/// Two test events: one in a layout and of a type that are learnt from too, one in neither.
+/// Two test events: one in a layout and of a type that occur in the training data too, one in neither.
 const PRESET: &str = r#"{
   "format": "phase-preset/2", "name": "tiny", "seed": 3,
   "layouts": {"seen": [0], "unseen": [6]},
@@ -35,7 +35,7 @@ pub(crate) fn figures(path: &Path) -> Value {
     serde_json::from_slice(&fs::read(path).expect("a benchmark")).expect("JSON")
 }
 
-/// The rows of a method, and what is found in each.
+/// The rows of a method, and the scores in each.
 pub(crate) fn found<'a>(figures: &'a Value, task: &str, method: &str, what: &str) -> Vec<&'a Value> {
     let rows = figures[task].as_array().expect("rows").iter();
     rows.filter(|row| row["method"] == method).map(|row| row.pointer(what).expect("a figure")).collect()
@@ -82,7 +82,7 @@ fn all_figures_are_those_of_eval() {
         let whole = whole.as_f64().expect("a number");
         assert!((of(0) + of(1) - 2.0 * whole).abs() < 1e-9 && of(0) == of(2) && of(1) == of(3), "{parts:?}");
     }
-    // Every goal that is right is counted, on either set.
+    // Every correct goal is counted, on either set.
     let right = found(&figures, "goals", "cue", "/mistakes/right");
     let shares = found(&figures, "goals", "cue", "/summary/all/top1/value");
     let events = found(&figures, "goals", "cue", "/summary/all/n");
@@ -95,7 +95,7 @@ fn all_figures_are_those_of_eval() {
     for file in ["report.md", "report.html", "goals.svg", "relations.svg", "ade.svg"] {
         assert!(path.join("out/benchmark").join(file).is_file(), "{file}");
     }
-    // What is evaluated stays so, and the report is written over.
+    // Finished evaluations are unchanged, and the report is overwritten.
     let before = fs::read(path.join("out/benchmark/benchmark.json")).expect("a file");
     succeed(path, &benchmark);
     assert!(fs::read(path.join("out/benchmark/benchmark.json")).expect("a file") == before);

@@ -1,4 +1,4 @@
-//! What is written below the picture of a mind.
+//! The text below the picture of an agent's decision.
 
 use phase_cli::captions::{COUNT, lines};
 use phase_event::{ActionEvaluation, SubgoalValue, Thought};

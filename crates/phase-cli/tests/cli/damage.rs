@@ -1,4 +1,4 @@
-//! Damaged shards and full disks: nothing wrong is made of them, and what was made stays.
+//! Damaged shards and full disks: no invalid output, and finished output is unchanged.
 #![cfg(unix)]
 
 use crate::support::{fail, phase, refuse, run, succeed, text, tree};
@@ -43,7 +43,8 @@ fn remove(path: &Path) {
     fs::remove_file(path).expect("gone");
 }
 
-/// The command, not allowed to make a file longer than so many bytes, which is how a full disk is had without one.
+/// The command, not allowed to write a file longer than the given number of bytes, which imitates a full
+/// disk.
 fn run_short_of_space(folder: &Path, arguments: &[&str], bytes: usize) -> Output {
     // In blocks of 512 bytes. Ignoring the signal makes writing fail as on a full disk; else it would kill.
     let script = format!("trap '' XFSZ; ulimit -f {}; exec \"$@\"", bytes.div_ceil(512));
@@ -79,7 +80,7 @@ fn merge_refuses_damaged_shards_and_goes_on_once_they_are_mended() {
         succeed(path, &["merge", "one", "two", "--out", &out]);
         assert!(tree(&path.join(&out)) == whole, "{file}: merged otherwise once it was mended");
     }
-    // A dataset that is there already is not written over.
+    // An existing dataset is not overwritten.
     let sentence = refuse(path, &["merge", "one", "two", "--out", "merged0"]);
     assert!(sentence.contains("finished dataset") && tree(&path.join("merged0")) == whole, "{sentence}");
 }

@@ -1,11 +1,11 @@
-//! `eval`, with the plain methods.
+//! `eval`, with the trivial baselines.
 
 use crate::support::{recording, refuse, run, succeed, text, tree, write_events};
 use phase_dataset::folder::Folder;
 use serde_json::{Value, json};
 use std::{fs, path::Path};
 
-/// A recording of `steps` steps in which agent 0 goes along x at 0.6 u/s and nothing else moves.
+/// A recording of `steps` steps in which agent 0 moves along x at 0.6 u/s and nothing else moves.
 pub(crate) fn moving(id: &str, steps: usize) -> Value {
     let mut event = recording(id);
     let still = |x: f64, y: f64| vec![json!([x, y, 0.0, 0.0, 0.5]); steps + 1];
@@ -20,7 +20,7 @@ pub(crate) fn events_of(path: &Path) {
     write_events(&path.join("events.json"), &events);
 }
 
-/// Results without what two runs cannot share: the CPU time.
+/// Results without the CPU time, which differs between runs.
 pub(crate) fn results(file: &Path) -> Value {
     let mut results = serde_json::from_slice(&fs::read(file).expect("results")).expect("JSON");
     strip(&mut results);
@@ -89,7 +89,7 @@ fn threads_and_company_change_nothing() {
     assert_eq!((&few["n_events"], &few["events"][1]), (&json!(2), &one["events"][1]));
     succeed(path, &[&GOALS[..], &["--seed", "2", "--watched", "5", "--out", "other"]].concat());
     assert_ne!(results(&path.join("other/results.json"))["events"], one["events"]);
-    // Ten goals of an agent's own, all as likely.
+    // Ten own goals of an agent, equally likely.
     let goals = one["events"][0]["goals"][0].as_array().expect("goals");
     assert!(goals.len() == 10 && goals.iter().all(|share| share["p"] == 0.1), "{goals:?}");
 }
@@ -101,7 +101,7 @@ fn a_run_broken_off_goes_on_to_the_same_results() {
     events_of(path);
     succeed(path, &[&GOALS[..], &["--out", "straight"]].concat());
     let straight = results(&path.join("straight/results.json"));
-    // What a run leaves that was stopped after some events, one of whose files was damaged since.
+    // The files of a run that was stopped after some events, one of whose files was damaged since.
     drop(Folder::claim(&path.join("stopped"), &straight["run"]).expect("a folder"));
     fs::create_dir(path.join("stopped/events")).expect("a folder");
     for name in ["events/event-0.json", "events/event-3.json"] {
@@ -115,7 +115,7 @@ fn a_run_broken_off_goes_on_to_the_same_results() {
     assert!(output.status.success() && said.matches("(kept)").count() == 2, "{said}");
     assert_eq!(results(&path.join("stopped/results.json")), straight);
 
-    // A finished one is taken as it is, unless it is another one or was changed.
+    // A finished one is used unchanged, unless it is another one or was changed.
     let before = tree(&path.join("stopped"));
     let told = succeed(path, &[&GOALS[..], &["--out", "stopped", "--json", "again.json"]].concat());
     assert!(told.contains("holds this evaluation already"), "{told}");

@@ -1,4 +1,4 @@
-//! `gen-dataset`, with agents that think little.
+//! `gen-dataset`, with agents that search little.
 
 use crate::support::{QUICK, refuse, run, succeed, text, tree};
 use phase_dataset::manifest::Manifest;
@@ -58,7 +58,7 @@ fn the_folder_holds_what_it_promises() {
     assert!(card.contains("--events 3") && card.contains("--simulations 20"), "{card}");
 }
 
-/// Without videos, everything else is as it is with them.
+/// Without videos, everything else is the same.
 #[test]
 fn videos_can_be_left_out() {
     let folder = tempfile::tempdir().expect("a folder");

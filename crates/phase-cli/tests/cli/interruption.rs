@@ -1,4 +1,4 @@
-//! A run that is stopped goes on where it was, and nobody can tell afterwards.
+//! An interrupted run resumes, with the same result as without the interruption.
 #![cfg(unix)]
 
 use crate::support::{phase, refuse, succeed, text, tree};
@@ -15,7 +15,7 @@ fn generate(out: &str) -> Vec<&str> {
     [&COMMAND[..], &[out]].concat()
 }
 
-/// Starts a run and waits until its first event is finished; the line before says what goes on.
+/// Starts a run and waits until its first event is finished; the line before describes the activity.
 fn start(folder: &Path, out: &str) -> Child {
     let mut child =
         phase(folder).args(generate(out)).stderr(Stdio::piped()).spawn().expect("the program starts");

@@ -1,4 +1,4 @@
-//! `eval` and `train` with the neural baselines, in a program that has them and in one that has not.
+//! `eval` and `train` with the neural baselines, in a program with and without them.
 
 #[cfg(feature = "networks")]
 use crate::{
@@ -63,7 +63,8 @@ fn answers_do_not_depend_on_threads() {
         assert_eq!(one, two);
         let event = &one["events"][2];
         if task == "goals" {
-            // One object: four places of one's own, eight of the other's, eight of the object, two of touching.
+            // One object: four own landmark goals, eight of the other's, eight of the object, two of
+            // touching.
             let goals = event["goals"][1].as_array().expect("goals");
             assert_eq!(goals.len(), 22);
             let sum: f64 = goals.iter().map(|share| share["p"].as_f64().expect("a number")).sum();
@@ -77,14 +78,14 @@ fn answers_do_not_depend_on_threads() {
     }
 }
 
-/// The weights that come with the program.
+/// The bundled weights.
 #[cfg(feature = "networks")]
 fn bundled(name: &str) -> String {
     let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data");
     data.join(format!("{name}.safetensors")).to_string_lossy().into_owned()
 }
 
-/// Weights from a file do what the same weights from the program do, and both have learnt alike.
+/// Weights from a file give the same results as the bundled ones, and both have the same training curves.
 #[cfg(feature = "networks")]
 #[test]
 fn networks_in_the_benchmark() {
@@ -142,7 +143,7 @@ fn weights_of_ones_own() {
         assert!(sentence.contains(&format!("field `format` must be \"phase-{name}/1\"")), "{sentence}");
         let arguments: Vec<String> = with(&bundled(name));
         succeed(path, &arguments.iter().map(String::as_str).collect::<Vec<_>>());
-        // Those that come with the program are the same.
+        // The bundled ones are the same.
         let common = ["--events", "events.json", "--out", name];
         let told = succeed(path, &[&["eval", task, "--method", name], &common[..]].concat());
         assert!(told.contains("holds this evaluation already"), "{told}");

@@ -58,7 +58,7 @@ fn seeds(path: &Path, out: &str) -> Vec<Value> {
 fn same_chance_gives_every_scene_the_same_random_numbers() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path();
-    // Twins but for their ids.
+    // Identical except for their ids.
     write_events(&path.join("events.json"), &[recording("first"), recording("second")]);
     simulated(path, "events.json", "apart", &["--no-video"]);
     simulated(path, "events.json", "same", &["--no-video", "--same-chance"]);
@@ -70,7 +70,7 @@ fn same_chance_gives_every_scene_the_same_random_numbers() {
     };
     assert_eq!(rows("same", "first.json"), rows("same", "second.json"));
     assert_ne!(rows("apart", "first.json"), rows("apart", "second.json"));
-    // Each is told apart from a run without.
+    // Each is distinguished from a run without.
     let options = ["simulate", "--events", "events.json", "--no-video", "--out", "apart", "--same-chance"];
     assert!(refuse(path, &[&options[..], &QUICK[..]].concat()).contains("same_chance"));
 }

@@ -1,4 +1,4 @@
-//! `eval --predictions`: answers of somebody else's method.
+//! `eval --predictions`: answers of an external method.
 
 use crate::{
     eval::{events_of, moving, results},
@@ -19,7 +19,7 @@ fn write(path: &Path, file: &str, value: &Value) {
     fs::write(path.join(file), value.to_string()).expect("written");
 }
 
-/// Where everyone of [`moving`] is from step 21 on.
+/// Where every entity of [`moving`] is from step 21 on.
 fn came(steps: usize) -> Value {
     let path = |at: &dyn Fn(usize) -> Value| (1..=steps).map(|step| at(20 + step)).collect::<Vec<_>>();
     json!([
@@ -37,7 +37,7 @@ fn answers_of_others_are_scored() {
     let goal =
         |agent: u8| json!({ "kind": "agent_on_landmark", "agent": agent, "landmark": agent, "sign": 1 });
     let event = |k: usize| {
-        // Agent 0 is always right, agent 1 never; the relation of every other event.
+        // Agent 0 is always correct, agent 1 never; the relation of every other event.
         let relation =
             json!({ "friendly": (k % 2) as f64, "adversarial": 0.0, "neutral": (1 - k % 2) as f64 });
         let goals = json!([[{ "goal": goal(0), "p": 0.9 }], [{ "goal": goal(0), "p": 0.9 }]]);
@@ -48,7 +48,7 @@ fn answers_of_others_are_scored() {
     assert_eq!(found["goal"], json!({ "top1": 0.5, "top2": 0.5, "top3": 0.5 }));
     assert_eq!(found["relation"], json!({ "accuracy": 0.5, "human_accuracy": null }));
     assert_eq!(found["method"], "theirs");
-    // Results are predictions too.
+    // Results are valid predictions too.
     write(path, "results.json", &found);
     assert_eq!(score(path, "goals", "results.json")["goal"], found["goal"]);
     write(path, "fewer.json", &json!({ "events": (1..6).map(event).collect::<Vec<_>>() }));
@@ -86,7 +86,7 @@ fn forecasts_of_others_are_scored() {
     for (name, expected) in [("ade", 1.5), ("fde", 1.5), ("ade_entities", 1.0), ("fde_entities", 1.0)] {
         assert_eq!(off[name]["independent"], expected, "{name}");
     }
-    // Numbers that are hardly any still have a distance.
+    // Extreme but finite numbers still have a distance.
     write(path, "far.json", &all(3e38));
     assert!(score(path, "trajectories", "far.json")["fde"]["all"].as_f64() > Some(1e38));
 }
@@ -106,7 +106,7 @@ fn forecasts_of_ours_score_as_before() {
         }
     }
     assert_eq!(again, ours);
-    // What is not asked for is left out with a note, and the run goes on where it was.
+    // Unselected events are skipped with a note, and the run resumes.
     let few =
         ["eval", "trajectories", "--predictions", "ours.json", "--events", "events.json", "--limit", "2"];
     let output = run(path, &[&few[..], &["--out", "few"]].concat());
@@ -236,7 +236,7 @@ fn rubbish_is_refused_in_one_sentence() {
         let expected = format!("error: bad.json: event {event}: field `{field}` is missing");
         assert_eq!(say(task).trim_end(), expected);
     }
-    // What is no JSON, or none that may hold numbers.
+    // Text that is not JSON, or JSON in which numbers are not allowed.
     for (contents, rule) in [
         ("", "is empty"),
         ("{\"events\": [", "is truncated: the JSON ends unfinished in line 1"),
@@ -247,8 +247,8 @@ fn rubbish_is_refused_in_one_sentence() {
     }
 }
 
-/// The worked example of docs/benchmark.md. Its rules are those of its own text; what they come to here is worked out by
-/// hand.
+/// The worked example of docs/benchmark.md. Its rules are those of its own text; their results here are
+/// computed by hand.
 #[test]
 fn the_example_in_python_is_accepted() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -269,18 +269,19 @@ fn the_example_in_python_is_accepted() {
     };
     events_of(path);
     let said = write_predictions(&["events.json"], "said");
-    // Agent 0 stays by landmark 0, which it wants; agent 1 stands nearest to landmark 2 but wants 1. Nobody meddles.
+    // Agent 0 stays by landmark 0, its goal; agent 1 stands closest to landmark 2 but its goal is 1. Neither
+    // interferes.
     let goals = score(path, "goals", "said/goals/rules-of-thumb.json");
     assert_eq!((&goals["method"], &goals["goal"]["top1"]), (&json!("rules-of-thumb"), &json!(0.5)));
     assert_eq!(goals["relation"]["accuracy"], 1.0);
-    // Agent 0 goes 0.05 u a step, but is forecast to keep 0.85 of that from step to step.
+    // Agent 0 moves 0.05 u a step, but is forecast to keep 0.85 of that from step to step.
     let off = |steps: u8| 0.05 * (1..=i32::from(steps)).map(|step| 1.0 - 0.85_f64.powi(step)).sum::<f64>();
     let fde = [10, 13, 16, 19, 20, 20].map(|steps| off(steps) / 2.0).iter().sum::<f64>() / 6.0;
     let trajectories = score(path, "trajectories", "said/trajectories/rules-of-thumb.json");
     let found = trajectories["fde"]["all"].as_f64().expect("a number");
     assert!((found - fde).abs() < 1e-5, "{found} {fde}");
 
-    // It must not look at the answers: with others in the file it says the same.
+    // It must not use the answers: with others in the file its output is the same.
     let mut file: Value =
         serde_json::from_slice(&fs::read(path.join("events.json")).expect("events")).expect("JSON");
     for event in file["events"].as_array_mut().expect("events") {
@@ -293,7 +294,7 @@ fn the_example_in_python_is_accepted() {
     }
     write(path, "others.json", &file);
     assert!(write_predictions(&["others.json"], "others") == said);
-    // For Task 2 it must not look beyond row 20.
+    // For Task 2 it must not use rows beyond row 20.
     for event in file["events"].as_array_mut().expect("events") {
         for rows in event["trajectory"]["agents"].as_array_mut().expect("agents") {
             rows.as_array_mut().expect("rows").truncate(21);
@@ -302,7 +303,7 @@ fn the_example_in_python_is_accepted() {
     write(path, "begun.json", &file);
     assert!(write_predictions(&["begun.json"], "begun")[1] == said[1]);
 
-    // A dataset is read by its manifest, as far as one split goes.
+    // A dataset is read through its manifest, as far as one split goes.
     let entry = |id: &str, split: &str| {
         write_events(&path.join(format!("{id}.json")), &[moving(id, 30)]);
         json!({ "id": id, "split": split, "event": { "path": format!("{id}.json") } })

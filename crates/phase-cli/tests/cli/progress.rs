@@ -1,4 +1,4 @@
-//! What is said of the time that a run takes.
+//! The text on elapsed and remaining time.
 
 use phase_cli::progress::times;
 use std::time::Duration;

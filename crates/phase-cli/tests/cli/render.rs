@@ -1,4 +1,4 @@
-//! `render`: what becomes of events on their way to pictures.
+//! `render`: from events to pictures.
 
 use crate::support::{QUICK, recording, succeed, tree, write_events};
 use std::{fs, path::Path};

@@ -9,7 +9,7 @@ use std::{
     process::{Command, Stdio},
 };
 
-/// Five events of agents that think little; the first scenes often fail.
+/// Five events of agents that search little; the first scenes often fail.
 const PRESET: &str = r#"{
   "format": "phase-preset/2", "name": "tiny", "seed": 3,
   "layouts": {"open": [0, 2, 6]},
@@ -50,7 +50,7 @@ fn shards_interruptions_and_jobs_leave_no_trace() {
     succeed(path, &["merge", "shard2", "shard1", "--out", "merged"]);
     assert!(tree(&path.join("merged")) == whole, "merged shards differ from one run");
 
-    // Stopped after its first event, at whatever attempt it is at then.
+    // Stopped after its first event, at any attempt.
     let mut child = phase(path)
         .args(generate("stopped", &["--jobs", "1"]))
         .stderr(Stdio::piped())
@@ -96,7 +96,7 @@ fn check_descriptions(path: &Path) {
     let told = succeed(path, &["stats", "whole", "--out", "figures"]);
     assert!(told.contains("| videos | 500 | 5 |") && told.contains("| validation | 80 | 1 |"), "{told}");
     assert!(fs::read_to_string(path.join("figures/goals.svg")).expect("a plot").contains("<svg"));
-    // Five events cannot keep the rules for test events; the sizes would be 3, 1, 1.
+    // Five events cannot satisfy the rules for test events; the sizes would be 3, 1, 1.
     let sentence = run(path, &["splits", "whole"]);
     assert_eq!(sentence.status.code(), Some(2));
     assert!(text(&sentence.stdout).contains("| train | 3 | 2 | broken |"), "{}", text(&sentence.stdout));

@@ -1,4 +1,4 @@
-//! `simulate`, with agents that think little.
+//! `simulate`, with agents that search little.
 
 use crate::support::{QUICK, fail, recording, refuse, succeed, tree, write_events};
 use phase_dataset::{phase_events, summary::SimulationSummary};
@@ -93,7 +93,7 @@ fn a_start_alone_is_enough() {
     }
     write_events(&folder.path().join("events.json"), &[start]);
     let told = succeed(folder.path(), &simulate("out", &["--no-video"]));
-    // There is nothing to compare with, so outcomes are all there is to say.
+    // There is nothing to compare with, so only outcomes are reported.
     assert!(told.contains("| start | independent | 4 | goal "), "{told}");
     assert!(!told.contains("recorded") && !told.contains(" - "), "{told}");
 }
@@ -117,12 +117,12 @@ fn several_seeds_are_pooled_and_resumed() {
     assert_eq!(made, [0, 1, 2, 3].map(|k| (scenes[k], sources[k].0, sources[k].1)));
     let all = summary.kinds.last().expect("a row for all");
     assert_eq!((all.events, all.agents, all.own_agents), (4, 8, 8), "{told}");
-    // In the recordings nobody moves; compared are the four steps of both.
+    // In the recordings nothing moves; the four steps of both are compared.
     assert_eq!(summary.events[0].compared_steps, 4);
     assert_eq!(all.recorded_motion.path.map(|path| path.p75), Some(0.0));
     assert!(all.simulated_motion.path.is_some_and(|path| path.p75 > 0.0), "{told}");
 
-    // A seed makes the same event alone; only its id differs.
+    // A seed gives the same event alone; only its id differs.
     succeed(path, &simulate("alone", &["--no-video", "--seed", "8"]));
     let rows = |file: &str| phase_events::read(&path.join(file)).expect("an event").remove(0).trajectory;
     assert_eq!(rows("alone/apart.json"), rows("out/apart-seed8.json"));

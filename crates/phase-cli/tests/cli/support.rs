@@ -1,4 +1,4 @@
-//! Running the program and looking at what it leaves.
+//! Running the program and inspecting its output.
 
 use serde_json::{Value, json};
 use std::{
@@ -8,7 +8,7 @@ use std::{
     process::{Command, Output},
 };
 
-/// Options that make events short and thinking quick.
+/// Options that make events short and searches small.
 pub(crate) const QUICK: [&str; 6] = ["--simulations", "20", "--particles", "10", "--max-steps", "4"];
 
 /// The program, to be run in a folder.
@@ -23,14 +23,14 @@ pub(crate) fn run(folder: &Path, arguments: &[&str]) -> Output {
     phase(folder).args(arguments).output().expect("the program starts")
 }
 
-/// Runs the program and checks that it is content.
+/// Runs the program and checks that it succeeds.
 pub(crate) fn succeed(folder: &Path, arguments: &[&str]) -> String {
     let output = run(folder, arguments);
     assert!(output.status.success(), "{arguments:?}: {}", text(&output.stderr));
     text(&output.stdout)
 }
 
-/// Runs the program and checks that it refuses with one plain sentence, which is returned.
+/// Runs the program and checks that it fails with one plain sentence, which is returned.
 pub(crate) fn refuse(folder: &Path, arguments: &[&str]) -> String {
     let output = run(folder, arguments);
     let sentence = text(&output.stderr);
@@ -43,8 +43,8 @@ pub(crate) fn refuse(folder: &Path, arguments: &[&str]) -> String {
     sentence
 }
 
-/// Runs the program and checks that it fails over its input after it has begun: what goes on, then one plain sentence, which
-/// is returned.
+/// Runs the program and checks that it fails because of its input after it has begun: the activity, then one
+/// plain sentence, which is returned.
 pub(crate) fn fail(folder: &Path, arguments: &[&str]) -> String {
     let output = run(folder, arguments);
     let told = text(&output.stderr);
@@ -100,7 +100,7 @@ pub(crate) fn recording(id: &str) -> Value {
     })
 }
 
-/// A file with these events.
+/// A file with the given events.
 pub(crate) fn write_events(path: &Path, events: &[Value]) {
     let file = json!({"format": "phase-events/1", "events": events});
     fs::write(path, file.to_string()).expect("written");

@@ -1,4 +1,4 @@
-//! `train`: what it says of input that it cannot use, what it leaves, and how it goes on after a break.
+//! `train`: its errors for invalid input, its files, and how it resumes after an interruption.
 
 use crate::support::phase;
 use serde_json::{Value, json};
@@ -15,7 +15,7 @@ const NETWORK: &str = "two-level-lstm";
 /// Rounds that a training goes on for.
 const ROUNDS: &str = "3";
 
-/// Exit code and what stands on stderr.
+/// Exit code and stderr.
 fn train(arguments: &[&str]) -> (Option<i32>, String) {
     let output = phase(Path::new(".")).arg("train").args(arguments).output().expect("the program starts");
     (output.status.code(), String::from_utf8(output.stderr).expect("text"))
@@ -96,7 +96,7 @@ fn write_dataset(folder: &Path) {
     fs::write(folder.join("manifest.json"), manifest.to_string()).expect("written");
 }
 
-/// A record without its times, which are no two trainings' the same.
+/// A record without its times, which differ between trainings.
 fn timeless(file: &str) -> Value {
     let mut record: Value = serde_json::from_slice(&fs::read(file).expect("a record")).expect("JSON");
     for field in ["cpu_seconds", "seconds"] {
@@ -123,7 +123,7 @@ fn a_training_that_was_broken_off_goes_on_to_the_same_weights() {
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
-    // The first round is kept before it is told of; a note and the head come before it.
+    // The first checkpoint is written before its round is reported; a note and the head come before it.
     let told = BufReader::new(child.stderr.take().unwrap()).lines().take(3).count();
     child.kill().unwrap();
     child.wait().unwrap();
@@ -152,7 +152,7 @@ fn the_record_says_what_was_learnt_from() {
         fs::create_dir(path(name)).unwrap();
         write_dataset(Path::new(&path(name)));
     }
-    // Another one to validate on.
+    // Another dataset for validation.
     let changed = path("second/manifest.json");
     let manifest = fs::read_to_string(&changed).unwrap().replace(&"0".repeat(64), &"1".repeat(64));
     fs::write(&changed, manifest).unwrap();

@@ -1,4 +1,4 @@
-//! `verify`, on a dataset of events that were thought about little.
+//! `verify`, on a dataset of agents that searched little.
 
 use crate::support::{QUICK, refuse, run, succeed, text};
 use std::fs;

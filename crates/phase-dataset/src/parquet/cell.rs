@@ -1,6 +1,6 @@
 //! Nested values as Parquet stores them: leaves with definition and repetition levels.
 //!
-//! The type of a value decides both its column's schema and its levels, so the two cannot disagree.
+//! The type of a value determines both its column's schema and its levels, so the two cannot disagree.
 
 use parquet::{
     basic::{LogicalType, Repetition, Type as Physical},
@@ -53,7 +53,7 @@ pub(super) trait Cell {
     fn shred(self, depth: i16, repetition: i16, leaves: &mut Leaves<Self::Leaf>);
 }
 
-/// A value that is no list.
+/// A value that is not a list.
 pub(super) trait Scalar {
     type Leaf: DataType;
     const PHYSICAL: Physical;
@@ -181,7 +181,7 @@ impl<C: Cell> Cell for Vec<C> {
             leaves.push(None, depth, repetition);
         }
         for (k, element) in self.into_iter().enumerate() {
-            // The first element goes on with what began around the list; each later one repeats at this depth.
+            // The first element continues what began around the list; each later one repeats at this depth.
             element.shred(depth + 1, if k == 0 { repetition } else { depth + 1 }, leaves);
         }
     }

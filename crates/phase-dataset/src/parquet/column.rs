@@ -1,4 +1,4 @@
-//! A column: its description for people, its schema, and the values of the row group at work.
+//! A column: its description for people, its schema, and the values of the current row group.
 
 use super::{
     cell::{Cell, Leaves},
@@ -37,7 +37,7 @@ impl Description {
     }
 }
 
-/// A column of whatever type, with the values of events that are not written yet.
+/// A column of any type, with the values of events that are not written yet.
 pub(super) trait Column {
     /// What it is.
     fn description(&self) -> Description;
@@ -45,11 +45,11 @@ pub(super) trait Column {
     fn schema(&self) -> Result<Type>;
     /// The path of its leaves, if they are floating-point numbers.
     fn floating_path(&self) -> Option<ColumnPath>;
-    /// Takes up the value of one more event.
+    /// Adds the value of one more event.
     fn push(&mut self, row: &Row<'_>);
-    /// Writes the values taken up, and forgets them.
+    /// Writes the collected values and clears them.
     fn flush(&mut self, writer: &mut SerializedColumnWriter<'_>) -> Result<()>;
-    /// Compares the values taken up with those of a file, and forgets them: the first event that differs.
+    /// Compares the collected values with those of a file and clears them: the first event that differs.
     fn compare(&mut self, reader: ColumnReader) -> Result<Option<usize>>;
 }
 

@@ -13,7 +13,7 @@ pub fn descriptions() -> Vec<Description> {
     all().iter().map(|column| column.description()).collect()
 }
 
-/// A list of columns, each with name, shape, type, unit, what it is, and how it is taken from an event.
+/// A list of columns, each with name, shape, type, unit, description, and how it is taken from an event.
 macro_rules! columns {
     ($(($name:literal, $shape:literal, $kind:literal, $unit:literal, $what:literal, $get:expr)),* $(,)?) => {
         vec![$(Box::new(TypedColumn::new(

@@ -1,4 +1,4 @@
-//! Checking that a file still says what the event files say.
+//! Checking that a file still agrees with the event files.
 
 use super::{EVENTS_PER_GROUP, ParquetFile, columns, push, read, schema};
 use crate::{FileError, Problem};
@@ -21,7 +21,7 @@ pub fn compare(folder: &Path, part: &ParquetFile<'_>) -> Result<(), FileError> {
     (0..shares(part)).try_for_each(|share| compare_share(folder, part, share))
 }
 
-/// Into how many shares, about a row group each, the comparison of a file is divided.
+/// Number of shares, about a row group each, into which the comparison of a file is divided.
 pub(crate) fn shares(part: &ParquetFile<'_>) -> usize {
     part.events.len().div_ceil(EVENTS_PER_GROUP)
 }
@@ -29,9 +29,10 @@ pub(crate) fn shares(part: &ParquetFile<'_>) -> usize {
 /// One share of [`compare`]; all of them together are the whole, however the file is divided into row groups.
 ///
 /// # Errors
-/// As [`compare`]; what concerns the whole file is noticed in every share.
+/// As [`compare`]; problems of the whole file are reported in every share.
 pub(crate) fn compare_share(folder: &Path, part: &ParquetFile<'_>, share: usize) -> Result<(), FileError> {
-    // The library panics on some files that were damaged on purpose; nothing that it has seen is used afterwards.
+    // The library panics on some files that were damaged on purpose; no state that it has touched is used
+    // afterwards.
     catch_unwind(AssertUnwindSafe(|| compare_columns(folder, part, share)))
         .unwrap_or_else(|_| Err(FileError { file: folder.join(&part.path), problem: Problem::ParquetPages }))
 }

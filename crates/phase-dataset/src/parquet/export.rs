@@ -13,7 +13,7 @@ use parquet::{
 use std::{fs, io, path::Path, sync::Arc};
 use thiserror::Error;
 
-/// How hard to compress, of 1 to 22; more gains nothing on these columns.
+/// Compression level, from 1 to 22; higher levels gain nothing on these columns.
 const EFFORT: i32 = 9;
 
 /// Why Parquet files were not written.
@@ -27,9 +27,9 @@ pub enum ExportError {
     Write(#[from] WriteError),
 }
 
-/// Writes a dataset's Parquet files from its event files, which are read one after the other, and describes them.
-/// The same events make the same bytes. Between events `interrupted` is asked; `None` if it said yes, then
-/// whole files are kept.
+/// Writes a dataset's Parquet files from its event files, which are read one after the other, and describes
+/// them. The same events give the same bytes. `interrupted` is called between events; `None` if it returned
+/// true, in which case complete files are kept.
 ///
 /// # Errors
 /// [`ExportError`].
@@ -102,7 +102,7 @@ fn properties(columns: &[Box<dyn Column>]) -> Result<WriterProperties> {
         .set_compression(Compression::ZSTD(ZstdLevel::try_new(EFFORT)?))
         .set_statistics_enabled(EnabledStatistics::Chunk);
     for path in columns.iter().filter_map(|column| column.floating_path()) {
-        // Numbers hardly repeat, but their first bytes do.
+        // Values hardly repeat, but their first bytes do.
         properties = properties
             .set_column_dictionary_enabled(path.clone(), false)
             .set_column_encoding(path, Encoding::BYTE_STREAM_SPLIT);

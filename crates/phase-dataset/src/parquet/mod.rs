@@ -1,11 +1,12 @@
-//! A dataset's events as Parquet, one row an event, for pandas, `datasets` and whatever else reads columns.
+//! A dataset's events as Parquet, one row per event, for pandas, `datasets` and other tools that read
+//! columns.
 //!
-//! [`export`] writes them from the event files, [`compare`] checks that they still say the same, and
-//! [`descriptions`] says what every column holds. `docs/formats.md` has the same table.
+//! [`export`] writes them from the event files, [`compare`] checks that they still agree, and
+//! [`descriptions`] describes every column. `docs/formats.md` has the same table.
 //!
-//! The key design decision is that a column's type is a Rust type: lists within lists of numbers become both the
-//! file's schema and its levels, without a library of arrays in between, and comparing is writing without a
-//! file. The price is that only what the module `cell` knows can be a column.
+//! Key design decision: a column's type is a Rust type. Nested lists of numbers determine both the file's
+//! schema and its levels, without an intermediate array library, and comparing is writing without a file. The
+//! trade-off is that only types known to the module `cell` can be columns.
 
 mod cell;
 mod column;
@@ -30,7 +31,7 @@ use std::{path::Path, sync::Arc};
 
 /// Folder of the files within a dataset.
 pub const FOLDER: &str = "data";
-/// The most events in a file; more make more files. With all columns that is about 200 MB.
+/// Maximum number of events in a file; more events make more files. With all columns that is about 200 MB.
 pub const EVENTS_PER_FILE: usize = 5000;
 /// Events that are written, and held in memory, at once.
 const EVENTS_PER_GROUP: usize = 50;
@@ -78,7 +79,7 @@ pub(crate) fn read(folder: &Path, entry: &EventEntry) -> std::result::Result<Rec
     }
 }
 
-/// Takes an event up into all columns.
+/// Adds an event to all columns.
 fn push(
     columns: &mut [Box<dyn Column>],
     folder: &Path,

@@ -4,7 +4,7 @@ use crate::{describe, manifest::EventEntry};
 use phase_event::{Event, Recording, Simulation, Step, pairs_in_contact, substep_row};
 use phase_model::{AGENT_COUNT, AgentId, AgentSpec, Goal, ObjectId, State};
 
-/// An event, with what the manifest says beside its file.
+/// An event, with what the manifest states about its file.
 pub(super) struct Row<'a> {
     pub(super) entry: &'a EventEntry,
     pub(super) recording: &'a Recording,
@@ -93,7 +93,7 @@ pub(super) fn goal_other(goal: Goal) -> Option<i32> {
     }
 }
 
-/// A number of something, which is always small.
+/// A count, which is always small.
 pub(super) fn number(index: Option<usize>) -> Option<i32> {
     index.and_then(|index| i32::try_from(index).ok())
 }

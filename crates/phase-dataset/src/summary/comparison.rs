@@ -42,7 +42,7 @@ pub struct RecordingSource {
     pub seed: u64,
 }
 
-/// What became of one agent's goal in both, and how it moved.
+/// The outcome of one agent's goal in both, and how it moved.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AgentComparison {
@@ -72,10 +72,10 @@ pub struct MotionSummary {
     pub contact: f32,
 }
 
-/// A comparison with the motion of both agents step by step, which the file does not keep but pooling needs.
+/// A comparison with the motion of both agents step by step, which is not stored but needed for pooling.
 #[derive(Clone, PartialEq, Debug)]
 pub struct MeasuredPair {
-    /// What the file keeps.
+    /// What is stored in the file.
     pub comparison: EventComparison,
     /// How both agents moved in the recording, over the steps compared.
     pub recorded: [MotionStatistics; AGENT_COUNT],
@@ -106,7 +106,7 @@ impl MotionSummary {
 }
 
 impl MeasuredPair {
-    /// Compares a recording with the simulation of this id and seed, whose files are in a folder already.
+    /// Compares a recording with the simulation of this id and seed, whose files are already in a folder.
     ///
     /// # Errors
     /// If a file cannot be read.

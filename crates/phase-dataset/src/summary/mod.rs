@@ -1,4 +1,4 @@
-//! Simulations against the recordings they started from: `summary.json`.
+//! Simulations compared with the recordings they started from: `summary.json`.
 //!
 //! A [`MeasuredPair`] is one recording and one simulation of its scene, measured; a [`EventComparison`] is what the file keeps
 //! of it; a [`KindRow`] pools the pairs of one kind of event.
@@ -22,7 +22,7 @@ pub const SUMMARY_FORMAT: &str = "phase-simulation/2";
 /// The summary's file name. It is written last: a folder with a summary is complete.
 pub const SUMMARY_FILE: &str = "summary.json";
 
-/// What came out of simulating the scenes of a file.
+/// The results of simulating the scenes of a file.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SimulationSummary {
@@ -37,7 +37,7 @@ pub struct SimulationSummary {
 }
 
 impl SimulationSummary {
-    /// Puts the comparisons of a run together.
+    /// Assembles the comparisons of a run.
     #[must_use]
     pub fn new(run: Value, pairs: Vec<MeasuredPair>) -> Self {
         let kinds = tabulate(&pairs);
@@ -48,7 +48,7 @@ impl SimulationSummary {
     /// Reads a summary.
     ///
     /// # Errors
-    /// If it is no JSON, of another format, or incomplete.
+    /// If it is not JSON, of another format, or incomplete.
     pub fn read(path: &Path) -> Result<Self, FileError> {
         let fail = |problem| FileError { file: path.to_owned(), problem };
         let value = json::read(path)?;
@@ -56,7 +56,7 @@ impl SimulationSummary {
         serde_json::from_value(value).map_err(|source| fail(Problem::Incomplete { what: "summary", source }))
     }
 
-    /// Writes the summary whole or not at all.
+    /// Writes the summary atomically.
     ///
     /// # Errors
     /// If it cannot be written as JSON, or the file cannot be written.
@@ -64,7 +64,7 @@ impl SimulationSummary {
         atomic::write_json(path, self)
     }
 
-    /// Checks that every file is there and unchanged.
+    /// Checks that every file is present and unchanged.
     ///
     /// # Errors
     /// Names the first file that is not.

@@ -6,8 +6,8 @@ use phase_model::EventKind;
 use phase_statistics::median;
 use serde::{Deserialize, Serialize};
 
-/// All events of one kind; `None` stands for all kinds together. Where a scene was simulated with several seeds,
-/// each counts as an event, beside its recording.
+/// All events of one kind; `None` is for all kinds together. Where a scene was simulated with several seeds,
+/// each counts as an event, compared with its recording.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct KindRow {
@@ -15,7 +15,7 @@ pub struct KindRow {
     pub kind: Option<EventKind>,
     /// Events that have a recording.
     pub events: usize,
-    /// Agents in them: twice as many.
+    /// Agents in them: twice that number.
     pub agents: usize,
     /// Agents whose goal was reached in both or in neither.
     pub matched: usize,

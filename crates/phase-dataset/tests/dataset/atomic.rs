@@ -1,4 +1,4 @@
-//! Files are there whole or not at all.
+//! Files are complete or absent.
 
 use phase_dataset::atomic::{self, AtomicFile};
 use std::{fs, io::Write};

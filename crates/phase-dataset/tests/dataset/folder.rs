@@ -1,4 +1,4 @@
-//! Whose a folder is.
+//! Which run a folder belongs to.
 
 use phase_dataset::folder::{self, Contents, Folder, FolderError};
 use serde_json::json;
@@ -20,7 +20,7 @@ fn the_life_of_a_folder() {
     fs::write(claimed.cache().join("event.bin"), "kept").expect("written");
     drop(claimed);
 
-    // A run that was broken off, perhaps in the middle of a file.
+    // An interrupted run, perhaps in the middle of a file.
     fs::create_dir(path.join("events")).expect("a folder");
     fs::write(path.join("events").join(".a.json.17.part"), "half").expect("written");
     assert_eq!(folder::inspect(&path, LAST).expect("usable"), Contents::Unfinished(run.clone()));

@@ -1,4 +1,4 @@
-//! The importer in `data/` makes files that are read here.
+//! Files of the importer in `data/` can be read here.
 
 use phase_dataset::phase_events::read;
 use phase_model::EventKind;
@@ -20,7 +20,7 @@ fn what_the_importer_writes_is_read() {
     for recording in recordings {
         assert_eq!(recording.scene.kind, EventKind::Helping, "{}", recording.id);
         assert_eq!(recording.trajectory.steps(), 6, "{}", recording.id);
-        // Raw records hold actions, mirrored ones do not.
+        // Raw records contain actions, reflected ones do not.
         assert_eq!(recording.recovered_actions.is_some(), recording.id.ends_with("raw"), "{}", recording.id);
     }
 }

@@ -1,4 +1,4 @@
-//! Events at rest, tested module by module.
+//! Events on disk, tested module by module.
 
 mod atomic;
 mod cache;

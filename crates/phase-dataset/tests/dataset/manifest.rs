@@ -1,4 +1,4 @@
-//! Manifests describe, and notice what changed.
+//! Manifests describe a dataset and detect changes.
 
 use crate::support::plain_event;
 use phase_dataset::{

@@ -1,4 +1,5 @@
-//! Parquet files, read back with the library's own reader of rows, which knows nothing of how they were written.
+//! Parquet files, read back with the library's own row reader, which does not depend on how they were
+//! written.
 
 use crate::support::plain_event;
 use parquet::{
@@ -14,7 +15,7 @@ use phase_event::{Recording, to_json};
 use serde_json::{Value, json};
 use std::{fs, path::Path};
 
-/// Events of these lengths with all their files; every third is for testing.
+/// Events of these lengths with all their files; every third belongs to the test split.
 pub(crate) fn events(folder: &Path, lengths: &[usize]) -> Vec<EventEntry> {
     for name in ["events", "videos"] {
         fs::create_dir_all(folder.join(name)).expect("a folder");
@@ -51,7 +52,7 @@ fn value(field: &Field) -> Value {
     }
 }
 
-/// Every number of a table as single precision, which the reader widens.
+/// Every value of a table in single precision, which the reader widens.
 fn singles(value: &Value) -> Vec<f32> {
     match value {
         Value::Array(items) => items.iter().flat_map(singles).collect(),
@@ -217,7 +218,7 @@ fn events_that_were_not_simulated_are_refused() {
     assert!(text.contains("made-up-0.json") && text.contains("`substeps` is missing"), "{text}");
 }
 
-/// Whatever is changed in an event is found in its column.
+/// Every change of an event is detected in its column.
 #[test]
 fn a_comparison_names_event_and_column() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -259,7 +260,7 @@ fn damaged_files_are_errors() {
         let error = compare(path, part).expect_err("cut short").to_string();
         assert!(error.contains("train-00000-of-00001.parquet"), "{error}");
     }
-    // A byte anywhere is noticed or means nothing; it is never a panic.
+    // Changing any byte is detected or has no effect; it never causes a panic.
     let dense = std::env::var_os("PHASE_EVERY_BYTE").is_some();
     for at in (0..whole.len()).step_by(if dense { 1 } else { 97 }) {
         for mask in [0x55, 0x80, 0x01] {

@@ -1,4 +1,4 @@
-//! What is said about files of events that cannot be read.
+//! Error messages about event files that cannot be read.
 
 use phase_dataset::{Problem, phase_events::read};
 use phase_model::json::JsonError;

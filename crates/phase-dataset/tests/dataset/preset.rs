@@ -94,7 +94,7 @@ fn phase_500_keeps_layouts_and_one_type_for_the_test() {
     assert_eq!(only, [Variant::Evade; 9]);
 }
 
-/// Whoever stops early still has a bit of everything.
+/// A run that stops early still has events of every kind.
 #[test]
 fn groups_are_spread_evenly() {
     let preset = Preset::parse("phase-500", PHASE_500).expect("a preset");

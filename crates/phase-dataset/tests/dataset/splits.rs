@@ -1,4 +1,4 @@
-//! The rules of a split, checked and made.
+//! The rules of a split, checked and applied.
 
 use phase_dataset::{
     labels::{goal_label, interaction_type},
@@ -37,7 +37,7 @@ fn the_papers_quota() {
     assert_eq!(SplitQuota::of(1000), double);
 }
 
-/// 25 events: 16, 4 and 5, of which 4 in layouts of their own; 9 in 500 are none of 25.
+/// 25 events: 16, 4 and 5, of which 4 in held-out layouts; 9 in 500 are none of 25.
 fn made_up() -> (Vec<Item>, Vec<Split>) {
     let mut items = Vec::new();
     let mut parts = Vec::new();
@@ -64,7 +64,7 @@ fn a_good_split_passes_and_each_breach_is_found() {
     let mut moved = parts.clone();
     moved[0] = Split::Validation;
     assert_eq!(broken(&items, &moved), ["train", "validation"]);
-    // The layout of a test event turns up among those to learn from.
+    // The layout of a test event also occurs among the training events.
     let mut leaked = items.clone();
     leaked[3].base = 7;
     assert_eq!(broken(&leaked, &parts), ["test in layouts seen nowhere else"]);
@@ -74,7 +74,7 @@ fn a_good_split_passes_and_each_breach_is_found() {
 }
 
 proptest! {
-    /// Whatever the events, the sizes are right as long as there is a choice, and the rules never overshot.
+    /// For all events the sizes are right as long as there is a choice, and the quotas are never exceeded.
     #[test]
     fn splits_made_obey_the_rules(
         events in prop::collection::vec((0_u8..18, 0_usize..5), 60..200), seed: u64

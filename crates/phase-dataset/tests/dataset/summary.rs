@@ -1,4 +1,4 @@
-//! Simulations against recordings.
+//! Simulations compared with recordings.
 
 use crate::support;
 use phase_dataset::{
@@ -125,7 +125,7 @@ fn own_positive_goals_are_counted_apart() {
         Goal::AgentOnLandmark { agent: AgentId::ONE, landmark: LandmarkId::TOP_LEFT, sign: Sign::Negative };
     hindered.comparison.agents[0].goal = negative;
     hindered.comparison.agents[0].alpha = -1;
-    // Whoever flees is neutral, but there is nothing to bring about.
+    // A fleeing agent is neutral, but there is nothing to bring about.
     chase.comparison.agents[1].goal =
         Goal::Touch { agent: AgentId::ONE, other: AgentId::ZERO, sign: Sign::Negative };
     helped.comparison.agents[0].alpha = 1;
@@ -147,7 +147,7 @@ fn own_positive_goals_are_counted_apart() {
 fn time_ratios_are_those_of_single_agents() {
     let pairs = [
         pair("a", EventKind::Competing, [(Some(10), Some(30)), (Some(40), Some(20))]),
-        // Neither who never arrives nor who is there from the start has a ratio.
+        // Neither an agent that never arrives nor one that is there from the start has a ratio.
         pair("b", EventKind::Competing, [(Some(40), Some(40)), (Some(30), None)]),
         pair("c", EventKind::Competing, [(Some(0), Some(7)), (None, None)]),
     ];
@@ -170,7 +170,7 @@ fn motion_is_pooled_over_events_agents_and_steps() {
     assert_eq!(row.simulated_motion.contact, quartiles(0.0, 0.0, 0.25));
 }
 
-/// An event in which agent 0 moves on by `stride` in every substep (u, along x) and nobody else moves.
+/// An event in which agent 0 moves on by `stride` in every substep (u, along x) and nothing else moves.
 fn walk(steps: usize, stride: f32) -> Event {
     let mut event = support::plain_event(steps);
     let mut state = event.initial;

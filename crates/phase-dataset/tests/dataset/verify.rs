@@ -42,7 +42,7 @@ fn sentences(folder: &Path, manifest: &Manifest) -> Vec<String> {
         .collect()
 }
 
-/// The manifest's entry of a file, to be told a new checksum.
+/// The manifest's entry of a file, whose checksum is to be updated.
 fn renew(folder: &Path, manifest: &mut Manifest, path: &str) {
     let of_events =
         manifest.events.iter_mut().flat_map(|event| [Some(&mut event.event), event.video.as_mut()]).flatten();
@@ -120,7 +120,7 @@ fn damage_is_named() {
     }
 }
 
-/// Whoever changes a file and its checksum too is still found out by what other files say.
+/// A change of a file together with its checksum is still detected through other files.
 #[test]
 fn tampering_is_named() {
     let event = event_path("made-up-1");
@@ -145,7 +145,7 @@ fn tampering_is_named() {
         assert!(found[0].starts_with(&format!("{event}: ")) && found[0].contains(problem), "{found:?}");
     }
 
-    // A position in an event that the manifest knows nothing of.
+    // A position in an event of which the manifest contains nothing.
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path();
     let mut manifest = dataset(path);
@@ -161,7 +161,8 @@ fn tampering_is_named() {
     );
 }
 
-/// Files of several row groups and many damages: whoever runs the checks, in whatever order, the answer is the same.
+/// Files of several row groups and many damages: the result does not depend on the executor or the order of
+/// checks.
 #[test]
 fn the_order_of_checks_does_not_matter() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -169,7 +170,7 @@ fn the_order_of_checks_does_not_matter() {
     let mut manifest = crate::manifest::dataset(path, "made-up-0");
     manifest.events = crate::parquet::events(path, &[1; 160]);
     manifest.files = export(path, &manifest.events, &|| false).expect("written").expect("whole");
-    // The first two are in different row groups of one file, of which the first problem is told.
+    // The first two are in different row groups of one file; its first problem is reported.
     for number in [99, 150, 158] {
         let event = event_path(&format!("made-up-{number}"));
         let text = fs::read_to_string(path.join(&event)).expect("an event");

@@ -6,13 +6,13 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use thiserror::Error;
 
-/// By how much probabilities may miss 1 when they are added up.
+/// Tolerance for the sum of probabilities to differ from 1.
 const TOLERANCE: f64 = 1e-3;
 
-/// Why numbers are no answer. The text reads on from the field's name.
+/// Why values are not an answer. The text continues from the field's name.
 #[derive(Clone, PartialEq, Eq, Debug, Error)]
 pub enum InvalidAnswer {
-    /// A probability of a goal is no probability.
+    /// A goal's probability is invalid.
     #[error("`goals[{agent}][{place}].p` must be a number from 0 to 1")]
     Goal {
         /// Whose goal.
@@ -20,7 +20,7 @@ pub enum InvalidAnswer {
         /// Its place in the list.
         place: usize,
     },
-    /// An agent's goals are together more than certain.
+    /// The probabilities of an agent's goals sum to more than 1.
     #[error("`goals[{0}]` must have probabilities of at most 1 in all")]
     Goals(AgentId),
     /// The relations' probabilities are invalid.
@@ -28,7 +28,7 @@ pub enum InvalidAnswer {
     Relation,
 }
 
-/// A goal and how likely it is.
+/// A goal and its probability.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GoalProbability {
@@ -41,7 +41,8 @@ pub struct GoalProbability {
 /// A method's answer to an event.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Answer {
-    /// Goals of each agent, most likely first, no goal twice; those of equal probability as the method had them.
+    /// Goals of each agent, most likely first, no goal twice; those of equal probability in the method's
+    /// order.
     pub goals: [Vec<GoalProbability>; AGENT_COUNT],
     /// The relations' probabilities.
     pub relation: RelationProbabilities,
@@ -51,7 +52,7 @@ impl Answer {
     /// Checks and orders a judgement. Probabilities of goals that are [the same](canonical) are added up.
     ///
     /// # Errors
-    /// If a number is no probability.
+    /// If a probability is invalid.
     pub fn of(judgement: &Judgement) -> Result<Self, InvalidAnswer> {
         let mut goals: [Vec<GoalProbability>; AGENT_COUNT] = Default::default();
         for (agent, (ranked, given)) in AgentId::ALL.into_iter().zip(goals.iter_mut().zip(&judgement.goals)) {
@@ -74,12 +75,12 @@ impl Answer {
         if !three.into_iter().all(probable) || (three.iter().sum::<f64>() - 1.0).abs() > TOLERANCE {
             return Err(InvalidAnswer::Relation);
         }
-        // What is certain may come out of an addition a rounding error above 1.
+        // A sum of probabilities may exceed 1 by a rounding error.
         let [friendly, adversarial, neutral] = three.map(|p| p.min(1.0));
         Ok(Self { goals, relation: RelationProbabilities { friendly, adversarial, neutral } })
     }
 
-    /// The place of the right goal of an agent among those named, from 0; `None` if it was not named.
+    /// The rank of the correct goal of an agent among those named, from 0; `None` if it was not named.
     #[must_use]
     pub fn place(&self, agent: AgentId, right: Goal) -> Option<usize> {
         let right = canonical(right);
@@ -87,18 +88,18 @@ impl Answer {
     }
 }
 
-/// The right answers to an event.
+/// The labels of an event.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Label {
-    /// What kind of event it is.
+    /// The kind of event.
     pub kind: EventKind,
-    /// The goals, with a helper's or hinderer's as labels have it.
+    /// The goals; a helper's or hinderer's as in labels.
     pub goals: [Goal; AGENT_COUNT],
     /// The intended relation.
     pub relation: Relation,
-    /// The relation that people saw, where they were asked.
+    /// The relation in human judgement, where available.
     pub relation_human: Option<Relation>,
-    /// Whether the base layout occurs in the training or validation events too; `None` where nobody knows.
+    /// Whether the base layout occurs in the training or validation events too; `None` where unknown.
     pub layout_seen: Option<bool>,
 }
 
@@ -112,7 +113,7 @@ pub struct PartialAnswer {
     pub answer: Answer,
 }
 
-/// One event with what a method said of it.
+/// One event with a method's answer.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct RecognisedEvent {
     /// The event's name.
@@ -125,7 +126,7 @@ pub struct RecognisedEvent {
     /// Answers after prefixes of the event, in the order requested.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub watched: Vec<PartialAnswer>,
-    /// CPU time for the answer to the whole event (s), where it was measured.
+    /// CPU time for the answer to the whole event (s), if measured.
     pub cpu_seconds: Option<f64>,
     /// Details that the method attached.
     #[serde(default, skip_serializing_if = "Value::is_null")]

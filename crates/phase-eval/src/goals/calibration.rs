@@ -5,18 +5,18 @@ use serde::{Deserialize, Serialize};
 /// Bins of a reliability table, equally wide from 0 to 1.
 pub const BINS: usize = 10;
 
-/// The answers given with about the same probability.
+/// The answers with about the same probability.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Bin {
-    /// Least probability.
+    /// Minimum probability.
     pub from: f64,
-    /// Greatest probability, which belongs to the next bin unless it is 1.
+    /// Maximum probability, which belongs to the next bin unless it is 1.
     pub to: f64,
     /// Number of answers.
     pub n: usize,
-    /// Mean probability they were given with; 0 if there are none.
+    /// Their mean probability; 0 if there are none.
     pub confidence: f64,
-    /// Share of them that was right; 0 if there are none.
+    /// Share of correct ones; 0 if there are none.
     pub accuracy: f64,
 }
 
@@ -31,7 +31,7 @@ pub struct Calibration {
 }
 
 impl Calibration {
-    /// Sorts answers into bins, each with its probability (0 to 1) and whether it was right.
+    /// Sorts answers into bins, each with its probability (0 to 1) and whether it was correct.
     #[must_use]
     pub fn of(answers: &[(f64, bool)]) -> Self {
         let mut bins: Vec<Bin> = (0..BINS)
@@ -44,7 +44,7 @@ impl Calibration {
             })
             .collect();
         for &(p, right) in answers {
-            // A probability below 0 or no number at all counts as 0.
+            // A negative probability or NaN counts as 0.
             let at = ((p * BINS as f64) as usize).min(BINS - 1);
             let bin = &mut bins[at];
             bin.n += 1;

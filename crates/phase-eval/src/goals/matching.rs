@@ -2,13 +2,13 @@
 
 use phase_model::Goal;
 
-/// A goal in the one form in which goals are compared: right means equal in kind, entity, landmark and sign.
+/// The canonical form in which goals are compared: correct means equal in kind, entity, landmark and sign.
 ///
-/// Touching is the one goal that can be written in two ways, for it is about both agents alike: that agent 1 touches
-/// agent 0 is that agent 0 touches agent 1. Labels name the agent that approaches first, in both agents' goals
-/// (approaching is sign +1, getting away −1, and so is hindering one that approaches); who is meant is clear from whose
-/// goal it is and from the sign. So the canonical form names the agents in order and keeps the sign, and a
-/// method is not marked down for naming them the other way round.
+/// Touching is the only goal that can be written in two ways, since it is about both agents alike: agent 1
+/// touches agent 0 if and only if agent 0 touches agent 1. Labels name the agent that approaches first, in
+/// both agents' goals (approaching has sign +1, getting away −1, as has hindering an agent that approaches);
+/// the owner of the goal and its sign determine the roles. So the canonical form names the agents in order
+/// and keeps the sign, and a method is not penalised for naming them in the other order.
 #[must_use]
 pub fn canonical(goal: Goal) -> Goal {
     match goal {

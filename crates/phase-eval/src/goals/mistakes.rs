@@ -7,22 +7,22 @@ use serde::Serialize;
 /// Kinds of goals, in the order of [`ErrorBreakdown::kinds`].
 pub const GOAL_KINDS: [&str; 3] = ["agent on landmark", "object on landmark", "touch"];
 
-/// What is right and what is wrong about the goals that were thought likeliest, counted by agents. Whatever is neither
-/// right nor of another kind nor unnamed is in one of `sign`, `landmark`, `entity` and `both`.
+/// Error breakdown of the most likely goals, counted by agents. Goals that are neither correct nor of another
+/// kind nor missing are counted in one of `sign`, `landmark`, `entity` and `both`.
 #[derive(Clone, PartialEq, Eq, Default, Debug, Serialize)]
 pub struct ErrorBreakdown {
-    /// All of it right.
+    /// Everything is correct.
     pub right: usize,
-    /// The kind, who or what, and the landmark are right, and the sign is wrong.
+    /// The kind, the entity and the landmark are correct, and the sign is wrong.
     pub sign: usize,
-    /// The kind and who or what are right, and the landmark is wrong, whatever the sign.
+    /// The kind and the entity are correct, and the landmark is wrong, whatever the sign.
     pub landmark: usize,
-    /// The kind and the landmark are right, and it is another agent or object, whatever the sign.
+    /// The kind and the landmark are correct, and the entity is wrong, whatever the sign.
     pub entity: usize,
-    /// The kind is right, and it is another agent or object and another landmark, whatever the sign.
+    /// The kind is correct, and both the entity and the landmark are wrong, whatever the sign.
     pub both: usize,
-    /// Which kind was taken for which: `kinds[right][said]`, both in the order of [`GOAL_KINDS`]. The right kind is
-    /// counted too.
+    /// Confusion matrix of kinds: `kinds[right][said]`, both in the order of [`GOAL_KINDS`]. The correct kind
+    /// is counted too.
     pub kinds: [[usize; GOAL_KINDS.len()]; GOAL_KINDS.len()],
     /// No goal was named.
     pub nothing: usize,
@@ -62,7 +62,8 @@ impl ErrorBreakdown {
     }
 }
 
-/// The kind as a place in [`GOAL_KINDS`], who or what is to be there, and the landmark; of touching it is always the same.
+/// The kind as an index into [`GOAL_KINDS`], the entity, and the landmark; for touching it is always the
+/// same.
 fn parts(goal: Goal) -> [usize; 3] {
     match goal {
         Goal::AgentOnLandmark { agent, landmark, .. } => [0, agent.into(), landmark.into()],

@@ -1,4 +1,4 @@
-//! Task 1, joint inference of goals and relations: what counts as right, and how right a method is.
+//! Task 1, joint inference of goals and relations: what counts as correct, and the accuracy of a method.
 
 mod answer;
 mod calibration;

@@ -12,17 +12,17 @@ pub const RELATIONS: [Relation; 3] = [Relation::Friendly, Relation::Adversarial,
 /// Accuracies over some events.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct RecognitionScores {
-    /// Number of events; goals are two for each.
+    /// Number of events; each has two goals.
     pub n: usize,
-    /// The right goal is the most likely one.
+    /// The correct goal is the most likely one.
     pub top1: Estimate,
     /// It is among the two most likely.
     pub top2: Estimate,
     /// It is among the three most likely.
     pub top3: Estimate,
-    /// The most likely relation is the one the event was made to show.
+    /// The most likely relation is the intended one.
     pub relation: Estimate,
-    /// It is the one people saw, over the events they were asked about.
+    /// It is the one in human judgement, over the events that have one.
     pub relation_human: Option<Estimate>,
 }
 
@@ -61,14 +61,15 @@ pub struct RecognitionSummary {
     pub all: RecognitionScores,
     /// By kind of event.
     pub kinds: Vec<GroupScores<RecognitionScores>>,
-    /// In layouts that are in the training or validation events too, and in others; empty where nobody knows.
+    /// In layouts that also occur in the training or validation events, and in others; empty where unknown.
     pub layouts: Vec<GroupScores<RecognitionScores>>,
-    /// By how much had been seen, if that was asked for. Events that end earlier count with all of them.
+    /// By length of the prefix, if requested. Events that end earlier are included as a whole.
     pub watched: Vec<GroupScores<RecognitionScores>>,
-    /// How often (number of events) which relation was taken for which: `confusion[right][said]`, both in the
-    /// order of [`RELATIONS`].
+    /// Confusion matrix of relations (number of events): `confusion[right][said]`, both in the order of
+    /// [`RELATIONS`].
     pub confusion: [[usize; RELATIONS.len()]; RELATIONS.len()],
-    /// Reliability of the most likely goals. An agent for which nothing was named counts as wrong with probability 0.
+    /// Reliability of the most likely goals. An agent without a named goal counts as wrong with probability
+    /// 0.
     pub goal_calibration: Calibration,
     /// Reliability of the most likely relations.
     pub relation_calibration: Calibration,
@@ -77,7 +78,7 @@ pub struct RecognitionSummary {
 }
 
 impl RecognitionSummary {
-    /// Sums up what was said; `None` without events. The seed is that of the intervals.
+    /// Aggregates the answers; `None` without events. The seed is that of the intervals.
     #[must_use]
     pub fn of(events: &[RecognisedEvent], seed: u64) -> Option<Self> {
         let group = |name: &str, chosen: &dyn Fn(&RecognisedEvent) -> bool| {
@@ -108,7 +109,7 @@ impl RecognitionSummary {
     }
 }
 
-/// Scores of the answers to the first parts of events; which parts there are the first event says.
+/// Scores of the answers to prefixes of events; the first event determines the prefixes.
 fn watched(events: &[RecognisedEvent], seed: u64) -> Vec<GroupScores<RecognitionScores>> {
     let parts = events.first().map_or(0, |event| event.watched.len());
     let part = |k: usize| {

@@ -19,7 +19,7 @@ pub enum ForecastError {
         /// Steps to predict.
         steps: usize,
     },
-    /// A position is no number.
+    /// A coordinate of a position is not a number.
     #[error("a predicted position of entity {entity} is not finite")]
     NotFinite {
         /// Its index.
@@ -38,12 +38,12 @@ pub struct Errors {
     pub by_step: Vec<f64>,
 }
 
-/// One event with what a method predicted and how far that was off.
+/// One event with a method's prediction and its errors.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct ForecastEvent {
     /// The event's name.
     pub id: String,
-    /// What kind of event it is.
+    /// The kind of event.
     pub kind: EventKind,
     /// Its relation.
     pub relation: Relation,
@@ -53,7 +53,7 @@ pub struct ForecastEvent {
     pub agents: Errors,
     /// Errors over agents and objects.
     pub entities: Errors,
-    /// Where the method said everyone would be, `[x, y]` (u) by entity and step.
+    /// The predicted positions, `[x, y]` (u) by entity and step.
     pub forecast: Vec<Vec<[f32; 2]>>,
     /// CPU time for the prediction (s).
     pub cpu_seconds: Option<f64>,

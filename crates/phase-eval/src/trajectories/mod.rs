@@ -1,4 +1,4 @@
-//! Task 2, multi-entity trajectory prediction: how far off a method is.
+//! Task 2, multi-entity trajectory prediction: the errors of a method.
 
 mod errors;
 mod summary;
@@ -6,7 +6,7 @@ mod summary;
 pub use errors::{Errors, ForecastError, ForecastEvent};
 pub use summary::{ForecastScores, ForecastSummary};
 
-/// Steps that are watched before the prediction (5 s of video).
+/// Observed steps before the prediction (5 s of video).
 pub const WATCHED_STEPS: usize = 20;
-/// Steps to predict (5 s of video), or as many as there are in an event that ends before.
+/// Steps to predict (5 s of video), or up to the end of an event that ends earlier.
 pub const PREDICTED_STEPS: usize = 20;

@@ -6,7 +6,7 @@ use phase_model::{EventKind, Relation};
 use phase_statistics::mean;
 use serde::{Deserialize, Serialize};
 
-/// Displacement errors over some events, each of which counts alike (u).
+/// Displacement errors over some events of equal weight (u).
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct ForecastScores {
     /// Number of events.
@@ -47,16 +47,16 @@ pub struct ForecastSummary {
     pub all: ForecastScores,
     /// By kind of event.
     pub kinds: Vec<GroupScores<ForecastScores>>,
-    /// The agents' error after 1, 2, 3 … steps, the mean over the events that have so many (u).
+    /// The agents' error after 1, 2, 3 … steps, the mean over the events that have that many (u).
     pub by_step: Vec<f64>,
-    /// Events that end before the last step to predict; their last step is the one before.
+    /// Events that end before the last step to predict; their last existing step is used for the final error.
     pub shorter: usize,
     /// CPU time for an event (s), the mean over those for which it was measured.
     pub cpu_seconds_per_event: Option<f64>,
 }
 
 impl ForecastSummary {
-    /// Sums up what was predicted; `None` without events. The seed is that of the intervals.
+    /// Aggregates the predictions; `None` without events. The seed is that of the intervals.
     #[must_use]
     pub fn of(events: &[ForecastEvent], seed: u64) -> Option<Self> {
         let scores = |chosen: &dyn Fn(&ForecastEvent) -> bool| {

@@ -1,4 +1,4 @@
-//! What a file must be, and what is said about one that is not.
+//! The rules for files, and the messages for files that violate them.
 
 use crate::support::file;
 use phase_event::{EventReadError, Recording, parse};
@@ -79,7 +79,7 @@ fn walls_may_be_listed_in_any_order_and_direction() {
     parse_value(&value).expect("the same walls");
 }
 
-/// A change to the good file, and what has to be in the sentence about it.
+/// A change to the valid file, and the expected content of the error message.
 #[test]
 fn every_rule_names_event_field_and_rule() {
     let agent_goal = "/events/0/agents/0/goal";

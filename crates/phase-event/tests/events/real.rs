@@ -1,4 +1,4 @@
-//! The published recordings, where they are at hand.
+//! The published recordings, where they are available.
 
 use phase_event::{EventWarning, from_json, to_json};
 use phase_model::SceneWarning;
@@ -16,7 +16,7 @@ fn real_recordings_are_read_and_written_back() {
     for recording in &recordings {
         assert_eq!(recording.relation, recording.scene.relation(), "{}", recording.id);
         assert!(recording.simulation.is_none());
-        // Some of them begin with bodies that overlap or stand across walls; nothing else is odd about them.
+        // Some of them begin with bodies that overlap each other or walls; there are no other warnings.
         let starts = |warning: &EventWarning| {
             use SceneWarning::{AcrossWall, Overlap};
             matches!(warning, EventWarning::Scene(Overlap { .. } | AcrossWall { .. }))

@@ -1,4 +1,4 @@
-//! Reading and writing undo each other, to the last bit.
+//! Reading and writing are exact inverses, bit for bit.
 
 use crate::support::{event, file, plain_event};
 use phase_event::{Recording, Trajectory, parse, subgoal_of, to_json};
@@ -66,7 +66,7 @@ fn rows_are_means_over_substeps() {
     }
 }
 
-/// What other programs will rely on, looked at without our reader.
+/// The file structure that other programs rely on, checked without our reader.
 #[test]
 fn the_file_is_as_documented() {
     let steps = 3;

@@ -1,4 +1,4 @@
-//! Scenes, events and recordings by themselves, through serde.
+//! Standalone scenes, events and recordings, through serde.
 
 use crate::support::{file, plain_event};
 use phase_event::{Event, EventReadError, Recording, from_json, to_json};
@@ -50,7 +50,7 @@ fn a_scene_comes_back_with_all_of_its_start() {
     assert_eq!(serde_json::from_value::<Vec<Scene>>(json!([scene])).expect("a scene"), [scene]);
 }
 
-/// Both readers say the same of what is in both.
+/// Both readers give the same error for the members that both read.
 #[test]
 fn what_is_wrong_with_a_scene_is_said_as_of_an_event() {
     let scene: Value = serde_json::to_value(recording().scene).expect("finite");

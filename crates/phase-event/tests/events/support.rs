@@ -1,4 +1,4 @@
-//! Made-up scenes, events and files.
+//! Synthetic scenes, events and files.
 
 use phase_event::{ActionEvaluation, Event, Step, SubgoalValue, Thought};
 use phase_model::{
@@ -30,8 +30,8 @@ pub(crate) fn scene() -> Scene {
     }
 }
 
-/// An event of `steps` steps in which everything that a file can tell changes somewhere. `number` gives the
-/// numbers in it.
+/// An event of `steps` steps in which everything that a file contains changes at some point. `number`
+/// generates its numbers.
 pub(crate) fn event(steps: usize, mut number: impl FnMut() -> f32) -> Event {
     let scene = scene();
     let initial = scene.initial_state();
@@ -55,7 +55,7 @@ pub(crate) fn event(steps: usize, mut number: impl FnMut() -> f32) -> Event {
     Event { scene, seed: u64::MAX - 3, initial, steps: recorded }
 }
 
-/// An event with numbers that no two of are equal and few of which are short in decimal.
+/// An event whose numbers are pairwise distinct and mostly have long decimal representations.
 pub(crate) fn plain_event(steps: usize) -> Event {
     let mut k = 0_u32;
     event(steps, || {
@@ -68,7 +68,7 @@ fn libm_free_noise(k: u32) -> f32 {
     (k.wrapping_mul(2_654_435_761) >> 8) as f32 / (1 << 24) as f32
 }
 
-/// Everybody present moves; positions stay inside the arena.
+/// All entities move; positions stay inside the arena.
 fn advance(state: &mut State, number: &mut impl FnMut() -> f32) {
     for body in &mut state.bodies {
         body.position = Vec2::new(7.0 + 18.0 * number(), 3.0 + 18.0 * number());
@@ -111,7 +111,7 @@ fn idle() -> Thought {
     Thought { subgoal: Subgoal::Stay, subgoals: vec![], plan: vec![], actions: vec![] }
 }
 
-/// A measured recording as its maker would write it, with every optional field.
+/// A measured recording with every optional field.
 pub(crate) fn file() -> Value {
     let row = |x: f64| json!([x, 14.0, 0.5, -0.25, 1.5]);
     let track = |x: f64| json!([row(x), row(x + 0.125), row(x + 0.25)]);

@@ -1,11 +1,11 @@
-//! Misspelt members are errors; what is merely odd is a warning.
+//! Misspelt members are errors; suspicious values are warnings.
 
 use crate::support::{file, plain_event};
 use phase_event::{EventWarning, Recording, from_json};
 use phase_model::Relation;
 use serde_json::{Value, json};
 
-/// The sentence about an event with one more member in the object that the pointer leads to.
+/// The message about an event with one more member in the object that the pointer refers to.
 fn with_member(of: &Value, pointer: &str, key: &str) -> String {
     let mut value = of.clone();
     let object = value.pointer_mut(pointer).and_then(Value::as_object_mut).expect(pointer);

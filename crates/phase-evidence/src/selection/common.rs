@@ -1,16 +1,16 @@
-//! What is asked of events of several kinds.
+//! Checks shared by several kinds of event.
 
 use super::RejectionReason;
 use crate::{GoalOutcome, Rest, Track, contact};
 use phase_model::{AgentId, Entity, Goal, ObjectId, Relation, Scene, State};
 
-/// For how long something must be done to be seen (steps).
+/// Minimum duration for something to be seen (steps).
 pub(super) const MIN_VISIBLE_STEPS: usize = 3;
 /// Steps at the end over which nothing may move.
 const FINAL_REST_STEPS: usize = 4;
-/// A goal reached before this step was hardly pursued (2 s of video).
+/// A goal reached before this step was hardly pursued visibly (2 s of video).
 const MIN_STEPS_TO_GOAL: usize = 8;
-/// How much nearer to what it needs an agent has to come for its goal to be seen (u).
+/// How much closer to its first target an agent must come for its goal to be visible (u).
 const MIN_APPROACH: f32 = 2.0;
 
 /// Adversarial events may last to the maximum length; in all others both agents have released their objects and come
@@ -25,7 +25,7 @@ pub(super) fn check_rest_at_end(scene: &Scene, track: &Track) -> Result<(), Reje
     if still && !held { Ok(()) } else { Err(RejectionReason::Restless) }
 }
 
-/// An agent's goal is reached, and not before one could see it being pursued.
+/// An agent's goal is reached, and not before its pursuit was visible.
 pub(super) fn reached(scene: &Scene, track: &Track, agent: AgentId) -> Result<usize, RejectionReason> {
     match GoalOutcome::of(track, scene.agents[agent].goal) {
         GoalOutcome { reached: true, steps: Some(steps) } if steps >= MIN_STEPS_TO_GOAL => Ok(steps),
@@ -34,8 +34,8 @@ pub(super) fn reached(scene: &Scene, track: &Track, agent: AgentId) -> Result<us
     }
 }
 
-/// An agent with a positive goal was seen to be after it: it came clearly nearer to what it has to get to first,
-/// or touched it.
+/// An agent with a positive goal was seen to pursue it: it came clearly closer to its first target, or
+/// touched it.
 pub(super) fn pursued(scene: &Scene, track: &Track, agent: AgentId) -> Result<(), RejectionReason> {
     let goal = scene.agents[agent].goal;
     let way = |state: &State| first_distance(goal, agent, state);
@@ -61,7 +61,7 @@ pub(super) const fn object_of(goal: Goal) -> Option<ObjectId> {
     }
 }
 
-/// How far an agent is from what its goal takes it to first (u).
+/// Distance of an agent from the first target of its goal (u).
 fn first_distance(goal: Goal, agent: AgentId, state: &State) -> f32 {
     match object_of(goal) {
         Some(object) => state.position(Entity::Agent(agent)).distance(state.position(Entity::Object(object))),

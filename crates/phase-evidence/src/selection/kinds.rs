@@ -1,4 +1,4 @@
-//! What each kind of event demands.
+//! What each kind of event requires.
 
 use super::{
     CausalEffect, Counterfactual, RejectionReason,
@@ -8,13 +8,13 @@ use crate::{GoalOutcome, Track, blocking, contact, holding, pursuit::Pursuit};
 use phase_model::{AgentId, Attitude, Entity, EventKind, Goal, ObjectId, Scene, Sign};
 use phase_planner::Routes;
 
-/// An object both pull at for so long is fought over (steps).
+/// Minimum number of steps for which both pull at an object that is fought over.
 const MIN_CONTESTED_STEPS: usize = 5;
-/// An object was carried if it went so far (u).
+/// Minimum distance for an object to count as carried (u).
 const MIN_CARRIED_DISTANCE: f32 = 1.0;
 /// Minimum number of moving steps of a pursuit.
 const MIN_PURSUIT_STEPS: usize = 8;
-/// Independent agents may touch each other in one of this many steps.
+/// Independent agents may touch each other in one of this number of steps.
 const MAX_CONTACT_DIVISOR: usize = 5;
 
 pub(super) fn judge(scene: &Scene, track: &Track) -> Result<Option<Counterfactual>, RejectionReason> {
@@ -46,8 +46,8 @@ fn helping(scene: &Scene, track: &Track) -> Result<Counterfactual, RejectionReas
     Ok(Counterfactual { idle: helper, judged: helpee, change: CausalEffect::Helped })
 }
 
-/// The victim is after its goal, and the hinderer is at it, in its way or at its object; where the goal is about
-/// touching, one goes after the other, which gets away.
+/// The victim pursues its goal, and the hinderer is at it, obstructs it or is at its object; where the goal
+/// is about touching, one pursues the other, which escapes.
 fn hindering(scene: &Scene, track: &Track) -> Result<Counterfactual, RejectionReason> {
     let hinderer = social(scene);
     let victim = hinderer.other();
@@ -72,7 +72,7 @@ fn chasing(scene: &Scene, track: &Track) -> Result<Counterfactual, RejectionReas
     Ok(Counterfactual { idle: chaser.other(), judged: chaser, change: CausalEffect::Hindered })
 }
 
-/// Both get to the object; one wins, or they fight over it. Without the winner the loser would have won.
+/// Both reach the object; one wins, or they fight over it. Without the winner the loser would have won.
 fn competing(scene: &Scene, track: &Track) -> Result<Counterfactual, RejectionReason> {
     let object = object_of(scene.agents[0].goal).unwrap_or(ObjectId::ZERO);
     for agent in AgentId::ALL {
@@ -86,7 +86,7 @@ fn competing(scene: &Scene, track: &Track) -> Result<Counterfactual, RejectionRe
     Ok(Counterfactual { idle: winner, judged: winner.other(), change: CausalEffect::Hindered })
 }
 
-/// The object gets there, carried by both at once or by one after the other.
+/// The object reaches its landmark, carried by both at once or by one after the other.
 fn collaborating(scene: &Scene, track: &Track) -> Result<(), RejectionReason> {
     reached(scene, track, AgentId::ZERO)?;
     let object = object_of(scene.agents[0].goal).unwrap_or(ObjectId::ZERO);
@@ -97,7 +97,7 @@ fn collaborating(scene: &Scene, track: &Track) -> Result<(), RejectionReason> {
     require(together || in_turn, RejectionReason::NotTogether)
 }
 
-/// Both reach their goals and keep out of each other's business; that they meet on the way is fine.
+/// Both reach their goals without interfering with each other; meeting on the way is allowed.
 fn independent(scene: &Scene, track: &Track) -> Result<(), RejectionReason> {
     for agent in AgentId::ALL {
         reached(scene, track, agent)?;
@@ -110,8 +110,8 @@ fn independent(scene: &Scene, track: &Track) -> Result<(), RejectionReason> {
     require(met * MAX_CONTACT_DIVISOR <= track.steps(), RejectionReason::Interference)
 }
 
-/// One goes after the other most of the time that it moves, and the other gets away for a while and is not in its grasp for
-/// more than half of the event.
+/// One pursues the other for most of the time in which it moves, and the other stays away for a while and is
+/// not in its grasp for more than half of the event.
 fn chase(track: &Track, chaser: AgentId) -> Result<(), RejectionReason> {
     let (after, away) = (Pursuit::of(track, chaser), Pursuit::of(track, chaser.other()));
     require(
@@ -124,7 +124,7 @@ fn chase(track: &Track, chaser: AgentId) -> Result<(), RejectionReason> {
     require(2 * caught <= track.steps(), RejectionReason::NoFlight)
 }
 
-/// Whether a hinderer was seen at the victim, at its object, or in its way.
+/// Whether a hinderer was seen at the victim, at its object, or obstructing it.
 fn is_in_the_way(scene: &Scene, track: &Track, hinderer: AgentId, goal: Goal) -> bool {
     let victim = hinderer.other();
     let target = |state: &phase_model::State| blocking::next_place(goal, state);

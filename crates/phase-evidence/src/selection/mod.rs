@@ -1,9 +1,9 @@
-//! Whether an event shows its label.
+//! Whether an event shows its label: whether the intended social event is visible.
 //!
-//! [`check_event`] applies every test that needs the event alone: its length, its end, whether the goals can be
-//! read off it, and what its kind demands to be seen. Where the label speaks of what one agent does to the other,
-//! it names the [`Counterfactual`] that is still to be made: the same scene and seed with that agent neutral and
-//! idle, which is as dear as the event itself and so comes last.
+//! [`check_event`] applies every test that needs the event alone: its length, its end, whether the goals can
+//! be recognised in it, and what its kind requires to be seen. Where the label concerns the effect of one
+//! agent on the other, it names the [`Counterfactual`] that is still to be simulated: the same scene and seed
+//! with that agent neutral and idle, which is as expensive as the event itself and therefore comes last.
 
 mod common;
 mod kinds;
@@ -17,23 +17,23 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum RejectionReason {
-    /// It ends before the shortest length.
+    /// It ends before the minimum length.
     TooShort,
-    /// It lasts beyond the greatest length.
+    /// It exceeds the maximum length.
     TooLong,
     /// Something still moves or is still held at the end of a non-adversarial event.
     Restless,
-    /// A goal that the label needs reached was missed.
+    /// A goal that must be reached for the label was missed.
     GoalMissed,
-    /// A goal was reached before one could see it being pursued.
+    /// A goal was reached before its pursuit was visible.
     TooSoon,
-    /// An agent did nothing that would tell its goal.
+    /// An agent did nothing that would reveal its goal.
     Aimless,
-    /// The social agent had nothing to do with the other or with what the other wants.
+    /// The social agent had nothing to do with the other or with the other's goal.
     NoContact,
-    /// Two who want the same did not do it together.
+    /// Two agents with the same goal did not pursue it together.
     NotTogether,
-    /// Two who are at odds about an object did not both get to it, or nothing came of it.
+    /// Two agents that compete for an object did not both reach it, or it had no result.
     Uncontested,
     /// No pursuit was seen.
     NoPursuit,
@@ -41,12 +41,12 @@ pub enum RejectionReason {
     NoFlight,
     /// Independent agents interfered with each other.
     Interference,
-    /// Without the agent that is to make a difference it would have come out alike.
+    /// Without the agent that is to make a difference the result would have been the same.
     NoEffect,
 }
 
 impl RejectionReason {
-    /// All reasons, in the order in which they are looked for.
+    /// All reasons, in the order in which they are checked.
     pub const ALL: [Self; 13] = [
         Self::TooShort,
         Self::TooLong,
@@ -84,13 +84,13 @@ impl RejectionReason {
     }
 }
 
-/// What an agent is to have done to the other's goal.
+/// What effect an agent is to have had on the other's goal.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum CausalEffect {
     /// Reached only thanks to it, or at least a tenth sooner.
     Helped,
-    /// Missed because of it, or reached at least a tenth later; or, of a touch, from the first one on kept up for at
-    /// most half as much of the time.
+    /// Missed because of it, or reached at least a tenth later; or, for touching, kept up from the first
+    /// touch on for at most half as much of the time.
     Hindered,
 }
 
@@ -99,9 +99,9 @@ pub enum CausalEffect {
 pub struct Counterfactual {
     /// The agent that is to do nothing: `idle` of the simulation's settings.
     pub idle: AgentId,
-    /// The agent whose goal is looked at.
+    /// The agent whose goal is compared.
     pub judged: AgentId,
-    /// What has to come out.
+    /// The required result.
     pub change: CausalEffect,
 }
 
@@ -114,7 +114,7 @@ impl Counterfactual {
         scene
     }
 
-    /// Judges the event beside the one in which the agent did nothing. Goals are the event's own.
+    /// Compares the event with the one in which the agent did nothing. Goals are the event's own.
     ///
     /// # Errors
     /// [`RejectionReason::NoEffect`].
@@ -129,11 +129,11 @@ impl Counterfactual {
     }
 }
 
-/// Everything that can be said of an event by itself; `lengths` are those allowed (steps). `Ok(None)` means that it
-/// shows its label.
+/// Everything that can be checked on an event alone; `lengths` are those allowed (steps). `Ok(None)` means
+/// that it shows its label.
 ///
 /// # Errors
-/// The first reason against it.
+/// The first reason for rejection.
 pub fn check_event(
     scene: &Scene,
     track: &Track,

@@ -1,4 +1,4 @@
-//! Where someone looks first.
+//! Which region an agent explores first.
 
 use crate::support::{Move, track};
 use core::f32::consts::{FRAC_PI_2, PI};
@@ -34,7 +34,7 @@ fn the_first_region_half_seen_counts() {
 
 #[test]
 fn what_was_seen_at_the_start_is_no_search() {
-    // Facing up it sees room 1 at once; there is nothing left to search but what is hidden.
+    // Facing up it sees room 1 at once; nothing is left to search but what is hidden.
     let first = searched_first(
         &turning(&[0.0, FRAC_PI_2]),
         AgentId::ZERO,

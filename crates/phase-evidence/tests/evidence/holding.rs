@@ -1,10 +1,10 @@
-//! Who held what, and carrying together.
+//! Which agent held what, and carrying together.
 
 use crate::support::{Move, track};
 use phase_evidence::holding::{HoldInterval, carried, carried_together, holds};
 use phase_model::{AgentId, ObjectId};
 
-/// Object 0 at x, held by some.
+/// Object 0 at x, held by the given agents.
 fn at(x: f32, held: [Option<u8>; 2]) -> Move {
     Move { agents: [(8.0, 8.0, 0.0), (20.0, 8.0, 0.0)], objects: vec![(x, 4.5), (20.0, 20.0)], held }
 }

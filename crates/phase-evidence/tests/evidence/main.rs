@@ -1,4 +1,4 @@
-//! Judgements on tracks made up by hand.
+//! Judgements on synthetic tracks.
 
 mod contact;
 mod effect;

@@ -1,4 +1,4 @@
-//! Speed, path and contact of made-up events.
+//! Speed, path and contact of synthetic events.
 
 use crate::support::{Move, track};
 use phase_evidence::{MotionStatistics, Track, contact::TOUCH_GAP, motion::common_steps};
@@ -56,7 +56,7 @@ fn both_agents_are_in_contact_with_each_other() {
     assert_eq!(shares, [Some(0.5); 2]);
 }
 
-/// Recordings know no contacts, so those of a simulation must not count either.
+/// Recordings contain no contacts, so those of a simulation must not count either.
 #[test]
 fn contacts_that_outlines_do_not_show_are_not_counted() {
     let mut track = walk(&[8.0, 8.0]);

@@ -4,7 +4,7 @@ use crate::support::{Move, track};
 use phase_evidence::{GoalOutcome, contact::TOUCH_GAP};
 use phase_model::{AgentId, Body, Goal, LandmarkId, ObjectId, Sign, Vec2};
 
-/// Agent 0 and object 0 move as told along y = 4.5; agent 1 stands at (16, 4.5), both face up.
+/// Agent 0 and object 0 move as given along y = 4.5; agent 1 stands at (16, 4.5), both face up.
 fn trajectory(agent: &[f32], object: &[f32]) -> phase_evidence::Track {
     let moves = agent.iter().zip(object).map(|(&agent, &object)| Move {
         agents: [(agent, 4.5, 0.0), (16.0, 4.5, 0.0)],

@@ -1,4 +1,4 @@
-//! Going after someone and getting away.
+//! Pursuing and escaping.
 
 use crate::support::{Move, track};
 use phase_evidence::pursuit::Pursuit;
@@ -15,7 +15,7 @@ fn event(agents: &[(f32, f32)]) -> phase_evidence::Track {
 
 #[test]
 fn a_chase_along_a_line() {
-    // The chaser follows in every step; the fleer runs, stands, and at last runs past its chaser.
+    // The chaser follows in every step; the fleer runs, stops, and at last runs past its chaser.
     let chase = event(&[(8.0, 12.0), (10.0, 14.0), (12.0, 14.0), (13.0, 17.0), (14.0, 10.0)]);
     let chaser = Pursuit::of(&chase, AgentId::ZERO);
     assert_eq!((chaser.moving, chaser.towards, chaser.away, chaser.rooms_changed), (4, 4, 0, 0));

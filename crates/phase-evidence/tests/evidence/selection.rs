@@ -1,4 +1,4 @@
-//! Which made-up events show their label, and why the others do not.
+//! Which synthetic events show their label, and why the others do not.
 
 use crate::support::{Move, track};
 use phase_evidence::{
@@ -10,7 +10,7 @@ use phase_model::{
     Sign, Size, Strength,
 };
 
-/// Steps of the made-up events.
+/// Steps of the synthetic events.
 const STEPS: usize = 40;
 
 fn place(agent: u8, landmark: u8) -> Goal {
@@ -60,7 +60,7 @@ fn facing((x, y): (f32, f32)) -> (f32, f32, f32) {
     (x, y, 0.0)
 }
 
-/// Agent 0 fetches the object at (12, 4.5), lets go of it at step 30 and stays; agent 1 stands by.
+/// Agent 0 fetches the object at (12, 4.5), releases it at step 30 and stays; agent 1 stands by.
 fn fetch(t: usize) -> Move {
     let agent = if t < 10 {
         on_way(t, (8.0, 8.0), (10.0, 4.5), 0..10)
@@ -141,7 +141,7 @@ fn an_effect_is_a_difference_to_the_event_without_the_agent() {
     assert_eq!(counterfactual.scene(&scene).goals(), scene.goals());
 }
 
-/// Agent 1 walks to within 3 u of landmark 1 (23.5, 19.5) and finds agent 0 there.
+/// Agent 1 moves to within 3 u of landmark 1 (23.5, 19.5) and finds agent 0 there.
 fn stopped(t: usize) -> Move {
     let victim = on_way(t, (8.0, 19.5), (20.5, 19.5), 0..20);
     Move { agents: [(22.4, 19.5, 0.0), facing(victim)], objects: vec![(10.0, 6.0)], held: [None, None] }
@@ -180,7 +180,7 @@ fn who_gets_loose_was_chased() {
     assert_eq!(helped.judge(&scene, &touching(4), &without), Err(RejectionReason::NoEffect));
 }
 
-/// Agent 0 runs after agent 1, which gets away from step 5 on, and follows on its heels.
+/// Agent 0 pursues agent 1, which escapes from step 5 on, and follows close behind.
 fn hunt(t: usize, speed: f32) -> Move {
     let fleer = 14.0 + speed * t.saturating_sub(5) as f32;
     let chaser = (7.0 + 0.35 * t as f32).min(fleer - 3.5);
@@ -195,7 +195,7 @@ fn a_chase_needs_pursuit_and_flight() {
     let good = event(|t| hunt(t, 0.2));
     assert_eq!(check_event(&scene, &good, STEPS..=100), Ok(Some(counterfactual)));
     assert_eq!(refusal(&scene, &event(|t| hunt(t, 0.0))), Some(RejectionReason::NoFlight));
-    // Whoever flees for a while and is then held down was not chased but caught.
+    // An agent that flees for a while and is then held down was not chased but caught.
     let pinned = |since: usize| {
         event(move |t| {
             let fleer = hunt(t, 0.2).agents[1];
@@ -208,7 +208,8 @@ fn a_chase_needs_pursuit_and_flight() {
     assert_eq!(refusal(&scene, &pinned(18)), Some(RejectionReason::NoFlight));
     let idle = event(|t| Move { agents: [(7.0, 6.0, 0.0), hunt(t, 0.2).agents[1]], ..hunt(t, 0.2) });
     assert_eq!(refusal(&scene, &idle), Some(RejectionReason::NoPursuit));
-    // The same between one who evades and one who is kept from touching it, agent 1 being the one that evades.
+    // The same between an agent that evades and one that is kept from touching it, agent 1 being the one that
+    // evades.
     let mut evading = scene.clone();
     evading.kind = EventKind::Hindering;
     evading.agents[1].attitude = Attitude::Hinder;

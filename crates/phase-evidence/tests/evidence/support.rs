@@ -1,11 +1,11 @@
-//! Tracks made up by hand: all bodies of radius 1, in an arena without walls.
+//! Synthetic tracks: all bodies of radius 1, in an arena without walls.
 
 use phase_evidence::Track;
 use phase_model::{
     AgentBody, Body, Contacts, Grip, MAX_ENTITIES, ObjectId, PhysicsConfig, Side, State, Vec2,
 };
 
-/// Where everybody is at one step.
+/// Where every entity is at one step.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Move {
     /// x, y and angle of both agents.

@@ -1,4 +1,4 @@
-//! Standing in the way.
+//! Obstructing another agent.
 
 use crate::support::{Move, track};
 use phase_evidence::blocking::{door_of, steps_between, steps_blocking_a_door};

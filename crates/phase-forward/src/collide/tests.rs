@@ -1,5 +1,5 @@
-//! Contacts compared with distances worked out another way: by all axes, in double precision, from the outlines
-//! of `phase_model`.
+//! Contacts compared with distances computed independently: along all axes, in double precision, from the
+//! outlines of `phase_model`.
 
 use super::{agent_disc, agents, discs, wall_agent, wall_disc};
 use crate::{
@@ -14,7 +14,8 @@ use proptest::prelude::*;
 
 /// Error of single precision at the coordinates of the arena (u).
 const ROUNDING: f64 = 2e-4;
-/// Deepest overlap of an agent with another, or with a wall, for which the least separating axis is expected (u).
+/// Maximum overlap of an agent with another, or with a wall, for which the minimum separating axis is
+/// expected (u).
 const SHALLOW: f64 = 0.3;
 
 type Point = (f64, f64);
@@ -61,7 +62,8 @@ impl Agent {
         })
     }
 
-    /// How far some points are beyond the side that separates them most (u); negative if none does.
+    /// Maximum over the sides of the distance of some points beyond a side (u); negative if no side separates
+    /// them.
     fn separation(&self, points: &[Point]) -> f64 {
         let beyond = |(from, _, normal): (Point, Point, Point)| {
             points.iter().map(|&p| dot(minus(p, from), normal)).fold(f64::MAX, f64::min)
@@ -86,12 +88,12 @@ fn distance_to_segment(p: Point, from: Point, to: Point) -> f64 {
     dot(away, away).sqrt()
 }
 
-/// The least gap over the points of a manifold (u); `None` without contact.
+/// The minimum gap over the points of a manifold (u); `None` without contact.
 fn least_gap(manifold: &Manifold, a: &BodyMotion, b: &BodyMotion, skins: f32) -> Option<f64> {
     (0..manifold.count).map(|k| f64::from(manifold.gap(a, b, skins, k).2)).min_by(f64::total_cmp)
 }
 
-/// Whether two shapes at a distance are in contact if the reference says so, and as near as it says.
+/// Whether two shapes at a distance are in contact exactly if the reference agrees, and at the same distance.
 fn check(current: Option<f64>, expected: f64, tolerance: f64) -> Result<(), TestCaseError> {
     match current {
         Some(gap) => prop_assert!((gap - expected).abs() <= tolerance, "gap {gap} u, not {expected} u"),
@@ -121,12 +123,12 @@ fn contact(first: &Agent, second: &Agent) -> Option<f64> {
     least_gap(&manifold, &first.motion, &second.motion, 2.0 * SKIN)
 }
 
-/// The least separation of two agents over all sides of both (u).
+/// The minimum separation of two agents over all sides of both (u).
 fn separation(first: &Agent, second: &Agent) -> f64 {
     first.separation(&second.outline).max(second.separation(&first.outline))
 }
 
-/// By how much the face that is preferred may be worse than the best (u).
+/// Maximum amount by which the preferred face may be worse than the best (u).
 fn leeway(separation: f64) -> f64 {
     0.02 * separation.abs() + 0.001 + ROUNDING
 }
@@ -205,7 +207,7 @@ proptest! {
         let least = agent.outline.iter().map(|&corner| side * height(corner)).fold(f64::MAX, f64::min);
         let expected = least - f64::from(2.0 * SKIN);
         let current = least_gap(&wall_agent(&wall, &agent.motion, &agent.polygon), &BodyMotion::AT_REST, &agent.motion, 2.0 * SKIN);
-        // Deeper in, the way out may lead through the wall.
+        // At greater depths, the shortest correction may lead through the wall.
         if expected >= -SHALLOW {
             check(current, expected, ROUNDING)?;
         }

@@ -1,8 +1,8 @@
-//! Records of the published simulator, where they are at hand.
+//! Records of the published simulator, where they are available.
 
 use std::path::{Path, PathBuf};
 
-/// A file of the reference material beside the project, or `None` (saying so) where there is none.
+/// A file of the reference material beside the project, or `None` (with a message) where there is none.
 pub(crate) fn path(file: &str) -> Option<PathBuf> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared").join(file);
     if !path.is_file() {

@@ -1,4 +1,4 @@
-//! Random scenes and actions, for tests that hold whatever the scene.
+//! Random scenes and actions, for tests of properties that every scene satisfies.
 
 use phase_model::{
     Action, AgentBody, Body, Entity, Layout, PhysicsConfig, Size, State, Strength, Vec2, arena,
@@ -6,9 +6,9 @@ use phase_model::{
 };
 use proptest::prelude::*;
 
-/// Room left between bodies, and between bodies and walls, at the start (u).
+/// Clearance between bodies, and between bodies and walls, at the start (u).
 const ROOM: f32 = 0.02;
-/// Places drawn for each body; with so many there nearly always is one that is free.
+/// Number of positions drawn for each body; with this many, one is nearly always free.
 const DRAWS: usize = 24;
 
 /// Layouts, sizes and strengths of all kinds.
@@ -36,24 +36,24 @@ pub(crate) fn excluded_pairs() -> impl Strategy<Value = (PhysicsConfig, State)> 
         .prop_map(|(state, physics)| (physics, state))
 }
 
-/// Runs of actions of both agents, each held for one to five steps. Grabbing is drawn more often than the rest,
-/// since it mostly reaches nothing.
+/// Sequences of actions of both agents, each held for one to five steps. Grabbing is drawn more often than
+/// other actions, since it mostly reaches nothing.
 pub(crate) fn actions(runs: usize) -> impl Strategy<Value = Vec<[Action; 2]>> {
     let action = || prop_oneof![5 => prop::sample::select(Action::ALL.to_vec()), 1 => Just(Action::Attach)];
     prop::collection::vec(([action(), action()], 1..6_usize), runs)
         .prop_map(|runs| runs.into_iter().flat_map(|(actions, times)| vec![actions; times]).collect())
 }
 
-/// The outline of a body that is wider all round by about `margin` (u), or slimmer if that is negative.
+/// The outline of a body enlarged by about `margin` on all sides (u), or shrunk if that is negative.
 pub(crate) fn outline(physics: &PhysicsConfig, state: &State, entity: Entity, margin: f32) -> Outline {
     let mut other = physics.clone();
-    // An agent's flanks come out by more than its radius grows, its corners by more than that.
+    // An agent's flanks move outwards by more than its radius grows, its corners by more than that.
     other.agents.iter_mut().for_each(|agent| agent.radius += margin);
     other.object_radii.iter_mut().for_each(|radius| *radius += margin);
     Outline::of(&other, entity, state.body(entity))
 }
 
-/// Whether a body, wider by `margin`, is inside the arena and overlaps no wall.
+/// Whether a body, enlarged by `margin`, is inside the arena and overlaps no wall.
 pub(crate) fn clear_of_walls(physics: &PhysicsConfig, state: &State, entity: Entity, margin: f32) -> bool {
     let outline = outline(physics, state, entity, margin);
     outline.inside_arena() && !physics.walls.iter().any(|&wall| outline.overlaps_wall(wall))

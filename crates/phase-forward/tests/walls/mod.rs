@@ -1,8 +1,8 @@
-//! Ways and walls.
+//! Paths and walls.
 
 use phase_model::{Segment, Vec2};
 
-/// Whether a way crosses a wall for good: from clearly on one side to clearly on the other.
+/// Whether a path crosses a wall permanently: from clearly on one side to clearly on the other.
 pub(crate) fn passes(from: Vec2, to: Vec2, wall: Segment) -> bool {
     let normal = (wall.b - wall.a).perp().normalize();
     let sides = [from, to].map(|point| normal.dot(point - wall.a));

@@ -1,44 +1,44 @@
-//! What can be wrong with a JSON document, in one plain sentence each.
+//! Errors in JSON documents, each displayed as one plain sentence.
 
 use thiserror::Error;
 
-/// Why something is no JSON document of the format expected.
+/// Why something is not a JSON document of the expected format.
 #[derive(Clone, PartialEq, Eq, Debug, Error)]
 pub enum JsonError {
-    /// It holds nothing.
+    /// The document is empty.
     #[error("is empty")]
     Empty,
-    /// It is not text at all: a picture, a video, an archive.
+    /// It is not text at all: an image, a video, an archive.
     #[error("is not JSON text (byte {0} is not valid UTF-8)")]
     NotText(usize),
     /// It is text but not JSON.
     #[error("is not JSON: {what} in line {line}")]
     NotJson {
-        /// What stands there.
+        /// The unexpected content.
         what: String,
-        /// Line of the mistake, from 1.
+        /// Line of the error, from 1.
         line: usize,
     },
-    /// It ends in the middle.
+    /// The document is truncated.
     #[error("is truncated: the JSON ends unfinished in line {0}")]
     Truncated(usize),
     /// A number is written as NaN or an infinity.
     #[error("holds {token} in line {line}: numbers must be finite")]
     NotANumber {
-        /// What stands there.
+        /// The content found instead of a number.
         token: String,
         /// Line, from 1.
         line: usize,
     },
-    /// A number is too large to be one.
+    /// A number is out of range.
     #[error("holds a number in line {0} that is too large: numbers must be finite")]
     NumberTooLarge(usize),
-    /// It is JSON of another kind.
+    /// It is JSON of another format.
     #[error("field `format` must be {expected:?}, {found}")]
     Format {
-        /// What it must be.
+        /// The expected format.
         expected: &'static str,
-        /// What it is, in words.
+        /// The format found, in words.
         found: String,
     },
 }
@@ -47,9 +47,9 @@ pub enum JsonError {
 #[derive(Clone, PartialEq, Eq, Debug, Error)]
 #[error("{}{rule}", field_prefix(field))]
 pub struct FieldError {
-    /// Where in the file, such as `agents[0].radius`; empty for the file or event as a whole.
+    /// Path in the file, such as `agents[0].radius`; empty for the file or event as a whole.
     pub field: String,
-    /// What it breaks, such as `must be a finite number, not null`.
+    /// The rule, such as `must be a finite number, not null`.
     pub rule: String,
 }
 

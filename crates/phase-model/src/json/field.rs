@@ -23,13 +23,13 @@ impl<'a> Field<'a> {
         self.value
     }
 
-    /// An error about this field: `rule` reads on from the field's name.
+    /// An error about this field: `rule` continues the sentence that begins with the field's name.
     #[must_use]
     pub fn error(&self, rule: impl Into<String>) -> FieldError {
         FieldError { field: self.path.clone(), rule: rule.into() }
     }
 
-    /// An error that says what the field must be and what it is instead.
+    /// An error that states what the field must be and what it is instead.
     #[must_use]
     pub fn must_be(&self, what: &str) -> FieldError {
         self.error(format!("must be {what}, not {}", shown(self.value)))
@@ -38,16 +38,16 @@ impl<'a> Field<'a> {
     /// A member of an object; `None` if it is absent or null.
     ///
     /// # Errors
-    /// If this is no object.
+    /// If this is not an object.
     pub fn optional(&self, key: &str) -> Result<Option<Field<'a>>, FieldError> {
         let value = self.object()?.get(key).filter(|value| !value.is_null());
         Ok(value.map(|value| Field { value, path: self.path_of(key) }))
     }
 
-    /// A member of an object that has to be there; it may be null.
+    /// A required member of an object; it may be null.
     ///
     /// # Errors
-    /// If it is absent or this is no object.
+    /// If it is absent or this is not an object.
     pub fn required(&self, key: &str) -> Result<Field<'a>, FieldError> {
         let path = self.path_of(key);
         match self.object()?.get(key) {
@@ -56,11 +56,11 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// Checks that an object has no members but these, and those whose names begin with `_`: they are left to
-    /// whoever added them.
+    /// Checks that an object has no members but these, except those whose names begin with `_`, which are
+    /// reserved for user annotations.
     ///
     /// # Errors
-    /// Names the first other member, and the one that was meant if one is spelt much like it.
+    /// Names the first unknown member, and the intended one if the spelling of a known member is close.
     pub fn only(&self, keys: &[&str]) -> Result<(), FieldError> {
         let is_unknown = |key: &&String| !key.starts_with('_') && !keys.contains(&key.as_str());
         let Some(key) = self.object()?.keys().find(is_unknown) else { return Ok(()) };
@@ -74,25 +74,25 @@ impl<'a> Field<'a> {
     /// The elements of an array.
     ///
     /// # Errors
-    /// If this is no array.
+    /// If this is not an array.
     pub fn items(&self) -> Result<impl ExactSizeIterator<Item = Field<'a>> + use<'a>, FieldError> {
         let path = self.path.clone();
         let items = self.array()?.iter().enumerate();
         Ok(items.map(move |(k, value)| Field { value, path: format!("{path}[{k}]") }))
     }
 
-    /// The array itself, for long ones whose elements need no path each.
+    /// The array itself, for long arrays whose elements do not need a path each.
     ///
     /// # Errors
-    /// If this is no array.
+    /// If this is not an array.
     pub fn array(&self) -> Result<&'a Vec<Value>, FieldError> {
         self.value.as_array().ok_or_else(|| self.must_be("an array"))
     }
 
-    /// A text.
+    /// A string.
     ///
     /// # Errors
-    /// If this is none.
+    /// If this is not a string.
     pub fn text(&self) -> Result<&'a str, FieldError> {
         self.value.as_str().ok_or_else(|| self.must_be("a text"))
     }
@@ -100,33 +100,33 @@ impl<'a> Field<'a> {
     /// A number representable in single precision.
     ///
     /// # Errors
-    /// If this is none.
+    /// If this is not such a number.
     pub fn number(&self) -> Result<f32, FieldError> {
         finite(self.value).ok_or_else(|| self.must_be("a finite number"))
     }
 
-    /// A whole number in a range.
+    /// An integer in a range.
     ///
     /// # Errors
-    /// If this is none.
+    /// If this is not such an integer.
     pub fn whole(&self, from: i64, to: i64) -> Result<i64, FieldError> {
         let number = self.value.as_i64().filter(|number| (from..=to).contains(number));
         number.ok_or_else(|| self.must_be(&format!("a whole number from {from} to {to}")))
     }
 
-    /// The one of some ids or entities, in number order from 0, that a number names.
+    /// The id or entity with this number, out of several in order from 0.
     ///
     /// # Errors
-    /// If this is no such number.
+    /// If this is not a valid number.
     pub fn id<T: Copy>(&self, ids: &[T]) -> Result<T, FieldError> {
         let number = self.whole(0, ids.len() as i64 - 1)?;
         Ok(ids[number as usize])
     }
 
-    /// One of a few words, or whatever else has a name.
+    /// One of a few words, or of other named values.
     ///
     /// # Errors
-    /// Lists the names if this is none of them.
+    /// Lists the valid names if this is not one of them.
     pub fn one_of<T: Copy>(&self, choices: &[(&str, T)]) -> Result<T, FieldError> {
         let found = self.value.as_str().and_then(|text| choices.iter().find(|(name, _)| *name == text));
         found.map(|(_, choice)| *choice).ok_or_else(|| {
@@ -150,7 +150,7 @@ pub fn finite(value: &Value) -> Option<f32> {
     value.as_f64().map(|number| number as f32).filter(|number| number.is_finite())
 }
 
-/// A value as it stands in the file, cut short.
+/// A value as in the file, truncated.
 #[must_use]
 pub fn shown(value: &Value) -> String {
     const LONGEST: usize = 40;

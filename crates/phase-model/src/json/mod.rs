@@ -1,6 +1,5 @@
-//! JSON documents as trees of fields that know where they stand, for readers that check what they read.
-//!
-//! A derived reader would be shorter, but its errors name types and columns; a person wants the field and the rule.
+//! JSON documents as trees of fields that know their paths, for readers that validate their input. A derived
+//! reader would be shorter, but its errors would name types and columns instead of the field and the rule.
 
 mod error;
 mod field;

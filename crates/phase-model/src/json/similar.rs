@@ -1,7 +1,7 @@
-//! What somebody who misspelt a name is likely to have meant.
+//! The likely intended name for a misspelt one.
 
-/// The candidate nearest to a word, if it is near enough to be what was meant: a third of its letters may be wrong, at
-/// most three, whatever the case. Of equally near ones the first.
+/// The candidate closest to a word, if it is close enough to be the intended one: up to a third of its
+/// letters may be wrong, at most three, ignoring case. Of equally close ones the first.
 pub(super) fn nearest<'a>(word: &str, candidates: &[&'a str]) -> Option<&'a str> {
     let word = plain(word);
     let distance = |candidate: &str| edits(&word, &plain(candidate));
@@ -14,7 +14,7 @@ fn plain(word: &str) -> Vec<char> {
     word.to_lowercase().replace(['-', ' '], "_").chars().collect()
 }
 
-/// Letters to insert, remove, replace or exchange with their neighbour, at least (optimal string alignment).
+/// Minimum number of letters to insert, remove, replace or swap with a neighbour (optimal string alignment).
 fn edits(a: &[char], b: &[char]) -> usize {
     // Row i holds the edits from the first i letters of `a` to the first j of `b`.
     let mut rows: Vec<Vec<usize>> = vec![(0..=b.len()).collect()];

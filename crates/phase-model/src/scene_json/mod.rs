@@ -1,10 +1,11 @@
 //! Scenes as JSON.
 //!
-//! A scene is an object with the members `layout`, `agents`, `objects` and `event`, which mean what they mean in an
-//! event of the format `phase-events/1`. In an event the starts of all bodies are the first rows of its trajectory;
-//! in a scene by itself each agent and each object has a member `start` of `x`, `y` (u), `vx`, `vy` (u/s), `angle`
-//! (rad) and `angular_velocity` (rad/s), of which all but the position may be left out and are 0. Members whose names
-//! begin with `_` are left to whoever added them, such as `"_comment"`; others that are unknown are refused.
+//! A scene is an object with the members `layout`, `agents`, `objects` and `event`, which have the same
+//! meaning as in an event of the format `phase-events/1`. In an event the starts of all bodies are the first
+//! rows of its trajectory; in a standalone scene each agent and each object has a member `start` of `x`, `y`
+//! (u), `vx`, `vy` (u/s), `angle` (rad) and `angular_velocity` (rad/s), of which all but the position may be
+//! omitted and are then 0. Members whose names begin with `_`, such as `"_comment"`, are reserved for user
+//! annotations; other unknown members are errors.
 
 mod read;
 mod write;
@@ -18,10 +19,10 @@ use serde_json::Value;
 use thiserror::Error;
 pub use write::{AgentMembers, ObjectMembers};
 
-/// Why a text is no scene.
+/// Why a text is not a scene.
 #[derive(Clone, PartialEq, Debug, Error)]
 pub enum SceneReadError {
-    /// It is no JSON.
+    /// It is not JSON.
     #[error(transparent)]
     Json(#[from] JsonError),
     /// A member is missing, unknown, of the wrong type or out of its range.
@@ -32,12 +33,13 @@ pub enum SceneReadError {
     Scene(#[from] SceneError),
 }
 
-/// Where the start pose of each body stands.
+/// The location of each body's start pose.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Starts {
     /// In the member `start` of each agent and object.
     Members,
-    /// Outside of the scene's members: there must be no `start`, and every body is read as [`crate::Body::default`].
+    /// Outside the scene's members: there must be no `start`, and every body is read as
+    /// [`crate::Body::default`].
     Elsewhere,
 }
 
@@ -45,7 +47,7 @@ impl Scene {
     /// Reads a scene and validates it.
     ///
     /// # Errors
-    /// [`SceneReadError`] names the member and the rule that it breaks.
+    /// [`SceneReadError`] names the member and the rule that is violated.
     ///
     /// # Examples
     /// ```
@@ -72,10 +74,10 @@ impl Scene {
         Self::from_value(&json::parse_text(text)?)
     }
 
-    /// The same for JSON that is parsed already.
+    /// The same for JSON that is already parsed.
     ///
     /// # Errors
-    /// [`SceneReadError`] names the member and the rule that it breaks.
+    /// [`SceneReadError`] names the member and the rule that is violated.
     pub fn from_value(value: &Value) -> Result<Self, SceneReadError> {
         let field = Field::root(value);
         field.only(&["layout", "walls", "landmarks", "agents", "objects", "event"])?;
@@ -85,18 +87,18 @@ impl Scene {
         Ok(scene)
     }
 
-    /// The scene that is in the members of an object, among others that are not looked at. It is not validated.
+    /// The scene among the members of an object; other members are ignored. It is not validated.
     ///
     /// # Errors
-    /// [`FieldError`] names the member and the rule that it breaks.
+    /// [`FieldError`] names the member and the rule that is violated.
     pub fn from_members(object: &Field<'_>, starts: Starts) -> Result<Self, FieldError> {
         read::scene(object, starts)
     }
 
-    /// The scene as JSON in one line; reading gives the same scene to the bit.
+    /// The scene as JSON in one line; reading it restores the same scene bit for bit.
     ///
     /// # Errors
-    /// If a start holds a number that is not finite.
+    /// If a start contains a number that is not finite.
     pub fn to_json(&self) -> serde_json::Result<String> {
         serde_json::to_string(self)
     }
@@ -109,7 +111,7 @@ impl Serialize for Scene {
     }
 }
 
-/// For formats that describe themselves, such as JSON.
+/// For self-describing formats such as JSON.
 impl<'de> Deserialize<'de> for Scene {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         Self::from_value(&Value::deserialize(deserializer)?).map_err(de::Error::custom)

@@ -1,4 +1,4 @@
-//! From JSON to a scene, every level checked against what repeats it.
+//! From JSON to a scene; every level is checked against the redundant members that repeat it.
 
 use super::Starts;
 use crate::{
@@ -7,7 +7,7 @@ use crate::{
     json::{Field, FieldError},
 };
 
-/// How far a redundant number may lie from what it repeats.
+/// Tolerance of a redundant number.
 const TOLERANCE: f32 = 1e-3;
 
 pub(super) fn scene(event: &Field<'_>, starts: Starts) -> Result<Scene, FieldError> {
@@ -111,7 +111,7 @@ fn size(field: &Field<'_>) -> Result<Size, FieldError> {
     Ok(size)
 }
 
-/// Checks a number that repeats what a level says, if it is there.
+/// Checks a number that repeats what a level implies, if it is present.
 fn repeats(field: &Field<'_>, key: &str, expected: f32, what: &str) -> Result<(), FieldError> {
     match field.optional(key)? {
         Some(number) if (number.number()? - expected).abs() > TOLERANCE => {

@@ -45,7 +45,7 @@ pub struct AgentMembers {
 }
 
 impl AgentMembers {
-    /// All members but `start`, for formats that have starts elsewhere.
+    /// All members but `start`, for formats that store the starts elsewhere.
     #[must_use]
     pub const fn without_start(agent: &AgentSpec) -> Self {
         Self {
@@ -70,7 +70,7 @@ pub struct ObjectMembers {
 }
 
 impl ObjectMembers {
-    /// All members but `start`, for formats that have starts elsewhere.
+    /// All members but `start`, for formats that store the starts elsewhere.
     #[must_use]
     pub const fn without_start(object: &ObjectSpec) -> Self {
         Self { radius: object.size.radius(), size_level: object.size.level(), start: None }

@@ -1,4 +1,4 @@
-//! Scenes to look at.
+//! Scenes to observe.
 
 use phase_model::{
     AgentBody, AgentId, Body, Entity, Grip, Layout, MAX_ENTITIES, ObjectId, PhysicsConfig, Segment, Side,
@@ -11,7 +11,7 @@ pub(crate) const OTHER: Entity = Entity::Agent(AgentId::ONE);
 pub(crate) const BALL: Entity = Entity::Object(ObjectId::ZERO);
 pub(crate) const BOX: Entity = Entity::Object(ObjectId::ONE);
 
-/// Somewhere no cell is.
+/// A position outside all cells.
 pub(crate) const AWAY: Vec2 = Vec2::new(-500.0, -500.0);
 
 /// Two agents and two objects, all of one size.
@@ -24,7 +24,7 @@ pub(crate) fn wall(a: (f32, f32), b: (f32, f32)) -> Segment {
     Segment { a: a.into(), b: b.into() }
 }
 
-/// Agent 0 at a place and heading; the others are away until they are put somewhere.
+/// Agent 0 at a position and heading; the others are far away until they are moved.
 pub(crate) fn looking(position: (f32, f32), angle: f32) -> State {
     let mut state = State::new([Body::at_rest(AWAY, 0.0); MAX_ENTITIES]);
     *state.body_mut(ME) = Body::at_rest(position.into(), angle);

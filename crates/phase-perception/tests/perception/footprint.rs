@@ -1,4 +1,4 @@
-//! Footprints against the shared outline tests of the model.
+//! Footprints compared with the shared outline tests of the model.
 
 use crate::common::{any_body, any_physique};
 use phase_model::{Body, Entity, ObjectId, PhysicsConfig, Size, Vec2, geometry::Outline};
@@ -48,14 +48,14 @@ fn bodies_that_are_nowhere_lie_on_nothing() {
     }
 }
 
-/// A cell as a polygon, a little smaller or larger than it is.
+/// A cell as a polygon, slightly smaller or larger than it is.
 fn square(cell: Cell, grown: f32) -> [Vec2; 4] {
     let (min, max) = (cell.min() - grown, cell.min() + 1.0 + grown);
     [min, Vec2::new(max.x, min.y), max, Vec2::new(min.x, max.y)]
 }
 
 fn inside(outline: &Outline, point: Vec2) -> bool {
-    // A dot of a disc at the point.
+    // A tiny disc at the point.
     outline.overlaps(&Outline::Disc { centre: point, radius: 1e-4 })
 }
 

@@ -1,4 +1,4 @@
-//! What is seen and felt, by module.
+//! Sight and touch, by module.
 
 mod cells;
 mod common;

@@ -1,11 +1,11 @@
-//! Who is observed: sight, touch and what follows from them.
+//! Which entities are observed: sight, touch and their consequences.
 
 use crate::common::{BALL, BOX, ME, OTHER, any_physique, any_state, grip, looking, physics, with};
 use phase_model::{AgentId, BodySet, Entity, Size, State};
 use phase_perception::{observe, observed_set, sees};
 use proptest::prelude::*;
 
-/// Everything else behind agent 0's back, out of its view, and far apart.
+/// All other bodies behind agent 0's back, out of its view, and far apart.
 fn unseen() -> State {
     let state = with(looking((16.0, 16.0), 0.0), OTHER, (16.0, 10.0));
     with(with(state, BALL, (10.0, 6.0)), BOX, (22.0, 6.0))
@@ -125,8 +125,8 @@ proptest! {
             prop_assert_eq!(observation.grip(other), known.then(|| state.grips[other]));
         }
 
-        // Moving what is not observed to where it is not observed either makes no difference, unless it hid
-        // cells that count as its own.
+        // Moving unobserved bodies to other unobserved positions makes no difference, unless they occluded
+        // cells of their own footprint.
         let mut other = state;
         for entity in physics.entities().filter(|&entity| !observation.observed.contains(entity)) {
             *other.body_mut(entity) = *elsewhere.body(entity);

@@ -1,9 +1,9 @@
-//! Seeing reckoned slowly, in other ways and with more digits.
+//! Visibility computed by slower, independent methods and at higher precision.
 
 use phase_model::{AgentId, Entity, PhysicsConfig, Segment, State};
 use phase_perception::Cell;
 
-/// Whether a cell's centre is seen, and by how much the closest of the decisions was taken (u or rad).
+/// Whether a cell's centre is seen, and the margin of the closest of the decisions (u or rad).
 pub(crate) struct Sight {
     pub(crate) visible: bool,
     pub(crate) margin: f64,
@@ -32,7 +32,7 @@ pub(crate) fn look(physics: &PhysicsConfig, state: &State, agent: usize, cell: C
         let radius = f64::from(physics.radius(entity));
         let offset = (disc.0 - viewpoint.0, disc.1 - viewpoint.1);
         let nearest = walk(ray, offset);
-        // An eye inside a body, or right beside it, is another matter.
+        // An eye inside a body, or right beside it, is a separate case.
         margin = margin.min(offset.0.hypot(offset.1) - radius);
         visible &= nearest >= radius;
         margin = margin.min((nearest - radius).abs());
@@ -40,8 +40,8 @@ pub(crate) fn look(physics: &PhysicsConfig, state: &State, agent: usize, cell: C
     Sight { visible, margin }
 }
 
-/// Distance between a point and the way from the origin to the end of a ray, by trying many steps and then
-/// finer ones around the best.
+/// Distance between a point and the line segment from the origin to the end of a ray, by trying many steps
+/// and then finer ones around the best.
 fn walk(ray: (f64, f64), point: (f64, f64)) -> f64 {
     let distance = |t: f64| (ray.0 * t - point.0).hypot(ray.1 * t - point.1);
     let (mut best, mut step) = (0.0, 0.1);
@@ -53,7 +53,7 @@ fn walk(ray: (f64, f64), point: (f64, f64)) -> f64 {
     distance(best)
 }
 
-/// Whether a ray meets a wall, which runs along an axis, and how far from not doing so or doing so it is.
+/// Whether a ray meets an axis-aligned wall, and the distance from the opposite result.
 fn meets(wall: &Segment, viewpoint: (f64, f64), ray: (f64, f64)) -> (bool, f64) {
     let upright = wall.a.x == wall.b.x;
     assert!(upright || wall.a.y == wall.b.y);
@@ -86,7 +86,7 @@ fn wrapped(angle: f64) -> f64 {
     (angle + PI).rem_euclid(TAU) - PI
 }
 
-/// The least margin of all cells: how far a state is from looking otherwise.
+/// The minimum margin of all cells: how far a state is from a different observation.
 pub(crate) fn least_margin(physics: &PhysicsConfig, state: &State, agent: usize) -> f64 {
     Cell::all().map(|cell| look(physics, state, agent, cell).margin).fold(f64::INFINITY, f64::min)
 }

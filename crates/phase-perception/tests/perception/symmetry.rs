@@ -1,4 +1,4 @@
-//! The world looks the same in a mirror.
+//! Observations are invariant under reflection.
 
 use crate::{
     common::{any_physique, any_state},
@@ -27,7 +27,7 @@ fn image(flip: Flip, cells: &CellSet) -> CellSet {
     cells.iter().filter_map(|cell| Cell::at(flip.point(cell.centre()))).collect()
 }
 
-/// Whether bodies a little smaller or larger would lie on other cells.
+/// Whether slightly smaller or larger bodies would lie on other cells.
 fn is_on_the_line(physics: &PhysicsConfig, state: &State) -> bool {
     let cells = |grown: f32| -> Vec<CellSet> {
         let mut physics = physics.clone();

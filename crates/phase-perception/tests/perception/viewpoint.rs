@@ -1,4 +1,4 @@
-//! The field of view: drawn cases, and agreement with the slow reckoning.
+//! The field of view: drawn cases, and agreement with the slow reference.
 
 use crate::{
     common::{AWAY, BALL, BOX, ME, OTHER, any_physique, any_state, looking, physics, wall, with},
@@ -255,7 +255,7 @@ proptest! {
         }
     }
 
-    /// An entity is seen exactly if its cells would be visible were it not there.
+    /// An entity is seen exactly if its cells would be visible without it.
     #[test]
     fn entities_are_seen_as_if_they_hid_nothing(
         physics in any_physique(), state in any_state(), agent in 0_usize..2,
@@ -269,7 +269,7 @@ proptest! {
         }
     }
 
-    /// No number makes it panic, and an eye that is nowhere sees nothing of the arena.
+    /// No number causes a panic, and an eye at an invalid position sees nothing of the arena.
     #[test]
     fn any_numbers_will_do(numbers in prop::array::uniform12(prop::num::f32::ANY), agent in 0_usize..2) {
         let body = |k: usize| Body::at_rest(Vec2::new(numbers[k], numbers[k + 1]), numbers[k + 2]);

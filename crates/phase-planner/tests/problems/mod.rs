@@ -7,7 +7,7 @@ use phase_model::{
 use phase_planner::{PlanningProblem, problem::obstruct, task::Task};
 use proptest::prelude::*;
 
-/// One problem: a scene at some moment, a goal and who acts for it.
+/// One problem: a scene at some moment, a goal and the acting agents.
 #[derive(Clone, Debug)]
 pub(crate) struct Problem {
     pub(crate) layout: Layout,
@@ -19,7 +19,7 @@ pub(crate) struct Problem {
     pub(crate) actors: [bool; 2],
     pub(crate) effort_weights: [f32; 2],
     pub(crate) cooperative: bool,
-    /// Where a round body narrows doors for one agent, which this says.
+    /// Where a round body narrows doors for the given agent.
     pub(crate) narrowed: Option<(AgentId, Vec2)>,
 }
 
@@ -56,7 +56,7 @@ impl Problem {
     }
 }
 
-/// A place anywhere, or in the middle of the arena where the doors are.
+/// A random position anywhere, or in the middle of the arena where the doors are.
 fn place() -> impl Strategy<Value = Vec2> {
     (0.0..1.0_f32, 0.0..1.0_f32, any::<bool>()).prop_map(|(x, y, near_doors)| {
         let place = arena::MIN + arena::SIDE * Vec2::new(x, y);
@@ -101,7 +101,7 @@ pub(crate) fn problems() -> impl Strategy<Value = Problem> {
         .prop_map(|(fixed, holds, goal, narrowed)| {
             let ((layout, agents, objects), mut places, actors, effort_weights, cooperative) = fixed;
             let holds = holds.map(|held| held.filter(|&object| object.index() < objects.len()));
-            // What is held touches its holder; of an object held by both, the first has it where it is.
+            // A held object touches its holder; if both agents hold it, it is placed at the first.
             for agent in [1, 0] {
                 if let Some(object) = holds[agent] {
                     let arm = agents[agent].0.radius() + objects[object.index()].radius();

@@ -6,7 +6,7 @@ use phase_model::{
 };
 use phase_planner::{Plan, Planner};
 
-/// A situation in words: layout, bodies, goals, attitudes.
+/// A description of a situation: layout, bodies, goals, attitudes.
 pub(crate) struct Setup {
     pub(crate) layout: Layout,
     pub(crate) agents: [(Size, Strength, Vec2); 2],
@@ -58,7 +58,7 @@ impl Setup {
             .plan(&self.state(), self.observed)
     }
 
-    /// The plan in words.
+    /// The plan as text.
     pub(crate) fn words(&self, agent: usize) -> Vec<String> {
         self.plan(agent).subgoals.iter().map(ToString::to_string).collect()
     }
@@ -88,7 +88,7 @@ pub(crate) fn approach() -> Goal {
     Goal::Touch { agent: AgentId::ZERO, other: AgentId::ONE, sign: Sign::Positive }
 }
 
-/// Everything there can be.
+/// All entities.
 pub(crate) fn everything() -> BodySet {
     phase_model::Entity::ALL.into_iter().collect()
 }

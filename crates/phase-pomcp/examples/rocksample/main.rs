@@ -1,4 +1,4 @@
-//! RockSample[7,8] (Smith & Simmons 2004): what whole episodes earn with growing numbers of simulations.
+//! RockSample[7,8] (Smith & Simmons 2004): returns of whole episodes with growing numbers of simulations.
 //!
 //! Run it with `cargo run --release -p phase-pomcp --example rocksample -- [EPISODES [SEED]]`.
 
@@ -9,7 +9,8 @@ mod support;
 use phase_pomcp::{PomcpError, PomcpSettings};
 use problem::RockSample;
 
-/// Checking pays by hundredths of what the best rock earns, so it takes a small exploration rate to tell.
+/// The advantage of checking is a few hundredths of the best rock's reward, so a small exploration rate is
+/// needed.
 const SETTINGS: PomcpSettings = PomcpSettings {
     stop_when_decided: false,
     simulations: 1000,

@@ -6,11 +6,11 @@ use rand::{Rng, RngExt};
 
 /// Squares on a side.
 const SIDE: i8 = 7;
-/// Where the rover starts: x to the east, y to the north.
+/// Start of the rover: x to the east, y to the north.
 const START: [i8; 2] = [0, 3];
-/// Where the rocks of the published instance lie.
+/// Positions of the rocks in the published instance.
 const ROCKS: [[i8; 2]; 8] = [[2, 0], [0, 1], [3, 1], [6, 3], [2, 4], [3, 4], [5, 5], [1, 6]];
-/// Distance at which a check is half as far above chance as from nearby (squares).
+/// Distance at which the accuracy of a check above chance is half of that from nearby (squares).
 const HALF_EFFICIENCY: f64 = 20.0;
 /// Unit steps north, east, south and west, the first four actions.
 const MOVES: [[i8; 2]; 4] = [[0, 1], [1, 0], [0, -1], [-1, 0]];
@@ -19,11 +19,11 @@ const EAST: usize = 1;
 const SAMPLE: usize = 4;
 const CHECK: usize = 5;
 
-/// RockSample[7,8]: leaving to the east earns 10, sampling a good rock 10, a bad one −10; a check is right with
-/// a probability that falls with the distance from the rock.
+/// RockSample[7,8]: leaving to the east earns 10, sampling a good rock 10, a bad one −10; the probability
+/// that a check is correct decreases with the distance from the rock.
 ///
-/// In the literature it costs 100 to walk into a wall or to sample where there is no rock. Here it achieves
-/// nothing, which is never worth a step either, so that the optimum is the same.
+/// In the literature, walking into a wall or sampling where there is no rock costs 100. Here it has no
+/// effect, which is never worth a step either, so that the optimum is the same.
 pub(crate) struct RockSample;
 
 /// A state of the problem.
@@ -33,13 +33,13 @@ pub(crate) struct Rover {
     /// Which rocks are good: hidden from the rover.
     good: [bool; ROCKS.len()],
     taken: [bool; ROCKS.len()],
-    /// What the checks so far say about each rock: the logarithm of the odds that it is good.
+    /// Evidence from the checks so far about each rock: the logarithm of the odds that it is good.
     evidence: [f64; ROCKS.len()],
 }
 
 impl GenerativeModel for RockSample {
     type State = Rover;
-    type Observation = Option<bool>; // what a check says
+    type Observation = Option<bool>; // result of a check
 
     fn action_count(&self) -> usize {
         CHECK + ROCKS.len()
@@ -71,7 +71,7 @@ impl GenerativeModel for RockSample {
         Transition { observation, reward, terminal }
     }
 
-    /// From rock to rock, the nearest promising one first; each is checked on the spot and sampled if good.
+    /// From rock to rock, the closest promising one first; each is checked on the spot and sampled if good.
     fn rollout_action(&self, rover: &Rover, _: &mut impl Rng) -> usize {
         let promising = (0..ROCKS.len()).filter(|&rock| !rover.taken[rock] && rover.evidence[rock] >= 0.0);
         match promising.min_by_key(|&rock| rover.paces(rock)) {
@@ -82,7 +82,7 @@ impl GenerativeModel for RockSample {
         }
     }
 
-    /// Useless actions get a low prior, the rollout policy's action a high one.
+    /// Useless actions have a low prior, the rollout policy's action a high one.
     fn prior_weight(&self, rover: &Rover, action: usize) -> f64 {
         let is_useful = match action {
             EAST => true,
@@ -108,7 +108,7 @@ impl Problem for RockSample {
         Rover { at: START, good, taken: [false; ROCKS.len()], evidence: [0.0; ROCKS.len()] }
     }
 
-    /// Rocks say nothing about each other, so any one of them may be redrawn by what the checks say about it.
+    /// Rocks are independent, so any one of them may be resampled given the results of its checks.
     fn reinvigorate(&self, rover: &mut Rover, random: &mut impl Rng) {
         let rock = random.random_range(0..ROCKS.len());
         if !rover.taken[rock] {
@@ -128,7 +128,7 @@ impl Rover {
         (ROCKS[rock][0] - self.at[0]).abs() + (ROCKS[rock][1] - self.at[1]).abs()
     }
 
-    /// The move that leads to a rock, north and south first: who goes east need not come back.
+    /// The move towards a rock, north and south first: a rover that has gone east need not come back.
     fn towards(&self, rock: usize) -> usize {
         let [x, y] = [ROCKS[rock][0] - self.at[0], ROCKS[rock][1] - self.at[1]];
         match (x.signum(), y.signum()) {
@@ -139,7 +139,7 @@ impl Rover {
         }
     }
 
-    /// Checks a rock from here; a rock that has been taken says nothing.
+    /// Checks a rock from here; a check of a rock that has been taken is uninformative.
     fn check(&mut self, rock: usize, random: &mut impl Rng) -> Option<bool> {
         if self.taken[rock] {
             return None;

@@ -1,4 +1,4 @@
-//! Whole episodes of a problem: a belief of particles between real steps, and what is earned with a 95 % interval.
+//! Whole episodes of a problem: a particle belief between real steps, and the return with a 95 % interval.
 
 use phase_pomcp::{GenerativeModel, Pomcp, PomcpError, PomcpSettings};
 use phase_statistics::{mean, standard_error};
@@ -7,21 +7,21 @@ use rand_pcg::Pcg64Mcg;
 
 /// Particles of a belief.
 const PARTICLES: usize = 1000;
-/// Steps after which an episode is cut: at a discount of 0.95 what follows counts for 0.6 %.
+/// Steps after which an episode is cut: at a discount of 0.95 the remainder has a weight of 0.6 %.
 const LONGEST_EPISODE: usize = 100;
 
-/// A problem that can be played.
+/// A problem whose episodes can be simulated.
 pub(crate) trait Problem: GenerativeModel {
-    /// Draws a start, as the agent believes in it.
+    /// Samples a start state from the agent's initial belief.
     fn start(&self, random: &mut impl Rng) -> Self::State;
 
-    /// Redraws some of what is hidden in a particle, in accordance with all that has been perceived; where
-    /// nothing dies out there is no need to.
+    /// Resamples part of the hidden state in a particle, consistently with all observations so far;
+    /// unnecessary for problems without particle deprivation.
     fn reinvigorate(&self, _particle: &mut Self::State, _random: &mut impl Rng) {}
 }
 
-/// Particles of `belief` after an action and what was perceived: each one drawn, moved on by the model itself,
-/// and kept if it perceived the same (Silver & Veness 2010, section 3.2).
+/// Particles of `belief` after an action and an observation: each is sampled, advanced by the model itself,
+/// and kept if it yields the same observation (Silver & Veness 2010, section 3.2).
 pub(crate) fn updated<P: Problem>(
     problem: &P,
     belief: &[P::State],
@@ -40,7 +40,7 @@ pub(crate) fn updated<P: Problem>(
     kept
 }
 
-/// Plays one episode and returns the discounted sum of what it earned.
+/// Simulates one episode and returns its discounted return.
 fn episode<P: Problem>(
     problem: &P,
     pomcp: &mut Pomcp<P::Observation>,
@@ -62,8 +62,8 @@ fn episode<P: Problem>(
     Ok(earned)
 }
 
-/// Prints a table: for each number of simulations the mean discounted return of so many episodes. Episode k
-/// is played with seed `seed` + k in every row, so that all rows start alike.
+/// Prints a table: for each number of simulations the mean discounted return of the given number of episodes.
+/// Episode k is simulated with seed `seed` + k in every row, so that all rows share their random draws.
 pub(crate) fn table<P: Problem>(
     problem: &P,
     settings: PomcpSettings,

@@ -7,8 +7,8 @@ use rand_pcg::Pcg64Mcg;
 const FORWARD: usize = 0;
 const BACK: usize = 1;
 
-/// A walk on 0, 1, 2, … that ends at 0 and earns 1 there. Going back always works, going forward only with a
-/// certain probability, else one stays.
+/// A walk on 0, 1, 2, … that ends at 0 with reward 1. Going back always succeeds, going forward only with a
+/// certain probability; otherwise the state does not change.
 struct Chain {
     success: f64,
 }
@@ -64,12 +64,12 @@ fn root_values_converge_to_the_closed_form() {
             assert!(back < 0.02, "going back cannot be worth more than {}: {decision:?}", exact[BACK]);
             (decision.value() - exact[FORWARD]).abs()
         });
-        // Every step on the way is a chance to explore, which costs the mean a little each time.
+        // Every step on the path is an opportunity to explore, which lowers the mean slightly each time.
         assert!(
             errors[2] < 0.02 * f64::from(distance),
             "success {success}, distance {distance}: errors {errors:?}"
         );
-        // One step from the goal there is nothing left to learn, and the error is chance alone.
+        // One step from the goal there is nothing left to learn, and the error is sampling error alone.
         if distance > 1 {
             assert!(errors[2] < 0.5 * errors[0], "success {success}, distance {distance}: errors {errors:?}");
         }

@@ -1,10 +1,10 @@
-//! Every kind of bad input is its own error, and none of them spoils the planner.
+//! Every kind of invalid input has its own error, and none of them corrupts the planner.
 
 use phase_pomcp::{GenerativeModel, Pomcp, PomcpError, PomcpSettings, Transition};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg32;
 
-/// A model that keeps its promises or breaks one.
+/// A model that satisfies its contract or violates it.
 #[derive(Debug, Clone, Copy)]
 struct Promises {
     actions: usize,
@@ -47,7 +47,7 @@ impl GenerativeModel for Promises {
     }
 }
 
-/// Searches with `model`, and sees to it that the planner is as good as new afterwards.
+/// Searches with `model`, and checks that the planner is unaffected afterwards.
 fn fails(model: Promises, roots: &[()]) -> PomcpError {
     let mut used = Pomcp::new(PomcpSettings::default()).expect("the defaults are valid");
     let error = used.search(&model, roots, &mut Pcg32::seed_from_u64(1)).expect_err("the model is broken");

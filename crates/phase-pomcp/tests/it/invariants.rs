@@ -1,11 +1,11 @@
-//! What holds for every search of every problem.
+//! Invariants of every search of every problem.
 
 use phase_pomcp::{GenerativeModel, Pomcp, PomcpSettings, Transition};
 use proptest::prelude::*;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-/// A problem whose transitions, observations and rewards are arbitrary but fixed, with some chance mixed in.
+/// A problem whose transitions, observations and rewards are arbitrary but fixed, with some randomness added.
 #[derive(Debug, Clone)]
 struct Arbitrary {
     seed: u64,
@@ -42,7 +42,7 @@ impl GenerativeModel for Arbitrary {
     }
 }
 
-/// A problem without chance, which says so or keeps it to itself.
+/// A deterministic problem, which declares that or not.
 #[derive(Debug, Clone)]
 struct Certain {
     problem: Arbitrary,
@@ -105,13 +105,13 @@ proptest! {
         };
         let (whole, early) = (search(false), search(true));
         prop_assert_eq!(early.action, whole.action);
-        // Whatever was left out could not have changed the order.
+        // The omitted simulations could not have changed the order.
         let run: usize = early.actions.iter().map(|action| action.visits).sum();
         let mut visits: Vec<usize> = early.actions.iter().map(|action| action.visits).collect();
         visits.sort_unstable_by(|a, b| b.cmp(a));
         let lead = visits[0] - visits.get(1).copied().unwrap_or(0);
         prop_assert!(run == settings.simulations || lead > settings.simulations - run);
-        // And not a simulation more was run than needed.
+        // And not one simulation more than necessary was run.
         prop_assert!(run == settings.simulations || lead <= settings.simulations - run + 2);
     }
 
@@ -143,7 +143,7 @@ proptest! {
         prop_assert_eq!(Some(decision.actions[decision.action].visits), most);
         prop_assert!(most > Some(0));
 
-        // A return is at most the best reward at every step there can have been, and at least the worst.
+        // A return is at most the best reward at every possible step, and at least the worst.
         let effort = decision.effort;
         let longest = (effort.depth + settings.rollout_steps).min(settings.horizon);
         let weights: f64 = (0..longest).map(|step| problem.discount.powi(step as i32)).sum();
@@ -157,8 +157,8 @@ proptest! {
         prop_assert!(effort.steps >= settings.simulations);
         prop_assert!(effort.steps <= settings.simulations * longest);
 
-        // The same again is the same to the last bit, and so is what it leaves of the generator, whether the
-        // memory is fresh or was used for something else.
+        // The same search again is the same to the last bit, and so is the generator's state afterwards,
+        // whether the memory is new or was used for something else.
         let mut again = Pcg64Mcg::seed_from_u64(seed);
         let fresh = Pomcp::new(settings).unwrap().search(&problem, &roots, &mut again).unwrap();
         prop_assert_eq!(&fresh, &decision);
@@ -170,7 +170,7 @@ proptest! {
     }
 }
 
-/// The seed decides: were it ignored, the determinism above would mean nothing.
+/// The seed has an effect: if it were ignored, the determinism above would be trivial.
 #[test]
 fn another_seed_is_another_search() {
     let problem = Arbitrary {

@@ -1,4 +1,4 @@
-//! The search against problems whose answers are known by other means.
+//! The search on problems with independently known solutions.
 
 mod chain;
 mod errors;

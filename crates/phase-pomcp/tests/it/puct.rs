@@ -1,4 +1,4 @@
-//! Selection against the formula worked out by hand, alone and inside a search.
+//! Selection compared with the formula computed by hand, alone and inside a search.
 
 use phase_pomcp::puct::{ValueRange, exploration, score};
 use phase_pomcp::{GenerativeModel, Pomcp, PomcpSettings, Transition};
@@ -33,7 +33,7 @@ fn a_range_maps_its_ends_to_zero_and_one() {
     assert_eq!([-2.0, 0.0, 6.0].map(|value| range.normalise(value)), [0.0, 0.25, 1.0]);
 }
 
-/// Arms that always pay the same, pulled once.
+/// Arms with constant rewards, pulled once.
 struct Bandit {
     pays: Vec<f64>,
     weights: Vec<f64>,
@@ -69,9 +69,9 @@ fn visits(pays: &[f64], weights: &[f64], simulations: usize, normalise_values: b
     decision.actions.iter().map(|action| action.visits).collect()
 }
 
-/// After one visit of each arm the better arm's lead of 1 stands against the worse arm's growing exploration
-/// term e/4 − e/(2(1 + n)) with e = (ln(1 + (1 + N)/1000) + 1.25)·√N. By hand that is 0.965 at N = 13 and
-/// 1.014 at N = 14, so the fifteenth simulation is the worse arm's second.
+/// After one visit of each arm the better arm's lead of 1 is compared with the worse arm's growing
+/// exploration term e/4 − e/(2(1 + n)) with e = (ln(1 + (1 + N)/1000) + 1.25)·√N. By hand that is 0.965 at N
+/// = 13 and 1.014 at N = 14, so the fifteenth simulation is the worse arm's second.
 #[test]
 fn a_search_visits_as_computed_by_hand() {
     for (simulations, expected) in [(2, [1, 1]), (3, [1, 2]), (14, [1, 13]), (15, [2, 13]), (16, [2, 14])] {
@@ -88,7 +88,8 @@ fn normalised_visits_do_not_depend_on_the_rewards_unit() {
         let pays = [0.0, 1.0, 0.5].map(|pay| pay * scale + offset);
         assert_eq!(visits(&pays, &[1.0; 3], 200, true), expected, "scale {scale}, offset {offset}");
     }
-    // Unscaled, rewards of a hundredth drown in the exploration term, and the search is all but blind.
+    // Unscaled, rewards of a hundredth are negligible beside the exploration term, and the search is nearly
+    // uninformed.
     let blind = visits(&[0.0, 0.01], &[1.0; 2], 200, false);
     assert!(blind[1] - blind[0] < 20, "{blind:?}");
     let seeing = visits(&[0.0, 0.01], &[1.0; 2], 200, true);

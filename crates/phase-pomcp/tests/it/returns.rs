@@ -1,10 +1,11 @@
-//! What a single simulation counts, and how the settings cut it off.
+//! The return of a single simulation, and how the settings truncate it.
 
 use phase_pomcp::{GenerativeModel, Pomcp, PomcpSettings, SearchStatistics, Transition};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg32;
 
-/// One action that earns 1 a step, for ever or until a given time; the rest is guessed to be worth 100.
+/// One action with reward 1 a step, forever or until a given time; the value estimate of the remainder is
+/// 100.
 struct Salary {
     lasts: usize,
 }

@@ -1,4 +1,4 @@
-//! A partially observed problem with an exact solution: do searches find it, and do episodes earn it?
+//! A partially observed problem with an exact solution: do searches find it, and do episodes achieve it?
 
 use phase_pomcp::{GenerativeModel, Pomcp, PomcpSettings};
 use phase_statistics::{mean, standard_error};
@@ -7,15 +7,15 @@ use rand_pcg::Pcg64Mcg;
 
 use crate::tiger_problem::{LISTEN, OPEN_LEFT, OPEN_RIGHT, Side, Tiger};
 
-/// The problem of the literature.
+/// The problem in the literature.
 const CLASSIC: Tiger = Tiger { accuracy: 0.85 };
 
-/// Steps after which the future no longer counts: 0.95³⁰⁰ is 2 in ten million.
+/// Steps after which the future is negligible: 0.95³⁰⁰ is 2 in ten million.
 const FOREVER: usize = 300;
 
-/// What decides well with few simulations. The tiger's worst return sets the scale of values, some −130 to 20,
-/// on which a listening that pays is but a hundredth better than one that does not, and with the constants
-/// meant for games it takes tens of thousands of simulations to tell.
+/// Settings that decide well with few simulations. The tiger's worst return sets the scale of values, about
+/// −130 to 20, on which a listening action that pays is only a hundredth better than one that does not, and
+/// with the constants intended for games it takes tens of thousands of simulations to distinguish them.
 const SHARP: PomcpSettings = PomcpSettings {
     stop_when_decided: false,
     simulations: 2000,
@@ -54,7 +54,8 @@ fn it_listens_until_it_knows_enough() {
         (0.99, 1, OPEN_RIGHT),
         (0.99, -1, OPEN_LEFT),
         (0.7, 2, LISTEN),
-        // What says nothing is not believed, however often it is heard; listening is merely the least bad.
+        // Uninformative observations do not change the belief, however frequent; listening is merely the
+        // least bad.
         (0.5, 2, LISTEN),
         (0.5, -9, LISTEN),
     ];
@@ -84,20 +85,20 @@ fn root_values_approach_the_exact_ones() {
         let decision = pomcp.search(&CLASSIC, &roots, &mut Pcg64Mcg::seed_from_u64(5)).unwrap();
         let exact = CLASSIC.exact(horizon, lead);
         assert_eq!(decision.action, best(exact), "{horizon} steps, lead {lead}: {exact:?} {decision:?}");
-        // Below by what exploring costs; above by no more than chance (returns vary by some 30).
+        // Below by the cost of exploration; above by no more than sampling error (returns vary by about 30).
         let error = decision.value() - exact[decision.action];
         assert!((-0.9..0.3).contains(&error), "{horizon} steps, lead {lead}: {exact:?} {decision:?}");
     }
 }
 
-/// Plays whole episodes, planning at every step from a particle belief, and holds them against the optimum in
-/// two ways.
+/// Simulates whole episodes, planning at every step from a particle belief, and compares them with the
+/// optimum in two ways.
 ///
-/// What the decisions gave away is summed up exactly: each costs the optimal value of the true belief less
+/// The total loss of the decisions is computed exactly: each costs the optimal value of the true belief less
 /// the exact value of the action taken. That has little noise, so it can be bounded tightly, and it is what
-/// the planner loses by searching finitely and by approximating beliefs with particles. And the rewards
-/// really earned must be the optimum less that, within three standard errors. An episode is cut after 30
-/// steps and credited with the exact value of the belief it ended in, so nothing is lost by cutting.
+/// the planner loses by finite search and by approximating beliefs with particles. And the actual return must
+/// equal the optimum less that loss, within three standard errors. An episode is cut after 30 steps and
+/// credited with the exact value of the belief it ended in, so nothing is lost by cutting.
 #[test]
 fn episodes_earn_nearly_the_optimum() {
     const EPISODES: u64 = 100;

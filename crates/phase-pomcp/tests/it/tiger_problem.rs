@@ -7,8 +7,8 @@ pub(crate) const LISTEN: usize = 0;
 pub(crate) const OPEN_LEFT: usize = 1;
 pub(crate) const OPEN_RIGHT: usize = 2;
 
-/// Behind one of two doors is a tiger (−100), behind the other a treasure (+10). Listening costs 1 and tells
-/// the tiger's side with some accuracy; opening a door starts the problem anew.
+/// Behind one of two doors is a tiger (−100), behind the other a treasure (+10). Listening costs 1 and
+/// reveals the tiger's side with some accuracy; opening a door restarts the problem.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Tiger {
     pub(crate) accuracy: f64,
@@ -20,7 +20,7 @@ pub(crate) enum Side {
     Right,
 }
 
-/// What was heard; `None` after a door was opened, when there is nothing to be learnt.
+/// The side heard; `None` after a door was opened, which is uninformative.
 pub(crate) type Heard = Option<Side>;
 
 impl Side {
@@ -64,7 +64,7 @@ impl GenerativeModel for Tiger {
         Transition { observation, reward, terminal: false }
     }
 
-    /// Opening doors blindly says nothing of what a belief is worth, so rollouts only listen.
+    /// Opening doors blindly says nothing about the value of a belief, so rollouts only listen.
     fn rollout_action(&self, _: &Side, _: &mut impl Rng) -> usize {
         LISTEN
     }
@@ -74,8 +74,8 @@ impl Tiger {
     /// The exact optimal value of each action with `steps` steps to go, after hearing the tiger `lead` times
     /// more often on the left than on the right.
     ///
-    /// The lead is all there is to know, as hearings are independent and a door starts the problem anew, so
-    /// this is plain backward induction over integers: no grid of beliefs, no sampling.
+    /// The lead is a sufficient statistic, as observations are independent and a door restarts the problem,
+    /// so this is plain backward induction over integers: no grid of beliefs, no sampling.
     pub(crate) fn exact(&self, steps: usize, lead: i32) -> [f64; 3] {
         let reach = steps as i32 + lead.abs();
         let index = |lead: i32| (lead + reach) as usize;
@@ -107,12 +107,12 @@ impl Tiger {
         ]
     }
 
-    /// The probability of the tiger being on the left at that lead (Bayes' rule from an even prior).
+    /// The probability of the tiger being on the left at that lead (Bayes' rule with a uniform prior).
     pub(crate) fn probability_left(&self, lead: i32) -> f64 {
         1.0 / (1.0 + ((1.0 - self.accuracy) / self.accuracy).powi(lead))
     }
 
-    /// Redraws a belief's particles in proportion to how likely each makes what was heard.
+    /// Resamples a belief's particles in proportion to the likelihood of the observation.
     pub(crate) fn update(&self, belief: &mut [Side], heard: Heard, random: &mut impl Rng) {
         let left = match heard {
             None => 0.5,

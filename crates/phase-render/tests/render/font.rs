@@ -1,4 +1,4 @@
-//! The embedded font is the one it is said to be, and text is measured, shortened and placed as it says.
+//! The embedded font is the one it claims to be, and text is measured, shortened and placed as documented.
 
 use crate::common::{physics, state};
 use phase_model::AgentId;

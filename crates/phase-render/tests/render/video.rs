@@ -64,7 +64,7 @@ fn the_file_starts_fast_and_keeps_time() {
     }
 }
 
-/// What comes out of a decoder is what went in, up to the loss that was asked for.
+/// The decoder's output is the input, up to the requested loss.
 #[test]
 fn decoding_gives_the_frames_back() {
     let frames = frames(480, 45);

@@ -89,7 +89,7 @@ fn beside_published(ours: &str, scores: &RecognitionScores) -> Block {
     Block::Table { head: head(&columns), rows }
 }
 
-/// Bars of shares, ours first.
+/// Bars of shares, PHASE's first.
 fn published_plot(
     file: &'static str,
     title: &str,

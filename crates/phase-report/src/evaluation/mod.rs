@@ -31,7 +31,7 @@ impl Subject<'_> {
     }
 }
 
-/// Which way round numbers are to be read, said below the first table.
+/// Whether higher or lower is better, stated below the first table.
 const BESIDE: &str = "Square brackets hold the 95 % bootstrap interval over events. Published figures are of the 100 \
                       test recordings of the published simulator; beside other events they only give an idea of size.";
 
@@ -45,7 +45,7 @@ fn length(estimate: &Estimate) -> String {
     format!("{:.2} [{:.2}, {:.2}]", estimate.value, estimate.low, estimate.high)
 }
 
-/// Bars of one figure, ours above those that are published.
+/// Bars of one figure, PHASE's above those that are published.
 fn bars_beside<'a>(
     file: &'static str,
     title: &str,

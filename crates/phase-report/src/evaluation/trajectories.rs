@@ -70,7 +70,7 @@ fn beside_published(ours: &str, summary: &ForecastSummary) -> Block {
     Block::Table { head: head(&columns), rows }
 }
 
-/// Bars of lengths, ours first.
+/// Bars of lengths, PHASE's first.
 fn published_plot(
     file: &'static str,
     title: &str,

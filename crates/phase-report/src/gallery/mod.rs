@@ -1,5 +1,5 @@
-//! `index.html`: a page that opens offline and shows every video of a dataset with its labels, and what its agents
-//! were after at every moment.
+//! `index.html`: a page that opens offline and shows every video of a dataset with its labels, and the
+//! subgoals of its agents at every moment.
 
 mod timeline;
 
@@ -16,13 +16,13 @@ use phase_model::{
 };
 use std::{collections::BTreeMap, fmt::Write as _};
 
-/// How long a step is shown (s).
+/// Duration for which a step is shown (s).
 const SECONDS_PER_STEP: f64 = SUBSTEPS as f64 / FRAMES_PER_SECOND as f64;
 const PAGE: &str = include_str!("../../assets/page.html");
 const STYLE: &str = include_str!("../../assets/style.css");
 const SCRIPT: &str = include_str!("../../assets/script.js");
 
-/// The most events on a page; browsers get slow beyond. The page says so if there are more.
+/// Maximum number of events on a page; browsers get slow beyond. The page states it if there are more.
 pub const MOST_SHOWN: usize = 2000;
 
 /// The page for a dataset; one timeline for each of the manifest's events.
@@ -51,8 +51,8 @@ pub fn page(manifest: &Manifest, timelines: &[Timeline]) -> String {
     fill(PAGE, &parts)
 }
 
-/// Puts parts into a template's `{{name}}` places in one pass, so that text which looks like a place and came
-/// in with a part is left alone.
+/// Inserts parts into a template's `{{name}}` places in one pass, so that inserted text which looks like a
+/// place is left unchanged.
 fn fill(template: &str, parts: &[(&str, String)]) -> String {
     let mut page = String::new();
     let mut rest = template;
@@ -67,7 +67,7 @@ fn fill(template: &str, parts: &[(&str, String)]) -> String {
     page + rest
 }
 
-/// A choice for each thing that events can be told apart by, with how many there are of each.
+/// A filter for each property of events, with the number of events for each value.
 fn filters(events: &[EventEntry]) -> String {
     type Values = fn(&EventEntry) -> Vec<String>;
     let keys: [(&str, Values); 4] = [

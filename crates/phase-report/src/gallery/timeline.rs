@@ -1,4 +1,4 @@
-//! What the agents of an event were after, step by step, in few bytes.
+//! The subgoals of an event's agents, step by step, in few bytes.
 
 use phase_dataset::manifest::EventEntry;
 use phase_event::Event;
@@ -6,11 +6,11 @@ use phase_model::{AGENT_COUNT, AgentId};
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
 
-/// What both agents were after.
+/// The subgoals of both agents.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Timeline(pub [SubgoalTrack; AGENT_COUNT]);
 
-/// What one agent was after.
+/// The subgoals of one agent.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct SubgoalTrack {
     /// The subgoal as it changed: steps (from 0) and the subgoal's text from then on.
@@ -38,8 +38,9 @@ impl Timeline {
     }
 }
 
-/// All timelines for the page's script: `texts`, and for each event and agent the changes, as steps and places in
-/// `texts` by turns, and the shares, a base-36 digit for each step from 0 for none to z for all.
+/// All timelines for the page's script: `texts`, and for each event and agent the changes, as steps and
+/// indices into `texts` alternating, and the shares, a base-36 digit for each step from 0 for none to z for
+/// all.
 pub(super) fn table(events: &[EventEntry], timelines: &[Timeline]) -> Value {
     let mut places: BTreeMap<&str, usize> = BTreeMap::new();
     let mut texts: Vec<&str> = Vec::new();
@@ -64,6 +65,6 @@ pub(super) fn table(events: &[EventEntry], timelines: &[Timeline]) -> Value {
 }
 
 fn digit(share: f32) -> char {
-    // Out of range and not a number become the nearest digit: `as` saturates.
+    // Values out of range and NaN become the nearest digit: `as` saturates.
     char::from_digit(((share * 35.0).round() as u32).min(35), 36).unwrap_or('0')
 }

@@ -1,4 +1,4 @@
-//! The benchmark's report, with figures that can be counted on fingers.
+//! The benchmark's report, with figures that are easily checked.
 
 use phase_eval::{
     benchmark::{BENCHMARK_FORMAT, Benchmark, Curve, EventSet, Familiarity, Origin, Row, Subset, Training},
@@ -12,7 +12,7 @@ use phase_report::{
 };
 use serde_json::{Value, json};
 
-/// Events in which the agents are always so far off.
+/// Events in which the agents always have these errors.
 fn off_by(errors: &[f64]) -> ForecastSummary {
     let event = |(k, &error): (usize, &f64)| {
         let errors = Errors { ade: error, fde: error, by_step: vec![error] };
@@ -190,7 +190,7 @@ fn doubling_is_always_the_same_way() {
     for mark in ["80", "160", "320", "640"] {
         assert!(svg.contains(&format!("text-anchor=\"middle\">{mark}</text>")), "{mark} in {svg}");
     }
-    // One place alone, or none: nothing comes apart.
+    // A single value, or none: all positions coincide.
     for (from, to) in [(80.0, 80.0), (0.0, 80.0), (f64::NAN, 1.0), (80.0, f64::INFINITY)] {
         let axes = [Axis::logarithmic("events", from, to), Axis::linear("y", 1.0)];
         let svg = line_chart("Growth", axes, &[Series { name: "ours", points: points.clone() }]);

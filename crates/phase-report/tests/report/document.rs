@@ -1,4 +1,4 @@
-//! Reports: two forms of the same, and nothing of an id or name becomes markup.
+//! Reports: two forms of the same, and no id or name becomes markup.
 
 use phase_report::{
     document::{Block, Document},
@@ -30,7 +30,7 @@ fn published_rows_are_shares_and_in_order() {
     }
 }
 
-/// From 0 to the first round step that is far enough.
+/// From 0 to the first round step that is large enough.
 #[test]
 fn marks_are_round_numbers() {
     for (to, expected) in [

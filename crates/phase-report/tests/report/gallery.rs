@@ -87,7 +87,7 @@ fn subgoals_and_shares_change_with_the_steps() {
     let expected = vec![(0, attach.clone()), (1, avoid.clone()), (2, attach), (3, avoid)];
     assert_eq!(timeline.0[0].subgoals, expected);
     assert_eq!(timeline.0[1].subgoals, [(0, "Stay".to_owned())]);
-    // 40 of 50 particles; nobody proposed the idle agent's subgoal.
+    // 40 of 50 particles; no particle proposed the idle agent's subgoal.
     assert_eq!(timeline.0[0].shares, [0.8; 4]);
     assert_eq!(timeline.0[1].shares, [0.0; 4]);
     let (manifest, timelines) = example("demo-0000");

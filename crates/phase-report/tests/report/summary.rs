@@ -1,4 +1,4 @@
-//! Simulations against recordings, as tables.
+//! Simulations compared with recordings, as tables.
 
 use phase_dataset::summary::{KindRow, MotionQuartiles, Quartiles};
 use phase_model::EventKind;

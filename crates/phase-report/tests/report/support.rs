@@ -32,7 +32,8 @@ fn scene() -> Scene {
     }
 }
 
-/// An event in which nobody moves; agent 0 pursues two subgoals by turns with 40 of 50 particles, agent 1 none.
+/// An event in which nothing moves; agent 0 pursues two subgoals alternately with 40 of 50 particles, agent 1
+/// none.
 pub(crate) fn plain_event(steps: usize) -> Event {
     let scene = scene();
     let initial = scene.initial_state();

@@ -1,4 +1,5 @@
-//! The states between steps by rows alone, which are means over steps: where to go on if motion cannot be explained.
+//! The states between steps from rows alone, which are means over steps: used to continue where motion cannot
+//! be explained.
 
 use phase_event::ObservedEvent;
 use phase_model::{Body, MAX_ENTITIES, State, arena};

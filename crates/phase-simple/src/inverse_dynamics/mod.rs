@@ -1,4 +1,4 @@
-//! What both agents did, step by step, and how strong they are: the physics run backwards.
+//! Inverse dynamics: the actions of both agents step by step, and their strengths.
 //!
 //! Forces are not seen, but what they do is, and there are only fourteen actions and four strengths. [`InverseDynamics`]
 //! follows an event through the forward model and asks at every step which actions lead to what was observed. That
@@ -23,7 +23,8 @@ const BEAM_WIDTH: usize = 6;
 pub struct InverseDynamics {
     /// The state at the end of every step, state 0 being row 0: one for each row.
     pub states: Vec<State>,
-    /// What both did in every step, as far as it shows: whoever stands may as well have grabbed at nothing.
+    /// The actions of both in every step, as far as they can be told: an agent at rest may as well have
+    /// grabbed at nothing.
     pub actions: Vec<[Action; AGENT_COUNT]>,
     /// ln P(motion | f) of each agent's strengths but for a constant, weakest first.
     pub log_strengths: [[f64; Strength::ALL.len()]; AGENT_COUNT],
@@ -65,14 +66,14 @@ impl InverseDynamics {
         }
     }
 
-    /// The likeliest strengths; the weakest of those that are as likely.
+    /// The most likely strengths; the weakest of equally likely ones.
     #[must_use]
     pub fn strengths(&self) -> [Strength; AGENT_COUNT] {
         self.log_strengths.map(|logs| Strength::ALL[path::argmin(&logs.map(|log| -log))])
     }
 
-    /// How much of every step stays unexplained (u) if an agent does each of its actions instead, by
-    /// [`Action::index`], the other doing what was found.
+    /// The residual of every step (u) if an agent does each of its actions instead, by [`Action::index`], the
+    /// other doing what was inferred.
     #[must_use]
     pub fn alternatives(&self, observed: &ObservedEvent) -> Vec<[[f32; Action::ALL.len()]; AGENT_COUNT]> {
         let tracker = Tracker::new(observed);

@@ -8,16 +8,16 @@ use phase_model::{AGENT_COUNT, Action, State};
 pub(super) struct Path {
     pub(super) tracked: TrackedState,
     pub(super) late_start: bool,
-    /// Of the whole path, in logarithms.
+    /// Log-likelihood of the whole path.
     pub(super) cost: f64,
-    /// Of the whole path, if an agent were this strong.
+    /// Log-likelihood of the whole path for each strength of an agent.
     pub(super) strength_costs: [[f64; LEVELS]; AGENT_COUNT],
-    /// The state after every step, what was done in it, and what stays unexplained.
+    /// The state after every step, the actions in it, and the residual.
     pub(super) history: Vec<(State, ([Action; AGENT_COUNT], f32))>,
 }
 
 impl Path {
-    /// What was done in the last step.
+    /// The actions of the last step.
     pub(super) fn last_actions(&self) -> [Action; AGENT_COUNT] {
         self.history.last().map_or([Action::NoForce; AGENT_COUNT], |(_, (actions, _))| *actions)
     }
@@ -30,7 +30,7 @@ impl Path {
     }
 }
 
-/// The place of the least number; the first of those that are as small.
+/// The index of the minimum; the first of equal ones.
 pub(super) fn argmin(values: &[f64]) -> usize {
     let mut argmin = 0;
     for (place, number) in values.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Events simulated with known actions, explained again.
+//! Events simulated with known actions, whose actions are inferred.
 
 use super::InverseDynamics;
 use phase_event::ObservedEvent;
@@ -61,7 +61,7 @@ fn apart() -> Simulated {
     simulate(places, Vec::new(), &runs)
 }
 
-/// Agent 0 grabs an object in front of it, pulls it backwards and lets go.
+/// Agent 0 grabs an object in front of it, pulls it backwards and releases it.
 fn pulled() -> Simulated {
     let object = Vec2::new(10.0, 17.0 + Size::Small.radius() + Size::Small.radius() + 0.02);
     let places = [Vec2::new(10.0, 17.0), Vec2::new(22.0, 7.0), object, Vec2::ZERO];

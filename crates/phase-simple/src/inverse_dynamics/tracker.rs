@@ -8,19 +8,20 @@ use phase_model::{
     arena::{SUBSTEP_SECONDS, SUBSTEPS},
 };
 
-/// How many strengths there are.
+/// Number of strengths.
 pub(super) const LEVELS: usize = Strength::ALL.len();
-/// What physics leaves unexplained of a step that it explains (u).
+/// Residual of a step that the physics explains (u).
 const RESIDUAL_SCALE: f64 = 0.02;
 /// Prediction error beyond which a body is reset to the observation (u, rad).
 const RESET_THRESHOLD: f32 = 0.4;
-/// Nearer than this (u, rad), what a simulation knows of contacts still holds.
+/// Below this difference (u, rad), the simulated contacts are still valid.
 const CACHE_TOLERANCE: f32 = 0.02;
-/// How long a step lasts (s).
+/// Duration of a step (s).
 const STEP_SECONDS: f32 = SUBSTEP_SECONDS * SUBSTEPS as f32;
-/// What grabbing or letting go costs beside its residual, in logarithms: it is rare.
+/// Cost of attaching or detaching beside its residual, in logarithms: it is rare.
 const GRIP_CHANGE_COST: f64 = 2.0;
-/// Rounds in which agents are explained by turns, for what one does may show in where the other goes.
+/// Number of rounds in which the agents are explained alternately, since one agent's actions may affect the
+/// other's motion.
 const ROUNDS: usize = 3;
 /// Actions that change no grip.
 const GRIP_PRESERVING_ACTIONS: [Action; 12] = [
@@ -47,14 +48,14 @@ pub(super) struct TrackedState {
     pub(super) late: bool,
 }
 
-/// A step as imagined, beside the row that was observed.
+/// A predicted step, with the row that was observed.
 pub(super) struct PredictedStep {
     end: TrackedState,
     differences: [Difference; MAX_ENTITIES],
     pub(super) residual: f32,
 }
 
-/// What has to be added to an imagined body to get the observed one.
+/// The correction from a predicted body to the observed one.
 #[derive(Clone, Copy, Default)]
 struct Difference {
     position: Vec2,
@@ -98,12 +99,12 @@ impl<'a> Tracker<'a> {
         }
     }
 
-    /// What a state by itself tells of contacts; strengths play no part in it.
+    /// The contacts that follow from a state alone; strengths play no part in it.
     pub(super) fn fresh_cache(&self, state: &State) -> SolverCache {
         self.worlds[0].fresh_cache(state)
     }
 
-    /// A step of agents of these strengths, beside what was observed.
+    /// A step of agents of these strengths, compared with what was observed.
     pub(super) fn step(
         &self,
         tracked: &TrackedState,
@@ -133,7 +134,8 @@ impl<'a> Tracker<'a> {
         PredictedStep { end, differences, residual: squares.sqrt() }
     }
 
-    /// The ways in which a path can go on to a row: the best without a change of grips, and the best with one.
+    /// The ways in which a path can continue to a row: the best without a change of grips, and the best with
+    /// one.
     pub(super) fn successors(&self, path: &Path, row: &[Body; MAX_ENTITIES], between: &State) -> Vec<Path> {
         // What has to do with grips comes further down.
         let mut actions = path.last_actions().map(|action| match action {
@@ -170,7 +172,7 @@ impl<'a> Tracker<'a> {
         paths
     }
 
-    /// What it costs at best to explain an agent for each of its strengths, and by which action.
+    /// The minimum cost of explaining an agent for each of its strengths, and the action that attains it.
     fn by_level(
         &self,
         tracked: &TrackedState,
@@ -200,8 +202,8 @@ impl<'a> Tracker<'a> {
         (costs, best)
     }
 
-    /// A path with one more step, put right by what was observed. Where nothing tells strengths apart, all have
-    /// to bear the cost of the step.
+    /// A path extended by one step and corrected by the observation. Where nothing distinguishes strengths,
+    /// all have to bear the cost of the step.
     fn extend(
         &self,
         path: &Path,
@@ -255,7 +257,8 @@ impl Difference {
         }
     }
 
-    /// How much it is, squared (u²): velocities count by how far they lead in a step, angles by how far the rim moves.
+    /// Squared magnitude (u²): velocities are weighted by the distance covered in a step, angles by the
+    /// motion of the rim.
     fn square(&self, radius: f32) -> f32 {
         let turned = self.angle * radius;
         self.position.length_squared() + (self.velocity * STEP_SECONDS).length_squared() + turned * turned
@@ -271,7 +274,8 @@ impl Difference {
     }
 }
 
-/// What a residual costs, in logarithms: a heavy-tailed distribution, for what cannot be explained happens.
+/// Cost of a residual, in logarithms: a heavy-tailed distribution, since motion that cannot be explained does
+/// occur.
 fn cost(residual: f32) -> f64 {
     let scaled = f64::from(residual) / RESIDUAL_SCALE;
     libm::log1p(scaled * scaled)

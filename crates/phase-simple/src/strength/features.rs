@@ -5,17 +5,18 @@ use phase_model::{
     arena::{SUBSTEP_SECONDS, SUBSTEPS},
 };
 
-/// How many numbers [`features`] gives.
+/// Number of [`features`].
 pub const FEATURES: usize = 7;
 
 /// Time between rows (s).
 const STEP_SECONDS: f64 = SUBSTEPS as f64 * SUBSTEP_SECONDS as f64;
 
-/// Mean, greatest and least speed (u/s) of an agent, the same of its acceleration (u/s²), and its radius (u),
-/// from the rows of a stretch of motion.
+/// Mean, maximum and minimum speed (u/s) of an agent, the same of its acceleration (u/s²), and its radius
+/// (u), from the rows of a time window.
 ///
-/// Acceleration is the change of velocity from row to row. What there are too few rows for is 0: one for accelerations,
-/// none for speeds. The paper has no radius; but it is seen, and the same push moves a big body less.
+/// Acceleration is the change of velocity from row to row. Features for which there are too few rows are 0:
+/// one row gives no accelerations, none gives no speeds. The paper does not use the radius; but it is
+/// observable, and the same push moves a big body less.
 #[must_use]
 pub fn features(rows: &[[Body; MAX_ENTITIES]], agent: AgentId, size: Size) -> [f64; FEATURES] {
     let velocities = || rows.iter().map(|row| wide(row[Entity::Agent(agent)].velocity));
@@ -45,7 +46,7 @@ fn length([x, y]: [f64; 2]) -> f64 {
     (x * x + y * y).sqrt()
 }
 
-/// Mean, greatest and least of some numbers that are not negative; zeros of none.
+/// Mean, maximum and minimum of values that are not negative; zeros if there are none.
 fn summary(values: impl Iterator<Item = f64>) -> [f64; 3] {
     let (mut sum, mut greatest, mut argmin, mut count) = (0.0, 0.0_f64, f64::INFINITY, 0_usize);
     for number in values {

@@ -1,17 +1,17 @@
-//! The strength regressor at rest: a safetensors file.
+//! The strength regressor on disk: a safetensors file.
 
 use super::{Dense, StrengthRegressor, Weights, WeightsError};
 use phase_tensors::{NamedTensor, TensorFile, TensorsError, check_shape, write};
 
-/// What the field `format` of the file's metadata says.
+/// The value of the field `format` of the file's metadata.
 pub const STRENGTH_FORMAT: &str = "phase-strength/1";
 
 impl StrengthRegressor {
     /// Reads what [`to_safetensors`](Self::to_safetensors) wrote.
     ///
     /// # Errors
-    /// [`WeightsError`] for bytes that are no such file, tensors that are missing or do not fit to each other, and
-    /// numbers that are not finite or not above 0 where they must be.
+    /// [`WeightsError`] for bytes that are not such a file, tensors that are missing or do not match each
+    /// other, and values that are not finite or not above 0 where they must be.
     pub fn from_safetensors(bytes: &[u8]) -> Result<Self, WeightsError> {
         let file = TensorFile::open_as(bytes, "format", STRENGTH_FORMAT)?;
         let rmse = file.values("validation.rmse", &[1])?;

@@ -1,6 +1,7 @@
-//! Q(f | S): what a stretch of motion says about an agent's strength.
+//! Q(f | S): the distribution of an agent's strength given a time window of motion.
 //!
-//! [`UniformStrength`] says nothing; [`StrengthRegressor`] is the paper's network, whose weights `phase-baselines` trains.
+//! [`UniformStrength`] is uninformative; [`StrengthRegressor`] is the paper's network, whose weights
+//! `phase-baselines` trains.
 
 mod features;
 mod file;
@@ -16,8 +17,8 @@ use phase_model::{AgentId, Body, MAX_ENTITIES, Size, Strength};
 
 /// A proposal distribution over strengths.
 pub trait StrengthCue: Sync {
-    /// ln Q(f | S) of each level for an agent of a size, from the rows of a stretch of motion. The
-    /// probabilities add up to 1.
+    /// ln Q(f | S) of each level for an agent of a size, from the rows of a time window. The probabilities
+    /// sum to 1.
     fn log_proposal(
         &self,
         rows: &[[Body; MAX_ENTITIES]],

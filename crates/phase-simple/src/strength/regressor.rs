@@ -1,21 +1,21 @@
-//! The paper's guess at strengths: a network with two hidden layers (appendix, "Bottom-up Proposals").
+//! The paper's estimate of strengths: a network with two hidden layers (appendix, "Bottom-up Proposals").
 
 use super::{Dense, FEATURES, StrengthCue, UniformStrength, Weights, WeightsError, features};
 use phase_model::{AgentId, Body, MAX_ENTITIES, Size, Strength};
 
-/// Estimates an agent's greatest force from its speeds and accelerations.
+/// Estimates an agent's maximum force from its speeds and accelerations.
 ///
-/// The network is evaluated here, in order and in doubles, so a proposal needs no library for neural networks and is
-/// the same everywhere, bit for bit.
+/// The network is evaluated here, in a fixed order and in double precision, so a proposal needs no
+/// neural-network library and is the same everywhere, bit for bit.
 #[derive(Clone, PartialEq, Debug)]
 pub struct StrengthRegressor {
     weights: Weights,
 }
 
-/// What `cargo train strength` learnt; `docs/networks.md` says from what.
+/// The weights trained by `cargo train strength`; `docs/networks.md` describes the training data.
 const BUNDLED_WEIGHTS: &[u8] = include_bytes!("../../../../data/strength.safetensors");
 
-/// The middle of the levels (N).
+/// The mean of the levels (N).
 const MEAN_FORCE: f64 = 0.5 * (Strength::Weak.max_force() + Strength::Mighty.max_force()) as f64;
 
 impl StrengthRegressor {
@@ -36,14 +36,14 @@ impl StrengthRegressor {
         Ok(Self { weights })
     }
 
-    /// The numbers it is made of.
+    /// Its weights.
     #[must_use]
     pub const fn weights(&self) -> &Weights {
         &self.weights
     }
 
-    /// The greatest force (N) of an agent of a size, from the rows of a stretch of motion. A best guess:
-    /// it may lie between the levels, or beyond them for motion unlike any trained on.
+    /// The maximum force (N) of an agent of a size, estimated from the rows of a time window. The estimate
+    /// may lie between the levels, or beyond them for motion unlike the training data.
     #[must_use]
     pub fn estimate(&self, rows: &[[Body; MAX_ENTITIES]], agent: AgentId, size: Size) -> f32 {
         self.estimate_from(&features(rows, agent, size)) as f32
@@ -64,7 +64,8 @@ impl StrengthRegressor {
 }
 
 impl StrengthCue for StrengthRegressor {
-    /// The levels under a normal distribution around the estimate, as wide as estimates of unknown events are wrong.
+    /// The levels under a normal distribution around the estimate, whose standard deviation is the error on
+    /// held-out events.
     fn log_proposal(
         &self,
         rows: &[[Body; MAX_ENTITIES]],
@@ -76,7 +77,8 @@ impl StrengthCue for StrengthRegressor {
             return UniformStrength.log_proposal(rows, agent, size);
         }
         let variance = f64::from(self.weights.rmse) * f64::from(self.weights.rmse);
-        // The exponents less that of the middle, so that nothing is lost however far off the estimate is.
+        // The exponents relative to the middle one, so that no precision is lost however far off the estimate
+        // is.
         let mut logs = Strength::ALL.map(|strength| {
             let force = f64::from(strength.max_force());
             (force - MEAN_FORCE) * (2.0 * estimate - force - MEAN_FORCE) / (2.0 * variance)

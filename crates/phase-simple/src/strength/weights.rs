@@ -7,35 +7,35 @@ use thiserror::Error;
 /// One fully connected layer: output o is bias\[o\] + Σ weight\[o · inputs + i\] · input\[i\].
 #[derive(Clone, PartialEq, Debug)]
 pub struct Dense {
-    /// Length of what comes in.
+    /// Number of inputs.
     pub inputs: usize,
-    /// Length of what goes out.
+    /// Number of outputs.
     pub outputs: usize,
-    /// Row by row, `outputs` rows of `inputs` numbers.
+    /// Row by row, `outputs` rows of `inputs` weights.
     pub weight: Vec<f32>,
-    /// `outputs` numbers.
+    /// `outputs` biases.
     pub bias: Vec<f32>,
 }
 
-/// What a [`StrengthRegressor`](super::StrengthRegressor) is made of.
+/// The parameters of a [`StrengthRegressor`](super::StrengthRegressor).
 #[derive(Clone, PartialEq, Debug)]
 pub struct Weights {
-    /// Mean of each of the [`FEATURES`] over the samples trained on.
+    /// Mean of each of the [`FEATURES`] over the training samples.
     pub mean: Vec<f32>,
-    /// What each feature is divided by once its mean is taken away: its standard deviation; above 0.
+    /// Scale that each feature is divided by after its mean is subtracted: its standard deviation; above 0.
     pub scale: Vec<f32>,
     /// The hidden layers, each followed by max(0, ·); the first takes the features.
     pub hidden: [Dense; 2],
     /// From the last hidden layer to the force (N).
     pub output: Dense,
-    /// Root mean squared error on events not trained on (N); above 0. How sure an estimate is.
+    /// Root mean squared error on held-out events (N); above 0. The uncertainty of an estimate.
     pub rmse: f32,
 }
 
-/// Why some numbers cannot be a strength regressor.
+/// Why tensors cannot be used as a strength regressor.
 #[derive(Debug, Error)]
 pub enum WeightsError {
-    /// The bytes are no such file, or a tensor is not what it has to be.
+    /// The bytes are not such a file, or a tensor is invalid.
     #[error(transparent)]
     Tensors(#[from] TensorsError),
     /// A scale or error is not above 0.
@@ -44,7 +44,7 @@ pub enum WeightsError {
 }
 
 impl Weights {
-    /// Checks that layers fit to each other and that all numbers are what they have to be.
+    /// Checks that layers match each other and that all values are valid.
     ///
     /// # Errors
     /// The first rule that is broken, with the tensor's name.
@@ -60,7 +60,7 @@ impl Weights {
         for (name, layer, inputs, outputs) in layers {
             let weight = format!("{name}.weight");
             check_shape(&weight, &[outputs, inputs], &[layer.outputs, layer.inputs])?;
-            // A product that overflows is no length of anything.
+            // A product that overflows is not a valid length.
             let values = outputs.saturating_mul(inputs);
             check_shape(&weight, &[values], &[layer.weight.len()])?;
             check_shape(&format!("{name}.bias"), &[outputs], &[layer.bias.len()])?;
@@ -78,7 +78,7 @@ impl Weights {
         Ok(())
     }
 
-    /// Every tensor, as it stands in a file.
+    /// Every tensor, as stored in a file.
     pub(super) fn tensors(&self) -> [NamedTensor; 9] {
         let [first, second] = &self.hidden;
         let weight = |layer: &Dense| vec![layer.outputs, layer.inputs];

@@ -67,7 +67,8 @@ fn walls_are_no_contacts() {
 #[test]
 fn bodies_do_not_pass_through_each_other() {
     let mut world = World::new(&lone_agent(Size::Small, Strength::Mighty), &ahead(0.3));
-    // Five steps end short of the wall, at which the agent would run into the stopped object for a substep.
+    // Five steps end before the wall, where the agent would otherwise run into the stopped object for a
+    // substep.
     for _ in 0..5 {
         let state = step(&mut world, Action::Up);
         assert!(state.position(OBJECT).y - state.bodies[0].position.y > 1.55);
@@ -87,7 +88,8 @@ fn what_was_let_go_is_solid_once_either_has_left_its_place() {
             last = state;
         }
     }
-    // The agent gets 0.1 u and a substep's way, 0.2 u at most from rest, into the object; then it pushes it.
+    // The agent penetrates the object by 0.1 u and one substep's path, 0.2 u at most from rest; then it
+    // pushes it.
     assert!((1.3..1.55).contains(&least), "nearest {least}");
     assert!(last.position(OBJECT).distance(released) > 1.0, "the agent pushes the object ahead");
     assert!(last.position(OBJECT).distance(last.bodies[0].position) > 1.58, "and does not stay in it");

@@ -4,7 +4,7 @@ use crate::physics;
 use phase_model::{Action, Body, Layout, PhysicsConfig, Size, State, Strength, Vec2};
 use phase_world::World;
 
-/// A crowded scene in which everything bumps into everything.
+/// A crowded scene in which all bodies collide with each other.
 fn scene() -> (PhysicsConfig, State) {
     let mut physics = physics(
         [(Size::Small, Strength::Mighty), (Size::Large, Strength::Strong)],
@@ -15,7 +15,7 @@ fn scene() -> (PhysicsConfig, State) {
     (physics, State::new(bodies.map(|(x, y, angle)| Body::at_rest(Vec2::new(x, y), angle))))
 }
 
-/// Every state of sixty steps of a fixed, lively sequence of actions.
+/// Every state of sixty steps of a fixed, varied sequence of actions.
 fn run() -> Vec<State> {
     let (physics, state) = scene();
     let mut world = World::new(&physics, &state);

@@ -17,7 +17,7 @@ fn one_step_is_that_of_a_world_in_the_same_state() {
 fn many_steps_go_as_in_one_lasting_world() {
     let physics = lone_agent(Size::Medium, Strength::Strong);
     let mut state = lone_state(Vec2::new(12.0, 8.0), 0.4);
-    // Within reach of the agent's head, so that grabbing and carrying are part of the way.
+    // Within reach of the agent's front, so that grabbing and carrying occur.
     state.bodies[2].position = state.bodies[0].position + state.bodies[0].forward() * 2.0;
     let mut world = World::new(&physics, &state);
     let dynamics = WorldDynamics { physics };

@@ -1,4 +1,4 @@
-//! Grabbing, carrying and letting go.
+//! Grabbing, carrying and releasing.
 
 use crate::{ASIDE, OBJECT, assert_close, assert_share, lone_agent, physics, step};
 use phase_model::{

@@ -1,4 +1,4 @@
-//! Impacts on walls within a substep, against what can be said by hand.
+//! Impacts on walls within a substep, compared with hand calculations.
 
 use crate::{assert_close, assert_share, lone_agent, lone_state, physics, step};
 use phase_model::{
@@ -6,7 +6,7 @@ use phase_model::{
 };
 use phase_world::World;
 
-/// Object 0 with a velocity, everything else aside; the states after each substep of one step.
+/// Object 0 with a velocity, all other bodies far away; the states after each substep of one step.
 fn thrown(position: Vec2, velocity: Vec2) -> [State; 5] {
     let mut state = lone_state(Vec2::new(9.0, 4.0), 0.0);
     state.bodies[2] = Body { position, velocity, ..Body::default() };
@@ -19,7 +19,7 @@ fn an_impact_takes_the_speed_into_the_wall_and_leaves_the_rest() {
     for (across, gap) in [(20.0_f32, 0.05), (30.0, 0.3), (60.0, 0.9), (110.0, 1.5)] {
         let along = 12.0;
         let speed = across.hypot(along);
-        // Friction takes its share before the impact, against the direction of motion.
+        // Friction acts before the impact, against the direction of motion.
         let kept = 1.0 - 100.0 * SUBSTEP_SECONDS / physics::object_mass(0.8) / speed;
         let start = Vec2::new(14.0, arena::MAX.y - 0.8 - gap);
         let after = thrown(start, Vec2::new(along, across))[0].bodies[2];
@@ -36,7 +36,7 @@ fn sliding_along_a_wall_costs_friction_only() {
     for angle in [0.0, core::f32::consts::PI] {
         let (speed, mass) = (30.0, lone_agent(Size::Small, Strength::Weak).agents[0].mass());
         let mut state = lone_state(Vec2::new(14.0, arena::MIN.y + 0.815), angle);
-        // A little of the velocity goes into the wall, as it does when a push leans on it.
+        // A small component of the velocity points into the wall, as when a push leans on it.
         state.bodies[0].velocity = Vec2::new(speed, -0.5);
         let mut world = World::new(&lone_agent(Size::Small, Strength::Weak), &state);
         let (mut expected, mut position) = (speed, 14.0);
@@ -57,7 +57,7 @@ fn the_end_of_a_wall_behind_another_is_no_obstacle() {
         Segment { a: Vec2::new(16.0, 2.0), b: Vec2::new(16.0, 22.0) },
         Segment { a: corner, b: Vec2::new(8.5, 12.0) },
     ];
-    // The agent's right flank lies on the upright wall, at whose other side the level wall ends.
+    // The agent's right flank lies on the vertical wall, at whose other side the horizontal wall ends.
     let lean = (0.5_f32).atan();
     let flank = 2.0 * 0.8 / 5.0_f32.sqrt();
     for direction in [-1.0, 1.0] {

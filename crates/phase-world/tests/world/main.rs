@@ -1,4 +1,4 @@
-//! Behaviour of the true world, checked against hand formulas, recordings and invariants.
+//! Behaviour of the reference world, checked against hand formulas, recordings and invariants.
 
 mod contact;
 mod determinism;
@@ -12,7 +12,7 @@ mod safety;
 use phase_model::{Action, AgentBody, Body, Entity, ObjectId, PhysicsConfig, Size, State, Strength, Vec2};
 use phase_world::World;
 
-/// Somewhere in the upper right quarter of an empty arena, far from everything that matters.
+/// A point in the upper right quarter of an empty arena, far from everything relevant.
 const ASIDE: Vec2 = Vec2::new(24.0, 20.0);
 
 /// An empty arena with two agents and two objects of radius 0.8.
@@ -26,12 +26,12 @@ fn physics(agents: [(Size, Strength); 2], objects: [Size; 2]) -> PhysicsConfig {
     }
 }
 
-/// One agent under test; the other bodies stand aside.
+/// One agent under test; the other bodies are far away.
 fn lone_agent(size: Size, strength: Strength) -> PhysicsConfig {
     physics([(size, strength), (Size::Small, Strength::Weak)], [Size::Small; 2])
 }
 
-/// Agent 0 at rest at a point, everything else aside and apart.
+/// Agent 0 at rest at a point, all other bodies far away from it and from each other.
 fn lone_state(position: Vec2, angle: f32) -> State {
     let aside = |x: f32, y: f32| Body::at_rest(ASIDE - Vec2::new(x, y), 0.0);
     State::new([Body::at_rest(position, angle), aside(0.0, 0.0), aside(5.0, 0.0), aside(0.0, 4.0)])

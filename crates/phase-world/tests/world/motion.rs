@@ -1,4 +1,4 @@
-//! Pushing, coasting, turning and stopping, against formulas.
+//! Pushing, sliding under friction, turning and stopping, compared with formulas.
 
 use crate::{assert_close, assert_share, lone_agent, lone_state, step};
 use phase_model::{Action, Body, Entity, Size, Strength, Vec2, physics};
@@ -110,8 +110,9 @@ fn everything_coasts_to_a_stop_against_a_hundred_newtons() {
 
 #[test]
 fn turning_from_rest_and_on() {
-    // Turn in the first step from rest and in each later step (rad): 15 and 25 parts of what a torque of
-    // 300 (R/0.8)² turns, less what the circling centre of mass and friction at the origin take away.
+    // Rotation in the first step from rest and in each later step (rad): 15 and 25 parts of the rotation due
+    // to a torque of 300 (R/0.8)², minus the effect of the circling centre of mass and of friction at the
+    // origin.
     for (size, first, steady) in [
         (Size::Small, 1.0172, 1.0639),
         (Size::Large, 0.4557, 0.4739),

@@ -1,4 +1,4 @@
-//! Probes and runs of the published simulator, if they are at hand.
+//! Probes and runs of the published simulator, if they are available.
 
 use phase_calibration::{Probe, Run, WorldEngine, horizon_errors, probes_report};
 
@@ -35,9 +35,9 @@ fn probes_are_reproduced() {
 
 #[test]
 fn one_step_ahead_the_world_is_near_the_record() {
-    /// What nine in ten steps stay under (u).
+    /// Bound on nine in ten steps (u).
     const P90: f32 = 0.03;
-    /// What 99 in 100 stay under (u). The target is 0.25.
+    /// Bound on 99 in 100 steps (u). The target is 0.25.
     const P99: f32 = 0.2;
     let Some(text) = text("runs.json") else { return };
     let runs = Run::parse(&text).expect("good runs");

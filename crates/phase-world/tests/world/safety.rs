@@ -1,4 +1,4 @@
-//! Nothing escapes, explodes or turns into NaN, whatever the start and the actions.
+//! No body escapes, explodes or becomes NaN, whatever the start and the actions.
 
 use crate::physics;
 use phase_model::{
@@ -8,7 +8,7 @@ use phase_model::{
 use phase_world::World;
 use proptest::prelude::*;
 
-/// A speed nothing reaches by pushing across the whole arena: √(2 · 20 u · 500 N / 2.56 kg) is 88 u/s.
+/// A speed that no body reaches by pushing across the whole arena: √(2 · 20 u · 500 N / 2.56 kg) is 88 u/s.
 const SPEED_LIMIT: f32 = 100.0;
 
 fn layout() -> impl Strategy<Value = Layout> {
@@ -136,7 +136,7 @@ fn bodies_that_start_in_one_place_come_apart() {
                 last = world.step([Action::NoForce; 2])[4];
             }
             let outlines = [0, 1, 2, 3].map(|k| {
-                // A little smaller, because contacts at rest may overlap by a hundredth.
+                // Slightly smaller, because contacts at rest may overlap by a hundredth.
                 let mut slim = physics.clone();
                 slim.agents.iter_mut().for_each(|agent| agent.radius -= 0.02);
                 slim.object_radii.iter_mut().for_each(|radius| *radius -= 0.02);

@@ -1,4 +1,4 @@
-//! What a program that was built without networks says of them.
+//! Behaviour of a program that was built without networks.
 
 use crate::{context::Context, error::CliError};
 use phase_eval::{Forecaster, Recogniser, benchmark::Training};
@@ -36,7 +36,7 @@ pub const fn training(_: &str) -> Result<Option<Training>, CliError> {
     Ok(None)
 }
 
-/// How a file of weights came about, which only a program with networks can say.
+/// The training record of a file of weights, which is only available in a program with networks.
 ///
 /// # Errors
 /// Always.

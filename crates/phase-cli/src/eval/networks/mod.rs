@@ -1,7 +1,7 @@
-//! The neural baselines as methods to be measured.
+//! The neural baselines as methods to be evaluated.
 //!
-//! Their library takes minutes to build, so they are there only in a build with the feature `networks`; every other build
-//! knows their names and says what to use instead.
+//! Their library takes minutes to build, so they are only available in a build with the feature `networks`;
+//! every other build knows their names and reports what to use instead.
 
 /// The networks for goals and relations.
 pub const RECOGNISING: [&str; 2] = ["two-level-lstm", "arg"];

@@ -28,8 +28,8 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// A network for goals and relations, with the weights of a file or those that come with the program; `None` if there
-/// is none of this name.
+/// A network for goals and relations, with the weights of a file or the bundled ones; `None` if there is none
+/// of this name.
 ///
 /// # Errors
 /// If the file cannot be used.
@@ -53,7 +53,7 @@ pub fn forecaster(name: &str, weights: Option<&Path>) -> Result<Option<Box<dyn F
     })
 }
 
-/// How a network came by the weights that come with the program; `None` if there is none of this name.
+/// The training record of the bundled weights; `None` if there is none of this name.
 ///
 /// # Errors
 /// If its record is damaged.
@@ -68,7 +68,7 @@ pub fn training(name: &str) -> Result<Option<Training>, CliError> {
     record_of(Path::new(&format!("data/{name}.safetensors.training.json")), record.as_bytes()).map(Some)
 }
 
-/// How the weights of a file came about, as the record beside it says.
+/// The training record beside a file of weights.
 ///
 /// # Errors
 /// If there is none or it cannot be used.
@@ -111,16 +111,16 @@ fn record_of(file: &Path, bytes: &[u8]) -> Result<Training, CliError> {
     })
 }
 
-/// A score of every round.
+/// A metric of every round.
 fn values(record: &TrainingRecord, measure: &str, part: fn(&RecordedRound) -> &NamedMetrics) -> Vec<f64> {
     let score = |round| part(round).scores.get(measure).copied().unwrap_or(f64::NAN);
     record.rounds.iter().map(score).collect()
 }
 
-/// A network that has learnt something.
+/// A trained network.
 struct TrainedNetwork<N> {
     network: N,
-    /// Stands for its weights.
+    /// Digest of its weights.
     sha256: String,
 }
 

@@ -1,4 +1,4 @@
-//! How much better networks get with more to learn from.
+//! How networks improve with the amount of training data.
 
 use super::super::{length, share};
 use crate::{
@@ -65,7 +65,7 @@ pub(super) fn blocks(benchmark: &Benchmark) -> Vec<Block> {
     blocks
 }
 
-/// The rows trained for this, by network and events learnt from.
+/// The rows trained for this, by network and number of training events.
 fn trained<'a, S>(benchmark: &'a Benchmark, rows: &'a [Row<S>]) -> Vec<(&'a Training, &'a Row<S>)> {
     let rows = rows.iter().filter(|row| row.origin == Origin::Trained);
     let with_training = |row: &'a Row<S>| Some((benchmark.trainings.get(row.training?)?, row));
@@ -99,8 +99,8 @@ fn table<S>(
     (!rows.is_empty()).then_some(Block::Table { head, rows })
 }
 
-/// A line for each network and dataset, and one across for SIMPLE, which learns nothing from events. The axis up has a
-/// unit and goes at least so far.
+/// A line for each network and dataset, and a horizontal one for SIMPLE, which is not trained on events. The
+/// vertical axis has a unit and extends at least to the given value.
 fn plot<S>(
     benchmark: &Benchmark,
     rows: &[Row<S>],

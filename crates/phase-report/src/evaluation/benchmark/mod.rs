@@ -1,5 +1,5 @@
-//! The report of the benchmark: the paper's two tables and its ablation, with what is published beside what is
-//! measured, and how far methods carry over to what they have not seen.
+//! The report of the benchmark: the paper's two tables and its ablation, with published beside measured
+//! figures, and how well methods generalise.
 
 mod growth;
 mod mistakes;
@@ -13,7 +13,7 @@ use crate::{
 };
 use phase_eval::benchmark::{Benchmark, Origin, Row};
 
-/// Everything the benchmark says.
+/// The benchmark's whole report.
 #[must_use]
 pub fn benchmark(benchmark: &Benchmark) -> Document {
     let mut blocks =

@@ -14,7 +14,8 @@ use phase_eval::{
     goals, trajectories,
 };
 
-/// Methods of ours and what the paper calls them, in the paper's order; `simple` is the full method in each table.
+/// PHASE's methods and their names in the paper, in the paper's order; `simple` is the full method in each
+/// table.
 const TABLE_1: [(&str, &str); 4] =
     [("", "humans"), ("simple", "SIMPLE"), ("two-level-lstm", "2-Level LSTM"), ("arg", "ARG")];
 const TABLE_2: [(&str, &str); 3] = [("simple", "SIMPLE"), ("social-lstm", "Social-LSTM"), ("stgat", "STGAT")];
@@ -26,7 +27,7 @@ const ABLATION: [(&str, &str); 4] = [
 ];
 const NOTHING: &str = "–";
 
-/// Table 1: every method that is no ablation, below the published row of its name.
+/// Table 1: every method that is not an ablation, below the published row of its name.
 pub(super) fn goals(benchmark: &Benchmark) -> Block {
     let in_ablation = |method: &str| ABLATION.iter().any(|(name, _)| *name == method);
     let in_table = |method: &str| TABLE_1.iter().any(|(name, _)| *name == method);
@@ -55,7 +56,7 @@ fn goal_table(rows: Vec<Vec<String>>) -> Block {
     Block::Table { head: head(&columns), rows }
 }
 
-/// The published row and ours.
+/// The published row and the measured one.
 fn goal_rows(benchmark: &Benchmark, (method, published): &(&str, &str)) -> Vec<Vec<String>> {
     let theirs = published::GOALS.iter().filter(|row| row.method == *published).map(|row| {
         let goals = row.goal.map(|accuracy| format!("{accuracy:.3}"));
@@ -127,7 +128,7 @@ fn trajectory_row(benchmark: &Benchmark, row: &Row<trajectories::ForecastSummary
         .collect()
 }
 
-/// How methods do on events like and unlike those learnt from, task by task, in one way after the other.
+/// Scores of methods on events similar and dissimilar to the training data, task by task.
 pub(super) fn parts(benchmark: &Benchmark) -> Vec<Block> {
     let mut blocks = Vec::new();
     for pair in Familiarity::PAIRS {

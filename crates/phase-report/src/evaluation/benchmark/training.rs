@@ -1,4 +1,4 @@
-//! What networks cost and how they learnt.
+//! The training cost and learning curves of networks.
 
 use crate::{
     document::{Block, head},
@@ -6,7 +6,7 @@ use crate::{
 };
 use phase_eval::benchmark::{Benchmark, Curve, Origin, Training};
 
-/// A table of all trainings, and the curves of those whose weights come with the program; nothing without networks.
+/// A table of all trainings, and the curves of those whose weights are bundled; nothing without networks.
 pub(super) fn blocks(benchmark: &Benchmark) -> Vec<Block> {
     if benchmark.trainings.is_empty() {
         return Vec::new();
@@ -28,7 +28,7 @@ pub(super) fn blocks(benchmark: &Benchmark) -> Vec<Block> {
     blocks
 }
 
-/// Whether the weights are those that come with the program; the plots of all others would be many.
+/// Whether the weights are the bundled ones; plots of all others would be too many.
 fn is_ours(benchmark: &Benchmark, training: usize) -> bool {
     let ours = |origin, index| origin == Origin::Ours && index == Some(training);
     benchmark.goals.iter().any(|row| ours(row.origin, row.training))
@@ -80,7 +80,7 @@ fn plot(training: &Training, file: &'static str) -> Block {
     Block::Plot { file, svg: line_chart(&title, axes, &series), title }
 }
 
-/// Shares go up to 1, lengths as far as they do.
+/// Axes of shares end at 1, those of lengths at their maximum.
 fn highest(curves: &[Curve]) -> f64 {
     let all = curves.iter().flat_map(|curve| curve.training.iter().chain(&curve.validation));
     all.copied().filter(|value| value.is_finite()).fold(1.0, |highest, value| f64::max(highest, value.ceil()))
