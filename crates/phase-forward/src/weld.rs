@@ -69,12 +69,12 @@ impl Weld {
         let (shape_a, shape_b) = (&shapes[self.agent], &shapes[self.object]);
         let (agent, object) = (&motions[self.agent], &motions[self.object]);
         let offset = agent.turn(self.anchor);
-        let excluded_pairs = object.centre - agent.centre - offset;
+        let separation = object.centre - agent.centre - offset;
         let twisted = object.angle - agent.angle - self.relative_angle;
-        let (impulse, twist) = response(shape_a, shape_b, offset).inverse().times(-excluded_pairs, -twisted);
+        let (impulse, twist) = response(shape_a, shape_b, offset).inverse().times(-separation, -twisted);
         motions[self.agent].shift(shape_a, offset, -impulse, -twist);
         motions[self.object].shift(shape_b, Vec2::ZERO, impulse, twist);
-        excluded_pairs.length_squared() <= LINEAR_SLOP * LINEAR_SLOP && twisted.abs() <= ANGULAR_SLOP
+        separation.length_squared() <= LINEAR_SLOP * LINEAR_SLOP && twisted.abs() <= ANGULAR_SLOP
     }
 
     #[inline]

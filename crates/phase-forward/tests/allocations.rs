@@ -9,7 +9,7 @@ use proptest::{
     strategy::{Strategy, ValueTree},
     test_runner::TestRunner,
 };
-use scenes::{actions, clear_of_walls, excluded_pairs};
+use scenes::{actions, clear_of_walls, separated_bodies};
 
 /// Scenes, and runs of held actions in each.
 const SCENES: usize = 250;
@@ -21,7 +21,7 @@ fn steps_allocate_nothing() {
     assert_eq!(counted.count_total, 1, "allocations are counted");
 
     let mut runner = TestRunner::deterministic();
-    let strategy = (excluded_pairs(), actions(RUNS));
+    let strategy = (separated_bodies(), actions(RUNS));
     let (mut steps, mut gripping, mut touching, mut at_walls) = (0, 0, 0, 0);
     for _ in 0..SCENES {
         let ((physics, start), actions) = strategy.new_tree(&mut runner).expect("a scene").current();

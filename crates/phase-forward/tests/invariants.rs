@@ -11,7 +11,7 @@ use phase_model::{
     physics::{GROUND_FRICTION, object_inertia, object_mass},
 };
 use proptest::{prelude::*, strategy::ValueTree, test_runner::TestRunner};
-use scenes::{actions, clear_of_walls, excluded_pairs, physiques};
+use scenes::{actions, clear_of_walls, physiques, separated_bodies};
 use walls::passes;
 
 /// Maximum penetration of a corner or rim into a wall (u): 0.02 nearly always, more for impacts of a fast
@@ -132,7 +132,7 @@ proptest! {
     /// From starts without overlaps, no corner and no rim penetrates a wall or the boundary deeper than
     /// `SUNK`.
     #[test]
-    fn nothing_sinks_into_walls((physics, start) in excluded_pairs(), actions in actions(16)) {
+    fn nothing_sinks_into_walls((physics, start) in separated_bodies(), actions in actions(16)) {
         let forward = Forward::new(&physics);
         let (mut state, mut warm, mut solver_cache) = (start, start, forward.fresh_cache(&start));
         for actions in actions {
@@ -148,7 +148,7 @@ proptest! {
     /// Momentum comes from pushes, from the ground (100 N a body) and from walls, which only push away from
     /// themselves, and only bodies in contact with them.
     #[test]
-    fn momentum_comes_from_somewhere((physics, start) in excluded_pairs(), actions in actions(16)) {
+    fn momentum_comes_from_somewhere((physics, start) in separated_bodies(), actions in actions(16)) {
         // Inner walls push in both directions.
         let physics = PhysicsConfig { walls: Vec::new(), ..physics };
         let forward = Forward::new(&physics);
@@ -296,7 +296,7 @@ fn nothing_gains_energy_by_itself() {
     };
     let mut runner = TestRunner::deterministic();
     let motion = (-30.0..30.0_f32, -30.0..30.0_f32, -8.0..8.0_f32);
-    let strategy = (excluded_pairs(), prop::array::uniform4(motion), actions(12));
+    let strategy = (separated_bodies(), prop::array::uniform4(motion), actions(12));
     let mut gains = [Vec::new(), Vec::new()];
     for _ in 0..500 {
         let ((physics, mut start), motions, actions) =

@@ -27,7 +27,7 @@ pub(crate) fn physiques() -> impl Strategy<Value = PhysicsConfig> {
 }
 
 /// A scene whose bodies start at rest without overlaps; about half of them beside another.
-pub(crate) fn excluded_pairs() -> impl Strategy<Value = (PhysicsConfig, State)> {
+pub(crate) fn separated_bodies() -> impl Strategy<Value = (PhysicsConfig, State)> {
     let place = (0.0..1.0_f32, 0.0..1.0_f32, -7.0..7.0_f32, any::<bool>());
     (physiques(), prop::collection::vec(place, 4 * DRAWS))
         .prop_filter_map("no room for all", |(physics, places)| {
