@@ -20,6 +20,8 @@ const CARRYING: [(usize, f32); 2] = [(50, 0.1), (90, 0.35)];
 const TOUCHING: [(usize, f32); 2] = [(50, 0.15), (90, 0.5)];
 /// Maximum penetration of a corner or rim into a wall after a coarse step (u).
 const SUNK: f32 = 0.5;
+/// Change of the distance between an agent and what it holds in a coarse step that counts as slipping (u).
+const SLIP: f32 = 0.05;
 
 #[test]
 fn coarse_steps_are_near_exact_ones() {
@@ -89,59 +91,69 @@ fn a_push_in_the_open_takes_bodies_as_far() {
     assert!(exact.bodies[0].position.distance(Vec2::new(12.0, 6.0)) > 1.0, "it went somewhere");
 }
 
-/// Nothing goes through walls, and hardly anything penetrates them deeply. A body that others press against a wall can
-/// penetrate deeper than [`SUNK`], in less than one of 1000 such runs (60 000 runs tried); here at most one in 100 may.
-#[test]
-fn walls_hold() {
-    const CASES: u32 = 200;
-    let sunk = Cell::new(0);
+/// Runs of random actions from random scenes in the two tests below, and the share of them that may break a rule. What
+/// others press against a wall can be pushed deep into it, or out of a grip, by a coarse step: the former in less than one
+/// of 1000 runs (60 000 tried), the latter in about one of 5000 (20 000 tried).
+const CASES: u32 = 200;
+const EXCEPTIONS: f32 = 0.01;
+
+/// Asserts that `breaks` is true for hardly any run. It is shown each step: the scene, the state before, the actions and
+/// the state after; an error is never permitted.
+fn assert_rare(breaks: impl Fn(&PhysicsConfig, &State, [Action; 2], &State) -> Result<bool, TestCaseError>) {
+    let exceptions = Cell::new(0_u32);
     let config = ProptestConfig { cases: CASES, failure_persistence: None, ..ProptestConfig::default() };
     let strategy = (separated_bodies(), actions(16));
     let result = TestRunner::new(config).run(&strategy, |((physics, mut state), actions)| {
         let forward = Forward::new(&physics);
-        let mut deep = false;
+        let mut broken = false;
         for actions in actions {
             let before = state;
             forward.step_coarse(&mut state, actions);
-            for entity in physics.entities() {
-                let (from, to) = (before.position(entity), state.position(entity));
-                prop_assert!(arena::contains(to), "{entity:?} left the arena: {from} -> {to}");
-                if matches!(entity, Entity::Object(_)) {
-                    let passed = physics.walls.iter().any(|&wall| passes(from, to, wall));
-                    prop_assert!(!passed, "{entity:?}: {from} -> {to}");
-                }
-                deep |= !clear_of_walls(&physics, &state, entity, -SUNK);
-            }
+            broken |= breaks(&physics, &before, actions, &state)?;
         }
-        sunk.set(sunk.get() + u32::from(deep));
+        exceptions.set(exceptions.get() + u32::from(broken));
         Ok(())
     });
     if let Err(error) = result {
         panic!("{error}");
     }
-    assert!(100 * sunk.get() <= CASES, "bodies penetrated walls in {} of {CASES} runs", sunk.get());
+    let exceptions = exceptions.get();
+    assert!(exceptions as f32 <= EXCEPTIONS * CASES as f32, "in {exceptions} of {CASES} runs");
 }
 
-proptest! {
-    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
-
-    /// Held objects stay exactly in place.
-    #[test]
-    fn grips_do_not_give((physics, mut state) in separated_bodies(), actions in actions(16)) {
-        let forward = Forward::new(&physics);
-        for actions in actions {
-            let before = state;
-            forward.step_coarse(&mut state, actions);
-            for (agent, &action) in AgentId::ALL.into_iter().zip(&actions) {
-                let (Some(old), Some(new)) = (before.grips[agent], state.grips[agent]) else { continue };
-                let (me, held) = (Entity::Agent(agent), Entity::Object(new.object));
-                let held_by_both = before.grips[agent.other()].is_some() || state.grips[agent.other()].is_some();
-                if old.object != new.object || action == Action::Attach || held_by_both {
-                    continue;
-                }
-                let arm = |state: &State| state.position(me).distance(state.position(held));
-                prop_assert!((arm(&state) - arm(&before)).abs() < 0.05, "{} -> {}", arm(&before), arm(&state));
+/// Nothing goes through walls, and hardly anything penetrates them deeper than [`SUNK`].
+#[test]
+fn walls_hold() {
+    assert_rare(|physics, before, _, after| {
+        let mut deep = false;
+        for entity in physics.entities() {
+            let (from, to) = (before.position(entity), after.position(entity));
+            prop_assert!(arena::contains(to), "{entity:?} left the arena: {from} -> {to}");
+            if matches!(entity, Entity::Object(_)) {
+                let passed = physics.walls.iter().any(|&wall| passes(from, to, wall));
+                prop_assert!(!passed, "{entity:?}: {from} -> {to}");
             }
+            deep |= !clear_of_walls(physics, after, entity, -SUNK);
         }
-    }
+        Ok(deep)
+    });
+}
+
+/// What one agent holds stays at the same distance from it.
+#[test]
+fn grips_do_not_give() {
+    assert_rare(|_, before, actions, after| {
+        let mut slipped = false;
+        for (agent, &action) in AgentId::ALL.into_iter().zip(&actions) {
+            let (Some(old), Some(new)) = (before.grips[agent], after.grips[agent]) else { continue };
+            let (me, held) = (Entity::Agent(agent), Entity::Object(new.object));
+            let other_holds = before.grips[agent.other()].is_some() || after.grips[agent.other()].is_some();
+            if old.object != new.object || action == Action::Attach || other_holds {
+                continue;
+            }
+            let arm = |state: &State| state.position(me).distance(state.position(held));
+            slipped |= (arm(after) - arm(before)).abs() >= SLIP;
+        }
+        Ok(slipped)
+    });
 }
