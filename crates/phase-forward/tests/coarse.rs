@@ -93,7 +93,7 @@ fn a_push_in_the_open_takes_bodies_as_far() {
 
 /// Runs of random actions from random scenes in the two tests below, and the share of them that may break a rule. What
 /// others press against a wall can be pushed deep into it, or out of a grip, by a coarse step: the former in less than one
-/// of 1000 runs (60 000 tried), the latter in about one of 5000 (20 000 tried).
+/// of 1000 runs (60 000 tried), the latter in about one of 4000 (20 000 tried).
 const CASES: u32 = 200;
 const EXCEPTIONS: f32 = 0.01;
 
