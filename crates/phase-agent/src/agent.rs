@@ -15,6 +15,7 @@ pub struct Agent<D> {
     physics: PhysicsConfig,
     belief: Belief,
     observed: BodySet,
+    last_action: Option<Action>,
 }
 
 impl<D: Dynamics> Agent<D> {
@@ -33,7 +34,7 @@ impl<D: Dynamics> Agent<D> {
         let physics = scene.physics();
         let mind = Mind::new(scene, agent, dynamics, settings)?;
         let belief = Belief::new(&physics, observation, settings.particles, random);
-        Ok(Self { mind, physics, belief, observed: observation.observed })
+        Ok(Self { mind, physics, belief, observed: observation.observed, last_action: None })
     }
 
     /// What the agent believes.
@@ -44,6 +45,7 @@ impl<D: Dynamics> Agent<D> {
     /// Updates the belief with the observation after the last action.
     pub fn perceive(&mut self, action: Action, observation: &Observation, random: &mut impl Rng) {
         self.observed = observation.observed;
+        self.last_action = Some(action);
         self.belief.update(self.mind.dynamics(), &self.physics, action, observation, random);
     }
 
@@ -52,7 +54,11 @@ impl<D: Dynamics> Agent<D> {
     /// # Errors
     /// As POMCP's search.
     pub fn decide(&mut self, random: &mut impl Rng) -> Result<(Action, Thought), PomcpError> {
-        let belief_view = BeliefView { particles: self.belief.particles(), observed: self.observed };
+        let belief_view = BeliefView {
+            particles: self.belief.particles(),
+            observed: self.observed,
+            last_action: self.last_action,
+        };
         self.mind.decide(belief_view, random)
     }
 }

@@ -39,15 +39,12 @@
 
 pub mod action_set;
 pub mod agent;
-pub mod assembly;
-mod carrying;
+mod habits;
 pub mod mind;
 pub mod objective;
 pub mod rollout_policy;
 pub mod search_model;
 pub mod settings;
-pub mod stall;
-pub mod steering;
 
 pub use agent::Agent;
 pub use mind::{BeliefView, Mind};

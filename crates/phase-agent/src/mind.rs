@@ -4,7 +4,6 @@ use crate::{
     MindParameters, action_set,
     objective::Objective,
     search_model::{SearchModel, SearchState},
-    stall::StallDetector,
 };
 use phase_event::{ActionEvaluation, SubgoalValue, Thought};
 use phase_model::{
@@ -12,6 +11,7 @@ use phase_model::{
     Predicate, PredicateTarget, Scene, State, Subgoal,
     random::{Purpose, stream},
 };
+use phase_navigation::{NavigationCosts, Navigator};
 use phase_planner::{Candidate, Plan, Planner, value};
 use phase_pomcp::{Pomcp, PomcpError, PomcpSettings};
 use rand::Rng;
@@ -28,7 +28,7 @@ pub struct Mind<D> {
     dynamics: D,
     planner: Planner,
     pomcp: Pomcp<u16>,
-    stall: StallDetector,
+    navigator: Navigator,
 }
 
 /// The belief state that a decision is based on.
@@ -38,6 +38,8 @@ pub struct BeliefView<'a> {
     pub particles: &'a [State],
     /// The entities that the agent observes now, itself included.
     pub observed: BodySet,
+    /// The agent's own last action, if it has acted: action is a habit.
+    pub last_action: Option<Action>,
 }
 
 impl<D: Dynamics> Mind<D> {
@@ -58,6 +60,7 @@ impl<D: Dynamics> Mind<D> {
             c_init: settings.c_init,
             c_base: settings.c_base,
             stop_when_decided: true,
+            untried_first: false,
             ..PomcpSettings::default()
         })?;
         let attitude = scene.agents[agent].attitude;
@@ -69,7 +72,10 @@ impl<D: Dynamics> Mind<D> {
             dynamics,
             planner: Planner::new(physics.clone(), scene.layout, agent, scene.goals(), attitude),
             pomcp,
-            stall: StallDetector::default(),
+            navigator: Navigator::new(
+                scene.layout,
+                NavigationCosts { impassable: settings.impassable, obstruction: settings.obstruction },
+            ),
             physics,
         })
     }
@@ -162,34 +168,32 @@ impl<D: Dynamics> Mind<D> {
         roots: &[State],
         random: &mut impl Rng,
     ) -> Result<(Action, Vec<ActionEvaluation>), PomcpError> {
-        let routes = self.planner.routes();
-        let objective =
-            Objective { physics: &self.physics, routes, agent: self.agent, subgoal, backoff: None };
-        // A hinderer does not back off: obstructing is its purpose.
-        let backoff = match self.attitude {
-            Attitude::Hinder => None,
-            _ => self.stall.update(&objective, &roots[0], random),
-        };
-        let actions = action_set::actions(self.agent, subgoal, &roots[0], backoff.is_some());
+        let unobserved = self.unobserved_target(belief_view, subgoal);
+        let actions = action_set::actions(self.agent, subgoal);
         if let [only] = actions {
             return Ok((*only, Vec::new()));
         }
+        let other = self.agent.other();
+        let other_goal = Subgoal::Achieve(Literal::from(self.goals[other]));
+        let (physics, parameters) = (&self.physics, &self.settings);
+        let navigator = &mut self.navigator;
+        let objective = Objective::new(physics, navigator, &roots[0], self.agent, subgoal, parameters);
+        let other_objective = Objective::new(physics, navigator, &roots[0], other, other_goal, parameters);
         let model = SearchModel {
             dynamics: &self.dynamics,
-            objective: Objective { backoff, ..objective },
-            other_objective: SearchModel::<D>::other(&self.physics, routes, self.agent, self.goals),
+            physics,
+            objective,
+            other_objective,
             actions,
             goals: self.goals,
-            rewards_goals: !matches!(self.unobserved_target(belief_view, subgoal), Some(Entity::Object(_))),
+            rewards_goals: !matches!(unobserved, Some(Entity::Object(_))),
             attitude: self.attitude,
-            discount: self.settings.discount,
-            heuristic_share: self.settings.heuristic_share,
-            foresight: self.settings.foresight,
+            parameters: self.settings,
         };
         // If all particles are equal, one root suffices and the search can cache its transitions.
         let different = if roots.iter().all(|root| root == &roots[0]) { &roots[..1] } else { roots };
         let search_state: Vec<SearchState> =
-            different.iter().map(|&state| SearchState::new(&model.objective, state)).collect();
+            different.iter().map(|&state| SearchState::new(&model.objective, state, belief_view.last_action)).collect();
         // Each decision has its own generator, so the length of a search does not affect later decisions.
         let mut random = stream(random.next_u64(), Purpose::Search, 0);
         let decision = self.pomcp.search(&model, &search_state, &mut random)?;

@@ -27,12 +27,16 @@ impl Foresight {
     }
 }
 
-/// Parameters of an agent's mind. The defaults are the paper's.
+/// Parameters of an agent's mind: every number that shapes its behaviour.
+///
+/// The search's parameters are the paper's. The others, from `heuristic_prior` on, were fitted to recorded and
+/// generated events by `cargo xtask fit-minds`; `docs/minds.md` has the table.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(default)]
 pub struct MindParameters {
     /// K, the number of belief particles; at least 1.
     pub particles: usize,
-    /// λ of the subgoal value.
+    /// λ of the subgoal value (1/u).
     pub lambda: f64,
     /// POMCP simulations per decision; at least 1.
     pub simulations: usize,
@@ -50,6 +54,26 @@ pub struct MindParameters {
     /// Fidelity of the search's dynamics. Absent in older files, which means `exact`.
     #[serde(default = "legacy_foresight")]
     pub foresight: Foresight,
+    /// Prior of the heuristic's action in PUCT, relative to that of any other; above 0.
+    pub heuristic_prior: f64,
+    /// Prior of repeating the last action, relative to that of any other; above 0.
+    pub momentum_prior: f64,
+    /// Prior of pushing backward, sideways or diagonally with free hands, relative to forward; above 0.
+    pub lateral_prior: f64,
+    /// Prior of stopping and coasting while there is a distance to go, relative to a push; above 0.
+    pub rest_prior: f64,
+    /// Further steps for which the distance at the end of a rollout is charged.
+    pub horizon_steps: f64,
+    /// p: share of the imagined steps in which the other agent pursues its own goal instead of coasting, 0 to 1.
+    pub other_initiative: f64,
+    /// Cost of each unit of a path that leads through a body (dimensionless), beside its length.
+    pub obstruction: f32,
+    /// Cost of facing away from what the agent goes to (u).
+    pub facing: f32,
+    /// Cost of an object that is yet to be grasped or released (u).
+    pub grasp: f32,
+    /// Cost of what is nearly impossible: a door that is too narrow (u).
+    pub impassable: f32,
 }
 
 const fn legacy_foresight() -> Foresight {
@@ -68,6 +92,16 @@ impl Default for MindParameters {
             discount: 0.95,
             heuristic_share: 0.5,
             foresight: Foresight::Coarse,
+            heuristic_prior: 2.0,
+            momentum_prior: 3.0,
+            lateral_prior: 0.3,
+            rest_prior: 0.2,
+            horizon_steps: 8.0,
+            other_initiative: 0.5,
+            obstruction: 2.0,
+            facing: 1.0,
+            grasp: 2.0,
+            impassable: 100.0,
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Steering, action sets, reward and decisions in hand-made states.
 
 use phase_agent::{
-    Agent, Foresight, MindParameters, action_set,
+    Agent, MindParameters, action_set,
     objective::{ARENA_DIAGONAL, Objective},
     rollout_policy,
     search_model::{SearchModel, SearchState},
@@ -9,12 +9,12 @@ use phase_agent::{
 use phase_forward::Forward;
 use phase_model::{
     Action, AgentId, AgentSpec, Attitude, Body, Dynamics, Entity, EventKind, Goal, Grip, LandmarkId, Layout,
-    Literal, ObjectId, ObjectSpec, Predicate, PredicateTarget, Scene, Side, Sign, Size, State, Strength,
+    Literal, ObjectId, ObjectSpec, PhysicsConfig, Predicate, PredicateTarget, Scene, Side, Sign, Size, State, Strength,
     Subgoal, Vec2,
     random::{Purpose, stream},
 };
 use phase_perception::observe;
-use phase_planner::Routes;
+use phase_navigation::{NavigationCosts, Navigator};
 use phase_pomcp::GenerativeModel;
 
 const ON_2: Goal =
@@ -43,19 +43,21 @@ fn achieve(predicate: Predicate) -> Subgoal {
     Subgoal::Achieve(Literal::is(predicate))
 }
 
-/// The actions for locomotion.
-const WALK_ACTIONS: [Action; 3] = [Action::TurnLeft, Action::TurnRight, Action::Up];
+/// A subgoal of agent 0, compiled in a state.
+fn compiled<'a>(physics: &'a PhysicsConfig, scene: &Scene, state: &State, subgoal: Subgoal) -> Objective<'a> {
+    let parameters = MindParameters::default();
+    let costs = NavigationCosts { impassable: parameters.impassable, obstruction: parameters.obstruction };
+    let mut navigator = Navigator::new(scene.layout, costs);
+    Objective::new(physics, &mut navigator, state, AgentId::ZERO, subgoal, &parameters)
+}
 
 /// The heuristic's action for a subgoal of agent 0.
-fn thumb(scene: &Scene, state: &State, subgoal: Subgoal, actions: &[Action]) -> Action {
-    let (physics, routes) = (scene.physics(), Routes::new(scene.layout));
-    let objective =
-        Objective { physics: &physics, routes: &routes, agent: AgentId::ZERO, subgoal, backoff: None };
-    rollout_policy::action(&objective, state, None, actions)
+fn heuristic(scene: &Scene, state: &State, subgoal: Subgoal) -> Action {
+    rollout_policy::action(&compiled(&scene.physics(), scene, state, subgoal), state)
 }
 
 #[test]
-fn the_rule_of_thumb_turns_goes_and_brakes() {
+fn the_heuristic_turns_goes_and_stops() {
     let to_landmark = achieve(Predicate::On(Entity::Agent(AgentId::ZERO), LandmarkId::BOTTOM_RIGHT));
     // Landmark 2 lies at (23.5, 4.5); heading π faces down.
     let above = Vec2::new(23.5, 14.0);
@@ -65,45 +67,42 @@ fn the_rule_of_thumb_turns_goes_and_brakes() {
         (core::f32::consts::PI + 1.2, Action::TurnRight),
     ] {
         let scene = scene(above, angle);
-        assert_eq!(thumb(&scene, &scene.initial_state(), to_landmark, &WALK_ACTIONS), expected, "{angle}");
+        assert_eq!(heuristic(&scene, &scene.initial_state(), to_landmark), expected, "{angle}");
     }
     let near = scene(Vec2::new(23.5, 5.5), core::f32::consts::PI);
     let mut fast = near.initial_state();
     fast.bodies[0].velocity = Vec2::new(0.0, -20.0);
-    assert_eq!(thumb(&near, &fast, to_landmark, &WALK_ACTIONS), Action::Stop);
+    assert_eq!(heuristic(&near, &fast, to_landmark), Action::Stop);
 }
 
 #[test]
-fn the_rule_of_thumb_uses_its_hands() {
+fn the_heuristic_attaches_and_detaches() {
     let beside = scene(Vec2::new(9.0, 12.3), 0.0);
     let attach = achieve(Predicate::Attach(AgentId::ZERO, ObjectId::ZERO));
-    assert_eq!(thumb(&beside, &beside.initial_state(), attach, &Action::ALL), Action::Attach);
+    assert_eq!(heuristic(&beside, &beside.initial_state(), attach), Action::Attach);
     let mut holding = beside.initial_state();
     holding.grips[0] = Some(Grip { object: ObjectId::ZERO, side: Side::Head, relative_angle: 0.0 });
     let release = Subgoal::Achieve(Literal::not(Predicate::Attach(AgentId::ZERO, ObjectId::ZERO)));
-    assert_eq!(thumb(&beside, &holding, release, &Action::ALL), Action::Detach);
+    assert_eq!(heuristic(&beside, &holding, release), Action::Detach);
 }
 
 #[test]
 fn every_subgoal_has_its_actions() {
-    let state = scene(Vec2::new(20.0, 15.0), 0.0).initial_state();
-    let mut holding = state;
-    holding.grips[0] = Some(Grip { object: ObjectId::ZERO, side: Side::Head, relative_angle: 0.0 });
     let close = achieve(Predicate::Close(
         Entity::Agent(AgentId::ZERO),
         PredicateTarget::Landmark(LandmarkId::TOP_RIGHT),
     ));
     let carry = achieve(Predicate::On(Entity::Object(ObjectId::ZERO), LandmarkId::TOP_RIGHT));
     let release = Subgoal::Achieve(Literal::not(Predicate::Attach(AgentId::ZERO, ObjectId::ZERO)));
-    for (subgoal, state, count) in [
-        (Subgoal::Stay, &state, 1),
-        (close, &state, 5),
-        (achieve(Predicate::Touch(AgentId::ZERO, Entity::Agent(AgentId::ONE))), &state, 5),
-        (achieve(Predicate::Attach(AgentId::ZERO, ObjectId::ZERO)), &state, 13),
-        (carry, &holding, 12),
-        (release, &holding, 3),
+    for (subgoal, count) in [
+        (Subgoal::Stay, 1),
+        (close, 12),
+        (achieve(Predicate::Touch(AgentId::ZERO, Entity::Agent(AgentId::ONE))), 12),
+        (achieve(Predicate::Attach(AgentId::ZERO, ObjectId::ZERO)), 13),
+        (carry, 12),
+        (release, 3),
     ] {
-        assert_eq!(action_set::actions(AgentId::ZERO, subgoal, state, false).len(), count, "{subgoal}");
+        assert_eq!(action_set::actions(AgentId::ZERO, subgoal).len(), count, "{subgoal}");
     }
 }
 
@@ -114,28 +113,27 @@ fn rewards_follow_equation_1() {
     scene.agents[1].start.position = Vec2::new(8.5, 19.5);
     // Weak enough that one push does not carry it off the landmark.
     scene.agents[0].strength = Strength::Weak;
-    let (physics, routes, state) = (scene.physics(), Routes::new(scene.layout), scene.initial_state());
+    let (physics, state) = (scene.physics(), scene.initial_state());
     let forward = Forward::new(&physics);
     let subgoal = achieve(Predicate::On(Entity::Agent(AgentId::ZERO), LandmarkId::TOP_RIGHT));
-    let objective =
-        Objective { physics: &physics, routes: &routes, agent: AgentId::ZERO, subgoal, backoff: None };
+    let objective = compiled(&physics, &scene, &state, subgoal);
+    let other_objective = compiled(&physics, &scene, &state, Subgoal::Stay);
     let goals = [ON_2, OTHER_ON_0];
     for (attitude, social) in [(Attitude::Neutral, 1.0), (Attitude::Help, 1.0), (Attitude::Hinder, -1.0)] {
         for (action, cost) in [(Action::Stop, 0.0), (Action::Left, 0.02)] {
             let actions = [action];
             let model = SearchModel {
                 dynamics: &forward,
-                objective,
-                other_objective: SearchModel::<Forward>::other(&physics, &routes, AgentId::ZERO, goals),
+                physics: &physics,
+                objective: objective.clone(),
+                other_objective: other_objective.clone(),
                 actions: &actions,
                 goals,
                 rewards_goals: true,
                 attitude,
-                discount: 0.95,
-                heuristic_share: 0.0,
-                foresight: Foresight::Coarse,
+                parameters: MindParameters { other_initiative: 0.0, ..MindParameters::default() },
             };
-            let mut after = SearchState::new(&objective, state);
+            let mut after = SearchState::new(&objective, state, None);
             let reward = model.rollout_step(&mut after, 0, &mut stream(1, Purpose::Search, 0)).reward;
             let mut by_hand = state;
             forward.step_approximate(&mut by_hand, [action, Action::NoForce]);
@@ -146,7 +144,7 @@ fn rewards_follow_equation_1() {
             assert!((reward - expected).abs() < 1e-6, "{attitude:?} {action:?}: {reward} {expected}");
             // While an agent goes to verify whether a goal holds, no satisfied goal is rewarded.
             let looking = SearchModel { rewards_goals: false, ..model };
-            let mut after = SearchState::new(&objective, state);
+            let mut after = SearchState::new(&objective, state, None);
             let reward = looking.rollout_step(&mut after, 0, &mut stream(1, Purpose::Search, 0)).reward;
             assert!((reward - (expected - social)).abs() < 1e-6, "{attitude:?} {action:?}: {reward}");
         }

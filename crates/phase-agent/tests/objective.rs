@@ -1,11 +1,11 @@
 //! Objectives in hand-made states: heading, carrying, releasing, yielding.
 
-use phase_agent::objective::Objective;
+use phase_agent::{MindParameters, objective::Objective};
 use phase_model::{
     AgentId, Body, Entity, Grip, LandmarkId, Layout, Literal, ObjectId, PhysicsConfig, Predicate,
     PredicateTarget, Side, Size, State, Strength, Subgoal, Vec2, arena, physics::AgentBody,
 };
-use phase_planner::Routes;
+use phase_navigation::{NavigationCosts, Navigator};
 
 /// A narrow door (x 6 to 8.5, y 12) between rooms 0 (above) and 3; agent 0 of some size, a small agent 1, a small
 /// object.
@@ -35,18 +35,16 @@ fn state(agent: Vec2, angle: f32, other: Vec2, object: Vec2) -> State {
 
 /// Distance and waypoint of agent 0.
 fn evaluate(size: Size, state: &State, literal: Literal) -> (f32, Vec2) {
-    let (physics, routes) = (physics(size), Routes::new(layout()));
-    let objective = Objective {
-        physics: &physics,
-        routes: &routes,
-        agent: AgentId::ZERO,
-        subgoal: Subgoal::Achieve(literal),
-        backoff: None,
-    };
-    (objective.distance(state), objective.steering(state).waypoint)
+    let physics = physics(size);
+    let parameters = MindParameters::default();
+    let costs = NavigationCosts { impassable: parameters.impassable, obstruction: parameters.obstruction };
+    let mut navigator = Navigator::new(layout(), costs);
+    let subgoal = Subgoal::Achieve(literal);
+    let objective = Objective::new(&physics, &mut navigator, state, AgentId::ZERO, subgoal, &parameters);
+    (objective.distance(state), objective.waypoint(state))
 }
 
-const ZERO_WEIGHT_DISTANCE: Vec2 = Vec2::new(24.0, 4.0);
+const AWAY: Vec2 = Vec2::new(24.0, 4.0);
 const DOWN: f32 = core::f32::consts::PI;
 
 #[test]
@@ -57,12 +55,12 @@ fn who_does_not_fit_through_a_door_faces_it() {
     ));
     let at = Vec2::new(10.0, 14.0);
     let facing = |angle| {
-        evaluate(Size::Large, &state(at, angle, ZERO_WEIGHT_DISTANCE, ZERO_WEIGHT_DISTANCE), to_room).0
+        evaluate(Size::Large, &state(at, angle, AWAY, AWAY), to_room).0
     };
     assert!(facing(DOWN) < facing(0.0) - 0.5);
     // An agent that fits need not do so.
     let facing = |angle| {
-        evaluate(Size::Small, &state(at, angle, ZERO_WEIGHT_DISTANCE, ZERO_WEIGHT_DISTANCE), to_room).0
+        evaluate(Size::Small, &state(at, angle, AWAY, AWAY), to_room).0
     };
     assert!((facing(DOWN) - facing(0.0)).abs() < 1e-3);
 }
@@ -74,7 +72,7 @@ fn a_load_goes_first_where_its_carrier_cannot_follow() {
         PredicateTarget::Landmark(LandmarkId::BOTTOM_LEFT),
     ));
     let holding = |size: Size, agent: Vec2, object: Vec2| {
-        let mut state = state(agent, 0.0, ZERO_WEIGHT_DISTANCE, object);
+        let mut state = state(agent, 0.0, AWAY, object);
         state.grips[0] = Some(Grip { object: ObjectId::ZERO, side: Side::Head, relative_angle: 0.0 });
         evaluate(size, &state, bring)
     };
@@ -94,7 +92,7 @@ fn a_load_goes_first_where_its_carrier_cannot_follow() {
 fn carrying(agent: Vec2, towards: Vec2) -> State {
     let heading = libm::atan2f(-towards.x, towards.y);
     let mut state =
-        state(agent, heading, ZERO_WEIGHT_DISTANCE, agent + towards.normalize() * 2.0 * Size::Small.radius());
+        state(agent, heading, AWAY, agent + towards.normalize() * 2.0 * Size::Small.radius());
     state.grips[0] = Some(Grip { object: ObjectId::ZERO, side: Side::Head, relative_angle: 0.0 });
     state
 }
@@ -146,7 +144,7 @@ fn a_load_is_not_pulled_to_its_place_from_where_there_is_no_room() {
     // Landmark 2 is 2.5 u from the walls: a large agent, 1.6 u, has no room beyond a load of 0.8 u.
     let holding = |direction: Vec2| {
         let load = arena::LANDMARKS[2] - Vec2::new(3.0, -3.0);
-        let mut state = state(load + direction * 2.4, 0.0, ZERO_WEIGHT_DISTANCE, load);
+        let mut state = state(load + direction * 2.4, 0.0, AWAY, load);
         state.grips[0] = Some(Grip { object: ObjectId::ZERO, side: Side::Head, relative_angle: 0.0 });
         evaluate(Size::Huge, &state, bring).0
     };
@@ -157,7 +155,7 @@ fn a_load_is_not_pulled_to_its_place_from_where_there_is_no_room() {
 #[test]
 fn what_is_let_go_of_is_to_stay_there() {
     let release = Literal::not(Predicate::Attach(AgentId::ZERO, ObjectId::ZERO));
-    let mut held = state(Vec2::new(20.0, 8.0), 0.0, ZERO_WEIGHT_DISTANCE, Vec2::new(20.0, 9.6));
+    let mut held = state(Vec2::new(20.0, 8.0), 0.0, AWAY, Vec2::new(20.0, 9.6));
     held.grips[0] = Some(Grip { object: ObjectId::ZERO, side: Side::Head, relative_angle: 0.0 });
     let mut thrown = held;
     thrown.grips[0] = None;
@@ -176,13 +174,13 @@ fn one_does_not_turn_off_in_a_door() {
     let in_the_door = Vec2::new(7.25, 12.2);
     let open = evaluate(
         Size::Small,
-        &state(in_the_door, 0.0, ZERO_WEIGHT_DISTANCE, ZERO_WEIGHT_DISTANCE),
+        &state(in_the_door, 0.0, AWAY, AWAY),
         desired_direction,
     )
     .1;
     let obstructed = evaluate(
         Size::Small,
-        &state(in_the_door, 0.0, ZERO_WEIGHT_DISTANCE, Vec2::new(7.7, 13.8)),
+        &state(in_the_door, 0.0, AWAY, Vec2::new(7.7, 13.8)),
         desired_direction,
     )
     .1;
@@ -190,7 +188,7 @@ fn one_does_not_turn_off_in_a_door() {
     let past_it = Vec2::new(8.4, 15.0);
     let bent = evaluate(
         Size::Small,
-        &state(past_it, 0.0, ZERO_WEIGHT_DISTANCE, Vec2::new(8.5, 17.5)),
+        &state(past_it, 0.0, AWAY, Vec2::new(8.5, 17.5)),
         desired_direction,
     )
     .1;
@@ -201,7 +199,7 @@ fn one_does_not_turn_off_in_a_door() {
 fn aside_is_beside_the_others_way() {
     let aside = Literal::not(Predicate::On(Entity::Agent(AgentId::ZERO), LandmarkId::TOP_LEFT));
     let other = Vec2::new(7.25, 13.5);
-    let distance = |at: Vec2| evaluate(Size::Small, &state(at, 0.0, other, ZERO_WEIGHT_DISTANCE), aside).0;
+    let distance = |at: Vec2| evaluate(Size::Small, &state(at, 0.0, other, AWAY), aside).0;
     assert!(distance(Vec2::new(9.0, 17.0)) > 1.0);
     assert!(distance(Vec2::new(10.0, 17.0)) < distance(Vec2::new(9.0, 17.0)));
     assert!(distance(Vec2::new(13.0, 17.0)).abs() < 1e-6);

@@ -57,6 +57,12 @@ pub trait GenerativeModel {
         1.0
     }
 
+    /// The prior weights of all actions, in their order, appended to `weights`; override it where computing
+    /// them together is cheaper than one by one.
+    fn prior_weights(&self, state: &Self::State, weights: &mut Vec<f64>) {
+        weights.extend((0..self.action_count()).map(|action| self.prior_weight(state, action)));
+    }
+
     /// Whether the model is deterministic: the next state is a function of state and action, and nothing is
     /// drawn from the generator.
     ///

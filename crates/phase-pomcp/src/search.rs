@@ -68,6 +68,7 @@ impl<O: Eq> Pomcp<O> {
             path: &mut self.path,
             known: (model.is_deterministic() && roots.len() == 1).then(|| vec![(state.clone(), 0.0)]),
             range: ValueRange::EMPTY,
+            weights: Vec::with_capacity(action_count),
             depth: 0,
             steps: 0,
         };

@@ -38,6 +38,10 @@ pub struct PomcpSettings {
     /// visited, even if all of them began with it. The chosen action is the one that all simulations would
     /// have chosen; visits and values are those of the simulations that were run.
     pub stop_when_decided: bool,
+    /// Whether every action of a history is tried once before any is tried twice (the default). Otherwise an
+    /// untried action is scored like the others, with the mean value of the history in place of its own, so
+    /// that its prior decides when it is tried (Silver et al. 2018).
+    pub untried_first: bool,
 }
 
 impl Default for PomcpSettings {
@@ -50,6 +54,7 @@ impl Default for PomcpSettings {
             horizon: usize::MAX,
             normalise_values: true,
             stop_when_decided: false,
+            untried_first: true,
         }
     }
 }

@@ -17,6 +17,8 @@ pub(crate) struct Simulation<'a, M: GenerativeModel> {
     /// The next state and reward of every history of the tree, for a deterministic model.
     pub(crate) known: Option<Vec<(M::State, f64)>>,
     pub(crate) range: ValueRange,
+    /// The prior weights of the history that is being expanded.
+    pub(crate) weights: Vec<f64>,
     /// The longest path so far.
     pub(crate) depth: usize,
     /// Steps of the model so far.
@@ -49,8 +51,9 @@ impl<M: GenerativeModel> Simulation<'_, M> {
         loop {
             if !self.tree.has_actions(history) {
                 let here = self.known.as_ref().map_or(&*state, |known| &known[history.index()].0);
-                let weights = (0..self.action_count).map(|action| self.model.prior_weight(here, action));
-                self.tree.add_actions(history, weights)?;
+                self.weights.clear();
+                self.model.prior_weights(here, &mut self.weights);
+                self.tree.add_actions(history, self.weights.iter().copied())?;
             }
             let chosen = self.tree.select(history, self.settings, &self.range, random);
             let action = self.tree.action(history, chosen);

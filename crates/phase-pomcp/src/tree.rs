@@ -114,7 +114,8 @@ impl<O: Eq> Tree<O> {
     }
 
     /// The next action to try after an expanded history: while there are actions never tried, one of them,
-    /// uniformly sampled; afterwards the one with the maximum PUCT score, of smallest index among equals.
+    /// uniformly sampled, if the settings ask for it; otherwise the one with the maximum PUCT score, of smallest
+    /// index among equals.
     pub(crate) fn select(
         &self,
         history: HistoryId,
@@ -124,15 +125,17 @@ impl<O: Eq> Tree<O> {
     ) -> usize {
         let node = &self.histories[history.0 as usize];
         let actions = self.actions_of(node);
-        if node.untried > 0 {
+        if node.untried > 0 && settings.untried_first {
             let drawn = random.random_range(0..node.untried) as usize;
             let mut untried = actions.iter().enumerate().filter(|(_, action)| action.visits == 0);
             return untried.nth(drawn).map_or(0, |(index, _)| index);
         }
         let exploration = puct::exploration(settings, node.visits);
+        let mean = node.mean(actions);
         let mut best = (0, f64::NEG_INFINITY);
         for (index, action) in actions.iter().enumerate() {
-            let value = if settings.normalise_values { range.normalise(action.value) } else { action.value };
+            let value = if action.visits == 0 { mean } else { action.value };
+            let value = if settings.normalise_values { range.normalise(value) } else { value };
             let score = puct::score(value, action.prior, exploration, action.visits);
             if score > best.1 {
                 best = (index, score);
@@ -210,4 +213,10 @@ impl<O: Eq> Tree<O> {
 
 impl History {
     const LEAF: Self = Self { visits: 0, first_action: 0, action_count: 0, untried: 0 };
+
+    /// The mean of all returns after this history; 0 before the first.
+    fn mean(&self, actions: &[Action]) -> f64 {
+        let sum: f64 = actions.iter().map(|action| f64::from(action.visits) * action.value).sum();
+        sum / f64::from(self.visits.max(1))
+    }
 }

@@ -122,6 +122,20 @@ impl<'a> PreparedEvent<'a> {
         Ok(decided)
     }
 
+    /// EXPLORE
+    pub fn simulate_agent_thin(&self, hypothesis: &Hypothesis, agent: AgentId, thin: usize, offset: usize) -> Result<Vec<(usize, AgentDecision)>, PomcpError> {
+        let mut run = SimulationRun::new(self.observed, hypothesis, self.minds, self.seed, self.motion.states[0])?;
+        let mut decided = Vec::new();
+        for step in (offset..self.observed.steps()).step_by(thin) {
+            run.set_state(self.motion.states[step]);
+            if step > 0 { run.last_actions = self.motion.actions[step - 1].map(Some); }
+            let belief_view = self.beliefs[agent].belief_view(&run.physics, step, &run.state);
+            let (action, thought) = run.decide(agent, &belief_view)?;
+            decided.push((step, AgentDecision { action, thought, deviation: 0.0 }));
+        }
+        Ok(decided)
+    }
+
     /// Continues from the last observed state for the given number of steps: where every entity will be after
     /// each, if the hypothesis is true. Beliefs continue from those estimated, by what the agents observe in
     /// the simulation.
@@ -179,6 +193,7 @@ struct SimulationRun {
     random: [Pcg64Mcg; AGENT_COUNT],
     state: State,
     cache: SolverCache,
+    last_actions: [Option<Action>; AGENT_COUNT],
 }
 
 /// What an agent believes possible, and the entities that it observes.
@@ -199,7 +214,7 @@ impl SimulationRun {
         let minds = [mind(AgentId::ZERO)?, mind(AgentId::ONE)?];
         let random = AgentId::ALL.map(|agent| random::stream(seed, Purpose::Search, agent.number().into()));
         let cache = forward.fresh_cache(&state);
-        Ok(Self { physics, forward, minds, random, state, cache })
+        Ok(Self { physics, forward, minds, random, state, cache, last_actions: [None; AGENT_COUNT] })
     }
 
     /// Sets the world to a state.
@@ -226,12 +241,13 @@ impl SimulationRun {
         agent: AgentId,
         (particles, observed): &(Vec<State>, BodySet),
     ) -> Result<(Action, Thought), PomcpError> {
-        let belief_view = BeliefView { particles, observed: *observed };
+        let belief_view = BeliefView { particles, observed: *observed, last_action: self.last_actions[agent] };
         self.minds[agent].decide(belief_view, &mut self.random[agent])
     }
 
     /// Both act: the mean positions of all bodies over the step.
     fn act(&mut self, actions: [Action; AGENT_COUNT]) -> [Vec2; MAX_ENTITIES] {
+        self.last_actions = actions.map(Some);
         let substeps = self.forward.step_warm(&mut self.state, &mut self.cache, actions);
         let mean = |entity: usize| {
             let sum = substeps.iter().fold(Vec2::ZERO, |sum, substep| sum + substep.bodies[entity].position);

@@ -1,0 +1,138 @@
+//! Keeping an entity away from a target, driving it to one, and staying out of its way.
+
+use super::{ARENA_DIAGONAL, Compiler, way::{LOOK_AHEAD, Way}};
+use phase_model::{Entity, LandmarkId, State, Vec2};
+use phase_navigation::{Field, Target};
+use std::sync::Arc;
+
+/// Spacing of the points of a path at which it could be cut off (u).
+const INTERCEPTION_SPACING: f32 = 1.0;
+/// Closer than this to its post, a guard turns on the entity (u).
+const AT_POST: f32 = 0.6;
+
+/// One agent influences where an entity goes, by standing in its way and pushing.
+#[derive(Clone, Debug)]
+pub(crate) struct Guard {
+    subject: Entity,
+    /// Of the entity, to the target.
+    field: Arc<Field>,
+    /// Whether the entity is to come to the target.
+    drives: bool,
+    /// Where the agent wants to stand, relative to the entity if it stands next to it (u).
+    post: Vec2,
+    /// Whether the post moves with the entity.
+    is_next_to: bool,
+    start: Vec2,
+    way: Way,
+}
+
+impl Guard {
+    fn post(&self, state: &State) -> Vec2 {
+        if self.is_next_to { self.post + state.position(self.subject) - self.start } else { self.post }
+    }
+
+    /// Distance to the post, and what the entity is short of (u).
+    pub(crate) fn distance(&self, state: &State, me: Entity) -> f32 {
+        let to_target = self.field.distance(state.position(self.subject)).min(ARENA_DIAGONAL);
+        let missing = if self.drives { to_target } else { ARENA_DIAGONAL - to_target };
+        self.way.distance(state.position(me), self.post(state)) + missing
+    }
+
+    /// The post, or from there the entity itself.
+    pub(crate) fn waypoint(&self, state: &State, me: Entity) -> Vec2 {
+        let (here, post) = (state.position(me), self.post(state));
+        if self.is_next_to && here.distance(post) < AT_POST {
+            state.position(self.subject)
+        } else {
+            self.way.waypoint(here, post)
+        }
+    }
+}
+
+/// The path of the other agent, or of its load, that an agent should not stand on.
+#[derive(Clone, Debug)]
+pub(crate) struct ClearPath {
+    points: Vec<Vec2>,
+    room: f32,
+}
+
+impl ClearPath {
+    /// What the clearance from the path is short of (u).
+    pub(crate) fn distance(&self, here: Vec2) -> f32 {
+        (self.room - self.nearest(here).distance(here)).max(0.0)
+    }
+
+    /// A point directly away from the path.
+    pub(crate) fn waypoint(&self, here: Vec2) -> Vec2 {
+        let nearest = self.nearest(here);
+        let missing = (self.room - nearest.distance(here)).max(0.0);
+        let along = self.points.last().map_or(Vec2::X, |&end| (end - here).perp());
+        here + (here - nearest).normalize_or(along.normalize_or(Vec2::X)) * missing
+    }
+
+    fn nearest(&self, here: Vec2) -> Vec2 {
+        let mut best = self.points.first().copied().unwrap_or(here);
+        for pair in self.points.windows(2) {
+            let foot = phase_model::Segment { a: pair[0], b: pair[1] }.nearest(here);
+            if foot.distance(here) < best.distance(here) {
+                best = foot;
+            }
+        }
+        best
+    }
+}
+
+/// Clearance between bodies that pass each other (u).
+const CLEARANCE: f32 = 0.8;
+
+impl Compiler<'_, '_> {
+    /// Keeping an entity away from a target: the post is the first point of its path that the agent reaches
+    /// before it, or directly before it.
+    pub(crate) fn guard(&mut self, subject: Entity, target: Target) -> Guard {
+        let mover = self.mover(subject);
+        let field = self.navigator.field(target, mover, &[]);
+        let me = Entity::Agent(self.agent);
+        let (here, start) = (self.state.position(me), self.state.position(subject));
+        let own = self.mover(me);
+        let to_me = self.navigator.field(Target::Point(here), own, &[]);
+        let touching = self.physics.radius(me) + self.physics.radius(subject);
+        let length = field.distance(start).min(2.0 * ARENA_DIAGONAL);
+        let mut ahead = touching.min(length);
+        let mut post = field.waypoint(start, ahead);
+        let mut is_next_to = true;
+        while to_me.distance(post) > ahead && ahead < length {
+            ahead = (ahead + INTERCEPTION_SPACING).min(length);
+            post = field.waypoint(start, ahead);
+            is_next_to = false;
+        }
+        let way = Way::new(self.navigator, own, here, post, &[]);
+        Guard { subject, field, drives: false, post, is_next_to, start, way }
+    }
+
+    /// Driving an entity to a target: the post is on its far side.
+    pub(crate) fn drive(&mut self, subject: Entity, target: Target) -> Guard {
+        let mover = self.mover(subject);
+        let field = self.navigator.field(target, mover, &[]);
+        let me = Entity::Agent(self.agent);
+        let (here, start) = (self.state.position(me), self.state.position(subject));
+        let own = self.mover(me);
+        let forward = (field.waypoint(start, LOOK_AHEAD) - start).normalize_or(Vec2::Y);
+        let post = start - forward * (self.physics.radius(me) + self.physics.radius(subject));
+        let way = Way::new(self.navigator, own, here, post, &[]);
+        Guard { subject, field, drives: true, post, is_next_to: true, start, way }
+    }
+
+    /// The other's path to a landmark, if the agent is in its way; with its load if it has one.
+    pub(crate) fn clear_path(&mut self, landmark: LandmarkId) -> Option<ClearPath> {
+        let other = self.agent.other();
+        let mover = self.state.held_object(other).map_or(Entity::Agent(other), Entity::Object);
+        let wide = self.mover(Entity::Agent(other)).half_width.max(self.mover(mover).half_width);
+        let width = phase_navigation::Mover { half_width: wide };
+        let field = self.navigator.field(super::task::centre(landmark), width, &[]);
+        let start = self.state.position(mover);
+        let points: Vec<Vec2> = core::iter::once(start).chain(field.path(start)).collect();
+        let own = self.mover(Entity::Agent(self.agent)).half_width;
+        let path = ClearPath { points, room: own + wide + CLEARANCE };
+        (path.distance(self.state.position(Entity::Agent(self.agent))) > 0.0).then_some(path)
+    }
+}

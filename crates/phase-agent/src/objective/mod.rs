@@ -1,0 +1,272 @@
+//! A subgoal in the low-level planner: the distance to go Φ(s), and the way.
+//!
+//! An [`Objective`] is compiled from a subgoal once a decision. The reward of the search, its value at the
+//! horizon and the rollout policy read it and nothing else.
+
+mod carry;
+mod guard;
+mod task;
+mod way;
+
+use crate::MindParameters;
+use phase_model::{
+    AgentId, Entity, Literal, ObjectId, PhysicsConfig, Predicate, PredicateTarget, State, Subgoal, Vec2,
+};
+use phase_navigation::{Disc, Mover, Navigator};
+use task::Task;
+
+/// Diagonal of the arena (u), the scale of distances in rewards.
+pub const ARENA_DIAGONAL: f32 = 28.284;
+
+/// One agent's subgoal, compiled for the states near the one it was compiled in.
+#[derive(Clone, Debug)]
+pub struct Objective<'a> {
+    physics: &'a PhysicsConfig,
+    agent: AgentId,
+    subgoal: Subgoal,
+    task: Task,
+    /// Cost of facing away from what the agent goes to (u).
+    facing: f32,
+    /// Cost of an object that is not yet held (u).
+    grasp: f32,
+}
+
+impl<'a> Objective<'a> {
+    /// Compiles a subgoal. The bodies are obstacles where they are in `state`.
+    #[must_use]
+    pub fn new(
+        physics: &'a PhysicsConfig,
+        navigator: &mut Navigator,
+        state: &State,
+        agent: AgentId,
+        subgoal: Subgoal,
+        parameters: &MindParameters,
+    ) -> Self {
+        let mut compiler = Compiler { physics, navigator, state, agent };
+        let task = compiler.task(subgoal);
+        Self { physics, agent, subgoal, task, facing: parameters.facing, grasp: parameters.grasp }
+    }
+
+    /// The agent that pursues it.
+    #[must_use]
+    pub const fn agent(&self) -> AgentId {
+        self.agent
+    }
+
+    /// The subgoal.
+    #[must_use]
+    pub const fn subgoal(&self) -> Subgoal {
+        self.subgoal
+    }
+
+    /// Bodies and walls.
+    #[must_use]
+    pub const fn physics(&self) -> &PhysicsConfig {
+        self.physics
+    }
+
+    /// Φ: the distance to go (u); at least 0, and finite for every finite state.
+    #[must_use]
+    pub fn distance(&self, state: &State) -> f32 {
+        let me = Entity::Agent(self.agent);
+        let here = state.position(me);
+        match &self.task {
+            Task::Rest => 0.0,
+            Task::Reach(field) => field.distance(here),
+            Task::Meet(entity, way) => {
+                let there = state.position(*entity);
+                (way.distance(here, there) - self.gap(*entity)).max(0.0) + self.facing_cost(state, there)
+            }
+            Task::Grasp(object, way) => self.to_grasp(state, *object, way),
+            Task::Release(object) => {
+                if state.holds(self.agent, *object) {
+                    self.grasp + self.sliding_distance(state, *object)
+                } else {
+                    self.sliding_distance(state, *object)
+                }
+            }
+            Task::Bring(object, way, carry) => {
+                if state.holds(self.agent, *object) {
+                    carry.distance(self.physics, state, self.agent)
+                } else {
+                    self.to_grasp(state, *object, way) + carry.load_distance(state)
+                }
+            }
+            Task::Escape(way) => {
+                let from = state.position(Entity::Agent(self.agent.other()));
+                (ARENA_DIAGONAL - way.distance(from, here)).max(0.0)
+            }
+            Task::Guard(guard) => guard.distance(state, me),
+            Task::ClearPath(path) => path.distance(here),
+        }
+    }
+
+    /// The point that the moved body should head for (u); its own position where there is nothing to do.
+    #[must_use]
+    pub fn waypoint(&self, state: &State) -> Vec2 {
+        let me = Entity::Agent(self.agent);
+        let here = state.position(me);
+        match &self.task {
+            Task::Rest | Task::Release(_) => here,
+            Task::Reach(field) => field.waypoint(here, way::LOOK_AHEAD),
+            Task::Meet(entity, way) => way.waypoint(here, state.position(*entity)),
+            Task::Grasp(object, way) => way.waypoint(here, state.position(Entity::Object(*object))),
+            Task::Bring(object, way, carry) => {
+                if state.holds(self.agent, *object) {
+                    carry.waypoint(state)
+                } else {
+                    way.waypoint(here, state.position(Entity::Object(*object)))
+                }
+            }
+            Task::Escape(way) => {
+                let from = state.position(Entity::Agent(self.agent.other()));
+                task::away(way, from, here, self.physics.radius(me))
+            }
+            Task::Guard(guard) => guard.waypoint(state, me),
+            Task::ClearPath(path) => path.waypoint(here),
+        }
+    }
+
+    /// The entity that the waypoint is for: the agent, or the object that it carries.
+    #[must_use]
+    pub fn moved_entity(&self, state: &State) -> Entity {
+        match self.task {
+            Task::Bring(object, ..) if state.holds(self.agent, object) => Entity::Object(object),
+            _ => Entity::Agent(self.agent),
+        }
+    }
+
+    /// The object to hold on to next, if the agent does not hold it.
+    #[must_use]
+    pub fn wanted_object(&self, state: &State) -> Option<ObjectId> {
+        match self.task {
+            Task::Grasp(object, _) | Task::Bring(object, ..) => {
+                (!state.holds(self.agent, object)).then_some(object)
+            }
+            _ => None,
+        }
+    }
+
+    /// Whether the subgoal is to release an object that the agent holds.
+    #[must_use]
+    pub fn releases(&self, state: &State) -> bool {
+        matches!(self.task, Task::Release(object) if state.holds(self.agent, object))
+    }
+
+    /// Distance between the centres of the agent and an entity that touch (u).
+    fn gap(&self, entity: Entity) -> f32 {
+        self.physics.agents[self.agent].radius + self.physics.radius(entity)
+    }
+
+    /// Cost of not facing a point (u). It makes agents look where they go, and turn to where they believe an
+    /// unobserved entity to be, which confirms or refutes it.
+    fn facing_cost(&self, state: &State, target: Vec2) -> f32 {
+        let body = state.body(Entity::Agent(self.agent));
+        let way = (target - body.position).normalize_or_zero();
+        0.5 * self.facing * (1.0 - way.dot(body.forward()))
+    }
+}
+
+/// Compiles subgoals of one agent in one state.
+struct Compiler<'a, 'n> {
+    physics: &'a PhysicsConfig,
+    navigator: &'n mut Navigator,
+    state: &'a State,
+    agent: AgentId,
+}
+
+impl Compiler<'_, '_> {
+    fn task(&mut self, subgoal: Subgoal) -> Task {
+        let Subgoal::Achieve(Literal { predicate, holds }) = subgoal else { return Task::Rest };
+        let me = Entity::Agent(self.agent);
+        match (predicate, holds) {
+            (Predicate::On(entity, landmark), true) => self.place(entity, task::centre(landmark)),
+            (Predicate::Close(entity, PredicateTarget::Landmark(landmark)), true) => {
+                self.place(entity, task::room(landmark))
+            }
+            (Predicate::Close(who, PredicateTarget::Entity(entity)), true) if who == me => self.meet(entity),
+            (Predicate::Touch(who, entity), true) if Entity::Agent(who) == me => self.meet(entity),
+            (Predicate::Attach(who, object), true) if Entity::Agent(who) == me => {
+                Task::Grasp(object, self.way_to(Entity::Object(object)))
+            }
+            (Predicate::Attach(who, object), false) if Entity::Agent(who) == me => Task::Release(object),
+            (Predicate::Touch(..), false)
+            | (Predicate::Close(_, PredicateTarget::Entity(_)), false) => self.escape(),
+            (Predicate::On(entity, landmark), false) if entity == me => {
+                self.clear_path(landmark).map_or(Task::Rest, Task::ClearPath)
+            }
+            (Predicate::On(entity, landmark), false) => {
+                Task::Guard(self.guard(entity, task::centre(landmark)))
+            }
+            (Predicate::Close(entity, PredicateTarget::Landmark(landmark)), false) => {
+                Task::Guard(self.guard(entity, task::room(landmark)))
+            }
+            // What only the other agent can do.
+            _ => Task::Rest,
+        }
+    }
+
+    /// Obstacles for a mover: every body but the agent, what it holds, and `target`.
+    fn obstacles(&self, target: Option<Entity>) -> Vec<Disc> {
+        let me = Entity::Agent(self.agent);
+        let held = self.state.held_object(self.agent).map(Entity::Object);
+        let is_free = |entity: &Entity| {
+            *entity != me && Some(*entity) != held && Some(*entity) != target && !self.holds_with(*entity)
+        };
+        let disc = |entity: Entity| Disc {
+            centre: self.state.position(entity),
+            radius: self.physics.radius(entity),
+        };
+        self.physics.entities().filter(is_free).map(disc).collect()
+    }
+
+    /// Whether an entity is the other agent, holding what this one holds.
+    fn holds_with(&self, entity: Entity) -> bool {
+        let held = self.state.held_object(self.agent);
+        entity == Entity::Agent(self.agent.other())
+            && held.is_some()
+            && held == self.state.held_object(self.agent.other())
+    }
+
+    fn mover(&self, entity: Entity) -> Mover {
+        match entity {
+            Entity::Agent(agent) => Mover { half_width: 0.5 * self.physics.agents[agent].width() },
+            Entity::Object(_) => Mover { half_width: self.physics.radius(entity) },
+        }
+    }
+
+    fn way_to(&mut self, entity: Entity) -> way::Way {
+        let me = Entity::Agent(self.agent);
+        let obstacles = self.obstacles(Some(entity));
+        let (from, to) = (self.state.position(me), self.state.position(entity));
+        let mover = self.mover(me);
+        way::Way::new(self.navigator, mover, from, to, &obstacles)
+    }
+
+    fn meet(&mut self, entity: Entity) -> Task {
+        Task::Meet(entity, self.way_to(entity))
+    }
+
+    /// An entity is to be at a target: the agent itself, or something that it has to move there.
+    fn place(&mut self, entity: Entity, target: phase_navigation::Target) -> Task {
+        let me = Entity::Agent(self.agent);
+        match entity {
+            _ if entity == me => {
+                let obstacles = self.obstacles(None);
+                let mover = self.mover(me);
+                Task::Reach(self.navigator.field(target, mover, &obstacles))
+            }
+            Entity::Object(object) => {
+                Task::Bring(object, self.way_to(entity), self.carry(object, target))
+            }
+            Entity::Agent(_) => Task::Guard(self.drive(entity, target)),
+        }
+    }
+
+    fn escape(&mut self) -> Task {
+        let (me, other) = (Entity::Agent(self.agent), Entity::Agent(self.agent.other()));
+        let (from, to) = (self.state.position(other), self.state.position(me));
+        let mover = self.mover(other);
+        Task::Escape(way::Way::new(self.navigator, mover, from, to, &[]))
+    }
+}

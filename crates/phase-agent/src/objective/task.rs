@@ -1,0 +1,60 @@
+//! What a subgoal asks for.
+
+use super::{carry::Carry, guard::{ClearPath, Guard}, way::Way};
+use phase_model::{Entity, LandmarkId, ObjectId, Vec2, arena};
+use phase_navigation::{Field, ROOM_DEPTH, Target};
+use std::sync::Arc;
+
+/// The kinds of distance to go.
+#[derive(Clone, Debug)]
+pub(crate) enum Task {
+    /// Nothing.
+    Rest,
+    /// Be at a target.
+    Reach(Arc<Field>),
+    /// Be next to an entity.
+    Meet(Entity, Way),
+    /// Hold an object.
+    Grasp(ObjectId, Way),
+    /// Release an object, and leave it at rest.
+    Release(ObjectId),
+    /// Bring an object to a target.
+    Bring(ObjectId, Way, Carry),
+    /// Be far from the other agent, whose way to this one it is.
+    Escape(Way),
+    /// Keep an entity away from a target, or drive it to one.
+    Guard(Guard),
+    /// Be clear of the other agent's path.
+    ClearPath(ClearPath),
+}
+
+/// A landmark as a target.
+pub(crate) const fn centre(landmark: LandmarkId) -> Target {
+    Target::Point(arena::LANDMARKS[landmark.index()])
+}
+
+/// A landmark's room as a target.
+pub(crate) const fn room(landmark: LandmarkId) -> Target {
+    Target::Room { room: landmark.room(), depth: ROOM_DEPTH }
+}
+
+/// Number of directions in which an escape is tried.
+const DIRECTIONS: usize = 8;
+/// Length of a tried escape (u).
+const ESCAPE_LENGTH: f32 = 3.0;
+
+/// Of several points around a body, within the arena, the one farthest from a pursuer by its way.
+pub(crate) fn away(way: &Way, pursuer: Vec2, here: Vec2, radius: f32) -> Vec2 {
+    let inset = Vec2::splat(radius);
+    let mut best = (f32::NEG_INFINITY, here);
+    for k in 0..DIRECTIONS {
+        let angle = k as f32 * (core::f32::consts::TAU / DIRECTIONS as f32);
+        let step = Vec2::new(libm::cosf(angle), libm::sinf(angle)) * ESCAPE_LENGTH;
+        let place = (here + step).max(arena::MIN + inset).min(arena::MAX - inset);
+        let distance = way.distance(pursuer, place);
+        if distance > best.0 {
+            best = (distance, place);
+        }
+    }
+    best.1
+}
