@@ -46,7 +46,6 @@ impl World<'_> {
             }
         }
         if self.released != 0 {
-            self.excluded_pairs |= self.released;
             for body in 0..self.model.count {
                 let motion = &self.motions[body];
                 self.let_go_at[body] = motion.centre;
@@ -64,7 +63,6 @@ impl World<'_> {
             };
             if self.released & bit(pair_key(pair)) != 0 && (moved(a) || moved(b)) {
                 self.released &= !bit(pair_key(pair));
-                self.excluded_pairs &= !bit(pair_key(pair));
             }
         }
     }

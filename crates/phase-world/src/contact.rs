@@ -1,7 +1,7 @@
 //! Contact rules: the engine's hooks, and the contacts that are reported.
 
 use crate::dynamic_body::DynamicBody;
-use phase_model::{Entity, MAX_ENTITIES, Vec2, arena::SUBSTEP_SECONDS};
+use phase_model::{Entity, MAX_ENTITIES, Vec2, arena::SUBSTEP_SECONDS, physics::RELEASED_OVERLAP};
 use rapier2d::{
     parry::{
         bounding_volume::{Aabb, BoundingVolume},
@@ -66,21 +66,23 @@ impl ContactRules {
     }
 }
 
-impl PhysicsHooks for ContactRules {
-    fn filter_contact_pair(&self, context: &PairFilterContext) -> Option<SolverFlags> {
-        let [first, second] =
-            [context.collider1, context.collider2].map(|collider| tagged(context.colliders, collider));
-        match (first, second) {
-            (Some(a), Some(b)) if self.released[a][b].is_some() => None,
-            _ => Some(SolverFlags::COMPUTE_RIGID_IMPULSES),
+impl ContactRules {
+    /// The overlap that contacts of a pair of colliders do not resist (u).
+    fn tolerated_overlap(&self, colliders: &ColliderSet, pair: [ColliderHandle; 2]) -> f32 {
+        match pair.map(|collider| tagged(colliders, collider)) {
+            [Some(a), Some(b)] if self.released[a][b].is_some() => RELEASED_OVERLAP,
+            _ => 0.0,
         }
     }
+}
 
+impl PhysicsHooks for ContactRules {
     fn modify_solver_contacts(&self, context: &mut ContactModificationContext) {
+        let tolerated = self.tolerated_overlap(context.colliders, [context.collider1, context.collider2]);
         let Some(manifold) = context.rigid_mut() else { return };
-        manifold.solver_contacts.retain(|contact| contact.dist <= 0.0);
+        manifold.solver_contacts.retain(|contact| contact.dist + tolerated <= 0.0);
         for contact in manifold.solver_contacts.iter_mut() {
-            contact.dist = (contact.dist + SLOP).min(0.0);
+            contact.dist = (contact.dist + tolerated + SLOP).min(0.0);
         }
     }
 }
