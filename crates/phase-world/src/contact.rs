@@ -32,8 +32,9 @@ fn tagged(colliders: &ColliderSet, handle: ColliderHandle) -> Option<usize> {
     (1..=MAX_ENTITIES as u128).contains(&tag).then(|| tag as usize - 1)
 }
 
-/// The contact rules: bodies that touch at the start of a substep collide, and a released object passes
-/// through the agent that held it until one of them has moved away from where it then was.
+/// The contact rules: bodies that touch at the start of a substep collide, and a released object may overlap
+/// the agent that held it by up to [`RELEASED_OVERLAP`] until one of them has moved away from where it then
+/// was.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct ContactRules {
     /// For every released pair, where the first of the two may overlap the second.
@@ -41,7 +42,7 @@ pub(crate) struct ContactRules {
 }
 
 impl ContactRules {
-    /// Lets a pair overlap until one of them has left its present place.
+    /// Lets a pair overlap slightly until one of them has left its present place.
     pub(crate) fn release(&mut self, engine: &PhysicsWorld, a: &DynamicBody, b: &DynamicBody) {
         for (one, other) in [(a, b), (b, a)] {
             let body = &engine.bodies[one.body];
@@ -51,7 +52,7 @@ impl ContactRules {
         }
     }
 
-    /// Makes released pairs collide again once one of them has left its place.
+    /// Ends the tolerance of released pairs once one of them has left its place.
     pub(crate) fn restore_clear(&mut self, engine: &PhysicsWorld, dynamic_bodies: &[DynamicBody]) {
         for dynamic_body in dynamic_bodies {
             let (this, centre) =
