@@ -5,6 +5,9 @@ use super::{figures::Figures, report::Report};
 /// A column: its heading, and its text for a row.
 type Column = (&'static str, fn(&Figures) -> String);
 
+/// A row: its name, and its text for each column.
+type Row = (&'static str, Vec<String>);
+
 /// What minds would choose, and what SIMPLE concludes.
 const MINDS: [Column; 11] = [
     ("events", |it| it.events.to_string()),
@@ -66,16 +69,18 @@ pub(super) fn print(report: &Report) -> String {
 }
 
 fn table(report: &Report, columns: &[Column]) -> String {
-    let groups = report.kinds.iter().chain(&report.roles).map(|(name, figures)| (*name, figures));
-    let rows: Vec<(&str, Vec<String>)> = core::iter::once(("all", &report.overall))
-        .chain(groups)
-        .map(|(name, figures)| (name, columns.iter().map(|(_, text)| text(figures)).collect()))
-        .collect();
+    let row = |(name, figures): &(&'static str, Figures)| (*name, cells(figures, columns));
+    let groups: [Vec<Row>; 3] = [
+        vec![("all", cells(&report.overall, columns))],
+        report.kinds.iter().map(row).collect(),
+        report.roles.iter().map(row).collect(),
+    ];
     let widths: Vec<usize> = columns
         .iter()
         .enumerate()
         .map(|(k, (heading, _))| {
-            rows.iter().map(|(_, cells)| cells[k].len()).chain([heading.len()]).max().unwrap_or(0)
+            let cells = groups.iter().flatten().map(|(_, cells)| cells[k].len());
+            cells.chain([heading.len()]).max().unwrap_or(0)
         })
         .collect();
     let line = |name: &str, cells: Vec<&str>| {
@@ -83,10 +88,19 @@ fn table(report: &Report, columns: &[Column]) -> String {
         format!("{name:<13}{}\n", cells.collect::<String>())
     };
     let mut text = line("", columns.iter().map(|(heading, _)| *heading).collect());
-    for (name, cells) in &rows {
-        text += &line(name, cells.iter().map(String::as_str).collect());
+    for (group, what) in groups.iter().zip(["", "kind", "role"]) {
+        if !what.is_empty() {
+            text += &format!("{what}\n");
+        }
+        for (name, cells) in group {
+            text += &line(name, cells.iter().map(String::as_str).collect());
+        }
     }
     text
+}
+
+fn cells(figures: &Figures, columns: &[Column]) -> Vec<String> {
+    columns.iter().map(|(_, text)| text(figures)).collect()
 }
 
 fn number(value: Option<f64>, digits: usize) -> String {
