@@ -96,7 +96,7 @@ fn exact_steps_end_overlaps() {
     assert_apart("exact", 0.0, |forward| Box::new(|state, actions| forward.step(state, actions)));
 }
 
-/// Coarse steps solve contacts approximately: bodies that others press together can overlap more deeply.
+/// Coarse steps solve contacts approximately, so that a few overlaps last longer.
 #[test]
 fn coarse_steps_end_overlaps() {
     assert_apart("coarse", 0.01, |forward| Box::new(|state, actions| forward.step_coarse(state, actions)));
