@@ -60,7 +60,7 @@ impl AssemblyField {
         }
         while let Some(index) = queue.pop() {
             let index = index as usize;
-            // With turns cheaper than a bucket is wide a settled cost may still fall, hence not by flag alone.
+            // A cost that falls afterwards, which needs edges shorter than a bucket, unsettles its node.
             if core::mem::replace(&mut is_settled[index], true) {
                 continue;
             }
