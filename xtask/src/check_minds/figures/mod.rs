@@ -42,8 +42,11 @@ pub(super) struct Figures {
     pub(super) log_likelihood_per_step: Option<f64>,
     /// The same with a lapse rate of 0.05.
     pub(super) log_likelihood_lapse_05: Option<f64>,
-    /// Mean deviation of a step from simulations under the truth (u).
+    /// Mean deviation of a step from simulations in which one agent decides under the truth and the other does what was
+    /// inferred (u).
     pub(super) stray_per_step: Option<f64>,
+    /// The same where both decide, always over whole events.
+    pub(super) stray_of_both_per_step: Option<f64>,
     /// SIMPLE's posterior.
     #[serde(flatten)]
     pub(super) recognition: RecognitionFigures,
@@ -60,15 +63,18 @@ impl Figures {
             .flat_map(|member| member.agents.iter().flat_map(|&agent| &member.event.chances[agent]))
             .copied()
             .collect();
-        let deviations: Vec<f64> =
-            members.iter().flat_map(|member| &member.event.deviations).copied().collect();
+        let deviations = members
+            .iter()
+            .flat_map(|member| member.agents.iter().flat_map(|&agent| &member.event.deviations[agent]));
+        let joint_deviations = members.iter().flat_map(|member| &member.event.joint_deviations);
         Self {
             events: members.len(),
             decisions: chances.len(),
             choice_probability: mean(&chances.iter().map(|chance| chance.mind).collect::<Vec<_>>()),
             log_likelihood_per_step: log_likelihood(&chances, lapse),
             log_likelihood_lapse_05: log_likelihood(&chances, FIXED_LAPSE),
-            stray_per_step: mean(&deviations),
+            stray_per_step: mean(&deviations.copied().collect::<Vec<_>>()),
+            stray_of_both_per_step: mean(&joint_deviations.copied().collect::<Vec<_>>()),
             recognition: RecognitionFigures::of(members),
             open_loop: OpenLoopFigures::of(members),
         }
