@@ -24,9 +24,12 @@ pub fn action(objective: &Objective<'_>, state: &State) -> Action {
     {
         return Action::Attach;
     }
-    let moved = state.body(objective.moved_entity(state));
-    let way = objective.waypoint(state) - moved.position;
+    let motion = objective.motion(state);
+    let way = motion.waypoint - state.position(motion.entity);
     let distance = way.length();
+    if distance < ARRIVAL_DISTANCE && motion.turn != 0.0 {
+        return if motion.turn > 0.0 { Action::TurnLeft } else { Action::TurnRight };
+    }
     let body = state.body(Entity::Agent(agent));
     if distance < ARRIVAL_DISTANCE || body.velocity.length() * STEP_SECONDS > distance {
         return Action::Stop;

@@ -72,6 +72,8 @@ pub struct MindParameters {
     pub facing: f32,
     /// Cost of an object that is yet to be grasped or released (u).
     pub grasp: f32,
+    /// Cost of turning an object and its holders about the object (u/rad).
+    pub turning: f32,
     /// Cost of what is nearly impossible: a door that is too narrow (u).
     pub impassable: f32,
 }
@@ -94,13 +96,14 @@ impl Default for MindParameters {
             foresight: Foresight::Coarse,
             heuristic_prior: 2.0,
             momentum_prior: 3.0,
-            lateral_prior: 0.3,
+            lateral_prior: 0.1,
             rest_prior: 0.2,
             horizon_steps: 8.0,
             other_initiative: 0.5,
             obstruction: 2.0,
             facing: 1.0,
             grasp: 2.0,
+            turning: 1.0,
             impassable: 100.0,
         }
     }

@@ -41,7 +41,7 @@ fn evaluate(size: Size, state: &State, literal: Literal) -> (f32, Vec2) {
     let mut navigator = Navigator::new(layout(), costs);
     let subgoal = Subgoal::Achieve(literal);
     let objective = Objective::new(&physics, &mut navigator, state, AgentId::ZERO, subgoal, &parameters);
-    (objective.distance(state), objective.waypoint(state))
+    (objective.distance(state), objective.motion(state).waypoint)
 }
 
 const AWAY: Vec2 = Vec2::new(24.0, 4.0);

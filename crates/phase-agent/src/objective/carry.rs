@@ -1,26 +1,28 @@
 //! Distance to go while grasping, carrying and releasing.
 
-use super::{ARENA_DIAGONAL, Compiler, Objective, way::{LOOK_AHEAD, Way}};
-use phase_model::{AgentId, Entity, ObjectId, PhysicsConfig, State, Vec2, physics};
-use phase_navigation::{Field, Target};
+use super::{ARENA_DIAGONAL, Compiler, Motion, Objective, way::{LOOK_AHEAD, Way}};
+use phase_model::{Entity, ObjectId, State, Vec2, arena, physics};
+use phase_navigation::{Assembly, AssemblyCosts, AssemblyField, Field, Target};
+use phase_predicates::threshold::ON_OBJECT;
 use std::sync::Arc;
 
-/// The way of a load and its carrier to a target.
+/// The way of a load to a target.
 #[derive(Clone, Debug)]
 pub(crate) struct Carry {
     object: ObjectId,
     load: Arc<Field>,
-    carrier: Arc<Field>,
+    /// Of the load with all its holders, if the agent is one of them.
+    assembly: Option<Arc<AssemblyField>>,
 }
 
 impl Carry {
-    /// Distance of the load, and by how much its carrier lags behind the length of its arm (u).
-    pub(crate) fn distance(&self, physics: &PhysicsConfig, state: &State, agent: AgentId) -> f32 {
-        let load = self.load_distance(state);
-        let me = Entity::Agent(agent);
-        let arm = physics.radius(me) + physics.radius(Entity::Object(self.object));
-        let lag = self.carrier.distance(state.position(me)) - load - arm;
-        load + 0.5 * lag.max(0.0)
+    /// Distance of the load with its holders (u): which way, whether it has to turn first, whether it fits.
+    pub(crate) fn distance(&self, state: &State) -> f32 {
+        let body = state.body(Entity::Object(self.object));
+        match &self.assembly {
+            Some(assembly) => assembly.distance(body.position, body.angle),
+            None => self.load.distance(body.position),
+        }
     }
 
     /// Distance of the load alone (u).
@@ -28,9 +30,15 @@ impl Carry {
         self.load.distance(state.position(Entity::Object(self.object)))
     }
 
-    /// The point that the load should head for (u).
-    pub(crate) fn waypoint(&self, state: &State) -> Vec2 {
-        self.load.waypoint(state.position(Entity::Object(self.object)), LOOK_AHEAD)
+    /// How the load should move next.
+    pub(crate) fn motion(&self, state: &State) -> Motion {
+        let entity = Entity::Object(self.object);
+        let body = state.body(entity);
+        let Some(assembly) = &self.assembly else {
+            return Motion::to(entity, self.load.waypoint(body.position, LOOK_AHEAD));
+        };
+        let descent = assembly.descent(body.position, body.angle);
+        Motion { entity, waypoint: body.position + descent.direction * LOOK_AHEAD, turn: descent.turn }
     }
 }
 
@@ -69,11 +77,14 @@ impl Compiler<'_, '_> {
     pub(crate) fn carry(&mut self, object: ObjectId, target: Target) -> Carry {
         let entity = Entity::Object(object);
         let obstacles = self.obstacles(Some(entity));
-        let (load, own) = (self.mover(entity), self.mover(Entity::Agent(self.agent)));
-        Carry {
-            object,
-            load: self.navigator.field(target, load, &obstacles),
-            carrier: self.navigator.field(target, own, &[]),
-        }
+        let load = self.navigator.field(target, self.mover(entity), &obstacles);
+        let assembly = self.state.holds(self.agent, object).then(|| {
+            let assembly = Assembly::of(self.physics, &self.state.grips, object);
+            // So that crossing a wall for the length of a room is as bad as a door that is too narrow.
+            let collision = self.navigator.costs().impassable / (0.5 * arena::SIDE);
+            let costs = AssemblyCosts { turning: self.turning, collision };
+            self.navigator.assembly_field(target, ON_OBJECT, &assembly, costs)
+        });
+        Carry { object, load, assembly }
     }
 }

@@ -5,6 +5,7 @@
 
 mod carry;
 mod guard;
+mod reach;
 mod task;
 mod way;
 
@@ -13,10 +14,28 @@ use phase_model::{
     AgentId, Entity, Literal, ObjectId, PhysicsConfig, Predicate, PredicateTarget, State, Subgoal, Vec2,
 };
 use phase_navigation::{Disc, Mover, Navigator};
+use reach::Reach;
 use task::Task;
 
 /// Diagonal of the arena (u), the scale of distances in rewards.
 pub const ARENA_DIAGONAL: f32 = 28.284;
+
+/// How a body should move next.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Motion {
+    /// The agent, or the object that it carries.
+    pub entity: Entity,
+    /// The point that the entity should head for (u); where it is if it need not move.
+    pub waypoint: Vec2,
+    /// Sense in which it has to turn: 1 to the left (counter-clockwise), −1 to the right, 0 if it need not.
+    pub turn: f32,
+}
+
+impl Motion {
+    pub(crate) const fn to(entity: Entity, waypoint: Vec2) -> Self {
+        Self { entity, waypoint, turn: 0.0 }
+    }
+}
 
 /// One agent's subgoal, compiled for the states near the one it was compiled in.
 #[derive(Clone, Debug)]
@@ -42,7 +61,7 @@ impl<'a> Objective<'a> {
         subgoal: Subgoal,
         parameters: &MindParameters,
     ) -> Self {
-        let mut compiler = Compiler { physics, navigator, state, agent };
+        let mut compiler = Compiler { physics, navigator, state, agent, turning: parameters.turning };
         let task = compiler.task(subgoal);
         Self { physics, agent, subgoal, task, facing: parameters.facing, grasp: parameters.grasp }
     }
@@ -72,7 +91,10 @@ impl<'a> Objective<'a> {
         let here = state.position(me);
         match &self.task {
             Task::Rest => 0.0,
-            Task::Reach(field) => field.distance(here),
+            Task::Reach(reach) => {
+                let facing = reach.closed_door().map_or(0.0, |door| self.facing_cost(state, door));
+                reach.distance(here) + facing
+            }
             Task::Meet(entity, way) => {
                 let there = state.position(*entity);
                 (way.distance(here, there) - self.gap(*entity)).max(0.0) + self.facing_cost(state, there)
@@ -80,14 +102,14 @@ impl<'a> Objective<'a> {
             Task::Grasp(object, way) => self.to_grasp(state, *object, way),
             Task::Release(object) => {
                 if state.holds(self.agent, *object) {
-                    self.grasp + self.sliding_distance(state, *object)
+                    0.5 * self.grasp + self.sliding_distance(state, *object)
                 } else {
                     self.sliding_distance(state, *object)
                 }
             }
             Task::Bring(object, way, carry) => {
                 if state.holds(self.agent, *object) {
-                    carry.distance(self.physics, state, self.agent)
+                    carry.distance(state)
                 } else {
                     self.to_grasp(state, *object, way) + carry.load_distance(state)
                 }
@@ -101,22 +123,21 @@ impl<'a> Objective<'a> {
         }
     }
 
-    /// The point that the moved body should head for (u); its own position where there is nothing to do.
+    /// How to move next.
     #[must_use]
-    pub fn waypoint(&self, state: &State) -> Vec2 {
+    pub fn motion(&self, state: &State) -> Motion {
         let me = Entity::Agent(self.agent);
         let here = state.position(me);
-        match &self.task {
+        let waypoint = match &self.task {
             Task::Rest | Task::Release(_) => here,
-            Task::Reach(field) => field.waypoint(here, way::LOOK_AHEAD),
+            Task::Reach(reach) => reach.waypoint(here),
             Task::Meet(entity, way) => way.waypoint(here, state.position(*entity)),
             Task::Grasp(object, way) => way.waypoint(here, state.position(Entity::Object(*object))),
             Task::Bring(object, way, carry) => {
                 if state.holds(self.agent, *object) {
-                    carry.waypoint(state)
-                } else {
-                    way.waypoint(here, state.position(Entity::Object(*object)))
+                    return carry.motion(state);
                 }
+                way.waypoint(here, state.position(Entity::Object(*object)))
             }
             Task::Escape(way) => {
                 let from = state.position(Entity::Agent(self.agent.other()));
@@ -124,16 +145,8 @@ impl<'a> Objective<'a> {
             }
             Task::Guard(guard) => guard.waypoint(state, me),
             Task::ClearPath(path) => path.waypoint(here),
-        }
-    }
-
-    /// The entity that the waypoint is for: the agent, or the object that it carries.
-    #[must_use]
-    pub fn moved_entity(&self, state: &State) -> Entity {
-        match self.task {
-            Task::Bring(object, ..) if state.holds(self.agent, object) => Entity::Object(object),
-            _ => Entity::Agent(self.agent),
-        }
+        };
+        Motion::to(me, waypoint)
     }
 
     /// The object to hold on to next, if the agent does not hold it.
@@ -173,6 +186,8 @@ struct Compiler<'a, 'n> {
     navigator: &'n mut Navigator,
     state: &'a State,
     agent: AgentId,
+    /// Cost of turning a load (u/rad).
+    turning: f32,
 }
 
 impl Compiler<'_, '_> {
@@ -254,7 +269,9 @@ impl Compiler<'_, '_> {
             _ if entity == me => {
                 let obstacles = self.obstacles(None);
                 let mover = self.mover(me);
-                Task::Reach(self.navigator.field(target, mover, &obstacles))
+                let field = self.navigator.field(target, mover, &obstacles);
+                let here = self.state.position(me);
+                Task::Reach(Reach::new(field, self.navigator.map(), mover, here))
             }
             Entity::Object(object) => {
                 Task::Bring(object, self.way_to(entity), self.carry(object, target))

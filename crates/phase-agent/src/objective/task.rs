@@ -1,9 +1,8 @@
 //! What a subgoal asks for.
 
-use super::{carry::Carry, guard::{ClearPath, Guard}, way::Way};
+use super::{carry::Carry, guard::{ClearPath, Guard}, reach::Reach, way::Way};
 use phase_model::{Entity, LandmarkId, ObjectId, Vec2, arena};
-use phase_navigation::{Field, ROOM_DEPTH, Target};
-use std::sync::Arc;
+use phase_navigation::{ROOM_DEPTH, Target};
 
 /// The kinds of distance to go.
 #[derive(Clone, Debug)]
@@ -11,7 +10,7 @@ pub(crate) enum Task {
     /// Nothing.
     Rest,
     /// Be at a target.
-    Reach(Arc<Field>),
+    Reach(Reach),
     /// Be next to an entity.
     Meet(Entity, Way),
     /// Hold an object.
