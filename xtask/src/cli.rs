@@ -3,6 +3,7 @@
 use crate::{
     check_behaviour::{self, options::CheckBehaviour},
     check_physics::{self, options::CheckPhysics},
+    draw_behaviour::{self, DrawBehaviour},
     error::XtaskError,
     golden::{self, GoldenOptions},
     tidy,
@@ -35,6 +36,8 @@ pub enum Command {
     CheckPhysics(CheckPhysics),
     /// Measure how reliably agents show the intended behaviour
     CheckBehaviour(CheckBehaviour),
+    /// Draw scenes for check-behaviour from the sampler
+    DrawBehaviour(DrawBehaviour),
     /// Run the golden tests of all crates, or rewrite the values that they compare with
     Golden(GoldenOptions),
     /// Check the project rules that the compiler cannot
@@ -53,6 +56,7 @@ impl Interface for Cli {
             Command::Phase(command) => Ok(command.run(context)?),
             Command::CheckPhysics(arguments) => check_physics::run(arguments, context),
             Command::CheckBehaviour(arguments) => Ok(check_behaviour::run(arguments, context)?),
+            Command::DrawBehaviour(arguments) => draw_behaviour::run(arguments),
             Command::Golden(options) => golden::run(options),
             Command::Tidy => tidy::run(),
         }

@@ -3,6 +3,7 @@
 //!
 //! - `check-physics` compares an engine with recorded motion,
 //! - `check-behaviour` shows how reliably agents do what they are planned to do,
+//! - `draw-behaviour` draws scenes for it from the sampler,
 //! - `golden` runs the golden tests, or rewrites what they compare with,
 //! - `tidy` checks what the compiler cannot.
 //!
@@ -15,8 +16,10 @@
 pub mod check_behaviour;
 pub mod check_physics;
 pub mod cli;
+pub mod draw_behaviour;
 pub mod error;
 pub mod golden;
+mod rooms;
 pub mod tidy;
 
 use clap::CommandFactory;
