@@ -2,6 +2,7 @@
 
 use crate::{
     check_behaviour::{self, options::CheckBehaviour},
+    check_minds::{self, options::CheckMinds},
     check_physics::{self, options::CheckPhysics},
     draw_behaviour::{self, DrawBehaviour},
     error::XtaskError,
@@ -38,6 +39,8 @@ pub enum Command {
     CheckBehaviour(CheckBehaviour),
     /// Draw scenes for check-behaviour from the sampler
     DrawBehaviour(DrawBehaviour),
+    /// Compare minds with the agents of recordings or events whose labels are known
+    CheckMinds(CheckMinds),
     /// Run the golden tests of all crates, or rewrite the values that they compare with
     Golden(GoldenOptions),
     /// Check the project rules that the compiler cannot
@@ -57,6 +60,7 @@ impl Interface for Cli {
             Command::CheckPhysics(arguments) => check_physics::run(arguments, context),
             Command::CheckBehaviour(arguments) => Ok(check_behaviour::run(arguments, context)?),
             Command::DrawBehaviour(arguments) => draw_behaviour::run(arguments),
+            Command::CheckMinds(arguments) => check_minds::run(arguments, context),
             Command::Golden(options) => golden::run(options),
             Command::Tidy => tidy::run(),
         }
