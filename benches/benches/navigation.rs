@@ -1,9 +1,11 @@
-//! One distance field for a moving body between walls and around two others, and one query of it.
+//! One distance field for a moving body between walls and around two others, one for an assembly, and queries of both.
 
 use core::hint::black_box;
 use criterion::Criterion;
-use phase_model::{Layout, Vec2};
-use phase_navigation::{Disc, Field, Map, Mover, NavigationCosts, Target};
+use phase_model::{Grip, Layout, ObjectId, PhysicsConfig, Side, Vec2, physics::AgentBody};
+use phase_navigation::{
+    Assembly, AssemblyCosts, AssemblyField, Disc, Field, Map, Mover, NavigationCosts, Target,
+};
 
 fn main() {
     let mut criterion = Criterion::default().configure_from_args();
@@ -27,5 +29,30 @@ fn main() {
             });
         }
     }
+    let assembly = both_hold();
+    let costs = AssemblyCosts { turning: 1.0, collision: 20.0 };
+    criterion.bench_function("navigation/assembly field", |bencher| {
+        bencher.iter(|| AssemblyField::new(&map, black_box(target), 1.414, &assembly, costs));
+    });
+    let field = AssemblyField::new(&map, target, 1.414, &assembly, costs);
+    let from = Vec2::new(24.0, 10.0);
+    criterion.bench_function("navigation/assembly field/distance", |bencher| {
+        bencher.iter(|| field.distance(black_box(from), 1.0));
+    });
+    criterion.bench_function("navigation/assembly field/descent", |bencher| {
+        bencher.iter(|| field.descent(black_box(from), 1.0));
+    });
     criterion.final_summary();
+}
+
+/// An object between two agents.
+fn both_hold() -> Assembly {
+    let physics = PhysicsConfig {
+        walls: Vec::new(),
+        agents: [AgentBody { radius: 0.8, max_force: 300.0 }; 2],
+        object_radii: [0.8, 0.0],
+        object_count: 1,
+    };
+    let grip = |relative_angle| Grip { object: ObjectId::ZERO, side: Side::Head, relative_angle };
+    Assembly::of(&physics, &[Some(grip(0.0)), Some(grip(core::f32::consts::PI))], ObjectId::ZERO)
 }

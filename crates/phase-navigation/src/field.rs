@@ -176,7 +176,7 @@ impl Field {
 }
 
 /// The point of the target nearest to a point (u).
-fn nearest(target: Target, from: Vec2) -> Vec2 {
+pub(crate) fn nearest(target: Target, from: Vec2) -> Vec2 {
     match target {
         Target::Point(point) => point,
         Target::Room { room, depth } => {

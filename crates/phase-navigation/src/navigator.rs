@@ -1,14 +1,16 @@
 //! Fields on demand, with a cache.
 
-use crate::{Disc, Field, Map, Mover, NavigationCosts, Target};
-use phase_model::Layout;
-use std::{
-    collections::{BTreeMap, VecDeque},
-    sync::Arc,
+use crate::{
+    Assembly, AssemblyCosts, AssemblyField, Disc, Field, Map, Mover, NavigationCosts, Target,
+    cache::{Cache, Key},
 };
+use phase_model::Layout;
+use std::sync::Arc;
 
-/// Number of fields kept; the oldest goes first.
-const CAPACITY: usize = 64;
+/// Number of fields kept.
+const FIELDS: usize = 64;
+/// Number of fields of assemblies kept; each takes 150 kB.
+const ASSEMBLY_FIELDS: usize = 8;
 
 /// Computes fields of one layout and keeps the latest.
 ///
@@ -17,12 +19,9 @@ const CAPACITY: usize = 64;
 pub struct Navigator {
     map: Arc<Map>,
     costs: NavigationCosts,
-    fields: BTreeMap<Key, Arc<Field>>,
-    oldest_first: VecDeque<Key>,
+    fields: Cache<Field>,
+    assembly_fields: Cache<AssemblyField>,
 }
-
-/// The bits of a field's arguments.
-type Key = Vec<u32>;
 
 impl Navigator {
     /// A navigator with an empty cache.
@@ -31,8 +30,8 @@ impl Navigator {
         Self {
             map: Arc::new(Map::new(layout)),
             costs,
-            fields: BTreeMap::new(),
-            oldest_first: VecDeque::new(),
+            fields: Cache::new(FIELDS),
+            assembly_fields: Cache::new(ASSEMBLY_FIELDS),
         }
     }
 
@@ -50,28 +49,32 @@ impl Navigator {
 
     /// The field of a target for a mover among obstacles.
     pub fn field(&mut self, target: Target, mover: Mover, obstacles: &[Disc]) -> Arc<Field> {
-        let key = key(target, mover, obstacles);
-        if let Some(field) = self.fields.get(&key) {
-            return Arc::clone(field);
-        }
-        let field = Arc::new(Field::new(&self.map, target, mover, obstacles, self.costs));
-        if self.oldest_first.len() == CAPACITY
-            && let Some(oldest) = self.oldest_first.pop_front()
-        {
-            self.fields.remove(&oldest);
-        }
-        self.oldest_first.push_back(key.clone());
-        self.fields.insert(key, Arc::clone(&field));
-        field
+        let bodies = obstacles.iter().flat_map(|disc| [disc.centre.x, disc.centre.y, disc.radius]);
+        let own = core::iter::once(mover.half_width).chain(bodies).map(f32::to_bits);
+        let (map, costs) = (&self.map, self.costs);
+        self.fields.get(key(target, own), || Field::new(map, target, mover, obstacles, costs))
+    }
+
+    /// The field of a target for an assembly; see [`AssemblyField::new`].
+    pub fn assembly_field(
+        &mut self,
+        target: Target,
+        reach: f32,
+        assembly: &Assembly,
+        costs: AssemblyCosts,
+    ) -> Arc<AssemblyField> {
+        let numbers = [reach, costs.turning, costs.collision].map(f32::to_bits);
+        let key = key(target, numbers.into_iter().chain(assembly.bits()));
+        let map = &self.map;
+        self.assembly_fields.get(key, || AssemblyField::new(map, target, reach, assembly, costs))
     }
 }
 
-fn key(target: Target, mover: Mover, obstacles: &[Disc]) -> Key {
-    let kind = match target {
+/// The target's bits and others.
+fn key(target: Target, others: impl Iterator<Item = u32>) -> Key {
+    let target = match target {
         Target::Point(point) => [u32::MAX, point.x.to_bits(), point.y.to_bits()],
         Target::Room { room, depth } => [room.index() as u32, depth.to_bits(), 0],
     };
-    let bodies =
-        obstacles.iter().flat_map(|disc| [disc.centre.x, disc.centre.y, disc.radius].map(f32::to_bits));
-    kind.into_iter().chain([mover.half_width.to_bits()]).chain(bodies).collect()
+    target.into_iter().chain(others).collect()
 }
