@@ -192,8 +192,10 @@ impl<D: Dynamics> Mind<D> {
         };
         // If all particles are equal, one root suffices and the search can cache its transitions.
         let different = if roots.iter().all(|root| root == &roots[0]) { &roots[..1] } else { roots };
-        let search_state: Vec<SearchState> =
-            different.iter().map(|&state| SearchState::new(&model.objective, state, belief_view.last_action)).collect();
+        let search_state: Vec<SearchState> = different
+            .iter()
+            .map(|&state| SearchState::new(&model.objective, state, belief_view.last_action))
+            .collect();
         // Each decision has its own generator, so the length of a search does not affect later decisions.
         let mut random = stream(random.next_u64(), Purpose::Search, 0);
         let decision = self.pomcp.search(&model, &search_state, &mut random)?;

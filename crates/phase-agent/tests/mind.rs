@@ -9,12 +9,12 @@ use phase_agent::{
 use phase_forward::Forward;
 use phase_model::{
     Action, AgentId, AgentSpec, Attitude, Body, Dynamics, Entity, EventKind, Goal, Grip, LandmarkId, Layout,
-    Literal, ObjectId, ObjectSpec, PhysicsConfig, Predicate, PredicateTarget, Scene, Side, Sign, Size, State, Strength,
-    Subgoal, Vec2,
+    Literal, ObjectId, ObjectSpec, PhysicsConfig, Predicate, PredicateTarget, Scene, Side, Sign, Size, State,
+    Strength, Subgoal, Vec2,
     random::{Purpose, stream},
 };
-use phase_perception::observe;
 use phase_navigation::{NavigationCosts, Navigator};
+use phase_perception::observe;
 use phase_pomcp::GenerativeModel;
 
 const ON_2: Goal =

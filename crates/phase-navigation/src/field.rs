@@ -45,6 +45,10 @@ impl Field {
     #[must_use]
     pub fn new(map: &Map, target: Target, mover: Mover, obstacles: &[Disc], costs: NavigationCosts) -> Self {
         let terrain = Terrain::new(map, mover, obstacles, costs);
+        let target = match target {
+            Target::Point(point) => Target::Point(off_axes(point)),
+            room @ Target::Room { .. } => room,
+        };
         let open = bends(map, &terrain, mover);
         let nodes = Vec::with_capacity(open.len());
         let mut field = Self { target, terrain, toll: 0.5 * costs.impassable, nodes };
@@ -89,7 +93,7 @@ impl Field {
     }
 
     /// Cost of the cheapest path from a point to the target (u): its length, and the [`NavigationCosts`] on it.
-    /// At least 0, finite for every point of the arena, and the straight distance where walls and obstacles
+    /// At least 0, finite for every finite point, and the straight distance where walls and obstacles
     /// leave the straight line free.
     #[must_use]
     pub fn distance(&self, from: Vec2) -> f32 {
@@ -145,12 +149,18 @@ impl Field {
     }
 
     fn way(&self, from: Vec2) -> Way {
+        // Imprecise steps may leave the arena by a little.
+        let inside = from.max(arena::MIN).min(arena::MAX);
+        if inside != from {
+            let way = self.way(inside);
+            return Way { cost: way.cost + from.distance(inside), ..way };
+        }
         let way = self.way_in_sight(from);
         if way.cost.is_finite() {
             return way;
         }
         // A point on the axes may see nothing; like `room_of`, take it to lie on the right and below.
-        self.way_in_sight(from + Vec2::new(OFF_AXIS, -OFF_AXIS))
+        self.way_in_sight(off_axes(from))
     }
 
     fn way_in_sight(&self, from: Vec2) -> Way {
@@ -173,6 +183,14 @@ impl Field {
         }
         best
     }
+}
+
+/// A point on an axis of the arena, where a wall or a closed door may hide it from everywhere, is taken to lie on
+/// the right and below.
+fn off_axes(point: Vec2) -> Vec2 {
+    let offset = point - arena::CENTRE;
+    let shift = |along: f32, by: f32| if along.abs() < OFF_AXIS { by - along } else { 0.0 };
+    point + Vec2::new(shift(offset.x, OFF_AXIS), shift(offset.y, -OFF_AXIS))
 }
 
 /// The point of the target nearest to a point (u).

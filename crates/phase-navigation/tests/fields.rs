@@ -103,7 +103,7 @@ proptest! {
         let target = Target::Room { room, depth: ROOM_DEPTH };
         let distance = Field::new(&map, target, Mover { half_width }, &[], COSTS).distance(from);
         let mut nearest = f32::INFINITY;
-        for (x, y) in (0..=40).flat_map(|x| (0..=40).map(move |y| (x, y))) {
+        for (x, y) in (-1..=41).flat_map(|x| (-1..=41).map(move |y| (x, y))) {
             let to = arena::MIN + 0.5 * Vec2::new(x as f32, y as f32);
             let offset = (to - arena::CENTRE).abs();
             // Only the border of the target area can be nearest.
@@ -150,9 +150,10 @@ proptest! {
 fn every_point_of_every_layout_has_a_finite_distance() {
     let corner = Vec2::new(8.5, 19.5);
     for layout in Layout::all_used() {
-        for (target, half_width) in [(corner, 1.2), (arena::CENTRE, 2.4), (Vec2::new(16.0, 18.0), 2.4)] {
+        let on_an_axis = [arena::CENTRE, Vec2::new(16.0, 18.0), Vec2::new(7.25, 12.0), Vec2::new(25.0, 12.0)];
+        for (target, half_width) in [(corner, 1.2)].into_iter().chain(on_an_axis.map(|point| (point, 2.4))) {
             let field = field(layout, target, half_width, &[]);
-            for (x, y) in (0..=40).flat_map(|x| (0..=40).map(move |y| (x, y))) {
+            for (x, y) in (-1..=41).flat_map(|x| (-1..=41).map(move |y| (x, y))) {
                 let from = arena::MIN + 0.5 * Vec2::new(x as f32, y as f32);
                 let distance = field.distance(from);
                 assert!(distance.is_finite() && distance >= 0.0, "{layout:?} {from}: {distance}");

@@ -123,12 +123,21 @@ impl<'a> PreparedEvent<'a> {
     }
 
     /// EXPLORE
-    pub fn simulate_agent_thin(&self, hypothesis: &Hypothesis, agent: AgentId, thin: usize, offset: usize) -> Result<Vec<(usize, AgentDecision)>, PomcpError> {
-        let mut run = SimulationRun::new(self.observed, hypothesis, self.minds, self.seed, self.motion.states[0])?;
+    pub fn simulate_agent_thin(
+        &self,
+        hypothesis: &Hypothesis,
+        agent: AgentId,
+        thin: usize,
+        offset: usize,
+    ) -> Result<Vec<(usize, AgentDecision)>, PomcpError> {
+        let mut run =
+            SimulationRun::new(self.observed, hypothesis, self.minds, self.seed, self.motion.states[0])?;
         let mut decided = Vec::new();
         for step in (offset..self.observed.steps()).step_by(thin) {
             run.set_state(self.motion.states[step]);
-            if step > 0 { run.last_actions = self.motion.actions[step - 1].map(Some); }
+            if step > 0 {
+                run.last_actions = self.motion.actions[step - 1].map(Some);
+            }
             let belief_view = self.beliefs[agent].belief_view(&run.physics, step, &run.state);
             let (action, thought) = run.decide(agent, &belief_view)?;
             decided.push((step, AgentDecision { action, thought, deviation: 0.0 }));
@@ -241,7 +250,8 @@ impl SimulationRun {
         agent: AgentId,
         (particles, observed): &(Vec<State>, BodySet),
     ) -> Result<(Action, Thought), PomcpError> {
-        let belief_view = BeliefView { particles, observed: *observed, last_action: self.last_actions[agent] };
+        let belief_view =
+            BeliefView { particles, observed: *observed, last_action: self.last_actions[agent] };
         self.minds[agent].decide(belief_view, &mut self.random[agent])
     }
 

@@ -1,6 +1,9 @@
 //! Distance to go while grasping, carrying and releasing.
 
-use super::{ARENA_DIAGONAL, Compiler, Motion, Objective, way::{LOOK_AHEAD, Way}};
+use super::{
+    ARENA_DIAGONAL, Compiler, Motion, Objective,
+    way::{LOOK_AHEAD, Way},
+};
 use phase_model::{Entity, ObjectId, State, Vec2, arena, physics};
 use phase_navigation::{Assembly, AssemblyCosts, AssemblyField, Field, Target};
 use phase_predicates::threshold::ON_OBJECT;

@@ -1,6 +1,9 @@
 //! Keeping an entity away from a target, driving it to one, and staying out of its way.
 
-use super::{ARENA_DIAGONAL, Compiler, way::{LOOK_AHEAD, Way}};
+use super::{
+    ARENA_DIAGONAL, Compiler,
+    way::{LOOK_AHEAD, Way},
+};
 use phase_model::{Entity, LandmarkId, State, Vec2};
 use phase_navigation::{Field, Target};
 use std::sync::Arc;

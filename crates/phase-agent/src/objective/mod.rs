@@ -205,8 +205,9 @@ impl Compiler<'_, '_> {
                 Task::Grasp(object, self.way_to(Entity::Object(object)))
             }
             (Predicate::Attach(who, object), false) if Entity::Agent(who) == me => Task::Release(object),
-            (Predicate::Touch(..), false)
-            | (Predicate::Close(_, PredicateTarget::Entity(_)), false) => self.escape(),
+            (Predicate::Touch(..), false) | (Predicate::Close(_, PredicateTarget::Entity(_)), false) => {
+                self.escape()
+            }
             (Predicate::On(entity, landmark), false) if entity == me => {
                 self.clear_path(landmark).map_or(Task::Rest, Task::ClearPath)
             }
@@ -273,9 +274,7 @@ impl Compiler<'_, '_> {
                 let here = self.state.position(me);
                 Task::Reach(Reach::new(field, self.navigator.map(), mover, here))
             }
-            Entity::Object(object) => {
-                Task::Bring(object, self.way_to(entity), self.carry(object, target))
-            }
+            Entity::Object(object) => Task::Bring(object, self.way_to(entity), self.carry(object, target)),
             Entity::Agent(_) => Task::Guard(self.drive(entity, target)),
         }
     }

@@ -27,8 +27,7 @@ impl Reach {
                 along.perp_dot(offset).abs() < ON_LINE && along.dot(offset) > 0.0 && !map.fits(slot, mover)
             })
         };
-        let closed_door =
-            if field.closed_doors(from) > 0 { field.path(from).find(is_closed) } else { None };
+        let closed_door = if field.closed_doors(from) > 0 { field.path(from).find(is_closed) } else { None };
         Self { field, closed_door, waiting: 4.0 * mover.half_width }
     }
 

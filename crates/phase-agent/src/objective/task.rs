@@ -1,6 +1,11 @@
 //! What a subgoal asks for.
 
-use super::{carry::Carry, guard::{ClearPath, Guard}, reach::Reach, way::Way};
+use super::{
+    carry::Carry,
+    guard::{ClearPath, Guard},
+    reach::Reach,
+    way::Way,
+};
 use phase_model::{Entity, LandmarkId, ObjectId, Vec2, arena};
 use phase_navigation::{ROOM_DEPTH, Target};
 
