@@ -10,7 +10,7 @@ use crate::{
     routes::{Gaps, Routes, point_in},
     search,
     symbolic::Node,
-    task::Task,
+    task::{Effort, Task},
     to_subgoals::to_subgoals,
 };
 use phase_model::{
@@ -178,7 +178,7 @@ fn obstruct_object(
     let location = Location::Current(Entity::Object(object));
     let holding = problem.state.held_object(agent) == Some(object);
     let contested = problem.state.held_object(victim) == Some(object);
-    let fetch = if holding { 0.0 } else { task.distance(&start, agent, None, location) };
+    let fetch = if holding { 0.0 } else { task.distance(&start, agent, None, location, Some(object)) };
     let mut candidates = Vec::new();
     for refuge in LandmarkId::ALL.into_iter().filter(|&refuge| refuge != landmark) {
         let mut after = free;
@@ -187,7 +187,7 @@ fn obstruct_object(
         let effect = other_cost(problem, victim, goal, after, None).min(base + MAX_EFFECT);
         let mut carrying = start;
         carrying.holds[agent] = Some(object);
-        let carry = task.distance(&carrying, agent, Some(object), Location::Landmark(refuge));
+        let carry = task.distance(&carrying, agent, Some(object), Location::Landmark(refuge), Some(object));
         let mut subgoals = Vec::new();
         if !holding {
             subgoals = release_first(problem, agent);
@@ -256,7 +256,7 @@ fn single_agent_task<'a>(
         problem,
         goal,
         actors: plan::only(agent),
-        effort_weights: [1.0; 2],
+        efforts: [Effort::OWN; 2],
         cooperative: false,
         narrowed: narrowed.map(|gaps| (agent, gaps)),
     }

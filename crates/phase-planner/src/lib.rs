@@ -40,6 +40,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod costs;
 pub mod evasion;
 pub mod hindrance;
 pub mod plan;
@@ -53,6 +54,7 @@ mod to_subgoals;
 pub mod value;
 pub mod yielding;
 
+pub use costs::PlannerCosts;
 pub use plan::Plan;
 pub use planner::Planner;
 pub use problem::{Location, PlanningProblem};
