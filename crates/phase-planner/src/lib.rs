@@ -41,8 +41,7 @@
 #![deny(missing_docs)]
 
 pub mod costs;
-pub mod evasion;
-pub mod hindrance;
+pub mod interference;
 pub mod plan;
 pub mod planner;
 pub mod problem;

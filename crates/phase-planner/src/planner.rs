@@ -2,8 +2,8 @@
 
 use crate::{
     costs::PlannerCosts,
-    evasion, hindrance,
-    plan::{Plan, inspect, only, release},
+    interference,
+    plan::{Plan, inspect, is, not, only, release, rooms},
     problem::PlanningProblem,
     routes::Routes,
     search,
@@ -13,7 +13,7 @@ use crate::{
     yielding,
 };
 use phase_model::{
-    AGENT_COUNT, AgentId, Attitude, BodySet, Entity, Goal, Layout, PhysicsConfig, Sign, State,
+    AGENT_COUNT, AgentId, Attitude, BodySet, Entity, Goal, Layout, PhysicsConfig, Predicate, Sign, State,
 };
 use phase_predicates::achieved;
 
@@ -68,11 +68,18 @@ impl Planner {
         let problem = PlanningProblem::new(&self.physics, &self.routes, state, self.costs);
         let own = self.goals[self.agent];
         let other = self.goals[self.agent.other()];
+        // A goal is to become true or not to become true, by its sign and, for the other's goal, the attitude.
+        let (goal, is_wanted) = match self.attitude {
+            Attitude::Neutral => (own, own.sign() == Sign::Positive),
+            Attitude::Help => (other, other.sign() == Sign::Positive),
+            Attitude::Hinder => (other, other.sign() == Sign::Negative),
+        };
+        let condition = if goal.sign() == Sign::Positive { goal } else { goal.negated() };
         match self.attitude {
+            _ if !is_wanted => interference::plan(&problem, self.agent, condition),
             Attitude::Help => self.help(&problem, other, observed),
-            Attitude::Hinder => hindrance::plan(&problem, self.agent, other),
-            Attitude::Neutral if own.sign() == Sign::Negative => self.avoid(&problem, own),
-            Attitude::Neutral => self.pursue(&problem, own, other, observed),
+            Attitude::Neutral if own != other.negated() => self.pursue(&problem, own, other, observed),
+            _ => self.contend(&problem, condition),
         }
     }
 
@@ -134,29 +141,45 @@ impl Planner {
     /// A helper searches for the cheapest plan in which both together achieve the other's goal, and does its
     /// own part of it; if the other does best alone, that part is empty.
     fn help(&self, problem: &PlanningProblem<'_>, goal: Goal, observed: BodySet) -> Plan {
-        if goal.sign() == Sign::Negative {
-            return self.help_to_avoid(problem, goal);
-        }
         if let Some(plan) = self.finish(problem, goal, observed) {
             return plan;
         }
         self.cooperate(problem, goal, self.agent.other(), observed)
     }
 
-    /// An avoidance goal is helped by staying away; other negated goals by undoing them.
-    fn help_to_avoid(&self, problem: &PlanningProblem<'_>, goal: Goal) -> Plan {
-        match goal {
-            Goal::Touch { .. } => evasion::plan(problem, self.agent),
-            _ => hindrance::plan(problem, self.agent, goal.negated()),
+    /// Makes a condition true that the other wants to be false, and maintains it, since the other would undo it.
+    fn contend(&self, problem: &PlanningProblem<'_>, condition: Goal) -> Plan {
+        let me = Entity::Agent(self.agent);
+        let actors = only(self.agent);
+        let efforts = [Effort::OWN; AGENT_COUNT];
+        let task = Task { problem, goal: condition, actors, efforts, cooperative: false, narrowed: None };
+        let last = match (condition, condition.landmark()) {
+            (_, Some(landmark)) => is(Predicate::On(condition.subject(), landmark)),
+            _ => is(Predicate::Touch(self.agent, Entity::Agent(self.agent.other()))),
+        };
+        let mut plan = search::solve(&task, Node::start(problem)).map_or_else(
+            || {
+                // No operator moves the other; it has to be pushed.
+                let (from, to) = (problem.state.position(me), problem.state.position(condition.subject()));
+                let width = problem.width(self.agent, None);
+                let mut plan = release(problem, self.agent);
+                if let Some(route) =
+                    problem.routes.best(from, to, width, problem.gaps(self.agent, BodySet::OBJECTS))
+                {
+                    plan.distance = route.cost();
+                    rooms(&route, from, to, me, &mut plan.subgoals);
+                }
+                plan
+            },
+            |plan| to_subgoals(&task, &plan, self.agent),
+        );
+        if let Entity::Object(object) = condition.subject() {
+            plan.subgoals.retain(|&subgoal| subgoal != not(Predicate::Attach(self.agent, object)));
         }
-    }
-
-    /// A negated goal of the agent itself: evading the other, or keeping something off a landmark.
-    fn avoid(&self, problem: &PlanningProblem<'_>, goal: Goal) -> Plan {
-        match goal {
-            Goal::Touch { .. } => evasion::plan(problem, self.agent),
-            _ => hindrance::plan(problem, self.agent, goal.negated()),
+        if plan.subgoals.last() != Some(&last) {
+            plan.subgoals.push(last);
         }
+        plan
     }
 
     /// What to do once the goal holds: release whatever is held, otherwise nothing. An agent that believes an

@@ -268,7 +268,7 @@ impl Task<'_> {
     }
 
     /// Relevant objects: the goal's own, those that block a door, and those held.
-    fn is_relevant(&self, object: ObjectId) -> bool {
+    pub(crate) fn is_relevant(&self, object: ObjectId) -> bool {
         self.goal.subject() == Entity::Object(object) || self.problem.blocks_a_door(object)
     }
 

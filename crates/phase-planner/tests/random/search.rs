@@ -2,15 +2,13 @@
 //!
 //! `PHASE_SEARCH_PROBLEMS` sets the number of problems.
 
-mod problems;
-
+use crate::problems::problems;
 use petgraph::{
     algo::dijkstra,
     graph::{DiGraph, NodeIndex},
     visit::{EdgeRef, Reversed},
 };
 use phase_planner::{PlannerCosts, PlanningProblem, Routes, search::solve, symbolic::Node, task::Task};
-use problems::problems;
 use proptest::{
     strategy::{Strategy, ValueTree},
     test_runner::TestRunner,
