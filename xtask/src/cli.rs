@@ -2,6 +2,7 @@
 
 use crate::{
     check_behaviour::{self, options::CheckBehaviour},
+    check_minds::{self, options::CheckMinds},
     check_physics::{self, options::CheckPhysics},
     error::XtaskError,
     golden::{self, GoldenOptions},
@@ -35,6 +36,8 @@ pub enum Command {
     CheckPhysics(CheckPhysics),
     /// Measure how reliably agents show the intended behaviour
     CheckBehaviour(CheckBehaviour),
+    /// Compare minds with the agents of recordings or events whose labels are known
+    CheckMinds(CheckMinds),
     /// Run the golden tests of all crates, or rewrite the values that they compare with
     Golden(GoldenOptions),
     /// Check the project rules that the compiler cannot
@@ -53,6 +56,7 @@ impl Interface for Cli {
             Command::Phase(command) => Ok(command.run(context)?),
             Command::CheckPhysics(arguments) => check_physics::run(arguments, context),
             Command::CheckBehaviour(arguments) => Ok(check_behaviour::run(arguments, context)?),
+            Command::CheckMinds(arguments) => check_minds::run(arguments, context),
             Command::Golden(options) => golden::run(options),
             Command::Tidy => tidy::run(),
         }

@@ -33,6 +33,9 @@ pub enum XtaskError {
     /// A golden test failed; it has reported the differences.
     #[error("golden values differ from what is computed, or their tests cannot be built; see above")]
     GoldenTests,
+    /// The user interrupted a command that keeps nothing of what it has done.
+    #[error("interrupted; nothing is written")]
+    Interrupted,
     /// Tidy found something.
     #[error("{0} rule(s) broken")]
     Untidy(usize),
@@ -43,6 +46,7 @@ impl Failure for XtaskError {
         match self {
             Self::Cli(error) => error.exit_code(),
             Self::Calibration { .. } => 2,
+            Self::Interrupted => 130,
             Self::Unreadable { .. } | Self::Cargo(_) | Self::GoldenTests | Self::Untidy(_) => 1,
         }
     }

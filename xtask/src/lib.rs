@@ -3,6 +3,7 @@
 //!
 //! - `check-physics` compares an engine with recorded motion,
 //! - `check-behaviour` shows how reliably agents do what they are planned to do,
+//! - `check-minds` compares minds with recorded agents,
 //! - `golden` runs the golden tests, or rewrites what they compare with,
 //! - `tidy` checks what the compiler cannot.
 //!
@@ -13,10 +14,12 @@
 #![deny(missing_docs)]
 
 pub mod check_behaviour;
+pub mod check_minds;
 pub mod check_physics;
 pub mod cli;
 pub mod error;
 pub mod golden;
+pub mod json_file;
 pub mod tidy;
 
 use clap::CommandFactory;

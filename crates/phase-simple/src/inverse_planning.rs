@@ -6,18 +6,14 @@
 
 use crate::{
     Hypothesis, InversePlanningSettings, Posterior, Proposal,
+    choice::{self, ByChoice, CHOICES},
     generative::{AgentDecision, PreparedEvent},
     intent::Intent,
     strength::UniformStrength,
 };
 use core::ops::ControlFlow;
-use phase_model::{AGENT_COUNT, Action, AgentId, Attitude, Goal, Strength};
+use phase_model::{AGENT_COUNT, AgentId, Attitude, Goal, Strength};
 use phase_pomcp::PomcpError;
-
-/// Visit counts of the search serve as action probabilities. The direction of a turn carries little information,
-/// and none in recordings of the published simulator, in which all turns are left turns; the two turns are
-/// therefore one choice.
-const CHOICES: usize = Action::ALL.len() - 1;
 
 /// Intents of an agent with ln P(motion | intent) of its part of the motion.
 type WeightedIntents = Vec<(Intent, f64)>;
@@ -42,7 +38,7 @@ pub(crate) fn posterior(
     let evidence = Evidence {
         prepared,
         settings,
-        action_likelihoods: action_likelihoods(prepared, settings.tolerance),
+        action_likelihoods: choice::action_likelihoods(prepared, settings.tolerance),
         strengths: prepared.motion().strengths(),
     };
     let cue = Proposal::new(observed, 0..=observed.steps(), gamma, &UniformStrength);
@@ -90,7 +86,7 @@ pub(crate) fn posterior(
 struct Evidence<'a> {
     prepared: &'a PreparedEvent<'a>,
     settings: &'a InversePlanningSettings,
-    action_likelihoods: Vec<[[f64; CHOICES]; AGENT_COUNT]>,
+    action_likelihoods: Vec<[ByChoice; AGENT_COUNT]>,
     strengths: [Strength; AGENT_COUNT],
 }
 
@@ -139,50 +135,12 @@ fn joint(
     Posterior::new(hypotheses)
 }
 
-/// Normalised likelihood of each choice for each step and agent, proportional to e^{−residual/σ}.
-fn action_likelihoods(prepared: &PreparedEvent<'_>, tolerance: f64) -> Vec<[[f64; CHOICES]; AGENT_COUNT]> {
-    let alternatives = prepared.motion().alternatives(prepared.observed());
-    let one = |residuals: &[f32; Action::ALL.len()]| {
-        let mut argmin = [f64::INFINITY; CHOICES];
-        for action in Action::ALL {
-            let place = choice(action);
-            argmin[place] = argmin[place].min(f64::from(residuals[action.index()]));
-        }
-        let best = argmin.iter().copied().fold(f64::INFINITY, f64::min);
-        let weights = argmin.map(|residual| libm::exp((best - residual) / tolerance));
-        let sum: f64 = weights.iter().sum();
-        weights.map(|weight| weight / sum)
-    };
-    alternatives.iter().map(|agents| agents.each_ref().map(one)).collect()
-}
-
 /// ln of the probability that the policy's action is the observed one, lapses included.
-fn log_choice_probability(
-    decided: &AgentDecision,
-    action_likelihoods: &[f64; CHOICES],
-    lapse_rate: f64,
-) -> f64 {
-    let mut policy = [0.0; CHOICES];
-    let visits: f64 = decided.thought.actions.iter().map(|value| f64::from(value.visits)).sum();
-    if visits > 0.0 {
-        for value in &decided.thought.actions {
-            policy[choice(value.action)] += f64::from(value.visits) / visits;
-        }
-    } else {
-        policy[choice(decided.action)] = 1.0;
-    }
+fn log_choice_probability(decided: &AgentDecision, action_likelihoods: &ByChoice, lapse_rate: f64) -> f64 {
     let slip = lapse_rate / CHOICES as f64;
-    let same = policy
-        .iter()
+    let same = choice::policy(decided)
+        .into_iter()
         .zip(action_likelihoods)
         .map(|(policy, action_likelihoods)| ((1.0 - lapse_rate) * policy + slip) * action_likelihoods);
     libm::log(same.sum::<f64>().max(f64::MIN_POSITIVE))
-}
-
-/// Index of an action among the choices.
-const fn choice(action: Action) -> usize {
-    match action {
-        Action::TurnLeft | Action::TurnRight => 0,
-        other => other.index() - 1,
-    }
 }

@@ -43,6 +43,7 @@
 #![deny(missing_docs)]
 
 pub mod beliefs;
+pub mod choice;
 pub mod cue;
 pub mod forecast;
 pub mod generative;

@@ -4,7 +4,7 @@ pub mod options;
 mod table;
 mod targets;
 
-use crate::error::XtaskError;
+use crate::{error::XtaskError, json_file};
 use options::CheckPhysics;
 use phase_calibration::{
     ColdForward, Engine, Probe, ReadError, Replay, Report, Run, StatelessErrors, WarmForward, WorldEngine,
@@ -18,9 +18,6 @@ use serde::Serialize;
 use serde_json::Value;
 use std::path::Path;
 use targets::Target;
-
-/// The name that means stdout where a file may be named.
-const STDOUT: &str = "-";
 
 /// What the engine is compared with.
 struct Records {
@@ -41,8 +38,8 @@ pub fn run(arguments: &CheckPhysics, context: &Context) -> Result<(), XtaskError
         let rule = "check-physics needs at least one of --probes, --runs and --events";
         return Err(CliError::Usage(rule.into()).into());
     }
-    if let Some(out) = arguments.json.as_ref().filter(|out| *out != Path::new(STDOUT)) {
-        check_output(out, files.into_iter().flatten().map(|file| file.as_path()))?;
+    if let Some(out) = &arguments.json {
+        json_file::check(out, files.into_iter().flatten().map(|file| file.as_path()))?;
     }
     let records = Records::read(arguments, context)?;
     context.note(format!("measuring the engine {}", arguments.engine.name()));
@@ -64,7 +61,7 @@ pub fn run(arguments: &CheckPhysics, context: &Context) -> Result<(), XtaskError
     };
     if let Some(out) = &arguments.json {
         let text = to_json(&report, &targets, records.mirrored)?;
-        if out == Path::new(STDOUT) {
+        if out == Path::new(json_file::STDOUT) {
             print_result(text.trim_end());
             return Ok(());
         }
@@ -123,23 +120,6 @@ fn replays(file: &Path, context: &Context) -> Result<(Vec<Replay>, usize), CliEr
         return Err(CliError::Usage(format!("{}: {rule}", file.display())));
     }
     Ok((replays, mirrored))
-}
-
-/// Writing the report must not overwrite anything.
-fn check_output<'a>(out: &Path, mut inputs: impl Iterator<Item = &'a Path>) -> Result<(), CliError> {
-    let usage = |rule: &str| CliError::Usage(format!("--json {}: {rule}", out.display()));
-    if out.is_dir() {
-        return Err(usage("is a folder; a file is needed"));
-    }
-    let folder = out.parent().filter(|folder| !folder.as_os_str().is_empty());
-    if folder.is_some_and(|folder| !folder.is_dir()) {
-        return Err(usage("cannot be written, for its folder does not exist"));
-    }
-    let same = |input: &Path| {
-        out == input
-            || out.canonicalize().is_ok_and(|out| input.canonicalize().is_ok_and(|input| out == input))
-    };
-    if inputs.any(same) { Err(usage("is an input file; choose another")) } else { Ok(()) }
 }
 
 /// The file that `--json` writes.

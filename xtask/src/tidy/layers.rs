@@ -4,7 +4,7 @@ use super::Workspace;
 use std::path::{Path, PathBuf};
 
 /// The crates from the bottom layer up. A crate may use those before it, never those after it.
-pub const LAYERS: [&str; 24] = [
+pub const LAYERS: [&str; 25] = [
     "phase-model",
     "phase-event",
     "phase-statistics",
@@ -15,6 +15,7 @@ pub const LAYERS: [&str; 24] = [
     "phase-perception",
     "phase-belief",
     "phase-predicates",
+    "phase-navigation",
     "phase-planner",
     "phase-pomcp",
     "phase-agent",

@@ -1,6 +1,7 @@
 //! The development commands of `cargo xtask`, run as a program.
 
 mod check_behaviour;
+mod check_minds;
 mod check_physics;
 mod commands;
 mod support;

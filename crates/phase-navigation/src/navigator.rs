@@ -1,0 +1,80 @@
+//! Fields on demand, with a cache.
+
+use crate::{
+    Assembly, AssemblyCosts, AssemblyField, Disc, Field, Map, Mover, NavigationCosts, Target,
+    cache::{Cache, Key},
+};
+use phase_model::Layout;
+use std::sync::Arc;
+
+/// Number of fields kept.
+const FIELDS: usize = 64;
+/// Number of fields of assemblies kept; each takes 150 kB.
+const ASSEMBLY_FIELDS: usize = 8;
+
+/// Computes fields of one layout and keeps the latest.
+///
+/// A field depends on the arguments alone, so the cache changes the time of an answer and never the answer.
+#[derive(Clone, Debug)]
+pub struct Navigator {
+    map: Arc<Map>,
+    costs: NavigationCosts,
+    fields: Cache<Field>,
+    assembly_fields: Cache<AssemblyField>,
+}
+
+impl Navigator {
+    /// A navigator with an empty cache.
+    #[must_use]
+    pub fn new(layout: Layout, costs: NavigationCosts) -> Self {
+        Self {
+            map: Arc::new(Map::new(layout)),
+            costs,
+            fields: Cache::new(FIELDS),
+            assembly_fields: Cache::new(ASSEMBLY_FIELDS),
+        }
+    }
+
+    /// The map.
+    #[must_use]
+    pub fn map(&self) -> &Map {
+        &self.map
+    }
+
+    /// The costs of all fields.
+    #[must_use]
+    pub const fn costs(&self) -> NavigationCosts {
+        self.costs
+    }
+
+    /// The field of a target for a mover among obstacles.
+    pub fn field(&mut self, target: Target, mover: Mover, obstacles: &[Disc]) -> Arc<Field> {
+        let bodies = obstacles.iter().flat_map(|disc| [disc.centre.x, disc.centre.y, disc.radius]);
+        let own = core::iter::once(mover.half_width).chain(bodies).map(f32::to_bits);
+        let (map, costs) = (&self.map, self.costs);
+        self.fields.get(key(target, own), || Field::new(map, target, mover, obstacles, costs))
+    }
+
+    /// The field of a target for an assembly; see [`AssemblyField::new`].
+    pub fn assembly_field(
+        &mut self,
+        target: Target,
+        reach: f32,
+        assembly: &Assembly,
+        costs: AssemblyCosts,
+    ) -> Arc<AssemblyField> {
+        let numbers = [reach, costs.turning, costs.collision].map(f32::to_bits);
+        let key = key(target, numbers.into_iter().chain(assembly.bits()));
+        let map = &self.map;
+        self.assembly_fields.get(key, || AssemblyField::new(map, target, reach, assembly, costs))
+    }
+}
+
+/// The target's bits and others.
+fn key(target: Target, others: impl Iterator<Item = u32>) -> Key {
+    let target = match target {
+        Target::Point(point) => [u32::MAX, point.x.to_bits(), point.y.to_bits()],
+        Target::Room { room, depth } => [room.index() as u32, depth.to_bits(), 0],
+    };
+    target.into_iter().chain(others).collect()
+}

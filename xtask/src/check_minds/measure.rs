@@ -1,0 +1,164 @@
+//! Everything that is measured about one event.
+
+use super::{motion::Motion, recognition::Recognition, role::Role};
+use core::ops::ControlFlow;
+use cpu_time::ThreadTime;
+use phase_cli::{engine, error::CliError, interrupt, progress::Progress};
+use phase_eval::MethodError;
+use phase_event::Recording;
+use phase_evidence::Track;
+use phase_model::{AGENT_COUNT, AgentId, EventKind, Scene};
+use phase_sim::SimulationSettings;
+use phase_simple::{
+    Algorithm, Hypothesis, InferenceSettings, InversePlanningSettings, PreparedEvent, UniformStrength,
+    choice::{self, Chance},
+    infer,
+};
+
+/// Steps after which a simulation whose straying is measured is set to the observed state.
+const RESYNC_INTERVAL: usize = 10;
+
+/// What is to be measured.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Plan {
+    /// SIMPLE, whose minds also decide at observed states.
+    pub(super) inference: InferenceSettings,
+    /// Whether SIMPLE's posterior is wanted.
+    pub(super) posterior: bool,
+    /// The minds of the open loop.
+    pub(super) open_loop: phase_agent::MindParameters,
+    /// Simulations of every scene in the open loop.
+    pub(super) open_loop_seeds: u64,
+    /// The seed; simulations in the open loop use those that follow, too.
+    pub(super) seed: u64,
+}
+
+/// One event, measured.
+#[derive(Clone, Debug)]
+pub(super) struct MeasuredEvent {
+    /// Its id.
+    pub(super) id: String,
+    /// Its kind.
+    pub(super) kind: EventKind,
+    /// The roles of its agents.
+    pub(super) roles: [Role; AGENT_COUNT],
+    /// The chance of what each agent did, by step.
+    pub(super) chances: [Vec<Chance>; AGENT_COUNT],
+    /// Deviation of simulations under the truth, by step (u).
+    pub(super) deviations: Vec<f64>,
+    /// SIMPLE's answer, if wanted.
+    pub(super) recognition: Option<Recognition>,
+    /// How the agents moved.
+    pub(super) recorded: Motion,
+    /// How they move in the open loop, by seed.
+    pub(super) simulated: Vec<Simulated>,
+}
+
+/// One simulation in the open loop.
+#[derive(Clone, Debug)]
+pub(super) struct Simulated {
+    /// How the agents move.
+    pub(super) motion: Motion,
+    /// CPU time of 100 steps (s).
+    pub(super) cpu_seconds: f64,
+}
+
+impl Plan {
+    /// Approximate number of units of progress of an event of so many steps.
+    pub(super) fn units(&self, steps: usize) -> usize {
+        let posterior = if self.posterior { self.inference.ticks() } else { 0 };
+        posterior + self.open_loop_seeds as usize * steps
+    }
+
+    /// Measures an event; `None` if it was interrupted.
+    pub(super) fn measure(
+        &self,
+        recording: &Recording,
+        progress: &Progress,
+    ) -> Result<Option<MeasuredEvent>, CliError> {
+        let id = &recording.id;
+        let failed = |error: MethodError| CliError::Method { id: id.clone(), source: error };
+        let mut units = 0;
+        let mut tick = || {
+            units += 1;
+            progress.step();
+            if interrupt::requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
+        let scene = &recording.scene;
+        let truth = truth(scene);
+        let observed = recording.observed().map_err(|error| failed(MethodError::new(error)))?;
+        let prepared = PreparedEvent::new(&observed, self.inference.minds, self.seed);
+        let likelihoods = choice::action_likelihoods(&prepared, self.tolerance());
+        let chances = |agent| {
+            let chances = choice::chances(&prepared, &likelihoods, &truth, agent);
+            chances.map_err(|error| failed(MethodError::new(error)))
+        };
+        let chances = [chances(AgentId::ZERO)?, chances(AgentId::ONE)?];
+        let deviations = prepared
+            .simulate(&truth, Some(RESYNC_INTERVAL), f64::INFINITY)
+            .map_err(|error| failed(MethodError::new(error)))?;
+        let recorded_track = Track { physics: scene.physics(), states: recording.trajectory.states() };
+        let mut simulated = Vec::new();
+        for seed in (0..self.open_loop_seeds).map(|k| self.seed.wrapping_add(k)) {
+            let Some(run) = self.open_loop(recording, seed, &mut tick)? else { return Ok(None) };
+            simulated.push(run);
+        }
+        let recognition = if self.posterior {
+            let inference = infer(&prepared, &UniformStrength, self.seed, &self.inference, &mut tick)
+                .map_err(|error| failed(MethodError::new(error)))?;
+            let Some(inference) = inference else { return Ok(None) };
+            Some(Recognition::of(&inference.posterior, &truth))
+        } else {
+            None
+        };
+        progress.event(units, id);
+        Ok(Some(MeasuredEvent {
+            id: id.clone(),
+            kind: scene.kind,
+            roles: AgentId::ALL.map(|agent| Role::of(scene, agent)),
+            chances,
+            deviations,
+            recognition,
+            recorded: Motion::of(scene, &recorded_track),
+            simulated,
+        }))
+    }
+
+    /// Simulates the scene of a recording for as many steps as were recorded; `None` if it was interrupted.
+    fn open_loop(
+        &self,
+        recording: &Recording,
+        seed: u64,
+        tick: &mut dyn FnMut() -> ControlFlow<()>,
+    ) -> Result<Option<Simulated>, CliError> {
+        let steps = recording.trajectory.steps();
+        let settings = SimulationSettings {
+            max_steps: steps,
+            min_steps: steps,
+            minds: self.open_loop,
+            ..SimulationSettings::default()
+        };
+        let begun = ThreadTime::now();
+        let event = engine::simulate(&recording.id, &recording.scene, seed, &settings, &mut |_| tick())?;
+        let cpu_seconds = begun.elapsed().as_secs_f64() * 100.0 / steps as f64;
+        Ok(event.map(|event| Simulated {
+            motion: Motion::of(&recording.scene, &Track::of_event(&event)),
+            cpu_seconds,
+        }))
+    }
+
+    /// Scale of the residuals of inverse dynamics (u): SIMPLE's.
+    fn tolerance(&self) -> f64 {
+        match self.inference.algorithm {
+            Algorithm::InversePlanning(settings) => settings.tolerance,
+            Algorithm::Chains(_) => InversePlanningSettings::default().tolerance,
+        }
+    }
+}
+
+/// The hypothesis that the labels of a scene state.
+fn truth(scene: &Scene) -> Hypothesis {
+    let attitudes = scene.agents.map(|agent| agent.attitude);
+    let strengths = scene.agents.map(|agent| agent.strength);
+    Hypothesis::new(scene.goals(), attitudes, strengths)
+}

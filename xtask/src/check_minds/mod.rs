@@ -1,0 +1,111 @@
+//! `check-minds`: how minds compare with the agents of recordings or of other events whose labels are known.
+
+mod figures;
+mod measure;
+mod motion;
+pub mod options;
+mod parameters;
+mod recognition;
+mod report;
+mod role;
+mod table;
+
+use crate::{error::XtaskError, json_file};
+use measure::Plan;
+use options::CheckMinds;
+use phase_agent::MindParameters;
+use phase_cli::{
+    console::{self, print_result},
+    context::Context,
+    engine::GENERATOR,
+    error::CliError,
+    interrupt,
+    output::json_text,
+    parallel::make_all,
+    source::EventInput,
+};
+use phase_dataset::atomic;
+use phase_event::Recording;
+use phase_simple::InferenceSettings;
+use report::Report;
+use serde_json::{Value, json};
+use std::path::Path;
+
+/// Runs the command.
+///
+/// # Errors
+/// Any [`XtaskError`] about the files, or an interruption.
+pub fn run(arguments: &CheckMinds, context: &Context) -> Result<(), XtaskError> {
+    if let Some(out) = &arguments.json {
+        let inputs = [Some(&arguments.events), arguments.parameters.as_ref()];
+        json_file::check(out, inputs.into_iter().flatten().map(|file| file.as_path()))?;
+    }
+    let parameters = arguments.parameters.as_deref().map(parameters::read).transpose()?;
+    let plan = plan(arguments, parameters.unwrap_or_default());
+    let recordings = recordings(arguments, context)?;
+    for recording in recordings.iter().take(1) {
+        parameters::check(plan.open_loop, &recording.scene, arguments.parameters.as_deref())?;
+    }
+    interrupt::listen();
+    let units = recordings.iter().map(|recording| plan.units(recording.trajectory.steps())).max();
+    let activity = format!("measuring {}", console::events(recordings.len()));
+    let progress = context.progress(&activity, recordings.len(), units.unwrap_or(0));
+    let events = make_all(&arguments.jobs, recordings.len(), |k| plan.measure(&recordings[k], &progress))?;
+    drop(progress);
+    let Some(events) = events else { return Err(XtaskError::Interrupted) };
+    let report = Report::of(&events, description(arguments, &plan));
+    if let Some(out) = &arguments.json {
+        let text = json_text(&report, "the report")?;
+        if out == Path::new(json_file::STDOUT) {
+            print_result(text.trim_end());
+            return Ok(());
+        }
+        atomic::write(out, text.as_bytes()).map_err(CliError::Output)?;
+    }
+    print_result(table::print(&report).trim_end());
+    Ok(())
+}
+
+/// What is to be measured, with these parameters of the minds.
+fn plan(arguments: &CheckMinds, parameters: MindParameters) -> Plan {
+    let minds = |simulations: u32| MindParameters { simulations: simulations as usize, ..parameters };
+    Plan {
+        inference: InferenceSettings { minds: minds(arguments.simulations), ..InferenceSettings::default() },
+        posterior: !arguments.no_posterior,
+        open_loop: minds(arguments.simulations_open_loop),
+        open_loop_seeds: arguments.open_loop_seeds.into(),
+        seed: arguments.seed,
+    }
+}
+
+/// The events to be measured.
+fn recordings(arguments: &CheckMinds, context: &Context) -> Result<Vec<Recording>, CliError> {
+    let source = EventInput::open(&arguments.events, &[], context)?;
+    let mut recordings = (0..source.len()).map(|k| source.load(k)).collect::<Result<Vec<_>, _>>()?;
+    if let Some(kind) = arguments.only {
+        recordings.retain(|recording| recording.scene.kind == kind);
+    }
+    let file = &arguments.events;
+    if recordings.is_empty() {
+        let what = arguments.only.map_or_else(String::new, |kind| format!(" of the kind {}", kind.name()));
+        return Err(CliError::Usage(format!("{}: has no events{what}", file.display())));
+    }
+    match recordings.iter().find(|recording| recording.trajectory.steps() == 0) {
+        Some(recording) => Err(CliError::StartAlone {
+            file: file.clone(),
+            id: recording.id.clone(),
+            needed: "to compare minds with it, at least one step is needed",
+        }),
+        None => Ok(recordings),
+    }
+}
+
+/// How the report is made.
+fn description(arguments: &CheckMinds, plan: &Plan) -> Value {
+    json!({
+        "command": "check-minds", "generator": GENERATOR, "seed": plan.seed,
+        "only": arguments.only.map(phase_model::EventKind::name),
+        "inference": plan.inference, "posterior": plan.posterior,
+        "open_loop": plan.open_loop, "open_loop_seeds": plan.open_loop_seeds,
+    })
+}

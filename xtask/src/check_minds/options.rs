@@ -1,0 +1,48 @@
+//! The options of `check-minds`.
+
+use clap::{Args, builder::PossibleValuesParser, builder::TypedValueParser, value_parser};
+use phase_cli::parallel::Jobs;
+use phase_model::EventKind;
+use std::path::PathBuf;
+
+/// Options of `check-minds`.
+#[derive(Args, Debug)]
+pub struct CheckMinds {
+    /// A file in the format phase-events/1, or the folder of a dataset or of simulations
+    #[arg(long, value_name = "FILE|DIR")]
+    pub events: PathBuf,
+    /// Only events of this kind
+    #[arg(long, value_name = "KIND", value_parser = kinds())]
+    pub only: Option<EventKind>,
+    /// JSON file of parameters of the minds, of which all that are absent have their defaults; it does not say how
+    /// many simulations there are
+    #[arg(long, value_name = "FILE")]
+    pub parameters: Option<PathBuf>,
+    /// POMCP simulations a decision at observed states and within SIMPLE
+    #[arg(long, value_name = "N", default_value_t = 50, value_parser = value_parser!(u32).range(1..=10_000_000))]
+    pub simulations: u32,
+    /// POMCP simulations a decision in the open loop
+    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = value_parser!(u32).range(1..=10_000_000))]
+    pub simulations_open_loop: u32,
+    /// Simulations of every scene in the open loop; with 0 that part is left out
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = value_parser!(u16).range(0..=1000))]
+    pub open_loop_seeds: u16,
+    /// Leave out SIMPLE's posterior, which takes most of the time
+    #[arg(long)]
+    pub no_posterior: bool,
+    /// The seed of all random draws, the same in every event
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub seed: u64,
+    /// Print the report as one JSON object on stdout, and nothing else there; or, with a file, write it there too
+    #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = "-")]
+    pub json: Option<PathBuf>,
+    /// How many events at once.
+    #[command(flatten)]
+    pub jobs: Jobs,
+}
+
+/// Reads a kind of event by its name.
+fn kinds() -> impl TypedValueParser<Value = EventKind> {
+    let names = PossibleValuesParser::new(EventKind::ALL.map(EventKind::name));
+    names.try_map(|name| EventKind::ALL.into_iter().find(|kind| kind.name() == name).ok_or("no such kind"))
+}

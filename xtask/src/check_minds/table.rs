@@ -1,0 +1,112 @@
+//! A report for people.
+
+use super::{figures::Figures, report::Report};
+
+/// A column: its heading, and its text for a row.
+type Column = (&'static str, fn(&Figures) -> String);
+
+/// A row: its name, and its text for each column.
+type Row = (&'static str, Vec<String>);
+
+/// What minds would choose, and what SIMPLE concludes.
+const MINDS: [Column; 11] = [
+    ("events", |it| it.events.to_string()),
+    ("decisions", |it| it.decisions.to_string()),
+    ("chance", |it| number(it.choice_probability, 3)),
+    ("ll", |it| number(it.log_likelihood_per_step, 3)),
+    ("ll .05", |it| number(it.log_likelihood_lapse_05, 3)),
+    ("stray", |it| number(it.stray_per_step, 2)),
+    ("log post", |it| number(it.recognition.log_posterior, 2)),
+    ("relation", |it| number(it.recognition.relation_probability, 2)),
+    ("top-1", |it| number(it.recognition.relation_top1, 2)),
+    ("goals", |it| number(it.recognition.goal_top1, 2)),
+    ("who", |it| {
+        let social = it.recognition.social_agent;
+        social.map_or_else(
+            || "-".into(),
+            |it| format!("{}/{}/{}/{}", it.named, it.likelier, it.wrong_above_90, it.events),
+        )
+    }),
+];
+
+/// The open loop beside the recordings.
+const OPEN_LOOP: [Column; 9] = [
+    ("goals", |it| it.open_loop.goals.to_string()),
+    ("as recorded", |it| number(it.open_loop.outcomes_as_recorded, 2)),
+    ("any time", |it| number(it.open_loop.outcomes_at_any_time, 2)),
+    ("ratio", |it| number(it.open_loop.path_ratio, 2)),
+    ("path", |it| beside(it.open_loop.path, it.open_loop.path_recorded, 1)),
+    ("speed", |it| beside(it.open_loop.speed, it.open_loop.speed_recorded, 1)),
+    ("still", |it| beside(it.open_loop.still_share, it.open_loop.still_share_recorded, 2)),
+    ("contact", |it| beside(it.open_loop.contact_share, it.open_loop.contact_share_recorded, 2)),
+    ("longest still", |it| {
+        let own = &it.open_loop;
+        beside(own.longest_still_with_open_goal, own.longest_still_with_open_goal_recorded, 1)
+    }),
+];
+
+/// The cost of the open loop.
+const COST: [Column; 2] = [
+    ("cpu", |it| number(it.open_loop.cpu_seconds_per_100_steps, 2)),
+    ("cpu max", |it| number(it.open_loop.cpu_seconds_per_100_steps_max, 2)),
+];
+
+/// The tables of a report.
+pub(super) fn print(report: &Report) -> String {
+    let open_loop: Vec<Column> = OPEN_LOOP.into_iter().chain(COST).collect();
+    format!(
+        "minds under the true goals, attitudes and strengths; fitted lapse {:.3}\n\n{}\n\
+         chance: of what was done; ll: its log likelihood (nat a step), with the fitted lapse and with .05; stray: u a step;\n\
+         log post: ln of SIMPLE's posterior of the truth; relation, top-1: its posterior, share right; goals: share right;\n\
+         who: helper or hinderer named / likelier than the other / the other above .9 / of so many events\n\n\
+         the same scenes simulated / recorded\n\n{}\n\
+         path, speed: medians (u, u/s); still: share of steps in which nobody moves; contact: share of steps;\n\
+         longest still: nobody moves while a positive goal is open (s of video); cpu: seconds for 100 steps\n",
+        report.lapse,
+        table(report, &MINDS),
+        table(report, &open_loop),
+    )
+}
+
+fn table(report: &Report, columns: &[Column]) -> String {
+    let row = |(name, figures): &(&'static str, Figures)| (*name, cells(figures, columns));
+    let groups: [Vec<Row>; 3] = [
+        vec![("all", cells(&report.overall, columns))],
+        report.kinds.iter().map(row).collect(),
+        report.roles.iter().map(row).collect(),
+    ];
+    let widths: Vec<usize> = columns
+        .iter()
+        .enumerate()
+        .map(|(k, (heading, _))| {
+            let cells = groups.iter().flatten().map(|(_, cells)| cells[k].len());
+            cells.chain([heading.len()]).max().unwrap_or(0)
+        })
+        .collect();
+    let line = |name: &str, cells: Vec<&str>| {
+        let cells = cells.iter().zip(&widths).map(|(cell, &width)| format!("  {cell:>width$}"));
+        format!("{name:<13}{}\n", cells.collect::<String>())
+    };
+    let mut text = line("", columns.iter().map(|(heading, _)| *heading).collect());
+    for (group, what) in groups.iter().zip(["", "kind", "role"]) {
+        if !what.is_empty() {
+            text += &format!("{what}\n");
+        }
+        for (name, cells) in group {
+            text += &line(name, cells.iter().map(String::as_str).collect());
+        }
+    }
+    text
+}
+
+fn cells(figures: &Figures, columns: &[Column]) -> Vec<String> {
+    columns.iter().map(|(_, text)| text(figures)).collect()
+}
+
+fn number(value: Option<f64>, digits: usize) -> String {
+    value.map_or_else(|| "-".into(), |value| format!("{value:.digits$}"))
+}
+
+fn beside(ours: Option<f64>, recorded: Option<f64>, digits: usize) -> String {
+    format!("{}/{}", number(ours, digits), number(recorded, digits))
+}

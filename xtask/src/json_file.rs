@@ -1,0 +1,30 @@
+//! The file that `--json FILE` writes.
+
+use phase_cli::error::CliError;
+use std::path::Path;
+
+/// The name that means stdout where a file may be named.
+pub const STDOUT: &str = "-";
+
+/// Checks that a report can be written to `out` without overwriting one of the inputs.
+///
+/// # Errors
+/// [`CliError::Usage`].
+pub fn check<'a>(out: &Path, mut inputs: impl Iterator<Item = &'a Path>) -> Result<(), CliError> {
+    let usage = |rule: &str| CliError::Usage(format!("--json {}: {rule}", out.display()));
+    if out == Path::new(STDOUT) {
+        return Ok(());
+    }
+    if out.is_dir() {
+        return Err(usage("is a folder; a file is needed"));
+    }
+    let folder = out.parent().filter(|folder| !folder.as_os_str().is_empty());
+    if folder.is_some_and(|folder| !folder.is_dir()) {
+        return Err(usage("cannot be written, for its folder does not exist"));
+    }
+    let same = |input: &Path| {
+        out == input
+            || out.canonicalize().is_ok_and(|out| input.canonicalize().is_ok_and(|input| out == input))
+    };
+    if inputs.any(same) { Err(usage("is an input file; choose another")) } else { Ok(()) }
+}
