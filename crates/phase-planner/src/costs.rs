@@ -9,11 +9,11 @@ pub struct PlannerCosts {
     pub grasp: f32,
     /// Added for a load that its holders are too weak to move (u), and the cost from which a plan counts as
     /// infeasible. More than any feasible plan costs, yet finite, so that an agent without a better plan still
-    /// tries. Doors that are too narrow have the same cost,
+    /// tries. By default the same as for a door that is too narrow,
     /// [`IMPASSABLE_COST`](crate::routes::IMPASSABLE_COST).
     pub impassable: f32,
-    /// Effort weight of travel for or against the other's goal, relative to the other's cost; 0 to 1. A
-    /// helper or hinderer travels at most 1 u for `effort` u that it spares or costs the other.
+    /// Effort weight: what 1 u of travel for or against the other's goal costs, relative to 1 u that it spares
+    /// or costs the other; 0 to 1.
     pub effort: f32,
 }
 
