@@ -15,17 +15,17 @@ use crate::{
     task::{Effort, Task},
 };
 use phase_model::{
-    AgentId, BodySet, Entity, Goal, LandmarkId, ObjectId, Predicate, PredicateTarget, SlotId, Vec2,
+    AgentId, BodySet, Entity, Goal, LandmarkId, ObjectId, Predicate, PredicateTarget, SlotId, Vec2, arena,
     layout::room_of,
 };
 use phase_predicates::{achieved, is_true};
 
 /// The plan that raises the other's cost of a condition most; the condition is a positive goal. The agent
-/// stays only if the other cannot make the condition true at all.
+/// stays only if the other cannot make the condition true at all, or is a pursuer out of sight.
 #[must_use]
 pub fn plan(problem: &PlanningProblem<'_>, agent: AgentId, condition: Goal) -> Plan {
     let interference = Interference::new(problem, agent, condition);
-    if interference.now >= problem.costs.impassable {
+    if interference.now >= problem.costs.impassable || interference.is_out_of_sight() {
         return interference.finish();
     }
     let mut candidates = Vec::with_capacity(16);
@@ -101,6 +101,13 @@ impl<'a> Interference<'a> {
             plan.subgoals.extend(release.subgoals);
             plan
         })
+    }
+
+    /// Whether a pursuer is in another room and farther away than the arena is wide: whoever keeps still there
+    /// is found later than whoever walks about.
+    fn is_out_of_sight(&self) -> bool {
+        let room = |agent| room_of(self.problem.state.position(Entity::Agent(agent)));
+        self.is_pursuit() && self.now > arena::SIDE && room(self.agent) != room(self.other)
     }
 
     /// Whether the condition is that the two agents touch.
@@ -318,15 +325,16 @@ impl<'a> Interference<'a> {
         doors
     }
 
-    /// Not On(subject, landmark) by standing between the two and pushing, or Touch(self, other) by pushing from
-    /// where the agent is; not Touch(self, other) where touching is the condition. A body in the way costs
-    /// the other a detour around both bodies, provided that it is there first.
+    /// Not On(subject, landmark) by standing between the two and pushing; not Touch(self, other) where touching
+    /// is the condition. A body in the way costs the other a detour around both bodies, provided that it is
+    /// there first.
     fn contact(&self, candidates: &mut Vec<Candidate>) {
         let problem = self.problem;
         let (me, other) = (Entity::Agent(self.agent), Entity::Agent(self.other));
         let Some(landmark) = self.condition.landmark() else {
-            let subgoals = vec![not(Predicate::Touch(self.agent, other))];
-            candidates.push(self.candidate(0.0, 0.0, subgoals));
+            // Leaving the room has to gain more than the distance at which the two touch.
+            let apart = problem.physics.radius(me) + problem.physics.radius(other);
+            candidates.push(self.candidate(apart, 0.0, vec![not(Predicate::Touch(self.agent, other))]));
             return;
         };
         let subject = self.condition.subject();
@@ -350,9 +358,5 @@ impl<'a> Interference<'a> {
         let mut subgoals = self.go(between);
         subgoals.push(avoid);
         candidates.push(self.candidate(if is_first { 2.0 * apart } else { 0.0 }, own, subgoals));
-        let place = problem.state.position(other);
-        let mut subgoals = self.go(place);
-        subgoals.push(is(Predicate::Touch(self.agent, other)));
-        candidates.push(self.candidate(0.0, self.way(self.agent, place), subgoals));
     }
 }

@@ -139,6 +139,29 @@ const fn object_bits(set: BodySet) -> usize {
 }
 
 impl PlanningProblem<'_> {
+    /// Whether an agent stands in a door that an object on the side of the point `to` blocks for it.
+    pub(crate) fn stops_in_door(&self, agent: AgentId, object: ObjectId, to: Vec2) -> bool {
+        if !self.blocks_a_door(object) {
+            return false;
+        }
+        let width = self.width(agent, None);
+        let narrowed = self.gaps(agent, BodySet::from_iter([Entity::Object(object)]));
+        let here = self.state.position(Entity::Agent(agent)) - arena::CENTRE;
+        let there = self.state.position(Entity::Object(object)) - arena::CENTRE;
+        SlotId::ALL.into_iter().zip(SLOT_DIRECTIONS).any(|(slot, direction)| {
+            let across = |offset: Vec2| direction.perp_dot(offset);
+            let is_in_door = across(here).abs() < 0.5 * width
+                && self.routes.gaps().0[slot].is_some_and(|(low, high)| {
+                    let along = direction.dot(here);
+                    low < along && along < high
+                });
+            is_in_door
+                && self.routes.gaps().width(slot) >= width
+                && narrowed.width(slot) < width
+                && across(there).signum() == across(to - arena::CENTRE).signum()
+        })
+    }
+
     fn narrows_a_door(&self, object: ObjectId, agent: AgentId) -> bool {
         let width = self.width(agent, None);
         SlotId::ALL.into_iter().any(|slot| {

@@ -306,7 +306,11 @@ impl Task<'_> {
         ignored: Option<ObjectId>,
     ) -> f32 {
         let cost = self.efforts[agent].walking * self.distance(node, agent, None, to, ignored);
-        if self.is_at_blocking_object(node, agent) { cost + self.problem.costs.impassable } else { cost }
+        if self.is_at_blocking_object(node, agent) || self.is_stopped_in_door(node, agent, to, ignored) {
+            cost + self.problem.costs.impassable
+        } else {
+            cost
+        }
     }
 
     /// Whether an agent stands at an object that still blocks a door. It may be on either side of it, so
@@ -318,6 +322,22 @@ impl Task<'_> {
                 && node.agents[agent] == location
                 && node.objects[object] == location
         })
+    }
+
+    /// Whether an agent stands in a door with an object before it that blocks the door.
+    fn is_stopped_in_door(
+        &self,
+        node: &Node,
+        agent: AgentId,
+        to: Location,
+        ignored: Option<ObjectId>,
+    ) -> bool {
+        node.agents[agent] == Location::Current(Entity::Agent(agent))
+            && self.problem.physics.objects().any(|object| {
+                Some(object) != ignored
+                    && node.objects[object] == Location::Current(Entity::Object(object))
+                    && self.problem.stops_in_door(agent, object, self.problem.position(to))
+            })
     }
 
     /// The doors as they are for an agent in a symbolic state; an object it holds or heads for is not an
