@@ -4,6 +4,7 @@ use crate::{
     check_behaviour::{self, options::CheckBehaviour},
     check_minds::{self, options::CheckMinds},
     check_physics::{self, options::CheckPhysics},
+    draw_behaviour::{self, DrawBehaviour},
     error::XtaskError,
     golden::{self, GoldenOptions},
     tidy,
@@ -36,6 +37,8 @@ pub enum Command {
     CheckPhysics(CheckPhysics),
     /// Measure how reliably agents show the intended behaviour
     CheckBehaviour(CheckBehaviour),
+    /// Draw scenes for check-behaviour from the sampler
+    DrawBehaviour(DrawBehaviour),
     /// Compare minds with the agents of recordings or events whose labels are known
     CheckMinds(CheckMinds),
     /// Run the golden tests of all crates, or rewrite the values that they compare with
@@ -56,6 +59,7 @@ impl Interface for Cli {
             Command::Phase(command) => Ok(command.run(context)?),
             Command::CheckPhysics(arguments) => check_physics::run(arguments, context),
             Command::CheckBehaviour(arguments) => Ok(check_behaviour::run(arguments, context)?),
+            Command::DrawBehaviour(arguments) => draw_behaviour::run(arguments),
             Command::CheckMinds(arguments) => check_minds::run(arguments, context),
             Command::Golden(options) => golden::run(options),
             Command::Tidy => tidy::run(),

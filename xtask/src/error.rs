@@ -1,5 +1,6 @@
 //! Every way in which a development command can fail, and its exit code.
 
+use crate::draw_behaviour::DrawError;
 use phase_calibration::ReadError;
 use phase_cli::{error::CliError, program::Failure};
 use std::{io, path::PathBuf};
@@ -27,6 +28,9 @@ pub enum XtaskError {
         /// Why.
         source: io::Error,
     },
+    /// A scene cannot be drawn.
+    #[error(transparent)]
+    Draw(#[from] DrawError),
     /// Cargo cannot be started.
     #[error("cargo cannot be started: {0}")]
     Cargo(#[source] io::Error),
@@ -47,7 +51,11 @@ impl Failure for XtaskError {
             Self::Cli(error) => error.exit_code(),
             Self::Calibration { .. } => 2,
             Self::Interrupted => 130,
-            Self::Unreadable { .. } | Self::Cargo(_) | Self::GoldenTests | Self::Untidy(_) => 1,
+            Self::Unreadable { .. }
+            | Self::Draw(_)
+            | Self::Cargo(_)
+            | Self::GoldenTests
+            | Self::Untidy(_) => 1,
         }
     }
 }

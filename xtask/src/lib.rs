@@ -4,6 +4,7 @@
 //! - `check-physics` compares an engine with recorded motion,
 //! - `check-behaviour` shows how reliably agents do what they are planned to do,
 //! - `check-minds` compares minds with recorded agents,
+//! - `draw-behaviour` draws scenes for it from the sampler,
 //! - `golden` runs the golden tests, or rewrites what they compare with,
 //! - `tidy` checks what the compiler cannot.
 //!
@@ -17,9 +18,11 @@ pub mod check_behaviour;
 pub mod check_minds;
 pub mod check_physics;
 pub mod cli;
+pub mod draw_behaviour;
 pub mod error;
 pub mod golden;
 pub mod json_file;
+mod rooms;
 pub mod tidy;
 
 use clap::CommandFactory;

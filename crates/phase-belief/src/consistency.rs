@@ -11,7 +11,7 @@ use phase_perception::{CellSet, footprint::any_cell};
 pub(crate) const PENETRATION_TOLERANCE: f32 = 0.05;
 
 /// Maximum penetration of an object into an agent, relative to its radius: 1 − 2/√5. This is the depth at
-/// which an object held by a flank lies in the slanting side, and it stays there when it is released.
+/// which an object held by a flank lies in the slanting side; most of it remains when it is released.
 const SIDE_GRIP_PENETRATION: f32 = 0.105_573;
 
 /// The unobserved entities whose bodies cannot be where a particle has them. Of two that overlap, the later

@@ -25,6 +25,8 @@ pub(crate) struct Contact {
     pub(crate) manifold: Manifold,
     /// Accumulated impulse at each point (N s).
     pub(crate) impulses: [f32; 2],
+    /// Overlap that it does not resist (u).
+    tolerated: f32,
     skins: f32,
     /// Number of points the velocity solver uses.
     count: usize,
@@ -44,6 +46,7 @@ impl Contact {
         groups: (STATIC, 0),
         manifold: Manifold::NONE,
         impulses: [0.0; 2],
+        tolerated: 0.0,
         skins: 0.0,
         count: 0,
         rows: [(Twist::ZERO, Twist::ZERO); 2],
@@ -54,6 +57,11 @@ impl Contact {
     /// A contact of two bodies with zero initial impulses.
     pub(crate) fn new(key: u8, (a, b): (usize, usize), manifold: Manifold) -> Self {
         Self { key, a, b, groups: (a, b), manifold, ..Self::NONE }
+    }
+
+    /// The same contact, resisting only overlaps beyond a tolerated one (u).
+    pub(crate) fn tolerating(self, tolerated: f32) -> Self {
+        Self { tolerated, ..self }
     }
 
     /// Computes the points of application and the effect of impulses, at the present poses.
@@ -99,7 +107,7 @@ impl Contact {
         centres: [Vec2; 2],
         alone: bool,
     ) {
-        self.skins = shape_a.skin + shape_b.skin;
+        self.skins = shape_a.skin + shape_b.skin - self.tolerated;
         let (normal, middles) = self.manifold.middles(a, b, shape_a.skin, shape_b.skin);
         self.count = self.manifold.count;
         for (row, middle) in self.rows.iter_mut().zip(middles).take(self.count) {

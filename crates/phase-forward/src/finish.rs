@@ -12,7 +12,9 @@ impl World<'_> {
     pub(crate) fn finish(&mut self, state: &mut State, candidates: KeySet) {
         self.write(state);
         state.contacts = Contacts::NONE;
-        let near = reach::pairs_near(self, self.model.everyone()) & candidates & !self.excluded_pairs;
+        let near = reach::pairs_near(self, self.model.everyone())
+            & candidates
+            & !(self.excluded_pairs | self.released);
         let touching = self.touching(near);
         for (pair, (a, b)) in PAIRS.into_iter().enumerate() {
             if touching & bit(pair_key(pair)) != 0 {

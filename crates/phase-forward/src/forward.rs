@@ -46,7 +46,11 @@ impl Forward {
     ) -> [State; SUBSTEPS] {
         let mut world = World::new(&self.model, state, actions);
         solver_cache.enter(&mut world);
-        world.grab(state);
+        for (agent, held) in world.grab(state).into_iter().enumerate() {
+            if let Some(held) = held {
+                solver_cache.release(agent, held);
+            }
+        }
         let mut substeps = [*state; SUBSTEPS];
         for substep in &mut substeps {
             self.substep_warm(&mut world, solver_cache);
@@ -180,7 +184,8 @@ impl Forward {
         solver_cache.drop_stale(world);
         world.all_moved();
         world.outline(self.model.everyone());
-        solver_cache.touching.replace(world.contacts(solver_cache.active_pairs()));
+        world.released = solver_cache.limited_pairs();
+        solver_cache.touching.replace(world.contacts(solver_cache.active_pairs() | world.released));
         solver_cache.sort_newest_first();
         world.solve(self.model.everyone(), &mut solver_cache.touching);
         solver_cache.update_boxes(world);

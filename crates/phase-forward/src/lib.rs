@@ -58,12 +58,16 @@
 //!
 //! # What a state does not contain
 //!
-//! A released object does not touch its holder again before one of them has moved about 0.1 u; if it was held
-//! at a flank it penetrates the agent by a tenth of its radius. [`SolverCache`] carries this information as
-//! the original does. From a state alone, the pair is kept apart in the step of the `detach`, and at the
-//! start of later ones if the object penetrates a flank to that depth exactly where it would have been held,
-//! does not approach, and was not in contact; in either case until one of the two has moved away from where
-//! it then was.
+//! A released object may overlap its holder by up to [`RELEASED_OVERLAP`] until one of them has moved about
+//! that far; if it was held at a flank it penetrates the agent by a tenth of its radius. From a state alone,
+//! this tolerance applies in the step of the `detach`, and at the start of later ones if the object
+//! penetrates a flank to that depth exactly where it would have been held, does not approach, and was not in
+//! contact; in either case until one of the two has moved away from where it then was. [`SolverCache`]
+//! follows the original for three steps after a release: the two do not touch at all before one of them has
+//! left its enlarged box. From then on the same tolerance applies, whereas in the original they may overlap
+//! for ever.
+//!
+//! [`RELEASED_OVERLAP`]: phase_model::physics::RELEASED_OVERLAP
 //!
 //! Impulses are the other information that a state lacks: the first substep of a step from a state alone
 //! starts with zero impulses and has twice the iterations; each of the other four is warm-started by the one

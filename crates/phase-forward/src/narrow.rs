@@ -10,7 +10,7 @@ use crate::{
     wall::MAX_WALLS,
     world::World,
 };
-use phase_model::AGENT_COUNT;
+use phase_model::{AGENT_COUNT, physics::RELEASED_OVERLAP};
 
 impl World<'_> {
     /// Finds the touching pairs of shapes in a set, newest first. The outlines of the bodies must be up to
@@ -18,7 +18,8 @@ impl World<'_> {
     pub(crate) fn contacts(&self, candidates: KeySet) -> impl Iterator<Item = Contact> {
         descending(candidates).filter_map(|key| {
             let (bodies, manifold) = self.collide(key, &self.outlines.polygons);
-            (manifold.count > 0).then(|| Contact::new(key as u8, bodies, manifold))
+            (manifold.count > 0)
+                .then(|| Contact::new(key as u8, bodies, manifold).tolerating(self.tolerated_overlap(key)))
         })
     }
 
@@ -39,11 +40,17 @@ impl World<'_> {
         let manifold = if b < AGENT_COUNT {
             collide::agents((&motions[a], &polygons[a]), (&motions[b], &polygons[b]))
         } else if a < AGENT_COUNT {
+            let skins = skins - self.tolerated_overlap(key);
             collide::agent_disc(&shapes[a], &motions[a], &motions[b], skins)
         } else {
             collide::discs(&motions[a], &motions[b], skins)
         };
         ((a, b), manifold)
+    }
+
+    /// The overlap of a pair of shapes that their contact does not resist (u).
+    fn tolerated_overlap(&self, key: usize) -> f32 {
+        if self.released & bit(key) == 0 { 0.0 } else { RELEASED_OVERLAP }
     }
 
     /// The pairs of bodies that touch at their present poses, among the given keys.

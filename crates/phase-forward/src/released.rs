@@ -13,11 +13,13 @@ const CLEARANCE: f32 = 0.1;
 const CLEARANCE_SUBSTEPS: f32 = 4.0;
 
 impl World<'_> {
-    /// Keeps apart the pairs that may not touch: held objects, objects released in this step, and objects
-    /// that appear to have been released just before. Objects held at an agent's flank penetrate it by 0.1 r
-    /// and stay out of contact after their release until they have moved; a state does not contain this
-    /// information, but an object at that depth in exactly that place, which does not approach and did not
-    /// touch, can have no other cause.
+    /// Excludes contacts of held objects, and limits those of objects that are released in this step or
+    /// appear to have been released just before to overlaps beyond [`RELEASED_OVERLAP`]. Objects held at an
+    /// agent's flank penetrate it by 0.1 r and are not pushed out after their release until they have moved;
+    /// a state does not contain this information, but an object at that depth in exactly that place, which
+    /// does not approach and did not touch, can have no other cause.
+    ///
+    /// [`RELEASED_OVERLAP`]: phase_model::physics::RELEASED_OVERLAP
     pub(crate) fn exclude_pairs(&mut self, state: &State, released: [Option<usize>; AGENT_COUNT]) {
         /// Speed of approach above which it was not just released (u/s).
         const APPROACH: f32 = 1.0;
@@ -46,7 +48,6 @@ impl World<'_> {
             }
         }
         if self.released != 0 {
-            self.excluded_pairs |= self.released;
             for body in 0..self.model.count {
                 let motion = &self.motions[body];
                 self.let_go_at[body] = motion.centre;
@@ -55,7 +56,7 @@ impl World<'_> {
         }
     }
 
-    /// Restores collisions of released pairs once one of the two has moved clear.
+    /// Ends the tolerance of released pairs once one of the two has moved clear.
     pub(crate) fn restore_pairs(&mut self) {
         for (pair, (a, b)) in PAIRS.into_iter().enumerate() {
             let moved = |body: usize| {
@@ -64,7 +65,6 @@ impl World<'_> {
             };
             if self.released & bit(pair_key(pair)) != 0 && (moved(a) || moved(b)) {
                 self.released &= !bit(pair_key(pair));
-                self.excluded_pairs &= !bit(pair_key(pair));
             }
         }
     }

@@ -8,17 +8,21 @@ use crate::{
     touching::ContactSet,
     world::{Impulses, World},
 };
-use phase_model::{AGENT_COUNT, Vec2};
+use phase_model::{AGENT_COUNT, Vec2, arena::SUBSTEPS};
 
 /// Margin around a body when its box is updated (u).
 const MARGIN: f32 = 0.1;
+/// Substeps after a release in which a pair may overlap without limit, as in the original: three steps.
+const UNLIMITED_SUBSTEPS: u8 = 3 * SUBSTEPS as u8;
 /// Share of its last displacement that a body is expected to repeat, in updated boxes.
 const AABB_MULTIPLIER: f32 = 2.0;
 
 /// The cache of a replay: the last impulses of contacts, grips and ground friction, and the original's broad
 /// phase. There, a pair of shapes becomes a contact candidate once their enlarged boxes overlap, and a box is
 /// updated only when its body has left it. This decides which of several contacts is solved first, and why an
-/// object released inside an agent's outline does not touch it before one of them has moved.
+/// object released inside an agent's outline does not touch it before one of them has moved. Three steps
+/// after the release, and unlike the original, such a pair may overlap by
+/// [`phase_model::physics::RELEASED_OVERLAP`] only.
 #[derive(Clone, Copy, Debug)]
 pub struct SolverCache {
     impulses: Impulses,
@@ -27,6 +31,10 @@ pub struct SolverCache {
     since: [u32; KEYS],
     now: u32,
     active_pairs: KeySet,
+    /// Pairs that were released and are not contact candidates again.
+    released: KeySet,
+    /// For each pair, the substeps since its release.
+    released_for: [u8; PAIRS.len()],
     boxes: [(Vec2, Vec2); 4],
     moved: u8,
     latest_grip: usize,
@@ -40,6 +48,8 @@ impl SolverCache {
             since: [0; KEYS],
             now: 1,
             active_pairs: 0,
+            released: 0,
+            released_for: [0; PAIRS.len()],
             boxes: [(Vec2::ZERO, Vec2::ZERO); 4],
             moved: 0,
             latest_grip: 1,
@@ -58,6 +68,26 @@ impl SolverCache {
         self.active_pairs
     }
 
+    /// Records that an agent has released a body.
+    pub(crate) fn release(&mut self, agent: usize, held: usize) {
+        let pair = pair_of(agent, held);
+        self.released |= bit(pair_key(pair));
+        self.released_for[pair] = 0;
+    }
+
+    /// Counts a substep, and returns the pairs whose release was so long ago that their overlap is limited,
+    /// although they are not contact candidates again.
+    pub(crate) fn limited_pairs(&mut self) -> KeySet {
+        let mut limited = 0;
+        for (pair, substeps) in self.released_for.iter_mut().enumerate() {
+            *substeps = substeps.saturating_add(1);
+            if *substeps > UNLIMITED_SUBSTEPS {
+                limited |= self.released & bit(pair_key(pair));
+            }
+        }
+        limited
+    }
+
     pub(crate) fn enter(&self, world: &mut World<'_>) {
         world.impulses = self.impulses;
         world.latest_grip = self.latest_grip;
@@ -71,6 +101,7 @@ impl SolverCache {
     /// Removes pairs that are held together or whose boxes no longer overlap.
     pub(crate) fn drop_stale(&mut self, world: &World<'_>) {
         let held = held_pairs(world);
+        self.released &= !held;
         for key in descending(self.active_pairs) {
             if held & bit(key) != 0 || !self.boxes_overlap(world, key) {
                 self.active_pairs &= !bit(key);
@@ -116,6 +147,7 @@ impl SolverCache {
             };
             if moved && (self.active_pairs | held) & bit(key) == 0 && self.boxes_overlap(world, key) {
                 self.active_pairs |= bit(key);
+                self.released &= !bit(key);
                 self.since[key] = self.now;
                 self.now += 1;
             }

@@ -39,10 +39,11 @@ pub(crate) struct World<'a> {
     pub(crate) latest_grip: usize,
     pub(crate) actions: [Action; AGENT_COUNT],
     pub(crate) impulses: Impulses,
-    /// Pairs that may not touch: held, or released and not yet clear.
+    /// Pairs that may not touch, because one holds the other.
     pub(crate) excluded_pairs: KeySet,
-    /// The released ones among them, and where all bodies were at the release.
+    /// Pairs whose contact tolerates an overlap: released, and not yet clear.
     pub(crate) released: KeySet,
+    /// Where all bodies were at the release.
     pub(crate) let_go_at: [Vec2; 4],
     /// How far each body has to move from there before it counts as clear (u).
     pub(crate) release_distance: [f32; 4],

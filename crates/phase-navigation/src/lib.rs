@@ -15,6 +15,9 @@
 //! [`Navigator`] computes fields on demand and caches them. All functions are pure: equal arguments give equal
 //! bits.
 
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+
 mod assembly;
 mod assembly_field;
 mod buckets;

@@ -91,7 +91,7 @@ pub(crate) fn insert_body(
         .can_sleep(false)
         .allow_fast_rotation(true);
     let collider = frictionless(collider)
-        .active_hooks(ActiveHooks::FILTER_CONTACT_PAIRS | ActiveHooks::MODIFY_SOLVER_CONTACTS)
+        .active_hooks(ActiveHooks::MODIFY_SOLVER_CONTACTS)
         .user_data(contact::tag(entity));
     engine.insert(rigid_body, collider)
 }

@@ -1,7 +1,7 @@
 //! Contact rules: the engine's hooks, and the contacts that are reported.
 
 use crate::dynamic_body::DynamicBody;
-use phase_model::{Entity, MAX_ENTITIES, Vec2, arena::SUBSTEP_SECONDS};
+use phase_model::{Entity, MAX_ENTITIES, Vec2, arena::SUBSTEP_SECONDS, physics::RELEASED_OVERLAP};
 use rapier2d::{
     parry::{
         bounding_volume::{Aabb, BoundingVolume},
@@ -32,8 +32,9 @@ fn tagged(colliders: &ColliderSet, handle: ColliderHandle) -> Option<usize> {
     (1..=MAX_ENTITIES as u128).contains(&tag).then(|| tag as usize - 1)
 }
 
-/// The contact rules: bodies that touch at the start of a substep collide, and a released object passes
-/// through the agent that held it until one of them has moved away from where it then was.
+/// The contact rules: bodies that touch at the start of a substep collide, and a released object may overlap
+/// the agent that held it by up to [`RELEASED_OVERLAP`] until one of them has moved away from where it then
+/// was.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct ContactRules {
     /// For every released pair, where the first of the two may overlap the second.
@@ -41,7 +42,7 @@ pub(crate) struct ContactRules {
 }
 
 impl ContactRules {
-    /// Lets a pair overlap until one of them has left its present place.
+    /// Lets a pair overlap slightly until one of them has left its present place.
     pub(crate) fn release(&mut self, engine: &PhysicsWorld, a: &DynamicBody, b: &DynamicBody) {
         for (one, other) in [(a, b), (b, a)] {
             let body = &engine.bodies[one.body];
@@ -51,7 +52,7 @@ impl ContactRules {
         }
     }
 
-    /// Makes released pairs collide again once one of them has left its place.
+    /// Ends the tolerance of released pairs once one of them has left its place.
     pub(crate) fn restore_clear(&mut self, engine: &PhysicsWorld, dynamic_bodies: &[DynamicBody]) {
         for dynamic_body in dynamic_bodies {
             let (this, centre) =
@@ -66,21 +67,23 @@ impl ContactRules {
     }
 }
 
-impl PhysicsHooks for ContactRules {
-    fn filter_contact_pair(&self, context: &PairFilterContext) -> Option<SolverFlags> {
-        let [first, second] =
-            [context.collider1, context.collider2].map(|collider| tagged(context.colliders, collider));
-        match (first, second) {
-            (Some(a), Some(b)) if self.released[a][b].is_some() => None,
-            _ => Some(SolverFlags::COMPUTE_RIGID_IMPULSES),
+impl ContactRules {
+    /// The overlap that contacts of a pair of colliders do not resist (u).
+    fn tolerated_overlap(&self, colliders: &ColliderSet, pair: [ColliderHandle; 2]) -> f32 {
+        match pair.map(|collider| tagged(colliders, collider)) {
+            [Some(a), Some(b)] if self.released[a][b].is_some() => RELEASED_OVERLAP,
+            _ => 0.0,
         }
     }
+}
 
+impl PhysicsHooks for ContactRules {
     fn modify_solver_contacts(&self, context: &mut ContactModificationContext) {
+        let tolerated = self.tolerated_overlap(context.colliders, [context.collider1, context.collider2]);
         let Some(manifold) = context.rigid_mut() else { return };
-        manifold.solver_contacts.retain(|contact| contact.dist <= 0.0);
+        manifold.solver_contacts.retain(|contact| contact.dist + tolerated <= 0.0);
         for contact in manifold.solver_contacts.iter_mut() {
-            contact.dist = (contact.dist + SLOP).min(0.0);
+            contact.dist = (contact.dist + tolerated + SLOP).min(0.0);
         }
     }
 }

@@ -7,7 +7,8 @@ use phase_model::{AGENT_COUNT, Action, Dynamics, PhysicsConfig, State};
 /// back.
 ///
 /// Convenient wherever something takes `Dynamics`. It depends on the state alone, so a released object that
-/// still overlaps its holder collides at once and is pushed clear, whereas [`World`] lets the two overlap.
+/// still overlaps its holder is pushed clear from the next step on, whereas [`World`] lets the two overlap by
+/// up to [`RELEASED_OVERLAP`](phase_model::physics::RELEASED_OVERLAP).
 ///
 /// The cost is that the engine's sets, graphs and trees are rebuilt for every step: 10 to 25 µs in addition
 /// to the 60 to 200 µs of the five substeps. Loop over [`World::step`] where that matters.

@@ -1,10 +1,11 @@
 //! Judges an event by the criterion of its test.
 
 use super::rows::{BehaviourTest, Criterion, Form};
+use crate::rooms;
 use phase_evidence::{
     Effect, GoalOutcome, Rest, Track, blocking, contact, exploration, holding, outcome, pursuit::Pursuit,
 };
-use phase_model::{AgentId, Entity, Goal, ObjectId, RoomId, Scene, State};
+use phase_model::{AgentId, Entity, Goal, ObjectId, Scene, State, layout::room_of};
 use phase_planner::Routes;
 
 /// Maximum number of steps for an agent to release its object and come to rest after its goal is reached.
@@ -101,11 +102,10 @@ impl Case<'_> {
     }
 
     fn search(&self, wanted: usize) -> Assessment {
-        // In the original scene the near region is room 1 and the larger one rooms 0 and 3.
-        let image = |room: RoomId| self.scene.layout.flip().map_or(room, |flip| flip.room(room));
-        let (near, larger) =
-            ([image(RoomId::TOP_RIGHT)], [image(RoomId::TOP_LEFT), image(RoomId::BOTTOM_LEFT)]);
-        let first = exploration::searched_first(self.track, self.part.judged, &[&near, &larger]);
+        let start = self.scene.agents[self.part.judged].start.position;
+        let regions = rooms::regions_around(self.scene.layout, room_of(start));
+        let [near, larger] = &regions[..] else { return (false, None, "there are not two regions".into()) };
+        let first = exploration::searched_first(self.track, self.part.judged, &[near, larger]);
         let notes = first.map_or_else(
             || "neither searched".into(),
             |(region, step)| format!("{} first, at step {step}", ["near", "larger"][region]),

@@ -4,6 +4,7 @@ mod judge;
 pub mod options;
 mod report;
 mod rows;
+pub mod sets;
 mod trial;
 
 use options::CheckBehaviour;
@@ -27,7 +28,7 @@ use phase_render::Palette;
 use report::{SceneResult, Trial};
 use rows::PARTS;
 use serde_json::{Value, json};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use trial::TrialRunner;
 
 /// The report's file name in the output folder; it is written last.
@@ -46,6 +47,7 @@ pub fn run(arguments: &CheckBehaviour, context: &Context) -> Result<(), CliError
     let seeds = arguments.seeds as usize;
     let run = json!({
         "command": "check-behaviour", "generator": GENERATOR, "seeds": seeds,
+        "set": arguments.scenes.is_none().then(|| arguments.set.name()),
         "settings": settings_value(&arguments.effort.settings())?,
     });
     let folder = prepare(&arguments.out, &run)?;
@@ -87,22 +89,27 @@ pub fn run(arguments: &CheckBehaviour, context: &Context) -> Result<(), CliError
 fn scenes(arguments: &CheckBehaviour) -> Result<Vec<(usize, String, Scene)>, CliError> {
     let mut scenes = Vec::new();
     let wanted = |row: u8| arguments.row.is_empty() || arguments.row.contains(&row);
+    let folders = arguments.folders();
     for (k, part) in PARTS.iter().enumerate().filter(|(_, part)| wanted(part.row)) {
-        let file = arguments.scenes().join(format!("{}.json", part.name));
-        for recording in phase_events::read(&file)? {
-            let (id, scene) = (recording.id, recording.scene);
-            let problem = if scene.layout.flip().is_some() {
-                Some("field `layout.flip` must be null, since scenes are mirrored here".into())
-            } else {
-                scene.validate_without_overlap().err().map(|error| error.to_string())
-            };
-            if let Some(rule) = problem {
-                return Err(CliError::Usage(format!("{}: event {id}: {rule}", file.display())));
+        for file in folders.iter().map(|folder| folder.join(format!("{}.json", part.name))) {
+            for recording in phase_events::read(&file)? {
+                let (id, scene) = (recording.id, recording.scene);
+                if let Some(rule) = problem(&scene) {
+                    return Err(CliError::Usage(format!("{}: event {id}: {rule}", file.display())));
+                }
+                scenes.push((k, id, scene));
             }
-            scenes.push((k, id, scene));
         }
     }
     Ok(scenes)
+}
+
+/// Why a scene cannot be simulated here, if it cannot.
+fn problem(scene: &Scene) -> Option<String> {
+    if scene.layout.flip().is_some() {
+        return Some("field `layout.flip` must be null, since scenes are mirrored here".into());
+    }
+    scene.validate_without_overlap().err().map(|error| error.to_string())
 }
 
 /// Prepares the folder. The results of a finished check are replaced; those of an unfinished one are kept and
@@ -164,8 +171,26 @@ fn to_stdout(arguments: &CheckBehaviour) -> bool {
     arguments.json.as_deref() == Some(Path::new("-"))
 }
 
-/// The folder of the bundled scenes.
-#[must_use]
-pub fn default_scenes() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new(".")).join("data/behaviour")
+#[cfg(test)]
+mod tests {
+    use super::{judge::judge, rows::PARTS, sets::SceneSet};
+    use phase_dataset::phase_events;
+    use phase_evidence::Track;
+
+    /// An event in which nothing happens is not a success, with or without a counterfactual.
+    #[test]
+    fn no_criterion_holds_at_the_start() {
+        for folder in SceneSet::All.folders() {
+            for part in &PARTS {
+                let file = folder.join(format!("{}.json", part.name));
+                for recording in phase_events::read(&file).expect("readable") {
+                    let scene = &recording.scene;
+                    let start = Track { physics: scene.physics(), states: vec![scene.initial_state()] };
+                    let control = part.control.map(|_| &start);
+                    let verdict = judge(part, scene, &start, control);
+                    assert!(!verdict.success, "{} {}: {}", file.display(), recording.id, verdict.notes);
+                }
+            }
+        }
+    }
 }

@@ -1,5 +1,6 @@
 //! The options of `check-behaviour`.
 
+use super::sets::SceneSet;
 use clap::{Args, value_parser};
 use phase_cli::{effort::SimulationOptions, parallel::Jobs};
 use std::path::PathBuf;
@@ -19,7 +20,10 @@ pub struct CheckBehaviour {
     /// Folder for report and contact sheets; new, empty, or of such a check, whose results are replaced
     #[arg(long, value_name = "DIR", default_value = "out/behaviour")]
     pub out: PathBuf,
-    /// Folder with the scenes [default: data/behaviour of the source]
+    /// Which of the bundled scenes to simulate
+    #[arg(long, value_name = "SET", value_enum, default_value_t, conflicts_with = "scenes")]
+    pub set: SceneSet,
+    /// Folder with other scenes
     #[arg(long, value_name = "DIR")]
     pub scenes: Option<PathBuf>,
     /// Parameters of the agents.
@@ -31,9 +35,9 @@ pub struct CheckBehaviour {
 }
 
 impl CheckBehaviour {
-    /// The folder with the scenes.
+    /// The folders with the scenes.
     #[must_use]
-    pub fn scenes(&self) -> PathBuf {
-        self.scenes.clone().unwrap_or_else(super::default_scenes)
+    pub fn folders(&self) -> Vec<PathBuf> {
+        self.scenes.clone().map_or_else(|| self.set.folders(), |folder| vec![folder])
     }
 }

@@ -7,7 +7,7 @@ use phase_model::AgentId;
 pub(super) struct BehaviourTest {
     /// The row, from 1.
     pub row: u8,
-    /// The file in `data/behaviour` without `.json`; begins with the row.
+    /// The file in a set's folder without `.json`; begins with the row.
     pub name: &'static str,
     /// What is checked, in words.
     pub title: &'static str,
@@ -32,7 +32,8 @@ pub(super) enum Criterion {
     Reach,
     /// The same; and at the end nothing is held and nothing moves.
     Fetch,
-    /// Of two regions the agent first searches this one (0 the near, 1 the larger).
+    /// Of the two regions on either side of its room the agent first searches this one (0 the near one of one
+    /// room, 1 the larger).
     SearchFirst(usize),
     /// The goal is reached, and the object was carried by both at once.
     CarryTogether,

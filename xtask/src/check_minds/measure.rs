@@ -44,8 +44,10 @@ pub(super) struct MeasuredEvent {
     pub(super) roles: [Role; AGENT_COUNT],
     /// The chance of what each agent did, by step.
     pub(super) chances: [Vec<Chance>; AGENT_COUNT],
-    /// Deviation of simulations under the truth, by step (u).
-    pub(super) deviations: Vec<f64>,
+    /// Deviation of simulations in which this agent decides and the other does what was inferred, by step (u).
+    pub(super) deviations: [Vec<f64>; AGENT_COUNT],
+    /// The same of simulations in which both decide.
+    pub(super) joint_deviations: Vec<f64>,
     /// SIMPLE's answer, if wanted.
     pub(super) recognition: Option<Recognition>,
     /// How the agents moved.
@@ -94,7 +96,13 @@ impl Plan {
             chances.map_err(|error| failed(MethodError::new(error)))
         };
         let chances = [chances(AgentId::ZERO)?, chances(AgentId::ONE)?];
-        let deviations = prepared
+        let deviations = |agent| -> Result<Vec<f64>, CliError> {
+            let decisions = prepared.simulate_agent(&truth, agent, RESYNC_INTERVAL);
+            let decisions = decisions.map_err(|error| failed(MethodError::new(error)))?;
+            Ok(decisions.iter().map(|decided| decided.deviation).collect())
+        };
+        let deviations = [deviations(AgentId::ZERO)?, deviations(AgentId::ONE)?];
+        let joint_deviations = prepared
             .simulate(&truth, Some(RESYNC_INTERVAL), f64::INFINITY)
             .map_err(|error| failed(MethodError::new(error)))?;
         let recorded_track = Track { physics: scene.physics(), states: recording.trajectory.states() };
@@ -118,6 +126,7 @@ impl Plan {
             roles: AgentId::ALL.map(|agent| Role::of(scene, agent)),
             chances,
             deviations,
+            joint_deviations,
             recognition,
             recorded: Motion::of(scene, &recorded_track),
             simulated,

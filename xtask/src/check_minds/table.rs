@@ -15,7 +15,7 @@ const MINDS: [Column; 11] = [
     ("chance", |it| number(it.choice_probability, 3)),
     ("ll", |it| number(it.log_likelihood_per_step, 3)),
     ("ll .05", |it| number(it.log_likelihood_lapse_05, 3)),
-    ("stray", |it| number(it.stray_per_step, 2)),
+    ("stray", |it| beside(it.stray_per_step, it.stray_of_both_per_step, 2)),
     ("log post", |it| number(it.recognition.log_posterior, 2)),
     ("relation", |it| number(it.recognition.relation_probability, 2)),
     ("top-1", |it| number(it.recognition.relation_top1, 2)),
@@ -56,7 +56,8 @@ pub(super) fn print(report: &Report) -> String {
     let open_loop: Vec<Column> = OPEN_LOOP.into_iter().chain(COST).collect();
     format!(
         "minds under the true goals, attitudes and strengths; fitted lapse {:.3}\n\n{}\n\
-         chance: of what was done; ll: its log likelihood (nat a step), with the fitted lapse and with .05; stray: u a step;\n\
+         chance: of what was done; ll: its log likelihood (nat a step), with the fitted lapse and with .05; stray: u a step,\n\
+         where one agent decides / both do;\n\
          log post: ln of SIMPLE's posterior of the truth; relation, top-1: its posterior, share right; goals: share right;\n\
          who: helper or hinderer named / likelier than the other / the other above .9 / of so many events\n\n\
          the same scenes simulated / recorded\n\n{}\n\

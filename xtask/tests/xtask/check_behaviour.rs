@@ -5,7 +5,7 @@ use phase_dataset::phase_events;
 use phase_model::Flip;
 use serde_json::{Value, json};
 use std::{fs, path::Path};
-use xtask::check_behaviour::default_scenes;
+use xtask::check_behaviour::sets::SceneSet;
 
 fn check<'a>(more: &[&'a str]) -> Vec<&'a str> {
     [&["check-behaviour", "--scenes", "scenes"], more, &QUICK[..]].concat()
@@ -106,20 +106,47 @@ fn a_check_is_repeatable_and_replaces_the_one_before() {
     assert!(sentence.contains("contains other files"), "{sentence}");
 }
 
+#[test]
+fn sets_have_names_of_their_own() {
+    let folder = folder(&[]);
+    let sentence = refuse(folder.path(), &["check-behaviour", "--set", "second"]);
+    assert!(sentence.contains("second") && sentence.contains("--set"), "{sentence}");
+    let sentence = refuse(folder.path(), &check(&["--set", "drawn"]));
+    assert!(sentence.contains("--set") && sentence.contains("--scenes"), "{sentence}");
+}
+
 /// Every bundled scene can be simulated, unchanged and in every reflection.
 #[test]
 fn the_scenes_of_the_house_are_sound() {
-    let mut scenes = 0;
-    for entry in fs::read_dir(default_scenes()).expect("the scenes").flatten() {
-        for recording in phase_events::read(&entry.path()).expect("readable") {
-            let id = &recording.id;
-            scenes += 1;
-            assert_eq!(recording.scene.validate_without_overlap(), Ok(()), "{id}");
-            for flip in Flip::ALL {
-                let mirrored = recording.scene.mirrored(flip).expect("no mirror yet");
-                assert_eq!(mirrored.validate_without_overlap(), Ok(()), "{id} {flip:?}");
+    for (set, least) in [(SceneSet::First, 31), (SceneSet::Drawn, 57), (SceneSet::All, 88)] {
+        let files = set.folders().into_iter().flat_map(|folder| fs::read_dir(folder).expect("the scenes"));
+        let paths = files.flatten().map(|entry| entry.path());
+        let mut scenes = 0;
+        for path in paths.filter(|path| path.extension().is_some_and(|extension| extension == "json")) {
+            for recording in phase_events::read(&path).expect("readable") {
+                let id = &recording.id;
+                scenes += 1;
+                assert_eq!(recording.scene.validate_without_overlap(), Ok(()), "{id}");
+                for flip in Flip::ALL {
+                    let mirrored = recording.scene.mirrored(flip).expect("no mirror yet");
+                    assert_eq!(mirrored.validate_without_overlap(), Ok(()), "{id} {flip:?}");
+                }
             }
         }
+        assert!(scenes >= least, "{scenes} scenes in the set {}", set.name());
     }
-    assert!(scenes > 30, "{scenes}");
+}
+
+/// A file for each part, and only that.
+#[test]
+fn drawn_scenes_are_drawn_again_from_their_seed() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let draw = |out| succeed(folder.path(), &["draw-behaviour", "--scenes", "1", "--out", out]);
+    draw("a");
+    draw("b");
+    let drawn = tree(&folder.path().join("a"));
+    assert_eq!(drawn, tree(&folder.path().join("b")));
+    assert_eq!(drawn.len(), 19);
+    let sentence = refuse(folder.path(), &["draw-behaviour", "--scenes", "0"]);
+    assert!(sentence.contains("--scenes"), "{sentence}");
 }

@@ -7,6 +7,7 @@ mod grip;
 mod impact;
 mod motion;
 mod probes;
+mod release;
 mod safety;
 
 use phase_model::{Action, AgentBody, Body, Entity, ObjectId, PhysicsConfig, Size, State, Strength, Vec2};

@@ -78,3 +78,6 @@ impl Recognition {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

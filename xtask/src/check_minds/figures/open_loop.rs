@@ -1,0 +1,120 @@
+//! Simulations in the open loop beside the recordings, over a group of events.
+
+use super::Member;
+use crate::check_minds::motion::{Motion, STEP_SECONDS};
+use phase_model::AgentId;
+use phase_statistics::{mean, percentile};
+use serde::Serialize;
+
+/// Simulated events beside the recorded ones. Each event and seed counts once.
+#[derive(Clone, PartialEq, Debug, Default, Serialize)]
+pub(in crate::check_minds) struct OpenLoopFigures {
+    /// Own positive goals compared.
+    pub(in crate::check_minds) goals: usize,
+    /// Share of them whose outcome is as recorded.
+    pub(in crate::check_minds) outcomes_as_recorded: Option<f64>,
+    /// Share of them that hold at any time as recorded.
+    pub(in crate::check_minds) outcomes_at_any_time: Option<f64>,
+    /// Median ratio of the length of all paths to the recorded one.
+    pub(in crate::check_minds) path_ratio: Option<f64>,
+    /// Length of all paths, ours (median, u).
+    pub(in crate::check_minds) path: Option<f64>,
+    /// The same, recorded.
+    pub(in crate::check_minds) path_recorded: Option<f64>,
+    /// Speed in a step, ours (median, u/s of physics).
+    pub(in crate::check_minds) speed: Option<f64>,
+    /// The same, recorded.
+    pub(in crate::check_minds) speed_recorded: Option<f64>,
+    /// Mean share of steps in which nobody moves, ours.
+    pub(in crate::check_minds) still_share: Option<f64>,
+    /// The same, recorded.
+    pub(in crate::check_minds) still_share_recorded: Option<f64>,
+    /// Mean share of steps in contact with the other or an object, ours.
+    pub(in crate::check_minds) contact_share: Option<f64>,
+    /// The same, recorded.
+    pub(in crate::check_minds) contact_share_recorded: Option<f64>,
+    /// Longest time in which nobody moves while a positive goal is open, ours (s of video): the maximum.
+    pub(in crate::check_minds) longest_still_with_open_goal: Option<f64>,
+    /// Its mean over events.
+    pub(in crate::check_minds) longest_still_with_open_goal_mean: Option<f64>,
+    /// The maximum, recorded.
+    pub(in crate::check_minds) longest_still_with_open_goal_recorded: Option<f64>,
+    /// The mean, recorded.
+    pub(in crate::check_minds) longest_still_with_open_goal_mean_recorded: Option<f64>,
+    /// CPU time of 100 steps (mean, s).
+    pub(in crate::check_minds) cpu_seconds_per_100_steps: Option<f64>,
+    /// The maximum over events.
+    pub(in crate::check_minds) cpu_seconds_per_100_steps_max: Option<f64>,
+}
+
+impl OpenLoopFigures {
+    pub(super) fn of(members: &[Member<'_>]) -> Self {
+        let agreements: Vec<[bool; 2]> = members.iter().flat_map(agreements).collect();
+        let share = |k: usize| {
+            mean(&agreements.iter().map(|agreement| f64::from(u8::from(agreement[k]))).collect::<Vec<_>>())
+        };
+        let recorded = || members.iter().map(|member| (&member.event.recorded, &member.agents[..]));
+        let runs =
+            || members.iter().flat_map(|member| member.event.simulated.iter().map(move |run| (member, run)));
+        let simulated = || runs().map(|(member, run)| (&run.motion, &member.agents[..]));
+        let ratios = runs().filter_map(|(member, run)| {
+            let recorded = member.event.recorded.path(&member.agents);
+            (recorded > 0.0).then(|| run.motion.path(&member.agents) / recorded)
+        });
+        let cpu_seconds: Vec<f64> = runs().map(|(_, run)| run.cpu_seconds).collect();
+        Self {
+            goals: agreements.len(),
+            outcomes_as_recorded: share(0),
+            outcomes_at_any_time: share(1),
+            path_ratio: median(ratios),
+            path: median(simulated().map(|(motion, agents)| motion.path(agents))),
+            path_recorded: median(recorded().map(|(motion, agents)| motion.path(agents))),
+            speed: median(simulated().flat_map(speeds)),
+            speed_recorded: median(recorded().flat_map(speeds)),
+            still_share: mean_share(simulated(), Motion::still_share),
+            still_share_recorded: mean_share(recorded(), Motion::still_share),
+            contact_share: mean_share(simulated(), Motion::contact_share),
+            contact_share_recorded: mean_share(recorded(), Motion::contact_share),
+            longest_still_with_open_goal: max(&still_seconds(simulated())),
+            longest_still_with_open_goal_mean: mean(&still_seconds(simulated())),
+            longest_still_with_open_goal_recorded: max(&still_seconds(recorded())),
+            longest_still_with_open_goal_mean_recorded: mean(&still_seconds(recorded())),
+            cpu_seconds_per_100_steps: mean(&cpu_seconds),
+            cpu_seconds_per_100_steps_max: max(&cpu_seconds),
+        }
+    }
+}
+
+/// For each own positive goal and seed whether its outcome is as recorded, and whether it holds at any time as recorded.
+fn agreements<'a>(member: &'a Member<'_>) -> impl Iterator<Item = [bool; 2]> + 'a {
+    let recorded = &member.event.recorded.reached;
+    member.event.simulated.iter().flat_map(move |run| {
+        member.agents.iter().filter_map(move |&agent| {
+            let (ours, theirs) = (run.motion.reached[agent]?, recorded[agent]?);
+            Some([ours.outcome == theirs.outcome, ours.at_any_time == theirs.at_any_time])
+        })
+    })
+}
+
+fn speeds<'a>((motion, agents): (&'a Motion, &'a [AgentId])) -> impl Iterator<Item = f32> + 'a {
+    agents.iter().flat_map(|&agent| &motion.agents[agent].speeds).copied()
+}
+
+fn mean_share<'a>(
+    motions: impl Iterator<Item = (&'a Motion, &'a [AgentId])>,
+    share: fn(&Motion, &[AgentId]) -> Option<f64>,
+) -> Option<f64> {
+    mean(&motions.filter_map(|(motion, agents)| share(motion, agents)).collect::<Vec<_>>())
+}
+
+fn still_seconds<'a>(motions: impl Iterator<Item = (&'a Motion, &'a [AgentId])>) -> Vec<f64> {
+    motions.map(|(motion, _)| motion.longest_still as f64 * STEP_SECONDS).collect()
+}
+
+fn median(values: impl Iterator<Item = f32>) -> Option<f64> {
+    percentile(&values.collect::<Vec<_>>(), 50).map(f64::from)
+}
+
+fn max(values: &[f64]) -> Option<f64> {
+    values.iter().copied().reduce(f64::max)
+}
