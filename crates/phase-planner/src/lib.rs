@@ -40,8 +40,8 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
-pub mod evasion;
-pub mod hindrance;
+pub mod costs;
+pub mod interference;
 pub mod plan;
 pub mod planner;
 pub mod problem;
@@ -53,6 +53,7 @@ mod to_subgoals;
 pub mod value;
 pub mod yielding;
 
+pub use costs::PlannerCosts;
 pub use plan::Plan;
 pub use planner::Planner;
 pub use problem::{Location, PlanningProblem};

@@ -59,6 +59,15 @@ pub(crate) fn drop_satisfied(problem: &PlanningProblem<'_>, subgoals: &mut Vec<S
     subgoals.drain(..done);
 }
 
+/// The same, except that the last one remains: what the other would undo has to be maintained.
+pub(crate) fn drop_satisfied_but_last(problem: &PlanningProblem<'_>, subgoals: &mut Vec<Subgoal>) {
+    let last = subgoals.last().copied();
+    drop_satisfied(problem, subgoals);
+    if subgoals.is_empty() {
+        subgoals.extend(last);
+    }
+}
+
 /// The plan of releasing whatever is held and then staying.
 #[must_use]
 pub(crate) fn release(problem: &PlanningProblem<'_>, agent: AgentId) -> Plan {

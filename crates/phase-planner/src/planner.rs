@@ -1,28 +1,21 @@
 //! One agent's planner: which kind of plan its goal and attitude require.
 
 use crate::{
-    evasion, hindrance,
-    plan::{Plan, inspect, only, release},
+    costs::PlannerCosts,
+    interference,
+    plan::{Plan, inspect, is, not, only, release, rooms},
     problem::PlanningProblem,
     routes::Routes,
     search,
     symbolic::Node,
-    task::Task,
+    task::{Effort, Task},
     to_subgoals::to_subgoals,
     yielding,
 };
 use phase_model::{
-    AGENT_COUNT, AgentId, Attitude, BodySet, Entity, Goal, Layout, PhysicsConfig, Sign, State,
+    AGENT_COUNT, AgentId, Attitude, BodySet, Entity, Goal, Layout, PhysicsConfig, Predicate, Sign, State,
 };
 use phase_predicates::achieved;
-
-/// Effort weight of a helper's own travel relative to the helpee's: of two equally short plans it chooses the
-/// one with less travel for the other.
-const HELPER_EFFORT_WEIGHT: f32 = 0.5;
-
-/// A plan that costs this much contains something nearly impossible (u): see
-/// [`crate::routes::IMPASSABLE_COST`] and the cost of a load too heavy.
-const INFEASIBLE_COST: f32 = 60.0;
 
 /// The high-level planner of one agent, with everything that does not change during an event.
 #[derive(Clone, Debug)]
@@ -32,11 +25,12 @@ pub struct Planner {
     agent: AgentId,
     goals: [Goal; AGENT_COUNT],
     attitude: Attitude,
+    costs: PlannerCosts,
 }
 
 impl Planner {
     /// A planner for one agent with both agents' goals, which are common knowledge, and its own attitude
-    /// towards the other.
+    /// towards the other; with the default costs.
     #[must_use]
     pub fn new(
         physics: PhysicsConfig,
@@ -45,7 +39,20 @@ impl Planner {
         goals: [Goal; AGENT_COUNT],
         attitude: Attitude,
     ) -> Self {
-        Self { physics, routes: Routes::new(layout), agent, goals, attitude }
+        Self::with_costs(physics, layout, agent, goals, attitude, PlannerCosts::default())
+    }
+
+    /// The same with other costs.
+    #[must_use]
+    pub fn with_costs(
+        physics: PhysicsConfig,
+        layout: Layout,
+        agent: AgentId,
+        goals: [Goal; AGENT_COUNT],
+        attitude: Attitude,
+        costs: PlannerCosts,
+    ) -> Self {
+        Self { physics, routes: Routes::new(layout), agent, goals, attitude, costs }
     }
 
     /// The routes between rooms.
@@ -58,14 +65,21 @@ impl Planner {
     /// observes these entities.
     #[must_use]
     pub fn plan(&self, state: &State, observed: BodySet) -> Plan {
-        let problem = PlanningProblem::new(&self.physics, &self.routes, state);
+        let problem = PlanningProblem::new(&self.physics, &self.routes, state, self.costs);
         let own = self.goals[self.agent];
         let other = self.goals[self.agent.other()];
+        // A goal is to become true or not to become true, by its sign and, for the other's goal, the attitude.
+        let (goal, is_wanted) = match self.attitude {
+            Attitude::Neutral => (own, own.sign() == Sign::Positive),
+            Attitude::Help => (other, other.sign() == Sign::Positive),
+            Attitude::Hinder => (other, other.sign() == Sign::Negative),
+        };
+        let condition = if goal.sign() == Sign::Positive { goal } else { goal.negated() };
         match self.attitude {
+            _ if !is_wanted => interference::plan(&problem, self.agent, condition),
             Attitude::Help => self.help(&problem, other, observed),
-            Attitude::Hinder => hindrance::plan(&problem, self.agent, other),
-            Attitude::Neutral if own.sign() == Sign::Negative => self.avoid(&problem, own),
-            Attitude::Neutral => self.pursue(&problem, own, other, observed),
+            Attitude::Neutral if own != other.negated() => self.pursue(&problem, own, other, observed),
+            _ => self.contend(&problem, condition),
         }
     }
 
@@ -79,33 +93,33 @@ impl Planner {
             problem,
             goal: own,
             actors: only(self.agent),
-            effort_weights: [1.0; AGENT_COUNT],
+            efforts: [Effort::OWN; AGENT_COUNT],
             cooperative: own == other,
             narrowed: None,
         };
         let alone = search::solve(&task, Node::start(problem));
         match alone {
-            Some(plan) if own != other || plan.cost < INFEASIBLE_COST => {
+            Some(plan) if own != other || plan.cost < self.costs.impassable => {
                 to_subgoals(&task, &plan, self.agent)
             }
-            _ if own == other => self.cooperate(problem, own, 1.0, observed),
+            _ if own == other => self.cooperate(problem, own, self.agent, observed),
             _ => Plan::STAY,
         }
     }
 
-    /// The agent's part of the cheapest joint plan for a goal, its own travel weighted by
-    /// `own_effort_weight`. An agent without a part yields.
+    /// The agent's part of the cheapest joint plan for a goal of `owner`, whom the other agent helps. An agent
+    /// without a part yields. Of two agents with the same goal each considers itself the owner.
     fn cooperate(
         &self,
         problem: &PlanningProblem<'_>,
         goal: Goal,
-        own_effort_weight: f32,
+        owner: AgentId,
         observed: BodySet,
     ) -> Plan {
-        let mut effort_weights = [1.0; AGENT_COUNT];
-        effort_weights[self.agent] = own_effort_weight;
+        let mut efforts = [Effort::OWN; AGENT_COUNT];
+        efforts[owner.other()] = Effort::helper(self.costs.effort);
         let actors = [true; AGENT_COUNT];
-        let task = Task { problem, goal, actors, effort_weights, cooperative: true, narrowed: None };
+        let task = Task { problem, goal, actors, efforts, cooperative: true, narrowed: None };
         let plan = search::solve(&task, Node::start(problem))
             .map_or(Plan::STAY, |plan| to_subgoals(&task, &plan, self.agent));
         // An agent has to observe that it is not needed.
@@ -127,29 +141,45 @@ impl Planner {
     /// A helper searches for the cheapest plan in which both together achieve the other's goal, and does its
     /// own part of it; if the other does best alone, that part is empty.
     fn help(&self, problem: &PlanningProblem<'_>, goal: Goal, observed: BodySet) -> Plan {
-        if goal.sign() == Sign::Negative {
-            return self.help_to_avoid(problem, goal);
-        }
         if let Some(plan) = self.finish(problem, goal, observed) {
             return plan;
         }
-        self.cooperate(problem, goal, HELPER_EFFORT_WEIGHT, observed)
+        self.cooperate(problem, goal, self.agent.other(), observed)
     }
 
-    /// An avoidance goal is helped by staying away; other negated goals by undoing them.
-    fn help_to_avoid(&self, problem: &PlanningProblem<'_>, goal: Goal) -> Plan {
-        match goal {
-            Goal::Touch { .. } => evasion::plan(problem, self.agent),
-            _ => hindrance::plan(problem, self.agent, goal.negated()),
+    /// Makes a condition true that the other wants to be false, and maintains it, since the other would undo it.
+    fn contend(&self, problem: &PlanningProblem<'_>, condition: Goal) -> Plan {
+        let me = Entity::Agent(self.agent);
+        let actors = only(self.agent);
+        let efforts = [Effort::OWN; AGENT_COUNT];
+        let task = Task { problem, goal: condition, actors, efforts, cooperative: false, narrowed: None };
+        let last = match (condition, condition.landmark()) {
+            (_, Some(landmark)) => is(Predicate::On(condition.subject(), landmark)),
+            _ => is(Predicate::Touch(self.agent, Entity::Agent(self.agent.other()))),
+        };
+        let mut plan = search::solve(&task, Node::start(problem)).map_or_else(
+            || {
+                // No operator moves the other; it has to be pushed.
+                let (from, to) = (problem.state.position(me), problem.state.position(condition.subject()));
+                let width = problem.width(self.agent, None);
+                let mut plan = release(problem, self.agent);
+                if let Some(route) =
+                    problem.routes.best(from, to, width, problem.gaps(self.agent, BodySet::OBJECTS))
+                {
+                    plan.distance = route.cost();
+                    rooms(&route, from, to, me, &mut plan.subgoals);
+                }
+                plan
+            },
+            |plan| to_subgoals(&task, &plan, self.agent),
+        );
+        if let Entity::Object(object) = condition.subject() {
+            plan.subgoals.retain(|&subgoal| subgoal != not(Predicate::Attach(self.agent, object)));
         }
-    }
-
-    /// A negated goal of the agent itself: evading the other, or keeping something off a landmark.
-    fn avoid(&self, problem: &PlanningProblem<'_>, goal: Goal) -> Plan {
-        match goal {
-            Goal::Touch { .. } => evasion::plan(problem, self.agent),
-            _ => hindrance::plan(problem, self.agent, goal.negated()),
+        if plan.subgoals.last() != Some(&last) {
+            plan.subgoals.push(last);
         }
+        plan
     }
 
     /// What to do once the goal holds: release whatever is held, otherwise nothing. An agent that believes an

@@ -1,7 +1,10 @@
 //! A physical state as represented in the high-level planner: a few named locations and what lies between
 //! them.
 
-use crate::routes::{Gaps, Routes, point_in};
+use crate::{
+    costs::PlannerCosts,
+    routes::{Gaps, Routes, point_in},
+};
 use phase_model::{
     AGENT_COUNT, AgentId, BodySet, Entity, LandmarkId, MAX_OBJECTS, ObjectId, PhysicsConfig, RoomId, SlotId,
     State, Vec2, arena, layout::SLOT_DIRECTIONS, physics::GROUND_FRICTION,
@@ -35,6 +38,8 @@ pub struct PlanningProblem<'a> {
     pub routes: &'a Routes,
     /// The physical state.
     pub state: &'a State,
+    /// The costs of what agents do.
+    pub costs: PlannerCosts,
     /// The passable part of each door for each agent while a set of objects, the bits of the index, are still
     /// where they are now.
     gaps: [[Gaps; 1 << MAX_OBJECTS]; AGENT_COUNT],
@@ -45,7 +50,12 @@ pub struct PlanningProblem<'a> {
 impl<'a> PlanningProblem<'a> {
     /// Computes which doors the objects obstruct.
     #[must_use]
-    pub fn new(physics: &'a PhysicsConfig, routes: &'a Routes, state: &'a State) -> Self {
+    pub fn new(
+        physics: &'a PhysicsConfig,
+        routes: &'a Routes,
+        state: &'a State,
+        costs: PlannerCosts,
+    ) -> Self {
         let gaps = AgentId::ALL.map(|agent| {
             core::array::from_fn(|mask| {
                 let mut gaps = *routes.gaps();
@@ -60,7 +70,7 @@ impl<'a> PlanningProblem<'a> {
                 gaps
             })
         });
-        let mut problem = Self { physics, routes, state, gaps, blockers: [false; MAX_OBJECTS] };
+        let mut problem = Self { physics, routes, state, costs, gaps, blockers: [false; MAX_OBJECTS] };
         for object in physics.objects() {
             problem.blockers[object] =
                 AgentId::ALL.into_iter().any(|agent| problem.narrows_a_door(object, agent));
@@ -129,6 +139,29 @@ const fn object_bits(set: BodySet) -> usize {
 }
 
 impl PlanningProblem<'_> {
+    /// Whether an agent stands in a door that an object on the side of the point `to` blocks for it.
+    pub(crate) fn stops_in_door(&self, agent: AgentId, object: ObjectId, to: Vec2) -> bool {
+        if !self.blocks_a_door(object) {
+            return false;
+        }
+        let width = self.width(agent, None);
+        let narrowed = self.gaps(agent, BodySet::from_iter([Entity::Object(object)]));
+        let here = self.state.position(Entity::Agent(agent)) - arena::CENTRE;
+        let there = self.state.position(Entity::Object(object)) - arena::CENTRE;
+        SlotId::ALL.into_iter().zip(SLOT_DIRECTIONS).any(|(slot, direction)| {
+            let across = |offset: Vec2| direction.perp_dot(offset);
+            let is_in_door = across(here).abs() < 0.5 * width
+                && self.routes.gaps().0[slot].is_some_and(|(low, high)| {
+                    let along = direction.dot(here);
+                    low < along && along < high
+                });
+            is_in_door
+                && self.routes.gaps().width(slot) >= width
+                && narrowed.width(slot) < width
+                && across(there).signum() == across(to - arena::CENTRE).signum()
+        })
+    }
+
     fn narrows_a_door(&self, object: ObjectId, agent: AgentId) -> bool {
         let width = self.width(agent, None);
         SlotId::ALL.into_iter().any(|slot| {

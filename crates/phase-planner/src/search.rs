@@ -21,18 +21,14 @@ pub struct SymbolicPlan {
 
 /// The cheapest sequence of operators from a symbolic state to one where the task is done; `None` if there is
 /// none, as when no agent acts.
-///
-/// Where the heuristic is not a lower bound, a second search without it determines whether there is a cheaper
-/// plan. Of equally cheap plans the one found with the heuristic is returned.
 #[must_use]
 pub fn solve(task: &Task<'_>, start: Node) -> Option<SymbolicPlan> {
-    let (mut nodes, mut cost) = search(task, &start, |node| (task.heuristic(node) * COST_RESOLUTION) as u32)?;
-    if !task.heuristic_is_admissible()
-        && let Some((cheapest, least)) = search(task, &start, |_| 0)
-        && least < cost
-    {
-        (nodes, cost) = (cheapest, least);
-    }
+    let (nodes, cost) = pathfinding::prelude::astar(
+        &start,
+        |node| task.successors(node).into_iter().map(|(_, after, cost)| (after, quantise(cost))),
+        |node| (task.heuristic(node) * COST_RESOLUTION) as u32,
+        |node| task.is_done(node),
+    )?;
     let steps = nodes
         .windows(2)
         .filter_map(|pair| {
@@ -45,17 +41,6 @@ pub fn solve(task: &Task<'_>, start: Node) -> Option<SymbolicPlan> {
         .collect();
     let end = nodes.last().copied().unwrap_or(start);
     Some(SymbolicPlan { steps, end, cost: cost as f32 / COST_RESOLUTION })
-}
-
-/// A* with a heuristic in its units: symbolic states on the path and the cost. A state is reopened when a
-/// cheaper path to it is found, so the heuristic need not be consistent.
-fn search(task: &Task<'_>, start: &Node, heuristic: impl Fn(&Node) -> u32) -> Option<(Vec<Node>, u32)> {
-    pathfinding::prelude::astar(
-        start,
-        |node| task.successors(node).into_iter().map(|(_, after, cost)| (after, quantise(cost))),
-        heuristic,
-        |node| task.is_done(node),
-    )
 }
 
 /// A cost in A*'s units, rounded up so that a lower bound remains one. NaN counts as very far.

@@ -2,22 +2,36 @@
 
 use crate::{
     problem::{Location, PlanningProblem},
-    routes::{Gaps, IMPASSABLE_COST},
+    routes::Gaps,
     symbolic::{Node, Operator},
 };
 use phase_model::{
     AGENT_COUNT, AgentId, Entity, Goal, LandmarkId, ObjectId, SlotId,
     layout::{SLOT_ROOMS, room_of},
+    physics::GROUND_FRICTION,
 };
 
-/// Cost of grabbing or releasing (u of travel).
-const GRASP_COST: f32 = 1.0;
-/// Added when the holders are too weak to move an object, so that carrying it is the last resort.
-const IMMOVABLE_COST: f32 = 60.0;
-/// Upper bound of the carrying-time factor, reached as the net force approaches zero.
-const MAX_CARRYING_FACTOR: f32 = 5.0;
-/// Net force at which carrying takes twice as long as walking (N).
-const CARRYING_FORCE_SCALE: f32 = 100.0;
+/// Effort weights of an agent: what 1 u of its travel costs (u).
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Effort {
+    /// With free hands; at most 1.
+    pub walking: f32,
+    /// With an object. If both agents hold it, the greater weight counts.
+    pub carrying: f32,
+}
+
+impl Effort {
+    /// The effort of an agent for its own goal: all travel counts in full.
+    pub const OWN: Self = Self { walking: 1.0, carrying: 1.0 };
+
+    /// The effort of a helper. It walks while the other walks or waits, so walking costs its effort only.
+    /// While it carries the object of the other's goal, the other has to wait, and the time counts as well.
+    /// Hence the helper carries what the other cannot carry, or is far from, and leaves the rest to it.
+    #[must_use]
+    pub fn helper(effort: f32) -> Self {
+        Self { walking: effort, carrying: 1.0 + effort }
+    }
+}
 
 /// A goal to be reached by some agents' actions.
 #[derive(Clone, Copy, Debug)]
@@ -28,8 +42,8 @@ pub struct Task<'a> {
     pub goal: Goal,
     /// Which agents act.
     pub actors: [bool; AGENT_COUNT],
-    /// Effort weight of each agent's travel: 1 in full, less for an agent willing to travel more.
-    pub effort_weights: [f32; AGENT_COUNT],
+    /// What each agent's travel costs.
+    pub efforts: [Effort; AGENT_COUNT],
     /// Whether both agents pull in the same direction when both hold an object.
     pub cooperative: bool,
     /// Doors narrowed for one agent by something that is not an object, such as the other agent's body.
@@ -52,46 +66,39 @@ impl Task<'_> {
         reached && AgentId::ALL.into_iter().all(|agent| !self.actors[agent] || node.holds[agent].is_none())
     }
 
-    /// An estimate of the remaining cost (u): the straight distance that the subject has to move, at the
-    /// lowest effort weight among the agents. [`Task::heuristic_is_admissible`] states whether it is a lower
-    /// bound.
+    /// A lower bound on the remaining cost (u): the straight distance that the subject has to move, at the
+    /// lowest effort weight.
+    ///
+    /// It is consistent. The subject moves by `Approach`, `Meet`, `Go`, `Carry` and `Pass` only, each of which
+    /// costs at least the lowest weight times the straight distance between its old and new location, since
+    /// no route is shorter, slowness is at least 1 and penalties are not negative. The exception is an agent
+    /// that holds an object from the start: it is still at arm's length, and carrying may be charged for the
+    /// object's path only. Such an agent is therefore taken to be at its own location or at the object's,
+    /// whichever is closer. Releasing the object removes the choice, so the bound only rises.
     #[must_use]
     pub fn heuristic(&self, node: &Node) -> f32 {
         let distance =
             |from: Location, to: Location| self.problem.position(from).distance(self.problem.position(to));
-        let straight = match self.goal {
+        let places = |agent: AgentId| {
+            let held = node.holds[agent].map(|object| node.objects[object]);
+            [node.agents[agent], held.unwrap_or(node.agents[agent])]
+        };
+        let nearest = |agent: AgentId, to: Location| places(agent).map(|from| distance(from, to));
+        let lowest = |weight: fn(&Effort) -> f32| weight(&self.efforts[0]).min(weight(&self.efforts[1]));
+        match self.goal {
             Goal::AgentOnLandmark { agent, landmark, .. } => {
-                distance(node.agents[agent], Location::Landmark(landmark))
+                let [own, held] = nearest(agent, Location::Landmark(landmark));
+                own.min(held) * lowest(|effort| effort.walking.min(effort.carrying))
             }
             Goal::ObjectOnLandmark { object, landmark, .. } => {
                 distance(node.objects[object], Location::Landmark(landmark))
+                    * lowest(|effort| effort.carrying)
             }
-            Goal::Touch { agent, other, .. } => distance(node.agents[agent], node.agents[other]),
-        };
-        straight * self.effort_weights[0].min(self.effort_weights[1])
-    }
-
-    /// Whether [`Task::heuristic`] never exceeds the cost of the cheapest plan from a symbolic state.
-    ///
-    /// It never does for an object that is to be on a landmark. Let e be the lesser effort weight. Only two
-    /// operators move the object. `Carry` costs at least e times the length of a route between the object's
-    /// locations, since the longest path of object and holders counts, the slowness factor is at least 1 and
-    /// penalties are not negative; so it costs at least the decrease of the heuristic. `Pass` is charged for
-    /// the path to the near side of a door and leaves the object on the far side, 2.4 u further on, for 2 u
-    /// of handling; so it falls short by at most 0.4 u, as e ≤ 1. It also ends its agent's grip. A pass never
-    /// ends a plan, so after k ≥ 1 of them there have been at least k + 1 grips of the object. At most two of
-    /// these existed at the start; each other one costs 1 u for grasping, and the last costs 1 u for
-    /// releasing, as only agents with free hands are done and `Pass` exists only when both agents act. The
-    /// total is k u, which is more than 0.4 k u. Costs are rounded up and the heuristic down, both to whole
-    /// units of the search.
-    ///
-    /// It may for an agent that is to be somewhere. Approaching an object costs the path less the arm's
-    /// length between agent and object when they touch, yet leaves the agent at the object's own location;
-    /// carrying credits holders likewise. A path via one or two objects, or with one held, can therefore cost
-    /// several units less than the straight line.
-    #[must_use]
-    pub const fn heuristic_is_admissible(&self) -> bool {
-        matches!(self.goal, Goal::ObjectOnLandmark { .. })
+            Goal::Touch { agent, other, .. } => {
+                let [a, b] = places(other).map(|to| nearest(agent, to)).map(|[own, held]| own.min(held));
+                a.min(b) * lowest(|effort| effort.walking.min(effort.carrying))
+            }
+        }
     }
 
     /// All possible next actions of the acting agents: operator, symbolic state after it, cost (u).
@@ -108,13 +115,10 @@ impl Task<'_> {
     }
 
     /// Path cost to a location (u), for an agent or for an object and its holders, with penalties for doors
-    /// that one of them does not fit through. All holders have to come along, so the longest path counts.
+    /// that one of them does not fit through. All holders have to come along, so the longest path counts. The
+    /// object `ignored`, which the agent holds or heads for, is not an obstacle.
     #[must_use]
-    pub fn distance(&self, node: &Node, agent: AgentId, held: Option<ObjectId>, to: Location) -> f32 {
-        self.longest_path(node, agent, held, to, held)
-    }
-
-    fn longest_path(
+    pub fn distance(
         &self,
         node: &Node,
         agent: AgentId,
@@ -157,12 +161,10 @@ impl Task<'_> {
             let mut after = *node;
             if node.agents[agent] == location {
                 after.holds[agent] = Some(object);
-                successors.push((Operator::Grab { agent, object }, after, GRASP_COST));
+                successors.push((Operator::Grab { agent, object }, after, self.problem.costs.grasp));
             } else {
                 after.agents[agent] = location;
-                let way = self.travel_cost(node, agent, None, location, Some(object));
-                let spared = self.effort_weights[agent] * self.problem.arm(agent, object);
-                let cost = (way - spared).max(0.0);
+                let cost = self.walking_cost(node, agent, location, Some(object));
                 successors.push((Operator::Approach { agent, object }, after, cost));
             }
         }
@@ -171,14 +173,14 @@ impl Task<'_> {
                 let location = Location::Landmark(landmark);
                 let mut after = *node;
                 after.agents[agent] = location;
-                let cost = self.travel_cost(node, agent, None, location, None);
+                let cost = self.walking_cost(node, agent, location, None);
                 successors.push((Operator::Go { agent, landmark }, after, cost));
             }
             Goal::Touch { .. } => {
                 let location = node.agents[agent.other()];
                 let mut after = *node;
                 after.agents[agent] = location;
-                let cost = self.travel_cost(node, agent, None, location, None);
+                let cost = self.walking_cost(node, agent, location, None);
                 successors.push((Operator::Meet { agent }, after, cost));
             }
             _ => {}
@@ -194,7 +196,7 @@ impl Task<'_> {
     ) {
         let mut after = *node;
         after.holds[agent] = None;
-        successors.push((Operator::Release { agent, object }, after, GRASP_COST));
+        successors.push((Operator::Release { agent, object }, after, self.problem.costs.grasp));
         for landmark in LandmarkId::ALL {
             let location = Location::Landmark(landmark);
             if node.objects[object] == location || !self.may_place(object, landmark) {
@@ -240,7 +242,11 @@ impl Task<'_> {
                 after.agents[agent] = before;
                 after.objects[object] = passed;
                 after.holds[agent] = None;
-                let cost = self.carrying_cost(node, agent, object, before) + 2.0 * GRASP_COST;
+                // Pushed on through the door, released, and grasped again by the other.
+                let through = self.problem.position(before).distance(self.problem.position(passed));
+                let cost = self.carrying_cost(node, agent, object, before)
+                    + self.efforts[agent].carrying * through
+                    + 2.0 * self.problem.costs.grasp;
                 successors.push((
                     Operator::Pass { agent, object, slot, room: neighbour_across },
                     after,
@@ -262,11 +268,13 @@ impl Task<'_> {
     }
 
     /// Relevant objects: the goal's own, those that block a door, and those held.
-    fn is_relevant(&self, object: ObjectId) -> bool {
+    pub(crate) fn is_relevant(&self, object: ObjectId) -> bool {
         self.goal.subject() == Entity::Object(object) || self.problem.blocks_a_door(object)
     }
 
-    fn carrying_cost(&self, node: &Node, agent: AgentId, object: ObjectId, to: Location) -> f32 {
+    /// Cost of moving a held object to a location (u). The time relative to walking is the ratio of the net
+    /// forces without and with the load's friction.
+    pub(crate) fn carrying_cost(&self, node: &Node, agent: AgentId, object: ObjectId, to: Location) -> f32 {
         let holders = node.holders(object);
         let net = if self.cooperative || holders != [true; AGENT_COUNT] {
             self.problem.net_force(holders)
@@ -276,25 +284,33 @@ impl Task<'_> {
             alone[agent] = true;
             self.problem.net_force(alone) - self.problem.physics.agents[agent.other()].max_force
         };
-        let slowness = if net > 0.0 {
-            (1.0 + CARRYING_FORCE_SCALE / net).min(MAX_CARRYING_FACTOR)
+        let weight = AgentId::ALL
+            .into_iter()
+            .filter(|&holder| holders[holder])
+            .map(|holder| self.efforts[holder].carrying)
+            .fold(self.efforts[agent].carrying, f32::max);
+        let travel = weight * self.distance(node, agent, Some(object), to, Some(object));
+        if net > 0.0 {
+            travel * (1.0 + GROUND_FRICTION / net)
         } else {
-            MAX_CARRYING_FACTOR
-        };
-        let travel = self.travel_cost(node, agent, Some(object), to, Some(object));
-        travel * slowness + if net > 0.0 { 0.0 } else { IMMOVABLE_COST }
+            travel + self.problem.costs.impassable
+        }
     }
 
-    fn travel_cost(
+    /// Cost of walking to a location (u).
+    pub(crate) fn walking_cost(
         &self,
         node: &Node,
         agent: AgentId,
-        held: Option<ObjectId>,
         to: Location,
         ignored: Option<ObjectId>,
     ) -> f32 {
-        let cost = self.effort_weights[agent] * self.longest_path(node, agent, held, to, ignored);
-        if held.is_none() && self.is_at_blocking_object(node, agent) { cost + IMPASSABLE_COST } else { cost }
+        let cost = self.efforts[agent].walking * self.distance(node, agent, None, to, ignored);
+        if self.is_at_blocking_object(node, agent) || self.is_stopped_in_door(node, agent, to, ignored) {
+            cost + self.problem.costs.impassable
+        } else {
+            cost
+        }
     }
 
     /// Whether an agent stands at an object that still blocks a door. It may be on either side of it, so
@@ -306,6 +322,22 @@ impl Task<'_> {
                 && node.agents[agent] == location
                 && node.objects[object] == location
         })
+    }
+
+    /// Whether an agent stands in a door with an object before it that blocks the door.
+    fn is_stopped_in_door(
+        &self,
+        node: &Node,
+        agent: AgentId,
+        to: Location,
+        ignored: Option<ObjectId>,
+    ) -> bool {
+        node.agents[agent] == Location::Current(Entity::Agent(agent))
+            && self.problem.physics.objects().any(|object| {
+                Some(object) != ignored
+                    && node.objects[object] == Location::Current(Entity::Object(object))
+                    && self.problem.stops_in_door(agent, object, self.problem.position(to))
+            })
     }
 
     /// The doors as they are for an agent in a symbolic state; an object it holds or heads for is not an

@@ -20,28 +20,36 @@ pub(crate) fn to_subgoals(task: &Task<'_>, plan: &SymbolicPlan, agent: AgentId) 
         match *operator {
             Operator::Approach { agent: who, object } if who == agent => {
                 let location = node.objects[object];
-                go(task, node, agent, None, location, &mut subgoals);
+                go(task, node, agent, None, Some(object), location, &mut subgoals);
                 let target = PredicateTarget::Entity(Entity::Object(object));
                 subgoals.push(is(Predicate::Close(Entity::Agent(agent), target)));
             }
             Operator::Meet { agent: who } if who == agent => {
-                go(task, node, agent, None, node.agents[agent.other()], &mut subgoals);
+                go(task, node, agent, None, None, node.agents[agent.other()], &mut subgoals);
                 subgoals.push(is(Predicate::Touch(agent, Entity::Agent(agent.other()))));
             }
             Operator::Go { agent: who, landmark } if who == agent => {
-                go(task, node, agent, None, Location::Landmark(landmark), &mut subgoals);
+                go(task, node, agent, None, None, Location::Landmark(landmark), &mut subgoals);
                 subgoals.push(is(Predicate::On(Entity::Agent(agent), landmark)));
             }
             Operator::Grab { agent: who, object } if who == agent => {
                 subgoals.push(is(Predicate::Attach(agent, object)));
             }
             Operator::Carry { object, landmark, .. } if node.holds[agent] == Some(object) => {
-                go(task, node, agent, Some(object), Location::Landmark(landmark), &mut subgoals);
+                go(task, node, agent, Some(object), None, Location::Landmark(landmark), &mut subgoals);
                 subgoals.push(is(Predicate::On(Entity::Object(object), landmark)));
             }
             Operator::Pass { agent: who, object, slot, room } if who == agent => {
                 let near = Routes::neighbour_across(slot, room);
-                go(task, node, agent, Some(object), Location::Inside { slot, room: near }, &mut subgoals);
+                go(
+                    task,
+                    node,
+                    agent,
+                    Some(object),
+                    None,
+                    Location::Inside { slot, room: near },
+                    &mut subgoals,
+                );
                 let place = PredicateTarget::Landmark(room.landmark());
                 subgoals.push(is(Predicate::Close(Entity::Object(object), place)));
                 subgoals.push(not(Predicate::Attach(agent, object)));
@@ -59,15 +67,19 @@ pub(crate) fn to_subgoals(task: &Task<'_>, plan: &SymbolicPlan, agent: AgentId) 
 /// Distance travelled in one operator, by whichever agent (u).
 fn travel(task: &Task<'_>, node: &Node, operator: Operator) -> f32 {
     match operator {
-        Operator::Approach { agent, object } => task.distance(node, agent, None, node.objects[object]),
-        Operator::Meet { agent } => task.distance(node, agent, None, node.agents[agent.other()]),
-        Operator::Go { agent, landmark } => task.distance(node, agent, None, Location::Landmark(landmark)),
+        Operator::Approach { agent, object } => {
+            task.distance(node, agent, None, node.objects[object], Some(object))
+        }
+        Operator::Meet { agent } => task.distance(node, agent, None, node.agents[agent.other()], None),
+        Operator::Go { agent, landmark } => {
+            task.distance(node, agent, None, Location::Landmark(landmark), None)
+        }
         Operator::Carry { agent, object, landmark } => {
-            task.distance(node, agent, Some(object), Location::Landmark(landmark))
+            task.distance(node, agent, Some(object), Location::Landmark(landmark), Some(object))
         }
         Operator::Pass { agent, object, slot, room } => {
             let near = Routes::neighbour_across(slot, room);
-            task.distance(node, agent, Some(object), Location::Inside { slot, room: near })
+            task.distance(node, agent, Some(object), Location::Inside { slot, room: near }, Some(object))
         }
         Operator::Grab { .. } | Operator::Release { .. } => 0.0,
     }
@@ -80,6 +92,7 @@ fn go(
     node: &Node,
     agent: AgentId,
     held: Option<ObjectId>,
+    heads_for: Option<ObjectId>,
     location: Location,
     subgoals: &mut Vec<Subgoal>,
 ) {
@@ -88,7 +101,7 @@ fn go(
     let (from, to) = (problem.position(from_spot), problem.position(location));
     let mover = held.map_or(Entity::Agent(agent), Entity::Object);
     let width = problem.width(agent, held);
-    let gaps = task.gaps(node, agent, held);
+    let gaps = task.gaps(node, agent, held.or(heads_for));
     if let Some(route) = problem.routes.best(from, to, width, &gaps) {
         rooms(&route, from, to, mover, subgoals);
     }

@@ -365,3 +365,20 @@ fn distance_is_what_is_left_to_travel() {
     let plan = setup.plan(0);
     assert!((plan.distance - by_hand).abs() < 0.5, "{} {by_hand}", plan.distance);
 }
+
+/// The object that an agent heads for does not close the door that it lies behind.
+#[test]
+fn the_approached_object_is_no_obstacle() {
+    let (from, object) = (Vec2::new(7.25, 16.0), Vec2::new(7.25, 10.3));
+    let setup = Setup {
+        layout: layout(4, None),
+        agents: [(Small, Mighty, from), (Small, Weak, Vec2::new(24.0, 8.0))],
+        objects: vec![(Huge, object)],
+        goals: [object_on(0, 3), agent_on(1, 2)],
+        ..plain()
+    };
+    let plan = setup.plan(0);
+    let landmark = phase_model::arena::LANDMARKS[LandmarkId::BOTTOM_LEFT];
+    let by_hand = from.distance(object) + object.distance(landmark);
+    assert!((plan.distance - by_hand).abs() < 0.5, "{} {by_hand}", plan.distance);
+}

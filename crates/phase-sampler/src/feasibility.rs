@@ -1,7 +1,11 @@
 //! Whether a scene can show the intended event, as judged by the planner.
 
 use phase_model::{AGENT_COUNT, AgentId, Goal, Scene};
-use phase_planner::{PlanningProblem, Routes, search, symbolic::Node, task::Task};
+use phase_planner::{
+    PlannerCosts, PlanningProblem, Routes, search,
+    symbolic::Node,
+    task::{Effort, Task},
+};
 use phase_predicates::achieved;
 
 /// Plans that cost more than this contain something nearly impossible (u); see
@@ -12,12 +16,12 @@ pub const INFEASIBLE_COST: f32 = 95.0;
 #[must_use]
 pub fn cost(scene: &Scene, goal: Goal, actors: [bool; AGENT_COUNT]) -> f32 {
     let (physics, routes, state) = (scene.physics(), Routes::new(scene.layout), scene.initial_state());
-    let problem = PlanningProblem::new(&physics, &routes, &state);
+    let problem = PlanningProblem::new(&physics, &routes, &state, PlannerCosts::default());
     let task = Task {
         problem: &problem,
         goal,
         actors,
-        effort_weights: [1.0; AGENT_COUNT],
+        efforts: [Effort::OWN; AGENT_COUNT],
         cooperative: true,
         narrowed: None,
     };

@@ -4,7 +4,11 @@ use phase_model::{
     AgentBody, AgentId, Body, BodySet, Entity, Goal, Grip, LandmarkId, Layout, ObjectId, PhysicsConfig,
     Segment, Side, Sign, Size, State, Strength, Vec2, arena,
 };
-use phase_planner::{PlanningProblem, problem::obstruct, task::Task};
+use phase_planner::{
+    PlanningProblem,
+    problem::obstruct,
+    task::{Effort, Task},
+};
 use proptest::prelude::*;
 
 /// One problem: a scene at some moment, a goal and the acting agents.
@@ -17,7 +21,7 @@ pub(crate) struct Problem {
     pub(crate) holds: [Option<ObjectId>; 2],
     pub(crate) goal: Goal,
     pub(crate) actors: [bool; 2],
-    pub(crate) effort_weights: [f32; 2],
+    pub(crate) efforts: [Effort; 2],
     pub(crate) cooperative: bool,
     /// Where a round body narrows doors for the given agent.
     pub(crate) narrowed: Option<(AgentId, Vec2)>,
@@ -50,9 +54,8 @@ impl Problem {
             obstruct(&mut gaps, place, 1.0, 1.0);
             (agent, gaps)
         });
-        let (goal, actors, effort_weights, cooperative) =
-            (self.goal, self.actors, self.effort_weights, self.cooperative);
-        Task { problem, goal, actors, effort_weights, cooperative, narrowed }
+        let (goal, actors, efforts, cooperative) = (self.goal, self.actors, self.efforts, self.cooperative);
+        Task { problem, goal, actors, efforts, cooperative, narrowed }
     }
 }
 
@@ -83,23 +86,21 @@ pub(crate) fn problems() -> impl Strategy<Value = Problem> {
     let size = || prop::sample::select(Size::ALL.to_vec());
     let body = || (size(), prop::sample::select(Strength::ALL.to_vec()));
     let actors = prop::sample::select(vec![[true, false], [false, true], [true, true]]);
-    let effort_weights = prop::sample::select(vec![[1.0, 1.0], [0.5, 1.0], [1.0, 0.5]]);
+    let efforts = {
+        let (own, helper) = (Effort::OWN, Effort::helper(0.4));
+        prop::sample::select(vec![[own, own], [helper, own], [own, helper]])
+    };
     let scene = (layout, [body(), body()], prop::collection::vec(size(), 0..=2));
-    (scene, [place(), place(), place(), place()], actors, effort_weights, any::<bool>())
-        .prop_flat_map(|(scene, places, actors, effort_weights, cooperative)| {
+    (scene, [place(), place(), place(), place()], actors, efforts, any::<bool>())
+        .prop_flat_map(|(scene, places, actors, efforts, cooperative)| {
             let count = scene.2.len();
             let held = || prop::option::weighted(0.3, prop::sample::select(ObjectId::ALL.to_vec()));
             let narrowed =
                 prop::option::weighted(0.2, (prop::sample::select(AgentId::ALL.to_vec()), place()));
-            (
-                Just((scene, places, actors, effort_weights, cooperative)),
-                [held(), held()],
-                goal(count),
-                narrowed,
-            )
+            (Just((scene, places, actors, efforts, cooperative)), [held(), held()], goal(count), narrowed)
         })
         .prop_map(|(fixed, holds, goal, narrowed)| {
-            let ((layout, agents, objects), mut places, actors, effort_weights, cooperative) = fixed;
+            let ((layout, agents, objects), mut places, actors, efforts, cooperative) = fixed;
             let holds = holds.map(|held| held.filter(|&object| object.index() < objects.len()));
             // A held object touches its holder; if both agents hold it, it is placed at the first.
             for agent in [1, 0] {
@@ -114,17 +115,6 @@ pub(crate) fn problems() -> impl Strategy<Value = Problem> {
                 let arms = agents.map(|(size, _)| size.radius() + objects[a.index()].radius());
                 places[1] = places[Entity::Object(a)] + Vec2::new(0.0, arms[1]);
             }
-            Problem {
-                layout,
-                agents,
-                objects,
-                places,
-                holds,
-                goal,
-                actors,
-                effort_weights,
-                cooperative,
-                narrowed,
-            }
+            Problem { layout, agents, objects, places, holds, goal, actors, efforts, cooperative, narrowed }
         })
 }

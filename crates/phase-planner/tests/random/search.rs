@@ -2,15 +2,13 @@
 //!
 //! `PHASE_SEARCH_PROBLEMS` sets the number of problems.
 
-mod problems;
-
+use crate::problems::problems;
 use petgraph::{
     algo::dijkstra,
     graph::{DiGraph, NodeIndex},
     visit::{EdgeRef, Reversed},
 };
-use phase_planner::{PlanningProblem, Routes, search::solve, symbolic::Node, task::Task};
-use problems::problems;
+use phase_planner::{PlannerCosts, PlanningProblem, Routes, search::solve, symbolic::Node, task::Task};
 use proptest::{
     strategy::{Strategy, ValueTree},
     test_runner::TestRunner,
@@ -60,17 +58,17 @@ impl Reachable {
 }
 
 #[test]
-fn no_plan_is_cheaper_and_admissible_heuristics_are_lower_bounds() {
+fn no_plan_is_cheaper_and_the_heuristic_is_a_lower_bound() {
     let given = std::env::var("PHASE_SEARCH_PROBLEMS").ok();
     let count = given.map_or(PROBLEMS, |text| text.parse().expect("a number of problems"));
     let mut runner = TestRunner::deterministic();
     let strategy = problems();
-    let (mut solved, mut misleading) = (0, 0);
+    let (mut solved, mut informed) = (0, 0);
     for _ in 0..count {
         let random_problem = strategy.new_tree(&mut runner).expect("a problem").current();
         let (routes, physics, state) =
             (Routes::new(random_problem.layout), random_problem.physics(), random_problem.state());
-        let problem = PlanningProblem::new(&physics, &routes, &state);
+        let problem = PlanningProblem::new(&physics, &routes, &state, PlannerCosts::default());
         let task = random_problem.task(&problem);
         let start = Node::start(&problem);
         let reachable = Reachable::new(&task, start);
@@ -83,15 +81,10 @@ fn no_plan_is_cheaper_and_admissible_heuristics_are_lower_bounds() {
         assert!(task.is_done(&found.end), "{random_problem:?}");
         for (index, &cost) in &remaining {
             let Some(node) = reachable.graph[*index] else { continue };
-            if (task.heuristic(&node) * COST_RESOLUTION) as u32 > cost {
-                assert!(!task.heuristic_is_admissible(), "{node:?} of {random_problem:?}");
-                misleading += 1;
-            }
+            let bound = (task.heuristic(&node) * COST_RESOLUTION) as u32;
+            assert!(bound <= cost, "{bound} {cost} {node:?} of {random_problem:?}");
+            informed += u32::from(bound > 0);
         }
     }
-    println!(
-        "{solved} of {count} problems have a plan; {misleading} states are nearer than the heuristic says"
-    );
-    // The problems are of the kind that requires the second search.
-    assert!(solved > count / 2 && misleading > 0);
+    assert!(solved > count / 2 && informed > 0);
 }
