@@ -71,7 +71,7 @@ impl<'a> PreparedEvent<'a> {
             if resync_interval
                 .is_some_and(|resync_interval| step > 1 && (step - 1) % resync_interval.max(1) == 0)
             {
-                run.set_state(self.motion.states[step - 1]);
+                self.resynchronise(&mut run, step - 1);
             }
             let outlooks =
                 AgentId::ALL.map(|agent| self.beliefs[agent].belief_view(&run.physics, step - 1, &run.state));
@@ -84,6 +84,12 @@ impl<'a> PreparedEvent<'a> {
             }
         }
         Ok(deviations)
+    }
+
+    /// Sets a simulation to the state observed after a number of steps, and to the actions that led there.
+    fn resynchronise(&self, run: &mut SimulationRun, step: usize) {
+        let last_actions = step.checked_sub(1).and_then(|last| self.motion.actions.get(last));
+        run.set_state(self.motion.states[step], last_actions);
     }
 
     /// ‖sᵗ − ŝᵗ‖₂ over the positions of all entities (u).
@@ -110,7 +116,7 @@ impl<'a> PreparedEvent<'a> {
         let mut decided = Vec::with_capacity(self.observed.steps());
         for (step, (row, action_likelihoods)) in rows[1..].iter().zip(&self.motion.actions).enumerate() {
             if step > 0 && step % resync_interval.max(1) == 0 {
-                run.set_state(self.motion.states[step]);
+                self.resynchronise(&mut run, step);
             }
             let belief_view = self.beliefs[agent].belief_view(&run.physics, step, &run.state);
             let (action, thought) = run.decide(agent, &belief_view)?;
@@ -118,29 +124,6 @@ impl<'a> PreparedEvent<'a> {
             actions[agent] = action;
             let means = run.act(actions);
             decided.push(AgentDecision { action, thought, deviation: self.deviation(&means, row) });
-        }
-        Ok(decided)
-    }
-
-    /// EXPLORE
-    pub fn simulate_agent_thin(
-        &self,
-        hypothesis: &Hypothesis,
-        agent: AgentId,
-        thin: usize,
-        offset: usize,
-    ) -> Result<Vec<(usize, AgentDecision)>, PomcpError> {
-        let mut run =
-            SimulationRun::new(self.observed, hypothesis, self.minds, self.seed, self.motion.states[0])?;
-        let mut decided = Vec::new();
-        for step in (offset..self.observed.steps()).step_by(thin) {
-            run.set_state(self.motion.states[step]);
-            if step > 0 {
-                run.last_actions = self.motion.actions[step - 1].map(Some);
-            }
-            let belief_view = self.beliefs[agent].belief_view(&run.physics, step, &run.state);
-            let (action, thought) = run.decide(agent, &belief_view)?;
-            decided.push((step, AgentDecision { action, thought, deviation: 0.0 }));
         }
         Ok(decided)
     }
@@ -160,6 +143,7 @@ impl<'a> PreparedEvent<'a> {
     ) -> Result<phase_model::Forecast, PomcpError> {
         let last = self.motion.states[self.observed.steps()];
         let mut run = SimulationRun::new(self.observed, hypothesis, self.minds, seed, last)?;
+        self.resynchronise(&mut run, self.observed.steps());
         let mut beliefs = self.beliefs.each_ref().map(|belief| belief.last().clone());
         let mut random: [Pcg64Mcg; AGENT_COUNT] =
             AgentId::ALL.map(|agent| random::stream(seed, Purpose::Belief, agent.number().into()));
@@ -226,9 +210,10 @@ impl SimulationRun {
         Ok(Self { physics, forward, minds, random, state, cache, last_actions: [None; AGENT_COUNT] })
     }
 
-    /// Sets the world to a state.
-    fn set_state(&mut self, state: State) {
+    /// Sets the world to a state that both agents' actions have led to, if they have acted.
+    fn set_state(&mut self, state: State, last_actions: Option<&[Action; AGENT_COUNT]>) {
         self.state = state;
+        self.last_actions = last_actions.map_or([None; AGENT_COUNT], |actions| actions.map(Some));
         self.cache = self.forward.fresh_cache(&state);
     }
 
