@@ -14,8 +14,8 @@ use phase_pomcp::{GenerativeModel, Transition};
 use phase_predicates::achieved;
 use rand::{Rng, RngExt};
 
-/// The search model of an agent: its dynamics, its own action set, a passive model of the other agent, and
-/// Equation 1 shaped by the distance to the subgoal.
+/// The search model of an agent: its dynamics, its own action set, a model of the other agent, and Equation 1
+/// less the distance to go of the subgoal.
 #[derive(Debug)]
 pub struct SearchModel<'a, D> {
     /// The physics.
@@ -41,9 +41,10 @@ pub struct SearchModel<'a, D> {
 
 impl<D> SearchModel<'_, D> {
     /// Another agent that was in motion at the root pursues its own goal by the heuristic in a share of the
-    /// steps, evenly spaced, and coasts in the others; one at rest stays at rest. While the two touch, or hold the same object, it resists in every step. A model that only
-    /// coasts believes that every push will do, and two who push each other would go on for ever. Nothing is
-    /// drawn, so that the tree's steps can be cached.
+    /// steps, evenly spaced, and coasts in the others; one at rest stays at rest. While the two touch, or hold
+    /// the same object, it follows the heuristic in every step. A model that only coasts believes that every
+    /// push will do, and two who push each other would go on for ever. Nothing is drawn, so that the tree's
+    /// steps can be cached.
     fn other_action(&self, search_state: &SearchState) -> Action {
         let p = self.parameters.other_initiative;
         let count = |steps: u16| libm::floor(f64::from(steps) * p);
