@@ -42,8 +42,8 @@ pub(super) struct Figures {
     pub(super) log_likelihood_per_step: Option<f64>,
     /// The same with a lapse rate of 0.05.
     pub(super) log_likelihood_lapse_05: Option<f64>,
-    /// Mean deviation of a step from simulations in which one agent decides under the truth and the other does what was
-    /// inferred (u).
+    /// Mean over events of the mean deviation of a step from simulations in which one agent decides under the truth and the
+    /// other does what was inferred (u).
     pub(super) stray_per_step: Option<f64>,
     /// The same where both decide, always over whole events.
     pub(super) stray_of_both_per_step: Option<f64>,
@@ -63,18 +63,20 @@ impl Figures {
             .flat_map(|member| member.agents.iter().flat_map(|&agent| &member.event.chances[agent]))
             .copied()
             .collect();
-        let deviations = members
-            .iter()
-            .flat_map(|member| member.agents.iter().flat_map(|&agent| &member.event.deviations[agent]));
-        let joint_deviations = members.iter().flat_map(|member| &member.event.joint_deviations);
+        let strays = members.iter().filter_map(|member| {
+            let deviations: Vec<f64> =
+                member.agents.iter().flat_map(|&agent| &member.event.deviations[agent]).copied().collect();
+            mean(&deviations)
+        });
+        let strays_of_both = members.iter().filter_map(|member| mean(&member.event.joint_deviations));
         Self {
             events: members.len(),
             decisions: chances.len(),
             choice_probability: mean(&chances.iter().map(|chance| chance.mind).collect::<Vec<_>>()),
             log_likelihood_per_step: log_likelihood(&chances, lapse),
             log_likelihood_lapse_05: log_likelihood(&chances, FIXED_LAPSE),
-            stray_per_step: mean(&deviations.copied().collect::<Vec<_>>()),
-            stray_of_both_per_step: mean(&joint_deviations.copied().collect::<Vec<_>>()),
+            stray_per_step: mean(&strays.collect::<Vec<_>>()),
+            stray_of_both_per_step: mean(&strays_of_both.collect::<Vec<_>>()),
             recognition: RecognitionFigures::of(members),
             open_loop: OpenLoopFigures::of(members),
         }
