@@ -10,7 +10,7 @@ use phase_agent::MindParameters;
 use phase_cli::context::Context;
 
 /// What a change must gain in mean log posterior to be kept (nat an event). Less is chance.
-const MINIMUM_GAIN: f64 = 0.002;
+const MINIMUM_GAIN: f64 = 0.01;
 
 /// Parameters that are being fitted to some events.
 pub(super) struct Fit {
