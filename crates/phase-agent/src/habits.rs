@@ -1,13 +1,19 @@
 //! Habits: which actions are likely before any search, as priors of PUCT.
 
 use crate::{MindParameters, objective::Objective, rollout_policy};
-use phase_model::{Action, State};
+use phase_model::{Action, Entity, State};
 
 /// Distance to go below which an agent may rest (u).
 const AT_REST: f32 = 1.0;
 
-/// Prior weight of an action: what the heuristic suggests, what was done last, walking forward, and going on
+/// Speed above which a body goes on by habit (u/s).
+pub(crate) const MOVING_SPEED: f32 = 0.5;
+
+/// Prior weight of an action: what the heuristic suggests, going on as before, walking forward, and not resting
 /// while there is a distance to go are likelier.
+///
+/// Who touches or holds another body does not walk: every direction is as likely, and what did not move it is
+/// not repeated out of habit.
 pub(crate) fn weight(
     action: Action,
     parameters: &MindParameters,
@@ -16,20 +22,30 @@ pub(crate) fn weight(
     context: Context,
 ) -> f64 {
     let mut weight = 1.0;
+    let agent = objective.agent();
+    let walks = walks(objective, state);
     if action == context.heuristic {
         weight *= parameters.heuristic_prior;
     }
-    if Some(action) == context.last {
+    let is_moving = state.body(Entity::Agent(agent)).velocity.length() > MOVING_SPEED;
+    if Some(action) == context.last && (is_moving || walks) {
         weight *= parameters.momentum_prior;
     }
     let is_lateral = action.push().is_some() && action != Action::Up;
-    if is_lateral && rollout_policy::is_free(state, objective.agent()) {
+    if is_lateral && walks {
         weight *= parameters.lateral_prior;
     }
     if matches!(action, Action::Stop | Action::NoForce) && context.distance > AT_REST {
         weight *= parameters.rest_prior;
     }
     weight
+}
+
+/// Whether an agent moves freely: with free hands, and touching nothing.
+fn walks(objective: &Objective<'_>, state: &State) -> bool {
+    let me = Entity::Agent(objective.agent());
+    rollout_policy::is_free(state, objective.agent())
+        && !objective.physics().entities().any(|entity| state.contacts.touching(me, entity))
 }
 
 /// What a prior depends on beside the state.

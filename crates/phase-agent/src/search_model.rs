@@ -2,7 +2,7 @@
 
 use crate::{
     Foresight, MindParameters,
-    habits::{self, Context},
+    habits::{self, Context, MOVING_SPEED},
     objective::{ARENA_DIAGONAL, Objective},
     rollout_policy,
 };
@@ -40,17 +40,27 @@ pub struct SearchModel<'a, D> {
 }
 
 impl<D> SearchModel<'_, D> {
-    /// The other agent pursues its own goal by the heuristic in a share of the steps, evenly spaced, and coasts
-    /// in the others: a model that only coasts believes that every push will do, one that always acts does not
-    /// expect to pass. Without chance, so that the tree's steps can be cached.
+    /// Another agent that was in motion at the root pursues its own goal by the heuristic in a share of the
+    /// steps, evenly spaced, and coasts in the others; one at rest stays at rest. While the two touch, or hold the same object, it resists in every step. A model that only
+    /// coasts believes that every push will do, and two who push each other would go on for ever. Nothing is
+    /// drawn, so that the tree's steps can be cached.
     fn other_action(&self, search_state: &SearchState) -> Action {
         let p = self.parameters.other_initiative;
         let count = |steps: u16| libm::floor(f64::from(steps) * p);
-        if count(search_state.steps + 1) > count(search_state.steps) {
+        let acts = search_state.other_moves && count(search_state.steps + 1) > count(search_state.steps);
+        if acts || self.in_contact(&search_state.state) {
             rollout_policy::action(&self.other_objective, &search_state.state)
         } else {
             Action::NoForce
         }
+    }
+
+    /// Whether the two agents touch, or hold the same object.
+    fn in_contact(&self, state: &State) -> bool {
+        let [first, second] = AgentId::ALL;
+        let held = state.held_object(first);
+        state.contacts.touching(Entity::Agent(first), Entity::Agent(second))
+            || held.is_some() && held == state.held_object(second)
     }
 
     fn reward(&self, search_state: &SearchState, action: Action) -> f64 {
@@ -91,13 +101,17 @@ pub struct SearchState {
     last_action: Option<Action>,
     /// Steps from the root.
     steps: u16,
+    /// Whether the other agent was in motion at the root.
+    other_moves: bool,
 }
 
 impl SearchState {
     /// Evaluates the objective in a state that an action of the agent has led to.
     #[must_use]
     pub fn new(objective: &Objective<'_>, state: State, last_action: Option<Action>) -> Self {
-        Self { state, distance: objective.distance(&state), last_action, steps: 0 }
+        let other = state.body(Entity::Agent(objective.agent().other()));
+        let other_moves = other.velocity.length() > MOVING_SPEED;
+        Self { state, distance: objective.distance(&state), last_action, steps: 0, other_moves }
     }
 
     /// The state itself.

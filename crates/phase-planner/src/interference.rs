@@ -25,7 +25,8 @@ use phase_predicates::{achieved, is_true};
 #[must_use]
 pub fn plan(problem: &PlanningProblem<'_>, agent: AgentId, condition: Goal) -> Plan {
     let interference = Interference::new(problem, agent, condition);
-    if interference.now >= problem.costs.impassable || interference.is_out_of_sight() {
+    let is_safe = interference.now >= problem.costs.impassable;
+    if is_safe && !interference.is_pursuit() {
         return interference.finish();
     }
     let mut candidates = Vec::with_capacity(16);

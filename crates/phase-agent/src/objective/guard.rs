@@ -4,7 +4,7 @@ use super::{
     ARENA_DIAGONAL, Compiler,
     way::{LOOK_AHEAD, Way},
 };
-use phase_model::{Entity, LandmarkId, State, Vec2};
+use phase_model::{Entity, LandmarkId, RoomId, State, Vec2, layout::room_of};
 use phase_navigation::{Field, Target};
 use std::sync::Arc;
 
@@ -88,6 +88,21 @@ impl ClearPath {
 /// Clearance between bodies that pass each other (u).
 const CLEARANCE: f32 = 0.8;
 
+/// Where a path from a point enters a room (u); `None` if it starts there.
+fn entrance(field: &Field, start: Vec2, room: RoomId) -> Option<Vec2> {
+    let mut last = start;
+    for end in field.path(start) {
+        if room_of(last) != room && room_of(end + (end - last).normalize_or_zero() * PAST_DOOR) == room {
+            return Some(end);
+        }
+        last = end;
+    }
+    None
+}
+
+/// How far past a door a point counts as inside the room (u).
+const PAST_DOOR: f32 = 0.1;
+
 impl Compiler<'_, '_> {
     /// Keeping an entity away from a target: the post is the first point of its path that the agent reaches
     /// before it, or directly before it.
@@ -100,6 +115,12 @@ impl Compiler<'_, '_> {
         let to_me = self.navigator.field(Target::Point(here), own, &[]);
         let touching = self.physics.radius(me) + self.physics.radius(subject);
         let length = field.distance(start).min(2.0 * ARENA_DIAGONAL);
+        if let Target::Room { room, .. } = target
+            && let Some(door) = entrance(&field, start, room)
+        {
+            let way = Way::new(self.navigator, own, here, door, &[]);
+            return Guard { subject, field, drives: false, post: door, is_next_to: false, start, way };
+        }
         let mut ahead = touching.min(length);
         let mut post = field.waypoint(start, ahead);
         let mut is_next_to = true;

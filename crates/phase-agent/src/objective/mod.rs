@@ -48,6 +48,8 @@ pub struct Objective<'a> {
     facing: f32,
     /// Cost of an object that is not yet held (u).
     grasp: f32,
+    /// Cost of a door that is too narrow (u).
+    impassable: f32,
 }
 
 impl<'a> Objective<'a> {
@@ -63,7 +65,15 @@ impl<'a> Objective<'a> {
     ) -> Self {
         let mut compiler = Compiler { physics, navigator, state, agent, turning: parameters.turning };
         let task = compiler.task(subgoal);
-        Self { physics, agent, subgoal, task, facing: parameters.facing, grasp: parameters.grasp }
+        Self {
+            physics,
+            agent,
+            subgoal,
+            task,
+            facing: parameters.facing,
+            grasp: parameters.grasp,
+            impassable: parameters.impassable,
+        }
     }
 
     /// The agent that pursues it.
@@ -116,7 +126,7 @@ impl<'a> Objective<'a> {
             }
             Task::Escape(way) => {
                 let from = state.position(Entity::Agent(self.agent.other()));
-                (ARENA_DIAGONAL - way.distance(from, here)).max(0.0)
+                (ARENA_DIAGONAL - task::separation(way, from, here, self.impassable)).max(0.0)
             }
             Task::Guard(guard) => guard.distance(state, me),
             Task::ClearPath(path) => path.distance(here),
@@ -141,7 +151,7 @@ impl<'a> Objective<'a> {
             }
             Task::Escape(way) => {
                 let from = state.position(Entity::Agent(self.agent.other()));
-                task::away(way, from, here, self.physics.radius(me))
+                task::away(way, from, here, self.physics.radius(me), self.impassable)
             }
             Task::Guard(guard) => guard.waypoint(state, me),
             Task::ClearPath(path) => path.waypoint(here),

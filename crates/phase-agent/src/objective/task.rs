@@ -42,20 +42,27 @@ pub(crate) const fn room(landmark: LandmarkId) -> Target {
     Target::Room { room: landmark.room(), depth: ROOM_DEPTH }
 }
 
+/// Length of a pursuer's path to a place (u). Behind a door that is too narrow for it a body is safe, and yet
+/// farther away is better.
+pub(crate) fn separation(way: &Way, pursuer: Vec2, place: Vec2, impassable: f32) -> f32 {
+    let cost = way.distance(pursuer, place);
+    if cost >= impassable { cost - impassable } else { cost }
+}
+
 /// Number of directions in which an escape is tried.
 const DIRECTIONS: usize = 8;
 /// Length of a tried escape (u).
 const ESCAPE_LENGTH: f32 = 3.0;
 
 /// Of several points around a body, within the arena, the one farthest from a pursuer by its way.
-pub(crate) fn away(way: &Way, pursuer: Vec2, here: Vec2, radius: f32) -> Vec2 {
+pub(crate) fn away(way: &Way, pursuer: Vec2, here: Vec2, radius: f32, impassable: f32) -> Vec2 {
     let inset = Vec2::splat(radius);
     let mut best = (f32::NEG_INFINITY, here);
     for k in 0..DIRECTIONS {
         let angle = k as f32 * (core::f32::consts::TAU / DIRECTIONS as f32);
         let step = Vec2::new(libm::cosf(angle), libm::sinf(angle)) * ESCAPE_LENGTH;
         let place = (here + step).max(arena::MIN + inset).min(arena::MAX - inset);
-        let distance = way.distance(pursuer, place);
+        let distance = separation(way, pursuer, place, impassable);
         if distance > best.0 {
             best = (distance, place);
         }
