@@ -15,13 +15,13 @@ use crate::{
     task::{Effort, Task},
 };
 use phase_model::{
-    AgentId, BodySet, Entity, Goal, LandmarkId, ObjectId, Predicate, PredicateTarget, SlotId, Vec2, arena,
+    AgentId, BodySet, Entity, Goal, LandmarkId, ObjectId, Predicate, PredicateTarget, SlotId, Vec2,
     layout::room_of,
 };
 use phase_predicates::{achieved, is_true};
 
 /// The plan that raises the other's cost of a condition most; the condition is a positive goal. The agent
-/// stays only if the other cannot make the condition true at all, or is a pursuer out of sight.
+/// stays only if the other cannot make the condition true at all; from a pursuer it keeps away even then.
 #[must_use]
 pub fn plan(problem: &PlanningProblem<'_>, agent: AgentId, condition: Goal) -> Plan {
     let interference = Interference::new(problem, agent, condition);
@@ -102,13 +102,6 @@ impl<'a> Interference<'a> {
             plan.subgoals.extend(release.subgoals);
             plan
         })
-    }
-
-    /// Whether a pursuer is in another room and farther away than the arena is wide: whoever keeps still there
-    /// is found later than whoever walks about.
-    fn is_out_of_sight(&self) -> bool {
-        let room = |agent| room_of(self.problem.state.position(Entity::Agent(agent)));
-        self.is_pursuit() && self.now > arena::SIDE && room(self.agent) != room(self.other)
     }
 
     /// Whether the condition is that the two agents touch.

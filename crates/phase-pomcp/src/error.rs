@@ -71,6 +71,14 @@ pub enum PomcpError {
         /// The sum of the history's weights up to it.
         sum: f64,
     },
+    /// The model did not give one prior weight for each action.
+    #[error("`prior_weights` gave {weights} weights for {action_count} actions")]
+    PriorCount {
+        /// The number of weights that the model returned.
+        weights: usize,
+        /// The model's number of actions.
+        action_count: usize,
+    },
     /// The default policy returned an invalid action.
     #[error("`rollout_action` chose {action}, but there are only {action_count} actions")]
     RolloutActionOutOfRange {

@@ -53,7 +53,11 @@ impl<M: GenerativeModel> Simulation<'_, M> {
                 let here = self.known.as_ref().map_or(&*state, |known| &known[history.index()].0);
                 self.weights.clear();
                 self.model.prior_weights(here, &mut self.weights);
-                self.tree.add_actions(history, self.weights.iter().copied())?;
+                let (weights, action_count) = (self.weights.len(), self.action_count);
+                if weights != action_count {
+                    return Err(PomcpError::PriorCount { weights, action_count });
+                }
+                self.tree.add_actions(history, &self.weights)?;
             }
             let chosen = self.tree.select(history, self.settings, &self.range, random);
             let action = self.tree.action(history, chosen);

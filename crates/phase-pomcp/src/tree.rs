@@ -85,14 +85,10 @@ impl<O: Eq> Tree<O> {
     }
 
     /// Expands a leaf with its actions, whose priors are proportional to `weights`.
-    pub(crate) fn add_actions(
-        &mut self,
-        history: HistoryId,
-        weights: impl Iterator<Item = f64>,
-    ) -> Result<(), PomcpError> {
+    pub(crate) fn add_actions(&mut self, history: HistoryId, weights: &[f64]) -> Result<(), PomcpError> {
         let first = self.actions.len();
         let (mut last, mut sum) = (0.0, 0.0_f64);
-        for weight in weights {
+        for &weight in weights {
             last = weight;
             sum += weight;
             if weight.is_nan() || weight < 0.0 || sum.is_infinite() {
@@ -130,7 +126,8 @@ impl<O: Eq> Tree<O> {
             let mut untried = actions.iter().enumerate().filter(|(_, action)| action.visits == 0);
             return untried.nth(drawn).map_or(0, |(index, _)| index);
         }
-        let exploration = puct::exploration(settings, node.visits);
+        // At the first visit, too, the priors decide.
+        let exploration = puct::exploration(settings, node.visits.max(1));
         let mean = node.mean(actions);
         let mut best = (0, f64::NEG_INFINITY);
         for (index, action) in actions.iter().enumerate() {

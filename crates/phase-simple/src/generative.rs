@@ -71,7 +71,7 @@ impl<'a> PreparedEvent<'a> {
             if resync_interval
                 .is_some_and(|resync_interval| step > 1 && (step - 1) % resync_interval.max(1) == 0)
             {
-                run.set_state(self.motion.states[step - 1]);
+                self.resynchronise(&mut run, step - 1);
             }
             let outlooks =
                 AgentId::ALL.map(|agent| self.beliefs[agent].belief_view(&run.physics, step - 1, &run.state));
@@ -84,6 +84,12 @@ impl<'a> PreparedEvent<'a> {
             }
         }
         Ok(deviations)
+    }
+
+    /// Sets a simulation to the state observed after a number of steps, and to the actions that led there.
+    fn resynchronise(&self, run: &mut SimulationRun, step: usize) {
+        let last_actions = step.checked_sub(1).and_then(|last| self.motion.actions.get(last));
+        run.set_state(self.motion.states[step], last_actions);
     }
 
     /// ‖sᵗ − ŝᵗ‖₂ over the positions of all entities (u).
@@ -110,7 +116,7 @@ impl<'a> PreparedEvent<'a> {
         let mut decided = Vec::with_capacity(self.observed.steps());
         for (step, (row, action_likelihoods)) in rows[1..].iter().zip(&self.motion.actions).enumerate() {
             if step > 0 && step % resync_interval.max(1) == 0 {
-                run.set_state(self.motion.states[step]);
+                self.resynchronise(&mut run, step);
             }
             let belief_view = self.beliefs[agent].belief_view(&run.physics, step, &run.state);
             let (action, thought) = run.decide(agent, &belief_view)?;
@@ -143,11 +149,7 @@ impl<'a> PreparedEvent<'a> {
         let mut run = SimulationRun::new(self.observed, hypothesis, minds, self.seed, self.motion.states[0])?;
         let mut decided = Vec::with_capacity(steps.len());
         for &step in steps.iter().filter(|&&step| step < self.observed.steps()) {
-            run.set_state(self.motion.states[step]);
-            run.last_actions = match step.checked_sub(1) {
-                Some(last) => self.motion.actions[last].map(Some),
-                None => [None; AGENT_COUNT],
-            };
+            self.resynchronise(&mut run, step);
             let seed = random::derive_seed(self.seed, Purpose::Search, step as u64);
             run.random =
                 AgentId::ALL.map(|agent| random::stream(seed, Purpose::Search, agent.number().into()));
@@ -180,6 +182,7 @@ impl<'a> PreparedEvent<'a> {
     ) -> Result<phase_model::Forecast, PomcpError> {
         let last = self.motion.states[self.observed.steps()];
         let mut run = SimulationRun::new(self.observed, hypothesis, self.minds, seed, last)?;
+        self.resynchronise(&mut run, self.observed.steps());
         let mut beliefs = self.beliefs.each_ref().map(|belief| belief.last().clone());
         let mut random: [Pcg64Mcg; AGENT_COUNT] =
             AgentId::ALL.map(|agent| random::stream(seed, Purpose::Belief, agent.number().into()));
@@ -246,9 +249,10 @@ impl SimulationRun {
         Ok(Self { physics, forward, minds, random, state, cache, last_actions: [None; AGENT_COUNT] })
     }
 
-    /// Sets the world to a state.
-    fn set_state(&mut self, state: State) {
+    /// Sets the world to a state that both agents' actions have led to, if they have acted.
+    fn set_state(&mut self, state: State, last_actions: Option<&[Action; AGENT_COUNT]>) {
         self.state = state;
+        self.last_actions = last_actions.map_or([None; AGENT_COUNT], |actions| actions.map(Some));
         self.cache = self.forward.fresh_cache(&state);
     }
 

@@ -81,15 +81,19 @@ fn problem() -> impl Strategy<Value = Arbitrary> {
 
 fn settings() -> impl Strategy<Value = PomcpSettings> {
     let horizon = prop_oneof![1..20_usize, Just(usize::MAX)];
-    (1..300_usize, 0..15_usize, 0.0..3.0_f64, 1.0..1e4_f64, horizon, any::<bool>()).prop_map(
-        |(simulations, rollout_steps, c_init, c_base, horizon, normalise_values)| PomcpSettings {
-            stop_when_decided: false,
-            simulations,
-            rollout_steps,
-            c_init,
-            c_base,
-            horizon,
-            normalise_values,
+    let flags = (any::<bool>(), any::<bool>());
+    (1..300_usize, 0..15_usize, 0.0..3.0_f64, 1.0..1e4_f64, horizon, flags).prop_map(
+        |(simulations, rollout_steps, c_init, c_base, horizon, (normalise_values, untried_first))| {
+            PomcpSettings {
+                stop_when_decided: false,
+                untried_first,
+                simulations,
+                rollout_steps,
+                c_init,
+                c_base,
+                horizon,
+                normalise_values,
+            }
         },
     )
 }

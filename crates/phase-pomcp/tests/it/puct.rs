@@ -108,6 +108,22 @@ fn each_action_is_tried_once_before_any_is_compared() {
     }
 }
 
+/// Scored by its prior, an action of no value and little prior is not tried until exploration asks for it: the
+/// first goes to the largest prior, and with equal values visits follow the priors from the first on.
+#[test]
+fn without_first_tries_the_priors_decide_from_the_start() {
+    let decide = |pays: Vec<f64>, weights: Vec<f64>, simulations| {
+        let settings = PomcpSettings { simulations, untried_first: false, ..PomcpSettings::default() };
+        let bandit = Bandit { pays, weights };
+        let mut pomcp = Pomcp::new(settings).unwrap();
+        let decision = pomcp.search(&bandit, &[()], &mut Pcg32::seed_from_u64(1)).unwrap();
+        decision.actions.iter().map(|action| action.visits).collect::<Vec<_>>()
+    };
+    assert_eq!(decide(vec![0.0; 3], vec![1.0, 3.0, 2.0], 1), [0, 1, 0]);
+    assert_eq!(decide(vec![0.0; 3], vec![1.0, 3.0, 2.0], 6), [1, 3, 2]);
+    assert_eq!(decide(vec![5.0, 0.0], vec![0.0, 1.0], 50), [0, 50]);
+}
+
 #[test]
 fn among_equal_scores_the_smallest_index_is_tried_next() {
     for (simulations, expected) in [(4, [2, 1, 1]), (5, [2, 2, 1]), (6, [2, 2, 2]), (7, [3, 2, 2])] {
