@@ -6,6 +6,7 @@ use crate::{
     check_physics::{self, options::CheckPhysics},
     draw_behaviour::{self, DrawBehaviour},
     error::XtaskError,
+    fit_minds::{self, options::FitMinds},
     golden::{self, GoldenOptions},
     tidy,
 };
@@ -41,6 +42,8 @@ pub enum Command {
     DrawBehaviour(DrawBehaviour),
     /// Compare minds with the agents of recordings or events whose labels are known
     CheckMinds(CheckMinds),
+    /// Fit the parameters of the minds to recordings or events whose labels are known
+    FitMinds(FitMinds),
     /// Run the golden tests of all crates, or rewrite the values that they compare with
     Golden(GoldenOptions),
     /// Check the project rules that the compiler cannot
@@ -61,6 +64,7 @@ impl Interface for Cli {
             Command::CheckBehaviour(arguments) => Ok(check_behaviour::run(arguments, context)?),
             Command::DrawBehaviour(arguments) => draw_behaviour::run(arguments),
             Command::CheckMinds(arguments) => check_minds::run(arguments, context),
+            Command::FitMinds(arguments) => fit_minds::run(arguments, context),
             Command::Golden(options) => golden::run(options),
             Command::Tidy => tidy::run(),
         }

@@ -1,4 +1,4 @@
-//! The file that `--json FILE` writes.
+//! The file that an option such as `--json FILE` writes.
 
 use phase_cli::error::CliError;
 use std::path::Path;
@@ -6,12 +6,16 @@ use std::path::Path;
 /// The name that means stdout where a file may be named.
 pub const STDOUT: &str = "-";
 
-/// Checks that a report can be written to `out` without overwriting one of the inputs.
+/// Checks that `option` can write to `out` without overwriting one of the inputs.
 ///
 /// # Errors
 /// [`CliError::Usage`].
-pub fn check<'a>(out: &Path, mut inputs: impl Iterator<Item = &'a Path>) -> Result<(), CliError> {
-    let usage = |rule: &str| CliError::Usage(format!("--json {}: {rule}", out.display()));
+pub fn check<'a>(
+    option: &str,
+    out: &Path,
+    mut inputs: impl Iterator<Item = &'a Path>,
+) -> Result<(), CliError> {
+    let usage = |rule: &str| CliError::Usage(format!("{option} {}: {rule}", out.display()));
     if out == Path::new(STDOUT) {
         return Ok(());
     }

@@ -4,7 +4,8 @@
 //! - `check-physics` compares an engine with recorded motion,
 //! - `check-behaviour` shows how reliably agents do what they are planned to do,
 //! - `check-minds` compares minds with recorded agents,
-//! - `draw-behaviour` draws scenes for it from the sampler,
+//! - `fit-minds` fits the parameters of minds to recorded agents,
+//! - `draw-behaviour` draws scenes for `check-behaviour` from the sampler,
 //! - `golden` runs the golden tests, or rewrites what they compare with,
 //! - `tidy` checks what the compiler cannot.
 //!
@@ -20,6 +21,7 @@ pub mod check_physics;
 pub mod cli;
 pub mod draw_behaviour;
 pub mod error;
+pub mod fit_minds;
 pub mod golden;
 pub mod json_file;
 mod rooms;

@@ -128,6 +128,45 @@ impl<'a> PreparedEvent<'a> {
         Ok(decided)
     }
 
+    /// Lets one agent decide at some steps of the event under a hypothesis, with these parameters in place of the
+    /// event's own, while the other replays its inferred actions. Steps that the event does not have are left out.
+    ///
+    /// Every decision starts from the observed state and the inferred last actions, and has a random stream of its
+    /// own, so that it depends on no other: at any step, all hypotheses and parameters use the same random numbers.
+    /// There are as many particles as the event was prepared with.
+    ///
+    /// # Errors
+    ///
+    /// Invalid parameters of the agents' search.
+    pub fn decide_at(
+        &self,
+        hypothesis: &Hypothesis,
+        agent: AgentId,
+        minds: phase_agent::MindParameters,
+        steps: &[usize],
+    ) -> Result<Vec<AgentDecision>, PomcpError> {
+        let rows = self.observed.rows();
+        let mut run = SimulationRun::new(self.observed, hypothesis, minds, self.seed, self.motion.states[0])?;
+        let mut decided = Vec::with_capacity(steps.len());
+        for &step in steps.iter().filter(|&&step| step < self.observed.steps()) {
+            self.resynchronise(&mut run, step);
+            let seed = random::derive_seed(self.seed, Purpose::Search, step as u64);
+            run.random =
+                AgentId::ALL.map(|agent| random::stream(seed, Purpose::Search, agent.number().into()));
+            let belief_view = self.beliefs[agent].belief_view(&run.physics, step, &run.state);
+            let (action, thought) = run.decide(agent, &belief_view)?;
+            let mut actions = self.motion.actions[step];
+            actions[agent] = action;
+            let means = run.act(actions);
+            decided.push(AgentDecision {
+                action,
+                thought,
+                deviation: self.deviation(&means, &rows[step + 1]),
+            });
+        }
+        Ok(decided)
+    }
+
     /// Continues from the last observed state for the given number of steps: where every entity will be after
     /// each, if the hypothesis is true. Beliefs continue from those estimated, by what the agents observe in
     /// the simulation.

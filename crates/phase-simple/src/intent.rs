@@ -1,7 +1,10 @@
 //! Intents: the part of a hypothesis that concerns one agent.
 
-use crate::{Hypothesis, hypothesis::physical_goals};
+use crate::{Hypothesis, Posterior, hypothesis::physical_goals};
 use phase_model::{AGENT_COUNT, AgentId, Attitude, Goal, Strength};
+
+/// Intents of an agent with ln P(motion | intent) of its part of the motion.
+pub type WeightedIntents = Vec<(Intent, f64)>;
 
 /// One agent's intent: its own goal, or helping or hindering the other with one of the other's goals.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -37,4 +40,34 @@ impl Intent {
         }
         Hypothesis::new(goals, attitudes, strengths)
     }
+}
+
+/// P(Y | motion) of every hypothesis in which at most one agent is social: its prior times the likelihoods of both
+/// agents' intents. Both agents decide at the same time from the same state, so that these are independent.
+/// `goals` is the number of goals that an agent can have.
+#[must_use]
+pub fn joint_posterior(
+    weighted_intents: &[WeightedIntents; AGENT_COUNT],
+    strengths: [Strength; AGENT_COUNT],
+    goals: usize,
+) -> Posterior {
+    let weigh = |hypothesis: Hypothesis, log: f64| (hypothesis, log + hypothesis.log_prior(goals));
+    let neutral = |agent: AgentId| {
+        weighted_intents[agent].iter().filter(|(intent, _)| intent.attitude == Attitude::Neutral)
+    };
+    let mut hypotheses = Vec::new();
+    for (first, first_log) in neutral(AgentId::ZERO) {
+        for (second, second_log) in neutral(AgentId::ONE) {
+            hypotheses
+                .push(weigh(first.hypothesis(AgentId::ZERO, second.goal, strengths), first_log + second_log));
+        }
+    }
+    for (social, intents) in AgentId::ALL.into_iter().zip(weighted_intents) {
+        for (intent, log) in intents.iter().filter(|(intent, _)| intent.attitude != Attitude::Neutral) {
+            let other = neutral(social.other()).find(|(other, _)| other.goal == intent.goal);
+            let Some((_, other_log)) = other else { continue };
+            hypotheses.push(weigh(intent.hypothesis(social, intent.goal, strengths), log + other_log));
+        }
+    }
+    Posterior::new(hypotheses)
 }

@@ -5,18 +5,15 @@
 //! hypotheses it suffices to simulate 42 intents of each agent, with the other replaying its inferred actions.
 
 use crate::{
-    Hypothesis, InversePlanningSettings, Posterior, Proposal,
+    InversePlanningSettings, Posterior, Proposal,
     choice::{self, ByChoice, CHOICES},
     generative::{AgentDecision, PreparedEvent},
-    intent::Intent,
+    intent::{Intent, WeightedIntents, joint_posterior},
     strength::UniformStrength,
 };
 use core::ops::ControlFlow;
 use phase_model::{AGENT_COUNT, AgentId, Attitude, Goal, Strength};
 use phase_pomcp::PomcpError;
-
-/// Intents of an agent with ln P(motion | intent) of its part of the motion.
-type WeightedIntents = Vec<(Intent, f64)>;
 
 /// Refinement passes: how often the intents are re-evaluated with an updated goal of the other agent.
 const REFINEMENT_PASSES: usize = 2;
@@ -55,7 +52,7 @@ pub(crate) fn posterior(
         }
     }
     let goals = cue.goals(AgentId::ZERO).len();
-    let mut posterior = joint(&weighted_intents, evidence.strengths, goals);
+    let mut posterior = joint_posterior(&weighted_intents, evidence.strengths, goals);
     for _ in 0..REFINEMENT_PASSES {
         let likeliest =
             posterior.hypotheses.first().map_or(assumed_goals, |(hypothesis, _)| hypothesis.goals);
@@ -77,7 +74,7 @@ pub(crate) fn posterior(
             break;
         }
         assumed_goals = likeliest;
-        posterior = joint(&weighted_intents, evidence.strengths, goals);
+        posterior = joint_posterior(&weighted_intents, evidence.strengths, goals);
     }
     Ok(Some(posterior))
 }
@@ -106,33 +103,6 @@ impl Evidence<'_> {
         let deviation_sum: f64 = resynchronised_steps.iter().map(|step| step.deviation).sum();
         Ok(self.settings.inverse_temperature * chosen - self.settings.beta * deviation_sum)
     }
-}
-
-/// The joint posterior: prior times both agents' likelihoods.
-fn joint(
-    weighted_intents: &[WeightedIntents; AGENT_COUNT],
-    strengths: [Strength; AGENT_COUNT],
-    goals: usize,
-) -> Posterior {
-    let weigh = |hypothesis: Hypothesis, log: f64| (hypothesis, log + hypothesis.log_prior(goals));
-    let neutral = |agent: AgentId| {
-        weighted_intents[agent].iter().filter(|(intent, _)| intent.attitude == Attitude::Neutral)
-    };
-    let mut hypotheses = Vec::new();
-    for (first, first_log) in neutral(AgentId::ZERO) {
-        for (second, second_log) in neutral(AgentId::ONE) {
-            hypotheses
-                .push(weigh(first.hypothesis(AgentId::ZERO, second.goal, strengths), first_log + second_log));
-        }
-    }
-    for (social, intents) in AgentId::ALL.into_iter().zip(weighted_intents) {
-        for (intent, log) in intents.iter().filter(|(intent, _)| intent.attitude != Attitude::Neutral) {
-            let other = neutral(social.other()).find(|(other, _)| other.goal == intent.goal);
-            let Some((_, other_log)) = other else { continue };
-            hypotheses.push(weigh(intent.hypothesis(social, intent.goal, strengths), log + other_log));
-        }
-    }
-    Posterior::new(hypotheses)
 }
 
 /// ln of the probability that the policy's action is the observed one, lapses included.

@@ -1,16 +1,16 @@
 //! Everything that is measured about one event.
 
-use super::{motion::Motion, recognition::Recognition, role::Role};
+use super::{motion::Motion, recognition::Recognition, role::Role, truth};
 use core::ops::ControlFlow;
 use cpu_time::ThreadTime;
 use phase_cli::{engine, error::CliError, interrupt, progress::Progress};
 use phase_eval::MethodError;
 use phase_event::Recording;
 use phase_evidence::Track;
-use phase_model::{AGENT_COUNT, AgentId, EventKind, Scene};
+use phase_model::{AGENT_COUNT, AgentId, EventKind};
 use phase_sim::SimulationSettings;
 use phase_simple::{
-    Algorithm, Hypothesis, InferenceSettings, InversePlanningSettings, PreparedEvent, UniformStrength,
+    Algorithm, InferenceSettings, InversePlanningSettings, PreparedEvent, UniformStrength,
     choice::{self, Chance},
     infer,
 };
@@ -163,11 +163,4 @@ impl Plan {
             Algorithm::Chains(_) => InversePlanningSettings::default().tolerance,
         }
     }
-}
-
-/// The hypothesis that the labels of a scene state.
-fn truth(scene: &Scene) -> Hypothesis {
-    let attitudes = scene.agents.map(|agent| agent.attitude);
-    let strengths = scene.agents.map(|agent| agent.strength);
-    Hypothesis::new(scene.goals(), attitudes, strengths)
 }

@@ -4,8 +4,8 @@ mod figures;
 mod measure;
 mod motion;
 pub mod options;
-mod parameters;
-mod recognition;
+pub(crate) mod parameters;
+pub(crate) mod recognition;
 mod report;
 mod role;
 mod table;
@@ -26,7 +26,8 @@ use phase_cli::{
 };
 use phase_dataset::atomic;
 use phase_event::Recording;
-use phase_simple::InferenceSettings;
+use phase_model::{EventKind, Scene};
+use phase_simple::{Hypothesis, InferenceSettings};
 use report::Report;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -38,11 +39,11 @@ use std::path::Path;
 pub fn run(arguments: &CheckMinds, context: &Context) -> Result<(), XtaskError> {
     if let Some(out) = &arguments.json {
         let inputs = [Some(&arguments.events), arguments.parameters.as_ref()];
-        json_file::check(out, inputs.into_iter().flatten().map(|file| file.as_path()))?;
+        json_file::check("--json", out, inputs.into_iter().flatten().map(|file| file.as_path()))?;
     }
     let parameters = arguments.parameters.as_deref().map(parameters::read).transpose()?;
     let plan = plan(arguments, parameters.unwrap_or_default());
-    let recordings = recordings(arguments, context)?;
+    let recordings = recordings(&arguments.events, arguments.only, context)?;
     for recording in recordings.iter().take(1) {
         parameters::check(plan.open_loop, &recording.scene, arguments.parameters.as_deref())?;
     }
@@ -78,21 +79,27 @@ fn plan(arguments: &CheckMinds, parameters: MindParameters) -> Plan {
     }
 }
 
-/// The events to be measured.
-fn recordings(arguments: &CheckMinds, context: &Context) -> Result<Vec<Recording>, CliError> {
-    let source = EventInput::open(&arguments.events, &[], context)?;
+/// The events of a file or folder, of one kind only if one is given: at least one, and each with a step.
+///
+/// # Errors
+/// If there are no such events, or they cannot be read.
+pub(crate) fn recordings(
+    file: &Path,
+    only: Option<EventKind>,
+    context: &Context,
+) -> Result<Vec<Recording>, CliError> {
+    let source = EventInput::open(file, &[], context)?;
     let mut recordings = (0..source.len()).map(|k| source.load(k)).collect::<Result<Vec<_>, _>>()?;
-    if let Some(kind) = arguments.only {
+    if let Some(kind) = only {
         recordings.retain(|recording| recording.scene.kind == kind);
     }
-    let file = &arguments.events;
     if recordings.is_empty() {
-        let what = arguments.only.map_or_else(String::new, |kind| format!(" of the kind {}", kind.name()));
+        let what = only.map_or_else(String::new, |kind| format!(" of the kind {}", kind.name()));
         return Err(CliError::Usage(format!("{}: has no events{what}", file.display())));
     }
     match recordings.iter().find(|recording| recording.trajectory.steps() == 0) {
         Some(recording) => Err(CliError::StartAlone {
-            file: file.clone(),
+            file: file.to_owned(),
             id: recording.id.clone(),
             needed: "to compare minds with it, at least one step is needed",
         }),
@@ -100,11 +107,18 @@ fn recordings(arguments: &CheckMinds, context: &Context) -> Result<Vec<Recording
     }
 }
 
+/// The hypothesis that the labels of a scene state.
+pub(crate) fn truth(scene: &Scene) -> Hypothesis {
+    let attitudes = scene.agents.map(|agent| agent.attitude);
+    let strengths = scene.agents.map(|agent| agent.strength);
+    Hypothesis::new(scene.goals(), attitudes, strengths)
+}
+
 /// How the report is made.
 fn description(arguments: &CheckMinds, plan: &Plan) -> Value {
     json!({
         "command": "check-minds", "generator": GENERATOR, "seed": plan.seed,
-        "only": arguments.only.map(phase_model::EventKind::name),
+        "only": arguments.only.map(EventKind::name),
         "inference": plan.inference, "posterior": plan.posterior,
         "open_loop": plan.open_loop, "open_loop_seeds": plan.open_loop_seeds,
     })

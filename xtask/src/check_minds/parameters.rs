@@ -12,7 +12,7 @@ use std::path::Path;
 ///
 /// # Errors
 /// If the file cannot be used, or holds something that is no parameter.
-pub(super) fn read(file: &Path) -> Result<MindParameters, CliError> {
+pub(crate) fn read(file: &Path) -> Result<MindParameters, CliError> {
     let wrong = |source| {
         let problem = Problem::Incomplete { what: "set of parameters", source };
         CliError::File(FileError { file: file.to_owned(), problem })
@@ -35,7 +35,7 @@ pub(super) fn read(file: &Path) -> Result<MindParameters, CliError> {
 ///
 /// # Errors
 /// [`CliError::Usage`].
-pub(super) fn check(parameters: MindParameters, scene: &Scene, file: Option<&Path>) -> Result<(), CliError> {
+pub(crate) fn check(parameters: MindParameters, scene: &Scene, file: Option<&Path>) -> Result<(), CliError> {
     let wrong = |rule: String| match file {
         Some(file) => CliError::Usage(format!("{}: {rule}", file.display())),
         None => CliError::Usage(rule),

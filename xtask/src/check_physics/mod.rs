@@ -39,7 +39,7 @@ pub fn run(arguments: &CheckPhysics, context: &Context) -> Result<(), XtaskError
         return Err(CliError::Usage(rule.into()).into());
     }
     if let Some(out) = &arguments.json {
-        json_file::check(out, files.into_iter().flatten().map(|file| file.as_path()))?;
+        json_file::check("--json", out, files.into_iter().flatten().map(|file| file.as_path()))?;
     }
     let records = Records::read(arguments, context)?;
     context.note(format!("measuring the engine {}", arguments.engine.name()));

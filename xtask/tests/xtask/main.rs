@@ -4,5 +4,6 @@ mod check_behaviour;
 mod check_minds;
 mod check_physics;
 mod commands;
+mod fit_minds;
 mod support;
 mod tidy;

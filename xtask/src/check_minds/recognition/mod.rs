@@ -6,33 +6,33 @@ use phase_simple::{Hypothesis, Posterior};
 
 /// SIMPLE's answer about one event, beside the truth.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(super) struct Recognition {
+pub(crate) struct Recognition {
     /// ln of the posterior probability of the true goals and attitudes, whatever the strengths (nat).
-    pub(super) log_posterior: f64,
+    pub(crate) log_posterior: f64,
     /// Posterior probability of the true relation.
-    pub(super) relation: f64,
+    pub(crate) relation: f64,
     /// Whether the true relation is the likeliest.
-    pub(super) relation_right: bool,
+    pub(crate) relation_right: bool,
     /// How many of the two agents' true goals are the likeliest.
-    pub(super) goals_right: usize,
+    pub(crate) goals_right: usize,
     /// Where one agent helps or hinders the other: what is said about who does.
-    pub(super) social: Option<SocialAgent>,
+    pub(crate) social: Option<SocialAgent>,
 }
 
 /// What the posterior says about which agent helps (or hinders).
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(super) struct SocialAgent {
+pub(crate) struct SocialAgent {
     /// Posterior probability that the agent that does so does.
-    pub(super) right: f64,
+    pub(crate) right: f64,
     /// Posterior probability that it is the other that does so.
-    pub(super) wrong: f64,
+    pub(crate) wrong: f64,
     /// Whether the true attitudes are the likeliest pair.
-    pub(super) named: bool,
+    pub(crate) named: bool,
 }
 
 impl Recognition {
     /// Compares a posterior with the true hypothesis.
-    pub(super) fn of(posterior: &Posterior, truth: &Hypothesis) -> Self {
+    pub(crate) fn of(posterior: &Posterior, truth: &Hypothesis) -> Self {
         let goals = |hypothesis: &Hypothesis| hypothesis.goals.map(canonical);
         let sum = |counts: &dyn Fn(&Hypothesis) -> bool| -> f64 {
             let counted = posterior.hypotheses.iter().filter(|(hypothesis, _)| counts(hypothesis));
