@@ -29,8 +29,8 @@ impl Foresight {
 
 /// Parameters of an agent's mind: every number that shapes its behaviour.
 ///
-/// The search's parameters are the paper's. The others, from `heuristic_prior` on, were fitted to recorded and
-/// generated events by `cargo xtask fit-minds`; `docs/minds.md` has the table.
+/// The search's parameters are the paper's. The others, from `heuristic_prior` on, are those that
+/// `cargo xtask fit-minds` fits; `docs/minds.md` says what was fitted on which events.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(default)]
 pub struct MindParameters {
