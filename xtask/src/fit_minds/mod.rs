@@ -2,8 +2,8 @@
 //!
 //! What is maximised is how well the truth stands out: the log posterior of the true goals and attitudes among all
 //! hypotheses. A mind that makes what was done likelier under every hypothesis alike would gain likelihood and tell
-//! nobody's goals; the log likelihood under the truth is reported beside it. [`subject`] evaluates one event,
-//! [`search`] changes the parameters, and every fold of the events is held out of one fit.
+//! nobody's goals; the log likelihood under the truth is reported beside it. `subject` evaluates one event,
+//! `search` changes the parameters, and every fold of the events is held out of one fit.
 
 mod ablation;
 mod evaluations;
