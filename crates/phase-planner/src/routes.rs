@@ -61,12 +61,6 @@ impl Route {
         &self.doors[..usize::from(self.door_count)]
     }
 
-    /// The first point to head for: the first door's crossing, or `None` in the target's room.
-    #[must_use]
-    pub fn first_crossing(&self) -> Option<Vec2> {
-        self.doors().first().map(|&(_, point)| point)
-    }
-
     /// The point of this route, which leads between two ends, that is closest to some point (u).
     #[must_use]
     pub fn nearest(&self, from: Vec2, to: Vec2, point: Vec2) -> Vec2 {
