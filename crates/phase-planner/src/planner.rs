@@ -76,10 +76,24 @@ impl Planner {
         };
         let condition = if goal.sign() == Sign::Positive { goal } else { goal.negated() };
         match self.attitude {
-            _ if !is_wanted => interference::plan(&problem, self.agent, condition),
+            _ if !is_wanted => self.prevent(&problem, condition, observed),
             Attitude::Help => self.help(&problem, other, observed),
             Attitude::Neutral if own != other.negated() => self.pursue(&problem, own, other, observed),
             _ => self.contend(&problem, condition),
+        }
+    }
+
+    /// Raises the other's cost of a condition. An agent that would stay, since the other cannot make the condition true,
+    /// has to observe that.
+    fn prevent(&self, problem: &PlanningProblem<'_>, condition: Goal, observed: BodySet) -> Plan {
+        let plan = interference::plan(problem, self.agent, condition);
+        let unseen = [condition.subject(), Entity::Agent(self.agent.other())];
+        let unseen = unseen.into_iter().find(|&entity| !observed.contains(entity));
+        match unseen {
+            Some(entity) if plan.subgoals.is_empty() && self.attitude == Attitude::Hinder => {
+                inspect(problem, self.agent, entity)
+            }
+            _ => plan,
         }
     }
 

@@ -4,12 +4,16 @@ use super::{
     ARENA_DIAGONAL, Compiler,
     way::{LOOK_AHEAD, Way},
 };
-use phase_model::{Entity, LandmarkId, RoomId, State, Vec2, layout::room_of};
+use phase_model::{Entity, LandmarkId, RoomId, State, Vec2, arena, layout::room_of};
 use phase_navigation::{Field, Target};
 use std::sync::Arc;
 
 /// Spacing of the points of a path at which it could be cut off (u).
 const INTERCEPTION_SPACING: f32 = 1.0;
+/// Number of directions in which a push is considered.
+const PUSH_DIRECTIONS: usize = 8;
+/// Length of a push that is considered (u).
+const PUSH_LENGTH: f32 = 4.0;
 /// Closer than this to its post, a guard turns on the entity (u).
 const AT_POST: f32 = 0.6;
 
@@ -112,14 +116,18 @@ impl Compiler<'_, '_> {
         let me = Entity::Agent(self.agent);
         let (here, start) = (self.state.position(me), self.state.position(subject));
         let own = self.mover(me);
-        let to_me = self.navigator.field(Target::Point(here), own, &[]);
+        let obstacles = self.obstacles(Some(subject));
+        let to_me = self.navigator.field(Target::Point(here), own, &obstacles);
         let touching = self.physics.radius(me) + self.physics.radius(subject);
         let length = field.distance(start).min(2.0 * ARENA_DIAGONAL);
         if let Target::Room { room, .. } = target
             && let Some(door) = entrance(&field, start, room)
         {
-            let way = Way::new(self.navigator, own, here, door, &[]);
+            let way = Way::new(self.navigator, own, here, door, &obstacles);
             return Guard { subject, field, drives: false, post: door, is_next_to: false, start, way };
+        }
+        if length <= touching {
+            return self.push_away(subject, field);
         }
         let mut ahead = touching.min(length);
         let mut post = field.waypoint(start, ahead);
@@ -129,8 +137,64 @@ impl Compiler<'_, '_> {
             post = field.waypoint(start, ahead);
             is_next_to = false;
         }
-        let way = Way::new(self.navigator, own, here, post, &[]);
+        let way = Way::new(self.navigator, own, here, post, &obstacles);
         Guard { subject, field, drives: false, post, is_next_to, start, way }
+    }
+
+    /// Pushing an entity off a target at which it is, where nobody gets in between any more: the post is on the
+    /// side from which it can be pushed far at a short way there.
+    fn push_away(&mut self, subject: Entity, field: Arc<Field>) -> Guard {
+        let me = Entity::Agent(self.agent);
+        let (here, start) = (self.state.position(me), self.state.position(subject));
+        let touching = self.physics.radius(me) + self.physics.radius(subject);
+        let obstacles = self.obstacles(None);
+        let own = self.mover(me);
+        let to_me = self.navigator.field(Target::Point(here), own, &obstacles);
+        let mut best = (f32::NEG_INFINITY, here);
+        for k in 0..PUSH_DIRECTIONS {
+            let angle = k as f32 * (core::f32::consts::TAU / PUSH_DIRECTIONS as f32);
+            let direction = Vec2::new(libm::cosf(angle), libm::sinf(angle));
+            let post = start - direction * touching;
+            if !self.is_free(me, post, Some(subject)) {
+                continue;
+            }
+            let end = self.pushed(subject, start, direction);
+            let gain = field.distance(end) - field.distance(start) - to_me.distance(post);
+            if gain > best.0 {
+                best = (gain, post);
+            }
+        }
+        let way = Way::new(self.navigator, own, here, best.1, &obstacles);
+        Guard { subject, field, drives: false, post: best.1, is_next_to: true, start, way }
+    }
+
+    /// Where an entity comes to a stop that is pushed straight on for at most [`PUSH_LENGTH`].
+    fn pushed(&self, entity: Entity, start: Vec2, direction: Vec2) -> Vec2 {
+        let mut end = start;
+        while end.distance(start) < PUSH_LENGTH {
+            let next = end + direction * INTERCEPTION_SPACING;
+            if !self.is_free(entity, next, None) {
+                break;
+            }
+            end = next;
+        }
+        end
+    }
+
+    /// Whether an entity would overlap no wall at a place, and no body but the agent itself and `besides`.
+    fn is_free(&self, entity: Entity, place: Vec2, besides: Option<Entity>) -> bool {
+        let inset = Vec2::splat(self.mover(entity).half_width);
+        let overlaps = |other: Entity| {
+            let apart = self.physics.radius(entity) + self.physics.radius(other);
+            self.state.position(other).distance(place) < apart
+        };
+        let mut others = self.physics.entities().filter(|&other| {
+            other != entity && other != Entity::Agent(self.agent) && Some(other) != besides
+        });
+        arena::contains(place - inset)
+            && arena::contains(place + inset)
+            && self.navigator.map().walls().iter().all(|wall| wall.distance(place) >= inset.x)
+            && !others.any(overlaps)
     }
 
     /// Driving an entity to a target: the post is on its far side.
