@@ -6,6 +6,7 @@ use crate::{
     check_physics::{self, options::CheckPhysics},
     draw_behaviour::{self, DrawBehaviour},
     error::XtaskError,
+    fit_inference::{self, options::FitInference},
     fit_minds::{self, options::FitMinds},
     golden::{self, GoldenOptions},
     tidy,
@@ -44,6 +45,8 @@ pub enum Command {
     CheckMinds(CheckMinds),
     /// Fit the parameters of the minds to recordings or events whose labels are known
     FitMinds(FitMinds),
+    /// Fit how SIMPLE weighs its evidence to events whose labels are known
+    FitInference(FitInference),
     /// Run the golden tests of all crates, or rewrite the values that they compare with
     Golden(GoldenOptions),
     /// Check the project rules that the compiler cannot
@@ -64,6 +67,7 @@ impl Interface for Cli {
             Command::CheckBehaviour(arguments) => Ok(check_behaviour::run(arguments, context)?),
             Command::DrawBehaviour(arguments) => draw_behaviour::run(arguments),
             Command::CheckMinds(arguments) => check_minds::run(arguments, context),
+            Command::FitInference(arguments) => fit_inference::run(arguments, context),
             Command::FitMinds(arguments) => fit_minds::run(arguments, context),
             Command::Golden(options) => golden::run(options),
             Command::Tidy => tidy::run(),

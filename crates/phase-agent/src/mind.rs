@@ -14,7 +14,7 @@ use phase_model::{
 use phase_navigation::{NavigationCosts, Navigator};
 use phase_planner::{Candidate, Plan, Planner, value};
 use phase_pomcp::{Pomcp, PomcpError, PomcpSettings};
-use rand::Rng;
+use rand::{Rng, RngExt};
 
 /// One agent's goals and planners, with its own model of the dynamics. The belief is an argument of every
 /// decision, so inference can use a mind with estimated beliefs.
@@ -60,6 +60,7 @@ impl<D: Dynamics> Mind<D> {
             c_init: settings.c_init,
             c_base: settings.c_base,
             stop_when_decided: true,
+            convergence: settings.convergence,
             untried_first: false,
             ..PomcpSettings::default()
         })?;
@@ -208,8 +209,31 @@ impl<D: Dynamics> Mind<D> {
                 value: found.value,
             })
             .collect();
-        Ok((actions[decision.action], evidence))
+        let visits: Vec<f64> = decision.actions.iter().map(|found| found.visits as f64).collect();
+        let chosen = sample(&visits, self.settings.decisiveness, &mut random).unwrap_or(decision.action);
+        Ok((actions[chosen], evidence))
     }
+}
+
+/// Draws an index with a probability proportional to its visits to the power of `exponent`; `None` if all are zero.
+fn sample(visits: &[f64], exponent: f64, random: &mut impl Rng) -> Option<usize> {
+    let most = visits.iter().copied().fold(0.0, f64::max);
+    if most <= 0.0 {
+        return None;
+    }
+    let weights = visits.iter().map(|visits| libm::pow(visits / most, exponent));
+    let sum: f64 = weights.clone().sum();
+    if !sum.is_finite() {
+        return None;
+    }
+    let mut left = random.random_range(0.0..sum);
+    for (index, weight) in weights.enumerate() {
+        if left < weight {
+            return Some(index);
+        }
+        left -= weight;
+    }
+    None
 }
 
 /// The entity that a subgoal sends an agent to.

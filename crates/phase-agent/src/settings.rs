@@ -40,6 +40,9 @@ pub struct MindParameters {
     pub lambda: f64,
     /// POMCP simulations per decision; at least 1.
     pub simulations: usize,
+    /// Change of the policy, as total variation, below which a search ends early
+    /// ([`PomcpSettings::convergence`](phase_pomcp::PomcpSettings::convergence)), 0 to 1.
+    pub convergence: f64,
     /// Steps of the rollout policy after a leaf of the tree.
     pub rollout_steps: usize,
     /// c_init of PUCT.
@@ -62,6 +65,9 @@ pub struct MindParameters {
     pub lateral_prior: f64,
     /// Prior of stopping and coasting while there is a distance to go, relative to a push; above 0.
     pub rest_prior: f64,
+    /// Exponent of the visits in the choice of an action: 1 draws in proportion to them, a large one always takes the
+    /// most visited; at least 0.
+    pub decisiveness: f64,
     /// Further steps for which the distance at the end of a rollout is charged.
     pub horizon_steps: f64,
     /// p: share of the imagined steps in which the other agent pursues its own goal instead of coasting, 0 to 1.
@@ -88,6 +94,7 @@ impl Default for MindParameters {
             particles: 50,
             lambda: phase_planner::value::LAMBDA,
             simulations: 1000,
+            convergence: 0.1,
             rollout_steps: 10,
             c_init: 1.25,
             c_base: 1000.0,
@@ -98,6 +105,7 @@ impl Default for MindParameters {
             momentum_prior: 3.0,
             lateral_prior: 0.1,
             rest_prior: 0.2,
+            decisiveness: 3.0,
             horizon_steps: 8.0,
             other_initiative: 0.5,
             obstruction: 2.0,

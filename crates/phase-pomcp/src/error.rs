@@ -22,6 +22,12 @@ pub enum PomcpError {
         /// The rejected visit scale.
         c_base: f64,
     },
+    /// The tolerance of convergence is not in the valid range.
+    #[error("`convergence` is {convergence}; it must lie in 0..=1")]
+    InvalidConvergence {
+        /// The rejected tolerance.
+        convergence: f64,
+    },
     /// There is no root particle.
     #[error("the belief has no particles; give at least one root state")]
     NoRoots,

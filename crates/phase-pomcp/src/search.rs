@@ -72,11 +72,20 @@ impl<O: Eq> Pomcp<O> {
             depth: 0,
             steps: 0,
         };
+        let mut policy = Vec::new();
         for left in (0..self.settings.simulations).rev() {
             state.clone_from(&roots[random.random_range(0..roots.len())]);
             simulation.run(&mut state, random)?;
             if self.settings.stop_when_decided && simulation.tree.is_decided(left) {
                 break;
+            }
+            let run = self.settings.simulations - left;
+            if self.settings.convergence > 0.0 && run.is_power_of_two() && run >= FIRST_COMPARISON / 2 {
+                let now = simulation.tree.policy();
+                if run >= FIRST_COMPARISON && total_variation(&policy, &now) < self.settings.convergence {
+                    break;
+                }
+                policy = now;
             }
         }
         let (depth, steps) = (simulation.depth, simulation.steps);
@@ -85,6 +94,14 @@ impl<O: Eq> Pomcp<O> {
         let actions = evidence.map(|(visits, value)| ActionStatistics { visits: visits as usize, value });
         Ok(Decision::new(actions.collect(), effort))
     }
+}
+
+/// Number of simulations at which a policy is first compared with that of half as many.
+const FIRST_COMPARISON: usize = 128;
+
+/// Half the sum of the absolute differences of two distributions, 0 to 1.
+fn total_variation(a: &[f64], b: &[f64]) -> f64 {
+    0.5 * a.iter().zip(b).map(|(a, b)| (a - b).abs()).sum::<f64>()
 }
 
 fn checked_action_count(model: &impl GenerativeModel, simulations: usize) -> Result<usize, PomcpError> {

@@ -38,6 +38,11 @@ pub struct PomcpSettings {
     /// visited, even if all of them began with it. The chosen action is the one that all simulations would
     /// have chosen; visits and values are those of the simulations that were run.
     pub stop_when_decided: bool,
+    /// A search ends as converged where the policy, the shares of the visits at the root, changed by less than this
+    /// while the number of simulations doubled: total variation, 0 to 1, compared after 128, 256, 512, …
+    /// simulations. With 0, the default, every search goes on. Unlike `stop_when_decided` it can change a decision,
+    /// by about as much as another seed would.
+    pub convergence: f64,
     /// Whether every action of a history is tried once before any is tried twice (the default). Otherwise an
     /// untried action is scored like the others, with the mean value of the history in place of its own, so
     /// that its prior decides when it is tried (Silver et al. 2018).
@@ -54,6 +59,7 @@ impl Default for PomcpSettings {
             horizon: usize::MAX,
             normalise_values: true,
             stop_when_decided: false,
+            convergence: 0.0,
             untried_first: true,
         }
     }
@@ -63,7 +69,8 @@ impl PomcpSettings {
     /// Checks every parameter against its stated range.
     ///
     /// # Errors
-    /// [`PomcpError::ZeroSimulations`], [`PomcpError::ZeroHorizon`] or [`PomcpError::InvalidExploration`].
+    /// [`PomcpError::ZeroSimulations`], [`PomcpError::ZeroHorizon`], [`PomcpError::InvalidExploration`] or
+    /// [`PomcpError::InvalidConvergence`].
     pub fn validate(&self) -> Result<(), PomcpError> {
         if self.simulations == 0 {
             return Err(PomcpError::ZeroSimulations);
@@ -75,6 +82,9 @@ impl PomcpSettings {
         let base_is_fine = self.c_base.is_finite() && self.c_base > 0.0;
         if !(init_is_fine && base_is_fine) {
             return Err(PomcpError::InvalidExploration { c_init: self.c_init, c_base: self.c_base });
+        }
+        if !(0.0..=1.0).contains(&self.convergence) {
+            return Err(PomcpError::InvalidConvergence { convergence: self.convergence });
         }
         Ok(())
     }

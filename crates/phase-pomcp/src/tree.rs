@@ -202,6 +202,13 @@ impl<O: Eq> Tree<O> {
         (most - second) as usize > left
     }
 
+    /// The shares of the visits of each action at the root; zero where none was visited.
+    pub(crate) fn policy(&self) -> Vec<f64> {
+        let visits: Vec<f64> = self.evidence(HistoryId::ROOT).map(|(visits, _)| f64::from(visits)).collect();
+        let sum = visits.iter().sum::<f64>().max(1.0);
+        visits.into_iter().map(|visits| visits / sum).collect()
+    }
+
     fn actions_of(&self, node: &History) -> &[Action] {
         let first = node.first_action as usize;
         &self.actions[first..first + node.action_count as usize]

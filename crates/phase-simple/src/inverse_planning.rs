@@ -5,9 +5,9 @@
 //! hypotheses it suffices to simulate 42 intents of each agent, with the other replaying its inferred actions.
 
 use crate::{
-    InversePlanningSettings, Posterior, Proposal,
-    choice::{self, ByChoice, CHOICES},
-    generative::{AgentDecision, PreparedEvent},
+    IntentEvidence, InversePlanningSettings, Posterior, Proposal,
+    choice::{self, ByChoice},
+    generative::PreparedEvent,
     intent::{Intent, WeightedIntents, joint_posterior},
     strength::UniformStrength,
 };
@@ -32,7 +32,7 @@ pub(crate) fn posterior(
 ) -> Result<Option<Posterior>, PomcpError> {
     let observed = prepared.observed();
     let objects = observed.object_sizes().len();
-    let evidence = Evidence {
+    let evidence = EventEvidence {
         prepared,
         settings,
         action_likelihoods: choice::action_likelihoods(prepared, settings.tolerance),
@@ -80,37 +80,25 @@ pub(crate) fn posterior(
 }
 
 /// The data from which intents are weighted.
-struct Evidence<'a> {
+struct EventEvidence<'a> {
     prepared: &'a PreparedEvent<'a>,
     settings: &'a InversePlanningSettings,
     action_likelihoods: Vec<[ByChoice; AGENT_COUNT]>,
     strengths: [Strength; AGENT_COUNT],
 }
 
-impl Evidence<'_> {
+impl EventEvidence<'_> {
     /// ln P(motion | intent) of an agent's part of the motion, the other pursuing `others`.
     fn log_likelihood(&self, agent: AgentId, intent: &Intent, others: Goal) -> Result<f64, PomcpError> {
-        let hypothesis = intent.hypothesis(agent, others, self.strengths);
-        let every_step = self.prepared.simulate_agent(&hypothesis, agent, 1)?;
-        let chosen = every_step.iter().zip(&self.action_likelihoods);
-        let chosen: f64 = chosen
-            .map(|(decided, action_likelihoods)| {
-                log_choice_probability(decided, &action_likelihoods[agent], self.settings.lapse_rate)
-            })
-            .sum();
-        let resynchronised_steps =
-            self.prepared.simulate_agent(&hypothesis, agent, self.settings.resync_interval)?;
-        let deviation_sum: f64 = resynchronised_steps.iter().map(|step| step.deviation).sum();
-        Ok(self.settings.inverse_temperature * chosen - self.settings.beta * deviation_sum)
+        let evidence = IntentEvidence::of(
+            self.prepared,
+            &self.action_likelihoods,
+            agent,
+            *intent,
+            others,
+            self.strengths,
+            self.settings.resync_interval,
+        )?;
+        Ok(evidence.log_likelihood(self.settings))
     }
-}
-
-/// ln of the probability that the policy's action is the observed one, lapses included.
-fn log_choice_probability(decided: &AgentDecision, action_likelihoods: &ByChoice, lapse_rate: f64) -> f64 {
-    let slip = lapse_rate / CHOICES as f64;
-    let same = choice::policy(decided)
-        .into_iter()
-        .zip(action_likelihoods)
-        .map(|(policy, action_likelihoods)| ((1.0 - lapse_rate) * policy + slip) * action_likelihoods);
-    libm::log(same.sum::<f64>().max(f64::MIN_POSITIVE))
 }

@@ -45,6 +45,7 @@
 pub mod beliefs;
 pub mod choice;
 pub mod cue;
+pub mod evidence;
 pub mod forecast;
 pub mod generative;
 pub mod hypothesis;
@@ -59,6 +60,7 @@ pub mod settings;
 pub mod simulations;
 pub mod strength;
 
+pub use evidence::IntentEvidence;
 pub use forecast::{ForecastSettings, forecast};
 pub use generative::PreparedEvent;
 pub use hypothesis::{Hypothesis, physical_goals};

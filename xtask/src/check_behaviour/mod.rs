@@ -7,7 +7,9 @@ mod rows;
 pub mod sets;
 mod trial;
 
+use crate::check_minds::parameters;
 use options::CheckBehaviour;
+use phase_agent::MindParameters;
 use phase_cli::{
     console::print_result,
     context::Context,
@@ -25,6 +27,7 @@ use phase_dataset::{
 };
 use phase_model::{Scene, arena::SUBSTEPS};
 use phase_render::Palette;
+use phase_sim::SimulationSettings;
 use report::{SceneResult, Trial};
 use rows::PARTS;
 use serde_json::{Value, json};
@@ -45,16 +48,17 @@ const SHEET_FRAMES: usize = 15;
 pub fn run(arguments: &CheckBehaviour, context: &Context) -> Result<(), CliError> {
     let scenes = scenes(arguments)?;
     let seeds = arguments.seeds as usize;
+    let settings = settings(arguments)?;
     let run = json!({
         "command": "check-behaviour", "generator": GENERATOR, "seeds": seeds,
         "set": arguments.scenes.is_none().then(|| arguments.set.name()),
-        "settings": settings_value(&arguments.effort.settings())?,
+        "settings": settings_value(&settings)?,
     });
     let folder = prepare(&arguments.out, &run)?;
     interrupt::listen();
     let controls = scenes.iter().filter(|(part, ..)| PARTS[*part].control.is_some()).count();
     let events = seeds * (scenes.len() + controls);
-    let runner = TrialRunner::new(&folder, arguments.effort.settings(), events, context);
+    let runner = TrialRunner::new(&folder, settings, events, context);
     let made = make_all(&arguments.jobs, scenes.len() * seeds, |k| {
         let (part, id, scene) = &scenes[k / seeds];
         runner.trial(&PARTS[*part], id, scene, k % seeds)
@@ -83,6 +87,15 @@ pub fn run(arguments: &CheckBehaviour, context: &Context) -> Result<(), CliError
     print_result(report::table(&results).trim_end());
     print_result(format!("contact sheets in {}", arguments.out.join(SHEETS).display()));
     Ok(())
+}
+
+/// The settings of the events, with the parameters of a file if one is given.
+fn settings(arguments: &CheckBehaviour) -> Result<SimulationSettings, CliError> {
+    let given = arguments.effort.settings();
+    let Some(file) = &arguments.parameters else { return Ok(given) };
+    let minds = parameters::read(file)?;
+    let (simulations, foresight) = (given.minds.simulations, given.minds.foresight);
+    Ok(SimulationSettings { minds: MindParameters { simulations, foresight, ..minds }, ..given })
 }
 
 /// The requested scenes: part of the table, id, scene.

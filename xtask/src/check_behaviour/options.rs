@@ -26,6 +26,9 @@ pub struct CheckBehaviour {
     /// Folder with other scenes
     #[arg(long, value_name = "DIR")]
     pub scenes: Option<PathBuf>,
+    /// JSON file of parameters of the minds, as of `check-minds`; options that say otherwise prevail
+    #[arg(long, value_name = "FILE")]
+    pub parameters: Option<PathBuf>,
     /// Parameters of the agents.
     #[command(flatten)]
     pub effort: SimulationOptions,

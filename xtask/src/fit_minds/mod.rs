@@ -8,7 +8,7 @@
 mod ablation;
 mod evaluations;
 mod evaluations_file;
-mod folds;
+pub(crate) mod folds;
 mod means;
 pub mod options;
 mod parameter;

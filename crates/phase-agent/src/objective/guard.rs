@@ -188,9 +188,10 @@ impl Compiler<'_, '_> {
             let apart = self.physics.radius(entity) + self.physics.radius(other);
             self.state.position(other).distance(place) < apart
         };
-        let mut others = self.physics.entities().filter(|&other| {
-            other != entity && other != Entity::Agent(self.agent) && Some(other) != besides
-        });
+        let mut others = self
+            .physics
+            .entities()
+            .filter(|&other| other != entity && other != Entity::Agent(self.agent) && Some(other) != besides);
         arena::contains(place - inset)
             && arena::contains(place + inset)
             && self.navigator.map().walls().iter().all(|wall| wall.distance(place) >= inset.x)
