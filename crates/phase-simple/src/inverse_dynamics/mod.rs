@@ -1,25 +1,34 @@
 //! Inverse dynamics: the actions of both agents step by step, and their strengths.
 //!
 //! Forces are not seen, but what they do is, and there are only fourteen actions and four strengths. [`InverseDynamics`]
-//! follows an event through the forward model and asks at every step which actions lead to what was observed. That
+//! follows an event through the forward model and asks at every step which actions of both lead to what was observed. That
 //! tells actions, grips, the states between steps, and strengths.
+//!
+//! Key design decision: the state that a step is predicted to end in is carried on as it is, with its contact memory, as long
+//! as it is exact; it is corrected by what was observed only where it is not. Contacts amplify small errors, so a state that
+//! is corrected by means over a step loses track as soon as bodies touch. Several explanations are followed at once (a beam),
+//! since grips and strengths show later than they begin.
 
+mod beam;
+mod difference;
 mod interpolation;
 mod path;
+mod reach;
 mod reading;
 mod replay;
 mod search;
+mod strength;
 #[cfg(test)]
 mod tests;
 
-use path::Beam;
+use beam::Beam;
 use phase_event::ObservedEvent;
 use phase_model::{AGENT_COUNT, Action, AgentId, State, Strength};
-use reading::{Reading, Start};
-use replay::{Deed, LEVELS, Replay, TrackedState};
+use reading::Start;
+use replay::{Replay, TrackedState};
 
-/// Paths that are followed at once.
-const BEAM_WIDTH: usize = 16;
+/// Residual up to which a step counts as explained (u).
+pub const EXPLAINED_RESIDUAL: f32 = 0.05;
 
 /// An event explained by what its agents did.
 #[derive(Clone, Debug)]
@@ -35,10 +44,9 @@ pub struct InverseDynamics {
     pub residuals: Vec<f32>,
     /// Whether row 0 is the state after the first substep of the first step, as in some recordings.
     pub late_start: bool,
-    /// How the rows were read.
-    reading: Reading,
+    /// The physics that explain it.
     replay: Replay,
-    /// The states that the steps begin in, as the reading has them.
+    /// The states in which steps begin, as the replay has them.
     tracked: Vec<TrackedState>,
 }
 
@@ -46,70 +54,30 @@ impl InverseDynamics {
     /// Explains an event.
     #[must_use]
     pub fn new(observed: &ObservedEvent) -> Self {
-        let readings: Vec<(Reading, Replay)> = Reading::all(observed)
-            .into_iter()
-            .map(|reading| {
-                let replay = Replay::new(&reading);
-                (reading, replay)
-            })
-            .collect();
-        let between: Vec<Vec<State>> =
-            readings.iter().map(|(reading, _)| interpolation::states(&reading.event)).collect();
-        let mut beam = Beam::new(&readings, BEAM_WIDTH);
+        let mut beam = Beam::new(observed);
         for t in 1..observed.rows().len() {
-            beam.advance(&readings, &between, t);
+            beam.advance(t);
         }
-        let mut path = vec![beam.ends[0]];
-        while let Some(before) = path.last().and_then(|&node| beam.nodes[node].before) {
-            path.push(before);
-        }
-        path.reverse();
-        let nodes = path.iter().map(|&node| &beam.nodes[node]);
-        let (reading, replay) = readings[beam.nodes[path[0]].reading].clone();
-        let mut states: Vec<State> =
-            nodes.clone().map(|node| reading.observed_state(&node.tracked.state)).collect();
-        states[0] = State::new(observed.rows()[0]);
-        let mut result = Self {
+        let (path, replay) = beam.into_best();
+        let steps = || path.iter().skip(1);
+        let reading = &replay.reading;
+        // The start may lie before row 0, or after it.
+        let mut states = vec![State::new(observed.rows()[0])];
+        states.extend(steps().map(|step| reading.observed_state(&step.tracked.state)));
+        let actions: Vec<_> = steps().map(|step| step.actions).collect();
+        let tracked: Vec<_> = path.iter().map(|step| step.tracked.clone()).collect();
+        // The weakest of those that explain the event equally well.
+        let levels = path.last().map_or([0; AGENT_COUNT], |last| {
+            last.strengths.map(|strengths| strengths.trailing_zeros() as usize)
+        });
+        Self {
             states,
-            actions: nodes.clone().skip(1).map(|node| node.actions).collect(),
-            log_strengths: [[0.0; LEVELS]; AGENT_COUNT],
-            residuals: nodes.clone().skip(1).map(|node| node.residual).collect(),
+            log_strengths: strength::log_likelihoods(&replay, &tracked, &actions, levels),
+            actions: actions.iter().map(|both| both.map(|action| reading.observed_action(action))).collect(),
+            residuals: steps().map(|step| step.residual).collect(),
             late_start: reading.start == Start::Late,
-            tracked: nodes.map(|node| node.tracked.clone()).collect(),
-            reading,
             replay,
-        };
-        let strengths = beam.nodes[beam.ends[0]].strengths;
-        result.weigh_strengths(strengths.map(|mask| mask.trailing_zeros() as usize % LEVELS));
-        for actions in &mut result.actions {
-            *actions = actions.map(|action| result.reading.observed_action(action));
-        }
-        result
-    }
-
-    /// Weighs the strengths of each agent, given those that were found.
-    fn weigh_strengths(&mut self, levels: [usize; AGENT_COUNT]) {
-        let rows = self.reading.event.rows();
-        for (step, actions) in self.actions.iter().enumerate() {
-            let tracked = &self.tracked[step];
-            let found: [Deed; AGENT_COUNT] = [(actions[0], levels[0]), (actions[1], levels[1])];
-            for agent in AgentId::ALL {
-                let mut costs = [f64::INFINITY; LEVELS];
-                for deed in self.replay.deeds(&tracked.state, agent, (1 << LEVELS) - 1) {
-                    let mut deeds = found;
-                    deeds[agent] = deed;
-                    let cost = path::cost(self.replay.step(tracked, &rows[step + 1], deeds).residual);
-                    let pushes = deed.0.push().is_some();
-                    for (level, least) in costs.iter_mut().enumerate() {
-                        if !pushes || level == deed.1 {
-                            *least = least.min(cost);
-                        }
-                    }
-                }
-                for (sum, cost) in self.log_strengths[agent].iter_mut().zip(costs) {
-                    *sum -= cost;
-                }
-            }
+            tracked,
         }
     }
 
@@ -117,34 +85,38 @@ impl InverseDynamics {
     #[must_use]
     pub fn strengths(&self) -> [Strength; AGENT_COUNT] {
         self.log_strengths.map(|logs| {
-            let mut best = 0;
+            let mut likeliest = 0;
             for (level, log) in logs.iter().enumerate() {
-                if *log > logs[best] {
-                    best = level;
+                if *log > logs[likeliest] {
+                    likeliest = level;
                 }
             }
-            Strength::ALL[best]
+            Strength::ALL[likeliest]
         })
+    }
+
+    /// Whether each step is explained, to within [`EXPLAINED_RESIDUAL`].
+    pub fn explained(&self) -> impl Iterator<Item = bool> + '_ {
+        self.residuals.iter().map(|&residual| residual <= EXPLAINED_RESIDUAL)
     }
 
     /// The residual of every step (u) if an agent does each of its actions instead, by [`Action::index`], the
     /// other doing what was inferred.
     #[must_use]
-    pub fn alternatives(&self, _observed: &ObservedEvent) -> Vec<[[f32; Action::ALL.len()]; AGENT_COUNT]> {
+    pub fn alternatives(&self) -> Vec<[[f32; Action::ALL.len()]; AGENT_COUNT]> {
+        let reading = &self.replay.reading;
         let levels = self.strengths().map(|strength| usize::from(strength.level()));
-        let rows = self.reading.event.rows().iter().skip(1);
-        let steps = self.tracked.iter().zip(&self.actions).zip(rows);
-        steps
-            .map(|((tracked, actions), row)| {
-                let actions = actions.map(|action| self.reading.observed_action(action));
-                AgentId::ALL.map(|agent| {
-                    Action::ALL.map(|action| {
-                        let mut deeds = [(actions[0], levels[0]), (actions[1], levels[1])];
-                        deeds[agent] = (self.reading.observed_action(action), levels[agent]);
-                        self.replay.step(tracked, row, deeds).residual
-                    })
+        let deed = |agent: AgentId, action| (reading.observed_action(action), levels[agent]);
+        let steps = self.tracked.iter().zip(&self.actions).enumerate();
+        let alternatives = |(step, (tracked, actions)): (usize, (&TrackedState, &[Action; AGENT_COUNT]))| {
+            AgentId::ALL.map(|agent| {
+                Action::ALL.map(|action| {
+                    let mut deeds = AgentId::ALL.map(|agent| deed(agent, actions[agent]));
+                    deeds[agent] = deed(agent, action);
+                    self.replay.step(tracked, self.replay.row(step + 1), deeds).residual
                 })
             })
-            .collect()
+        };
+        steps.map(alternatives).collect()
     }
 }

@@ -128,7 +128,7 @@ fn grips_are_recovered() {
 fn what_was_done_explains_more_than_anything_else() {
     let event = apart();
     let action_likelihoods = InverseDynamics::new(&event.observed);
-    for (step, residuals) in action_likelihoods.alternatives(&event.observed).iter().enumerate() {
+    for (step, residuals) in action_likelihoods.alternatives().iter().enumerate() {
         for (agent, residuals) in residuals.iter().enumerate() {
             let simulated = residuals[event.actions[step][agent].index()];
             assert!(residuals.iter().all(|&other| simulated <= other + 1e-4), "agent {agent}, step {step}");
