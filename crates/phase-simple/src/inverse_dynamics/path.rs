@@ -32,6 +32,8 @@ pub(super) struct Path {
     pub(super) before: Option<usize>,
     /// The number of the reading of the event.
     pub(super) reading: usize,
+    /// Whether it is the event before it was mirrored.
+    mirrored: bool,
     pub(super) tracked: TrackedState,
     /// Possible strengths of each agent, one bit for each level.
     pub(super) strengths: [u8; AGENT_COUNT],
@@ -49,6 +51,7 @@ impl Path {
         Self {
             before: None,
             reading,
+            mirrored: replay.reading.is_mirrored(),
             tracked: replay.start(),
             strengths: [ALL_LEVELS; AGENT_COUNT],
             actions: [Action::NoForce; AGENT_COUNT],
@@ -78,6 +81,7 @@ impl Path {
         let mut plain = Self {
             before: Some(number),
             reading: self.reading,
+            mirrored: self.mirrored,
             tracked: predicted.end,
             strengths,
             actions: deeds.map(|(action, _)| action),
@@ -123,7 +127,7 @@ impl Path {
     pub(super) fn same_grips(&self, other: &Self) -> bool {
         let grips =
             |path: &Self| path.tracked.state.grips.map(|grip| grip.map(|grip| (grip.object, grip.side)));
-        self.reading == other.reading && grips(self) == grips(other)
+        self.mirrored == other.mirrored && grips(self) == grips(other)
     }
 
     /// Whether two paths have come to the same state, so that the cheaper one will stay the cheaper.
@@ -134,7 +138,9 @@ impl Path {
                 && (a.velocity - b.velocity).abs().max_element() < SAME
                 && (a.angle - b.angle).abs() < SAME
         };
-        self.same_grips(other) && bodies.iter().zip(others).all(same)
+        self.same_grips(other)
+            && self.tracked.late == other.tracked.late
+            && bodies.iter().zip(others).all(same)
     }
 }
 

@@ -80,6 +80,11 @@ impl Reading {
         Some(Self { start: Start::Late, event, angle_periods, cost, flip: Some(flip) })
     }
 
+    /// Whether this is the event before it was mirrored.
+    pub(super) const fn is_mirrored(&self) -> bool {
+        self.flip.is_some()
+    }
+
     /// A state of this reading as it was observed.
     pub(super) fn observed_state(&self, state: &State) -> State {
         let Some(flip) = self.flip else { return *state };
