@@ -62,7 +62,7 @@ pub fn policy(decided: &AgentDecision) -> ByChoice {
 /// is the best that inverse dynamics achieves with that choice and `tolerance` is σ (u).
 #[must_use]
 pub fn action_likelihoods(prepared: &PreparedEvent<'_>, tolerance: f64) -> Vec<[ByChoice; AGENT_COUNT]> {
-    let alternatives = prepared.motion().alternatives(prepared.observed());
+    let alternatives = prepared.motion().alternatives();
     let one = |residuals: &[f32; Action::ALL.len()]| {
         let mut argmin = [f64::INFINITY; CHOICES];
         for action in Action::ALL {

@@ -44,6 +44,8 @@ pub(super) struct MeasuredEvent {
     pub(super) roles: [Role; AGENT_COUNT],
     /// The chance of what each agent did, by step.
     pub(super) chances: [Vec<Chance>; AGENT_COUNT],
+    /// Whether inverse dynamics explains each step, so that it is known what was done.
+    pub(super) explained: Vec<bool>,
     /// Deviation of simulations in which this agent decides and the other does what was inferred, by step (u).
     pub(super) deviations: [Vec<f64>; AGENT_COUNT],
     /// The same of simulations in which both decide.
@@ -125,6 +127,7 @@ impl Plan {
             kind: scene.kind,
             roles: AgentId::ALL.map(|agent| Role::of(scene, agent)),
             chances,
+            explained: prepared.motion().explained().collect(),
             deviations,
             joint_deviations,
             recognition,

@@ -9,12 +9,15 @@ type Column = (&'static str, fn(&Figures) -> String);
 type Row = (&'static str, Vec<String>);
 
 /// What minds would choose, and what SIMPLE concludes.
-const MINDS: [Column; 11] = [
+const MINDS: [Column; 14] = [
     ("events", |it| it.events.to_string()),
     ("decisions", |it| it.decisions.to_string()),
     ("chance", |it| number(it.choice_probability, 3)),
     ("ll", |it| number(it.log_likelihood_per_step, 3)),
     ("ll .05", |it| number(it.log_likelihood_lapse_05, 3)),
+    ("explained", |it| number(it.explained.explained_share, 3)),
+    ("chance ex", |it| number(it.explained.choice_probability_explained, 3)),
+    ("ll ex", |it| number(it.explained.log_likelihood_per_step_explained, 3)),
     ("stray", |it| beside(it.stray_per_step, it.stray_of_both_per_step, 2)),
     ("log post", |it| number(it.recognition.log_posterior, 2)),
     ("relation", |it| number(it.recognition.relation_probability, 2)),
@@ -56,8 +59,9 @@ pub(super) fn print(report: &Report) -> String {
     let open_loop: Vec<Column> = OPEN_LOOP.into_iter().chain(COST).collect();
     format!(
         "minds under the true goals, attitudes and strengths; fitted lapse {:.3}\n\n{}\n\
-         chance: of what was done; ll: its log likelihood (nat a step), with the fitted lapse and with .05; stray: u a step,\n\
-         where one agent decides / both do;\n\
+         chance: of what was done; ll: its log likelihood (nat a step), with the fitted lapse and with .05;\n\
+         explained: share of decisions of which inverse dynamics tells what was done; chance ex, ll ex: of these alone;\n\
+         stray: u a step, where one agent decides / both do;\n\
          log post: ln of SIMPLE's posterior of the truth; relation, top-1: its posterior, share right; goals: share right;\n\
          who: helper or hinderer named / likelier than the other / the other above .9 / of so many events\n\n\
          the same scenes simulated / recorded\n\n{}\n\

@@ -71,6 +71,7 @@ fn recorded_motion_is_measured_as_by_hand() {
     // A step lasts 1/12 s of physics and 0.25 s of video.
     let expected = [
         (still, "still_share_recorded", 1.0),
+        (still, "explained_share", 1.0),
         (still, "path_recorded", 0.0),
         (still, "longest_still_with_open_goal_recorded", 1.0),
         (still, "contact_share_recorded", 0.0),
@@ -85,9 +86,12 @@ fn recorded_motion_is_measured_as_by_hand() {
     }
     assert_eq!(still["path_ratio"], Value::Null, "nothing is to be divided by a path of length 0");
     assert_eq!(still["goals"], 2);
-    for name in ["choice_probability", "outcomes_as_recorded", "still_share"] {
+    for name in ["choice_probability", "explained_share", "outcomes_as_recorded", "still_share"] {
         assert!((0.0..=1.0).contains(&number(&report[name])), "{name}: {}", report[name]);
     }
+    // All steps of those who stay where they are are explained.
+    assert_eq!(still["choice_probability_explained"], still["choice_probability"]);
+    assert_eq!(still["log_likelihood_per_step_explained"], still["log_likelihood_per_step"]);
     // The lapse rate is that at which the likelihood is greatest.
     assert!(number(&report["log_likelihood_per_step"]) >= number(&report["log_likelihood_lapse_05"]) - 1e-9);
 }

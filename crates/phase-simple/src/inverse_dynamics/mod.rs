@@ -1,22 +1,34 @@
 //! Inverse dynamics: the actions of both agents step by step, and their strengths.
 //!
 //! Forces are not seen, but what they do is, and there are only fourteen actions and four strengths. [`InverseDynamics`]
-//! follows an event through the forward model and asks at every step which actions lead to what was observed. That
+//! follows an event through the forward model and asks at every step which actions of both lead to what was observed. That
 //! tells actions, grips, the states between steps, and strengths.
+//!
+//! Key design decision: the state that a step is predicted to end in is carried on as it is, with its contact memory, as long
+//! as it is exact; it is corrected by what was observed only where it is not. Contacts amplify small errors, so a state that
+//! is corrected by means over a step loses track as soon as bodies touch. Several explanations are followed at once (a beam),
+//! since grips and strengths show later than they begin.
 
+mod beam;
+mod difference;
 mod interpolation;
 mod path;
+mod reach;
+mod reading;
+mod replay;
+mod search;
+mod strength;
 #[cfg(test)]
 mod tests;
-mod tracker;
 
-use path::Path;
+use beam::Beam;
 use phase_event::ObservedEvent;
 use phase_model::{AGENT_COUNT, Action, AgentId, State, Strength};
-use tracker::{TrackedState, Tracker};
+use reading::Start;
+use replay::{Replay, TrackedState};
 
-/// States with different grips that are followed at once.
-const BEAM_WIDTH: usize = 6;
+/// Residual up to which a step counts as explained (u).
+pub const EXPLAINED_RESIDUAL: f32 = 0.05;
 
 /// An event explained by what its agents did.
 #[derive(Clone, Debug)]
@@ -32,69 +44,79 @@ pub struct InverseDynamics {
     pub residuals: Vec<f32>,
     /// Whether row 0 is the state after the first substep of the first step, as in some recordings.
     pub late_start: bool,
+    /// The physics that explain it.
+    replay: Replay,
+    /// The states in which steps begin, as the replay has them.
+    tracked: Vec<TrackedState>,
 }
 
 impl InverseDynamics {
     /// Explains an event.
     #[must_use]
     pub fn new(observed: &ObservedEvent) -> Self {
-        let tracker = Tracker::new(observed);
-        let between = interpolation::states(observed);
-        let start = State::new(observed.rows()[0]);
-        let mut paths = vec![tracker.path(start, false), tracker.path(start, true)];
-        for (row, between) in observed.rows().iter().zip(&between).skip(1) {
-            let mut longer: Vec<Path> =
-                paths.iter().flat_map(|path| tracker.successors(path, row, between)).collect();
-            longer.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-            paths.clear();
-            for path in longer {
-                if paths.len() < BEAM_WIDTH && !paths.iter().any(|better| better.same_grips(&path)) {
-                    paths.push(path);
-                }
-            }
+        let mut beam = Beam::new(observed);
+        for t in 1..observed.rows().len() {
+            beam.advance(t);
         }
-        // Sorted by cost, and there is always one.
-        let best = paths.swap_remove(0);
-        let (states, rest): (Vec<State>, Vec<_>) = best.history.into_iter().unzip();
-        let (actions, residuals) = rest.into_iter().unzip();
+        let (path, replay) = beam.into_best();
+        let steps = || path.iter().skip(1);
+        let reading = &replay.reading;
+        // The start may lie before row 0, or after it.
+        let mut states = vec![State::new(observed.rows()[0])];
+        states.extend(steps().map(|step| reading.observed_state(&step.tracked.state)));
+        let actions: Vec<_> = steps().map(|step| step.actions).collect();
+        let tracked: Vec<_> = path.iter().map(|step| step.tracked.clone()).collect();
+        // The weakest of those that explain the event equally well.
+        let levels = path.last().map_or([0; AGENT_COUNT], |last| {
+            last.strengths.map(|strengths| strengths.trailing_zeros() as usize)
+        });
         Self {
-            states: [start].into_iter().chain(states).collect(),
-            actions,
-            log_strengths: best.strength_costs.map(|costs| costs.map(|cost| -cost)),
-            residuals,
-            late_start: best.late_start,
+            states,
+            log_strengths: strength::log_likelihoods(&replay, &tracked, &actions, levels),
+            actions: actions.iter().map(|both| both.map(|action| reading.observed_action(action))).collect(),
+            residuals: steps().map(|step| step.residual).collect(),
+            late_start: reading.start == Start::Late,
+            replay,
+            tracked,
         }
     }
 
     /// The most likely strengths; the weakest of equally likely ones.
     #[must_use]
     pub fn strengths(&self) -> [Strength; AGENT_COUNT] {
-        self.log_strengths.map(|logs| Strength::ALL[path::argmin(&logs.map(|log| -log))])
+        self.log_strengths.map(|logs| {
+            let mut likeliest = 0;
+            for (level, log) in logs.iter().enumerate() {
+                if *log > logs[likeliest] {
+                    likeliest = level;
+                }
+            }
+            Strength::ALL[likeliest]
+        })
+    }
+
+    /// Whether each step is explained, to within [`EXPLAINED_RESIDUAL`].
+    pub fn explained(&self) -> impl Iterator<Item = bool> + '_ {
+        self.residuals.iter().map(|&residual| residual <= EXPLAINED_RESIDUAL)
     }
 
     /// The residual of every step (u) if an agent does each of its actions instead, by [`Action::index`], the
     /// other doing what was inferred.
     #[must_use]
-    pub fn alternatives(&self, observed: &ObservedEvent) -> Vec<[[f32; Action::ALL.len()]; AGENT_COUNT]> {
-        let tracker = Tracker::new(observed);
+    pub fn alternatives(&self) -> Vec<[[f32; Action::ALL.len()]; AGENT_COUNT]> {
+        let reading = &self.replay.reading;
         let levels = self.strengths().map(|strength| usize::from(strength.level()));
-        let rows = observed.rows().iter().skip(1);
-        let steps = self.states.iter().zip(&self.actions).zip(rows).enumerate();
-        steps
-            .map(|(step, ((state, actions), row))| {
-                let tracked = TrackedState {
-                    state: *state,
-                    cache: tracker.fresh_cache(state),
-                    late: self.late_start && step == 0,
-                };
-                AgentId::ALL.map(|agent| {
-                    Action::ALL.map(|action| {
-                        let mut actions = *actions;
-                        actions[agent] = action;
-                        tracker.step(&tracked, row, levels, actions).residual
-                    })
+        let deed = |agent: AgentId, action| (reading.observed_action(action), levels[agent]);
+        let steps = self.tracked.iter().zip(&self.actions).enumerate();
+        let alternatives = |(step, (tracked, actions)): (usize, (&TrackedState, &[Action; AGENT_COUNT]))| {
+            AgentId::ALL.map(|agent| {
+                Action::ALL.map(|action| {
+                    let mut deeds = AgentId::ALL.map(|agent| deed(agent, actions[agent]));
+                    deeds[agent] = deed(agent, action);
+                    self.replay.step(tracked, self.replay.row(step + 1), deeds).residual
                 })
             })
-            .collect()
+        };
+        steps.map(alternatives).collect()
     }
 }

@@ -1,9 +1,11 @@
 //! The figures of a group of events, or of the agents with one role in them.
 
+mod explained;
 mod open_loop;
 mod recognition;
 
 use super::measure::MeasuredEvent;
+use explained::ExplainedFigures;
 use open_loop::OpenLoopFigures;
 use phase_model::AgentId;
 use phase_simple::choice::{Chance, log_likelihood};
@@ -42,6 +44,9 @@ pub(super) struct Figures {
     pub(super) log_likelihood_per_step: Option<f64>,
     /// The same with a lapse rate of 0.05.
     pub(super) log_likelihood_lapse_05: Option<f64>,
+    /// What is known of what was done.
+    #[serde(flatten)]
+    pub(super) explained: ExplainedFigures,
     /// Mean over events of the mean deviation of a step from simulations in which one agent decides under the truth and the
     /// other does what was inferred (u).
     pub(super) stray_per_step: Option<f64>,
@@ -75,6 +80,7 @@ impl Figures {
             choice_probability: mean(&chances.iter().map(|chance| chance.mind).collect::<Vec<_>>()),
             log_likelihood_per_step: log_likelihood(&chances, lapse),
             log_likelihood_lapse_05: log_likelihood(&chances, FIXED_LAPSE),
+            explained: ExplainedFigures::of(members, lapse),
             stray_per_step: mean(&strays.collect::<Vec<_>>()),
             stray_of_both_per_step: mean(&strays_of_both.collect::<Vec<_>>()),
             recognition: RecognitionFigures::of(members),

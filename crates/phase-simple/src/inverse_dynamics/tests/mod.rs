@@ -1,5 +1,8 @@
 //! Events simulated with known actions, whose actions are inferred.
 
+mod contact;
+mod mirrored;
+
 use super::InverseDynamics;
 use phase_event::ObservedEvent;
 use phase_forward::Forward;
@@ -11,9 +14,11 @@ use phase_model::{
 const HELD: usize = 3;
 const STRENGTHS: [Strength; AGENT_COUNT] = [Strength::Strong, Strength::Mighty];
 
-/// What was simulated: the state at the end of every step, state 0 being the start, and what a viewer sees.
+/// What was simulated: the state at the end of every step, state 0 being the start, those after every substep, and what a
+/// viewer sees.
 struct Simulated {
     states: Vec<State>,
+    substeps: Vec<[State; SUBSTEPS]>,
     actions: Vec<[Action; AGENT_COUNT]>,
     observed: ObservedEvent,
 }
@@ -41,14 +46,15 @@ fn simulate(
     let blank = event(vec![start.bodies]).expect("an event of one row");
     let world = Forward::new(&blank.physics(STRENGTHS.map(Strength::max_force)));
     let actions: Vec<_> = runs.iter().flat_map(|&(actions, steps)| vec![actions; steps]).collect();
-    let (mut states, mut rows) = (vec![start], vec![start.bodies]);
+    let (mut states, mut rows, mut all) = (vec![start], vec![start.bodies], Vec::new());
     let (mut state, mut cache) = (start, world.fresh_cache(&start));
     for &actions in &actions {
         let substeps = world.step_warm(&mut state, &mut cache, actions);
         states.push(state);
         rows.push(core::array::from_fn(|entity| mean(&substeps, entity)));
+        all.push(substeps);
     }
-    Simulated { states, actions, observed: event(rows).expect("an event") }
+    Simulated { states, substeps: all, actions, observed: event(rows).expect("an event") }
 }
 
 /// Both agents in rooms of their own, far from everything.
@@ -128,7 +134,7 @@ fn grips_are_recovered() {
 fn what_was_done_explains_more_than_anything_else() {
     let event = apart();
     let action_likelihoods = InverseDynamics::new(&event.observed);
-    for (step, residuals) in action_likelihoods.alternatives(&event.observed).iter().enumerate() {
+    for (step, residuals) in action_likelihoods.alternatives().iter().enumerate() {
         for (agent, residuals) in residuals.iter().enumerate() {
             let simulated = residuals[event.actions[step][agent].index()];
             assert!(residuals.iter().all(|&other| simulated <= other + 1e-4), "agent {agent}, step {step}");

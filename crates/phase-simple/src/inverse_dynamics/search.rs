@@ -1,0 +1,133 @@
+//! Which deeds of both agents explain one step.
+
+use super::{
+    reach::coupled,
+    replay::{Deed, PredictedStep, Replay, TrackedState},
+};
+use phase_model::{AGENT_COUNT, Action, AgentId, Body, MAX_ENTITIES};
+
+/// Residual below which a step is explained exactly (u). Rows have five decimals, and in a step the kernel departs from the
+/// published simulator by little more.
+const EXACT: f32 = 0.003;
+/// Rounds in which the agents are explained alternately.
+const ROUNDS: usize = 3;
+/// Explanations of a step that are followed if none is exact, beside those that change grips.
+const MAX_INEXACT: usize = 6;
+/// Explanations are followed up to this multiple of the smallest residual.
+const WORSE: f32 = 3.0;
+
+/// One explanation of a step.
+#[derive(Clone, Debug)]
+pub(super) struct Explanation {
+    pub(super) deeds: [Deed; AGENT_COUNT],
+    pub(super) predicted: PredictedStep,
+}
+
+/// The search for the deeds of one step.
+struct Search<'a> {
+    replay: &'a Replay,
+    tracked: &'a TrackedState,
+    row: &'a [Body; MAX_ENTITIES],
+    /// What each agent can do.
+    deeds: [Vec<Deed>; AGENT_COUNT],
+}
+
+/// The best explanations of a step from a state, at least one, best first. `strengths` are those possible for each agent, one
+/// bit for each level; the search begins with the actions `last`.
+pub(super) fn explanations(
+    replay: &Replay,
+    tracked: &TrackedState,
+    row: &[Body; MAX_ENTITIES],
+    strengths: [u8; AGENT_COUNT],
+    last: [Action; AGENT_COUNT],
+) -> Vec<Explanation> {
+    let deeds = AgentId::ALL.map(|agent| replay.deeds(&tracked.state, agent, strengths[agent]));
+    let search = Search { replay, tracked, row, deeds };
+    let [firsts, seconds] = search.candidates(last);
+    let mut pairs = Vec::with_capacity(firsts.len() * seconds.len());
+    for &first in &firsts {
+        pairs.extend(seconds.iter().map(|&second| ([first, second], search.residual([first, second]))));
+    }
+    pairs.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let predicted = |deeds| Explanation { deeds, predicted: replay.step(tracked, row, deeds) };
+    best(&pairs).into_iter().map(predicted).collect()
+}
+
+impl Search<'_> {
+    fn residual(&self, deeds: [Deed; AGENT_COUNT]) -> f32 {
+        self.replay.step(self.tracked, self.row, deeds).residual
+    }
+
+    /// The deeds of each agent that are to be combined with those of the other.
+    fn candidates(&self, last: [Action; AGENT_COUNT]) -> [Vec<Deed>; AGENT_COUNT] {
+        let again = |agent: AgentId| {
+            let again = self.deeds[agent].iter().find(|deed| deed.0 == last[agent]);
+            again.or(self.deeds[agent].first()).copied().unwrap_or((Action::NoForce, 0))
+        };
+        let mut best = AgentId::ALL.map(again);
+        let mut residuals: [Vec<f32>; AGENT_COUNT] = [Vec::new(), Vec::new()];
+        let mut given = [None; AGENT_COUNT];
+        // Alternately: all that it takes where the agents do not act on each other, and often enough where they do.
+        for _ in 0..ROUNDS {
+            for agent in AgentId::ALL {
+                if given[agent] == Some(best[agent.other()]) {
+                    continue;
+                }
+                given[agent] = Some(best[agent.other()]);
+                let instead = |&deed: &Deed| {
+                    let mut pair = best;
+                    pair[agent] = deed;
+                    self.residual(pair)
+                };
+                residuals[agent] = self.deeds[agent].iter().map(instead).collect();
+                let pairs = self.deeds[agent].iter().zip(&residuals[agent]);
+                if let Some((deed, _)) = pairs.min_by(|a, b| a.1.total_cmp(b.1)) {
+                    best[agent] = *deed;
+                }
+            }
+        }
+        let least = residuals[1].iter().copied().fold(f32::INFINITY, f32::min);
+        if least > EXACT && coupled(self.replay, &self.tracked.state) {
+            return self.deeds.clone();
+        }
+        let limit = limit(least);
+        AgentId::ALL.map(|agent| {
+            let follow = |(deed, residual): (&Deed, &f32)| {
+                let good = *residual <= limit || *deed == best[agent];
+                (good || least > EXACT && changes_grip(*deed)).then_some(*deed)
+            };
+            self.deeds[agent].iter().zip(&residuals[agent]).filter_map(follow).collect()
+        })
+    }
+}
+
+/// The pairs of deeds to be followed, of all those that were tried, sorted by their residuals (u).
+fn best(pairs: &[([Deed; AGENT_COUNT], f32)]) -> Vec<[Deed; AGENT_COUNT]> {
+    let least = pairs.first().map_or(0.0, |pair| pair.1);
+    let good = pairs.iter().filter(|pair| pair.1 <= limit(least)).count();
+    let count = if least <= EXACT { good } else { good.min(MAX_INEXACT) };
+    // Who changes its grip. What a grip does often shows later, so the best of each such kind is followed, too.
+    let mut kinds: Vec<[bool; AGENT_COUNT]> = Vec::new();
+    let mut best = Vec::new();
+    for (place, (deeds, _)) in pairs.iter().enumerate() {
+        let kind = deeds.map(changes_grip);
+        let new = !kinds.contains(&kind);
+        if new {
+            kinds.push(kind);
+        }
+        if new || place < count {
+            best.push(*deeds);
+        }
+    }
+    best
+}
+
+/// Whether a deed of those that an agent can do changes what it holds.
+fn changes_grip((action, _): Deed) -> bool {
+    matches!(action, Action::Attach | Action::Detach)
+}
+
+/// Residual up to which explanations are followed beside one with this residual (u).
+fn limit(least: f32) -> f32 {
+    (WORSE * least).max(EXACT)
+}
