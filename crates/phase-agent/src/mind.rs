@@ -71,7 +71,14 @@ impl<D: Dynamics> Mind<D> {
             attitude,
             settings,
             dynamics,
-            planner: Planner::new(physics.clone(), scene.layout, agent, scene.goals(), attitude),
+            planner: Planner::with_costs(
+                physics.clone(),
+                scene.layout,
+                agent,
+                scene.goals(),
+                attitude,
+                settings.planner_costs(),
+            ),
             pomcp,
             navigator: Navigator::new(
                 scene.layout,

@@ -1,5 +1,6 @@
 //! Parameters of an agent's mind.
 
+use phase_planner::PlannerCosts;
 use serde::{Deserialize, Serialize};
 
 /// Fidelity of the dynamics that an agent's search uses. Its belief is always predicted with exact steps.
@@ -74,18 +75,28 @@ pub struct MindParameters {
     pub other_initiative: f64,
     /// Cost of each unit of a path that leads through a body (dimensionless), beside its length.
     pub obstruction: f32,
-    /// Cost of facing away from what the agent goes to (u).
-    pub facing: f32,
-    /// Cost of an object that is yet to be grasped or released (u).
+    /// Cost of grasping an object, and of releasing it (u), of plans and on the way.
     pub grasp: f32,
-    /// Cost of turning an object and its holders about the object (u/rad).
+    /// Cost of turning (u/rad): of an object and its holders about the object. An agent that faces away from where it
+    /// goes is charged as much as one radian.
     pub turning: f32,
-    /// Cost of what is nearly impossible: a door that is too narrow (u).
+    /// Cost of what is nearly impossible (u): a door that is too narrow, a load that is too heavy.
     pub impassable: f32,
+    /// What 1 u of travel for or against the other's goal costs, relative to 1 u that it spares or costs the other,
+    /// 0 to 1.
+    pub effort: f32,
 }
 
 const fn legacy_foresight() -> Foresight {
     Foresight::Exact
+}
+
+impl MindParameters {
+    /// The costs of plans.
+    #[must_use]
+    pub const fn planner_costs(&self) -> PlannerCosts {
+        PlannerCosts { grasp: self.grasp, impassable: self.impassable, effort: self.effort }
+    }
 }
 
 impl Default for MindParameters {
@@ -105,14 +116,14 @@ impl Default for MindParameters {
             momentum_prior: 3.0,
             lateral_prior: 0.1,
             rest_prior: 0.2,
-            decisiveness: 3.0,
+            decisiveness: 4.0,
             horizon_steps: 8.0,
             other_initiative: 0.5,
             obstruction: 2.0,
-            facing: 1.0,
-            grasp: 2.0,
+            grasp: 1.0,
             turning: 1.0,
             impassable: 100.0,
+            effort: 0.4,
         }
     }
 }

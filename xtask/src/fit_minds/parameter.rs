@@ -90,13 +90,6 @@ pub(super) const PARAMETERS: [Parameter; 11] = [
         set: |it, value| it.obstruction = value as f32,
     },
     Parameter {
-        name: "facing",
-        neutral: 0.0,
-        domain: Domain::Amount { unit: 0.5, limit: 100.0 },
-        get: |it| it.facing.into(),
-        set: |it, value| it.facing = value as f32,
-    },
-    Parameter {
         name: "grasp",
         neutral: 0.0,
         domain: Domain::Amount { unit: 0.5, limit: 100.0 },
@@ -111,8 +104,15 @@ pub(super) const PARAMETERS: [Parameter; 11] = [
         set: |it, value| it.turning = value as f32,
     },
     Parameter {
-        name: "impassable",
+        name: "effort",
         neutral: 0.0,
+        domain: Domain::Share,
+        get: |it| it.effort.into(),
+        set: |it, value| it.effort = value as f32,
+    },
+    Parameter {
+        name: "impassable",
+        neutral: 10.0,
         domain: Domain::Amount { unit: 10.0, limit: 10_000.0 },
         get: |it| it.impassable.into(),
         set: |it, value| it.impassable = value as f32,

@@ -64,7 +64,8 @@ impl Objective<'_> {
         let reach = self.physics.object_radii[object] + 0.5 * physics::GRAB_REACH;
         let straight = body.position.distance(there);
         let detour = way.distance(body.position, there) - straight;
-        (nearest - reach).max(0.0) + detour.max(0.0) + self.grasp
+        // What is grasped has to be released later.
+        (nearest - reach).max(0.0) + detour.max(0.0) + 2.0 * self.grasp
     }
 
     /// How far an object would slide if it were released now (u): it should stay where it is put.

@@ -45,8 +45,8 @@ pub struct Objective<'a> {
     subgoal: Subgoal,
     task: Task,
     /// Cost of facing away from what the agent goes to (u).
-    facing: f32,
-    /// Cost of an object that is not yet held (u).
+    turning: f32,
+    /// Cost of grasping an object, and of releasing it (u).
     grasp: f32,
     /// Cost of a door that is too narrow (u).
     impassable: f32,
@@ -70,7 +70,7 @@ impl<'a> Objective<'a> {
             agent,
             subgoal,
             task,
-            facing: parameters.facing,
+            turning: parameters.turning,
             grasp: parameters.grasp,
             impassable: parameters.impassable,
         }
@@ -112,7 +112,7 @@ impl<'a> Objective<'a> {
             Task::Grasp(object, way) => self.to_grasp(state, *object, way),
             Task::Release(object) => {
                 if state.holds(self.agent, *object) {
-                    0.5 * self.grasp + self.sliding_distance(state, *object)
+                    self.grasp + self.sliding_distance(state, *object)
                 } else {
                     self.sliding_distance(state, *object)
                 }
@@ -186,7 +186,7 @@ impl<'a> Objective<'a> {
     fn facing_cost(&self, state: &State, target: Vec2) -> f32 {
         let body = state.body(Entity::Agent(self.agent));
         let way = (target - body.position).normalize_or_zero();
-        0.5 * self.facing * (1.0 - way.dot(body.forward()))
+        0.5 * self.turning * (1.0 - way.dot(body.forward()))
     }
 }
 

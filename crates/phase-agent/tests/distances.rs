@@ -1,0 +1,40 @@
+//! Routes, by which plans are costed, against fields, by which agents move.
+
+use phase_model::{
+    Layout, Size, Vec2, arena,
+    random::{Purpose, stream},
+};
+use phase_navigation::{Field, Map, Mover, NavigationCosts, Target};
+use phase_planner::{Routes, routes::IMPASSABLE_COST};
+use rand::RngExt;
+
+/// Number of random pairs of points.
+const PAIRS: usize = 2000;
+
+#[test]
+fn routes_and_fields_agree_on_what_is_closed_and_nearly_always_on_the_distance() {
+    let mut random = stream(5, Purpose::Scene, 0);
+    let costs = NavigationCosts { impassable: IMPASSABLE_COST, obstruction: 0.0 };
+    let mut differences = Vec::with_capacity(PAIRS);
+    for _ in 0..PAIRS {
+        let layout = Layout::new(random.random_range(0..22), None).unwrap();
+        let half_width = Size::ALL[random.random_range(0..Size::ALL.len())].radius();
+        let mut point = || {
+            let mut along = || random.random_range(half_width..arena::SIDE - half_width);
+            arena::MIN + Vec2::new(along(), along())
+        };
+        let (from, to) = (point(), point());
+        let routes = Routes::new(layout);
+        let route = routes.cost(from, to, 2.0 * half_width, routes.gaps());
+        let mover = Mover { half_width };
+        let field = Field::new(&Map::new(layout), Target::Point(to), mover, &[], costs).distance(from);
+        assert_eq!(route >= IMPASSABLE_COST, field >= IMPASSABLE_COST, "{layout:?} {from} {to}");
+        if field < IMPASSABLE_COST {
+            differences.push((field - route).abs() / field.max(1.0));
+        }
+    }
+    differences.sort_by(f32::total_cmp);
+    let quantile = |share: f32| differences[((differences.len() - 1) as f32 * share) as usize];
+    // Measured: 0.000 and 0.08.
+    assert!(quantile(0.5) < 0.01 && quantile(0.95) < 0.12, "{} {}", quantile(0.5), quantile(0.95));
+}
