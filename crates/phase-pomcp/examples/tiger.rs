@@ -55,6 +55,7 @@ impl Problem for Tiger {
 /// is only a hundredth better than one that does not; a small exploration rate distinguishes them.
 const SETTINGS: PomcpSettings = PomcpSettings {
     stop_when_decided: false,
+    convergence: 0.0,
     untried_first: true,
     simulations: 1000,
     rollout_steps: 10,

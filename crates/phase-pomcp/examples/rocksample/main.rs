@@ -13,6 +13,7 @@ use problem::RockSample;
 /// needed.
 const SETTINGS: PomcpSettings = PomcpSettings {
     stop_when_decided: false,
+    convergence: 0.0,
     untried_first: true,
     simulations: 1000,
     rollout_steps: 30,

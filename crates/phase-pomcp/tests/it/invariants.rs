@@ -86,6 +86,7 @@ fn settings() -> impl Strategy<Value = PomcpSettings> {
         |(simulations, rollout_steps, c_init, c_base, horizon, (normalise_values, untried_first))| {
             PomcpSettings {
                 stop_when_decided: false,
+                convergence: 0.0,
                 untried_first,
                 simulations,
                 rollout_steps,
@@ -117,6 +118,32 @@ proptest! {
         prop_assert!(run == settings.simulations || lead > settings.simulations - run);
         // And not one simulation more than necessary was run.
         prop_assert!(run == settings.simulations || lead <= settings.simulations - run + 2);
+    }
+
+    #[test]
+    fn a_converged_search_ends_where_doubling_it_changed_little(
+        problem in problem(), settings in settings(), seed: u64, convergence in 0.01..0.5_f64
+    ) {
+        let roots: Vec<u64> = (0..problem.states).collect();
+        let policy = |simulations, convergence| -> (usize, Vec<f64>) {
+            let settings = PomcpSettings { simulations, convergence, ..settings };
+            let mut random = Pcg64Mcg::seed_from_u64(seed);
+            let decision = Pomcp::new(settings).unwrap().search(&problem, &roots, &mut random).unwrap();
+            let run: usize = decision.actions.iter().map(|action| action.visits).sum();
+            (run, decision.actions.iter().map(|action| action.visits as f64 / run as f64).collect())
+        };
+        let (run, shares) = policy(600, convergence);
+        // As many simulations without the rule do the same.
+        prop_assert_eq!(&policy(run, 0.0).1, &shares);
+        let change = |run| {
+            let (half, whole): (Vec<f64>, Vec<f64>) = (policy(run / 2, 0.0).1, policy(run, 0.0).1);
+            0.5 * half.iter().zip(&whole).map(|(a, b)| (a - b).abs()).sum::<f64>()
+        };
+        prop_assert!([128, 256, 512, 600].contains(&run));
+        prop_assert!(run == 600 || change(run) < convergence);
+        for earlier in [128, 256, 512].into_iter().filter(|&earlier| earlier < run) {
+            prop_assert!(change(earlier) >= convergence);
+        }
     }
 
     #[test]

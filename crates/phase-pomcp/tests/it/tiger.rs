@@ -18,6 +18,7 @@ const FOREVER: usize = 300;
 /// with the constants intended for games it takes tens of thousands of simulations to distinguish them.
 const SHARP: PomcpSettings = PomcpSettings {
     stop_when_decided: false,
+    convergence: 0.0,
     untried_first: true,
     simulations: 2000,
     rollout_steps: 10,
