@@ -37,7 +37,8 @@ pub struct InferenceSettings {
     pub minds: phase_agent::MindParameters,
 }
 
-/// Parameters of inverse planning, selected on the validation events of PHASE-500.
+/// Parameters of inverse planning. κ, β and ε are fitted by `cargo xtask fit-inference` (docs/simple.md), σ and the
+/// interval were selected on the validation events of PHASE-500.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 pub struct InversePlanningSettings {
     /// ε, the lapse rate: probability of a uniformly random action instead of the policy's.
@@ -129,7 +130,7 @@ impl ChainSettings {
 
 impl Default for InversePlanningSettings {
     fn default() -> Self {
-        Self { lapse_rate: 0.05, tolerance: 0.03, inverse_temperature: 0.3, resync_interval: 10, beta: 0.1 }
+        Self { lapse_rate: 0.5, tolerance: 0.03, inverse_temperature: 0.2, resync_interval: 10, beta: 0.01 }
     }
 }
 

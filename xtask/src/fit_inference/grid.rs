@@ -10,7 +10,7 @@ const INVERSE_TEMPERATURES: [f64; 10] = [0.03, 0.05, 0.07, 0.1, 0.15, 0.2, 0.3, 
 /// Values of β (1/u).
 const BETAS: [f64; 10] = [0.0, 0.005, 0.01, 0.02, 0.03, 0.05, 0.07, 0.1, 0.15, 0.2];
 /// Values of ε.
-const LAPSE_RATES: [f64; 8] = [0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5];
+const LAPSE_RATES: [f64; 10] = [0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7];
 
 /// How SIMPLE weighs its evidence.
 #[derive(Clone, Copy, PartialEq, Debug)]
