@@ -27,6 +27,31 @@ impl Foresight {
     }
 }
 
+/// Which minds agents have.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum MindKind {
+    /// Those of this crate.
+    #[default]
+    Phase,
+    /// Those of the published simulator, reimplemented in `phase-published`, which [`crate::Mind`] is not.
+    Published,
+}
+
+impl MindKind {
+    /// All kinds.
+    pub const ALL: [Self; 2] = [Self::Phase, Self::Published];
+
+    /// The name used in files and options.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Phase => "phase",
+            Self::Published => "published",
+        }
+    }
+}
+
 /// Parameters of an agent's mind: every number that shapes its behaviour.
 ///
 /// The search's parameters are the paper's. The others, from `heuristic_prior` on, are those that
@@ -34,6 +59,12 @@ impl Foresight {
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(default)]
 pub struct MindParameters {
+    /// Which minds. Absent in older files, which means `phase`. Published minds have, of the parameters below, only those of
+    /// belief, subgoal value and search: `particles` to `discount`.
+    pub kind: MindKind,
+    /// Whether bodies turn one way whichever way their minds choose: to the left, and to the right in a reflected layout. It
+    /// is a defect of the published recorder, of which its minds do not know.
+    pub one_way_turns: bool,
     /// K, the number of belief particles; at least 1.
     pub particles: usize,
     /// λ of the subgoal value (1/u).
@@ -91,6 +122,8 @@ const fn legacy_foresight() -> Foresight {
 impl Default for MindParameters {
     fn default() -> Self {
         Self {
+            kind: MindKind::Phase,
+            one_way_turns: false,
             particles: 50,
             lambda: phase_planner::value::LAMBDA,
             simulations: 1000,

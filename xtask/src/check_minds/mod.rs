@@ -13,7 +13,7 @@ mod table;
 use crate::{error::XtaskError, json_file};
 use measure::Plan;
 use options::CheckMinds;
-use phase_agent::MindParameters;
+use phase_agent::{MindKind, MindParameters};
 use phase_cli::{
     console::{self, print_result},
     context::Context,
@@ -42,8 +42,9 @@ pub fn run(arguments: &CheckMinds, context: &Context) -> Result<(), XtaskError> 
         json_file::check("--json", out, inputs.into_iter().flatten().map(|file| file.as_path()))?;
     }
     let parameters = arguments.parameters.as_deref().map(parameters::read).transpose()?;
-    let plan = plan(arguments, parameters.unwrap_or_default());
-    let recordings = recordings(&arguments.events, arguments.only, context)?;
+    let mut recordings = recordings(&arguments.events, arguments.only, context)?;
+    retain(&mut recordings, &arguments.ids, &arguments.events)?;
+    let plan = plan(arguments, minds(arguments, parameters.unwrap_or_default(), &recordings));
     for recording in recordings.iter().take(1) {
         parameters::check(plan.open_loop, &recording.scene, arguments.parameters.as_deref())?;
     }
@@ -65,6 +66,26 @@ pub fn run(arguments: &CheckMinds, context: &Context) -> Result<(), XtaskError> 
     }
     print_result(table::print(&report).trim_end());
     Ok(())
+}
+
+/// Keeps the events with these ids, or all of them if there are none.
+fn retain(recordings: &mut Vec<Recording>, ids: &[String], file: &Path) -> Result<(), CliError> {
+    for id in ids {
+        if !recordings.iter().any(|recording| recording.id == *id) {
+            return Err(CliError::Usage(format!("{}: has no event {id}", file.display())));
+        }
+    }
+    recordings.retain(|recording| ids.is_empty() || ids.contains(&recording.id));
+    Ok(())
+}
+
+/// The parameters of the minds that were asked for. Published minds in recordings have bodies that turn one way, as those
+/// of the recorder did; events that were simulated here had others.
+fn minds(arguments: &CheckMinds, parameters: MindParameters, recordings: &[Recording]) -> MindParameters {
+    let kind = arguments.minds.unwrap_or(parameters.kind);
+    let recorded = recordings.iter().all(|recording| recording.simulation.is_none());
+    let one_way_turns = parameters.one_way_turns || kind == MindKind::Published && recorded;
+    MindParameters { kind, one_way_turns, ..parameters }
 }
 
 /// What is to be measured, with these parameters of the minds.
@@ -118,7 +139,7 @@ pub(crate) fn truth(scene: &Scene) -> Hypothesis {
 fn description(arguments: &CheckMinds, plan: &Plan) -> Value {
     json!({
         "command": "check-minds", "generator": GENERATOR, "seed": plan.seed,
-        "only": arguments.only.map(EventKind::name),
+        "only": arguments.only.map(EventKind::name), "ids": arguments.ids, "minds": plan.open_loop.kind.name(),
         "inference": plan.inference, "posterior": plan.posterior,
         "open_loop": plan.open_loop, "open_loop_seeds": plan.open_loop_seeds,
     })

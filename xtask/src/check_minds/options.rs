@@ -1,7 +1,8 @@
 //! The options of `check-minds`.
 
 use clap::{Args, builder::PossibleValuesParser, builder::TypedValueParser, value_parser};
-use phase_cli::parallel::Jobs;
+use phase_agent::MindKind;
+use phase_cli::{effort::mind_kinds, parallel::Jobs};
 use phase_model::EventKind;
 use std::path::PathBuf;
 
@@ -14,6 +15,12 @@ pub struct CheckMinds {
     /// Only events of this kind
     #[arg(long, value_name = "KIND", value_parser = kinds())]
     pub only: Option<EventKind>,
+    /// Only the events with these ids
+    #[arg(long, value_name = "ID", num_args = 1..)]
+    pub ids: Vec<String>,
+    /// The minds: `phase`, or `published`, those of the published simulator [default: phase]
+    #[arg(long, value_name = "MINDS", hide_possible_values = true, value_parser = mind_kinds())]
+    pub minds: Option<MindKind>,
     /// JSON file of parameters of the minds, of which all that are absent have their defaults; it does not say how
     /// many simulations there are
     #[arg(long, value_name = "FILE")]
