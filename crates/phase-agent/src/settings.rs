@@ -74,6 +74,9 @@ pub struct MindParameters {
     /// Change of the policy, as total variation, below which a search ends early
     /// ([`PomcpSettings::convergence`](phase_pomcp::PomcpSettings::convergence)), 0 to 1.
     pub convergence: f64,
+    /// Independent searches per decision, whose visits are added up; at least 1. Of `published` minds only, whose searches
+    /// commit themselves early; `phase` minds search once.
+    pub searches: usize,
     /// Steps of the rollout policy after a leaf of the tree.
     pub rollout_steps: usize,
     /// c_init of PUCT.
@@ -128,6 +131,7 @@ impl Default for MindParameters {
             lambda: phase_planner::value::LAMBDA,
             simulations: 1000,
             convergence: 0.1,
+            searches: 1,
             rollout_steps: 10,
             c_init: 1.25,
             c_base: 1000.0,

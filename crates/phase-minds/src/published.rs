@@ -34,6 +34,7 @@ const fn published(parameters: &MindParameters) -> PublishedParameters {
         particles: parameters.particles,
         lambda: parameters.lambda,
         simulations: parameters.simulations,
+        searches: parameters.searches,
         rollout_steps: parameters.rollout_steps,
         c_init: parameters.c_init,
         c_base: parameters.c_base,

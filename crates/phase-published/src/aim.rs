@@ -32,11 +32,12 @@ pub enum Aim {
 const WALKING: [Action; 5] = [Action::TurnLeft, Action::TurnRight, Action::Up, Action::Stop, Action::NoForce];
 
 impl Aim {
-    /// The actions that the low level chooses from.
+    /// The actions that the low level chooses from. One who wrestles for a landmark may push in all directions.
     #[must_use]
     pub fn actions(
         self,
         own: AgentId,
+        wrestles: bool,
         rooms: &Rooms,
         physics: &PhysicsConfig,
         state: &State,
@@ -45,8 +46,10 @@ impl Aim {
         let (with_attach, without_hands) = (&ALL[..13], &ALL[..12]);
         let holding = state.held_object(own).is_some();
         match self {
-            Self::Stop => &ALL[10..11],
-            Self::AgentToLandmark(agent, ..) | Self::AgentToRoom(agent, _) if agent == own => &WALKING,
+            Self::Stop => &[Action::Stop],
+            Self::AgentToLandmark(agent, ..) | Self::AgentToRoom(agent, _) if agent == own && !wrestles => {
+                &WALKING
+            }
             Self::Touch(..) => &WALKING,
             Self::ObjectToLandmark(..) => with_attach,
             Self::Grab(..) => {

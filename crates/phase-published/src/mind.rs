@@ -11,10 +11,10 @@ use crate::{
 use phase_event::{ActionEvaluation, SubgoalValue, Thought};
 use phase_forward::Forward;
 use phase_model::{
-    Action, AgentId, Scene, State, Subgoal,
+    Action, AgentId, Attitude, Scene, State, Subgoal,
     random::{Purpose, stream},
 };
-use phase_pomcp::{Pomcp, PomcpError, PomcpSettings};
+use phase_pomcp::{ActionStatistics, Pomcp, PomcpError, PomcpSettings};
 use rand::Rng;
 
 /// The mind of one agent of the published simulator. The belief is an argument of every decision.
@@ -49,6 +49,7 @@ impl Mind {
                 agent,
                 goals: scene.goals(),
                 attitude: scene.agents[agent].attitude,
+                hindered: scene.agents[agent.other()].attitude == Attitude::Hinder,
             },
             pomcp,
             parameters,
@@ -105,8 +106,8 @@ impl Mind {
         roots: &[State],
         random: &mut impl Rng,
     ) -> Result<(Action, Vec<ActionEvaluation>), PomcpError> {
-        let Rules { agent, rooms, physics, .. } = &self.rules;
-        let actions = aim.actions(*agent, rooms, physics, &roots[0]);
+        let Rules { agent, rooms, .. } = &self.rules;
+        let actions = self.rules.actions(aim, &roots[0]);
         if let [only] = actions {
             return Ok((*only, Vec::new()));
         }
@@ -120,14 +121,31 @@ impl Mind {
         };
         // Equal particles are one, and the tree's steps can then be cached.
         let roots = if roots.iter().all(|root| root == &roots[0]) { &roots[..1] } else { roots };
-        let decision = self.pomcp.search(&model, roots, random)?;
-        let evaluations = actions.iter().zip(&decision.actions).map(|(&action, found)| ActionEvaluation {
-            action,
-            visits: found.visits as u32,
-            value: found.value,
-        });
-        Ok((actions[decision.action], evaluations.collect()))
+        let nothing = |&action: &Action| ActionEvaluation { action, visits: 0, value: 0.0 };
+        let mut evaluations: Vec<ActionEvaluation> = actions.iter().map(nothing).collect();
+        for _ in 0..self.parameters.searches.max(1) {
+            let found = self.pomcp.search(&model, roots, random)?;
+            for (evaluation, found) in evaluations.iter_mut().zip(&found.actions) {
+                add(evaluation, found);
+            }
+        }
+        // Of equally visited actions the better, of equally good ones the first.
+        let best = evaluations
+            .iter()
+            .rev()
+            .max_by(|a, b| a.visits.cmp(&b.visits).then_with(|| a.value.total_cmp(&b.value)));
+        Ok((best.map_or(Action::Stop, |best| best.action), evaluations))
     }
+}
+
+/// Adds what a search found about an action to what others found.
+fn add(evaluation: &mut ActionEvaluation, found: &ActionStatistics) {
+    let visits = evaluation.visits + found.visits as u32;
+    if visits > 0 {
+        let sum = evaluation.value * f64::from(evaluation.visits) + found.value * found.visits as f64;
+        evaluation.value = sum / f64::from(visits);
+    }
+    evaluation.visits = visits;
 }
 
 fn summary(proposal: &Proposal) -> SubgoalValue {

@@ -9,6 +9,10 @@ pub struct PublishedParameters {
     pub lambda: f64,
     /// Simulations a decision; at least 1.
     pub simulations: usize,
+    /// Searches a decision, each from the start and with that many simulations, whose visits are added up; at least 1. The
+    /// original searches once. What one search settles on is to some degree chance, and a likelihood of actions needs to
+    /// know how much.
+    pub searches: usize,
     /// Steps of a rollout.
     pub rollout_steps: usize,
     /// Exploration constant of PUCT.
@@ -25,6 +29,7 @@ impl Default for PublishedParameters {
             particles: 50,
             lambda: 0.05,
             simulations: 1000,
+            searches: 1,
             rollout_steps: 10,
             c_init: 1.25,
             c_base: 1000.0,

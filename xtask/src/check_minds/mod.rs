@@ -32,6 +32,13 @@ use report::Report;
 use serde_json::{Value, json};
 use std::path::Path;
 
+/// Simulations a decision at observed states by our own minds.
+const SIMULATIONS: u32 = 50;
+/// The same by published minds, which need more, and whose searches settle early on what is partly chance.
+const PUBLISHED_SIMULATIONS: u32 = 200;
+/// Searches a decision at observed states by published minds.
+const PUBLISHED_SEARCHES: u32 = 5;
+
 /// Runs the command.
 ///
 /// # Errors
@@ -91,8 +98,16 @@ fn minds(arguments: &CheckMinds, parameters: MindParameters, recordings: &[Recor
 /// What is to be measured, with these parameters of the minds.
 fn plan(arguments: &CheckMinds, parameters: MindParameters) -> Plan {
     let minds = |simulations: u32| MindParameters { simulations: simulations as usize, ..parameters };
+    let (simulations, searches) = match parameters.kind {
+        MindKind::Phase => (SIMULATIONS, 1),
+        MindKind::Published => (PUBLISHED_SIMULATIONS, PUBLISHED_SEARCHES),
+    };
+    let at_states = MindParameters {
+        searches: arguments.searches.unwrap_or(searches) as usize,
+        ..minds(arguments.simulations.unwrap_or(simulations))
+    };
     Plan {
-        inference: InferenceSettings { minds: minds(arguments.simulations), ..InferenceSettings::default() },
+        inference: InferenceSettings { minds: at_states, ..InferenceSettings::default() },
         posterior: !arguments.no_posterior,
         open_loop: minds(arguments.simulations_open_loop),
         open_loop_seeds: arguments.open_loop_seeds.into(),

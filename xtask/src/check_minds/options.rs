@@ -25,9 +25,12 @@ pub struct CheckMinds {
     /// many simulations there are
     #[arg(long, value_name = "FILE")]
     pub parameters: Option<PathBuf>,
-    /// POMCP simulations a decision at observed states and within SIMPLE
-    #[arg(long, value_name = "N", default_value_t = 50, value_parser = value_parser!(u32).range(1..=10_000_000))]
-    pub simulations: u32,
+    /// POMCP simulations a decision at observed states and within SIMPLE [default: 50, with published minds 200]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=10_000_000))]
+    pub simulations: Option<u32>,
+    /// Searches of so many simulations a decision at observed states, which only published minds repeat [default: 5]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=1000))]
+    pub searches: Option<u32>,
     /// POMCP simulations a decision in the open loop
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = value_parser!(u32).range(1..=10_000_000))]
     pub simulations_open_loop: u32,

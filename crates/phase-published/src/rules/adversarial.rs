@@ -62,15 +62,17 @@ impl View<'_> {
             .map(|(_, room)| room)
     }
 
-    /// Goes to the nearest room on the other's way that has some wall at its exit.
+    /// Goes to the nearest room on the other's way with a wall beside its door. The room that it is in is not among them, so
+    /// that it goes to and fro where there is no other.
     fn stand_on(&self, way: &[RoomId]) -> Option<Aim> {
         let here = self.my_room();
-        let exits = way.windows(2).filter(|pair| self.rooms().walled(pair[0], pair[1])).map(|pair| pair[0]);
-        let nearest = exits
-            .filter_map(|room| Some((self.rooms().way(here, room)?.len(), room)))
+        let walled = way.windows(2).filter(|pair| self.rooms().walled(pair[0], pair[1]));
+        let nearest = walled
+            .flatten()
+            .filter(|&&room| room != here)
+            .filter_map(|&room| Some((self.rooms().way(here, room)?.len(), room)))
             .min_by_key(|&(length, _)| length);
-        let (_, room) = nearest?;
-        Some(self.towards(room).unwrap_or(Aim::AgentToRoom(self.me, room)))
+        self.towards(nearest?.1)
     }
 
     /// Keeps an object off a landmark.

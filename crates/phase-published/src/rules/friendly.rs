@@ -33,7 +33,7 @@ impl View<'_> {
             return self.put(object, landmark);
         }
         let entity = Entity::Object(object);
-        if self.to_landmark(entity, landmark) < OBJECT_REACHED {
+        if self.landmark_distance(entity, landmark) < OBJECT_REACHED {
             return self.release_or_stop();
         }
         let (there, goal) = (self.room(entity), landmark.room());

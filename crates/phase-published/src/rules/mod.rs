@@ -6,8 +6,8 @@ mod neutral;
 
 use crate::{aim::Aim, rooms::Rooms, senses::in_view};
 use phase_model::{
-    AGENT_COUNT, AgentId, Attitude, Entity, Goal, LandmarkId, ObjectId, PhysicsConfig, RoomId, Sign, State,
-    arena, layout::room_of,
+    AGENT_COUNT, Action, AgentId, Attitude, Entity, Goal, LandmarkId, ObjectId, PhysicsConfig, RoomId, Sign,
+    State, arena, layout::room_of,
 };
 
 /// An agent is on a landmark within this distance (u): a reward above −0.02.
@@ -25,9 +25,26 @@ pub(crate) struct Rules {
     pub(crate) agent: AgentId,
     pub(crate) goals: [Goal; AGENT_COUNT],
     pub(crate) attitude: Attitude,
+    /// Whether the other hinders.
+    pub(crate) hindered: bool,
 }
 
 impl Rules {
+    /// The actions to choose from for a subgoal. One who is hindered on the way to a landmark, with the other in the same room
+    /// of it, may push in all directions, as the other may who wants it elsewhere.
+    pub(crate) fn actions(&self, aim: Aim, state: &State) -> &'static [Action] {
+        let room = |agent| room_of(state.position(Entity::Agent(agent)));
+        let wrestles = match aim {
+            Aim::AgentToLandmark(agent, landmark, _) => {
+                self.hindered
+                    && agent == self.agent
+                    && AgentId::ALL.iter().all(|&agent| room(agent) == landmark.room())
+            }
+            _ => false,
+        };
+        aim.actions(self.agent, wrestles, &self.rooms, &self.physics, state)
+    }
+
     /// The subgoal in one possible state of the world.
     pub(crate) fn aim(&self, state: &State) -> Aim {
         let view = View { rules: self, state, me: self.agent, other: self.agent.other() };
@@ -67,7 +84,7 @@ impl View<'_> {
     }
 
     /// Length of the path from an entity to a landmark (u).
-    fn to_landmark(&self, entity: Entity, landmark: LandmarkId) -> f32 {
+    fn landmark_distance(&self, entity: Entity, landmark: LandmarkId) -> f32 {
         self.rooms().distance(self.state.position(entity), arena::LANDMARKS[landmark])
     }
 

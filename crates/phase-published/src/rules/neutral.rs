@@ -22,7 +22,7 @@ impl View<'_> {
     /// Goes to a landmark, room by room.
     pub(super) fn go_to_landmark(&self, landmark: LandmarkId) -> Aim {
         let aim = Aim::AgentToLandmark(self.me, landmark, Sign::Positive);
-        if self.to_landmark(Entity::Agent(self.me), landmark) < AGENT_REACHED {
+        if self.landmark_distance(Entity::Agent(self.me), landmark) < AGENT_REACHED {
             return self.release_or_stop();
         }
         if self.rooms().is_open() {
@@ -52,7 +52,7 @@ impl View<'_> {
     /// Puts an object on a landmark: goes there, grabs it, drags it room by room, releases it.
     pub(super) fn put(&self, object: ObjectId, landmark: LandmarkId) -> Aim {
         let entity = Entity::Object(object);
-        let done = self.to_landmark(entity, landmark) < OBJECT_REACHED;
+        let done = self.landmark_distance(entity, landmark) < OBJECT_REACHED;
         let aim = Aim::ObjectToLandmark(object, landmark, Sign::Positive);
         let release = Aim::Grab(self.me, object, Sign::Negative);
         let holding = self.state.holds(self.me, object);
