@@ -48,4 +48,4 @@ pub mod settings;
 
 pub use agent::Agent;
 pub use mind::{BeliefView, Mind};
-pub use settings::{Foresight, MindParameters};
+pub use settings::{Foresight, MindKind, MindParameters};

@@ -28,6 +28,31 @@ impl Foresight {
     }
 }
 
+/// Which minds agents have.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum MindKind {
+    /// Those of this crate.
+    #[default]
+    Phase,
+    /// Those of the published simulator, reimplemented in `phase-published`, which [`crate::Mind`] is not.
+    Published,
+}
+
+impl MindKind {
+    /// All kinds.
+    pub const ALL: [Self; 2] = [Self::Phase, Self::Published];
+
+    /// The name used in files and options.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Phase => "phase",
+            Self::Published => "published",
+        }
+    }
+}
+
 /// Parameters of an agent's mind: every number that shapes its behaviour.
 ///
 /// The search's parameters are the paper's. The others, from `heuristic_prior` on, are those that
@@ -35,6 +60,12 @@ impl Foresight {
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(default)]
 pub struct MindParameters {
+    /// Which minds. Absent in older files, which means `phase`. Published minds have, of the parameters below, only those of
+    /// belief, subgoal value and search: `particles` to `discount`.
+    pub kind: MindKind,
+    /// Whether bodies turn one way whichever way their minds choose: to the left, and to the right in a reflected layout. It
+    /// is a defect of the published recorder, of which its minds do not know.
+    pub one_way_turns: bool,
     /// K, the number of belief particles; at least 1.
     pub particles: usize,
     /// λ of the subgoal value (1/u).
@@ -44,6 +75,9 @@ pub struct MindParameters {
     /// Change of the policy, as total variation, below which a search ends early
     /// ([`PomcpSettings::convergence`](phase_pomcp::PomcpSettings::convergence)), 0 to 1.
     pub convergence: f64,
+    /// Independent searches per decision, whose visits are added up; at least 1. Of `published` minds only, whose searches
+    /// commit themselves early; `phase` minds search once.
+    pub searches: usize,
     /// Steps of the rollout policy after a leaf of the tree.
     pub rollout_steps: usize,
     /// c_init of PUCT.
@@ -102,10 +136,13 @@ impl MindParameters {
 impl Default for MindParameters {
     fn default() -> Self {
         Self {
+            kind: MindKind::Phase,
+            one_way_turns: false,
             particles: 50,
             lambda: phase_planner::value::LAMBDA,
             simulations: 1000,
             convergence: 0.1,
+            searches: 1,
             rollout_steps: 10,
             c_init: 1.25,
             c_base: 1000.0,

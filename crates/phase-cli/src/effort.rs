@@ -5,8 +5,42 @@ use clap::{
     builder::{PossibleValuesParser, TypedValueParser},
     value_parser,
 };
-use phase_agent::Foresight;
+use phase_agent::{Foresight, MindKind, MindParameters};
 use phase_sim::{Engine, SimulationSettings};
+
+/// Which minds agents have.
+#[derive(Args, Clone, Copy, Debug, Default)]
+pub struct MindOptions {
+    /// Minds of the agents: `phase`, or `published`, those of the published simulator [default: phase]
+    #[arg(long, value_name = "MINDS", hide_possible_values = true, value_parser = mind_kinds())]
+    pub minds: Option<MindKind>,
+    /// All turns go one way, as in the published recordings: left, and right in a reflected layout
+    #[arg(long)]
+    pub one_way_turns: bool,
+}
+
+impl MindOptions {
+    /// Sets the minds in parameters.
+    pub fn apply(&self, parameters: &mut MindParameters) {
+        parameters.kind = self.minds.unwrap_or_default();
+        parameters.one_way_turns = self.one_way_turns;
+    }
+
+    /// Whether these are the minds without any of the options.
+    #[must_use]
+    pub fn are_default(&self) -> bool {
+        self.minds.unwrap_or_default() == MindKind::default() && !self.one_way_turns
+    }
+
+    /// The name of a method that imagines such minds.
+    #[must_use]
+    pub fn name(&self, method: &str) -> String {
+        match self.minds.unwrap_or_default() {
+            MindKind::Phase => method.into(),
+            MindKind::Published => format!("{method}-{}-minds", MindKind::Published.name()),
+        }
+    }
+}
 
 /// Physics engine, length of events and search effort of agents; the defaults are the paper's.
 #[derive(Args, Debug)]
@@ -15,6 +49,9 @@ pub struct SimulationOptions {
     /// uses, closest to the published simulator) [default: world]
     #[arg(long, value_name = "ENGINE", hide_possible_values = true, value_parser = engines())]
     pub engine: Option<Engine>,
+    /// Which minds.
+    #[command(flatten)]
+    pub minds: MindOptions,
     /// Fidelity of the dynamics in the agents' search: `coarse`, or `exact`, which takes several times as long
     /// [default: coarse]
     #[arg(long, value_name = "HOW", hide_possible_values = true, value_parser = foresights())]
@@ -36,6 +73,7 @@ impl SimulationOptions {
     pub fn settings(&self) -> SimulationSettings {
         let mut settings =
             SimulationSettings { engine: self.engine.unwrap_or_default(), ..SimulationSettings::default() };
+        self.minds.apply(&mut settings.minds);
         if let Some(foresight) = self.foresight {
             settings.minds.foresight = foresight;
         }
@@ -55,10 +93,11 @@ impl SimulationOptions {
     #[must_use]
     pub fn description(&self) -> String {
         let SimulationSettings { engine, max_steps, minds, .. } = self.settings();
-        let (engine, foresight) = (engine.name(), minds.foresight.name());
+        let (engine, kind, foresight) = (engine.name(), minds.kind.name(), minds.foresight.name());
+        let turns = if minds.one_way_turns { ", one-way turns" } else { "" };
         let (particles, simulations) = (minds.particles, minds.simulations);
         format!(
-            "engine {engine}, foresight {foresight}, {particles} particles, {simulations} simulations, at most \
+            "engine {engine}, {kind} minds{turns}, foresight {foresight}, {particles} particles, {simulations} simulations, at most \
              {max_steps} steps"
         )
     }
@@ -69,9 +108,11 @@ impl SimulationOptions {
         let options =
             [("particles", self.particles), ("simulations", self.simulations), ("max-steps", self.max_steps)];
         let engine = self.engine.map(|engine| format!(" --engine {}", engine.name()));
+        let minds = self.minds.minds.map(|minds| format!(" --minds {}", minds.name()));
+        let turns = self.minds.one_way_turns.then(|| " --one-way-turns".to_owned());
         let foresight = self.foresight.map(|foresight| format!(" --foresight {}", foresight.name()));
         let given = options.into_iter().filter_map(|(name, value)| Some(format!(" --{name} {}", value?)));
-        engine.into_iter().chain(foresight).chain(given).collect()
+        engine.into_iter().chain(minds).chain(turns).chain(foresight).chain(given).collect()
     }
 }
 
@@ -80,6 +121,13 @@ impl SimulationOptions {
 pub fn engines() -> impl TypedValueParser<Value = Engine> {
     let names = PossibleValuesParser::new(Engine::ALL.map(Engine::name));
     names.try_map(|name| Engine::ALL.into_iter().find(|engine| engine.name() == name).ok_or("no such engine"))
+}
+
+/// Reads a kind of minds by its name.
+#[must_use]
+pub fn mind_kinds() -> impl TypedValueParser<Value = MindKind> {
+    let names = PossibleValuesParser::new(MindKind::ALL.map(MindKind::name));
+    names.try_map(|name| MindKind::ALL.into_iter().find(|kind| kind.name() == name).ok_or("no such minds"))
 }
 
 /// Reads the fidelity of the search's dynamics by its name.

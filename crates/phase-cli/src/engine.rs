@@ -44,5 +44,5 @@ pub fn simulate(
 /// What an agent saw and believed before each step of a recorded event, and after the last.
 #[must_use]
 pub fn beliefs(event: &Event, agent: AgentId, settings: &SimulationSettings) -> Vec<BeliefSnapshot> {
-    phase_sim::beliefs(event, agent, settings.minds.particles)
+    phase_sim::beliefs(event, agent, &settings.minds)
 }

@@ -24,6 +24,19 @@ impl Forward {
         Self { model: Model::new(physics) }
     }
 
+    /// The dynamics as the published planner imagines them: pushes act at the agent's origin, and an object that is held at
+    /// the start of a step hangs on a spring of 100 Hz between the two origins, free to pivot, which keeps their distance.
+    /// Only [`Dynamics::step`] follows this; coarse steps move holder and object as one.
+    #[must_use]
+    pub fn imagined(physics: &PhysicsConfig) -> Self {
+        let mut model = Model::new(physics);
+        model.imagined = true;
+        for shape in &mut model.shapes[..AGENT_COUNT] {
+            shape.push_point = shape.origin;
+        }
+        Self { model }
+    }
+
     /// One step (five substeps) from a state alone, with the state after each substep. Impulses of contacts
     /// and grips start from zero, as in [`Dynamics::step`]; the last state is the resulting one.
     pub fn step_substeps(&self, state: &mut State, actions: [Action; AGENT_COUNT]) -> [State; SUBSTEPS] {

@@ -18,6 +18,8 @@ pub(crate) struct Model {
     pub(crate) wall_count: usize,
     pub(crate) boxes: WallBoxes,
     pub(crate) count: usize,
+    /// Whether this is the published planner's idea of the dynamics.
+    pub(crate) imagined: bool,
 }
 
 impl Model {
@@ -33,7 +35,7 @@ impl Model {
         let (walls, wall_count) = walls(&physics.walls);
         let count = physics.entity_count().min(4);
         let boxes = WallBoxes::new(&walls[..wall_count]);
-        Self { physics: physics.clone(), shapes, walls, wall_count, boxes, count }
+        Self { physics: physics.clone(), shapes, walls, wall_count, boxes, count, imagined: false }
     }
 
     /// All bodies of the scene.

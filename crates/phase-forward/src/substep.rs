@@ -4,26 +4,32 @@ use crate::{
     body::{STATIC, Twist},
     constants::{BAUMGARTE, H, IMPULSE_TOLERANCE, LINEAR_SLOP, POSITION_ITERATIONS},
     contact::Contact,
+    grasp::Grasp,
     key::BodyMask,
+    rod::Rod,
     touching::{ContactSet, MAX_CONTACTS},
     weld::Weld,
     world::World,
 };
 use phase_model::AGENT_COUNT;
 
-/// A joint: ground friction of one of four bodies (0 to 3), or the weld of an agent (4 and 5).
+/// A joint: ground friction of one of four bodies (0 to 3), or the grip of an agent (4 and 5).
 type Joint = u8;
 
 impl World<'_> {
     /// Applies forces and solves all given bodies, group by group.
     pub(crate) fn solve(&mut self, reachable_bodies: BodyMask, touching: &mut ContactSet) {
-        let mut welds: [Option<Weld>; AGENT_COUNT] = [None; AGENT_COUNT];
+        let mut grasps: [Option<Grasp>; AGENT_COUNT] = [None; AGENT_COUNT];
         // Bodies that lean on walls, and bodies that are connected with others.
         let (mut leaning, mut linked): (BodyMask, BodyMask) = (0, 0);
-        for (agent, weld) in welds.iter_mut().enumerate() {
+        for (agent, grasp) in grasps.iter_mut().enumerate() {
             if let (Some(grip), Some(held)) = (&self.grips[agent], self.held(agent)) {
                 linked |= 1 << agent | 1 << held;
-                *weld = Some(Weld::new(agent, grip, &self.model.shapes, self.impulses.welds[agent]));
+                let impulse = self.impulses.grasps[agent];
+                *grasp = Some(match self.rest_lengths[agent] {
+                    Some(length) => Grasp::Rod(Rod::new(agent, grip, length, impulse.0.x)),
+                    None => Grasp::Weld(Weld::new(agent, grip, &self.model.shapes, impulse)),
+                });
             }
         }
         for contact in touching.current() {
@@ -57,13 +63,13 @@ impl World<'_> {
         let mut done = !(reachable_bodies & linked);
         for seed in (0..self.model.count).rev() {
             if done & 1 << seed == 0 {
-                let island = self.island(seed, touching.current(), &welds, &mut done);
-                self.solve_island(&island, &mut touching.contacts, &mut welds);
+                let island = self.island(seed, touching.current(), &grasps, &mut done);
+                self.solve_island(&island, &mut touching.contacts, &mut grasps);
             }
         }
-        for (impulse, weld) in self.impulses.welds.iter_mut().zip(&welds) {
-            if let Some(weld) = weld {
-                *impulse = weld.impulse;
+        for (impulse, grasp) in self.impulses.grasps.iter_mut().zip(&grasps) {
+            if let Some(grasp) = grasp {
+                *impulse = grasp.impulse();
             }
         }
         for body in 0..self.model.count {
@@ -85,7 +91,7 @@ impl World<'_> {
         &self,
         seed: usize,
         contacts: &[Contact],
-        welds: &[Option<Weld>; AGENT_COUNT],
+        grasps: &[Option<Grasp>; AGENT_COUNT],
         done: &mut BodyMask,
     ) -> Island {
         let mut island = Island::EMPTY;
@@ -121,13 +127,13 @@ impl World<'_> {
                 }
             };
             for agent in [self.latest_grip, 1 - self.latest_grip] {
-                if let Some(weld) = &welds[agent] {
-                    if weld.agent == body {
+                if let Some(grasp) = &grasps[agent] {
+                    if grasp.agent() == body {
                         join(4 + agent as u8);
-                        reach(weld.object);
-                    } else if weld.object == body {
+                        reach(grasp.object());
+                    } else if grasp.object() == body {
                         join(4 + agent as u8);
-                        reach(weld.agent);
+                        reach(grasp.agent());
                     }
                 }
             }
@@ -176,7 +182,7 @@ impl World<'_> {
         &mut self,
         island: &Island,
         all: &mut [Contact; MAX_CONTACTS],
-        welds: &mut [Option<Weld>; AGENT_COUNT],
+        grasps: &mut [Option<Grasp>; AGENT_COUNT],
     ) {
         let shapes = &self.model.shapes;
         let motions = &mut self.motions;
@@ -199,8 +205,8 @@ impl World<'_> {
                     motions[joint].right,
                     self.impulses.ground[joint],
                 );
-            } else if let Some(weld) = &mut welds[joint - 4] {
-                weld.prepare(shapes, motions, &mut twists);
+            } else if let Some(grasp) = &mut grasps[joint - 4] {
+                grasp.prepare(shapes, motions, &mut twists);
             }
         }
         for _ in 0..self.iterations {
@@ -212,8 +218,8 @@ impl World<'_> {
                     let after = twists[joint].solve_friction(&shapes[joint], motions[joint].right, before);
                     self.impulses.ground[joint] = after;
                     change = change.max((after - before).abs().max_element());
-                } else if let Some(weld) = &mut welds[joint - 4] {
-                    change = change.max(weld.solve(shapes, &mut twists));
+                } else if let Some(grasp) = &mut grasps[joint - 4] {
+                    change = change.max(grasp.solve(shapes, &mut twists));
                 }
             }
             for &index in contacts {
@@ -239,9 +245,10 @@ impl World<'_> {
                 settled &= gap >= -3.0 * LINEAR_SLOP;
             }
             for &joint in joints {
-                if let Some(weld) = usize::from(joint).checked_sub(4).and_then(|agent| welds[agent].as_ref())
+                if let Some(grasp) =
+                    usize::from(joint).checked_sub(4).and_then(|agent| grasps[agent].as_ref())
                 {
-                    settled &= weld.join(shapes, motions);
+                    settled &= grasp.join(shapes, motions);
                 }
             }
             if settled {

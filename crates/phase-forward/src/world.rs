@@ -16,12 +16,12 @@ use phase_model::{AGENT_COUNT, Action, AgentId, Body, Entity, Grip, State, Vec2,
 pub(crate) struct Impulses {
     /// Of ground friction on each body (N s).
     pub(crate) ground: [Vec2; 4],
-    /// Of each agent's weld (N s and N u s).
-    pub(crate) welds: [(Vec2, f32); AGENT_COUNT],
+    /// Of each agent's grip (N s and N u s).
+    pub(crate) grasps: [(Vec2, f32); AGENT_COUNT],
 }
 
 impl Impulses {
-    pub(crate) const NONE: Self = Self { ground: [Vec2::ZERO; 4], welds: [(Vec2::ZERO, 0.0); AGENT_COUNT] };
+    pub(crate) const NONE: Self = Self { ground: [Vec2::ZERO; 4], grasps: [(Vec2::ZERO, 0.0); AGENT_COUNT] };
 }
 
 /// The working data of one step.
@@ -35,6 +35,8 @@ pub(crate) struct World<'a> {
     /// For each body, the walls that it can reach in this step.
     pub(crate) walls: [WallSet; 4],
     pub(crate) grips: [Option<Grip>; AGENT_COUNT],
+    /// Rest lengths of those grips that are springs (u): in an imagined step, those held from its start.
+    pub(crate) rest_lengths: [Option<f32>; AGENT_COUNT],
     /// The agent that grabbed last; its weld comes first.
     pub(crate) latest_grip: usize,
     pub(crate) actions: [Action; AGENT_COUNT],
@@ -77,8 +79,14 @@ impl<'a> World<'a> {
             }
         }
         let grips = [0, 1].map(|agent| Some(sanitized_grip(state.grips[agent]?, agent, &motions)));
+        let rest_length = |agent: usize| {
+            let held = held_body(grips[agent].as_ref()?);
+            let origin = motions[agent].place(Vec2::new(0.0, model.shapes[agent].origin));
+            (model.imagined && held < model.count).then(|| origin.distance(motions[held].centre))
+        };
         Self {
             model,
+            rest_lengths: [rest_length(0), rest_length(1)],
             motions,
             starts: [(Vec2::ZERO, 0.0, Vec2::X); 4],
             outlines: Outlines::NONE,
@@ -104,9 +112,12 @@ impl<'a> World<'a> {
         (body < self.model.count).then_some(body)
     }
 
-    /// Distance between a held object and the point where its agent holds it (u).
+    /// Distance between a held object and where its agent holds it (u); springs are at rest at the start of a step.
     pub(crate) fn joint_error(&self, agent: usize) -> Option<f32> {
         let (grip, held) = (self.grips[agent].as_ref()?, self.held(agent)?);
+        if self.rest_lengths[agent].is_some() {
+            return Some(0.0);
+        }
         let (shape, holder) = (&self.model.shapes[agent], &self.motions[agent]);
         let reach = grip.side.direction() * (shape.radius + self.model.shapes[held].radius);
         let place = holder.place(reach + Vec2::new(0.0, shape.origin));
@@ -133,7 +144,7 @@ impl<'a> World<'a> {
                         let angle = |entity: Entity| self.motions[entity.index()].angle;
                         let relative_angle = angle(Entity::Object(object)) - angle(Entity::Agent(agent));
                         self.grips[agent] = Some(Grip { object, side, relative_angle });
-                        self.impulses.welds[agent] = (Vec2::ZERO, 0.0);
+                        self.impulses.grasps[agent] = (Vec2::ZERO, 0.0);
                         self.latest_grip = agent.index();
                     }
                 }

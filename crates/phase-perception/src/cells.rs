@@ -97,6 +97,12 @@ impl CellSet {
         self.0 == [0; 7]
     }
 
+    /// The cells in either set.
+    #[must_use]
+    pub fn union(&self, other: &Self) -> Self {
+        Self(core::array::from_fn(|k| self.0[k] | other.0[k]))
+    }
+
     /// Whether the two sets have a cell in common.
     #[must_use]
     pub fn intersects(&self, other: &Self) -> bool {

@@ -9,25 +9,8 @@ use phase_model::{AgentId, Body, BodySet, Contacts, Entity, Grip, MAX_ENTITIES, 
 /// Everything an agent observes of a state, oᵢ of the paper.
 #[must_use]
 pub fn observe(physics: &PhysicsConfig, state: &State, agent: AgentId) -> Observation {
-    let observed = observed_set(physics, state, agent);
-    let own = Entity::Agent(agent);
-    let mut known = State::new([Body::default(); MAX_ENTITIES]);
-    for entity in observed.iter() {
-        *known.body_mut(entity) = *state.body(entity);
-        if let Entity::Agent(holder) = entity {
-            known.grips[usize::from(holder)] = state.grips[usize::from(holder)];
-        }
-        for other in observed.iter().filter(|&other| state.contacts.touching(entity, other)) {
-            known.contacts.insert(entity, other);
-        }
-    }
-    Observation {
-        agent,
-        visible: field_of_view(physics, state, agent),
-        observed,
-        touched: physics.entities().filter(|&entity| state.touching(own, entity)).collect(),
-        known,
-    }
+    let visible = field_of_view(physics, state, agent);
+    Observation::of(physics, state, agent, visible, observed_set(physics, state, agent))
 }
 
 /// Which entities an agent observes, itself included: the coarse observation for simulated states. Equal to
@@ -64,6 +47,30 @@ pub struct Observation {
 }
 
 impl Observation {
+    /// What an agent observes of a state if these cells are visible to it and these entities observed.
+    #[must_use]
+    pub fn of(
+        physics: &PhysicsConfig,
+        state: &State,
+        agent: AgentId,
+        visible: CellSet,
+        observed: BodySet,
+    ) -> Self {
+        let own = Entity::Agent(agent);
+        let mut known = State::new([Body::default(); MAX_ENTITIES]);
+        for entity in observed.iter() {
+            *known.body_mut(entity) = *state.body(entity);
+            if let Entity::Agent(holder) = entity {
+                known.grips[usize::from(holder)] = state.grips[usize::from(holder)];
+            }
+            for other in observed.iter().filter(|&other| state.contacts.touching(entity, other)) {
+                known.contacts.insert(entity, other);
+            }
+        }
+        let touched = physics.entities().filter(|&entity| state.touching(own, entity)).collect();
+        Self { agent, visible, observed, touched, known }
+    }
+
     /// The true body of an entity, or `None` if it is not observed.
     #[must_use]
     pub fn body(&self, entity: Entity) -> Option<&Body> {

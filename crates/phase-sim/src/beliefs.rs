@@ -1,11 +1,10 @@
 //! Beliefs of an agent in a recorded event, recomputed.
 
 use crate::simulation::belief_stream;
-use phase_belief::Belief;
 use phase_event::Event;
-use phase_forward::Forward;
+use phase_minds::{MindParameters, belief};
 use phase_model::{AgentId, State, arena::SUBSTEPS};
-use phase_perception::{CellSet, observe};
+use phase_perception::CellSet;
 
 /// The field of view and belief of one agent before one of its decisions.
 #[derive(Clone, Debug)]
@@ -17,19 +16,18 @@ pub struct BeliefSnapshot {
 }
 
 /// The beliefs of an agent before each step of an event, and one more after the last. They depend only on its
-/// observations and actions and on the event's seed, so this needs no planning.
+/// observations and actions and on the event's seed, so this needs no planning. `minds` are the parameters that the event
+/// was simulated with.
 #[must_use]
-pub fn beliefs(event: &Event, agent: AgentId, particle_count: usize) -> Vec<BeliefSnapshot> {
+pub fn beliefs(event: &Event, agent: AgentId, minds: &MindParameters) -> Vec<BeliefSnapshot> {
     let physics = event.scene.physics();
-    let dynamics = Forward::new(&physics);
     let mut random = belief_stream(event.seed, agent);
-    let observation = observe(&physics, &event.initial, agent);
-    let mut belief = Belief::new(&physics, &observation, particle_count, &mut random);
-    let mut snapshots =
-        vec![BeliefSnapshot { visible: observation.visible, particles: belief.particles().to_vec() }];
+    let mut belief = belief(event.scene.layout, &physics, agent, minds, &event.initial, &mut random);
+    let visible = belief.observe(&event.initial).visible;
+    let mut snapshots = vec![BeliefSnapshot { visible, particles: belief.particles().to_vec() }];
     for step in &event.steps {
-        let observation = observe(&physics, &step.substeps[SUBSTEPS - 1], agent);
-        belief.update(&dynamics, &physics, step.actions[agent], &observation, &mut random);
+        let observation = belief.observe(&step.substeps[SUBSTEPS - 1]);
+        belief.update(step.actions[agent], &observation, &mut random);
         snapshots
             .push(BeliefSnapshot { visible: observation.visible, particles: belief.particles().to_vec() });
     }

@@ -2,15 +2,13 @@
 
 use crate::{SimulationSettings, environment::Environment};
 use core::ops::ControlFlow;
-use phase_agent::Agent;
 use phase_event::{Event, Step, Thought};
-use phase_forward::Forward;
+use phase_minds::{Agent, carried_out};
 use phase_model::{
     AGENT_COUNT, Action, AgentId, PhysicsConfig, Scene, SceneError, State, Subgoal,
     arena::SUBSTEPS,
     random::{self, Pcg64Mcg, Purpose},
 };
-use phase_perception::observe;
 use thiserror::Error;
 
 /// Speed below which a body counts as being at rest (u/s).
@@ -60,7 +58,7 @@ pub fn simulate_with(
     let physics = scene.physics();
     let initial = scene.initial_state();
     let mut world = Environment::new(settings.engine, &physics, &initial);
-    let mut minds = Minds::new(scene, &physics, &initial, seed, settings)?;
+    let mut minds = Minds::new(scene, &initial, seed, settings)?;
     let mut event = Event { scene: scene.clone(), seed, initial, steps: Vec::new() };
     let (mut resting, mut still) = (0, 0);
     let mut state = initial;
@@ -68,7 +66,7 @@ pub fn simulate_with(
         let (actions, thoughts) = minds.decide()?;
         let idle = thoughts.iter().all(|thought| thought.subgoal == Subgoal::Stay);
         let before = state;
-        let substeps = world.step(actions);
+        let substeps = world.step(actions.map(|action| carried_out(action, &settings.minds, scene.layout)));
         state = substeps[SUBSTEPS - 1];
         let step = Step { actions, thoughts, substeps };
         let flow = on_step(&step);
@@ -82,7 +80,7 @@ pub fn simulate_with(
         if over && event.steps.len() >= settings.min_steps {
             break;
         }
-        minds.perceive(&physics, &state, actions);
+        minds.perceive(&state, actions);
     }
     debug_assert!(state.is_finite(&physics));
     Ok((event, true))
@@ -109,7 +107,7 @@ pub(crate) fn belief_stream(seed: u64, agent: AgentId) -> Pcg64Mcg {
 
 /// Both agents with their random streams.
 struct Minds {
-    agents: [Agent<Forward>; AGENT_COUNT],
+    agents: [Agent; AGENT_COUNT],
     beliefs: [Pcg64Mcg; AGENT_COUNT],
     searches: [Pcg64Mcg; AGENT_COUNT],
     /// The idle agent, if any.
@@ -119,18 +117,14 @@ struct Minds {
 impl Minds {
     fn new(
         scene: &Scene,
-        physics: &PhysicsConfig,
         initial: &State,
         seed: u64,
         settings: &SimulationSettings,
     ) -> Result<Self, SimulationError> {
         let mut beliefs: [Pcg64Mcg; AGENT_COUNT] = AgentId::ALL.map(|agent| belief_stream(seed, agent));
         let searches = AgentId::ALL.map(|agent| random::stream(seed, Purpose::Search, agent.number().into()));
-        let mut mind = |agent: AgentId| {
-            let observation = observe(physics, initial, agent);
-            let forward = Forward::new(physics);
-            Agent::new(scene, agent, forward, settings.minds, &observation, &mut beliefs[agent])
-        };
+        let mut mind =
+            |agent: AgentId| Agent::new(scene, agent, &settings.minds, initial, &mut beliefs[agent]);
         let agents = [mind(AgentId::ZERO)?, mind(AgentId::ONE)?];
         Ok(Self { agents, beliefs, searches, idle: settings.idle })
     }
@@ -148,13 +142,12 @@ impl Minds {
         Ok(self.agents[agent].decide(&mut self.searches[agent])?)
     }
 
-    fn perceive(&mut self, physics: &PhysicsConfig, state: &State, actions: [Action; AGENT_COUNT]) {
+    fn perceive(&mut self, state: &State, actions: [Action; AGENT_COUNT]) {
         for (agent, mind) in AgentId::ALL.into_iter().zip(&mut self.agents) {
             if self.idle == Some(agent) {
                 continue;
             }
-            let observation = observe(physics, state, agent);
-            mind.perceive(actions[agent], &observation, &mut self.beliefs[agent]);
+            mind.perceive(actions[agent], state, &mut self.beliefs[agent]);
         }
     }
 }

@@ -126,7 +126,7 @@ fn beliefs_are_recomputed_from_the_record() {
     let physics = scene.physics();
     for (engine, agent) in [(Engine::World, 0), (Engine::World, 1), (Engine::Forward, 0)] {
         let event = simulate(&scene, 2, &SimulationSettings { engine, ..quick() }).unwrap();
-        let snapshots = beliefs(&event, AgentId::ALL[agent], 10);
+        let snapshots = beliefs(&event, AgentId::ALL[agent], &quick().minds);
         assert_eq!(snapshots.len(), event.steps.len() + 1);
         let states = core::iter::once(&event.initial).chain(event.steps.iter().map(|step| &step.substeps[4]));
         for (state, snapshot) in states.zip(&snapshots) {

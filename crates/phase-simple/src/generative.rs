@@ -1,15 +1,14 @@
 //! G(Y): simulation of the event under a hypothesis.
 
 use crate::{Hypothesis, InverseDynamics, beliefs::EstimatedBeliefs};
-use phase_agent::{BeliefView, Mind};
 use phase_event::{ObservedEvent, Thought};
 use phase_forward::{Forward, SolverCache};
+use phase_minds::{BeliefView, Mind, carried_out, mind};
 use phase_model::{
-    AGENT_COUNT, Action, AgentId, Body, BodySet, Entity, MAX_ENTITIES, PhysicsConfig, State, Vec2,
+    AGENT_COUNT, Action, AgentId, Body, BodySet, Entity, Layout, MAX_ENTITIES, State, Vec2,
     arena::SUBSTEPS,
     random::{self, Pcg64Mcg, Purpose},
 };
-use phase_perception::observe;
 use phase_pomcp::PomcpError;
 
 /// An observed event prepared for inference: everything that all hypotheses share.
@@ -32,8 +31,8 @@ impl<'a> PreparedEvent<'a> {
     #[must_use]
     pub fn new(observed: &'a ObservedEvent, minds: phase_agent::MindParameters, seed: u64) -> Self {
         let motion = InverseDynamics::new(observed);
-        let beliefs = AgentId::ALL
-            .map(|agent| EstimatedBeliefs::new(observed, &motion.states, agent, minds.particles, seed));
+        let beliefs =
+            AgentId::ALL.map(|agent| EstimatedBeliefs::new(observed, &motion.states, agent, &minds, seed));
         Self { observed, motion, beliefs, minds, seed }
     }
 
@@ -73,8 +72,7 @@ impl<'a> PreparedEvent<'a> {
             {
                 self.resynchronise(&mut run, step - 1);
             }
-            let outlooks =
-                AgentId::ALL.map(|agent| self.beliefs[agent].belief_view(&run.physics, step - 1, &run.state));
+            let outlooks = AgentId::ALL.map(|agent| self.beliefs[agent].belief_view(step - 1, &run.state));
             let (means, _) = run.step(&outlooks)?;
             let deviation = self.deviation(&means, row);
             deviations.push(deviation);
@@ -118,7 +116,7 @@ impl<'a> PreparedEvent<'a> {
             if step > 0 && step % resync_interval.max(1) == 0 {
                 self.resynchronise(&mut run, step);
             }
-            let belief_view = self.beliefs[agent].belief_view(&run.physics, step, &run.state);
+            let belief_view = self.beliefs[agent].belief_view(step, &run.state);
             let (action, thought) = run.decide(agent, &belief_view)?;
             let mut actions = *action_likelihoods;
             actions[agent] = action;
@@ -153,7 +151,7 @@ impl<'a> PreparedEvent<'a> {
             let seed = random::derive_seed(self.seed, Purpose::Search, step as u64);
             run.random =
                 AgentId::ALL.map(|agent| random::stream(seed, Purpose::Search, agent.number().into()));
-            let belief_view = self.beliefs[agent].belief_view(&run.physics, step, &run.state);
+            let belief_view = self.beliefs[agent].belief_view(step, &run.state);
             let (action, thought) = run.decide(agent, &belief_view)?;
             let mut actions = self.motion.actions[step];
             actions[agent] = action;
@@ -183,13 +181,13 @@ impl<'a> PreparedEvent<'a> {
         let last = self.motion.states[self.observed.steps()];
         let mut run = SimulationRun::new(self.observed, hypothesis, self.minds, seed, last)?;
         self.resynchronise(&mut run, self.observed.steps());
-        let mut beliefs = self.beliefs.each_ref().map(|belief| belief.last().clone());
+        let mut beliefs = self.beliefs.each_ref().map(|belief| belief.last().boxed());
         let mut random: [Pcg64Mcg; AGENT_COUNT] =
             AgentId::ALL.map(|agent| random::stream(seed, Purpose::Belief, agent.number().into()));
         let mut forecast: phase_model::Forecast = self.observed.entities().map(|_| Vec::new()).collect();
         for _ in 0..steps {
             let outlooks = AgentId::ALL.map(|agent| {
-                let observation = observe(&run.physics, &run.state, agent);
+                let observation = beliefs[agent].observe(&run.state);
                 (beliefs[agent].particles().to_vec(), observation.observed)
             });
             let (means, actions) = run.step(&outlooks)?;
@@ -197,9 +195,8 @@ impl<'a> PreparedEvent<'a> {
                 positions.push(mean);
             }
             for (agent, belief) in AgentId::ALL.into_iter().zip(&mut beliefs) {
-                let observation = observe(&run.physics, &run.state, agent);
-                let (forward, physics) = (&run.forward, &run.physics);
-                belief.update(forward, physics, actions[agent], &observation, &mut random[agent]);
+                let observation = belief.observe(&run.state);
+                belief.update(actions[agent], &observation, &mut random[agent]);
             }
         }
         Ok(forecast)
@@ -219,9 +216,10 @@ pub struct AgentDecision {
 
 /// A simulation under way.
 struct SimulationRun {
-    physics: PhysicsConfig,
+    layout: Layout,
+    parameters: phase_agent::MindParameters,
     forward: Forward,
-    minds: [Mind<Forward>; AGENT_COUNT],
+    minds: [Box<dyn Mind>; AGENT_COUNT],
     random: [Pcg64Mcg; AGENT_COUNT],
     state: State,
     cache: SolverCache,
@@ -242,11 +240,12 @@ impl SimulationRun {
         let scene = hypothesis.scene(observed);
         let physics = scene.physics();
         let forward = Forward::new(&physics);
-        let mind = |agent| Mind::new(&scene, agent, Forward::new(&physics), settings);
+        let mind = |agent| mind(&scene, agent, &settings);
         let minds = [mind(AgentId::ZERO)?, mind(AgentId::ONE)?];
         let random = AgentId::ALL.map(|agent| random::stream(seed, Purpose::Search, agent.number().into()));
         let cache = forward.fresh_cache(&state);
-        Ok(Self { physics, forward, minds, random, state, cache, last_actions: [None; AGENT_COUNT] })
+        let (layout, last_actions) = (scene.layout, [None; AGENT_COUNT]);
+        Ok(Self { layout, parameters: settings, forward, minds, random, state, cache, last_actions })
     }
 
     /// Sets the world to a state that both agents' actions have led to, if they have acted.
@@ -268,7 +267,7 @@ impl SimulationRun {
         Ok((self.act(actions), actions))
     }
 
-    /// One agent decides.
+    /// One agent decides: what it does, and why.
     fn decide(
         &mut self,
         agent: AgentId,
@@ -276,7 +275,8 @@ impl SimulationRun {
     ) -> Result<(Action, Thought), PomcpError> {
         let belief_view =
             BeliefView { particles, observed: *observed, last_action: self.last_actions[agent] };
-        self.minds[agent].decide(belief_view, &mut self.random[agent])
+        let (action, thought) = self.minds[agent].decide(belief_view, &mut self.random[agent])?;
+        Ok((carried_out(action, &self.parameters, self.layout), thought))
     }
 
     /// Both act: the mean positions of all bodies over the step.

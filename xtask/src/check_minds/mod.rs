@@ -13,7 +13,7 @@ mod table;
 use crate::{error::XtaskError, json_file};
 use measure::Plan;
 use options::CheckMinds;
-use phase_agent::MindParameters;
+use phase_agent::{MindKind, MindParameters};
 use phase_cli::{
     console::{self, print_result},
     context::Context,
@@ -32,6 +32,13 @@ use report::Report;
 use serde_json::{Value, json};
 use std::path::Path;
 
+/// Simulations a decision at observed states by our own minds.
+const SIMULATIONS: u32 = 50;
+/// The same by published minds, which need more, and whose searches settle early on what is partly chance.
+const PUBLISHED_SIMULATIONS: u32 = 200;
+/// Searches a decision at observed states by published minds.
+const PUBLISHED_SEARCHES: u32 = 5;
+
 /// Runs the command.
 ///
 /// # Errors
@@ -42,8 +49,9 @@ pub fn run(arguments: &CheckMinds, context: &Context) -> Result<(), XtaskError> 
         json_file::check("--json", out, inputs.into_iter().flatten().map(|file| file.as_path()))?;
     }
     let parameters = arguments.parameters.as_deref().map(parameters::read).transpose()?;
-    let plan = plan(arguments, parameters.unwrap_or_default());
-    let recordings = recordings(&arguments.events, arguments.only, context)?;
+    let mut recordings = recordings(&arguments.events, arguments.only, context)?;
+    retain(&mut recordings, &arguments.ids, &arguments.events)?;
+    let plan = plan(arguments, minds(arguments, parameters.unwrap_or_default(), &recordings));
     for recording in recordings.iter().take(1) {
         parameters::check(plan.open_loop, &recording.scene, arguments.parameters.as_deref())?;
     }
@@ -67,11 +75,39 @@ pub fn run(arguments: &CheckMinds, context: &Context) -> Result<(), XtaskError> 
     Ok(())
 }
 
+/// Keeps the events with these ids, or all of them if there are none.
+fn retain(recordings: &mut Vec<Recording>, ids: &[String], file: &Path) -> Result<(), CliError> {
+    for id in ids {
+        if !recordings.iter().any(|recording| recording.id == *id) {
+            return Err(CliError::Usage(format!("{}: has no event {id}", file.display())));
+        }
+    }
+    recordings.retain(|recording| ids.is_empty() || ids.contains(&recording.id));
+    Ok(())
+}
+
+/// The parameters of the minds that were asked for. Published minds in recordings have bodies that turn one way, as those
+/// of the recorder did; events that were simulated here had others.
+fn minds(arguments: &CheckMinds, parameters: MindParameters, recordings: &[Recording]) -> MindParameters {
+    let kind = arguments.minds.unwrap_or(parameters.kind);
+    let recorded = recordings.iter().all(|recording| recording.simulation.is_none());
+    let one_way_turns = parameters.one_way_turns || kind == MindKind::Published && recorded;
+    MindParameters { kind, one_way_turns, ..parameters }
+}
+
 /// What is to be measured, with these parameters of the minds.
 fn plan(arguments: &CheckMinds, parameters: MindParameters) -> Plan {
     let minds = |simulations: u32| MindParameters { simulations: simulations as usize, ..parameters };
+    let (simulations, searches) = match parameters.kind {
+        MindKind::Phase => (SIMULATIONS, 1),
+        MindKind::Published => (PUBLISHED_SIMULATIONS, PUBLISHED_SEARCHES),
+    };
+    let at_states = MindParameters {
+        searches: arguments.searches.unwrap_or(searches) as usize,
+        ..minds(arguments.simulations.unwrap_or(simulations))
+    };
     Plan {
-        inference: InferenceSettings { minds: minds(arguments.simulations), ..InferenceSettings::default() },
+        inference: InferenceSettings { minds: at_states, ..InferenceSettings::default() },
         posterior: !arguments.no_posterior,
         open_loop: minds(arguments.simulations_open_loop),
         open_loop_seeds: arguments.open_loop_seeds.into(),
@@ -118,7 +154,7 @@ pub(crate) fn truth(scene: &Scene) -> Hypothesis {
 fn description(arguments: &CheckMinds, plan: &Plan) -> Value {
     json!({
         "command": "check-minds", "generator": GENERATOR, "seed": plan.seed,
-        "only": arguments.only.map(EventKind::name),
+        "only": arguments.only.map(EventKind::name), "ids": arguments.ids, "minds": plan.open_loop.kind.name(),
         "inference": plan.inference, "posterior": plan.posterior,
         "open_loop": plan.open_loop, "open_loop_seeds": plan.open_loop_seeds,
     })

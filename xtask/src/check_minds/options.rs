@@ -1,7 +1,8 @@
 //! The options of `check-minds`.
 
 use clap::{Args, builder::PossibleValuesParser, builder::TypedValueParser, value_parser};
-use phase_cli::parallel::Jobs;
+use phase_agent::MindKind;
+use phase_cli::{effort::mind_kinds, parallel::Jobs};
 use phase_model::EventKind;
 use std::path::PathBuf;
 
@@ -14,13 +15,22 @@ pub struct CheckMinds {
     /// Only events of this kind
     #[arg(long, value_name = "KIND", value_parser = kinds())]
     pub only: Option<EventKind>,
+    /// Only the events with these ids
+    #[arg(long, value_name = "ID", num_args = 1..)]
+    pub ids: Vec<String>,
+    /// The minds: `phase`, or `published`, those of the published simulator [default: phase]
+    #[arg(long, value_name = "MINDS", hide_possible_values = true, value_parser = mind_kinds())]
+    pub minds: Option<MindKind>,
     /// JSON file of parameters of the minds, of which all that are absent have their defaults; it does not say how
     /// many simulations there are
     #[arg(long, value_name = "FILE")]
     pub parameters: Option<PathBuf>,
-    /// POMCP simulations a decision at observed states and within SIMPLE
-    #[arg(long, value_name = "N", default_value_t = 50, value_parser = value_parser!(u32).range(1..=10_000_000))]
-    pub simulations: u32,
+    /// POMCP simulations a decision at observed states and within SIMPLE [default: 50, with published minds 200]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=10_000_000))]
+    pub simulations: Option<u32>,
+    /// Searches of so many simulations a decision at observed states, which only published minds repeat [default: 5]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=1000))]
+    pub searches: Option<u32>,
     /// POMCP simulations a decision in the open loop
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = value_parser!(u32).range(1..=10_000_000))]
     pub simulations_open_loop: u32,

@@ -4,7 +4,7 @@ use super::Workspace;
 use std::path::{Path, PathBuf};
 
 /// The crates from the bottom layer up. A crate may use those before it, never those after it.
-pub const LAYERS: [&str; 25] = [
+pub const LAYERS: [&str; 27] = [
     "phase-model",
     "phase-event",
     "phase-statistics",
@@ -19,6 +19,8 @@ pub const LAYERS: [&str; 25] = [
     "phase-planner",
     "phase-pomcp",
     "phase-agent",
+    "phase-published",
+    "phase-minds",
     "phase-sim",
     "phase-evidence",
     "phase-sampler",

@@ -182,3 +182,18 @@ fn rubbish_is_refused_in_one_sentence() {
         assert!(refuse(path, &check(&[])).contains("events.json"), "{rubbish}");
     }
 }
+
+#[test]
+fn published_minds_turn_one_way_in_recordings() {
+    let folder = folder(&[still(), walking()]);
+    let path = folder.path();
+    let more = ["--no-posterior", "--minds", "published", "--ids", "still", "--json", "out.json"];
+    succeed(path, &check(&more));
+    let report = report(&path.join("out.json"));
+    assert_eq!((&report["events"], &report["run"]["minds"]), (&json!(1), &json!("published")));
+    let minds = &report["run"]["inference"]["minds"];
+    assert_eq!((&minds["kind"], &minds["one_way_turns"]), (&json!("published"), &json!(true)));
+    assert_eq!((&minds["simulations"], &minds["searches"]), (&json!(10), &json!(5)));
+    let refused = refuse(path, &check(&["--ids", "nobody"]));
+    assert!(refused.contains("has no event nobody"), "{refused}");
+}

@@ -1,8 +1,9 @@
 //! The options of `benchmark`.
 
 use super::plan::METHODS;
-use crate::{output::Output, parallel::Jobs};
+use crate::{effort::mind_kinds, output::Output, parallel::Jobs};
 use clap::{Args, builder::PossibleValuesParser, value_parser};
+use phase_agent::MindKind;
 use std::path::PathBuf;
 
 /// Options of `benchmark`.
@@ -17,6 +18,10 @@ pub struct Benchmark {
     /// Only these methods, such as simple,arg,stgat [default: all]
     #[arg(long, value_name = "METHODS", value_delimiter = ',', value_parser = PossibleValuesParser::new(METHODS))]
     pub methods: Vec<String>,
+    /// Minds that SIMPLE imagines: `phase`, or `published`, those of the published simulator, with bodies that turn one way in
+    /// recordings [default: phase]
+    #[arg(long, value_name = "MINDS", hide_possible_values = true, value_parser = mind_kinds())]
+    pub minds: Option<MindKind>,
     /// Also evaluate networks with these weights, as `train` writes them, and show how they improve with the
     /// amount of training data
     #[arg(long, value_name = "FILES", num_args = 1..)]

@@ -1,7 +1,12 @@
 //! Which methods are evaluated at which task.
 
 use super::options::Benchmark;
-use crate::{error::CliError, eval::networks};
+use crate::{
+    effort::MindOptions,
+    error::CliError,
+    eval::{networks, simple::Simple},
+};
+use phase_agent::MindKind;
 use std::path::PathBuf;
 
 /// Every method of the benchmark. `simple-published` is left out: it differs from `simple-local` in one point only.
@@ -105,7 +110,7 @@ pub fn entries(arguments: &Benchmark) -> Result<Vec<BenchmarkEntry>, CliError> {
     let own = TASKS.iter().flat_map(|(task, methods)| methods.iter().map(move |method| (*task, *method)));
     let own = own.filter(|(_, method)| wanted(arguments, method)).map(|(task, method)| BenchmarkEntry {
         task,
-        name: method.into(),
+        name: minds_of(arguments, method, false).name(method),
         method: method.into(),
         weights: None,
     });
@@ -113,6 +118,17 @@ pub fn entries(arguments: &Benchmark) -> Result<Vec<BenchmarkEntry>, CliError> {
     // The four variants of SIMPLE take seconds for an event, the others less than a tenth of one.
     entries.sort_by_key(|entry| entry.method.starts_with("simple"));
     Ok(entries)
+}
+
+/// The minds that a method imagines in recordings or in generated events. Bodies in the recordings of the published simulator
+/// turn one way; only SIMPLE has minds.
+#[must_use]
+pub fn minds_of(arguments: &Benchmark, method: &str, recorded: bool) -> MindOptions {
+    if Simple::of(method).is_none() {
+        return MindOptions::default();
+    }
+    let one_way_turns = recorded && arguments.minds == Some(MindKind::Published);
+    MindOptions { minds: arguments.minds, one_way_turns }
 }
 
 fn wanted(arguments: &Benchmark, method: &str) -> bool {

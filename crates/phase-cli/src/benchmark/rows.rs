@@ -2,7 +2,7 @@
 
 use super::{
     options::Benchmark,
-    plan::{BenchmarkEntry, Task},
+    plan::{BenchmarkEntry, Task, minds_of},
 };
 use crate::{
     context::Context,
@@ -123,14 +123,16 @@ impl<'a> Rows<'a> {
         let (weights, origin) =
             (weights.as_deref(), if weights.is_some() { Origin::Trained } else { Origin::Ours });
         let (name, seed) = (name.clone(), self.arguments.seed);
+        let minds = minds_of(self.arguments, method, set > 0);
         match task {
             Task::Goals => {
                 let events =
-                    evaluate(&Goals::by_method(&name, method, weights)?, input, common, context)?.events;
+                    evaluate(&Goals::by_method(&name, method, weights, &minds)?, input, common, context)?
+                        .events;
                 self.benchmark.goals.extend(row(name, origin, set, training, input, &events, seed));
             }
             Task::Trajectories => {
-                let task = Trajectories::by_method(&name, method, weights)?;
+                let task = Trajectories::by_method(&name, method, weights, &minds)?;
                 let events = evaluate(&task, input, common, context)?.events;
                 self.benchmark.trajectories.extend(row(name, origin, set, training, input, &events, seed));
             }

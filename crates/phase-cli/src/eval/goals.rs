@@ -7,7 +7,7 @@ use super::{
     options::{EvalGoals, steps_of},
     task::{self, Task},
 };
-use crate::{context::Context, error::CliError};
+use crate::{context::Context, effort::MindOptions, error::CliError};
 use cpu_time::ThreadTime;
 use phase_eval::{
     MethodError, ProgressCallback, Recogniser,
@@ -43,7 +43,15 @@ pub(super) fn run(arguments: &EvalGoals, context: &Context) -> Result<(), CliErr
             let mut watched = arguments.watched.clone();
             watched.sort_by(f64::total_cmp);
             watched.dedup();
-            Goals { watched, ..Goals::by_method(method, method, arguments.weights.as_deref())? }
+            Goals {
+                watched,
+                ..Goals::by_method(
+                    &arguments.minds.name(method),
+                    method,
+                    arguments.weights.as_deref(),
+                    &arguments.minds,
+                )?
+            }
         }
     };
     task::run(&goals, &input, &arguments.common, context)
@@ -62,8 +70,13 @@ impl Goals {
     ///
     /// # Errors
     /// As there.
-    pub(crate) fn by_method(name: &str, method: &str, weights: Option<&Path>) -> Result<Self, CliError> {
-        let answers = AnswerSource::Method(methods::recogniser(method, weights)?);
+    pub(crate) fn by_method(
+        name: &str,
+        method: &str,
+        weights: Option<&Path>,
+        minds: &MindOptions,
+    ) -> Result<Self, CliError> {
+        let answers = AnswerSource::Method(methods::recogniser(method, weights, minds)?);
         Ok(Self { name: name.into(), answers, watched: Vec::new() })
     }
 }

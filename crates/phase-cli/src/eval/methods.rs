@@ -4,7 +4,7 @@ use super::{
     networks,
     simple::{Cue, Simple},
 };
-use crate::error::CliError;
+use crate::{effort::MindOptions, error::CliError};
 use phase_eval::{
     Forecaster, Recogniser,
     trivial::{Chance, ConstantVelocity, Stationary},
@@ -27,11 +27,17 @@ pub const RECOGNISERS: [&str; 9] = [
 pub const FORECASTERS: [&str; 6] =
     ["simple", "simple-published", "social-lstm", "stgat", "constant-velocity", "still"];
 
-/// A method for goals and relations; networks with the weights of a file or, without one, the bundled ones.
+/// A method for goals and relations; networks with the weights of a file or, without one, the bundled ones, SIMPLE with these
+/// minds.
 ///
 /// # Errors
 /// If there is none of this name in this build, or the file cannot be used.
-pub fn recogniser(name: &str, weights: Option<&Path>) -> Result<Box<dyn Recogniser>, CliError> {
+pub fn recogniser(
+    name: &str,
+    weights: Option<&Path>,
+    minds: &MindOptions,
+) -> Result<Box<dyn Recogniser>, CliError> {
+    let simple = simple(name, minds)?;
     if let Some(network) = networks::recogniser(name, weights)? {
         return Ok(network);
     }
@@ -39,7 +45,7 @@ pub fn recogniser(name: &str, weights: Option<&Path>) -> Result<Box<dyn Recognis
     match name {
         "chance" => Ok(Box::new(Chance)),
         "cue" => Ok(Box::new(Cue)),
-        _ => Ok(Box::new(Simple::of(name).ok_or_else(|| no_such(name))?)),
+        _ => Ok(Box::new(simple.ok_or_else(|| no_such(name))?)),
     }
 }
 
@@ -47,7 +53,12 @@ pub fn recogniser(name: &str, weights: Option<&Path>) -> Result<Box<dyn Recognis
 ///
 /// # Errors
 /// If there is none of this name in this build, or the file cannot be used.
-pub fn forecaster(name: &str, weights: Option<&Path>) -> Result<Box<dyn Forecaster>, CliError> {
+pub fn forecaster(
+    name: &str,
+    weights: Option<&Path>,
+    minds: &MindOptions,
+) -> Result<Box<dyn Forecaster>, CliError> {
+    let simple = simple(name, minds)?;
     if let Some(network) = networks::forecaster(name, weights)? {
         return Ok(network);
     }
@@ -55,7 +66,17 @@ pub fn forecaster(name: &str, weights: Option<&Path>) -> Result<Box<dyn Forecast
     match name {
         "constant-velocity" => Ok(Box::new(ConstantVelocity)),
         "still" => Ok(Box::new(Stationary)),
-        _ => Ok(Box::new(Simple::of(name).ok_or_else(|| no_such(name))?)),
+        _ => Ok(Box::new(simple.ok_or_else(|| no_such(name))?)),
+    }
+}
+
+/// SIMPLE with these minds; `None` for other methods, for which none can be chosen.
+fn simple(name: &str, minds: &MindOptions) -> Result<Option<Simple>, CliError> {
+    match Simple::of(name) {
+        None if !minds.are_default() => {
+            Err(CliError::Usage(format!("--minds, --one-way-turns: method {name:?} has no minds")))
+        }
+        simple => Ok(simple.map(|simple| simple.with_minds(minds))),
     }
 }
 

@@ -1,7 +1,7 @@
 //! The options of `eval`.
 
 use super::methods;
-use crate::parallel::Jobs;
+use crate::{effort::MindOptions, parallel::Jobs};
 use clap::{
     Args, Subcommand,
     builder::{PossibleValuesParser, TypedValueParser},
@@ -31,6 +31,9 @@ pub struct EvalGoals {
     /// program]
     #[arg(long, value_name = "FILE", conflicts_with = "predictions")]
     pub weights: Option<PathBuf>,
+    /// The minds that SIMPLE imagines.
+    #[command(flatten)]
+    pub minds: MindOptions,
     /// Also ask the method after the given numbers of seconds of each event, such as 5,10,15,20; each takes
     /// as long again
     #[arg(long, value_name = "SECONDS", value_delimiter = ',', value_parser = seconds, conflicts_with = "predictions")]
@@ -51,6 +54,9 @@ pub struct EvalTrajectories {
     /// program]
     #[arg(long, value_name = "FILE", conflicts_with = "predictions")]
     pub weights: Option<PathBuf>,
+    /// The minds that SIMPLE imagines.
+    #[command(flatten)]
+    pub minds: MindOptions,
     /// Events and output.
     #[command(flatten)]
     pub common: Common,

@@ -1,5 +1,6 @@
 //! SIMPLE and its variants as methods to be evaluated.
 
+use crate::effort::MindOptions;
 use phase_eval::{
     Forecaster, Recogniser,
     method::{MethodError, MethodResult, ProgressCallback},
@@ -39,6 +40,13 @@ impl Simple {
             _ => return None,
         };
         Some(Self { settings, forecast: ForecastSettings::default() })
+    }
+
+    /// The same with these minds in its simulations.
+    #[must_use]
+    pub fn with_minds(mut self, minds: &MindOptions) -> Self {
+        minds.apply(&mut self.settings.minds);
+        self
     }
 
     fn infer(

@@ -7,7 +7,7 @@ use super::{
     options::EvalTrajectories,
     task::{self, Task},
 };
-use crate::{context::Context, error::CliError};
+use crate::{context::Context, effort::MindOptions, error::CliError};
 use cpu_time::ThreadTime;
 use phase_eval::{
     Forecaster, MethodError, ProgressCallback, predictions, results,
@@ -38,7 +38,12 @@ pub(super) fn run(arguments: &EvalTrajectories, context: &Context) -> Result<(),
         }
         (None, method) => {
             let method = method.as_deref().unwrap_or_default();
-            Trajectories::by_method(method, method, arguments.weights.as_deref())?
+            Trajectories::by_method(
+                &arguments.minds.name(method),
+                method,
+                arguments.weights.as_deref(),
+                &arguments.minds,
+            )?
         }
     };
     task::run(&task, &input, &arguments.common, context)
@@ -55,8 +60,13 @@ impl Trajectories {
     ///
     /// # Errors
     /// As there.
-    pub(crate) fn by_method(name: &str, method: &str, weights: Option<&Path>) -> Result<Self, CliError> {
-        let answers = AnswerSource::Method(methods::forecaster(method, weights)?);
+    pub(crate) fn by_method(
+        name: &str,
+        method: &str,
+        weights: Option<&Path>,
+        minds: &MindOptions,
+    ) -> Result<Self, CliError> {
+        let answers = AnswerSource::Method(methods::forecaster(method, weights, minds)?);
         Ok(Self { name: name.into(), answers })
     }
 }

@@ -173,3 +173,18 @@ fn rubbish_is_refused() {
         assert_eq!(tree(path), before, "{arguments:?}");
     }
 }
+
+#[test]
+fn only_simple_has_minds_to_choose() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    events_of(path);
+    let refused = refuse(path, &[&GOALS[..], &["--minds", "published"]].concat());
+    assert!(refused.contains("\"chance\" has no minds"), "{refused}");
+    let asked = ["eval", "goals", "--method", "simple", "--events", "events.json", "--limit", "1"];
+    succeed(path, &[&asked[..], &["--minds", "published", "--one-way-turns", "--json", "out.json"]].concat());
+    let results = results(&path.join("out.json"));
+    assert_eq!(results["method"], "simple-published-minds");
+    let minds = &results["run"]["method_settings"]["method"]["minds"];
+    assert_eq!((&minds["kind"], &minds["one_way_turns"]), (&json!("published"), &json!(true)));
+}

@@ -183,3 +183,27 @@ fn oddities_of_the_input_are_told() {
     assert!(output.status.success() && told.contains(warning), "{told}");
     assert!(!told.contains("event apart: "), "{told}");
 }
+
+#[test]
+fn published_minds_are_named_and_act_otherwise() {
+    let folder = folder();
+    let path = folder.path();
+    let made = |out: &str, more: &[&str]| {
+        succeed(path, &simulate(out, &[&["--no-video", "--id", "apart"], more].concat()));
+        phase_events::read(&path.join(out).join("apart.json")).expect("the result").remove(0)
+    };
+    let ours = made("ours", &[]).simulation.expect("a simulation");
+    let theirs = made("theirs", &["--minds", "published"]).simulation.expect("a simulation");
+    let one_way = made("one-way", &["--minds", "published", "--one-way-turns"]).simulation.expect("one");
+    assert_eq!(ours.settings["minds"]["kind"], "phase");
+    assert_eq!(theirs.settings["minds"]["kind"], "published");
+    assert_eq!(
+        (&theirs.settings["minds"]["one_way_turns"], &one_way.settings["minds"]["one_way_turns"]),
+        (&json!(false), &json!(true))
+    );
+    // Walking needs five actions in published minds, and twelve in ours.
+    let searched = |simulation: &phase_event::Simulation| simulation.event.steps[0].thoughts[1].actions.len();
+    assert_eq!((searched(&ours), searched(&theirs)), (12, 5));
+    let refused = refuse(path, &simulate("no", &["--minds", "mine"]));
+    assert!(refused.contains("published"), "{refused}");
+}

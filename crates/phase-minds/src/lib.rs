@@ -1,0 +1,113 @@
+//! One interface to all minds: observations go in; actions, beliefs and reasons come out.
+//!
+//! Everything that simulates or infers uses [`Agent`], or its two halves, which inference needs one by one: a
+//! [`BeliefState`], which depends on observations alone and is shared by all hypotheses about goals, and a [`Mind`], which
+//! decides for a given belief. [`belief()`] and [`mind()`] make those of the kind that the parameters name
+//! ([`MindKind`](phase_agent::MindKind)): our own, `phase-agent`, or the published simulator's, `phase-published`.
+//!
+//! Key design decision: a mind brings its own senses ([`BeliefState::observe`]), because the two kinds differ in what they
+//! see and feel. The trade-off is that whoever holds the true state must hand it to them; nothing but the observation is
+//! kept of it. Minds are chosen at run time, so they are trait objects, and all random draws come from one kind of generator.
+//!
+//! A mind of either kind that sees its landmark ahead walks there:
+//!
+//! ```
+//! use phase_agent::{MindKind, MindParameters};
+//! use phase_minds::Agent;
+//! use phase_model::{Action, AgentId, Scene, random::{Purpose, stream}};
+//!
+//! let scene = Scene::from_json(
+//!     r#"{"layout": {"base": 0}, "objects": [], "event": "independent", "agents": [
+//!         {"size_level": 0, "strength_level": 2, "alpha": 0, "start": {"x": 23.5, "y": 14, "angle": 0},
+//!          "goal": {"kind": "agent_on_landmark", "agent": 0, "landmark": 1, "sign": 1}},
+//!         {"size_level": 0, "strength_level": 2, "alpha": 0, "start": {"x": 8.5, "y": 14, "angle": 0},
+//!          "goal": {"kind": "agent_on_landmark", "agent": 1, "landmark": 0, "sign": 1}}]}"#,
+//! )?;
+//! for kind in MindKind::ALL {
+//!     let parameters = MindParameters { kind, particles: 5, simulations: 100, ..MindParameters::default() };
+//!     let mut random = stream(1, Purpose::Search, 0);
+//!     let mut agent = Agent::new(&scene, AgentId::ZERO, &parameters, &scene.initial_state(), &mut random)?;
+//!     let (action, thought) = agent.decide(&mut random)?;
+//!     assert_eq!(action, Action::Up, "{}", kind.name());
+//!     assert_eq!(thought.subgoal.to_string(), "On(agent 0, landmark 1)");
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+
+mod agent;
+mod phase;
+mod published;
+mod turns;
+
+pub use agent::Agent;
+pub use phase_agent::{BeliefView, MindKind, MindParameters};
+pub use turns::carried_out;
+
+use phase_event::Thought;
+use phase_model::{Action, AgentId, Layout, PhysicsConfig, Scene, State, random::Pcg64Mcg};
+use phase_perception::Observation;
+use phase_pomcp::PomcpError;
+
+/// How an agent decides.
+pub trait Mind: core::fmt::Debug + Send {
+    /// Chooses the next action on a belief; returns it with its explanation.
+    ///
+    /// # Errors
+    /// As POMCP's search.
+    fn decide(
+        &mut self,
+        belief: BeliefView<'_>,
+        random: &mut Pcg64Mcg,
+    ) -> Result<(Action, Thought), PomcpError>;
+}
+
+/// What an agent perceives and believes. It depends on observations, own actions and its random stream alone.
+pub trait BeliefState: core::fmt::Debug + Send + Sync {
+    /// What the agent observes of a state of the world.
+    fn observe(&self, state: &State) -> Observation;
+
+    /// Updates the belief with the observation after an action.
+    fn update(&mut self, action: Action, observation: &Observation, random: &mut Pcg64Mcg);
+
+    /// Possible states of the world, all equally likely.
+    fn particles(&self) -> &[State];
+
+    /// A copy.
+    fn boxed(&self) -> Box<dyn BeliefState>;
+}
+
+impl Clone for Box<dyn BeliefState> {
+    fn clone(&self) -> Self {
+        (**self).boxed()
+    }
+}
+
+/// The mind of an agent of a scene.
+///
+/// # Errors
+/// Invalid search parameters.
+pub fn mind(scene: &Scene, agent: AgentId, parameters: &MindParameters) -> Result<Box<dyn Mind>, PomcpError> {
+    match parameters.kind {
+        MindKind::Phase => phase::mind(scene, agent, parameters),
+        MindKind::Published => published::mind(scene, agent, parameters),
+    }
+}
+
+/// The belief of an agent after its first observation, of this state.
+#[must_use]
+pub fn belief(
+    layout: Layout,
+    physics: &PhysicsConfig,
+    agent: AgentId,
+    parameters: &MindParameters,
+    state: &State,
+    random: &mut Pcg64Mcg,
+) -> Box<dyn BeliefState> {
+    match parameters.kind {
+        MindKind::Phase => phase::belief(physics, agent, parameters, state, random),
+        MindKind::Published => published::belief(layout, physics, agent, parameters, state, random),
+    }
+}

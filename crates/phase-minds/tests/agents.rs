@@ -1,0 +1,82 @@
+//! Both kinds of minds behind one interface.
+
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
+use phase_minds::{Agent, MindKind, MindParameters, carried_out};
+use phase_model::{
+    Action, AgentId, Dynamics, Entity, Flip, Layout, Scene,
+    random::{Pcg64Mcg, Purpose, stream},
+};
+
+/// An agent that wants the landmark of the next room, and another that it sees; an object behind its back.
+fn scene(flip: &str) -> Scene {
+    let text = r#"{"layout": {"base": 4, "flip": FLIP}, "event": "independent",
+        "objects": [{"size_level": 0, "start": {"x": 14, "y": 4, "angle": 0}}], "agents": [
+        {"size_level": 0, "strength_level": 2, "alpha": 0, "start": {"x": 14, "y": 8, "angle": 0},
+         "goal": {"kind": "agent_on_landmark", "agent": 0, "landmark": 3, "sign": 1}},
+        {"size_level": 0, "strength_level": 2, "alpha": 0, "start": {"x": 20, "y": 8, "angle": 0},
+         "goal": {"kind": "agent_on_landmark", "agent": 1, "landmark": 2, "sign": 1}}]}"#;
+    Scene::from_json(&text.replace("FLIP", flip)).expect("a scene")
+}
+
+fn random(seed: u64) -> Pcg64Mcg {
+    stream(seed, Purpose::Search, 0)
+}
+
+fn parameters(kind: MindKind) -> MindParameters {
+    MindParameters { kind, particles: 10, simulations: 200, ..MindParameters::default() }
+}
+
+/// Observation in; action, belief and reasons out.
+#[test]
+fn every_kind_walks_to_its_landmark() {
+    for kind in MindKind::ALL {
+        let scene = scene("null");
+        let forward = phase_forward::Forward::new(&scene.physics());
+        let (mut state, mut random) = (scene.initial_state(), random(1));
+        let mut agent = Agent::new(&scene, AgentId::ZERO, &parameters(kind), &state, &mut random).unwrap();
+        let goal = scene.goals()[0];
+        let before = goal.distance(&state);
+        for _ in 0..14 {
+            assert_eq!(agent.belief().particles().len(), 10);
+            for particle in agent.belief().particles() {
+                let me = Entity::Agent(AgentId::ZERO);
+                assert_eq!(particle.body(me), state.body(me));
+            }
+            let (action, thought) = agent.decide(&mut random).unwrap();
+            assert_eq!(thought.subgoals.iter().map(|proposed| proposed.particles).sum::<usize>(), 10);
+            forward.step(&mut state, [action, Action::Stop]);
+            agent.perceive(action, &state, &mut random);
+        }
+        let after = goal.distance(&state);
+        assert!(after < 0.5 * before, "{}: {before} u, then {after} u", kind.name());
+    }
+}
+
+#[test]
+fn one_way_turns_go_left_and_in_reflections_right() {
+    let broken = MindParameters { one_way_turns: true, ..MindParameters::default() };
+    let layout = Layout::new(4, None).unwrap();
+    for action in Action::ALL {
+        assert_eq!(carried_out(action, &MindParameters::default(), layout), action);
+        for layout in [layout, layout.flipped(Flip::UpDown)] {
+            let done = carried_out(action, &broken, layout);
+            let turn = if layout.flip().is_some() { Action::TurnRight } else { Action::TurnLeft };
+            assert_eq!(done, if action.turn() == 0.0 { action } else { turn });
+        }
+    }
+}
+
+#[test]
+fn older_files_mean_our_own_minds() {
+    let old: MindParameters = serde_json::from_str(r#"{"particles": 7}"#).unwrap();
+    assert_eq!(old, MindParameters { particles: 7, ..read_defaults() });
+    assert_eq!(old.kind, MindKind::Phase);
+    let published: MindParameters = serde_json::from_str(r#"{"kind": "published"}"#).unwrap();
+    assert_eq!(published.kind, MindKind::Published);
+}
+
+/// The defaults of a file without any field.
+fn read_defaults() -> MindParameters {
+    serde_json::from_str("{}").unwrap()
+}

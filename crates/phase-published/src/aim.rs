@@ -1,0 +1,148 @@
+//! What the published planner's high level asks of its low level.
+
+use crate::rooms::{FARTHEST, Rooms};
+use phase_model::{
+    Action, AgentId, Entity, Goal, LandmarkId, Literal, ObjectId, PhysicsConfig, Predicate, PredicateTarget,
+    RoomId, Sign, State, Subgoal, Vec2, arena, layout::room_of,
+};
+
+/// What an object in the right room is worth, as a distance (u).
+const ROOM_BONUS: f32 = 282.8;
+
+/// A subgoal of the published planner.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum Aim {
+    /// Stop at once, without a search.
+    Stop,
+    /// An agent on a landmark.
+    AgentToLandmark(AgentId, LandmarkId, Sign),
+    /// An object on a landmark.
+    ObjectToLandmark(ObjectId, LandmarkId, Sign),
+    /// An agent at an entity, or away from it.
+    Touch(AgentId, Entity, Sign),
+    /// An agent in a room.
+    AgentToRoom(AgentId, RoomId),
+    /// An object in a room.
+    ObjectToRoom(ObjectId, RoomId),
+    /// An agent holds an object, or releases it.
+    Grab(AgentId, ObjectId, Sign),
+}
+
+/// What an agent whose hands play no part can do.
+const WALKING: [Action; 5] = [Action::TurnLeft, Action::TurnRight, Action::Up, Action::Stop, Action::NoForce];
+
+impl Aim {
+    /// The actions that the low level chooses from. One who wrestles for a landmark may push in all directions.
+    #[must_use]
+    pub fn actions(
+        self,
+        own: AgentId,
+        wrestles: bool,
+        rooms: &Rooms,
+        physics: &PhysicsConfig,
+        state: &State,
+    ) -> &'static [Action] {
+        const ALL: &[Action; 14] = &Action::ALL;
+        let (with_attach, without_hands) = (&ALL[..13], &ALL[..12]);
+        let holding = state.held_object(own).is_some();
+        match self {
+            Self::Stop => &[Action::Stop],
+            Self::AgentToLandmark(agent, ..) | Self::AgentToRoom(agent, _) if agent == own && !wrestles => {
+                &WALKING
+            }
+            Self::Touch(..) => &WALKING,
+            Self::ObjectToLandmark(..) => with_attach,
+            Self::Grab(..) => {
+                if holding {
+                    ALL
+                } else {
+                    with_attach
+                }
+            }
+            Self::ObjectToRoom(object, room) => {
+                // Whatever is carried, the first object decides.
+                let first = physics.object_radii[0];
+                let here = room_of(state.position(Entity::Object(object)));
+                if !holding || rooms.blocked(here, room, first) { with_attach } else { without_hands }
+            }
+            Self::AgentToLandmark(..) | Self::AgentToRoom(..) => without_hands,
+        }
+    }
+
+    /// The distance that the reward of a state charges, or credits with a negative sign (u).
+    #[must_use]
+    pub fn distance(self, rooms: &Rooms, state: &State) -> f32 {
+        let at = |entity| state.position(entity);
+        match self {
+            Self::Stop => 0.0,
+            Self::AgentToLandmark(agent, landmark, _) => {
+                rooms.distance(at(Entity::Agent(agent)), arena::LANDMARKS[landmark])
+            }
+            Self::ObjectToLandmark(object, landmark, _) => {
+                rooms.distance(at(Entity::Object(object)), arena::LANDMARKS[landmark])
+            }
+            Self::Touch(agent, entity, _) => rooms.distance(at(Entity::Agent(agent)), at(entity)),
+            Self::AgentToRoom(agent, room) => rooms.room_distance(at(Entity::Agent(agent)), room),
+            Self::ObjectToRoom(object, room) => {
+                let place: Vec2 = at(Entity::Object(object));
+                let bonus = if room_of(place) == room { ROOM_BONUS } else { 0.0 };
+                rooms.room_distance(place, room) - bonus
+            }
+            Self::Grab(agent, object, _) => {
+                if state.holds(agent, object) {
+                    0.0
+                } else {
+                    1.0
+                }
+            }
+        }
+    }
+
+    /// The reward of a state and an action: the distance as a share of the arena's diagonal, and the cost of a push that is
+    /// not forward.
+    #[must_use]
+    pub fn reward(self, rooms: &Rooms, state: &State, action: Action) -> f64 {
+        let sign = f64::from(self.sign().value());
+        -sign * f64::from(self.distance(rooms, state) / FARTHEST) + phase_model::reward::action_cost(action)
+    }
+
+    /// Whether it is to be achieved or undone.
+    #[must_use]
+    pub const fn sign(self) -> Sign {
+        match self {
+            Self::AgentToLandmark(.., sign)
+            | Self::ObjectToLandmark(.., sign)
+            | Self::Touch(.., sign)
+            | Self::Grab(.., sign) => sign,
+            Self::Stop | Self::AgentToRoom(..) | Self::ObjectToRoom(..) => Sign::Positive,
+        }
+    }
+
+    /// The same as a subgoal of the paper. Being in a room is being close to its landmark.
+    #[must_use]
+    pub fn subgoal(self) -> Subgoal {
+        let room = |room: RoomId| PredicateTarget::Landmark(room.landmark());
+        let predicate = match self {
+            Self::Stop => return Subgoal::Stay,
+            Self::AgentToLandmark(agent, landmark, _) => Predicate::On(Entity::Agent(agent), landmark),
+            Self::ObjectToLandmark(object, landmark, _) => Predicate::On(Entity::Object(object), landmark),
+            Self::Touch(agent, entity, _) => Predicate::Touch(agent, entity),
+            Self::AgentToRoom(agent, to) => Predicate::Close(Entity::Agent(agent), room(to)),
+            Self::ObjectToRoom(object, to) => Predicate::Close(Entity::Object(object), room(to)),
+            Self::Grab(agent, object, _) => Predicate::Attach(agent, object),
+        };
+        Subgoal::Achieve(Literal { predicate, holds: self.sign() == Sign::Positive })
+    }
+}
+
+impl From<Goal> for Aim {
+    fn from(goal: Goal) -> Self {
+        match goal {
+            Goal::AgentOnLandmark { agent, landmark, sign } => Self::AgentToLandmark(agent, landmark, sign),
+            Goal::ObjectOnLandmark { object, landmark, sign } => {
+                Self::ObjectToLandmark(object, landmark, sign)
+            }
+            Goal::Touch { agent, other, sign } => Self::Touch(agent, Entity::Agent(other), sign),
+        }
+    }
+}

@@ -1,0 +1,105 @@
+//! The particle belief of the published simulator's agents.
+
+use crate::{redraw::Redraw, senses::observe};
+use phase_belief::overwrite;
+use phase_forward::Forward;
+use phase_model::{
+    AGENT_COUNT, Action, AgentId, Body, Dynamics, Entity, Flip, Layout, MAX_ENTITIES, PhysicsConfig, State,
+    Vec2, arena,
+};
+use phase_perception::{CellSet, Observation};
+use rand::{Rng, RngExt};
+
+/// Half the number of integer places along one side over which unseen bodies are spread at first.
+const INITIAL_REACH: i32 = 8;
+
+/// One agent's belief: complete states of the world, all equally likely.
+#[derive(Clone, Debug)]
+pub struct Belief {
+    agent: AgentId,
+    physics: PhysicsConfig,
+    imagined: Forward,
+    flip: Option<Flip>,
+    particles: Vec<State>,
+    /// Every cell ever seen.
+    seen: CellSet,
+}
+
+impl Belief {
+    /// The belief after the first observation: unseen bodies lie at integer places of the middle 16 × 16 u, facing up, at
+    /// rest, and may overlap anything; then the belief is updated as if the agent had let a step pass.
+    #[must_use]
+    pub fn new(
+        layout: Layout,
+        physics: &PhysicsConfig,
+        observation: &Observation,
+        particle_count: usize,
+        random: &mut impl Rng,
+    ) -> Self {
+        let flip = layout.flip();
+        let angle = flip.map_or(0.0, |flip| flip.angle(0.0));
+        let particles = (0..particle_count)
+            .map(|_| {
+                let mut particle = State::new([Body::default(); MAX_ENTITIES]);
+                for entity in physics.entities().filter(|&entity| entity != Entity::Agent(observation.agent))
+                {
+                    let mut coordinate = || random.random_range(-INITIAL_REACH..=INITIAL_REACH) as f32;
+                    let place = arena::CENTRE + Vec2::new(coordinate(), coordinate());
+                    *particle.body_mut(entity) = Body::at_rest(place, angle);
+                }
+                if let Some(body) = observation.body(Entity::Agent(observation.agent)) {
+                    *particle.body_mut(Entity::Agent(observation.agent)) = *body;
+                }
+                particle
+            })
+            .collect();
+        let mut belief = Self {
+            agent: observation.agent,
+            imagined: Forward::imagined(physics),
+            physics: physics.clone(),
+            flip,
+            particles,
+            seen: CellSet::EMPTY,
+        };
+        belief.update(Action::NoForce, observation, random);
+        belief
+    }
+
+    /// One step: every particle is moved on by the imagined dynamics, in which the other agent coasts, then overwritten with
+    /// the observation, and unseen bodies that contradict it are redrawn.
+    pub fn update(&mut self, action: Action, observation: &Observation, random: &mut impl Rng) {
+        self.seen = self.seen.union(&observation.visible);
+        let mut actions = [Action::NoForce; AGENT_COUNT];
+        actions[self.agent] = action;
+        let redraw = Redraw { physics: &self.physics, flip: self.flip, seen: &self.seen, observation };
+        // When everything is observed, all particles become what is observed.
+        let blind = self.physics.entities().any(|entity| !observation.observed.contains(entity));
+        for particle in &mut self.particles {
+            if blind {
+                self.imagined.step(particle, actions);
+            }
+            overwrite(particle, observation);
+            if blind {
+                redraw.apply(particle, random);
+            }
+        }
+    }
+
+    /// What the agent observes of a state.
+    #[must_use]
+    pub fn observe(&self, state: &State) -> Observation {
+        observe(&self.physics, state, self.agent)
+    }
+
+    /// The agent.
+    #[must_use]
+    pub const fn agent(&self) -> AgentId {
+        self.agent
+    }
+
+    /// The possible states.
+    #[must_use]
+    pub fn particles(&self) -> &[State] {
+        &self.particles
+    }
+}

@@ -1,0 +1,154 @@
+//! One decision: a subgoal for every particle, the selection among them, and the search.
+
+use crate::{
+    aim::Aim,
+    parameters::PublishedParameters,
+    rooms::Rooms,
+    rules::Rules,
+    search::SearchModel,
+    selection::{Proposal, proposals, pursued},
+};
+use phase_event::{ActionEvaluation, SubgoalValue, Thought};
+use phase_forward::Forward;
+use phase_model::{
+    Action, AgentId, Attitude, Scene, State, Subgoal,
+    random::{Purpose, stream},
+};
+use phase_pomcp::{ActionStatistics, Pomcp, PomcpError, PomcpSettings};
+use rand::Rng;
+
+/// The mind of one agent of the published simulator. The belief is an argument of every decision.
+#[derive(Debug)]
+pub struct Mind {
+    rules: Rules,
+    imagined: Forward,
+    pomcp: Pomcp<()>,
+    parameters: PublishedParameters,
+}
+
+impl Mind {
+    /// The mind of an agent of a scene.
+    ///
+    /// # Errors
+    /// Invalid search parameters.
+    pub fn new(scene: &Scene, agent: AgentId, parameters: PublishedParameters) -> Result<Self, PomcpError> {
+        let physics = scene.physics();
+        let pomcp = Pomcp::new(PomcpSettings {
+            simulations: parameters.simulations,
+            rollout_steps: parameters.rollout_steps,
+            c_init: parameters.c_init,
+            c_base: parameters.c_base,
+            normalise_values: false,
+            ..PomcpSettings::default()
+        })?;
+        Ok(Self {
+            imagined: Forward::imagined(&physics),
+            rules: Rules {
+                rooms: Rooms::new(scene.layout),
+                physics,
+                agent,
+                goals: scene.goals(),
+                attitude: scene.agents[agent].attitude,
+                hindered: scene.agents[agent.other()].attitude == Attitude::Hinder,
+            },
+            pomcp,
+            parameters,
+        })
+    }
+
+    /// The subgoal that the rules give in one possible state of the world.
+    #[must_use]
+    pub fn aim(&self, state: &State) -> Aim {
+        self.rules.aim(state)
+    }
+
+    /// Chooses the next action, given possible states of the world that are all equally likely; returns it with its
+    /// explanation. Without particles the agent stops.
+    ///
+    /// # Errors
+    /// As POMCP's search.
+    pub fn decide(
+        &mut self,
+        particles: &[State],
+        random: &mut impl Rng,
+    ) -> Result<(Action, Thought), PomcpError> {
+        // Each decision draws one number, so the length of a search does not affect later ones.
+        let mut random = stream(random.next_u64(), Purpose::Search, 0);
+        let aims = self.aims(particles);
+        let (agent, lambda) = (self.rules.agent, self.parameters.lambda);
+        let proposals = proposals(&self.rules.rooms, agent, particles, &aims, lambda);
+        let Some(chosen) = pursued(&proposals, agent) else { return Ok((Action::Stop, Thought::IDLE)) };
+        let aim = chosen.aim;
+        let roots: Vec<State> = chosen.particles.iter().map(|&k| particles[k]).collect();
+        let (action, actions) = self.search(aim, &roots, &mut random)?;
+        let thought = Thought {
+            subgoal: aim.subgoal(),
+            subgoals: proposals.iter().map(summary).collect(),
+            plan: if aim == Aim::Stop { Vec::new() } else { vec![aim.subgoal()] },
+            actions,
+        };
+        Ok((action, thought))
+    }
+
+    /// The subgoal of each particle; equal ones are thought about once.
+    fn aims(&self, particles: &[State]) -> Vec<Aim> {
+        let mut aims: Vec<Aim> = Vec::with_capacity(particles.len());
+        for (k, particle) in particles.iter().enumerate() {
+            let known = particles[..k].iter().position(|earlier| earlier == particle);
+            aims.push(known.map_or_else(|| self.rules.aim(particle), |earlier| aims[earlier]));
+        }
+        aims
+    }
+
+    fn search(
+        &mut self,
+        aim: Aim,
+        roots: &[State],
+        random: &mut impl Rng,
+    ) -> Result<(Action, Vec<ActionEvaluation>), PomcpError> {
+        let Rules { agent, rooms, .. } = &self.rules;
+        let actions = self.rules.actions(aim, &roots[0]);
+        if let [only] = actions {
+            return Ok((*only, Vec::new()));
+        }
+        let model = SearchModel {
+            agent: *agent,
+            aim,
+            actions,
+            rooms,
+            imagined: &self.imagined,
+            discount: self.parameters.discount,
+        };
+        // Equal particles are one, and the tree's steps can then be cached.
+        let roots = if roots.iter().all(|root| root == &roots[0]) { &roots[..1] } else { roots };
+        let nothing = |&action: &Action| ActionEvaluation { action, visits: 0, value: 0.0 };
+        let mut evaluations: Vec<ActionEvaluation> = actions.iter().map(nothing).collect();
+        for _ in 0..self.parameters.searches.max(1) {
+            let found = self.pomcp.search(&model, roots, random)?;
+            for (evaluation, found) in evaluations.iter_mut().zip(&found.actions) {
+                add(evaluation, found);
+            }
+        }
+        // Of equally visited actions the better, of equally good ones the first.
+        let best = evaluations
+            .iter()
+            .rev()
+            .max_by(|a, b| a.visits.cmp(&b.visits).then_with(|| a.value.total_cmp(&b.value)));
+        Ok((best.map_or(Action::Stop, |best| best.action), evaluations))
+    }
+}
+
+/// Adds what a search found about an action to what others found.
+fn add(evaluation: &mut ActionEvaluation, found: &ActionStatistics) {
+    let visits = evaluation.visits + found.visits as u32;
+    if visits > 0 {
+        let sum = evaluation.value * f64::from(evaluation.visits) + found.value * found.visits as f64;
+        evaluation.value = sum / f64::from(visits);
+    }
+    evaluation.visits = visits;
+}
+
+fn summary(proposal: &Proposal) -> SubgoalValue {
+    let subgoal: Subgoal = proposal.aim.subgoal();
+    SubgoalValue { subgoal, value: proposal.value, particles: proposal.particles.len() }
+}

@@ -1,0 +1,39 @@
+//! Parameters of the published mind.
+
+/// Every number of the published mind that can be chosen. The defaults are those of the published recordings.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct PublishedParameters {
+    /// Belief particles; at least 1.
+    pub particles: usize,
+    /// Weight of the distance in a subgoal's value (1/u).
+    pub lambda: f64,
+    /// Simulations a decision; at least 1.
+    pub simulations: usize,
+    /// Searches a decision, each from the start and with that many simulations, whose visits are added up; at least 1. The
+    /// original searches once. What one search settles on is to some degree chance, and a likelihood of actions needs to
+    /// know how much.
+    pub searches: usize,
+    /// Steps of a rollout.
+    pub rollout_steps: usize,
+    /// Exploration constant of PUCT.
+    pub c_init: f64,
+    /// Visits after which exploration grows.
+    pub c_base: f64,
+    /// Weight of the next step's reward.
+    pub discount: f64,
+}
+
+impl Default for PublishedParameters {
+    fn default() -> Self {
+        Self {
+            particles: 50,
+            lambda: 0.05,
+            simulations: 1000,
+            searches: 1,
+            rollout_steps: 10,
+            c_init: 1.25,
+            c_base: 1000.0,
+            discount: 0.95,
+        }
+    }
+}

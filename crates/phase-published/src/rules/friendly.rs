@@ -1,0 +1,105 @@
+//! The friendly rules: the other's goal, by what the other cannot do.
+
+use super::{OBJECT_REACHED, View};
+use crate::{aim::Aim, rooms::FARTHEST};
+use phase_model::{AgentId, Entity, Goal, LandmarkId, ObjectId, Sign};
+
+/// An agent that is closer to what it wants to touch needs no help (u): a reward above −0.1.
+const CLOSE: f32 = 0.1 * FARTHEST;
+
+impl View<'_> {
+    /// Helps the other with its goal.
+    pub(super) fn friendly(&self, goal: Goal) -> Aim {
+        match goal {
+            Goal::ObjectOnLandmark { object, landmark, sign: Sign::Positive } => {
+                self.help_put(object, landmark)
+            }
+            Goal::AgentOnLandmark { landmark, sign: Sign::Positive, .. } => self.help_go(landmark),
+            Goal::Touch { agent, sign: Sign::Positive, .. } => {
+                // What the other wants to touch is the helper itself.
+                if self.between(Entity::Agent(self.me), Entity::Agent(agent)) < CLOSE {
+                    self.release_or_stop()
+                } else {
+                    self.go_to(Entity::Agent(agent))
+                }
+            }
+            _ => goal.into(),
+        }
+    }
+
+    /// Helps to put an object on a landmark.
+    fn help_put(&self, object: ObjectId, landmark: LandmarkId) -> Aim {
+        if self.rooms().is_open() {
+            return self.put(object, landmark);
+        }
+        let entity = Entity::Object(object);
+        if self.landmark_distance(entity, landmark) < OBJECT_REACHED {
+            return self.release_or_stop();
+        }
+        let (there, goal) = (self.room(entity), landmark.room());
+        let reaches = |agent: AgentId, to| !self.blocked(agent, self.room(Entity::Agent(agent)), to);
+        let (i_reach_it, i_reach_goal) = (reaches(self.me, there), reaches(self.me, goal));
+        if i_reach_it && i_reach_goal {
+            return self.put(object, landmark);
+        }
+        let both_hold = self.state.grips.iter().all(Option::is_some);
+        if both_hold && !i_reach_goal {
+            return self.release_or_stop();
+        }
+        if self.state.grips[self.other].is_some() {
+            return Aim::Stop;
+        }
+        let (other_reaches_it, other_reaches_goal) = (reaches(self.other, there), reaches(self.other, goal));
+        if other_reaches_goal && !other_reaches_it && i_reach_it {
+            return self.bring(object);
+        }
+        if other_reaches_it && !other_reaches_goal {
+            return if i_reach_it { self.put(object, landmark) } else { Aim::Stop };
+        }
+        Aim::ObjectToLandmark(object, landmark, Sign::Positive)
+    }
+
+    /// Brings an object to the other, which wants it.
+    fn bring(&self, object: ObjectId) -> Aim {
+        let entity = Entity::Object(object);
+        let (there, wanted) = (self.room(entity), self.other_room());
+        if there == wanted && self.between(Entity::Agent(self.other), entity) < CLOSE {
+            return self.release_or_stop();
+        }
+        if !self.state.holds(self.me, object) {
+            return self.put(object, wanted.landmark());
+        }
+        if there == wanted {
+            Aim::Touch(self.other, entity, Sign::Positive)
+        } else {
+            Aim::ObjectToRoom(object, self.rooms().next(there, wanted))
+        }
+    }
+
+    /// Helps the other to a landmark: clears the first object out of the doors on its way.
+    fn help_go(&self, landmark: LandmarkId) -> Aim {
+        let goal = landmark.room();
+        if self.rooms().is_open() {
+            return Aim::Stop;
+        }
+        let first = (self.rules.physics.object_count > 0).then_some(ObjectId::ZERO);
+        if self.other_room() == goal {
+            let here = first.is_some_and(|object| self.room(Entity::Object(object)) == goal);
+            return if here && self.my_room() == goal {
+                Aim::AgentToLandmark(self.other, landmark, Sign::Positive)
+            } else {
+                Aim::Stop
+            };
+        }
+        let (Some(object), Some(way)) = (first, self.rooms().way(self.other_room(), goal)) else {
+            return self.release_or_stop();
+        };
+        let place = self.state.position(Entity::Object(object));
+        let reach = self.rules.physics.object_radii[object] + self.rules.physics.agents[self.other].radius;
+        if self.rooms().doors(&way).any(|door| door.point.distance(place) < reach) {
+            self.put(object, self.room(Entity::Object(object)).landmark())
+        } else {
+            self.release_or_stop()
+        }
+    }
+}

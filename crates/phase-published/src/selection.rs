@@ -1,0 +1,72 @@
+//! Which of the subgoals that the particles propose is pursued.
+
+use crate::{aim::Aim, rooms::Rooms};
+use phase_model::{AgentId, Entity, ObjectId, State, arena};
+
+/// A subgoal with the particles that propose it.
+#[derive(Clone, Debug)]
+pub(crate) struct Proposal {
+    pub(crate) aim: Aim,
+    /// Share of the particles, less what the distance costs.
+    pub(crate) value: f64,
+    /// Indices of the particles, in order.
+    pub(crate) particles: Vec<usize>,
+}
+
+/// All subgoals proposed, the most valuable first; of equally valuable ones the one proposed first.
+pub(crate) fn proposals(
+    rooms: &Rooms,
+    agent: AgentId,
+    particles: &[State],
+    aims: &[Aim],
+    lambda: f64,
+) -> Vec<Proposal> {
+    let mut proposals: Vec<Proposal> = Vec::new();
+    for (particle, &aim) in aims.iter().enumerate() {
+        match proposals.iter_mut().find(|proposal| proposal.aim == aim) {
+            Some(proposal) => proposal.particles.push(particle),
+            None => proposals.push(Proposal { aim, value: 0.0, particles: vec![particle] }),
+        }
+    }
+    for proposal in &mut proposals {
+        let count = proposal.particles.len() as f64;
+        let costs =
+            proposal.particles.iter().map(|&k| f64::from(cost(rooms, agent, proposal.aim, &particles[k])));
+        proposal.value = count / aims.len() as f64 - lambda * costs.sum::<f64>() / count;
+    }
+    proposals.sort_by(|a, b| b.value.total_cmp(&a.value));
+    proposals
+}
+
+/// What is left to do (u): an agent's way to its landmark; an object's way if it is held, else the way to the object.
+/// Nothing for all other subgoals.
+fn cost(rooms: &Rooms, agent: AgentId, aim: Aim, state: &State) -> f32 {
+    let at = |entity| state.position(entity);
+    match aim {
+        Aim::AgentToLandmark(who, landmark, _) => {
+            rooms.distance(at(Entity::Agent(who)), arena::LANDMARKS[landmark])
+        }
+        Aim::ObjectToLandmark(object, landmark, _) => {
+            let place = at(Entity::Object(object));
+            if state.holds(agent, object) {
+                rooms.distance(place, arena::LANDMARKS[landmark])
+            } else {
+                rooms.distance(at(Entity::Agent(agent)), place)
+            }
+        }
+        _ => 0.0,
+    }
+}
+
+/// The subgoal pursued: going to an object or to the other agent if any particle proposes that, else the most valuable.
+/// `None` without proposals.
+pub(crate) fn pursued(proposals: &[Proposal], agent: AgentId) -> Option<&Proposal> {
+    let entities =
+        [Entity::Object(ObjectId::ZERO), Entity::Object(ObjectId::ONE), Entity::Agent(agent.other())];
+    let approach = |entity: Entity| {
+        proposals
+            .iter()
+            .find(|it| matches!(it.aim, Aim::Touch(who, whom, _) if who == agent && whom == entity))
+    };
+    entities.into_iter().find_map(approach).or_else(|| proposals.first())
+}

@@ -1,0 +1,11 @@
+//! The published mind, against the description of the published simulator.
+
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
+mod belief;
+mod common;
+mod decide;
+mod rooms;
+mod rules;
+mod senses;
+mod social;
