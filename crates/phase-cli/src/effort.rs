@@ -20,10 +20,10 @@ pub struct MindOptions {
 }
 
 impl MindOptions {
-    /// Sets the minds in parameters.
+    /// Sets in parameters what was given.
     pub fn apply(&self, parameters: &mut MindParameters) {
-        parameters.kind = self.minds.unwrap_or_default();
-        parameters.one_way_turns = self.one_way_turns;
+        parameters.kind = self.minds.unwrap_or(parameters.kind);
+        parameters.one_way_turns |= self.one_way_turns;
     }
 
     /// Whether these are the minds without any of the options.

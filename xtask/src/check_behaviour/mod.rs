@@ -95,7 +95,9 @@ fn settings(arguments: &CheckBehaviour) -> Result<SimulationSettings, CliError> 
     let Some(file) = &arguments.parameters else { return Ok(given) };
     let minds = parameters::read(file)?;
     let (simulations, foresight) = (given.minds.simulations, given.minds.foresight);
-    Ok(SimulationSettings { minds: MindParameters { simulations, foresight, ..minds }, ..given })
+    let mut minds = MindParameters { simulations, foresight, ..minds };
+    arguments.effort.minds.apply(&mut minds);
+    Ok(SimulationSettings { minds, ..given })
 }
 
 /// The requested scenes: part of the table, id, scene.
