@@ -61,7 +61,7 @@ impl MindKind {
 #[serde(default)]
 pub struct MindParameters {
     /// Which minds. Absent in older files, which means `phase`. Published minds have, of the parameters below, only those of
-    /// belief, subgoal value and search: `particles` to `discount`.
+    /// belief, subgoal value and search: `particles` to `discount`, less `convergence`.
     pub kind: MindKind,
     /// Whether bodies turn one way whichever way their minds choose: to the left, and to the right in a reflected layout. It
     /// is a defect of the published recorder, of which its minds do not know.
@@ -86,6 +86,9 @@ pub struct MindParameters {
     pub c_base: f64,
     /// Discount of the next step's reward relative to this one's.
     pub discount: f64,
+    /// Exponent of the visits in the choice of an action: 1 draws in proportion to them, a large one always takes the
+    /// most visited; at least 0.
+    pub decisiveness: f64,
     /// Share of rollout actions taken from the heuristic instead of uniformly sampled, 0 to 1.
     #[serde(rename = "guidance")]
     pub heuristic_share: f64,
@@ -100,9 +103,6 @@ pub struct MindParameters {
     pub lateral_prior: f64,
     /// Prior of stopping and coasting while there is a distance to go, relative to a push; above 0.
     pub rest_prior: f64,
-    /// Exponent of the visits in the choice of an action: 1 draws in proportion to them, a large one always takes the
-    /// most visited; at least 0.
-    pub decisiveness: f64,
     /// Further steps for which the distance at the end of a rollout is charged.
     pub horizon_steps: f64,
     /// p: share of the imagined steps in which the other agent pursues its own goal instead of coasting, 0 to 1.
@@ -147,13 +147,13 @@ impl Default for MindParameters {
             c_init: 1.25,
             c_base: 1000.0,
             discount: 0.95,
+            decisiveness: 4.0,
             heuristic_share: 0.5,
             foresight: Foresight::Coarse,
             heuristic_prior: 2.0,
             momentum_prior: 3.0,
             lateral_prior: 0.1,
             rest_prior: 0.2,
-            decisiveness: 4.0,
             horizon_steps: 8.0,
             other_initiative: 0.5,
             obstruction: 2.0,

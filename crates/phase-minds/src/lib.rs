@@ -3,7 +3,7 @@
 //! Everything that simulates or infers uses [`Agent`], or its two halves, which inference needs one by one: a
 //! [`BeliefState`], which depends on observations alone and is shared by all hypotheses about goals, and a [`Mind`], which
 //! decides for a given belief. [`belief()`] and [`mind()`] make those of the kind that the parameters name
-//! ([`MindKind`](phase_agent::MindKind)): our own, `phase-agent`, or the published simulator's, `phase-published`.
+//! ([`MindKind`]): our own, `phase-agent`, or the published simulator's, `phase-published`.
 //!
 //! Key design decision: a mind brings its own senses ([`BeliefState::observe`]), because the two kinds differ in what they
 //! see and feel. The trade-off is that whoever holds the true state must hand it to them; nothing but the observation is

@@ -104,18 +104,18 @@ pub(super) const PARAMETERS: [Parameter; 11] = [
         set: |it, value| it.turning = value as f32,
     },
     Parameter {
-        name: "effort",
-        neutral: 0.0,
-        domain: Domain::Share,
-        get: |it| it.effort.into(),
-        set: |it, value| it.effort = value as f32,
-    },
-    Parameter {
         name: "impassable",
         neutral: 10.0,
         domain: Domain::Amount { unit: 10.0, limit: 10_000.0 },
         get: |it| it.impassable.into(),
         set: |it, value| it.impassable = value as f32,
+    },
+    Parameter {
+        name: "effort",
+        neutral: 0.0,
+        domain: Domain::Share,
+        get: |it| it.effort.into(),
+        set: |it, value| it.effort = value as f32,
     },
 ];
 

@@ -21,7 +21,7 @@ fn quiet_leaves_errors_and_results() {
     let (verbose, more) = simulate("verbose", &["-v"]);
     assert_eq!(verbose.replace("verbose", "said"), result);
     assert!(
-        more.starts_with("seed 1: engine world, foresight coarse, 10 particles, 20 simulations"),
+        more.starts_with("seed 1: engine world, phase minds, foresight coarse, 10 particles, 20 simulations"),
         "{more}"
     );
     let output = run(path, &["--quiet", "verify", "nowhere"]);
