@@ -74,7 +74,7 @@ fn a_fit_is_the_same_for_any_number_of_threads_and_after_an_interruption() {
             "one.json",
             "--ablation",
             "--only",
-            "facing",
+            "turning",
         ],
     );
 }
