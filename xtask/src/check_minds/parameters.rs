@@ -43,6 +43,9 @@ pub(crate) fn check(parameters: MindParameters, scene: &Scene, file: Option<&Pat
     if parameters.particles == 0 {
         return Err(wrong("field `particles` must be at least 1".into()));
     }
+    if !(parameters.decisiveness.is_finite() && parameters.decisiveness >= 0.0) {
+        return Err(wrong("field `decisiveness` must be finite and at least 0".into()));
+    }
     let mind = Mind::new(scene, AgentId::ZERO, Forward::new(&scene.physics()), parameters);
     mind.map(|_| ()).map_err(|error| wrong(error.to_string()))
 }
