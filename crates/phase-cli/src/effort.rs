@@ -35,10 +35,7 @@ impl MindOptions {
     /// The name of a method that imagines such minds.
     #[must_use]
     pub fn name(&self, method: &str) -> String {
-        match self.minds.unwrap_or_default() {
-            MindKind::Phase => method.into(),
-            MindKind::Published => format!("{method}-{}-minds", MindKind::Published.name()),
-        }
+        self.minds.map_or_else(|| method.into(), |kind| format!("{method}-{}-minds", kind.name()))
     }
 }
 

@@ -3,7 +3,7 @@
 //! Up to four walls radiate from the arena's centre, one in each *slot*: up (between rooms 0 and 1), left (0
 //! and 3), down (3 and 2) and right (1 and 2). The part of its slot that a wall leaves open is a door.
 
-use crate::{LandmarkId, RoomId, Segment, SlotId, Vec2, arena};
+use crate::{Entity, LandmarkId, PhysicsConfig, RoomId, Segment, SlotId, State, Vec2, arena};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -155,6 +155,9 @@ impl TryFrom<u8> for Flip {
     }
 }
 
+/// Share of the length from an agent's base to its origin by which a place directly before a line is before it.
+const BEFORE_LINE: f32 = 0.01;
+
 /// An invalid layout number.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Error)]
 pub enum LayoutError {
@@ -238,6 +241,37 @@ impl Layout {
             Outer(length) => (0.0, SLOT_LENGTH - length),
         };
         (from < to).then(|| along(slot, from, to))
+    }
+
+    /// The place of an entity on its way through the rooms (u): its origin, unless an agent's origin is past the line
+    /// of an opening that its base, the widest part, does not fit through. That agent is still on the side of its
+    /// base, and its place is directly before the line.
+    #[must_use]
+    pub fn place_of(self, physics: &PhysicsConfig, state: &State, entity: Entity) -> Vec2 {
+        let body = state.body(entity);
+        let here = body.position;
+        let Entity::Agent(agent) = entity else { return here };
+        let agent = physics.agents[agent];
+        let from_centre = (here - arena::CENTRE).abs();
+        if from_centre.x.min(from_centre.y) > agent.radius {
+            return here;
+        }
+        let base = here - body.forward() * agent.radius;
+        let mut part = 1.0_f32;
+        for (slot, direction) in SlotId::ALL.into_iter().zip(SLOT_DIRECTIONS) {
+            let side = |point: Vec2| direction.perp_dot(point - arena::CENTRE);
+            let (of_base, of_origin) = (side(base), side(here));
+            if (of_base < 0.0) == (of_origin < 0.0) {
+                continue;
+            }
+            let until = of_base / (of_base - of_origin);
+            let is_this_half = direction.dot(base + (here - base) * until - arena::CENTRE) > 0.0;
+            let is_closed = self.opening(slot).is_none_or(|opening| opening.length() < agent.width());
+            if is_this_half && is_closed {
+                part = part.min((until - BEFORE_LINE).max(0.0));
+            }
+        }
+        base + (here - base) * part
     }
 
     fn wall(self, slot: SlotId) -> Wall {

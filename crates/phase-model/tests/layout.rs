@@ -1,7 +1,8 @@
 //! Layouts against the published table, and reflections against each other.
 
 use phase_model::{
-    Flip, LandmarkId, Layout, LayoutError, RoomId, Segment, SlotId, Vec2, arena, layout::room_of,
+    AgentBody, AgentId, Body, Entity, Flip, LandmarkId, Layout, LayoutError, MAX_ENTITIES, ObjectId,
+    PhysicsConfig, RoomId, Segment, SlotId, State, Vec2, arena, layout::room_of,
 };
 use proptest::prelude::*;
 
@@ -111,4 +112,40 @@ proptest! {
             .sum();
         prop_assert!((open + walled - 10.0).abs() < 1e-4);
     }
+}
+
+/// A door 2.5 u wide, through which an agent of radius 1.01 u puts its head; its base is 3.03 u wide.
+#[test]
+fn an_agent_in_a_door_too_narrow_for_its_base_is_on_the_side_of_its_base() {
+    let layout = Layout::new(4, Some(Flip::Diagonal)).expect("there is such a layout");
+    let wide = AgentBody { radius: 1.01, max_force: 450.0 };
+    let narrow = AgentBody { radius: 0.8, max_force: 450.0 };
+    let physics = PhysicsConfig {
+        walls: layout.walls(),
+        agents: [wide, narrow],
+        object_radii: [0.8; 2],
+        object_count: 1,
+    };
+    let mut state = State::new([Body::default(); MAX_ENTITIES]);
+    let place = |state: &State, entity: Entity| layout.place_of(&physics, state, entity);
+    let (first, second) = (Entity::Agent(AgentId::ZERO), Entity::Agent(AgentId::ONE));
+    // Heading for −x, its origin past the wall's line at x = 16.
+    let west = core::f32::consts::FRAC_PI_2;
+    for entity in [first, second, Entity::Object(ObjectId::ZERO)] {
+        *state.body_mut(entity) = Body::at_rest(Vec2::new(15.9, 3.2), west);
+    }
+    let before = place(&state, first);
+    assert!(before.x > 16.0 && before.distance(Vec2::new(16.0, 3.2)) < 0.05, "{before}");
+    assert_eq!(room_of(before), RoomId::BOTTOM_RIGHT);
+    assert_eq!(place(&state, second), Vec2::new(15.9, 3.2), "it fits through");
+    assert_eq!(place(&state, Entity::Object(ObjectId::ZERO)), Vec2::new(15.9, 3.2));
+    // From the other side, its place is on the other side.
+    *state.body_mut(first) = Body::at_rest(Vec2::new(16.1, 3.2), -west);
+    assert_eq!(room_of(place(&state, first)), RoomId::BOTTOM_LEFT);
+    // Along the wall, with origin and base on one side, it is where it is.
+    *state.body_mut(first) = Body::at_rest(Vec2::new(16.6, 3.2), 0.0);
+    assert_eq!(place(&state, first), Vec2::new(16.6, 3.2));
+    // An open slot closes for nobody.
+    *state.body_mut(first) = Body::at_rest(Vec2::new(9.0, 11.9), 0.0);
+    assert_eq!(place(&state, first), Vec2::new(9.0, 11.9));
 }

@@ -12,6 +12,7 @@ pub const CLEARANCE: f32 = 0.1;
 /// Inner walls and openings of a layout.
 #[derive(Clone, Debug)]
 pub struct Map {
+    layout: Layout,
     walls: Vec<Segment>,
     /// The opening of each slot, as distances from the arena's centre (u).
     openings: [Option<(f32, f32)>; 4],
@@ -36,7 +37,13 @@ impl Map {
             let along = |point: Vec2| (point - arena::CENTRE).dot(SLOT_DIRECTIONS[slot]);
             layout.opening(slot).map(|opening| (along(opening.a), along(opening.b)))
         });
-        Self { walls: layout.walls(), openings }
+        Self { layout, walls: layout.walls(), openings }
+    }
+
+    /// The layout.
+    #[must_use]
+    pub const fn layout(&self) -> Layout {
+        self.layout
     }
 
     /// The inner walls (u).

@@ -144,13 +144,13 @@ impl<'a> Interference<'a> {
 
     /// The cheapest path of an agent with free hands from where it is (u).
     fn way(&self, who: AgentId, to: Vec2) -> f32 {
-        let from = self.problem.state.position(Entity::Agent(who));
+        let from = self.problem.position(Location::Current(Entity::Agent(who)));
         let gaps = self.problem.gaps(who, BodySet::OBJECTS);
         self.problem.routes.cost(from, to, self.problem.width(who, None), gaps)
     }
 
     fn route(&self, to: Vec2) -> Option<Route> {
-        let from = self.problem.state.position(Entity::Agent(self.agent));
+        let from = self.problem.position(Location::Current(Entity::Agent(self.agent)));
         let gaps = self.problem.gaps(self.agent, BodySet::OBJECTS);
         self.problem.routes.best(from, to, self.problem.width(self.agent, None), gaps)
     }
@@ -165,7 +165,7 @@ impl<'a> Interference<'a> {
         let mut subgoals = plan::release(self.problem, self.agent).subgoals;
         let me = Entity::Agent(self.agent);
         if let Some(route) = self.route(to) {
-            plan::rooms(&route, self.problem.state.position(me), to, me, &mut subgoals);
+            plan::rooms(&route, self.problem.position(Location::Current(me)), to, me, &mut subgoals);
         }
         subgoals
     }
@@ -177,7 +177,7 @@ impl<'a> Interference<'a> {
         if !self.is_pursuit() && self.condition.subject() != me {
             return;
         }
-        let here = self.problem.state.position(me);
+        let here = self.problem.position(Location::Current(me));
         for landmark in LandmarkId::ALL.into_iter().filter(|landmark| landmark.room() != room_of(here)) {
             let place = self.problem.position(Location::Landmark(landmark));
             let Some(route) = self.route(place) else { continue };
@@ -344,7 +344,7 @@ impl<'a> Interference<'a> {
             return;
         }
         let (there, target) =
-            (problem.state.position(subject), problem.position(Location::Landmark(landmark)));
+            (problem.position(Location::Current(subject)), problem.position(Location::Landmark(landmark)));
         let apart = problem.physics.radius(me) + problem.physics.radius(subject);
         let between = target + (there - target).clamp_length_max(apart);
         let own = self.way(self.agent, between);

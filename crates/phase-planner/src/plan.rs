@@ -1,7 +1,7 @@
 //! An agent's plan, and the building blocks of plans of all kinds.
 
 use crate::{
-    problem::PlanningProblem,
+    problem::{Location, PlanningProblem},
     routes::{Route, Routes},
 };
 use phase_model::{
@@ -33,7 +33,7 @@ impl Plan {
 /// The plan of going to an entity in order to see it.
 pub(crate) fn inspect(problem: &PlanningProblem<'_>, agent: AgentId, entity: Entity) -> Plan {
     let me = Entity::Agent(agent);
-    let (from, to) = (problem.state.position(me), problem.state.position(entity));
+    let (from, to) = (problem.position(Location::Current(me)), problem.position(Location::Current(entity)));
     let mut subgoals = Vec::new();
     let width = problem.width(agent, None);
     let route = problem.routes.best(from, to, width, problem.routes.gaps());

@@ -4,7 +4,7 @@ use crate::{
     costs::PlannerCosts,
     interference,
     plan::{Plan, inspect, is, not, only, release, rooms},
-    problem::PlanningProblem,
+    problem::{Location, PlanningProblem},
     routes::Routes,
     search,
     symbolic::Node,
@@ -174,7 +174,10 @@ impl Planner {
         let mut plan = search::solve(&task, Node::start(problem)).map_or_else(
             || {
                 // No operator moves the other; it has to be pushed.
-                let (from, to) = (problem.state.position(me), problem.state.position(condition.subject()));
+                let (from, to) = (
+                    problem.position(Location::Current(me)),
+                    problem.position(Location::Current(condition.subject())),
+                );
                 let width = problem.width(self.agent, None);
                 let mut plan = release(problem, self.agent);
                 if let Some(route) =

@@ -89,7 +89,7 @@ impl<'a> PlanningProblem<'a> {
     #[must_use]
     pub fn position(&self, location: Location) -> Vec2 {
         match location {
-            Location::Current(entity) => self.state.position(entity),
+            Location::Current(entity) => self.routes.layout().place_of(self.physics, self.state, entity),
             Location::Landmark(landmark) => arena::LANDMARKS[landmark],
             Location::Inside { slot, room } => {
                 let (low, high) = self.routes.gaps().0[slot].unwrap_or_default();

@@ -82,6 +82,7 @@ impl Route {
 /// The sequences of doors between any two rooms of a layout.
 #[derive(Clone, Debug)]
 pub struct Routes {
+    layout: Layout,
     gaps: Gaps,
     sequences: [[Vec<Vec<SlotId>>; 4]; 4],
 }
@@ -108,7 +109,13 @@ impl Routes {
                 if from == to { Vec::new() } else { door_sequences(&graph, rooms[from], rooms[to]) }
             })
         });
-        Self { gaps, sequences }
+        Self { layout, gaps, sequences }
+    }
+
+    /// The layout.
+    #[must_use]
+    pub const fn layout(&self) -> Layout {
+        self.layout
     }
 
     /// The openings of the layout itself, without any bodies in them.

@@ -2,7 +2,7 @@
 
 use crate::{
     plan::{is, not},
-    problem::{self, PlanningProblem},
+    problem::{self, Location, PlanningProblem},
     routes::Routes,
 };
 use phase_model::{
@@ -59,7 +59,7 @@ pub fn path_obstruction(
 pub(crate) fn subgoal(problem: &PlanningProblem<'_>, agent: AgentId, goal: Goal) -> Option<Subgoal> {
     let me = Entity::Agent(agent);
     if blocks_doorway(problem, agent) {
-        let here = room_of(problem.state.position(me));
+        let here = room_of(problem.position(Location::Current(me)));
         return Some(is(Predicate::On(me, here.landmark())));
     }
     let held = problem.state.held_object(agent.other());

@@ -1,6 +1,6 @@
 //! Task 2: future positions, predicted by the hypotheses that best explain what has been observed.
 
-use crate::{Inference, generative::PreparedEvent};
+use crate::{Hypothesis, Inference, generative::PreparedEvent};
 use core::ops::ControlFlow;
 use phase_model::{
     Forecast, Vec2,
@@ -29,7 +29,7 @@ impl Default for ForecastSettings {
     }
 }
 
-/// Simulates the most likely hypotheses for the given number of further steps and takes, for every entity and
+/// Simulates the most likely hypotheses, each by the minds that it is about, for the given number of further steps and takes, for every entity and
 /// step, the geometric median of the resulting positions, weighted by probability, which minimises the
 /// expected displacement. `None` if `tick` cancelled it.
 ///
@@ -44,9 +44,18 @@ pub fn forecast(
     settings: &ForecastSettings,
     tick: &mut dyn FnMut() -> ControlFlow<()>,
 ) -> Result<Option<Forecast>, PomcpError> {
-    let likely = inference.posterior.hypotheses.iter().take(settings.hypotheses.max(1));
+    let others: Vec<PreparedEvent<'_>> =
+        inference.minds.iter().skip(1).map(|kind| prepared.with_minds(kind.minds)).collect();
+    let by_kind = core::iter::once(prepared).chain(&others).zip(&inference.minds);
+    let mut likely: Vec<(&PreparedEvent<'_>, &Hypothesis, f64)> = by_kind
+        .flat_map(|(prepared, kind)| {
+            let hypotheses = kind.posterior.hypotheses.iter();
+            hypotheses.map(move |(hypothesis, weight)| (prepared, hypothesis, kind.probability * weight))
+        })
+        .collect();
+    likely.sort_by(|a, b| b.2.total_cmp(&a.2));
     let mut futures: Vec<(Forecast, f64)> = Vec::new();
-    for (hypothesis, weight) in likely {
+    for (prepared, hypothesis, weight) in likely.into_iter().take(settings.hypotheses.max(1)) {
         for repeat in 0..settings.repeats.max(1) {
             if tick().is_break() {
                 return Ok(None);
@@ -54,7 +63,7 @@ pub fn forecast(
             let seed = random::derive_seed(seed, Purpose::Inference, repeat as u64);
             futures.push((
                 prepared.predict(hypothesis, steps, seed)?,
-                libm::pow(*weight, settings.inverse_temperature),
+                libm::pow(weight, settings.inverse_temperature),
             ));
         }
     }

@@ -36,6 +36,22 @@ impl<'a> PreparedEvent<'a> {
         Self { observed, motion, beliefs, minds, seed }
     }
 
+    /// The same event for minds with other parameters. What does not depend on minds is taken over.
+    #[must_use]
+    pub fn with_minds(&self, minds: phase_agent::MindParameters) -> Self {
+        let Self { observed, seed, .. } = *self;
+        let motion = self.motion.clone();
+        let beliefs =
+            AgentId::ALL.map(|agent| EstimatedBeliefs::new(observed, &motion.states, agent, &minds, seed));
+        Self { observed, motion, beliefs, minds, seed }
+    }
+
+    /// The parameters of the minds.
+    #[must_use]
+    pub const fn minds(&self) -> &phase_agent::MindParameters {
+        &self.minds
+    }
+
     /// The event.
     #[must_use]
     pub const fn observed(&self) -> &ObservedEvent {

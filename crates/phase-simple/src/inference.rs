@@ -1,24 +1,39 @@
 //! From an observed event to weighted hypotheses.
 
 use crate::{
-    Algorithm, ChainSettings, InferenceSettings, Posterior, Proposal, generative::PreparedEvent,
-    inverse_planning, metropolis::Chains, simulations::Simulations, strength::StrengthCue,
+    Algorithm, AlternativeMinds, ChainSettings, Hypothesis, InferenceSettings, InversePlanningSettings,
+    Posterior, Proposal, generative::PreparedEvent, inverse_planning, metropolis::Chains,
+    simulations::Simulations, strength::StrengthCue,
 };
 use core::ops::ControlFlow;
 use phase_event::ObservedEvent;
+use phase_minds::MindParameters;
 use phase_model::random::{self, Purpose};
 use phase_pomcp::PomcpError;
 
 /// The result of an inference.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Inference {
-    /// The posterior.
+    /// The posterior, averaged over the kinds of minds.
     pub posterior: Posterior,
+    /// Each kind of minds that was considered, in the order of the settings; their probabilities sum to 1.
+    pub minds: Vec<MindPosterior>,
     /// How many chains accepted their proposal, for each iteration of Algorithm 2; empty for inverse planning.
     pub accepted: Vec<usize>,
     /// Hypotheses that Algorithm 2 simulated, completely or until rejection was certain; 0 for inverse
     /// planning.
     pub simulated: usize,
+}
+
+/// What is inferred about one kind of minds.
+#[derive(Clone, PartialEq, Debug)]
+pub struct MindPosterior {
+    /// Their parameters.
+    pub minds: MindParameters,
+    /// P(kind | motion), 0 to 1.
+    pub probability: f64,
+    /// P(Y | motion, kind).
+    pub posterior: Posterior,
 }
 
 /// Infers what explains an event. The same seed gives the same result. `tick` is called about once a
@@ -36,11 +51,39 @@ pub fn infer(
 ) -> Result<Option<Inference>, PomcpError> {
     match &settings.algorithm {
         Algorithm::InversePlanning(planning) => {
-            let posterior = inverse_planning::posterior(prepared, planning, settings.gamma, tick)?;
-            Ok(posterior.map(|posterior| Inference { posterior, accepted: Vec::new(), simulated: 0 }))
+            let own = inverse_planning::weighted_hypotheses(prepared, planning, settings.gamma, tick)?;
+            let Some(own) = own else { return Ok(None) };
+            let mut kinds = vec![(*prepared.minds(), own)];
+            if let Some(AlternativeMinds { minds, lapse_rate }) = settings.alternative {
+                let prepared = prepared.with_minds(minds);
+                let planning = InversePlanningSettings { lapse_rate, ..*planning };
+                let other =
+                    inverse_planning::weighted_hypotheses(&prepared, &planning, settings.gamma, tick)?;
+                let Some(other) = other else { return Ok(None) };
+                kinds.push((minds, other));
+            }
+            Ok(Some(average(kinds)))
         }
         Algorithm::Chains(chains) => run_chains(prepared, strengths, seed, settings.gamma, chains, tick),
     }
+}
+
+/// Averages over kinds of minds with an even prior, given ln P(Y) P(motion | Y, kind) of every hypothesis.
+fn average(kinds: Vec<(MindParameters, Vec<(Hypothesis, f64)>)>) -> Inference {
+    let all = kinds.iter().flat_map(|(_, joint)| joint.iter().copied());
+    let posterior = Posterior::new(all);
+    let greatest =
+        |joint: &[(Hypothesis, f64)]| joint.iter().map(|it| it.1).fold(f64::NEG_INFINITY, f64::max);
+    let reference = kinds.iter().map(|(_, joint)| greatest(joint)).fold(f64::NEG_INFINITY, f64::max);
+    let evidence = |joint: &[(Hypothesis, f64)]| -> f64 {
+        joint.iter().map(|(_, log)| libm::exp(log - reference)).sum()
+    };
+    let total: f64 = kinds.iter().map(|(_, joint)| evidence(joint)).sum();
+    let minds = kinds.into_iter().map(|(minds, joint)| {
+        let probability = evidence(&joint) / total;
+        MindPosterior { minds, probability, posterior: Posterior::new(joint) }
+    });
+    Inference { posterior, minds: minds.collect(), accepted: Vec::new(), simulated: 0 }
 }
 
 fn run_chains(
@@ -66,7 +109,10 @@ fn run_chains(
         particles.push((hypothesis, likelihood));
         accepted.iter_mut().zip(accepts).for_each(|(count, accept)| *count += usize::from(accept));
     }
-    Ok(Some(Inference { posterior: Posterior::new(particles), accepted, simulated: simulations.count() }))
+    let posterior = Posterior::new(particles);
+    let minds =
+        vec![MindPosterior { minds: *prepared.minds(), probability: 1.0, posterior: posterior.clone() }];
+    Ok(Some(Inference { posterior, minds, accepted, simulated: simulations.count() }))
 }
 
 /// Prepares an event and infers what explains it.

@@ -51,6 +51,15 @@ pub fn joint_posterior(
     strengths: [Strength; AGENT_COUNT],
     goals: usize,
 ) -> Posterior {
+    Posterior::new(joint_logs(weighted_intents, strengths, goals))
+}
+
+/// ln P(Y) P(motion | Y) of the same hypotheses.
+pub(crate) fn joint_logs(
+    weighted_intents: &[WeightedIntents; AGENT_COUNT],
+    strengths: [Strength; AGENT_COUNT],
+    goals: usize,
+) -> Vec<(Hypothesis, f64)> {
     let weigh = |hypothesis: Hypothesis, log: f64| (hypothesis, log + hypothesis.log_prior(goals));
     let neutral = |agent: AgentId| {
         weighted_intents[agent].iter().filter(|(intent, _)| intent.attitude == Attitude::Neutral)
@@ -69,5 +78,5 @@ pub fn joint_posterior(
             hypotheses.push(weigh(intent.hypothesis(social, intent.goal, strengths), log + other_log));
         }
     }
-    Posterior::new(hypotheses)
+    hypotheses
 }

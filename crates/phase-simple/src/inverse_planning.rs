@@ -5,10 +5,10 @@
 //! hypotheses it suffices to simulate 42 intents of each agent, with the other replaying its inferred actions.
 
 use crate::{
-    IntentEvidence, InversePlanningSettings, Posterior, Proposal,
+    Hypothesis, IntentEvidence, InversePlanningSettings, Posterior, Proposal,
     choice::{self, ByChoice},
     generative::PreparedEvent,
-    intent::{Intent, WeightedIntents, joint_posterior},
+    intent::{Intent, WeightedIntents, joint_logs},
     strength::UniformStrength,
 };
 use core::ops::ControlFlow;
@@ -18,18 +18,18 @@ use phase_pomcp::PomcpError;
 /// Refinement passes: how often the intents are re-evaluated with an updated goal of the other agent.
 const REFINEMENT_PASSES: usize = 2;
 
-/// P(Y | motion) of every hypothesis, with the strengths inferred from the physics; `None` if `tick`, which
+/// ln P(Y) P(motion | Y) of every hypothesis, with the strengths inferred from the physics; `None` if `tick`, which
 /// is called once per intent, cancelled it.
 ///
 /// # Errors
 ///
 /// Invalid parameters of the agents' search.
-pub(crate) fn posterior(
+pub(crate) fn weighted_hypotheses(
     prepared: &PreparedEvent<'_>,
     settings: &InversePlanningSettings,
     gamma: f64,
     tick: &mut dyn FnMut() -> ControlFlow<()>,
-) -> Result<Option<Posterior>, PomcpError> {
+) -> Result<Option<Vec<(Hypothesis, f64)>>, PomcpError> {
     let observed = prepared.observed();
     let objects = observed.object_sizes().len();
     let evidence = EventEvidence {
@@ -52,10 +52,12 @@ pub(crate) fn posterior(
         }
     }
     let goals = cue.goals(AgentId::ZERO).len();
-    let mut posterior = joint_posterior(&weighted_intents, evidence.strengths, goals);
+    let mut joint = joint_logs(&weighted_intents, evidence.strengths, goals);
     for _ in 0..REFINEMENT_PASSES {
-        let likeliest =
-            posterior.hypotheses.first().map_or(assumed_goals, |(hypothesis, _)| hypothesis.goals);
+        let likeliest = Posterior::new(joint.iter().copied())
+            .hypotheses
+            .first()
+            .map_or(assumed_goals, |(best, _)| best.goals);
         for (agent, weighted_intents) in AgentId::ALL.into_iter().zip(&mut weighted_intents) {
             let other = agent.other();
             if likeliest[other] == assumed_goals[other] {
@@ -74,9 +76,9 @@ pub(crate) fn posterior(
             break;
         }
         assumed_goals = likeliest;
-        posterior = joint_posterior(&weighted_intents, evidence.strengths, goals);
+        joint = joint_logs(&weighted_intents, evidence.strengths, goals);
     }
-    Ok(Some(posterior))
+    Ok(Some(joint))
 }
 
 /// The data from which intents are weighted.

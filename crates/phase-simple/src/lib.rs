@@ -64,10 +64,12 @@ pub use evidence::IntentEvidence;
 pub use forecast::{ForecastSettings, forecast};
 pub use generative::PreparedEvent;
 pub use hypothesis::{Hypothesis, physical_goals};
-pub use inference::{Inference, explain, infer};
+pub use inference::{Inference, MindPosterior, explain, infer};
 pub use intent::Intent;
 pub use inverse_dynamics::InverseDynamics;
 pub use posterior::Posterior;
 pub use proposal::Proposal;
-pub use settings::{Algorithm, ChainSettings, InferenceSettings, InversePlanningSettings, Update};
+pub use settings::{
+    Algorithm, AlternativeMinds, ChainSettings, InferenceSettings, InversePlanningSettings, Update,
+};
 pub use strength::{StrengthCue, StrengthRegressor, UniformStrength};

@@ -35,7 +35,24 @@ pub struct InferenceSettings {
     pub gamma: f64,
     /// Parameters of the agents in a simulation.
     pub minds: phase_agent::MindParameters,
+    /// Agents of another kind that may have made the motion instead, with an even prior: the answer averages over both. Of
+    /// inverse planning alone; the chains of Algorithm 2 imagine one kind. Absent in older files, which means none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub alternative: Option<AlternativeMinds>,
 }
+
+/// Another kind of minds that an inference considers.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+pub struct AlternativeMinds {
+    /// Their parameters.
+    pub minds: phase_agent::MindParameters,
+    /// ε of their actions, in place of that of [`InversePlanningSettings`], 0 to 1.
+    pub lapse_rate: f64,
+}
+
+/// ε of published minds: the lapse rate at which the log likelihood of the actions of generated events by such minds
+/// is greatest (`cargo xtask check-minds --minds published --simulations 50 --searches 1`, see docs/simple.md).
+const PUBLISHED_LAPSE_RATE: f64 = 0.05;
 
 /// Parameters of inverse planning. κ, β and ε are fitted by `cargo xtask fit-inference` (docs/simple.md), σ and the
 /// interval were selected on the validation events of PHASE-500.
@@ -83,9 +100,9 @@ const SIMULATIONS: usize = 50;
 const INTENTS: usize = 42;
 
 impl InferenceSettings {
-    /// The paper's: Algorithm 2 with M = 15, L = 6, β = 0.05, η = 0.1 and ΔT = 10, over simulations that run
-    /// freely from the start. Only γ is not the printed one (see [`GAMMA`]), and agents search with fewer
-    /// simulations.
+    /// The paper's: Algorithm 2 with M = 15, L = 6, β = 0.05, η = 0.1 and ΔT = 10, over simulations by the published
+    /// simulator's minds that run freely from the start. Only γ is not the printed one (see [`GAMMA`]), and agents
+    /// search with fewer simulations.
     #[must_use]
     pub fn published() -> Self {
         Self::chains(ChainSettings {
@@ -93,6 +110,30 @@ impl InferenceSettings {
             resync_interval: None,
             ..ChainSettings::resynchronised(Update::Local)
         })
+        .with_minds(Self::published_minds())
+    }
+
+    /// Inverse planning that averages over our own minds and the published simulator's.
+    #[must_use]
+    pub fn averaged() -> Self {
+        let minds = Self::published_minds();
+        Self {
+            alternative: Some(AlternativeMinds { minds, lapse_rate: PUBLISHED_LAPSE_RATE }),
+            ..Self::default()
+        }
+    }
+
+    /// The same with these minds and no others.
+    #[must_use]
+    pub const fn with_minds(self, minds: phase_agent::MindParameters) -> Self {
+        Self { minds, alternative: None, ..self }
+    }
+
+    /// The minds of the published simulator, and its recorder's turns, for an inference.
+    #[must_use]
+    pub fn published_minds() -> phase_agent::MindParameters {
+        let kind = phase_agent::MindKind::Published;
+        phase_agent::MindParameters { kind, one_way_turns: true, ..Self::default().minds }
     }
 
     /// Algorithm 2.
@@ -104,8 +145,9 @@ impl InferenceSettings {
     /// Approximate number of ticks of an inference.
     #[must_use]
     pub const fn ticks(&self) -> usize {
+        let kinds = if self.alternative.is_some() { 2 } else { 1 };
         match self.algorithm {
-            Algorithm::InversePlanning(_) => INTENTS * AGENT_COUNT,
+            Algorithm::InversePlanning(_) => kinds * INTENTS * AGENT_COUNT,
             Algorithm::Chains(ChainSettings { update: Update::Initial, particles, .. }) => particles,
             Algorithm::Chains(ChainSettings { iterations, particles, .. }) => particles * (iterations + 1),
         }
@@ -143,6 +185,7 @@ impl Default for InferenceSettings {
                 simulations: SIMULATIONS,
                 ..phase_agent::MindParameters::default()
             },
+            alternative: None,
         }
     }
 }

@@ -62,8 +62,8 @@ impl Objective<'_> {
             .map(|point| point.distance(there))
             .fold(f32::INFINITY, f32::min);
         let reach = self.physics.object_radii[object] + 0.5 * physics::GRAB_REACH;
-        let straight = body.position.distance(there);
-        let detour = way.distance(body.position, there) - straight;
+        let here = self.place(state, Entity::Agent(self.agent));
+        let detour = way.distance(here, there) - here.distance(there);
         // What is grasped has to be released later.
         (nearest - reach).max(0.0) + detour.max(0.0) + 2.0 * self.grasp
     }

@@ -4,7 +4,7 @@ use super::{
     ARENA_DIAGONAL, Compiler,
     way::{LOOK_AHEAD, Way},
 };
-use phase_model::{Entity, LandmarkId, RoomId, State, Vec2, arena, layout::room_of};
+use phase_model::{Entity, LandmarkId, RoomId, Vec2, arena, layout::room_of};
 use phase_navigation::{Field, Target};
 use std::sync::Arc;
 
@@ -34,25 +34,26 @@ pub(crate) struct Guard {
 }
 
 impl Guard {
-    fn post(&self, state: &State) -> Vec2 {
-        if self.is_next_to { self.post + state.position(self.subject) - self.start } else { self.post }
+    /// The entity.
+    pub(crate) const fn subject(&self) -> Entity {
+        self.subject
     }
 
-    /// Distance to the post, and what the entity is short of (u).
-    pub(crate) fn distance(&self, state: &State, me: Entity) -> f32 {
-        let to_target = self.field.distance(state.position(self.subject)).min(ARENA_DIAGONAL);
+    fn post(&self, subject: Vec2) -> Vec2 {
+        if self.is_next_to { self.post + subject - self.start } else { self.post }
+    }
+
+    /// Distance to the post, and what the entity is short of, for these places of the agent and the entity (u).
+    pub(crate) fn distance(&self, here: Vec2, subject: Vec2) -> f32 {
+        let to_target = self.field.distance(subject).min(ARENA_DIAGONAL);
         let missing = if self.drives { to_target } else { ARENA_DIAGONAL - to_target };
-        self.way.distance(state.position(me), self.post(state)) + missing
+        self.way.distance(here, self.post(subject)) + missing
     }
 
     /// The post, or from there the entity itself.
-    pub(crate) fn waypoint(&self, state: &State, me: Entity) -> Vec2 {
-        let (here, post) = (state.position(me), self.post(state));
-        if self.is_next_to && here.distance(post) < AT_POST {
-            state.position(self.subject)
-        } else {
-            self.way.waypoint(here, post)
-        }
+    pub(crate) fn waypoint(&self, here: Vec2, subject: Vec2) -> Vec2 {
+        let post = self.post(subject);
+        if self.is_next_to && here.distance(post) < AT_POST { subject } else { self.way.waypoint(here, post) }
     }
 }
 
@@ -114,7 +115,7 @@ impl Compiler<'_, '_> {
         let mover = self.mover(subject);
         let field = self.navigator.field(target, mover, &[]);
         let me = Entity::Agent(self.agent);
-        let (here, start) = (self.state.position(me), self.state.position(subject));
+        let (here, start) = (self.place(me), self.place(subject));
         let own = self.mover(me);
         let obstacles = self.obstacles(Some(subject));
         let to_me = self.navigator.field(Target::Point(here), own, &obstacles);
@@ -145,7 +146,7 @@ impl Compiler<'_, '_> {
     /// side from which it can be pushed far at a short way there.
     fn push_away(&mut self, subject: Entity, field: Arc<Field>) -> Guard {
         let me = Entity::Agent(self.agent);
-        let (here, start) = (self.state.position(me), self.state.position(subject));
+        let (here, start) = (self.place(me), self.place(subject));
         let touching = self.physics.radius(me) + self.physics.radius(subject);
         let obstacles = self.obstacles(None);
         let own = self.mover(me);
@@ -203,7 +204,7 @@ impl Compiler<'_, '_> {
         let mover = self.mover(subject);
         let field = self.navigator.field(target, mover, &[]);
         let me = Entity::Agent(self.agent);
-        let (here, start) = (self.state.position(me), self.state.position(subject));
+        let (here, start) = (self.place(me), self.place(subject));
         let own = self.mover(me);
         let forward = (field.waypoint(start, LOOK_AHEAD) - start).normalize_or(Vec2::Y);
         let post = start - forward * (self.physics.radius(me) + self.physics.radius(subject));
@@ -218,7 +219,7 @@ impl Compiler<'_, '_> {
         let wide = self.mover(Entity::Agent(other)).half_width.max(self.mover(mover).half_width);
         let width = phase_navigation::Mover { half_width: wide };
         let field = self.navigator.field(super::task::centre(landmark), width, &[]);
-        let start = self.state.position(mover);
+        let start = self.place(mover);
         let points: Vec<Vec2> = core::iter::once(start).chain(field.path(start)).collect();
         let own = self.mover(Entity::Agent(self.agent)).half_width;
         let path = ClearPath { points, room: own + wide + CLEARANCE };

@@ -11,7 +11,8 @@ mod way;
 
 use crate::MindParameters;
 use phase_model::{
-    AgentId, Entity, Literal, ObjectId, PhysicsConfig, Predicate, PredicateTarget, State, Subgoal, Vec2,
+    AgentId, Entity, Layout, Literal, ObjectId, PhysicsConfig, Predicate, PredicateTarget, State, Subgoal,
+    Vec2,
 };
 use phase_navigation::{Disc, Mover, Navigator};
 use reach::Reach;
@@ -41,6 +42,7 @@ impl Motion {
 #[derive(Clone, Debug)]
 pub struct Objective<'a> {
     physics: &'a PhysicsConfig,
+    layout: Layout,
     agent: AgentId,
     subgoal: Subgoal,
     task: Task,
@@ -63,10 +65,12 @@ impl<'a> Objective<'a> {
         subgoal: Subgoal,
         parameters: &MindParameters,
     ) -> Self {
+        let layout = navigator.map().layout();
         let mut compiler = Compiler { physics, navigator, state, agent, turning: parameters.turning };
         let task = compiler.task(subgoal);
         Self {
             physics,
+            layout,
             agent,
             subgoal,
             task,
@@ -98,7 +102,7 @@ impl<'a> Objective<'a> {
     #[must_use]
     pub fn distance(&self, state: &State) -> f32 {
         let me = Entity::Agent(self.agent);
-        let here = state.position(me);
+        let here = self.place(state, me);
         match &self.task {
             Task::Rest => 0.0,
             Task::Reach(reach) => {
@@ -106,7 +110,7 @@ impl<'a> Objective<'a> {
                 reach.distance(here) + facing
             }
             Task::Meet(entity, way) => {
-                let there = state.position(*entity);
+                let there = self.place(state, *entity);
                 (way.distance(here, there) - self.gap(*entity)).max(0.0) + self.facing_cost(state, there)
             }
             Task::Grasp(object, way) => self.to_grasp(state, *object, way),
@@ -125,10 +129,10 @@ impl<'a> Objective<'a> {
                 }
             }
             Task::Escape(way) => {
-                let from = state.position(Entity::Agent(self.agent.other()));
+                let from = self.place(state, Entity::Agent(self.agent.other()));
                 (ARENA_DIAGONAL - task::separation(way, from, here, self.impassable)).max(0.0)
             }
-            Task::Guard(guard) => guard.distance(state, me),
+            Task::Guard(guard) => guard.distance(here, self.place(state, guard.subject())),
             Task::ClearPath(path) => path.distance(here),
         }
     }
@@ -137,11 +141,11 @@ impl<'a> Objective<'a> {
     #[must_use]
     pub fn motion(&self, state: &State) -> Motion {
         let me = Entity::Agent(self.agent);
-        let here = state.position(me);
+        let here = self.place(state, me);
         let waypoint = match &self.task {
             Task::Rest | Task::Release(_) => here,
             Task::Reach(reach) => reach.waypoint(here),
-            Task::Meet(entity, way) => way.waypoint(here, state.position(*entity)),
+            Task::Meet(entity, way) => way.waypoint(here, self.place(state, *entity)),
             Task::Grasp(object, way) => way.waypoint(here, state.position(Entity::Object(*object))),
             Task::Bring(object, way, carry) => {
                 if state.holds(self.agent, *object) {
@@ -150,13 +154,18 @@ impl<'a> Objective<'a> {
                 way.waypoint(here, state.position(Entity::Object(*object)))
             }
             Task::Escape(way) => {
-                let from = state.position(Entity::Agent(self.agent.other()));
+                let from = self.place(state, Entity::Agent(self.agent.other()));
                 task::away(way, from, here, self.physics.radius(me), self.impassable)
             }
-            Task::Guard(guard) => guard.waypoint(state, me),
+            Task::Guard(guard) => guard.waypoint(here, self.place(state, guard.subject())),
             Task::ClearPath(path) => path.waypoint(here),
         };
         Motion::to(me, waypoint)
+    }
+
+    /// The place of an entity on its way ([`Layout::place_of`]).
+    fn place(&self, state: &State, entity: Entity) -> Vec2 {
+        self.layout.place_of(self.physics, state, entity)
     }
 
     /// The object to hold on to next, if the agent does not hold it.
@@ -205,9 +214,9 @@ impl Compiler<'_, '_> {
         let Subgoal::Achieve(Literal { predicate, holds }) = subgoal else { return Task::Rest };
         let me = Entity::Agent(self.agent);
         match (predicate, holds) {
-            (Predicate::On(entity, landmark), true) => self.place(entity, task::centre(landmark)),
+            (Predicate::On(entity, landmark), true) => self.bring(entity, task::centre(landmark)),
             (Predicate::Close(entity, PredicateTarget::Landmark(landmark)), true) => {
-                self.place(entity, task::room(landmark))
+                self.bring(entity, task::room(landmark))
             }
             (Predicate::Close(who, PredicateTarget::Entity(entity)), true) if who == me => self.meet(entity),
             (Predicate::Touch(who, entity), true) if Entity::Agent(who) == me => self.meet(entity),
@@ -254,6 +263,11 @@ impl Compiler<'_, '_> {
             && held == self.state.held_object(self.agent.other())
     }
 
+    /// The place of an entity on its way ([`Layout::place_of`]).
+    fn place(&self, entity: Entity) -> Vec2 {
+        self.navigator.map().layout().place_of(self.physics, self.state, entity)
+    }
+
     fn mover(&self, entity: Entity) -> Mover {
         match entity {
             Entity::Agent(agent) => Mover { half_width: 0.5 * self.physics.agents[agent].width() },
@@ -264,7 +278,7 @@ impl Compiler<'_, '_> {
     fn way_to(&mut self, entity: Entity) -> way::Way {
         let me = Entity::Agent(self.agent);
         let obstacles = self.obstacles(Some(entity));
-        let (from, to) = (self.state.position(me), self.state.position(entity));
+        let (from, to) = (self.place(me), self.place(entity));
         let mover = self.mover(me);
         way::Way::new(self.navigator, mover, from, to, &obstacles)
     }
@@ -274,14 +288,14 @@ impl Compiler<'_, '_> {
     }
 
     /// An entity is to be at a target: the agent itself, or something that it has to move there.
-    fn place(&mut self, entity: Entity, target: phase_navigation::Target) -> Task {
+    fn bring(&mut self, entity: Entity, target: phase_navigation::Target) -> Task {
         let me = Entity::Agent(self.agent);
         match entity {
             _ if entity == me => {
                 let obstacles = self.obstacles(None);
                 let mover = self.mover(me);
                 let field = self.navigator.field(target, mover, &obstacles);
-                let here = self.state.position(me);
+                let here = self.place(me);
                 Task::Reach(Reach::new(field, self.navigator.map(), mover, here))
             }
             Entity::Object(object) => Task::Bring(object, self.way_to(entity), self.carry(object, target)),
@@ -291,7 +305,7 @@ impl Compiler<'_, '_> {
 
     fn escape(&mut self) -> Task {
         let (me, other) = (Entity::Agent(self.agent), Entity::Agent(self.agent.other()));
-        let (from, to) = (self.state.position(other), self.state.position(me));
+        let (from, to) = (self.place(other), self.place(me));
         let mover = self.mover(other);
         Task::Escape(way::Way::new(self.navigator, mover, from, to, &[]))
     }

@@ -18,8 +18,8 @@ pub struct Benchmark {
     /// Only these methods, such as simple,arg,stgat [default: all]
     #[arg(long, value_name = "METHODS", value_delimiter = ',', value_parser = PossibleValuesParser::new(METHODS))]
     pub methods: Vec<String>,
-    /// Minds that SIMPLE imagines: `phase`, or `published`, those of the published simulator, with bodies that turn one way in
-    /// recordings [default: phase]
+    /// Minds that SIMPLE imagines, and no others: `phase`, or `published`, those of the published simulator, with bodies that
+    /// turn one way in recordings [default: `simple` averages over both, the other variants have ours]
     #[arg(long, value_name = "MINDS", hide_possible_values = true, value_parser = mind_kinds())]
     pub minds: Option<MindKind>,
     /// Also evaluate networks with these weights, as `train` writes them, and show how they improve with the

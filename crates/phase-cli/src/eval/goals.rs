@@ -43,14 +43,10 @@ pub(super) fn run(arguments: &EvalGoals, context: &Context) -> Result<(), CliErr
             let mut watched = arguments.watched.clone();
             watched.sort_by(f64::total_cmp);
             watched.dedup();
+            let minds = MindOptions::from(arguments.minds);
             Goals {
                 watched,
-                ..Goals::by_method(
-                    &arguments.minds.name(method),
-                    method,
-                    arguments.weights.as_deref(),
-                    &arguments.minds,
-                )?
+                ..Goals::by_method(&minds.name(method), method, arguments.weights.as_deref(), &minds)?
             }
         }
     };

@@ -1,12 +1,16 @@
 //! The options of `eval`.
 
 use super::methods;
-use crate::{effort::MindOptions, parallel::Jobs};
+use crate::{
+    effort::{MindOptions, mind_kinds},
+    parallel::Jobs,
+};
 use clap::{
     Args, Subcommand,
     builder::{PossibleValuesParser, TypedValueParser},
     value_parser,
 };
+use phase_agent::MindKind;
 use phase_dataset::splits::Split;
 use phase_model::arena::{FRAMES_PER_SECOND, SUBSTEPS};
 use std::path::PathBuf;
@@ -33,7 +37,7 @@ pub struct EvalGoals {
     pub weights: Option<PathBuf>,
     /// The minds that SIMPLE imagines.
     #[command(flatten)]
-    pub minds: MindOptions,
+    pub minds: ImaginedMinds,
     /// Also ask the method after the given numbers of seconds of each event, such as 5,10,15,20; each takes
     /// as long again
     #[arg(long, value_name = "SECONDS", value_delimiter = ',', value_parser = seconds, conflicts_with = "predictions")]
@@ -56,7 +60,7 @@ pub struct EvalTrajectories {
     pub weights: Option<PathBuf>,
     /// The minds that SIMPLE imagines.
     #[command(flatten)]
-    pub minds: MindOptions,
+    pub minds: ImaginedMinds,
     /// Events and output.
     #[command(flatten)]
     pub common: Common,
@@ -109,4 +113,22 @@ fn seconds(text: &str) -> Result<f64, String> {
 fn splits() -> impl TypedValueParser<Value = Split> {
     let names = PossibleValuesParser::new(Split::ALL.map(Split::name));
     names.try_map(|name| Split::ALL.into_iter().find(|split| split.name() == name).ok_or("no such split"))
+}
+
+/// Which minds SIMPLE imagines.
+#[derive(Args, Clone, Copy, Debug, Default)]
+pub struct ImaginedMinds {
+    /// Minds that SIMPLE imagines, and no others: `phase`, or `published`, those of the published simulator
+    /// [default: `simple` averages over both, `simple-published` has published minds, the other variants ours]
+    #[arg(long, value_name = "MINDS", hide_possible_values = true, value_parser = mind_kinds())]
+    pub minds: Option<MindKind>,
+    /// All turns of these minds go one way, as in the published recordings: left, and right in a reflected layout
+    #[arg(long)]
+    pub one_way_turns: bool,
+}
+
+impl From<ImaginedMinds> for MindOptions {
+    fn from(ImaginedMinds { minds, one_way_turns }: ImaginedMinds) -> Self {
+        Self { minds, one_way_turns }
+    }
 }

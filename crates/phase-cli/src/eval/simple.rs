@@ -1,6 +1,7 @@
 //! SIMPLE and its variants as methods to be evaluated.
 
 use crate::effort::MindOptions;
+use phase_agent::MindParameters;
 use phase_eval::{
     Forecaster, Recogniser,
     method::{MethodError, MethodResult, ProgressCallback},
@@ -8,7 +9,7 @@ use phase_eval::{
 use phase_event::ObservedEvent;
 use phase_model::{Forecast, Judgement};
 use phase_simple::{
-    ChainSettings, ForecastSettings, Inference, InferenceSettings, PreparedEvent, Proposal,
+    ChainSettings, ForecastSettings, Inference, InferenceSettings, MindPosterior, PreparedEvent, Proposal,
     StrengthRegressor, UniformStrength, Update, forecast, infer,
 };
 use serde_json::{Value, json};
@@ -24,15 +25,15 @@ pub struct Simple {
 }
 
 impl Simple {
-    /// The variant of a name: `simple` is inverse planning, the default; `simple-initial`, `simple-global`
-    /// and `simple-local` are Algorithm 2 of the paper and its ablation, over simulations that are
-    /// periodically resynchronised with the observed event; `simple-published` is Algorithm 2 with
-    /// simulations that are not. `None` for other names.
+    /// The variant of a name: `simple` is inverse planning that averages over both kinds of minds; `simple-initial`,
+    /// `simple-global` and `simple-local` are Algorithm 2 of the paper and its ablation, over simulations by our own
+    /// minds that are periodically resynchronised with the observed event; `simple-published` is Algorithm 2 whole,
+    /// with published minds and simulations that are not resynchronised. `None` for other names.
     #[must_use]
     pub fn of(name: &str) -> Option<Self> {
         let algorithm_2 = |update| InferenceSettings::chains(ChainSettings::resynchronised(update));
         let settings = match name {
-            "simple" => InferenceSettings::default(),
+            "simple" => InferenceSettings::averaged(),
             "simple-initial" => algorithm_2(Update::Initial),
             "simple-global" => algorithm_2(Update::Global),
             "simple-local" => algorithm_2(Update::Local),
@@ -42,10 +43,14 @@ impl Simple {
         Some(Self { settings, forecast: ForecastSettings::default() })
     }
 
-    /// The same with these minds in its simulations.
+    /// The same with the minds that were chosen, if any, in all its simulations.
     #[must_use]
-    pub fn with_minds(mut self, minds: &MindOptions) -> Self {
-        minds.apply(&mut self.settings.minds);
+    pub fn with_minds(mut self, options: &MindOptions) -> Self {
+        if let Some(kind) = options.minds {
+            let minds = MindParameters { kind, ..InferenceSettings::default().minds };
+            self.settings = self.settings.with_minds(minds);
+        }
+        self.settings.minds.one_way_turns |= options.one_way_turns;
         self
     }
 
@@ -126,5 +131,12 @@ fn details(inference: &Inference) -> Value {
     let hypothesis = |(hypothesis, weight): &(_, f64)| json!({ "hypothesis": hypothesis, "weight": weight });
     let hypotheses: Vec<Value> =
         inference.posterior.hypotheses.iter().take(REPORTED_HYPOTHESES).map(hypothesis).collect();
-    json!({ "hypotheses": hypotheses, "accepted": inference.accepted, "simulated": inference.simulated })
+    let kind = |kind: &MindPosterior| json!({ "kind": kind.minds.kind, "probability": kind.probability });
+    let minds: Vec<Value> = inference.minds.iter().map(kind).collect();
+    json!({
+        "hypotheses": hypotheses,
+        "minds": minds,
+        "accepted": inference.accepted,
+        "simulated": inference.simulated,
+    })
 }

@@ -38,12 +38,8 @@ pub(super) fn run(arguments: &EvalTrajectories, context: &Context) -> Result<(),
         }
         (None, method) => {
             let method = method.as_deref().unwrap_or_default();
-            Trajectories::by_method(
-                &arguments.minds.name(method),
-                method,
-                arguments.weights.as_deref(),
-                &arguments.minds,
-            )?
+            let minds = MindOptions::from(arguments.minds);
+            Trajectories::by_method(&minds.name(method), method, arguments.weights.as_deref(), &minds)?
         }
     };
     task::run(&task, &input, &arguments.common, context)

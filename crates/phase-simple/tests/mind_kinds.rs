@@ -1,0 +1,91 @@
+//! Which of two kinds of minds made an event is inferred with the rest.
+
+use phase_event::{ObservedEvent, Recording};
+use phase_minds::{MindKind, MindParameters};
+use phase_model::{
+    Layout,
+    random::{Purpose, stream},
+};
+use phase_sampler::{Request, Variant, sample};
+use phase_sim::SimulationSettings;
+use phase_simple::{
+    Algorithm, Inference, InferenceSettings, InversePlanningSettings, PreparedEvent, UniformStrength,
+    explain, infer,
+};
+
+/// Steps that are observed.
+const STEPS: usize = 30;
+
+/// The start of an event of a variant by minds of a kind.
+fn observed(variant: Variant, kind: MindKind) -> ObservedEvent {
+    let layouts: Vec<Layout> = Layout::all_used().collect();
+    let request = Request { variant, goal_index: 0, layouts: &layouts };
+    let scene = sample(&request, &mut stream(5, Purpose::Scene, 0)).expect("there are such scenes");
+    let minds = MindParameters { kind, simulations: 200, ..MindParameters::default() };
+    let settings = SimulationSettings { minds, ..SimulationSettings::default() };
+    let event = phase_sim::simulate(&scene, 1, &settings).expect("a sound scene");
+    let recording = Recording::of_event("event", event, "test".into(), serde_json::Value::Null);
+    recording.observed().expect("a sound event").prefix(STEPS)
+}
+
+fn probability(inference: &Inference, kind: MindKind) -> f64 {
+    inference.minds.iter().filter(|it| it.minds.kind == kind).map(|it| it.probability).sum()
+}
+
+#[test]
+fn events_are_attributed_to_the_minds_that_made_them() {
+    for variant in [Variant::Carry, Variant::Places] {
+        for kind in MindKind::ALL {
+            let event = observed(variant, kind);
+            let inference = explain(&event, &UniformStrength, 1, &InferenceSettings::averaged());
+            let inference = inference.expect("is sound");
+            let of_truth = probability(&inference, kind);
+            assert!(of_truth > 0.9, "{variant:?} by {}: {of_truth}", kind.name());
+        }
+    }
+}
+
+/// By the law of total probability, P(Y) = Σ P(kind) P(Y | kind).
+#[test]
+fn the_answer_is_the_average_over_kinds() {
+    let event = observed(Variant::Places, MindKind::Phase).prefix(8);
+    let settings = InferenceSettings::averaged();
+    let inference = explain(&event, &UniformStrength, 1, &settings).expect("is sound");
+    let sum: f64 = inference.minds.iter().map(|kind| kind.probability).sum();
+    assert!((sum - 1.0).abs() < 1e-12, "{sum}");
+    for (hypothesis, weight) in &inference.posterior.hypotheses {
+        let mean: f64 = inference
+            .minds
+            .iter()
+            .map(|kind| {
+                let weighted = kind.posterior.hypotheses.iter();
+                let own: f64 = weighted.filter(|(it, _)| it == hypothesis).map(|(_, weight)| weight).sum();
+                kind.probability * own
+            })
+            .sum();
+        assert!((mean - weight).abs() < 1e-9, "{mean} {weight}");
+    }
+}
+
+/// An inference with one kind of minds is that kind's part of the average.
+#[test]
+fn one_kind_alone_gives_its_part_of_the_average() {
+    let event = observed(Variant::Carry, MindKind::Published).prefix(8);
+    let both = InferenceSettings::averaged();
+    let average = explain(&event, &UniformStrength, 1, &both).expect("is sound");
+    let (first, second) = (both.with_minds(both.minds), both.alternative.expect("there are two kinds"));
+    let Algorithm::InversePlanning(planning) = both.algorithm else { panic!("not inverse planning") };
+    let planning = InversePlanningSettings { lapse_rate: second.lapse_rate, ..planning };
+    let second = InferenceSettings {
+        algorithm: Algorithm::InversePlanning(planning),
+        ..both.with_minds(second.minds)
+    };
+    for (kind, settings) in average.minds.iter().zip([first, second]) {
+        let prepared = PreparedEvent::new(&event, settings.minds, 1);
+        let alone =
+            infer(&prepared, &UniformStrength, 1, &settings, &mut || core::ops::ControlFlow::Continue(()));
+        let alone = alone.expect("is sound").expect("nobody breaks it off");
+        assert_eq!(alone.posterior, kind.posterior);
+        assert_eq!(alone.minds[0].probability.to_bits(), 1.0_f64.to_bits());
+    }
+}
