@@ -9,9 +9,10 @@ use crate::{
 use phase_agent::MindKind;
 use std::path::PathBuf;
 
-/// Every method of the benchmark. `simple-published` is left out: it differs from `simple-local` in one point only.
-pub const METHODS: [&str; 12] = [
+/// Every method of the benchmark.
+pub const METHODS: [&str; 13] = [
     "simple",
+    "simple-published",
     "simple-local",
     "simple-global",
     "simple-initial",
@@ -36,6 +37,7 @@ const TASKS: [(Task, &[&str]); 2] = [
             "simple-initial",
             "simple-global",
             "simple-local",
+            "simple-published",
             "simple",
         ],
     ),
@@ -115,7 +117,7 @@ pub fn entries(arguments: &Benchmark) -> Result<Vec<BenchmarkEntry>, CliError> {
         weights: None,
     });
     entries.extend(own);
-    // The four variants of SIMPLE take seconds for an event, the others less than a tenth of one.
+    // The five variants of SIMPLE take seconds for an event, the others less than a tenth of one.
     entries.sort_by_key(|entry| entry.method.starts_with("simple"));
     Ok(entries)
 }
