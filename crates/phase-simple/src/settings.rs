@@ -50,9 +50,11 @@ pub struct AlternativeMinds {
     pub lapse_rate: f64,
 }
 
-/// ε of published minds: the lapse rate at which the log likelihood of the actions of generated events by such minds
-/// is greatest (`cargo xtask check-minds --minds published --simulations 50 --searches 1`, see docs/simple.md).
-const PUBLISHED_LAPSE_RATE: f64 = 0.05;
+/// ε of either kind where both are considered: that of events by such minds, for which the likelihood of the true
+/// intents is greatest near no lapse at all; a search that did not try an action must not rule an intent out. The
+/// default ε, fitted to recordings, stands for what our minds do not do and the recorded ones do, which is the other
+/// kind's part here: with it, our own events were taken for published ones (see docs/simple.md).
+const LAPSE_RATE_OF_KIND: f64 = 0.05;
 
 /// Parameters of inverse planning. κ, β and ε are fitted by `cargo xtask fit-inference` (docs/simple.md), σ and the
 /// interval were selected on the validation events of PHASE-500.
@@ -116,9 +118,11 @@ impl InferenceSettings {
     /// Inverse planning that averages over our own minds and the published simulator's.
     #[must_use]
     pub fn averaged() -> Self {
-        let minds = Self::published_minds();
+        let (minds, lapse_rate) = (Self::published_minds(), LAPSE_RATE_OF_KIND);
+        let planning = InversePlanningSettings { lapse_rate, ..InversePlanningSettings::default() };
         Self {
-            alternative: Some(AlternativeMinds { minds, lapse_rate: PUBLISHED_LAPSE_RATE }),
+            algorithm: Algorithm::InversePlanning(planning),
+            alternative: Some(AlternativeMinds { minds, lapse_rate }),
             ..Self::default()
         }
     }
