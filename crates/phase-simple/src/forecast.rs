@@ -29,9 +29,9 @@ impl Default for ForecastSettings {
     }
 }
 
-/// Simulates the most likely hypotheses, each by the minds that it is about, for the given number of further steps and takes, for every entity and
-/// step, the geometric median of the resulting positions, weighted by probability, which minimises the
-/// expected displacement. `None` if `tick` cancelled it.
+/// Simulates the most likely hypotheses, each by the minds that it is about, for the given number of further steps
+/// and takes, for every entity and step, the geometric median of the resulting positions, weighted by probability,
+/// which minimises the expected displacement. `None` if `tick` cancelled it.
 ///
 /// # Errors
 ///

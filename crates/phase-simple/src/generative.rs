@@ -30,17 +30,21 @@ impl<'a> PreparedEvent<'a> {
     /// numbers), so that differences are due to the hypotheses alone.
     #[must_use]
     pub fn new(observed: &'a ObservedEvent, minds: phase_agent::MindParameters, seed: u64) -> Self {
-        let motion = InverseDynamics::new(observed);
-        let beliefs =
-            AgentId::ALL.map(|agent| EstimatedBeliefs::new(observed, &motion.states, agent, &minds, seed));
-        Self { observed, motion, beliefs, minds, seed }
+        Self::with_motion(observed, InverseDynamics::new(observed), minds, seed)
     }
 
     /// The same event for minds with other parameters. What does not depend on minds is taken over.
     #[must_use]
     pub fn with_minds(&self, minds: phase_agent::MindParameters) -> Self {
-        let Self { observed, seed, .. } = *self;
-        let motion = self.motion.clone();
+        Self::with_motion(self.observed, self.motion.clone(), minds, self.seed)
+    }
+
+    fn with_motion(
+        observed: &'a ObservedEvent,
+        motion: InverseDynamics,
+        minds: phase_agent::MindParameters,
+        seed: u64,
+    ) -> Self {
         let beliefs =
             AgentId::ALL.map(|agent| EstimatedBeliefs::new(observed, &motion.states, agent, &minds, seed));
         Self { observed, motion, beliefs, minds, seed }

@@ -19,7 +19,8 @@ pub struct Benchmark {
     #[arg(long, value_name = "METHODS", value_delimiter = ',', value_parser = PossibleValuesParser::new(METHODS))]
     pub methods: Vec<String>,
     /// Minds that SIMPLE imagines, and no others: `phase`, or `published`, those of the published simulator, with bodies that
-    /// turn one way in recordings [default: `simple` averages over both, the other variants have ours]
+    /// turn one way in recordings [default: `simple` averages over both, `simple-published` has published minds, the
+    /// other variants ours]
     #[arg(long, value_name = "MINDS", hide_possible_values = true, value_parser = mind_kinds())]
     pub minds: Option<MindKind>,
     /// Also evaluate networks with these weights, as `train` writes them, and show how they improve with the

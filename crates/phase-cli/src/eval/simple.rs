@@ -47,8 +47,10 @@ impl Simple {
     #[must_use]
     pub fn with_minds(mut self, options: &MindOptions) -> Self {
         if let Some(kind) = options.minds {
-            let minds = MindParameters { kind, ..InferenceSettings::default().minds };
-            self.settings = self.settings.with_minds(minds);
+            // The weights of an average over kinds are not those of one kind alone.
+            let alone = InferenceSettings::default();
+            let settings = if self.settings.alternative.is_some() { alone } else { self.settings };
+            self.settings = settings.with_minds(MindParameters { kind, ..alone.minds });
         }
         self.settings.minds.one_way_turns |= options.one_way_turns;
         self
