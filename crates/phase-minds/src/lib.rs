@@ -44,6 +44,7 @@ mod turns;
 
 pub use agent::Agent;
 pub use phase_agent::{BeliefView, MindKind, MindParameters};
+pub use phase_published::SearchMemo;
 pub use turns::carried_out;
 
 use phase_event::Thought;
@@ -92,7 +93,24 @@ impl Clone for Box<dyn BeliefState> {
 pub fn mind(scene: &Scene, agent: AgentId, parameters: &MindParameters) -> Result<Box<dyn Mind>, PomcpError> {
     match parameters.kind {
         MindKind::Phase => phase::mind(scene, agent, parameters),
-        MindKind::Published => published::mind(scene, agent, parameters),
+        MindKind::Published => published::mind(scene, agent, parameters, None),
+    }
+}
+
+/// The same mind, which looks up a search that another mind with this memo has done. It decides as it would without; only
+/// published minds search for what other intents would search for, too.
+///
+/// # Errors
+/// Invalid search parameters.
+pub fn mind_sharing(
+    scene: &Scene,
+    agent: AgentId,
+    parameters: &MindParameters,
+    memo: &SearchMemo,
+) -> Result<Box<dyn Mind>, PomcpError> {
+    match parameters.kind {
+        MindKind::Phase => phase::mind(scene, agent, parameters),
+        MindKind::Published => published::mind(scene, agent, parameters, Some(memo)),
     }
 }
 

@@ -6,14 +6,19 @@ use phase_event::Thought;
 use phase_model::{Action, AgentId, Layout, PhysicsConfig, Scene, State, random::Pcg64Mcg};
 use phase_perception::Observation;
 use phase_pomcp::PomcpError;
-use phase_published::{Belief, PublishedParameters};
+use phase_published::{Belief, PublishedParameters, SearchMemo};
 
 pub(crate) fn mind(
     scene: &Scene,
     agent: AgentId,
     parameters: &MindParameters,
+    memo: Option<&SearchMemo>,
 ) -> Result<Box<dyn Mind>, PomcpError> {
-    Ok(Box::new(phase_published::Mind::new(scene, agent, published(parameters))?))
+    let mind = phase_published::Mind::new(scene, agent, published(parameters))?;
+    Ok(match memo {
+        Some(memo) => Box::new(mind.sharing(memo.clone())),
+        None => Box::new(mind),
+    })
 }
 
 pub(crate) fn belief(

@@ -32,6 +32,7 @@
 
 pub mod aim;
 pub mod belief;
+pub mod memo;
 pub mod mind;
 pub mod parameters;
 mod perimeter;
@@ -44,6 +45,7 @@ pub mod senses;
 
 pub use aim::Aim;
 pub use belief::Belief;
+pub use memo::SearchMemo;
 pub use mind::Mind;
 pub use parameters::PublishedParameters;
 pub use rooms::Rooms;

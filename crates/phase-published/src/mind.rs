@@ -2,6 +2,7 @@
 
 use crate::{
     aim::Aim,
+    memo::{Search, SearchMemo},
     parameters::PublishedParameters,
     rooms::Rooms,
     rules::Rules,
@@ -24,6 +25,7 @@ pub struct Mind {
     imagined: Forward,
     pomcp: Pomcp<()>,
     parameters: PublishedParameters,
+    memo: Option<SearchMemo>,
 }
 
 impl Mind {
@@ -53,7 +55,14 @@ impl Mind {
             },
             pomcp,
             parameters,
+            memo: None,
         })
+    }
+
+    /// The same mind, which looks up a search that another mind with this memo has done. It decides as it would without.
+    #[must_use]
+    pub fn sharing(self, memo: SearchMemo) -> Self {
+        Self { memo: Some(memo), ..self }
     }
 
     /// The subgoal that the rules give in one possible state of the world.
@@ -73,14 +82,14 @@ impl Mind {
         random: &mut impl Rng,
     ) -> Result<(Action, Thought), PomcpError> {
         // Each decision draws one number, so the length of a search does not affect later ones.
-        let mut random = stream(random.next_u64(), Purpose::Search, 0);
+        let seed = random.next_u64();
         let aims = self.aims(particles);
         let (agent, lambda) = (self.rules.agent, self.parameters.lambda);
         let proposals = proposals(&self.rules.rooms, agent, particles, &aims, lambda);
         let Some(chosen) = pursued(&proposals, agent) else { return Ok((Action::Stop, Thought::IDLE)) };
         let aim = chosen.aim;
         let roots: Vec<State> = chosen.particles.iter().map(|&k| particles[k]).collect();
-        let (action, actions) = self.search(aim, &roots, &mut random)?;
+        let (action, actions) = self.search(aim, &roots, seed)?;
         let thought = Thought {
             subgoal: aim.subgoal(),
             subgoals: proposals.iter().map(summary).collect(),
@@ -104,31 +113,26 @@ impl Mind {
         &mut self,
         aim: Aim,
         roots: &[State],
-        random: &mut impl Rng,
+        seed: u64,
     ) -> Result<(Action, Vec<ActionEvaluation>), PomcpError> {
-        let Rules { agent, rooms, .. } = &self.rules;
+        let Rules { agent, physics, .. } = &self.rules;
         let actions = self.rules.actions(aim, &roots[0]);
         if let [only] = actions {
             return Ok((*only, Vec::new()));
         }
-        let model = SearchModel {
-            agent: *agent,
-            aim,
-            actions,
-            rooms,
-            imagined: &self.imagined,
-            discount: self.parameters.discount,
-        };
         // Equal particles are one, and the tree's steps can then be cached.
         let roots = if roots.iter().all(|root| root == &roots[0]) { &roots[..1] } else { roots };
-        let nothing = |&action: &Action| ActionEvaluation { action, visits: 0, value: 0.0 };
-        let mut evaluations: Vec<ActionEvaluation> = actions.iter().map(nothing).collect();
-        for _ in 0..self.parameters.searches.max(1) {
-            let found = self.pomcp.search(&model, roots, random)?;
-            for (evaluation, found) in evaluations.iter_mut().zip(&found.actions) {
-                add(evaluation, found);
+        let search = Search { agent: *agent, seed, aim, physics, parameters: &self.parameters, actions, roots };
+        let known = self.memo.as_ref().and_then(|memo| memo.recall(&search));
+        let evaluations = if let Some(known) = known {
+            known
+        } else {
+            let found = evaluate(&search, &self.rules.rooms, &self.imagined, &mut self.pomcp)?;
+            if let Some(memo) = &self.memo {
+                memo.keep(&search, &found);
             }
-        }
+            found
+        };
         // Of equally visited actions the better, of equally good ones the first.
         let best = evaluations
             .iter()
@@ -136,6 +140,27 @@ impl Mind {
             .max_by(|a, b| a.visits.cmp(&b.visits).then_with(|| a.value.total_cmp(&b.value)));
         Ok((best.map_or(Action::Stop, |best| best.action), evaluations))
     }
+}
+
+/// Searches as often as the parameters say, and adds up what is found.
+fn evaluate(
+    search: &Search<'_>,
+    rooms: &Rooms,
+    imagined: &Forward,
+    pomcp: &mut Pomcp<()>,
+) -> Result<Vec<ActionEvaluation>, PomcpError> {
+    let Search { agent, aim, actions, parameters, .. } = *search;
+    let model = SearchModel { agent, aim, actions, rooms, imagined, discount: parameters.discount };
+    let mut random = stream(search.seed, Purpose::Search, 0);
+    let nothing = |&action: &Action| ActionEvaluation { action, visits: 0, value: 0.0 };
+    let mut evaluations: Vec<ActionEvaluation> = actions.iter().map(nothing).collect();
+    for _ in 0..parameters.searches.max(1) {
+        let found = pomcp.search(&model, search.roots, &mut random)?;
+        for (evaluation, found) in evaluations.iter_mut().zip(&found.actions) {
+            add(evaluation, found);
+        }
+    }
+    Ok(evaluations)
 }
 
 /// Adds what a search found about an action to what others found.

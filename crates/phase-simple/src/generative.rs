@@ -3,7 +3,7 @@
 use crate::{Hypothesis, InverseDynamics, beliefs::EstimatedBeliefs};
 use phase_event::{ObservedEvent, Thought};
 use phase_forward::{Forward, SolverCache};
-use phase_minds::{BeliefView, Mind, carried_out, mind};
+use phase_minds::{BeliefView, Mind, SearchMemo, carried_out, mind, mind_sharing};
 use phase_model::{
     AGENT_COUNT, Action, AgentId, Body, BodySet, Entity, Layout, MAX_ENTITIES, State, Vec2,
     arena::SUBSTEPS,
@@ -19,6 +19,8 @@ pub struct PreparedEvent<'a> {
     beliefs: [EstimatedBeliefs; AGENT_COUNT],
     minds: phase_agent::MindParameters,
     seed: u64,
+    /// What the minds of all intents share.
+    memo: SearchMemo,
 }
 
 /// How far the trajectories of a simulation lie from those observed, ‖sᵗ − ŝᵗ‖₂ over the positions of all entities,
@@ -47,13 +49,18 @@ impl<'a> PreparedEvent<'a> {
     ) -> Self {
         let beliefs =
             AgentId::ALL.map(|agent| EstimatedBeliefs::new(observed, &motion.states, agent, &minds, seed));
-        Self { observed, motion, beliefs, minds, seed }
+        Self { observed, motion, beliefs, minds, seed, memo: SearchMemo::default() }
     }
 
     /// The parameters of the minds.
     #[must_use]
     pub const fn minds(&self) -> &phase_agent::MindParameters {
         &self.minds
+    }
+
+    /// The parameters of minds that act: they search once.
+    fn acting(&self) -> phase_agent::MindParameters {
+        phase_agent::MindParameters { searches: 1, ..self.minds }
     }
 
     /// The event.
@@ -82,8 +89,8 @@ impl<'a> PreparedEvent<'a> {
         limit: f64,
     ) -> Result<Deviations, PomcpError> {
         let rows = self.observed.rows();
-        let mut run =
-            SimulationRun::new(self.observed, hypothesis, self.minds, self.seed, self.motion.states[0])?;
+        let (minds, start) = (self.acting(), self.motion.states[0]);
+        let mut run = SimulationRun::new(self.observed, hypothesis, minds, self.seed, start, None)?;
         let mut deviations = Deviations::with_capacity(self.observed.steps());
         let mut sum = 0.0;
         for (step, row) in rows.iter().enumerate().skip(1) {
@@ -117,7 +124,9 @@ impl<'a> PreparedEvent<'a> {
     }
 
     /// Lets one agent decide under a hypothesis, while the other replays its inferred actions. Every
-    /// `resync_interval` steps the simulation is resynchronised with the observed event.
+    /// `resync_interval` steps the simulation is resynchronised with the observed event. If that is every step, decisions
+    /// are the policy at the observed states, and take as many searches as the minds' parameters say; otherwise the agent
+    /// acts, and searches once.
     ///
     /// # Errors
     ///
@@ -129,8 +138,10 @@ impl<'a> PreparedEvent<'a> {
         resync_interval: usize,
     ) -> Result<Vec<AgentDecision>, PomcpError> {
         let rows = self.observed.rows();
-        let mut run =
-            SimulationRun::new(self.observed, hypothesis, self.minds, self.seed, self.motion.states[0])?;
+        let start = self.motion.states[0];
+        let minds = if resync_interval > 1 { self.acting() } else { self.minds };
+        let memo = Some(&self.memo);
+        let mut run = SimulationRun::new(self.observed, hypothesis, minds, self.seed, start, memo)?;
         let mut decided = Vec::with_capacity(self.observed.steps());
         for (step, (row, action_likelihoods)) in rows[1..].iter().zip(&self.motion.actions).enumerate() {
             if step > 0 && step % resync_interval.max(1) == 0 {
@@ -164,7 +175,8 @@ impl<'a> PreparedEvent<'a> {
         steps: &[usize],
     ) -> Result<Vec<AgentDecision>, PomcpError> {
         let rows = self.observed.rows();
-        let mut run = SimulationRun::new(self.observed, hypothesis, minds, self.seed, self.motion.states[0])?;
+        let start = self.motion.states[0];
+        let mut run = SimulationRun::new(self.observed, hypothesis, minds, self.seed, start, None)?;
         let mut decided = Vec::with_capacity(steps.len());
         for &step in steps.iter().filter(|&&step| step < self.observed.steps()) {
             self.resynchronise(&mut run, step);
@@ -199,7 +211,7 @@ impl<'a> PreparedEvent<'a> {
         seed: u64,
     ) -> Result<phase_model::Forecast, PomcpError> {
         let last = self.motion.states[self.observed.steps()];
-        let mut run = SimulationRun::new(self.observed, hypothesis, self.minds, seed, last)?;
+        let mut run = SimulationRun::new(self.observed, hypothesis, self.acting(), seed, last, None)?;
         self.resynchronise(&mut run, self.observed.steps());
         let mut beliefs = self.beliefs.each_ref().map(|belief| belief.last().boxed());
         let mut random: [Pcg64Mcg; AGENT_COUNT] =
@@ -256,11 +268,15 @@ impl SimulationRun {
         settings: phase_agent::MindParameters,
         seed: u64,
         state: State,
+        memo: Option<&SearchMemo>,
     ) -> Result<Self, PomcpError> {
         let scene = hypothesis.scene(observed);
         let physics = scene.physics();
         let forward = Forward::new(&physics);
-        let mind = |agent| mind(&scene, agent, &settings);
+        let mind = |agent| match memo {
+            Some(memo) => mind_sharing(&scene, agent, &settings, memo),
+            None => mind(&scene, agent, &settings),
+        };
         let minds = [mind(AgentId::ZERO)?, mind(AgentId::ONE)?];
         let random = AgentId::ALL.map(|agent| random::stream(seed, Purpose::Search, agent.number().into()));
         let cache = forward.fresh_cache(&state);

@@ -1,6 +1,6 @@
 //! Intents: the part of a hypothesis that concerns one agent.
 
-use crate::{Hypothesis, Posterior, hypothesis::physical_goals};
+use crate::{Hypothesis, hypothesis::physical_goals};
 use phase_model::{AGENT_COUNT, AgentId, Attitude, Goal, Strength};
 
 /// Intents of an agent with ln P(motion | intent) of its part of the motion.
@@ -42,20 +42,12 @@ impl Intent {
     }
 }
 
-/// P(Y | motion) of every hypothesis in which at most one agent is social: its prior times the likelihoods of both
+/// ln P(Y) P(motion | Y) of every hypothesis in which at most one agent is social: its prior times the likelihoods of both
 /// agents' intents. Both agents decide at the same time from the same state, so that these are independent.
-/// `goals` is the number of goals that an agent can have.
+/// `goals` is the number of goals that an agent can have. [`Posterior::new`](crate::Posterior::new) makes a posterior of it, or, of those of
+/// several kinds of minds one after the other, their average with an even prior.
 #[must_use]
-pub fn joint_posterior(
-    weighted_intents: &[WeightedIntents; AGENT_COUNT],
-    strengths: [Strength; AGENT_COUNT],
-    goals: usize,
-) -> Posterior {
-    Posterior::new(joint_logs(weighted_intents, strengths, goals))
-}
-
-/// ln P(Y) P(motion | Y) of the same hypotheses.
-pub(crate) fn joint_logs(
+pub fn joint_logs(
     weighted_intents: &[WeightedIntents; AGENT_COUNT],
     strengths: [Strength; AGENT_COUNT],
     goals: usize,

@@ -98,6 +98,10 @@ pub struct ChainSettings {
 
 /// POMCP simulations a decision within an inference.
 const SIMULATIONS: usize = 50;
+/// Those of published minds, whose searches branch on more and are shared by many intents.
+const PUBLISHED_SIMULATIONS: usize = 100;
+/// Searches of published minds at an observed state. What one settles on is to some degree chance.
+const PUBLISHED_SEARCHES: usize = 3;
 /// Number of intents of an agent in an event with two objects.
 const INTENTS: usize = 42;
 
@@ -112,13 +116,13 @@ impl InferenceSettings {
             resync_interval: None,
             ..ChainSettings::resynchronised(Update::Local)
         })
-        .with_minds(Self::published_minds())
+        .with_minds(Self::minds_of(phase_agent::MindKind::Published))
     }
 
     /// Inverse planning that averages over our own minds and the published simulator's.
     #[must_use]
     pub fn averaged() -> Self {
-        let (minds, lapse_rate) = (Self::published_minds(), LAPSE_RATE_OF_KIND);
+        let (minds, lapse_rate) = (Self::minds_of(phase_agent::MindKind::Published), LAPSE_RATE_OF_KIND);
         let planning = InversePlanningSettings { lapse_rate, ..InversePlanningSettings::default() };
         Self {
             algorithm: Algorithm::InversePlanning(planning),
@@ -133,11 +137,20 @@ impl InferenceSettings {
         Self { minds, alternative: None, ..self }
     }
 
-    /// The minds of the published simulator, and its recorder's turns, for an inference.
+    /// The minds of a kind for an inference, which searches less than an agent that acts; published ones with their
+    /// recorder's turns.
     #[must_use]
-    pub fn published_minds() -> phase_agent::MindParameters {
-        let kind = phase_agent::MindKind::Published;
-        phase_agent::MindParameters { kind, one_way_turns: true, ..Self::default().minds }
+    pub fn minds_of(kind: phase_agent::MindKind) -> phase_agent::MindParameters {
+        match kind {
+            phase_agent::MindKind::Phase => Self::default().minds,
+            phase_agent::MindKind::Published => phase_agent::MindParameters {
+                kind,
+                one_way_turns: true,
+                simulations: PUBLISHED_SIMULATIONS,
+                searches: PUBLISHED_SEARCHES,
+                ..phase_agent::MindParameters::default()
+            },
+        }
     }
 
     /// Algorithm 2.

@@ -1,14 +1,15 @@
 //! `fit-inference`: fits how SIMPLE weighs its evidence to events whose labels are known.
 //!
-//! Every intent of both agents is simulated once. Three numbers say what the simulations are worth: the weight κ of
-//! what the minds would choose, the weight β of how far they stray, and the rate ε at which minds lapse. All
-//! combinations on a grid are compared by the log posterior of the true goals and attitudes, and every fold of the
-//! events is held out of one fit.
+//! Every intent of both agents is simulated once with each kind of minds. Three numbers say what the simulations are
+//! worth: the weight κ of what the minds would choose, the weight β of how far they stray, and the rate ε at which minds
+//! of a kind lapse. All combinations on a grid are compared by the log posterior of the true goals and attitudes, averaged
+//! over the kinds, and every fold of the events is held out of one fit.
 
 mod grid;
 pub mod options;
 mod report;
 mod subject;
+mod weights;
 
 use crate::{
     check_minds::{self, parameters},
@@ -16,7 +17,7 @@ use crate::{
     fit_minds::folds,
 };
 use core::ops::ControlFlow;
-use grid::{Grid, Weights};
+use grid::Grid;
 use options::FitInference;
 use phase_agent::MindParameters;
 use phase_cli::{
@@ -29,35 +30,42 @@ use phase_cli::{
 use phase_event::Recording;
 use phase_model::AGENT_COUNT;
 use report::{Fold, Report};
+use std::path::Path;
+use phase_simple::{AlternativeMinds, InferenceSettings};
 use subject::{INTENTS, Subject};
+use weights::Weights;
 
 /// Runs the command.
 ///
 /// # Errors
 /// Any [`XtaskError`] about the files, or an interruption.
 pub fn run(arguments: &FitInference, context: &Context) -> Result<(), XtaskError> {
-    let given = arguments.parameters.as_deref().map(parameters::read).transpose()?;
-    let simulations = arguments.simulations as usize;
-    let minds = MindParameters { simulations, ..given.unwrap_or_default() };
-    let recordings = check_minds::recordings(&arguments.events, None, context)?;
+    let settings = settings(arguments)?;
+    let mut recordings = Vec::new();
+    for file in &arguments.events {
+        recordings.extend(some(arguments, file, context)?);
+    }
     let (own, folds) = (recordings.len(), usize::from(arguments.folds));
     if own < folds {
-        let rule = format!(
-            "{}: has {}, fewer than --folds {folds}",
-            arguments.events.display(),
-            console::events(own)
-        );
+        let rule = format!("--events: {}, fewer than --folds {folds}", console::events(own));
         return Err(CliError::Usage(rule).into());
     }
     for recording in recordings.iter().take(1) {
-        parameters::check(minds, &recording.scene, arguments.parameters.as_deref())?;
+        parameters::check(settings.minds, &recording.scene, arguments.parameters.as_deref())?;
     }
-    let generated = match &arguments.generated {
-        Some(file) => check_minds::recordings(file, None, context)?,
-        None => Vec::new(),
-    };
+    let mut held_out = Vec::new();
+    for file in &arguments.held_out {
+        held_out.push((file.display().to_string(), some(arguments, file, context)?));
+    }
     interrupt::listen();
-    let grid = Grid::of(&subjects(&recordings, minds, arguments, context)?);
+    let present = Weights::of(&settings);
+    let kinds: Vec<MindParameters> =
+        core::iter::once(settings.minds).chain(settings.alternative.map(|it| it.minds)).collect();
+    let grid = Grid::of(&subjects(&recordings, &kinds, arguments, context)?, &present);
+    let mut others = Vec::with_capacity(held_out.len());
+    for (file, recordings) in held_out {
+        others.push((file, Grid::of(&subjects(&recordings, &kinds, arguments, context)?, &present)));
+    }
     let named: Vec<_> = grid.events().collect();
     let fold_of = folds::assign(&named, folds, arguments.seed);
     let fold = |fold| {
@@ -65,30 +73,58 @@ pub fn run(arguments: &FitInference, context: &Context) -> Result<(), XtaskError
         Fold { weights: grid.fit(&training), validation }
     };
     let all: Vec<usize> = (0..own).collect();
-    let held_out = Grid::of(&subjects(&generated, minds, arguments, context)?);
     let report = Report {
         folds: (0..folds).map(fold).collect(),
         fitted: grid.fit(&all),
-        present: Weights::present(),
+        present,
         grid: &grid,
-        generated: &held_out,
+        held_out: &others,
     };
     print_result(report.text().trim_end());
     Ok(())
 }
 
+/// SIMPLE's settings with the minds that were asked for: both kinds, unless one was named or given.
+fn settings(arguments: &FitInference) -> Result<InferenceSettings, CliError> {
+    let one = InferenceSettings::default();
+    let given = arguments.parameters.as_deref().map(parameters::read).transpose()?;
+    let mut settings = match (given, arguments.minds) {
+        (Some(minds), _) => {
+            one.with_minds(MindParameters { simulations: InferenceSettings::minds_of(minds.kind).simulations, ..minds })
+        }
+        (None, Some(kind)) => one.with_minds(InferenceSettings::minds_of(kind)),
+        (None, None) => InferenceSettings::averaged(),
+    };
+    if let Some(simulations) = arguments.simulations {
+        let simulations = simulations as usize;
+        settings.minds.simulations = simulations;
+        settings.alternative = settings.alternative.map(|it| AlternativeMinds {
+            minds: MindParameters { simulations, ..it.minds },
+            ..it
+        });
+    }
+    Ok(settings)
+}
+
+/// The events of a file, as many as were asked for.
+fn some(arguments: &FitInference, file: &Path, context: &Context) -> Result<Vec<Recording>, CliError> {
+    let mut recordings = check_minds::recordings(file, None, context)?;
+    recordings.truncate(arguments.limit.map_or(usize::MAX, |limit| limit as usize));
+    Ok(recordings)
+}
+
 /// All intents of all events, simulated.
 fn subjects(
     recordings: &[Recording],
-    minds: MindParameters,
+    kinds: &[MindParameters],
     arguments: &FitInference,
     context: &Context,
 ) -> Result<Vec<Subject>, XtaskError> {
     let activity = format!("simulating the intents of {}", console::events(recordings.len()));
-    let progress = context.progress_over(&activity, recordings.len() * INTENTS * AGENT_COUNT);
+    let progress = context.progress_over(&activity, recordings.len() * kinds.len() * INTENTS * AGENT_COUNT);
     let subjects = make_all(&arguments.jobs, recordings.len(), |k| {
         let mut ticks = 0;
-        let subject = Subject::new(&recordings[k], minds, arguments.seed, &mut || {
+        let subject = Subject::new(&recordings[k], kinds, arguments.seed, &mut || {
             ticks += 1;
             progress.step();
             if interrupt::requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }

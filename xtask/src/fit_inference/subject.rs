@@ -1,15 +1,16 @@
-//! One event: the evidence on every intent, and SIMPLE's answer for any weights.
+//! One event: the evidence on every intent for each kind of minds, and SIMPLE's answer for any weights.
 
+use super::weights::Weights;
 use crate::check_minds::{recognition::Recognition, truth};
 use core::ops::ControlFlow;
 use phase_agent::MindParameters;
 use phase_cli::error::CliError;
 use phase_eval::MethodError;
-use phase_event::Recording;
-use phase_model::{AGENT_COUNT, AgentId, EventKind, Strength};
+use phase_event::{ObservedEvent, Recording};
+use phase_model::{AGENT_COUNT, AgentId, EventKind, Goal, Strength};
 use phase_simple::{
-    Hypothesis, Intent, IntentEvidence, InversePlanningSettings, PreparedEvent, Proposal, UniformStrength,
-    choice, cue::GAMMA, intent::joint_posterior,
+    Hypothesis, Intent, IntentEvidence, InversePlanningSettings, Posterior, PreparedEvent, Proposal,
+    UniformStrength, choice, cue::GAMMA, intent::joint_logs,
 };
 
 /// Number of intents of an agent in an event with two objects.
@@ -21,66 +22,119 @@ pub(super) struct Subject {
     pub(super) id: String,
     /// Its kind.
     pub(super) kind: EventKind,
-    evidence: [Vec<IntentEvidence>; AGENT_COUNT],
+    /// By kind of minds.
+    evidence: Vec<AgentEvidence>,
     strengths: [Strength; AGENT_COUNT],
     truth: Hypothesis,
     /// Number of goals that an agent can have.
     goals: usize,
 }
 
+/// The evidence on all intents of each agent.
+type AgentEvidence = [Vec<IntentEvidence>; AGENT_COUNT];
+
+/// ln P(choices | intent) of every intent of each agent at some lapse rate.
+pub(super) type LogChoices = [Vec<f64>; AGENT_COUNT];
+
+/// An answer beside the truth, with the probability of the last kind of minds.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Answer {
+    /// Goals, relation and attitudes.
+    pub(super) recognition: Recognition,
+    /// P(kind | motion) of the last kind, 0 to 1; 1 if it is the only one.
+    pub(super) last_kind: f64,
+}
+
 impl Subject {
-    /// Simulates all intents of both agents; `None` if it was interrupted. An agent that is not social takes
-    /// the other's likeliest goal by the cue for the other's goal.
+    /// Simulates all intents of both agents with each kind of minds; `None` if it was interrupted. An agent that is
+    /// not social takes the other's likeliest goal by the cue for the other's goal.
     pub(super) fn new(
         recording: &Recording,
-        minds: MindParameters,
+        kinds: &[MindParameters],
         seed: u64,
         tick: &mut dyn FnMut() -> ControlFlow<()>,
     ) -> Result<Option<Self>, CliError> {
         let failed = |error| CliError::Method { id: recording.id.clone(), source: error };
         let observed = recording.observed().map_err(|error| failed(MethodError::new(error)))?;
-        let prepared = PreparedEvent::new(&observed, minds, seed);
-        let settings = InversePlanningSettings::default();
-        let likelihoods = choice::action_likelihoods(&prepared, settings.tolerance);
-        let strengths = prepared.motion().strengths();
         let cue = Proposal::new(&observed, 0..=observed.steps(), GAMMA, &UniformStrength);
-        let mut evidence = [Vec::new(), Vec::new()];
-        for agent in AgentId::ALL {
-            let others = cue.most_likely_goal(agent.other());
-            for intent in Intent::all(agent, observed.object_sizes().len()) {
-                if tick().is_break() {
-                    return Ok(None);
-                }
-                let interval = settings.resync_interval;
-                let one =
-                    IntentEvidence::of(&prepared, &likelihoods, agent, intent, others, strengths, interval);
-                evidence[agent].push(one.map_err(|error| failed(MethodError::new(error)))?);
-            }
-        }
-        let goals = cue.goals(AgentId::ZERO).len();
-        let (id, kind) = (recording.id.clone(), recording.scene.kind);
-        Ok(Some(Self { id, kind, evidence, strengths, truth: truth(&recording.scene), goals }))
-    }
-
-    /// ln P(choices | intent) of every intent at a lapse rate, and its deviation.
-    pub(super) fn at_lapse_rate(&self, lapse_rate: f64) -> [Vec<(f64, f64)>; AGENT_COUNT] {
-        let one = |evidence: &IntentEvidence| (evidence.log_choices(lapse_rate), evidence.deviation);
-        self.evidence.each_ref().map(|evidence| evidence.iter().map(one).collect())
-    }
-
-    /// SIMPLE's answer beside the truth for a weight of the choices and one of the deviations (1/u).
-    pub(super) fn recognise(
-        &self,
-        terms: &[Vec<(f64, f64)>; AGENT_COUNT],
-        inverse_temperature: f64,
-        beta: f64,
-    ) -> Recognition {
-        let weighted = AgentId::ALL.map(|agent| {
-            let weigh = |(evidence, (log, deviation)): (&IntentEvidence, &(f64, f64))| {
-                (evidence.intent, inverse_temperature * log - beta * deviation)
+        let assumed = AgentId::ALL.map(|agent| cue.most_likely_goal(agent));
+        let mut evidence = Vec::with_capacity(kinds.len());
+        let mut prepared: Option<PreparedEvent<'_>> = None;
+        for minds in kinds {
+            let event = match &prepared {
+                Some(other) => other.with_minds(*minds),
+                None => PreparedEvent::new(&observed, *minds, seed),
             };
-            self.evidence[agent].iter().zip(&terms[agent]).map(weigh).collect()
-        });
-        Recognition::of(&joint_posterior(&weighted, self.strengths, self.goals), &self.truth)
+            match agents(&event, &observed, assumed, tick).map_err(failed)? {
+                Some(of_kind) => evidence.push(of_kind),
+                None => return Ok(None),
+            }
+            prepared = Some(event);
+        }
+        let Some(prepared) = prepared else { return Ok(None) };
+        Ok(Some(Self {
+            id: recording.id.clone(),
+            kind: recording.scene.kind,
+            evidence,
+            strengths: prepared.motion().strengths(),
+            truth: truth(&recording.scene),
+            goals: cue.goals(AgentId::ZERO).len(),
+        }))
     }
+
+    /// Number of kinds of minds.
+    pub(super) const fn kinds(&self) -> usize {
+        self.evidence.len()
+    }
+
+    /// ln P(choices | intent) for one kind of minds at a lapse rate.
+    pub(super) fn log_choices(&self, kind: usize, lapse_rate: f64) -> LogChoices {
+        let one = |evidence: &IntentEvidence| evidence.log_choices(lapse_rate);
+        self.evidence[kind].each_ref().map(|evidence| evidence.iter().map(one).collect())
+    }
+
+    /// SIMPLE's answer beside the truth. `choices` are those of each kind of minds at its lapse rate.
+    pub(super) fn answer(&self, choices: &[&LogChoices], weights: &Weights) -> Answer {
+        let joint = self.evidence.iter().zip(choices).map(|(evidence, choices)| {
+            let weighted = AgentId::ALL.map(|agent| {
+                let weigh = |(evidence, log): (&IntentEvidence, &f64)| {
+                    let likelihood = weights.inverse_temperature * log - weights.beta * evidence.deviation;
+                    (evidence.intent, likelihood)
+                };
+                evidence[agent].iter().zip(&choices[agent]).map(weigh).collect()
+            });
+            joint_logs(&weighted, self.strengths, self.goals)
+        });
+        let joint: Vec<Vec<(Hypothesis, f64)>> = joint.collect();
+        let greatest = joint.iter().flatten().map(|it| it.1).fold(f64::NEG_INFINITY, f64::max);
+        let evidence = |of: &[(Hypothesis, f64)]| of.iter().map(|it| libm::exp(it.1 - greatest)).sum::<f64>();
+        let total: f64 = joint.iter().map(|of| evidence(of)).sum();
+        let last_kind = joint.last().map_or(0.0, |of| evidence(of) / total);
+        let posterior = Posterior::new(joint.into_iter().flatten());
+        Answer { recognition: Recognition::of(&posterior, &self.truth), last_kind }
+    }
+}
+
+/// The evidence on all intents for one kind of minds; `None` if it was interrupted.
+fn agents(
+    prepared: &PreparedEvent<'_>,
+    observed: &ObservedEvent,
+    assumed: [Goal; AGENT_COUNT],
+    tick: &mut dyn FnMut() -> ControlFlow<()>,
+) -> Result<Option<AgentEvidence>, MethodError> {
+    let settings = InversePlanningSettings::default();
+    let likelihoods = choice::action_likelihoods(prepared, settings.tolerance);
+    let (strengths, interval) = (prepared.motion().strengths(), settings.resync_interval);
+    let mut evidence = [Vec::new(), Vec::new()];
+    for agent in AgentId::ALL {
+        let others = assumed[agent.other()];
+        for intent in Intent::all(agent, observed.object_sizes().len()) {
+            if tick().is_break() {
+                return Ok(None);
+            }
+            let one = IntentEvidence::of(prepared, &likelihoods, agent, intent, others, strengths, interval);
+            evidence[agent].push(one.map_err(MethodError::new)?);
+        }
+    }
+    Ok(Some(evidence))
 }

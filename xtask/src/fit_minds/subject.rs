@@ -9,9 +9,9 @@ use phase_eval::{MethodError, goals::canonical};
 use phase_event::{ObservedEvent, Recording};
 use phase_model::{AGENT_COUNT, AgentId, Attitude, EventKind, Goal};
 use phase_simple::{
-    Hypothesis, Intent, InversePlanningSettings, PreparedEvent,
+    Hypothesis, Intent, InversePlanningSettings, Posterior, PreparedEvent,
     choice::{self, ByChoice, Chance, log_likelihood, policy},
-    intent::{WeightedIntents, joint_posterior},
+    intent::{WeightedIntents, joint_logs},
     physical_goals,
 };
 use serde::{Deserialize, Serialize};
@@ -149,7 +149,7 @@ impl<'a> Subject<'a> {
         }
         let cpu_seconds = begun.elapsed().as_secs_f64() / decisions.max(1) as f64;
         let goals = physical_goals(AgentId::ZERO, objects).len();
-        let posterior = joint_posterior(&weighted, self.truth.strengths, goals);
+        let posterior = Posterior::new(joint_logs(&weighted, self.truth.strengths, goals));
         let chance_sum: f64 = under_truth.iter().map(|chance| chance.mind).sum();
         Ok(Some(Figures {
             log_posterior: Recognition::of(&posterior, &self.truth).log_posterior,

@@ -50,7 +50,9 @@ impl Simple {
             // The weights of an average over kinds are not those of one kind alone.
             let alone = InferenceSettings::default();
             let settings = if self.settings.alternative.is_some() { alone } else { self.settings };
-            self.settings = settings.with_minds(MindParameters { kind, ..alone.minds });
+            let turns = settings.minds.one_way_turns;
+            let minds = MindParameters { one_way_turns: turns, ..InferenceSettings::minds_of(kind) };
+            self.settings = settings.with_minds(minds);
         }
         self.settings.minds.one_way_turns |= options.one_way_turns;
         self

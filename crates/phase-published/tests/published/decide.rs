@@ -2,7 +2,7 @@
 
 use crate::common::{BALL, ME, OTHER, ball_on, hold, mind, on_landmark, random, scene};
 use phase_model::{Action, Attitude, Entity, LandmarkId, RoomId, Scene, Sign};
-use phase_published::{Aim, Mind, PublishedParameters, Rooms};
+use phase_published::{Aim, Mind, PublishedParameters, Rooms, SearchMemo};
 
 const BODIES: [(f32, f32, f32); 4] = [(23.5, 14.0, 0.0), (8.0, 4.0, 0.0), (8.0, 20.0, 0.0), (8.0, 10.0, 0.0)];
 
@@ -38,6 +38,28 @@ fn several_searches_add_up() {
 fn one_seed_makes_one_decision() {
     let scene = walking();
     assert_eq!(searched(&scene, &mut mind(&scene, ME, 50)), searched(&scene, &mut mind(&scene, ME, 50)));
+}
+
+#[test]
+fn minds_that_share_searches_decide_as_they_would_alone() {
+    // With either landmark as the goal, the ball that is not seen is looked for first, from the same random numbers; from
+    // another place the same subgoal is another search.
+    let memo = SearchMemo::default();
+    let mut subgoals = Vec::new();
+    for landmark in [LandmarkId::TOP_RIGHT, LandmarkId::BOTTOM_RIGHT] {
+        let scene = scene(4, [ball_on(landmark), on_landmark(OTHER, landmark)], Attitude::Neutral, BODIES);
+        let mut sharing = mind(&scene, ME, 60).sharing(memo.clone());
+        for dy in [0.0, 0.0, 1.5] {
+            let mut state = scene.initial_state();
+            state.body_mut(Entity::Agent(ME)).position.y += dy;
+            let shared = sharing.decide(&[state], &mut random(5)).unwrap();
+            assert_eq!(shared, mind(&scene, ME, 60).decide(&[state], &mut random(5)).unwrap());
+            subgoals.push((shared.1.subgoal, shared.1.actions));
+        }
+    }
+    assert_eq!(subgoals[0], subgoals[3], "both goals lead to one search");
+    assert_eq!(subgoals[0].0, subgoals[2].0);
+    assert_ne!(subgoals[0].1, subgoals[2].1, "another state is another search");
 }
 
 #[test]
