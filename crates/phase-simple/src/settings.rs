@@ -107,14 +107,14 @@ const INTENTS: usize = 42;
 
 impl InferenceSettings {
     /// The paper's: Algorithm 2 with M = 15, L = 6, β = 0.05, η = 0.1 and ΔT = 10, over simulations by the published
-    /// simulator's minds that run freely from the start. Only γ is not the printed one (see [`GAMMA`]), and agents
-    /// search with fewer simulations.
+    /// simulator's minds that run freely from the start; [`Update::Local`] is the paper's method, the others are its
+    /// ablation. Only γ is not the printed one (see [`GAMMA`]), and agents search with fewer simulations.
     #[must_use]
-    pub fn published() -> Self {
+    pub fn published(update: Update) -> Self {
         Self::chains(ChainSettings {
             beta: 0.05,
             resync_interval: None,
-            ..ChainSettings::resynchronised(Update::Local)
+            ..ChainSettings::resynchronised(update)
         })
         .with_minds(Self::minds_of(phase_agent::MindKind::Published))
     }

@@ -121,7 +121,8 @@ fn subjects(
     context: &Context,
 ) -> Result<Vec<Subject>, XtaskError> {
     let activity = format!("simulating the intents of {}", console::events(recordings.len()));
-    let progress = context.progress_over(&activity, recordings.len() * kinds.len() * INTENTS * AGENT_COUNT);
+    let each = kinds.len() * INTENTS * AGENT_COUNT;
+    let progress = context.progress(&activity, recordings.len(), each);
     let subjects = make_all(&arguments.jobs, recordings.len(), |k| {
         let mut ticks = 0;
         let subject = Subject::new(&recordings[k], kinds, arguments.seed, &mut || {

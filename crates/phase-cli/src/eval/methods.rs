@@ -12,12 +12,14 @@ use phase_eval::{
 use std::path::Path;
 
 /// Names of the methods for goals and relations.
-pub const RECOGNISERS: [&str; 9] = [
+pub const RECOGNISERS: [&str; 11] = [
     "simple",
     "simple-initial",
     "simple-global",
     "simple-local",
     "simple-published",
+    "simple-published-global",
+    "simple-published-initial",
     "cue",
     "two-level-lstm",
     "arg",

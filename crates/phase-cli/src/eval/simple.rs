@@ -28,7 +28,8 @@ impl Simple {
     /// The variant of a name: `simple` is inverse planning that averages over both kinds of minds; `simple-initial`,
     /// `simple-global` and `simple-local` are Algorithm 2 of the paper and its ablation, over simulations by our own
     /// minds that are periodically resynchronised with the observed event; `simple-published` is Algorithm 2 whole,
-    /// with published minds and simulations that are not resynchronised. `None` for other names.
+    /// with published minds and simulations that are not resynchronised, and `simple-published-global` and
+    /// `simple-published-initial` are its ablation. `None` for other names.
     #[must_use]
     pub fn of(name: &str) -> Option<Self> {
         let algorithm_2 = |update| InferenceSettings::chains(ChainSettings::resynchronised(update));
@@ -37,7 +38,9 @@ impl Simple {
             "simple-initial" => algorithm_2(Update::Initial),
             "simple-global" => algorithm_2(Update::Global),
             "simple-local" => algorithm_2(Update::Local),
-            "simple-published" => InferenceSettings::published(),
+            "simple-published" => InferenceSettings::published(Update::Local),
+            "simple-published-global" => InferenceSettings::published(Update::Global),
+            "simple-published-initial" => InferenceSettings::published(Update::Initial),
             _ => return None,
         };
         Some(Self { settings, forecast: ForecastSettings::default() })
