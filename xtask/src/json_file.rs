@@ -1,6 +1,7 @@
 //! The file that an option such as `--json FILE` writes.
 
 use phase_cli::error::CliError;
+use phase_dataset::atomic;
 use std::path::Path;
 
 /// The name that means stdout where a file may be named.
@@ -31,4 +32,12 @@ pub fn check<'a>(
             || out.canonicalize().is_ok_and(|out| input.canonicalize().is_ok_and(|input| out == input))
     };
     if inputs.any(same) { Err(usage("is an input file; choose another")) } else { Ok(()) }
+}
+
+/// Writes a result to a file, if one was named: whole, or not at all.
+///
+/// # Errors
+/// [`CliError::Output`].
+pub(crate) fn write(out: Option<&Path>, text: &str) -> Result<(), CliError> {
+    out.map_or(Ok(()), |out| atomic::write(out, text.as_bytes()).map_err(CliError::Output))
 }

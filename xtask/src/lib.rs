@@ -21,6 +21,7 @@ pub mod check_physics;
 pub mod cli;
 pub mod draw_behaviour;
 pub mod error;
+mod evaluations_file;
 pub mod fit_inference;
 pub mod fit_minds;
 pub mod golden;

@@ -122,7 +122,8 @@ impl Mind {
         }
         // Equal particles are one, and the tree's steps can then be cached.
         let roots = if roots.iter().all(|root| root == &roots[0]) { &roots[..1] } else { roots };
-        let search = Search { agent: *agent, seed, aim, physics, parameters: &self.parameters, actions, roots };
+        let search =
+            Search { agent: *agent, seed, aim, physics, parameters: &self.parameters, actions, roots };
         let known = self.memo.as_ref().and_then(|memo| memo.recall(&search));
         let evaluations = if let Some(known) = known {
             known

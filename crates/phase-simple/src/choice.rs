@@ -102,6 +102,12 @@ impl Chance {
     pub fn with_lapse(self, lapse: f64) -> f64 {
         (1.0 - lapse) * self.mind + lapse * self.uniform
     }
+
+    /// The logarithm of that (nat).
+    #[must_use]
+    pub fn log(self, lapse: f64) -> f64 {
+        libm::log(self.with_lapse(lapse).max(f64::MIN_POSITIVE))
+    }
 }
 
 /// The chance of what an agent did in each step. The mind of a hypothesis decides at every observed state with
@@ -124,8 +130,7 @@ pub fn chances(
 /// Mean log likelihood of a step (nat) at a lapse rate; `None` without steps.
 #[must_use]
 pub fn log_likelihood(chances: &[Chance], lapse: f64) -> Option<f64> {
-    let log = |chance: &Chance| libm::log(chance.with_lapse(lapse).max(f64::MIN_POSITIVE));
-    let sum: f64 = chances.iter().map(log).sum();
+    let sum: f64 = chances.iter().map(|chance| chance.log(lapse)).sum();
     (!chances.is_empty()).then(|| sum / chances.len() as f64)
 }
 

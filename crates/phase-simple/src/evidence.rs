@@ -45,8 +45,7 @@ impl IntentEvidence {
     /// which is the same under every intent.
     #[must_use]
     pub fn log_choices(&self, lapse_rate: f64) -> f64 {
-        let log = |chance: &Chance| libm::log(chance.with_lapse(lapse_rate).max(f64::MIN_POSITIVE));
-        self.chances.iter().map(log).sum()
+        self.chances.iter().map(|chance| chance.log(lapse_rate)).sum()
     }
 
     /// ln P(motion | intent) of the agent's part of the motion, but for a constant.

@@ -70,7 +70,8 @@ fn answers(subject: &Subject, weights: &[Weights]) -> Vec<Answer> {
             known.iter().position(|(it, _)| it == rate).unwrap_or_default()
         };
         let places: Vec<usize> = known.iter().zip(&weights.lapse_rates).map(of).collect();
-        let choices: Vec<&LogChoices> = known.iter().zip(places).map(|(known, place)| &known[place].1).collect();
+        let choices: Vec<&LogChoices> =
+            known.iter().zip(places).map(|(known, place)| &known[place].1).collect();
         subject.answer(&choices, weights)
     };
     weights.iter().map(answer).collect()

@@ -6,6 +6,7 @@
 //! over the kinds, and every fold of the events is held out of one fit.
 
 mod grid;
+mod kept;
 pub mod options;
 mod report;
 mod subject;
@@ -15,9 +16,10 @@ use crate::{
     check_minds::{self, parameters},
     error::XtaskError,
     fit_minds::folds,
+    json_file,
 };
-use core::ops::ControlFlow;
 use grid::Grid;
+use kept::KeptEvidence;
 use options::FitInference;
 use phase_agent::MindParameters;
 use phase_cli::{
@@ -25,14 +27,12 @@ use phase_cli::{
     context::Context,
     error::CliError,
     interrupt,
-    parallel::make_all,
+    output::json_text,
 };
 use phase_event::Recording;
-use phase_model::AGENT_COUNT;
+use phase_simple::{AlternativeMinds, InferenceSettings};
 use report::{Fold, Report};
 use std::path::Path;
-use phase_simple::{AlternativeMinds, InferenceSettings};
-use subject::{INTENTS, Subject};
 use weights::Weights;
 
 /// Runs the command.
@@ -40,6 +40,10 @@ use weights::Weights;
 /// # Errors
 /// Any [`XtaskError`] about the files, or an interruption.
 pub fn run(arguments: &FitInference, context: &Context) -> Result<(), XtaskError> {
+    if let Some(out) = &arguments.out {
+        let inputs = arguments.events.iter().chain(&arguments.held_out).chain(&arguments.parameters);
+        json_file::check("--out", out, inputs.map(|file| file.as_path()))?;
+    }
     let settings = settings(arguments)?;
     let mut recordings = Vec::new();
     for file in &arguments.events {
@@ -61,10 +65,11 @@ pub fn run(arguments: &FitInference, context: &Context) -> Result<(), XtaskError
     let present = Weights::of(&settings);
     let kinds: Vec<MindParameters> =
         core::iter::once(settings.minds).chain(settings.alternative.map(|it| it.minds)).collect();
-    let grid = Grid::of(&subjects(&recordings, &kinds, arguments, context)?, &present);
+    let evidence = KeptEvidence::new(&kinds, arguments, context)?;
+    let grid = Grid::of(&evidence.of(&recordings)?, &present);
     let mut others = Vec::with_capacity(held_out.len());
     for (file, recordings) in held_out {
-        others.push((file, Grid::of(&subjects(&recordings, &kinds, arguments, context)?, &present)));
+        others.push((file, Grid::of(&evidence.of(&recordings)?, &present)));
     }
     let named: Vec<_> = grid.events().collect();
     let fold_of = folds::assign(&named, folds, arguments.seed);
@@ -80,6 +85,7 @@ pub fn run(arguments: &FitInference, context: &Context) -> Result<(), XtaskError
         grid: &grid,
         held_out: &others,
     };
+    json_file::write(arguments.out.as_deref(), &json_text(&report.fitted, "the weights")?)?;
     print_result(report.text().trim_end());
     Ok(())
 }
@@ -89,19 +95,19 @@ fn settings(arguments: &FitInference) -> Result<InferenceSettings, CliError> {
     let one = InferenceSettings::default();
     let given = arguments.parameters.as_deref().map(parameters::read).transpose()?;
     let mut settings = match (given, arguments.minds) {
-        (Some(minds), _) => {
-            one.with_minds(MindParameters { simulations: InferenceSettings::minds_of(minds.kind).simulations, ..minds })
-        }
+        (Some(minds), _) => one.with_minds(MindParameters {
+            simulations: InferenceSettings::minds_of(minds.kind).simulations,
+            ..minds
+        }),
         (None, Some(kind)) => one.with_minds(InferenceSettings::minds_of(kind)),
         (None, None) => InferenceSettings::averaged(),
     };
     if let Some(simulations) = arguments.simulations {
         let simulations = simulations as usize;
         settings.minds.simulations = simulations;
-        settings.alternative = settings.alternative.map(|it| AlternativeMinds {
-            minds: MindParameters { simulations, ..it.minds },
-            ..it
-        });
+        settings.alternative = settings
+            .alternative
+            .map(|it| AlternativeMinds { minds: MindParameters { simulations, ..it.minds }, ..it });
     }
     Ok(settings)
 }
@@ -111,27 +117,4 @@ fn some(arguments: &FitInference, file: &Path, context: &Context) -> Result<Vec<
     let mut recordings = check_minds::recordings(file, None, context)?;
     recordings.truncate(arguments.limit.map_or(usize::MAX, |limit| limit as usize));
     Ok(recordings)
-}
-
-/// All intents of all events, simulated.
-fn subjects(
-    recordings: &[Recording],
-    kinds: &[MindParameters],
-    arguments: &FitInference,
-    context: &Context,
-) -> Result<Vec<Subject>, XtaskError> {
-    let activity = format!("simulating the intents of {}", console::events(recordings.len()));
-    let each = kinds.len() * INTENTS * AGENT_COUNT;
-    let progress = context.progress(&activity, recordings.len(), each);
-    let subjects = make_all(&arguments.jobs, recordings.len(), |k| {
-        let mut ticks = 0;
-        let subject = Subject::new(&recordings[k], kinds, arguments.seed, &mut || {
-            ticks += 1;
-            progress.step();
-            if interrupt::requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-        })?;
-        progress.event(ticks, &recordings[k].id);
-        Ok(subject)
-    })?;
-    subjects.ok_or(XtaskError::Interrupted)
 }

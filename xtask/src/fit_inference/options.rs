@@ -31,6 +31,10 @@ pub struct FitInference {
     /// POMCP simulations a decision [default: SIMPLE's, 50, with published minds 100]
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=10_000_000))]
     pub simulations: Option<u32>,
+    /// Where to write the fitted weights as JSON; the evidence on each event is kept in a file beside it, and the same command
+    /// goes on from there
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
     /// The seed of all random draws, the same in every event, and of the division into folds
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub seed: u64,

@@ -35,7 +35,18 @@ impl Report<'_> {
         );
         text += &format!(
             "{:<26} {:>6} {:>6} {:>10} {:>7} {:>9} {:>8} {:>8} {:>6} {:>8} {:>6} {:>6}\n",
-            "fit", "κ", "β", "ε", "events", "log post", "log rel", "relation", "goals", "named", "wrong", "last"
+            "fit",
+            "κ",
+            "β",
+            "ε",
+            "events",
+            "log post",
+            "log rel",
+            "relation",
+            "goals",
+            "named",
+            "wrong",
+            "last"
         );
         let of = |grid: &Grid, events: &[usize], weights: &Weights| -> Vec<Answer> {
             events.iter().filter_map(|&event| grid.answer(event, weights).copied()).collect()
@@ -48,7 +59,8 @@ impl Report<'_> {
             held_out.extend(answers);
         }
         text += &row("held out, all folds", None, &held_out);
-        for (name, weights) in [("present, all events", &self.present), ("fitted to all, on them", &self.fitted)]
+        for (name, weights) in
+            [("present, all events", &self.present), ("fitted to all, on them", &self.fitted)]
         {
             text += &row(name, Some(weights), &of(self.grid, &all(self.grid), weights));
         }
@@ -72,9 +84,8 @@ fn row(name: &str, weights: Option<&Weights>, answers: &[Answer]) -> String {
     let social: Vec<_> = answers.iter().filter_map(|it| it.recognition.social).collect();
     let named = social.iter().filter(|it| it.named).count();
     let wrong = social.iter().filter(|it| it.wrong > 0.9).count();
-    let rates = |weights: &Weights| {
-        weights.lapse_rates.iter().map(f64::to_string).collect::<Vec<_>>().join("/")
-    };
+    let rates =
+        |weights: &Weights| weights.lapse_rates.iter().map(f64::to_string).collect::<Vec<_>>().join("/");
     let weights = weights.map_or_else(
         || format!("{:>6} {:>6} {:>10}", "", "", ""),
         |it| format!("{:>6} {:>6} {:>10}", it.inverse_temperature, it.beta, rates(it)),

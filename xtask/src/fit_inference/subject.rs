@@ -10,8 +10,12 @@ use phase_event::{ObservedEvent, Recording};
 use phase_model::{AGENT_COUNT, AgentId, EventKind, Goal, Strength};
 use phase_simple::{
     Hypothesis, Intent, IntentEvidence, InversePlanningSettings, Posterior, PreparedEvent, Proposal,
-    UniformStrength, choice, cue::GAMMA, intent::joint_logs,
+    UniformStrength,
+    choice::{self, Chance},
+    cue::GAMMA,
+    intent::joint_logs,
 };
+use serde::{Deserialize, Serialize};
 
 /// Number of intents of an agent in an event with two objects.
 pub(super) const INTENTS: usize = 42;
@@ -22,16 +26,31 @@ pub(super) struct Subject {
     pub(super) id: String,
     /// Its kind.
     pub(super) kind: EventKind,
-    /// By kind of minds.
-    evidence: Vec<AgentEvidence>,
-    strengths: [Strength; AGENT_COUNT],
+    evidence: EventEvidence,
+    intents: [Vec<Intent>; AGENT_COUNT],
     truth: Hypothesis,
     /// Number of goals that an agent can have.
     goals: usize,
 }
 
-/// The evidence on all intents of each agent.
-type AgentEvidence = [Vec<IntentEvidence>; AGENT_COUNT];
+/// All that simulations tell about an event.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+pub(super) struct EventEvidence {
+    strengths: [Strength; AGENT_COUNT],
+    /// By kind of minds.
+    kinds: Vec<AgentEvidence>,
+}
+
+/// The evidence on all intents of each agent, in the order of [`Intent::all`].
+type AgentEvidence = [Vec<Evidence>; AGENT_COUNT];
+
+/// The evidence on one intent.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+struct Evidence {
+    /// The chance of what was done in each step: the mind's and a uniform choice's.
+    chances: Vec<(f64, f64)>,
+    deviation: f64,
+}
 
 /// ln P(choices | intent) of every intent of each agent at some lapse rate.
 pub(super) type LogChoices = [Vec<f64>; AGENT_COUNT];
@@ -45,10 +64,10 @@ pub(super) struct Answer {
     pub(super) last_kind: f64,
 }
 
-impl Subject {
+impl EventEvidence {
     /// Simulates all intents of both agents with each kind of minds; `None` if it was interrupted. An agent that is
     /// not social takes the other's likeliest goal by the cue for the other's goal.
-    pub(super) fn new(
+    pub(super) fn of(
         recording: &Recording,
         kinds: &[MindParameters],
         seed: u64,
@@ -56,7 +75,7 @@ impl Subject {
     ) -> Result<Option<Self>, CliError> {
         let failed = |error| CliError::Method { id: recording.id.clone(), source: error };
         let observed = recording.observed().map_err(|error| failed(MethodError::new(error)))?;
-        let cue = Proposal::new(&observed, 0..=observed.steps(), GAMMA, &UniformStrength);
+        let cue = cue(&observed);
         let assumed = AgentId::ALL.map(|agent| cue.most_likely_goal(agent));
         let mut evidence = Vec::with_capacity(kinds.len());
         let mut prepared: Option<PreparedEvent<'_>> = None;
@@ -71,39 +90,49 @@ impl Subject {
             }
             prepared = Some(event);
         }
-        let Some(prepared) = prepared else { return Ok(None) };
-        Ok(Some(Self {
+        let strengths = prepared.map(|event| event.motion().strengths());
+        Ok(strengths.map(|strengths| Self { strengths, kinds: evidence }))
+    }
+}
+
+impl Subject {
+    /// An event with the evidence on it.
+    pub(super) fn new(recording: &Recording, evidence: EventEvidence) -> Result<Self, CliError> {
+        let failed = |error| CliError::Method { id: recording.id.clone(), source: MethodError::new(error) };
+        let observed = recording.observed().map_err(failed)?;
+        let objects = observed.object_sizes().len();
+        Ok(Self {
             id: recording.id.clone(),
             kind: recording.scene.kind,
             evidence,
-            strengths: prepared.motion().strengths(),
+            intents: AgentId::ALL.map(|agent| Intent::all(agent, objects)),
             truth: truth(&recording.scene),
-            goals: cue.goals(AgentId::ZERO).len(),
-        }))
+            goals: cue(&observed).goals(AgentId::ZERO).len(),
+        })
     }
 
     /// Number of kinds of minds.
     pub(super) const fn kinds(&self) -> usize {
-        self.evidence.len()
+        self.evidence.kinds.len()
     }
 
     /// ln P(choices | intent) for one kind of minds at a lapse rate.
     pub(super) fn log_choices(&self, kind: usize, lapse_rate: f64) -> LogChoices {
-        let one = |evidence: &IntentEvidence| evidence.log_choices(lapse_rate);
-        self.evidence[kind].each_ref().map(|evidence| evidence.iter().map(one).collect())
+        let log = |&(mind, uniform): &(f64, f64)| Chance { mind, uniform }.log(lapse_rate);
+        let one = |evidence: &Evidence| evidence.chances.iter().map(log).sum();
+        self.evidence.kinds[kind].each_ref().map(|evidence| evidence.iter().map(one).collect())
     }
 
     /// SIMPLE's answer beside the truth. `choices` are those of each kind of minds at its lapse rate.
     pub(super) fn answer(&self, choices: &[&LogChoices], weights: &Weights) -> Answer {
-        let joint = self.evidence.iter().zip(choices).map(|(evidence, choices)| {
+        let joint = self.evidence.kinds.iter().zip(choices).map(|(evidence, choices)| {
             let weighted = AgentId::ALL.map(|agent| {
-                let weigh = |(evidence, log): (&IntentEvidence, &f64)| {
-                    let likelihood = weights.inverse_temperature * log - weights.beta * evidence.deviation;
-                    (evidence.intent, likelihood)
+                let weigh = |((intent, evidence), log): ((&Intent, &Evidence), &f64)| {
+                    (*intent, weights.inverse_temperature * log - weights.beta * evidence.deviation)
                 };
-                evidence[agent].iter().zip(&choices[agent]).map(weigh).collect()
+                self.intents[agent].iter().zip(&evidence[agent]).zip(&choices[agent]).map(weigh).collect()
             });
-            joint_logs(&weighted, self.strengths, self.goals)
+            joint_logs(&weighted, self.evidence.strengths, self.goals)
         });
         let joint: Vec<Vec<(Hypothesis, f64)>> = joint.collect();
         let greatest = joint.iter().flatten().map(|it| it.1).fold(f64::NEG_INFINITY, f64::max);
@@ -113,6 +142,10 @@ impl Subject {
         let posterior = Posterior::new(joint.into_iter().flatten());
         Answer { recognition: Recognition::of(&posterior, &self.truth), last_kind }
     }
+}
+
+fn cue(observed: &ObservedEvent) -> Proposal {
+    Proposal::new(observed, 0..=observed.steps(), GAMMA, &UniformStrength)
 }
 
 /// The evidence on all intents for one kind of minds; `None` if it was interrupted.
@@ -133,7 +166,9 @@ fn agents(
                 return Ok(None);
             }
             let one = IntentEvidence::of(prepared, &likelihoods, agent, intent, others, strengths, interval);
-            evidence[agent].push(one.map_err(MethodError::new)?);
+            let one = one.map_err(MethodError::new)?;
+            let chances = one.chances.iter().map(|chance| (chance.mind, chance.uniform)).collect();
+            evidence[agent].push(Evidence { chances, deviation: one.deviation });
         }
     }
     Ok(Some(evidence))

@@ -1,6 +1,7 @@
 //! How SIMPLE weighs its evidence.
 
 use phase_simple::{Algorithm, InferenceSettings, InversePlanningSettings};
+use serde::Serialize;
 
 /// Values of κ.
 const INVERSE_TEMPERATURES: [f64; 10] = [0.03, 0.05, 0.07, 0.1, 0.15, 0.2, 0.3, 0.5, 0.7, 1.0];
@@ -12,7 +13,7 @@ const LAPSE_RATES: [f64; 10] = [0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6, 
 const LAPSE_RATES_OF_TWO: [f64; 6] = [0.02, 0.05, 0.1, 0.2, 0.35, 0.5];
 
 /// How SIMPLE weighs its evidence.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize)]
 pub(super) struct Weights {
     /// κ. Kinds of minds have it in common, or their likelihoods could not be compared.
     pub(super) inverse_temperature: f64,

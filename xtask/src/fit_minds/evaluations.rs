@@ -1,10 +1,10 @@
 //! Evaluations of parameters on events: none is computed twice, and all are kept in a file.
 
-use super::{
+use super::subject::{Figures, Method, Subject};
+use crate::{
+    error::XtaskError,
     evaluations_file::{EvaluationsFile, Line},
-    subject::{Figures, Method, Subject},
 };
-use crate::error::XtaskError;
 use phase_agent::MindParameters;
 use phase_cli::{
     context::Context,
@@ -38,7 +38,7 @@ impl<'a> Evaluations<'a> {
     pub(super) fn new(
         subjects: &'a [Subject<'a>],
         method: Method,
-        kept: Option<(EvaluationsFile, Vec<Line>)>,
+        kept: Option<(EvaluationsFile, Vec<Line<Figures>>)>,
         jobs: &'a Jobs,
         context: &'a Context,
     ) -> Result<Self, CliError> {

@@ -7,7 +7,6 @@
 
 mod ablation;
 mod evaluations;
-mod evaluations_file;
 pub(crate) mod folds;
 mod means;
 pub mod options;
@@ -16,10 +15,9 @@ mod report;
 mod search;
 mod subject;
 
-use crate::{check_minds, error::XtaskError, json_file};
+use crate::{check_minds, error::XtaskError, evaluations_file::EvaluationsFile, json_file};
 use ablation::Ablation;
 use evaluations::Evaluations;
-use evaluations_file::EvaluationsFile;
 use options::FitMinds;
 use parameter::{PARAMETERS, Parameter};
 use phase_agent::MindParameters;
@@ -31,7 +29,6 @@ use phase_cli::{
     output::json_text,
     parallel::make_all,
 };
-use phase_dataset::atomic;
 use phase_eval::MethodError;
 use phase_event::{ObservedEvent, Recording};
 use search::Fit;
@@ -76,7 +73,7 @@ pub fn run(arguments: &FitMinds, context: &Context) -> Result<(), XtaskError> {
     let (events, held_out) = everything.split_at(own);
     if arguments.ablation {
         let ablation = Ablation::of(start, &chosen, &everything, method, &mut evaluations)?;
-        write(arguments.out.as_deref(), &json_text(&ablation, "the ablation")?)?;
+        json_file::write(arguments.out.as_deref(), &json_text(&ablation, "the ablation")?)?;
         print_result(ablation.table().trim_end());
         return Ok(());
     }
@@ -84,7 +81,7 @@ pub fn run(arguments: &FitMinds, context: &Context) -> Result<(), XtaskError> {
     search::run(&mut fits, &chosen, arguments.rounds.into(), &mut evaluations, context)?;
     let text = report::of(&fits, start, &chosen, held_out, method, &mut evaluations)?;
     if let Some(all) = fits.last() {
-        write(arguments.out.as_deref(), &json_text(&all.parameters, "the parameters")?)?;
+        json_file::write(arguments.out.as_deref(), &json_text(&all.parameters, "the parameters")?)?;
     }
     print_result(text.trim_end());
     Ok(())
@@ -152,8 +149,4 @@ fn fits(subjects: &[Subject<'_>], events: &[usize], start: MindParameters, argum
         .collect();
     fits.push(Fit::new("all".into(), start, events.to_vec(), Vec::new()));
     fits
-}
-
-fn write(out: Option<&Path>, text: &str) -> Result<(), CliError> {
-    out.map_or(Ok(()), |out| atomic::write(out, text.as_bytes()).map_err(CliError::Output))
 }

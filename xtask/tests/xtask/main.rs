@@ -4,6 +4,7 @@ mod check_behaviour;
 mod check_minds;
 mod check_physics;
 mod commands;
+mod fit_inference;
 mod fit_minds;
 mod support;
 mod tidy;

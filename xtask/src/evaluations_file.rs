@@ -1,9 +1,8 @@
-//! The file in which evaluations are kept: one JSON object a line.
+//! A file in which evaluations are kept, so that an interrupted fit goes on where it was: one JSON object a line.
 
-use super::subject::Figures;
 use phase_cli::error::CliError;
 use phase_dataset::{FileError, Problem, WriteError};
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use std::{
     fs::{File, OpenOptions, read_to_string},
     io::{self, Write},
@@ -13,19 +12,19 @@ use std::{
 
 /// One evaluation.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
-pub(super) struct Line {
+pub(crate) struct Line<T> {
     /// Names everything that determines it.
-    pub(super) key: String,
+    pub(crate) key: String,
     /// The event's id, for readers.
-    pub(super) event: String,
-    /// The figures.
+    pub(crate) event: String,
+    /// What was found.
     #[serde(flatten)]
-    pub(super) figures: Figures,
+    pub(crate) figures: T,
 }
 
 /// A file to which evaluations are added as they are done.
 #[derive(Debug)]
-pub(super) struct EvaluationsFile {
+pub(crate) struct EvaluationsFile {
     path: PathBuf,
     file: Mutex<File>,
 }
@@ -36,7 +35,7 @@ impl EvaluationsFile {
     ///
     /// # Errors
     /// If it cannot be read or written.
-    pub(super) fn beside(out: &Path) -> Result<(Self, Vec<Line>), CliError> {
+    pub(crate) fn beside<T: DeserializeOwned>(out: &Path) -> Result<(Self, Vec<Line<T>>), CliError> {
         let path = out.with_extension("evaluations.jsonl");
         let text = match read_to_string(&path) {
             Ok(text) => text,
@@ -55,7 +54,7 @@ impl EvaluationsFile {
     }
 
     /// The file.
-    pub(super) fn path(&self) -> &Path {
+    pub(crate) fn path(&self) -> &Path {
         &self.path
     }
 
@@ -63,7 +62,7 @@ impl EvaluationsFile {
     ///
     /// # Errors
     /// If it cannot be written.
-    pub(super) fn add(&self, line: &Line) -> Result<(), CliError> {
+    pub(crate) fn add<T: Serialize>(&self, line: &Line<T>) -> Result<(), CliError> {
         let text = serde_json::to_string(line);
         let text = text.map_err(|source| CliError::Serialise { what: "an evaluation", source })? + "\n";
         let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
@@ -78,16 +77,21 @@ fn failed(path: &Path, source: io::Error) -> CliError {
 #[cfg(test)]
 mod tests {
     use super::{EvaluationsFile, Line};
-    use crate::fit_minds::subject::Figures;
+    use serde::{Deserialize, Serialize};
     use std::fs;
+
+    #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+    struct Figures {
+        chance: f64,
+    }
 
     #[test]
     fn a_line_cut_off_is_skipped_and_the_next_one_is_whole() {
         let folder = tempfile::tempdir().expect("a folder");
         let out = folder.path().join("fit.json");
-        let figures = Figures { log_posterior: -0.1, log_likelihood: -1.3, chance: 0.4, cpu_seconds: 1e-3 };
-        let line = |key: &str| Line { key: key.into(), event: "e".into(), figures };
-        let (file, lines) = EvaluationsFile::beside(&out).expect("opened");
+        let figures = Figures { chance: 0.4 };
+        let line = |key: &str| Line { key: key.into(), event: "e".into(), figures: figures.clone() };
+        let (file, lines) = EvaluationsFile::beside::<Figures>(&out).expect("opened");
         assert!(lines.is_empty());
         file.add(&line("a")).expect("added");
         file.add(&line("b")).expect("added");
