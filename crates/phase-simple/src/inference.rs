@@ -1,9 +1,9 @@
 //! From an observed event to weighted hypotheses.
 
 use crate::{
-    Algorithm, AlternativeMinds, ChainSettings, Hypothesis, InferenceSettings, InversePlanningSettings,
-    Posterior, Proposal, generative::PreparedEvent, inverse_planning, metropolis::Chains,
-    simulations::Simulations, strength::StrengthCue,
+    Algorithm, AlternativeMinds, ChainSettings, Hypothesis, InferenceSettings, InferredStrengths,
+    InversePlanningSettings, Posterior, Proposal, StrengthSource, generative::PreparedEvent,
+    inverse_planning, metropolis::Chains, simulations::Simulations, strength::StrengthCue,
 };
 use core::ops::ControlFlow;
 use phase_event::ObservedEvent;
@@ -94,6 +94,11 @@ fn run_chains(
     settings: &ChainSettings,
     tick: &mut dyn FnMut() -> ControlFlow<()>,
 ) -> Result<Option<Inference>, PomcpError> {
+    let inferred = InferredStrengths(prepared.motion().strengths());
+    let strengths = match settings.strengths {
+        StrengthSource::Network => strengths,
+        StrengthSource::InverseDynamics => &inferred,
+    };
     let mut simulations = Simulations::new(prepared, settings.resync_interval, settings.beta);
     let initial = Proposal::new(prepared.observed(), 0..=prepared.observed().steps(), gamma, strengths);
     let chains = Chains { prepared, initial: &initial, strengths, gamma, settings };

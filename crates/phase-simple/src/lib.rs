@@ -70,6 +70,7 @@ pub use inverse_dynamics::InverseDynamics;
 pub use posterior::Posterior;
 pub use proposal::Proposal;
 pub use settings::{
-    Algorithm, AlternativeMinds, ChainSettings, InferenceSettings, InversePlanningSettings, Update,
+    Algorithm, AlternativeMinds, ChainSettings, InferenceSettings, InversePlanningSettings, StrengthSource,
+    Update,
 };
-pub use strength::{StrengthCue, StrengthRegressor, UniformStrength};
+pub use strength::{InferredStrengths, StrengthCue, StrengthRegressor, UniformStrength};

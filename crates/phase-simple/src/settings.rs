@@ -16,6 +16,17 @@ pub enum Update {
     Local,
 }
 
+/// Where proposals of strengths come from.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum StrengthSource {
+    /// The regression network, as in the paper.
+    #[default]
+    Network,
+    /// Inverse dynamics.
+    InverseDynamics,
+}
+
 /// How hypotheses are found and weighed.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -94,6 +105,9 @@ pub struct ChainSettings {
     /// Steps between resynchronisations with the observed state; `None` (the paper) for none.
     #[serde(rename = "anchor")]
     pub resync_interval: Option<usize>,
+    /// Where proposals of strengths come from. Absent in older files, which means the network.
+    #[serde(default)]
+    pub strengths: StrengthSource,
 }
 
 /// POMCP simulations a decision within an inference.
@@ -108,12 +122,13 @@ const INTENTS: usize = 42;
 impl InferenceSettings {
     /// The paper's: Algorithm 2 with M = 15, L = 6, β = 0.05, η = 0.1 and ΔT = 10, over simulations by the published
     /// simulator's minds that run freely from the start; [`Update::Local`] is the paper's method, the others are its
-    /// ablation. Only γ is not the printed one (see [`GAMMA`]), and agents search with fewer simulations.
+    /// ablation. Its strengths come from a network. Only γ is not the printed one (see [`GAMMA`]), and agents search with fewer simulations.
     #[must_use]
-    pub fn published(update: Update) -> Self {
+    pub fn published(update: Update, strengths: StrengthSource) -> Self {
         Self::chains(ChainSettings {
             beta: 0.05,
             resync_interval: None,
+            strengths,
             ..ChainSettings::resynchronised(update)
         })
         .with_minds(Self::minds_of(phase_agent::MindKind::Published))
@@ -183,6 +198,7 @@ impl ChainSettings {
             eta: 0.1,
             window: 10,
             resync_interval: Some(10),
+            strengths: StrengthSource::Network,
         }
     }
 }

@@ -12,7 +12,7 @@ use phase_eval::{
 use std::path::Path;
 
 /// Names of the methods for goals and relations.
-pub const RECOGNISERS: [&str; 11] = [
+pub const RECOGNISERS: [&str; 12] = [
     "simple",
     "simple-initial",
     "simple-global",
@@ -20,6 +20,7 @@ pub const RECOGNISERS: [&str; 11] = [
     "simple-published",
     "simple-published-global",
     "simple-published-initial",
+    "simple-published-dynamics",
     "cue",
     "two-level-lstm",
     "arg",

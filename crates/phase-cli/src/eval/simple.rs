@@ -10,7 +10,7 @@ use phase_event::ObservedEvent;
 use phase_model::{Forecast, Judgement};
 use phase_simple::{
     ChainSettings, ForecastSettings, Inference, InferenceSettings, MindPosterior, PreparedEvent, Proposal,
-    StrengthRegressor, UniformStrength, Update, forecast, infer,
+    StrengthRegressor, StrengthSource, UniformStrength, Update, forecast, infer,
 };
 use serde_json::{Value, json};
 
@@ -29,18 +29,23 @@ impl Simple {
     /// `simple-global` and `simple-local` are Algorithm 2 of the paper and its ablation, over simulations by our own
     /// minds that are periodically resynchronised with the observed event; `simple-published` is Algorithm 2 whole,
     /// with published minds and simulations that are not resynchronised, and `simple-published-global` and
-    /// `simple-published-initial` are its ablation. `None` for other names.
+    /// `simple-published-initial` are its ablation; `simple-published-dynamics` has strengths from inverse dynamics in place of
+    /// the network's. `None` for other names.
     #[must_use]
     pub fn of(name: &str) -> Option<Self> {
         let algorithm_2 = |update| InferenceSettings::chains(ChainSettings::resynchronised(update));
+        let published = |update| InferenceSettings::published(update, StrengthSource::Network);
         let settings = match name {
             "simple" => InferenceSettings::averaged(),
             "simple-initial" => algorithm_2(Update::Initial),
             "simple-global" => algorithm_2(Update::Global),
             "simple-local" => algorithm_2(Update::Local),
-            "simple-published" => InferenceSettings::published(Update::Local),
-            "simple-published-global" => InferenceSettings::published(Update::Global),
-            "simple-published-initial" => InferenceSettings::published(Update::Initial),
+            "simple-published" => published(Update::Local),
+            "simple-published-global" => published(Update::Global),
+            "simple-published-initial" => published(Update::Initial),
+            "simple-published-dynamics" => {
+                InferenceSettings::published(Update::Local, StrengthSource::InverseDynamics)
+            }
             _ => return None,
         };
         Some(Self { settings, forecast: ForecastSettings::default() })
