@@ -43,6 +43,13 @@ impl Context {
         }
     }
 
+    /// The same context without notes and progress.
+    #[must_use]
+    pub const fn quiet(mut self) -> Self {
+        self.verbosity = Verbosity { quiet: true, verbose: false };
+        self
+    }
+
     /// Prints details on stderr, if `--verbose` is given.
     pub fn detail(&self, line: impl Display) {
         if self.verbosity.verbose {

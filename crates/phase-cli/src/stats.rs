@@ -1,7 +1,15 @@
 //! `stats`: the paper's figures compared with those of a dataset or of other events, and plots of them.
 
-use crate::{context::Context, error::CliError, output::Output, source::EventInput};
+use crate::{
+    context::Context,
+    error::CliError,
+    output::Output,
+    parallel::Jobs,
+    shortcuts::{self, audited},
+    source::EventInput,
+};
 use clap::Args;
+use phase_audit::{Audit, Target};
 use phase_dataset::{
     WriteError,
     acceptance::Acceptance,
@@ -34,6 +42,9 @@ pub struct Stats {
     /// How the result is printed.
     #[command(flatten)]
     pub output: Output,
+    /// How many files at once.
+    #[command(flatten)]
+    pub jobs: Jobs,
 }
 
 /// Width of the bars in the plot of lengths (s).
@@ -50,12 +61,13 @@ type Plot = (&'static str, &'static str, &'static str, Vec<(String, f64)>);
 /// If the events cannot be used or the plots cannot be written.
 pub fn run(arguments: &Stats, context: &Context) -> Result<(), CliError> {
     let (statistics, selection) = statistics(&arguments.events, context)?;
-    let text = report(&statistics, &selection);
+    let audit = audited(&arguments.events, &arguments.jobs, context)?;
+    let text = report(&statistics, &selection, audit.as_ref());
     if let Some(out) = &arguments.out {
-        write(out, &text, &statistics, &selection).map_err(CliError::Output)?;
+        write(out, &text, &statistics, &selection, audit.as_ref()).map_err(CliError::Output)?;
         context.note(format!("figures and plots in {}", out.display()));
     }
-    arguments.output.print(text, &value(&statistics, &selection))
+    arguments.output.print(text, &value(&statistics, &selection, audit.as_ref()))
 }
 
 /// The figures of a dataset, with its manifest's data on the selection; or those of other events, which are
@@ -83,7 +95,7 @@ fn statistics(path: &Path, context: &Context) -> Result<(Statistics, Vec<Accepta
 }
 
 /// The figures for programs.
-fn value(statistics: &Statistics, selection: &[Acceptance]) -> Value {
+fn value(statistics: &Statistics, selection: &[Acceptance], audit: Option<&Audit>) -> Value {
     let Statistics { events, lengths, goals, relations, kinds, layouts, .. } = statistics;
     let figure =
         |figure: &StatisticsRow| json!({ "figure": figure.what, "paper": figure.paper, "here": figure.ours });
@@ -91,11 +103,11 @@ fn value(statistics: &Statistics, selection: &[Acceptance]) -> Value {
     let kinds: BTreeMap<&str, usize> = kinds.iter().map(|(kind, &count)| (kind.name(), count)).collect();
     json!({
         "events": events, "figures": figures, "lengths": lengths, "goals": goals, "relations": relations,
-        "kinds": kinds, "layouts": layouts, "selection": selection,
+        "kinds": kinds, "layouts": layouts, "selection": selection, "shortcuts": audit.map(shortcuts::value),
     })
 }
 
-fn report(statistics: &Statistics, selection: &[Acceptance]) -> String {
+fn report(statistics: &Statistics, selection: &[Acceptance], audit: Option<&Audit>) -> String {
     let mut text = statistics::table(&statistics.figures());
     text += &list("goal", "agents", statistics.goals.iter().map(|(goal, &count)| (goal.clone(), count)));
     text +=
@@ -103,6 +115,7 @@ fn report(statistics: &Statistics, selection: &[Acceptance]) -> String {
     if !selection.is_empty() {
         text += &format!("\n{}", acceptance::table(selection));
     }
+    text += &shortcuts::section(audit, statistics.events);
     text
 }
 
@@ -116,6 +129,7 @@ fn write(
     text: &str,
     statistics: &Statistics,
     selection: &[Acceptance],
+    audit: Option<&Audit>,
 ) -> Result<(), WriteError> {
     let failed = |source| WriteError { path: out.to_owned(), action: "create the folder", source };
     fs::create_dir_all(out).map_err(failed)?;
@@ -126,7 +140,15 @@ fn write(
     }
     let seconds = |at: usize| format!("{} to {} s", at * LENGTH_STEP, (at + 1) * LENGTH_STEP);
     let number = |count: usize| count as f64;
-    let plots: [Plot; 5] = [
+    let told = |target: Target| {
+        let majority = audit.map(|audit| ("nothing".into(), 100.0 * audit.majorities[target as usize]));
+        let rows = audit.into_iter().flat_map(|audit| &audit.rows);
+        let rows = rows.map(|row| (row.feature.name().into(), 100.0 * row.accuracies[target as usize]));
+        majority.into_iter().chain(rows).collect::<Vec<(String, f64)>>()
+    };
+    let plots: [Plot; 7] = [
+        ("shortcuts-relation.svg", "Relation told from", " %", told(Target::Relation)),
+        ("shortcuts-kind.svg", "Kind told from", " %", told(Target::Kind)),
         (
             "lengths.svg",
             "Events by length",

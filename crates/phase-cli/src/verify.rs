@@ -6,6 +6,7 @@ use crate::{
     error::CliError,
     output::{Output, print_json},
     parallel::{Jobs, make_all},
+    shortcuts::{self, audited},
 };
 use clap::Args;
 use phase_dataset::{
@@ -66,10 +67,13 @@ pub fn run(arguments: &Verify, context: &Context) -> Result<(), CliError> {
     }
     let events = manifest.events.len();
     let sentences: Vec<String> = problems.iter().map(ToString::to_string).collect();
-    let value =
+    let mut value =
         json!({ "folder": folder, "events": events, "whole": problems.is_empty(), "problems": sentences });
     if problems.is_empty() {
-        arguments.output.print(format!("all {events} events are whole"), &value)
+        let audit = audited(folder, &arguments.jobs, context)?;
+        let shortcuts = audit.as_ref().map(shortcuts::verdict).unwrap_or_default();
+        value["shortcuts"] = audit.as_ref().map(shortcuts::value).into();
+        arguments.output.print(format!("all {events} events are whole{shortcuts}"), &value)
     } else {
         if arguments.output.json {
             print_json(&value)?;

@@ -40,6 +40,7 @@ pub mod acceptance;
 pub mod atomic;
 pub mod cache;
 pub mod checksum;
+pub mod composition;
 pub mod croissant;
 pub mod describe;
 pub mod error;

@@ -9,7 +9,7 @@ use crate::{
     splits::{Item, Split},
 };
 use phase_event::Event;
-use phase_evidence::{GoalOutcome, Track};
+use phase_evidence::{GoalOutcome, Manner, Track};
 use phase_model::{AGENT_COUNT, EventKind, Goal, Relation, json::check_format};
 use phase_sampler::Variant;
 use serde::{Deserialize, Serialize};
@@ -74,6 +74,9 @@ pub struct EventEntry {
     pub object_size_levels: Vec<u8>,
     /// Length (steps of 0.25 s of video).
     pub steps: usize,
+    /// In what manner one helps or hinders the other, or the two meet, by what is seen.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub manners: Vec<Manner>,
     /// The event with everything known about it.
     pub event: FileEntry,
     /// The video, unless the dataset was generated without.
@@ -147,6 +150,7 @@ impl EventEntry {
             agents: core::array::from_fn(agent),
             object_size_levels: scene.objects.iter().map(|object| object.size.level()).collect(),
             steps: event.steps.len(),
+            manners: Manner::shown(scene, &track),
             event: json,
             video,
         }

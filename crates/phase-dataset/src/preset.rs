@@ -14,7 +14,7 @@ use std::{
 };
 
 /// The value of the field `format` of preset files.
-pub const PRESET_FORMAT: &str = "phase-preset/2";
+pub const PRESET_FORMAT: &str = "phase-preset/3";
 
 /// A recipe for a dataset.
 #[derive(Clone, PartialEq, Eq, Debug, Deserialize)]
@@ -30,8 +30,11 @@ pub struct Preset {
     pub layouts: BTreeMap<String, Vec<u8>>,
     /// What an event has to satisfy; without it the first scene drawn is accepted.
     pub selection: Option<Selection>,
-    /// What the dataset is composed of.
+    /// What the dataset is composed of, if each event has bodies of its own.
+    #[serde(default)]
     pub groups: Vec<PresetGroup>,
+    /// What it is composed of, if events of several kinds share bodies. A preset has either groups or blocks.
+    pub blocks: Option<Blocks>,
 }
 
 /// Which events are accepted.
@@ -44,21 +47,42 @@ pub struct Selection {
     pub max_steps: usize,
     /// Maximum number of scenes tried for an event before the run fails.
     pub attempts: usize,
-    /// Whether adversarial events, which need not end on their own, end at a step uniformly sampled from
-    /// `min_steps` to `max_steps`. Otherwise all of them last to the maximum, and their length reveals the
-    /// relation.
+    /// When events end.
     #[serde(default)]
-    pub draw_ends: bool,
+    pub ends: Ends,
+}
+
+/// When the events of a dataset end.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Ends {
+    /// Once everything is settled; where that never happens, at the maximum length, so that length reveals the relation.
+    #[default]
+    Settled,
+    /// As `Settled`, but adversarial events end at a step uniformly sampled from the minimum to the maximum at the latest.
+    AdversarialDrawn,
+    /// All events at a sampled step, before or after the outcome, so that length reveals nothing: the smaller of two
+    /// uniformly sampled steps, since long events in which all is settled show little.
+    Drawn,
 }
 
 impl Selection {
-    /// The step at which an event of this relation and seed ends at the latest, if that is sampled.
+    /// The length of an event (steps; minimum and maximum), if it is sampled. `seed` is that of the attempt and `slot` that
+    /// of the slot: rejections must not affect a length that is the same for all kinds.
     #[must_use]
-    pub fn sampled_end(&self, relation: Relation, seed: u64) -> Option<usize> {
+    pub fn sampled_length(&self, relation: Relation, seed: u64, slot: u64) -> Option<(usize, usize)> {
         let ends = self.max_steps.saturating_sub(self.min_steps) as u64 + 1;
         // The range is so small that the remainder introduces no noticeable bias.
-        let drawn = random::derive_seed(seed, Purpose::Length, 0) % ends;
-        (self.draw_ends && relation == Relation::Adversarial).then_some(self.min_steps + drawn as usize)
+        let drawn =
+            |seed, k| self.min_steps + (random::derive_seed(seed, Purpose::Length, k) % ends) as usize;
+        match self.ends {
+            Ends::AdversarialDrawn if relation == Relation::Adversarial => Some((0, drawn(seed, 0))),
+            Ends::Settled | Ends::AdversarialDrawn => None,
+            Ends::Drawn => {
+                let length = drawn(slot, 0).min(drawn(slot, 1));
+                Some((length, length))
+            }
+        }
     }
 }
 
@@ -76,25 +100,29 @@ pub struct PresetGroup {
     pub events: usize,
 }
 
-/// What one event of a dataset is to be.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct EventSlot {
-    /// The variant.
-    pub variant: Variant,
-    /// Index of the pair of goals; see [`Variant::goals`].
-    pub goal_index: usize,
-    /// The part of the dataset, if it is divided.
-    pub split: Option<Split>,
-    /// The name of its layouts.
-    pub layouts: String,
+/// Events of several kinds that share bodies: a block has one stage, and one event for each column.
+#[derive(Clone, PartialEq, Eq, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Blocks {
+    /// For each event of a block, the variants that it has in turn. The first column proposes the bodies.
+    pub columns: Vec<Vec<Variant>>,
+    /// How many blocks there are of what.
+    pub groups: Vec<BlockGroup>,
 }
 
-/// The slots of a preset: its groups interleaved evenly, repeated for larger datasets. Goals rotate, so that
-/// they stay balanced.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Composition {
-    slots: Vec<EventSlot>,
-    turns: BTreeMap<Variant, usize>,
+/// Blocks in the same part of the dataset.
+#[derive(Clone, PartialEq, Eq, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BlockGroup {
+    /// The part of the dataset, if it is divided.
+    pub split: Option<Split>,
+    /// One of the names in `layouts`.
+    pub layouts: String,
+    /// Number of blocks.
+    pub blocks: usize,
+    /// Variants that others replace in these blocks.
+    #[serde(default)]
+    pub replace: BTreeMap<Variant, Variant>,
 }
 
 impl Preset {
@@ -119,17 +147,32 @@ impl Preset {
         if self.name.is_empty() || self.name.len() > 60 || !self.name.chars().all(plain) {
             return Err("field `name` must be 1 to 60 letters, digits, `-`, `_`, `.`".into());
         }
-        if self.groups.is_empty() || self.groups.iter().any(|group| group.events == 0) {
-            return Err("fields `groups` and `events` must not be empty".into());
+        if self.groups.is_empty() == self.blocks.is_none() {
+            return Err(
+                "one of the fields `groups` and `blocks` must be given, and `groups` must not be empty"
+                    .into(),
+            );
+        }
+        if self.groups.iter().any(|group| group.events == 0) {
+            return Err("field `events` of a group must not be 0".into());
+        }
+        if let Some(blocks) = &self.blocks {
+            if blocks.columns.is_empty() || blocks.columns.iter().any(Vec::is_empty) {
+                return Err("field `columns` of `blocks` must not be empty, nor any of its lists".into());
+            }
+            if blocks.groups.is_empty() || blocks.groups.iter().any(|group| group.blocks == 0) {
+                return Err("fields `groups` and `blocks` of `blocks` must not be empty".into());
+            }
         }
         for (name, bases) in &self.layouts {
             if let Some(base) = bases.iter().find(|base| !USED_BASES.contains(base)) {
                 return Err(format!("layouts.{name} names base {base}, which no event is made in"));
             }
         }
-        let empty = |group: &&PresetGroup| self.layouts.get(&group.layouts).is_none_or(Vec::is_empty);
-        if let Some(group) = self.groups.iter().find(empty) {
-            return Err(format!("there are no layouts of the name {:?}", group.layouts));
+        let of_blocks = self.blocks.iter().flat_map(|blocks| &blocks.groups).map(|group| &group.layouts);
+        let mut named = self.groups.iter().map(|group| &group.layouts).chain(of_blocks);
+        if let Some(name) = named.find(|name| self.layouts.get(*name).is_none_or(Vec::is_empty)) {
+            return Err(format!("there are no layouts of the name {name:?}"));
         }
         if self.selection.is_some_and(|it| it.attempts == 0 || it.min_steps > it.max_steps) {
             return Err("selection needs an attempt, and min_steps no greater than max_steps".into());
@@ -140,7 +183,10 @@ impl Preset {
     /// Default number of events.
     #[must_use]
     pub fn events(&self) -> usize {
-        self.groups.iter().map(|group| group.events).sum()
+        let blocks = self.blocks.as_ref().map_or(0, |blocks| {
+            blocks.columns.len() * blocks.groups.iter().map(|group| group.blocks).sum::<usize>()
+        });
+        blocks + self.groups.iter().map(|group| group.events).sum::<usize>()
     }
 
     /// The layouts of a name.
@@ -150,42 +196,9 @@ impl Preset {
         Layout::all_used().filter(|layout| bases.contains(&layout.base())).collect()
     }
 
-    /// The slots.
-    #[must_use]
-    pub fn composition(&self) -> Composition {
-        // The place of event j of n is (2 j + 1) / 2 n of the way; equal places keep the groups' order.
-        let places = self.groups.iter().flat_map(|group| (0..group.events).map(move |j| (j, group)));
-        let mut places: Vec<(usize, &PresetGroup)> = places.collect();
-        places.sort_by(|(a, one), (b, other)| ((2 * a + 1) * other.events).cmp(&((2 * b + 1) * one.events)));
-        let mut turns: BTreeMap<Variant, usize> = BTreeMap::new();
-        let slot = |(_, group): (usize, &PresetGroup)| {
-            let next = turns.entry(group.variant).or_default();
-            *next += 1;
-            EventSlot {
-                variant: group.variant,
-                goal_index: *next - 1,
-                split: group.split,
-                layouts: group.layouts.clone(),
-            }
-        };
-        let slots = places.into_iter().map(slot).collect();
-        Composition { slots, turns }
-    }
-
     /// The id of the event with this number.
     #[must_use]
     pub fn id(&self, index: usize) -> String {
         format!("{}-{index:04}", self.name)
-    }
-}
-
-impl Composition {
-    /// What the event with this number is to be.
-    #[must_use]
-    pub fn slot(&self, index: usize) -> EventSlot {
-        let slot = &self.slots[index % self.slots.len()];
-        let round = index / self.slots.len();
-        let turns = self.turns.get(&slot.variant).copied().unwrap_or_default();
-        EventSlot { goal_index: slot.goal_index + round * turns, ..slot.clone() }
     }
 }

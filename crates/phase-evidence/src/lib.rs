@@ -42,6 +42,7 @@ pub mod contact;
 pub mod effect;
 pub mod exploration;
 pub mod holding;
+pub mod manner;
 pub mod motion;
 pub mod outcome;
 pub mod pursuit;
@@ -50,6 +51,7 @@ pub mod selection;
 pub mod track;
 
 pub use effect::Effect;
+pub use manner::Manner;
 pub use motion::MotionStatistics;
 pub use outcome::GoalOutcome;
 pub use rest::Rest;

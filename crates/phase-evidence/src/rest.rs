@@ -54,3 +54,17 @@ impl Rest {
             && 10 * self.moving_steps <= self.steps
     }
 }
+
+/// Whether a viewer would judge that nothing has moved in step t ≥ 1.
+#[must_use]
+pub fn is_still(track: &Track, step: usize) -> bool {
+    track.physics.entities().all(|entity| {
+        let moved = track.distance_in_step(entity, step);
+        let angle = |t: usize| track.states.get(t).map_or(0.0, |state| state.body(entity).angle);
+        let turned = match entity {
+            Entity::Agent(_) => (angle(step) - angle(step - 1)).abs(),
+            Entity::Object(_) => 0.0,
+        };
+        moved <= MOTION_TOLERANCE && turned <= MOTION_TOLERANCE
+    })
+}

@@ -28,6 +28,8 @@ pub enum Purpose {
     /// Initial weights of a network (index 0) and random draws of its training (by epoch, or by round and
     /// pass, from 1).
     Training = 10,
+    /// Stages that events of several kinds share.
+    Stage = 11,
 }
 
 /// A generator for one purpose and one index (an event's number, an agent's number, a step …).

@@ -12,9 +12,10 @@ use phase_model::EventKind;
 const PAGE: &str = "| `index.html` | opens in a browser, offline, and shows every video with its labels |\n";
 const VIDEOS: &str = "| `videos/<id>.mp4` | H.264, 20 frames a second, five frames a step |\n";
 
-/// The dataset's file for people: what it is, how it was generated, what it contains, and its licence.
+/// The dataset's file for people: what it is, how it was generated, what it contains, and its licence. `shortcuts` tells
+/// what can be predicted without looking at motion, in Markdown.
 #[must_use]
-pub fn card(manifest: &Manifest, command: &str) -> String {
+pub fn card(manifest: &Manifest, command: &str, shortcuts: &str) -> String {
     let has_videos = manifest.events.iter().any(|event| event.video.is_some());
     format!(
         "{front}# {preset}: {count} PHASE events\n\n\
@@ -40,6 +41,9 @@ pub fn card(manifest: &Manifest, command: &str) -> String {
          searches its actions with POMCP.\n\n```sh\n{command}\n```\n\n\
          The same command makes the same files, byte for byte, on the same platform. \
          `phase verify` checks that all of them are whole and agree.\n\n\
+         ## What can be told without looking\n\n\
+         A random forest (100 trees, five-fold cross-validation; events that share their bodies are in one fold) \
+         that knows nothing of motion:\n{shortcuts}\n\
          ## Known limits\n\n\
          - Everything here is simulated; no person acted or was recorded.\n\
          - There are never more than two agents and two objects, in a square arena with four landmarks.\n\

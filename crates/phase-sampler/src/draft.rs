@@ -1,8 +1,8 @@
 //! Drawing the parts of a scene.
 
 use phase_model::{
-    AgentId, Attitude, Body, Entity, EventKind, Goal, LandmarkId, Layout, ObjectId, RoomId, Scene, Sign,
-    Size, SlotId, Strength, Vec2, arena,
+    AgentId, Attitude, Body, Entity, EventKind, Goal, LandmarkId, Layout, MAX_OBJECTS, ObjectId, RoomId,
+    Scene, Sign, Size, SlotId, Strength, Vec2, arena,
     layout::SLOT_ROOMS,
     scene::{AgentSpec, ObjectSpec},
 };
@@ -16,6 +16,16 @@ const NARROW_DOOR_WIDTH: f32 = 2.5;
 pub const SELF_SUFFICIENT: [Strength; 3] = [Strength::Fair, Strength::Strong, Strength::Mighty];
 /// Sizes that do not fit through narrow doors.
 pub const LARGE_SIZES: [Size; 3] = [Size::Large, Size::Huge, Size::Medium];
+
+/// How many objects a scene has.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Objects {
+    /// Those that the goals are about, and in half of the scenes one more.
+    #[default]
+    Varied,
+    /// Two, whatever the goals are about, so that their number reveals nothing.
+    Two,
+}
 
 /// Agents and objects, not yet in an arena.
 #[derive(Clone, Debug)]
@@ -41,14 +51,20 @@ impl SceneDraft {
     }
 
     /// The scene. Distractor objects come first where the goals are about a later object; otherwise one is added
-    /// in half of the cases.
-    pub fn into_scene(self, kind: EventKind, layout: Layout, random: &mut impl Rng) -> Scene {
-        let mut stray = |_| object(any_size(random), any_room(random), random);
-        let mut objects: Vec<ObjectSpec> = (0..self.first_goal_object).map(&mut stray).collect();
+    /// in half of the cases, or as many as are missing of two.
+    pub fn into_scene(self, kind: EventKind, layout: Layout, count: Objects, random: &mut impl Rng) -> Scene {
+        let stray = |random: &mut _| object(any_size(random), any_room(random), random);
+        let first = self.first_goal_object;
+        let mut objects: Vec<ObjectSpec> = (0..first).map(|_| stray(random)).collect();
         objects.extend(self.goal_objects);
-        let another = stray(0);
-        if objects.len() < 2 && random.random_bool(0.5) {
-            objects.push(another);
+        match count {
+            Objects::Varied => {
+                let another = stray(random);
+                if objects.len() < MAX_OBJECTS && random.random_bool(0.5) {
+                    objects.push(another);
+                }
+            }
+            Objects::Two => objects.resize_with(MAX_OBJECTS, || stray(random)),
         }
         Scene { layout, agents: self.agents, objects, kind }
     }
@@ -96,8 +112,12 @@ pub fn start_in(room: RoomId, random: &mut impl Rng) -> Body {
         random.random_range(-START_JITTER..START_JITTER),
         random.random_range(-START_JITTER..START_JITTER),
     );
-    let angle = random.random_range(-core::f32::consts::PI..core::f32::consts::PI);
-    Body::at_rest(point + jitter, angle)
+    Body::at_rest(point + jitter, any_angle(random))
+}
+
+/// A direction (rad).
+pub fn any_angle(random: &mut impl Rng) -> f32 {
+    random.random_range(-core::f32::consts::PI..core::f32::consts::PI)
 }
 
 /// A neutral agent.

@@ -59,3 +59,33 @@ pub(crate) fn carry(goals: [Goal; 2], random: &mut impl Rng) -> Option<SceneDraf
     let agents = goals.map(|goal| agent(any_size(random), strength, goal, any_room(random), random));
     SceneDraft::about(goals, agents, vec![object(any_size(random), room, random)])
 }
+
+/// The helpee is too big for the door behind which its object lies, and its landmark is in a third room: once the object is
+/// outside, the helpee can take it on.
+pub(crate) fn passed_on(layout: Layout, goals: [Goal; 2], random: &mut impl Rng) -> Option<SceneDraft> {
+    let target = goals[1].landmark()?.room();
+    let outside = draft::other_room(&[target], random)?;
+    let (_, inside) = draft::narrow_door_of(layout, outside, random)?;
+    if inside == target {
+        return None;
+    }
+    let helper = helping(agent(any_size(random), choose(&SELF_SUFFICIENT, random), goals[0], inside, random));
+    let helpee =
+        agent(choose(&LARGE_SIZES, random), choose(&SELF_SUFFICIENT, random), goals[1], outside, random);
+    SceneDraft::about(goals, [helper, helpee], vec![object(Size::Small, inside, random)])
+}
+
+/// The helper stands in the narrow door that the helpee has to go through.
+pub(crate) fn in_the_way(layout: Layout, goals: [Goal; 2], random: &mut impl Rng) -> Option<SceneDraft> {
+    let beyond = goals[1].landmark()?.room();
+    let (slot, here) = draft::narrow_door_of(layout, beyond, random)?;
+    let mut helper =
+        helping(agent(any_size(random), choose(&SELF_SUFFICIENT, random), goals[0], beyond, random));
+    let middle = layout.opening(slot)?.middle();
+    let across = SLOT_DIRECTIONS[slot].perp();
+    let towards = across * across.dot(arena::LANDMARKS[beyond] - middle).signum();
+    helper.start.position = middle + towards * (helper.size.radius() + BLOCKING_GAP);
+    let weak = choose(&[Strength::Weak, Strength::Fair], random);
+    let helpee = agent(Size::Small, weak, goals[1], here, random);
+    SceneDraft::about(goals, [helper, helpee], Vec::new())
+}

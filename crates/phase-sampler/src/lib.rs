@@ -37,7 +37,10 @@ pub mod feasibility;
 mod friendly;
 mod neutral;
 pub mod recipe;
+mod requirements;
+pub mod stage;
 pub mod variant;
 
 pub use recipe::{Request, SampleError, sample, sample_kind};
+pub use stage::{Part, Stage};
 pub use variant::Variant;

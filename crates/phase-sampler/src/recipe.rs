@@ -2,17 +2,16 @@
 
 use crate::{
     Variant, adversarial,
-    draft::{SceneDraft, choose},
-    feasibility, friendly, neutral,
+    draft::{Objects, SceneDraft, choose},
+    friendly, neutral,
+    requirements::is_playable,
 };
-use phase_model::{AgentId, AgentSpec, Entity, EventKind, Goal, Layout, Scene, Sign};
+use phase_model::{AgentSpec, Entity, EventKind, Goal, Layout, Scene};
 use rand::{Rng, RngExt};
 use thiserror::Error;
 
 /// Maximum number of draws before a variant fails; in practice some dozens suffice.
-const MAX_DRAWS: usize = 20_000;
-/// Minimum ratio of a goal's cost without the helper to its cost with the helper.
-const MIN_COST_RATIO: f32 = 1.5;
+pub(crate) const MAX_DRAWS: usize = 20_000;
 
 /// Which scene is requested.
 #[derive(Clone, Copy, Debug)]
@@ -37,19 +36,24 @@ pub struct SampleError(pub Variant);
 /// # Errors
 /// [`SampleError`] if the draws are exhausted, for example because no layout fits the variant.
 pub fn sample(request: &Request<'_>, random: &mut impl Rng) -> Result<Scene, SampleError> {
-    let goals = request.variant.goals(request.goal_index);
     for _ in 0..MAX_DRAWS {
         if request.layouts.is_empty() {
             break;
         }
-        let layout = choose(request.layouts, random);
-        let Some(draft) = draft(request.variant, layout, goals, random) else { continue };
-        let scene = draft.into_scene(request.variant.kind(), layout, random);
-        if scene.validate_without_overlap().is_ok() && is_unsolved(&scene) && is_feasible(&scene) {
+        if let Some(scene) = propose(request, Objects::Varied, random) {
             return Ok(if random.random_bool(0.5) { exchanged(&scene) } else { scene });
         }
     }
     Err(SampleError(request.variant))
+}
+
+/// One draw of a scene with role 0 as agent 0; `None` if the draw cannot show its label.
+pub(crate) fn propose(request: &Request<'_>, count: Objects, random: &mut impl Rng) -> Option<Scene> {
+    let Request { variant, goal_index, layouts } = *request;
+    let layout = choose(layouts, random);
+    let draft = draft(variant, layout, variant.goals(goal_index), random)?;
+    let scene = draft.into_scene(variant.kind(), layout, count, random);
+    is_playable(variant, &scene).then_some(scene)
 }
 
 /// Draws a scene of a kind in any of the 90 layouts; variant and goals are drawn as well.
@@ -66,45 +70,30 @@ pub fn sample_kind(kind: EventKind, random: &mut impl Rng) -> Result<Scene, Samp
 fn draft(variant: Variant, layout: Layout, goals: [Goal; 2], random: &mut impl Rng) -> Option<SceneDraft> {
     match variant {
         Variant::Lift => friendly::lift(goals, random),
-        Variant::Blocked => friendly::blocked(layout, goals, random),
+        Variant::Fetch if random.random_bool(0.5) => friendly::lift(goals, random),
+        Variant::Blocked | Variant::Fetch => friendly::blocked(layout, goals, random),
+        Variant::HandOver => friendly::passed_on(layout, goals, random),
+        Variant::MakeWay => friendly::in_the_way(layout, goals, random),
         Variant::Move => friendly::clear(layout, goals, random),
         Variant::Carry => friendly::carry(goals, random),
-        Variant::HinderPlace | Variant::HinderObject => adversarial::hinder(goals, random),
+        Variant::HinderPlace
+        | Variant::HinderObject
+        | Variant::Block
+        | Variant::Take
+        | Variant::Drag
+        | Variant::Hide
+        | Variant::Undo => adversarial::hinder(goals, random),
         Variant::Evade | Variant::Pester => adversarial::hinder_touch(goals, random),
         Variant::Chase => adversarial::chase(goals, random),
         Variant::Compete => adversarial::compete(goals, random),
-        Variant::Places | Variant::Mixed | Variant::Objects => neutral::independent(goals, random),
-    }
-}
-
-/// Whether no goal holds at the start.
-fn is_unsolved(scene: &Scene) -> bool {
-    scene.goals().iter().all(|&goal| {
-        let positive = if goal.sign() == Sign::Positive { goal } else { goal.negated() };
-        !feasibility::is_achieved(scene, positive)
-    })
-}
-
-/// Whether the agents can do what the kind requires of them; role 0 is agent 0.
-fn is_feasible(scene: &Scene) -> bool {
-    let [first, second] = scene.goals();
-    match scene.kind {
-        EventKind::Helping => {
-            let alone = feasibility::cost(scene, second, [false, true]);
-            let both = feasibility::cost(scene, second, [true, true]);
-            both < feasibility::INFEASIBLE_COST && alone > both * MIN_COST_RATIO
+        Variant::Places | Variant::Mixed | Variant::Objects | Variant::Cross => {
+            neutral::independent(goals, random)
         }
-        EventKind::Hindering => feasibility::alone(scene, AgentId::ONE, second),
-        EventKind::Chasing => feasibility::alone(scene, AgentId::ZERO, first),
-        EventKind::Competing | EventKind::Independent => {
-            feasibility::alone(scene, AgentId::ZERO, first) && feasibility::alone(scene, AgentId::ONE, second)
-        }
-        EventKind::Collaborating => feasibility::together(scene, first),
     }
 }
 
 /// The same scene with the agents' numbers exchanged.
-fn exchanged(scene: &Scene) -> Scene {
+pub(crate) fn exchanged(scene: &Scene) -> Scene {
     let [first, second] = scene.agents;
     let renamed = |agent: AgentSpec| AgentSpec { goal: renumbered(agent.goal), ..agent };
     Scene { agents: [renamed(second), renamed(first)], ..scene.clone() }

@@ -1,7 +1,7 @@
 //! The variants of each kind of event, and the goals that each of them is about.
 
 use crate::draft::{agent_on, object_on};
-use phase_model::{AgentId, EventKind, Goal, LandmarkId, ObjectId, Sign};
+use phase_model::{AgentId, Attitude, EventKind, Goal, LandmarkId, ObjectId, Sign};
 use serde::{Deserialize, Serialize};
 
 /// How a kind of event comes about. The social agent, or the one that chases, is role 0 in what follows; which
@@ -35,11 +35,29 @@ pub enum Variant {
     Mixed,
     /// Independent: two agents move two objects.
     Objects,
+    /// Helping: the helper brings the object that the other wants on a landmark and cannot reach.
+    Fetch,
+    /// Helping: the helper brings that object part of the way, and the other takes it on.
+    HandOver,
+    /// Helping: the helper stands in the other's way, and leaves it.
+    MakeWay,
+    /// Hindering: the hinderer stands in the other's way to a landmark.
+    Block,
+    /// Hindering: the hinderer takes an object from the other and carries it off.
+    Take,
+    /// Hindering: both hold the object that the other wants on a landmark, and pull.
+    Drag,
+    /// Hindering: the hinderer carries the object off before the other comes to it.
+    Hide,
+    /// Hindering: the hinderer moves the object off the landmark that the other brought it to.
+    Undo,
+    /// Independent: two agents go to two landmarks, each to the room in which the other starts.
+    Cross,
 }
 
 impl Variant {
-    /// All variants, by kind.
-    pub const ALL: [Self; 13] = [
+    /// All variants: those of the first edition, then those of the second, each by kind.
+    pub const ALL: [Self; 22] = [
         Self::Lift,
         Self::Blocked,
         Self::Move,
@@ -53,18 +71,47 @@ impl Variant {
         Self::Places,
         Self::Mixed,
         Self::Objects,
+        Self::Fetch,
+        Self::HandOver,
+        Self::MakeWay,
+        Self::Block,
+        Self::Take,
+        Self::Drag,
+        Self::Hide,
+        Self::Undo,
+        Self::Cross,
     ];
 
     /// The kind of event it belongs to.
     #[must_use]
     pub const fn kind(self) -> EventKind {
         match self {
-            Self::Lift | Self::Blocked | Self::Move => EventKind::Helping,
-            Self::HinderPlace | Self::HinderObject | Self::Evade | Self::Pester => EventKind::Hindering,
+            Self::Lift | Self::Blocked | Self::Move | Self::Fetch | Self::HandOver | Self::MakeWay => {
+                EventKind::Helping
+            }
+            Self::HinderPlace
+            | Self::HinderObject
+            | Self::Evade
+            | Self::Pester
+            | Self::Block
+            | Self::Take
+            | Self::Drag
+            | Self::Hide
+            | Self::Undo => EventKind::Hindering,
             Self::Chase => EventKind::Chasing,
             Self::Compete => EventKind::Competing,
             Self::Carry => EventKind::Collaborating,
-            Self::Places | Self::Mixed | Self::Objects => EventKind::Independent,
+            Self::Places | Self::Mixed | Self::Objects | Self::Cross => EventKind::Independent,
+        }
+    }
+
+    /// The attitude of role 0; role 1 is neutral.
+    #[must_use]
+    pub const fn attitude(self) -> Attitude {
+        match self.kind() {
+            EventKind::Helping => Attitude::Help,
+            EventKind::Hindering => Attitude::Hinder,
+            _ => Attitude::Neutral,
         }
     }
 
@@ -85,6 +132,15 @@ impl Variant {
             Self::Places => "places",
             Self::Mixed => "mixed",
             Self::Objects => "objects",
+            Self::Fetch => "fetch",
+            Self::HandOver => "hand-over",
+            Self::MakeWay => "make-way",
+            Self::Block => "block",
+            Self::Take => "take",
+            Self::Drag => "drag",
+            Self::Hide => "hide",
+            Self::Undo => "undo",
+            Self::Cross => "cross",
         }
     }
 
@@ -98,11 +154,20 @@ impl Variant {
     #[must_use]
     pub const fn goal_count(self) -> usize {
         match self {
-            Self::Lift | Self::Blocked | Self::HinderObject | Self::Carry => 8,
-            Self::Move | Self::HinderPlace => 4,
+            Self::Lift
+            | Self::Blocked
+            | Self::HinderObject
+            | Self::Carry
+            | Self::Fetch
+            | Self::HandOver
+            | Self::Take
+            | Self::Drag
+            | Self::Hide
+            | Self::Undo => 8,
+            Self::Move | Self::HinderPlace | Self::MakeWay | Self::Block => 4,
             Self::Evade | Self::Pester | Self::Chase => 1,
             Self::Compete | Self::Mixed => 24,
-            Self::Places | Self::Objects => 12,
+            Self::Places | Self::Objects | Self::Cross => 12,
         }
     }
 
@@ -115,12 +180,16 @@ impl Variant {
         let round = goal_index / at.len();
         let object = ObjectId::ALL[round % 2];
         match self {
-            Self::Lift | Self::Blocked | Self::Carry => [object_on(object, at[first]); 2],
-            Self::Move => [agent_on(AgentId::ONE, at[first]); 2],
-            Self::HinderPlace => {
+            Self::Lift | Self::Blocked | Self::Carry | Self::Fetch | Self::HandOver => {
+                [object_on(object, at[first]); 2]
+            }
+            Self::Move | Self::MakeWay => [agent_on(AgentId::ONE, at[first]); 2],
+            Self::HinderPlace | Self::Block => {
                 [agent_on(AgentId::ONE, at[first]).negated(), agent_on(AgentId::ONE, at[first])]
             }
-            Self::HinderObject => [object_on(object, at[first]).negated(), object_on(object, at[first])],
+            Self::HinderObject | Self::Take | Self::Drag | Self::Hide | Self::Undo => {
+                [object_on(object, at[first]).negated(), object_on(object, at[first])]
+            }
             Self::Evade => [touch(AgentId::ONE, Sign::Negative), touch(AgentId::ONE, Sign::Positive)],
             Self::Pester | Self::Chase => {
                 [touch(AgentId::ZERO, Sign::Positive), touch(AgentId::ZERO, Sign::Negative)]
@@ -129,7 +198,7 @@ impl Variant {
                 let second = (first + 1 + (round / 2) % 3) % at.len();
                 [object_on(object, at[first]), object_on(object, at[second])]
             }
-            Self::Places => [
+            Self::Places | Self::Cross => [
                 agent_on(AgentId::ZERO, at[first]),
                 agent_on(AgentId::ONE, at[(first + 1 + round % 3) % at.len()]),
             ],

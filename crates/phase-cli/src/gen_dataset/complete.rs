@@ -3,7 +3,8 @@
 //! Events are read back from the folder one at a time, so memory grows with the number of events only by
 //! their entries in the manifest. Code for further files of a dataset belongs here.
 
-use crate::{error::CliError, interrupt};
+use crate::{error::CliError, interrupt, shortcuts};
+use phase_audit::{AuditItem, MAX_EVENTS, audit};
 use phase_dataset::{
     FileError, Problem,
     acceptance::Tally,
@@ -15,7 +16,7 @@ use phase_dataset::{
     shard::DatasetDescription,
     slot_record::SlotRecord,
 };
-use phase_event::Event;
+use phase_event::Recording;
 use phase_report::{
     card::{self, card},
     gallery::{self, Timeline},
@@ -33,12 +34,17 @@ pub fn complete(
     records: impl Iterator<Item = SlotRecord>,
 ) -> Result<Manifest, CliError> {
     let (mut events, mut timelines, mut tally) = (Vec::new(), Vec::new(), Tally::default());
+    let mut audited = Vec::new();
     for record in records {
         let Some(entry) = record.entry else { continue };
         if let Some(variant) = entry.variant {
             tally.add(variant, &record.refused);
         }
-        timelines.push(Timeline::of(&read_back(out, &entry)?));
+        let recording = read_back(out, &entry)?;
+        if audited.len() < MAX_EVENTS {
+            audited.push(AuditItem::of(&recording));
+        }
+        timelines.extend(recording.simulation.as_ref().map(|simulation| Timeline::of(&simulation.event)));
         events.push(entry);
     }
     let mut manifest = Manifest {
@@ -59,7 +65,9 @@ pub fn complete(
         let page = gallery::page(&manifest, &timelines);
         describe(out, &mut manifest, PAGE_FILE, &page)?;
     }
-    let text = card(&manifest, &whole.command);
+    let count = manifest.events.len();
+    let shortcuts = shortcuts::section(audit(&audited, count).as_ref(), count);
+    let text = card(&manifest, &whole.command, &shortcuts);
     describe(out, &mut manifest, CARD_FILE, &text)?;
     let text = croissant(&manifest, card::about());
     describe(out, &mut manifest, CROISSANT_FILE, &text)?;
@@ -75,11 +83,11 @@ fn describe(out: &Path, manifest: &mut Manifest, name: &str, text: &str) -> Resu
 }
 
 /// The event of an entry, from its file.
-fn read_back(out: &Path, entry: &EventEntry) -> Result<Event, CliError> {
+fn read_back(out: &Path, entry: &EventEntry) -> Result<Recording, CliError> {
     let file = out.join(&entry.event.path);
     let recordings = phase_events::read(&file).map_err(CliError::ReadBack)?;
-    let simulation = recordings.into_iter().find_map(|recording| recording.simulation);
-    simulation.map(|simulation| simulation.event).ok_or(CliError::ReadBack(FileError {
+    let simulated = recordings.into_iter().find(|recording| recording.simulation.is_some());
+    simulated.ok_or(CliError::ReadBack(FileError {
         file,
         problem: Problem::Shape { what: "event of a dataset", rule: "it was not simulated".into() },
     }))

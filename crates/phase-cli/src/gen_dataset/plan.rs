@@ -9,8 +9,9 @@ use crate::{
 use phase_dataset::{
     FileError,
     checksum::{hexadecimal, sha256},
+    composition::Composition,
     json,
-    preset::{Composition, Preset},
+    preset::Preset,
     shard::{self, DatasetDescription},
 };
 use phase_model::json::JsonError;
@@ -67,7 +68,7 @@ impl Plan {
         let settings_value = settings_value(&settings)?;
         let facts = format!("{settings_value} {seed} {text}");
         let fingerprint = hexadecimal(&sha256(&[&program()[..], facts.as_bytes()].concat()));
-        let (composition, shard) = (preset.composition(), arguments.shard);
+        let (composition, shard) = (Composition::of(&preset), arguments.shard);
         Ok(Self {
             preset,
             composition,

@@ -11,20 +11,32 @@ use crate::{
 };
 use core::ops::ControlFlow;
 use phase_dataset::{
+    composition::{EventSlot, manner_of},
     folder::Folder,
     manifest::{EventEntry, event_path, video_path},
-    preset::{EventSlot, Selection},
+    preset::{Ends, Selection},
     slot_record::SlotRecord,
 };
 use phase_event::Event;
 use phase_evidence::{
     Track,
-    selection::{RejectionReason, check_event},
+    selection::{Ending, RejectionReason, check_event},
 };
-use phase_model::{Layout, Scene, random};
-use phase_sampler::Request;
+use phase_model::{
+    Layout, Scene,
+    random::{self, Purpose},
+};
+use phase_sampler::{Part, Request, SampleError, Stage};
 use phase_sim::SimulationSettings;
 use std::{collections::BTreeMap, path::PathBuf, time::Instant};
+
+/// Attempts on one stage before another is drawn: there are several assignments of roles and many seeds, and a stage that
+/// some variant rejects is a stage that the others of its block have alone.
+const ATTEMPTS_PER_STAGE: usize = 3;
+/// Draws of strengths and roles for one scene; a stage on which the part was cast once is likely to allow it again.
+const CASTS: usize = 200;
+/// Layouts from one block to the next. Coprime to the sizes of the pools of bundled presets: blocks that follow one another have different base layouts.
+const LAYOUT_STRIDE: usize = 11;
 
 /// The slots of a dataset that is being generated in a folder.
 #[derive(Debug)]
@@ -81,15 +93,14 @@ impl<'a> Slots<'a> {
         record.entry = None;
         let limit = self.plan.preset.selection.map_or(1, |selection| selection.attempts);
         while record.refused.len() < limit {
-            let seed = engine::attempt_seed(self.plan.seed, index, record.refused.len());
-            match self.attempt(&id, &slot, seed)? {
+            match self.attempt(&id, index, &slot, record.refused.len())? {
                 Attempt::Interrupted => return Ok(None),
                 Attempt::Refused(reason) => {
                     let attempt = record.refused.len() + 1;
                     self.context.detail(format!("{id} attempt {attempt}: {}", reason.name()));
                     record.refused.push(reason);
                 }
-                Attempt::Accepted(event) => record.entry = Some(self.keep(&id, &slot, &event)?),
+                Attempt::Accepted(event) => record.entry = Some(self.keep(&id, index, &slot, &event)?),
             }
             record.save(&self.record_path(index))?;
             if let Some(entry) = &record.entry {
@@ -104,28 +115,59 @@ impl<'a> Slots<'a> {
         Err(CliError::Exhausted { id, variant: slot.variant, reasons: reasons(&record.refused) })
     }
 
-    fn attempt(&self, id: &str, slot: &EventSlot, seed: u64) -> Result<Attempt, CliError> {
-        let layouts = self.pools.get(&slot.layouts).map_or(&[][..], Vec::as_slice);
-        let request = Request { variant: slot.variant, goal_index: slot.goal_index, layouts };
-        let mut random = random::stream(seed, random::Purpose::Scene, 0);
-        let scene = phase_sampler::sample(&request, &mut random)?;
-        let Some(event) = self.simulate(id, &scene, seed, &self.settings(&scene, seed))? else {
+    fn attempt(&self, id: &str, index: usize, slot: &EventSlot, number: usize) -> Result<Attempt, CliError> {
+        let seed = engine::attempt_seed(self.plan.seed, index, number);
+        let scene = self.scene(slot, seed, number)?;
+        let settings = self.settings(&scene, seed, index);
+        let Some(event) = self.simulate(id, &scene, seed, &settings)? else {
             return Ok(Attempt::Interrupted);
         };
         let Some(selection) = &self.plan.preset.selection else { return Ok(accepted(event)) };
-        self.judge(id, event, selection)
+        self.judge(id, event, slot, selection, &settings)
+    }
+
+    /// The scene of an attempt: with bodies of its own, or cast on the stage of its block.
+    fn scene(&self, slot: &EventSlot, seed: u64, number: usize) -> Result<Scene, SampleError> {
+        let layouts = self.pools.get(&slot.layouts).map_or(&[][..], Vec::as_slice);
+        let mut random = random::stream(seed, Purpose::Scene, 0);
+        let (variant, goal_index) = (slot.variant, slot.goal_index);
+        let Some(place) = slot.block else {
+            return phase_sampler::sample(&Request { variant, goal_index, layouts }, &mut random);
+        };
+        let parts = self.plan.composition.parts(place);
+        let block = random::derive_seed(self.plan.seed, Purpose::Stage, place.block as u64);
+        let mut stages = random::stream(block, Purpose::Stage, (number / ATTEMPTS_PER_STAGE) as u64);
+        // Blocks begin with different layouts, so that all are used.
+        let mut layouts = layouts.to_vec();
+        let turn = (place.block + number / ATTEMPTS_PER_STAGE) * LAYOUT_STRIDE % layouts.len().max(1);
+        layouts.rotate_left(turn);
+        let stage = Stage::sample(&parts, &layouts, &mut stages)?;
+        let part = Part { variant, goal_index };
+        let drawn = (0..CASTS).find_map(|_| stage.cast(part, &mut random));
+        drawn.ok_or(SampleError(variant))
     }
 
     /// Cheap tests first; the counterfactual has to be simulated and comes last.
-    fn judge(&self, id: &str, event: Event, selection: &Selection) -> Result<Attempt, CliError> {
+    fn judge(
+        &self,
+        id: &str,
+        event: Event,
+        slot: &EventSlot,
+        selection: &Selection,
+        settings: &SimulationSettings,
+    ) -> Result<Attempt, CliError> {
         let (scene, track) = (&event.scene, Track::of_event(&event));
-        let counterfactual = match check_event(scene, &track, selection.min_steps..=selection.max_steps) {
+        let ending = match selection.ends {
+            Ends::Settled | Ends::AdversarialDrawn => Ending::Settled,
+            Ends::Drawn => Ending::Drawn(manner_of(slot.variant)),
+        };
+        let lengths = selection.min_steps..=selection.max_steps;
+        let counterfactual = match check_event(scene, &track, lengths, ending) {
             Err(reason) => return Ok(Attempt::Refused(reason)),
             Ok(None) => return Ok(accepted(event)),
             Ok(Some(counterfactual)) => counterfactual,
         };
-        let settings =
-            SimulationSettings { idle: Some(counterfactual.idle), ..self.settings(scene, event.seed) };
+        let settings = SimulationSettings { idle: Some(counterfactual.idle), ..*settings };
         let without = self.simulate(id, &counterfactual.scene(scene), event.seed, &settings)?;
         let Some(without) = without else { return Ok(Attempt::Interrupted) };
         Ok(match counterfactual.judge(scene, &track, &Track::of_event(&without)) {
@@ -134,11 +176,13 @@ impl<'a> Slots<'a> {
         })
     }
 
-    /// The run's settings, with a sampled end for adversarial events if the preset requires it.
-    fn settings(&self, scene: &Scene, seed: u64) -> SimulationSettings {
+    /// The run's settings, with a sampled length if the preset requires it.
+    fn settings(&self, scene: &Scene, seed: u64, index: usize) -> SimulationSettings {
         let mut settings = self.plan.settings;
-        if let Some(end) = self.plan.preset.selection.and_then(|it| it.sampled_end(scene.relation(), seed)) {
-            settings.max_steps = end;
+        let slot = engine::event_seed(self.plan.seed, index);
+        let selection = self.plan.preset.selection;
+        if let Some((min, max)) = selection.and_then(|it| it.sampled_length(scene.relation(), seed, slot)) {
+            (settings.min_steps, settings.max_steps) = (settings.min_steps.max(min), max);
         }
         settings
     }
@@ -157,13 +201,13 @@ impl<'a> Slots<'a> {
     }
 
     /// Writes the files of an accepted event.
-    fn keep(&self, id: &str, slot: &EventSlot, event: &Event) -> Result<EventEntry, CliError> {
+    fn keep(&self, id: &str, index: usize, slot: &EventSlot, event: &Event) -> Result<EventEntry, CliError> {
         let out = self.folder.path();
         let job = EventJob {
             id: id.into(),
             seed: event.seed,
             relation: None,
-            max_steps: Some(self.settings(&event.scene, event.seed).max_steps),
+            max_steps: Some(self.settings(&event.scene, event.seed, index).max_steps),
             json: out.join(event_path(id)),
             video: self.plan.videos.then(|| out.join(video_path(id))),
         };

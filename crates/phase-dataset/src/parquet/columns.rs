@@ -112,6 +112,22 @@ fn labels() -> Vec<Box<dyn Column>> {
             "`helping`, `hindering`, `chasing`, `competing`, `collaborating` or `independent`",
             |row| row.recording.scene.kind.name().to_owned()
         ),
+        (
+            "variant",
+            "",
+            "string",
+            "",
+            "how the kind of event comes about; empty where it is unknown",
+            |row| row.entry.variant.map_or_else(String::new, |variant| variant.name().to_owned())
+        ),
+        (
+            "manners",
+            "[manners]",
+            "string",
+            "",
+            "in what manner one helps or hinders the other or the two meet, by what is seen; may be empty",
+            |row| row.entry.manners.iter().map(|manner| manner.name().to_owned()).collect::<Vec<_>>()
+        ),
         ("relation", "", "string", "", "`friendly`, `adversarial` or `neutral`", |row| describe::relation(
             row.recording.relation
         )

@@ -1,8 +1,9 @@
 //! Presets and the slots they consist of.
 
 use phase_dataset::{
+    composition::{Composition, EventSlot},
     labels::goal_counts,
-    preset::{EventSlot, Preset, Selection},
+    preset::{Ends, Preset, Selection},
     splits::Split,
 };
 use phase_model::{AGENT_COUNT, EventKind, Relation};
@@ -11,9 +12,11 @@ use std::collections::{BTreeMap, BTreeSet};
 
 const DEMO: &str = include_str!("../../../../data/presets/demo.json");
 const PHASE_500: &str = include_str!("../../../../data/presets/phase-500.json");
+const PHASE_500_V1: &str = include_str!("../../../../data/presets/phase-500-v1.json");
+const TRAINING: &str = include_str!("../../../../data/presets/phase-training.json");
 
 fn slots(preset: &Preset, count: usize) -> Vec<EventSlot> {
-    let composition = preset.composition();
+    let composition = Composition::of(preset);
     (0..count).map(|index| composition.slot(index)).collect()
 }
 
@@ -44,10 +47,10 @@ const fn relation(kind: EventKind) -> Relation {
 /// The paper's numbers (section "Dataset Statistics"), for the dataset and in proportion for one three times as
 /// large.
 #[test]
-fn phase_500_has_the_papers_composition() {
-    let preset = Preset::parse("phase-500", PHASE_500).expect("a preset");
-    assert_eq!(preset.events(), 500);
-    for times in [1, 3] {
+fn both_editions_have_the_papers_composition() {
+    for (text, times) in [(PHASE_500_V1, 1), (PHASE_500_V1, 3), (PHASE_500, 1), (PHASE_500, 3)] {
+        let preset = Preset::parse("phase-500", text).expect("a preset");
+        assert_eq!(preset.events(), 500);
         let slots = slots(&preset, 500 * times);
         let count = |holds: &dyn Fn(&EventSlot) -> bool| slots.iter().filter(|slot| holds(slot)).count();
         for (wanted, events) in
@@ -78,9 +81,14 @@ fn phase_500_has_the_papers_composition() {
 }
 
 #[test]
-fn phase_500_keeps_layouts_and_one_type_for_the_test() {
-    let preset = Preset::parse("phase-500", PHASE_500).expect("a preset");
-    let slots = slots(&preset, 500);
+fn both_editions_keep_layouts_and_one_type_for_the_test() {
+    for (text, variant) in [(PHASE_500_V1, Variant::Evade), (PHASE_500, Variant::Objects)] {
+        check_test_set(&Preset::parse("phase-500", text).expect("a preset"), variant);
+    }
+}
+
+fn check_test_set(preset: &Preset, unseen: Variant) {
+    let slots = slots(preset, 500);
     let bases = |name: &str| -> BTreeSet<u8> { preset.pool(name).iter().map(|it| it.base()).collect() };
     assert!(bases("seen").is_disjoint(&bases("unseen")));
     assert_eq!(preset.pool("seen").len() + preset.pool("unseen").len(), 90);
@@ -91,13 +99,13 @@ fn phase_500_keeps_layouts_and_one_type_for_the_test() {
     let learnt: BTreeSet<Variant> = slots.iter().filter(|it| !tested(it)).map(|it| it.variant).collect();
     let only: Vec<Variant> =
         slots.iter().filter(tested).map(|it| it.variant).filter(|it| !learnt.contains(it)).collect();
-    assert_eq!(only, [Variant::Evade; 9]);
+    assert_eq!(only, [unseen; 9]);
 }
 
 /// A run that stops early still has events of every kind.
 #[test]
 fn groups_are_spread_evenly() {
-    let preset = Preset::parse("phase-500", PHASE_500).expect("a preset");
+    let preset = Preset::parse("phase-500-v1", PHASE_500_V1).expect("a preset");
     for part in [50, 100, 250] {
         let mut counts: BTreeMap<Split, usize> = BTreeMap::new();
         for slot in slots(&preset, part) {
@@ -117,18 +125,73 @@ fn groups_are_spread_evenly() {
 /// Every length is as likely as any other, and only for those whose events would not end by themselves.
 #[test]
 fn ends_are_drawn_for_those_at_odds() {
-    let selection = Preset::parse("phase-500", PHASE_500).expect("a preset").selection.expect("selects");
+    let selection = Preset::parse("v1", PHASE_500_V1).expect("a preset").selection.expect("selects");
     let mut ends = [0; 101];
     for seed in 0..6100 {
-        assert_eq!(selection.sampled_end(Relation::Friendly, seed), None);
-        assert_eq!(selection.sampled_end(Relation::Neutral, seed), None);
-        ends[selection.sampled_end(Relation::Adversarial, seed).expect("is drawn")] += 1;
+        assert_eq!(selection.sampled_length(Relation::Friendly, seed, 0), None);
+        assert_eq!(selection.sampled_length(Relation::Neutral, seed, 0), None);
+        let (min, max) = selection.sampled_length(Relation::Adversarial, seed, 0).expect("is drawn");
+        assert_eq!(min, 0);
+        ends[max] += 1;
     }
     assert!(ends[..40].iter().all(|&count| count == 0));
     // A hundred each, give or take five standard deviations.
     assert!(ends[40..].iter().all(|count| (50..=150).contains(count)), "{ends:?}");
-    let undrawn = Selection { draw_ends: false, ..selection };
-    assert_eq!(undrawn.sampled_end(Relation::Adversarial, 1), None);
+    let settled = Selection { ends: Ends::Settled, ..selection };
+    assert_eq!(settled.sampled_length(Relation::Adversarial, 1, 0), None);
+}
+
+/// The length depends on the slot alone: neither on the relation nor on how many scenes were rejected. It is the smaller of
+/// two uniform ones, whose mean over 0 to 60 is (60 · 121) / (6 · 61).
+#[test]
+fn lengths_are_the_same_for_all_kinds() {
+    let selection = Preset::parse("v2", PHASE_500).expect("a preset").selection.expect("selects");
+    let mut sum = 0;
+    for slot in 0..6100 {
+        let length = |relation, seed| selection.sampled_length(relation, seed, slot).expect("is drawn");
+        let (min, max) = length(Relation::Friendly, 1);
+        assert!(min == max && (40..=100).contains(&max));
+        assert_eq!(length(Relation::Adversarial, 2), (min, max));
+        assert_eq!(length(Relation::Neutral, 3), (min, max));
+        sum += max;
+    }
+    let mean = sum as f64 / 6100.0;
+    // Five standard errors of a standard deviation of 14.
+    assert!((mean - 40.0 - 60.0 * 121.0 / 366.0).abs() < 0.9, "{mean}");
+}
+
+/// Every block has each relation, whatever its bodies are drawn for, and is in one part of the dataset.
+#[test]
+fn blocks_share_bodies_and_parts() {
+    for text in [PHASE_500, TRAINING] {
+        let preset = Preset::parse("v2", text).expect("a preset");
+        let composition = Composition::of(&preset);
+        for first in (0..preset.events() * 2).step_by(5) {
+            let slots: Vec<EventSlot> = (first..first + 5).map(|index| composition.slot(index)).collect();
+            let place = slots[0].block.expect("is in a block");
+            assert_eq!((place.block, place.first, place.events), (first / 5, first, 5));
+            assert!(slots.iter().all(|slot| slot.block == Some(place) && slot.split == slots[0].split));
+            assert!(slots.iter().all(|slot| slot.layouts == slots[0].layouts));
+            let parts = composition.parts(place);
+            assert!(parts.iter().zip(&slots).all(|(part, slot)| part.variant == slot.variant));
+            let relations: BTreeSet<Relation> =
+                slots.iter().map(|slot| relation(slot.variant.kind())).collect();
+            assert_eq!(relations.len(), 3, "{slots:?}");
+        }
+    }
+}
+
+/// Each manner of helping and hindering, and crossing, has at least a tenth of its kind.
+#[test]
+fn no_manner_is_rare() {
+    let preset = Preset::parse("v2", PHASE_500).expect("a preset");
+    let slots = slots(&preset, 500);
+    let count = |holds: &dyn Fn(Variant) -> bool| slots.iter().filter(|slot| holds(slot.variant)).count();
+    for variant in Variant::ALL.into_iter().filter(|&it| phase_dataset::composition::manner_of(it).is_some())
+    {
+        let (of_it, of_kind) = (count(&|it| it == variant), count(&|it| it.kind() == variant.kind()));
+        assert!(10 * of_it >= of_kind, "{variant:?}: {of_it} of {of_kind}");
+    }
 }
 
 #[test]
@@ -137,7 +200,7 @@ fn what_is_no_preset_is_refused() {
     let cases = [
         ("{}", "missing field"),
         ("", "EOF"),
-        (&DEMO.replace("phase-preset/2", "phase-preset/9"), "format"),
+        (&DEMO.replace("phase-preset/3", "phase-preset/9"), "format"),
         (&DEMO.replace("\"events\": 1", "\"events\": 0"), "events"),
         (&nothing, "groups"),
         (&DEMO.replace("\"lift\"", "\"dance\""), "dance"),
@@ -145,6 +208,10 @@ fn what_is_no_preset_is_refused() {
         (&DEMO.replace("{\"all\"", "{\"most\""), "all"),
         (&DEMO.replace("[0, 2", "[1, 2"), "base 1"),
         (&DEMO.replace("\"demo\"", "\"../demo\""), "name"),
+        (&PHASE_500.replace("\"blocks\": 64", "\"blocks\": 0"), "`blocks`"),
+        (&PHASE_500.replace("[\"carry\"]", "[]"), "`columns`"),
+        (&PHASE_500.replace("\"blocks\": {", "\"groups\": [{}], \"blocks\": {"), "variant"),
+        (&PHASE_500.replace("\"unseen\", \"blocks\": 5", "\"hidden\", \"blocks\": 5"), "hidden"),
         (&PHASE_500.replace("400,", "0,"), "attempt"),
         (&PHASE_500.replace("\"max_steps\": 100", "\"max_steps\": 10"), "min_steps"),
         (&PHASE_500.replace("\"validation\"", "\"holdout\""), "holdout"),

@@ -1,6 +1,7 @@
 //! Checks shared by several kinds of event.
 
 use super::RejectionReason;
+pub(super) use crate::manner::goal_object as object_of;
 use crate::{GoalOutcome, Rest, Track, contact};
 use phase_model::{AgentId, Entity, Goal, ObjectId, Relation, Scene, State};
 
@@ -53,12 +54,8 @@ pub(super) fn touches(track: &Track, agent: AgentId, object: ObjectId) -> usize 
     contact::steps_touching(track, Entity::Agent(agent), Entity::Object(object)).len()
 }
 
-/// The goal's object, if it is about one.
-pub(super) const fn object_of(goal: Goal) -> Option<ObjectId> {
-    match goal {
-        Goal::ObjectOnLandmark { object, .. } => Some(object),
-        Goal::AgentOnLandmark { .. } | Goal::Touch { .. } => None,
-    }
+pub(super) const fn require(holds: bool, otherwise: RejectionReason) -> Result<(), RejectionReason> {
+    if holds { Ok(()) } else { Err(otherwise) }
 }
 
 /// Distance of an agent from the first target of its goal (u).

@@ -1,11 +1,11 @@
-//! What each kind of event requires.
+//! What each kind of event requires where events end once they are settled.
 
 use super::{
     CausalEffect, Counterfactual, RejectionReason,
-    common::{MIN_VISIBLE_STEPS, object_of, pursued, reached, touches},
+    common::{MIN_VISIBLE_STEPS, object_of, pursued, reached, require, touches},
 };
-use crate::{GoalOutcome, Track, blocking, contact, holding, pursuit::Pursuit};
-use phase_model::{AgentId, Attitude, Entity, EventKind, Goal, ObjectId, Scene, Sign};
+use crate::{GoalOutcome, Track, blocking, contact, holding, manner, pursuit::Pursuit};
+use phase_model::{AgentId, Entity, EventKind, Goal, ObjectId, Scene, Sign};
 use phase_planner::Routes;
 
 /// Minimum number of steps for which both pull at an object that is fought over.
@@ -15,7 +15,7 @@ const MIN_CARRIED_DISTANCE: f32 = 1.0;
 /// Minimum number of moving steps of a pursuit.
 const MIN_PURSUIT_STEPS: usize = 8;
 /// Independent agents may touch each other in one of this number of steps.
-const MAX_CONTACT_DIVISOR: usize = 5;
+pub(super) const MAX_CONTACT_DIVISOR: usize = 5;
 
 pub(super) fn judge(scene: &Scene, track: &Track) -> Result<Option<Counterfactual>, RejectionReason> {
     match scene.kind {
@@ -32,7 +32,7 @@ pub(super) fn judge(scene: &Scene, track: &Track) -> Result<Option<Counterfactua
 /// it visibly before the helper took it, and has held it as well; otherwise a viewer sees one agent move an object and
 /// the other stand idle.
 fn helping(scene: &Scene, track: &Track) -> Result<Counterfactual, RejectionReason> {
-    let helper = social(scene);
+    let helper = manner::social_agent(scene);
     let helpee = helper.other();
     reached(scene, track, helpee)?;
     let held = track.states.iter().filter(|state| state.grips[helper].is_some()).count();
@@ -43,13 +43,13 @@ fn helping(scene: &Scene, track: &Track) -> Result<Counterfactual, RejectionReas
         let lent_a_hand = holding::carried(track, helpee, object).steps;
         require(lent_a_hand >= MIN_VISIBLE_STEPS, RejectionReason::Aimless)?;
     }
-    Ok(Counterfactual { idle: helper, judged: helpee, change: CausalEffect::Helped })
+    Ok(Counterfactual { idle: helper, judged: helpee, change: CausalEffect::Helped, cut: false })
 }
 
 /// The victim pursues its goal, and the hinderer is at it, obstructs it or is at its object; where the goal
 /// is about touching, one pursues the other, which escapes.
 fn hindering(scene: &Scene, track: &Track) -> Result<Counterfactual, RejectionReason> {
-    let hinderer = social(scene);
+    let hinderer = manner::social_agent(scene);
     let victim = hinderer.other();
     match scene.agents[victim].goal {
         Goal::Touch { sign: Sign::Positive, .. } => chase(track, victim)?,
@@ -59,21 +59,20 @@ fn hindering(scene: &Scene, track: &Track) -> Result<Counterfactual, RejectionRe
             require(is_in_the_way(scene, track, hinderer, goal), RejectionReason::NoContact)?;
         }
     }
-    Ok(Counterfactual { idle: hinderer, judged: victim, change: CausalEffect::Hindered })
+    Ok(Counterfactual { idle: hinderer, judged: victim, change: CausalEffect::Hindered, cut: false })
 }
 
 fn chasing(scene: &Scene, track: &Track) -> Result<Counterfactual, RejectionReason> {
-    let chases = |agent: &AgentId| scene.agents[*agent].goal.sign() == Sign::Positive;
-    let chaser = AgentId::ALL.into_iter().find(chases).unwrap_or(AgentId::ZERO);
+    let chaser = chaser(scene);
     if GoalOutcome::of(track, scene.agents[chaser].goal).reached {
         reached(scene, track, chaser)?;
     }
     chase(track, chaser)?;
-    Ok(Counterfactual { idle: chaser.other(), judged: chaser, change: CausalEffect::Hindered })
+    Ok(Counterfactual { idle: chaser.other(), judged: chaser, change: CausalEffect::Hindered, cut: false })
 }
 
 /// Both reach the object; one wins, or they fight over it. Without the winner the loser would have won.
-fn competing(scene: &Scene, track: &Track) -> Result<Counterfactual, RejectionReason> {
+pub(super) fn competing(scene: &Scene, track: &Track) -> Result<Counterfactual, RejectionReason> {
     let object = object_of(scene.agents[0].goal).unwrap_or(ObjectId::ZERO);
     for agent in AgentId::ALL {
         pursued(scene, track, agent)?;
@@ -83,13 +82,18 @@ fn competing(scene: &Scene, track: &Track) -> Result<Counterfactual, RejectionRe
     let fought = holding::carried_together(track, object).steps;
     require(winner.is_some() || fought >= MIN_CONTESTED_STEPS, RejectionReason::Uncontested)?;
     let winner = winner.unwrap_or(AgentId::ONE);
-    Ok(Counterfactual { idle: winner, judged: winner.other(), change: CausalEffect::Hindered })
+    Ok(Counterfactual { idle: winner, judged: winner.other(), change: CausalEffect::Hindered, cut: false })
 }
 
 /// The object reaches its landmark, carried by both at once or by one after the other.
 fn collaborating(scene: &Scene, track: &Track) -> Result<(), RejectionReason> {
     reached(scene, track, AgentId::ZERO)?;
     let object = object_of(scene.agents[0].goal).unwrap_or(ObjectId::ZERO);
+    shared(track, object)
+}
+
+/// Both carry the object, at once or one after the other.
+pub(super) fn shared(track: &Track, object: ObjectId) -> Result<(), RejectionReason> {
     let much =
         |it: holding::CarryStatistics| it.steps >= MIN_VISIBLE_STEPS && it.distance >= MIN_CARRIED_DISTANCE;
     let together = much(holding::carried_together(track, object));
@@ -112,7 +116,7 @@ fn independent(scene: &Scene, track: &Track) -> Result<(), RejectionReason> {
 
 /// One pursues the other for most of the time in which it moves, and the other stays away for a while and is
 /// not in its grasp for more than half of the event.
-fn chase(track: &Track, chaser: AgentId) -> Result<(), RejectionReason> {
+pub(super) fn chase(track: &Track, chaser: AgentId) -> Result<(), RejectionReason> {
     let (after, away) = (Pursuit::of(track, chaser), Pursuit::of(track, chaser.other()));
     require(
         after.moving >= MIN_PURSUIT_STEPS && 2 * after.towards >= after.moving,
@@ -125,7 +129,7 @@ fn chase(track: &Track, chaser: AgentId) -> Result<(), RejectionReason> {
 }
 
 /// Whether a hinderer was seen at the victim, at its object, or obstructing it.
-fn is_in_the_way(scene: &Scene, track: &Track, hinderer: AgentId, goal: Goal) -> bool {
+pub(super) fn is_in_the_way(scene: &Scene, track: &Track, hinderer: AgentId, goal: Goal) -> bool {
     let victim = hinderer.other();
     let target = |state: &phase_model::State| blocking::next_place(goal, state);
     let met = contact::steps_touching(track, Entity::Agent(hinderer), Entity::Agent(victim)).len();
@@ -139,12 +143,8 @@ fn is_in_the_way(scene: &Scene, track: &Track, hinderer: AgentId, goal: Goal) ->
         || between() >= MIN_VISIBLE_STEPS
 }
 
-/// The agent with a social utility weight.
-fn social(scene: &Scene) -> AgentId {
-    let is_social = |agent: &AgentId| scene.agents[*agent].attitude != Attitude::Neutral;
-    AgentId::ALL.into_iter().find(is_social).unwrap_or(AgentId::ZERO)
-}
-
-const fn require(holds: bool, otherwise: RejectionReason) -> Result<(), RejectionReason> {
-    if holds { Ok(()) } else { Err(otherwise) }
+/// The agent of a chase that wants to touch the other.
+pub(super) fn chaser(scene: &Scene) -> AgentId {
+    let chases = |agent: &AgentId| scene.agents[*agent].goal.sign() == Sign::Positive;
+    AgentId::ALL.into_iter().find(chases).unwrap_or(AgentId::ZERO)
 }

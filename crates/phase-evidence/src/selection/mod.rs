@@ -6,9 +6,10 @@
 //! with that agent neutral and idle, which is as expensive as the event itself and therefore comes last.
 
 mod common;
+mod drawn;
 mod kinds;
 
-use crate::{Effect, GoalOutcome, Track, contact};
+use crate::{Effect, GoalOutcome, Manner, Track, contact};
 use core::ops::RangeInclusive;
 use phase_model::{AgentId, Attitude, Entity, Goal, Scene, Sign};
 use serde::{Deserialize, Serialize};
@@ -41,13 +42,19 @@ pub enum RejectionReason {
     NoFlight,
     /// Independent agents interfered with each other.
     Interference,
+    /// Nothing moves for most of the time, or adversaries stand still for long.
+    Lifeless,
+    /// An agent did not come closer to its goal.
+    NoProgress,
+    /// The manner of helping, hindering or meeting that the variant is about was not seen.
+    OtherManner,
     /// Without the agent that is to make a difference the result would have been the same.
     NoEffect,
 }
 
 impl RejectionReason {
     /// All reasons, in the order in which they are checked.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 16] = [
         Self::TooShort,
         Self::TooLong,
         Self::Restless,
@@ -60,6 +67,9 @@ impl RejectionReason {
         Self::NoPursuit,
         Self::NoFlight,
         Self::Interference,
+        Self::Lifeless,
+        Self::NoProgress,
+        Self::OtherManner,
         Self::NoEffect,
     ];
 
@@ -79,6 +89,9 @@ impl RejectionReason {
             Self::NoPursuit => "no-pursuit",
             Self::NoFlight => "no-flight",
             Self::Interference => "interference",
+            Self::Lifeless => "lifeless",
+            Self::NoProgress => "no-progress",
+            Self::OtherManner => "other-manner",
             Self::NoEffect => "no-effect",
         }
     }
@@ -103,6 +116,9 @@ pub struct Counterfactual {
     pub judged: AgentId,
     /// The required result.
     pub change: CausalEffect,
+    /// Whether the event may have been cut before the outcome; then it counts, too, how far the goal's subject still has
+    /// to go.
+    pub cut: bool,
 }
 
 impl Counterfactual {
@@ -121,12 +137,26 @@ impl Counterfactual {
     pub fn judge(&self, scene: &Scene, event: &Track, without: &Track) -> Result<(), RejectionReason> {
         let goal = scene.agents[self.judged].goal;
         let effect = Effect { with: GoalOutcome::of(event, goal), without: GoalOutcome::of(without, goal) };
+        let [nearer, farther] = [(event, without), (without, event)]
+            .map(|(one, other)| self.cut && remaining(goal, one) + MIN_DIFFERENCE <= remaining(goal, other));
         let shown = match self.change {
-            CausalEffect::Helped => effect.helped(),
-            CausalEffect::Hindered => effect.hindered() || escapes(goal, event, without),
+            CausalEffect::Helped => effect.helped() || nearer,
+            CausalEffect::Hindered => effect.hindered() || farther || escapes(goal, event, without),
         };
         if shown { Ok(()) } else { Err(RejectionReason::NoEffect) }
     }
+}
+
+/// How much difference an agent must make to where the goal's subject is at the end (u).
+const MIN_DIFFERENCE: f32 = 2.0;
+
+/// When events end, and therefore what may be required of them.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Ending {
+    /// Once everything is settled; an adversarial event may end earlier.
+    Settled,
+    /// At a sampled step, before or after the outcome. If a manner is given, it has to be seen.
+    Drawn(Option<Manner>),
 }
 
 /// Everything that can be checked on an event alone; `lengths` are those allowed (steps). `Ok(None)` means
@@ -138,6 +168,7 @@ pub fn check_event(
     scene: &Scene,
     track: &Track,
     lengths: RangeInclusive<usize>,
+    ending: Ending,
 ) -> Result<Option<Counterfactual>, RejectionReason> {
     let steps = track.steps();
     if steps < *lengths.start() {
@@ -146,8 +177,19 @@ pub fn check_event(
     if steps > *lengths.end() {
         return Err(RejectionReason::TooLong);
     }
-    common::check_rest_at_end(scene, track)?;
-    kinds::judge(scene, track)
+    match ending {
+        Ending::Settled => {
+            common::check_rest_at_end(scene, track)?;
+            kinds::judge(scene, track)
+        }
+        Ending::Drawn(manner) => drawn::judge(scene, track, manner),
+    }
+}
+
+/// How far the goal's subject is from the goal at the end (u); infinite for tracks without states.
+fn remaining(goal: Goal, track: &Track) -> f32 {
+    let positive = if goal.sign() == Sign::Positive { goal } else { goal.negated() };
+    track.states.last().map_or(f32::INFINITY, |state| positive.distance(state))
 }
 
 /// Whether the touched agent escapes again: a chase with a catch and an escape still counts.

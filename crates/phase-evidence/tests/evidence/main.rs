@@ -1,9 +1,11 @@
 //! Judgements on synthetic tracks.
 
 mod contact;
+mod drawn;
 mod effect;
 mod exploration;
 mod holding;
+mod manner;
 mod motion;
 mod outcome;
 mod pursuit;

@@ -3,7 +3,7 @@
 use crate::support::{Move, track};
 use phase_evidence::{
     Track,
-    selection::{CausalEffect, Counterfactual, RejectionReason, check_event},
+    selection::{CausalEffect, Counterfactual, Ending, RejectionReason, check_event},
 };
 use phase_model::{
     AgentId, AgentSpec, Attitude, Body, EventKind, Goal, LandmarkId, Layout, ObjectId, ObjectSpec, Scene,
@@ -11,9 +11,9 @@ use phase_model::{
 };
 
 /// Steps of the synthetic events.
-const STEPS: usize = 40;
+pub(super) const STEPS: usize = 40;
 
-fn place(agent: u8, landmark: u8) -> Goal {
+pub(super) fn place(agent: u8, landmark: u8) -> Goal {
     Goal::AgentOnLandmark {
         agent: AgentId::ALL[usize::from(agent)],
         landmark: LandmarkId::ALL[usize::from(landmark)],
@@ -22,14 +22,15 @@ fn place(agent: u8, landmark: u8) -> Goal {
 }
 
 /// Object 0 on landmark 2, whose centre is (23.5, 4.5).
-const THING: Goal = Goal::ObjectOnLandmark {
+pub(super) const THING: Goal = Goal::ObjectOnLandmark {
     object: ObjectId::ZERO,
     landmark: LandmarkId::BOTTOM_RIGHT,
     sign: Sign::Positive,
 };
-const TOUCH: Goal = Goal::Touch { agent: AgentId::ZERO, other: AgentId::ONE, sign: Sign::Positive };
+pub(super) const TOUCH: Goal =
+    Goal::Touch { agent: AgentId::ZERO, other: AgentId::ONE, sign: Sign::Positive };
 
-fn scene(kind: EventKind, goals: [Goal; 2], first: Attitude) -> Scene {
+pub(super) fn scene(kind: EventKind, goals: [Goal; 2], first: Attitude) -> Scene {
     let agent = |goal, attitude| AgentSpec {
         size: Size::Small,
         strength: Strength::Fair,
@@ -47,21 +48,26 @@ fn scene(kind: EventKind, goals: [Goal; 2], first: Attitude) -> Scene {
 }
 
 /// Somewhere on the way from one point to another, from one step to another.
-fn on_way(t: usize, from: (f32, f32), to: (f32, f32), steps: core::ops::Range<usize>) -> (f32, f32) {
+pub(super) fn on_way(
+    t: usize,
+    from: (f32, f32),
+    to: (f32, f32),
+    steps: core::ops::Range<usize>,
+) -> (f32, f32) {
     let share = (t.saturating_sub(steps.start) as f32 / (steps.end - steps.start) as f32).min(1.0);
     (from.0 + share * (to.0 - from.0), from.1 + share * (to.1 - from.1))
 }
 
-fn event(at: impl Fn(usize) -> Move) -> Track {
+pub(super) fn event(at: impl Fn(usize) -> Move) -> Track {
     track((0..=STEPS).map(at))
 }
 
-fn facing((x, y): (f32, f32)) -> (f32, f32, f32) {
+pub(super) fn facing((x, y): (f32, f32)) -> (f32, f32, f32) {
     (x, y, 0.0)
 }
 
 /// Agent 0 fetches the object at (12, 4.5), releases it at step 30 and stays; agent 1 stands by.
-fn fetch(t: usize) -> Move {
+pub(super) fn fetch(t: usize) -> Move {
     let agent = if t < 10 {
         on_way(t, (8.0, 8.0), (10.0, 4.5), 0..10)
     } else {
@@ -73,7 +79,7 @@ fn fetch(t: usize) -> Move {
 }
 
 fn refusal(scene: &Scene, track: &Track) -> Option<RejectionReason> {
-    check_event(scene, track, STEPS..=100).err()
+    check_event(scene, track, STEPS..=100, Ending::Settled).err()
 }
 
 #[test]
@@ -87,11 +93,15 @@ fn help_needs_a_goal_reached_in_time_a_hand_and_a_quiet_end() {
         Move { agents: [fetched.agents[0], facing(helpee)], held, ..fetched }
     };
     let good = event(helped);
-    let counterfactual =
-        Counterfactual { idle: AgentId::ZERO, judged: AgentId::ONE, change: CausalEffect::Helped };
-    assert_eq!(check_event(&scene, &good, STEPS..=100), Ok(Some(counterfactual)));
-    assert_eq!(check_event(&scene, &good, 41..=100), Err(RejectionReason::TooShort));
-    assert_eq!(check_event(&scene, &good, 10..=39), Err(RejectionReason::TooLong));
+    let counterfactual = Counterfactual {
+        idle: AgentId::ZERO,
+        judged: AgentId::ONE,
+        change: CausalEffect::Helped,
+        cut: false,
+    };
+    assert_eq!(check_event(&scene, &good, STEPS..=100, Ending::Settled), Ok(Some(counterfactual)));
+    assert_eq!(check_event(&scene, &good, 41..=100, Ending::Settled), Err(RejectionReason::TooShort));
+    assert_eq!(check_event(&scene, &good, 10..=39, Ending::Settled), Err(RejectionReason::TooLong));
 
     type Spoil = fn(usize, &mut Move);
     let cases: [(&str, Spoil, RejectionReason); 8] = [
@@ -129,8 +139,12 @@ fn help_needs_a_goal_reached_in_time_a_hand_and_a_quiet_end() {
 #[test]
 fn an_effect_is_a_difference_to_the_event_without_the_agent() {
     let scene = scene(EventKind::Helping, [THING, THING], Attitude::Help);
-    let counterfactual =
-        Counterfactual { idle: AgentId::ZERO, judged: AgentId::ONE, change: CausalEffect::Helped };
+    let counterfactual = Counterfactual {
+        idle: AgentId::ZERO,
+        judged: AgentId::ONE,
+        change: CausalEffect::Helped,
+        cut: false,
+    };
     let (with, without) = (event(fetch), event(|_| fetch(0)));
     assert_eq!(counterfactual.judge(&scene, &with, &without), Ok(()));
     assert_eq!(counterfactual.judge(&scene, &with, &with), Err(RejectionReason::NoEffect));
@@ -151,9 +165,13 @@ fn stopped(t: usize) -> Move {
 fn hindrance_needs_a_victim_after_something_and_somebody_in_its_way() {
     let goals = [place(1, 1).negated(), place(1, 1)];
     let scene = scene(EventKind::Hindering, goals, Attitude::Hinder);
-    let counterfactual =
-        Counterfactual { idle: AgentId::ZERO, judged: AgentId::ONE, change: CausalEffect::Hindered };
-    assert_eq!(check_event(&scene, &event(stopped), STEPS..=100), Ok(Some(counterfactual)));
+    let counterfactual = Counterfactual {
+        idle: AgentId::ZERO,
+        judged: AgentId::ONE,
+        change: CausalEffect::Hindered,
+        cut: false,
+    };
+    assert_eq!(check_event(&scene, &event(stopped), STEPS..=100, Ending::Settled), Ok(Some(counterfactual)));
     let lazy = event(|t| Move { agents: [(22.4, 19.5, 0.0), (8.0, 19.5, t as f32)], ..stopped(t) });
     assert_eq!(refusal(&scene, &lazy), Some(RejectionReason::Aimless));
     let aloof = event(|t| Move { agents: [(8.0, 4.0, 0.0), stopped(t).agents[1]], ..stopped(t) });
@@ -164,8 +182,12 @@ fn hindrance_needs_a_victim_after_something_and_somebody_in_its_way() {
 #[test]
 fn who_gets_loose_was_chased() {
     let scene = scene(EventKind::Chasing, [TOUCH, TOUCH.negated()], Attitude::Neutral);
-    let counterfactual =
-        Counterfactual { idle: AgentId::ONE, judged: AgentId::ZERO, change: CausalEffect::Hindered };
+    let counterfactual = Counterfactual {
+        idle: AgentId::ONE,
+        judged: AgentId::ZERO,
+        change: CausalEffect::Hindered,
+        cut: false,
+    };
     let touching = |share: usize| {
         event(move |t| {
             let apart = if t >= 10 && t % 10 < share { 2.0 } else { 6.0 };
@@ -190,10 +212,14 @@ fn hunt(t: usize, speed: f32) -> Move {
 #[test]
 fn a_chase_needs_pursuit_and_flight() {
     let scene = scene(EventKind::Chasing, [TOUCH, TOUCH.negated()], Attitude::Neutral);
-    let counterfactual =
-        Counterfactual { idle: AgentId::ONE, judged: AgentId::ZERO, change: CausalEffect::Hindered };
+    let counterfactual = Counterfactual {
+        idle: AgentId::ONE,
+        judged: AgentId::ZERO,
+        change: CausalEffect::Hindered,
+        cut: false,
+    };
     let good = event(|t| hunt(t, 0.2));
-    assert_eq!(check_event(&scene, &good, STEPS..=100), Ok(Some(counterfactual)));
+    assert_eq!(check_event(&scene, &good, STEPS..=100, Ending::Settled), Ok(Some(counterfactual)));
     assert_eq!(refusal(&scene, &event(|t| hunt(t, 0.0))), Some(RejectionReason::NoFlight));
     // An agent that flees for a while and is then held down was not chased but caught.
     let pinned = |since: usize| {
@@ -213,9 +239,13 @@ fn a_chase_needs_pursuit_and_flight() {
     let mut evading = scene.clone();
     evading.kind = EventKind::Hindering;
     evading.agents[1].attitude = Attitude::Hinder;
-    let counterfactual =
-        Counterfactual { idle: AgentId::ONE, judged: AgentId::ZERO, change: CausalEffect::Hindered };
-    assert_eq!(check_event(&evading, &good, STEPS..=100), Ok(Some(counterfactual)));
+    let counterfactual = Counterfactual {
+        idle: AgentId::ONE,
+        judged: AgentId::ZERO,
+        change: CausalEffect::Hindered,
+        cut: false,
+    };
+    assert_eq!(check_event(&evading, &good, STEPS..=100, Ending::Settled), Ok(Some(counterfactual)));
 }
 
 #[test]
@@ -232,9 +262,13 @@ fn a_contest_needs_two_at_the_object_and_an_issue() {
         step.agents[1] = facing(on_way(t, (12.0, 12.0), (12.0, 6.4), 0..6));
         step
     };
-    let counterfactual =
-        Counterfactual { idle: AgentId::ZERO, judged: AgentId::ONE, change: CausalEffect::Hindered };
-    assert_eq!(check_event(&scene, &event(met), STEPS..=100), Ok(Some(counterfactual)));
+    let counterfactual = Counterfactual {
+        idle: AgentId::ZERO,
+        judged: AgentId::ONE,
+        change: CausalEffect::Hindered,
+        cut: false,
+    };
+    assert_eq!(check_event(&scene, &event(met), STEPS..=100, Ending::Settled), Ok(Some(counterfactual)));
     assert_eq!(refusal(&scene, &event(fetch)), Some(RejectionReason::Aimless));
     let near_miss =
         |t| Move { agents: [met(t).agents[0], facing(on_way(t, (12.0, 14.0), (12.0, 9.0), 0..6))], ..met(t) };
@@ -247,7 +281,7 @@ fn a_contest_needs_two_at_the_object_and_an_issue() {
             Move { agents: [first, met(t).agents[1]], objects: vec![(12.0, 4.5)], held: [held, held] }
         }
     };
-    assert!(check_event(&scene, &event(tug(5)), STEPS..=100).is_ok());
+    assert!(check_event(&scene, &event(tug(5)), STEPS..=100, Ending::Settled).is_ok());
     assert_eq!(refusal(&scene, &event(tug(4))), Some(RejectionReason::Uncontested));
 }
 
@@ -281,7 +315,7 @@ fn independent_agents_reach_their_goals_and_leave_each_other_alone() {
         step.agents[1] = facing(on_way(t, (8.0, 19.5), (23.5, 19.5), 0..20));
         step
     };
-    assert_eq!(check_event(&scene, &event(walk), STEPS..=100), Ok(None));
+    assert_eq!(check_event(&scene, &event(walk), STEPS..=100, Ending::Settled), Ok(None));
     assert_eq!(refusal(&scene, &event(fetch)), Some(RejectionReason::GoalMissed));
     let meddling = event(|t| Move { held: [walk(t).held[0], (t == 3).then_some(0)], ..walk(t) });
     assert_eq!(refusal(&scene, &meddling), Some(RejectionReason::Interference));

@@ -11,7 +11,7 @@ fn example() -> phase_dataset::manifest::Manifest {
 
 #[test]
 fn the_card_names_command_kinds_and_licence() {
-    let card = card(&example(), "cargo xtask gen-dataset --seed 3");
+    let card = card(&example(), "cargo xtask gen-dataset --seed 3", "\n| told from |\n");
     for part in ["cargo xtask gen-dataset --seed 3", "| helping | 1 |", "MIT OR Apache-2.0", "manifest.json"]
     {
         assert!(card.contains(part), "{part}");
@@ -22,14 +22,14 @@ fn the_card_names_command_kinds_and_licence() {
 fn the_front_matter_names_the_splits_there_are() {
     let mut manifest = example();
     let front = |card: &str| card.split("---\n").nth(1).expect("front matter").to_owned();
-    let of_one = front(&card(&manifest, ""));
+    let of_one = front(&card(&manifest, "", ""));
     assert!(of_one.contains("  - split: train\n    path: data/train-*.parquet\n"), "{of_one}");
     assert!(of_one.contains("- n<1K\n") && !of_one.contains("split: test"), "{of_one}");
 
     let event = manifest.events[0].clone();
     manifest.events = vec![event; 1_000];
     manifest.events[7].split = Some(Split::Test);
-    let of_many = front(&card(&manifest, ""));
+    let of_many = front(&card(&manifest, "", ""));
     assert!(of_many.contains("  - split: test\n    path: data/test-*.parquet\n"), "{of_many}");
     assert!(of_many.contains("- 1K<n<10K\n") && !of_many.contains("split: validation"), "{of_many}");
 }
@@ -38,7 +38,7 @@ fn the_front_matter_names_the_splits_there_are() {
 fn the_front_matter_survives_any_name() {
     let mut manifest = example();
     manifest.preset = "a\": b\n---\n# c".into();
-    let text = card(&manifest, "");
+    let text = card(&manifest, "", "");
     assert!(text.starts_with("---\npretty_name: \"PHASE events: a\\\": b\\n---\\n# c\"\nlicense:"), "{text}");
 }
 
@@ -46,7 +46,7 @@ fn the_front_matter_survives_any_name() {
 fn every_column_is_described_in_the_card_and_in_the_formats() {
     let formats = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/formats.md");
     let formats = std::fs::read_to_string(formats).expect("the formats");
-    let text = card(&example(), "");
+    let text = card(&example(), "", "");
     let columns = descriptions();
     assert_eq!(columns.iter().map(|column| column.name).collect::<BTreeSet<_>>().len(), columns.len());
     for column in columns {

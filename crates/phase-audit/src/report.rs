@@ -1,0 +1,170 @@
+//! The audit: accuracies by features and targets.
+
+use crate::{AuditItem, Feature, folds::folds, forest};
+use rayon::prelude::*;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Folds of the cross-validation.
+const FOLDS: usize = 5;
+/// Minimum number of events for an audit: below, accuracies are chance.
+const MIN_EVENTS: usize = 50;
+/// Maximum number of events for an audit; of more, the first ones are taken. The standard error of a share is below 0.01
+/// then.
+pub const MAX_EVENTS: usize = 3000;
+/// Seed of folds and forests.
+const SEED: u64 = 1;
+
+/// What is to be told.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum Target {
+    /// Friendly, neutral, adversarial.
+    Relation,
+    /// The kind of event.
+    Kind,
+    /// The goal of agent 0, of sixteen classes.
+    GoalOfAgent0,
+    /// The goal of agent 1.
+    GoalOfAgent1,
+}
+
+impl Target {
+    /// All targets.
+    pub const ALL: [Self; 4] = [Self::Relation, Self::Kind, Self::GoalOfAgent0, Self::GoalOfAgent1];
+
+    /// Its name in tables.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Relation => "relation",
+            Self::Kind => "kind",
+            Self::GoalOfAgent0 => "goal of agent 0",
+            Self::GoalOfAgent1 => "goal of agent 1",
+        }
+    }
+}
+
+/// Accuracies of one group of features.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct AuditRow {
+    /// The features.
+    pub feature: Feature,
+    /// The cross-validated share of events named right, by [`Target::ALL`]; 0 to 1.
+    pub accuracies: [f64; 4],
+}
+
+/// The result of an audit.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Audit {
+    /// Events audited.
+    pub events: usize,
+    /// Events there are.
+    pub of: usize,
+    /// The share of the most frequent class, by [`Target::ALL`].
+    pub majorities: [f64; 4],
+    /// One row for each of [`Feature::ALL`].
+    pub rows: Vec<AuditRow>,
+}
+
+impl Audit {
+    /// How much more often than the majority all motion-free features together tell a target; may be negative.
+    #[must_use]
+    pub fn excess(&self, target: Target) -> f64 {
+        let all = self.rows.iter().find(|row| row.feature == Feature::All);
+        all.map_or(0.0, |row| row.accuracies[target as usize] - self.majorities[target as usize])
+    }
+}
+
+/// Audits the first events of a dataset that has `of` of them. `None` for fewer than fifty, in which accuracies would be
+/// chance; no more than [`MAX_EVENTS`] are used.
+#[must_use]
+pub fn audit(items: &[AuditItem], of: usize) -> Option<Audit> {
+    let items = &items[..items.len().min(MAX_EVENTS)];
+    if items.len() < MIN_EVENTS {
+        return None;
+    }
+    let folds = folds(items, FOLDS, SEED);
+    let targets = Target::ALL.map(|target| classes(items, target));
+    let cells: Vec<(Feature, usize)> =
+        Feature::ALL.into_iter().flat_map(|feature| (0..targets.len()).map(move |k| (feature, k))).collect();
+    let accuracies: Vec<f64> = cells
+        .par_iter()
+        .map(|&(feature, target)| accuracy(items, feature, &targets[target], &folds))
+        .collect();
+    let rows = Feature::ALL.into_iter().zip(accuracies.chunks(targets.len()));
+    Some(Audit {
+        events: items.len(),
+        of,
+        majorities: targets.each_ref().map(|classes| majority(classes)),
+        rows: rows
+            .map(|(feature, found)| AuditRow {
+                feature,
+                accuracies: core::array::from_fn(|target| found[target]),
+            })
+            .collect(),
+    })
+}
+
+/// Classes as numbers.
+fn classes(items: &[AuditItem], target: Target) -> Vec<u32> {
+    let names: BTreeSet<&str> = items.iter().map(|item| item.classes[target as usize].as_str()).collect();
+    let numbers: BTreeMap<&str, u32> = names.into_iter().zip(0..).collect();
+    items.iter().map(|item| numbers[item.classes[target as usize].as_str()]).collect()
+}
+
+fn majority(classes: &[u32]) -> f64 {
+    let mut counts: BTreeMap<u32, usize> = BTreeMap::new();
+    for &class in classes {
+        *counts.entry(class).or_default() += 1;
+    }
+    counts.values().max().copied().unwrap_or(0) as f64 / classes.len().max(1) as f64
+}
+
+/// The share of items whose class is predicted by a forest trained on the other folds. Where a forest cannot be trained,
+/// for example on a single class, the most frequent class is predicted.
+fn accuracy(items: &[AuditItem], feature: Feature, classes: &[u32], folds: &[usize]) -> f64 {
+    let row = |k: usize| &items[k].features[feature as usize];
+    let right: usize = (0..FOLDS)
+        .map(|fold| {
+            let (test, train): (Vec<usize>, Vec<usize>) = (0..items.len()).partition(|&k| folds[k] == fold);
+            let [rows, others] = [&train, &test].map(|set| set.iter().map(|&k| row(k)).collect::<Vec<_>>());
+            let known: Vec<u32> = train.iter().map(|&k| classes[k]).collect();
+            let predicted = forest::predict(&rows, &known, &others, SEED)
+                .unwrap_or_else(|_| vec![most_frequent(&known); test.len()]);
+            test.iter().zip(predicted).filter(|&(&k, class)| classes[k] == class).count()
+        })
+        .sum();
+    right as f64 / items.len() as f64
+}
+
+fn most_frequent(classes: &[u32]) -> u32 {
+    let mut counts: BTreeMap<u32, usize> = BTreeMap::new();
+    for &class in classes {
+        *counts.entry(class).or_default() += 1;
+    }
+    counts.into_iter().max_by_key(|&(_, count)| count).map_or(0, |(class, _)| class)
+}
+
+/// The audit as a table in Markdown, with the majority's shares in the first row.
+#[must_use]
+pub fn table(audit: &Audit) -> String {
+    let shares = |shares: &[f64; 4]| shares.map(|share| format!("{share:.3}")).join(" | ");
+    let names = Target::ALL.map(Target::name).join(" | ");
+    let mut text = format!("| told from | {names} |\n|---|---|---|---|---|\n");
+    text += &format!("| nothing (the most frequent class) | {} |\n", shares(&audit.majorities));
+    for row in &audit.rows {
+        text += &format!("| {} | {} |\n", row.feature.name(), shares(&row.accuracies));
+    }
+    text
+}
+
+/// What the table shows, in a sentence.
+#[must_use]
+pub fn summary(audit: &Audit) -> String {
+    let one = |target: Target| {
+        let majority = audit.majorities[target as usize];
+        let all = majority + audit.excess(target);
+        format!("the {} of {all:.3} of the events (most frequent class {majority:.3})", target.name())
+    };
+    let (relation, kind) = (one(Target::Relation), one(Target::Kind));
+    format!("a random forest that sees no motion tells {relation}, and {kind}")
+}

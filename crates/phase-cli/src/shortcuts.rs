@@ -1,0 +1,84 @@
+//! The shortcut audit of a dataset or of other events: what a standard classifier tells without looking at motion.
+
+use crate::{
+    console,
+    context::Context,
+    error::CliError,
+    parallel::{Jobs, make_all},
+    source::EventInput,
+};
+use phase_audit::{Audit, AuditItem, MAX_EVENTS, Target, audit};
+use serde_json::{Value, json};
+use std::{collections::BTreeMap, path::Path};
+
+/// How much more often than the most frequent class a benchmark's motion-free features may tell a label.
+const MAX_EXCESS: f64 = 0.06;
+
+/// Audits the events of a file or folder; `None` if they are too few.
+///
+/// # Errors
+/// If an event cannot be used; [`CliError::Threads`].
+pub fn audited(path: &Path, jobs: &Jobs, context: &Context) -> Result<Option<Audit>, CliError> {
+    // Warnings about events have been printed by whoever read them first.
+    let source = EventInput::open(path, &[], &context.quiet())?;
+    let count = source.len().min(MAX_EVENTS);
+    let progress = context.progress_over(&format!("auditing {}", console::events(count)), count);
+    let items = make_all(jobs, count, |index| {
+        let item = AuditItem::of(&source.load(index)?);
+        progress.steps(1);
+        Ok(Some(item))
+    })?;
+    drop(progress);
+    Ok(audit(&items.unwrap_or_default(), source.len()))
+}
+
+/// The section about shortcuts of a report.
+#[must_use]
+pub fn section(audit: Option<&Audit>, events: usize) -> String {
+    match audit {
+        Some(audit) => {
+            let some = if audit.events < audit.of {
+                format!(" (the first {})", audit.events)
+            } else {
+                String::new()
+            };
+            format!("\n{}{some}.\n\n{}", capital(&phase_audit::summary(audit)), phase_audit::table(audit))
+        }
+        None => format!("\nNo shortcut audit: {} are too few.\n", console::events(events)),
+    }
+}
+
+/// Whether the motion-free features reveal more than a benchmark can afford, in a sentence of `verify`.
+#[must_use]
+pub fn verdict(audit: &Audit) -> String {
+    let excess =
+        [Target::Relation, Target::Kind].map(|target| audit.excess(target)).into_iter().fold(0.0, f64::max);
+    let warning = if excess > MAX_EXCESS {
+        format!(
+            "; that is more than {MAX_EXCESS} above the most frequent class: length, bodies or layout reveal the labels"
+        )
+    } else {
+        String::new()
+    };
+    format!("\n{}{warning}", phase_audit::summary(audit))
+}
+
+/// The audit for programs: accuracies by features and target.
+#[must_use]
+pub fn value(audit: &Audit) -> Value {
+    let named = |shares: &[f64; 4]| {
+        Target::ALL
+            .into_iter()
+            .zip(shares)
+            .map(|(target, &share)| (target.name(), share))
+            .collect::<BTreeMap<_, _>>()
+    };
+    let rows: BTreeMap<&str, _> =
+        audit.rows.iter().map(|row| (row.feature.name(), named(&row.accuracies))).collect();
+    json!({ "events": audit.events, "majority": named(&audit.majorities), "told_from": rows })
+}
+
+fn capital(sentence: &str) -> String {
+    let mut letters = sentence.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}

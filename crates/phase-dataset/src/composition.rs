@@ -1,0 +1,134 @@
+//! What each event of a generated dataset is to be: the slots that a preset describes.
+
+use crate::{
+    preset::{Blocks, Preset, PresetGroup},
+    splits::Split,
+};
+use phase_evidence::Manner;
+use phase_sampler::{Part, Variant};
+use std::collections::BTreeMap;
+
+/// What one event of a dataset is to be.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct EventSlot {
+    /// The variant.
+    pub variant: Variant,
+    /// Index of the pair of goals; see [`Variant::goals`].
+    pub goal_index: usize,
+    /// The part of the dataset, if it is divided.
+    pub split: Option<Split>,
+    /// The name of its layouts.
+    pub layouts: String,
+    /// The block whose bodies it has, if it shares them.
+    pub block: Option<BlockPlace>,
+}
+
+/// The place of an event in a block of events that share their bodies.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct BlockPlace {
+    /// Number of the block in the dataset.
+    pub block: usize,
+    /// Number of the dataset's first event in it.
+    pub first: usize,
+    /// Events in it.
+    pub events: usize,
+}
+
+/// The slots of a preset: its groups interleaved evenly, repeated for larger datasets. Goals rotate, so that
+/// they stay balanced.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Composition {
+    slots: Vec<EventSlot>,
+    turns: BTreeMap<Variant, usize>,
+    blocks: usize,
+}
+
+impl Composition {
+    /// The slots of a preset.
+    #[must_use]
+    pub fn of(preset: &Preset) -> Self {
+        let mut new = Self { slots: Vec::new(), turns: BTreeMap::new(), blocks: 0 };
+        if let Some(blocks) = &preset.blocks {
+            new.add_blocks(blocks);
+        }
+        for group in interleaved(&preset.groups, |group| group.events) {
+            let PresetGroup { variant, split, ref layouts, .. } = *group;
+            let goal_index = new.turn(variant);
+            new.slots.push(EventSlot { variant, goal_index, split, layouts: layouts.clone(), block: None });
+        }
+        new
+    }
+
+    fn add_blocks(&mut self, blocks: &Blocks) {
+        let events = blocks.columns.len();
+        for (number, group) in interleaved(&blocks.groups, |group| group.blocks).into_iter().enumerate() {
+            let block = Some(BlockPlace { block: number, first: self.slots.len(), events });
+            for column in &blocks.columns {
+                let listed = column[number % column.len()];
+                let variant = group.replace.get(&listed).copied().unwrap_or(listed);
+                let (goal_index, split, layouts) = (self.turn(variant), group.split, group.layouts.clone());
+                self.slots.push(EventSlot { variant, goal_index, split, layouts, block });
+            }
+            self.blocks = number + 1;
+        }
+    }
+
+    /// The next pair of goals of a variant.
+    fn turn(&mut self, variant: Variant) -> usize {
+        let next = self.turns.entry(variant).or_default();
+        *next += 1;
+        *next - 1
+    }
+
+    /// What the event with this number is to be.
+    #[must_use]
+    pub fn slot(&self, index: usize) -> EventSlot {
+        let slot = &self.slots[index % self.slots.len()];
+        let round = index / self.slots.len();
+        let turns = self.turns.get(&slot.variant).copied().unwrap_or_default();
+        let block = slot.block.map(|place| BlockPlace {
+            block: place.block + round * self.blocks,
+            first: place.first + round * self.slots.len(),
+            ..place
+        });
+        EventSlot { goal_index: slot.goal_index + round * turns, block, ..slot.clone() }
+    }
+
+    /// The events that share bodies with one of them, in order.
+    #[must_use]
+    pub fn parts(&self, place: BlockPlace) -> Vec<Part> {
+        let slots = (place.first..place.first + place.events).map(|index| self.slot(index));
+        slots.map(|slot| Part { variant: slot.variant, goal_index: slot.goal_index }).collect()
+    }
+}
+
+/// Each group as often as it counts, evenly distributed: item j of n is at (2 j + 1) / 2 n of the way, and equal places
+/// keep the groups' order.
+fn interleaved<T>(groups: &[T], count: impl Fn(&T) -> usize) -> Vec<&T> {
+    let mut places: Vec<(usize, usize, &T)> = groups
+        .iter()
+        .flat_map(|group| (0..count(group)).map(move |j| (j, group)))
+        .map(|(j, group)| (j, count(group), group))
+        .collect();
+    places.sort_by(|(a, n, _), (b, m, _)| ((2 * a + 1) * m).cmp(&((2 * b + 1) * n)));
+    places.into_iter().map(|(_, _, group)| group).collect()
+}
+
+/// The manner that an event of a variant has to show where its end is sampled, if the variant is about one.
+#[must_use]
+pub const fn manner_of(variant: Variant) -> Option<Manner> {
+    match variant {
+        Variant::Lift => Some(Manner::CarryingAlong),
+        Variant::Fetch => Some(Manner::Fetching),
+        Variant::HandOver => Some(Manner::HandingOver),
+        Variant::Move => Some(Manner::Clearing),
+        Variant::MakeWay => Some(Manner::MakingWay),
+        Variant::Block => Some(Manner::Blocking),
+        Variant::Take => Some(Manner::Taking),
+        Variant::Drag => Some(Manner::Dragging),
+        Variant::Hide => Some(Manner::Hiding),
+        Variant::Undo => Some(Manner::Undoing),
+        Variant::Cross => Some(Manner::Crossing),
+        _ => None,
+    }
+}

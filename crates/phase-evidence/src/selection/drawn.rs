@@ -1,0 +1,129 @@
+//! What each kind of event requires where events end at a sampled step, before or after the outcome.
+//!
+//! Goals need not be reached: an agent is seen to pursue its goal and to come closer to it. Where the variant is about a
+//! manner of helping or hindering, that manner is seen.
+
+use super::{
+    CausalEffect, Counterfactual, RejectionReason,
+    common::{object_of, pursued, reached, require},
+    kinds,
+};
+use crate::{GoalOutcome, Manner, Track, contact, holding, manner, pursuit::Pursuit, rest};
+use phase_model::{AgentId, Entity, EventKind, Goal, ObjectId, Relation, Scene, Sign};
+
+/// How much closer to its goal an agent must come (u).
+const MIN_PROGRESS: f32 = 3.0;
+/// Maximum share of an event in which nothing moves, in percent.
+const MAX_STILL_PERCENT: usize = 75;
+/// Maximum time for which nothing moves while two adversaries oppose each other (steps; 6 s).
+const MAX_DEADLOCK: usize = 24;
+/// Steps of which a chase has pursuit in the last part: the last fourth.
+const LASTING_PARTS: usize = 4;
+
+pub(super) fn judge(
+    scene: &Scene,
+    track: &Track,
+    manner: Option<Manner>,
+) -> Result<Option<Counterfactual>, RejectionReason> {
+    lively(scene, track)?;
+    let counterfactual = match scene.kind {
+        EventKind::Helping => Some(helping(scene, track)?),
+        EventKind::Hindering => Some(hindering(scene, track)?),
+        EventKind::Chasing => Some(chasing(scene, track)?),
+        EventKind::Competing => Some(kinds::competing(scene, track)?),
+        EventKind::Collaborating => {
+            collaborating(scene, track)?;
+            None
+        }
+        EventKind::Independent => {
+            independent(scene, track)?;
+            None
+        }
+    };
+    let shown = manner.is_none_or(|manner| manner.is_shown(scene, track));
+    require(shown, RejectionReason::OtherManner)?;
+    Ok(counterfactual.map(|it| Counterfactual { cut: true, ..it }))
+}
+
+/// Something moves in enough of the steps, and adversaries do not stand still for long.
+fn lively(scene: &Scene, track: &Track) -> Result<(), RejectionReason> {
+    let still: Vec<bool> = (1..track.states.len()).map(|step| rest::is_still(track, step)).collect();
+    let count = still.iter().filter(|still| **still).count();
+    require(100 * count <= MAX_STILL_PERCENT * track.steps(), RejectionReason::Lifeless)?;
+    let longest = still.split(|still| !still).map(<[bool]>::len).max().unwrap_or(0);
+    let adversaries = scene.relation() == Relation::Adversarial;
+    require(!adversaries || longest <= MAX_DEADLOCK, RejectionReason::Lifeless)
+}
+
+fn helping(scene: &Scene, track: &Track) -> Result<Counterfactual, RejectionReason> {
+    let helper = manner::social_agent(scene);
+    let helpee = helper.other();
+    pursued(scene, track, helpee)?;
+    progressed(scene, track, helpee)?;
+    Ok(Counterfactual { idle: helper, judged: helpee, change: CausalEffect::Helped, cut: true })
+}
+
+fn hindering(scene: &Scene, track: &Track) -> Result<Counterfactual, RejectionReason> {
+    let hinderer = manner::social_agent(scene);
+    let victim = hinderer.other();
+    match scene.agents[victim].goal {
+        Goal::Touch { sign: Sign::Positive, .. } => lasting_chase(track, victim)?,
+        Goal::Touch { sign: Sign::Negative, .. } => lasting_chase(track, hinderer)?,
+        goal => {
+            pursued(scene, track, victim)?;
+            require(kinds::is_in_the_way(scene, track, hinderer, goal), RejectionReason::NoContact)?;
+        }
+    }
+    Ok(Counterfactual { idle: hinderer, judged: victim, change: CausalEffect::Hindered, cut: true })
+}
+
+fn chasing(scene: &Scene, track: &Track) -> Result<Counterfactual, RejectionReason> {
+    let chaser = kinds::chaser(scene);
+    if GoalOutcome::of(track, scene.agents[chaser].goal).reached {
+        reached(scene, track, chaser)?;
+    }
+    lasting_chase(track, chaser)?;
+    Ok(Counterfactual { idle: chaser.other(), judged: chaser, change: CausalEffect::Hindered, cut: true })
+}
+
+/// A chase in which pursuit and flight go on to the end.
+fn lasting_chase(track: &Track, chaser: AgentId) -> Result<(), RejectionReason> {
+    kinds::chase(track, chaser)?;
+    let from = track.steps() - track.steps() / LASTING_PARTS;
+    let last = Track { physics: track.physics.clone(), states: track.states[from..].to_vec() };
+    let (after, away) = (Pursuit::of(&last, chaser), Pursuit::of(&last, chaser.other()));
+    require(after.towards > 0, RejectionReason::NoPursuit)?;
+    require(2 * away.moving >= last.steps(), RejectionReason::NoFlight)
+}
+
+fn collaborating(scene: &Scene, track: &Track) -> Result<(), RejectionReason> {
+    progressed(scene, track, AgentId::ZERO)?;
+    let object = object_of(scene.agents[0].goal).unwrap_or(ObjectId::ZERO);
+    kinds::shared(track, object)
+}
+
+fn independent(scene: &Scene, track: &Track) -> Result<(), RejectionReason> {
+    for agent in AgentId::ALL {
+        pursued(scene, track, agent)?;
+        progressed(scene, track, agent)?;
+        if let Some(object) = object_of(scene.agents[agent.other()].goal) {
+            let meddled = holding::carried(track, agent, object).steps;
+            require(meddled == 0, RejectionReason::Interference)?;
+        }
+    }
+    let met = contact::steps_touching(track, Entity::Agent(AgentId::ZERO), Entity::Agent(AgentId::ONE)).len();
+    require(met * kinds::MAX_CONTACT_DIVISOR <= track.steps(), RejectionReason::Interference)
+}
+
+/// An agent's goal is reached, not before its pursuit was visible, or its subject has come clearly closer.
+fn progressed(scene: &Scene, track: &Track, agent: AgentId) -> Result<(), RejectionReason> {
+    let goal = scene.agents[agent].goal;
+    if GoalOutcome::of(track, goal).reached {
+        return reached(scene, track, agent).map(|_| ());
+    }
+    let Some(start) = track.states.first().map(|state| goal.distance(state)) else {
+        return Err(RejectionReason::NoProgress);
+    };
+    let nearest = track.states.iter().map(|state| goal.distance(state)).fold(f32::INFINITY, f32::min);
+    require(start - nearest >= MIN_PROGRESS, RejectionReason::NoProgress)
+}

@@ -1,0 +1,119 @@
+//! Which synthetic events that end at a sampled step show their label, and why the others do not.
+
+use crate::{
+    selection::{STEPS, THING, event, facing, fetch, on_way, place, scene},
+    support::Move,
+};
+use phase_evidence::{
+    Manner, Track,
+    selection::{CausalEffect, Counterfactual, Ending, RejectionReason, check_event},
+};
+use phase_model::{AgentId, Attitude, EventKind, Scene};
+
+fn judged(
+    scene: &Scene,
+    track: &Track,
+    manner: Option<Manner>,
+) -> Result<Option<Counterfactual>, RejectionReason> {
+    check_event(scene, track, 20..=100, Ending::Drawn(manner))
+}
+
+/// As `fetch`, and agent 1 sets out for the object.
+fn wanted(t: usize) -> Move {
+    let helpee = on_way(t, (8.0, 18.0), (8.0, 14.0), 0..8);
+    Move { agents: [fetch(t).agents[0], facing(helpee)], ..fetch(t) }
+}
+
+#[test]
+fn help_may_be_cut_before_the_goal_is_reached() {
+    let scene = scene(EventKind::Helping, [THING, THING], Attitude::Help);
+    let counterfactual =
+        Counterfactual { idle: AgentId::ZERO, judged: AgentId::ONE, change: CausalEffect::Helped, cut: true };
+    let (whole, cut) = (event(wanted), event(wanted).until(22));
+    for track in [&whole, &cut] {
+        assert_eq!(judged(&scene, track, Some(Manner::Fetching)), Ok(Some(counterfactual)));
+    }
+    let refused = [
+        (judged(&scene, &whole, Some(Manner::HandingOver)), RejectionReason::OtherManner),
+        (judged(&scene, &event(fetch), Some(Manner::Fetching)), RejectionReason::Aimless),
+        (judged(&scene, &whole.until(12), None), RejectionReason::TooShort),
+    ];
+    for (found, reason) in refused {
+        assert_eq!(found, Err(reason));
+    }
+    let unmoved = |t| Move { objects: vec![(12.0, 4.5)], ..wanted(t) };
+    assert_eq!(judged(&scene, &event(unmoved), None), Err(RejectionReason::NoProgress));
+}
+
+#[test]
+fn a_cut_event_is_judged_by_how_far_it_has_come() {
+    let scene = scene(EventKind::Helping, [THING, THING], Attitude::Help);
+    let cut = event(wanted).until(22);
+    let without = event(|t| Move { objects: vec![(12.0, 4.5)], held: [None, None], ..wanted(t) }).until(22);
+    let counterfactual =
+        Counterfactual { idle: AgentId::ZERO, judged: AgentId::ONE, change: CausalEffect::Helped, cut: true };
+    assert_eq!(counterfactual.judge(&scene, &cut, &without), Ok(()));
+    assert_eq!(counterfactual.judge(&scene, &without, &cut), Err(RejectionReason::NoEffect));
+    assert_eq!(counterfactual.judge(&scene, &cut, &cut), Err(RejectionReason::NoEffect));
+    let hindered = Counterfactual { change: CausalEffect::Hindered, ..counterfactual };
+    assert_eq!(hindered.judge(&scene, &without, &cut), Ok(()));
+    let settled = Counterfactual { cut: false, ..counterfactual };
+    assert_eq!(settled.judge(&scene, &cut, &without), Err(RejectionReason::NoEffect));
+}
+
+/// Both walk to their landmarks, (23.5, 19.5) and (8.5, 4.5), far from each other, by step `arrived`.
+fn errands(t: usize, arrived: usize) -> Move {
+    Move {
+        agents: [
+            facing(on_way(t, (9.0, 20.0), (23.5, 19.5), 0..arrived)),
+            facing(on_way(t, (24.0, 4.0), (8.5, 4.5), 0..arrived)),
+        ],
+        objects: vec![(16.0, 12.0)],
+        held: [None, None],
+    }
+}
+
+#[test]
+fn most_of_an_event_must_not_be_still() {
+    let scene = scene(EventKind::Independent, [place(0, 1), place(1, 3)], Attitude::Neutral);
+    assert_eq!(judged(&scene, &event(|t| errands(t, 15)), None), Ok(None));
+    assert_eq!(judged(&scene, &event(|t| errands(t, 9)), None), Err(RejectionReason::Lifeless));
+    // Cut on the way.
+    assert_eq!(judged(&scene, &event(|t| errands(t, STEPS)).until(25), None), Ok(None));
+    let turned_back = |t| errands(if t < 4 { t } else { 8_usize.saturating_sub(t) }, STEPS);
+    assert!(judged(&scene, &event(turned_back).until(20), None).is_err());
+    let crossing = judged(&scene, &event(|t| errands(t, 15)), Some(Manner::Crossing));
+    assert_eq!(crossing, Err(RejectionReason::OtherManner));
+}
+
+#[test]
+fn a_chase_lasts_to_the_end() {
+    let goals = [crate::selection::TOUCH, crate::selection::TOUCH.negated()];
+    let goals = [
+        goals[0],
+        match goals[1] {
+            phase_model::Goal::Touch { sign, .. } => {
+                phase_model::Goal::Touch { agent: AgentId::ONE, other: AgentId::ZERO, sign }
+            }
+            other => other,
+        },
+    ];
+    let scene = scene(EventKind::Chasing, goals, Attitude::Neutral);
+    let chase = |until: usize| {
+        event(move |t| {
+            let t = t.min(until);
+            Move {
+                agents: [
+                    facing(on_way(t, (7.0, 4.0), (19.0, 20.0), 0..STEPS)),
+                    facing(on_way(t, (12.0, 4.0), (24.0, 20.0), 0..STEPS)),
+                ],
+                objects: vec![(8.0, 20.0)],
+                held: [None, None],
+            }
+        })
+    };
+    assert!(judged(&scene, &chase(STEPS), None).is_ok());
+    assert_eq!(judged(&scene, &chase(25), None), Err(RejectionReason::NoPursuit));
+    // Adversaries may not stand still for more than six seconds.
+    assert_eq!(judged(&scene, &chase(14), None), Err(RejectionReason::Lifeless));
+}

@@ -1,0 +1,167 @@
+//! What a scene must satisfy for a variant: it is valid, nothing is achieved yet, the agents can do what the kind
+//! requires of them, and bodies are where the variant needs them.
+
+use crate::{
+    Variant,
+    draft::{SELF_SUFFICIENT, agent_on, object_of, object_on},
+    feasibility,
+};
+use phase_model::{
+    AgentId, Entity, EventKind, Goal, LandmarkId, ObjectId, RoomId, Scene, Sign, Strength, layout::room_of,
+};
+use phase_planner::{Routes, problem::obstruct};
+
+/// Minimum ratio of a goal's cost without the helper to its cost with the helper.
+const MIN_COST_RATIO: f32 = 1.5;
+/// Maximum cost of a goal that is to be reached early enough to be undone (u).
+const MAX_UNDONE_COST: f32 = 35.0;
+/// Maximum distance from an object of an agent that is to come to it while there is still something to be seen (u).
+const MAX_ARRIVAL: f32 = 14.0;
+/// Maximum distance from its landmark of an object that is to be taken away from it (u).
+const MAX_BESIDE: f32 = 16.0;
+/// An agent this near to an object, in its room and facing it, sees it at the start (u).
+const MAX_BY: f32 = 8.0;
+/// The hinderer is that much nearer to the object that it is to take first, or farther from the one that it is to take
+/// later, than the victim (u).
+const MIN_HEAD_START: f32 = 4.0;
+
+/// The strengths that roles 0 and 1 may have. They cannot be seen, but decide who can do what.
+pub(crate) const fn strengths(variant: Variant) -> [&'static [Strength]; 2] {
+    const ALL: &[Strength] = &Strength::ALL;
+    const ABLE: &[Strength] = &SELF_SUFFICIENT;
+    // Two that need each other carry together; the planner rejects pairs that cannot.
+    const LOW: &[Strength] = &[Strength::Weak, Strength::Fair];
+    // One who takes an object from another is the stronger.
+    const HIGH: &[Strength] = &[Strength::Strong, Strength::Mighty];
+    match variant {
+        // The weaker the helper, the more it gains by carrying together.
+        Variant::Lift => [&[Strength::Fair], &[Strength::Weak]],
+        // Unable to move the object, or to come to it.
+        Variant::Fetch => [ABLE, ALL],
+        Variant::Carry => [LOW, LOW],
+        Variant::Take | Variant::Hide => [HIGH, &[Strength::Fair, Strength::Strong]],
+        Variant::Move | Variant::MakeWay => [ABLE, LOW],
+        Variant::HinderPlace | Variant::Block => [ABLE, ALL],
+        Variant::Mixed => [ABLE, ALL],
+        Variant::Places | Variant::Cross => [ALL, ALL],
+        _ => [ABLE, ABLE],
+    }
+}
+
+/// Whether a scene, in which role 0 is agent 0, can show its variant.
+pub(crate) fn is_playable(variant: Variant, scene: &Scene) -> bool {
+    // Cheap tests first.
+    is_placed(variant, scene)
+        && is_unsolved(scene)
+        && scene.validate_without_overlap().is_ok()
+        && is_feasible(variant, scene)
+}
+
+/// Whether no goal holds at the start.
+fn is_unsolved(scene: &Scene) -> bool {
+    scene.goals().iter().all(|&goal| {
+        let positive = if goal.sign() == Sign::Positive { goal } else { goal.negated() };
+        !feasibility::is_achieved(scene, positive)
+    })
+}
+
+/// Whether the agents can do what the kind requires of them; role 0 is agent 0.
+fn is_feasible(variant: Variant, scene: &Scene) -> bool {
+    let [first, second] = scene.goals();
+    match scene.kind {
+        // It is the helper's body that obstructs, which the planner leaves out where the helper is not an actor.
+        EventKind::Helping if variant == Variant::MakeWay => feasibility::alone(scene, AgentId::ONE, second),
+        EventKind::Helping => {
+            let alone = feasibility::cost(scene, second, [false, true]);
+            let both = feasibility::cost(scene, second, [true, true]);
+            both < feasibility::INFEASIBLE_COST && alone > both * MIN_COST_RATIO
+        }
+        EventKind::Hindering => {
+            feasibility::alone(scene, AgentId::ONE, second) && can_interfere(scene, second)
+        }
+        EventKind::Chasing => feasibility::alone(scene, AgentId::ZERO, first),
+        EventKind::Competing | EventKind::Independent => {
+            feasibility::alone(scene, AgentId::ZERO, first) && feasibility::alone(scene, AgentId::ONE, second)
+        }
+        EventKind::Collaborating => feasibility::together(scene, first),
+    }
+}
+
+/// Whether the hinderer, agent 0, can come to where the other wants to go, or to its object.
+fn can_interfere(scene: &Scene, goal: Goal) -> bool {
+    match goal {
+        Goal::AgentOnLandmark { landmark, .. } => {
+            feasibility::alone(scene, AgentId::ZERO, agent_on(AgentId::ZERO, landmark))
+        }
+        Goal::ObjectOnLandmark { object, .. } => LandmarkId::ALL
+            .into_iter()
+            .any(|landmark| feasibility::alone(scene, AgentId::ZERO, object_on(object, landmark))),
+        Goal::Touch { .. } => true,
+    }
+}
+
+/// Whether the bodies are where the variant needs them. Nothing is required of the first edition's variants beyond their
+/// drafts, except where they are cast on a stage that was drawn for another one.
+fn is_placed(variant: Variant, scene: &Scene) -> bool {
+    let [first, goal] = scene.goals();
+    let [room, other_room] = [0, 1].map(|role: usize| room_of(scene.agents[role].start.position));
+    let target = goal.landmark().map(LandmarkId::room);
+    let Some(object) = object_of(goal) else {
+        return match variant {
+            Variant::Block | Variant::HinderPlace => target != Some(other_room),
+            Variant::Chase | Variant::Evade | Variant::Pester => room != other_room,
+            Variant::Cross => crosses(scene, [room, other_room]),
+            Variant::MakeWay => obstructs(scene, goal),
+            _ => true,
+        };
+    };
+    let place = room_of(scene.objects[object.index()].start.position);
+    let [near, far] = [0, 1].map(|role| start_distance(scene, role, object));
+    let away = target != Some(place);
+    // In a room beside the landmark's an object can be taken farther away.
+    let beside = away && goal.distance(&scene.initial_state()) <= MAX_BESIDE;
+    match variant {
+        Variant::Lift => away && place != room && place == other_room && far >= MIN_HEAD_START,
+        Variant::Carry => away && near.max(far) <= MAX_ARRIVAL,
+        Variant::Fetch => away && near <= MAX_ARRIVAL,
+        Variant::HandOver => away,
+        Variant::Drag => away && near <= MAX_ARRIVAL,
+        Variant::Take => beside && far + MIN_HEAD_START <= near && near <= MAX_ARRIVAL,
+        Variant::Hide => beside && near <= MAX_BY && MAX_BY + MIN_HEAD_START <= far && place == room,
+        Variant::Undo => {
+            let alone = feasibility::cost(scene, goal, [false, true]);
+            beside && alone <= MAX_UNDONE_COST && far < near && near <= MAX_ARRIVAL
+        }
+        Variant::Compete => {
+            let rooms = [first, goal].map(|goal| goal.landmark().map(LandmarkId::room));
+            !rooms.contains(&Some(place)) && near.max(far) <= MAX_ARRIVAL
+        }
+        _ => true,
+    }
+}
+
+/// Whether each agent goes to the room in which the other starts.
+fn crosses(scene: &Scene, rooms: [RoomId; 2]) -> bool {
+    let targets = scene.goals().map(|goal| goal.landmark().map(LandmarkId::room));
+    targets == [Some(rooms[1]), Some(rooms[0])] && rooms[0] != rooms[1]
+}
+
+/// Whether agent 0 stands in a door of agent 1's cheapest way, which agent 1 then does not fit through.
+fn obstructs(scene: &Scene, goal: Goal) -> bool {
+    let (physics, routes) = (scene.physics(), Routes::new(scene.layout));
+    let [blocker, blocked] = scene.agents.map(|agent| agent.start.position);
+    let width = physics.agents[1].width();
+    let Some(landmark) = goal.landmark() else { return false };
+    let to = phase_model::arena::LANDMARKS[landmark];
+    let Some(route) = routes.best(blocked, to, width, routes.gaps()) else { return false };
+    let mut gaps = *routes.gaps();
+    let radius = physics.agents[0].radius;
+    obstruct(&mut gaps, blocker, radius, radius + physics.agents[1].radius);
+    route.doors().iter().any(|&(slot, _)| routes.gaps().width(slot) >= width && gaps.width(slot) < width)
+}
+
+/// Distance between an agent and an object at the start (u).
+fn start_distance(scene: &Scene, role: usize, object: ObjectId) -> f32 {
+    let object = scene.initial_state().position(Entity::Object(object));
+    scene.agents[role].start.position.distance(object)
+}

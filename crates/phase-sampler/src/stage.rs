@@ -1,0 +1,128 @@
+//! Bodies without roles: what can be seen of a scene before anything moves, shared by events of several kinds.
+//!
+//! If each kind of event drew its own bodies, sizes and places would reveal the kind. A [`Stage`] is therefore drawn
+//! once for several [`Part`]s, one event each, such that all of them can be played on it. Who plays which role, the
+//! strengths, which cannot be seen, and where the agents look are drawn anew for each event.
+
+use crate::{
+    Request, SampleError, Variant,
+    draft::{Objects, any_angle, choose, object_of},
+    recipe::{self, MAX_DRAWS},
+    requirements,
+};
+use phase_model::{AgentSpec, Attitude, Body, Layout, Scene, Size, Vec2, scene::ObjectSpec};
+use rand::{Rng, seq::SliceRandom};
+
+/// Layout and bodies.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Stage {
+    /// The walls.
+    pub layout: Layout,
+    /// Sizes and places of agents 0 and 1.
+    pub agents: [(Size, Body); 2],
+    /// The objects.
+    pub objects: Vec<ObjectSpec>,
+}
+
+/// One of the events that share a stage.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Part {
+    /// The variant.
+    pub variant: Variant,
+    /// Index of the pair of goals to be tried first; see [`Variant::goals`].
+    pub goal_index: usize,
+}
+
+/// Draws of strengths for each assignment of roles.
+const STRENGTH_DRAWS: usize = 3;
+/// Draws of a stage in one layout before another layout is drawn.
+const DRAWS_PER_LAYOUT: usize = 200;
+
+impl Stage {
+    /// Draws a stage on which every part can be played. The first part proposes the bodies, and all accept or reject them. Layouts are tried in the order given, so that a caller can use all of them equally often.
+    ///
+    /// # Errors
+    /// [`SampleError`] if the draws are exhausted, for example because no layout fits a variant.
+    pub fn sample(parts: &[Part], layouts: &[Layout], random: &mut impl Rng) -> Result<Self, SampleError> {
+        let Some(&lead) = parts.first() else { return Err(SampleError(Variant::Places)) };
+        for draw in 0..MAX_DRAWS {
+            let Some(layout) = layouts.get((draw / DRAWS_PER_LAYOUT) % layouts.len().max(1)) else { break };
+            let request = Request { variant: lead.variant, goal_index: lead.goal_index, layouts: &[*layout] };
+            let Some(scene) = recipe::propose(&request, Objects::Two, random) else { continue };
+            let stage = Self::of(&scene);
+            if parts.iter().all(|&part| stage.cast(part, random).is_some()) {
+                return Ok(stage);
+            }
+        }
+        Err(SampleError(lead.variant))
+    }
+
+    /// The stage of a scene.
+    #[must_use]
+    pub fn of(scene: &Scene) -> Self {
+        Self {
+            layout: scene.layout,
+            agents: scene.agents.map(|agent| (agent.size, agent.start)),
+            objects: scene.objects.clone(),
+        }
+    }
+
+    /// A scene of this part on the stage: who plays which role, which object has which number, strengths and directions
+    /// are drawn. Where the part's goals cannot be pursued on the stage, the next ones are tried. `None` if the variant
+    /// cannot be played at all.
+    pub fn cast(&self, part: Part, random: &mut impl Rng) -> Option<Scene> {
+        let mut ways = [(false, false), (false, true), (true, false), (true, true)];
+        ways.shuffle(random);
+        let Part { variant, goal_index } = part;
+        for goal_index in goal_index..goal_index + variant.goal_count() {
+            for (agents_swapped, objects_swapped) in ways {
+                for _ in 0..STRENGTH_DRAWS {
+                    let part = Part { variant, goal_index };
+                    let scene = self.assigned(part, agents_swapped, objects_swapped, random);
+                    if requirements::is_playable(variant, &scene) {
+                        return Some(if agents_swapped { recipe::exchanged(&scene) } else { scene });
+                    }
+                }
+            }
+        }
+        None
+    }
+
+    /// The scene with role 0 as agent 0.
+    fn assigned(
+        &self,
+        part: Part,
+        agents_swapped: bool,
+        objects_swapped: bool,
+        random: &mut impl Rng,
+    ) -> Scene {
+        let Part { variant, goal_index } = part;
+        let goals = variant.goals(goal_index);
+        let attitudes = [variant.attitude(), Attitude::Neutral];
+        let strengths = requirements::strengths(variant);
+        let mut role = |k: usize| {
+            let (size, start) = self.agents[if agents_swapped { 1 - k } else { k }];
+            let start = Body { angle: any_angle(random), ..start };
+            let strength = choose(strengths[k], random);
+            AgentSpec { size, strength, goal: goals[k], attitude: attitudes[k], start }
+        };
+        let mut agents = [role(0), role(1)];
+        let mut objects = self.objects.clone();
+        if objects_swapped {
+            objects.reverse();
+        }
+        if variant == Variant::Hide
+            && let Some(object) = object_of(goals[1]).and_then(|object| objects.get(object.index()))
+        {
+            // One who has to look for the object first seldom comes before the other.
+            let towards = object.start.position - agents[0].start.position;
+            agents[0].start.angle = heading(towards);
+        }
+        Scene { layout: self.layout, agents, objects, kind: variant.kind() }
+    }
+}
+
+/// The angle at which a body faces a direction (rad); 0 faces +y, positive ones turn counter-clockwise.
+fn heading(direction: Vec2) -> f32 {
+    libm::atan2f(-direction.x, direction.y)
+}
