@@ -63,6 +63,7 @@ pub mod picture;
 pub mod program;
 pub mod progress;
 pub mod render;
+pub mod shard_option;
 pub mod shortcuts;
 pub mod simulate;
 pub mod source;

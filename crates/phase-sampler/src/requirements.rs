@@ -19,39 +19,49 @@ const MAX_UNDONE_COST: f32 = 35.0;
 const MAX_ARRIVAL: f32 = 14.0;
 /// Maximum distance from its landmark of an object that is to be taken away from it (u).
 const MAX_BESIDE: f32 = 16.0;
+/// Maximum distance from its landmark of an object that is to be hidden: the nearer, the more the hinderer gains (u).
+const MAX_HIDDEN: f32 = 13.0;
+/// Maximum distance from an object of both who are to carry it together (u).
+const MAX_SHARED: f32 = 10.0;
 /// An agent this near to an object, in its room and facing it, sees it at the start (u).
 const MAX_BY: f32 = 8.0;
 /// The hinderer is that much nearer to the object that it is to take first, or farther from the one that it is to take
 /// later, than the victim (u).
 const MIN_HEAD_START: f32 = 4.0;
 
-/// The strengths that roles 0 and 1 may have. They cannot be seen, but decide who can do what.
+/// The strengths that roles 0 and 1 may have. They cannot be seen, but decide who can do what. Beyond that they are the
+/// same for all variants, so that they do not reveal one.
 pub(crate) const fn strengths(variant: Variant) -> [&'static [Strength]; 2] {
     const ALL: &[Strength] = &Strength::ALL;
     const ABLE: &[Strength] = &SELF_SUFFICIENT;
-    // Two that need each other carry together; the planner rejects pairs that cannot.
-    const LOW: &[Strength] = &[Strength::Weak, Strength::Fair];
-    // One who takes an object from another is the stronger.
-    const HIGH: &[Strength] = &[Strength::Strong, Strength::Mighty];
     match variant {
         // The weaker the helper, the more it gains by carrying together.
-        Variant::Lift => [&[Strength::Fair], &[Strength::Weak]],
-        // Unable to move the object, or to come to it.
+        Variant::Lift => [&[Strength::Fair, Strength::Strong], &[Strength::Weak]],
+        // The helpee is unable to move the object, or to come to it.
         Variant::Fetch => [ABLE, ALL],
-        Variant::Carry => [LOW, LOW],
-        Variant::Take | Variant::Hide => [HIGH, &[Strength::Fair, Strength::Strong]],
-        Variant::Move | Variant::MakeWay => [ABLE, LOW],
-        Variant::HinderPlace | Variant::Block => [ABLE, ALL],
-        Variant::Mixed => [ABLE, ALL],
-        Variant::Places | Variant::Cross => [ALL, ALL],
+        Variant::Move | Variant::MakeWay => [ABLE, ALL],
+        Variant::HinderPlace | Variant::Block | Variant::Mixed => [ABLE, ALL],
+        Variant::Places | Variant::Cross | Variant::Chase => [ALL, ALL],
         _ => [ABLE, ABLE],
+    }
+}
+
+/// Whether the agents' strengths fit each other: one who takes an object from another is at least as strong, and one who
+/// takes it over is the stronger.
+fn are_matched(variant: Variant, scene: &Scene) -> bool {
+    let [first, second] = scene.agents.map(|agent| agent.strength);
+    match variant {
+        Variant::Take | Variant::Hide => first >= second,
+        Variant::HandOver => first < second,
+        _ => true,
     }
 }
 
 /// Whether a scene, in which role 0 is agent 0, can show its variant.
 pub(crate) fn is_playable(variant: Variant, scene: &Scene) -> bool {
     // Cheap tests first.
-    is_placed(variant, scene)
+    are_matched(variant, scene)
+        && is_placed(variant, scene)
         && is_unsolved(scene)
         && scene.validate_without_overlap().is_ok()
         && is_feasible(variant, scene)
@@ -121,13 +131,18 @@ fn is_placed(variant: Variant, scene: &Scene) -> bool {
     // In a room beside the landmark's an object can be taken farther away.
     let beside = away && goal.distance(&scene.initial_state()) <= MAX_BESIDE;
     match variant {
-        Variant::Lift => away && place != room && place == other_room && far >= MIN_HEAD_START,
-        Variant::Carry => away && near.max(far) <= MAX_ARRIVAL,
+        Variant::Lift => {
+            away && place != room && place == other_room && far >= MIN_HEAD_START && near <= MAX_ARRIVAL
+        }
+        Variant::Carry => away && near.max(far) <= MAX_SHARED,
         Variant::Fetch => away && near <= MAX_ARRIVAL,
         Variant::HandOver => away,
         Variant::Drag => away && near <= MAX_ARRIVAL,
         Variant::Take => beside && far + MIN_HEAD_START <= near && near <= MAX_ARRIVAL,
-        Variant::Hide => beside && near <= MAX_BY && MAX_BY + MIN_HEAD_START <= far && place == room,
+        Variant::Hide => {
+            let carried_farther = goal.distance(&scene.initial_state()) <= MAX_HIDDEN;
+            away && carried_farther && near <= MAX_BY && MAX_BY + MIN_HEAD_START <= far && place == room
+        }
         Variant::Undo => {
             let alone = feasibility::cost(scene, goal, [false, true]);
             beside && alone <= MAX_UNDONE_COST && far < near && near <= MAX_ARRIVAL

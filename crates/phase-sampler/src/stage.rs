@@ -34,7 +34,7 @@ pub struct Part {
 }
 
 /// Draws of strengths for each assignment of roles.
-const STRENGTH_DRAWS: usize = 3;
+const STRENGTH_DRAWS: usize = 6;
 /// Draws of a stage in one layout before another layout is drawn.
 const DRAWS_PER_LAYOUT: usize = 200;
 

@@ -1,6 +1,6 @@
 //! The options of `gen-dataset` and `merge`.
 
-use crate::{effort::SimulationOptions, output::Output, parallel::Jobs};
+use crate::{effort::SimulationOptions, output::Output, parallel::Jobs, shard_option::shard};
 use clap::{Args, value_parser};
 use std::path::PathBuf;
 
@@ -8,8 +8,8 @@ use std::path::PathBuf;
 #[derive(Args, Debug)]
 pub struct GenDataset {
     /// What to generate: demo (twelve events, two of each kind, without selection), phase-500 (the paper's
-    /// composition, selected), phase-training (as many training events of the same kind as requested), or a
-    /// file in the format phase-preset/2 whose name ends in .json
+    /// composition, selected), phase-500-v1 (the first edition's), phase-training (as many training events of the
+    /// same kind as requested), or a file in the format phase-preset/3 whose name ends in .json
     #[arg(long, default_value = "demo")]
     pub preset: String,
     /// Number of events [default: the preset's]
@@ -25,7 +25,8 @@ pub struct GenDataset {
     #[arg(long)]
     pub no_video: bool,
     /// Generate only the events K, K + N, K + 2 N … of the dataset, to be combined with the other shards by
-    /// merge
+    /// merge. In a task of a job array K may be `auto`: --shard auto under Slurm, --shard auto/N under
+    /// Kubernetes (indexed jobs) and HyperQueue
     #[arg(long, value_name = "K/N", value_parser = shard)]
     pub shard: Option<(usize, usize)>,
     /// How the result is printed.
@@ -51,13 +52,4 @@ pub struct Merge {
     /// How the result is printed.
     #[command(flatten)]
     pub output: Output,
-}
-
-/// Reads a shard such as `3/16`.
-fn shard(text: &str) -> Result<(usize, usize), String> {
-    let numbers = text.split_once('/').and_then(|(k, n)| Some((k.parse().ok()?, n.parse().ok()?)));
-    match numbers {
-        Some((k, n)) if 1 <= k && k <= n => Ok((k, n)),
-        _ => Err("a shard is K/N with K from 1 to N, such as 3/16".into()),
-    }
 }

@@ -20,9 +20,10 @@ use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 /// The presets bundled with the program.
-const PRESETS: [(&str, &str); 3] = [
+const PRESETS: [(&str, &str); 4] = [
     ("demo", include_str!("../../../../data/presets/demo.json")),
     ("phase-500", include_str!("../../../../data/presets/phase-500.json")),
+    ("phase-500-v1", include_str!("../../../../data/presets/phase-500-v1.json")),
     ("phase-training", include_str!("../../../../data/presets/phase-training.json")),
 ];
 

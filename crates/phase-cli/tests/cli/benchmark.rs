@@ -9,7 +9,7 @@ use std::{fs, path::Path};
 
 /// Two test events: one in a layout and of a type that occur in the training data too, one in neither.
 const PRESET: &str = r#"{
-  "format": "phase-preset/2", "name": "tiny", "seed": 3,
+  "format": "phase-preset/3", "name": "tiny", "seed": 3,
   "layouts": {"seen": [0], "unseen": [6]},
   "selection": {"min_steps": 40, "max_steps": 100, "attempts": 200},
   "groups": [

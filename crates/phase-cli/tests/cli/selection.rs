@@ -11,7 +11,7 @@ use std::{
 
 /// Five events of agents that search little; the first scenes often fail.
 const PRESET: &str = r#"{
-  "format": "phase-preset/2", "name": "tiny", "seed": 3,
+  "format": "phase-preset/3", "name": "tiny", "seed": 3,
   "layouts": {"open": [0, 2, 6]},
   "selection": {"min_steps": 40, "max_steps": 100, "attempts": 200},
   "groups": [
