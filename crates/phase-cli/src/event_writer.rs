@@ -38,8 +38,8 @@ pub struct EventJob {
     pub seed: u64,
     /// The relation it is to show, if that is not the scene's own.
     pub relation: Option<Relation>,
-    /// Its maximum length, if that is not the run's (steps).
-    pub max_steps: Option<usize>,
+    /// Its minimum and maximum length, if they are not the run's (steps).
+    pub lengths: Option<(usize, usize)>,
     /// Path of its JSON.
     pub json: PathBuf,
     /// Path of its video, if there is to be one.
@@ -124,8 +124,8 @@ impl EventWriter {
 
     fn write_json(&self, job: &EventJob, event: &Event) -> Result<(), CliError> {
         let (generator, mut settings) = (GENERATOR.into(), self.settings_value.clone());
-        if let Some(steps) = job.max_steps {
-            settings["max_steps"] = steps.into();
+        if let Some((min, max)) = job.lengths {
+            (settings["min_steps"], settings["max_steps"]) = (min.into(), max.into());
         }
         let mut recording = Recording::of_event(job.id.clone(), event.clone(), generator, settings);
         if let Some(relation) = job.relation {

@@ -1,6 +1,7 @@
 //! The `README.md` inside a generated dataset, which is also a dataset card: its front matter tells
 //! `datasets.load_dataset` which files to read.
 
+use crate::features::features;
 use phase_dataset::{
     describe,
     manifest::Manifest,
@@ -105,7 +106,8 @@ fn front_matter(manifest: &Manifest) -> String {
         "---\npretty_name: {name}\nlicense:\n- mit\n- apache-2.0\nlanguage:\n- en\nsize_categories:\n- {size}\n\
          task_categories:\n- time-series-forecasting\n- video-classification\n\
          tags:\n- social-perception\n- theory-of-mind\n- multi-agent\n- physics\n- simulation\n- goal-inference\n\
-         configs:\n- config_name: default\n  data_files:\n{files}---\n\n"
+         configs:\n- config_name: default\n  data_files:\n{files}{features}---\n\n",
+        features = features(),
     )
 }
 

@@ -37,6 +37,7 @@ pub mod acceptance;
 pub mod card;
 pub mod document;
 pub mod evaluation;
+mod features;
 pub mod gallery;
 pub mod markup;
 pub mod plot;

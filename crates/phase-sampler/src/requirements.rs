@@ -22,7 +22,7 @@ const MAX_BESIDE: f32 = 16.0;
 /// Maximum distance from its landmark of an object that is to be hidden: the nearer, the more the hinderer gains (u).
 const MAX_HIDDEN: f32 = 13.0;
 /// Maximum distance from an object of both who are to carry it together (u).
-const MAX_SHARED: f32 = 10.0;
+const MAX_SHARED: f32 = 8.0;
 /// An agent this near to an object, in its room and facing it, sees it at the start (u).
 const MAX_BY: f32 = 8.0;
 /// The hinderer is that much nearer to the object that it is to take first, or farther from the one that it is to take
@@ -41,17 +41,19 @@ pub(crate) const fn strengths(variant: Variant) -> [&'static [Strength]; 2] {
         Variant::Fetch => [ABLE, ALL],
         Variant::Move | Variant::MakeWay => [ABLE, ALL],
         Variant::HinderPlace | Variant::Block | Variant::Mixed => [ABLE, ALL],
-        Variant::Places | Variant::Cross | Variant::Chase => [ALL, ALL],
+        Variant::Places | Variant::Cross => [ALL, ALL],
+        // A weak agent does not get away.
+        Variant::Chase => [ALL, ABLE],
         _ => [ABLE, ABLE],
     }
 }
 
-/// Whether the agents' strengths fit each other: one who takes an object from another is at least as strong, and one who
-/// takes it over is the stronger.
+/// Whether the agents' strengths fit each other: one who takes an object from another is the stronger, and so is one who
+/// takes it over from a helper.
 fn are_matched(variant: Variant, scene: &Scene) -> bool {
     let [first, second] = scene.agents.map(|agent| agent.strength);
     match variant {
-        Variant::Take | Variant::Hide => first >= second,
+        Variant::Take | Variant::Hide => first > second,
         Variant::HandOver => first < second,
         _ => true,
     }
@@ -132,7 +134,8 @@ fn is_placed(variant: Variant, scene: &Scene) -> bool {
     let beside = away && goal.distance(&scene.initial_state()) <= MAX_BESIDE;
     match variant {
         Variant::Lift => {
-            away && place != room && place == other_room && far >= MIN_HEAD_START && near <= MAX_ARRIVAL
+            let helpee = (MIN_HEAD_START..=MAX_BY).contains(&far);
+            away && place != room && place == other_room && helpee && near <= MAX_ARRIVAL
         }
         Variant::Carry => away && near.max(far) <= MAX_SHARED,
         Variant::Fetch => away && near <= MAX_ARRIVAL,

@@ -35,6 +35,8 @@ pub struct Part {
 
 /// Draws of strengths for each assignment of roles.
 const STRENGTH_DRAWS: usize = 6;
+/// Maximum number of draws of a stage. Several variants have to be possible at once, so it takes more than one scene.
+const MAX_STAGE_DRAWS: usize = 5 * MAX_DRAWS;
 /// Draws of a stage in one layout before another layout is drawn.
 const DRAWS_PER_LAYOUT: usize = 200;
 
@@ -45,7 +47,7 @@ impl Stage {
     /// [`SampleError`] if the draws are exhausted, for example because no layout fits a variant.
     pub fn sample(parts: &[Part], layouts: &[Layout], random: &mut impl Rng) -> Result<Self, SampleError> {
         let Some(&lead) = parts.first() else { return Err(SampleError(Variant::Places)) };
-        for draw in 0..MAX_DRAWS {
+        for draw in 0..MAX_STAGE_DRAWS {
             let Some(layout) = layouts.get((draw / DRAWS_PER_LAYOUT) % layouts.len().max(1)) else { break };
             let request = Request { variant: lead.variant, goal_index: lead.goal_index, layouts: &[*layout] };
             let Some(scene) = recipe::propose(&request, Objects::Two, random) else { continue };

@@ -203,11 +203,12 @@ impl<'a> Slots<'a> {
     /// Writes the files of an accepted event.
     fn keep(&self, id: &str, index: usize, slot: &EventSlot, event: &Event) -> Result<EventEntry, CliError> {
         let out = self.folder.path();
+        let settings = self.settings(&event.scene, event.seed, index);
         let job = EventJob {
             id: id.into(),
             seed: event.seed,
             relation: None,
-            max_steps: Some(self.settings(&event.scene, event.seed, index).max_steps),
+            lengths: Some((settings.min_steps, settings.max_steps)),
             json: out.join(event_path(id)),
             video: self.plan.videos.then(|| out.join(video_path(id))),
         };

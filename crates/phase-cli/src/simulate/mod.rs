@@ -92,7 +92,7 @@ fn make(
         id: id.clone(),
         seed: event_seed(arguments, index, recording, seed),
         relation: Some(recording.relation),
-        max_steps: None,
+        lengths: None,
         json: out.join(format!("{id}.json")),
         video: video.then(|| out.join(format!("{id}.mp4"))),
     };

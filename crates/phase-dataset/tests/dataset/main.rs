@@ -3,6 +3,7 @@
 mod atomic;
 mod cache;
 mod checksum;
+mod composition;
 mod croissant;
 mod describe;
 mod folder;

@@ -70,8 +70,9 @@ fn fill(template: &str, parts: &[(&str, String)]) -> String {
 /// A filter for each property of events, with the number of events for each value.
 fn filters(events: &[EventEntry]) -> String {
     type Values = fn(&EventEntry) -> Vec<String>;
-    let keys: [(&str, Values); 4] = [
+    let keys: [(&str, Values); 5] = [
         ("kind", |event| vec![event.kind.name().into()]),
+        ("manner", |event| manners(event).map(Into::into).collect()),
         ("relation", |event| vec![describe::relation(event.relation).into()]),
         ("goal", goals),
         ("split", |event| vec![event.split().name().into()]),
@@ -82,6 +83,9 @@ fn filters(events: &[EventEntry]) -> String {
         for value in events.iter().flat_map(of) {
             *counts.entry(value).or_default() += 1;
         }
+        if counts.is_empty() {
+            continue;
+        }
         let _ =
             write!(selects, "<label>{name} <select data-filter=\"{name}\"><option value=\"\">all</option>");
         for (value, count) in counts {
@@ -90,6 +94,11 @@ fn filters(events: &[EventEntry]) -> String {
         selects.push_str("</select></label>\n");
     }
     selects
+}
+
+/// The names of what is seen of helping, hindering and meeting.
+fn manners(event: &EventEntry) -> impl Iterator<Item = &'static str> {
+    event.manners.iter().map(|manner| manner.name())
 }
 
 /// The distinct goals of an event's agents.
@@ -132,7 +141,7 @@ fn card(event: &EventEntry) -> String {
     ];
     format!(
         "<article class=\"card\" tabindex=\"0\" data-id=\"{id}\" data-kind=\"{kind}\" \
-         data-relation=\"{relation}\" data-split=\"{split}\" data-goal=\"{goals}\" data-steps=\"{steps}\" \
+         data-relation=\"{relation}\" data-split=\"{split}\" data-goal=\"{goals}\" data-manner=\"{manners}\" data-steps=\"{steps}\" \
          aria-label=\"{kind}, {id}\">\n\
          <header><h2>{kind}</h2><span class=\"tag {relation}\">{relation}</span><span class=\"tag\">{split}</span>\
          <code>{id}</code></header>\n\
@@ -146,6 +155,7 @@ fn card(event: &EventEntry) -> String {
         relation = describe::relation(event.relation),
         split = event.split().name(),
         goals = escape(&goals(event).join("|")),
+        manners = manners(event).collect::<Vec<_>>().join("|"),
         what = escape(describe::kind(event.kind)),
         video = event.video.as_ref().map_or_else(String::new, |video| escape(&video.path)),
         buttons = buttons.concat(),
