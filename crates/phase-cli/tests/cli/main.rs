@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod benchmark;
+mod blocks;
 mod captions;
 mod console;
 mod damage;
