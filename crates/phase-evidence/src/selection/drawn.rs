@@ -9,14 +9,17 @@ use super::{
     kinds,
 };
 use crate::{GoalOutcome, Manner, Track, contact, holding, manner, pursuit::Pursuit, rest};
+use core::ops::Range;
 use phase_model::{AgentId, Entity, EventKind, Goal, ObjectId, Relation, Scene, Sign};
 
 /// How much closer to its goal an agent must come (u).
 const MIN_PROGRESS: f32 = 3.0;
 /// Maximum share of an event in which nothing moves, in percent.
 const MAX_STILL_PERCENT: usize = 75;
-/// Maximum time for which nothing moves while two adversaries oppose each other (steps; 6 s).
-const MAX_DEADLOCK: usize = 24;
+/// Maximum time for which every body may stay in its place before both agents are done (steps; 6 s).
+const MAX_STANDSTILL: usize = 24;
+/// A body that is nearer than this to where it was stays in its place (u): agents that push each other tremble.
+const MAX_STAY: f32 = 0.3;
 /// Steps of which a chase has pursuit in the last part: the last fourth.
 const LASTING_PARTS: usize = 4;
 
@@ -45,14 +48,34 @@ pub(super) fn judge(
     Ok(counterfactual.map(|it| Counterfactual { cut: true, ..it }))
 }
 
-/// Something moves in enough of the steps, and adversaries do not stand still for long.
+/// Something moves in enough of the steps, and nobody is stuck: for 6 s everything may stay in its place only if both are
+/// done, which adversaries never are.
 fn lively(scene: &Scene, track: &Track) -> Result<(), RejectionReason> {
-    let still: Vec<bool> = (1..track.states.len()).map(|step| rest::is_still(track, step)).collect();
-    let count = still.iter().filter(|still| **still).count();
-    require(100 * count <= MAX_STILL_PERCENT * track.steps(), RejectionReason::Lifeless)?;
-    let longest = still.split(|still| !still).map(<[bool]>::len).max().unwrap_or(0);
-    let adversaries = scene.relation() == Relation::Adversarial;
-    require(!adversaries || longest <= MAX_DEADLOCK, RejectionReason::Lifeless)
+    let still = (1..track.states.len()).filter(|&step| rest::is_still(track, step)).count();
+    require(100 * still <= MAX_STILL_PERCENT * track.steps(), RejectionReason::Lifeless)?;
+    let done = done_at(scene, track).unwrap_or(usize::MAX);
+    let stuck = |from: usize| from < done && stays(track, from..from + MAX_STANDSTILL + 1);
+    let windows = 0..track.states.len().saturating_sub(MAX_STANDSTILL);
+    require(!windows.into_iter().any(stuck), RejectionReason::Lifeless)
+}
+
+/// The step at which the goals of both agents have been reached; never for adversaries, nor for goals to keep something
+/// from happening.
+fn done_at(scene: &Scene, track: &Track) -> Option<usize> {
+    if scene.relation() == Relation::Adversarial {
+        return None;
+    }
+    let steps = scene.goals().map(|goal| GoalOutcome::of(track, goal).steps);
+    Some(steps[0]?.max(steps[1]?))
+}
+
+/// Whether every body stays where it was at the beginning of some steps.
+fn stays(track: &Track, steps: Range<usize>) -> bool {
+    let states = &track.states[steps];
+    track.physics.entities().all(|entity| {
+        let place = states[0].position(entity);
+        states.iter().all(|state| state.position(entity).distance(place) < MAX_STAY)
+    })
 }
 
 fn helping(scene: &Scene, track: &Track) -> Result<Counterfactual, RejectionReason> {

@@ -86,6 +86,21 @@ fn most_of_an_event_must_not_be_still() {
     assert_eq!(crossing, Err(RejectionReason::OtherManner));
 }
 
+/// Half of the way done, and then trembling on the spot.
+#[test]
+fn to_be_stuck_is_not_to_be_done() {
+    let scene = scene(EventKind::Independent, [place(0, 1), place(1, 3)], Attitude::Neutral);
+    let stuck = |until: usize| {
+        event(move |t| {
+            let mut step = errands(t.min(until), 30);
+            step.agents[0].1 += if t % 2 == 0 { 0.1 } else { 0.0 };
+            step
+        })
+    };
+    assert_eq!(judged(&scene, &stuck(14), None), Err(RejectionReason::Lifeless));
+    assert_eq!(judged(&scene, &stuck(20), None), Ok(None), "20 steps are short enough");
+}
+
 #[test]
 fn a_chase_lasts_to_the_end() {
     let goals = [crate::selection::TOUCH, crate::selection::TOUCH.negated()];
