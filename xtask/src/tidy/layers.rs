@@ -25,6 +25,7 @@ pub const LAYERS: [&str; 27] = [
     "phase-evidence",
     "phase-sampler",
     "phase-dataset",
+    "phase-audit",
     "phase-render",
     "phase-tensors",
     "phase-simple",
