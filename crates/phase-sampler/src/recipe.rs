@@ -53,16 +53,18 @@ pub(crate) fn propose(request: &Request<'_>, count: Objects, random: &mut impl R
     let layout = choose(layouts, random);
     let draft = draft(variant, layout, variant.goals(goal_index), random)?;
     let scene = draft.into_scene(variant.kind(), layout, count, random);
-    is_playable(variant, &scene).then_some(scene)
+    is_playable(variant, &scene, count == Objects::Two).then_some(scene)
 }
 
-/// Draws a scene of a kind in any of the 90 layouts; variant and goals are drawn as well.
+/// Draws a scene of a kind in any of the 90 layouts; one of the first edition's variants and goals are drawn as well.
 ///
 /// # Errors
 /// As [`sample`].
 pub fn sample_kind(kind: EventKind, random: &mut impl Rng) -> Result<Scene, SampleError> {
     let layouts: Vec<Layout> = Layout::all_used().collect();
-    let variant = choose(&Variant::of(kind), random);
+    let mut variants = Variant::of(kind);
+    variants.retain(|variant| variant.is_first_edition());
+    let variant = choose(&variants, random);
     let goal_index = random.random_range(0..variant.goal_count());
     sample(&Request { variant, goal_index, layouts: &layouts }, random)
 }

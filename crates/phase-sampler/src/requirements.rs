@@ -59,11 +59,12 @@ fn are_matched(variant: Variant, scene: &Scene) -> bool {
     }
 }
 
-/// Whether a scene, in which role 0 is agent 0, can show its variant.
-pub(crate) fn is_playable(variant: Variant, scene: &Scene) -> bool {
+/// Whether a scene, in which role 0 is agent 0, can show its variant. The first edition's variants have further requirements
+/// on a shared stage.
+pub(crate) fn is_playable(variant: Variant, scene: &Scene, on_stage: bool) -> bool {
     // Cheap tests first.
     are_matched(variant, scene)
-        && is_placed(variant, scene)
+        && ((variant.is_first_edition() && !on_stage) || is_placed(variant, scene))
         && is_unsolved(scene)
         && scene.validate_without_overlap().is_ok()
         && is_feasible(variant, scene)

@@ -81,7 +81,7 @@ impl Stage {
                 for _ in 0..STRENGTH_DRAWS {
                     let part = Part { variant, goal_index };
                     let scene = self.assigned(part, agents_swapped, objects_swapped, random);
-                    if requirements::is_playable(variant, &scene) {
+                    if requirements::is_playable(variant, &scene, true) {
                         return Some(if agents_swapped { recipe::exchanged(&scene) } else { scene });
                     }
                 }

@@ -144,6 +144,27 @@ impl Variant {
         }
     }
 
+    /// Whether it belongs to the first edition, whose scenes are drawn without regard to what else may happen in them.
+    #[must_use]
+    pub const fn is_first_edition(self) -> bool {
+        matches!(
+            self,
+            Self::Lift
+                | Self::Blocked
+                | Self::Move
+                | Self::HinderPlace
+                | Self::HinderObject
+                | Self::Evade
+                | Self::Pester
+                | Self::Chase
+                | Self::Compete
+                | Self::Carry
+                | Self::Places
+                | Self::Mixed
+                | Self::Objects
+        )
+    }
+
     /// The variants of a kind.
     #[must_use]
     pub fn of(kind: EventKind) -> Vec<Self> {
