@@ -76,7 +76,10 @@ fn usage() -> String {
 mod tests {
     use super::parse;
 
-    fn of(text: &str, set: &[(&str, &str)]) -> Result<(usize, usize), String> {
+    /// Variables with their values.
+    type Set<'a> = &'a [(&'a str, &'a str)];
+
+    fn of(text: &str, set: Set<'_>) -> Result<(usize, usize), String> {
         parse(text, |name| set.iter().find(|(known, _)| *known == name).map(|(_, value)| (*value).to_owned()))
     }
 
@@ -98,7 +101,7 @@ mod tests {
     #[test]
     fn what_is_no_shard_is_refused_in_a_sentence() {
         let kubernetes = [("JOB_COMPLETION_INDEX", "16")];
-        let cases: [(&str, &[(&str, &str)], &str); 9] = [
+        let cases: [(&str, Set<'_>, &str); 9] = [
             ("0/4", &[], "K/N"),
             ("5/4", &[], "K/N"),
             ("x/4", &[], "K/N"),
