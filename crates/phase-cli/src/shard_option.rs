@@ -31,7 +31,7 @@ fn parse(text: &str, variable: impl Fn(&str) -> Option<String>) -> Result<(usize
         Some((first, count)) => (first, Some(count.parse::<usize>().map_err(|_| usage())?)),
     };
     let (k, n) = if first == "auto" {
-        let (index, tasks) = task(number)?;
+        let (index, tasks) = task(number, count.is_some())?;
         let n = count.or(tasks).ok_or_else(|| {
             "the scheduler does not tell how many tasks there are; give it as --shard auto/N".to_owned()
         })?;
@@ -48,10 +48,18 @@ fn parse(text: &str, variable: impl Fn(&str) -> Option<String>) -> Result<(usize
     }
 }
 
-/// The task's number from 0 and, where the scheduler tells, how many tasks there are.
-fn task(number: impl Fn(&str) -> Result<Option<usize>, String>) -> Result<(usize, Option<usize>), String> {
+/// The task's number from 0 and, where the scheduler tells, how many tasks there are. `counted`: whether the user gives how
+/// many there are.
+fn task(
+    number: impl Fn(&str) -> Result<Option<usize>, String>,
+    counted: bool,
+) -> Result<(usize, Option<usize>), String> {
     if let Some(id) = number(SLURM_TASK)? {
-        // An array need not begin with 0 or 1, nor go on by one.
+        // Tasks that failed may be submitted again as a smaller array: their own numbers, from 1, are what stays.
+        if counted {
+            return id.checked_sub(1).map(|index| (index, None)).ok_or_else(|| format!("{SLURM_TASK} is 0"));
+        }
+        // A whole array need not begin with 0 or 1, nor go on by one.
         let first = number(SLURM_FIRST)?.unwrap_or(0);
         let step = number(SLURM_STEP)?.unwrap_or(1).max(1);
         let offset =
@@ -93,7 +101,8 @@ mod tests {
         ];
         assert_eq!(of("3/16", &slurm), Ok((3, 16)));
         assert_eq!(of("auto", &slurm), Ok((3, 4)));
-        assert_eq!(of("auto/8", &slurm), Ok((3, 8)));
+        // Task 14 of an array of which only some tasks are submitted again.
+        assert_eq!(of("auto/16", &slurm), Ok((14, 16)));
         assert_eq!(of("auto/16", &[("JOB_COMPLETION_INDEX", "15")]), Ok((16, 16)));
         assert_eq!(of("auto/16", &[("HQ_TASK_ID", "16")]), Ok((16, 16)));
     }
@@ -101,7 +110,8 @@ mod tests {
     #[test]
     fn what_is_no_shard_is_refused_in_a_sentence() {
         let kubernetes = [("JOB_COMPLETION_INDEX", "16")];
-        let cases: [(&str, Set<'_>, &str); 9] = [
+        let cases: [(&str, Set<'_>, &str); 10] = [
+            ("auto/4", &[("SLURM_ARRAY_TASK_ID", "0")], "is 0"),
             ("0/4", &[], "K/N"),
             ("5/4", &[], "K/N"),
             ("x/4", &[], "K/N"),

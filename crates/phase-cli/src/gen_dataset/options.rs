@@ -25,8 +25,8 @@ pub struct GenDataset {
     #[arg(long)]
     pub no_video: bool,
     /// Generate only the events K, K + N, K + 2 N … of the dataset, to be combined with the other shards by
-    /// merge. In a task of a job array K may be `auto`: --shard auto under Slurm, --shard auto/N under
-    /// Kubernetes (indexed jobs) and HyperQueue
+    /// merge. In a task of a job array K may be `auto`: --shard auto/N under Slurm, Kubernetes (indexed
+    /// jobs) and HyperQueue, or --shard auto for a whole Slurm array
     #[arg(long, value_name = "K/N", value_parser = shard)]
     pub shard: Option<(usize, usize)>,
     /// How the result is printed.
