@@ -2,6 +2,7 @@
 
 use crate::error::CliError;
 use phase_dataset::atomic;
+use phase_event::Event;
 use phase_model::{AgentId, PhysicsConfig, State, arena::FRAMES_PER_SECOND};
 use phase_perception::CellSet;
 use phase_render::{
@@ -61,6 +62,40 @@ pub fn write_video(
             video.push(&frame?)?;
         }
         video.finish()
+    };
+    let mp4 = mp4().map_err(|source| CliError::Render { id: id.into(), source })?;
+    Ok(atomic::write(path, &mp4)?)
+}
+
+/// Writes a video of several events beside each other, smaller, until the longest ends.
+///
+/// # Errors
+/// As [`write_video`].
+pub fn write_side_by_side(path: &Path, id: &str, events: &[&Event]) -> Result<(), CliError> {
+    let mp4 = || -> Result<Vec<u8>, RenderError> {
+        let style = Style::with_side(SHEET_SIDE);
+        let renderers = events.iter().map(|event| SceneRenderer::new(&event.scene.physics(), style));
+        let renderers = renderers.collect::<Result<Vec<_>, _>>()?;
+        let states: Vec<Vec<&State>> = events.iter().map(|event| event.frames().collect()).collect();
+        let count = states.iter().map(Vec::len).max().unwrap_or(0);
+        let mut video = None;
+        for k in 0..count {
+            let beside = renderers.iter().zip(&states).filter_map(|(renderer, states)| {
+                states.get(k).or(states.last()).map(|state| renderer.frame(state, None))
+            });
+            let frame = side_by_side(&beside.collect::<Vec<_>>())?;
+            let encoder = match &mut video {
+                Some(encoder) => encoder,
+                None => video.insert(VideoEncoder::new(
+                    Vec::new(),
+                    frame.width(),
+                    frame.height(),
+                    FRAMES_PER_SECOND,
+                )?),
+            };
+            encoder.push(&frame)?;
+        }
+        video.ok_or(RenderError::NoFrames("video"))?.finish()
     };
     let mp4 = mp4().map_err(|source| CliError::Render { id: id.into(), source })?;
     Ok(atomic::write(path, &mp4)?)

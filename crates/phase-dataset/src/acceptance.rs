@@ -1,5 +1,6 @@
 //! How many scenes were tried for the events of a dataset, and why most were refused.
 
+use crate::slot_record::Refusal;
 use phase_evidence::selection::RejectionReason;
 use phase_sampler::Variant;
 use serde::{Deserialize, Serialize};
@@ -24,15 +25,24 @@ pub struct Acceptance {
 pub struct Tally(BTreeMap<Variant, Acceptance>);
 
 impl Tally {
-    /// Adds the attempts at one accepted event.
-    pub fn add(&mut self, variant: Variant, refused: &[RejectionReason]) {
-        let empty = Acceptance { variant, events: 0, attempts: 0, refused: BTreeMap::new() };
-        let row = self.0.entry(variant).or_insert(empty);
-        row.events += 1;
-        row.attempts += 1 + refused.len();
-        for &reason in refused {
-            *row.refused.entry(reason).or_default() += 1;
+    /// Adds the attempts at one slot: the variants of its events, and what was refused. Events of a set that were dropped because another of the set was refused do not
+    /// count.
+    pub fn add(&mut self, accepted: impl IntoIterator<Item = Variant>, refused: &[Refusal]) {
+        for variant in accepted {
+            let row = self.row(variant);
+            row.events += 1;
+            row.attempts += 1;
         }
+        for refusal in refused {
+            let row = self.row(refusal.variant);
+            row.attempts += 1;
+            *row.refused.entry(refusal.reason).or_default() += 1;
+        }
+    }
+
+    fn row(&mut self, variant: Variant) -> &mut Acceptance {
+        let empty = || Acceptance { variant, events: 0, attempts: 0, refused: BTreeMap::new() };
+        self.0.entry(variant).or_insert_with(empty)
     }
 
     /// The counts, in the order of [`Variant::ALL`].

@@ -1,11 +1,11 @@
 //! What each event of a generated dataset is to be: the slots that a preset describes.
 
 use crate::{
-    preset::{Blocks, Preset, PresetGroup},
+    preset::{Blocks, Preset, PresetGroup, SetGroup},
     splits::Split,
 };
 use phase_evidence::Manner;
-use phase_sampler::{Part, Variant};
+use phase_sampler::{About, Part, Stance, Variant};
 use std::collections::BTreeMap;
 
 /// What one event of a dataset is to be.
@@ -34,11 +34,27 @@ pub struct BlockPlace {
     pub events: usize,
 }
 
+/// What a set of events that differ in the stance of one agent is to be.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct SetSlot {
+    /// The stances, one event each.
+    pub stances: Vec<Stance>,
+    /// What the other agent's goal is about.
+    pub about: About,
+    /// Index of that goal.
+    pub goal_index: usize,
+    /// The part of the dataset, if it is divided.
+    pub split: Option<Split>,
+    /// The name of the layouts.
+    pub layouts: String,
+}
+
 /// The slots of a preset: its groups interleaved evenly, repeated for larger datasets. Goals rotate, so that
 /// they stay balanced.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Composition {
     slots: Vec<EventSlot>,
+    sets: Vec<SetSlot>,
     turns: BTreeMap<Variant, usize>,
     blocks: usize,
 }
@@ -47,7 +63,7 @@ impl Composition {
     /// The slots of a preset.
     #[must_use]
     pub fn of(preset: &Preset) -> Self {
-        let mut new = Self { slots: Vec::new(), turns: BTreeMap::new(), blocks: 0 };
+        let mut new = Self { slots: Vec::new(), sets: Vec::new(), turns: BTreeMap::new(), blocks: 0 };
         if let Some(blocks) = &preset.blocks {
             new.add_blocks(blocks);
         }
@@ -56,7 +72,31 @@ impl Composition {
             let goal_index = new.turn(variant);
             new.slots.push(EventSlot { variant, goal_index, split, layouts: layouts.clone(), block: None });
         }
+        for (goal_index, group) in interleaved(&preset.sets, |group| group.sets).into_iter().enumerate() {
+            let SetGroup { stances, about, split, layouts, .. } = group.clone();
+            new.sets.push(SetSlot { stances, about, goal_index, split, layouts });
+        }
         new
+    }
+
+    /// Number of slots for this number of events: as many, unless they come in sets. `None` if the last set would be
+    /// incomplete.
+    #[must_use]
+    pub fn slots(&self, events: usize) -> Option<usize> {
+        let (mut slots, mut covered) = (0, 0);
+        while covered < events {
+            covered += self.set(slots).map_or(1, |set| set.stances.len());
+            slots += 1;
+        }
+        (covered == events).then_some(slots)
+    }
+
+    /// What the set with this number is to be, if the dataset consists of sets.
+    #[must_use]
+    pub fn set(&self, index: usize) -> Option<SetSlot> {
+        let slot = self.sets.get(index % self.sets.len().max(1))?;
+        let round = index / self.sets.len();
+        Some(SetSlot { goal_index: slot.goal_index + round * self.sets.len(), ..slot.clone() })
     }
 
     fn add_blocks(&mut self, blocks: &Blocks) {
@@ -80,7 +120,7 @@ impl Composition {
         *next - 1
     }
 
-    /// What the event with this number is to be.
+    /// What the event with this number is to be, if the dataset does not consist of sets.
     #[must_use]
     pub fn slot(&self, index: usize) -> EventSlot {
         let slot = &self.slots[index % self.slots.len()];

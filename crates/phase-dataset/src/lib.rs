@@ -3,7 +3,7 @@
 //! - [`phase_events`] reads files of the exchange format `phase-events/1`, whose events `phase-event` describes.
 //! - [`manifest`] describes a generated dataset to programs; pages and tables for people are made elsewhere.
 //! - [`parquet`] and [`croissant`] are for external tools; [`mod@verify`] checks that all files agree.
-//! - [`preset`] defines the composition of a dataset, [`splits`] how it is divided, [`slot_record`],
+//! - [`event_set`] describes minimal pairs. [`preset`] defines the composition of a dataset, [`splits`] how it is divided, [`slot_record`],
 //!   [`acceptance`] and [`shard`] what was tried for each of its events.
 //! - [`summary`] compares simulations with recordings.
 //! - [`atomic`], [`folder`] and [`cache`] allow a run to be interrupted at any moment without half-written
@@ -44,6 +44,7 @@ pub mod composition;
 pub mod croissant;
 pub mod describe;
 pub mod error;
+pub mod event_set;
 pub mod folder;
 pub mod json;
 pub mod labels;

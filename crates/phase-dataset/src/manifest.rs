@@ -5,6 +5,7 @@ use crate::{
     acceptance::Acceptance,
     atomic,
     checksum::FileEntry,
+    event_set::{SetEntry, SetPlace},
     json,
     splits::{Item, Split},
 };
@@ -44,7 +45,10 @@ pub struct Manifest {
     pub selection: Vec<Acceptance>,
     /// The events, in order.
     pub events: Vec<EventEntry>,
-    /// The files that do not belong to a single event.
+    /// The sets that they form, if they differ in one social variable.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub sets: Vec<SetEntry>,
+    /// The files that do not belong to a single event or set.
     pub files: Vec<FileEntry>,
 }
 
@@ -59,6 +63,9 @@ pub struct EventEntry {
     /// The variant of its kind; unknown for events of other programs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub variant: Option<Variant>,
+    /// The set that it belongs to, if it belongs to one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub set: Option<SetPlace>,
     /// The part of the dataset it belongs to, if the dataset is divided.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub split: Option<Split>,
@@ -143,6 +150,7 @@ impl EventEntry {
             id: id.into(),
             kind: scene.kind,
             variant: None,
+            set: None,
             split: None,
             relation: scene.relation(),
             seed: event.seed,
@@ -218,7 +226,12 @@ impl Manifest {
     /// # Errors
     /// Names the first file that is not.
     pub fn verify(&self, folder: &Path) -> Result<(), FileError> {
-        let of_events = self.events.iter().flat_map(EventEntry::files);
-        of_events.chain(&self.files).try_for_each(|file| file.verify(folder))
+        self.all_files().try_for_each(|file| file.verify(folder))
+    }
+
+    /// Every file of the dataset except the manifest.
+    pub fn all_files(&self) -> impl Iterator<Item = &FileEntry> {
+        let of_sets = self.sets.iter().filter_map(|set| set.video.as_ref());
+        self.events.iter().flat_map(EventEntry::files).chain(of_sets).chain(&self.files)
     }
 }

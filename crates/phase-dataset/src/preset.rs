@@ -6,7 +6,7 @@ use phase_model::{
     layout::USED_BASES,
     random::{self, Purpose},
 };
-use phase_sampler::Variant;
+use phase_sampler::{About, Stance, Variant};
 use serde::Deserialize;
 use std::{
     collections::{BTreeMap, BTreeSet},
@@ -33,8 +33,11 @@ pub struct Preset {
     /// What the dataset is composed of, if each event has bodies of its own.
     #[serde(default)]
     pub groups: Vec<PresetGroup>,
-    /// What it is composed of, if events of several kinds share bodies. A preset has either groups or blocks.
+    /// What it is composed of, if events of several kinds share bodies.
     pub blocks: Option<Blocks>,
+    /// What it is composed of, if its events differ in one social variable. A preset has groups, blocks or sets.
+    #[serde(default)]
+    pub sets: Vec<SetGroup>,
 }
 
 /// Which events are accepted.
@@ -125,6 +128,22 @@ pub struct BlockGroup {
     pub replace: BTreeMap<Variant, Variant>,
 }
 
+/// Sets of events that differ in the stance of one agent; see [`phase_sampler::contrast`].
+#[derive(Clone, PartialEq, Eq, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SetGroup {
+    /// The stances of the changed agent, one event each.
+    pub stances: Vec<Stance>,
+    /// What the other agent's goal is about.
+    pub about: About,
+    /// The part of the dataset, if it is divided.
+    pub split: Option<Split>,
+    /// One of the names in `layouts`.
+    pub layouts: String,
+    /// Number of sets.
+    pub sets: usize,
+}
+
 impl Preset {
     /// Reads a preset from text; `name` refers to it in messages.
     ///
@@ -147,9 +166,17 @@ impl Preset {
         if self.name.is_empty() || self.name.len() > 60 || !self.name.chars().all(plain) {
             return Err("field `name` must be 1 to 60 letters, digits, `-`, `_`, `.`".into());
         }
-        if self.groups.is_empty() == self.blocks.is_none() {
+        let given = [!self.groups.is_empty(), self.blocks.is_some(), !self.sets.is_empty()];
+        if given.into_iter().filter(|&given| given).count() != 1 {
             return Err(
-                "one of the fields `groups` and `blocks` must be given, and `groups` must not be empty"
+                "one of the fields `groups`, `blocks` and `sets` must be given, and not be empty".into()
+            );
+        }
+        self.sets.iter().try_for_each(SetGroup::check)?;
+        if !self.sets.is_empty() && !self.selection.is_some_and(|it| it.ends == Ends::Drawn) {
+            return Err(
+                "`sets` need a `selection` whose `ends` is \"drawn\", so that all events of a set are \
+                        equally long"
                     .into(),
             );
         }
@@ -170,7 +197,8 @@ impl Preset {
             }
         }
         let of_blocks = self.blocks.iter().flat_map(|blocks| &blocks.groups).map(|group| &group.layouts);
-        let mut named = self.groups.iter().map(|group| &group.layouts).chain(of_blocks);
+        let of_sets = self.sets.iter().map(|group| &group.layouts);
+        let mut named = self.groups.iter().map(|group| &group.layouts).chain(of_blocks).chain(of_sets);
         if let Some(name) = named.find(|name| self.layouts.get(*name).is_none_or(Vec::is_empty)) {
             return Err(format!("there are no layouts of the name {name:?}"));
         }
@@ -186,7 +214,8 @@ impl Preset {
         let blocks = self.blocks.as_ref().map_or(0, |blocks| {
             blocks.columns.len() * blocks.groups.iter().map(|group| group.blocks).sum::<usize>()
         });
-        blocks + self.groups.iter().map(|group| group.events).sum::<usize>()
+        let sets = self.sets.iter().map(|group| group.sets * group.stances.len()).sum::<usize>();
+        blocks + sets + self.groups.iter().map(|group| group.events).sum::<usize>()
     }
 
     /// The layouts of a name.
@@ -196,9 +225,25 @@ impl Preset {
         Layout::all_used().filter(|layout| bases.contains(&layout.base())).collect()
     }
 
-    /// The id of the event with this number.
+    /// The id of the slot with this number: that of its event, or of its set.
     #[must_use]
     pub fn id(&self, index: usize) -> String {
         format!("{}-{index:04}", self.name)
+    }
+}
+
+impl SetGroup {
+    fn check(&self) -> Result<(), String> {
+        if self.sets == 0 {
+            return Err("field `sets` of a group of sets must not be 0".into());
+        }
+        let distinct: BTreeSet<Stance> = self.stances.iter().copied().collect();
+        if distinct.len() < 2 || distinct.len() != self.stances.len() {
+            return Err("field `stances` must name two or more different stances".into());
+        }
+        match self.stances.iter().find(|stance| !stance.suits(self.about)) {
+            Some(stance) => Err(format!("the stance {} needs a goal about an object", stance.name())),
+            None => Ok(()),
+        }
     }
 }

@@ -7,7 +7,7 @@ use serde_json::Value;
 use std::path::Path;
 
 /// The value of the field `format` of shards.
-pub const SHARD_FORMAT: &str = "phase-shard/1";
+pub const SHARD_FORMAT: &str = "phase-shard/2";
 /// The shard's file name. It is written last: a folder with it is complete.
 pub const SHARD_FILE: &str = "shard.json";
 
@@ -19,6 +19,8 @@ pub struct DatasetDescription {
     pub preset: String,
     /// Number of events.
     pub events: usize,
+    /// Number of slots: that of events, or of sets.
+    pub slots: usize,
     /// The random seed of the dataset.
     pub seed: u64,
     /// Name and version of the program.
@@ -70,10 +72,10 @@ impl Shard {
         if shard.shard == 0 || shard.shard > shard.of {
             return Err(fail(shape(format!("there is no shard {} of {}", shard.shard, shard.of))));
         }
-        let expected = slots(shard.shard, shard.of, shard.whole.events).count();
-        if shard.slots.len() != expected || shard.slots.iter().any(|slot| slot.entry.is_none()) {
-            let found = shard.slots.iter().filter(|slot| slot.entry.is_some()).count();
-            return Err(fail(shape(format!("it holds {found} events instead of {expected}"))));
+        let expected = slots(shard.shard, shard.of, shard.whole.slots).count();
+        if shard.slots.len() != expected || !shard.slots.iter().all(SlotRecord::is_filled) {
+            let found = shard.slots.iter().filter(|slot| slot.is_filled()).count();
+            return Err(fail(shape(format!("it holds {found} filled slots instead of {expected}"))));
         }
         Ok(shard)
     }
@@ -87,7 +89,7 @@ impl Shard {
     }
 }
 
-/// The slots of shard `shard` (from 1) of `of`, out of `events`.
-pub fn slots(shard: usize, of: usize, events: usize) -> impl Iterator<Item = usize> {
-    (shard.saturating_sub(1)..events).step_by(of.max(1))
+/// The slots of shard `shard` (from 1) of `of`, out of `count`.
+pub fn slots(shard: usize, of: usize, count: usize) -> impl Iterator<Item = usize> {
+    (shard.saturating_sub(1)..count).step_by(of.max(1))
 }

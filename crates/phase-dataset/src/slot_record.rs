@@ -1,7 +1,8 @@
-//! The attempts at each event of a dataset, with the reasons for rejection.
+//! The attempts at each slot of a dataset, with the reasons for rejection.
 
-use crate::{WriteError, atomic, manifest::EventEntry};
+use crate::{WriteError, atomic, event_set::SetEntry, manifest::EventEntry};
 use phase_evidence::selection::RejectionReason;
+use phase_sampler::Variant;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -13,9 +14,22 @@ pub struct SlotRecord {
     /// Digest of the program, its settings and the preset; records with another digest are ignored.
     pub fingerprint: String,
     /// Why each attempt was rejected, in order.
-    pub refused: Vec<RejectionReason>,
-    /// The accepted event, once its files exist.
-    pub entry: Option<EventEntry>,
+    pub refused: Vec<Refusal>,
+    /// The accepted events, once their files exist: one, or those of a set.
+    pub entries: Vec<EventEntry>,
+    /// The set that they form, if they do.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub set: Option<SetEntry>,
+}
+
+/// Why an attempt was rejected.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Refusal {
+    /// The variant of the event that did not show its label.
+    pub variant: Variant,
+    /// Why.
+    pub reason: RejectionReason,
 }
 
 impl SlotRecord {
@@ -35,5 +49,17 @@ impl SlotRecord {
     /// If the record cannot be written as JSON, or the file cannot be written.
     pub fn save(&self, path: &Path) -> Result<(), WriteError> {
         atomic::write_json_line(path, self)
+    }
+
+    /// Whether the slot has its events.
+    #[must_use]
+    pub const fn is_filled(&self) -> bool {
+        !self.entries.is_empty()
+    }
+
+    /// The files of its events and of its set.
+    pub fn files(&self) -> impl Iterator<Item = &crate::checksum::FileEntry> {
+        let of_set = self.set.iter().filter_map(|set| set.video.as_ref());
+        self.entries.iter().flat_map(EventEntry::files).chain(of_set)
     }
 }

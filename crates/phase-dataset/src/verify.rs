@@ -5,12 +5,13 @@ use crate::{
     FileError, Problem,
     checksum::FileEntry,
     croissant::{CROISSANT_FILE, checksums},
+    event_set::{PairEntry, SetEntry},
     json,
     manifest::{CARD_FILE, EventEntry, MANIFEST_FILE, Manifest, PAGE_FILE},
     parquet::{self, ParquetFile},
 };
 use core::convert::Infallible;
-use phase_event::EventReadError;
+use phase_event::{Event, EventReadError, Recording};
 use phase_model::json::{FieldError, shown};
 use serde_json::Value;
 use std::{
@@ -88,6 +89,13 @@ pub fn verify_with<E>(
     if readable(CROISSANT_FILE) {
         problems.extend(croissant(folder, &files).err());
     }
+    let sets = run(manifest.sets.len(), &|k| {
+        let set = &manifest.sets[k];
+        let members: Vec<&EventEntry> = members(manifest, set).collect();
+        let whole = members.iter().all(|entry| readable(&entry.event.path));
+        whole.then(|| pairs(folder, set, &members).err()).flatten()
+    })?;
+    problems.extend(sets.into_iter().flatten());
     let whole = |part: &&ParquetFile<'_>| {
         readable(&part.path) && part.events.iter().all(|entry| readable(&entry.event.path))
     };
@@ -139,8 +147,7 @@ fn listed<'a>(
         }
     }
     let mut files = BTreeMap::new();
-    let of_events = manifest.events.iter().flat_map(EventEntry::files);
-    for file in of_events.chain(&manifest.files) {
+    for file in manifest.all_files() {
         if files.insert(file.path.as_str(), file).is_some() {
             fail(Problem::DuplicatePath(file.path.clone()));
         }
@@ -189,7 +196,7 @@ fn event(folder: &Path, entry: &EventEntry) -> Result<(), FileError> {
     let (json, video) = (entry.event.clone(), entry.video.clone());
     let mut found = EventEntry::with_files(&recording.id, &simulation.event, json, video);
     found.relation = recording.relation;
-    (found.variant, found.split) = (entry.variant, entry.split);
+    (found.variant, found.split, found.set) = (entry.variant, entry.split, entry.set.clone());
     let encode = |entry: &EventEntry| {
         serde_json::to_value(entry)
             .map_err(|error| FileError { file: file.clone(), problem: Problem::Encode(error) })
@@ -203,6 +210,29 @@ fn event(folder: &Path, entry: &EventEntry) -> Result<(), FileError> {
         }
         None => Ok(()),
     }
+}
+
+/// The events of a set, in order.
+fn members<'a>(manifest: &'a Manifest, set: &'a SetEntry) -> impl Iterator<Item = &'a EventEntry> {
+    manifest.events.iter().filter(|entry| entry.set.as_ref().is_some_and(|place| place.set == set.id))
+}
+
+/// Checks that the events of a set part where the manifest says.
+fn pairs(folder: &Path, set: &SetEntry, members: &[&EventEntry]) -> Result<(), FileError> {
+    let read = |entry: &&EventEntry| parquet::read(folder, entry);
+    let recordings: Vec<Recording> = members.iter().map(read).collect::<Result<_, _>>()?;
+    let simulated = |recording: &Recording| recording.simulation.as_ref().map(|it| it.event.clone());
+    let events: Vec<(&str, Event)> =
+        recordings.iter().filter_map(|it| Some((it.id.as_str(), simulated(it)?))).collect();
+    let named: Vec<(&str, &Event)> = events.iter().map(|(id, event)| (*id, event)).collect();
+    if PairEntry::all(&named) == set.pairs {
+        return Ok(());
+    }
+    let rule = format!("field `pairs` of the set {} is not what its events show", set.id);
+    Err(FileError {
+        file: folder.join(MANIFEST_FILE),
+        problem: Problem::Shape { what: "dataset manifest", rule },
+    })
 }
 
 /// Checks that the description's checksums are the manifest's.

@@ -30,7 +30,6 @@ pub fn goals(
         "relation": {
             "accuracy": all.relation.value, "human_accuracy": human.map(|estimate| estimate.value),
         },
-        "cpu_seconds_per_event": summary.cpu_seconds_per_event,
         "intervals": {
             "goal": {
                 "top1": all.top1.interval(), "top2": all.top2.interval(), "top3": all.top3.interval(),
@@ -41,6 +40,7 @@ pub fn goals(
             },
         },
         "kinds": to_value(&summary.kinds)?, "layouts": to_value(&summary.layouts)?, "watched": to_value(&summary.watched)?,
+        "sets": to_value(&summary.sets)?,
         "confusion": { "order": to_value(goals::RELATIONS)?, "right_by_said": summary.confusion },
         "calibration": {
             "goal": to_value(&summary.goal_calibration)?, "relation": to_value(&summary.relation_calibration)?,
@@ -82,7 +82,6 @@ pub fn trajectories(
             "ade": ade_interval, "fde": fde_interval,
             "ade_entities": ade_entities_interval, "fde_entities": fde_entities_interval,
         },
-        "cpu_seconds_per_event": summary.cpu_seconds_per_event,
         "watched_steps": trajectories::WATCHED_STEPS, "predicted_steps": trajectories::PREDICTED_STEPS,
         "shorter": summary.shorter, "by_step": summary.by_step, "kinds": to_value(&summary.kinds)?,
         "events": to_value(events)?,

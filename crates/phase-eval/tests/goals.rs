@@ -4,7 +4,7 @@ use phase_eval::{
     GroupScores,
     goals::{
         Answer, Calibration, ErrorBreakdown, InvalidAnswer, Label, PartialAnswer, RecognisedEvent,
-        RecognitionScores, RecognitionSummary, canonical,
+        RecognitionScores, RecognitionSummary, SetScores, canonical,
     },
     predictions,
     trivial::own_goals,
@@ -140,6 +140,7 @@ fn two_events() -> Vec<RecognisedEvent> {
         relation,
         relation_human,
         layout_seen,
+        set: None,
     };
     let event = |id: &str, answer: Answer, label, cpu_seconds| RecognisedEvent {
         id: id.into(),
@@ -248,6 +249,25 @@ fn predictions_that_will_not_do() {
     assert!(predictions::goals(&twice).expect_err("twice").to_string().contains("must differ"));
 }
 
+/// Three events: two of one set, of which one relation is wrong, and one of another, all right.
+#[test]
+fn a_set_is_right_if_all_of_its_events_are() {
+    let two = two_events();
+    let of_set = |event: &RecognisedEvent, id: &str, set: &str, relation| {
+        let mut event = event.clone();
+        (event.id, event.label.set, event.label.relation) = (id.into(), Some(set.into()), relation);
+        event
+    };
+    let friendly = |id, set| of_set(&two[0], id, set, Relation::Friendly);
+    let mistaken = of_set(&two[0], "c", "first", Relation::Neutral);
+    let scores =
+        SetScores::of(&[friendly("a", "first"), mistaken, friendly("b", "second")], 1).expect("sets");
+    assert_eq!((scores.n, scores.relation.value), (2, 0.5));
+    // Agent 1's goal is the second one named.
+    assert_eq!((scores.goals.value, scores.all.value), (0.0, 0.0));
+    assert_eq!(SetScores::of(&two, 1), None);
+}
+
 proptest! {
     /// Further goals never reduce a score, no share leaves 0 to 1, and the mean lies in its interval.
     #[test]
@@ -266,6 +286,7 @@ proptest! {
                     relation: Relation::Neutral,
                     relation_human: None,
                     layout_seen: None,
+                    set: None,
                 },
                 watched: Vec::new(),
                 cpu_seconds: None,

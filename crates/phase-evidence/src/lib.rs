@@ -4,7 +4,7 @@
 //! [`mod@holding`] which agent held what and when, [`mod@contact`] which entities touched, [`mod@blocking`]
 //! which agent obstructed the other, [`mod@pursuit`] which agent pursued the other, [`mod@exploration`] which
 //! region an agent explored first, [`mod@motion`] how fast and how far an agent moved and [`mod@rest`] how
-//! quietly an event ended. [`Effect`] compares an event with the same one in which an agent did nothing,
+//! quietly an event ended. [`Parting`](parting::Parting) tells where two events that begin alike part, and [`Effect`] compares an event with the same one in which an agent did nothing,
 //! which distinguishes help from mere presence. [`mod@selection`] checks whether an event shows its label:
 //! whether the intended social event is visible in it.
 //!
@@ -45,6 +45,7 @@ pub mod holding;
 pub mod manner;
 pub mod motion;
 pub mod outcome;
+pub mod parting;
 pub mod pursuit;
 pub mod rest;
 pub mod selection;

@@ -130,7 +130,7 @@ fn config(frames_per_second: u32) -> EncoderConfig {
     EncoderConfig::new()
         .profile(Profile::Baseline)
         .usage_type(UsageType::CameraVideoRealTime)
-        .complexity(Complexity::High)
+        .complexity(Complexity::Low)
         // The other modes trade quality for bits or ignore the range below. This one only follows the
         // receiver's buffer, which is not reported here, so the range decides alone.
         .rate_control_mode(RateControlMode::Bufferbased)

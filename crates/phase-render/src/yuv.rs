@@ -12,6 +12,8 @@ pub struct Planes {
     luma: Vec<u8>,
     blue: Vec<u8>,
     red: Vec<u8>,
+    /// The picture last taken over: most of its rows recur in the next.
+    last: Vec<u8>,
 }
 
 impl Planes {
@@ -26,6 +28,7 @@ impl Planes {
             luma: vec![16; width * height],
             blue: vec![128; quarter],
             red: vec![128; quarter],
+            last: Vec::new(),
         }
     }
 
@@ -38,7 +41,11 @@ impl Planes {
         let (pairs_of_rows, half) = (rgba.chunks_exact(8 * self.width), self.width / 2);
         let lumas = self.luma.chunks_exact_mut(2 * self.width);
         let colours = self.blue.chunks_exact_mut(half).zip(self.red.chunks_exact_mut(half));
+        let mut last = self.last.chunks_exact(8 * self.width);
         for ((rows, luma), (blue, red)) in pairs_of_rows.zip(lumas).zip(colours) {
+            if last.next() == Some(rows) {
+                continue;
+            }
             for (luma, pixel) in luma.iter_mut().zip(rows.chunks_exact(4)) {
                 *luma = luma_of(channels(pixel));
             }
@@ -50,6 +57,7 @@ impl Planes {
                 (*blue, *red) = colour_of(sum);
             }
         }
+        rgba.clone_into(&mut self.last);
     }
 
     /// Luma, row by row.

@@ -32,6 +32,7 @@
 #![deny(missing_docs)]
 
 mod adversarial;
+pub mod contrast;
 pub mod draft;
 pub mod feasibility;
 mod friendly;
@@ -41,6 +42,7 @@ mod requirements;
 pub mod stage;
 pub mod variant;
 
+pub use contrast::{About, Contrast, ContrastRequest, Stance};
 pub use recipe::{Request, SampleError, sample, sample_kind};
 pub use stage::{Part, Stage};
 pub use variant::Variant;

@@ -71,7 +71,7 @@ pub fn sample_kind(kind: EventKind, random: &mut impl Rng) -> Result<Scene, Samp
 
 fn draft(variant: Variant, layout: Layout, goals: [Goal; 2], random: &mut impl Rng) -> Option<SceneDraft> {
     match variant {
-        Variant::Lift => friendly::lift(goals, random),
+        Variant::Lift | Variant::Assist => friendly::lift(goals, random),
         Variant::Fetch if random.random_bool(0.5) => friendly::lift(goals, random),
         Variant::Blocked | Variant::Fetch => friendly::blocked(layout, goals, random),
         Variant::HandOver => friendly::passed_on(layout, goals, random),

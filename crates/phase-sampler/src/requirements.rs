@@ -139,7 +139,7 @@ fn is_placed(variant: Variant, scene: &Scene) -> bool {
             away && place != room && place == other_room && helpee && near <= MAX_ARRIVAL
         }
         Variant::Carry => away && near.max(far) <= MAX_SHARED,
-        Variant::Fetch => away && near <= MAX_ARRIVAL,
+        Variant::Fetch | Variant::Assist => away && near <= MAX_ARRIVAL,
         Variant::HandOver => away,
         Variant::Drag => away && near <= MAX_ARRIVAL,
         Variant::Take => beside && far + MIN_HEAD_START <= near && near <= MAX_ARRIVAL,

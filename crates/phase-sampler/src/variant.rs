@@ -53,11 +53,13 @@ pub enum Variant {
     Undo,
     /// Independent: two agents go to two landmarks, each to the room in which the other starts.
     Cross,
+    /// Helping in whatever manner: the other's object gets to its landmark sooner.
+    Assist,
 }
 
 impl Variant {
     /// All variants: those of the first edition, then those of the second, each by kind.
-    pub const ALL: [Self; 22] = [
+    pub const ALL: [Self; 23] = [
         Self::Lift,
         Self::Blocked,
         Self::Move,
@@ -80,15 +82,20 @@ impl Variant {
         Self::Hide,
         Self::Undo,
         Self::Cross,
+        Self::Assist,
     ];
 
     /// The kind of event it belongs to.
     #[must_use]
     pub const fn kind(self) -> EventKind {
         match self {
-            Self::Lift | Self::Blocked | Self::Move | Self::Fetch | Self::HandOver | Self::MakeWay => {
-                EventKind::Helping
-            }
+            Self::Lift
+            | Self::Blocked
+            | Self::Move
+            | Self::Fetch
+            | Self::HandOver
+            | Self::MakeWay
+            | Self::Assist => EventKind::Helping,
             Self::HinderPlace
             | Self::HinderObject
             | Self::Evade
@@ -141,6 +148,7 @@ impl Variant {
             Self::Hide => "hide",
             Self::Undo => "undo",
             Self::Cross => "cross",
+            Self::Assist => "assist",
         }
     }
 
@@ -181,6 +189,7 @@ impl Variant {
             | Self::Carry
             | Self::Fetch
             | Self::HandOver
+            | Self::Assist
             | Self::Take
             | Self::Drag
             | Self::Hide
@@ -201,7 +210,7 @@ impl Variant {
         let round = goal_index / at.len();
         let object = ObjectId::ALL[round % 2];
         match self {
-            Self::Lift | Self::Blocked | Self::Carry | Self::Fetch | Self::HandOver => {
+            Self::Lift | Self::Blocked | Self::Carry | Self::Fetch | Self::HandOver | Self::Assist => {
                 [object_on(object, at[first]); 2]
             }
             Self::Move | Self::MakeWay => [agent_on(AgentId::ONE, at[first]); 2],

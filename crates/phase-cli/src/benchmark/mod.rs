@@ -44,7 +44,11 @@ pub fn run(arguments: &Benchmark, context: &Context) -> Result<(), CliError> {
     if let Contents::Unfinished(other) = folder::inspect(out, BENCHMARK_FILE)? {
         check_same(out, "an unfinished", &other, &run)?;
     }
-    let folder = Folder::claim(out, &run)?;
+    // A part has no report.
+    let folder = match arguments.parts.shard {
+        None => Some(Folder::claim(out, &run)?),
+        Some(_) => None,
+    };
     let (mut begun, all) = (0, entries.len() * rows.sets());
     for entry in &entries {
         let training = match &entry.weights {
@@ -58,11 +62,19 @@ pub fn run(arguments: &Benchmark, context: &Context) -> Result<(), CliError> {
             rows.add(entry, training, set, context)?;
         }
     }
+    if let Some((shard, of)) = arguments.parts.shard {
+        let part = arguments.evaluations.display();
+        let text =
+            format!("part {shard} of {of} is in {part}; give the same command with --merge and all parts");
+        return arguments
+            .output
+            .print(text, &json!({ "evaluations": arguments.evaluations, "shard": shard, "of": of }));
+    }
     let benchmark = rows.finish();
     let document = evaluation::benchmark(&benchmark);
     task::write_report(out, &document)?;
     atomic::write_json(&out.join(BENCHMARK_FILE), &benchmark)?;
-    folder.finish()?;
+    folder.map_or(Ok(()), Folder::finish)?;
     let report = out.join(task::REPORT_FILE);
     let text = format!("{}\nreport in {}", document.first_table().trim_end(), report.display());
     arguments.output.print(text, &benchmark)

@@ -1,7 +1,7 @@
 //! The options of `benchmark`.
 
 use super::plan::METHODS;
-use crate::{effort::mind_kinds, output::Output, parallel::Jobs};
+use crate::{effort::mind_kinds, eval::options::Parts, output::Output, parallel::Jobs};
 use clap::{Args, builder::PossibleValuesParser, value_parser};
 use phase_agent::MindKind;
 use std::path::PathBuf;
@@ -43,6 +43,9 @@ pub struct Benchmark {
     /// Folder for the report; new, empty, or of a benchmark, which is overwritten
     #[arg(long, value_name = "DIR", default_value = "out/benchmark")]
     pub out: PathBuf,
+    /// Which part of the events, and the parts that are merged.
+    #[command(flatten)]
+    pub parts: Parts,
     /// How the result is printed.
     #[command(flatten)]
     pub output: Output,

@@ -60,6 +60,7 @@ impl<'a> Rows<'a> {
             seed: arguments.seed,
             json: None,
             out: None,
+            parts: arguments.parts.clone(),
             jobs: arguments.jobs.clone(),
         };
         let generated = ("generated", common(&arguments.data, Some(Split::Test)));
@@ -119,6 +120,8 @@ impl<'a> Rows<'a> {
         if let Some(limit) = self.arguments.limit {
             folder += &format!("-first{limit}");
         }
+        // Each part has its evaluations in a folder of its own, by the same names.
+        common.parts.merge = self.arguments.parts.merge.iter().map(|part| part.join(&folder)).collect();
         common.out = Some(self.arguments.evaluations.join(folder));
         let (weights, origin) =
             (weights.as_deref(), if weights.is_some() { Origin::Trained } else { Origin::Ours });
@@ -126,14 +129,15 @@ impl<'a> Rows<'a> {
         let minds = minds_of(self.arguments, method, set > 0);
         match task {
             Task::Goals => {
-                let events =
-                    evaluate(&Goals::by_method(&name, method, weights, &minds)?, input, common, context)?
-                        .events;
+                let task = Goals::by_method(&name, method, weights, &minds)?;
+                let Some(done) = evaluate(&task, input, common, context)? else { return Ok(()) };
+                let events = done.events;
                 self.benchmark.goals.extend(row(name, origin, set, training, input, &events, seed));
             }
             Task::Trajectories => {
                 let task = Trajectories::by_method(&name, method, weights, &minds)?;
-                let events = evaluate(&task, input, common, context)?.events;
+                let Some(done) = evaluate(&task, input, common, context)? else { return Ok(()) };
+                let events = done.events;
                 self.benchmark.trajectories.extend(row(name, origin, set, training, input, &events, seed));
             }
         }

@@ -11,7 +11,7 @@ use phase_eval::MethodError;
 use phase_event::EventWriteError;
 use phase_model::EventKind;
 use phase_render::RenderError;
-use phase_sampler::{SampleError, Variant};
+use phase_sampler::SampleError;
 use phase_sim::SimulationError;
 use rayon::ThreadPoolBuildError;
 use std::path::{Path, PathBuf};
@@ -88,12 +88,10 @@ pub enum CliError {
     #[error(transparent)]
     Sample(#[from] SampleError),
     /// No scene of a slot showed its label.
-    #[error("event {id}: no scene ({}) was accepted within selection.attempts of the preset ({reasons})", variant.name())]
+    #[error("{id}: no scene was accepted within selection.attempts of the preset ({reasons})")]
     Exhausted {
-        /// The event.
+        /// The event or set.
         id: String,
-        /// The attempts.
-        variant: Variant,
         /// Why the scenes were rejected, with numbers.
         reasons: String,
     },

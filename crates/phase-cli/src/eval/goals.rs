@@ -142,6 +142,14 @@ impl Task for Goals {
         Ok(Some(RecognisedEvent { id: event.id.clone(), answer, label, watched, cpu_seconds, details }))
     }
 
+    fn id(event: &RecognisedEvent) -> &str {
+        &event.id
+    }
+
+    fn cpu_seconds(event: &mut RecognisedEvent) -> &mut Option<f64> {
+        &mut event.cpu_seconds
+    }
+
     fn sum_up(
         &self,
         run: &Value,
@@ -174,5 +182,6 @@ fn label(event: &Event, recording: &Recording) -> Label {
         relation: recording.relation,
         relation_human: recording.relation_human,
         layout_seen: event.layout_seen,
+        set: event.set.clone(),
     }
 }

@@ -35,6 +35,8 @@ pub(crate) struct Event {
     pub steps: usize,
     /// Its numbers of agents and objects.
     pub entities: usize,
+    /// The set that it belongs to, if its dataset consists of sets.
+    pub set: Option<String>,
     /// Whether its base layout is in the training or validation events too, if the dataset is divided.
     pub layout_seen: Option<bool>,
     /// Whether its type of interaction is in the training or validation events too, if the dataset is divided.
@@ -93,6 +95,7 @@ fn of_manifest(manifest: &Manifest, split: Option<Split>) -> Vec<Event> {
         id: entry.id.clone(),
         steps: entry.steps,
         entities: AGENT_COUNT + entry.object_size_levels.len(),
+        set: entry.set.as_ref().map(|place| place.set.clone()),
         layout_seen: divided.then(|| layouts.contains(&entry.layout.base)),
         interaction_seen: entry.variant.filter(|_| divided).map(|variant| variants.contains(&variant)),
         index,
@@ -109,6 +112,7 @@ fn of_recording(index: usize, recording: &Recording) -> Result<Event, CliError> 
         id: recording.id.clone(),
         steps: rows.steps(),
         entities: AGENT_COUNT + scene.objects.len(),
+        set: None,
         layout_seen: None,
         interaction_seen: None,
         index,

@@ -1,7 +1,7 @@
 //! `eval`: how well a method perceives events.
 //!
 //! [`methods`] knows the methods by name, `task` asks one of them event by event and stores its answers, so
-//! that a run can be interrupted; `goals` and `trajectories` are the two tasks, `given` the answers of an
+//! that a run can be interrupted; `shards` divides it among machines; `goals` and `trajectories` are the two tasks, `given` the answers of an
 //! external method.
 
 mod answers;
@@ -10,6 +10,7 @@ pub(crate) mod input;
 pub mod methods;
 pub mod networks;
 pub mod options;
+mod shards;
 pub mod simple;
 pub(crate) mod task;
 pub(crate) mod trajectories;

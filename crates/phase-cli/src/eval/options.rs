@@ -4,6 +4,7 @@ use super::methods;
 use crate::{
     effort::{MindOptions, mind_kinds},
     parallel::Jobs,
+    shard_option::shard,
 };
 use clap::{
     Args, Subcommand,
@@ -90,9 +91,25 @@ pub struct Common {
     /// Folder for results and report; new, empty, or of the same run [default: out/eval/TASK-METHOD-EVENTS]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// Which part of the events, and the parts that are merged.
+    #[command(flatten)]
+    pub parts: Parts,
     /// How many events at once.
     #[command(flatten)]
     pub jobs: Jobs,
+}
+
+/// An evaluation in several parts, on as many machines.
+#[derive(Args, Clone, Debug, Default)]
+pub struct Parts {
+    /// Ask the method about the events K, K + N, K + 2 N … only, and report nothing. The same command with --merge instead
+    /// combines all parts. In a task of a job array K may be `auto`, as for gen-dataset
+    #[arg(long, value_name = "K/N", value_parser = shard)]
+    pub shard: Option<(usize, usize)>,
+    /// Take the answers from the folders of all shards instead of asking the method. Results are those of a single run,
+    /// byte for byte
+    #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with = "shard")]
+    pub merge: Vec<PathBuf>,
 }
 
 /// Seconds of video in steps; both are exact, for there are four steps in a second.

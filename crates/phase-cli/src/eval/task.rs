@@ -3,6 +3,7 @@
 use super::{
     input::{Event, Input},
     options::Common,
+    shards,
 };
 use crate::{
     console::{self, print_result},
@@ -20,6 +21,7 @@ use phase_dataset::{
     checksum::{hexadecimal, sha256},
     folder::{self, Contents, Folder},
     json,
+    shard::slots,
 };
 use phase_eval::{MethodError, ProgressCallback};
 use phase_event::Recording;
@@ -27,21 +29,28 @@ use phase_model::random::{Purpose, derive_seed};
 use phase_report::{document::Document, evaluation::Subject};
 use serde::{Serialize, de::DeserializeOwned};
 use serde_json::{Value, json};
-use std::path::{Path, PathBuf};
+use std::{
+    collections::BTreeMap,
+    path::{Path, PathBuf},
+};
 
 /// The results' file name; it is written last.
 const RESULTS_FILE: &str = "results.json";
+/// CPU times of the answers: measured, and therefore apart from the results, which are the same in every run.
+const TIMES_FILE: &str = "times.json";
+/// The value of its field `format`.
+const TIMES_FORMAT: &str = "phase-eval-times/1";
 /// The name that means stdout where a file may be named.
 const STDOUT: &str = "-";
 /// The report as a page.
 pub(crate) const REPORT_FILE: &str = "report.html";
 /// Folder of the stored answers.
-const EVENTS: &str = "events";
+pub(super) const EVENTS: &str = "events";
 
 /// A task and the method that does it.
 pub(crate) trait Task: Sync {
     /// One event with the method's answer.
-    type ScoredEvent: Serialize + DeserializeOwned + Send;
+    type ScoredEvent: Serialize + DeserializeOwned + Clone + Send;
 
     /// The task's name.
     const NAME: &'static str;
@@ -77,6 +86,12 @@ pub(crate) trait Task: Sync {
         tick: ProgressCallback<'_>,
     ) -> Result<Option<Self::ScoredEvent>, MethodError>;
 
+    /// The name of an answered event.
+    fn id(event: &Self::ScoredEvent) -> &str;
+
+    /// The CPU time for an answer (s), if it was measured.
+    fn cpu_seconds(event: &mut Self::ScoredEvent) -> &mut Option<f64>;
+
     /// Results and report; `None` without events.
     fn sum_up(
         &self,
@@ -108,7 +123,10 @@ pub(super) fn run<T: Task>(
     context: &Context,
 ) -> Result<(), CliError> {
     check_output_path(arguments)?;
-    let done = evaluate(task, input, arguments, context)?;
+    let Some(done) = evaluate(task, input, arguments, context)? else {
+        print_result("this part is done; give the same command with --merge and the folders of all parts");
+        return Ok(());
+    };
     if arguments.json.as_deref() == Some(Path::new(STDOUT)) {
         return print_json(&done.results);
     }
@@ -121,7 +139,7 @@ pub(super) fn run<T: Task>(
     Ok(())
 }
 
-/// Does a task, or reuses its results if it is already done.
+/// Does a task, or reuses its results if it is already done; `None` if only a part of it was requested.
 ///
 /// # Errors
 /// Any [`CliError`].
@@ -130,10 +148,11 @@ pub(crate) fn evaluate<T: Task>(
     input: &Input,
     arguments: &Common,
     context: &Context,
-) -> Result<Evaluation<T::ScoredEvent>, CliError> {
+) -> Result<Option<Evaluation<T::ScoredEvent>>, CliError> {
     input.events.iter().try_for_each(|event| task.check(event, &arguments.events))?;
-    let out = arguments.out.clone().unwrap_or_else(|| default_folder(task, input));
-    let run = json!({
+    let shard = arguments.parts.shard;
+    let out = arguments.out.clone().unwrap_or_else(|| default_folder(task, input, shard));
+    let whole = json!({
         "command": format!("eval {}", T::NAME), "generator": crate::engine::GENERATOR, "method": task.method(),
         "method_settings": task.settings(), "seed": arguments.seed, "n_events": input.events.len(),
         "events_sha256": input.sha256,
@@ -144,31 +163,66 @@ pub(crate) fn evaluate<T: Task>(
         events: &input.description,
         seed: arguments.seed,
     };
-    match folder::inspect(&out, RESULTS_FILE)? {
-        Contents::Finished => return finished(task, &run, subject, out),
+    let run = shards::run_of(&whole, shard);
+    let last_file = if shard.is_some() { shards::SHARD_FILE } else { RESULTS_FILE };
+    match folder::inspect(&out, last_file)? {
+        Contents::Finished if shard.is_some() => {
+            check_same(&out, "a finished", &shards::read(&out)?.run(), &run)?;
+            return Ok(None);
+        }
+        Contents::Finished => return finished(task, &whole, subject, out).map(Some),
         Contents::Unfinished(other) => {
             check_same(&out, "an unfinished", &other, &run)?;
             context.note(format!("continuing in {}", out.display()));
         }
         Contents::Nothing => {}
     }
+    let merged = shards::open(&arguments.parts.merge, &whole)?;
     interrupt::listen();
     let folder = Folder::claim(&out, &run)?;
     let kept = AnswerStore { folder: folder.subfolder(EVENTS)?, program: hexadecimal(&program()) };
-    let activity = format!("evaluating {} on {}", task.method(), console::events(input.events.len()));
-    let progress = context.progress(&activity, input.events.len(), task.ticks());
-    let answered = make_all(&arguments.jobs, input.events.len(), |k| {
-        one(task, input, &input.events[k], arguments.seed, &kept, &progress)
+    let (shard_number, of) = shard.unwrap_or((1, 1));
+    let chosen: Vec<&Event> = slots(shard_number, of, input.events.len()).map(|k| &input.events[k]).collect();
+    let activity = format!("evaluating {} on {}", task.method(), console::events(chosen.len()));
+    let progress = context.progress(&activity, chosen.len(), task.ticks());
+    let answered = make_all(&arguments.jobs, chosen.len(), |k| match &merged {
+        Some(merged) => merged.store(k).load_or_fail(&chosen[k].id).map(Some),
+        None => one(task, input, chosen[k], arguments.seed, &kept, &progress),
     })?;
     drop(progress);
     let Some(answered) = answered else { return Err(CliError::Interrupted(out)) };
-    let Some(summed_up) = task.sum_up(&run, subject, &answered) else { return Err(no_events(&out)) };
-    let results_file = out.join(RESULTS_FILE);
-    let (results, document) = summed_up.map_err(|error| WriteError::json(&results_file, error))?;
+    if let Some((number, of)) = shard {
+        shards::write(&out, number, of, whole, &kept.program)?;
+        folder.finish()?;
+        return Ok(None);
+    }
+    let (results, document) = summary(task, &whole, subject, &answered, &out)?;
     write_report(&out, &document)?;
-    atomic::write(&results_file, text_of(&results).as_bytes())?;
+    let times: BTreeMap<&str, f64> = answered
+        .iter()
+        .filter_map(|event| Some((T::id(event), T::cpu_seconds(&mut event.clone()).take()?)))
+        .collect();
+    atomic::write_json(&out.join(TIMES_FILE), &json!({ "format": TIMES_FORMAT, "cpu_seconds": times }))?;
+    atomic::write(&out.join(RESULTS_FILE), text_of(&results).as_bytes())?;
     folder.finish()?;
-    Ok(Evaluation { events: answered, results, document, out, already_finished: false })
+    Ok(Some(Evaluation { events: answered, results, document, out, already_finished: false }))
+}
+
+/// Results, without measured times, and report, with them.
+fn summary<T: Task>(
+    task: &T,
+    run: &Value,
+    subject: Subject<'_>,
+    answered: &[T::ScoredEvent],
+    out: &Path,
+) -> Result<(Value, Document), CliError> {
+    let mut untimed = answered.to_vec();
+    untimed.iter_mut().for_each(|event| *T::cpu_seconds(event) = None);
+    let sum_up = |events: &[T::ScoredEvent]| {
+        let summed_up = task.sum_up(run, subject, events).ok_or_else(|| no_events(out))?;
+        summed_up.map_err(|error| CliError::from(WriteError::json(&out.join(RESULTS_FILE), error)))
+    };
+    Ok((sum_up(&untimed)?.0, sum_up(answered)?.1))
 }
 
 /// One event: its stored answer, or a new one that is stored.
@@ -211,15 +265,27 @@ fn event_seed(seed: u64, id: &str) -> u64 {
 }
 
 /// The stored answers, in a file for each event.
-struct AnswerStore {
-    folder: PathBuf,
-    /// Digest of this executable; answers of another build are ignored.
-    program: String,
+pub(super) struct AnswerStore {
+    pub(super) folder: PathBuf,
+    /// Digest of the executable; answers of another build are ignored.
+    pub(super) program: String,
 }
 
 impl AnswerStore {
     fn path(&self, id: &str) -> PathBuf {
         self.folder.join(format!("{id}.json"))
+    }
+
+    /// An answer that has to be there.
+    ///
+    /// # Errors
+    /// If it is not, or not of this build.
+    fn load_or_fail<A: DeserializeOwned>(&self, id: &str) -> Result<A, CliError> {
+        self.load(id).ok_or_else(|| {
+            let rule = "it is no answer of this part of the evaluation to this event".into();
+            let problem = Problem::Shape { what: "answer", rule };
+            CliError::File(FileError { file: self.path(id), problem })
+        })
     }
 
     fn load<A: DeserializeOwned>(&self, id: &str) -> Option<A> {
@@ -269,10 +335,14 @@ fn finished<T: Task>(
         let problem = Problem::Shape { what: "results file", rule };
         CliError::Altered(FileError { file: file.clone(), problem })
     };
-    let events: Vec<T::ScoredEvent> =
+    let mut events: Vec<T::ScoredEvent> =
         serde_json::from_value(results["events"].clone()).map_err(|error| altered(error.to_string()))?;
-    let Some(summed_up) = task.sum_up(run, subject, &events) else { return Err(no_events(&out)) };
-    let (again, document) = summed_up.map_err(|error| WriteError::json(&file, error))?;
+    // Times are only for the report; without their file there are none.
+    let times = json::read(&out.join(TIMES_FILE)).unwrap_or_default();
+    for event in &mut events {
+        *T::cpu_seconds(event) = times["cpu_seconds"][T::id(event)].as_f64();
+    }
+    let (again, document) = summary(task, run, subject, &events, &out)?;
     if again != results {
         return Err(altered("its figures are not those of its events".into()));
     }
@@ -286,8 +356,9 @@ fn no_events(out: &Path) -> CliError {
     CliError::Usage(format!("{}: there are no events to sum up", out.display()))
 }
 
-fn default_folder<T: Task>(task: &T, input: &Input) -> PathBuf {
-    Path::new("out/eval").join(format!("{}-{}-{}", T::NAME, task.method(), input.name))
+fn default_folder<T: Task>(task: &T, input: &Input, shard: Option<(usize, usize)>) -> PathBuf {
+    let shard = shard.map_or_else(String::new, |(number, of)| format!("-shard{number}of{of}"));
+    Path::new("out/eval").join(format!("{}-{}-{}{shard}", T::NAME, task.method(), input.name))
 }
 
 /// Checks before hours of work that the folder of the file to be written at the end exists.

@@ -141,6 +141,14 @@ impl Task for Trajectories {
         }))
     }
 
+    fn id(event: &ForecastEvent) -> &str {
+        &event.id
+    }
+
+    fn cpu_seconds(event: &mut ForecastEvent) -> &mut Option<f64> {
+        &mut event.cpu_seconds
+    }
+
     fn sum_up(
         &self,
         run: &Value,

@@ -11,6 +11,7 @@ use phase_dataset::{
     atomic,
     checksum::FileEntry,
     croissant::{CROISSANT_FILE, croissant},
+    event_set::{PAIRS_FILE, pairs_table},
     manifest::{CARD_FILE, DATASET_FORMAT, EventEntry, MANIFEST_FILE, Manifest, PAGE_FILE},
     parquet, phase_events,
     shard::DatasetDescription,
@@ -33,19 +34,20 @@ pub fn complete(
     whole: &DatasetDescription,
     records: impl Iterator<Item = SlotRecord>,
 ) -> Result<Manifest, CliError> {
-    let (mut events, mut timelines, mut tally) = (Vec::new(), Vec::new(), Tally::default());
+    let (mut events, mut sets) = (Vec::new(), Vec::new());
+    let (mut timelines, mut tally) = (Vec::new(), Tally::default());
     let mut audited = Vec::new();
     for record in records {
-        let Some(entry) = record.entry else { continue };
-        if let Some(variant) = entry.variant {
-            tally.add(variant, &record.refused);
+        tally.add(record.entries.iter().filter_map(|entry| entry.variant), &record.refused);
+        for entry in record.entries {
+            let recording = read_back(out, &entry)?;
+            if audited.len() < MAX_EVENTS {
+                audited.push(AuditItem::of(&recording));
+            }
+            timelines.extend(recording.simulation.as_ref().map(|simulation| Timeline::of(&simulation.event)));
+            events.push(entry);
         }
-        let recording = read_back(out, &entry)?;
-        if audited.len() < MAX_EVENTS {
-            audited.push(AuditItem::of(&recording));
-        }
-        timelines.extend(recording.simulation.as_ref().map(|simulation| Timeline::of(&simulation.event)));
-        events.push(entry);
+        sets.extend(record.set);
     }
     let mut manifest = Manifest {
         format: DATASET_FORMAT.into(),
@@ -55,12 +57,18 @@ pub fn complete(
         settings: whole.settings.clone(),
         selection: if whole.selected { tally.rows() } else { Vec::new() },
         events,
+        sets,
         files: Vec::new(),
     };
     let Some(files) = parquet::export(out, &manifest.events, &interrupt::requested)? else {
         return Err(CliError::Interrupted(out.to_owned()));
     };
     manifest.files = files;
+    if !manifest.sets.is_empty() {
+        let place = |id: &str| manifest.events.iter().find(|entry| entry.id == id)?.set.as_ref();
+        let table = pairs_table(&manifest.sets, place);
+        describe(out, &mut manifest, PAIRS_FILE, &table)?;
+    }
     if whole.videos {
         let page = gallery::page(&manifest, &timelines);
         describe(out, &mut manifest, PAGE_FILE, &page)?;

@@ -46,13 +46,11 @@ pub fn run(arguments: &Merge, context: &Context) -> Result<(), CliError> {
     folder.subfolder(parquet::FOLDER)?;
     context.note(format!("copying the events of {} shards", shards.0.len()));
     for (shard, from) in &shards.0 {
-        for entry in shard.slots.iter().filter_map(|slot| slot.entry.as_ref()) {
+        for slot in &shard.slots {
             if interrupt::requested() {
                 return Err(CliError::Interrupted(out.clone()));
             }
-            for file in entry.files() {
-                copy(file, from, out)?;
-            }
+            slot.files().try_for_each(|file| copy(file, from, out))?;
         }
     }
     let whole = shards.first().whole.clone();
@@ -121,8 +119,8 @@ impl Shards {
 
     /// The records of all slots, in the order of the dataset.
     fn records(&self) -> impl Iterator<Item = SlotRecord> {
-        let (events, of) = (self.first().whole.events, self.0.len());
-        (0..events).filter_map(move |slot| self.0[slot % of].0.slots.get(slot / of).cloned())
+        let (slots, of) = (self.first().whole.slots, self.0.len());
+        (0..slots).filter_map(move |slot| self.0[slot % of].0.slots.get(slot / of).cloned())
     }
 }
 

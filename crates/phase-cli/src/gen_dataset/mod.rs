@@ -8,6 +8,7 @@ pub mod complete;
 pub mod merge;
 pub mod options;
 pub mod plan;
+mod set;
 pub mod slot;
 
 use crate::{context::Context, error::CliError, interrupt, output::Output, parallel::for_all};
@@ -16,7 +17,7 @@ use options::GenDataset;
 use phase_dataset::{
     checksum::FileEntry,
     folder::{self, Contents, Folder},
-    manifest::{EventEntry, MANIFEST_FILE, Manifest, PAGE_FILE},
+    manifest::{MANIFEST_FILE, Manifest, PAGE_FILE},
     parquet,
     shard::{DatasetDescription, SHARD_FILE, SHARD_FORMAT, Shard},
     slot_record::SlotRecord,
@@ -53,7 +54,8 @@ pub fn run(arguments: &GenDataset, context: &Context) -> Result<(), CliError> {
     }
     folder.subfolder(parquet::FOLDER)?;
     let indices = plan.slots();
-    let slots = Slots::new(&plan, &folder, indices.len(), *context)?;
+    let events = plan.events_in(&indices);
+    let slots = Slots::new(&plan, &folder, events, *context)?;
     if !for_all(&arguments.jobs, indices.len(), |k| slots.fill(indices[k]))? {
         return Err(CliError::Interrupted(out));
     }
@@ -65,7 +67,6 @@ pub fn run(arguments: &GenDataset, context: &Context) -> Result<(), CliError> {
         let shard = Shard { format, shard, of, whole, slots: records };
         shard.write(&out.join(SHARD_FILE))?;
         folder.finish()?;
-        let events = indices.len();
         let text = format!("{events} events in {}; merge all {of} shards with merge", out.display());
         let value = json!({ "folder": out, "events": events, "shard": shard.shard, "of": of, "new": true });
         return arguments.output.print(text, &value);
@@ -103,31 +104,30 @@ fn page_line(out: &Path) -> String {
 fn check_finished(plan: &Plan, out: &Path, output: Output) -> Result<(), CliError> {
     let (whole, files) = if plan.shard.is_some() {
         let shard = Shard::read(&out.join(SHARD_FILE))?;
-        let entries = shard.slots.into_iter().filter_map(|slot| slot.entry);
-        let files: Vec<FileEntry> =
-            entries.flat_map(|entry| entry.files().cloned().collect::<Vec<_>>()).collect();
+        let files: Vec<FileEntry> = shard.slots.iter().flat_map(SlotRecord::files).cloned().collect();
         (run_value(&shard.whole, Some((shard.shard, shard.of))), files)
     } else {
         let manifest = Manifest::read(&out.join(MANIFEST_FILE))?;
         let whole = DatasetDescription {
-            preset: manifest.preset,
+            preset: manifest.preset.clone(),
             events: manifest.events.len(),
+            slots: plan.slot_count,
             seed: manifest.seed,
-            generator: manifest.generator,
-            settings: manifest.settings,
+            generator: manifest.generator.clone(),
+            settings: manifest.settings.clone(),
             selected: !manifest.selection.is_empty(),
             videos: manifest.events.iter().all(|entry| entry.video.is_some()),
             command: String::new(),
         };
-        let of_events = manifest.events.iter().flat_map(EventEntry::files);
-        (run_value(&whole, None), of_events.chain(&manifest.files).cloned().collect())
+        (run_value(&whole, None), manifest.all_files().cloned().collect())
     };
     check_same(out, "a finished", &whole, &plan.run())?;
     files.iter().try_for_each(|file| file.verify(out)).map_err(CliError::Altered)?;
     if folder::has_leftovers(out) {
         Folder::claim(out, &whole)?.finish()?;
     }
-    let (count, what) = (plan.slots().len(), if plan.shard.is_some() { "shard" } else { "dataset" });
+    let (count, what) =
+        (plan.events_in(&plan.slots()), if plan.shard.is_some() { "shard" } else { "dataset" });
     let text = format!("{} holds this {what} already; all {count} events are whole\n", out.display());
     let value = json!({ "folder": out, "events": count, "page": page(out), "new": false });
     output.print(text + &page_line(out), &value)

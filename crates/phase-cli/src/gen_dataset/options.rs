@@ -9,7 +9,7 @@ use std::path::PathBuf;
 pub struct GenDataset {
     /// What to generate: demo (twelve events, two of each kind, without selection), phase-500 (the paper's
     /// composition, selected), phase-500-v1 (the first edition's), phase-training (as many training events of the
-    /// same kind as requested), or a file in the format phase-preset/3 whose name ends in .json
+    /// same kind as requested), phase-pairs (sets that differ in one social variable), or a file in the format phase-preset/3 whose name ends in .json
     #[arg(long, default_value = "demo")]
     pub preset: String,
     /// Number of events [default: the preset's]

@@ -20,10 +20,11 @@ use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 /// The presets bundled with the program.
-const PRESETS: [(&str, &str); 4] = [
+const PRESETS: [(&str, &str); 5] = [
     ("demo", include_str!("../../../../data/presets/demo.json")),
     ("phase-500", include_str!("../../../../data/presets/phase-500.json")),
     ("phase-500-v1", include_str!("../../../../data/presets/phase-500-v1.json")),
+    ("phase-pairs", include_str!("../../../../data/presets/phase-pairs.json")),
     ("phase-training", include_str!("../../../../data/presets/phase-training.json")),
 ];
 
@@ -36,6 +37,8 @@ pub struct Plan {
     pub composition: Composition,
     /// Number of events of the whole dataset.
     pub count: usize,
+    /// Number of its slots: as many, unless the events come in sets.
+    pub slot_count: usize,
     /// Seed of the whole dataset.
     pub seed: u64,
     /// How events are simulated.
@@ -70,10 +73,16 @@ impl Plan {
         let facts = format!("{settings_value} {seed} {text}");
         let fingerprint = hexadecimal(&sha256(&[&program()[..], facts.as_bytes()].concat()));
         let (composition, shard) = (Composition::of(&preset), arguments.shard);
+        let slot_count = composition.slots(count).ok_or_else(|| {
+            let rule =
+                "the last set would be incomplete; choose a number of events that is made up of whole sets";
+            CliError::Usage(format!("--events {count}: {rule}"))
+        })?;
         Ok(Self {
             preset,
             composition,
             count,
+            slot_count,
             seed,
             settings,
             videos,
@@ -101,7 +110,13 @@ impl Plan {
     #[must_use]
     pub fn slots(&self) -> Vec<usize> {
         let (shard, of) = self.shard.unwrap_or((1, 1));
-        shard::slots(shard, of, self.count).collect()
+        shard::slots(shard, of, self.slot_count).collect()
+    }
+
+    /// Number of events in some slots.
+    #[must_use]
+    pub fn events_in(&self, slots: &[usize]) -> usize {
+        slots.iter().map(|&slot| self.composition.set(slot).map_or(1, |set| set.stances.len())).sum()
     }
 
     /// The dataset's properties, apart from its events.
@@ -110,6 +125,7 @@ impl Plan {
         DatasetDescription {
             preset: self.preset.name.clone(),
             events: self.count,
+            slots: self.slot_count,
             seed: self.seed,
             generator: GENERATOR.into(),
             settings: self.settings_value.clone(),

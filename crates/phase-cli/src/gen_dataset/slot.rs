@@ -15,12 +15,12 @@ use phase_dataset::{
     folder::Folder,
     manifest::{EventEntry, event_path, video_path},
     preset::{Ends, Selection},
-    slot_record::SlotRecord,
+    slot_record::{Refusal, SlotRecord},
 };
 use phase_event::Event;
 use phase_evidence::{
     Track,
-    selection::{Ending, RejectionReason, check_event},
+    selection::{Counterfactual, Ending, RejectionReason, check_event},
 };
 use phase_model::{
     Layout, Scene,
@@ -41,18 +41,18 @@ const LAYOUT_STRIDE: usize = 11;
 /// The slots of a dataset that is being generated in a folder.
 #[derive(Debug)]
 pub struct Slots<'a> {
-    plan: &'a Plan,
-    folder: &'a Folder,
-    event_writer: EventWriter,
+    pub(super) plan: &'a Plan,
+    pub(super) folder: &'a Folder,
+    pub(super) event_writer: EventWriter,
     pools: BTreeMap<String, Vec<Layout>>,
     context: Context,
 }
 
 /// The result of an attempt.
-enum Attempt {
+pub(super) enum Attempt<T> {
     Interrupted,
-    Refused(RejectionReason),
-    Accepted(Box<Event>),
+    Refused(Refusal),
+    Accepted(T),
 }
 
 impl<'a> Slots<'a> {
@@ -79,56 +79,118 @@ impl<'a> Slots<'a> {
     /// # Errors
     /// [`CliError::Exhausted`] and any failure of sampling, simulating and writing.
     pub fn fill(&self, index: usize) -> Result<Option<()>, CliError> {
-        let (id, slot, begun) =
-            (self.plan.preset.id(index), self.plan.composition.slot(index), Instant::now());
-        let (kind, variant) = (slot.variant.kind().name(), slot.variant.name());
+        let (id, begun) = (self.plan.preset.id(index), Instant::now());
         let mut record = self.record(index);
-        if let Some(entry) = &record.entry
-            && entry.files().all(|file| file.verify(self.folder.path()).is_ok())
-        {
-            let length = entry.steps;
-            self.event_writer.finished(0, &format!("{id} {kind}: {length} steps (kept)"));
+        if record.is_filled() && record.files().all(|file| file.verify(self.folder.path()).is_ok()) {
+            self.report(&record, "kept");
             return Ok(Some(()));
         }
-        record.entry = None;
+        (record.entries, record.set) = (Vec::new(), None);
         let limit = self.plan.preset.selection.map_or(1, |selection| selection.attempts);
         while record.refused.len() < limit {
-            match self.attempt(&id, index, &slot, record.refused.len())? {
-                Attempt::Interrupted => return Ok(None),
-                Attempt::Refused(reason) => {
-                    let attempt = record.refused.len() + 1;
-                    self.context.detail(format!("{id} attempt {attempt}: {}", reason.name()));
-                    record.refused.push(reason);
+            let number = record.refused.len();
+            let refusal = match self.plan.composition.set(index) {
+                Some(slot) => match self.attempt_set(index, &slot, number)? {
+                    Attempt::Interrupted => return Ok(None),
+                    Attempt::Refused(refusal) => Some(refusal),
+                    Attempt::Accepted(made) => {
+                        (record.entries, record.set) = self.keep_set(&id, index, &slot, number, &made)?;
+                        None
+                    }
+                },
+                None => {
+                    let slot = self.plan.composition.slot(index);
+                    match self.attempt(&id, index, &slot, number)? {
+                        Attempt::Interrupted => return Ok(None),
+                        Attempt::Refused(refusal) => Some(refusal),
+                        Attempt::Accepted(event) => {
+                            let entry = self.keep(&id, index, &event)?;
+                            let (variant, split) = (Some(slot.variant), slot.split);
+                            record.entries = vec![EventEntry { variant, split, ..entry }];
+                            None
+                        }
+                    }
                 }
-                Attempt::Accepted(event) => record.entry = Some(self.keep(&id, index, &slot, &event)?),
+            };
+            if let Some(refusal) = refusal {
+                self.context.detail(format!("{id} attempt {}: {}", number + 1, refusal.reason.name()));
+                record.refused.push(refusal);
             }
             record.save(&self.record_path(index))?;
-            if let Some(entry) = &record.entry {
-                let (attempts, length) = (record.refused.len() + 1, entry.steps);
-                let seconds = begun.elapsed().as_secs_f64();
-                let tried = if attempts == 1 { String::new() } else { format!(" at attempt {attempts}") };
-                let line = format!("{id} {kind}, {variant}: {length} steps{tried} ({seconds:.1} s)");
-                self.event_writer.finished(0, &line);
+            if record.is_filled() {
+                self.report(&record, &format!("{:.1} s", begun.elapsed().as_secs_f64()));
                 return Ok(Some(()));
             }
         }
-        Err(CliError::Exhausted { id, variant: slot.variant, reasons: reasons(&record.refused) })
+        Err(CliError::Exhausted { id, reasons: reasons(&record.refused) })
     }
 
-    fn attempt(&self, id: &str, index: usize, slot: &EventSlot, number: usize) -> Result<Attempt, CliError> {
+    /// The slot's events are done.
+    fn report(&self, record: &SlotRecord, how: &str) {
+        let attempts = record.refused.len() + 1;
+        let tried = if attempts == 1 { String::new() } else { format!(" at attempt {attempts}") };
+        for entry in &record.entries {
+            let variant = entry.variant.map_or("", phase_sampler::Variant::name);
+            let (id, kind, length) = (&entry.id, entry.kind.name(), entry.steps);
+            self.event_writer.finished(0, &format!("{id} {kind}, {variant}: {length} steps{tried} ({how})"));
+        }
+    }
+
+    fn attempt(
+        &self,
+        id: &str,
+        index: usize,
+        slot: &EventSlot,
+        number: usize,
+    ) -> Result<Attempt<Event>, CliError> {
         let seed = engine::attempt_seed(self.plan.seed, index, number);
         let scene = self.scene(slot, seed, number)?;
         let settings = self.settings(&scene, seed, index);
         let Some(event) = self.simulate(id, &scene, seed, &settings)? else {
             return Ok(Attempt::Interrupted);
         };
-        let Some(selection) = &self.plan.preset.selection else { return Ok(accepted(event)) };
-        self.judge(id, event, slot, selection, &settings)
+        let Some(selection) = &self.plan.preset.selection else { return Ok(Attempt::Accepted(event)) };
+        let refused = |reason| Attempt::Refused(Refusal { variant: slot.variant, reason });
+        let ending = match selection.ends {
+            Ends::Settled | Ends::AdversarialDrawn => Ending::Settled,
+            Ends::Drawn => Ending::Drawn(manner_of(slot.variant)),
+        };
+        // Cheap tests first; the counterfactual has to be simulated and comes last.
+        let counterfactual = match check(&event, selection, ending) {
+            Err(reason) => return Ok(refused(reason)),
+            Ok(None) => return Ok(Attempt::Accepted(event)),
+            Ok(Some(counterfactual)) => counterfactual,
+        };
+        let Some(without) = self.without(id, &event, &counterfactual, &settings)? else {
+            return Ok(Attempt::Interrupted);
+        };
+        Ok(match counterfactual.judge(&event.scene, &Track::of_event(&event), &without) {
+            Err(reason) => refused(reason),
+            Ok(()) => Attempt::Accepted(event),
+        })
+    }
+
+    /// What happens if the agent that is to make a difference does nothing; `None` if interrupted.
+    pub(super) fn without(
+        &self,
+        id: &str,
+        event: &Event,
+        counterfactual: &Counterfactual,
+        settings: &SimulationSettings,
+    ) -> Result<Option<Track>, CliError> {
+        let settings = SimulationSettings { idle: Some(counterfactual.idle), ..*settings };
+        let without = self.simulate(id, &counterfactual.scene(&event.scene), event.seed, &settings)?;
+        Ok(without.map(|event| Track::of_event(&event)))
+    }
+
+    /// The layouts of a name.
+    pub(super) fn pool(&self, name: &str) -> &[Layout] {
+        self.pools.get(name).map_or(&[][..], Vec::as_slice)
     }
 
     /// The scene of an attempt: with bodies of its own, or cast on the stage of its block.
     fn scene(&self, slot: &EventSlot, seed: u64, number: usize) -> Result<Scene, SampleError> {
-        let layouts = self.pools.get(&slot.layouts).map_or(&[][..], Vec::as_slice);
+        let layouts = self.pool(&slot.layouts);
         let mut random = random::stream(seed, Purpose::Scene, 0);
         let (variant, goal_index) = (slot.variant, slot.goal_index);
         let Some(place) = slot.block else {
@@ -147,37 +209,8 @@ impl<'a> Slots<'a> {
         drawn.ok_or(SampleError(variant))
     }
 
-    /// Cheap tests first; the counterfactual has to be simulated and comes last.
-    fn judge(
-        &self,
-        id: &str,
-        event: Event,
-        slot: &EventSlot,
-        selection: &Selection,
-        settings: &SimulationSettings,
-    ) -> Result<Attempt, CliError> {
-        let (scene, track) = (&event.scene, Track::of_event(&event));
-        let ending = match selection.ends {
-            Ends::Settled | Ends::AdversarialDrawn => Ending::Settled,
-            Ends::Drawn => Ending::Drawn(manner_of(slot.variant)),
-        };
-        let lengths = selection.min_steps..=selection.max_steps;
-        let counterfactual = match check_event(scene, &track, lengths, ending) {
-            Err(reason) => return Ok(Attempt::Refused(reason)),
-            Ok(None) => return Ok(accepted(event)),
-            Ok(Some(counterfactual)) => counterfactual,
-        };
-        let settings = SimulationSettings { idle: Some(counterfactual.idle), ..*settings };
-        let without = self.simulate(id, &counterfactual.scene(scene), event.seed, &settings)?;
-        let Some(without) = without else { return Ok(Attempt::Interrupted) };
-        Ok(match counterfactual.judge(scene, &track, &Track::of_event(&without)) {
-            Err(reason) => Attempt::Refused(reason),
-            Ok(()) => accepted(event),
-        })
-    }
-
     /// The run's settings, with a sampled length if the preset requires it.
-    fn settings(&self, scene: &Scene, seed: u64, index: usize) -> SimulationSettings {
+    pub(super) fn settings(&self, scene: &Scene, seed: u64, index: usize) -> SimulationSettings {
         let mut settings = self.plan.settings;
         let slot = engine::event_seed(self.plan.seed, index);
         let selection = self.plan.preset.selection;
@@ -187,7 +220,7 @@ impl<'a> Slots<'a> {
         settings
     }
 
-    fn simulate(
+    pub(super) fn simulate(
         &self,
         id: &str,
         scene: &Scene,
@@ -201,7 +234,7 @@ impl<'a> Slots<'a> {
     }
 
     /// Writes the files of an accepted event.
-    fn keep(&self, id: &str, index: usize, slot: &EventSlot, event: &Event) -> Result<EventEntry, CliError> {
+    pub(super) fn keep(&self, id: &str, index: usize, event: &Event) -> Result<EventEntry, CliError> {
         let out = self.folder.path();
         let settings = self.settings(&event.scene, event.seed, index);
         let job = EventJob {
@@ -213,9 +246,7 @@ impl<'a> Slots<'a> {
             video: self.plan.videos.then(|| out.join(video_path(id))),
         };
         self.event_writer.write(&job, event, true)?;
-        let mut entry = EventEntry::of(out, id, event, self.plan.videos).map_err(CliError::ReadBack)?;
-        (entry.variant, entry.split) = (Some(slot.variant), slot.split);
-        Ok(entry)
+        EventEntry::of(out, id, event, self.plan.videos).map_err(CliError::ReadBack)
     }
 
     fn record_path(&self, index: usize) -> PathBuf {
@@ -223,14 +254,20 @@ impl<'a> Slots<'a> {
     }
 }
 
-fn accepted(event: Event) -> Attempt {
-    Attempt::Accepted(Box::new(event))
+/// Everything that can be tested on the event alone.
+pub(super) fn check(
+    event: &Event,
+    selection: &Selection,
+    ending: Ending,
+) -> Result<Option<Counterfactual>, RejectionReason> {
+    let lengths = selection.min_steps..=selection.max_steps;
+    check_event(&event.scene, &Track::of_event(event), lengths, ending)
 }
 
-/// Reasons with their numbers, in words.
-fn reasons(refused: &[RejectionReason]) -> String {
+/// Variants, reasons and their numbers, in words.
+fn reasons(refused: &[Refusal]) -> String {
     let counted =
-        RejectionReason::ALL.map(|reason| (reason, refused.iter().filter(|it| **it == reason).count()));
+        RejectionReason::ALL.map(|reason| (reason, refused.iter().filter(|it| it.reason == reason).count()));
     let words = counted.iter().filter(|(_, count)| *count > 0);
     words.map(|(reason, count)| format!("{} {count}", reason.name())).collect::<Vec<_>>().join(", ")
 }

@@ -41,6 +41,7 @@ pub(super) fn write(out: &Path, seed: u64, shown: Vec<Shown>) -> Result<(), CliE
         seed,
         settings: Value::Null,
         selection: Vec::new(),
+        sets: Vec::new(),
         events,
         files: Vec::new(),
     };

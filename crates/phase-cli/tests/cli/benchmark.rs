@@ -163,3 +163,28 @@ fn networks_are_built_in_or_asked_for() {
     }
     assert_eq!(fs::read_dir(path).expect("a folder").count(), 0);
 }
+
+#[test]
+fn parts_of_a_benchmark_are_merged_to_the_figures_of_one_run() {
+    let folder = folder();
+    let path = folder.path();
+    let benchmark =
+        |more: &[&str]| succeed(path, &[&["benchmark", "--data", "tiny", "--methods", PLAIN], more].concat());
+    benchmark(&["--evaluations", "one", "--out", "report-one"]);
+    benchmark(&["--shard", "1/2", "--evaluations", "part1"]);
+    benchmark(&["--shard", "2/2", "--evaluations", "part2"]);
+    benchmark(&["--merge", "part1", "part2", "--evaluations", "merged", "--out", "report-merged"]);
+    let evaluations = fs::read_dir(path.join("one")).expect("a folder").flatten();
+    let mut compared = 0;
+    for evaluation in evaluations {
+        let file = |of: &str| fs::read(path.join(of).join(evaluation.file_name()).join("results.json"));
+        assert!(file("one").expect("results") == file("merged").expect("results"), "{evaluation:?}");
+        compared += 1;
+    }
+    assert_eq!(compared, 4);
+    let scores = |report: &str| {
+        let figures = figures(&path.join(report).join("benchmark.json"));
+        found(&figures, "goals", "cue", "/summary/all").into_iter().cloned().collect::<Vec<_>>()
+    };
+    assert_eq!(scores("report-one"), scores("report-merged"));
+}

@@ -20,22 +20,8 @@ pub(crate) fn events_of(path: &Path) {
     write_events(&path.join("events.json"), &events);
 }
 
-/// Results without the CPU time, which differs between runs.
 pub(crate) fn results(file: &Path) -> Value {
-    let mut results = serde_json::from_slice(&fs::read(file).expect("results")).expect("JSON");
-    strip(&mut results);
-    results
-}
-
-fn strip(value: &mut Value) {
-    match value {
-        Value::Object(members) => {
-            members.retain(|name, _| !name.starts_with("cpu_seconds"));
-            members.values_mut().for_each(strip);
-        }
-        Value::Array(items) => items.iter_mut().for_each(strip),
-        _ => {}
-    }
+    serde_json::from_slice(&fs::read(file).expect("results")).expect("JSON")
 }
 
 const GOALS: [&str; 6] = ["eval", "goals", "--method", "chance", "--events", "events.json"];
@@ -187,4 +173,50 @@ fn only_simple_has_minds_to_choose() {
     assert_eq!(results["method"], "simple-published-minds");
     let minds = &results["run"]["method_settings"]["method"]["minds"];
     assert_eq!((&minds["kind"], &minds["one_way_turns"]), (&json!("published"), &json!(true)));
+}
+
+#[test]
+fn parts_are_merged_to_the_bytes_of_one_run() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    events_of(path);
+    succeed(path, &[&GOALS[..], &["--out", "whole"]].concat());
+    let part = |k: usize, of: usize| {
+        let (shard, out) = (format!("{k}/{of}"), format!("part{k}"));
+        succeed(path, &[&GOALS[..], &["--shard", &shard, "--out", &out]].concat());
+        // Done already.
+        succeed(path, &[&GOALS[..], &["--shard", &shard, "--out", &out]].concat());
+        assert!(!path.join(out).join("results.json").exists());
+    };
+    (1..=4).for_each(|k| part(k, 4));
+    let merge =
+        |out: &str, parts: &[&str]| [&GOALS[..], &["--out", out, "--merge"], parts].concat().join(" ");
+    let merged = merge("merged", &["part3", "part1", "part4", "part2"]);
+    succeed(path, &merged.split(' ').collect::<Vec<_>>());
+    let bytes = |run: &str| fs::read(path.join(run).join("results.json")).expect("results");
+    assert!(bytes("merged") == bytes("whole"), "merged parts differ from one run");
+
+    let refused = |parts: &[&str]| {
+        let told = refuse(path, &merge("other", parts).split(' ').collect::<Vec<_>>());
+        assert!(!path.join("other").exists(), "{told}");
+        told
+    };
+    assert!(refused(&["part1", "part2", "part4"]).contains("part 3 of 4 is missing"));
+    assert!(refused(&["part1", "part2", "part3"]).contains("part 4 of 4 is missing"));
+    assert!(
+        refused(&["part1", "part2", "part2", "part3", "part4"])
+            .contains("is part 2 of 4, as another folder is")
+    );
+    assert!(refused(&["part1", "whole"]).contains("holds no finished part"));
+    let cue = GOALS.map(|word| if word == "chance" { "cue" } else { word });
+    let told = refuse(path, &[&cue[..], &["--out", "other", "--merge", "part1"]].concat());
+    assert!(told.contains("method \"chance\" instead of \"cue\""), "{told}");
+
+    // Every answer of a part is needed.
+    fs::remove_file(path.join("part2/events/event-5.json")).expect("removed");
+    let told = text(
+        &run(path, &merge("other", &["part1", "part2", "part3", "part4"]).split(' ').collect::<Vec<_>>())
+            .stderr,
+    );
+    assert!(told.contains("part2/events/event-5.json") && told.contains("no answer"), "{told}");
 }

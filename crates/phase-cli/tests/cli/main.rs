@@ -17,6 +17,7 @@ mod predictions;
 mod progress;
 mod render;
 mod selection;
+mod sets;
 mod simulate;
 mod support;
 #[cfg(feature = "networks")]

@@ -121,6 +121,22 @@ fn labels() -> Vec<Box<dyn Column>> {
             |row| row.entry.variant.map_or_else(String::new, |variant| variant.name().to_owned())
         ),
         (
+            "set",
+            "",
+            "string",
+            "",
+            "events of one set differ in the stance of one agent alone; empty where there are no sets",
+            |row| row.entry.set.as_ref().map_or_else(String::new, |place| place.set.clone())
+        ),
+        (
+            "stance",
+            "",
+            "string",
+            "",
+            "in a set, what that agent wants with regard to the other: `help`, `hinder`, `indifferent`, `same` or `rival`",
+            |row| row.entry.set.as_ref().map_or_else(String::new, |place| place.stance.name().to_owned())
+        ),
+        (
             "manners",
             "[manners]",
             "string",

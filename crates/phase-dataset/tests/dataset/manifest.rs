@@ -23,6 +23,7 @@ pub(crate) fn dataset(folder: &Path, id: &str) -> Manifest {
         seed: u64::MAX,
         settings: json!({"max_steps": 2}),
         selection: Vec::new(),
+        sets: Vec::new(),
         events: vec![entry],
         files: vec![],
     }

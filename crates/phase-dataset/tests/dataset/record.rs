@@ -3,7 +3,7 @@
 use phase_dataset::{
     acceptance::Tally,
     shard::{Shard, slots},
-    slot_record::SlotRecord,
+    slot_record::{Refusal, SlotRecord},
 };
 use phase_evidence::selection::RejectionReason;
 use phase_sampler::Variant;
@@ -15,8 +15,9 @@ fn a_record_of_another_program_or_a_damaged_one_counts_for_nothing() {
     let path = folder.path().join("slot.json");
     let empty = SlotRecord { fingerprint: "a".into(), ..SlotRecord::default() };
     assert_eq!(SlotRecord::load(&path, "a"), empty, "there is none yet");
-    let record =
-        SlotRecord { refused: vec![RejectionReason::GoalMissed, RejectionReason::NoEffect], ..empty.clone() };
+    let refused = [RejectionReason::GoalMissed, RejectionReason::NoEffect];
+    let refused = refused.map(|reason| Refusal { variant: Variant::Lift, reason }).to_vec();
+    let record = SlotRecord { refused, ..empty.clone() };
     record.save(&path).expect("written");
     assert_eq!(SlotRecord::load(&path, "a"), record);
     assert_eq!(SlotRecord::load(&path, "b").refused, []);
@@ -31,12 +32,11 @@ fn a_record_of_another_program_or_a_damaged_one_counts_for_nothing() {
 #[test]
 fn attempts_are_counted_by_variant() {
     let mut tally = Tally::default();
-    tally.add(
-        Variant::Chase,
-        &[RejectionReason::NoFlight, RejectionReason::NoEffect, RejectionReason::NoFlight],
-    );
-    tally.add(Variant::Lift, &[]);
-    tally.add(Variant::Chase, &[]);
+    let refused = [RejectionReason::NoFlight, RejectionReason::NoEffect, RejectionReason::NoFlight]
+        .map(|reason| Refusal { variant: Variant::Chase, reason });
+    tally.add([Variant::Chase], &refused);
+    tally.add([Variant::Lift], &[]);
+    tally.add([Variant::Chase], &[]);
     let rows = tally.rows();
     assert_eq!(rows.iter().map(|row| row.variant).collect::<Vec<_>>(), [Variant::Lift, Variant::Chase]);
     assert_eq!((rows[1].events, rows[1].attempts), (2, 5));
@@ -63,17 +63,17 @@ fn shards_share_the_slots_out() {
 fn what_is_no_shard_is_refused() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("shard.json");
-    let whole = r#"{"preset": "p", "events": 4, "seed": 1, "generator": "g", "settings": {}, "selected": true, "command": "c"}"#;
+    let whole = r#"{"preset": "p", "events": 4, "slots": 4, "seed": 1, "generator": "g", "settings": {}, "selected": true, "command": "c"}"#;
     let shard = |number: usize, slots: &str| {
         format!(
-            r#"{{"format": "phase-shard/1", "shard": {number}, "of": 2, "whole": {whole}, "slots": {slots}}}"#
+            r#"{{"format": "phase-shard/2", "shard": {number}, "of": 2, "whole": {whole}, "slots": {slots}}}"#
         )
     };
-    let none = r#"[{"fingerprint": "", "refused": [], "entry": null}]"#;
+    let none = r#"[{"fingerprint": "", "refused": [], "entries": []}]"#;
     let cases = [
         (shard(3, "[]"), "no shard 3 of 2"),
         (shard(0, "[]"), "no shard 0 of 2"),
-        (shard(1, none), "0 events instead of 2"),
+        (shard(1, none), "0 filled slots instead of 2"),
         (shard(1, "[]").replace("shard/1", "shard/7"), "format"),
         (shard(1, "[")[..60].to_owned(), "truncated"),
         (shard(1, "[]").replace("preset", "recipe"), "recipe"),

@@ -101,6 +101,9 @@ pub struct Label {
     pub relation_human: Option<Relation>,
     /// Whether the base layout occurs in the training or validation events too; `None` where unknown.
     pub layout_seen: Option<bool>,
+    /// The set of events that it belongs to, which differ in one social variable, if it belongs to one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub set: Option<String>,
 }
 
 /// A method's answer after a prefix of an event.
@@ -127,6 +130,7 @@ pub struct RecognisedEvent {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub watched: Vec<PartialAnswer>,
     /// CPU time for the answer to the whole event (s), if measured.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cpu_seconds: Option<f64>,
     /// Details that the method attached.
     #[serde(default, skip_serializing_if = "Value::is_null")]

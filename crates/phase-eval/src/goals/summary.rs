@@ -1,6 +1,6 @@
 //! Accuracy of a method over many events.
 
-use super::{Answer, Calibration, Label, RecognisedEvent};
+use super::{Answer, Calibration, Label, RecognisedEvent, SetScores};
 use crate::{Estimate, GroupScores};
 use phase_model::{AGENT_COUNT, AgentId, EventKind, Relation};
 use phase_statistics::mean;
@@ -65,6 +65,9 @@ pub struct RecognitionSummary {
     pub layouts: Vec<GroupScores<RecognitionScores>>,
     /// By length of the prefix, if requested. Events that end earlier are included as a whole.
     pub watched: Vec<GroupScores<RecognitionScores>>,
+    /// By sets of events that differ in one social variable, if there are any.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sets: Option<SetScores>,
     /// Confusion matrix of relations (number of events): `confusion[right][said]`, both in the order of
     /// [`RELATIONS`].
     pub confusion: [[usize; RELATIONS.len()]; RELATIONS.len()],
@@ -101,6 +104,7 @@ impl RecognitionSummary {
             kinds,
             layouts,
             watched: watched(events, seed),
+            sets: SetScores::of(events, seed),
             confusion: confusion(events),
             goal_calibration: Calibration::of(&goal_answers(events)),
             relation_calibration: Calibration::of(&relation_answers(events)),

@@ -8,6 +8,7 @@ mod holding;
 mod manner;
 mod motion;
 mod outcome;
+mod parting;
 mod pursuit;
 mod rest;
 mod selection;

@@ -46,6 +46,17 @@ pub fn goals(subject: Subject<'_>, summary: &RecognitionSummary) -> Document {
         ));
         blocks.push(groups("layout", &summary.layouts));
     }
+    if let Some(sets) = &summary.sets {
+        blocks.push(Block::Heading("By set".into()));
+        blocks.push(Block::Text(
+            "The events of a set differ in one social variable alone; a set counts as right if all of its events do.".into(),
+        ));
+        let row = vec![sets.n.to_string(), share(&sets.relation), share(&sets.goals), share(&sets.all)];
+        blocks.push(Block::Table {
+            head: head(&["sets", "all relations right", "all goals right", "both"]),
+            rows: vec![row],
+        });
+    }
     if !summary.watched.is_empty() {
         blocks.push(Block::Heading("By seconds watched".into()));
         blocks.push(Block::Text("Events that end earlier count with all of them.".into()));

@@ -132,6 +132,7 @@ fn mistakes_stand_in_their_columns() {
             goals: [Goal::Touch { agent: AgentId::ZERO, other: AgentId::ONE, sign: Sign::Positive }; 2],
             relation: Relation::Neutral,
             relation_human: None,
+            set: None,
             layout_seen: None,
         },
         watched: Vec::new(),

@@ -77,6 +77,7 @@ pub(crate) fn dataset(folder: &Path, id: &str) -> Manifest {
         seed: 1,
         settings: json!({"max_steps": 2}),
         selection: Vec::new(),
+        sets: Vec::new(),
         events: vec![EventEntry::of(folder, id, &plain_event(2), true).expect("described")],
         files: vec![],
     }

@@ -1,0 +1,130 @@
+//! An evaluation in several parts: `shard.json` in the folder of a part, and the parts that are merged.
+
+use super::task::{AnswerStore, EVENTS};
+use crate::{error::CliError, gen_dataset::check_same};
+use phase_dataset::{FileError, Problem, atomic, json};
+use phase_model::json::check_format;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+
+/// The file that is written last in the folder of a part.
+pub(super) const SHARD_FILE: &str = "shard.json";
+/// The value of its field `format`.
+const SHARD_FORMAT: &str = "phase-eval-shard/1";
+
+/// A part of an evaluation: the events k − 1, k − 1 + n, k − 1 + 2 n …
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct EvaluationShard {
+    format: String,
+    /// Which one, from 1.
+    shard: usize,
+    /// Of how many.
+    of: usize,
+    /// The evaluation, as in its results.
+    whole: Value,
+    /// Digest of the program that asked the method.
+    program: String,
+}
+
+impl EvaluationShard {
+    /// The run of the folder.
+    pub(super) fn run(&self) -> Value {
+        run_of(&self.whole, Some((self.shard, self.of)))
+    }
+}
+
+/// The identity of a run, of the whole or of a part.
+pub(super) fn run_of(whole: &Value, shard: Option<(usize, usize)>) -> Value {
+    let mut run = whole.clone();
+    if let Some((shard, of)) = shard {
+        run["shard"] = format!("{shard}/{of}").into();
+    }
+    run
+}
+
+/// Marks a part as done.
+///
+/// # Errors
+/// If the file cannot be written.
+pub(super) fn write(
+    out: &Path,
+    shard: usize,
+    of: usize,
+    whole: Value,
+    program: &str,
+) -> Result<(), CliError> {
+    let part = EvaluationShard { format: SHARD_FORMAT.into(), shard, of, whole, program: program.into() };
+    Ok(atomic::write_json(&out.join(SHARD_FILE), &part)?)
+}
+
+/// Reads what a folder is a part of.
+///
+/// # Errors
+/// If there is no finished part of an evaluation.
+pub(super) fn read(folder: &Path) -> Result<EvaluationShard, CliError> {
+    let file = folder.join(SHARD_FILE);
+    if folder.is_dir() && !file.exists() {
+        let rule = format!("holds no finished part of an evaluation (no {SHARD_FILE})");
+        return Err(CliError::Usage(format!("{}: {rule}", folder.display())));
+    }
+    let fail = |problem| FileError { file: file.clone(), problem };
+    let value = json::read(&file)?;
+    check_format(&value, SHARD_FORMAT).map_err(|error| fail(error.into()))?;
+    let what = "shard of an evaluation";
+    let part: EvaluationShard =
+        serde_json::from_value(value).map_err(|source| fail(Problem::Incomplete { what, source }))?;
+    if part.shard == 0 || part.shard > part.of {
+        let rule = format!("there is no shard {} of {}", part.shard, part.of);
+        return Err(fail(Problem::Shape { what, rule }).into());
+    }
+    Ok(part)
+}
+
+/// All parts of an evaluation, in order.
+pub(super) struct Merged(Vec<AnswerStore>);
+
+/// Opens the parts, in any order; `None` if there are none. All parts of the evaluation must be there, made by one program.
+///
+/// # Errors
+/// [`CliError::Usage`], [`CliError::OtherRun`], or if a part cannot be used.
+pub(super) fn open(folders: &[PathBuf], whole: &Value) -> Result<Option<Merged>, CliError> {
+    let mut parts = Vec::new();
+    for folder in folders {
+        let part = read(folder)?;
+        check_same(folder, "a part of", &part.whole, whole)?;
+        parts.push((part, folder));
+    }
+    parts.sort_by_key(|(part, _)| part.shard);
+    let Some((first, place)) = parts.first() else { return Ok(None) };
+    for (number, (part, folder)) in (1..).zip(&parts) {
+        if part.of != first.of || part.program != first.program {
+            let (folder, place) = (folder.display(), place.display());
+            let rule = "is no part of the same division by the same program as";
+            return Err(CliError::Usage(format!("{folder}: {rule} {place}")));
+        }
+        if part.shard > number {
+            return Err(CliError::Usage(format!("--merge: part {number} of {} is missing", first.of)));
+        }
+        if part.shard < number {
+            let rule = format!("is part {} of {}, as another folder is", part.shard, part.of);
+            return Err(CliError::Usage(format!("{}: {rule}", folder.display())));
+        }
+    }
+    if parts.len() < first.of {
+        return Err(CliError::Usage(format!("--merge: part {} of {} is missing", parts.len() + 1, first.of)));
+    }
+    let store = |(part, folder): (EvaluationShard, &PathBuf)| AnswerStore {
+        folder: folder.join(EVENTS),
+        program: part.program,
+    };
+    Ok(Some(Merged(parts.into_iter().map(store).collect())))
+}
+
+impl Merged {
+    /// The part with the answer to an event, by its number from 0.
+    pub(super) fn store(&self, event: usize) -> &AnswerStore {
+        &self.0[event % self.0.len()]
+    }
+}
