@@ -3,7 +3,7 @@
 //! Events are read back from the folder one at a time, so memory grows with the number of events only by
 //! their entries in the manifest. Code for further files of a dataset belongs here.
 
-use crate::{error::CliError, interrupt, shortcuts};
+use crate::{error::CliError, gallery_writer::GalleryWriter, interrupt, shortcuts};
 use phase_audit::{AuditItem, MAX_EVENTS, audit};
 use phase_dataset::{
     FileError, Problem,
@@ -12,7 +12,7 @@ use phase_dataset::{
     checksum::FileEntry,
     croissant::{CROISSANT_FILE, croissant},
     event_set::{PAIRS_FILE, pairs_table},
-    manifest::{CARD_FILE, DATASET_FORMAT, EventEntry, MANIFEST_FILE, Manifest, PAGE_FILE},
+    manifest::{CARD_FILE, DATASET_FORMAT, EventEntry, MANIFEST_FILE, Manifest},
     parquet, phase_events,
     shard::DatasetDescription,
     slot_record::SlotRecord,
@@ -20,7 +20,7 @@ use phase_dataset::{
 use phase_event::Recording;
 use phase_report::{
     card::{self, card},
-    gallery::{self, Timeline},
+    gallery::{Gallery, Timeline},
 };
 use std::path::Path;
 
@@ -35,7 +35,14 @@ pub fn complete(
     records: impl Iterator<Item = SlotRecord>,
 ) -> Result<Manifest, CliError> {
     let (mut events, mut sets) = (Vec::new(), Vec::new());
-    let (mut timelines, mut tally) = (Vec::new(), Tally::default());
+    let mut tally = Tally::default();
+    let gallery = Gallery {
+        preset: &whole.preset,
+        generator: &whole.generator,
+        seed: whole.seed,
+        events: whole.events,
+    };
+    let mut pages = whole.videos.then(|| GalleryWriter::new(out, gallery));
     let mut audited = Vec::new();
     for record in records {
         tally.add(record.entries.iter().filter_map(|entry| entry.variant), &record.refused);
@@ -44,7 +51,9 @@ pub fn complete(
             if audited.len() < MAX_EVENTS {
                 audited.push(AuditItem::of(&recording));
             }
-            timelines.extend(recording.simulation.as_ref().map(|simulation| Timeline::of(&simulation.event)));
+            if let (Some(pages), Some(simulation)) = (&mut pages, &recording.simulation) {
+                pages.push(entry.clone(), Timeline::of(&simulation.event))?;
+            }
             events.push(entry);
         }
         sets.extend(record.set);
@@ -69,9 +78,8 @@ pub fn complete(
         let table = pairs_table(&manifest.sets, place);
         describe(out, &mut manifest, PAIRS_FILE, &table)?;
     }
-    if whole.videos {
-        let page = gallery::page(&manifest, &timelines);
-        describe(out, &mut manifest, PAGE_FILE, &page)?;
+    for page in pages.map_or_else(|| Ok(Vec::new()), GalleryWriter::finish)? {
+        manifest.files.push(FileEntry::of(out, page).map_err(CliError::ReadBack)?);
     }
     let count = manifest.events.len();
     let shortcuts = shortcuts::section(audit(&audited, count).as_ref(), count);

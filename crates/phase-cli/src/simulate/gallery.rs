@@ -1,14 +1,9 @@
 //! The page on which simulated events can be watched, as those of a dataset can.
 
-use crate::{engine::GENERATOR, error::CliError};
-use phase_dataset::{
-    atomic,
-    manifest::{DATASET_FORMAT, EventEntry, Manifest, PAGE_FILE},
-    summary::EventComparison,
-};
+use crate::{engine::GENERATOR, error::CliError, gallery_writer::GalleryWriter};
+use phase_dataset::{manifest::EventEntry, summary::EventComparison};
 use phase_event::Event;
-use phase_report::gallery::{Timeline, page};
-use serde_json::Value;
+use phase_report::gallery::{Gallery, Timeline};
 use std::path::Path;
 
 /// What the page shows of one event.
@@ -32,18 +27,10 @@ impl Shown {
 /// # Errors
 /// [`CliError::Write`].
 pub(super) fn write(out: &Path, seed: u64, shown: Vec<Shown>) -> Result<(), CliError> {
-    let (events, timelines): (Vec<_>, Vec<_>) =
-        shown.into_iter().map(|shown| (shown.entry, shown.timeline)).unzip();
-    let manifest = Manifest {
-        format: DATASET_FORMAT.into(),
-        generator: GENERATOR.into(),
-        preset: "simulated scenes".into(),
-        seed,
-        settings: Value::Null,
-        selection: Vec::new(),
-        sets: Vec::new(),
-        events,
-        files: Vec::new(),
-    };
-    Ok(atomic::write(&out.join(PAGE_FILE), page(&manifest, &timelines).as_bytes())?)
+    let gallery = Gallery { preset: "simulated scenes", generator: GENERATOR, seed, events: shown.len() };
+    let mut writer = GalleryWriter::new(out, gallery);
+    for Shown { entry, timeline } in shown {
+        writer.push(entry, timeline)?;
+    }
+    writer.finish().map(|_| ())
 }

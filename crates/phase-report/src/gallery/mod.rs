@@ -1,5 +1,5 @@
 //! `index.html`: a page that opens offline and shows every video of a dataset with its labels, and the
-//! subgoals of its agents at every moment.
+//! subgoals of its agents at every moment. A large dataset has a page for every thousand events, and `index.html` lists them.
 
 mod timeline;
 
@@ -8,7 +8,8 @@ pub use timeline::Timeline;
 use crate::markup::{escape, escape_script};
 use phase_dataset::{
     describe::{self, Fragment},
-    manifest::{AgentEntry, EventEntry, Manifest},
+    event_set::set_video_path,
+    manifest::{AgentEntry, EventEntry, PAGE_FILE},
 };
 use phase_model::{
     AgentId, Attitude, Entity, Goal, ObjectId, Sign, Size, Strength,
@@ -19,36 +20,120 @@ use std::{collections::BTreeMap, fmt::Write as _};
 /// Duration for which a step is shown (s).
 const SECONDS_PER_STEP: f64 = SUBSTEPS as f64 / FRAMES_PER_SECOND as f64;
 const PAGE: &str = include_str!("../../assets/page.html");
+const INDEX: &str = include_str!("../../assets/pages.html");
 const STYLE: &str = include_str!("../../assets/style.css");
 const SCRIPT: &str = include_str!("../../assets/script.js");
 
-/// Maximum number of events on a page; browsers get slow beyond. The page states it if there are more.
-pub const MOST_SHOWN: usize = 2000;
+/// Maximum number of events on a page; browsers get slow beyond.
+pub const EVENTS_PER_PAGE: usize = 1000;
+/// Folder of the pages of a large dataset.
+pub const PAGES_FOLDER: &str = "pages";
 
-/// The page for a dataset; one timeline for each of the manifest's events.
-#[must_use]
-pub fn page(manifest: &Manifest, timelines: &[Timeline]) -> String {
-    let shown = &manifest.events[..manifest.events.len().min(MOST_SHOWN)];
-    let heading = format!("PHASE: {}", manifest.preset);
-    let count = match manifest.events.len() {
-        all if all > MOST_SHOWN => format!("The first {MOST_SHOWN} of {all} events"),
-        all => format!("{all} events"),
-    };
-    let intro = format!(
-        "{count} by {}, seed {}. Two agents see, believe, plan and act; what they want of each other shows in how \
-         they move.",
-        manifest.generator, manifest.seed
-    );
-    let parts = [
-        ("title", escape(&heading)),
-        ("intro", escape(&intro)),
-        ("style", STYLE.to_owned()),
-        ("filters", filters(shown)),
-        ("cards", shown.iter().map(card).collect()),
-        ("timelines", escape_script(&timeline::table(shown, timelines).to_string())),
-        ("script", SCRIPT.to_owned()),
-    ];
-    fill(PAGE, &parts)
+/// What all pages of a dataset have in common.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Gallery<'a> {
+    /// Name of the preset.
+    pub preset: &'a str,
+    /// Name and version of the program.
+    pub generator: &'a str,
+    /// Seed of the dataset.
+    pub seed: u64,
+    /// Number of events of the dataset.
+    pub events: usize,
+}
+
+/// One of several pages, in the list of all.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct PageSummary {
+    /// Names of its first and its last event.
+    pub range: [String; 2],
+    /// Number of events of each relation, by name.
+    pub relations: BTreeMap<&'static str, usize>,
+}
+
+impl PageSummary {
+    /// The summary of a page; `None` without events.
+    #[must_use]
+    pub fn of(events: &[EventEntry]) -> Option<Self> {
+        let mut relations = BTreeMap::new();
+        for event in events {
+            *relations.entry(describe::relation(event.relation)).or_default() += 1;
+        }
+        Some(Self { range: [events.first()?.id.clone(), events.last()?.id.clone()], relations })
+    }
+}
+
+impl Gallery<'_> {
+    /// Whether all events are on one page.
+    #[must_use]
+    pub const fn is_one_page(&self) -> bool {
+        self.events <= EVENTS_PER_PAGE
+    }
+
+    /// The file of a page, by its number from 0.
+    #[must_use]
+    pub fn file(&self, number: usize) -> String {
+        if self.is_one_page() { PAGE_FILE.into() } else { format!("{PAGES_FOLDER}/{number:05}.html") }
+    }
+
+    /// A page of some events; one timeline for each.
+    #[must_use]
+    pub fn page(&self, number: usize, events: &[EventEntry], timelines: &[Timeline]) -> String {
+        let (count, base) = if self.is_one_page() {
+            (format!("{} events", self.events), "")
+        } else {
+            let (from, to) = (number * EVENTS_PER_PAGE + 1, number * EVENTS_PER_PAGE + events.len());
+            (format!("Events {from} to {to} of {}", self.events), "<base href=\"../\">\n")
+        };
+        let back = if self.is_one_page() {
+            String::new()
+        } else {
+            format!(" <a href=\"{PAGE_FILE}\">All pages</a>.")
+        };
+        let intro = format!(
+            "{count} by {}, seed {}. Two agents see, believe, plan and act; what they want of each other shows in \
+             how they move.",
+            self.generator, self.seed
+        );
+        let parts = [
+            ("title", escape(&format!("PHASE: {}", self.preset))),
+            ("base", base.into()),
+            ("intro", escape(&intro) + &back),
+            ("style", STYLE.to_owned()),
+            ("filters", filters(events)),
+            ("cards", events.iter().map(card).collect()),
+            ("timelines", escape_script(&timeline::table(events, timelines).to_string())),
+            ("script", SCRIPT.to_owned()),
+        ];
+        fill(PAGE, &parts)
+    }
+
+    /// The list of all pages.
+    #[must_use]
+    pub fn index(&self, pages: &[PageSummary]) -> String {
+        let mut rows = String::new();
+        for (number, PageSummary { range: [first, last], relations }) in pages.iter().enumerate() {
+            let counts: Vec<String> =
+                relations.iter().map(|(relation, count)| format!("{count} {relation}")).collect();
+            let _ = writeln!(
+                rows,
+                "<li><a href=\"{}\">{} to {}</a>: {}</li>",
+                self.file(number),
+                escape(first),
+                escape(last),
+                counts.join(", ")
+            );
+        }
+        let intro =
+            format!("{} events by {}, seed {}, on {} pages.", self.events, self.generator, self.seed, pages.len());
+        let parts = [
+            ("title", escape(&format!("PHASE: {}", self.preset))),
+            ("intro", escape(&intro)),
+            ("style", STYLE.to_owned()),
+            ("pages", rows),
+        ];
+        fill(INDEX, &parts)
+    }
 }
 
 /// Inserts parts into a template's `{{name}}` places in one pass, so that inserted text which looks like a
@@ -70,11 +155,14 @@ fn fill(template: &str, parts: &[(&str, String)]) -> String {
 /// A filter for each property of events, with the number of events for each value.
 fn filters(events: &[EventEntry]) -> String {
     type Values = fn(&EventEntry) -> Vec<String>;
-    let keys: [(&str, Values); 5] = [
+    let stance: Values =
+        |event| event.set.iter().map(|place| place.stance.name().to_owned()).collect();
+    let keys: [(&str, Values); 6] = [
         ("kind", |event| vec![event.kind.name().into()]),
         ("manner", |event| manners(event).map(Into::into).collect()),
         ("relation", |event| vec![describe::relation(event.relation).into()]),
         ("goal", goals),
+        ("stance", stance),
         ("split", |event| vec![event.split().name().into()]),
     ];
     let mut selects = String::new();
@@ -141,7 +229,7 @@ fn card(event: &EventEntry) -> String {
     ];
     format!(
         "<article class=\"card\" tabindex=\"0\" data-id=\"{id}\" data-kind=\"{kind}\" \
-         data-relation=\"{relation}\" data-split=\"{split}\" data-goal=\"{goals}\" data-manner=\"{manners}\" data-steps=\"{steps}\" \
+         data-relation=\"{relation}\" data-split=\"{split}\" data-goal=\"{goals}\" data-manner=\"{manners}\" data-stance=\"{stance}\" data-steps=\"{steps}\" \
          aria-label=\"{kind}, {id}\">\n\
          <header><h2>{kind}</h2><span class=\"tag {relation}\">{relation}</span><span class=\"tag\">{split}</span>\
          <code>{id}</code></header>\n\
@@ -151,11 +239,15 @@ fn card(event: &EventEntry) -> String {
          behind them\"></canvas>\n\
          <ul class=\"agents\">\n{agents}</ul>\n\
          <p class=\"meta\">{things}layout {base}{flip} · {steps} steps, {seconds:.1} s · \
-         <a href=\"{json}\">data</a></p>\n</article>\n",
+         <a href=\"{json}\">data</a>{beside}</p>\n</article>\n",
         relation = describe::relation(event.relation),
         split = event.split().name(),
         goals = escape(&goals(event).join("|")),
         manners = manners(event).collect::<Vec<_>>().join("|"),
+        stance = event.set.as_ref().map_or("", |place| place.stance.name()),
+        beside = event.set.as_ref().filter(|_| event.video.is_some()).map_or_else(String::new, |place| {
+            format!(" · <a href=\"{}\">its set side by side</a>", escape(&set_video_path(&place.set)))
+        }),
         what = escape(describe::kind(event.kind)),
         video = event.video.as_ref().map_or_else(String::new, |video| escape(&video.path)),
         buttons = buttons.concat(),

@@ -1,14 +1,17 @@
 //! The page for people.
 
 use crate::support::plain_event;
-use phase_dataset::{manifest::EventEntry, splits::Split};
+use phase_dataset::{
+    manifest::{EventEntry, Manifest},
+    splits::Split,
+};
 use phase_report::{
-    gallery::{MOST_SHOWN, Timeline, page},
+    gallery::{EVENTS_PER_PAGE, Gallery, PageSummary, Timeline},
     markup::{escape, escape_script},
 };
 use serde_json::{Value, json};
 
-fn example(id: &str) -> (phase_dataset::manifest::Manifest, Vec<Timeline>) {
+fn example(id: &str) -> (Manifest, Vec<Timeline>) {
     let folder = tempfile::tempdir().expect("a folder");
     let manifest = crate::support::dataset(folder.path(), id);
     (manifest, vec![Timeline::of(&plain_event(4))])
@@ -140,8 +143,24 @@ fn five_hundred_events_make_a_page_of_reasonable_size() {
     assert_eq!(text.matches(" src=").count(), 0, "no video is loaded at once");
     assert!(text.len() < 2_500_000, "{} bytes", text.len());
 
-    manifest.events = (0..=MOST_SHOWN).map(numbered).collect();
-    let text = page(&manifest, &timelines);
-    assert_eq!(text.matches("<video").count(), MOST_SHOWN);
-    assert!(text.contains("The first 2000 of 2001 events"));
+    let all: Vec<EventEntry> = (0..=EVENTS_PER_PAGE).map(numbered).collect();
+    manifest.events = all.clone();
+    let gallery = gallery(&manifest);
+    let (first, second) = all.split_at(EVENTS_PER_PAGE);
+    let text = gallery.page(0, first, &timelines);
+    assert_eq!(text.matches("<video").count(), EVENTS_PER_PAGE);
+    assert!(text.contains("Events 1 to 1000 of 1001 by"));
+    let text = gallery.page(1, second, &timelines);
+    assert!(text.contains("Events 1001 to 1001 of 1001 by") && text.contains("<base href=\"../\">"));
+    let index = gallery.index(&[first, second].map(|events| PageSummary::of(events).expect("events")));
+    assert!(index.contains("<a href=\"pages/00001.html\">demo-1000 to demo-1000</a>: 1 friendly"), "{index}");
+}
+
+fn gallery(manifest: &Manifest) -> Gallery<'_> {
+    let Manifest { preset, generator, seed, .. } = manifest;
+    Gallery { preset, generator, seed: *seed, events: manifest.events.len() }
+}
+
+fn page(manifest: &Manifest, timelines: &[Timeline]) -> String {
+    gallery(manifest).page(0, &manifest.events, timelines)
 }

@@ -1,0 +1,69 @@
+//! Writing the pages on which events can be watched, one after the other, so that no more than the events of one page are in
+//! memory.
+
+use crate::error::CliError;
+use phase_dataset::{
+    WriteError, atomic,
+    manifest::{EventEntry, PAGE_FILE},
+};
+use phase_report::gallery::{EVENTS_PER_PAGE, Gallery, PAGES_FOLDER, PageSummary, Timeline};
+use std::path::Path;
+
+/// The pages of a dataset so far.
+#[derive(Debug)]
+pub struct GalleryWriter<'a> {
+    out: &'a Path,
+    gallery: Gallery<'a>,
+    events: Vec<EventEntry>,
+    timelines: Vec<Timeline>,
+    pages: Vec<PageSummary>,
+}
+
+impl<'a> GalleryWriter<'a> {
+    /// No page yet.
+    #[must_use]
+    pub const fn new(out: &'a Path, gallery: Gallery<'a>) -> Self {
+        Self { out, gallery, events: Vec::new(), timelines: Vec::new(), pages: Vec::new() }
+    }
+
+    /// Adds an event; writes a page when it is full.
+    ///
+    /// # Errors
+    /// [`CliError::Write`].
+    pub fn push(&mut self, entry: EventEntry, timeline: Timeline) -> Result<(), CliError> {
+        self.events.push(entry);
+        self.timelines.push(timeline);
+        if self.events.len() == EVENTS_PER_PAGE { self.write_page() } else { Ok(()) }
+    }
+
+    /// Writes what is left, and returns the names of all files.
+    ///
+    /// # Errors
+    /// [`CliError::Write`].
+    pub fn finish(mut self) -> Result<Vec<String>, CliError> {
+        if !self.events.is_empty() {
+            self.write_page()?;
+        }
+        let mut files: Vec<String> = (0..self.pages.len()).map(|number| self.gallery.file(number)).collect();
+        if !self.gallery.is_one_page() {
+            atomic::write(&self.out.join(PAGE_FILE), self.gallery.index(&self.pages).as_bytes())?;
+            files.push(PAGE_FILE.into());
+        }
+        Ok(files)
+    }
+
+    fn write_page(&mut self) -> Result<(), CliError> {
+        let number = self.pages.len();
+        if number == 0 && !self.gallery.is_one_page() {
+            let path = self.out.join(PAGES_FOLDER);
+            std::fs::create_dir_all(&path)
+                .map_err(|source| WriteError { path, action: "create the folder", source })?;
+        }
+        let text = self.gallery.page(number, &self.events, &self.timelines);
+        atomic::write(&self.out.join(self.gallery.file(number)), text.as_bytes())?;
+        self.pages.extend(PageSummary::of(&self.events));
+        self.events.clear();
+        self.timelines.clear();
+        Ok(())
+    }
+}
