@@ -6,6 +6,7 @@ use crate::{
     context::{Context, Verbosity},
     error::CliError,
     eval::{self, options::Eval},
+    export::{self, Export},
     gen_dataset::{
         self, merge,
         options::{GenDataset, Merge},
@@ -43,6 +44,8 @@ pub enum Command {
     GenDataset(GenDataset),
     /// Merge the shards of a dataset
     Merge(Merge),
+    /// Export a dataset as WebDataset: tar files that are read from the first byte to the last
+    Export(Export),
     /// Check how a dataset is divided into train, validation and test, or divide it
     Splits(Splits),
     /// Compare the figures of the paper's dataset with those of another, and plot them
@@ -90,6 +93,7 @@ impl Command {
             Self::GenDataset(arguments) => gen_dataset::run(arguments, context),
             Self::Verify(arguments) => verify::run(arguments, context),
             Self::Merge(arguments) => merge::run(arguments, context),
+            Self::Export(arguments) => export::run(arguments, context),
             Self::Splits(arguments) => splits::run(arguments, context),
             Self::Stats(arguments) => stats::run(arguments, context),
             Self::Simulate(arguments) => simulate::run(arguments, context),

@@ -56,8 +56,11 @@ impl<'a> GalleryWriter<'a> {
         let number = self.pages.len();
         if number == 0 && !self.gallery.is_one_page() {
             let path = self.out.join(PAGES_FOLDER);
-            std::fs::create_dir_all(&path)
-                .map_err(|source| WriteError { path, action: "create the folder", source })?;
+            std::fs::create_dir_all(&path).map_err(|source| WriteError {
+                path,
+                action: "create the folder",
+                source,
+            })?;
         }
         let text = self.gallery.page(number, &self.events, &self.timelines);
         atomic::write(&self.out.join(self.gallery.file(number)), text.as_bytes())?;

@@ -53,6 +53,7 @@ pub mod engine;
 pub mod error;
 pub mod eval;
 pub mod event_writer;
+pub mod export;
 pub mod gallery_writer;
 pub mod gen_dataset;
 pub mod interrupt;

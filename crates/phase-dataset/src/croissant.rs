@@ -17,7 +17,7 @@ pub const CROISSANT_FILE: &str = "croissant.json";
 pub fn croissant(manifest: &Manifest, about: &str) -> String {
     let parts = parquet::parts(&manifest.events);
     let columns = parquet::descriptions();
-    let value = json!({
+    let mut value = json!({
         "@context": context(),
         "@type": "sc:Dataset",
         "conformsTo": "http://mlcommons.org/croissant/1.0",
@@ -31,6 +31,9 @@ pub fn croissant(manifest: &Manifest, about: &str) -> String {
         "distribution": manifest.files.iter().map(file).collect::<Vec<_>>(),
         "recordSet": parts.iter().map(|part| record_set(part, &parts, &columns)).collect::<Vec<_>>(),
     });
+    if let Some(date) = &manifest.date_published {
+        value["datePublished"] = date.as_str().into();
+    }
     format!("{value:#}\n")
 }
 
@@ -52,6 +55,7 @@ fn file(entry: &FileEntry) -> Value {
         Some("parquet") => "application/x-parquet",
         Some("html") => "text/html",
         Some("md") => "text/markdown",
+        Some("csv") => "text/csv",
         Some("json") => "application/json",
         _ => "application/octet-stream",
     };

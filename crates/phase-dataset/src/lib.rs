@@ -58,5 +58,6 @@ pub mod split_list;
 pub mod splits;
 pub mod summary;
 pub mod verify;
+pub mod video_table;
 
 pub use error::{FileError, Problem, WriteError};

@@ -38,6 +38,9 @@ pub struct Manifest {
     pub preset: String,
     /// The random seed of the dataset.
     pub seed: u64,
+    /// The date of publication, if it was given: YYYY-MM-DD.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub date_published: Option<String>,
     /// Settings of simulation and agents.
     pub settings: Value,
     /// How many scenes were tried and why most were rejected, by variant; empty where nothing was selected.

@@ -32,6 +32,9 @@ pub struct DatasetDescription {
     /// Whether events have videos; not written if true, which is the default.
     #[serde(default = "with_videos", skip_serializing_if = "Clone::clone")]
     pub videos: bool,
+    /// The date of publication, if it was given: YYYY-MM-DD.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub date_published: Option<String>,
     /// The command that generates the whole dataset.
     pub command: String,
 }

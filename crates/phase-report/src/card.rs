@@ -11,7 +11,10 @@ use phase_dataset::{
 use phase_model::EventKind;
 
 const PAGE: &str = "| `index.html` | opens in a browser, offline, and shows every video with its labels |\n";
-const VIDEOS: &str = "| `videos/<id>.mp4` | H.264, 20 frames a second, five frames a step |\n";
+const VIDEOS: &str = "| `videos/<id>.mp4` | H.264, 20 frames a second, five frames a step |\n\
+     | `videos/metadata.csv` | their labels, for `load_dataset(\"videofolder\", data_dir=\".../videos\")` |\n";
+const SET_VIDEOS: &str = "| `videos/<set>.mp4` | the events of a set side by side |\n";
+const SETS: &str = "| `pairs.csv` | where and when every two events of a set part |\n";
 
 /// The dataset's file for people: what it is, how it was generated, what it contains, and its licence. `shortcuts` tells
 /// what can be predicted without looking at motion, in Markdown.
@@ -28,7 +31,7 @@ pub fn card(manifest: &Manifest, command: &str, shortcuts: &str) -> String {
          | file | what it is |\n|---|---|\n\
          {page}| `{FOLDER}/*.parquet` | every event as a row, by split; the columns are below |\n\
          | `events/<id>.json` | format `phase-events/1`: the same and every thought of the agents |\n\
-         {videos}| `croissant.json` | the dataset in the vocabulary Croissant 1.0 |\n\
+         {videos}{set_videos}{sets}| `croissant.json` | the dataset in the vocabulary Croissant 1.0 |\n\
          | `manifest.json` | format `phase-dataset/1`: settings, seeds, and the checksum of every file |\n\n\
          ## Columns\n\n\
          Lengths are in world units u (the arena is 20 u wide, x from 6 to 26, y from 2 to 22), angles in \
@@ -57,6 +60,8 @@ pub fn card(manifest: &Manifest, command: &str, shortcuts: &str) -> String {
         front = front_matter(manifest),
         page = if has_videos { PAGE } else { "" },
         videos = if has_videos { VIDEOS } else { "" },
+        set_videos = if has_videos && !manifest.sets.is_empty() { SET_VIDEOS } else { "" },
+        sets = if manifest.sets.is_empty() { "" } else { SETS },
         preset = manifest.preset,
         count = manifest.events.len(),
         about = about(),

@@ -16,6 +16,7 @@ use phase_dataset::{
     parquet, phase_events,
     shard::DatasetDescription,
     slot_record::SlotRecord,
+    video_table::{VIDEO_TABLE_FILE, video_table},
 };
 use phase_event::Recording;
 use phase_report::{
@@ -63,6 +64,7 @@ pub fn complete(
         generator: whole.generator.clone(),
         preset: whole.preset.clone(),
         seed: whole.seed,
+        date_published: whole.date_published.clone(),
         settings: whole.settings.clone(),
         selection: if whole.selected { tally.rows() } else { Vec::new() },
         events,
@@ -80,6 +82,10 @@ pub fn complete(
     }
     for page in pages.map_or_else(|| Ok(Vec::new()), GalleryWriter::finish)? {
         manifest.files.push(FileEntry::of(out, page).map_err(CliError::ReadBack)?);
+    }
+    if whole.videos {
+        let table = video_table(&manifest.events);
+        describe(out, &mut manifest, VIDEO_TABLE_FILE, &table)?;
     }
     let count = manifest.events.len();
     let shortcuts = shortcuts::section(audit(&audited, count).as_ref(), count);

@@ -117,6 +117,7 @@ fn check_finished(plan: &Plan, out: &Path, output: Output) -> Result<(), CliErro
             settings: manifest.settings.clone(),
             selected: !manifest.selection.is_empty(),
             videos: manifest.events.iter().all(|entry| entry.video.is_some()),
+            date_published: manifest.date_published.clone(),
             command: String::new(),
         };
         (run_value(&whole, None), manifest.all_files().cloned().collect())
@@ -141,6 +142,9 @@ fn run_value(whole: &DatasetDescription, shard: Option<(usize, usize)>) -> Value
     });
     if !whole.videos {
         value["videos"] = false.into();
+    }
+    if let Some(date) = &whole.date_published {
+        value["date_published"] = date.as_str().into();
     }
     if let Some((shard, of)) = shard {
         value["shard"] = format!("{shard}/{of}").into();

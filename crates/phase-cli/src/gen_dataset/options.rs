@@ -1,6 +1,7 @@
 //! The options of `gen-dataset` and `merge`.
 
 use crate::{effort::SimulationOptions, output::Output, parallel::Jobs, shard_option::shard};
+use chrono::NaiveDate;
 use clap::{Args, value_parser};
 use std::path::PathBuf;
 
@@ -24,6 +25,9 @@ pub struct GenDataset {
     /// Write no videos and no page, for training data
     #[arg(long)]
     pub no_video: bool,
+    /// The date of publication in croissant.json, YYYY-MM-DD [default: none, so that every run makes the same bytes]
+    #[arg(long, value_name = "DATE", value_parser = date)]
+    pub date_published: Option<String>,
     /// Generate only the events K, K + N, K + 2 N … of the dataset, to be combined with the other shards by
     /// merge. In a task of a job array K may be `auto`: --shard auto/N under Slurm, Kubernetes (indexed
     /// jobs) and HyperQueue, or --shard auto for a whole Slurm array
@@ -52,4 +56,11 @@ pub struct Merge {
     /// How the result is printed.
     #[command(flatten)]
     pub output: Output,
+}
+
+/// Reads a date.
+fn date(text: &str) -> Result<String, String> {
+    let date = NaiveDate::parse_from_str(text, "%Y-%m-%d").ok();
+    let date = date.filter(|date| date.to_string() == text);
+    date.map(|date| date.to_string()).ok_or_else(|| "a date is YYYY-MM-DD, such as 2026-11-23".into())
 }

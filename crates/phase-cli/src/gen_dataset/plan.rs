@@ -50,6 +50,7 @@ pub struct Plan {
     /// Digest of everything that determines an event besides its slot and the seed: this executable, its
     /// settings, the preset.
     pub fingerprint: String,
+    date_published: Option<String>,
     settings_value: Value,
     command: String,
 }
@@ -66,8 +67,11 @@ impl Plan {
         let seed = arguments.seed.unwrap_or(preset.seed);
         let (name, effort) = (&arguments.preset, arguments.effort.as_given());
         let (videos, no_video) = (!arguments.no_video, if arguments.no_video { " --no-video" } else { "" });
-        let command =
-            format!("phase gen-dataset --preset {name} --events {count} --seed {seed}{effort}{no_video}");
+        let date = arguments.date_published.as_ref();
+        let date = date.map_or_else(String::new, |date| format!(" --date-published {date}"));
+        let command = format!(
+            "phase gen-dataset --preset {name} --events {count} --seed {seed}{effort}{no_video}{date}"
+        );
         let settings = arguments.effort.settings();
         let settings_value = settings_value(&settings)?;
         let facts = format!("{settings_value} {seed} {text}");
@@ -88,6 +92,7 @@ impl Plan {
             videos,
             shard,
             fingerprint,
+            date_published: arguments.date_published.clone(),
             settings_value,
             command,
         })
@@ -131,6 +136,7 @@ impl Plan {
             settings: self.settings_value.clone(),
             selected: self.preset.selection.is_some(),
             videos: self.videos,
+            date_published: self.date_published.clone(),
             command: self.command.clone(),
         }
     }

@@ -7,6 +7,7 @@ mod captions;
 mod console;
 mod damage;
 mod eval;
+mod export;
 mod gen_dataset;
 mod interruption;
 mod json;

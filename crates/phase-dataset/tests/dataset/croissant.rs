@@ -18,6 +18,10 @@ fn it_describes_files_and_columns() {
     let expected: Vec<(&str, &str)> =
         manifest.files.iter().map(|file| (file.path.as_str(), file.sha256.as_str())).collect();
     assert_eq!(checksums(&value), expected);
+    assert_eq!(value.get("datePublished"), None, "a date makes the files of every run differ");
+    manifest.date_published = Some("2026-11-23".into());
+    let dated: Value = serde_json::from_str(&croissant(&manifest, "about")).expect("JSON");
+    assert_eq!(dated["datePublished"], "2026-11-23");
     let sets = value["recordSet"].as_array().expect("record sets");
     let names: Vec<&Value> = sets.iter().map(|set| &set["name"]).collect();
     assert_eq!(names, ["train", "test"]);

@@ -124,8 +124,13 @@ impl Gallery<'_> {
                 counts.join(", ")
             );
         }
-        let intro =
-            format!("{} events by {}, seed {}, on {} pages.", self.events, self.generator, self.seed, pages.len());
+        let intro = format!(
+            "{} events by {}, seed {}, on {} pages.",
+            self.events,
+            self.generator,
+            self.seed,
+            pages.len()
+        );
         let parts = [
             ("title", escape(&format!("PHASE: {}", self.preset))),
             ("intro", escape(&intro)),
@@ -155,8 +160,7 @@ fn fill(template: &str, parts: &[(&str, String)]) -> String {
 /// A filter for each property of events, with the number of events for each value.
 fn filters(events: &[EventEntry]) -> String {
     type Values = fn(&EventEntry) -> Vec<String>;
-    let stance: Values =
-        |event| event.set.iter().map(|place| place.stance.name().to_owned()).collect();
+    let stance: Values = |event| event.set.iter().map(|place| place.stance.name().to_owned()).collect();
     let keys: [(&str, Values); 6] = [
         ("kind", |event| vec![event.kind.name().into()]),
         ("manner", |event| manners(event).map(Into::into).collect()),

@@ -75,6 +75,7 @@ pub(crate) fn dataset(folder: &Path, id: &str) -> Manifest {
         generator: "phase test".into(),
         preset: "demo".into(),
         seed: 1,
+        date_published: None,
         settings: json!({"max_steps": 2}),
         selection: Vec::new(),
         sets: Vec::new(),
