@@ -1,6 +1,6 @@
 //! `export`: a dataset as WebDataset, tar files that training programs read from the first byte to the last.
 //!
-//! A sample is an event: `<id>.mp4`, `<id>.json` with its labels, the entry of the manifest, and `<id>.event.json`, its file
+//! A sample is an event: `<id>.mp4`, `<id>.json` with its labels, the entry of the manifest, and `<id>.phase-events`, its file
 //! of the format `phase-events/1`.
 
 use crate::{console, context::Context, error::CliError, gen_dataset::check_same, interrupt, output::Output};
@@ -114,12 +114,14 @@ fn write(from: &Path, path: &Path, events: &[&EventEntry]) -> Result<(), CliErro
     let failed = |source| WriteError { path: path.to_owned(), action: "write the file", source };
     let mut tar = Builder::new(AtomicFile::create(path)?);
     for entry in events {
-        let labels =
-            serde_json::to_string(entry).map_err(|source| CliError::Serialise { what: "labels", source })?;
+        let mut labels =
+            serde_json::to_value(entry).map_err(|source| CliError::Serialise { what: "labels", source })?;
+        // Loaders infer signed integers, which some seeds exceed.
+        labels["seed"] = entry.seed.to_string().into();
         let id = &entry.id;
         let video = entry.video.as_ref().map(|video| (format!("{id}.mp4"), video));
-        let event = (format!("{id}.event.json"), &entry.event);
-        append(&mut tar, &format!("{id}.json"), labels.as_bytes()).map_err(failed)?;
+        let event = (format!("{id}.phase-events"), &entry.event);
+        append(&mut tar, &format!("{id}.json"), labels.to_string().as_bytes()).map_err(failed)?;
         for (name, file) in [event].into_iter().chain(video) {
             append(&mut tar, &name, &whole(from, file)?).map_err(failed)?;
         }

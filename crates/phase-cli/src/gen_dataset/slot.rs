@@ -11,7 +11,7 @@ use crate::{
 };
 use core::ops::ControlFlow;
 use phase_dataset::{
-    composition::{EventSlot, manner_of},
+    composition::{BlockPlace, EventSlot, manner_of},
     folder::Folder,
     manifest::{EventEntry, event_path, video_path},
     preset::{Ends, Selection},
@@ -28,13 +28,20 @@ use phase_model::{
 };
 use phase_sampler::{Part, Request, SampleError, Stage};
 use phase_sim::SimulationSettings;
-use std::{collections::BTreeMap, path::PathBuf, time::Instant};
+use std::{
+    collections::BTreeMap,
+    path::PathBuf,
+    sync::{Mutex, PoisonError},
+    time::Instant,
+};
 
 /// Attempts on one stage before another is drawn: there are several assignments of roles and many seeds, and a stage that
 /// some variant rejects is a stage that the others of its block have alone.
 const ATTEMPTS_PER_STAGE: usize = 3;
 /// Draws of strengths and roles for one scene; a stage on which the part was cast once is likely to allow it again.
 const CASTS: usize = 200;
+/// Maximum number of stages kept.
+const MAX_STAGES: usize = 1000;
 /// Layouts from one block to the next. Coprime to the sizes of the pools of bundled presets: blocks that follow one another have different base layouts.
 const LAYOUT_STRIDE: usize = 11;
 
@@ -45,6 +52,8 @@ pub struct Slots<'a> {
     pub(super) folder: &'a Folder,
     pub(super) event_writer: EventWriter,
     pools: BTreeMap<String, Vec<Layout>>,
+    /// Stages by block and number, which all slots of a block draw alike.
+    stages: Mutex<BTreeMap<(usize, usize), Stage>>,
     context: Context,
 }
 
@@ -64,7 +73,7 @@ impl<'a> Slots<'a> {
         let pools = plan.preset.layouts.keys().map(|name| (name.clone(), plan.preset.pool(name))).collect();
         let activity = format!("making {}", console::events(count));
         let event_writer = EventWriter::new(&context, &activity, folder, plan.settings, count)?;
-        Ok(Self { plan, folder, event_writer, pools, context })
+        Ok(Self { plan, folder, event_writer, pools, stages: Mutex::default(), context })
     }
 
     /// The record of a slot.
@@ -196,17 +205,34 @@ impl<'a> Slots<'a> {
         let Some(place) = slot.block else {
             return phase_sampler::sample(&Request { variant, goal_index, layouts }, &mut random);
         };
-        let parts = self.plan.composition.parts(place);
-        let block = random::derive_seed(self.plan.seed, Purpose::Stage, place.block as u64);
-        let mut stages = random::stream(block, Purpose::Stage, (number / ATTEMPTS_PER_STAGE) as u64);
-        // Blocks begin with different layouts, so that all are used.
-        let mut layouts = layouts.to_vec();
-        let turn = (place.block + number / ATTEMPTS_PER_STAGE) * LAYOUT_STRIDE % layouts.len().max(1);
-        layouts.rotate_left(turn);
-        let stage = Stage::sample(&parts, &layouts, &mut stages)?;
+        let stage = self.stage(place, layouts, number / ATTEMPTS_PER_STAGE)?;
         let part = Part { variant, goal_index };
         let drawn = (0..CASTS).find_map(|_| stage.cast(part, &mut random));
         drawn.ok_or(SampleError(variant))
+    }
+
+    /// A stage of a block, by its number.
+    fn stage(&self, place: BlockPlace, layouts: &[Layout], number: usize) -> Result<Stage, SampleError> {
+        let stages = || self.stages.lock().unwrap_or_else(PoisonError::into_inner);
+        let key = (place.block, number);
+        if let Some(stage) = stages().get(&key) {
+            return Ok(stage.clone());
+        }
+        let parts = self.plan.composition.parts(place);
+        let block = random::derive_seed(self.plan.seed, Purpose::Stage, place.block as u64);
+        let mut random = random::stream(block, Purpose::Stage, number as u64);
+        // Blocks begin with different layouts, so that all are used.
+        let mut layouts = layouts.to_vec();
+        let turn = (place.block + number) * LAYOUT_STRIDE % layouts.len().max(1);
+        layouts.rotate_left(turn);
+        let stage = Stage::sample(&parts, &layouts, &mut random)?;
+        let mut stages = stages();
+        if stages.len() == MAX_STAGES {
+            // Blocks are filled nearly in order, so the first are the least likely to be needed again.
+            stages.pop_first();
+        }
+        stages.insert(key, stage.clone());
+        Ok(stage)
     }
 
     /// The run's settings, with a sampled length if the preset requires it.

@@ -34,7 +34,7 @@ fn tar_reads_what_was_exported() {
     for id in ["demo-0000", "demo-0001", "demo-0002"] {
         for (ours, theirs) in [("events", "json"), ("videos", "mp4")] {
             let original = fs::read(path.join(format!("data/{ours}/{id}.{theirs}"))).expect("the original");
-            let ending = if theirs == "json" { "event.json" } else { theirs };
+            let ending = if theirs == "json" { "phase-events" } else { theirs };
             assert!(fs::read(path.join(format!("read/{id}.{ending}"))).expect("a copy") == original);
         }
         let labels = fs::read(path.join(format!("read/{id}.json"))).expect("labels");
