@@ -17,7 +17,7 @@ fn results_do_not_depend_on_the_number_of_jobs() {
     succeed(path, &generate("one", &["--jobs", "1"]));
     succeed(path, &generate("two", &["--jobs", "2"]));
     let (one, two) = (tree(&path.join("one")), tree(&path.join("two")));
-    assert_eq!(one.len(), 5 + 2 * 3);
+    assert_eq!(one.len(), 6 + 2 * 3);
     assert!(
         one == two,
         "{:?}",
