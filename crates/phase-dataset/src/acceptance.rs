@@ -1,10 +1,19 @@
 //! How many scenes were tried for the events of a dataset, and why most were refused.
 
-use crate::slot_record::Refusal;
 use phase_evidence::selection::RejectionReason;
 use phase_sampler::Variant;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+
+/// Why an attempt was rejected.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Refusal {
+    /// The variant of the event that did not show its label.
+    pub variant: Variant,
+    /// Why.
+    pub reason: RejectionReason,
+}
 
 /// How often scenes of one variant showed their label.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]

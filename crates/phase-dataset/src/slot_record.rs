@@ -1,8 +1,6 @@
 //! The attempts at each slot of a dataset, with the reasons for rejection.
 
-use crate::{WriteError, atomic, event_set::SetEntry, manifest::EventEntry};
-use phase_evidence::selection::RejectionReason;
-use phase_sampler::Variant;
+use crate::{WriteError, acceptance::Refusal, atomic, event_set::SetEntry, manifest::EventEntry};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -20,16 +18,6 @@ pub struct SlotRecord {
     /// The set that they form, if they do.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub set: Option<SetEntry>,
-}
-
-/// Why an attempt was rejected.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Refusal {
-    /// The variant of the event that did not show its label.
-    pub variant: Variant,
-    /// Why.
-    pub reason: RejectionReason,
 }
 
 impl SlotRecord {

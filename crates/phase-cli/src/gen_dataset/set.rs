@@ -3,11 +3,11 @@
 use super::slot::{Attempt, Slots, check};
 use crate::{engine, error::CliError, picture};
 use phase_dataset::{
+    acceptance::Refusal,
     checksum::FileEntry,
     composition::SetSlot,
     event_set::{PairEntry, SetEntry, SetPlace, member_id, set_video_path},
     manifest::EventEntry,
-    slot_record::Refusal,
 };
 use phase_event::Event;
 use phase_evidence::{Track, selection::Ending};

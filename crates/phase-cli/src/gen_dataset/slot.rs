@@ -11,11 +11,12 @@ use crate::{
 };
 use core::ops::ControlFlow;
 use phase_dataset::{
+    acceptance::Refusal,
     composition::{BlockPlace, EventSlot, manner_of},
     folder::Folder,
     manifest::{EventEntry, event_path, video_path},
     preset::{Ends, Selection},
-    slot_record::{Refusal, SlotRecord},
+    slot_record::SlotRecord,
 };
 use phase_event::Event;
 use phase_evidence::{

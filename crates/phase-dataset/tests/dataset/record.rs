@@ -1,9 +1,9 @@
 //! Records of slots, and shards.
 
 use phase_dataset::{
-    acceptance::Tally,
+    acceptance::{Refusal, Tally},
     shard::{Shard, slots},
-    slot_record::{Refusal, SlotRecord},
+    slot_record::SlotRecord,
 };
 use phase_evidence::selection::RejectionReason;
 use phase_sampler::Variant;
@@ -74,7 +74,7 @@ fn what_is_no_shard_is_refused() {
         (shard(3, "[]"), "no shard 3 of 2"),
         (shard(0, "[]"), "no shard 0 of 2"),
         (shard(1, none), "0 filled slots instead of 2"),
-        (shard(1, "[]").replace("shard/1", "shard/7"), "format"),
+        (shard(1, "[]").replace("shard/2", "shard/7"), "format"),
         (shard(1, "[")[..60].to_owned(), "truncated"),
         (shard(1, "[]").replace("preset", "recipe"), "recipe"),
     ];

@@ -1,6 +1,6 @@
 //! How many scenes were tried, as a table.
 
-use phase_dataset::{acceptance::Tally, slot_record::Refusal};
+use phase_dataset::acceptance::{Refusal, Tally};
 use phase_evidence::selection::RejectionReason;
 use phase_report::acceptance::table;
 use phase_sampler::Variant;
