@@ -49,6 +49,9 @@ pub struct Export {
 pub fn run(arguments: &Export, context: &Context) -> Result<(), CliError> {
     let (from, out) = (&arguments.folder, &arguments.out);
     let manifest_file = from.join(MANIFEST_FILE);
+    if !from.exists() {
+        return Err(CliError::Usage(format!("{}: does not exist", from.display())));
+    }
     if !manifest_file.is_file() {
         return Err(CliError::NotADataset(from.clone()));
     }

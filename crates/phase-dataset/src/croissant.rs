@@ -2,7 +2,7 @@
 
 use crate::{
     checksum::FileEntry,
-    manifest::Manifest,
+    overview::Overview,
     parquet::{self, Description, ParquetFile},
 };
 use serde_json::{Value, json};
@@ -10,28 +10,28 @@ use serde_json::{Value, json};
 /// The file's name.
 pub const CROISSANT_FILE: &str = "croissant.json";
 
-/// The description of a dataset whose Parquet files are described in its manifest: every file that does not
+/// The description of a dataset whose Parquet files are described: every file that does not
 /// belong to a single event with its checksum, and a record set for each Parquet file. The manifest itself,
 /// which is written later, has the checksums of the events' own files.
 #[must_use]
-pub fn croissant(manifest: &Manifest, about: &str) -> String {
-    let parts = parquet::parts(&manifest.events);
+pub fn croissant(overview: &Overview, about: &str) -> String {
+    let parts = parquet::parts(&overview.splits);
     let columns = parquet::descriptions();
     let mut value = json!({
         "@context": context(),
         "@type": "sc:Dataset",
         "conformsTo": "http://mlcommons.org/croissant/1.0",
-        "name": name(manifest),
+        "name": name(overview),
         "description": about,
         "license": ["https://spdx.org/licenses/MIT", "https://spdx.org/licenses/Apache-2.0"],
         "version": "1.0.0",
         "citeAs": "Netanyahu, Shu, Katz, Barbu and Tenenbaum: PHASE: PHysically-grounded Abstract Social Events \
                    for Machine Social Perception. AAAI 2021.",
-        "creator": {"@type": "sc:Organization", "name": manifest.generator},
-        "distribution": manifest.files.iter().map(file).collect::<Vec<_>>(),
+        "creator": {"@type": "sc:Organization", "name": overview.generator},
+        "distribution": overview.files.iter().map(file).collect::<Vec<_>>(),
         "recordSet": parts.iter().map(|part| record_set(part, &parts, &columns)).collect::<Vec<_>>(),
     });
-    if let Some(date) = &manifest.date_published {
+    if let Some(date) = &overview.date_published {
         value["datePublished"] = date.as_str().into();
     }
     format!("{value:#}\n")
@@ -46,8 +46,8 @@ pub fn checksums(description: &Value) -> Vec<(&str, &str)> {
         .collect()
 }
 
-fn name(manifest: &Manifest) -> String {
-    format!("{}-seed{}", manifest.preset, manifest.seed)
+fn name(overview: &Overview) -> String {
+    format!("{}-seed{}", overview.preset, overview.seed)
 }
 
 fn file(entry: &FileEntry) -> Value {
@@ -66,15 +66,14 @@ fn file(entry: &FileEntry) -> Value {
 }
 
 /// The events of one file; named after the split, and the file's number if the split has several.
-fn record_set(part: &ParquetFile<'_>, parts: &[ParquetFile<'_>], columns: &[Description]) -> Value {
-    let same: Vec<&ParquetFile<'_>> = parts.iter().filter(|other| other.split == part.split).collect();
-    let number = same.iter().position(|other| other.path == part.path).unwrap_or_default();
+fn record_set(part: &ParquetFile, parts: &[ParquetFile], columns: &[Description]) -> Value {
+    let files = parts.iter().filter(|other| other.split == part.split).count();
     let split = part.split.name();
-    let name = if same.len() == 1 { split.to_owned() } else { format!("{split}-{number:05}") };
+    let name = if files == 1 { split.to_owned() } else { format!("{split}-{:05}", part.number) };
     let field = |column: &Description| field(&name, &part.path, column);
     json!({
         "@type": "cr:RecordSet", "@id": name, "name": name, "key": {"@id": format!("{name}/id")},
-        "description": format!("{} events, one a record", part.events.len()),
+        "description": format!("{} events, one a record", part.events),
         "field": columns.iter().map(field).collect::<Vec<_>>(),
     })
 }

@@ -100,6 +100,17 @@ pub struct WriteError {
     pub source: io::Error,
 }
 
+/// Why a file that describes a dataset was not written.
+#[derive(Debug, Error)]
+pub enum ExportError {
+    /// A file of an event or a record cannot be read back.
+    #[error(transparent)]
+    Read(#[from] FileError),
+    /// A file cannot be written.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+}
+
 impl WriteError {
     /// A file whose contents cannot be written as JSON.
     #[must_use]

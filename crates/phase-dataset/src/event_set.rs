@@ -106,18 +106,18 @@ pub fn set_video_path(id: &str) -> String {
     format!("videos/{id}.mp4")
 }
 
-/// The table of all pairs, as CSV; `stance` gives that of an event by its name.
+/// The first line of the table of all pairs, which is CSV. Neither names nor numbers need quoting.
+pub const PAIRS_HEADER: &str = "set,event_a,event_b,stance_a,stance_b,changed_agent,first_step,seen_step,seen_s,seen_entity,\
+     seen_x_a,seen_y_a,seen_x_b,seen_y_b,changed_agent_seen_step,other_agent_seen_step,farthest_u\n";
+
+/// The rows of a set in that table; `place` gives that of an event by its name.
 #[must_use]
-pub fn pairs_table<'a>(sets: &[SetEntry], stance: impl Fn(&str) -> Option<&'a SetPlace>) -> String {
-    // Neither names nor numbers need quoting.
-    let mut text = String::from(
-        "set,event_a,event_b,stance_a,stance_b,changed_agent,first_step,seen_step,seen_s,seen_entity,\
-         seen_x_a,seen_y_a,seen_x_b,seen_y_b,changed_agent_seen_step,other_agent_seen_step,farthest_u\n",
-    );
+pub fn pair_rows<'a>(set: &SetEntry, place: impl Fn(&str) -> Option<&'a SetPlace>) -> String {
+    let mut text = String::new();
     let number = |value: Option<usize>| value.map_or_else(String::new, |value| value.to_string());
-    for (set, pair) in sets.iter().flat_map(|set| set.pairs.iter().map(move |pair| (set, pair))) {
+    for pair in &set.pairs {
         let [one, other] =
-            [0, 1].map(|k: usize| stance(&pair.events[k]).map_or("", |place| place.stance.name()));
+            [0, 1].map(|k: usize| place(&pair.events[k]).map_or("", |place| place.stance.name()));
         let of_agent = |agent: AgentId| number(pair.entities.get(agent.index()).copied().flatten());
         let seen = pair.seen.as_ref().map_or_else(
             || ",,,,,,".to_owned(),

@@ -1,7 +1,8 @@
 //! PHASE events on disk: files, formats, checksums, and folders shared by several runs.
 //!
 //! - [`phase_events`] reads files of the exchange format `phase-events/1`, whose events `phase-event` describes.
-//! - [`manifest`] describes a generated dataset to programs; pages and tables for people are made elsewhere.
+//! - [`manifest`] describes a generated dataset to programs, [`overview`] is the same without its events; pages and tables
+//!   for people are made elsewhere.
 //! - [`parquet`] and [`croissant`] are for external tools; [`mod@verify`] checks that all files agree.
 //! - [`event_set`] describes minimal pairs. [`preset`] defines the composition of a dataset, [`splits`] how it is divided, [`slot_record`],
 //!   [`acceptance`] and [`shard`] what was tried for each of its events.
@@ -49,6 +50,8 @@ pub mod folder;
 pub mod json;
 pub mod labels;
 pub mod manifest;
+pub mod manifest_writer;
+pub mod overview;
 pub mod parquet;
 pub mod phase_events;
 pub mod preset;
@@ -60,4 +63,4 @@ pub mod summary;
 pub mod verify;
 pub mod video_table;
 
-pub use error::{FileError, Problem, WriteError};
+pub use error::{ExportError, FileError, Problem, WriteError};

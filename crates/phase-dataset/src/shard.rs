@@ -1,15 +1,27 @@
 //! `shard.json`: one part of a dataset that is generated in several places.
 
-use crate::{FileError, Problem, WriteError, atomic, json, slot_record::SlotRecord};
+use crate::{
+    ExportError, FileError, Problem, WriteError,
+    atomic::{self, AtomicFile},
+    checksum::FileEntry,
+    json,
+    slot_record::{Records, SlotRecord},
+};
 use phase_model::json::check_format;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
-use std::path::Path;
+use std::{
+    fs::File,
+    io::{BufRead, BufReader, Seek, SeekFrom, Write},
+    path::{Path, PathBuf},
+};
 
 /// The value of the field `format` of shards.
-pub const SHARD_FORMAT: &str = "phase-shard/2";
+pub const SHARD_FORMAT: &str = "phase-shard/3";
 /// The shard's file name. It is written last: a folder with it is complete.
 pub const SHARD_FILE: &str = "shard.json";
+/// File name of the records of a shard's slots: one a line, as JSON.
+pub const SLOTS_FILE: &str = "slots.jsonl";
 
 /// What a dataset is, apart from its events: the same for all of its shards.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
@@ -55,40 +67,137 @@ pub struct Shard {
     pub of: usize,
     /// The dataset it is a part of.
     pub whole: DatasetDescription,
-    /// The records of its slots, in order.
-    pub slots: Vec<SlotRecord>,
+    /// Digest of the program, its settings and the preset, as in every record.
+    pub fingerprint: String,
+    /// The records of its slots, in order: [`SLOTS_FILE`].
+    pub slots: FileEntry,
 }
 
 impl Shard {
-    /// Reads a shard and checks that it has an event for each of its slots.
+    /// Describes a shard whose records have been written.
+    ///
+    /// # Errors
+    /// If they cannot be read.
+    pub fn of_records(
+        folder: &Path,
+        (shard, of): (usize, usize),
+        whole: DatasetDescription,
+        fingerprint: String,
+    ) -> Result<Self, FileError> {
+        let slots = FileEntry::of(folder, SLOTS_FILE)?;
+        Ok(Self { format: SHARD_FORMAT.into(), shard, of, whole, fingerprint, slots })
+    }
+
+    /// Reads what a folder's shard is, and checks that its records are as they were written.
     ///
     /// # Errors
     /// If it is not JSON, of another format, or incomplete.
-    pub fn read(path: &Path) -> Result<Self, FileError> {
-        let fail = |problem| FileError { file: path.to_owned(), problem };
+    pub fn read(folder: &Path) -> Result<Self, FileError> {
+        let path = folder.join(SHARD_FILE);
+        let fail = |problem| FileError { file: path.clone(), problem };
         let what = "shard of a dataset";
-        let shape = |rule: String| Problem::Shape { what, rule };
-        let value = json::read(path)?;
+        let value = json::read(&path)?;
         check_format(&value, SHARD_FORMAT).map_err(|error| fail(error.into()))?;
         let shard: Self =
             serde_json::from_value(value).map_err(|source| fail(Problem::Incomplete { what, source }))?;
         if shard.shard == 0 || shard.shard > shard.of {
-            return Err(fail(shape(format!("there is no shard {} of {}", shard.shard, shard.of))));
+            let rule = format!("there is no shard {} of {}", shard.shard, shard.of);
+            return Err(fail(Problem::Shape { what, rule }));
         }
-        let expected = slots(shard.shard, shard.of, shard.whole.slots).count();
-        if shard.slots.len() != expected || !shard.slots.iter().all(SlotRecord::is_filled) {
-            let found = shard.slots.iter().filter(|slot| slot.is_filled()).count();
-            return Err(fail(shape(format!("it holds {found} filled slots instead of {expected}"))));
-        }
+        shard.slots.verify(folder)?;
         Ok(shard)
     }
 
-    /// Writes the shard atomically.
+    /// Writes it atomically.
     ///
     /// # Errors
     /// If it cannot be written as JSON, or the file cannot be written.
-    pub fn write(&self, path: &Path) -> Result<(), WriteError> {
-        atomic::write_json_line(path, self)
+    pub fn write(&self, folder: &Path) -> Result<(), WriteError> {
+        atomic::write_json(&folder.join(SHARD_FILE), self)
+    }
+
+    /// Number of its slots.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        slots(self.shard, self.of, self.whole.slots).count()
+    }
+
+    /// Whether it has no slot, as happens if there are more shards than slots.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The records of its slots in a folder, in order.
+    #[must_use]
+    pub fn records(&self, folder: &Path) -> SlotReader {
+        let (file, fingerprint) = (folder.join(SLOTS_FILE), self.fingerprint.clone());
+        SlotReader { file, fingerprint, offset: 0, left: self.len() }
+    }
+}
+
+/// Writes the records of a shard, one a line, atomically.
+///
+/// # Errors
+/// [`ExportError`].
+pub fn write_slots(folder: &Path, records: &dyn Records) -> Result<(), ExportError> {
+    let path = folder.join(SLOTS_FILE);
+    let mut file = AtomicFile::create(&path)?;
+    for record in records.records() {
+        let line = serde_json::to_string(&record?).map_err(|error| WriteError::json(&path, error))?;
+        writeln!(file, "{line}").map_err(|source| file.failed(source))?;
+    }
+    Ok(file.commit()?)
+}
+
+/// Reads the records of a shard one after the other. The file is opened for each of them, because a dataset may have more
+/// shards than a process may have open files.
+#[derive(Debug)]
+pub struct SlotReader {
+    file: PathBuf,
+    fingerprint: String,
+    offset: u64,
+    left: usize,
+}
+
+impl SlotReader {
+    fn read(&mut self) -> Result<SlotRecord, FileError> {
+        let fail = |problem| FileError { file: self.file.clone(), problem };
+        let what = "list of slots";
+        let mut line = String::new();
+        let read = |line: &mut String| {
+            let mut file = File::open(&self.file)?;
+            file.seek(SeekFrom::Start(self.offset))?;
+            BufReader::new(file).read_line(line)
+        };
+        let bytes = read(&mut line).map_err(|error| fail(Problem::Unreadable(error)))?;
+        if bytes == 0 {
+            let rule = format!("the records of {} slots are missing", self.left);
+            return Err(fail(Problem::Shape { what, rule }));
+        }
+        self.offset += bytes as u64;
+        let record: SlotRecord =
+            serde_json::from_str(&line).map_err(|source| fail(Problem::Incomplete { what, source }))?;
+        let rule = match (record.is_filled(), record.fingerprint == self.fingerprint) {
+            (true, true) => return Ok(record),
+            (false, _) => "a slot holds no event",
+            (true, false) => "a slot is of another program or of other settings",
+        };
+        Err(fail(Problem::Shape { what, rule: rule.into() }))
+    }
+}
+
+impl Iterator for SlotReader {
+    type Item = Result<SlotRecord, FileError>;
+
+    /// The next record; none after an error.
+    fn next(&mut self) -> Option<Self::Item> {
+        if self.left == 0 {
+            return None;
+        }
+        let record = self.read();
+        self.left = if record.is_ok() { self.left - 1 } else { 0 };
+        Some(record)
     }
 }
 

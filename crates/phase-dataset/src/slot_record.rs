@@ -1,8 +1,17 @@
 //! The attempts at each slot of a dataset, with the reasons for rejection.
 
-use crate::{WriteError, acceptance::Refusal, atomic, event_set::SetEntry, manifest::EventEntry};
+use crate::{
+    FileError, Problem, WriteError, acceptance::Refusal, atomic, event_set::SetEntry, manifest::EventEntry,
+};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
+
+/// The records of all slots of a dataset, or of a shard, in order. They are read from disk in every pass over them, so that a
+/// dataset may have any number of slots.
+pub trait Records {
+    /// A pass over the records, all of which are filled.
+    fn records(&self) -> Box<dyn Iterator<Item = Result<SlotRecord, FileError>> + '_>;
+}
 
 /// The history of one slot of a dataset so far. Attempts are numbered from 0; those before the accepted one
 /// were rejected.
@@ -29,6 +38,19 @@ impl SlotRecord {
             .ok()
             .filter(|record: &Self| record.fingerprint == fingerprint)
             .unwrap_or_else(|| Self { fingerprint: fingerprint.into(), ..Self::default() })
+    }
+
+    /// The record in a file, which has to be filled.
+    ///
+    /// # Errors
+    /// [`Problem::Shape`] if it is not.
+    pub fn load_filled(path: &Path, fingerprint: &str) -> Result<Self, FileError> {
+        let record = Self::load(path, fingerprint);
+        if record.is_filled() {
+            return Ok(record);
+        }
+        let problem = Problem::Shape { what: "record of a slot", rule: "it holds no event".into() };
+        Err(FileError { file: path.to_owned(), problem })
     }
 
     /// Writes the record atomically.

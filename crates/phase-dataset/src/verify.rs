@@ -8,6 +8,7 @@ use crate::{
     event_set::{PairEntry, SetEntry},
     json,
     manifest::{CARD_FILE, EventEntry, MANIFEST_FILE, Manifest, PAGE_FILE},
+    overview::Overview,
     parquet::{self, ParquetFile},
 };
 use core::convert::Infallible;
@@ -71,7 +72,7 @@ pub fn verify_with<E>(
         broken.extend(problem.is_some().then_some(entry.event.path.as_str()));
         problems.extend(problem);
     }
-    let parts = parquet::parts(&manifest.events);
+    let parts = parquet::parts(&Overview::of(manifest).splits);
     // The page exists only if there are videos.
     let page = manifest.events.iter().any(|event| event.video.is_some()).then_some(PAGE_FILE);
     let described = [CARD_FILE, CROISSANT_FILE].into_iter().chain(page);
@@ -89,17 +90,19 @@ pub fn verify_with<E>(
     if readable(CROISSANT_FILE) {
         problems.extend(croissant(folder, &files).err());
     }
+    let members = members(manifest);
     let sets = run(manifest.sets.len(), &|k| {
         let set = &manifest.sets[k];
-        let members: Vec<&EventEntry> = members(manifest, set).collect();
+        let members = members.get(set.id.as_str()).map_or(&[][..], Vec::as_slice);
         let whole = members.iter().all(|entry| readable(&entry.event.path));
-        whole.then(|| pairs(folder, set, &members).err()).flatten()
+        whole.then(|| pairs(folder, set, members).err()).flatten()
     })?;
     problems.extend(sets.into_iter().flatten());
-    let whole = |part: &&ParquetFile<'_>| {
-        readable(&part.path) && part.events.iter().all(|entry| readable(&entry.event.path))
+    let with_events = parts.iter().map(|part| (part, part.of(&manifest.events)));
+    let whole = |(part, events): &(&ParquetFile, Vec<&EventEntry>)| {
+        readable(&part.path) && events.iter().all(|entry| readable(&entry.event.path))
     };
-    problems.extend(compare(folder, &parts.iter().filter(whole).collect::<Vec<_>>(), done, run)?);
+    problems.extend(compare(folder, &with_events.filter(whole).collect::<Vec<_>>(), done, run)?);
     Ok(problems)
 }
 
@@ -112,16 +115,17 @@ pub fn work(manifest: &Manifest) -> usize {
 /// Compares Parquet files with the event files, share by share; one error for each file.
 fn compare<E>(
     folder: &Path,
-    parts: &[&ParquetFile<'_>],
+    parts: &[(&ParquetFile, Vec<&EventEntry>)],
     done: &(dyn Fn(usize) + Sync),
     run: impl Fn(usize, &Check<'_>) -> Result<Vec<Option<FileError>>, E>,
 ) -> Result<Vec<FileError>, E> {
-    let of_part = |number: usize| (0..parquet::shares(parts[number])).map(move |share| (number, share));
+    let of_part = |number: usize| (0..parquet::shares(parts[number].0)).map(move |share| (number, share));
     let shares: Vec<(usize, usize)> = (0..parts.len()).flat_map(of_part).collect();
     let answers = run(shares.len(), &|k| {
         let (number, share) = shares[k];
-        let answer = parquet::compare_share(folder, parts[number], share).err();
-        done(parts[number].events.len() / parquet::shares(parts[number]));
+        let (part, events) = &parts[number];
+        let answer = parquet::compare_share(folder, part, events, share).err();
+        done(part.events / parquet::shares(part));
         answer
     })?;
     let mut found: BTreeMap<usize, FileError> = BTreeMap::new();
@@ -212,9 +216,15 @@ fn event(folder: &Path, entry: &EventEntry) -> Result<(), FileError> {
     }
 }
 
-/// The events of a set, in order.
-fn members<'a>(manifest: &'a Manifest, set: &'a SetEntry) -> impl Iterator<Item = &'a EventEntry> {
-    manifest.events.iter().filter(|entry| entry.set.as_ref().is_some_and(|place| place.set == set.id))
+/// The events of each set, in order.
+fn members(manifest: &Manifest) -> BTreeMap<&str, Vec<&EventEntry>> {
+    let mut members: BTreeMap<&str, Vec<&EventEntry>> = BTreeMap::new();
+    for entry in &manifest.events {
+        if let Some(place) = &entry.set {
+            members.entry(&place.set).or_default().push(entry);
+        }
+    }
+    members
 }
 
 /// Checks that the events of a set part where the manifest says.

@@ -7,28 +7,24 @@ use std::path::Path;
 /// The file, in a dataset's folder.
 pub const VIDEO_TABLE_FILE: &str = "videos/metadata.csv";
 
-/// One row for each event with a video. Names of files are relative to the folder of the table.
+/// Its first line. No value needs quoting: ids and names have neither commas nor quotes.
+pub const VIDEO_TABLE_HEADER: &str = "file_name,id,kind,variant,relation,split,set,stance\n";
+
+/// The row of an event; none if it has no video. Names of files are relative to the folder of the table.
 #[must_use]
-pub fn video_table(events: &[EventEntry]) -> String {
-    // No value needs quoting: ids and names have neither commas nor quotes.
-    let mut text = String::from("file_name,id,kind,variant,relation,split,set,stance\n");
-    for event in events {
-        let Some(file) = event.video.as_ref().and_then(|video| Path::new(&video.path).file_name()) else {
-            continue;
-        };
-        let (set, stance) =
-            event.set.as_ref().map_or(("", ""), |place| (place.set.as_str(), place.stance.name()));
-        let fields = [
-            &*file.to_string_lossy(),
-            &event.id,
-            event.kind.name(),
-            event.variant.map_or("", phase_sampler::Variant::name),
-            describe::relation(event.relation),
-            event.split().name(),
-            set,
-            stance,
-        ];
-        text += &format!("{}\n", fields.join(","));
-    }
-    text
+pub fn video_row(event: &EventEntry) -> Option<String> {
+    let file = event.video.as_ref().and_then(|video| Path::new(&video.path).file_name())?;
+    let (set, stance) =
+        event.set.as_ref().map_or(("", ""), |place| (place.set.as_str(), place.stance.name()));
+    let fields = [
+        &*file.to_string_lossy(),
+        &event.id,
+        event.kind.name(),
+        event.variant.map_or("", phase_sampler::Variant::name),
+        describe::relation(event.relation),
+        event.split().name(),
+        set,
+        stance,
+    ];
+    Some(format!("{}\n", fields.join(",")))
 }

@@ -4,7 +4,7 @@
 use crate::features::features;
 use phase_dataset::{
     describe,
-    manifest::Manifest,
+    overview::Overview,
     parquet::{self, FOLDER},
     splits::Split,
 };
@@ -19,8 +19,8 @@ const SETS: &str = "| `pairs.csv` | where and when every two events of a set par
 /// The dataset's file for people: what it is, how it was generated, what it contains, and its licence. `shortcuts` tells
 /// what can be predicted without looking at motion, in Markdown.
 #[must_use]
-pub fn card(manifest: &Manifest, command: &str, shortcuts: &str) -> String {
-    let has_videos = manifest.events.iter().any(|event| event.video.is_some());
+pub fn card(overview: &Overview, command: &str, shortcuts: &str) -> String {
+    let has_videos = overview.videos;
     format!(
         "{front}# {preset}: {count} PHASE events\n\n\
          {about}\n\n\
@@ -57,25 +57,25 @@ pub fn card(manifest: &Manifest, command: &str, shortcuts: &str) -> String {
          - Beliefs are in it as far as they show in subgoals and their shares; the particles themselves are \
          recomputed from an event file.\n\n\
          ## Licence\n\nMIT OR Apache-2.0, as the program's.\n",
-        front = front_matter(manifest),
+        front = front_matter(overview),
         page = if has_videos { PAGE } else { "" },
         videos = if has_videos { VIDEOS } else { "" },
-        set_videos = if has_videos && !manifest.sets.is_empty() { SET_VIDEOS } else { "" },
-        sets = if manifest.sets.is_empty() { "" } else { SETS },
-        preset = manifest.preset,
-        count = manifest.events.len(),
+        set_videos = if has_videos && overview.sets > 0 { SET_VIDEOS } else { "" },
+        sets = if overview.sets > 0 { SETS } else { "" },
+        preset = overview.preset,
+        count = overview.events,
         about = about(),
-        kinds = kinds(manifest),
-        splits = splits(manifest),
+        kinds = kinds(overview),
+        splits = splits(overview),
         columns = columns(),
-        selected = selected(manifest),
-        generator = manifest.generator,
+        selected = selected(overview),
+        generator = overview.generator,
     )
 }
 
 /// Whether events were checked to show their labels.
-const fn selected(manifest: &Manifest) -> &'static str {
-    if manifest.selection.is_empty() {
+const fn selected(overview: &Overview) -> &'static str {
+    if overview.selection.is_empty() {
         "Nothing has checked that it shows."
     } else {
         "Events in which a program did not find it shown were left out; how many, and why, is in `selection` of \
@@ -92,8 +92,8 @@ pub const fn about() -> &'static str {
 }
 
 /// Metadata for programs: licence, size, and which files make up which split.
-fn front_matter(manifest: &Manifest) -> String {
-    let size = match manifest.events.len() {
+fn front_matter(overview: &Overview) -> String {
+    let size = match overview.events {
         0..1_000 => "n<1K",
         1_000..10_000 => "1K<n<10K",
         10_000..100_000 => "10K<n<100K",
@@ -101,12 +101,11 @@ fn front_matter(manifest: &Manifest) -> String {
         _ => "1M<n<10M",
     };
     let mut files = String::new();
-    for split in used_splits(manifest) {
-        let name = split.name();
+    for name in overview.splits.keys().map(|split| split.name()) {
         files.push_str(&format!("  - split: {name}\n    path: {FOLDER}/{name}-*.parquet\n"));
     }
     // JSON strings are valid YAML strings.
-    let name = serde_json::Value::from(format!("PHASE events: {}", manifest.preset));
+    let name = serde_json::Value::from(format!("PHASE events: {}", overview.preset));
     format!(
         "---\npretty_name: {name}\nlicense:\n- mit\n- apache-2.0\nlanguage:\n- en\nsize_categories:\n- {size}\n\
          task_categories:\n- time-series-forecasting\n- video-classification\n\
@@ -116,27 +115,17 @@ fn front_matter(manifest: &Manifest) -> String {
     )
 }
 
-fn kinds(manifest: &Manifest) -> String {
-    let mut lines = String::new();
-    for kind in EventKind::ALL {
-        let count = manifest.events.iter().filter(|event| event.kind == kind).count();
-        if count > 0 {
-            lines.push_str(&format!("| {} | {count} | {} |\n", kind.name(), describe::kind(kind)));
-        }
-    }
-    lines
+fn kinds(overview: &Overview) -> String {
+    let line = |(&kind, count): (&EventKind, &usize)| {
+        format!("| {} | {count} | {} |\n", kind.name(), describe::kind(kind))
+    };
+    let present = EventKind::ALL.iter().filter_map(|kind| overview.kinds.get_key_value(kind));
+    present.map(line).collect()
 }
 
-fn splits(manifest: &Manifest) -> String {
-    let lines = used_splits(manifest).map(|split| {
-        let count = manifest.events.iter().filter(|event| event.split() == split).count();
-        format!("| {} | {count} |\n", split.name())
-    });
-    format!("| split | events |\n|---|---|\n{}\n", lines.collect::<String>())
-}
-
-fn used_splits(manifest: &Manifest) -> impl Iterator<Item = Split> + '_ {
-    Split::ALL.into_iter().filter(|&split| manifest.events.iter().any(|event| event.split() == split))
+fn splits(overview: &Overview) -> String {
+    let line = |(split, count): (&Split, &usize)| format!("| {} | {count} |\n", split.name());
+    format!("| split | events |\n|---|---|\n{}\n", overview.splits.iter().map(line).collect::<String>())
 }
 
 fn columns() -> String {

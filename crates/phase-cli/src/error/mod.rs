@@ -6,7 +6,7 @@ pub mod train;
 use crate::program::Failure;
 #[cfg(feature = "networks")]
 use phase_baselines::training::{NetworkError, TrainingRecordError};
-use phase_dataset::{FileError, WriteError, folder::FolderError, parquet::ExportError};
+use phase_dataset::{ExportError, FileError, WriteError, folder::FolderError};
 use phase_eval::MethodError;
 use phase_event::EventWriteError;
 use phase_model::EventKind;

@@ -1,42 +1,46 @@
 //! Files written once all events of a dataset exist: everything that describes the whole.
 //!
-//! Events are read back from the folder one at a time, so memory grows with the number of events only by
-//! their entries in the manifest. Code for further files of a dataset belongs here.
+//! Records and events are read back from the folder one at a time, in two passes: the first counts, the second writes what
+//! lists them. So memory does not grow with the number of events. Code for further files of a dataset belongs here.
 
-use crate::{error::CliError, gallery_writer::GalleryWriter, interrupt, shortcuts};
+use crate::{context::Context, error::CliError, gallery_writer::GalleryWriter, interrupt, shortcuts};
 use phase_audit::{AuditItem, MAX_EVENTS, audit};
 use phase_dataset::{
     FileError, Problem,
     acceptance::Tally,
-    atomic,
+    atomic::{self, AtomicFile},
     checksum::FileEntry,
     croissant::{CROISSANT_FILE, croissant},
-    event_set::{PAIRS_FILE, pairs_table},
-    manifest::{CARD_FILE, DATASET_FORMAT, EventEntry, MANIFEST_FILE, Manifest},
-    parquet, phase_events,
+    event_set::{PAIRS_FILE, PAIRS_HEADER, pair_rows},
+    manifest::{CARD_FILE, EventEntry, MANIFEST_FILE},
+    manifest_writer::write_manifest,
+    overview::Overview,
+    parquet::ParquetWriter,
+    phase_events,
     shard::DatasetDescription,
-    slot_record::SlotRecord,
-    video_table::{VIDEO_TABLE_FILE, video_table},
+    slot_record::Records,
+    video_table::{VIDEO_TABLE_FILE, VIDEO_TABLE_HEADER, video_row},
 };
 use phase_event::Recording;
 use phase_report::{
     card::{self, card},
     gallery::{Gallery, Timeline},
 };
-use std::path::Path;
+use std::{io::Write, path::Path};
 
 /// Writes the files that describe the whole; the manifest last, since with it the dataset is complete.
 /// `records` are those of all slots, in order.
 ///
 /// # Errors
-/// If an event cannot be read back, a file cannot be written, or the run was interrupted.
+/// If a record or an event cannot be read back, a file cannot be written, or the run was interrupted.
 pub fn complete(
     out: &Path,
     whole: &DatasetDescription,
-    records: impl Iterator<Item = SlotRecord>,
-) -> Result<Manifest, CliError> {
-    let (mut events, mut sets) = (Vec::new(), Vec::new());
-    let mut tally = Tally::default();
+    records: &dyn Records,
+    context: &Context,
+) -> Result<Overview, CliError> {
+    let progress = context.progress_over("writing tables, page and manifest", whole.events);
+    let mut overview = count(whole, records)?;
     let gallery = Gallery {
         preset: &whole.preset,
         generator: &whole.generator,
@@ -44,63 +48,100 @@ pub fn complete(
         events: whole.events,
     };
     let mut pages = whole.videos.then(|| GalleryWriter::new(out, gallery));
+    let mut parquet = ParquetWriter::new(out, &overview.splits)?;
+    let videos = whole.videos.then_some((VIDEO_TABLE_FILE, VIDEO_TABLE_HEADER));
+    let mut videos = videos.map(|(name, header)| Table::create(out, name, header)).transpose()?;
+    let sets = (overview.sets > 0).then_some((PAIRS_FILE, PAIRS_HEADER));
+    let mut sets = sets.map(|(name, header)| Table::create(out, name, header)).transpose()?;
     let mut audited = Vec::new();
-    for record in records {
-        tally.add(record.entries.iter().filter_map(|entry| entry.variant), &record.refused);
+    for record in records.records() {
+        let record = record.map_err(CliError::ReadBack)?;
+        if let (Some(table), Some(set)) = (&mut sets, &record.set) {
+            let place = |id: &str| record.entries.iter().find(|entry| entry.id == id)?.set.as_ref();
+            table.add(&pair_rows(set, place))?;
+        }
         for entry in record.entries {
+            if interrupt::requested() {
+                return Err(CliError::Interrupted(out.to_owned()));
+            }
             let recording = read_back(out, &entry)?;
             if audited.len() < MAX_EVENTS {
                 audited.push(AuditItem::of(&recording));
             }
-            if let (Some(pages), Some(simulation)) = (&mut pages, &recording.simulation) {
-                pages.push(entry.clone(), Timeline::of(&simulation.event))?;
+            parquet.push(&entry, &recording)?;
+            if let (Some(table), Some(row)) = (&mut videos, video_row(&entry)) {
+                table.add(&row)?;
             }
-            events.push(entry);
+            if let (Some(pages), Some(simulation)) = (&mut pages, &recording.simulation) {
+                pages.push(entry, Timeline::of(&simulation.event))?;
+            }
+            progress.step();
         }
-        sets.extend(record.set);
     }
-    let mut manifest = Manifest {
-        format: DATASET_FORMAT.into(),
-        generator: whole.generator.clone(),
-        preset: whole.preset.clone(),
-        seed: whole.seed,
-        date_published: whole.date_published.clone(),
-        settings: whole.settings.clone(),
-        selection: if whole.selected { tally.rows() } else { Vec::new() },
-        events,
-        sets,
-        files: Vec::new(),
-    };
-    let Some(files) = parquet::export(out, &manifest.events, &interrupt::requested)? else {
-        return Err(CliError::Interrupted(out.to_owned()));
-    };
-    manifest.files = files;
-    if !manifest.sets.is_empty() {
-        let place = |id: &str| manifest.events.iter().find(|entry| entry.id == id)?.set.as_ref();
-        let table = pairs_table(&manifest.sets, place);
-        describe(out, &mut manifest, PAIRS_FILE, &table)?;
+    overview.files = parquet.finish()?;
+    if let Some(table) = sets {
+        table.finish(out, &mut overview)?;
     }
     for page in pages.map_or_else(|| Ok(Vec::new()), GalleryWriter::finish)? {
-        manifest.files.push(FileEntry::of(out, page).map_err(CliError::ReadBack)?);
+        overview.files.push(FileEntry::of(out, page).map_err(CliError::ReadBack)?);
     }
-    if whole.videos {
-        let table = video_table(&manifest.events);
-        describe(out, &mut manifest, VIDEO_TABLE_FILE, &table)?;
+    if let Some(table) = videos {
+        table.finish(out, &mut overview)?;
     }
-    let count = manifest.events.len();
-    let shortcuts = shortcuts::section(audit(&audited, count).as_ref(), count);
-    let text = card(&manifest, &whole.command, &shortcuts);
-    describe(out, &mut manifest, CARD_FILE, &text)?;
-    let text = croissant(&manifest, card::about());
-    describe(out, &mut manifest, CROISSANT_FILE, &text)?;
-    manifest.write(&out.join(MANIFEST_FILE))?;
-    Ok(manifest)
+    let shortcuts = shortcuts::section(audit(&audited, overview.events).as_ref(), overview.events);
+    let text = card(&overview, &whole.command, &shortcuts);
+    describe(out, &mut overview, CARD_FILE, &text)?;
+    let text = croissant(&overview, card::about());
+    describe(out, &mut overview, CROISSANT_FILE, &text)?;
+    write_manifest(&out.join(MANIFEST_FILE), &overview, records)?;
+    Ok(overview)
+}
+
+/// Counts attempts and events.
+fn count(whole: &DatasetDescription, records: &dyn Records) -> Result<Overview, CliError> {
+    let mut overview = Overview::new(whole);
+    let mut tally = Tally::default();
+    for record in records.records() {
+        let record = record.map_err(CliError::ReadBack)?;
+        tally.add(record.entries.iter().filter_map(|entry| entry.variant), &record.refused);
+        record.entries.iter().for_each(|entry| overview.count(entry));
+        overview.sets += usize::from(record.set.is_some());
+    }
+    if whole.selected {
+        overview.selection = tally.rows();
+    }
+    Ok(overview)
+}
+
+/// A file that does not belong to a single event, and is written line by line.
+struct Table {
+    name: &'static str,
+    file: AtomicFile,
+}
+
+impl Table {
+    fn create(out: &Path, name: &'static str, header: &str) -> Result<Self, CliError> {
+        let mut table = Self { name, file: AtomicFile::create(&out.join(name))? };
+        table.add(header)?;
+        Ok(table)
+    }
+
+    fn add(&mut self, text: &str) -> Result<(), CliError> {
+        self.file.write_all(text.as_bytes()).map_err(|source| self.file.failed(source).into())
+    }
+
+    /// Completes the file and adds it to the manifest.
+    fn finish(self, out: &Path, overview: &mut Overview) -> Result<(), CliError> {
+        self.file.commit()?;
+        overview.files.push(FileEntry::of(out, self.name).map_err(CliError::ReadBack)?);
+        Ok(())
+    }
 }
 
 /// Writes a file that does not belong to a single event, and adds it to the manifest.
-fn describe(out: &Path, manifest: &mut Manifest, name: &str, text: &str) -> Result<(), CliError> {
+fn describe(out: &Path, overview: &mut Overview, name: &str, text: &str) -> Result<(), CliError> {
     atomic::write(&out.join(name), text.as_bytes())?;
-    manifest.files.push(FileEntry::of(out, name).map_err(CliError::ReadBack)?);
+    overview.files.push(FileEntry::of(out, name).map_err(CliError::ReadBack)?);
     Ok(())
 }
 

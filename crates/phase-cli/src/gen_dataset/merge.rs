@@ -1,16 +1,16 @@
 //! `merge`: combines the shards of a dataset.
 
 use super::{announce, complete::complete, options::Merge, run_value};
-use crate::{context::Context, error::CliError, interrupt};
+use crate::{console, context::Context, error::CliError, interrupt};
 use phase_dataset::{
-    atomic,
+    FileError, atomic,
     checksum::FileEntry,
     error::WriteError,
     folder::{self, Contents, Folder},
     manifest::MANIFEST_FILE,
     parquet,
-    shard::{SHARD_FILE, Shard},
-    slot_record::SlotRecord,
+    shard::{SHARD_FILE, Shard, SlotReader},
+    slot_record::{Records, SlotRecord},
 };
 use std::{
     fs,
@@ -44,21 +44,25 @@ pub fn run(arguments: &Merge, context: &Context) -> Result<(), CliError> {
         folder.subfolder("videos")?;
     }
     folder.subfolder(parquet::FOLDER)?;
-    context.note(format!("copying the events of {} shards", shards.0.len()));
+    let whole = &shards.first().whole;
+    let progress = context.progress_over(
+        &format!("copying {} of {} shards", console::events(whole.events), shards.0.len()),
+        whole.slots,
+    );
     for (shard, from) in &shards.0 {
-        for slot in &shard.slots {
+        for record in shard.records(from) {
             if interrupt::requested() {
                 return Err(CliError::Interrupted(out.clone()));
             }
-            slot.files().try_for_each(|file| copy(file, from, out))?;
+            record?.files().try_for_each(|file| copy(file, from, out))?;
+            progress.step();
         }
     }
-    let whole = shards.first().whole.clone();
-    context.note("writing tables, page and manifest");
-    let manifest = complete(out, &whole, shards.records())?;
+    drop(progress);
+    let overview = complete(out, whole, &shards, context)?;
     folder.finish()?;
     let more = format!("the {} shards are no longer needed", shards.0.len());
-    announce(out, &manifest, arguments.output, &more)
+    announce(out, &overview, arguments.output, &more)
 }
 
 /// All shards of one dataset, in order, with their folders; never empty.
@@ -74,19 +78,14 @@ impl Shards {
                 let sentence = format!("{}: holds no finished shard (no {SHARD_FILE})", folder.display());
                 return Err(CliError::Usage(sentence));
             }
-            shards.push((Shard::read(&file)?, folder.clone()));
+            shards.push((Shard::read(folder)?, folder.clone()));
         }
         shards.sort_by_key(|(shard, _)| shard.shard);
         let Some((first, place)) = shards.first() else {
             return Err(CliError::Usage("merge needs the folders of all shards".into()));
         };
-        let print = |shard: &Shard| shard.slots.first().map(|slot| slot.fingerprint.clone());
         for (shard, folder) in &shards {
-            // A shard without slots does not depend on the program that generated it.
-            let same_program = match (print(shard), print(first)) {
-                (Some(one), Some(other)) => one == other,
-                _ => true,
-            };
+            let same_program = shard.fingerprint == first.fingerprint;
             if shard.of != first.of || shard.whole != first.whole || !same_program {
                 return Err(CliError::Usage(format!(
                     "{}: is no shard of the same run of the same program as {}",
@@ -116,11 +115,14 @@ impl Shards {
     fn first(&self) -> &Shard {
         &self.0[0].0
     }
+}
 
-    /// The records of all slots, in the order of the dataset.
-    fn records(&self) -> impl Iterator<Item = SlotRecord> {
-        let (slots, of) = (self.first().whole.slots, self.0.len());
-        (0..slots).filter_map(move |slot| self.0[slot % of].0.slots.get(slot / of).cloned())
+impl Records for Shards {
+    fn records(&self) -> Box<dyn Iterator<Item = Result<SlotRecord, FileError>> + '_> {
+        let mut readers: Vec<SlotReader> =
+            self.0.iter().map(|(shard, folder)| shard.records(folder)).collect();
+        let of = readers.len();
+        Box::new((0..self.first().whole.slots).filter_map(move |slot| readers[slot % of].next()))
     }
 }
 

@@ -15,18 +15,17 @@ use crate::{context::Context, error::CliError, interrupt, output::Output, parall
 use complete::complete;
 use options::GenDataset;
 use phase_dataset::{
-    checksum::FileEntry,
     folder::{self, Contents, Folder},
     manifest::{MANIFEST_FILE, Manifest, PAGE_FILE},
+    overview::Overview,
     parquet,
-    shard::{DatasetDescription, SHARD_FILE, SHARD_FORMAT, Shard},
-    slot_record::SlotRecord,
+    shard::{self, DatasetDescription, SHARD_FILE, Shard},
 };
 use phase_report::acceptance;
 use phase_sim::Engine;
 use plan::Plan;
 use serde_json::{Value, json};
-use slot::Slots;
+use slot::{FilledSlots, Slots};
 use std::path::{Path, PathBuf};
 
 /// Runs the command.
@@ -59,34 +58,33 @@ pub fn run(arguments: &GenDataset, context: &Context) -> Result<(), CliError> {
     if !for_all(&arguments.jobs, indices.len(), |k| slots.fill(indices[k]))? {
         return Err(CliError::Interrupted(out));
     }
-    let records: Vec<SlotRecord> = indices.iter().map(|&index| slots.record(index)).collect();
     // The progress bar goes with them, before anything else is printed.
     drop(slots);
+    let records = FilledSlots { plan: &plan, folder: &folder };
     if let Some((shard, of)) = plan.shard {
-        let (format, whole) = (SHARD_FORMAT.into(), plan.whole());
-        let shard = Shard { format, shard, of, whole, slots: records };
-        shard.write(&out.join(SHARD_FILE))?;
+        shard::write_slots(&out, &records)?;
+        let header = Shard::of_records(&out, (shard, of), plan.whole(), plan.fingerprint.clone());
+        header.map_err(CliError::ReadBack)?.write(&out)?;
         folder.finish()?;
         let text = format!("{events} events in {}; merge all {of} shards with merge", out.display());
-        let value = json!({ "folder": out, "events": events, "shard": shard.shard, "of": of, "new": true });
+        let value = json!({ "folder": out, "events": events, "shard": shard, "of": of, "new": true });
         return arguments.output.print(text, &value);
     }
-    context.note("writing tables, page and manifest");
-    let manifest = complete(&out, &plan.whole(), records.into_iter())?;
+    let overview = complete(&out, &plan.whole(), &records, context)?;
     folder.finish()?;
-    announce(&out, &manifest, arguments.output, "")
+    announce(&out, &overview, arguments.output, "")
 }
 
 /// Prints what a finished dataset contains, and how it was generated.
-fn announce(out: &Path, manifest: &Manifest, output: Output, more: &str) -> Result<(), CliError> {
+fn announce(out: &Path, overview: &Overview, output: Output, more: &str) -> Result<(), CliError> {
     let mut text = String::new();
-    if !manifest.selection.is_empty() {
-        text += &format!("{}\n", acceptance::table(&manifest.selection).trim_end());
+    if !overview.selection.is_empty() {
+        text += &format!("{}\n", acceptance::table(&overview.selection).trim_end());
     }
-    text += &format!("{} events in {}\n{}{more}", manifest.events.len(), out.display(), page_line(out));
+    text += &format!("{} events in {}\n{}{more}", overview.events, out.display(), page_line(out));
     let value = json!({
-        "folder": out, "events": manifest.events.len(), "seed": manifest.seed, "page": page(out),
-        "selection": manifest.selection, "new": true,
+        "folder": out, "events": overview.events, "seed": overview.seed, "page": page(out),
+        "selection": overview.selection, "new": true,
     });
     output.print(text, &value)
 }
@@ -102,13 +100,17 @@ fn page_line(out: &Path) -> String {
 
 /// A finished and complete dataset or shard is used unchanged if it is the requested one.
 fn check_finished(plan: &Plan, out: &Path, output: Output) -> Result<(), CliError> {
-    let (whole, files) = if plan.shard.is_some() {
-        let shard = Shard::read(&out.join(SHARD_FILE))?;
-        let files: Vec<FileEntry> = shard.slots.iter().flat_map(SlotRecord::files).cloned().collect();
-        (run_value(&shard.whole, Some((shard.shard, shard.of))), files)
+    let whole = if plan.shard.is_some() {
+        let shard = Shard::read(out)?;
+        let whole = run_value(&shard.whole, Some((shard.shard, shard.of)));
+        check_same(out, "a finished", &whole, &plan.run())?;
+        for record in shard.records(out) {
+            record?.files().try_for_each(|file| file.verify(out)).map_err(CliError::Altered)?;
+        }
+        whole
     } else {
         let manifest = Manifest::read(&out.join(MANIFEST_FILE))?;
-        let whole = DatasetDescription {
+        let description = DatasetDescription {
             preset: manifest.preset.clone(),
             events: manifest.events.len(),
             slots: plan.slot_count,
@@ -120,10 +122,11 @@ fn check_finished(plan: &Plan, out: &Path, output: Output) -> Result<(), CliErro
             date_published: manifest.date_published.clone(),
             command: String::new(),
         };
-        (run_value(&whole, None), manifest.all_files().cloned().collect())
+        let whole = run_value(&description, None);
+        check_same(out, "a finished", &whole, &plan.run())?;
+        manifest.all_files().try_for_each(|file| file.verify(out)).map_err(CliError::Altered)?;
+        whole
     };
-    check_same(out, "a finished", &whole, &plan.run())?;
-    files.iter().try_for_each(|file| file.verify(out)).map_err(CliError::Altered)?;
     if folder::has_leftovers(out) {
         Folder::claim(out, &whole)?.finish()?;
     }

@@ -11,12 +11,13 @@ use crate::{
 };
 use core::ops::ControlFlow;
 use phase_dataset::{
+    FileError,
     acceptance::Refusal,
     composition::{BlockPlace, EventSlot, manner_of},
     folder::Folder,
     manifest::{EventEntry, event_path, video_path},
     preset::{Ends, Selection},
-    slot_record::SlotRecord,
+    slot_record::{Records, SlotRecord},
 };
 use phase_event::Event;
 use phase_evidence::{
@@ -77,12 +78,6 @@ impl<'a> Slots<'a> {
         Ok(Self { plan, folder, event_writer, pools, stages: Mutex::default(), context })
     }
 
-    /// The record of a slot.
-    #[must_use]
-    pub fn record(&self, index: usize) -> SlotRecord {
-        SlotRecord::load(&self.record_path(index), &self.plan.fingerprint)
-    }
-
     /// Fills a slot, resuming where an earlier run stopped; `None` if interrupted. After every attempt the
     /// slot's record is written, so that no more than one attempt is ever lost.
     ///
@@ -90,7 +85,8 @@ impl<'a> Slots<'a> {
     /// [`CliError::Exhausted`] and any failure of sampling, simulating and writing.
     pub fn fill(&self, index: usize) -> Result<Option<()>, CliError> {
         let (id, begun) = (self.plan.preset.id(index), Instant::now());
-        let mut record = self.record(index);
+        let path = record_path(self.plan, self.folder, index);
+        let mut record = SlotRecord::load(&path, &self.plan.fingerprint);
         if record.is_filled() && record.files().all(|file| file.verify(self.folder.path()).is_ok()) {
             self.report(&record, "kept");
             return Ok(Some(()));
@@ -126,7 +122,7 @@ impl<'a> Slots<'a> {
                 self.context.detail(format!("{id} attempt {}: {}", number + 1, refusal.reason.name()));
                 record.refused.push(refusal);
             }
-            record.save(&self.record_path(index))?;
+            record.save(&path)?;
             if record.is_filled() {
                 self.report(&record, &format!("{:.1} s", begun.elapsed().as_secs_f64()));
                 return Ok(Some(()));
@@ -275,10 +271,27 @@ impl<'a> Slots<'a> {
         self.event_writer.write(&job, event, true)?;
         EventEntry::of(out, id, event, self.plan.videos).map_err(CliError::ReadBack)
     }
+}
 
-    fn record_path(&self, index: usize) -> PathBuf {
-        self.folder.cache().join(format!("{}.json", self.plan.preset.id(index)))
+/// The records of a run's slots, all of which are filled.
+#[derive(Clone, Copy, Debug)]
+pub struct FilledSlots<'a> {
+    /// What is generated.
+    pub plan: &'a Plan,
+    /// Where.
+    pub folder: &'a Folder,
+}
+
+impl Records for FilledSlots<'_> {
+    fn records(&self) -> Box<dyn Iterator<Item = Result<SlotRecord, FileError>> + '_> {
+        let Self { plan, folder } = *self;
+        let load = |index| SlotRecord::load_filled(&record_path(plan, folder, index), &plan.fingerprint);
+        Box::new(plan.slots().into_iter().map(load))
     }
+}
+
+fn record_path(plan: &Plan, folder: &Folder, index: usize) -> PathBuf {
+    folder.cache().join(format!("{}.json", plan.preset.id(index)))
 }
 
 /// Everything that can be tested on the event alone.

@@ -59,11 +59,12 @@ fn merge_refuses_damaged_shards_and_goes_on_once_they_are_mended() {
     let folder = folder();
     let path = folder.path();
     let whole = tree(&path.join("whole"));
-    let cases: [(&str, Damage, &str); 6] = [
+    let cases: [(&str, Damage, &str); 7] = [
         ("two/events/demo-0001.json", flip, "differs in checksum"),
         ("two/events/demo-0001.json", remove, "cannot be read"),
         ("two/videos/demo-0001.mp4", flip, "differs in checksum"),
         ("two/videos/demo-0001.mp4", cut, "differs in size"),
+        ("two/slots.jsonl", flip, "differs in checksum"),
         ("two/shard.json", cut, "is truncated"),
         ("two/shard.json", remove, "holds no finished shard"),
     ];

@@ -1,7 +1,7 @@
 //! Checking that a file still agrees with the event files.
 
 use super::{EVENTS_PER_GROUP, ParquetFile, columns, push, read, schema};
-use crate::{FileError, Problem};
+use crate::{FileError, Problem, manifest::EventEntry};
 use parquet::{
     errors::ParquetError,
     file::reader::{FileReader, SerializedFileReader},
@@ -12,32 +12,42 @@ use std::{
     path::Path,
 };
 
-/// Compares a Parquet file with the event files it was made from, column by column.
+/// Compares a Parquet file with the event files it was made from, column by column. `events` are its events, in order.
 ///
 /// # Errors
 /// If a file cannot be read, if the Parquet file has other columns or another number of rows, or if a value in it
 /// differs; then the event and the column are named.
-pub fn compare(folder: &Path, part: &ParquetFile<'_>) -> Result<(), FileError> {
-    (0..shares(part)).try_for_each(|share| compare_share(folder, part, share))
+pub fn compare(folder: &Path, part: &ParquetFile, events: &[&EventEntry]) -> Result<(), FileError> {
+    (0..shares(part)).try_for_each(|share| compare_share(folder, part, events, share))
 }
 
 /// Number of shares, about a row group each, into which the comparison of a file is divided.
-pub(crate) fn shares(part: &ParquetFile<'_>) -> usize {
-    part.events.len().div_ceil(EVENTS_PER_GROUP)
+pub(crate) fn shares(part: &ParquetFile) -> usize {
+    part.events.div_ceil(EVENTS_PER_GROUP)
 }
 
 /// One share of [`compare`]; all of them together are the whole, however the file is divided into row groups.
 ///
 /// # Errors
 /// As [`compare`]; problems of the whole file are reported in every share.
-pub(crate) fn compare_share(folder: &Path, part: &ParquetFile<'_>, share: usize) -> Result<(), FileError> {
+pub(crate) fn compare_share(
+    folder: &Path,
+    part: &ParquetFile,
+    events: &[&EventEntry],
+    share: usize,
+) -> Result<(), FileError> {
     // The library panics on some files that were damaged on purpose; no state that it has touched is used
     // afterwards.
-    catch_unwind(AssertUnwindSafe(|| compare_columns(folder, part, share)))
+    catch_unwind(AssertUnwindSafe(|| compare_columns(folder, part, events, share)))
         .unwrap_or_else(|_| Err(FileError { file: folder.join(&part.path), problem: Problem::ParquetPages }))
 }
 
-fn compare_columns(folder: &Path, part: &ParquetFile<'_>, share: usize) -> Result<(), FileError> {
+fn compare_columns(
+    folder: &Path,
+    part: &ParquetFile,
+    events: &[&EventEntry],
+    share: usize,
+) -> Result<(), FileError> {
     let path = folder.join(&part.path);
     let fail = |problem| FileError { file: path.clone(), problem };
     let broken = |error: ParquetError| fail(Problem::Parquet(error.into()));
@@ -50,10 +60,10 @@ fn compare_columns(folder: &Path, part: &ParquetFile<'_>, share: usize) -> Resul
         return Err(fail(Problem::Shape { what: "Parquet file", rule: "its columns are others".into() }));
     }
     let other_count = |found: &dyn core::fmt::Display| {
-        let rule = format!("it holds {found} events instead of {}", part.events.len());
+        let rule = format!("it holds {found} events instead of {}", events.len());
         fail(Problem::Shape { what: "Parquet file", rule })
     };
-    if usize::try_from(about.num_rows()) != Ok(part.events.len()) {
+    if usize::try_from(about.num_rows()) != Ok(events.len()) {
         return Err(other_count(&about.num_rows()));
     }
     let mut first = 0;
@@ -64,18 +74,17 @@ fn compare_columns(folder: &Path, part: &ParquetFile<'_>, share: usize) -> Resul
             first += count;
             continue;
         }
-        for index in first..(first + count).min(part.events.len()) {
-            let entry = part.events[index];
+        for entry in events.iter().skip(first).take(count) {
             push(&mut columns, folder, entry, &read(folder, entry)?)?;
         }
         for (c, column) in columns.iter_mut().enumerate() {
             let reader = group.get_column_reader(c).map_err(broken)?;
             if let Some(event) = column.compare(reader).map_err(broken)? {
-                let event = part.events.get(first + event).map_or_else(String::new, |entry| entry.id.clone());
+                let event = events.get(first + event).map_or_else(String::new, |entry| entry.id.clone());
                 return Err(fail(Problem::Disagrees { event, column: column.description().name }));
             }
         }
         first += count;
     }
-    if first == part.events.len() { Ok(()) } else { Err(other_count(&first)) }
+    if first == events.len() { Ok(()) } else { Err(other_count(&first)) }
 }

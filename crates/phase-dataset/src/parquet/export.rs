@@ -1,7 +1,10 @@
 //! Writing.
 
-use super::{EVENTS_PER_GROUP, FOLDER, ParquetFile, column::Column, columns, parts, push, read, schema};
-use crate::{FileError, WriteError, atomic::AtomicFile, checksum::FileEntry, manifest::EventEntry};
+use super::{EVENTS_PER_GROUP, FOLDER, ParquetFile, column::Column, columns, parts, push, schema};
+use crate::{
+    ExportError, FileError, Problem, WriteError, atomic::AtomicFile, checksum::FileEntry,
+    manifest::EventEntry, splits::Split,
+};
 use parquet::{
     basic::{Compression, Encoding, ZstdLevel},
     errors::{ParquetError, Result},
@@ -10,79 +13,149 @@ use parquet::{
         writer::SerializedFileWriter,
     },
 };
-use std::{fs, io, path::Path, sync::Arc};
-use thiserror::Error;
+use phase_event::Recording;
+use std::{
+    collections::BTreeMap,
+    fs, io,
+    path::{Path, PathBuf},
+    sync::Arc,
+};
 
 /// Compression level, from 1 to 22; higher levels gain nothing on these columns.
 const EFFORT: i32 = 9;
 
-/// Why Parquet files were not written.
-#[derive(Debug, Error)]
-pub enum ExportError {
-    /// An event file cannot be read back.
-    #[error(transparent)]
-    Read(#[from] FileError),
-    /// A file cannot be written.
-    #[error(transparent)]
-    Write(#[from] WriteError),
+/// A dataset's Parquet files while they are written, one for each part of the dataset at a time; the events of one row group
+/// of each are in memory. The same events give the same bytes.
+pub struct ParquetWriter<'a> {
+    folder: &'a Path,
+    /// Files not begun yet, by part; the last is the next.
+    waiting: BTreeMap<Split, Vec<ParquetFile>>,
+    /// The file of each part that is being written.
+    open: BTreeMap<Split, OpenFile>,
+    /// Those that are complete.
+    complete: Vec<FileEntry>,
+    order: Vec<String>,
 }
 
-/// Writes a dataset's Parquet files from its event files, which are read one after the other, and describes
-/// them. The same events give the same bytes. `interrupted` is called between events; `None` if it returned
-/// true, in which case complete files are kept.
-///
-/// # Errors
-/// [`ExportError`].
-pub fn export(
-    folder: &Path,
-    events: &[EventEntry],
-    interrupted: &dyn Fn() -> bool,
-) -> std::result::Result<Option<Vec<FileEntry>>, ExportError> {
-    let data = folder.join(FOLDER);
-    let failed = |source| WriteError { path: data.clone(), action: "create the folder", source };
-    fs::create_dir_all(&data).map_err(failed)?;
-    let mut files = Vec::new();
-    for part in parts(events) {
-        if !write(folder, &part, interrupted)? {
-            return Ok(None);
+/// A file that is being written.
+struct OpenFile {
+    path: PathBuf,
+    name: String,
+    writer: SerializedFileWriter<AtomicFile>,
+    columns: Vec<Box<dyn Column>>,
+    /// Events that are not written yet.
+    held: usize,
+    /// Events to come.
+    left: usize,
+}
+
+impl<'a> ParquetWriter<'a> {
+    /// Prepares to write the files of a dataset with the given number of events in each part.
+    ///
+    /// # Errors
+    /// If their folder cannot be created.
+    pub fn new(folder: &'a Path, splits: &BTreeMap<Split, usize>) -> std::result::Result<Self, WriteError> {
+        let data = folder.join(FOLDER);
+        fs::create_dir_all(&data).map_err(|source| WriteError {
+            path: data,
+            action: "create the folder",
+            source,
+        })?;
+        let parts = parts(splits);
+        let order = parts.iter().map(|part| part.path.clone()).collect();
+        let mut waiting: BTreeMap<Split, Vec<ParquetFile>> = BTreeMap::new();
+        for part in parts.into_iter().rev() {
+            waiting.entry(part.split).or_default().push(part);
         }
-        files.push(FileEntry::of(folder, part.path)?);
+        Ok(Self { folder, waiting, open: BTreeMap::new(), complete: Vec::new(), order })
     }
-    Ok(Some(files))
+
+    /// Adds the dataset's next event.
+    ///
+    /// # Errors
+    /// If it was not simulated, or was not counted when the files were prepared; if a file cannot be written.
+    pub fn push(
+        &mut self,
+        entry: &EventEntry,
+        recording: &Recording,
+    ) -> std::result::Result<(), ExportError> {
+        let split = entry.split();
+        let mut file = match self.open.remove(&split) {
+            Some(file) => file,
+            None => {
+                let next = self.waiting.get_mut(&split).and_then(Vec::pop);
+                let uncounted = || {
+                    let problem = Problem::Shape {
+                        what: "dataset",
+                        rule: format!("there are more {} events than were counted", split.name()),
+                    };
+                    FileError { file: self.folder.join(&entry.event.path), problem }
+                };
+                OpenFile::create(self.folder, &next.ok_or_else(uncounted)?)?
+            }
+        };
+        push(&mut file.columns, self.folder, entry, recording)?;
+        (file.held, file.left) = (file.held + 1, file.left - 1);
+        if file.held == EVENTS_PER_GROUP || file.left == 0 {
+            file.write_group()?;
+        }
+        if file.left == 0 {
+            self.complete.push(file.finish(self.folder)?);
+        } else {
+            self.open.insert(split, file);
+        }
+        Ok(())
+    }
+
+    /// Describes the files, in the order of [`parts`].
+    ///
+    /// # Errors
+    /// If fewer events were added than were counted when the files were prepared.
+    pub fn finish(mut self) -> std::result::Result<Vec<FileEntry>, ExportError> {
+        if let Some((_, file)) = self.open.first_key_value() {
+            let rule = format!("{} events are missing", file.left);
+            let problem = Problem::Shape { what: "Parquet file", rule };
+            return Err(FileError { file: file.path.clone(), problem }.into());
+        }
+        let place = |file: &FileEntry| self.order.iter().position(|path| *path == file.path);
+        self.complete.sort_by_key(place);
+        Ok(self.complete)
+    }
 }
 
-/// Writes one file; false if it was interrupted.
-fn write(
-    folder: &Path,
-    part: &ParquetFile<'_>,
-    interrupted: &dyn Fn() -> bool,
-) -> std::result::Result<bool, ExportError> {
-    let path = folder.join(&part.path);
-    let failed = |error: ParquetError| WriteError {
-        path: path.clone(),
+impl OpenFile {
+    fn create(folder: &Path, part: &ParquetFile) -> std::result::Result<Self, WriteError> {
+        let path = folder.join(&part.path);
+        let columns = columns::all();
+        let properties = properties(&columns).map_err(|error| failed(&path, error))?;
+        let schema = schema(&columns).map_err(|error| failed(&path, error))?;
+        let file = AtomicFile::create(&path)?;
+        let writer = SerializedFileWriter::new(file, schema, Arc::new(properties));
+        let writer = writer.map_err(|error| failed(&path, error))?;
+        Ok(Self { path, name: part.path.clone(), writer, columns, held: 0, left: part.events })
+    }
+
+    fn write_group(&mut self) -> std::result::Result<(), WriteError> {
+        self.held = 0;
+        write_group(&mut self.writer, &mut self.columns).map_err(|error| failed(&self.path, error))
+    }
+
+    fn finish(self, folder: &Path) -> std::result::Result<FileEntry, ExportError> {
+        let file = self.writer.into_inner().map_err(|error| failed(&self.path, error))?;
+        file.commit()?;
+        Ok(FileEntry::of(folder, self.name)?)
+    }
+}
+
+fn failed(path: &Path, error: ParquetError) -> WriteError {
+    WriteError {
+        path: path.to_owned(),
         action: "write the file",
         source: match error {
             ParquetError::External(inner) => io::Error::other(inner),
             other => io::Error::other(other),
         },
-    };
-    let mut columns = columns::all();
-    let properties = properties(&columns).map_err(failed)?;
-    let schema = schema(&columns).map_err(failed)?;
-    let file = AtomicFile::create(&path)?;
-    let mut writer = SerializedFileWriter::new(file, schema, Arc::new(properties)).map_err(failed)?;
-    for events in part.events.chunks(EVENTS_PER_GROUP) {
-        for entry in events {
-            if interrupted() {
-                return Ok(false);
-            }
-            push(&mut columns, folder, entry, &read(folder, entry)?)?;
-        }
-        write_group(&mut writer, &mut columns).map_err(failed)?;
     }
-    let file = writer.into_inner().map_err(failed)?;
-    file.commit()?;
-    Ok(true)
 }
 
 fn write_group(writer: &mut SerializedFileWriter<AtomicFile>, columns: &mut [Box<dyn Column>]) -> Result<()> {

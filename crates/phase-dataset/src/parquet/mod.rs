@@ -1,7 +1,7 @@
 //! A dataset's events as Parquet, one row per event, for pandas, `datasets` and other tools that read
 //! columns.
 //!
-//! [`export`] writes them from the event files, [`compare`] checks that they still agree, and
+//! [`ParquetWriter`] writes them from the events one after the other, [`compare`] checks that they still agree, and
 //! [`descriptions`] describes every column. `docs/formats.md` has the same table.
 //!
 //! Key design decision: a column's type is a Rust type. Nested lists of numbers determine both the file's
@@ -19,7 +19,7 @@ pub use column::Description;
 pub use columns::descriptions;
 pub use compare::compare;
 pub(crate) use compare::{compare_share, shares};
-pub use export::{ExportError, export};
+pub use export::ParquetWriter;
 
 use crate::{FileError, manifest::EventEntry, phase_events, splits::Split};
 use ::parquet::{errors::Result, schema::types::Type};
@@ -27,7 +27,7 @@ use column::Column;
 use phase_event::{EventReadError, Recording};
 use phase_model::json::FieldError;
 use row::Row;
-use std::{path::Path, sync::Arc};
+use std::{collections::BTreeMap, path::Path, sync::Arc};
 
 /// Folder of the files within a dataset.
 pub const FOLDER: &str = "data";
@@ -36,28 +36,41 @@ pub const EVENTS_PER_FILE: usize = 5000;
 /// Events that are written, and held in memory, at once.
 const EVENTS_PER_GROUP: usize = 50;
 
-/// One file and the events in it, in order.
-#[derive(Debug)]
-pub struct ParquetFile<'a> {
+/// One file of a dataset.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct ParquetFile {
     /// Path relative to the dataset's folder, with `/`, such as `data/train-00000-of-00001.parquet`.
     pub path: String,
     /// Which part of the dataset.
     pub split: Split,
-    /// The events, at least one and at most [`EVENTS_PER_FILE`].
-    pub events: Vec<&'a EventEntry>,
+    /// Which file of that part, from 0.
+    pub number: usize,
+    /// Number of events in it, at least 1 and at most [`EVENTS_PER_FILE`].
+    pub events: usize,
 }
 
-/// The files that a dataset's events go to: by split, and in the manifest's order within it.
+impl ParquetFile {
+    /// Its events, in order, out of those of the dataset.
+    #[must_use]
+    pub fn of<'a>(&self, events: &'a [EventEntry]) -> Vec<&'a EventEntry> {
+        let same = events.iter().filter(|event| event.split() == self.split);
+        same.skip(self.number * EVENTS_PER_FILE).take(self.events).collect()
+    }
+}
+
+/// The files that a dataset's events go to, given the number of events in each part: by split, and in the dataset's order
+/// within it.
 #[must_use]
-pub fn parts(events: &[EventEntry]) -> Vec<ParquetFile<'_>> {
+pub fn parts(splits: &BTreeMap<Split, usize>) -> Vec<ParquetFile> {
     let mut parts = Vec::new();
-    for split in Split::ALL {
-        let chosen: Vec<&EventEntry> = events.iter().filter(|event| event.split() == split).collect();
-        let files = chosen.len().div_ceil(EVENTS_PER_FILE);
-        for (k, events) in chosen.chunks(EVENTS_PER_FILE).enumerate() {
-            let path = format!("{FOLDER}/{}-{k:05}-of-{files:05}.parquet", split.name());
-            parts.push(ParquetFile { path, split, events: events.to_vec() });
-        }
+    for (&split, &count) in splits {
+        let files = count.div_ceil(EVENTS_PER_FILE);
+        parts.extend((0..files).map(|number| ParquetFile {
+            path: format!("{FOLDER}/{}-{number:05}-of-{files:05}.parquet", split.name()),
+            split,
+            number,
+            events: (count - number * EVENTS_PER_FILE).min(EVENTS_PER_FILE),
+        }));
     }
     parts
 }

@@ -2,7 +2,8 @@
 
 use phase_dataset::{
     croissant::{checksums, croissant},
-    parquet::{descriptions, export},
+    overview::Overview,
+    parquet::descriptions,
 };
 use serde_json::Value;
 
@@ -12,15 +13,15 @@ fn it_describes_files_and_columns() {
     let path = folder.path();
     let mut manifest = crate::manifest::dataset(path, "demo-0000");
     manifest.events = crate::parquet::events(path, &[1, 1, 1]);
-    manifest.files = export(path, &manifest.events, &|| false).expect("written").expect("whole");
-    let value: Value = serde_json::from_str(&croissant(&manifest, "about")).expect("JSON");
+    manifest.files = crate::parquet::export(path, &manifest.events).expect("written");
+    let value: Value = serde_json::from_str(&croissant(&Overview::of(&manifest), "about")).expect("JSON");
     assert_eq!(value["conformsTo"], "http://mlcommons.org/croissant/1.0");
     let expected: Vec<(&str, &str)> =
         manifest.files.iter().map(|file| (file.path.as_str(), file.sha256.as_str())).collect();
     assert_eq!(checksums(&value), expected);
     assert_eq!(value.get("datePublished"), None, "a date makes the files of every run differ");
     manifest.date_published = Some("2026-11-23".into());
-    let dated: Value = serde_json::from_str(&croissant(&manifest, "about")).expect("JSON");
+    let dated: Value = serde_json::from_str(&croissant(&Overview::of(&manifest), "about")).expect("JSON");
     assert_eq!(dated["datePublished"], "2026-11-23");
     let sets = value["recordSet"].as_array().expect("record sets");
     let names: Vec<&Value> = sets.iter().map(|set| &set["name"]).collect();

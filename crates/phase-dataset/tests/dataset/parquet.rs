@@ -7,13 +7,16 @@ use parquet::{
     record::{Field, Row},
 };
 use phase_dataset::{
+    ExportError, FileError,
+    checksum::FileEntry,
     manifest::{EventEntry, event_path, video_path},
-    parquet::{EVENTS_PER_FILE, ExportError, compare, descriptions, export, parts},
+    parquet::{EVENTS_PER_FILE, ParquetFile, ParquetWriter, descriptions},
+    phase_events,
     splits::Split,
 };
 use phase_event::{Recording, to_json};
 use serde_json::{Value, json};
-use std::{fs, path::Path};
+use std::{collections::BTreeMap, fs, path::Path};
 
 /// Events of these lengths with all their files; every third belongs to the test split.
 pub(crate) fn events(folder: &Path, lengths: &[usize]) -> Vec<EventEntry> {
@@ -29,6 +32,30 @@ pub(crate) fn events(folder: &Path, lengths: &[usize]) -> Vec<EventEntry> {
         EventEntry { split: Some(split), ..EventEntry::of(folder, &id, &event, true).expect("described") }
     };
     lengths.iter().enumerate().map(entry).collect()
+}
+
+/// Writes the Parquet files of a dataset from its event files.
+pub(crate) fn export(folder: &Path, entries: &[EventEntry]) -> Result<Vec<FileEntry>, ExportError> {
+    let mut writer = ParquetWriter::new(folder, &counts(entries))?;
+    for entry in entries {
+        writer.push(entry, &phase_events::read(&folder.join(&entry.event.path))?[0])?;
+    }
+    writer.finish()
+}
+
+fn counts(entries: &[EventEntry]) -> BTreeMap<Split, usize> {
+    let mut counts = BTreeMap::new();
+    entries.iter().for_each(|entry| *counts.entry(entry.split()).or_default() += 1);
+    counts
+}
+
+fn parts(entries: &[EventEntry]) -> Vec<ParquetFile> {
+    phase_dataset::parquet::parts(&counts(entries))
+}
+
+/// A file with the events that belong to it.
+fn compare(folder: &Path, part: &ParquetFile, entries: &[EventEntry]) -> Result<(), FileError> {
+    phase_dataset::parquet::compare(folder, part, &part.of(entries))
 }
 
 fn rows(path: &Path) -> Vec<Value> {
@@ -65,7 +92,7 @@ fn rows_say_what_the_events_say() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path();
     let entries = events(path, &[4, 2, 3]);
-    let files = export(path, &entries, &|| false).expect("written").expect("not interrupted");
+    let files = export(path, &entries).expect("written");
     let names: Vec<&str> = files.iter().map(|file| file.path.as_str()).collect();
     assert_eq!(names, ["data/train-00000-of-00001.parquet", "data/test-00000-of-00001.parquet"]);
 
@@ -133,7 +160,7 @@ fn rows_say_what_the_events_say() {
 fn the_schema_is_the_one_described() {
     let folder = tempfile::tempdir().expect("a folder");
     let entries = events(folder.path(), &[1]);
-    export(folder.path(), &entries, &|| false).expect("written");
+    export(folder.path(), &entries).expect("written");
     let file = fs::File::open(folder.path().join("data/train-00000-of-00001.parquet")).expect("a file");
     let reader = SerializedFileReader::new(file).expect("Parquet");
     let row = reader.get_row_iter(None).expect("rows").next().expect("a row").expect("whole");
@@ -168,14 +195,14 @@ fn the_same_events_make_the_same_bytes_in_groups_of_any_number() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path();
     let entries: Vec<EventEntry> = events(path, &[1; 160]);
-    let first = export(path, &entries, &|| false).expect("written").expect("whole");
-    let second = export(path, &entries, &|| false).expect("written").expect("whole");
+    let first = export(path, &entries).expect("written");
+    let second = export(path, &entries).expect("written");
     assert_eq!(first, second);
     let train = rows(&path.join(&first[0].path));
     assert_eq!(train.len(), 107);
     assert_eq!(train[106]["id"], "made-up-159");
     for part in parts(&entries) {
-        compare(path, &part).expect("what was written a moment ago");
+        compare(path, &part, &entries).expect("what was written a moment ago");
     }
 }
 
@@ -186,7 +213,7 @@ fn files_are_limited_in_length() {
     let many = vec![one; 2 * EVENTS_PER_FILE + 1];
     let parts = parts(&many);
     let found: Vec<(&str, usize)> =
-        parts.iter().map(|part| (part.path.as_str(), part.events.len())).collect();
+        parts.iter().map(|part| (part.path.as_str(), part.of(&many).len())).collect();
     assert_eq!(
         found,
         [
@@ -198,11 +225,27 @@ fn files_are_limited_in_length() {
 }
 
 #[test]
-fn an_interruption_leaves_whole_files_only() {
+fn files_that_are_not_finished_do_not_appear() {
     let folder = tempfile::tempdir().expect("a folder");
     let entries = events(folder.path(), &[1, 1]);
-    assert!(export(folder.path(), &entries, &|| true).expect("no failure").is_none());
+    let recording = &phase_events::read(&folder.path().join(&entries[0].event.path)).expect("an event")[0];
+    let mut writer = ParquetWriter::new(folder.path(), &counts(&entries)).expect("a folder");
+    writer.push(&entries[0], recording).expect("the first of two");
+    drop(writer);
     assert_eq!(fs::read_dir(folder.path().join("data")).expect("a folder").count(), 0);
+
+    let mut writer = ParquetWriter::new(folder.path(), &counts(&entries[1..])).expect("a folder");
+    writer.push(&entries[0], recording).expect("the only one");
+    let error = writer.push(&entries[1], recording).expect_err("one too many").to_string();
+    assert!(error.contains("made-up-1.json: ") && error.contains("more train events"), "{error}");
+
+    let mut writer = ParquetWriter::new(folder.path(), &counts(&entries)).expect("a folder");
+    writer.push(&entries[0], recording).expect("the first of two");
+    let error = writer.finish().expect_err("one too few").to_string();
+    assert!(
+        error.contains("train-00000-of-00001.parquet: ") && error.contains("1 events are missing"),
+        "{error}"
+    );
 }
 
 #[test]
@@ -212,7 +255,7 @@ fn events_that_were_not_simulated_are_refused() {
     let mut file = crate::support::file();
     file["events"][0]["id"] = "made-up-0".into();
     fs::write(folder.path().join(event_path("made-up-0")), file.to_string()).expect("written");
-    let error = export(folder.path(), &entries, &|| false).expect_err("no substeps");
+    let error = export(folder.path(), &entries).expect_err("no substeps");
     assert!(matches!(error, ExportError::Read(_)), "{error}");
     let text = error.to_string();
     assert!(text.contains("made-up-0.json") && text.contains("`substeps` is missing"), "{text}");
@@ -224,7 +267,7 @@ fn a_comparison_names_event_and_column() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path();
     let entries = events(path, &[2, 2]);
-    export(path, &entries, &|| false).expect("written");
+    export(path, &entries).expect("written");
     let file = path.join(event_path("made-up-1"));
     let text = fs::read_to_string(&file).expect("an event");
     for (from, to, column) in [
@@ -236,14 +279,14 @@ fn a_comparison_names_event_and_column() {
         let changed = text.replacen(from, to, 1);
         assert_ne!(changed, text, "{from}");
         fs::write(&file, changed).expect("written");
-        let error = compare(path, &parts(&entries)[0]).expect_err(from).to_string();
+        let error = compare(path, &parts(&entries)[0], &entries).expect_err(from).to_string();
         assert!(
             error.contains("event made-up-1: column") && error.contains(&format!("`{column}`")),
             "{error}"
         );
     }
     fs::write(&file, &text).expect("written");
-    compare(path, &parts(&entries)[0]).expect("as before");
+    compare(path, &parts(&entries)[0], &entries).expect("as before");
 }
 
 #[test]
@@ -251,13 +294,13 @@ fn damaged_files_are_errors() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path();
     let entries = events(path, &[3]);
-    export(path, &entries, &|| false).expect("written");
+    export(path, &entries).expect("written");
     let file = path.join("data/train-00000-of-00001.parquet");
     let whole = fs::read(&file).expect("a file");
     let part = &parts(&entries)[0];
     for length in [0, 4, 11, whole.len() / 2, whole.len() - 1] {
         fs::write(&file, &whole[..length]).expect("written");
-        let error = compare(path, part).expect_err("cut short").to_string();
+        let error = compare(path, part, &entries).expect_err("cut short").to_string();
         assert!(error.contains("train-00000-of-00001.parquet"), "{error}");
     }
     // Changing any byte is detected or has no effect; it never causes a panic.
@@ -267,7 +310,7 @@ fn damaged_files_are_errors() {
             let mut bytes = whole.clone();
             bytes[at] ^= mask;
             fs::write(&file, bytes).expect("written");
-            let _ = compare(path, part);
+            let _ = compare(path, part, &entries);
         }
     }
 }

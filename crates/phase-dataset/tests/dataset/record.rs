@@ -1,13 +1,19 @@
 //! Records of slots, and shards.
 
+use crate::support::plain_event;
 use phase_dataset::{
+    FileError, Problem,
     acceptance::{Refusal, Tally},
-    shard::{Shard, slots},
-    slot_record::SlotRecord,
+    checksum::FileEntry,
+    manifest::{EventEntry, Manifest, event_path},
+    manifest_writer::write_manifest,
+    overview::Overview,
+    shard::{DatasetDescription, Shard, slots, write_slots},
+    slot_record::{Records, SlotRecord},
 };
 use phase_evidence::selection::RejectionReason;
 use phase_sampler::Variant;
-use std::fs;
+use std::{fs, path::Path};
 
 #[test]
 fn a_record_of_another_program_or_a_damaged_one_counts_for_nothing() {
@@ -59,28 +65,129 @@ fn shards_share_the_slots_out() {
     assert_eq!(slots(3, 4, 12).collect::<Vec<_>>(), [2, 6, 10]);
 }
 
+fn whole() -> DatasetDescription {
+    let text = r#"{"preset": "p", "events": 5, "slots": 5, "seed": 1, "generator": "g", "settings": {}, "selected": true, "command": "c"}"#;
+    serde_json::from_str(text).expect("a description")
+}
+
+/// Some records, in memory.
+struct Listed(Vec<SlotRecord>);
+
+impl Records for Listed {
+    fn records(&self) -> Box<dyn Iterator<Item = Result<SlotRecord, FileError>> + '_> {
+        Box::new(self.0.iter().cloned().map(Ok))
+    }
+}
+
+/// Records of as many slots, each with one event.
+fn filled(folder: &Path, count: usize) -> Listed {
+    let entry = |k: usize| EventEntry::of(folder, &format!("slot-{k}"), &plain_event(1), false);
+    let record = |k: usize| {
+        fs::create_dir_all(folder.join("events")).expect("a folder");
+        fs::write(folder.join(event_path(&format!("slot-{k}"))), "an event").expect("written");
+        let entries = vec![entry(k).expect("described")];
+        SlotRecord { fingerprint: "a".into(), entries, ..SlotRecord::default() }
+    };
+    Listed((0..count).map(record).collect())
+}
+
+/// Writes the first of two shards, which has three of five slots.
+fn first_shard(folder: &Path, records: &Listed) -> Shard {
+    write_slots(folder, records).expect("written");
+    let shard = Shard::of_records(folder, (1, 2), whole(), "a".into()).expect("described");
+    shard.write(folder).expect("written");
+    shard
+}
+
+#[test]
+fn a_shard_is_read_slot_by_slot() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    let records = filled(path, 3);
+    let shard = first_shard(path, &records);
+    assert_eq!(Shard::read(path).expect("a shard"), shard);
+    let read: Vec<SlotRecord> = shard.records(path).map(|record| record.expect("a record")).collect();
+    assert_eq!(read, records.0);
+}
+
 #[test]
 fn what_is_no_shard_is_refused() {
     let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("shard.json");
-    let whole = r#"{"preset": "p", "events": 4, "slots": 4, "seed": 1, "generator": "g", "settings": {}, "selected": true, "command": "c"}"#;
-    let shard = |number: usize, slots: &str| {
-        format!(
-            r#"{{"format": "phase-shard/2", "shard": {number}, "of": 2, "whole": {whole}, "slots": {slots}}}"#
-        )
-    };
-    let none = r#"[{"fingerprint": "", "refused": [], "entries": []}]"#;
+    let path = folder.path();
+    let header = first_shard(path, &filled(path, 3));
+    let text = serde_json::to_string(&header).expect("JSON");
     let cases = [
-        (shard(3, "[]"), "no shard 3 of 2"),
-        (shard(0, "[]"), "no shard 0 of 2"),
-        (shard(1, none), "0 filled slots instead of 2"),
-        (shard(1, "[]").replace("shard/2", "shard/7"), "format"),
-        (shard(1, "[")[..60].to_owned(), "truncated"),
-        (shard(1, "[]").replace("preset", "recipe"), "recipe"),
+        (text.replace("\"shard\":1", "\"shard\":3"), "no shard 3 of 2"),
+        (text.replace("\"shard\":1", "\"shard\":0"), "no shard 0 of 2"),
+        (text.replace("shard/3", "shard/7"), "format"),
+        (text[..60].to_owned(), "truncated"),
+        (text.replace("preset", "recipe"), "recipe"),
     ];
     for (text, part) in cases {
-        fs::write(&path, text).expect("written");
-        let sentence = Shard::read(&path).expect_err(part).to_string();
+        fs::write(path.join("shard.json"), text).expect("written");
+        let sentence = Shard::read(path).expect_err(part).to_string();
         assert!(sentence.contains("shard.json: ") && sentence.contains(part), "{sentence}");
     }
+    header.write(path).expect("written");
+    fs::write(path.join("slots.jsonl"), "another").expect("written");
+    let sentence = Shard::read(path).expect_err("other records").to_string();
+    assert!(sentence.contains("slots.jsonl: differs"), "{sentence}");
+}
+
+#[test]
+fn a_shard_whose_slots_are_not_its_own_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    let records = filled(path, 3);
+    let empty = SlotRecord { fingerprint: "a".into(), ..SlotRecord::default() };
+    let foreign = SlotRecord { fingerprint: "b".into(), ..records.0[1].clone() };
+    let [first, second, _] = <[SlotRecord; 3]>::try_from(records.0).expect("three");
+    for (records, rule) in [
+        (vec![first.clone(), second.clone()], "the records of 1 slots are missing"),
+        (vec![first.clone(), empty, second], "holds no event"),
+        (vec![first.clone(), foreign, first], "another program"),
+    ] {
+        let shard = first_shard(path, &Listed(records));
+        let error = shard.records(path).find_map(Result::err).expect(rule);
+        let sentence = error.to_string();
+        assert!(sentence.contains("slots.jsonl: ") && sentence.contains(rule), "{sentence}");
+        assert!(shard.records(path).count() <= 3, "nothing is read after an error");
+    }
+}
+
+/// A manifest that was written event by event is the one that is written as a whole.
+#[test]
+fn manifests_do_not_depend_on_how_they_are_written() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    let records = filled(path, 3);
+    for selection in [Vec::new(), Tally::default().rows()] {
+        let mut overview = Overview::new(&whole());
+        records.0.iter().flat_map(|record| &record.entries).for_each(|entry| overview.count(entry));
+        overview.selection = selection;
+        overview.files = vec![FileEntry::of(path, event_path("slot-1")).expect("there")];
+        write_manifest(&path.join("streamed.json"), &overview, &records).expect("written");
+        let manifest = Manifest::read(&path.join("streamed.json")).expect("a manifest");
+        assert_eq!(manifest.events.len(), 3);
+        assert_eq!(Overview::of(&manifest), overview);
+        manifest.write(&path.join("whole.json")).expect("written");
+        let bytes = |name: &str| fs::read(path.join(name)).expect("bytes");
+        assert_eq!(bytes("streamed.json"), bytes("whole.json"));
+    }
+}
+
+#[test]
+fn a_manifest_is_not_written_if_a_record_is_missing() {
+    struct Broken(fn() -> FileError);
+    impl Records for Broken {
+        fn records(&self) -> Box<dyn Iterator<Item = Result<SlotRecord, FileError>> + '_> {
+            Box::new(core::iter::once(Err(self.0())))
+        }
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let missing = || FileError { file: "slot.json".into(), problem: Problem::IsFolder };
+    let path = folder.path().join("manifest.json");
+    let error = write_manifest(&path, &Overview::new(&whole()), &Broken(missing)).expect_err("no record");
+    assert!(error.to_string().contains("slot.json"), "{error}");
+    assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 0);
 }

@@ -5,7 +5,7 @@ use phase_dataset::{
     checksum::FileEntry,
     croissant::croissant,
     manifest::{MANIFEST_FILE, Manifest, event_path, video_path},
-    parquet::export,
+    overview::Overview,
     verify::{Check, verify, verify_with, work},
 };
 use std::{
@@ -20,9 +20,10 @@ const DATA: &str = "data/train-00000-of-00001.parquet";
 fn dataset(folder: &Path) -> Manifest {
     let mut manifest = crate::manifest::dataset(folder, "made-up-0");
     manifest.events = crate::parquet::events(folder, &[2, 3, 1]);
-    manifest.files = export(folder, &manifest.events, &|| false).expect("written").expect("whole");
+    manifest.files = crate::parquet::export(folder, &manifest.events).expect("written");
     for name in ["index.html", "README.md", "croissant.json"] {
-        let text = if name == "croissant.json" { croissant(&manifest, "about") } else { name.into() };
+        let text =
+            if name == "croissant.json" { croissant(&Overview::of(&manifest), "about") } else { name.into() };
         describe(folder, &mut manifest, name, &text);
     }
     manifest.write(&folder.join(MANIFEST_FILE)).expect("written");
@@ -169,7 +170,7 @@ fn the_order_of_checks_does_not_matter() {
     let path = folder.path();
     let mut manifest = crate::manifest::dataset(path, "made-up-0");
     manifest.events = crate::parquet::events(path, &[1; 160]);
-    manifest.files = export(path, &manifest.events, &|| false).expect("written").expect("whole");
+    manifest.files = crate::parquet::export(path, &manifest.events).expect("written");
     // The first two are in different row groups of one file; its first problem is reported.
     for number in [99, 150, 158] {
         let event = event_path(&format!("made-up-{number}"));

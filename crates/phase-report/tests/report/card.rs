@@ -1,10 +1,15 @@
 //! The card that people and loaders read.
 
-use phase_dataset::{parquet::descriptions, splits::Split};
-use phase_report::card::card;
+use phase_dataset::{manifest::Manifest, overview::Overview, parquet::descriptions, splits::Split};
+use phase_report::card;
 use std::collections::BTreeSet;
 
-fn example() -> phase_dataset::manifest::Manifest {
+/// The card of a dataset whose manifest is in memory.
+fn card(manifest: &Manifest, command: &str, shortcuts: &str) -> String {
+    card::card(&Overview::of(manifest), command, shortcuts)
+}
+
+fn example() -> Manifest {
     let folder = tempfile::tempdir().expect("a folder");
     crate::support::dataset(folder.path(), "demo-0000")
 }
