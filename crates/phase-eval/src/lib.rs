@@ -5,13 +5,14 @@
 //!   method should fall.
 //! - [`goals`] and [`trajectories`] score answers; [`estimate`] puts intervals around every score.
 //! - [`benchmark`] compares many methods on the same events.
+//! - [`ratings`] are people's judgements of relations, with which [`goals::Agreement`] compares a method's.
 //! - [`results`] is output for programs, and [`predictions`] the answers of an external method to either
 //!   task.
 //!
 //! Key design decision: every score is a mean over events of one number for each event. So one bootstrap over
 //! events serves all of them, and the stored data of an event suffices to score it again. The trade-off is
-//! that figures which are not such means (the calibration error, the confusion matrix) come without an
-//! interval.
+//! that figures which are not such means come without an interval (the calibration error, the confusion matrix), or
+//! resample the events themselves (correlations with people).
 //!
 //! Nothing here reads a file, accesses a clock or prints.
 //!
@@ -48,10 +49,11 @@ pub mod goals;
 mod group;
 pub mod method;
 pub mod predictions;
+pub mod ratings;
 pub mod results;
 pub mod trajectories;
 pub mod trivial;
 
-pub use estimate::Estimate;
+pub use estimate::{CONFIDENCE, Estimate, RESAMPLES};
 pub use group::GroupScores;
 pub use method::{Forecaster, MethodError, ProgressCallback, Recogniser};

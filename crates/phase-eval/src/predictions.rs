@@ -6,14 +6,15 @@ use crate::{
 };
 use phase_event::EventReadError;
 use phase_model::{
-    AGENT_COUNT, Forecast, Goal, Judgement, RelationProbabilities, Vec2,
+    AGENT_COUNT, Forecast, Goal, Judgement, RelationProbabilities, RoleProbabilities, Vec2,
     json::{Field, FieldError, finite},
 };
 use serde_json::Value;
 use std::collections::BTreeMap;
 
 /// Reads answers to Task 1 by the ids of their events: `{"events": [{"id", "goals": [[{"goal", "p"}…], […]],
-/// "relation": {"friendly", "adversarial", "neutral"}}…]}`. Other members are ignored, so results of PHASE
+/// "relation": {"friendly", "adversarial", "neutral"}, "roles": {"helps": [p, p], "hinders": [p, p]}}…]}`, where `roles`, the
+/// probabilities that either agent helps or hinders the other, may be absent. Other members are ignored, so results of PHASE
 /// are valid predictions too.
 ///
 /// # Errors
@@ -120,8 +121,21 @@ fn judgement(event: &Field<'_>) -> Result<Judgement, FieldError> {
         adversarial: p("adversarial")?,
         neutral: p("neutral")?,
     };
+    let roles = event.optional("roles")?.map(|roles| role_probabilities(&roles)).transpose()?;
     let mut lists = lists.into_iter();
-    Ok(Judgement { goals: core::array::from_fn(|_| lists.next().unwrap_or_default()), relation })
+    let goals = core::array::from_fn(|_| lists.next().unwrap_or_default());
+    Ok(Judgement { goals, relation, roles })
+}
+
+fn role_probabilities(roles: &Field<'_>) -> Result<RoleProbabilities, FieldError> {
+    roles.only(&["helps", "hinders"])?;
+    let both = |name| {
+        let field = roles.required(name)?;
+        let numbers = field.items()?.map(|number| probability(&number)).collect::<Result<Vec<_>, _>>()?;
+        <[f64; AGENT_COUNT]>::try_from(numbers)
+            .map_err(|numbers| field.error(format!("must hold {AGENT_COUNT} numbers, not {}", numbers.len())))
+    };
+    Ok(RoleProbabilities { helps: both("helps")?, hinders: both("hinders")? })
 }
 
 fn ranked(list: &Field<'_>) -> Result<Vec<(Goal, f64)>, FieldError> {

@@ -41,6 +41,8 @@ pub fn goals(
         },
         "kinds": to_value(&summary.kinds)?, "layouts": to_value(&summary.layouts)?, "watched": to_value(&summary.watched)?,
         "sets": to_value(&summary.sets)?,
+        "roles": to_value(&summary.roles)?, "role_kinds": to_value(&summary.role_kinds)?,
+        "agreement": to_value(&summary.agreement)?,
         "confusion": { "order": to_value(goals::RELATIONS)?, "right_by_said": summary.confusion },
         "calibration": {
             "goal": to_value(&summary.goal_calibration)?, "relation": to_value(&summary.relation_calibration)?,

@@ -44,7 +44,7 @@ fn answer(goals: [&[Goal]; 2], relation: [f64; 3]) -> Answer {
         |goals: &[Goal]| goals.iter().zip([0.5, 0.25, 0.125, 0.0625]).map(|(g, p)| (*g, p)).collect();
     let [friendly, adversarial, neutral] = relation;
     let relation = RelationProbabilities { friendly, adversarial, neutral };
-    Answer::of(&Judgement { goals: goals.map(ranked), relation }).expect("an answer")
+    Answer::of(&Judgement { goals: goals.map(ranked), relation, roles: None }).expect("an answer")
 }
 
 #[test]
@@ -125,7 +125,7 @@ fn numbers_that_are_no_probabilities_are_refused() {
         (goals(&[1.0]), RelationProbabilities { neutral: 0.5, ..third }, InvalidAnswer::Relation),
     ];
     for (goals, relation, expected) in cases {
-        let judgement = Judgement { goals: [goals, Vec::new()], relation };
+        let judgement = Judgement { goals: [goals, Vec::new()], relation, roles: None };
         assert_eq!(Answer::of(&judgement), Err(expected), "{judgement:?}");
     }
 }
@@ -140,6 +140,8 @@ fn two_events() -> Vec<RecognisedEvent> {
         relation,
         relation_human,
         layout_seen,
+        role: None,
+        ratings: None,
         set: None,
     };
     let event = |id: &str, answer: Answer, label, cpu_seconds| RecognisedEvent {
@@ -286,6 +288,8 @@ proptest! {
                     relation: Relation::Neutral,
                     relation_human: None,
                     layout_seen: None,
+                    role: None,
+                    ratings: None,
                     set: None,
                 },
                 watched: Vec::new(),

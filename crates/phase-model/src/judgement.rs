@@ -1,6 +1,6 @@
 //! The output of a model of social perception: Task 1 and Task 2 of the paper.
 
-use crate::{AGENT_COUNT, Goal, Relation, Vec2};
+use crate::{AGENT_COUNT, AgentId, Attitude, Goal, Relation, Vec2};
 use serde::{Deserialize, Serialize};
 
 /// Task 1, joint inference of goals and relations: the predicted probability of each answer.
@@ -11,6 +11,31 @@ pub struct Judgement {
     pub goals: [Vec<(Goal, f64)>; AGENT_COUNT],
     /// The relation between the two.
     pub relation: RelationProbabilities,
+    /// Who helps or hinders whom, if the model says.
+    pub roles: Option<RoleProbabilities>,
+}
+
+/// The probability that either agent helps, and that it hinders, the other. At most one of the four is true; what they lack
+/// to 1 is the probability that both agents pursue goals of their own.
+#[derive(Clone, Copy, PartialEq, Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RoleProbabilities {
+    /// P(α = 1) of each agent.
+    pub helps: [f64; AGENT_COUNT],
+    /// P(α = −1) of each agent.
+    pub hinders: [f64; AGENT_COUNT],
+}
+
+impl RoleProbabilities {
+    /// The probability of an attitude of an agent towards the other.
+    #[must_use]
+    pub fn of(&self, agent: AgentId, attitude: Attitude) -> f64 {
+        match attitude {
+            Attitude::Help => self.helps[agent],
+            Attitude::Hinder => self.hinders[agent],
+            Attitude::Neutral => 1.0 - self.helps[agent] - self.hinders[agent],
+        }
+    }
 }
 
 /// The probability of each relation; the three sum to 1.

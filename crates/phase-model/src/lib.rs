@@ -67,7 +67,7 @@ pub use geometry::Segment;
 pub use glam::Vec2;
 pub use goal::{Attitude, Goal, Relation, Sign};
 pub use id::{AgentId, IdError, LandmarkId, ObjectId, RoomId, SlotId};
-pub use judgement::{Forecast, Judgement, RelationProbabilities};
+pub use judgement::{Forecast, Judgement, RelationProbabilities, RoleProbabilities};
 pub use layout::{Flip, Layout, LayoutError};
 pub use physics::{AgentBody, PhysicsConfig, Size, Strength};
 pub use predicate::{Literal, Predicate, PredicateTarget};

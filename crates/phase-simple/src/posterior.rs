@@ -1,7 +1,9 @@
 //! From weighted hypotheses to marginals over goals, attitudes and relations.
 
 use crate::Hypothesis;
-use phase_model::{AGENT_COUNT, AgentId, Attitude, Goal, Judgement, Relation, RelationProbabilities};
+use phase_model::{
+    AGENT_COUNT, AgentId, Attitude, Goal, Judgement, Relation, RelationProbabilities, RoleProbabilities,
+};
 use std::collections::BTreeMap;
 
 /// Weighted hypotheses; the weights are not negative and sum to 1 unless there are none.
@@ -44,6 +46,13 @@ impl Posterior {
         self.sum(|hypothesis| hypothesis.attitudes[agent] == attitude)
     }
 
+    /// P(α | s) of both agents.
+    #[must_use]
+    pub fn roles(&self) -> RoleProbabilities {
+        let of = |attitude| AgentId::ALL.map(|agent| self.attitude(agent, attitude));
+        RoleProbabilities { helps: of(Attitude::Help), hinders: of(Attitude::Hinder) }
+    }
+
     /// P(friendly | s), P(adversarial | s) and P(neutral | s). The paper multiplies P(g_i = g_j | s) by
     /// P(α_ij = 0, α_ji = 0 | s), which holds if goals and attitudes are independent given the event. Here
     /// their joint distribution is known, so their joint probability replaces the product.
@@ -64,7 +73,7 @@ impl Posterior {
     #[must_use]
     pub fn judgement(&self) -> Judgement {
         let goals: [Vec<(Goal, f64)>; AGENT_COUNT] = AgentId::ALL.map(|agent| self.goals(agent));
-        Judgement { goals, relation: self.relation() }
+        Judgement { goals, relation: self.relation(), roles: Some(self.roles()) }
     }
 
     fn sum(&self, counts: impl Fn(&Hypothesis) -> bool) -> f64 {

@@ -14,14 +14,35 @@ pub fn bootstrap_mean<R: Rng>(
     confidence: f64,
     random: &mut R,
 ) -> Option<Interval> {
-    let count = values.len();
-    if count == 0 || resamples == 0 {
+    let mean = |sample: &[usize]| {
+        let sum: f64 = sample.iter().map(|&k| values[k]).sum();
+        Some(sum / values.len() as f64)
+    };
+    bootstrap(values.len(), resamples, confidence, random, mean)
+}
+
+/// The same interval of any statistic of `count` items, given the indices of a resample. Resamples for which the
+/// statistic is not defined are left out; `None` if it is for none.
+#[must_use]
+pub fn bootstrap<R: Rng>(
+    count: usize,
+    resamples: usize,
+    confidence: f64,
+    random: &mut R,
+    mut statistic: impl FnMut(&[usize]) -> Option<f64>,
+) -> Option<Interval> {
+    if count == 0 {
         return None;
     }
-    let mut draw = || (0..count).map(|_| values[random.random_range(0..count)]).sum::<f64>();
-    let mut means: Vec<f64> = (0..resamples).map(|_| draw() / count as f64).collect();
-    means.sort_by(f64::total_cmp);
-    let outside = ((1.0 - confidence) / 2.0 * resamples as f64).round() as usize;
-    let outside = outside.min((resamples - 1) / 2);
-    Some(Interval { low: means[outside], high: means[resamples - 1 - outside] })
+    let mut sample = vec![0; count];
+    let mut values = Vec::with_capacity(resamples);
+    for _ in 0..resamples {
+        sample.iter_mut().for_each(|place| *place = random.random_range(0..count));
+        values.extend(statistic(&sample));
+    }
+    values.sort_by(f64::total_cmp);
+    let last = values.len().checked_sub(1)?;
+    let outside = ((1.0 - confidence) / 2.0 * values.len() as f64).round() as usize;
+    let outside = outside.min(last / 2);
+    Some(Interval { low: values[outside], high: values[last - outside] })
 }

@@ -3,7 +3,8 @@
 //! - [`mean`] and [`standard_error`] of a sample.
 //! - [`percentile`] and [`quartiles`] by nearest rank, and the conventional [`median`], the midpoint of the two
 //!   central values.
-//! - [`wilson_interval`] for a proportion and [`bootstrap_mean`] for the mean of anything.
+//! - [`wilson_interval`] for a proportion, [`bootstrap_mean`] for the mean of anything, [`bootstrap`] for any statistic.
+//! - [`pearson`] and [`spearman`] correlations, and [`spearman_brown`] for the reliability of a whole.
 //! - [`fisher_exact_greater`] to compare two proportions.
 //!
 //! Key design decision: every function takes plain slices and counts and names its definition. Nine quantile
@@ -32,13 +33,15 @@
 #![deny(missing_docs)]
 
 mod bootstrap;
+mod correlation;
 mod fisher;
 mod interval;
 mod mean;
 mod proportion;
 mod quantile;
 
-pub use bootstrap::bootstrap_mean;
+pub use bootstrap::{bootstrap, bootstrap_mean};
+pub use correlation::{pearson, spearman, spearman_brown};
 pub use fisher::fisher_exact_greater;
 pub use interval::Interval;
 pub use mean::{mean, standard_error};

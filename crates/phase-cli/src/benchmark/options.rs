@@ -15,6 +15,9 @@ pub struct Benchmark {
     /// Also evaluate on these recordings (a phase-events/1 file, or a folder of events)
     #[arg(long, value_name = "FILE|DIR")]
     pub real: Option<PathBuf>,
+    /// How people rated the relations of the recordings (phase-ratings/1; see docs/formats.md)
+    #[arg(long, value_name = "FILE", requires = "real")]
+    pub ratings: Option<PathBuf>,
     /// Only these methods, such as simple,arg,stgat [default: all]
     #[arg(long, value_name = "METHODS", value_delimiter = ',', value_parser = PossibleValuesParser::new(METHODS))]
     pub methods: Vec<String>,

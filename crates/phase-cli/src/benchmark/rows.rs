@@ -12,6 +12,7 @@ use crate::{
         goals::Goals,
         input::{Event, Input},
         options::Common,
+        ratings::Ratings,
         task::evaluate,
         trajectories::Trajectories,
     },
@@ -31,6 +32,7 @@ use std::path::Path;
 pub(super) struct Rows<'a> {
     arguments: &'a Benchmark,
     inputs: Vec<(Input, Common)>,
+    ratings: Option<Ratings>,
     benchmark: benchmark::Benchmark,
 }
 
@@ -72,6 +74,11 @@ impl<'a> Rows<'a> {
             sets.push(EventSet { name, label, sha256, events: input.events.len() });
             inputs.push((input, common));
         }
+        let of_file = |file: &Path| {
+            let inputs: Vec<&Input> = inputs.iter().map(|(input, _)| input).collect();
+            Ratings::read(file, &inputs, context)
+        };
+        let ratings = arguments.ratings.as_deref().map(of_file).transpose()?;
         let benchmark = benchmark::Benchmark {
             format: BENCHMARK_FORMAT,
             generator: GENERATOR.into(),
@@ -81,7 +88,7 @@ impl<'a> Rows<'a> {
             trajectories: Vec::new(),
             trainings: Vec::new(),
         };
-        Ok(Self { arguments, inputs, benchmark })
+        Ok(Self { arguments, inputs, ratings, benchmark })
     }
 
     /// Number of sets of events.
@@ -129,7 +136,9 @@ impl<'a> Rows<'a> {
         let minds = minds_of(self.arguments, method, set > 0);
         match task {
             Task::Goals => {
-                let task = Goals::by_method(&name, method, weights, &minds)?;
+                // Ratings are of recordings.
+                let ratings = self.ratings.clone().filter(|_| set > 0);
+                let task = Goals::by_method(&name, method, weights, &minds)?.with_ratings(ratings);
                 let Some(done) = evaluate(&task, input, common, context)? else { return Ok(()) };
                 let events = done.events;
                 self.benchmark.goals.extend(row(name, origin, set, training, input, &events, seed));

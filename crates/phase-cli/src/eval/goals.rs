@@ -5,14 +5,17 @@ use super::{
     input::{Event, Input},
     methods,
     options::{EvalGoals, steps_of},
+    ratings::Ratings,
     task::{self, Task},
 };
 use crate::{context::Context, effort::MindOptions, error::CliError};
 use cpu_time::ThreadTime;
 use phase_eval::{
     MethodError, ProgressCallback, Recogniser,
-    goals::{Answer, Label, PartialAnswer, RecognisedEvent, RecognitionSummary},
-    predictions, results,
+    goals::{Answer, Label, PartialAnswer, RecognisedEvent, RecognitionSummary, SocialRole},
+    predictions,
+    ratings::RatingCounts,
+    results,
 };
 use phase_event::{ObservedEvent, Recording};
 use phase_report::{
@@ -28,6 +31,8 @@ use std::path::Path;
 /// Any [`CliError`].
 pub(super) fn run(arguments: &EvalGoals, context: &Context) -> Result<(), CliError> {
     let input = Input::open(&arguments.common, context)?;
+    let ratings = arguments.ratings.as_deref();
+    let ratings = ratings.map(|file| Ratings::read(file, &[&input], context)).transpose()?;
     let goals = match (&arguments.common.predictions, &arguments.method) {
         (Some(file), _) => {
             let given =
@@ -36,6 +41,7 @@ pub(super) fn run(arguments: &EvalGoals, context: &Context) -> Result<(), CliErr
                 name: given.name.clone(),
                 answers: AnswerSource::PredictionsFile(given),
                 watched: Vec::new(),
+                ratings,
             }
         }
         (None, method) => {
@@ -46,6 +52,7 @@ pub(super) fn run(arguments: &EvalGoals, context: &Context) -> Result<(), CliErr
             let minds = MindOptions::from(arguments.minds);
             Goals {
                 watched,
+                ratings,
                 ..Goals::by_method(&minds.name(method), method, arguments.weights.as_deref(), &minds)?
             }
         }
@@ -59,6 +66,8 @@ pub(crate) struct Goals {
     answers: AnswerSource<dyn Recogniser, Answer>,
     /// Prefixes of each event to evaluate too, by their lengths (s).
     watched: Vec<f64>,
+    /// How people rated the events, if they were asked.
+    ratings: Option<Ratings>,
 }
 
 impl Goals {
@@ -73,7 +82,12 @@ impl Goals {
         minds: &MindOptions,
     ) -> Result<Self, CliError> {
         let answers = AnswerSource::Method(methods::recogniser(method, weights, minds)?);
-        Ok(Self { name: name.into(), answers, watched: Vec::new() })
+        Ok(Self { name: name.into(), answers, watched: Vec::new(), ratings: None })
+    }
+
+    /// The same with people's ratings of the events.
+    pub(crate) fn with_ratings(self, ratings: Option<Ratings>) -> Self {
+        Self { ratings, ..self }
     }
 }
 
@@ -91,10 +105,14 @@ impl Task for Goals {
     }
 
     fn settings(&self) -> Value {
-        match &self.answers {
+        let mut settings = match &self.answers {
             AnswerSource::Method(method) => json!({ "method": method.settings(), "watched": self.watched }),
             AnswerSource::PredictionsFile(given) => given.settings(),
+        };
+        if let Some(ratings) = &self.ratings {
+            settings["ratings_sha256"] = ratings.sha256.as_str().into();
         }
+        settings
     }
 
     fn ticks(&self) -> usize {
@@ -138,7 +156,8 @@ impl Task for Goals {
                 (answer, details, Some(cpu_seconds), watched)
             }
         };
-        let label = label(event, recording);
+        let ratings = self.ratings.as_ref().and_then(|ratings| ratings.of(&event.id));
+        let label = label(event, recording, ratings);
         Ok(Some(RecognisedEvent { id: event.id.clone(), answer, label, watched, cpu_seconds, details }))
     }
 
@@ -175,13 +194,15 @@ fn judge(
     Ok(Some((answer, details)))
 }
 
-fn label(event: &Event, recording: &Recording) -> Label {
+fn label(event: &Event, recording: &Recording, ratings: Option<RatingCounts>) -> Label {
     Label {
         kind: recording.scene.kind,
         goals: recording.scene.goals(),
         relation: recording.relation,
         relation_human: recording.relation_human,
         layout_seen: event.layout_seen,
+        role: SocialRole::of(recording.scene.attitudes()),
+        ratings,
         set: event.set.clone(),
     }
 }

@@ -10,6 +10,7 @@ pub(crate) mod input;
 pub mod methods;
 pub mod networks;
 pub mod options;
+pub(crate) mod ratings;
 mod shards;
 pub mod simple;
 pub(crate) mod task;

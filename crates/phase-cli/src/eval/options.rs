@@ -43,6 +43,10 @@ pub struct EvalGoals {
     /// as long again
     #[arg(long, value_name = "SECONDS", value_delimiter = ',', value_parser = seconds, conflicts_with = "predictions")]
     pub watched: Vec<f64>,
+    /// How people rated the relations of the events (phase-ratings/1; see docs/formats.md): also report how closely the method's
+    /// probabilities agree with them
+    #[arg(long, value_name = "FILE")]
+    pub ratings: Option<PathBuf>,
     /// Events and output.
     #[command(flatten)]
     pub common: Common,

@@ -56,6 +56,47 @@ fn answers_of_others_are_scored() {
     assert!(sentence.contains("fewer.json") && sentence.contains("event-0"), "{sentence}");
 }
 
+/// Ratings are compared with the answers; files that are about other events, or are no ratings, are refused.
+#[test]
+fn answers_are_compared_with_people() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    events_of(path);
+    let event = |k: usize| {
+        let relation =
+            json!({ "friendly": (k % 2) as f64, "adversarial": 0.0, "neutral": (1 - k % 2) as f64 });
+        let roles = json!({ "helps": [0.5, 0.0], "hinders": [0.0, 0.0] });
+        json!({ "id": format!("event-{k}"), "goals": [[], []], "relation": relation, "roles": roles })
+    };
+    write(path, "theirs.json", &json!({ "events": (0..6).map(event).collect::<Vec<_>>() }));
+    let rated = |k: usize| json!({ "friendly": 10 * (k % 2), "neutral": 10 * (1 - k % 2), "adversarial": 0 });
+    let rated = |ids: &[usize]| {
+        let members = ids.iter().map(|&k| (format!("event-{k}"), rated(k)));
+        json!({ "format": "phase-ratings/1", "ratings": members.collect::<serde_json::Map<_, _>>() })
+    };
+    write(path, "rated.json", &rated(&[0, 1, 2, 9]));
+    let command = ["eval", "goals", "--predictions", "theirs.json", "--events", "events.json"];
+    let with = |file: &'static str| {
+        [&command[..], &["--ratings", file, "--out", "out", "--json", "scored.json"]].concat()
+    };
+    succeed(path, &with("rated.json"));
+    let found = results(&path.join("scored.json"));
+    let agreement = &found["agreement"];
+    assert_eq!((&agreement["n"], &agreement["ratings"]), (&json!(3), &json!(30)));
+    assert_eq!((&agreement["correlation"]["value"], &agreement["mode"]["value"]), (&json!(1.0), &json!(1.0)));
+    assert!(
+        fs::read_to_string(path.join("out/report.md")).expect("a report").contains("Agreement with people")
+    );
+    // The same folder with other ratings is another run.
+    write(path, "others.json", &rated(&[0, 1]));
+    assert!(refuse(path, &with("others.json")).contains("ratings_sha256"));
+    write(path, "strangers.json", &rated(&[7, 9]));
+    let sentence = refuse(path, &[&command[..], &["--ratings", "strangers.json"]].concat());
+    assert!(sentence.contains("strangers.json") && sentence.contains("event-0"), "{sentence}");
+    let sentence = refuse(path, &[&command[..], &["--ratings", "theirs.json"]].concat());
+    assert!(sentence.contains("theirs.json") && sentence.contains("format"), "{sentence}");
+}
+
 #[test]
 fn forecasts_of_others_are_scored() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -1,7 +1,11 @@
 //! A method's answer to an event, and the label.
 
 use super::canonical;
-use phase_model::{AGENT_COUNT, AgentId, EventKind, Goal, Judgement, Relation, RelationProbabilities};
+use crate::ratings::RatingCounts;
+use phase_model::{
+    AGENT_COUNT, AgentId, Attitude, EventKind, Goal, Judgement, Relation, RelationProbabilities,
+    RoleProbabilities,
+};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use thiserror::Error;
@@ -26,6 +30,9 @@ pub enum InvalidAnswer {
     /// The relations' probabilities are invalid.
     #[error("`relation` must have three numbers from 0 to 1 that add up to 1")]
     Relation,
+    /// The roles' probabilities are invalid.
+    #[error("`roles` must have four numbers from 0 to 1 that add up to at most 1")]
+    Roles,
 }
 
 /// A goal and its probability.
@@ -46,6 +53,9 @@ pub struct Answer {
     pub goals: [Vec<GoalProbability>; AGENT_COUNT],
     /// The relations' probabilities.
     pub relation: RelationProbabilities,
+    /// The probabilities that either agent helps or hinders the other, if the method says.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub roles: Option<RoleProbabilities>,
 }
 
 impl Answer {
@@ -75,9 +85,16 @@ impl Answer {
         if !three.into_iter().all(probable) || (three.iter().sum::<f64>() - 1.0).abs() > TOLERANCE {
             return Err(InvalidAnswer::Relation);
         }
+        if let Some(RoleProbabilities { helps, hinders }) = judgement.roles {
+            let four = || helps.into_iter().chain(hinders);
+            if !four().all(probable) || four().sum::<f64>() > 1.0 + TOLERANCE {
+                return Err(InvalidAnswer::Roles);
+            }
+        }
         // A sum of probabilities may exceed 1 by a rounding error.
         let [friendly, adversarial, neutral] = three.map(|p| p.min(1.0));
-        Ok(Self { goals, relation: RelationProbabilities { friendly, adversarial, neutral } })
+        let relation = RelationProbabilities { friendly, adversarial, neutral };
+        Ok(Self { goals, relation, roles: judgement.roles })
     }
 
     /// The rank of the correct goal of an agent among those named, from 0; `None` if it was not named.
@@ -101,9 +118,33 @@ pub struct Label {
     pub relation_human: Option<Relation>,
     /// Whether the base layout occurs in the training or validation events too; `None` where unknown.
     pub layout_seen: Option<bool>,
+    /// The agent that helps or hinders the other, if one does.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub role: Option<SocialRole>,
+    /// How people rated the relation, where they were asked.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ratings: Option<RatingCounts>,
     /// The set of events that it belongs to, which differ in one social variable, if it belongs to one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub set: Option<String>,
+}
+
+/// An agent that helps or hinders the other.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+pub struct SocialRole {
+    /// The agent.
+    pub agent: AgentId,
+    /// Helping or hindering.
+    pub attitude: Attitude,
+}
+
+impl SocialRole {
+    /// The role in a scene; of two social agents, which labels do not have, the first. `None` if there is none.
+    #[must_use]
+    pub fn of(attitudes: [Attitude; AGENT_COUNT]) -> Option<Self> {
+        let roles = AgentId::ALL.map(|agent| Self { agent, attitude: attitudes[agent] });
+        roles.into_iter().find(|role| role.attitude != Attitude::Neutral)
+    }
 }
 
 /// A method's answer after a prefix of an event.

@@ -1,6 +1,6 @@
 //! Accuracy of a method over many events.
 
-use super::{Answer, Calibration, Label, RecognisedEvent, SetScores};
+use super::{Agreement, Answer, Calibration, Label, RecognisedEvent, RoleScores, SetScores};
 use crate::{Estimate, GroupScores};
 use phase_model::{AGENT_COUNT, AgentId, EventKind, Relation};
 use phase_statistics::mean;
@@ -68,6 +68,15 @@ pub struct RecognitionSummary {
     /// By sets of events that differ in one social variable, if there are any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sets: Option<SetScores>,
+    /// How well the agent that helps or hinders is named, if the method says.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub roles: Option<RoleScores>,
+    /// The same by kind of event.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub role_kinds: Vec<GroupScores<RoleScores>>,
+    /// Agreement with people's ratings, of the events that were rated.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub agreement: Option<Agreement>,
     /// Confusion matrix of relations (number of events): `confusion[right][said]`, both in the order of
     /// [`RELATIONS`].
     pub confusion: [[usize; RELATIONS.len()]; RELATIONS.len()],
@@ -105,6 +114,9 @@ impl RecognitionSummary {
             layouts,
             watched: watched(events, seed),
             sets: SetScores::of(events, seed),
+            roles: RoleScores::of(events, seed),
+            role_kinds: role_kinds(events, seed),
+            agreement: Agreement::of(events, seed),
             confusion: confusion(events),
             goal_calibration: Calibration::of(&goal_answers(events)),
             relation_calibration: Calibration::of(&relation_answers(events)),
@@ -123,6 +135,15 @@ fn watched(events: &[RecognisedEvent], seed: u64) -> Vec<GroupScores<Recognition
         Some(GroupScores { name: format!("{seconds} s"), scores })
     };
     (0..parts).filter_map(part).collect()
+}
+
+/// Scores of roles by kind of event.
+fn role_kinds(events: &[RecognisedEvent], seed: u64) -> Vec<GroupScores<RoleScores>> {
+    let of_kind = |kind: EventKind| {
+        let scores = RoleScores::of(events.iter().filter(|event| event.label.kind == kind), seed)?;
+        Some(GroupScores { name: kind.name().into(), scores })
+    };
+    EventKind::ALL.into_iter().filter_map(of_kind).collect()
 }
 
 fn confusion(events: &[RecognisedEvent]) -> [[usize; RELATIONS.len()]; RELATIONS.len()] {

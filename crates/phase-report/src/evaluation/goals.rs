@@ -8,8 +8,11 @@ use crate::{
 };
 use phase_dataset::describe;
 use phase_eval::{
-    GroupScores,
-    goals::{Bin, Calibration, RELATIONS, RecognitionScores, RecognitionSummary},
+    Estimate, GroupScores,
+    goals::{
+        Agreement, Bin, Calibration, RELATIONS, RecognitionScores, RecognitionSummary, RoleScores,
+        UNIFORM_SHARE,
+    },
 };
 
 /// How well goals and relations are recognised.
@@ -57,6 +60,19 @@ pub fn goals(subject: Subject<'_>, summary: &RecognitionSummary) -> Document {
             rows: vec![row],
         });
     }
+    if let Some(roles) = &summary.roles {
+        blocks.push(Block::Heading("Who helps or hinders whom".into()));
+        blocks.push(Block::Text(
+            "Events in which one agent helps or hinders the other. Given that, the agent named is the one whose \
+             probability is the greater; the Brier score is (1 − p)² of the share of the right agent, 0.25 for a guess."
+                .into(),
+        ));
+        blocks.push(role_table(roles, &summary.role_kinds));
+    }
+    if let Some(agreement) = &summary.agreement {
+        blocks.push(Block::Heading("Agreement with people".into()));
+        blocks.extend(agreement_blocks(agreement));
+    }
     if !summary.watched.is_empty() {
         blocks.push(Block::Heading("By seconds watched".into()));
         blocks.push(Block::Text("Events that end earlier count with all of them.".into()));
@@ -77,6 +93,45 @@ pub fn goals(subject: Subject<'_>, summary: &RecognitionSummary) -> Document {
     blocks.push(Block::Text("Most likely relations:".into()));
     blocks.push(reliability(&summary.relation_calibration));
     Document { title: format!("Goals and relations recognised by {}", subject.method), blocks }
+}
+
+fn role_table(all: &RoleScores, kinds: &[GroupScores<RoleScores>]) -> Block {
+    let row = |name: &str, scores: &RoleScores| {
+        vec![name.to_owned(), scores.n.to_string(), share(&scores.named), share(&scores.brier)]
+    };
+    let mut rows = vec![row("all", all)];
+    rows.extend(kinds.iter().map(|kind| row(&kind.name, &kind.scores)));
+    Block::Table { head: head(&["kind", "events", "agent right", "Brier score"]), rows }
+}
+
+fn agreement_blocks(agreement: &Agreement) -> [Block; 2] {
+    let ceiling = agreement.ceiling.as_ref();
+    let number = |value: Option<f64>| value.map_or_else(|| "-".into(), |value| format!("{value:.3}"));
+    let or_none = |estimate: Option<&Estimate>| estimate.map_or_else(|| "-".into(), share);
+    let row = |what: &str, ours: String, people: Option<f64>| vec![what.to_owned(), ours, number(people)];
+    let rows = vec![
+        row(
+            "Pearson's correlation of probabilities and shares of raters",
+            or_none(agreement.correlation.as_ref()),
+            ceiling.and_then(|it| it.correlation),
+        ),
+        row("cross-entropy (nat)", share(&agreement.cross_entropy), ceiling.map(|it| it.entropy)),
+        row(
+            "representational similarity (Spearman's)",
+            or_none(agreement.similarity.as_ref()),
+            ceiling.and_then(|it| it.similarity),
+        ),
+        row("most frequent rating named", share(&agreement.mode), ceiling.map(|it| it.mode)),
+    ];
+    let text = format!(
+        "{} events with {} ratings. People: how well one half of the raters predicts the other (the correlations are corrected \
+         to all raters), and the entropy of their ratings, the least cross-entropy that is possible. Probabilities are mixed \
+         with {} % of the uniform distribution for the cross-entropy.",
+        agreement.n,
+        agreement.ratings,
+        100.0 * UNIFORM_SHARE
+    );
+    [Block::Text(text), Block::Table { head: head(&["measure", "method", "people"]), rows }]
 }
 
 fn beside_published(ours: &str, scores: &RecognitionScores) -> Block {

@@ -126,7 +126,7 @@ fn rows_stand_where_they_belong() {
 fn mistakes_stand_in_their_columns() {
     let event = RecognisedEvent {
         id: "event".into(),
-        answer: Answer { goals: Default::default(), relation: RelationProbabilities::default() },
+        answer: Answer { goals: Default::default(), relation: RelationProbabilities::default(), roles: None },
         label: Label {
             kind: EventKind::Independent,
             goals: [Goal::Touch { agent: AgentId::ZERO, other: AgentId::ONE, sign: Sign::Positive }; 2],
@@ -134,6 +134,8 @@ fn mistakes_stand_in_their_columns() {
             relation_human: None,
             set: None,
             layout_seen: None,
+            role: None,
+            ratings: None,
         },
         watched: Vec::new(),
         cpu_seconds: None,

@@ -33,6 +33,7 @@ pub fn benchmark(benchmark: &Benchmark) -> Document {
     blocks.extend(chart(benchmark, "relations.svg", "Relations right, %", &benchmark.goals, |summary| {
         100.0 * summary.all.relation.value
     }));
+    blocks.extend(tables::people(benchmark));
     blocks.push(Block::Heading("Table 2: trajectories".into()));
     blocks.push(tables::trajectories(benchmark));
     blocks.push(Block::Text(

@@ -1,0 +1,48 @@
+//! People's ratings of the evaluated events, from a file.
+
+use super::input::Input;
+use crate::{context::Context, error::CliError};
+use phase_dataset::{
+    FileError, Problem,
+    checksum::{hexadecimal, sha256},
+    json,
+};
+use phase_eval::ratings::{RatingCounts, ratings};
+use std::{collections::BTreeMap, path::Path};
+
+/// How people rated events.
+#[derive(Clone, Debug)]
+pub(crate) struct Ratings {
+    counts: BTreeMap<String, RatingCounts>,
+    /// Digest of the file.
+    pub(super) sha256: String,
+}
+
+impl Ratings {
+    /// Reads a file, which has to be about some of the events.
+    ///
+    /// # Errors
+    /// If the file cannot be used, or it is about none of them.
+    pub(crate) fn read(file: &Path, inputs: &[&Input], context: &Context) -> Result<Self, CliError> {
+        let bytes = json::bytes(file)?;
+        let fail = |problem: Problem| FileError { file: file.to_owned(), problem };
+        let value = phase_model::json::parse(&bytes).map_err(|error| fail(error.into()))?;
+        let counts = ratings(&value).map_err(|error| fail(error.into()))?;
+        let ids = || inputs.iter().flat_map(|input| input.events.iter().map(|event| event.id.as_str()));
+        let rated = ids().filter(|id| counts.contains_key(*id)).count();
+        if rated == 0 {
+            let first = ids().next().unwrap_or_default();
+            return Err(CliError::unknown_id(file, first, counts.keys().map(String::as_str)));
+        }
+        let others = counts.keys().filter(|id| !ids().any(|other| other == *id)).count();
+        if others > 0 {
+            context.note(format!("note: {}: {others} of its events are not evaluated", file.display()));
+        }
+        Ok(Self { counts, sha256: hexadecimal(&sha256(&bytes)) })
+    }
+
+    /// How an event was rated, if it was.
+    pub(super) fn of(&self, id: &str) -> Option<RatingCounts> {
+        self.counts.get(id).copied()
+    }
+}
