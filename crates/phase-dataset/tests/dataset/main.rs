@@ -8,6 +8,7 @@ mod croissant;
 mod describe;
 mod folder;
 mod import_pik;
+mod import_socialgnn;
 mod manifest;
 mod parquet;
 mod phase_events;
