@@ -2,6 +2,7 @@
 //!
 //! - [`strength`] trains SIMPLE's estimate of agents' strengths, which `phase_simple::StrengthRegressor`
 //!   evaluates,
+//! - [`intent_network`] trains SIMPLE's learnt guess at intents, which `phase_simple::IntentNetwork` evaluates,
 //! - [`two_level_lstm`] and [`arg`] are the paper's baselines for Task 1,
 //! - [`social_lstm`] and [`stgat`] are those for Task 2,
 //! - [`nodes`] is the input of all of them; [`recognition`] with [`goals`], and [`forecasting`], are what
@@ -52,6 +53,7 @@ pub mod arg;
 mod attention;
 pub mod forecasting;
 pub mod goals;
+pub mod intent_network;
 pub mod layer;
 pub mod lstm;
 pub mod nodes;

@@ -2,8 +2,8 @@
 
 use phase_model::{AgentBody, AgentId, Body, MAX_ENTITIES, Size, Strength, Vec2, physics::GROUND_FRICTION};
 use phase_simple::{
-    StrengthCue, StrengthRegressor,
-    strength::{Dense, FEATURES, STRENGTH_FORMAT, Weights, WeightsError, features},
+    Dense, StrengthCue, StrengthRegressor,
+    strength::{FEATURES, STRENGTH_FORMAT, Weights, WeightsError, features},
 };
 use phase_tensors::TensorsError;
 use proptest::prelude::*;

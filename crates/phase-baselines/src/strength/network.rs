@@ -4,7 +4,10 @@ use super::Sample;
 use crate::layer::Layer;
 use candle_core::{Device, Module, Result, Tensor, Var};
 use phase_model::random::Pcg64Mcg;
-use phase_simple::strength::{Dense, FEATURES, Weights};
+use phase_simple::{
+    Dense,
+    strength::{FEATURES, Weights},
+};
 
 /// Standardises values to mean 0 and standard deviation 1, and back.
 #[derive(Clone, Debug)]

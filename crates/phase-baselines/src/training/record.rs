@@ -20,6 +20,9 @@ pub struct TrainingRecord {
     pub settings: TrainingSettings,
     /// Training data.
     pub data: DataSource,
+    /// Further training data.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub more: Vec<DataSource>,
     /// Validation data.
     pub validation: DataSource,
     /// All rounds so far.
@@ -126,7 +129,12 @@ impl NamedMetrics {
 impl TrainingRecord {
     /// The record of a run before its first round.
     #[must_use]
-    pub fn new<N: Network>(run: &TrainingRun<N>, data: DataSource, validation: DataSource) -> Self {
+    pub fn new<N: Network>(
+        run: &TrainingRun<N>,
+        data: DataSource,
+        more: Vec<DataSource>,
+        validation: DataSource,
+    ) -> Self {
         Self {
             format: Format::Training1,
             network: N::NAME.into(),
@@ -134,6 +142,7 @@ impl TrainingRecord {
             seed: run.seed,
             settings: run.settings,
             data,
+            more,
             validation,
             rounds: Vec::new(),
             best_round: None,
@@ -170,7 +179,7 @@ impl TrainingRecord {
             (earlier.network != self.network, "network"),
             (earlier.seed != self.seed, "seed"),
             (earlier.settings != self.settings, "settings"),
-            (earlier.data != self.data, "data"),
+            (earlier.data != self.data || earlier.more != self.more, "data"),
             (earlier.validation != self.validation, "validation"),
             (!has_rounds_of(&earlier, run), "course"),
         ];

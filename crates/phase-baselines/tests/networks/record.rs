@@ -31,7 +31,7 @@ fn source(events: usize) -> DataSource {
 }
 
 fn record(run: &TrainingRun<TwoLevelLstm>) -> TrainingRecord {
-    TrainingRecord::new(run, source(8), source(2))
+    TrainingRecord::new(run, source(8), Vec::new(), source(2))
 }
 
 /// Runs the given number of rounds, each of 2 s on two threads.

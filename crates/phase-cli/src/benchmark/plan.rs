@@ -10,12 +10,13 @@ use phase_agent::MindKind;
 use std::path::PathBuf;
 
 /// Every method of the benchmark.
-pub const METHODS: [&str; 13] = [
+pub const METHODS: [&str; 14] = [
     "simple",
     "simple-published",
     "simple-local",
     "simple-global",
     "simple-initial",
+    "intent-network",
     "two-level-lstm",
     "arg",
     "social-lstm",
@@ -34,6 +35,7 @@ const TASKS: [(Task, &[&str]); 2] = [
             "cue",
             "two-level-lstm",
             "arg",
+            "intent-network",
             "simple-initial",
             "simple-global",
             "simple-local",

@@ -13,6 +13,7 @@ use phase_model::EventKind;
 use phase_render::RenderError;
 use phase_sampler::SampleError;
 use phase_sim::SimulationError;
+use phase_simple::intent_network::IntentNetworkError;
 use rayon::ThreadPoolBuildError;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -181,6 +182,14 @@ pub enum CliError {
     #[cfg(feature = "networks")]
     #[error(transparent)]
     Train(#[from] TrainError),
+    /// A file of weights of the intent network cannot be used.
+    #[error("{}: is not a complete file of weights: {source}", file.display())]
+    IntentNetwork {
+        /// The file.
+        file: PathBuf,
+        /// Why.
+        source: IntentNetworkError,
+    },
     /// A file of weights cannot be used.
     #[cfg(feature = "networks")]
     #[error("{}: is not a complete file of weights: {source}", file.display())]
@@ -230,6 +239,7 @@ impl Failure for CliError {
             | Self::UnknownPreset { .. }
             | Self::UnknownId { .. }
             | Self::NotADataset(_)
+            | Self::IntentNetwork { .. }
             | Self::NotWhole { .. }
             | Self::Unfinished(_)
             | Self::RulesBroken { .. }

@@ -1,6 +1,7 @@
 //! Every way in which training can fail, and its exit code.
 
 use phase_baselines::{
+    intent_network::UnknownHypothesis,
     recognition::LabelError,
     strength,
     training::{CheckpointError, NetworkError, TrainingError, TrainingRecordError},
@@ -65,6 +66,14 @@ pub enum TrainError {
         /// Why.
         source: LabelError,
     },
+    /// An event has labels that the intent network does not consider.
+    #[error("event {id}: {source}")]
+    Hypothesis {
+        /// The event.
+        id: String,
+        /// Why.
+        source: UnknownHypothesis,
+    },
     /// The checkpoint of a training cannot be used.
     #[error("{}: {source}; give the options of that training, choose another file or remove this one", file.display())]
     Checkpoint {
@@ -109,6 +118,7 @@ impl TrainError {
             | Self::UnknownId { .. }
             | Self::Observed { .. }
             | Self::Label { .. }
+            | Self::Hypothesis { .. }
             | Self::Checkpoint { .. }
             | Self::TrainingRecord { .. }
             | Self::Output(_) => 2,

@@ -1,6 +1,7 @@
 //! The methods by name. A new method is added here.
 
 use super::{
+    intent_guess::IntentGuess,
     networks,
     simple::{Cue, Simple},
 };
@@ -12,7 +13,7 @@ use phase_eval::{
 use std::path::Path;
 
 /// Names of the methods for goals and relations.
-pub const RECOGNISERS: [&str; 12] = [
+pub const RECOGNISERS: [&str; 13] = [
     "simple",
     "simple-initial",
     "simple-global",
@@ -21,6 +22,7 @@ pub const RECOGNISERS: [&str; 12] = [
     "simple-published-global",
     "simple-published-initial",
     "simple-published-dynamics",
+    "intent-network",
     "cue",
     "two-level-lstm",
     "arg",
@@ -43,6 +45,9 @@ pub fn recogniser(
     let simple = simple(name, minds)?;
     if let Some(network) = networks::recogniser(name, weights)? {
         return Ok(network);
+    }
+    if name == "intent-network" {
+        return Ok(Box::new(IntentGuess::open(weights)?));
     }
     no_weights(name, weights)?;
     match name {

@@ -7,6 +7,7 @@
 mod answers;
 pub(crate) mod goals;
 pub(crate) mod input;
+mod intent_guess;
 pub mod methods;
 pub mod networks;
 pub mod options;

@@ -8,6 +8,7 @@ use phase_dataset::{
     manifest::{EventEntry, MANIFEST_FILE, Manifest},
     phase_events,
     splits::Split,
+    summary::{EventComparison, SUMMARY_FILE, SimulationSummary},
 };
 use phase_event::Recording;
 use std::path::{Path, PathBuf};
@@ -16,6 +17,8 @@ use std::path::{Path, PathBuf};
 #[derive(Debug)]
 pub(super) struct Events {
     data: Dataset,
+    /// Further training events.
+    more: Vec<Dataset>,
     /// The source of validation and test events, if it is another dataset.
     validation: Option<Dataset>,
     /// Number of training events to use, and the number available.
@@ -37,7 +40,8 @@ impl Events {
         if count > found {
             return Err(TrainError::TooFewEvents { folder: data.folder, asked: count, found });
         }
-        Ok(Self { data, validation, count })
+        let more = options.more.iter().map(|folder| Dataset::open_more(folder)).collect::<Result<_, _>>()?;
+        Ok(Self { data, more, validation, count })
     }
 
     /// Checks that there are training and validation events.
@@ -60,11 +64,24 @@ impl Events {
         if dataset.entries(split).next().is_none() {
             return Err(TrainError::NoEvents { folder: dataset.folder.clone(), split: split.name() });
         }
-        Ok(dataset.entries(split).take(count).map(|entry| {
-            let file = dataset.folder.join(&entry.event.path);
+        let more = self.more.iter().filter(move |_| split == Split::Train);
+        let more = more.flat_map(move |dataset| dataset.entries(split).map(move |entry| (dataset, entry)));
+        let all = dataset.entries(split).take(count).map(move |entry| (dataset, entry)).chain(more);
+        Ok(all.map(|(dataset, entry)| {
+            let file = dataset.folder.join(&entry.path);
             let found = phase_events::read(&file)?.into_iter().find(|recording| recording.id == entry.id);
             found.ok_or_else(|| TrainError::UnknownId { file, id: entry.id.clone() })
         }))
+    }
+
+    /// The record's description of further training events.
+    pub(super) fn more_sources(&self) -> Vec<DataSource> {
+        let source = |dataset: &Dataset| DataSource {
+            folder: dataset.name(),
+            sha256: hexadecimal(&sha256(dataset.id().as_bytes())),
+            events: dataset.entries(Split::Train).count(),
+        };
+        self.more.iter().map(source).collect()
     }
 
     /// The record's description of the events of a split.
@@ -82,11 +99,20 @@ impl Events {
     }
 }
 
-/// A finished dataset.
+/// A finished dataset, or the results of simulations.
 #[derive(Debug)]
 struct Dataset {
     folder: PathBuf,
-    manifest: Manifest,
+    entries: Vec<Entry>,
+}
+
+/// One event of a folder.
+#[derive(Debug)]
+struct Entry {
+    id: String,
+    split: Option<Split>,
+    path: String,
+    sha256: String,
 }
 
 impl Dataset {
@@ -95,17 +121,40 @@ impl Dataset {
         if !path.is_file() {
             return Err(TrainError::NotADataset(folder.to_owned()));
         }
-        Ok(Self { folder: folder.to_owned(), manifest: Manifest::read(&path)? })
+        let events = Manifest::read(&path)?.events.into_iter();
+        let entry = |event: EventEntry| Entry {
+            id: event.id,
+            split: event.split,
+            path: event.event.path,
+            sha256: event.event.sha256,
+        };
+        Ok(Self { folder: folder.to_owned(), entries: events.map(entry).collect() })
     }
 
-    fn entries(&self, split: Split) -> impl Iterator<Item = &EventEntry> {
-        self.manifest.events.iter().filter(move |entry| entry.split == Some(split))
+    /// A dataset, or the results of simulations, all of which are for training.
+    fn open_more(folder: &Path) -> Result<Self, TrainError> {
+        let path = folder.join(SUMMARY_FILE);
+        if folder.join(MANIFEST_FILE).is_file() || !path.is_file() {
+            return Self::open(folder);
+        }
+        let events = SimulationSummary::read(&path)?.events.into_iter();
+        let entry = |event: EventComparison| Entry {
+            id: event.id,
+            split: Some(Split::Train),
+            path: event.event.path,
+            sha256: event.event.sha256,
+        };
+        Ok(Self { folder: folder.to_owned(), entries: events.map(entry).collect() })
+    }
+
+    fn entries(&self, split: Split) -> impl Iterator<Item = &Entry> {
+        self.entries.iter().filter(move |entry| entry.split == Some(split))
     }
 
     /// A digest of the dataset, over the checksums of all events.
     fn id(&self) -> String {
-        let entries = self.manifest.events.iter();
-        entries.map(|entry| format!("{} {:?} {}\n", entry.id, entry.split, entry.event.sha256)).collect()
+        let entries = self.entries.iter();
+        entries.map(|entry| format!("{} {:?} {}\n", entry.id, entry.split, entry.sha256)).collect()
     }
 
     /// The folder's own name, independent of the path to it.

@@ -5,6 +5,8 @@ mod events;
 #[cfg(feature = "networks")]
 mod forecasting;
 #[cfg(feature = "networks")]
+mod intent_network;
+#[cfg(feature = "networks")]
 mod network;
 pub mod options;
 #[cfg(feature = "networks")]
@@ -30,6 +32,7 @@ pub fn run(arguments: &Train, context: &Context) -> Result<(), CliError> {
 fn train(arguments: &Train, context: &Context) -> Result<(), CliError> {
     match arguments {
         Train::Strength(options) => strength::run(options, context),
+        Train::IntentNetwork(options) => intent_network::run(options, context),
         Train::TwoLevelLstm(options) => recognition::two_level_lstm(options, context),
         Train::Arg(options) => recognition::arg(options, context),
         Train::SocialLstm(options) => forecasting::social_lstm(options, context),

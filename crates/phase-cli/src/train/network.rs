@@ -40,7 +40,8 @@ pub(super) fn run<N: PublishedNetwork>(
     let network = N::published(&mut TrainingRun::<N>::first_weights(options.seed)).map_err(failed)?;
     let mut run = TrainingRun::new(network, options.seed, settings);
     let sources = (events.source(Split::Train), events.source(Split::Validation));
-    let mut training_files = TrainingFiles::open(&mut run, &options.out, sources.0, sources.1, context)?;
+    let mut training_files =
+        TrainingFiles::open(&mut run, &options.out, sources.0, events.more_sources(), sources.1, context)?;
 
     context.note(head(N::METRICS));
     run.rounds().iter().for_each(|round| context.note(line(round)));

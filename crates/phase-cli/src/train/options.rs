@@ -9,6 +9,8 @@ use std::path::PathBuf;
 pub enum Train {
     /// The strength regressor of SIMPLE
     Strength(Options),
+    /// The intent network of SIMPLE: a guess at goals and attitudes from motion alone
+    IntentNetwork(NetworkOptions),
     /// 2-Level LSTM, a baseline for goals and relations
     TwoLevelLstm(NetworkOptions),
     /// Actor relation graph, a baseline for goals and relations
@@ -25,7 +27,10 @@ pub struct Options {
     /// Folder of a finished dataset that is divided into train, validation and test
     #[arg(long, value_name = "DIR")]
     pub data: PathBuf,
-    /// Train on the first N training events only
+    /// Also train on these: the training events of other datasets, and all events of folders of `simulate`
+    #[arg(long, value_name = "DIR", num_args = 1..)]
+    pub more: Vec<PathBuf>,
+    /// Train on the first N training events of --data only
     #[arg(long, value_name = "N", value_parser = at_least_one)]
     pub events: Option<usize>,
     /// Folder of the dataset for validation and testing; by default the one for training

@@ -36,12 +36,15 @@ impl TrainingFiles {
         run: &mut TrainingRun<N>,
         out: &Path,
         training: DataSource,
+        more: Vec<DataSource>,
         validation: DataSource,
         context: &Context,
     ) -> Result<Self, TrainError> {
-        let data = format!("{} {} {}", training.sha256, training.events, validation.sha256);
+        let more_data = more.iter().map(|source| format!(" {} {}", source.sha256, source.events));
+        let more_data: String = more_data.collect();
+        let data = format!("{} {} {}{more_data}", training.sha256, training.events, validation.sha256);
         let (checkpoint, file) = (beside(out, ".checkpoint"), beside(out, ".training.json"));
-        let record = TrainingRecord::new(run, training, validation);
+        let record = TrainingRecord::new(run, training, more, validation);
         let mut training_files = Self { checkpoint, file, record, data, last: None };
         if training_files.checkpoint.exists() {
             let wrong = |source| TrainError::Checkpoint { file: training_files.checkpoint.clone(), source };

@@ -1,7 +1,8 @@
 //! The strength regressor on disk: a safetensors file.
 
-use super::{Dense, StrengthRegressor, Weights, WeightsError};
-use phase_tensors::{NamedTensor, TensorFile, TensorsError, check_shape, write};
+use super::{StrengthRegressor, Weights, WeightsError};
+use crate::dense::{Dense, vector};
+use phase_tensors::{TensorFile, write};
 
 /// The value of the field `format` of the file's metadata.
 pub const STRENGTH_FORMAT: &str = "phase-strength/1";
@@ -18,8 +19,8 @@ impl StrengthRegressor {
         Self::new(Weights {
             mean: vector(&file, "input.mean")?,
             scale: vector(&file, "input.scale")?,
-            hidden: [dense(&file, "hidden1")?, dense(&file, "hidden2")?],
-            output: dense(&file, "output")?,
+            hidden: [Dense::read(&file, "hidden1")?, Dense::read(&file, "hidden2")?],
+            output: Dense::read(&file, "output")?,
             rmse: rmse.first().copied().unwrap_or_default(),
         })
     }
@@ -31,23 +32,4 @@ impl StrengthRegressor {
     pub fn to_safetensors(&self) -> Result<Vec<u8>, WeightsError> {
         Ok(write(&self.weights().tensors(), "format", STRENGTH_FORMAT)?)
     }
-}
-
-fn dense(file: &TensorFile<'_>, name: &str) -> Result<Dense, TensorsError> {
-    let weight = file.tensor(&format!("{name}.weight"))?;
-    let bias = vector(file, &format!("{name}.bias"))?;
-    let [outputs, inputs] = weight.shape[..] else {
-        return Err(TensorsError::Shape {
-            name: weight.name,
-            expected: vec![bias.len(), 0],
-            found: weight.shape,
-        });
-    };
-    Ok(Dense { inputs, outputs, weight: weight.values, bias })
-}
-
-fn vector(file: &TensorFile<'_>, name: &str) -> Result<Vec<f32>, TensorsError> {
-    let NamedTensor { shape, values, .. } = file.tensor(name)?;
-    check_shape(name, &[values.len()], &shape)?;
-    Ok(values)
 }

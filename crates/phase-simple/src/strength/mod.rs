@@ -11,7 +11,7 @@ mod weights;
 pub use features::{FEATURES, features};
 pub use file::STRENGTH_FORMAT;
 pub use regressor::StrengthRegressor;
-pub use weights::{Dense, Weights, WeightsError};
+pub use weights::{Weights, WeightsError};
 
 use phase_model::{AGENT_COUNT, AgentId, Body, MAX_ENTITIES, Size, Strength};
 

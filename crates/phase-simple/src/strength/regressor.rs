@@ -1,6 +1,7 @@
 //! The paper's estimate of strengths: a network with two hidden layers (appendix, "Bottom-up Proposals").
 
-use super::{Dense, FEATURES, StrengthCue, UniformStrength, Weights, WeightsError, features};
+use super::{FEATURES, StrengthCue, UniformStrength, Weights, WeightsError, features};
+use crate::dense::relu;
 use phase_model::{AgentId, Body, MAX_ENTITIES, Size, Strength};
 
 /// Estimates an agent's maximum force from its speeds and accelerations.
@@ -86,20 +87,4 @@ impl StrengthCue for StrengthRegressor {
         crate::cue::normalise(&mut logs);
         logs
     }
-}
-
-impl Dense {
-    /// The layer's output, summed in order.
-    fn apply(&self, inputs: &[f64]) -> Vec<f64> {
-        let rows = self.weight.chunks_exact(self.inputs.max(1));
-        let sum = |row: &[f32]| -> f64 {
-            row.iter().zip(inputs).map(|(&weight, input)| f64::from(weight) * input).sum()
-        };
-        self.bias.iter().zip(rows).map(|(&bias, row)| f64::from(bias) + sum(row)).collect()
-    }
-}
-
-fn relu(mut values: Vec<f64>) -> Vec<f64> {
-    values.iter_mut().for_each(|number| *number = number.max(0.0));
-    values
 }

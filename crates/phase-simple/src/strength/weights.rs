@@ -1,21 +1,9 @@
 //! Weights of the strength regressor and their constraints.
 
 use super::FEATURES;
+use crate::dense::Dense;
 use phase_tensors::{NamedTensor, TensorsError, check_shape};
 use thiserror::Error;
-
-/// One fully connected layer: output o is bias\[o\] + Σ weight\[o · inputs + i\] · input\[i\].
-#[derive(Clone, PartialEq, Debug)]
-pub struct Dense {
-    /// Number of inputs.
-    pub inputs: usize,
-    /// Number of outputs.
-    pub outputs: usize,
-    /// Row by row, `outputs` rows of `inputs` weights.
-    pub weight: Vec<f32>,
-    /// `outputs` biases.
-    pub bias: Vec<f32>,
-}
 
 /// The parameters of a [`StrengthRegressor`](super::StrengthRegressor).
 #[derive(Clone, PartialEq, Debug)]

@@ -5,6 +5,7 @@ use candle_core::Result as NetworkResult;
 use phase_baselines::{
     arg::Arg,
     forecasting::Forecasting,
+    intent_network::IntentNetwork,
     recognition::Recognition,
     social_lstm::SocialLstm,
     stgat::Stgat,
@@ -59,6 +60,7 @@ pub fn forecaster(name: &str, weights: Option<&Path>) -> Result<Option<Box<dyn F
 /// If its record is damaged.
 pub fn training(name: &str) -> Result<Option<Training>, CliError> {
     let record = match name {
+        "intent-network" => IntentNetwork::BUNDLED_RECORD,
         "two-level-lstm" => TwoLevelLstm::BUNDLED_RECORD,
         "arg" => Arg::BUNDLED_RECORD,
         "social-lstm" => SocialLstm::BUNDLED_RECORD,
