@@ -1,7 +1,7 @@
 //! From an observed event to weighted hypotheses.
 
 use crate::{
-    Algorithm, AlternativeMinds, ChainSettings, Hypothesis, InferenceSettings, InferredStrengths,
+    Algorithm, AlternativeMinds, ChainSettings, Guide, Hypothesis, InferenceSettings, InferredStrengths,
     InversePlanningSettings, Posterior, Proposal, StrengthSource, generative::PreparedEvent,
     inverse_planning, metropolis::Chains, simulations::Simulations, strength::StrengthCue,
 };
@@ -36,6 +36,15 @@ pub struct MindPosterior {
     pub posterior: Posterior,
 }
 
+/// What was learnt about motion, for an inference.
+#[derive(Clone, Copy)]
+pub struct Cues<'a> {
+    /// Proposals of strengths, for Algorithm 2.
+    pub strengths: &'a dyn StrengthCue,
+    /// The guide of inverse planning, if it has one.
+    pub guide: Option<Guide<'a>>,
+}
+
 /// Infers what explains an event. The same seed gives the same result. `tick` is called about once a
 /// simulation; if it breaks, the result is `None`.
 ///
@@ -44,27 +53,27 @@ pub struct MindPosterior {
 /// Invalid parameters of the agents' search.
 pub fn infer(
     prepared: &PreparedEvent<'_>,
-    strengths: &dyn StrengthCue,
+    cues: &Cues<'_>,
     seed: u64,
     settings: &InferenceSettings,
     tick: &mut dyn FnMut() -> ControlFlow<()>,
 ) -> Result<Option<Inference>, PomcpError> {
+    let (guide, gamma) = (cues.guide.as_ref(), settings.gamma);
     match &settings.algorithm {
         Algorithm::InversePlanning(planning) => {
-            let own = inverse_planning::weighted_hypotheses(prepared, planning, settings.gamma, tick)?;
+            let own = inverse_planning::weighted_hypotheses(prepared, planning, gamma, guide, tick)?;
             let Some(own) = own else { return Ok(None) };
             let mut kinds = vec![(*prepared.minds(), own)];
             if let Some(AlternativeMinds { minds, lapse_rate }) = settings.alternative {
                 let prepared = prepared.with_minds(minds);
                 let planning = InversePlanningSettings { lapse_rate, ..*planning };
-                let other =
-                    inverse_planning::weighted_hypotheses(&prepared, &planning, settings.gamma, tick)?;
+                let other = inverse_planning::weighted_hypotheses(&prepared, &planning, gamma, guide, tick)?;
                 let Some(other) = other else { return Ok(None) };
                 kinds.push((minds, other));
             }
             Ok(Some(average(kinds)))
         }
-        Algorithm::Chains(chains) => run_chains(prepared, strengths, seed, settings.gamma, chains, tick),
+        Algorithm::Chains(chains) => run_chains(prepared, cues.strengths, seed, gamma, chains, tick),
     }
 }
 
@@ -131,6 +140,7 @@ pub fn explain(
     settings: &InferenceSettings,
 ) -> Result<Inference, PomcpError> {
     let prepared = PreparedEvent::new(observed, settings.minds, seed);
-    let inference = infer(&prepared, strengths, seed, settings, &mut || ControlFlow::Continue(()))?;
+    let cues = Cues { strengths, guide: None };
+    let inference = infer(&prepared, &cues, seed, settings, &mut || ControlFlow::Continue(()))?;
     Ok(inference.unwrap_or_else(|| unreachable!("nobody breaks it off")))
 }

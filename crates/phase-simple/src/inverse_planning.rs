@@ -8,6 +8,7 @@ use crate::{
     Hypothesis, IntentEvidence, InversePlanningSettings, Posterior, Proposal,
     choice::{self, ByChoice},
     generative::PreparedEvent,
+    guide::{Guess, Guide},
     intent::{Intent, WeightedIntents, joint_logs},
     strength::UniformStrength,
 };
@@ -19,7 +20,7 @@ use phase_pomcp::PomcpError;
 const REFINEMENT_PASSES: usize = 2;
 
 /// ln P(Y) P(motion | Y) of every hypothesis, with the strengths inferred from the physics; `None` if `tick`, which
-/// is called once per intent, cancelled it.
+/// is called once per intent, cancelled it. A guide adds its guess, and restricts the simulations to the intents that it leaves.
 ///
 /// # Errors
 ///
@@ -28,6 +29,7 @@ pub(crate) fn weighted_hypotheses(
     prepared: &PreparedEvent<'_>,
     settings: &InversePlanningSettings,
     gamma: f64,
+    guide: Option<&Guide<'_>>,
     tick: &mut dyn FnMut() -> ControlFlow<()>,
 ) -> Result<Option<Vec<(Hypothesis, f64)>>, PomcpError> {
     let observed = prepared.observed();
@@ -39,16 +41,22 @@ pub(crate) fn weighted_hypotheses(
         strengths: prepared.motion().strengths(),
     };
     let cue = Proposal::new(observed, 0..=observed.steps(), gamma, &UniformStrength);
+    let guess = guide.map(|guide| Guess::new(guide, observed, evidence.strengths));
     // The goal that each agent attributes to the other if it is not social.
-    let mut assumed_goals: [Goal; AGENT_COUNT] = AgentId::ALL.map(|agent| cue.most_likely_goal(agent));
+    let likeliest = guess.as_ref().and_then(Guess::goals);
+    let mut assumed_goals: [Goal; AGENT_COUNT] =
+        likeliest.unwrap_or_else(|| AgentId::ALL.map(|agent| cue.most_likely_goal(agent)));
+    let log_guess = |agent, intent| guess.as_ref().map_or(0.0, |guess| guess.log(agent, intent));
     let mut weighted_intents: [WeightedIntents; AGENT_COUNT] = [Vec::new(), Vec::new()];
     for (agent, weighted_intents) in AgentId::ALL.into_iter().zip(&mut weighted_intents) {
-        for intent in Intent::all(agent, objects) {
+        let intents =
+            guess.as_ref().map_or_else(|| Intent::all(agent, objects), |guess| guess.kept(agent).collect());
+        for intent in intents {
             if tick().is_break() {
                 return Ok(None);
             }
-            weighted_intents
-                .push((intent, evidence.log_likelihood(agent, &intent, assumed_goals[agent.other()])?));
+            let log = evidence.log_likelihood(agent, &intent, assumed_goals[agent.other()])?;
+            weighted_intents.push((intent, log + log_guess(agent, intent)));
         }
     }
     let goals = cue.goals(AgentId::ZERO).len();
@@ -69,7 +77,7 @@ pub(crate) fn weighted_hypotheses(
                 if tick().is_break() {
                     return Ok(None);
                 }
-                *log = evidence.log_likelihood(agent, intent, likeliest[other])?;
+                *log = evidence.log_likelihood(agent, intent, likeliest[other])? + log_guess(agent, *intent);
             }
         }
         if likeliest == assumed_goals {
@@ -78,7 +86,10 @@ pub(crate) fn weighted_hypotheses(
         assumed_goals = likeliest;
         joint = joint_logs(&weighted_intents, evidence.strengths, goals);
     }
-    Ok(Some(joint))
+    Ok(Some(match &guess {
+        Some(guess) => guess.complete(joint),
+        None => joint,
+    }))
 }
 
 /// The data from which intents are weighted.

@@ -9,7 +9,7 @@ use phase_model::{
 use phase_sampler::{Request, Variant, sample};
 use phase_sim::SimulationSettings;
 use phase_simple::{
-    Algorithm, Inference, InferenceSettings, InversePlanningSettings, PreparedEvent, UniformStrength,
+    Algorithm, Cues, Inference, InferenceSettings, InversePlanningSettings, PreparedEvent, UniformStrength,
     explain, infer,
 };
 
@@ -89,8 +89,8 @@ fn one_kind_alone_gives_its_part_of_the_average() {
     };
     for (kind, settings) in average.minds.iter().zip([first, second]) {
         let prepared = PreparedEvent::new(&event, settings.minds, 1);
-        let alone =
-            infer(&prepared, &UniformStrength, 1, &settings, &mut || core::ops::ControlFlow::Continue(()));
+        let cues = Cues { strengths: &UniformStrength, guide: None };
+        let alone = infer(&prepared, &cues, 1, &settings, &mut || core::ops::ControlFlow::Continue(()));
         let alone = alone.expect("is sound").expect("nobody breaks it off");
         assert_eq!(alone.posterior, kind.posterior);
         assert_eq!(alone.minds[0].probability.to_bits(), 1.0_f64.to_bits());

@@ -10,7 +10,7 @@ use phase_evidence::Track;
 use phase_model::{AGENT_COUNT, AgentId, EventKind};
 use phase_sim::SimulationSettings;
 use phase_simple::{
-    Algorithm, InferenceSettings, InversePlanningSettings, PreparedEvent, UniformStrength,
+    Algorithm, Cues, InferenceSettings, InversePlanningSettings, PreparedEvent, UniformStrength,
     choice::{self, Chance},
     infer,
 };
@@ -114,7 +114,8 @@ impl Plan {
             simulated.push(run);
         }
         let recognition = if self.posterior {
-            let inference = infer(&prepared, &UniformStrength, self.seed, &self.inference, &mut tick)
+            let cues = Cues { strengths: &UniformStrength, guide: None };
+            let inference = infer(&prepared, &cues, self.seed, &self.inference, &mut tick)
                 .map_err(|error| failed(MethodError::new(error)))?;
             let Some(inference) = inference else { return Ok(None) };
             Some(Recognition::of(&inference.posterior, &truth))

@@ -13,8 +13,9 @@ use phase_eval::{
 use std::path::Path;
 
 /// Names of the methods for goals and relations.
-pub const RECOGNISERS: [&str; 13] = [
+pub const RECOGNISERS: [&str; 14] = [
     "simple",
+    "simple-guided",
     "simple-initial",
     "simple-global",
     "simple-local",

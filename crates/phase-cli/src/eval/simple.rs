@@ -9,8 +9,9 @@ use phase_eval::{
 use phase_event::ObservedEvent;
 use phase_model::{Forecast, Judgement};
 use phase_simple::{
-    ChainSettings, ForecastSettings, Inference, InferenceSettings, MindPosterior, PreparedEvent, Proposal,
-    StrengthRegressor, StrengthSource, UniformStrength, Update, forecast, infer,
+    ChainSettings, Cues, ForecastSettings, Guidance, Guide, Inference, InferenceSettings, IntentNetwork,
+    MindPosterior, PreparedEvent, Proposal, StrengthRegressor, StrengthSource, UniformStrength, Update,
+    forecast, infer,
 };
 use serde_json::{Value, json};
 
@@ -22,6 +23,8 @@ const REPORTED_HYPOTHESES: usize = 12;
 pub struct Simple {
     settings: InferenceSettings,
     forecast: ForecastSettings,
+    /// How the bundled intent network guides it, if it does.
+    guidance: Option<Guidance>,
 }
 
 impl Simple {
@@ -30,13 +33,13 @@ impl Simple {
     /// minds that are periodically resynchronised with the observed event; `simple-published` is Algorithm 2 whole,
     /// with published minds and simulations that are not resynchronised, and `simple-published-global` and
     /// `simple-published-initial` are its ablation; `simple-published-dynamics` has strengths from inverse dynamics in place of
-    /// the network's. `None` for other names.
+    /// the network's; `simple-guided` is `simple` guided by the intent network. `None` for other names.
     #[must_use]
     pub fn of(name: &str) -> Option<Self> {
         let algorithm_2 = |update| InferenceSettings::chains(ChainSettings::resynchronised(update));
         let published = |update| InferenceSettings::published(update, StrengthSource::Network);
         let settings = match name {
-            "simple" => InferenceSettings::averaged(),
+            "simple" | "simple-guided" => InferenceSettings::averaged(),
             "simple-initial" => algorithm_2(Update::Initial),
             "simple-global" => algorithm_2(Update::Global),
             "simple-local" => algorithm_2(Update::Local),
@@ -48,7 +51,8 @@ impl Simple {
             }
             _ => return None,
         };
-        Some(Self { settings, forecast: ForecastSettings::default() })
+        let guidance = (name == "simple-guided").then(Guidance::default);
+        Some(Self { settings, forecast: ForecastSettings::default(), guidance })
     }
 
     /// The same with the minds that were chosen, if any, in all its simulations.
@@ -73,13 +77,20 @@ impl Simple {
         tick: ProgressCallback<'_>,
     ) -> Result<Option<Inference>, MethodError> {
         let strengths = StrengthRegressor::bundled().map_err(MethodError::new)?;
-        infer(prepared, &strengths, seed, &self.settings, tick).map_err(MethodError::new)
+        let network = IntentNetwork::bundled().map_err(MethodError::new)?;
+        let guide = self.guidance.map(|guidance| Guide { network: &network, guidance });
+        let cues = Cues { strengths: &strengths, guide };
+        infer(prepared, &cues, seed, &self.settings, tick).map_err(MethodError::new)
     }
 }
 
 impl Recogniser for Simple {
     fn settings(&self) -> Value {
-        json!(self.settings)
+        let mut settings = json!(self.settings);
+        if let Some(guidance) = self.guidance {
+            settings["guidance"] = json!(guidance);
+        }
+        settings
     }
 
     fn ticks(&self) -> usize {

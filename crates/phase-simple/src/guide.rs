@@ -1,0 +1,166 @@
+//! The intent network as a guide of inverse planning: which hypotheses are worth simulating, and how much its guess counts.
+//!
+//! The posterior is a product of experts, P(Y | S) ∝ P(Y) Q(Y | S)^a P(S | Y), over the hypotheses that the guide leaves. What it
+//! leaves out keeps the probability that the guide gives it.
+
+use crate::{
+    Hypothesis, Intent, IntentNetwork, Posterior,
+    intent::{WeightedIntents, joint_logs},
+    physical_goals,
+};
+use phase_event::ObservedEvent;
+use phase_model::{AGENT_COUNT, AgentId, Attitude, Goal, Strength};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
+
+/// How a network guides inverse planning. Fitted by `cargo xtask fit-inference` (docs/simple.md).
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Guidance {
+    /// a, the exponent of the network's guess, 0 to 1.
+    pub exponent: f64,
+    /// Share of the probability of Q^a whose hypotheses are simulated, 0 to 1.
+    pub mass: f64,
+}
+
+impl Default for Guidance {
+    fn default() -> Self {
+        Self { exponent: 0.5, mass: 0.999 }
+    }
+}
+
+/// A network and how it guides.
+#[derive(Clone, Copy, Debug)]
+pub struct Guide<'a> {
+    /// The network.
+    pub network: &'a IntentNetwork,
+    /// How it guides.
+    pub guidance: Guidance,
+}
+
+/// What the guide says of one event.
+#[derive(Clone, Debug)]
+pub(crate) struct Guess {
+    /// a ln Q of every intent.
+    intents: [WeightedIntents; AGENT_COUNT],
+    /// Q^a, normalised, likeliest first.
+    posterior: Posterior,
+    /// The intents worth simulating.
+    kept: [BTreeSet<Intent>; AGENT_COUNT],
+}
+
+impl Guess {
+    /// What the guide says of an event whose agents have these strengths.
+    pub(crate) fn new(
+        guide: &Guide<'_>,
+        observed: &ObservedEvent,
+        strengths: [Strength; AGENT_COUNT],
+    ) -> Self {
+        let Guidance { exponent, mass } = guide.guidance;
+        let mut intents = guide.network.weigh(observed);
+        intents.iter_mut().flatten().for_each(|(_, log)| *log *= exponent);
+        let goals = physical_goals(AgentId::ZERO, observed.object_sizes().len()).len();
+        let posterior = Posterior::new(joint_logs(&intents, strengths, goals));
+        let mut kept: [BTreeSet<Intent>; AGENT_COUNT] = Default::default();
+        let mut covered = 0.0;
+        for (hypothesis, weight) in &posterior.hypotheses {
+            for (agent, kept) in AgentId::ALL.into_iter().zip(&mut kept) {
+                kept.insert(intent_of(hypothesis, agent));
+            }
+            covered += weight;
+            if covered >= mass {
+                break;
+            }
+        }
+        Self { intents, posterior, kept }
+    }
+
+    /// The intents of an agent that are worth simulating.
+    pub(crate) fn kept(&self, agent: AgentId) -> impl Iterator<Item = Intent> + '_ {
+        self.kept[agent].iter().copied()
+    }
+
+    /// The likeliest goals.
+    pub(crate) fn goals(&self) -> Option<[Goal; AGENT_COUNT]> {
+        self.posterior.hypotheses.first().map(|(likeliest, _)| likeliest.goals)
+    }
+
+    /// a ln Q of an intent of an agent.
+    pub(crate) fn log(&self, agent: AgentId, intent: Intent) -> f64 {
+        let known = self.intents[agent].iter().find(|(other, _)| *other == intent);
+        known.map_or(f64::NEG_INFINITY, |(_, log)| *log)
+    }
+
+    /// Adds the hypotheses that were not simulated to ln P(Y, motion) of those that were, such that the former keep the share
+    /// that the guide gives them.
+    pub(crate) fn complete(&self, mut joint: Vec<(Hypothesis, f64)>) -> Vec<(Hypothesis, f64)> {
+        let simulated: BTreeSet<Hypothesis> = joint.iter().map(|(hypothesis, _)| *hypothesis).collect();
+        let others = || self.posterior.hypotheses.iter().filter(|(it, _)| !simulated.contains(it));
+        let share: f64 = others().map(|(_, weight)| weight).sum();
+        let greatest = joint.iter().map(|it| it.1).fold(f64::NEG_INFINITY, f64::max);
+        let sum: f64 = joint.iter().map(|it| libm::exp(it.1 - greatest)).sum();
+        let scale = greatest + libm::log(sum) - libm::log((1.0 - share).max(f64::MIN_POSITIVE));
+        let rest: Vec<_> = others()
+            .filter(|(_, weight)| *weight > 0.0)
+            .map(|(hypothesis, weight)| (*hypothesis, libm::log(*weight) + scale))
+            .collect();
+        joint.extend(rest);
+        joint
+    }
+}
+
+/// The intent that a hypothesis ascribes to an agent.
+fn intent_of(hypothesis: &Hypothesis, agent: AgentId) -> Intent {
+    let attitude = hypothesis.attitudes[agent];
+    let owner = if attitude == Attitude::Neutral { agent } else { agent.other() };
+    Intent { attitude, goal: hypothesis.goals[owner] }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Guess, intent_of};
+    use crate::{Intent, Posterior, intent::joint_logs, physical_goals};
+    use phase_model::{AGENT_COUNT, AgentId, Attitude, Strength};
+    use std::collections::BTreeSet;
+
+    const STRENGTHS: [Strength; AGENT_COUNT] = [Strength::Weak, Strength::Mighty];
+
+    /// A guess in which agent 0 likely helps agent 1 with its first goal.
+    fn guess(kept: [BTreeSet<Intent>; AGENT_COUNT]) -> Guess {
+        let weigh = |agent: AgentId| {
+            let first = physical_goals(AgentId::ONE, 2)[0];
+            let likely = |intent: &Intent| intent.goal == first && intent.attitude != Attitude::Hinder;
+            let log = |intent: Intent| (intent, if likely(&intent) { 3.0 } else { 0.0 });
+            Intent::all(agent, 2).into_iter().map(log).collect()
+        };
+        let intents = AgentId::ALL.map(weigh);
+        let posterior = Posterior::new(joint_logs(&intents, STRENGTHS, 14));
+        Guess { intents, posterior, kept }
+    }
+
+    #[test]
+    fn the_intents_of_a_hypothesis_make_it_up() {
+        for (hypothesis, _) in guess(Default::default()).posterior.hypotheses {
+            let agent = hypothesis.social_agent().unwrap_or(AgentId::ZERO);
+            let [own, others] = [agent, agent.other()].map(|agent| intent_of(&hypothesis, agent));
+            assert_eq!(own.hypothesis(agent, others.goal, STRENGTHS), hypothesis);
+            assert_eq!(others.attitude, Attitude::Neutral);
+        }
+    }
+
+    /// Whatever is simulated and with whatever result, the rest keeps its share and its proportions.
+    #[test]
+    fn what_is_left_out_keeps_its_probability() {
+        let guess = guess(Default::default());
+        let simulated: Vec<_> = guess.posterior.hypotheses.iter().take(9).map(|it| (it.0, -1000.0)).collect();
+        let share: f64 = guess.posterior.hypotheses.iter().skip(9).map(|it| it.1).sum();
+        let all = Posterior::new(guess.complete(simulated));
+        assert_eq!(all.hypotheses.len(), guess.posterior.hypotheses.len());
+        for (hypothesis, weight) in guess.posterior.hypotheses.iter().skip(9) {
+            let found = all.hypotheses.iter().find(|it| it.0 == *hypothesis).expect("kept");
+            assert!((found.1 - weight).abs() < 1e-12);
+        }
+        let of_simulated = 1.0 - share;
+        assert!((all.hypotheses[0].1 - of_simulated / 9.0).abs() < 1e-12);
+    }
+}
