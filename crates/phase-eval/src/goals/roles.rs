@@ -5,13 +5,16 @@ use crate::Estimate;
 use phase_model::RoleProbabilities;
 use serde::{Deserialize, Serialize};
 
+/// Probabilities that differ by less are equal but for rounding errors.
+const ROUNDING: f64 = 1e-9;
+
 /// How well a method names the agent that helps or hinders, given the relation: its probability that the right agent has the
 /// right attitude, beside that of the other agent having it.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct RoleScores {
     /// Number of events in which one agent helps or hinders the other.
     pub n: usize,
-    /// The right agent is the likelier one.
+    /// The right agent is the likelier one; equally likely ones do not count.
     pub named: Estimate,
     /// Brier score of the two: (1 − p)², where p is the probability of the right agent over that of both; 0.25 for a method
     /// that does not know.
@@ -31,7 +34,7 @@ impl RoleScores {
         };
         Some(Self {
             n: shares.len(),
-            named: over(|share| f64::from(u8::from(share > 0.5)))?,
+            named: over(|share| f64::from(u8::from(share > 0.5 + ROUNDING)))?,
             brier: over(|share| (1.0 - share) * (1.0 - share))?,
         })
     }
