@@ -151,7 +151,7 @@ impl<D: Dynamics> GenerativeModel for SearchModel<'_, D> {
         actions[agent] = action;
         let state = &mut search_state.state;
         match self.parameters.foresight {
-            Foresight::Coarse => self.dynamics.step_approximate(state, actions),
+            Foresight::Coarse | Foresight::Points => self.dynamics.step_approximate(state, actions),
             Foresight::Exact => self.dynamics.step(state, actions),
         }
         search_state.distance = self.objective.distance(&search_state.state);

@@ -12,11 +12,15 @@ pub enum Foresight {
     Coarse,
     /// By [`Dynamics::step`](phase_model::Dynamics::step), the exact dynamics.
     Exact,
+    /// As [`Coarse`](Self::Coarse), in a world without collisions between bodies: agents and objects pass through each
+    /// other, and only walls stop them. Whoever makes a mind gives it such dynamics (`phase-minds` does); published minds
+    /// search with theirs, less the collisions.
+    Points,
 }
 
 impl Foresight {
-    /// Both levels of fidelity.
-    pub const ALL: [Self; 2] = [Self::Coarse, Self::Exact];
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Coarse, Self::Exact, Self::Points];
 
     /// The name used in files and options.
     #[must_use]
@@ -24,6 +28,7 @@ impl Foresight {
         match self {
             Self::Coarse => "coarse",
             Self::Exact => "exact",
+            Self::Points => "points",
         }
     }
 }
@@ -61,7 +66,8 @@ impl MindKind {
 #[serde(default)]
 pub struct MindParameters {
     /// Which minds. Absent in older files, which means `phase`. Published minds have, of the parameters below, only those of
-    /// belief, subgoal value and search: `particles` to `discount`, less `convergence`.
+    /// belief, subgoal value and search: `particles` to `discount`, less `convergence`; and of `foresight` whether it is
+    /// [`Foresight::Points`].
     pub kind: MindKind,
     /// Whether bodies turn one way whichever way their minds choose: to the left, and to the right in a reflected layout. It
     /// is a defect of the published recorder, of which its minds do not know.

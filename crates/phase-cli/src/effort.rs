@@ -49,8 +49,8 @@ pub struct SimulationOptions {
     /// Which minds.
     #[command(flatten)]
     pub minds: MindOptions,
-    /// Fidelity of the dynamics in the agents' search: `coarse`, or `exact`, which takes several times as long
-    /// [default: coarse]
+    /// Dynamics in the agents' search: `coarse`, or `exact`, which takes several times as long, or `points`, in which
+    /// bodies pass through each other [default: coarse]
     #[arg(long, value_name = "HOW", hide_possible_values = true, value_parser = foresights())]
     pub foresight: Option<Foresight>,
     /// Belief particles of each agent [default: 50]

@@ -37,6 +37,15 @@ impl Forward {
         Self { model }
     }
 
+    /// The same dynamics without collisions between bodies, as if they were points for each other: agents and objects pass
+    /// through each other, with walls stopping them at their outlines. Agents grab, hold and release as before, and
+    /// [`State::contacts`] still names the bodies that overlap, for who touches whom is a matter of goals as well.
+    #[must_use]
+    pub fn without_collisions(mut self) -> Self {
+        self.model.collisions = false;
+        self
+    }
+
     /// One step (five substeps) from a state alone, with the state after each substep. Impulses of contacts
     /// and grips start from zero, as in [`Dynamics::step`]; the last state is the resulting one.
     pub fn step_substeps(&self, state: &mut State, actions: [Action; AGENT_COUNT]) -> [State; SUBSTEPS] {

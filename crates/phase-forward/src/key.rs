@@ -24,6 +24,9 @@ pub(crate) const fn pair_key(pair: usize) -> usize {
     4 * MAX_WALLS + pair
 }
 
+/// All keys of walls with bodies.
+pub(crate) const WALL_KEYS: KeySet = bit(pair_key(0)) - 1;
+
 /// The set of one key.
 pub(crate) const fn bit(key: usize) -> KeySet {
     1 << key

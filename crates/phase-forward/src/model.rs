@@ -2,7 +2,7 @@
 
 use crate::{
     body::Shape,
-    key::BodyMask,
+    key::{BodyMask, KeySet, WALL_KEYS},
     wall::{MAX_WALLS, Wall, WallBoxes, walls},
 };
 use phase_model::{AGENT_COUNT, PhysicsConfig};
@@ -20,6 +20,8 @@ pub(crate) struct Model {
     pub(crate) count: usize,
     /// Whether this is the published planner's idea of the dynamics.
     pub(crate) imagined: bool,
+    /// Whether bodies collide with each other, and not with walls alone.
+    pub(crate) collisions: bool,
 }
 
 impl Model {
@@ -35,7 +37,21 @@ impl Model {
         let (walls, wall_count) = walls(&physics.walls);
         let count = physics.entity_count().min(4);
         let boxes = WallBoxes::new(&walls[..wall_count]);
-        Self { physics: physics.clone(), shapes, walls, wall_count, boxes, count, imagined: false }
+        Self {
+            physics: physics.clone(),
+            shapes,
+            walls,
+            wall_count,
+            boxes,
+            count,
+            imagined: false,
+            collisions: true,
+        }
+    }
+
+    /// Those of some pairs of shapes whose contacts are resisted.
+    pub(crate) const fn resisting(&self, candidates: KeySet) -> KeySet {
+        if self.collisions { candidates } else { candidates & WALL_KEYS }
     }
 
     /// All bodies of the scene.

@@ -13,10 +13,10 @@ use crate::{
 use phase_model::{AGENT_COUNT, physics::RELEASED_OVERLAP};
 
 impl World<'_> {
-    /// Finds the touching pairs of shapes in a set, newest first. The outlines of the bodies must be up to
+    /// Finds the touching pairs of shapes in a set that resist it, newest first. The outlines of the bodies must be up to
     /// date.
     pub(crate) fn contacts(&self, candidates: KeySet) -> impl Iterator<Item = Contact> {
-        descending(candidates).filter_map(|key| {
+        descending(self.model.resisting(candidates)).filter_map(|key| {
             let (bodies, manifold) = self.collide(key, &self.outlines.polygons);
             (manifold.count > 0)
                 .then(|| Contact::new(key as u8, bodies, manifold).tolerating(self.tolerated_overlap(key)))

@@ -90,16 +90,17 @@ pub(crate) fn groups_may_collide(world: &World<'_>, groups: &Groups) -> bool {
     let sweep = |body: usize| {
         groups.bodies_of(groups.names[body]).map(|member| world.max_displacements[member]).fold(0.0, f32::max)
     };
-    PAIRS.into_iter().any(|(a, b)| {
-        let excluded_pairs = groups.names[a] != groups.names[b] && b < model.count;
-        let reach = model.shapes[a].bounding_radius + model.shapes[b].bounding_radius + MARGIN;
-        let (first, second) = (&world.motions[a], &world.motions[b]);
-        let distance_squared = first.centre.distance_squared(second.centre);
-        excluded_pairs && {
-            let reach = reach + sweep(a) + sweep(b);
-            distance_squared < reach * reach
-        }
-    })
+    model.collisions
+        && PAIRS.into_iter().any(|(a, b)| {
+            let excluded_pairs = groups.names[a] != groups.names[b] && b < model.count;
+            let reach = model.shapes[a].bounding_radius + model.shapes[b].bounding_radius + MARGIN;
+            let (first, second) = (&world.motions[a], &world.motions[b]);
+            let distance_squared = first.centre.distance_squared(second.centre);
+            excluded_pairs && {
+                let reach = reach + sweep(a) + sweep(b);
+                distance_squared < reach * reach
+            }
+        })
 }
 
 /// Those of the given bodies that the coming substep can change, and all pairs of shapes that may touch in

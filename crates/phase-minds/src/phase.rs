@@ -1,7 +1,7 @@
 //! Our own minds behind the interface.
 
 use crate::{BeliefState, Mind};
-use phase_agent::{BeliefView, MindParameters};
+use phase_agent::{BeliefView, Foresight, MindParameters};
 use phase_belief::Belief;
 use phase_event::Thought;
 use phase_forward::Forward;
@@ -15,6 +15,10 @@ pub(crate) fn mind(
     parameters: &MindParameters,
 ) -> Result<Box<dyn Mind>, PomcpError> {
     let forward = Forward::new(&scene.physics());
+    let forward = match parameters.foresight {
+        Foresight::Points => forward.without_collisions(),
+        Foresight::Coarse | Foresight::Exact => forward,
+    };
     Ok(Box::new(phase_agent::Mind::new(scene, agent, forward, *parameters)?))
 }
 

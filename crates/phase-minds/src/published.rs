@@ -1,7 +1,7 @@
 //! The published simulator's minds behind the interface.
 
 use crate::{BeliefState, Mind};
-use phase_agent::{BeliefView, MindParameters};
+use phase_agent::{BeliefView, Foresight, MindParameters};
 use phase_event::Thought;
 use phase_model::{Action, AgentId, Layout, PhysicsConfig, Scene, State, random::Pcg64Mcg};
 use phase_perception::Observation;
@@ -44,6 +44,7 @@ const fn published(parameters: &MindParameters) -> PublishedParameters {
         c_init: parameters.c_init,
         c_base: parameters.c_base,
         discount: parameters.discount,
+        collisions: !matches!(parameters.foresight, Foresight::Points),
     }
 }
 

@@ -2,9 +2,11 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
-use phase_minds::{Agent, MindKind, MindParameters, carried_out};
+use phase_agent::Foresight;
+use phase_event::ActionEvaluation;
+use phase_minds::{Agent, BeliefView, MindKind, MindParameters, carried_out, mind};
 use phase_model::{
-    Action, AgentId, Dynamics, Entity, Flip, Layout, Scene,
+    Action, AgentId, BodySet, Dynamics, Entity, Flip, Layout, Scene,
     random::{Pcg64Mcg, Purpose, stream},
 };
 
@@ -79,4 +81,38 @@ fn older_files_mean_our_own_minds() {
 /// The defaults of a file without any field.
 fn read_defaults() -> MindParameters {
     serde_json::from_str("{}").unwrap()
+}
+
+/// What an agent thinks of its actions with a huge object at some height (u) above it, who stands at 5 u and goes up.
+fn evaluations(kind: MindKind, foresight: Foresight, height: f32) -> Vec<ActionEvaluation> {
+    let text = r#"{"layout": {"base": 0, "flip": null}, "event": "independent",
+        "objects": [{"size_level": 3, "start": {"x": 8.5, "y": HEIGHT, "angle": 0}}], "agents": [
+        {"size_level": 0, "strength_level": 2, "alpha": 0, "start": {"x": 8.5, "y": 5, "angle": 0},
+         "goal": {"kind": "agent_on_landmark", "agent": 0, "landmark": 0, "sign": 1}},
+        {"size_level": 0, "strength_level": 2, "alpha": 0, "start": {"x": 23, "y": 5, "angle": 0},
+         "goal": {"kind": "agent_on_landmark", "agent": 1, "landmark": 2, "sign": 1}}]}"#;
+    let scene = Scene::from_json(&text.replace("HEIGHT", &height.to_string())).expect("a scene");
+    let particles = [scene.initial_state()];
+    let mut observed = BodySet::OBJECTS;
+    AgentId::ALL.into_iter().for_each(|agent| observed.insert(Entity::Agent(agent)));
+    let belief = BeliefView { particles: &particles, observed, last_action: None };
+    // Few steps, in which only what is near can be reached.
+    let parameters =
+        MindParameters { foresight, simulations: 10, rollout_steps: 2, ..MindParameters::default() };
+    let mut mind = mind(&scene, AgentId::ZERO, &MindParameters { kind, ..parameters }).expect("a mind");
+    mind.decide(belief, &mut random(1)).expect("a decision").1.actions
+}
+
+#[test]
+fn who_foresees_points_disregards_collisions_and_nothing_else() {
+    for kind in MindKind::ALL {
+        let same = |height| {
+            let [solid, points] =
+                [Foresight::Coarse, Foresight::Points].map(|foresight| evaluations(kind, foresight, height));
+            assert!(!solid.is_empty());
+            solid == points
+        };
+        assert!(!same(8.0), "{}: a body is in the way", kind.name());
+        assert!(same(20.0), "{}: nothing is in the way", kind.name());
+    }
 }

@@ -43,8 +43,9 @@ impl Mind {
             normalise_values: false,
             ..PomcpSettings::default()
         })?;
+        let imagined = Forward::imagined(&physics);
         Ok(Self {
-            imagined: Forward::imagined(&physics),
+            imagined: if parameters.collisions { imagined } else { imagined.without_collisions() },
             rules: Rules {
                 rooms: Rooms::new(scene.layout),
                 physics,

@@ -21,6 +21,9 @@ pub struct PublishedParameters {
     pub c_base: f64,
     /// Weight of the next step's reward.
     pub discount: f64,
+    /// Whether bodies collide with each other in the search, as they do in the original; if not, they pass through each
+    /// other.
+    pub collisions: bool,
 }
 
 impl Default for PublishedParameters {
@@ -34,6 +37,7 @@ impl Default for PublishedParameters {
             c_init: 1.25,
             c_base: 1000.0,
             discount: 0.95,
+            collisions: true,
         }
     }
 }

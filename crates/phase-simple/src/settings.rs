@@ -152,6 +152,16 @@ impl InferenceSettings {
         Self { minds, alternative: None, ..self }
     }
 
+    /// The same with minds whose search has these dynamics, of every kind that it considers.
+    #[must_use]
+    pub fn with_foresight(mut self, foresight: phase_agent::Foresight) -> Self {
+        self.minds.foresight = foresight;
+        if let Some(alternative) = &mut self.alternative {
+            alternative.minds.foresight = foresight;
+        }
+        self
+    }
+
     /// The minds of a kind for an inference, which searches less than an agent that acts; published ones with their
     /// recorder's turns.
     #[must_use]
