@@ -5,6 +5,7 @@
 //! - [`intent_network`] trains SIMPLE's learnt guess at intents, which `phase_simple::IntentNetwork` evaluates,
 //! - [`two_level_lstm`] and [`arg`] are the paper's baselines for Task 1,
 //! - [`social_lstm`] and [`stgat`] are those for Task 2,
+//! - [`social_gnn`] is a later one for the relations of Task 1,
 //! - [`nodes`] is the input of all of them; [`recognition`] with [`goals`], and [`forecasting`], are what
 //!   those for one task have in common,
 //! - [`training`] trains any of them,
@@ -60,6 +61,7 @@ pub mod nodes;
 pub mod parameters;
 pub mod perceptron;
 pub mod recognition;
+pub mod social_gnn;
 pub mod social_lstm;
 pub mod stgat;
 pub mod strength;

@@ -32,7 +32,8 @@ const MASKED_LOGIT: f32 = -1e9;
 pub struct LabelledEvent {
     pub(crate) nodes: Nodes,
     goals: [u32; AGENT_COUNT],
-    relation: u32,
+    /// Its place in [`RELATIONS`].
+    pub(crate) relation: u32,
 }
 
 /// A goal that is none of the [`classes`].
@@ -119,12 +120,17 @@ pub trait Recognition {
             *ranked = all.filter(|(class, _)| !is_absent(*class, objects)).map(|(_, share)| share).collect();
             ranked.sort_by(|a, b| b.1.total_cmp(&a.1));
         }
-        let shares = probabilities(&relations.get(0)?.to_vec1()?);
-        if let [friendly, adversarial, neutral] = shares[..] {
-            judgement.relation = RelationProbabilities { friendly, adversarial, neutral };
-        }
+        judgement.relation = relation_probabilities(&relations)?;
         Ok(judgement)
     }
+}
+
+/// The probabilities of the relations in the first row of their logarithms (rows × 3).
+pub(crate) fn relation_probabilities(logs: &Tensor) -> Result<RelationProbabilities> {
+    Ok(match probabilities(&logs.get(0)?.to_vec1()?)[..] {
+        [friendly, adversarial, neutral] => RelationProbabilities { friendly, adversarial, neutral },
+        _ => RelationProbabilities::default(),
+    })
 }
 
 /// Cross-entropy of goals, a mean over the agents, plus that of relations.
@@ -151,11 +157,16 @@ pub(crate) fn selection_loss(evaluate: &Metrics) -> f64 {
 
 /// Mean cross-entropy of the true classes, and top-1 accuracy.
 fn cross_entropy(logs: &Tensor, right: Vec<u32>) -> Result<(Tensor, f64)> {
+    let (likelihoods, accuracy) = log_likelihoods(logs, right)?;
+    Ok((likelihoods.mean_all()?.neg()?, accuracy))
+}
+
+/// The logarithms of the probabilities of the true classes (rows × 1), and top-1 accuracy.
+pub(crate) fn log_likelihoods(logs: &Tensor, right: Vec<u32>) -> Result<(Tensor, f64)> {
     let count = right.len();
     let right = Tensor::from_vec(right, (count, 1), &Device::Cpu)?;
-    let loss = logs.gather(&right, 1)?.mean_all()?.neg()?;
     let hits = logs.argmax_keepdim(1)?.eq(&right)?.to_dtype(DType::F32)?.mean_all()?;
-    Ok((loss, f64::from(hits.to_scalar::<f32>()?)))
+    Ok((logs.gather(&right, 1)?, f64::from(hits.to_scalar::<f32>()?)))
 }
 
 /// Probabilities that sum to 1, from their logarithms.

@@ -1,8 +1,8 @@
 //! Several events side by side, step by step.
 
-use super::{FEATURES, FIXED, MOVING, NODES, Nodes};
+use super::{ContactMatrix, FEATURES, FIXED, MOVING, NODES, Nodes};
 use candle_core::{Device, Result, Tensor};
-use phase_model::Vec2;
+use phase_model::{Segment, Vec2};
 use std::sync::Arc;
 
 /// Additive padding mask: below any LSTM output once it is added to one.
@@ -29,6 +29,10 @@ pub struct Batch {
     positions: Vec<Vec<[Vec2; MOVING]>>,
     /// Positions of fixed nodes (u), by event.
     places: Vec<Vec<Vec2>>,
+    /// Contacts of moving nodes, by event and row.
+    contacts: Vec<Vec<ContactMatrix>>,
+    /// Inner walls (u), by event.
+    walls: Vec<Vec<Segment>>,
 }
 
 impl Batch {
@@ -75,6 +79,8 @@ impl Batch {
             present,
             positions: events.iter().map(|nodes| nodes.positions.clone()).collect(),
             places: events.iter().map(|nodes| nodes.places.clone()).collect(),
+            contacts: events.iter().map(|nodes| nodes.contacts.clone()).collect(),
+            walls: events.iter().map(|nodes| nodes.walls.clone()).collect(),
         })
     }
 
@@ -118,6 +124,18 @@ impl Batch {
         } else {
             self.places.get(event)?.get(node - MOVING).copied()
         }
+    }
+
+    /// Contacts of moving nodes in a row of an event; `None` past its end.
+    #[must_use]
+    pub fn contacts(&self, event: usize, row: usize) -> Option<&ContactMatrix> {
+        self.contacts.get(event)?.get(row)
+    }
+
+    /// Inner walls of an event (u), at most [`WALLS`](super::WALLS); none for an event that does not exist.
+    #[must_use]
+    pub fn walls(&self, event: usize) -> &[Segment] {
+        self.walls.get(event).map_or(&[], Vec::as_slice)
     }
 
     /// Which events are active at a row, repeated `each` times; `None` if all are.

@@ -10,9 +10,9 @@ use phase_model::{
 pub const FEATURES: usize = 15;
 
 /// Half the arena's side (u): the scale of lengths and positions, so that they lie between −1 and 1.
-const LENGTH: f32 = arena::SIDE / 2.0;
+pub(crate) const LENGTH: f32 = arena::SIDE / 2.0;
 /// The scale of velocities (u/s); most are below it.
-const SPEED: f32 = 10.0;
+pub(crate) const SPEED: f32 = 10.0;
 
 /// An agent or object by its index, with its radius (u).
 pub(super) fn body(index: usize, radius: f32, body: &Body) -> [f32; FEATURES] {

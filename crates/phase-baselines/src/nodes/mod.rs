@@ -2,21 +2,27 @@
 //! (appendix, "Baseline Implementation").
 
 mod batch;
+mod contact;
 mod embedding;
 mod features;
 
 pub use batch::Batch;
+pub use contact::ContactMatrix;
 pub use embedding::NodeEmbedding;
 pub use features::FEATURES;
+pub(crate) use features::{LENGTH, SPEED};
 
+use contact::contacts;
 use features::{body, landmark, wall};
 use phase_event::ObservedEvent;
-use phase_model::{MAX_ENTITIES, Vec2, arena::LANDMARKS};
+use phase_model::{MAX_ENTITIES, Segment, Vec2, arena::LANDMARKS};
 
 /// Nodes that move: agents, then objects.
 pub const MOVING: usize = MAX_ENTITIES;
-/// Fixed nodes: landmarks, then inner walls, of which there are at most four.
-pub const FIXED: usize = LANDMARKS.len() + 4;
+/// Inner walls, at most.
+pub const WALLS: usize = 4;
+/// Fixed nodes: landmarks, then inner walls.
+pub const FIXED: usize = LANDMARKS.len() + WALLS;
 /// All nodes, moving ones first. Absent objects and walls keep their places.
 pub const NODES: usize = MOVING + FIXED;
 
@@ -33,6 +39,10 @@ pub struct Nodes {
     positions: Vec<[Vec2; MOVING]>,
     /// Positions of landmarks and walls (u), walls by their centres.
     places: Vec<Vec2>,
+    /// Which agents and objects are in contact, by row.
+    contacts: Vec<ContactMatrix>,
+    /// The inner walls (u).
+    walls: Vec<Segment>,
 }
 
 impl Nodes {
@@ -48,17 +58,21 @@ impl Nodes {
         let moving = event.rows().iter().map(|row| {
             core::array::from_fn(|k| if k < entities { body(k, radii[k], &row[k]) } else { [0.0; FEATURES] })
         });
-        let positions = event
+        let positions: Vec<[Vec2; MOVING]> = event
             .rows()
             .iter()
-            .map(|row| core::array::from_fn(|k| if k < entities { row[k].position } else { Vec2::ZERO }));
+            .map(|row| core::array::from_fn(|k| if k < entities { row[k].position } else { Vec2::ZERO }))
+            .collect();
         let walls = event.layout().walls();
+        let contacts = positions.iter().map(|row| contacts(row, &radii, entities, &walls)).collect();
         Self {
             objects: event.object_sizes().len(),
             moving: moving.collect(),
             fixed: (0..LANDMARKS.len()).map(landmark).chain(walls.iter().map(wall)).collect(),
-            positions: positions.collect(),
+            positions,
             places: LANDMARKS.into_iter().chain(walls.iter().map(|wall| (wall.a + wall.b) / 2.0)).collect(),
+            contacts,
+            walls,
         }
     }
 

@@ -11,7 +11,7 @@ pub trait PublishedNetwork: Network + Sized {
     /// The [`TrainingRecord`](super::TrainingRecord) of that training, as a file.
     const BUNDLED_RECORD: &'static str;
 
-    /// The untrained network with 64 hidden units in every layer.
+    /// The untrained network of the published size: 64 hidden units in every layer unless it says otherwise.
     ///
     /// # Errors
     ///

@@ -5,6 +5,7 @@ use phase_baselines::{
     arg::Arg,
     nodes::Nodes,
     recognition::LabelledEvent,
+    social_gnn::SocialGnn,
     social_lstm::SocialLstm,
     stgat::Stgat,
     training::{
@@ -39,6 +40,10 @@ fn run<N: Network>(new: fn(&mut Pcg64Mcg) -> N, seed: u64, settings: TrainingSet
 
 fn social(random: &mut Pcg64Mcg) -> SocialLstm {
     SocialLstm::new(8, random).expect("a network")
+}
+
+fn gnn(random: &mut Pcg64Mcg) -> SocialGnn {
+    SocialGnn::new(16, 8, random).expect("a network")
 }
 
 fn stgat(random: &mut Pcg64Mcg) -> Stgat {
@@ -112,6 +117,7 @@ fn goes_on_as_if_nothing_had_happened<N: Network>(new: fn(&mut Pcg64Mcg) -> N, e
 fn gradients() {
     every_parameter_has_a_slope(lstm, &labelled());
     every_parameter_has_a_slope(arg, &labelled());
+    every_parameter_has_a_slope(gnn, &labelled());
     every_parameter_has_a_slope(social, &unlike());
     every_parameter_has_a_slope(stgat, &unlike());
 }
@@ -135,6 +141,7 @@ fn ways_by_heart() {
 fn breaks() {
     goes_on_as_if_nothing_had_happened(lstm, &labelled());
     goes_on_as_if_nothing_had_happened(arg, &labelled());
+    goes_on_as_if_nothing_had_happened(gnn, &labelled());
     goes_on_as_if_nothing_had_happened(social, &unlike());
     goes_on_as_if_nothing_had_happened(stgat, &unlike());
 }

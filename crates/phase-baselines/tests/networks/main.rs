@@ -7,4 +7,5 @@ mod lstm;
 mod masks;
 mod record;
 mod rounds;
+mod social_gnn;
 mod support;

@@ -35,6 +35,7 @@ fn train(arguments: &Train, context: &Context) -> Result<(), CliError> {
         Train::IntentNetwork(options) => intent_network::run(options, context),
         Train::TwoLevelLstm(options) => recognition::two_level_lstm(options, context),
         Train::Arg(options) => recognition::arg(options, context),
+        Train::SocialGnn(options) => recognition::social_gnn(options, context),
         Train::SocialLstm(options) => forecasting::social_lstm(options, context),
         Train::Stgat(options) => forecasting::stgat(options, context),
     }

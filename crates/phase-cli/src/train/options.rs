@@ -15,6 +15,9 @@ pub enum Train {
     TwoLevelLstm(NetworkOptions),
     /// Actor relation graph, a baseline for goals and relations
     Arg(NetworkOptions),
+    /// SocialGNN, a baseline for relations
+    #[command(name = "socialgnn")]
+    SocialGnn(NetworkOptions),
     /// Social-LSTM, a baseline for trajectories
     SocialLstm(NetworkOptions),
     /// Spatial-temporal graph attention, a baseline for trajectories

@@ -9,7 +9,7 @@ use std::{
     process::Stdio,
 };
 
-const NETWORKS: [&str; 4] = ["two-level-lstm", "arg", "social-lstm", "stgat"];
+const NETWORKS: [&str; 5] = ["two-level-lstm", "arg", "socialgnn", "social-lstm", "stgat"];
 /// One of them, for what is the same for all.
 const NETWORK: &str = "two-level-lstm";
 /// Rounds that a training goes on for.

@@ -4,7 +4,7 @@
 //! every other build knows their names and reports what to use instead.
 
 /// The networks for goals and relations.
-pub const RECOGNISING: [&str; 2] = ["two-level-lstm", "arg"];
+pub const RECOGNISING: [&str; 3] = ["two-level-lstm", "arg", "socialgnn"];
 /// Those for trajectories.
 pub const FORECASTING: [&str; 2] = ["social-lstm", "stgat"];
 

@@ -7,6 +7,7 @@ use phase_baselines::{
     forecasting::Forecasting,
     intent_network::IntentNetwork,
     recognition::Recognition,
+    social_gnn::SocialGnn,
     social_lstm::SocialLstm,
     stgat::Stgat,
     training::{NamedMetrics, NetworkError, PublishedNetwork, RecordedRound, TrainingRecord},
@@ -20,6 +21,7 @@ use phase_eval::{
     Forecaster, Recogniser,
     benchmark::{Curve, Training},
     method::{MethodError, MethodResult, ProgressCallback},
+    trivial::Chance,
 };
 use phase_event::ObservedEvent;
 use phase_model::{Forecast, Judgement};
@@ -38,6 +40,7 @@ pub fn recogniser(name: &str, weights: Option<&Path>) -> Result<Option<Box<dyn R
     Ok(match name {
         "two-level-lstm" => Some(Box::new(TrainedNetwork::<TwoLevelLstm>::open(weights)?)),
         "arg" => Some(Box::new(TrainedNetwork::<Arg>::open(weights)?)),
+        "socialgnn" => Some(Box::new(RelationAlone(TrainedNetwork::open(weights)?))),
         _ => None,
     })
 }
@@ -63,6 +66,7 @@ pub fn training(name: &str) -> Result<Option<Training>, CliError> {
         "intent-network" => IntentNetwork::BUNDLED_RECORD,
         "two-level-lstm" => TwoLevelLstm::BUNDLED_RECORD,
         "arg" => Arg::BUNDLED_RECORD,
+        "socialgnn" => SocialGnn::BUNDLED_RECORD,
         "social-lstm" => SocialLstm::BUNDLED_RECORD,
         "stgat" => Stgat::BUNDLED_RECORD,
         _ => return Ok(None),
@@ -155,6 +159,27 @@ impl<N: PublishedNetwork + Recognition + Sync> Recogniser for TrainedNetwork<N> 
         _tick: ProgressCallback<'_>,
     ) -> MethodResult<Judgement> {
         answered(self.network.judge(observed))
+    }
+}
+
+/// SocialGNN, which tells the relation and says nothing about goals.
+struct RelationAlone(TrainedNetwork<SocialGnn>);
+
+impl Recogniser for RelationAlone {
+    fn settings(&self) -> Value {
+        self.0.settings()
+    }
+
+    /// An answer needs goals: those of [`Chance`], all equally likely.
+    fn judge(
+        &self,
+        observed: &ObservedEvent,
+        seed: u64,
+        tick: ProgressCallback<'_>,
+    ) -> MethodResult<Judgement> {
+        let Some((judgement, details)) = Chance.judge(observed, seed, tick)? else { return Ok(None) };
+        let relation = self.0.network.judge(observed).map_err(MethodError::new)?;
+        Ok(Some((Judgement { relation, ..judgement }, details)))
     }
 }
 

@@ -90,6 +90,7 @@ fn file(network: &str) -> Option<&'static str> {
     match network {
         "two-level-lstm" => Some("training-two-level-lstm.svg"),
         "arg" => Some("training-arg.svg"),
+        "socialgnn" => Some("training-socialgnn.svg"),
         "social-lstm" => Some("training-social-lstm.svg"),
         "stgat" => Some("training-stgat.svg"),
         _ => None,
