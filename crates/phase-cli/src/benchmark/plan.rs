@@ -10,8 +10,9 @@ use phase_agent::MindKind;
 use std::path::PathBuf;
 
 /// Every method of the benchmark.
-pub const METHODS: [&str; 14] = [
+pub const METHODS: [&str; 16] = [
     "simple",
+    "simple-points",
     "simple-published",
     "simple-local",
     "simple-global",
@@ -19,6 +20,7 @@ pub const METHODS: [&str; 14] = [
     "intent-network",
     "two-level-lstm",
     "arg",
+    "socialgnn",
     "social-lstm",
     "stgat",
     "cue",
@@ -36,10 +38,12 @@ const TASKS: [(Task, &[&str]); 2] = [
             "two-level-lstm",
             "arg",
             "intent-network",
+            "socialgnn",
             "simple-initial",
             "simple-global",
             "simple-local",
             "simple-published",
+            "simple-points",
             "simple",
         ],
     ),
@@ -119,7 +123,7 @@ pub fn entries(arguments: &Benchmark) -> Result<Vec<BenchmarkEntry>, CliError> {
         weights: None,
     });
     entries.extend(own);
-    // The five variants of SIMPLE take seconds for an event, the others less than a tenth of one.
+    // The six variants of SIMPLE take seconds for an event, the others less than a tenth of one.
     entries.sort_by_key(|entry| entry.method.starts_with("simple"));
     Ok(entries)
 }

@@ -13,9 +13,10 @@ use phase_eval::{
 use std::path::Path;
 
 /// Names of the methods for goals and relations.
-pub const RECOGNISERS: [&str; 14] = [
+pub const RECOGNISERS: [&str; 16] = [
     "simple",
     "simple-guided",
+    "simple-points",
     "simple-initial",
     "simple-global",
     "simple-local",
@@ -27,6 +28,7 @@ pub const RECOGNISERS: [&str; 14] = [
     "cue",
     "two-level-lstm",
     "arg",
+    "socialgnn",
     "chance",
 ];
 /// Names of the methods for trajectories.

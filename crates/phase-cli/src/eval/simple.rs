@@ -1,7 +1,7 @@
 //! SIMPLE and its variants as methods to be evaluated.
 
 use crate::effort::MindOptions;
-use phase_agent::MindParameters;
+use phase_agent::{Foresight, MindParameters};
 use phase_eval::{
     Forecaster, Recogniser,
     method::{MethodError, MethodResult, ProgressCallback},
@@ -28,7 +28,8 @@ pub struct Simple {
 }
 
 impl Simple {
-    /// The variant of a name: `simple` is inverse planning that averages over both kinds of minds; `simple-initial`,
+    /// The variant of a name: `simple` is inverse planning that averages over both kinds of minds, `simple-points` the same
+    /// over minds that plan as if bodies passed through each other; `simple-initial`,
     /// `simple-global` and `simple-local` are Algorithm 2 of the paper and its ablation, over simulations by our own
     /// minds that are periodically resynchronised with the observed event; `simple-published` is Algorithm 2 whole,
     /// with published minds and simulations that are not resynchronised, and `simple-published-global` and
@@ -40,6 +41,7 @@ impl Simple {
         let published = |update| InferenceSettings::published(update, StrengthSource::Network);
         let settings = match name {
             "simple" | "simple-guided" => InferenceSettings::averaged(),
+            "simple-points" => InferenceSettings::averaged().with_foresight(Foresight::Points),
             "simple-initial" => algorithm_2(Update::Initial),
             "simple-global" => algorithm_2(Update::Global),
             "simple-local" => algorithm_2(Update::Local),
@@ -62,8 +64,8 @@ impl Simple {
             // The weights of an average over kinds are not those of one kind alone.
             let alone = InferenceSettings::default();
             let settings = if self.settings.alternative.is_some() { alone } else { self.settings };
-            let turns = settings.minds.one_way_turns;
-            let minds = MindParameters { one_way_turns: turns, ..InferenceSettings::minds_of(kind) };
+            let MindParameters { one_way_turns, foresight, .. } = self.settings.minds;
+            let minds = MindParameters { one_way_turns, foresight, ..InferenceSettings::minds_of(kind) };
             self.settings = settings.with_minds(minds);
         }
         self.settings.minds.one_way_turns |= options.one_way_turns;

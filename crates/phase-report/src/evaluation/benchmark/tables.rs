@@ -19,8 +19,9 @@ use phase_eval::{
 const TABLE_1: [(&str, &str); 4] =
     [("", "humans"), ("simple", "SIMPLE"), ("two-level-lstm", "2-Level LSTM"), ("arg", "ARG")];
 const TABLE_2: [(&str, &str); 3] = [("simple", "SIMPLE"), ("social-lstm", "Social-LSTM"), ("stgat", "STGAT")];
-const ABLATION: [(&str, &str); 4] = [
+const ABLATION: [(&str, &str); 5] = [
     ("simple", "SIMPLE"),
+    ("simple-points", ""),
     ("simple-local", ""),
     ("simple-global", "SIMPLE (global)"),
     ("simple-initial", "SIMPLE (initial)"),
