@@ -3,22 +3,20 @@
 //! The loss is the cross-entropy of the true hypothesis among all of them, after every row: half of it after the last row, the
 //! rest spread evenly over the others, so that the network can be asked at any moment.
 
+mod hypotheses;
+
 use crate::{
     layer::Layer,
     lstm::Lstm,
     parameters::Parameter,
-    recognition::RELATIONS,
     training::{Loss, Network, PublishedNetwork, TrainingSettings},
 };
 use candle_core::{D, Device, Module, Result, Tensor};
 use candle_nn::ops::log_softmax;
+use hypotheses::{GOALS, Hypotheses, truth};
 use phase_event::ObservedEvent;
-use phase_model::{AGENT_COUNT, AgentId, Attitude, Goal, MAX_OBJECTS, Relation, Strength, random::Pcg64Mcg};
-use phase_simple::{
-    Hypothesis, Intent,
-    intent_network::{FEATURES, GoalFeatures, OUTPUTS, goal_index},
-    physical_goals,
-};
+use phase_model::{AGENT_COUNT, Attitude, Goal, MAX_OBJECTS, random::Pcg64Mcg};
+use phase_simple::intent_network::{FEATURES, GoalFeatures, OUTPUTS, goal_index};
 use rand::RngExt;
 use std::sync::Arc;
 use thiserror::Error;
@@ -29,10 +27,6 @@ const UNITS: usize = 48;
 const DROPOUT: f32 = 0.4;
 /// Share of the loss that is taken after the last row.
 const LAST: f32 = 0.5;
-/// Added to the logits of goals about absent objects.
-const MASKED_LOGIT: f32 = -1e9;
-/// Goals of an agent in an event with all objects.
-const GOALS: usize = 14;
 /// Sequences of an event: the goals of both agents.
 const SEQUENCES: usize = AGENT_COUNT * GOALS;
 
@@ -62,54 +56,6 @@ pub struct LabelledIntents {
 #[error("goals and attitudes are none that are considered")]
 pub struct UnknownHypothesis;
 
-/// All hypotheses of an event with two objects: the logits that each is the sum of, and what it says.
-#[derive(Clone, Debug)]
-struct Hypotheses {
-    all: Vec<Hypothesis>,
-    /// Indices into the logits of an event, SEQUENCES × OUTPUTS.
-    terms: Vec<[u32; 2]>,
-}
-
-impl Hypotheses {
-    fn new() -> Self {
-        let goals = AgentId::ALL.map(|agent| physical_goals(agent, MAX_OBJECTS));
-        let term = |owner: AgentId, goal: usize, output: usize| {
-            ((owner.index() * GOALS + goal) * OUTPUTS + output) as u32
-        };
-        let strengths = [Strength::Fair; AGENT_COUNT];
-        let (mut all, mut terms) = (Vec::new(), Vec::new());
-        for (a, first) in goals[0].iter().enumerate() {
-            for (b, second) in goals[1].iter().enumerate() {
-                all.push(Hypothesis::new([*first, *second], [Attitude::Neutral; AGENT_COUNT], strengths));
-                terms.push([term(AgentId::ZERO, a, 0), term(AgentId::ONE, b, 0)]);
-            }
-        }
-        for social in AgentId::ALL {
-            let other = social.other();
-            for (attitude, output) in [(Attitude::Help, 1), (Attitude::Hinder, 2)] {
-                for (k, goal) in goals[other].iter().enumerate() {
-                    all.push(Intent { attitude, goal: *goal }.hypothesis(social, *goal, strengths));
-                    terms.push([term(other, k, 0), term(other, k, output)]);
-                }
-            }
-        }
-        Self { all, terms }
-    }
-
-    /// ln P(Y) of each, with −∞ for those about absent objects.
-    fn log_priors(&self, objects: usize) -> impl Iterator<Item = f32> {
-        let goals = physical_goals(AgentId::ZERO, objects).len();
-        let absent = move |goal: &Goal| matches!(goal, Goal::ObjectOnLandmark { object, .. } if object.index() >= objects);
-        self.all.iter().map(move |hypothesis| {
-            if hypothesis.goals.iter().any(absent) {
-                MASKED_LOGIT
-            } else {
-                hypothesis.log_prior(goals) as f32
-            }
-        })
-    }
-}
-
 impl LabelledIntents {
     /// An event and its labels.
     ///
@@ -134,25 +80,6 @@ impl LabelledIntents {
         }
         Ok(Self { features, rows: event.rows().len(), objects, truth })
     }
-}
-
-/// The index of the true hypothesis.
-fn truth(goals: [Goal; AGENT_COUNT], attitudes: [Attitude; AGENT_COUNT], objects: usize) -> Option<u32> {
-    let index = |agent: AgentId| {
-        goal_index(agent, goals[agent], objects)?;
-        goal_index(agent, goals[agent], MAX_OBJECTS)
-    };
-    let social = |agent: AgentId, attitude| {
-        let output = usize::from(attitude == Attitude::Hinder);
-        Some(GOALS * GOALS + (agent.index() * 2 + output) * GOALS + index(agent.other())?)
-    };
-    let found = match attitudes {
-        [Attitude::Neutral, Attitude::Neutral] => index(AgentId::ZERO)? * GOALS + index(AgentId::ONE)?,
-        [attitude, Attitude::Neutral] => social(AgentId::ZERO, attitude)?,
-        [Attitude::Neutral, attitude] => social(AgentId::ONE, attitude)?,
-        _ => return None,
-    };
-    u32::try_from(found).ok()
 }
 
 /// The network in training; see `phase_simple::IntentNetwork`.
@@ -273,7 +200,8 @@ impl Network for IntentNetwork {
         }
         let loss = (loss / events.len() as f64)?;
         let probabilities: Vec<Vec<f32>> = last.detach().exp()?.to_vec2()?;
-        let scores = events.iter().zip(&probabilities).map(|(event, p)| self.hypotheses.score(event, p));
+        let scores =
+            events.iter().zip(&probabilities).map(|(event, p)| self.hypotheses.score(event.truth, p));
         let (goal, relation) =
             scores.fold((0.0, 0.0), |(goal, relation), score| (goal + score[0], relation + score[1]));
         let count = events.len() as f64;
@@ -281,36 +209,10 @@ impl Network for IntentNetwork {
     }
 }
 
-impl Hypotheses {
-    /// Share of right goals of both agents, and whether the relation is right, by the marginals.
-    fn score(&self, event: &LabelledIntents, probabilities: &[f32]) -> [f64; 2] {
-        let truth = &self.all[event.truth as usize];
-        let right = |agent: AgentId| {
-            let mut sums: Vec<(Goal, f32)> = Vec::new();
-            for (hypothesis, p) in self.all.iter().zip(probabilities) {
-                let goal = hypothesis.goals[agent];
-                match sums.iter_mut().find(|(known, _)| *known == goal) {
-                    Some((_, sum)) => *sum += p,
-                    None => sums.push((goal, *p)),
-                }
-            }
-            let best = sums.iter().max_by(|a, b| a.1.total_cmp(&b.1)).map(|(goal, _)| *goal);
-            f64::from(u8::from(best == Some(truth.goals[agent])))
-        };
-        let of = |relation: Relation| -> f32 {
-            let same = self.all.iter().zip(probabilities).filter(|(it, _)| it.relation() == relation);
-            same.map(|(_, p)| p).sum()
-        };
-        let best = RELATIONS.into_iter().max_by(|a, b| of(*a).total_cmp(&of(*b)));
-        let goals = AgentId::ALL.map(right).iter().sum::<f64>() / AGENT_COUNT as f64;
-        [goals, f64::from(u8::from(best == Some(truth.relation())))]
-    }
-}
-
 impl PublishedNetwork for IntentNetwork {
-    const BUNDLED_WEIGHTS: &'static [u8] = include_bytes!("../../../data/intent-network.safetensors");
+    const BUNDLED_WEIGHTS: &'static [u8] = include_bytes!("../../../../data/intent-network.safetensors");
     const BUNDLED_RECORD: &'static str =
-        include_str!("../../../data/intent-network.safetensors.training.json");
+        include_str!("../../../../data/intent-network.safetensors.training.json");
 
     fn published(random: &mut Pcg64Mcg) -> Result<Self> {
         Self::new(UNITS, random)
