@@ -13,19 +13,19 @@ use phase_model::{AGENT_COUNT, AgentId, Attitude, Goal, Strength};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
-/// How a network guides inverse planning. Fitted by `cargo xtask fit-inference` (docs/simple.md).
+/// How a network guides inverse planning (docs/simple.md).
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Guidance {
     /// a, the exponent of the network's guess, 0 to 1.
     pub exponent: f64,
-    /// Share of the probability of Q^a whose hypotheses are simulated, 0 to 1.
+    /// Share of the probability of Q whose hypotheses are simulated, 0 to 1.
     pub mass: f64,
 }
 
 impl Default for Guidance {
     fn default() -> Self {
-        Self { exponent: 0.5, mass: 0.999 }
+        Self { exponent: 0.5, mass: 0.98 }
     }
 }
 
@@ -43,7 +43,7 @@ pub struct Guide<'a> {
 pub(crate) struct Guess {
     /// a ln Q of every intent.
     intents: [WeightedIntents; AGENT_COUNT],
-    /// Q^a, normalised, likeliest first.
+    /// Q, likeliest first.
     posterior: Posterior,
     /// The intents worth simulating.
     kept: [BTreeSet<Intent>; AGENT_COUNT],
@@ -58,9 +58,9 @@ impl Guess {
     ) -> Self {
         let Guidance { exponent, mass } = guide.guidance;
         let mut intents = guide.network.weigh(observed);
-        intents.iter_mut().flatten().for_each(|(_, log)| *log *= exponent);
         let goals = physical_goals(AgentId::ZERO, observed.object_sizes().len()).len();
         let posterior = Posterior::new(joint_logs(&intents, strengths, goals));
+        intents.iter_mut().flatten().for_each(|(_, log)| *log *= exponent);
         let mut kept: [BTreeSet<Intent>; AGENT_COUNT] = Default::default();
         let mut covered = 0.0;
         for (hypothesis, weight) in &posterior.hypotheses {
