@@ -9,7 +9,7 @@ use std::{
     process::Stdio,
 };
 
-const NETWORKS: [&str; 5] = ["two-level-lstm", "arg", "socialgnn", "social-lstm", "stgat"];
+const NETWORKS: [&str; 6] = ["intent-network", "two-level-lstm", "arg", "socialgnn", "social-lstm", "stgat"];
 /// One of them, for what is the same for all.
 const NETWORK: &str = "two-level-lstm";
 /// Rounds that a training goes on for.
@@ -171,4 +171,44 @@ fn the_record_says_what_was_learnt_from() {
         let reason = "has 1 train events, fewer than the 2 of --events";
         assert_eq!((code, text), (Some(2), format!("error: {first}: {reason}\n")));
     }
+}
+
+/// Further training events come from datasets and from simulations, and are in the record; what was trained can be used.
+#[test]
+fn further_training_events() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    for name in ["first", "second"] {
+        fs::create_dir(path(name)).unwrap();
+        write_dataset(Path::new(&path(name)));
+    }
+    let (first, second, out) = (path("first"), path("second"), path("out"));
+    let options = ["intent-network", "--data", &first, "--out", &out, "--rounds", "2"];
+    let (code, said) = train(&[&options[..], &["--more", &second, &first]].concat());
+    assert_eq!(code, Some(0), "{said}");
+    let record = timeless(&format!("{out}.training.json"));
+    let more = record["more"].as_array().expect("further data");
+    let named: Vec<(&Value, &Value)> =
+        more.iter().map(|source| (&source["folder"], &source["events"])).collect();
+    assert_eq!(named, [(&json!("second"), &json!(1)), (&json!("first"), &json!(1))]);
+    let (code, text) = train(&[&options[..], &["--more", &path("nothing")]].concat());
+    assert_eq!(code, Some(2), "{text}");
+    assert!(text.contains("nothing: is not a finished dataset"), "{text}");
+
+    let events = path("first/test.json");
+    let evaluate = |weights: &str| {
+        let arguments =
+            ["eval", "goals", "--method", "intent-network", "--events", &events, "--json", "--quiet"];
+        let mut command = phase(folder.path());
+        command.args(arguments).args(["--weights", weights, "--out", &path("evaluated")]);
+        command.output().expect("the program starts")
+    };
+    let output = evaluate(&out);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let results: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    assert!(results["relation"]["accuracy"].is_number(), "{results}");
+    let output = evaluate(&events);
+    assert_eq!(output.status.code(), Some(2));
+    let sentence = String::from_utf8(output.stderr).expect("text");
+    assert!(sentence.contains("test.json: is not a complete file of weights"), "{sentence}");
 }
