@@ -10,8 +10,9 @@ use phase_agent::MindKind;
 use std::path::PathBuf;
 
 /// Every method of the benchmark.
-pub const METHODS: [&str; 16] = [
+pub const METHODS: [&str; 17] = [
     "simple",
+    "simple-guided",
     "simple-points",
     "simple-published",
     "simple-local",
@@ -44,6 +45,7 @@ const TASKS: [(Task, &[&str]); 2] = [
             "simple-local",
             "simple-published",
             "simple-points",
+            "simple-guided",
             "simple",
         ],
     ),
