@@ -28,6 +28,9 @@ pub enum XtaskError {
         /// Why.
         source: io::Error,
     },
+    /// The bundled intent network cannot be read.
+    #[error("the bundled intent network: {0}")]
+    IntentNetwork(#[from] phase_simple::intent_network::IntentNetworkError),
     /// A scene cannot be drawn.
     #[error(transparent)]
     Draw(#[from] DrawError),
@@ -53,6 +56,7 @@ impl Failure for XtaskError {
             Self::Interrupted => 130,
             Self::Unreadable { .. }
             | Self::Draw(_)
+            | Self::IntentNetwork(_)
             | Self::Cargo(_)
             | Self::GoldenTests
             | Self::Untidy(_) => 1,

@@ -56,6 +56,18 @@ impl ObservedEvent {
         }
     }
 
+    /// Adds the next row, as in [`ObservedEvent::new`].
+    ///
+    /// # Errors
+    /// [`ObservedError::NotFinite`]; the event is then what it was.
+    pub fn push(&mut self, row: [Body; MAX_ENTITIES]) -> Result<(), ObservedError> {
+        if !row[..AGENT_COUNT + self.object_sizes.len()].iter().all(Body::is_finite) {
+            return Err(ObservedError::NotFinite(self.rows.len()));
+        }
+        self.rows.push(row);
+        Ok(())
+    }
+
     /// The first steps of the event; the whole event if it has no more.
     #[must_use]
     pub fn prefix(&self, steps: usize) -> Self {

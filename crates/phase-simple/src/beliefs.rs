@@ -5,7 +5,7 @@ use phase_event::ObservedEvent;
 use phase_minds::{BeliefState, MindParameters, belief};
 use phase_model::{
     AGENT_COUNT, Action, AgentId, BodySet, State,
-    random::{self, Purpose},
+    random::{self, Pcg64Mcg, Purpose},
 };
 use phase_perception::Observation;
 
@@ -13,8 +13,8 @@ use phase_perception::Observation;
 /// hypotheses. Forces play no part in it, since an agent observes the outcome of its own actions.
 #[derive(Clone, Debug)]
 pub struct EstimatedBeliefs {
-    particles: Vec<Vec<State>>,
-    last: Box<dyn BeliefState>,
+    /// After each step, with what is left of the random stream.
+    steps: Vec<(Box<dyn BeliefState>, Pcg64Mcg)>,
 }
 
 impl EstimatedBeliefs {
@@ -30,15 +30,22 @@ impl EstimatedBeliefs {
     ) -> Self {
         let physics = observed.physics([0.0; AGENT_COUNT]);
         let mut random = random::stream(seed, Purpose::Belief, agent.number().into());
-        let mut last = belief(observed.layout(), &physics, agent, minds, &states[0], &mut random);
-        let mut particles = vec![last.particles().to_vec()];
-        for state in &states[1..] {
+        let first = belief(observed.layout(), &physics, agent, minds, &states[0], &mut random);
+        let mut beliefs = Self { steps: vec![(first, random)] };
+        beliefs.follow(states, 1);
+        beliefs
+    }
+
+    /// Follows an event of which more has been observed, and of whose states so many, at least one, are what they were.
+    pub(crate) fn follow(&mut self, states: &[State], unchanged: usize) {
+        self.steps.truncate(unchanged.max(1));
+        for state in &states[self.steps.len()..] {
+            let (mut belief, mut random) = self.steps[self.steps.len() - 1].clone();
             // Which action it was does not matter: its outcome is observed.
-            let observation: Observation = last.observe(state);
-            last.update(Action::NoForce, &observation, &mut random);
-            particles.push(last.particles().to_vec());
+            let observation: Observation = belief.observe(state);
+            belief.update(Action::NoForce, &observation, &mut random);
+            self.steps.push((belief, random));
         }
-        Self { particles, last }
     }
 
     /// What the agent believes after the given number of steps if the world is in this state: from what it
@@ -46,9 +53,9 @@ impl EstimatedBeliefs {
     /// it observes.
     #[must_use]
     pub fn belief_view(&self, step: usize, state: &State) -> (Vec<State>, BodySet) {
-        let observation = self.last.observe(state);
-        let known = &self.particles[step.min(self.particles.len() - 1)];
-        let mut particles = known.clone();
+        let (known, _) = &self.steps[step.min(self.steps.len() - 1)];
+        let observation = known.observe(state);
+        let mut particles = known.particles().to_vec();
         particles.iter_mut().for_each(|particle| overwrite(particle, &observation));
         (particles, observation.observed)
     }
@@ -56,6 +63,6 @@ impl EstimatedBeliefs {
     /// The belief after the last observed step, to continue from.
     #[must_use]
     pub fn last(&self) -> &dyn BeliefState {
-        &*self.last
+        &*self.steps[self.steps.len() - 1].0
     }
 }

@@ -17,9 +17,10 @@
 //! ```
 
 use crate::{
-    Hypothesis,
+    Hypothesis, InverseDynamics,
     generative::{AgentDecision, PreparedEvent},
 };
+use phase_event::Thought;
 use phase_model::{AGENT_COUNT, Action, AgentId};
 use phase_pomcp::PomcpError;
 
@@ -46,14 +47,19 @@ pub const fn index(action: Action) -> usize {
 /// has probability 1.
 #[must_use]
 pub fn policy(decided: &AgentDecision) -> ByChoice {
+    policy_of(decided.action, &decided.thought)
+}
+
+/// The same of an action and its explanation.
+pub(crate) fn policy_of(action: Action, thought: &Thought) -> ByChoice {
     let mut policy = [0.0; CHOICES];
-    let visits: f64 = decided.thought.actions.iter().map(|value| f64::from(value.visits)).sum();
+    let visits: f64 = thought.actions.iter().map(|value| f64::from(value.visits)).sum();
     if visits > 0.0 {
-        for value in &decided.thought.actions {
+        for value in &thought.actions {
             policy[index(value.action)] += f64::from(value.visits) / visits;
         }
     } else {
-        policy[index(decided.action)] = 1.0;
+        policy[index(action)] = 1.0;
     }
     policy
 }
@@ -61,9 +67,18 @@ pub fn policy(decided: &AgentDecision) -> ByChoice {
 /// Normalised likelihood of each choice for each step and agent, proportional to e^{−residual/σ}, where the residual
 /// is the best that inverse dynamics achieves with that choice and `tolerance` is σ (u).
 #[must_use]
-pub fn action_likelihoods(prepared: &PreparedEvent<'_>, tolerance: f64) -> Vec<[ByChoice; AGENT_COUNT]> {
-    let alternatives = prepared.motion().alternatives();
-    let one = |residuals: &[f32; Action::ALL.len()]| {
+pub fn action_likelihoods(prepared: &PreparedEvent, tolerance: f64) -> Vec<[ByChoice; AGENT_COUNT]> {
+    let motion = prepared.motion();
+    (0..motion.actions.len()).map(|step| likelihoods_in(motion, step, tolerance)).collect()
+}
+
+/// The same of one step.
+pub(crate) fn likelihoods_in(
+    motion: &InverseDynamics,
+    step: usize,
+    tolerance: f64,
+) -> [ByChoice; AGENT_COUNT] {
+    motion.alternatives_in(step).map(|residuals| {
         let mut argmin = [f64::INFINITY; CHOICES];
         for action in Action::ALL {
             let place = index(action);
@@ -73,8 +88,7 @@ pub fn action_likelihoods(prepared: &PreparedEvent<'_>, tolerance: f64) -> Vec<[
         let weights = argmin.map(|residual| libm::exp((best - residual) / tolerance));
         let sum: f64 = weights.iter().sum();
         weights.map(|weight| weight / sum)
-    };
-    alternatives.iter().map(|agents| agents.each_ref().map(one)).collect()
+    })
 }
 
 /// How likely what was done in one step is to be chosen, relative to the best that the uncertainty about it allows: 1
@@ -117,7 +131,7 @@ impl Chance {
 /// # Errors
 /// Invalid parameters of the agents' search.
 pub fn chances(
-    prepared: &PreparedEvent<'_>,
+    prepared: &PreparedEvent,
     likelihoods: &[[ByChoice; AGENT_COUNT]],
     hypothesis: &Hypothesis,
     agent: AgentId,

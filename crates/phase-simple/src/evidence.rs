@@ -3,54 +3,114 @@
 use crate::{
     Intent, InversePlanningSettings, PreparedEvent,
     choice::{self, ByChoice, Chance},
+    generative::SimulationRun,
 };
 use phase_model::{AGENT_COUNT, AgentId, Goal, Strength};
 use phase_pomcp::PomcpError;
 
-/// The evidence on one intent of one agent: the chance of each of its choices, and how far simulations stray.
+/// How likely each action explains what was observed, in the steps whose decisions are looked at. All intents share them.
 #[derive(Clone, PartialEq, Debug)]
+pub struct ActionLikelihoods {
+    tolerance: f64,
+    interval: usize,
+    of_decisions: Vec<[ByChoice; AGENT_COUNT]>,
+}
+
+impl ActionLikelihoods {
+    /// Of no step yet.
+    #[must_use]
+    pub const fn new(settings: &InversePlanningSettings) -> Self {
+        Self { tolerance: settings.tolerance, interval: settings.interval, of_decisions: Vec::new() }
+    }
+
+    /// The steps whose decisions are looked at: one of each interval, from the middle of the first one on. At the start of an
+    /// event nobody has moved yet.
+    fn step(&self, decision: usize) -> usize {
+        let interval = self.interval.max(1);
+        interval / 2 + decision * interval
+    }
+
+    /// Catches up with an event.
+    pub fn follow(&mut self, prepared: &PreparedEvent) {
+        loop {
+            let step = self.step(self.of_decisions.len());
+            if step >= prepared.observed().steps() {
+                break;
+            }
+            self.of_decisions.push(choice::likelihoods_in(prepared.motion(), step, self.tolerance));
+        }
+    }
+
+    /// Number of decisions in steps before the one that leads to row `rows`, of rows that are explained as before.
+    fn decisions_before(&self, rows: usize) -> usize {
+        (0..).take_while(|&decision| self.step(decision) + 1 < rows).count()
+    }
+
+    /// Forgets the steps after some rows that are explained as before.
+    pub(crate) fn forget(&mut self, rows: usize) {
+        let known = self.decisions_before(rows);
+        self.of_decisions.truncate(known);
+    }
+}
+
+/// The evidence on one intent of one agent: the chance of each of its choices that is looked at.
+#[derive(Debug)]
 pub struct IntentEvidence {
-    /// The intent.
-    pub intent: Intent,
-    /// The chance of what the agent did, by step.
-    pub chances: Vec<Chance>,
-    /// Sum over the steps of the deviation of resynchronised simulations (u).
-    pub deviation: f64,
+    agent: AgentId,
+    run: SimulationRun,
+    chances: Vec<Chance>,
 }
 
 impl IntentEvidence {
-    /// Lets the mind of an intent decide at every observed state, and simulates it from every
-    /// `resync_interval`th. `likelihoods` are those of [`choice::action_likelihoods`]; `others` is the goal
-    /// that the other agent pursues if the intent does not say.
+    /// None yet. `others` is the goal that the other agent pursues if the intent does not say.
     ///
     /// # Errors
     /// Invalid parameters of the agents' search.
-    pub fn of(
-        prepared: &PreparedEvent<'_>,
-        likelihoods: &[[ByChoice; AGENT_COUNT]],
+    pub fn new(
+        prepared: &PreparedEvent,
         agent: AgentId,
         intent: Intent,
         others: Goal,
         strengths: [Strength; AGENT_COUNT],
-        resync_interval: usize,
     ) -> Result<Self, PomcpError> {
-        let hypothesis = intent.hypothesis(agent, others, strengths);
-        let chances = choice::chances(prepared, likelihoods, &hypothesis, agent)?;
-        let simulated = prepared.simulate_agent(&hypothesis, agent, resync_interval)?;
-        let deviation = simulated.iter().map(|step| step.deviation).sum();
-        Ok(Self { intent, chances, deviation })
+        let run = prepared.run(&intent.hypothesis(agent, others, strengths))?;
+        Ok(Self { agent, run, chances: Vec::new() })
     }
 
-    /// Sum over the steps of the log likelihood of what the agent did (nat), relative to the best choice,
-    /// which is the same under every intent.
+    /// Catches up with the event: lets the mind of the intent decide in every state that is looked at. `likelihoods` have
+    /// caught up with the same event.
+    ///
+    /// # Errors
+    /// Invalid parameters of the agents' search.
+    pub fn follow(
+        &mut self,
+        prepared: &PreparedEvent,
+        likelihoods: &ActionLikelihoods,
+    ) -> Result<(), PomcpError> {
+        for (decision, of_step) in likelihoods.of_decisions.iter().enumerate().skip(self.chances.len()) {
+            let (action, thought) =
+                prepared.decide(&mut self.run, self.agent, likelihoods.step(decision))?;
+            self.chances.push(Chance::of(&choice::policy_of(action, &thought), &of_step[self.agent]));
+        }
+        Ok(())
+    }
+
+    /// Forgets the steps after some rows that are explained as before.
+    pub(crate) fn forget(&mut self, likelihoods: &ActionLikelihoods, rows: usize) {
+        self.chances.truncate(likelihoods.decisions_before(rows));
+    }
+
+    /// The chance of what the agent did, by decision.
     #[must_use]
-    pub fn log_choices(&self, lapse_rate: f64) -> f64 {
-        self.chances.iter().map(|chance| chance.log(lapse_rate)).sum()
+    pub fn chances(&self) -> &[Chance] {
+        &self.chances
     }
 
-    /// ln P(motion | intent) of the agent's part of the motion, but for a constant.
+    /// ln P(motion | intent) of the agent's part of the motion, but for a constant: relative to the best choices, which are the
+    /// same under every intent.
     #[must_use]
     pub fn log_likelihood(&self, settings: &InversePlanningSettings) -> f64 {
-        settings.inverse_temperature * self.log_choices(settings.lapse_rate) - settings.beta * self.deviation
+        let log: f64 = self.chances.iter().map(|chance| chance.log(settings.lapse_rate)).sum();
+        settings.weight_of_decision() * log
     }
 }

@@ -37,17 +37,17 @@ impl Default for ForecastSettings {
 ///
 /// Invalid parameters of the agents' search.
 pub fn forecast(
-    prepared: &PreparedEvent<'_>,
+    prepared: &PreparedEvent,
     inference: &Inference,
     steps: usize,
     seed: u64,
     settings: &ForecastSettings,
     tick: &mut dyn FnMut() -> ControlFlow<()>,
 ) -> Result<Option<Forecast>, PomcpError> {
-    let others: Vec<PreparedEvent<'_>> =
+    let others: Vec<PreparedEvent> =
         inference.minds.iter().skip(1).map(|kind| prepared.with_minds(kind.minds)).collect();
     let by_kind = core::iter::once(prepared).chain(&others).zip(&inference.minds);
-    let mut likely: Vec<(&PreparedEvent<'_>, &Hypothesis, f64)> = by_kind
+    let mut likely: Vec<(&PreparedEvent, &Hypothesis, f64)> = by_kind
         .flat_map(|(prepared, kind)| {
             let hypotheses = kind.posterior.hypotheses.iter();
             hypotheses.map(move |(hypothesis, weight)| (prepared, hypothesis, kind.probability * weight))

@@ -10,13 +10,14 @@ use phase_model::{
     random::{self, Pcg64Mcg, Purpose},
 };
 use phase_pomcp::PomcpError;
+use std::sync::Arc;
 
 /// An observed event prepared for inference: everything that all hypotheses share.
 #[derive(Clone, Debug)]
-pub struct PreparedEvent<'a> {
-    observed: &'a ObservedEvent,
-    motion: InverseDynamics,
-    beliefs: [EstimatedBeliefs; AGENT_COUNT],
+pub struct PreparedEvent {
+    observed: Arc<ObservedEvent>,
+    motion: Arc<InverseDynamics>,
+    beliefs: Arc<[EstimatedBeliefs; AGENT_COUNT]>,
     minds: phase_agent::MindParameters,
     seed: u64,
     /// What the minds of all intents share.
@@ -27,29 +28,43 @@ pub struct PreparedEvent<'a> {
 /// for each step from 1 on (u).
 pub type Deviations = Vec<f64>;
 
-impl<'a> PreparedEvent<'a> {
+impl PreparedEvent {
     /// Estimates actions and beliefs of an event. All hypotheses use the same random streams (common random
     /// numbers), so that differences are due to the hypotheses alone.
     #[must_use]
-    pub fn new(observed: &'a ObservedEvent, minds: phase_agent::MindParameters, seed: u64) -> Self {
-        Self::with_motion(observed, InverseDynamics::new(observed), minds, seed)
+    pub fn new(observed: &ObservedEvent, minds: phase_agent::MindParameters, seed: u64) -> Self {
+        let motion = Arc::new(InverseDynamics::new(observed));
+        Self::with_motion(Arc::new(observed.clone()), motion, minds, seed)
     }
 
     /// The same event for minds with other parameters. What does not depend on minds is taken over.
     #[must_use]
     pub fn with_minds(&self, minds: phase_agent::MindParameters) -> Self {
-        Self::with_motion(self.observed, self.motion.clone(), minds, self.seed)
+        Self::with_motion(Arc::clone(&self.observed), Arc::clone(&self.motion), minds, self.seed)
     }
 
-    fn with_motion(
-        observed: &'a ObservedEvent,
-        motion: InverseDynamics,
+    /// An event whose motion has been explained.
+    pub(crate) fn with_motion(
+        observed: Arc<ObservedEvent>,
+        motion: Arc<InverseDynamics>,
         minds: phase_agent::MindParameters,
         seed: u64,
     ) -> Self {
         let beliefs =
-            AgentId::ALL.map(|agent| EstimatedBeliefs::new(observed, &motion.states, agent, &minds, seed));
-        Self { observed, motion, beliefs, minds, seed, memo: SearchMemo::default() }
+            AgentId::ALL.map(|agent| EstimatedBeliefs::new(&observed, &motion.states, agent, &minds, seed));
+        Self { observed, motion, beliefs: Arc::new(beliefs), minds, seed, memo: SearchMemo::default() }
+    }
+
+    /// Follows an event of which more has been observed, and of whose states so many are explained as before.
+    pub(crate) fn follow(
+        &mut self,
+        observed: Arc<ObservedEvent>,
+        motion: Arc<InverseDynamics>,
+        unchanged: usize,
+    ) {
+        let beliefs = Arc::make_mut(&mut self.beliefs);
+        beliefs.iter_mut().for_each(|beliefs| beliefs.follow(&motion.states, unchanged));
+        (self.observed, self.motion) = (observed, motion);
     }
 
     /// The parameters of the minds.
@@ -65,13 +80,13 @@ impl<'a> PreparedEvent<'a> {
 
     /// The event.
     #[must_use]
-    pub const fn observed(&self) -> &ObservedEvent {
-        self.observed
+    pub fn observed(&self) -> &ObservedEvent {
+        &self.observed
     }
 
     /// The inferred actions, and the states between steps.
     #[must_use]
-    pub const fn motion(&self) -> &InverseDynamics {
+    pub fn motion(&self) -> &InverseDynamics {
         &self.motion
     }
 
@@ -90,7 +105,7 @@ impl<'a> PreparedEvent<'a> {
     ) -> Result<Deviations, PomcpError> {
         let rows = self.observed.rows();
         let (minds, start) = (self.acting(), self.motion.states[0]);
-        let mut run = SimulationRun::new(self.observed, hypothesis, minds, self.seed, start, None)?;
+        let mut run = SimulationRun::new(&self.observed, hypothesis, minds, self.seed, start, None)?;
         let mut deviations = Deviations::with_capacity(self.observed.steps());
         let mut sum = 0.0;
         for (step, row) in rows.iter().enumerate().skip(1) {
@@ -141,7 +156,7 @@ impl<'a> PreparedEvent<'a> {
         let start = self.motion.states[0];
         let minds = if resync_interval > 1 { self.acting() } else { self.minds };
         let memo = Some(&self.memo);
-        let mut run = SimulationRun::new(self.observed, hypothesis, minds, self.seed, start, memo)?;
+        let mut run = SimulationRun::new(&self.observed, hypothesis, minds, self.seed, start, memo)?;
         let mut decided = Vec::with_capacity(self.observed.steps());
         for (step, (row, action_likelihoods)) in rows[1..].iter().zip(&self.motion.actions).enumerate() {
             if step > 0 && step % resync_interval.max(1) == 0 {
@@ -176,15 +191,10 @@ impl<'a> PreparedEvent<'a> {
     ) -> Result<Vec<AgentDecision>, PomcpError> {
         let rows = self.observed.rows();
         let start = self.motion.states[0];
-        let mut run = SimulationRun::new(self.observed, hypothesis, minds, self.seed, start, None)?;
+        let mut run = SimulationRun::new(&self.observed, hypothesis, minds, self.seed, start, None)?;
         let mut decided = Vec::with_capacity(steps.len());
         for &step in steps.iter().filter(|&&step| step < self.observed.steps()) {
-            self.resynchronise(&mut run, step);
-            let seed = random::derive_seed(self.seed, Purpose::Search, step as u64);
-            run.random =
-                AgentId::ALL.map(|agent| random::stream(seed, Purpose::Search, agent.number().into()));
-            let belief_view = self.beliefs[agent].belief_view(step, &run.state);
-            let (action, thought) = run.decide(agent, &belief_view)?;
+            let (action, thought) = self.decide(&mut run, agent, step)?;
             let mut actions = self.motion.actions[step];
             actions[agent] = action;
             let means = run.act(actions);
@@ -195,6 +205,27 @@ impl<'a> PreparedEvent<'a> {
             });
         }
         Ok(decided)
+    }
+
+    /// Minds that decide at observed states one by one, as those of [`PreparedEvent::decide_at`] with the event's own
+    /// parameters. They share their searches with others of this event.
+    pub(crate) fn run(&self, hypothesis: &Hypothesis) -> Result<SimulationRun, PomcpError> {
+        let (start, memo) = (self.motion.states[0], Some(&self.memo));
+        SimulationRun::new(&self.observed, hypothesis, self.minds, self.seed, start, memo)
+    }
+
+    /// Lets an agent decide at a step, and nothing happen.
+    pub(crate) fn decide(
+        &self,
+        run: &mut SimulationRun,
+        agent: AgentId,
+        step: usize,
+    ) -> Result<(Action, Thought), PomcpError> {
+        self.resynchronise(run, step);
+        let seed = random::derive_seed(self.seed, Purpose::Search, step as u64);
+        run.random = AgentId::ALL.map(|agent| random::stream(seed, Purpose::Search, agent.number().into()));
+        let belief_view = self.beliefs[agent].belief_view(step, &run.state);
+        run.decide(agent, &belief_view)
     }
 
     /// Continues from the last observed state for the given number of steps: where every entity will be after
@@ -211,7 +242,7 @@ impl<'a> PreparedEvent<'a> {
         seed: u64,
     ) -> Result<phase_model::Forecast, PomcpError> {
         let last = self.motion.states[self.observed.steps()];
-        let mut run = SimulationRun::new(self.observed, hypothesis, self.acting(), seed, last, None)?;
+        let mut run = SimulationRun::new(&self.observed, hypothesis, self.acting(), seed, last, None)?;
         self.resynchronise(&mut run, self.observed.steps());
         let mut beliefs = self.beliefs.each_ref().map(|belief| belief.last().boxed());
         let mut random: [Pcg64Mcg; AGENT_COUNT] =
@@ -247,7 +278,8 @@ pub struct AgentDecision {
 }
 
 /// A simulation under way.
-struct SimulationRun {
+#[derive(Debug)]
+pub(crate) struct SimulationRun {
     layout: Layout,
     parameters: phase_agent::MindParameters,
     forward: Forward,

@@ -8,7 +8,6 @@ use crate::{
     intent::{WeightedIntents, joint_logs},
     physical_goals,
 };
-use phase_event::ObservedEvent;
 use phase_model::{AGENT_COUNT, AgentId, Attitude, Goal, Strength};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
@@ -50,15 +49,15 @@ pub(crate) struct Guess {
 }
 
 impl Guess {
-    /// What the guide says of an event whose agents have these strengths.
+    /// From ln Q of every intent in an event with so many objects, whose agents have these strengths.
     pub(crate) fn new(
-        guide: &Guide<'_>,
-        observed: &ObservedEvent,
+        guidance: &Guidance,
+        mut intents: [WeightedIntents; AGENT_COUNT],
+        objects: usize,
         strengths: [Strength; AGENT_COUNT],
     ) -> Self {
-        let Guidance { exponent, mass } = guide.guidance;
-        let mut intents = guide.network.weigh(observed);
-        let goals = physical_goals(AgentId::ZERO, observed.object_sizes().len()).len();
+        let Guidance { exponent, mass } = *guidance;
+        let goals = physical_goals(AgentId::ZERO, objects).len();
         let posterior = Posterior::new(joint_logs(&intents, strengths, goals));
         intents.iter_mut().flatten().for_each(|(_, log)| *log *= exponent);
         let mut kept: [BTreeSet<Intent>; AGENT_COUNT] = Default::default();

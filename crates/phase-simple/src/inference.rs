@@ -1,9 +1,14 @@
 //! From an observed event to weighted hypotheses.
 
 use crate::{
-    Algorithm, AlternativeMinds, ChainSettings, Guide, Hypothesis, InferenceSettings, InferredStrengths,
-    InversePlanningSettings, Posterior, Proposal, StrengthSource, generative::PreparedEvent,
-    inverse_planning, metropolis::Chains, simulations::Simulations, strength::StrengthCue,
+    Algorithm, ChainSettings, Guide, Hypothesis, InferenceSettings, InferredStrengths, Posterior, Proposal,
+    StrengthSource,
+    generative::PreparedEvent,
+    guide::Guess,
+    metropolis::Chains,
+    observer::{planners, weigh},
+    simulations::Simulations,
+    strength::StrengthCue,
 };
 use core::ops::ControlFlow;
 use phase_event::ObservedEvent;
@@ -52,33 +57,29 @@ pub struct Cues<'a> {
 ///
 /// Invalid parameters of the agents' search.
 pub fn infer(
-    prepared: &PreparedEvent<'_>,
+    prepared: &PreparedEvent,
     cues: &Cues<'_>,
     seed: u64,
     settings: &InferenceSettings,
     tick: &mut dyn FnMut() -> ControlFlow<()>,
 ) -> Result<Option<Inference>, PomcpError> {
-    let (guide, gamma) = (cues.guide.as_ref(), settings.gamma);
+    let gamma = settings.gamma;
     match &settings.algorithm {
         Algorithm::InversePlanning(planning) => {
-            let own = inverse_planning::weighted_hypotheses(prepared, planning, gamma, guide, tick)?;
-            let Some(own) = own else { return Ok(None) };
-            let mut kinds = vec![(*prepared.minds(), own)];
-            if let Some(AlternativeMinds { minds, lapse_rate }) = settings.alternative {
-                let prepared = prepared.with_minds(minds);
-                let planning = InversePlanningSettings { lapse_rate, ..*planning };
-                let other = inverse_planning::weighted_hypotheses(&prepared, &planning, gamma, guide, tick)?;
-                let Some(other) = other else { return Ok(None) };
-                kinds.push((minds, other));
-            }
-            Ok(Some(average(kinds)))
+            let objects = prepared.observed().object_sizes().len();
+            let guess = cues.guide.as_ref().map(|guide| {
+                let intents = guide.network.weigh(prepared.observed());
+                Guess::new(&guide.guidance, intents, objects, prepared.motion().strengths())
+            });
+            let mut planners = planners(prepared, planning, settings.alternative);
+            weigh(&mut planners, gamma, guess.as_ref(), tick)
         }
         Algorithm::Chains(chains) => run_chains(prepared, cues.strengths, seed, gamma, chains, tick),
     }
 }
 
 /// Averages over kinds of minds with an even prior, given ln P(Y) P(motion | Y, kind) of every hypothesis.
-fn average(kinds: Vec<(MindParameters, Vec<(Hypothesis, f64)>)>) -> Inference {
+pub(crate) fn average(kinds: Vec<(MindParameters, Vec<(Hypothesis, f64)>)>) -> Inference {
     let all = kinds.iter().flat_map(|(_, joint)| joint.iter().copied());
     let posterior = Posterior::new(all);
     let greatest =
@@ -96,7 +97,7 @@ fn average(kinds: Vec<(MindParameters, Vec<(Hypothesis, f64)>)>) -> Inference {
 }
 
 fn run_chains(
-    prepared: &PreparedEvent<'_>,
+    prepared: &PreparedEvent,
     strengths: &dyn StrengthCue,
     seed: u64,
     gamma: f64,

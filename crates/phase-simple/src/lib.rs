@@ -57,6 +57,7 @@ pub mod intent_network;
 pub mod inverse_dynamics;
 mod inverse_planning;
 pub mod metropolis;
+pub mod observer;
 pub mod posterior;
 pub mod proposal;
 pub mod settings;
@@ -64,7 +65,7 @@ pub mod simulations;
 pub mod strength;
 
 pub use dense::Dense;
-pub use evidence::IntentEvidence;
+pub use evidence::{ActionLikelihoods, IntentEvidence};
 pub use forecast::{ForecastSettings, forecast};
 pub use generative::PreparedEvent;
 pub use guide::{Guidance, Guide};
@@ -72,7 +73,8 @@ pub use hypothesis::{Hypothesis, physical_goals};
 pub use inference::{Cues, Inference, MindPosterior, explain, infer};
 pub use intent::Intent;
 pub use intent_network::IntentNetwork;
-pub use inverse_dynamics::InverseDynamics;
+pub use inverse_dynamics::{InverseDynamics, MotionTracker};
+pub use observer::{Observer, ObserverError};
 pub use posterior::Posterior;
 pub use proposal::Proposal;
 pub use settings::{

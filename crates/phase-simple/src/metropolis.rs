@@ -25,7 +25,7 @@ pub fn threshold(log_u: f64, log_likelihood: f64, log_proposed: f64, log_current
 /// What all chains of an event share.
 #[derive(Clone, Copy)]
 pub(crate) struct Chains<'a, 's> {
-    pub(crate) prepared: &'a PreparedEvent<'a>,
+    pub(crate) prepared: &'a PreparedEvent,
     pub(crate) initial: &'a Proposal,
     pub(crate) strengths: &'s dyn StrengthCue,
     pub(crate) gamma: f64,

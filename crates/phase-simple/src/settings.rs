@@ -67,8 +67,8 @@ pub struct AlternativeMinds {
 /// kind's part here: with it, our own events were taken for published ones (see docs/simple.md).
 const LAPSE_RATE_OF_KIND: f64 = 0.05;
 
-/// Parameters of inverse planning. κ, β and ε are fitted by `cargo xtask fit-inference` (docs/simple.md), σ and the
-/// interval were selected on the validation events of PHASE-500.
+/// Parameters of inverse planning. ε is fitted by `cargo xtask fit-inference` and κ measured by it (docs/simple.md), σ was
+/// selected on the validation events of PHASE-500.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 pub struct InversePlanningSettings {
     /// ε, the lapse rate: probability of a uniformly random action instead of the policy's.
@@ -76,15 +76,20 @@ pub struct InversePlanningSettings {
     pub lapse_rate: f64,
     /// σ, scale of the residuals (u): a residual larger by σ divides an action's likelihood by e.
     pub tolerance: f64,
-    /// κ, inverse temperature of the action likelihood; below 1 because errors of a simulated agent are
-    /// correlated over steps.
+    /// κ, inverse temperature of the action likelihood of a step, 0 to 1: one over the integrated autocorrelation time of the log
+    /// likelihood ratio of two intents (steps), because what a decision tells is correlated over steps.
     #[serde(rename = "temper")]
     pub inverse_temperature: f64,
-    /// Steps between resynchronisations of the simulations whose deviation is measured; at least 1.
-    #[serde(rename = "anchor")]
-    pub resync_interval: usize,
-    /// β of that deviation (1/u).
-    pub beta: f64,
+    /// Steps from one decision that is looked at to the next; at least 1. What lies between them is taken to be alike.
+    pub interval: usize,
+}
+
+impl InversePlanningSettings {
+    /// Weight of the log likelihood of a decision that stands for an interval.
+    #[must_use]
+    pub fn weight_of_decision(&self) -> f64 {
+        self.inverse_temperature * self.interval.max(1) as f64
+    }
 }
 
 /// Parameters of Algorithm 2.
@@ -215,7 +220,7 @@ impl ChainSettings {
 
 impl Default for InversePlanningSettings {
     fn default() -> Self {
-        Self { lapse_rate: 0.5, tolerance: 0.03, inverse_temperature: 0.2, resync_interval: 10, beta: 0.01 }
+        Self { lapse_rate: 0.5, tolerance: 0.03, inverse_temperature: 0.2, interval: 3 }
     }
 }
 

@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 /// numbers again.
 #[derive(Debug)]
 pub struct Simulations<'a> {
-    prepared: &'a PreparedEvent<'a>,
+    prepared: &'a PreparedEvent,
     resync_interval: Option<usize>,
     beta: f64,
     simulated: BTreeMap<Hypothesis, Deviations>,
@@ -21,7 +21,7 @@ impl<'a> Simulations<'a> {
     /// An empty cache. `resync_interval` is that of [`PreparedEvent::simulate`], `beta` that of the
     /// likelihood (1/u).
     #[must_use]
-    pub const fn new(prepared: &'a PreparedEvent<'a>, resync_interval: Option<usize>, beta: f64) -> Self {
+    pub const fn new(prepared: &'a PreparedEvent, resync_interval: Option<usize>, beta: f64) -> Self {
         Self { prepared, resync_interval, beta, simulated: BTreeMap::new() }
     }
 

@@ -25,9 +25,10 @@ use phase_cli::{
     source::EventInput,
 };
 use phase_dataset::atomic;
+use phase_eval::goals::canonical;
 use phase_event::Recording;
-use phase_model::{EventKind, Scene};
-use phase_simple::{Hypothesis, InferenceSettings};
+use phase_model::{AgentId, Attitude, EventKind, Goal, Scene};
+use phase_simple::{Hypothesis, InferenceSettings, Intent};
 use report::Report;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -148,6 +149,15 @@ pub(crate) fn truth(scene: &Scene) -> Hypothesis {
     let attitudes = scene.agents.map(|agent| agent.attitude);
     let strengths = scene.agents.map(|agent| agent.strength);
     Hypothesis::new(scene.goals(), attitudes, strengths)
+}
+
+/// Whether an intent of an agent is its part of a hypothesis.
+pub(crate) fn is_true(intent: &Intent, truth: &Hypothesis, agent: AgentId) -> bool {
+    let goal: Goal = match truth.attitudes[agent] {
+        Attitude::Neutral => truth.goals[agent],
+        Attitude::Help | Attitude::Hinder => truth.goals[agent.other()],
+    };
+    intent.attitude == truth.attitudes[agent] && canonical(intent.goal) == canonical(goal)
 }
 
 /// How the report is made.

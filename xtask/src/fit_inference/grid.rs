@@ -29,11 +29,16 @@ impl Grid {
 
     /// The weights under which the mean log posterior of the truth of these events is greatest; the first of equals.
     pub(super) fn fit(&self, events: &[usize]) -> Weights {
+        self.fit_among(events, |_| true)
+    }
+
+    /// The same among some weights; the first of all if there are none.
+    pub(super) fn fit_among(&self, events: &[usize], among: impl Fn(&Weights) -> bool) -> Weights {
         let sum = |k: usize| -> f64 {
             events.iter().map(|&event| self.answers[event][k].recognition.log_posterior).sum()
         };
         let mut best = (f64::NEG_INFINITY, &self.weights[0]);
-        for (k, weights) in self.weights.iter().enumerate() {
+        for (k, weights) in self.weights.iter().enumerate().filter(|(_, weights)| among(weights)) {
             let sum = sum(k);
             if sum > best.0 {
                 best = (sum, weights);

@@ -17,6 +17,7 @@ use phase_cli::{
 use phase_dataset::checksum::{hexadecimal, sha256};
 use phase_event::Recording;
 use phase_model::AGENT_COUNT;
+use phase_simple::{IntentNetwork, InversePlanningSettings};
 use std::collections::BTreeMap;
 
 /// Makes evidence, and knows what was made before.
@@ -24,6 +25,8 @@ pub(super) struct KeptEvidence<'a> {
     kinds: &'a [MindParameters],
     arguments: &'a FitInference,
     context: &'a Context,
+    planning: InversePlanningSettings,
+    network: IntentNetwork,
     /// Program, minds and seed, as they enter every key.
     made_by: String,
     file: Option<EvaluationsFile>,
@@ -37,15 +40,18 @@ impl<'a> KeptEvidence<'a> {
     /// If that file cannot be used.
     pub(super) fn new(
         kinds: &'a [MindParameters],
+        planning: InversePlanningSettings,
         arguments: &'a FitInference,
         context: &'a Context,
-    ) -> Result<Self, CliError> {
+    ) -> Result<Self, XtaskError> {
         let minds = json_text(&kinds, "the minds")?;
-        let made_by = format!("{} {minds} {}", hexadecimal(&program()), arguments.seed);
+        let made_by =
+            format!("{} {minds} {} {}", hexadecimal(&program()), planning.interval, arguments.seed);
+        let network = IntentNetwork::bundled().map_err(XtaskError::IntentNetwork)?;
         let kept = arguments.out.as_deref().map(EvaluationsFile::beside).transpose()?;
         let (file, lines) = kept.map_or_else(|| (None, Vec::new()), |(file, lines)| (Some(file), lines));
         let known = lines.into_iter().map(|line: Line<EventEvidence>| (line.key, line.figures)).collect();
-        Ok(Self { kinds, arguments, context, made_by, file, known })
+        Ok(Self { kinds, arguments, context, planning, network, made_by, file, known })
     }
 
     /// Events with the evidence on all their intents.
@@ -84,7 +90,8 @@ impl<'a> KeptEvidence<'a> {
         if let Some(known) = self.known.get(&key) {
             return Ok(Some(known.clone()));
         }
-        let evidence = EventEvidence::of(recording, self.kinds, self.arguments.seed, tick)?;
+        let seed = self.arguments.seed;
+        let evidence = EventEvidence::of(recording, self.kinds, &self.planning, &self.network, seed, tick)?;
         if let (Some(file), Some(evidence)) = (&self.file, &evidence) {
             file.add(&Line { key, event: recording.id.clone(), figures: evidence.clone() })?;
         }

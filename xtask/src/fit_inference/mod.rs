@@ -1,10 +1,12 @@
 //! `fit-inference`: fits how SIMPLE weighs its evidence to events whose labels are known.
 //!
-//! Every intent of both agents is simulated once with each kind of minds. Three numbers say what the simulations are
-//! worth: the weight κ of what the minds would choose, the weight β of how far they stray, and the rate ε at which minds
-//! of a kind lapse. All combinations on a grid are compared by the log posterior of the true goals and attitudes, averaged
-//! over the kinds, and every fold of the events is held out of one fit.
+//! Every intent of both agents is simulated once with each kind of minds. Three numbers say what the evidence is worth: the
+//! weight κ of what the minds would choose, the exponent a of the intent network's guess, and the rate ε at which minds of a kind
+//! lapse. All combinations on a grid are compared by the log posterior of the true goals and attitudes, averaged over the kinds,
+//! and every fold of the events is held out of one fit. Beside that, κ is measured without labels being fitted: as one over the
+//! integrated autocorrelation time of the log likelihood ratios of the intents.
 
+mod autocorrelation;
 mod grid;
 mod kept;
 pub mod options;
@@ -30,7 +32,7 @@ use phase_cli::{
     output::json_text,
 };
 use phase_event::Recording;
-use phase_simple::{AlternativeMinds, InferenceSettings};
+use phase_simple::{Algorithm, AlternativeMinds, InferenceSettings, InversePlanningSettings};
 use report::{Fold, Report};
 use std::path::Path;
 use weights::Weights;
@@ -62,11 +64,13 @@ pub fn run(arguments: &FitInference, context: &Context) -> Result<(), XtaskError
         held_out.push((file.display().to_string(), some(arguments, file, context)?));
     }
     interrupt::listen();
-    let present = Weights::of(&settings);
+    let planning = planning(arguments, &settings);
+    let present = Weights::of(&settings, &planning);
     let kinds: Vec<MindParameters> =
         core::iter::once(settings.minds).chain(settings.alternative.map(|it| it.minds)).collect();
-    let evidence = KeptEvidence::new(&kinds, arguments, context)?;
-    let grid = Grid::of(&evidence.of(&recordings)?, &present);
+    let evidence = KeptEvidence::new(&kinds, planning, arguments, context)?;
+    let subjects = evidence.of(&recordings)?;
+    let grid = Grid::of(&subjects, &present);
     let mut others = Vec::with_capacity(held_out.len());
     for (file, recordings) in held_out {
         others.push((file, Grid::of(&evidence.of(&recordings)?, &present)));
@@ -81,6 +85,7 @@ pub fn run(arguments: &FitInference, context: &Context) -> Result<(), XtaskError
     let report = Report {
         folds: (0..folds).map(fold).collect(),
         fitted: grid.fit(&all),
+        autocorrelation_time: autocorrelation::time(&subjects, &present),
         present,
         grid: &grid,
         held_out: &others,
@@ -110,6 +115,15 @@ fn settings(arguments: &FitInference) -> Result<InferenceSettings, CliError> {
             .map(|it| AlternativeMinds { minds: MindParameters { simulations, ..it.minds }, ..it });
     }
     Ok(settings)
+}
+
+/// How these settings weigh what minds would choose.
+fn planning(arguments: &FitInference, settings: &InferenceSettings) -> InversePlanningSettings {
+    let planning = match settings.algorithm {
+        Algorithm::InversePlanning(planning) => planning,
+        Algorithm::Chains(_) => InversePlanningSettings::default(),
+    };
+    InversePlanningSettings { interval: arguments.interval.map_or(planning.interval, usize::from), ..planning }
 }
 
 /// The events of a file, as many as were asked for.

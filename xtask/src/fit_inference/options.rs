@@ -31,6 +31,9 @@ pub struct FitInference {
     /// POMCP simulations a decision [default: SIMPLE's, 50, with published minds 100]
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=10_000_000))]
     pub simulations: Option<u32>,
+    /// Steps from one decision that is looked at to the next [default: SIMPLE's, 3]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=1000))]
+    pub interval: Option<u16>,
     /// Where to write the fitted weights as JSON; the evidence on each event is kept in a file beside it, and the same command
     /// goes on from there
     #[arg(long, value_name = "FILE")]

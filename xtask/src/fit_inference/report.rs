@@ -17,6 +17,8 @@ pub(super) struct Report<'a> {
     pub(super) folds: Vec<Fold>,
     /// Fitted to all events.
     pub(super) fitted: Weights,
+    /// Integrated autocorrelation time of the evidence (steps).
+    pub(super) autocorrelation_time: Option<f64>,
     /// Those of the library.
     pub(super) present: Weights,
     /// The events.
@@ -33,11 +35,17 @@ impl Report<'_> {
              relation;\nrelation, goals: share right; named: who helps or hinders; wrong: the wrong agent with more than 0.9;\n\
              last: mean posterior of the last kind of minds (of two, the published ones)\n\n",
         );
+        if let Some(steps) = self.autocorrelation_time {
+            text += &format!(
+                "integrated autocorrelation time of the log likelihood ratios: {steps:.2} steps, so κ = {:.3}\n\n",
+                1.0 / steps
+            );
+        }
         text += &format!(
             "{:<26} {:>6} {:>6} {:>10} {:>7} {:>9} {:>8} {:>8} {:>6} {:>8} {:>6} {:>6}\n",
             "fit",
             "κ",
-            "β",
+            "a",
             "ε",
             "events",
             "log post",
@@ -59,14 +67,24 @@ impl Report<'_> {
             held_out.extend(answers);
         }
         text += &row("held out, all folds", None, &held_out);
-        for (name, weights) in
-            [("present, all events", &self.present), ("fitted to all, on them", &self.fitted)]
-        {
+        let planning = self.grid.fit_among(&all(self.grid), Weights::is_planning_alone);
+        let network = self.grid.fit_among(&all(self.grid), Weights::is_network_alone);
+        for (name, weights) in [
+            ("present, all events", &self.present),
+            ("fitted to all, on them", &self.fitted),
+            ("(planning alone)", &planning),
+            ("(network alone)", &network),
+        ] {
             text += &row(name, Some(weights), &of(self.grid, &all(self.grid), weights));
         }
         for (file, grid) in self.held_out {
             text += &format!("\n{file}, to which nothing is fitted\n");
-            for (name, weights) in [("present", &self.present), ("fitted", &self.fitted)] {
+            for (name, weights) in [
+                ("present", &self.present),
+                ("fitted", &self.fitted),
+                ("(planning alone)", &planning),
+                ("(network alone)", &network),
+            ] {
                 text += &row(name, Some(weights), &of(grid, &all(grid), weights));
             }
             let best = grid.fit(&all(grid));
@@ -88,7 +106,7 @@ fn row(name: &str, weights: Option<&Weights>, answers: &[Answer]) -> String {
         |weights: &Weights| weights.lapse_rates.iter().map(f64::to_string).collect::<Vec<_>>().join("/");
     let weights = weights.map_or_else(
         || format!("{:>6} {:>6} {:>10}", "", "", ""),
-        |it| format!("{:>6} {:>6} {:>10}", it.inverse_temperature, it.beta, rates(it)),
+        |it| format!("{:>6} {:>6} {:>10}", it.inverse_temperature, it.exponent, rates(it)),
     );
     format!(
         "{name:<26} {weights} {:>7} {} {} {} {} {:>8} {wrong:>6} {}\n",

@@ -1,7 +1,7 @@
 //! One event: the evidence on every intent for each kind of minds, and SIMPLE's answer for any weights.
 
 use super::weights::Weights;
-use crate::check_minds::{recognition::Recognition, truth};
+use crate::check_minds::{is_true, recognition::Recognition, truth};
 use core::ops::ControlFlow;
 use phase_agent::MindParameters;
 use phase_cli::error::CliError;
@@ -9,11 +9,8 @@ use phase_eval::MethodError;
 use phase_event::{ObservedEvent, Recording};
 use phase_model::{AGENT_COUNT, AgentId, EventKind, Goal, Strength};
 use phase_simple::{
-    Hypothesis, Intent, IntentEvidence, InversePlanningSettings, Posterior, PreparedEvent, Proposal,
-    UniformStrength,
-    choice::{self, Chance},
-    cue::GAMMA,
-    intent::joint_logs,
+    ActionLikelihoods, Hypothesis, Intent, IntentEvidence, IntentNetwork, InversePlanningSettings, Posterior,
+    PreparedEvent, Proposal, UniformStrength, choice::Chance, cue::GAMMA, intent::joint_logs,
 };
 use serde::{Deserialize, Serialize};
 
@@ -33,24 +30,19 @@ pub(super) struct Subject {
     goals: usize,
 }
 
-/// All that simulations tell about an event.
+/// All that simulations and the intent network tell about an event.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub(super) struct EventEvidence {
     strengths: [Strength; AGENT_COUNT],
+    /// ln Q of every intent of each agent.
+    network: [Vec<f64>; AGENT_COUNT],
     /// By kind of minds.
     kinds: Vec<AgentEvidence>,
 }
 
-/// The evidence on all intents of each agent, in the order of [`Intent::all`].
-type AgentEvidence = [Vec<Evidence>; AGENT_COUNT];
-
-/// The evidence on one intent.
-#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
-struct Evidence {
-    /// The chance of what was done in each step: the mind's and a uniform choice's.
-    chances: Vec<(f64, f64)>,
-    deviation: f64,
-}
+/// The evidence on all intents of each agent, in the order of [`Intent::all`]: the chance of each choice that is looked at, the
+/// mind's and a uniform one's.
+pub(super) type AgentEvidence = [Vec<Vec<(f64, f64)>>; AGENT_COUNT];
 
 /// ln P(choices | intent) of every intent of each agent at some lapse rate.
 pub(super) type LogChoices = [Vec<f64>; AGENT_COUNT];
@@ -70,6 +62,8 @@ impl EventEvidence {
     pub(super) fn of(
         recording: &Recording,
         kinds: &[MindParameters],
+        planning: &InversePlanningSettings,
+        network: &IntentNetwork,
         seed: u64,
         tick: &mut dyn FnMut() -> ControlFlow<()>,
     ) -> Result<Option<Self>, CliError> {
@@ -78,20 +72,21 @@ impl EventEvidence {
         let cue = cue(&observed);
         let assumed = AgentId::ALL.map(|agent| cue.most_likely_goal(agent));
         let mut evidence = Vec::with_capacity(kinds.len());
-        let mut prepared: Option<PreparedEvent<'_>> = None;
+        let mut prepared: Option<PreparedEvent> = None;
         for minds in kinds {
             let event = match &prepared {
                 Some(other) => other.with_minds(*minds),
                 None => PreparedEvent::new(&observed, *minds, seed),
             };
-            match agents(&event, &observed, assumed, tick).map_err(failed)? {
+            match agents(&event, planning, assumed, tick).map_err(failed)? {
                 Some(of_kind) => evidence.push(of_kind),
                 None => return Ok(None),
             }
             prepared = Some(event);
         }
         let strengths = prepared.map(|event| event.motion().strengths());
-        Ok(strengths.map(|strengths| Self { strengths, kinds: evidence }))
+        let network = network.weigh(&observed).map(|intents| intents.into_iter().map(|it| it.1).collect());
+        Ok(strengths.map(|strengths| Self { strengths, network, kinds: evidence }))
     }
 }
 
@@ -119,18 +114,39 @@ impl Subject {
     /// ln P(choices | intent) for one kind of minds at a lapse rate.
     pub(super) fn log_choices(&self, kind: usize, lapse_rate: f64) -> LogChoices {
         let log = |&(mind, uniform): &(f64, f64)| Chance { mind, uniform }.log(lapse_rate);
-        let one = |evidence: &Evidence| evidence.chances.iter().map(log).sum();
+        let one = |chances: &Vec<(f64, f64)>| chances.iter().map(log).sum();
         self.evidence.kinds[kind].each_ref().map(|evidence| evidence.iter().map(one).collect())
+    }
+
+    /// For each agent, the log likelihood ratio of every other intent and the true one (nat), by decision, of each kind of minds.
+    pub(super) fn log_ratios(&self, lapse_rates: &[f64]) -> Vec<Vec<f64>> {
+        let mut ratios = Vec::new();
+        for (kind, &rate) in self.evidence.kinds.iter().zip(lapse_rates) {
+            for agent in AgentId::ALL {
+                let Some(meant) = self.intents[agent].iter().position(|it| is_true(it, &self.truth, agent)) else {
+                    continue;
+                };
+                let log = |&(mind, uniform): &(f64, f64)| Chance { mind, uniform }.log(rate);
+                let logs: Vec<Vec<f64>> =
+                    kind[agent].iter().map(|chances| chances.iter().map(log).collect()).collect();
+                let others = logs.iter().enumerate().filter(|(intent, _)| *intent != meant);
+                let ratio = |other: &[f64]| other.iter().zip(&logs[meant]).map(|(a, b)| a - b).collect();
+                ratios.extend(others.map(|(_, other)| ratio(other)));
+            }
+        }
+        ratios
     }
 
     /// SIMPLE's answer beside the truth. `choices` are those of each kind of minds at its lapse rate.
     pub(super) fn answer(&self, choices: &[&LogChoices], weights: &Weights) -> Answer {
-        let joint = self.evidence.kinds.iter().zip(choices).map(|(evidence, choices)| {
+        let decision = weights.inverse_temperature * weights.interval as f64;
+        let joint = choices.iter().map(|choices| {
             let weighted = AgentId::ALL.map(|agent| {
-                let weigh = |((intent, evidence), log): ((&Intent, &Evidence), &f64)| {
-                    (*intent, weights.inverse_temperature * log - weights.beta * evidence.deviation)
+                let weigh = |((intent, guess), log): ((&Intent, &f64), &f64)| {
+                    (*intent, decision * log + weights.exponent * guess)
                 };
-                self.intents[agent].iter().zip(&evidence[agent]).zip(&choices[agent]).map(weigh).collect()
+                let guesses = self.intents[agent].iter().zip(&self.evidence.network[agent]);
+                guesses.zip(&choices[agent]).map(weigh).collect()
             });
             joint_logs(&weighted, self.evidence.strengths, self.goals)
         });
@@ -150,25 +166,25 @@ fn cue(observed: &ObservedEvent) -> Proposal {
 
 /// The evidence on all intents for one kind of minds; `None` if it was interrupted.
 fn agents(
-    prepared: &PreparedEvent<'_>,
-    observed: &ObservedEvent,
+    prepared: &PreparedEvent,
+    planning: &InversePlanningSettings,
     assumed: [Goal; AGENT_COUNT],
     tick: &mut dyn FnMut() -> ControlFlow<()>,
 ) -> Result<Option<AgentEvidence>, MethodError> {
-    let settings = InversePlanningSettings::default();
-    let likelihoods = choice::action_likelihoods(prepared, settings.tolerance);
-    let (strengths, interval) = (prepared.motion().strengths(), settings.resync_interval);
+    let mut likelihoods = ActionLikelihoods::new(planning);
+    likelihoods.follow(prepared);
+    let strengths = prepared.motion().strengths();
     let mut evidence = [Vec::new(), Vec::new()];
     for agent in AgentId::ALL {
         let others = assumed[agent.other()];
-        for intent in Intent::all(agent, observed.object_sizes().len()) {
+        for intent in Intent::all(agent, prepared.observed().object_sizes().len()) {
             if tick().is_break() {
                 return Ok(None);
             }
-            let one = IntentEvidence::of(prepared, &likelihoods, agent, intent, others, strengths, interval);
-            let one = one.map_err(MethodError::new)?;
-            let chances = one.chances.iter().map(|chance| (chance.mind, chance.uniform)).collect();
-            evidence[agent].push(Evidence { chances, deviation: one.deviation });
+            let mut one =
+                IntentEvidence::new(prepared, agent, intent, others, strengths).map_err(MethodError::new)?;
+            one.follow(prepared, &likelihoods).map_err(MethodError::new)?;
+            evidence[agent].push(one.chances().iter().map(|chance| (chance.mind, chance.uniform)).collect());
         }
     }
     Ok(Some(evidence))

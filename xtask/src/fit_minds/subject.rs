@@ -1,13 +1,13 @@
 //! One event, and how well minds with some parameters explain it.
 
-use crate::check_minds::{recognition::Recognition, truth};
+use crate::check_minds::{is_true, recognition::Recognition, truth};
 use cpu_time::ThreadTime;
 use phase_agent::MindParameters;
 use phase_cli::{error::CliError, interrupt};
 use phase_dataset::checksum::{hexadecimal, sha256};
-use phase_eval::{MethodError, goals::canonical};
+use phase_eval::MethodError;
 use phase_event::{ObservedEvent, Recording};
-use phase_model::{AGENT_COUNT, AgentId, Attitude, EventKind, Goal};
+use phase_model::{AGENT_COUNT, AgentId, Attitude, EventKind};
 use phase_simple::{
     Hypothesis, Intent, InversePlanningSettings, Posterior, PreparedEvent,
     choice::{self, ByChoice, Chance, log_likelihood, policy},
@@ -64,7 +64,7 @@ pub(super) struct Subject<'a> {
     pub(super) kind: EventKind,
     /// SHA-256 of the whole event in hexadecimal.
     pub(super) digest: String,
-    prepared: PreparedEvent<'a>,
+    prepared: PreparedEvent,
     likelihoods: Vec<[ByChoice; AGENT_COUNT]>,
     truth: Hypothesis,
     method: Method,
@@ -158,13 +158,4 @@ impl<'a> Subject<'a> {
             cpu_seconds,
         }))
     }
-}
-
-/// Whether an intent of an agent is its part of a hypothesis.
-fn is_true(intent: &Intent, truth: &Hypothesis, agent: AgentId) -> bool {
-    let goal: Goal = match truth.attitudes[agent] {
-        Attitude::Neutral => truth.goals[agent],
-        Attitude::Help | Attitude::Hinder => truth.goals[agent.other()],
-    };
-    intent.attitude == truth.attitudes[agent] && canonical(intent.goal) == canonical(goal)
 }

@@ -12,7 +12,7 @@ use std::path::PathBuf;
 /// Every method of the benchmark.
 pub const METHODS: [&str; 17] = [
     "simple",
-    "simple-guided",
+    "simple-unguided",
     "simple-points",
     "simple-published",
     "simple-local",
@@ -45,7 +45,7 @@ const TASKS: [(Task, &[&str]); 2] = [
             "simple-local",
             "simple-published",
             "simple-points",
-            "simple-guided",
+            "simple-unguided",
             "simple",
         ],
     ),

@@ -15,7 +15,7 @@ use std::path::Path;
 /// Names of the methods for goals and relations.
 pub const RECOGNISERS: [&str; 16] = [
     "simple",
-    "simple-guided",
+    "simple-unguided",
     "simple-points",
     "simple-initial",
     "simple-global",

@@ -28,19 +28,20 @@ pub struct Simple {
 }
 
 impl Simple {
-    /// The variant of a name: `simple` is inverse planning that averages over both kinds of minds, `simple-points` the same
-    /// over minds that plan as if bodies passed through each other; `simple-initial`,
+    /// The variant of a name: `simple` is inverse planning that averages over both kinds of minds and is guided by the intent
+    /// network, `simple-unguided` the same without the network, `simple-points` that over minds that plan as if bodies passed
+    /// through each other; `simple-initial`,
     /// `simple-global` and `simple-local` are Algorithm 2 of the paper and its ablation, over simulations by our own
     /// minds that are periodically resynchronised with the observed event; `simple-published` is Algorithm 2 whole,
     /// with published minds and simulations that are not resynchronised, and `simple-published-global` and
     /// `simple-published-initial` are its ablation; `simple-published-dynamics` has strengths from inverse dynamics in place of
-    /// the network's; `simple-guided` is `simple` guided by the intent network. `None` for other names.
+    /// the network's. `None` for other names.
     #[must_use]
     pub fn of(name: &str) -> Option<Self> {
         let algorithm_2 = |update| InferenceSettings::chains(ChainSettings::resynchronised(update));
         let published = |update| InferenceSettings::published(update, StrengthSource::Network);
         let settings = match name {
-            "simple" | "simple-guided" => InferenceSettings::averaged(),
+            "simple" | "simple-unguided" => InferenceSettings::averaged(),
             "simple-points" => InferenceSettings::averaged().with_foresight(Foresight::Points),
             "simple-initial" => algorithm_2(Update::Initial),
             "simple-global" => algorithm_2(Update::Global),
@@ -53,7 +54,7 @@ impl Simple {
             }
             _ => return None,
         };
-        let guidance = (name == "simple-guided").then(Guidance::default);
+        let guidance = (name == "simple").then(Guidance::default);
         Some(Self { settings, forecast: ForecastSettings::default(), guidance })
     }
 
@@ -74,7 +75,7 @@ impl Simple {
 
     fn infer(
         &self,
-        prepared: &PreparedEvent<'_>,
+        prepared: &PreparedEvent,
         seed: u64,
         tick: ProgressCallback<'_>,
     ) -> Result<Option<Inference>, MethodError> {

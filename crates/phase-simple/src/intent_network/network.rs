@@ -62,9 +62,15 @@ impl IntentNetwork {
     /// ln Q of every intent of each agent after a whole event, but for a constant.
     #[must_use]
     pub fn weigh(&self, observed: &ObservedEvent) -> [WeightedIntents; AGENT_COUNT] {
+        self.watched(observed).intents()
+    }
+
+    /// Watches all rows of an event that have been observed.
+    #[must_use]
+    pub fn watched(&self, observed: &ObservedEvent) -> IntentReader<'_> {
         let mut reader = self.watch(observed);
         observed.rows().iter().for_each(|row| reader.push(row));
-        reader.intents()
+        reader
     }
 
     /// Q(Y | S) after a whole event. It says nothing of strengths; those of its hypotheses do not matter.

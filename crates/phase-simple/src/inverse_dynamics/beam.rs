@@ -1,8 +1,8 @@
 //! All paths through an event that are followed at once.
 
 use super::{interpolation, path::Path, reading::Reading, replay::Replay, search::explanations};
-use phase_event::ObservedEvent;
-use phase_model::State;
+use phase_event::{ObservedError, ObservedEvent};
+use phase_model::{Body, MAX_ENTITIES, State};
 
 /// Paths that are followed at once.
 const BEAM_WIDTH: usize = 16;
@@ -12,6 +12,7 @@ const SAME_GRIPS: usize = 8;
 const GIVE_UP: f64 = 15.0;
 
 /// All paths that were followed, and which of them still are.
+#[derive(Clone, Debug)]
 pub(super) struct Beam {
     /// By reading, with its states between steps by interpolation.
     readings: Vec<(Replay, Vec<State>)>,
@@ -19,10 +20,13 @@ pub(super) struct Beam {
     paths: Vec<Path>,
     /// The numbers of those that are followed, cheapest first: at least one.
     followed: Vec<usize>,
+    /// The last step is followed without the row after it, so it is followed again when that row has come: how many paths there
+    /// were before, and which were followed. `None` before the first step.
+    before_last: Option<(usize, Vec<usize>)>,
 }
 
 impl Beam {
-    /// All readings of an event, at its start.
+    /// All readings of an event, followed to its last row.
     pub(super) fn new(observed: &ObservedEvent) -> Self {
         let reading = |reading: Reading| {
             let between = interpolation::states(&reading);
@@ -31,13 +35,48 @@ impl Beam {
         let readings: Vec<_> = Reading::all(observed).into_iter().map(reading).collect();
         let starts =
             readings.iter().enumerate().map(|(number, (replay, _))| Path::start(number, replay)).collect();
-        let mut beam = Self { readings, paths: Vec::new(), followed: Vec::new() };
+        let mut beam = Self { readings, paths: Vec::new(), followed: Vec::new(), before_last: None };
         beam.keep(starts);
+        for t in 1..observed.steps() {
+            beam.advance(t);
+        }
+        beam.advance_to_last(observed.steps());
         beam
     }
 
+    /// Follows the event to its next row, as it was observed. Whether the paths, but for their last steps, are continued; if not,
+    /// [`Beam::new`] has to begin again, since the row tells how earlier rows are to be read.
+    pub(super) fn push(&mut self, row: &[Body; MAX_ENTITIES]) -> Result<bool, ObservedError> {
+        let mut read_anew = false;
+        for (replay, between) in &mut self.readings {
+            read_anew |= replay.reading.push(row)?;
+            between.pop();
+            let rows = replay.reading.event.rows().len();
+            between.extend((rows - 2..rows).map(|t| interpolation::state(&replay.reading, t)));
+        }
+        if read_anew {
+            return Ok(false);
+        }
+        let last = self.readings[0].0.reading.event.steps();
+        if let Some((paths, followed)) = self.before_last.take() {
+            self.paths.truncate(paths);
+            self.followed = followed;
+            self.advance(last - 1);
+        }
+        self.advance_to_last(last);
+        Ok(true)
+    }
+
+    /// Follows all paths to the last row, `t`, if that is not row 0.
+    fn advance_to_last(&mut self, t: usize) {
+        if t > 0 {
+            self.before_last = Some((self.paths.len(), self.followed.clone()));
+            self.advance(t);
+        }
+    }
+
     /// Follows all paths by one step, to row `t`.
-    pub(super) fn advance(&mut self, t: usize) {
+    fn advance(&mut self, t: usize) {
         let mut longer = Vec::new();
         for &number in &self.followed {
             let path = &self.paths[number];
@@ -75,17 +114,30 @@ impl Beam {
         }
     }
 
-    /// The cheapest path, from its start on, and the physics that it follows.
-    pub(super) fn into_best(mut self) -> (Vec<Path>, Replay) {
+    /// The numbers of the cheapest path and of those before it, from its start on.
+    pub(super) fn best(&self) -> Vec<usize> {
         // There is always one: every path has a continuation, and the cheapest is kept.
-        let mut number = Some(self.followed[0]);
-        let reading = self.paths[self.followed[0]].reading;
-        let mut best = Vec::new();
-        while let Some(path) = number.and_then(|number| self.paths.get(number)) {
-            best.push(path.clone());
-            number = path.before;
+        let mut best = vec![self.followed[0]];
+        while let Some(before) = best.last().and_then(|&number| self.path(number).before) {
+            best.push(before);
         }
         best.reverse();
-        (best, self.readings.swap_remove(reading).0)
+        best
+    }
+
+    /// Row 0 as it was observed.
+    pub(super) fn first_row(&self) -> &[Body; MAX_ENTITIES] {
+        // The first reading takes the rows as they are.
+        self.readings[0].0.row(0)
+    }
+
+    /// The path of a number.
+    pub(super) fn path(&self, number: usize) -> &Path {
+        &self.paths[number]
+    }
+
+    /// The physics that a path follows.
+    pub(super) fn replay(&self, path: &Path) -> &Replay {
+        &self.readings[path.reading].0
     }
 }

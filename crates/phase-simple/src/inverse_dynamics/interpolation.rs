@@ -12,8 +12,12 @@ pub(super) const SUBSTEPS_TO_END: f32 = 2.0;
 
 /// The state at the end of every step, state 0 being row 0, without grips and contacts.
 pub(super) fn states(reading: &Reading) -> Vec<State> {
-    let rows = reading.event.rows();
-    (0..rows.len()).map(|t| State::new(core::array::from_fn(|entity| body(reading, t, entity)))).collect()
+    (0..reading.event.rows().len()).map(|t| state(reading, t)).collect()
+}
+
+/// The state at the end of step `t`.
+pub(super) fn state(reading: &Reading, t: usize) -> State {
+    State::new(core::array::from_fn(|entity| body(reading, t, entity)))
 }
 
 fn body(reading: &Reading, t: usize, entity: usize) -> Body {

@@ -22,10 +22,11 @@ mod strength;
 mod tests;
 
 use beam::Beam;
-use phase_event::ObservedEvent;
+use phase_event::{ObservedError, ObservedEvent};
 use phase_model::{AGENT_COUNT, Action, AgentId, State, Strength};
 use reading::Start;
 use replay::{Replay, TrackedState};
+use strength::LevelCosts;
 
 /// Residual up to which a step counts as explained (u).
 pub const EXPLAINED_RESIDUAL: f32 = 0.05;
@@ -48,36 +49,116 @@ pub struct InverseDynamics {
     replay: Replay,
     /// The states in which steps begin, as the replay has them.
     tracked: Vec<TrackedState>,
+    /// The numbers of the paths that it is made of.
+    numbers: Vec<usize>,
+    /// The levels of strength that were found, and what each step costs with others.
+    levels: [usize; AGENT_COUNT],
+    level_costs: Vec<LevelCosts>,
+}
+
+/// Explains an event while it is watched.
+#[derive(Clone, Debug)]
+pub struct MotionTracker {
+    beam: Beam,
+    motion: InverseDynamics,
+}
+
+impl MotionTracker {
+    /// Explains what was observed so far.
+    #[must_use]
+    pub fn new(observed: &ObservedEvent) -> Self {
+        let beam = Beam::new(observed);
+        let motion = InverseDynamics::of(&beam, None);
+        Self { beam, motion }
+    }
+
+    /// Watches the next row of `observed`, its last one. How many states are explained as before: what follows may show what
+    /// happened earlier.
+    ///
+    /// # Errors
+    /// As [`ObservedEvent::push`].
+    pub fn push(&mut self, observed: &ObservedEvent) -> Result<usize, ObservedError> {
+        let Some(row) = observed.rows().last() else { return Err(ObservedError::Empty) };
+        if !self.beam.push(row)? {
+            *self = Self::new(observed);
+            return Ok(1);
+        }
+        // The last step was followed without the row after it.
+        let last = self.motion.numbers.len().max(2) - 1;
+        let motion = InverseDynamics::of(&self.beam, Some((&self.motion, last)));
+        let unchanged = unchanged(&self.motion.numbers[..last], &motion.numbers);
+        self.motion = motion;
+        Ok(unchanged)
+    }
+
+    /// The best explanation of what was observed so far.
+    #[must_use]
+    pub const fn motion(&self) -> &InverseDynamics {
+        &self.motion
+    }
+
+    /// The same, for keeps.
+    #[must_use]
+    pub fn into_motion(self) -> InverseDynamics {
+        self.motion
+    }
+}
+
+/// Length of the common beginning of two paths, at least 1.
+fn unchanged(before: &[usize], now: &[usize]) -> usize {
+    before.iter().zip(now).take_while(|(before, now)| before == now).count().max(1)
 }
 
 impl InverseDynamics {
     /// Explains an event.
     #[must_use]
     pub fn new(observed: &ObservedEvent) -> Self {
-        let mut beam = Beam::new(observed);
-        for t in 1..observed.rows().len() {
-            beam.advance(t);
-        }
-        let (path, replay) = beam.into_best();
-        let steps = || path.iter().skip(1);
+        MotionTracker::new(observed).into_motion()
+    }
+
+    /// The best path of a beam. `known` is an explanation of fewer rows, of which so many numbers of paths are valid.
+    fn of(beam: &Beam, known: Option<(&Self, usize)>) -> Self {
+        let numbers = beam.best();
+        let path = || numbers.iter().map(|&number| beam.path(number));
+        let steps = || path().skip(1);
+        let last = beam.path(numbers[numbers.len() - 1]);
+        let replay = beam.replay(last);
         let reading = &replay.reading;
         // The start may lie before row 0, or after it.
-        let mut states = vec![State::new(observed.rows()[0])];
+        let mut states = vec![State::new(*beam.first_row())];
         states.extend(steps().map(|step| reading.observed_state(&step.tracked.state)));
         let actions: Vec<_> = steps().map(|step| step.actions).collect();
-        let tracked: Vec<_> = path.iter().map(|step| step.tracked.clone()).collect();
+        let tracked: Vec<_> = path().map(|step| step.tracked.clone()).collect();
         // The weakest of those that explain the event equally well.
-        let levels = path.last().map_or([0; AGENT_COUNT], |last| {
-            last.strengths.map(|strengths| strengths.trailing_zeros() as usize)
-        });
+        let levels = last.strengths.map(|strengths| strengths.trailing_zeros() as usize);
+        let mut level_costs = match known {
+            Some((known, valid)) if known.levels == levels => {
+                let unchanged = unchanged(&known.numbers[..valid], &numbers);
+                known.level_costs[..unchanged - 1].to_vec()
+            }
+            _ => Vec::new(),
+        };
+        for step in level_costs.len()..actions.len() {
+            let row = replay.row(step + 1);
+            level_costs.push(strength::level_costs(replay, &tracked[step], row, actions[step], levels));
+        }
+        let mut log_strengths = [[0.0; Strength::ALL.len()]; AGENT_COUNT];
+        for costs in &level_costs {
+            for (logs, costs) in log_strengths.iter_mut().zip(costs) {
+                logs.iter_mut().zip(costs).for_each(|(log, cost)| *log -= cost);
+            }
+        }
         Self {
             states,
-            log_strengths: strength::log_likelihoods(&replay, &tracked, &actions, levels),
+            log_strengths,
             actions: actions.iter().map(|both| both.map(|action| reading.observed_action(action))).collect(),
             residuals: steps().map(|step| step.residual).collect(),
             late_start: reading.start == Start::Late,
-            replay,
+            replay: replay.clone(),
             tracked,
+            numbers,
+            levels,
+            level_costs,
         }
     }
 
@@ -104,19 +185,25 @@ impl InverseDynamics {
     /// other doing what was inferred.
     #[must_use]
     pub fn alternatives(&self) -> Vec<[[f32; Action::ALL.len()]; AGENT_COUNT]> {
+        (0..self.actions.len()).map(|step| self.alternatives_in(step)).collect()
+    }
+
+    /// The same of one step.
+    ///
+    /// # Panics
+    /// If the event has no such step.
+    #[must_use]
+    pub fn alternatives_in(&self, step: usize) -> [[f32; Action::ALL.len()]; AGENT_COUNT] {
         let reading = &self.replay.reading;
         let levels = self.strengths().map(|strength| usize::from(strength.level()));
         let deed = |agent: AgentId, action| (reading.observed_action(action), levels[agent]);
-        let steps = self.tracked.iter().zip(&self.actions).enumerate();
-        let alternatives = |(step, (tracked, actions)): (usize, (&TrackedState, &[Action; AGENT_COUNT]))| {
-            AgentId::ALL.map(|agent| {
-                Action::ALL.map(|action| {
-                    let mut deeds = AgentId::ALL.map(|agent| deed(agent, actions[agent]));
-                    deeds[agent] = deed(agent, action);
-                    self.replay.step(tracked, self.replay.row(step + 1), deeds).residual
-                })
+        let (tracked, actions) = (&self.tracked[step], &self.actions[step]);
+        AgentId::ALL.map(|agent| {
+            Action::ALL.map(|action| {
+                let mut deeds = AgentId::ALL.map(|agent| deed(agent, actions[agent]));
+                deeds[agent] = deed(agent, action);
+                self.replay.step(tracked, self.replay.row(step + 1), deeds).residual
             })
-        };
-        steps.map(alternatives).collect()
+        })
     }
 }

@@ -6,9 +6,9 @@
 //! amplify what is different.
 
 use core::f32::consts::TAU;
-use phase_event::ObservedEvent;
+use phase_event::{ObservedError, ObservedEvent};
 use phase_model::{
-    AGENT_COUNT, Action, Body, Flip, Grip, Layout, MAX_ENTITIES, Side, State, arena::SUBSTEPS,
+    AGENT_COUNT, Action, Body, Entity, Flip, Grip, Layout, MAX_ENTITIES, Side, State, arena::SUBSTEPS,
 };
 
 /// Speed below which a body is at rest in row 0 (u/s). Rows have five decimals.
@@ -78,6 +78,14 @@ impl Reading {
             if body < AGENT_COUNT { Some(period) } else { turned().then_some(TAU) }
         });
         Some(Self { start: Start::Late, event, angle_periods, cost, flip: Some(flip) })
+    }
+
+    /// Adds the next row, as it was observed; whether what is known of the angles of earlier rows changes with it.
+    pub(super) fn push(&mut self, row: &[Body; MAX_ENTITIES]) -> Result<bool, ObservedError> {
+        let Some(flip) = self.flip else { return self.event.push(*row).map(|()| false) };
+        self.event.push(row.map(|body| body.mirrored(flip)))?;
+        let mut bodies = self.event.entities().map(Entity::index);
+        Ok(bodies.any(|body| self.angle_periods[body].is_none() && row[body].angle != 0.0))
     }
 
     /// Whether this is the event before it was mirrored.
