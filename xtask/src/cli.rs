@@ -8,6 +8,7 @@ use crate::{
     error::XtaskError,
     fit_inference::{self, options::FitInference},
     fit_minds::{self, options::FitMinds},
+    fit_reports::{self, options::FitReports},
     golden::{self, GoldenOptions},
     tidy,
 };
@@ -47,6 +48,8 @@ pub enum Command {
     FitMinds(FitMinds),
     /// Fit how SIMPLE weighs its evidence to events whose labels are known
     FitInference(FitInference),
+    /// Fit how people report what they saw to raters of recordings
+    FitReports(FitReports),
     /// Run the golden tests of all crates, or rewrite the values that they compare with
     Golden(GoldenOptions),
     /// Check the project rules that the compiler cannot
@@ -69,6 +72,7 @@ impl Interface for Cli {
             Command::CheckMinds(arguments) => check_minds::run(arguments, context),
             Command::FitInference(arguments) => fit_inference::run(arguments, context),
             Command::FitMinds(arguments) => fit_minds::run(arguments, context),
+            Command::FitReports(arguments) => fit_reports::run(arguments),
             Command::Golden(options) => golden::run(options),
             Command::Tidy => tidy::run(),
         }

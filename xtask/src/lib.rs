@@ -24,6 +24,7 @@ pub mod error;
 mod evaluations_file;
 pub mod fit_inference;
 pub mod fit_minds;
+pub mod fit_reports;
 pub mod golden;
 pub mod json_file;
 mod rooms;

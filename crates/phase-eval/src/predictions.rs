@@ -14,8 +14,9 @@ use std::collections::BTreeMap;
 
 /// Reads answers to Task 1 by the ids of their events: `{"events": [{"id", "goals": [[{"goal", "p"}…], […]],
 /// "relation": {"friendly", "adversarial", "neutral"}, "roles": {"helps": [p, p], "hinders": [p, p]}}…]}`, where `roles`, the
-/// probabilities that either agent helps or hinders the other, may be absent. Other members are ignored, so results of PHASE
-/// are valid predictions too.
+/// probabilities that either agent helps or hinders the other, may be absent, and so may `reported`, the shares of people who
+/// would report each relation, of the form of `relation`. Other members are ignored, so results of PHASE are valid predictions
+/// too.
 ///
 /// # Errors
 /// If there is no event, one occurs twice, a field is missing or of the wrong type, or a probability is
@@ -113,18 +114,22 @@ fn judgement(event: &Field<'_>) -> Result<Judgement, FieldError> {
         return Err(goals.error(format!("must hold {AGENT_COUNT} lists, not {}", lists.len())));
     }
     let lists = lists.map(|list| ranked(&list)).collect::<Result<Vec<_>, _>>()?;
-    let relation = event.required("relation")?;
-    relation.only(&["friendly", "adversarial", "neutral"])?;
-    let p = |name| probability(&relation.required(name)?);
-    let relation = RelationProbabilities {
-        friendly: p("friendly")?,
-        adversarial: p("adversarial")?,
-        neutral: p("neutral")?,
-    };
+    let relation = relation_probabilities(&event.required("relation")?)?;
+    let reported = event.optional("reported")?.map(|it| relation_probabilities(&it)).transpose()?;
     let roles = event.optional("roles")?.map(|roles| role_probabilities(&roles)).transpose()?;
     let mut lists = lists.into_iter();
     let goals = core::array::from_fn(|_| lists.next().unwrap_or_default());
-    Ok(Judgement { goals, relation, roles })
+    Ok(Judgement { goals, relation, roles, reported })
+}
+
+fn relation_probabilities(relation: &Field<'_>) -> Result<RelationProbabilities, FieldError> {
+    relation.only(&["friendly", "adversarial", "neutral"])?;
+    let p = |name| probability(&relation.required(name)?);
+    Ok(RelationProbabilities {
+        friendly: p("friendly")?,
+        adversarial: p("adversarial")?,
+        neutral: p("neutral")?,
+    })
 }
 
 fn role_probabilities(roles: &Field<'_>) -> Result<RoleProbabilities, FieldError> {

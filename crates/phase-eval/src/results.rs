@@ -43,6 +43,7 @@ pub fn goals(
         "sets": to_value(&summary.sets)?,
         "roles": to_value(&summary.roles)?, "role_kinds": to_value(&summary.role_kinds)?,
         "agreement": to_value(&summary.agreement)?,
+        "relation_agreement": to_value(&summary.relation_agreement)?,
         "confusion": { "order": to_value(goals::RELATIONS)?, "right_by_said": summary.confusion },
         "calibration": {
             "goal": to_value(&summary.goal_calibration)?, "relation": to_value(&summary.relation_calibration)?,

@@ -26,7 +26,7 @@ impl Recogniser for Chance {
             let p = 1.0 / goals.len() as f64;
             goals.into_iter().map(|goal| (goal, p)).collect()
         });
-        Ok(Some((Judgement { goals, relation: RelationProbabilities::default(), roles: None }, Value::Null)))
+        Ok(Some((Judgement { goals, relation: RelationProbabilities::default(), roles: None, reported: None }, Value::Null)))
     }
 }
 

@@ -44,7 +44,7 @@ fn answer(goals: [&[Goal]; 2], relation: [f64; 3]) -> Answer {
         |goals: &[Goal]| goals.iter().zip([0.5, 0.25, 0.125, 0.0625]).map(|(g, p)| (*g, p)).collect();
     let [friendly, adversarial, neutral] = relation;
     let relation = RelationProbabilities { friendly, adversarial, neutral };
-    Answer::of(&Judgement { goals: goals.map(ranked), relation, roles: None }).expect("an answer")
+    Answer::of(&Judgement { goals: goals.map(ranked), relation, roles: None, reported: None }).expect("an answer")
 }
 
 #[test]
@@ -125,7 +125,7 @@ fn numbers_that_are_no_probabilities_are_refused() {
         (goals(&[1.0]), RelationProbabilities { neutral: 0.5, ..third }, InvalidAnswer::Relation),
     ];
     for (goals, relation, expected) in cases {
-        let judgement = Judgement { goals: [goals, Vec::new()], relation, roles: None };
+        let judgement = Judgement { goals: [goals, Vec::new()], relation, roles: None, reported: None };
         assert_eq!(Answer::of(&judgement), Err(expected), "{judgement:?}");
     }
 }

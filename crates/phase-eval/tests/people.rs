@@ -22,6 +22,7 @@ fn event(
         goals: Default::default(),
         relation: RelationProbabilities { friendly, adversarial, neutral },
         roles,
+        reported: None,
     };
     let ratings =
         rated.map(|[friendly, adversarial, neutral]| RatingCounts { friendly, adversarial, neutral });

@@ -13,6 +13,9 @@ pub struct Judgement {
     pub relation: RelationProbabilities,
     /// Who helps or hinders whom, if the model says.
     pub roles: Option<RoleProbabilities>,
+    /// The share of people who would report each relation, if the model says. People report what they saw, which is not always
+    /// what is true.
+    pub reported: Option<RelationProbabilities>,
 }
 
 /// The probability that either agent helps, and that it hinders, the other. At most one of the four is true; what they lack

@@ -41,6 +41,17 @@ impl ActionLikelihoods {
         }
     }
 
+    /// Number of decisions that were looked at.
+    #[must_use]
+    pub const fn decisions(&self) -> usize {
+        self.of_decisions.len()
+    }
+
+    /// The row after which so many decisions, at least one, are known.
+    pub(crate) fn row_after(&self, decisions: usize) -> usize {
+        self.step(decisions.saturating_sub(1)) + 1
+    }
+
     /// Number of decisions in steps before the one that leads to row `rows`, of rows that are explained as before.
     fn decisions_before(&self, rows: usize) -> usize {
         (0..).take_while(|&decision| self.step(decision) + 1 < rows).count()
@@ -110,7 +121,13 @@ impl IntentEvidence {
     /// same under every intent.
     #[must_use]
     pub fn log_likelihood(&self, settings: &InversePlanningSettings) -> f64 {
-        let log: f64 = self.chances.iter().map(|chance| chance.log(settings.lapse_rate)).sum();
+        self.log_likelihood_of(self.chances.len(), settings)
+    }
+
+    /// The same of the first so many decisions.
+    pub(crate) fn log_likelihood_of(&self, decisions: usize, settings: &InversePlanningSettings) -> f64 {
+        let first = self.chances.iter().take(decisions);
+        let log: f64 = first.map(|chance| chance.log(settings.lapse_rate)).sum();
         settings.weight_of_decision() * log
     }
 }

@@ -24,7 +24,7 @@ pub struct Guidance {
 
 impl Default for Guidance {
     fn default() -> Self {
-        Self { exponent: 0.5, mass: 0.98 }
+        Self { exponent: 0.7, mass: 0.95 }
     }
 }
 

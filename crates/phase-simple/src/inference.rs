@@ -4,9 +4,9 @@ use crate::{
     Algorithm, ChainSettings, Guide, Hypothesis, InferenceSettings, InferredStrengths, Posterior, Proposal,
     StrengthSource,
     generative::PreparedEvent,
-    guide::Guess,
+    impression::Impression,
     metropolis::Chains,
-    observer::{planners, weigh},
+    observer::{GuideCourse, planners, weigh},
     simulations::Simulations,
     strength::StrengthCue,
 };
@@ -23,6 +23,8 @@ pub struct Inference {
     pub posterior: Posterior,
     /// Each kind of minds that was considered, in the order of the settings; their probabilities sum to 1.
     pub minds: Vec<MindPosterior>,
+    /// What the event looked like while it was watched; `None` for Algorithm 2, which sees it at once, and before the first decision.
+    pub impression: Option<Impression>,
     /// How many chains accepted their proposal, for each iteration of Algorithm 2; empty for inverse planning.
     pub accepted: Vec<usize>,
     /// Hypotheses that Algorithm 2 simulated, completely or until rejection was certain; 0 for inverse
@@ -66,20 +68,19 @@ pub fn infer(
     let gamma = settings.gamma;
     match &settings.algorithm {
         Algorithm::InversePlanning(planning) => {
-            let objects = prepared.observed().object_sizes().len();
-            let guess = cues.guide.as_ref().map(|guide| {
-                let intents = guide.network.weigh(prepared.observed());
-                Guess::new(&guide.guidance, intents, objects, prepared.motion().strengths())
-            });
+            let guide = cues.guide.as_ref().map(|guide| GuideCourse::new(guide, prepared.observed()));
             let mut planners = planners(prepared, planning, settings.alternative);
-            weigh(&mut planners, gamma, guess.as_ref(), tick)
+            weigh(&mut planners, gamma, guide.as_ref(), tick)
         }
         Algorithm::Chains(chains) => run_chains(prepared, cues.strengths, seed, gamma, chains, tick),
     }
 }
 
 /// Averages over kinds of minds with an even prior, given ln P(Y) P(motion | Y, kind) of every hypothesis.
-pub(crate) fn average(kinds: Vec<(MindParameters, Vec<(Hypothesis, f64)>)>) -> Inference {
+pub(crate) fn average(
+    kinds: Vec<(MindParameters, Vec<(Hypothesis, f64)>)>,
+    impression: Option<Impression>,
+) -> Inference {
     let all = kinds.iter().flat_map(|(_, joint)| joint.iter().copied());
     let posterior = Posterior::new(all);
     let greatest =
@@ -93,7 +94,7 @@ pub(crate) fn average(kinds: Vec<(MindParameters, Vec<(Hypothesis, f64)>)>) -> I
         let probability = evidence(&joint) / total;
         MindPosterior { minds, probability, posterior: Posterior::new(joint) }
     });
-    Inference { posterior, minds: minds.collect(), accepted: Vec::new(), simulated: 0 }
+    Inference { posterior, minds: minds.collect(), impression, accepted: Vec::new(), simulated: 0 }
 }
 
 fn run_chains(
@@ -127,7 +128,7 @@ fn run_chains(
     let posterior = Posterior::new(particles);
     let minds =
         vec![MindPosterior { minds: *prepared.minds(), probability: 1.0, posterior: posterior.clone() }];
-    Ok(Some(Inference { posterior, minds, accepted, simulated: simulations.count() }))
+    Ok(Some(Inference { posterior, minds, impression: None, accepted, simulated: simulations.count() }))
 }
 
 /// Prepares an event and infers what explains it.

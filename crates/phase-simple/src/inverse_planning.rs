@@ -12,6 +12,7 @@ use crate::{
     evidence::ActionLikelihoods,
     generative::PreparedEvent,
     guide::Guess,
+    hypothesis::physical_goals,
     intent::{Intent, WeightedIntents, joint_logs},
     strength::UniformStrength,
 };
@@ -34,6 +35,8 @@ pub(crate) struct InversePlanner {
     strengths: [Strength; AGENT_COUNT],
     likelihoods: ActionLikelihoods,
     evidence: BTreeMap<Key, IntentEvidence>,
+    /// What the last answer was made of.
+    asked: [Vec<Key>; AGENT_COUNT],
 }
 
 impl InversePlanner {
@@ -44,6 +47,7 @@ impl InversePlanner {
             settings: *settings,
             likelihoods: ActionLikelihoods::new(settings),
             evidence: BTreeMap::new(),
+            asked: [Vec::new(), Vec::new()],
         }
     }
 
@@ -116,15 +120,46 @@ impl InversePlanner {
             assumed_goals = likeliest;
             joint = joint_logs(&weighted_intents, self.strengths, goals);
         }
+        self.asked = AgentId::ALL.map(|agent| {
+            let intents = weighted_intents[agent].iter().map(|(intent, _)| *intent);
+            intents.map(|intent| key(agent, intent, assumed_goals[agent.other()])).collect()
+        });
         Ok(Some(match guess {
             Some(guess) => guess.complete(joint),
             None => joint,
         }))
     }
 
+    /// Number of decisions that were looked at.
+    pub(crate) fn decisions(&self) -> usize {
+        self.likelihoods.decisions()
+    }
+
+    /// The row after which so many decisions are known.
+    pub(crate) fn row_after(&self, decisions: usize) -> usize {
+        self.likelihoods.row_after(decisions)
+    }
+
+    /// The last answer as it would have been after so many decisions, when the guide said `guess`.
+    pub(crate) fn weighted_after(&self, decisions: usize, guess: Option<&Guess>) -> Vec<(Hypothesis, f64)> {
+        let weighted_intents: [WeightedIntents; AGENT_COUNT] = AgentId::ALL.map(|agent| {
+            let weigh = |key: &Key| {
+                let log = self.evidence.get(key).map_or(0.0, |it| it.log_likelihood_of(decisions, &self.settings));
+                (key.1, log + guess.map_or(0.0, |guess| guess.log(agent, key.1)))
+            };
+            self.asked[agent].iter().map(weigh).collect()
+        });
+        let goals = physical_goals(AgentId::ZERO, self.prepared.observed().object_sizes().len()).len();
+        let joint = joint_logs(&weighted_intents, self.strengths, goals);
+        match guess {
+            Some(guess) => guess.complete(joint),
+            None => joint,
+        }
+    }
+
     /// ln P(motion | intent) of an agent's part of the motion, the other pursuing `others`.
     fn log_likelihood(&mut self, agent: AgentId, intent: Intent, others: Goal) -> Result<f64, PomcpError> {
-        let key = (agent, intent, (intent.attitude == Attitude::Neutral).then_some(others));
+        let key = key(agent, intent, others);
         if !self.evidence.contains_key(&key) {
             let evidence = IntentEvidence::new(&self.prepared, agent, intent, others, self.strengths)?;
             self.evidence.insert(key, evidence);
@@ -133,4 +168,9 @@ impl InversePlanner {
         evidence.follow(&self.prepared, &self.likelihoods)?;
         Ok(evidence.log_likelihood(&self.settings))
     }
+}
+
+/// What the evidence on an intent depends on, the other pursuing `others`.
+fn key(agent: AgentId, intent: Intent, others: Goal) -> Key {
+    (agent, intent, (intent.attitude == Attitude::Neutral).then_some(others))
 }

@@ -51,6 +51,7 @@ pub mod forecast;
 pub mod generative;
 pub mod guide;
 pub mod hypothesis;
+pub mod impression;
 pub mod inference;
 pub mod intent;
 pub mod intent_network;
@@ -60,6 +61,7 @@ pub mod metropolis;
 pub mod observer;
 pub mod posterior;
 pub mod proposal;
+pub mod report_model;
 pub mod settings;
 pub mod simulations;
 pub mod strength;
@@ -70,6 +72,7 @@ pub use forecast::{ForecastSettings, forecast};
 pub use generative::PreparedEvent;
 pub use guide::{Guidance, Guide};
 pub use hypothesis::{Hypothesis, physical_goals};
+pub use impression::{Happening, Impression, Interaction};
 pub use inference::{Cues, Inference, MindPosterior, explain, infer};
 pub use intent::Intent;
 pub use intent_network::IntentNetwork;
@@ -77,6 +80,7 @@ pub use inverse_dynamics::{InverseDynamics, MotionTracker};
 pub use observer::{Observer, ObserverError};
 pub use posterior::Posterior;
 pub use proposal::Proposal;
+pub use report_model::{ReportModel, ReportModelError};
 pub use settings::{
     Algorithm, AlternativeMinds, ChainSettings, InferenceSettings, InversePlanningSettings, StrengthSource,
     Update,

@@ -2,9 +2,12 @@
 
 use crate::{
     Algorithm, AlternativeMinds, Guidance, Guide, Inference, InferenceSettings, InversePlanningSettings,
+    Posterior,
     generative::PreparedEvent,
     guide::Guess,
+    impression::Impression,
     inference::average,
+    intent::WeightedIntents,
     intent_network::IntentReader,
     inverse_dynamics::MotionTracker,
     inverse_planning::InversePlanner,
@@ -12,7 +15,7 @@ use crate::{
 use core::ops::ControlFlow;
 use phase_event::{ObservedError, ObservedEvent};
 use phase_minds::MindParameters;
-use phase_model::{Body, MAX_ENTITIES};
+use phase_model::{AGENT_COUNT, Body, MAX_ENTITIES, Strength};
 use phase_pomcp::PomcpError;
 use std::sync::Arc;
 use thiserror::Error;
@@ -31,6 +34,37 @@ pub enum ObserverError {
     Search(#[from] PomcpError),
 }
 
+/// What the guide said after every row.
+#[derive(Clone, Debug)]
+pub(crate) struct GuideCourse<'a> {
+    guidance: Guidance,
+    reader: IntentReader<'a>,
+    /// ln Q of every intent of each agent after each row.
+    intents: Vec<[WeightedIntents; AGENT_COUNT]>,
+}
+
+impl<'a> GuideCourse<'a> {
+    /// Watches all rows that have been observed.
+    pub(crate) fn new(guide: &Guide<'a>, observed: &ObservedEvent) -> Self {
+        let reader = guide.network.watch(observed);
+        let mut course = Self { guidance: guide.guidance, reader, intents: Vec::new() };
+        observed.rows().iter().for_each(|row| course.push(row));
+        course
+    }
+
+    fn push(&mut self, row: &[Body; MAX_ENTITIES]) {
+        self.reader.push(row);
+        self.intents.push(self.reader.intents());
+    }
+
+    /// What it said after a row, of an event with so many objects whose agents have these strengths.
+    fn guess(&self, row: usize, objects: usize, strengths: [Strength; AGENT_COUNT]) -> Guess {
+        let last = self.intents.len().saturating_sub(1);
+        let intents = self.intents.get(row.min(last)).cloned().unwrap_or_default();
+        Guess::new(&self.guidance, intents, objects, strengths)
+    }
+}
+
 /// Watches an event row by row, and says after each what explains it.
 ///
 /// Every answer is that of [`infer`](crate::infer) for the rows seen so far, bit for bit: what is learnt later about earlier steps
@@ -40,7 +74,7 @@ pub struct Observer<'a> {
     observed: Arc<ObservedEvent>,
     tracker: MotionTracker,
     planners: Vec<(MindParameters, InversePlanner)>,
-    guide: Option<(Guidance, IntentReader<'a>)>,
+    guide: Option<GuideCourse<'a>>,
     gamma: f64,
 }
 
@@ -63,7 +97,7 @@ impl<'a> Observer<'a> {
         let motion = Arc::new(tracker.motion().clone());
         let prepared = PreparedEvent::with_motion(Arc::clone(&observed), motion, settings.minds, seed);
         let planners = planners(&prepared, &planning, settings.alternative);
-        let guide = guide.map(|guide| (guide.guidance, guide.network.watched(&observed)));
+        let guide = guide.map(|guide| GuideCourse::new(guide, &observed));
         Ok(Self { observed, tracker, planners, guide, gamma: settings.gamma })
     }
 
@@ -88,8 +122,8 @@ impl<'a> Observer<'a> {
             planner.prepared.follow(Arc::clone(&self.observed), Arc::clone(&motion), unchanged);
             planner.forget(unchanged);
         }
-        if let Some((_, reader)) = &mut self.guide {
-            reader.push(&row);
+        if let Some(guide) = &mut self.guide {
+            guide.push(&row);
         }
         Ok(())
     }
@@ -102,13 +136,7 @@ impl<'a> Observer<'a> {
         &mut self,
         tick: &mut dyn FnMut() -> ControlFlow<()>,
     ) -> Result<Option<Inference>, PomcpError> {
-        let objects = self.observed.object_sizes().len();
-        let strengths = self.tracker.motion().strengths();
-        let guess = self
-            .guide
-            .as_ref()
-            .map(|(guidance, reader)| Guess::new(guidance, reader.intents(), objects, strengths));
-        weigh(&mut self.planners, self.gamma, guess.as_ref(), tick)
+        weigh(&mut self.planners, self.gamma, self.guide.as_ref(), tick)
     }
 
     /// What has been observed so far.
@@ -138,17 +166,29 @@ pub(crate) fn planners(
     planners
 }
 
-/// The answer of all kinds of minds together.
+/// The answer of all kinds of minds together, and how it came about.
 pub(crate) fn weigh(
     planners: &mut [(MindParameters, InversePlanner)],
     gamma: f64,
-    guess: Option<&Guess>,
+    guide: Option<&GuideCourse<'_>>,
     tick: &mut dyn FnMut() -> ControlFlow<()>,
 ) -> Result<Option<Inference>, PomcpError> {
+    let Some((_, first)) = planners.first() else { return Ok(Some(average(Vec::new(), None))) };
+    let objects = first.prepared.observed().object_sizes().len();
+    let strengths = first.prepared.motion().strengths();
+    let guess = |row| guide.map(|guide| guide.guess(row, objects, strengths));
+    let last = guess(first.prepared.observed().steps());
     let mut kinds = Vec::with_capacity(planners.len());
-    for (minds, planner) in planners {
-        let Some(own) = planner.weighted_hypotheses(gamma, guess, tick)? else { return Ok(None) };
+    for (minds, planner) in &mut *planners {
+        let Some(own) = planner.weighted_hypotheses(gamma, last.as_ref(), tick)? else { return Ok(None) };
         kinds.push((*minds, own));
     }
-    Ok(Some(average(kinds)))
+    let (_, first) = &planners[0];
+    let course = (1..=first.decisions()).map(|decisions| {
+        let guess = guess(first.row_after(decisions));
+        let of_kinds = planners.iter().map(|(_, planner)| planner.weighted_after(decisions, guess.as_ref()));
+        Posterior::new(of_kinds.flatten())
+    });
+    let impression = Impression::of(first.prepared.observed(), course);
+    Ok(Some(average(kinds, impression)))
 }

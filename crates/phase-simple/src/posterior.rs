@@ -73,7 +73,7 @@ impl Posterior {
     #[must_use]
     pub fn judgement(&self) -> Judgement {
         let goals: [Vec<(Goal, f64)>; AGENT_COUNT] = AgentId::ALL.map(|agent| self.goals(agent));
-        Judgement { goals, relation: self.relation(), roles: Some(self.roles()) }
+        Judgement { goals, relation: self.relation(), roles: Some(self.roles()), reported: None }
     }
 
     fn sum(&self, counts: impl Fn(&Hypothesis) -> bool) -> f64 {

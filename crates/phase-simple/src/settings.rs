@@ -61,11 +61,9 @@ pub struct AlternativeMinds {
     pub lapse_rate: f64,
 }
 
-/// ε of either kind where both are considered: that of events by such minds, for which the likelihood of the true
-/// intents is greatest near no lapse at all; a search that did not try an action must not rule an intent out. The
-/// default ε, fitted to recordings, stands for what our minds do not do and the recorded ones do, which is the other
-/// kind's part here: with it, our own events were taken for published ones (see docs/simple.md).
-const LAPSE_RATE_OF_KIND: f64 = 0.05;
+/// ε of published minds where both kinds are considered, fitted to recordings and generated events together. That of our own
+/// minds is the default ε, which stands for what other minds do and ours do not.
+const LAPSE_RATE_OF_PUBLISHED: f64 = 0.1;
 
 /// Parameters of inverse planning. ε is fitted by `cargo xtask fit-inference` and κ measured by it (docs/simple.md), σ was
 /// selected on the validation events of PHASE-500.
@@ -120,7 +118,7 @@ const SIMULATIONS: usize = 50;
 /// Those of published minds, whose searches branch on more and are shared by many intents.
 const PUBLISHED_SIMULATIONS: usize = 100;
 /// Searches of published minds at an observed state. What one settles on is to some degree chance.
-const PUBLISHED_SEARCHES: usize = 3;
+const PUBLISHED_SEARCHES: usize = 2;
 /// Number of intents of an agent in an event with two objects.
 const INTENTS: usize = 42;
 
@@ -142,13 +140,9 @@ impl InferenceSettings {
     /// Inverse planning that averages over our own minds and the published simulator's.
     #[must_use]
     pub fn averaged() -> Self {
-        let (minds, lapse_rate) = (Self::minds_of(phase_agent::MindKind::Published), LAPSE_RATE_OF_KIND);
-        let planning = InversePlanningSettings { lapse_rate, ..InversePlanningSettings::default() };
-        Self {
-            algorithm: Algorithm::InversePlanning(planning),
-            alternative: Some(AlternativeMinds { minds, lapse_rate }),
-            ..Self::default()
-        }
+        let minds = Self::minds_of(phase_agent::MindKind::Published);
+        let alternative = Some(AlternativeMinds { minds, lapse_rate: LAPSE_RATE_OF_PUBLISHED });
+        Self { alternative, ..Self::default() }
     }
 
     /// The same with these minds and no others.
@@ -220,7 +214,7 @@ impl ChainSettings {
 
 impl Default for InversePlanningSettings {
     fn default() -> Self {
-        Self { lapse_rate: 0.5, tolerance: 0.03, inverse_temperature: 0.2, interval: 3 }
+        Self { lapse_rate: 0.5, tolerance: 0.03, inverse_temperature: 1.0 / 6.0, interval: 3 }
     }
 }
 

@@ -10,7 +10,7 @@ use phase_event::ObservedEvent;
 use phase_model::{Forecast, Judgement};
 use phase_simple::{
     ChainSettings, Cues, ForecastSettings, Guidance, Guide, Inference, InferenceSettings, IntentNetwork,
-    MindPosterior, PreparedEvent, Proposal, StrengthRegressor, StrengthSource, UniformStrength, Update,
+    MindPosterior, PreparedEvent, Proposal, ReportModel, StrengthRegressor, StrengthSource, UniformStrength, Update,
     forecast, infer,
 };
 use serde_json::{Value, json};
@@ -108,7 +108,12 @@ impl Recogniser for Simple {
     ) -> MethodResult<Judgement> {
         let prepared = PreparedEvent::new(observed, self.settings.minds, seed);
         let inference = self.infer(&prepared, seed, tick)?;
-        Ok(inference.map(|inference| (inference.posterior.judgement(), details(&inference))))
+        let model = ReportModel::bundled().map_err(MethodError::new)?;
+        Ok(inference.map(|inference| {
+            let reported = inference.impression.as_ref().map(|impression| model.reports(impression));
+            let judgement = Judgement { reported, ..inference.posterior.judgement() };
+            (judgement, details(&inference))
+        }))
     }
 }
 
@@ -162,6 +167,7 @@ fn details(inference: &Inference) -> Value {
     json!({
         "hypotheses": hypotheses,
         "minds": minds,
+        "impression": inference.impression,
         "accepted": inference.accepted,
         "simulated": inference.simulated,
     })

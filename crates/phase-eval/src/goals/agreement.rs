@@ -4,7 +4,7 @@
 //! three probabilities are compared with the shares of raters, and both with the *noise ceiling*: how well one half of the
 //! raters predicts the other.
 
-use super::RecognisedEvent;
+use super::{Answer, RecognisedEvent};
 use crate::{CONFIDENCE, Estimate, RESAMPLES, ratings::RatingCounts};
 use phase_model::{
     RelationProbabilities,
@@ -68,12 +68,29 @@ struct Rated {
 }
 
 impl Agreement {
-    /// Compares the answers to events that were rated; `None` without any. The seed is that of intervals and halves.
+    /// Compares the reports that the answers to rated events predict, or, where an answer predicts none, its probabilities of
+    /// relations; `None` without any. The seed is that of intervals and halves.
     #[must_use]
     pub fn of(events: &[RecognisedEvent], seed: u64) -> Option<Self> {
+        Self::with(events, seed, |answer| answer.reported.unwrap_or(answer.relation))
+    }
+
+    /// The same of the probabilities of relations alone; `None` also if no answer predicts reports, and [`Agreement::of`] says the
+    /// same.
+    #[must_use]
+    pub fn of_relations(events: &[RecognisedEvent], seed: u64) -> Option<Self> {
+        let predicted = events.iter().any(|event| event.answer.reported.is_some());
+        predicted.then(|| Self::with(events, seed, |answer| answer.relation)).flatten()
+    }
+
+    fn with(
+        events: &[RecognisedEvent],
+        seed: u64,
+        said: impl Fn(&Answer) -> RelationProbabilities,
+    ) -> Option<Self> {
         let rated = |event: &RecognisedEvent| {
             let counts = event.label.ratings?;
-            (counts.raters() > 0).then(|| Rated { said: shares_of(&event.answer.relation), counts })
+            (counts.raters() > 0).then(|| Rated { said: shares_of(&said(&event.answer)), counts })
         };
         let rated: Vec<Rated> = events.iter().filter_map(rated).collect();
         let said: Vec<Shares> = rated.iter().map(|event| event.said).collect();

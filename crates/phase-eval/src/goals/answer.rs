@@ -30,6 +30,9 @@ pub enum InvalidAnswer {
     /// The relations' probabilities are invalid.
     #[error("`relation` must have three numbers from 0 to 1 that add up to 1")]
     Relation,
+    /// The shares of reports are invalid.
+    #[error("`reported` must have three numbers from 0 to 1 that add up to 1")]
+    Reported,
     /// The roles' probabilities are invalid.
     #[error("`roles` must have four numbers from 0 to 1 that add up to at most 1")]
     Roles,
@@ -56,6 +59,9 @@ pub struct Answer {
     /// The probabilities that either agent helps or hinders the other, if the method says.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub roles: Option<RoleProbabilities>,
+    /// The shares of people who would report each relation, if the method says.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reported: Option<RelationProbabilities>,
 }
 
 impl Answer {
@@ -80,21 +86,15 @@ impl Answer {
             }
             ranked.sort_by(|a, b| b.p.total_cmp(&a.p));
         }
-        let relation = judgement.relation;
-        let three = [relation.friendly, relation.adversarial, relation.neutral];
-        if !three.into_iter().all(probable) || (three.iter().sum::<f64>() - 1.0).abs() > TOLERANCE {
-            return Err(InvalidAnswer::Relation);
-        }
+        let relation = distribution(&judgement.relation).ok_or(InvalidAnswer::Relation)?;
+        let reported = judgement.reported.map(|it| distribution(&it).ok_or(InvalidAnswer::Reported)).transpose()?;
         if let Some(RoleProbabilities { helps, hinders }) = judgement.roles {
             let four = || helps.into_iter().chain(hinders);
             if !four().all(probable) || four().sum::<f64>() > 1.0 + TOLERANCE {
                 return Err(InvalidAnswer::Roles);
             }
         }
-        // A sum of probabilities may exceed 1 by a rounding error.
-        let [friendly, adversarial, neutral] = three.map(|p| p.min(1.0));
-        let relation = RelationProbabilities { friendly, adversarial, neutral };
-        Ok(Self { goals, relation, roles: judgement.roles })
+        Ok(Self { goals, relation, roles: judgement.roles, reported })
     }
 
     /// The rank of the correct goal of an agent among those named, from 0; `None` if it was not named.
@@ -103,6 +103,14 @@ impl Answer {
         let right = canonical(right);
         self.goals[agent].iter().position(|share| canonical(share.goal) == right)
     }
+}
+
+/// Three probabilities of relations, if they are valid. A sum of probabilities may exceed 1 by a rounding error.
+fn distribution(relation: &RelationProbabilities) -> Option<RelationProbabilities> {
+    let three = [relation.friendly, relation.adversarial, relation.neutral];
+    let valid = three.into_iter().all(probable) && (three.iter().sum::<f64>() - 1.0).abs() <= TOLERANCE;
+    let [friendly, adversarial, neutral] = three.map(|p| p.min(1.0));
+    valid.then_some(RelationProbabilities { friendly, adversarial, neutral })
 }
 
 /// The labels of an event.

@@ -77,6 +77,9 @@ pub struct RecognitionSummary {
     /// Agreement with people's ratings, of the events that were rated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub agreement: Option<Agreement>,
+    /// The same of the probabilities of relations, where the method predicts reports beside them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub relation_agreement: Option<Agreement>,
     /// Confusion matrix of relations (number of events): `confusion[right][said]`, both in the order of
     /// [`RELATIONS`].
     pub confusion: [[usize; RELATIONS.len()]; RELATIONS.len()],
@@ -117,6 +120,7 @@ impl RecognitionSummary {
             roles: RoleScores::of(events, seed),
             role_kinds: role_kinds(events, seed),
             agreement: Agreement::of(events, seed),
+            relation_agreement: Agreement::of_relations(events, seed),
             confusion: confusion(events),
             goal_calibration: Calibration::of(&goal_answers(events)),
             relation_calibration: Calibration::of(&relation_answers(events)),

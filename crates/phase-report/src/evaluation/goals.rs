@@ -71,7 +71,7 @@ pub fn goals(subject: Subject<'_>, summary: &RecognitionSummary) -> Document {
     }
     if let Some(agreement) = &summary.agreement {
         blocks.push(Block::Heading("Agreement with people".into()));
-        blocks.extend(agreement_blocks(agreement));
+        blocks.extend(agreement_blocks(agreement, summary.relation_agreement.as_ref()));
     }
     if !summary.watched.is_empty() {
         blocks.push(Block::Heading("By seconds watched".into()));
@@ -104,25 +104,33 @@ fn role_table(all: &RoleScores, kinds: &[GroupScores<RoleScores>]) -> Block {
     Block::Table { head: head(&["kind", "events", "agent right", "Brier score"]), rows }
 }
 
-fn agreement_blocks(agreement: &Agreement) -> [Block; 2] {
+fn agreement_blocks(agreement: &Agreement, relations: Option<&Agreement>) -> [Block; 2] {
     let ceiling = agreement.ceiling.as_ref();
     let number = |value: Option<f64>| value.map_or_else(|| "-".into(), |value| format!("{value:.3}"));
     let or_none = |estimate: Option<&Estimate>| estimate.map_or_else(|| "-".into(), share);
-    let row = |what: &str, ours: String, people: Option<f64>| vec![what.to_owned(), ours, number(people)];
+    let row = |what: &str, of: &dyn Fn(&Agreement) -> String, people: Option<f64>| {
+        let methods = core::iter::once(agreement).chain(relations).map(of);
+        core::iter::once(what.to_owned()).chain(methods).chain([number(people)]).collect()
+    };
     let rows = vec![
         row(
             "Pearson's correlation of probabilities and shares of raters",
-            or_none(agreement.correlation.as_ref()),
+            &|it| or_none(it.correlation.as_ref()),
             ceiling.and_then(|it| it.correlation),
         ),
-        row("cross-entropy (nat)", share(&agreement.cross_entropy), ceiling.map(|it| it.entropy)),
+        row("cross-entropy (nat)", &|it| share(&it.cross_entropy), ceiling.map(|it| it.entropy)),
         row(
             "representational similarity (Spearman's)",
-            or_none(agreement.similarity.as_ref()),
+            &|it| or_none(it.similarity.as_ref()),
             ceiling.and_then(|it| it.similarity),
         ),
-        row("most frequent rating named", share(&agreement.mode), ceiling.map(|it| it.mode)),
+        row("most frequent rating named", &|it| share(&it.mode), ceiling.map(|it| it.mode)),
     ];
+    let columns: &[&str] = if relations.is_some() {
+        &["measure", "reports that the method predicts", "its probabilities of relations", "people"]
+    } else {
+        &["measure", "method", "people"]
+    };
     let text = format!(
         "{} events with {} ratings. People: how well one half of the raters predicts the other (the correlations are corrected \
          to all raters), and the entropy of their ratings, the least cross-entropy that is possible. Probabilities are mixed \
@@ -131,7 +139,7 @@ fn agreement_blocks(agreement: &Agreement) -> [Block; 2] {
         agreement.ratings,
         100.0 * UNIFORM_SHARE
     );
-    [Block::Text(text), Block::Table { head: head(&["measure", "method", "people"]), rows }]
+    [Block::Text(text), Block::Table { head: head(columns), rows }]
 }
 
 fn beside_published(ours: &str, scores: &RecognitionScores) -> Block {

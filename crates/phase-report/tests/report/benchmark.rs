@@ -126,7 +126,7 @@ fn rows_stand_where_they_belong() {
 fn mistakes_stand_in_their_columns() {
     let event = RecognisedEvent {
         id: "event".into(),
-        answer: Answer { goals: Default::default(), relation: RelationProbabilities::default(), roles: None },
+        answer: Answer { goals: Default::default(), relation: RelationProbabilities::default(), roles: None, reported: None },
         label: Label {
             kind: EventKind::Independent,
             goals: [Goal::Touch { agent: AgentId::ZERO, other: AgentId::ONE, sign: Sign::Positive }; 2],
