@@ -151,7 +151,7 @@ pub fn settings_value(settings: &SimulationSettings) -> Result<Value, CliError> 
 /// As [`picture::write_video`].
 pub fn write_video(path: &Path, id: &str, event: &Event) -> Result<(), CliError> {
     let items: Vec<RenderedState<'_>> =
-        event.frames().map(|&state| RenderedState { state, minds: Vec::new() }).collect();
+        event.frames().map(|&state| RenderedState { state, minds: Vec::new(), observer: None }).collect();
     picture::write_video(path, id, &event.scene.physics(), Palette::PAPER, &items)
 }
 

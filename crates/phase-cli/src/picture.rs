@@ -6,8 +6,8 @@ use phase_event::Event;
 use phase_model::{AgentId, PhysicsConfig, State, arena::FRAMES_PER_SECOND};
 use phase_perception::CellSet;
 use phase_render::{
-    Caption, Frame, Overlay, Palette, RenderError, SceneRenderer, Style, VideoEncoder, contact_sheet,
-    side_by_side,
+    Annotation, Caption, Course, Frame, Overlay, Palette, RenderError, SceneRenderer, Style, VideoEncoder,
+    annotation::SHARES, contact_sheet, side_by_side,
 };
 use std::path::Path;
 
@@ -15,6 +15,8 @@ use std::path::Path;
 const SHEET_SIDE: u32 = 320;
 /// Lines of text below frames that show an agent's decisions.
 const CAPTION_LINES: u32 = crate::captions::COUNT as u32;
+/// Height of an observer's course, in lines of text.
+const COURSE_LINES: u32 = 4;
 
 /// One agent's field of view and belief at one frame.
 #[derive(Clone, Debug)]
@@ -31,14 +33,29 @@ pub struct BeliefFrame {
     pub captions: Vec<Caption>,
 }
 
-/// A state to draw and the agents' views to draw over it, each in a separate picture beside the others';
-/// without any only the state. Several frames may share a view.
+/// What an observer makes of an event until a frame.
+#[derive(Clone, Debug)]
+pub struct ObserverFrame<'a> {
+    /// The text above.
+    pub title: String,
+    /// The text below.
+    pub captions: Vec<Caption>,
+    /// The shares of the relations so far.
+    pub shares: &'a [[f32; SHARES]],
+    /// Number of shares at the end of the event.
+    pub times: usize,
+}
+
+/// A state to draw and the agents' views to draw over it, each in a separate picture beside the others', or what an observer makes
+/// of it; without any only the state. Several frames may share a view.
 #[derive(Clone, Debug)]
 pub struct RenderedState<'a> {
     /// The true state.
     pub state: State,
     /// The views, the same number for every frame of an event.
     pub minds: Vec<&'a BeliefFrame>,
+    /// The observer, of all frames of an event or of none.
+    pub observer: Option<&'a ObserverFrame<'a>>,
 }
 
 /// Writes a video.
@@ -134,11 +151,15 @@ fn columns(count: usize) -> usize {
     (squarest..=widest).min_by_key(|columns| count.next_multiple_of(*columns)).unwrap_or(widest)
 }
 
-/// Title, legend and captions are only for views of agents.
+/// Title and captions are only for views of agents and an observer, the legend for the former, the course for the latter.
 fn style(style: Style, palette: Palette, items: &[RenderedState<'_>]) -> Style {
     let explained = items.iter().any(|item| !item.minds.is_empty());
-    let caption_lines = if explained { CAPTION_LINES } else { 0 };
-    Style { palette, title: explained, legend: explained, caption_lines, ..style }
+    let observer = items.iter().find_map(|item| item.observer);
+    let observed = observer.map_or(0, |observer| observer.captions.len() as u32);
+    let caption_lines = if explained { CAPTION_LINES } else { observed };
+    let course_lines = if observer.is_some() { COURSE_LINES } else { 0 };
+    let title = explained || observer.is_some();
+    Style { palette, title, legend: explained, caption_lines, course_lines, ..style }
 }
 
 fn frame(renderer: &SceneRenderer, item: &RenderedState<'_>) -> Result<Frame, RenderError> {
@@ -152,6 +173,10 @@ fn frame(renderer: &SceneRenderer, item: &RenderedState<'_>) -> Result<Frame, Re
         };
         renderer.frame(&item.state, Some(&overlay))
     };
+    if let Some(ObserverFrame { title, captions, shares, times }) = item.observer {
+        let course = Some(Course { shares, times: *times });
+        return Ok(renderer.annotated(&item.state, &Annotation { title, captions, course }));
+    }
     let mut views: Vec<Frame> = item.minds.iter().map(view).collect();
     match views.len() {
         0 => Ok(renderer.frame(&item.state, None)),

@@ -32,6 +32,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod annotation;
 pub mod caption;
 pub mod error;
 pub mod font;
@@ -50,6 +51,7 @@ pub mod yuv;
 mod bodies;
 mod painter;
 
+pub use annotation::{Annotation, Course};
 pub use caption::Caption;
 pub use error::RenderError;
 pub use frame::Frame;

@@ -1,5 +1,7 @@
 //! Colours.
 
+use crate::annotation::SHARES;
+
 /// An opaque sRGB colour: red, green, blue.
 pub type Colour = [u8; 3];
 
@@ -53,6 +55,12 @@ pub struct Palette {
     pub agent_names: [&'static str; 2],
     /// Objects 0 and 1.
     pub objects: [Colour; 2],
+    /// What the landmarks' colours are called.
+    pub landmark_names: [&'static str; 4],
+    /// What the objects' colours are called.
+    pub object_names: [&'static str; 2],
+    /// The shares friendly, adversarial and neutral of a course.
+    pub shares: [Colour; SHARES],
     /// Outlines of bodies.
     pub outline: Colour,
     /// What is not seen in an overlay is covered with this colour, half transparent.
@@ -86,6 +94,9 @@ impl Palette {
         agents: [[235, 20, 20], [20, 190, 20]],
         agent_names: ["red", "green"],
         objects: [[117, 216, 230], [255, 153, 153]],
+        landmark_names: ["blue", "green", "red", "yellow"],
+        object_names: ["light blue", "pink"],
+        shares: [[111, 173, 101], [204, 97, 85], [190, 190, 190]],
         outline: [40, 40, 40],
         unseen: [110, 110, 120],
         seen: [255, 240, 150],
@@ -108,6 +119,10 @@ impl Palette {
         agents: [[213, 94, 0], [0, 80, 125]],
         agent_names: ["vermilion", "blue"],
         objects: [[86, 180, 233], [240, 228, 66]],
+        landmark_names: ["pale blue", "grey", "orange", "pale yellow"],
+        object_names: ["sky blue", "yellow"],
+        // Blue, orange and grey.
+        shares: [[0, 114, 178], [230, 159, 0], [190, 190, 190]],
         ..Self::PAPER
     };
 }

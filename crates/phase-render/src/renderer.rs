@@ -1,7 +1,7 @@
 //! The stage on which an event plays: what does not change, and the frames of what does.
 
 use crate::{
-    Frame, Overlay, Palette, RenderError, Style, bodies, caption, legend, overlay,
+    Annotation, Frame, Overlay, Palette, RenderError, Style, annotation::draw_course, bodies, caption, legend, overlay,
     painter::{Painter, View},
     text::{Align, SizedFont},
 };
@@ -64,6 +64,19 @@ impl SceneRenderer {
         if let Some(overlay) = overlay {
             self.draw_title(&mut painter.pixmap, overlay.title);
             caption::draw(&mut painter.pixmap, &self.style, &self.font, overlay.captions);
+        }
+        Frame::of(painter.pixmap)
+    }
+
+    /// Draws a state with a title, captions and a course around it.
+    #[must_use]
+    pub fn annotated(&self, state: &State, annotation: &Annotation<'_>) -> Frame {
+        let mut painter = Painter { pixmap: self.background.clone(), view: View::of(&self.style) };
+        bodies::draw(&mut painter, &self.style.palette, &self.physics, state);
+        self.draw_title(&mut painter.pixmap, annotation.title);
+        caption::draw(&mut painter.pixmap, &self.style, &self.font, annotation.captions);
+        if let Some(course) = &annotation.course {
+            draw_course(&mut painter.pixmap, &self.style, course);
         }
         Frame::of(painter.pixmap)
     }

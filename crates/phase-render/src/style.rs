@@ -19,6 +19,8 @@ pub struct Style {
     pub legend: bool,
     /// Lines of text below the square and the legend, 0 to 16.
     pub caption_lines: u32,
+    /// Lines of text as high as the strip below the captions in which a [`crate::annotation::Course`] is drawn, 0 to 16.
+    pub course_lines: u32,
     /// The colours.
     pub palette: Palette,
 }
@@ -36,6 +38,7 @@ impl Default for Style {
             title: false,
             legend: false,
             caption_lines: 0,
+            course_lines: 0,
             palette: Palette::default(),
         }
     }
@@ -57,7 +60,20 @@ impl Style {
     /// Height of a picture, title, legend and captions included (pixels).
     #[must_use]
     pub const fn height(&self) -> u32 {
+        let margin = if self.course_lines > 0 { self.line_height() } else { 0 };
+        self.course_top().saturating_add(self.course_height()).saturating_add(margin)
+    }
+
+    /// Where the strip with the course begins (pixels from the top).
+    #[must_use]
+    pub const fn course_top(&self) -> u32 {
         self.caption_top().saturating_add(self.caption_lines.saturating_mul(self.line_height()))
+    }
+
+    /// Height of the strip with the course (pixels).
+    #[must_use]
+    pub const fn course_height(&self) -> u32 {
+        self.course_lines.saturating_mul(self.line_height())
     }
 
     /// Size of text (pixels per em): 13 at the default size, and never below 11, which is the smallest that is easy to
@@ -120,6 +136,7 @@ impl Style {
         };
         check("side", 64, 2000, self.side)?;
         check("margin", 0, self.side / 4, self.margin)?;
-        check("caption_lines", 0, 16, self.caption_lines)
+        check("caption_lines", 0, 16, self.caption_lines)?;
+        check("course_lines", 0, 16, self.course_lines)
     }
 }

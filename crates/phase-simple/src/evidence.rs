@@ -8,6 +8,31 @@ use crate::{
 use phase_model::{AGENT_COUNT, AgentId, Goal, Strength};
 use phase_pomcp::PomcpError;
 
+/// What may be spent on decisions.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct Effort {
+    /// POMCP simulations left; `None` for as many as it takes.
+    pub simulations: Option<usize>,
+}
+
+impl Effort {
+    /// As much as it takes.
+    pub const UNLIMITED: Self = Self { simulations: None };
+
+    /// Takes some simulations, if there is anything left. The last decision may take more than that, so that there is always
+    /// progress.
+    const fn take(&mut self, simulations: usize) -> bool {
+        match &mut self.simulations {
+            None => true,
+            Some(0) => false,
+            Some(left) => {
+                *left = left.saturating_sub(simulations);
+                true
+            }
+        }
+    }
+}
+
 /// How likely each action explains what was observed, in the steps whose decisions are looked at. All intents share them.
 #[derive(Clone, PartialEq, Debug)]
 pub struct ActionLikelihoods {
@@ -89,7 +114,7 @@ impl IntentEvidence {
     }
 
     /// Catches up with the event: lets the mind of the intent decide in every state that is looked at. `likelihoods` have
-    /// caught up with the same event.
+    /// caught up with the same event. Whether it has caught up: it stops when the effort is spent.
     ///
     /// # Errors
     /// Invalid parameters of the agents' search.
@@ -97,13 +122,19 @@ impl IntentEvidence {
         &mut self,
         prepared: &PreparedEvent,
         likelihoods: &ActionLikelihoods,
-    ) -> Result<(), PomcpError> {
+        effort: &mut Effort,
+    ) -> Result<bool, PomcpError> {
+        let minds = prepared.minds();
+        let cost = minds.simulations.saturating_mul(minds.searches.max(1));
         for (decision, of_step) in likelihoods.of_decisions.iter().enumerate().skip(self.chances.len()) {
+            if !effort.take(cost) {
+                return Ok(false);
+            }
             let (action, thought) =
                 prepared.decide(&mut self.run, self.agent, likelihoods.step(decision))?;
             self.chances.push(Chance::of(&choice::policy_of(action, &thought), &of_step[self.agent]));
         }
-        Ok(())
+        Ok(true)
     }
 
     /// Forgets the steps after some rows that are explained as before.

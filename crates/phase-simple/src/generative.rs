@@ -84,6 +84,11 @@ impl PreparedEvent {
         &self.observed
     }
 
+    /// The event, to be shared.
+    pub(crate) const fn shared_observed(&self) -> &Arc<ObservedEvent> {
+        &self.observed
+    }
+
     /// The inferred actions, and the states between steps.
     #[must_use]
     pub fn motion(&self) -> &InverseDynamics {

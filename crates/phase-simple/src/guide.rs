@@ -74,9 +74,12 @@ impl Guess {
         Self { intents, posterior, kept }
     }
 
-    /// The intents of an agent that are worth simulating.
-    pub(crate) fn kept(&self, agent: AgentId) -> impl Iterator<Item = Intent> + '_ {
-        self.kept[agent].iter().copied()
+    /// The intents that are worth simulating, likeliest first.
+    pub(crate) fn kept(&self) -> Vec<(AgentId, Intent)> {
+        let of = |agent: AgentId| self.kept[agent].iter().map(move |&intent| (agent, intent));
+        let mut kept: Vec<_> = AgentId::ALL.into_iter().flat_map(of).collect();
+        kept.sort_by(|a, b| self.log(b.0, b.1).total_cmp(&self.log(a.0, a.1)));
+        kept
     }
 
     /// The likeliest goals.
@@ -91,11 +94,14 @@ impl Guess {
     }
 
     /// Adds the hypotheses that were not simulated to ln P(Y, motion) of those that were, such that the former keep the share
-    /// that the guide gives them.
+    /// that the guide gives them. If none was, the guide alone answers.
     pub(crate) fn complete(&self, mut joint: Vec<(Hypothesis, f64)>) -> Vec<(Hypothesis, f64)> {
         let simulated: BTreeSet<Hypothesis> = joint.iter().map(|(hypothesis, _)| *hypothesis).collect();
         let others = || self.posterior.hypotheses.iter().filter(|(it, _)| !simulated.contains(it));
         let share: f64 = others().map(|(_, weight)| weight).sum();
+        if joint.is_empty() {
+            return self.posterior.hypotheses.iter().map(|&(it, weight)| (it, libm::log(weight))).collect();
+        }
         let greatest = joint.iter().map(|it| it.1).fold(f64::NEG_INFINITY, f64::max);
         let sum: f64 = joint.iter().map(|it| libm::exp(it.1 - greatest)).sum();
         let scale = greatest + libm::log(sum) - libm::log((1.0 - share).max(f64::MIN_POSITIVE));

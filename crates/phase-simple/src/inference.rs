@@ -1,7 +1,7 @@
 //! From an observed event to weighted hypotheses.
 
 use crate::{
-    Algorithm, ChainSettings, Guide, Hypothesis, InferenceSettings, InferredStrengths, Posterior, Proposal,
+    Algorithm, ChainSettings, Effort, Guide, Hypothesis, InferenceSettings, InferredStrengths, Posterior, Proposal,
     StrengthSource,
     generative::PreparedEvent,
     impression::Impression,
@@ -70,7 +70,7 @@ pub fn infer(
         Algorithm::InversePlanning(planning) => {
             let guide = cues.guide.as_ref().map(|guide| GuideCourse::new(guide, prepared.observed()));
             let mut planners = planners(prepared, planning, settings.alternative);
-            weigh(&mut planners, gamma, guide.as_ref(), tick)
+            weigh(&mut planners, gamma, guide.as_ref(), &mut Effort::UNLIMITED.clone(), tick)
         }
         Algorithm::Chains(chains) => run_chains(prepared, cues.strengths, seed, gamma, chains, tick),
     }

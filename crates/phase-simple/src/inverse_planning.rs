@@ -8,13 +8,12 @@
 //! followed while it is watched, and the answer is the same as if it had been seen at once.
 
 use crate::{
-    Hypothesis, IntentEvidence, InversePlanningSettings, Posterior, Proposal,
-    evidence::ActionLikelihoods,
+    Hypothesis, IntentEvidence, InversePlanningSettings, Posterior,
+    evidence::{ActionLikelihoods, Effort},
     generative::PreparedEvent,
     guide::Guess,
     hypothesis::physical_goals,
     intent::{Intent, WeightedIntents, joint_logs},
-    strength::UniformStrength,
 };
 use core::ops::ControlFlow;
 use phase_model::{AGENT_COUNT, AgentId, Attitude, Goal, Strength};
@@ -62,38 +61,53 @@ impl InversePlanner {
         }
     }
 
-    /// ln P(Y) P(motion | Y) of every hypothesis, with the strengths inferred from the physics; `None` if `tick`, which is
-    /// called once per intent, cancelled it. A guide adds its guess, and restricts the simulations to the intents that it leaves.
+    /// Catches up with the event, as far as all intents have it in common.
+    pub(crate) fn follow(&mut self) {
+        self.likelihoods.follow(&self.prepared);
+    }
+
+    /// Catches up with an intent of an agent, the other pursuing `others`. Whether that is done, and the effort not spent before.
+    ///
+    /// # Errors
+    /// Invalid parameters of the agents' search.
+    pub(crate) fn catch_up(
+        &mut self,
+        agent: AgentId,
+        intent: Intent,
+        others: Goal,
+        effort: &mut Effort,
+    ) -> Result<bool, PomcpError> {
+        Ok(self.log_likelihood(agent, intent, others, effort)?.is_some())
+    }
+
+    /// ln P(Y) P(motion | Y) of every hypothesis made up of these intents, with the strengths inferred from the physics; `None` if
+    /// `tick`, which is called about once per intent, cancelled it. `assumed` are the goals that neutral agents first attribute to
+    /// each other. A guide adds its guess.
     ///
     /// # Errors
     /// Invalid parameters of the agents' search.
     pub(crate) fn weighted_hypotheses(
         &mut self,
-        gamma: f64,
+        intents: &[(AgentId, Intent)],
+        assumed: [Goal; AGENT_COUNT],
         guess: Option<&Guess>,
+        effort: &mut Effort,
         tick: &mut dyn FnMut() -> ControlFlow<()>,
     ) -> Result<Option<Vec<(Hypothesis, f64)>>, PomcpError> {
-        self.likelihoods.follow(&self.prepared);
-        let observed = self.prepared.observed();
-        let objects = observed.object_sizes().len();
-        let cue = Proposal::new(observed, 0..=observed.steps(), gamma, &UniformStrength);
-        // The goal that each agent attributes to the other if it is not social.
-        let mut assumed_goals: [Goal; AGENT_COUNT] = guess
-            .and_then(Guess::goals)
-            .unwrap_or_else(|| AgentId::ALL.map(|agent| cue.most_likely_goal(agent)));
         let log_guess = |agent, intent| guess.map_or(0.0, |guess| guess.log(agent, intent));
         let mut weighted_intents: [WeightedIntents; AGENT_COUNT] = [Vec::new(), Vec::new()];
-        for (agent, weighted_intents) in AgentId::ALL.into_iter().zip(&mut weighted_intents) {
-            let intents = guess.map_or_else(|| Intent::all(agent, objects), |guess| guess.kept(agent).collect());
-            for intent in intents {
-                if tick().is_break() {
-                    return Ok(None);
-                }
-                let log = self.log_likelihood(agent, intent, assumed_goals[agent.other()])?;
-                weighted_intents.push((intent, log + log_guess(agent, intent)));
+        self.asked = [Vec::new(), Vec::new()];
+        for &(agent, intent) in intents {
+            if tick().is_break() {
+                return Ok(None);
             }
+            let others = assumed[agent.other()];
+            let Some(log) = self.log_likelihood(agent, intent, others, effort)? else { continue };
+            weighted_intents[agent].push((intent, log + log_guess(agent, intent)));
+            self.asked[agent].push(key(agent, intent, others));
         }
-        let goals = cue.goals(AgentId::ZERO).len();
+        let mut assumed_goals = assumed;
+        let goals = physical_goals(AgentId::ZERO, self.prepared.observed().object_sizes().len()).len();
         let mut joint = joint_logs(&weighted_intents, self.strengths, goals);
         for _ in 0..REFINEMENT_PASSES {
             let likeliest = Posterior::new(joint.iter().copied())
@@ -101,17 +115,22 @@ impl InversePlanner {
                 .first()
                 .map_or(assumed_goals, |(best, _)| best.goals);
             for (agent, weighted_intents) in AgentId::ALL.into_iter().zip(&mut weighted_intents) {
-                let other = agent.other();
-                if likeliest[other] == assumed_goals[other] {
+                let others = likeliest[agent.other()];
+                if others == assumed_goals[agent.other()] {
                     continue;
                 }
-                for (intent, log) in
-                    weighted_intents.iter_mut().filter(|(intent, _)| intent.attitude == Attitude::Neutral)
-                {
+                for (place, (intent, log)) in weighted_intents.iter_mut().enumerate() {
+                    if intent.attitude != Attitude::Neutral {
+                        continue;
+                    }
                     if tick().is_break() {
                         return Ok(None);
                     }
-                    *log = self.log_likelihood(agent, *intent, likeliest[other])? + log_guess(agent, *intent);
+                    let refined = self.log_likelihood(agent, *intent, others, effort)?;
+                    if let Some(refined) = refined {
+                        *log = refined + log_guess(agent, *intent);
+                        self.asked[agent][place] = key(agent, *intent, others);
+                    }
                 }
             }
             if likeliest == assumed_goals {
@@ -120,10 +139,6 @@ impl InversePlanner {
             assumed_goals = likeliest;
             joint = joint_logs(&weighted_intents, self.strengths, goals);
         }
-        self.asked = AgentId::ALL.map(|agent| {
-            let intents = weighted_intents[agent].iter().map(|(intent, _)| *intent);
-            intents.map(|intent| key(agent, intent, assumed_goals[agent.other()])).collect()
-        });
         Ok(Some(match guess {
             Some(guess) => guess.complete(joint),
             None => joint,
@@ -157,16 +172,22 @@ impl InversePlanner {
         }
     }
 
-    /// ln P(motion | intent) of an agent's part of the motion, the other pursuing `others`.
-    fn log_likelihood(&mut self, agent: AgentId, intent: Intent, others: Goal) -> Result<f64, PomcpError> {
+    /// ln P(motion | intent) of an agent's part of the motion, the other pursuing `others`; `None` if the effort does not suffice.
+    fn log_likelihood(
+        &mut self,
+        agent: AgentId,
+        intent: Intent,
+        others: Goal,
+        effort: &mut Effort,
+    ) -> Result<Option<f64>, PomcpError> {
         let key = key(agent, intent, others);
         if !self.evidence.contains_key(&key) {
             let evidence = IntentEvidence::new(&self.prepared, agent, intent, others, self.strengths)?;
             self.evidence.insert(key, evidence);
         }
-        let Some(evidence) = self.evidence.get_mut(&key) else { return Ok(0.0) };
-        evidence.follow(&self.prepared, &self.likelihoods)?;
-        Ok(evidence.log_likelihood(&self.settings))
+        let Some(evidence) = self.evidence.get_mut(&key) else { return Ok(None) };
+        let known = evidence.follow(&self.prepared, &self.likelihoods, effort)?;
+        Ok(known.then(|| evidence.log_likelihood(&self.settings)))
     }
 }
 

@@ -67,7 +67,7 @@ pub mod simulations;
 pub mod strength;
 
 pub use dense::Dense;
-pub use evidence::{ActionLikelihoods, IntentEvidence};
+pub use evidence::{ActionLikelihoods, Effort, IntentEvidence};
 pub use forecast::{ForecastSettings, forecast};
 pub use generative::PreparedEvent;
 pub use guide::{Guidance, Guide};

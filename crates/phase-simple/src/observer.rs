@@ -1,13 +1,13 @@
 //! An observer that watches an event row by row.
 
 use crate::{
-    Algorithm, AlternativeMinds, Guidance, Guide, Inference, InferenceSettings, InversePlanningSettings,
-    Posterior,
+    Algorithm, AlternativeMinds, Effort, Guidance, Guide, Inference, InferenceSettings, InversePlanningSettings,
+    Posterior, Proposal, UniformStrength,
     generative::PreparedEvent,
     guide::Guess,
     impression::Impression,
     inference::average,
-    intent::WeightedIntents,
+    intent::{Intent, WeightedIntents},
     intent_network::IntentReader,
     inverse_dynamics::MotionTracker,
     inverse_planning::InversePlanner,
@@ -15,7 +15,7 @@ use crate::{
 use core::ops::ControlFlow;
 use phase_event::{ObservedError, ObservedEvent};
 use phase_minds::MindParameters;
-use phase_model::{AGENT_COUNT, Body, MAX_ENTITIES, Strength};
+use phase_model::{AGENT_COUNT, AgentId, Body, MAX_ENTITIES, Strength};
 use phase_pomcp::PomcpError;
 use std::sync::Arc;
 use thiserror::Error;
@@ -67,8 +67,9 @@ impl<'a> GuideCourse<'a> {
 
 /// Watches an event row by row, and says after each what explains it.
 ///
-/// Every answer is that of [`infer`](crate::infer) for the rows seen so far, bit for bit: what is learnt later about earlier steps
-/// is taken back. A step takes a small part of the time that the whole takes at once.
+/// What is learnt later about earlier steps is taken back, so [`Observer::inference`] gives the answer of
+/// [`infer`](crate::infer) for the rows seen so far, bit for bit. [`Observer::push`] gives the same with limited effort, so that an
+/// event can be watched as it happens; the two differ while intents that have just become likely are being simulated.
 #[derive(Debug)]
 pub struct Observer<'a> {
     observed: Arc<ObservedEvent>,
@@ -76,7 +77,12 @@ pub struct Observer<'a> {
     planners: Vec<(MindParameters, InversePlanner)>,
     guide: Option<GuideCourse<'a>>,
     gamma: f64,
+    effort: Effort,
 }
+
+/// What an observer spends on a row by default (POMCP simulations): less than the 250 ms that a step lasts in a video on a
+/// core of 2020.
+const EFFORT: usize = 12_000;
 
 impl<'a> Observer<'a> {
     /// Watches an event from its beginning: `observed` has the rows seen so far, at least one.
@@ -98,16 +104,28 @@ impl<'a> Observer<'a> {
         let prepared = PreparedEvent::with_motion(Arc::clone(&observed), motion, settings.minds, seed);
         let planners = planners(&prepared, &planning, settings.alternative);
         let guide = guide.map(|guide| GuideCourse::new(guide, &observed));
-        Ok(Self { observed, tracker, planners, guide, gamma: settings.gamma })
+        let effort = Effort { simulations: Some(EFFORT) };
+        Ok(Self { observed, tracker, planners, guide, gamma: settings.gamma, effort })
     }
 
-    /// Watches the next row, and infers what explains the event so far.
+    /// Watches the next row, and infers what explains the event so far with at most as much effort as
+    /// [`Observer::set_effort`] says: intents that have become likely and cannot all be simulated at once are taken one after the
+    /// other, the likeliest first, and have what the guide gives them until it is their turn.
     ///
     /// # Errors
     /// [`ObserverError::Row`] for numbers that are not finite; the row is then ignored. [`ObserverError::Search`].
     pub fn push(&mut self, row: [Body; MAX_ENTITIES]) -> Result<Inference, ObserverError> {
         self.watch(row)?;
-        Ok(self.inference(&mut || ControlFlow::Continue(()))?.unwrap_or_else(|| unreachable!("not cancelled")))
+        // Without a guide there is nothing to say of what is not simulated.
+        let mut effort = if self.guide.is_some() { self.effort } else { Effort::UNLIMITED };
+        let tick = &mut || ControlFlow::Continue(());
+        let inference = weigh(&mut self.planners, self.gamma, self.guide.as_ref(), &mut effort, tick)?;
+        Ok(inference.unwrap_or_else(|| unreachable!("not cancelled")))
+    }
+
+    /// Sets what [`Observer::push`] may spend on a row if the observer has a guide; without one it spends what it takes.
+    pub const fn set_effort(&mut self, effort: Effort) {
+        self.effort = effort;
     }
 
     /// Watches the next row without asking what explains it, which is left to the next [`Observer::inference`].
@@ -128,7 +146,7 @@ impl<'a> Observer<'a> {
         Ok(())
     }
 
-    /// What explains the event so far; `None` if `tick`, which is called once for each intent of each kind of minds, cancelled it.
+    /// What explains the event so far, with as much effort as it takes; `None` if `tick`, which is called once for each intent of each kind of minds, cancelled it.
     ///
     /// # Errors
     /// Invalid parameters of the agents' search.
@@ -136,7 +154,7 @@ impl<'a> Observer<'a> {
         &mut self,
         tick: &mut dyn FnMut() -> ControlFlow<()>,
     ) -> Result<Option<Inference>, PomcpError> {
-        weigh(&mut self.planners, self.gamma, self.guide.as_ref(), tick)
+        weigh(&mut self.planners, self.gamma, self.guide.as_ref(), &mut Effort::UNLIMITED.clone(), tick)
     }
 
     /// What has been observed so far.
@@ -166,21 +184,52 @@ pub(crate) fn planners(
     planners
 }
 
-/// The answer of all kinds of minds together, and how it came about.
+/// The answer of all kinds of minds together, and how it came about. Intents that the effort does not suffice for are left to the
+/// guide.
 pub(crate) fn weigh(
     planners: &mut [(MindParameters, InversePlanner)],
     gamma: f64,
     guide: Option<&GuideCourse<'_>>,
+    effort: &mut Effort,
     tick: &mut dyn FnMut() -> ControlFlow<()>,
 ) -> Result<Option<Inference>, PomcpError> {
     let Some((_, first)) = planners.first() else { return Ok(Some(average(Vec::new(), None))) };
-    let objects = first.prepared.observed().object_sizes().len();
+    let observed = Arc::clone(first.prepared.shared_observed());
+    let objects = observed.object_sizes().len();
     let strengths = first.prepared.motion().strengths();
     let guess = |row| guide.map(|guide| guide.guess(row, objects, strengths));
-    let last = guess(first.prepared.observed().steps());
+    let last = guess(observed.steps());
+    // The goal that each agent attributes to the other if it is not social.
+    let assumed = last.as_ref().and_then(Guess::goals).unwrap_or_else(|| {
+        let cue = Proposal::new(&observed, 0..=observed.steps(), gamma, &UniformStrength);
+        AgentId::ALL.map(|agent| cue.most_likely_goal(agent))
+    });
+    let all = || {
+        let of = |agent| Intent::all(agent, objects).into_iter().map(move |intent| (agent, intent));
+        AgentId::ALL.into_iter().flat_map(of).collect()
+    };
+    let mut intents: Vec<(AgentId, Intent)> = last.as_ref().map_or_else(all, Guess::kept);
+    for (_, planner) in &mut *planners {
+        planner.follow();
+    }
+    if effort.simulations.is_some() {
+        // Those for which every kind of minds knows what the others know.
+        let mut ready = Vec::with_capacity(intents.len());
+        for (agent, intent) in intents {
+            let mut known = true;
+            for (_, planner) in &mut *planners {
+                known &= planner.catch_up(agent, intent, assumed[agent.other()], effort)?;
+            }
+            if known {
+                ready.push((agent, intent));
+            }
+        }
+        intents = ready;
+    }
     let mut kinds = Vec::with_capacity(planners.len());
     for (minds, planner) in &mut *planners {
-        let Some(own) = planner.weighted_hypotheses(gamma, last.as_ref(), tick)? else { return Ok(None) };
+        let own = planner.weighted_hypotheses(&intents, assumed, last.as_ref(), effort, tick)?;
+        let Some(own) = own else { return Ok(None) };
         kinds.push((*minds, own));
     }
     let (_, first) = &planners[0];
@@ -189,6 +238,6 @@ pub(crate) fn weigh(
         let of_kinds = planners.iter().map(|(_, planner)| planner.weighted_after(decisions, guess.as_ref()));
         Posterior::new(of_kinds.flatten())
     });
-    let impression = Impression::of(first.prepared.observed(), course);
+    let impression = Impression::of(&observed, course);
     Ok(Some(average(kinds, impression)))
 }

@@ -4,13 +4,13 @@ use core::ops::ControlFlow;
 use phase_event::{ObservedEvent, Recording, from_json};
 use phase_minds::MindParameters;
 use phase_model::{
-    Body, Layout, MAX_ENTITIES, Vec2,
+    AgentId, Body, Layout, MAX_ENTITIES, Vec2,
     random::{Purpose, stream},
 };
 use phase_sampler::{Request, Variant, sample};
 use phase_sim::SimulationSettings;
 use phase_simple::{
-    AlternativeMinds, ChainSettings, Cues, Guidance, Guide, Inference, InferenceSettings, IntentNetwork,
+    AlternativeMinds, ChainSettings, Cues, Effort, Guidance, Guide, Inference, InferenceSettings, IntentNetwork,
     InverseDynamics, MotionTracker, Observer, ObserverError, PreparedEvent, UniformStrength, Update, infer,
 };
 use std::{fs, path::Path};
@@ -55,15 +55,53 @@ fn every_answer_is_that_of_the_rows_seen_so_far() {
         let mut observer =
             Observer::new(&whole.prefix(0), guide.as_ref(), 3, &settings()).expect("inverse planning");
         for (step, row) in whole.rows().iter().enumerate().skip(1) {
+            observer.push(*row).expect("a sound row");
             if step % COMPARED != 0 && step != whole.steps() {
-                observer.watch(*row).expect("a sound row");
                 continue;
             }
-            let inference = observer.push(*row).expect("a sound row");
+            let tick = &mut || ControlFlow::Continue(());
+            let inference = observer.inference(tick).expect("sound parameters").expect("nobody breaks it off");
             let expected = at_once(&whole.prefix(step), guide);
             assert_eq!(inference, expected, "{variant:?} after {step} steps");
         }
     }
+}
+
+/// Nothing is known of minds that cannot be simulated, so the guide answers; with more effort the answer comes nearer to the whole.
+#[test]
+fn what_there_is_no_time_for_is_left_to_the_guide() {
+    let network = IntentNetwork::bundled().expect("a sound file");
+    let guide = Guide { network: &network, guidance: Guidance::default() };
+    let whole = observed(Variant::Carry, 30);
+    let settings = settings();
+    let distance = |simulations: usize| {
+        let mut observer = Observer::new(&whole.prefix(0), Some(&guide), 3, &settings).expect("inverse planning");
+        observer.set_effort(Effort { simulations: Some(simulations) });
+        let mut last = None;
+        for row in &whole.rows()[1..] {
+            last = Some(observer.push(*row).expect("a sound row").posterior);
+        }
+        let expected = at_once(&whole, Some(guide)).posterior;
+        let said = last.expect("there are rows");
+        if simulations == 0 {
+            let alone = network.posterior(&whole);
+            for agent in AgentId::ALL {
+                for ((goal, p), (expected, of_network)) in said.goals(agent).iter().zip(alone.goals(agent)) {
+                    assert_eq!(*goal, expected);
+                    assert!((p - of_network).abs() < 1e-9);
+                }
+            }
+        }
+        let mut distance = 0.0;
+        for (hypothesis, weight) in &expected.hypotheses {
+            let found = said.hypotheses.iter().find(|it| it.0 == *hypothesis).map_or(0.0, |it| it.1);
+            distance += 0.5 * (weight - found).abs();
+        }
+        distance
+    };
+    let (nothing, plenty) = (distance(0), distance(100_000));
+    assert!(nothing > 1e-3, "the guide alone is right: {nothing}");
+    assert!(plenty < 1e-12, "{plenty}");
 }
 
 /// What is learnt later about earlier steps is taken back, also in mirrored recordings.

@@ -171,7 +171,7 @@ fn sheet(
         return Err(CliError::Interrupted(path.to_owned()));
     };
     let items: Vec<RenderedState<'_>> =
-        event.frames().step_by(SUBSTEPS).map(|&state| RenderedState { state, minds: Vec::new() }).collect();
+        event.frames().step_by(SUBSTEPS).map(|&state| RenderedState { state, minds: Vec::new(), observer: None }).collect();
     picture::write_sheet(path, id, &event.scene.physics(), Palette::PAPER, &items, SHEET_FRAMES)
 }
 

@@ -9,7 +9,7 @@ use phase_eval::MethodError;
 use phase_event::{ObservedEvent, Recording};
 use phase_model::{AGENT_COUNT, AgentId, EventKind, Goal, Strength};
 use phase_simple::{
-    ActionLikelihoods, Hypothesis, Intent, IntentEvidence, IntentNetwork, InversePlanningSettings, Posterior,
+    ActionLikelihoods, Effort, Hypothesis, Intent, IntentEvidence, IntentNetwork, InversePlanningSettings, Posterior,
     PreparedEvent, Proposal, UniformStrength, choice::Chance, cue::GAMMA, intent::joint_logs,
 };
 use serde::{Deserialize, Serialize};
@@ -174,7 +174,7 @@ fn agents(
     let mut likelihoods = ActionLikelihoods::new(planning);
     likelihoods.follow(prepared);
     let strengths = prepared.motion().strengths();
-    let mut evidence = [Vec::new(), Vec::new()];
+    let (mut evidence, mut effort) = ([Vec::new(), Vec::new()], Effort::UNLIMITED);
     for agent in AgentId::ALL {
         let others = assumed[agent.other()];
         for intent in Intent::all(agent, prepared.observed().object_sizes().len()) {
@@ -183,7 +183,7 @@ fn agents(
             }
             let mut one =
                 IntentEvidence::new(prepared, agent, intent, others, strengths).map_err(MethodError::new)?;
-            one.follow(prepared, &likelihoods).map_err(MethodError::new)?;
+            one.follow(prepared, &likelihoods, &mut effort).map_err(MethodError::new)?;
             evidence[agent].push(one.chances().iter().map(|chance| (chance.mind, chance.uniform)).collect());
         }
     }

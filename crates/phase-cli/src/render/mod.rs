@@ -1,6 +1,8 @@
 //! `render`: events as videos, or as pictures of their key frames.
 
+mod goal_text;
 pub mod options;
+mod watch;
 
 use crate::{
     captions, console,
@@ -8,12 +10,13 @@ use crate::{
     engine,
     error::CliError,
     interrupt,
+    output::json_text,
     parallel::make_all,
-    picture::{self, BeliefFrame, RenderedState},
+    picture::{self, BeliefFrame, ObserverFrame, RenderedState},
     source::EventInput,
 };
 use options::{Belief, Render};
-use phase_dataset::WriteError;
+use phase_dataset::{WriteError, atomic};
 use phase_event::{Recording, Row, Simulation, Trajectory};
 use phase_model::{AgentId, State, arena::SUBSTEPS};
 use phase_render::Palette;
@@ -21,6 +24,10 @@ use phase_sim::SimulationSettings;
 use serde::Serialize;
 use serde_json::json;
 use std::path::{Path, PathBuf};
+use watch::{Watched, watch};
+
+/// The value of the field `format` of an observer's course.
+const OBSERVER_FORMAT: &str = "phase-observer/1";
 
 /// Runs the command.
 ///
@@ -40,11 +47,19 @@ pub fn run(arguments: &Render, context: &Context) -> Result<(), CliError> {
     let progress = context.progress(&format!("rendering {}", console::events(source.len())), source.len(), 1);
     let made = make_all(&arguments.jobs, source.len(), |index| {
         let recording = source.load(index)?;
-        let path = target.path(&recording.id, arguments.belief, extension);
-        render(arguments, &recording, &path)?;
+        let path = target.path(&recording.id, arguments, extension);
+        let watched = match arguments.observer {
+            true => match watch(&recording, arguments.seed, &interrupt::requested)? {
+                Some(watched) => Some(watched),
+                None => return Ok(None),
+            },
+            false => None,
+        };
+        render(arguments, &recording, &path, watched.as_deref())?;
+        let observer = watched.map(|watched| ObserverCourse::write(&path, &recording.id, watched)).transpose()?;
         progress.event(0, &recording.id);
         let interpolated = recording.simulation.is_none();
-        Ok(Some(Rendered { id: recording.id, file: path, interpolated }))
+        Ok(Some(Rendered { id: recording.id, file: path, interpolated, observer }))
     })?;
     drop(progress);
     let made = made.ok_or_else(|| CliError::Interrupted(arguments.out.clone()))?;
@@ -59,12 +74,49 @@ struct Rendered {
     file: PathBuf,
     /// Whether its frames between the recorded steps are interpolated.
     interpolated: bool,
+    /// What an observer made of it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    observer: Option<ObserverCourse>,
+}
+
+/// The file of what an observer made of an event.
+#[derive(Serialize)]
+struct ObserverCourse {
+    file: PathBuf,
+    /// Mean and greatest time that a step took (s).
+    mean_step_seconds: f64,
+    slowest_step_seconds: f64,
+}
+
+impl ObserverCourse {
+    fn write(video: &Path, id: &str, watched: Vec<Watched>) -> Result<Self, CliError> {
+        let file = video.with_extension("observer.json");
+        let course = json!({ "format": OBSERVER_FORMAT, "id": id, "course": watched });
+        let text = json_text(&course, "the course")?;
+        atomic::write(&file, text.as_bytes()).map_err(CliError::Output)?;
+        let took = watched.iter().map(|watched| watched.took);
+        Ok(Self {
+            file,
+            mean_step_seconds: took.clone().sum::<f64>() / watched.len().max(1) as f64,
+            slowest_step_seconds: took.fold(0.0, f64::max),
+        })
+    }
 }
 
 impl Rendered {
     fn line(&self) -> String {
         let note = if self.interpolated { " (frames interpolated between recorded steps)" } else { "" };
-        format!("{}{note}\n", self.file.display())
+        let mut lines = format!("{}{note}\n", self.file.display());
+        if let Some(observer) = &self.observer {
+            let ms = |seconds: f64| 1000.0 * seconds;
+            lines += &format!(
+                "{} ({:.0} ms a step, {:.0} ms the slowest)\n",
+                observer.file.display(),
+                ms(observer.mean_step_seconds),
+                ms(observer.slowest_step_seconds)
+            );
+        }
+        lines
     }
 }
 
@@ -98,12 +150,12 @@ impl Target {
         Ok(if is_file { Self::File(out.to_owned()) } else { Self::Folder(out.to_owned()) })
     }
 
-    fn path(&self, id: &str, belief: Option<Belief>, extension: &str) -> PathBuf {
+    fn path(&self, id: &str, arguments: &Render, extension: &str) -> PathBuf {
         match self {
             Self::File(path) => path.clone(),
             Self::Folder(folder) => {
-                let belief = belief.map_or("", Belief::suffix);
-                folder.join(format!("{id}{belief}.{extension}"))
+                let suffix = if arguments.observer { ".observer" } else { arguments.belief.map_or("", Belief::suffix) };
+                folder.join(format!("{id}{suffix}.{extension}"))
             }
         }
     }
@@ -124,7 +176,12 @@ fn check_ending(out: &Path, extension: &str) -> Result<(), CliError> {
 }
 
 /// Renders one event.
-fn render(arguments: &Render, recording: &Recording, path: &Path) -> Result<(), CliError> {
+fn render(
+    arguments: &Render,
+    recording: &Recording,
+    path: &Path,
+    watched: Option<&[Watched]>,
+) -> Result<(), CliError> {
     let (id, physics) = (&recording.id, recording.scene.physics());
     let palette = arguments.palette.palette();
     let minds: Vec<Vec<BeliefFrame>> = match (arguments.belief, &recording.simulation) {
@@ -144,9 +201,24 @@ fn render(arguments: &Render, recording: &Recording, path: &Path) -> Result<(), 
         let step = frame.saturating_sub(1) / SUBSTEPS;
         minds.iter().filter_map(|minds| minds.get(step).or(minds.last())).collect()
     };
+    let watched = watched.unwrap_or_default();
+    let shares: Vec<_> = watched.iter().map(Watched::shares).collect();
+    let observers: Vec<ObserverFrame<'_>> = watched
+        .iter()
+        .enumerate()
+        .map(|(step, watched)| ObserverFrame {
+            title: watched.title(),
+            captions: watched.captions(&palette),
+            shares: &shares[..=step],
+            times: shares.len(),
+        })
+        .collect();
+    // The observer sees a step when it is over.
+    let observer_at = |frame: usize| observers.get(frame / SUBSTEPS).or(observers.last());
     let frames = states.into_iter().enumerate();
-    let items: Vec<RenderedState<'_>> =
-        frames.map(|(k, state)| RenderedState { state, minds: minds_at(k) }).collect();
+    let items: Vec<RenderedState<'_>> = frames
+        .map(|(k, state)| RenderedState { state, minds: minds_at(k), observer: observer_at(k) })
+        .collect();
     let result = match arguments.contact_sheet {
         Some(count) => picture::write_sheet(path, id, &physics, palette, &items, count.into()),
         None => picture::write_video(path, id, &physics, palette, &items),

@@ -26,6 +26,13 @@ pub struct Render {
     /// (simulated events only)
     #[arg(long, value_name = "AGENT")]
     pub belief: Option<Belief>,
+    /// Show below the picture what SIMPLE makes of the event while it watches it: goals, relation, who helps or hinders whom, and how
+    /// people would report it; and write all of it to a file ending in .observer.json beside the video
+    #[arg(long, conflicts_with = "belief")]
+    pub observer: bool,
+    /// Random seed of the observer
+    #[arg(long, value_name = "S", default_value_t = 1, requires = "observer")]
+    pub seed: u64,
     /// Colours: as in the paper, or distinguishable with a colour vision deficiency
     #[arg(long, value_name = "PALETTE", default_value = PaletteName::Paper.name(), value_parser = palettes())]
     pub palette: PaletteName,

@@ -3,7 +3,7 @@
 use crate::common::{physics, state};
 use phase_model::AgentId;
 use phase_perception::CellSet;
-use phase_render::{Caption, Frame, Overlay, Palette, SceneRenderer, Style};
+use phase_render::{Annotation, Caption, Course, Frame, Overlay, Palette, SceneRenderer, Style};
 
 fn renderer(caption_lines: u32) -> SceneRenderer {
     SceneRenderer::new(&physics(), Style { caption_lines, ..Style::default() }).expect("a valid style")
@@ -100,4 +100,47 @@ fn bars_are_as_long_as_their_share_of_the_arena() {
     let lined = |bar| draw(&renderer, "", &[Caption { bar, ..Caption::from("#".to_owned()) }]);
     let ink = |frame: &Frame| frame.rgba().chunks(4).filter(|pixel| pixel[..3] == [0; 3]).count();
     assert_eq!(ink(&lined(0.0)), ink(&lined(1.0)), "text stays on top");
+}
+
+/// A course grows from left to right, and its shares are stacked from the bottom up.
+#[test]
+fn a_course_is_stacked_from_the_left() {
+    let style = Style { caption_lines: 1, course_lines: 2, ..Style::default() };
+    let renderer = SceneRenderer::new(&physics(), style).expect("a valid style");
+    let shares = [[0.5, 0.25, 0.25], [0.0, 1.0, 0.0]];
+    let course = Course { shares: &shares, times: 4 };
+    let frame =
+        renderer.annotated(&state(), &Annotation { course: Some(course), ..Annotation::default() });
+    let palette = Palette::default();
+    let (top, bottom) = (style.course_top(), style.course_top() + style.course_height() - 1);
+    // The arena is 440 pixels wide, a time 110.
+    for (x, y, colour) in [
+        (20, bottom, palette.shares[0]),
+        (129, bottom, palette.shares[0]),
+        (129, bottom - style.course_height() * 5 / 8, palette.shares[1]),
+        (20, top, palette.shares[2]),
+        (130, bottom, palette.shares[1]),
+        (239, top, palette.shares[1]),
+        (240, bottom, palette.background),
+        (19, bottom, palette.background),
+    ] {
+        assert_eq!(frame.pixel(x, y), Some(colour), "{x}, {y}");
+    }
+    let plain = renderer.annotated(&state(), &Annotation::default());
+    assert!(rows_that_differ(&plain, &frame).into_iter().all(|row| (top..=bottom).contains(&row)));
+}
+
+/// Shares that are not shares are drawn somewhere within the strip, and more times than there are fill it.
+#[test]
+fn no_share_leaves_the_strip() {
+    let style = Style { course_lines: 2, ..Style::default() };
+    let renderer = SceneRenderer::new(&physics(), style).expect("a valid style");
+    let plain = renderer.annotated(&state(), &Annotation::default());
+    let shares = [[f32::NAN, 2.0, -1.0], [f32::INFINITY, 1.0, 1.0], [-5.0, f32::NEG_INFINITY, 0.2]];
+    for times in [0, 1, 3, usize::MAX] {
+        let course = Some(Course { shares: &shares, times });
+        let frame = renderer.annotated(&state(), &Annotation { course, ..Annotation::default() });
+        let strip = style.course_top()..style.course_top() + style.course_height();
+        assert!(rows_that_differ(&plain, &frame).into_iter().all(|row| strip.contains(&row)));
+    }
 }

@@ -1,0 +1,149 @@
+//! What an observer makes of an event while it watches it, for `render --observer`.
+
+use super::goal_text::goal_text;
+use crate::error::CliError;
+use core::ops::ControlFlow;
+use phase_eval::MethodError;
+use phase_event::Recording;
+use phase_model::{
+    AgentId, Attitude, Goal, RelationProbabilities, RoleProbabilities,
+    arena::{FRAMES_PER_SECOND, SUBSTEPS},
+};
+use phase_render::{Caption, Palette};
+use phase_simple::{
+    Guidance, Guide, Inference, InferenceSettings, IntentNetwork, Observer, ReportModel,
+};
+use serde::Serialize;
+use std::time::Instant;
+
+/// Goals shown of each agent.
+const GOALS: usize = 2;
+/// What an observer says after some seconds.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Watched {
+    /// Seconds of video watched.
+    pub(super) seconds: f64,
+    /// P(goal) of each agent, likeliest first.
+    pub(super) goals: [Vec<GoalShare>; 2],
+    /// P(relation).
+    pub(super) relation: RelationProbabilities,
+    /// The share of people who would report each relation now.
+    pub(super) reported: Option<RelationProbabilities>,
+    /// P(helps) and P(hinders) of each agent.
+    pub(super) roles: RoleProbabilities,
+    /// Time that the step took (s).
+    pub(super) took: f64,
+}
+
+/// A goal with its probability.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(super) struct GoalShare {
+    goal: Goal,
+    p: f64,
+}
+
+/// Watches an event to its end: what SIMPLE says at its first row and after each step. `interrupted` is asked between steps; if it
+/// says so, the result is `None`.
+///
+/// # Errors
+/// If the event cannot be observed or its minds not be simulated.
+pub(super) fn watch(
+    recording: &Recording,
+    seed: u64,
+    interrupted: &dyn Fn() -> bool,
+) -> Result<Option<Vec<Watched>>, CliError> {
+    let failed = |error: MethodError| CliError::Method { id: recording.id.clone(), source: error };
+    let observed = recording.observed().map_err(|error| failed(MethodError::new(error)))?;
+    let network = IntentNetwork::bundled().map_err(|error| failed(MethodError::new(error)))?;
+    let reports = ReportModel::bundled().map_err(|error| failed(MethodError::new(error)))?;
+    let guide = Guide { network: &network, guidance: Guidance::default() };
+    let settings = InferenceSettings::averaged();
+    let observer = Observer::new(&observed.prefix(0), Some(&guide), seed, &settings);
+    let mut observer = observer.map_err(|error| failed(MethodError::new(error)))?;
+    let mut watched = Vec::with_capacity(observed.rows().len());
+    for (step, row) in observed.rows().iter().enumerate() {
+        if interrupted() {
+            return Ok(None);
+        }
+        let begun = Instant::now();
+        let inference = if step == 0 {
+            observer.inference(&mut || ControlFlow::Continue(())).map_err(|error| failed(MethodError::new(error)))?
+        } else {
+            Some(observer.push(*row).map_err(|error| failed(MethodError::new(error)))?)
+        };
+        let took = begun.elapsed().as_secs_f64();
+        if let Some(inference) = inference {
+            let seconds = (step * SUBSTEPS) as f64 / f64::from(FRAMES_PER_SECOND);
+            watched.push(Watched::of(&inference, &reports, seconds, took));
+        }
+    }
+    Ok(Some(watched))
+}
+
+impl Watched {
+    fn of(inference: &Inference, reports: &ReportModel, seconds: f64, took: f64) -> Self {
+        let posterior = &inference.posterior;
+        let goals = AgentId::ALL.map(|agent| {
+            let goals = posterior.goals(agent).into_iter();
+            goals.take(GOALS).map(|(goal, p)| GoalShare { goal, p }).collect()
+        });
+        let reported = inference.impression.as_ref().map(|impression| reports.reports(impression));
+        Self { seconds, goals, relation: posterior.relation(), reported, roles: posterior.roles(), took }
+    }
+
+    /// The line above the picture.
+    pub(super) fn title(&self) -> String {
+        format!("SIMPLE after {:.1} s", self.seconds)
+    }
+
+    /// The lines below the picture: relation, roles and goals, each with a bar as long as it is probable.
+    pub(super) fn captions(&self, palette: &Palette) -> Vec<Caption> {
+        let RelationProbabilities { friendly, adversarial, neutral } = self.relation;
+        let reported = |of: fn(&RelationProbabilities) -> f64| {
+            self.reported.as_ref().map_or_else(|| "–".to_owned(), |it| format!("{:.2}", of(it)))
+        };
+        let line = |name: &str, p: f64, said: String| Caption {
+            cells: vec![format!("{p:.2}"), said],
+            text: name.to_owned(),
+            bar: p as f32,
+        };
+        let heading = |cells: &[&str], text: String| Caption {
+            cells: cells.iter().map(|&cell| cell.to_owned()).collect(),
+            text,
+            bar: 0.0,
+        };
+        let mut lines = vec![
+            heading(&["P", "people"], "relation, and how people would report it".to_owned()),
+            line("friendly", friendly, reported(|it| it.friendly)),
+            line("adversarial", adversarial, reported(|it| it.adversarial)),
+            line("neutral", neutral, reported(|it| it.neutral)),
+            self.role(palette),
+        ];
+        for agent in AgentId::ALL {
+            lines.push(heading(&["P"], format!("the {} agent wants", palette.agent_names[agent])));
+            let goals = self.goals[agent].iter().map(|share| Caption {
+                cells: vec![format!("{:.2}", share.p)],
+                text: goal_text(share.goal, agent, palette),
+                bar: share.p as f32,
+            });
+            lines.extend(goals.chain(core::iter::repeat_with(Caption::default)).take(GOALS));
+        }
+        lines
+    }
+
+    /// The likeliest of the four roles.
+    fn role(&self, palette: &Palette) -> Caption {
+        let of = |agent: AgentId, attitude, verb| (self.roles.of(agent, attitude), agent, verb);
+        let roles = AgentId::ALL
+            .into_iter()
+            .flat_map(|agent| [of(agent, Attitude::Help, "helps"), of(agent, Attitude::Hinder, "hinders")]);
+        let Some((p, agent, verb)) = roles.max_by(|a, b| a.0.total_cmp(&b.0)) else { return Caption::default() };
+        let [who, whom] = [agent, agent.other()].map(|agent| palette.agent_names[agent]);
+        Caption { cells: vec![format!("{p:.2}")], text: format!("{who} {verb} {whom}"), bar: p as f32 }
+    }
+
+    /// The relation's probabilities as shares of a course.
+    pub(super) fn shares(&self) -> [f32; 3] {
+        [self.relation.friendly, self.relation.adversarial, self.relation.neutral].map(|p| p as f32)
+    }
+}
