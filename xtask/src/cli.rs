@@ -6,6 +6,7 @@ use crate::{
     check_physics::{self, options::CheckPhysics},
     draw_behaviour::{self, DrawBehaviour},
     error::XtaskError,
+    fit_forecast::{self, options::FitForecast},
     fit_inference::{self, options::FitInference},
     fit_minds::{self, options::FitMinds},
     fit_reports::{self, options::FitReports},
@@ -48,6 +49,8 @@ pub enum Command {
     FitMinds(FitMinds),
     /// Fit how SIMPLE weighs its evidence to events whose labels are known
     FitInference(FitInference),
+    /// Fit how SIMPLE combines simulated futures to events whose continuation is known
+    FitForecast(FitForecast),
     /// Fit how people report what they saw to raters of recordings
     FitReports(FitReports),
     /// Run the golden tests of all crates, or rewrite the values that they compare with
@@ -72,6 +75,7 @@ impl Interface for Cli {
             Command::CheckMinds(arguments) => check_minds::run(arguments, context),
             Command::FitInference(arguments) => fit_inference::run(arguments, context),
             Command::FitMinds(arguments) => fit_minds::run(arguments, context),
+            Command::FitForecast(arguments) => fit_forecast::run(arguments, context),
             Command::FitReports(arguments) => fit_reports::run(arguments),
             Command::Golden(options) => golden::run(options),
             Command::Tidy => tidy::run(),

@@ -1,9 +1,12 @@
 //! The interface of a method of social perception.
 
-use crate::{goals::InvalidAnswer, trajectories::ForecastError};
+use crate::{
+    goals::InvalidAnswer,
+    trajectories::{ForecastError, Prediction},
+};
 use core::ops::ControlFlow;
 use phase_event::ObservedEvent;
-use phase_model::{Forecast, Judgement};
+use phase_model::Judgement;
 use serde_json::Value;
 use thiserror::Error;
 
@@ -75,7 +78,7 @@ pub trait Forecaster: Sync {
         1
     }
 
-    /// The positions of all entities in the next `steps` steps.
+    /// The positions of all entities in the next `steps` steps, and equally likely ones beside them, if the method knows several.
     ///
     /// # Errors
     /// If the method has no answer for such an event.
@@ -85,5 +88,5 @@ pub trait Forecaster: Sync {
         steps: usize,
         seed: u64,
         tick: ProgressCallback<'_>,
-    ) -> MethodResult<Forecast>;
+    ) -> MethodResult<Prediction>;
 }

@@ -2,7 +2,7 @@
 
 use crate::{
     goals::{Answer, canonical},
-    trajectories::PREDICTED_STEPS,
+    trajectories::{PREDICTED_STEPS, Prediction},
 };
 use phase_event::EventReadError;
 use phase_model::{
@@ -11,6 +11,9 @@ use phase_model::{
 };
 use serde_json::Value;
 use std::collections::BTreeMap;
+
+/// Most futures that a prediction may have; their distances are compared in pairs.
+pub const MAX_FUTURES: usize = 200;
 
 /// Reads answers to Task 1 by the ids of their events: `{"events": [{"id", "goals": [[{"goal", "p"}…], […]],
 /// "relation": {"friendly", "adversarial", "neutral"}, "roles": {"helps": [p, p], "hinders": [p, p]}}…]}`, where `roles`, the
@@ -31,14 +34,39 @@ pub fn goals(value: &Value) -> Result<BTreeMap<String, Answer>, EventReadError> 
 }
 
 /// Reads answers to Task 2 by the ids of their events: `{"events": [{"id", "forecast": [[[x, y], …steps]
-/// …entities]}…]}`, positions in u. Other members are ignored, so results of PHASE are valid predictions too.
-/// Whether a forecast has the shape of its event is checked by [`fit`].
+/// …entities], "futures": [forecast…]}…]}`, positions in u, where `futures`, equally likely ones, may be absent. Other members are
+/// ignored, so results of PHASE are valid predictions too. Whether a forecast has the shape of its event is checked by [`fit`].
 ///
 /// # Errors
 /// If there is no event, one occurs twice, a field is missing or of the wrong type, or a number is not
 /// finite.
-pub fn forecasts(value: &Value) -> Result<BTreeMap<String, Forecast>, EventReadError> {
-    by_id(value, |event, id| forecast(event).map_err(|problem| of_event(id, problem)))
+pub fn forecasts(value: &Value) -> Result<BTreeMap<String, Prediction>, EventReadError> {
+    by_id(value, |event, id| prediction(event).map_err(|problem| of_event(id, problem)))
+}
+
+/// The parts of a prediction for an event; see [`fit`].
+///
+/// # Errors
+/// As [`fit`], and for more than [`MAX_FUTURES`] futures.
+pub fn fit_prediction(
+    prediction: &Prediction,
+    entities: usize,
+    steps: usize,
+) -> Result<Prediction, FieldError> {
+    if prediction.samples.len() > MAX_FUTURES {
+        let rule = format!("must hold at most {MAX_FUTURES} futures, not {}", prediction.samples.len());
+        return Err(FieldError { field: "futures".into(), rule });
+    }
+    let future = |(k, future): (usize, &Forecast)| {
+        fit(future, entities, steps).map_err(|FieldError { field, rule }| {
+            let field = field.replacen("forecast", &format!("futures[{k}]"), 1);
+            FieldError { field, rule }
+        })
+    };
+    Ok(Prediction {
+        forecast: fit(&prediction.forecast, entities, steps)?,
+        samples: prediction.samples.iter().enumerate().map(future).collect::<Result<_, _>>()?,
+    })
 }
 
 /// The part of a forecast for an event with the given number of entities and steps to predict, at most
@@ -93,8 +121,17 @@ fn of_event(id: &str, problem: FieldError) -> EventReadError {
     EventReadError::Field { event: Some(id.into()), problem }
 }
 
-fn forecast(event: &Field<'_>) -> Result<Forecast, FieldError> {
-    let paths = event.required("forecast")?;
+fn prediction(event: &Field<'_>) -> Result<Prediction, FieldError> {
+    let samples = event.optional("futures")?.map_or_else(
+        || Ok(Vec::new()),
+        |futures| {
+            futures.items()?.map(|future| forecast(&future)).collect::<Result<Vec<Forecast>, FieldError>>()
+        },
+    )?;
+    Ok(Prediction { forecast: forecast(&event.required("forecast")?)?, samples })
+}
+
+fn forecast(paths: &Field<'_>) -> Result<Forecast, FieldError> {
     paths.items()?.map(|path| path.items()?.map(|at| position(&at)).collect()).collect()
 }
 

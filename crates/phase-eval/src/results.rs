@@ -80,7 +80,7 @@ pub fn trajectories(
     Ok(json!({
         "format": TRAJECTORIES_FORMAT, "run": run, "method": run["method"], "seed": run["seed"],
         "n_events": summary.all.n, "ade": ade, "fde": fde,
-        "ade_entities": ade_entities, "fde_entities": fde_entities,
+        "ade_entities": ade_entities, "fde_entities": fde_entities, "samples": to_value(&summary.all.samples)?,
         "intervals": {
             "ade": ade_interval, "fde": fde_interval,
             "ade_entities": ade_entities_interval, "fde_entities": fde_entities_interval,

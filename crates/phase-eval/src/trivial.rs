@@ -1,6 +1,9 @@
 //! Trivial baselines: the scores that are reached without perception.
 
-use crate::method::{Forecaster, MethodResult, ProgressCallback, Recogniser};
+use crate::{
+    method::{Forecaster, MethodResult, ProgressCallback, Recogniser},
+    trajectories::Prediction,
+};
 use phase_event::ObservedEvent;
 use phase_model::{
     AgentId, Entity, Forecast, Goal, Judgement, LandmarkId, ObjectId, RelationProbabilities, Sign, Vec2,
@@ -26,7 +29,10 @@ impl Recogniser for Chance {
             let p = 1.0 / goals.len() as f64;
             goals.into_iter().map(|goal| (goal, p)).collect()
         });
-        Ok(Some((Judgement { goals, relation: RelationProbabilities::default(), roles: None, reported: None }, Value::Null)))
+        Ok(Some((
+            Judgement { goals, relation: RelationProbabilities::default(), roles: None, reported: None },
+            Value::Null,
+        )))
     }
 }
 
@@ -56,8 +62,8 @@ impl Forecaster for Stationary {
         steps: usize,
         _: u64,
         _: ProgressCallback<'_>,
-    ) -> MethodResult<Forecast> {
-        Ok(Some((straight_on(observed, steps, 0.0), Value::Null)))
+    ) -> MethodResult<Prediction> {
+        Ok(Some((straight_on(observed, steps, 0.0).into(), Value::Null)))
     }
 }
 
@@ -73,8 +79,8 @@ impl Forecaster for ConstantVelocity {
         steps: usize,
         _: u64,
         _: ProgressCallback<'_>,
-    ) -> MethodResult<Forecast> {
-        Ok(Some((straight_on(observed, steps, 1.0), Value::Null)))
+    ) -> MethodResult<Prediction> {
+        Ok(Some((straight_on(observed, steps, 1.0).into(), Value::Null)))
     }
 }
 

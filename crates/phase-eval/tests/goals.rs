@@ -44,7 +44,8 @@ fn answer(goals: [&[Goal]; 2], relation: [f64; 3]) -> Answer {
         |goals: &[Goal]| goals.iter().zip([0.5, 0.25, 0.125, 0.0625]).map(|(g, p)| (*g, p)).collect();
     let [friendly, adversarial, neutral] = relation;
     let relation = RelationProbabilities { friendly, adversarial, neutral };
-    Answer::of(&Judgement { goals: goals.map(ranked), relation, roles: None, reported: None }).expect("an answer")
+    Answer::of(&Judgement { goals: goals.map(ranked), relation, roles: None, reported: None })
+        .expect("an answer")
 }
 
 #[test]

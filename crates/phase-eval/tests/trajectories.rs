@@ -3,11 +3,11 @@
 use core::ops::ControlFlow;
 use phase_eval::{
     Forecaster, predictions,
-    trajectories::{Errors, ForecastError, ForecastEvent, ForecastSummary},
+    trajectories::{Errors, ForecastError, ForecastEvent, ForecastSummary, SampleErrors},
     trivial::{ConstantVelocity, Stationary},
 };
 use phase_event::ObservedEvent;
-use phase_model::{Body, EventKind, Layout, MAX_ENTITIES, Relation, Size, Vec2};
+use phase_model::{Body, EventKind, Forecast, Layout, MAX_ENTITIES, Relation, Size, Vec2};
 use proptest::prelude::*;
 use serde_json::{Value, json};
 
@@ -29,6 +29,45 @@ fn errors_by_hand() {
     for (found, expected) in [(entities.ade, 8.0 / 3.0), (entities.fde, 11.0 / 3.0)] {
         assert!((found - expected).abs() < 1e-12, "{found} {expected}");
     }
+}
+
+/// Two futures, of which agent 0's is exact in the first and agent 1's in the second.
+#[test]
+fn scores_of_a_distribution_by_hand() {
+    let truth = vec![path(0.0, 2), path(9.0, 2), path(0.0, 2)];
+    let futures = [
+        vec![path(0.0, 2), path(5.0, 2), path(0.0, 2)],
+        vec![vec![Vec2::new(0.0, 0.0), Vec2::new(1.0, 6.0)], path(9.0, 2), path(7.0, 2)],
+    ];
+    let of = |futures: &[Forecast]| SampleErrors::of(futures, &truth).expect("of its shape");
+    let both = of(&futures).expect("there are futures");
+    assert_eq!((both.count, both.min_ade, both.min_fde), (2, 0.0, 0.0));
+    // Agent 0: errors 0 and (0 + 6) / 2; distances 0, 6. Agent 1: errors 4 and 0; distances 4, 4. Of the four pairs of futures
+    // two are different.
+    let expected = 0.5 * ((1.5 - 0.25 * 3.0) + (2.0 - 0.25 * 4.0));
+    assert!((both.energy - expected).abs() < 1e-12, "{both:?}");
+    let one = of(&futures[..1]).expect("there is a future");
+    let [agents, _] = Errors::of(&futures[0], &truth).expect("errors");
+    for score in [one.min_ade, one.energy] {
+        assert!((score - agents.ade).abs() < 1e-12, "{one:?}");
+    }
+    assert_eq!(of(&[]), None);
+    let shape = SampleErrors::of(&[truth[..2].to_vec()], &truth);
+    assert_eq!(shape, Err(ForecastError::Shape { entities: 3, steps: 2 }));
+}
+
+/// The energy score is proper: of two distributions it prefers, on average, the one that the truth is drawn from.
+#[test]
+fn the_energy_score_prefers_the_true_distribution() {
+    let at = |x: f32| vec![vec![Vec2::new(x, 0.0)]; 2];
+    let mean = |futures: &[Forecast]| {
+        let scores = [0.0, 10.0].map(|x| {
+            SampleErrors::of(futures, &at(x)).expect("of its shape").expect("there are futures").energy
+        });
+        0.5 * (scores[0] + scores[1])
+    };
+    let (true_one, middle, certain) = (mean(&[at(0.0), at(10.0)]), mean(&[at(5.0)]), mean(&[at(0.0)]));
+    assert!(true_one < middle && true_one < certain, "{true_one} {middle} {certain}");
 }
 
 #[test]
@@ -60,6 +99,7 @@ fn event(relation: Relation, errors: &[f64]) -> ForecastEvent {
         steps: errors.by_step.len(),
         agents: errors.clone(),
         entities: errors,
+        samples: None,
         forecast: Vec::new(),
         cpu_seconds: None,
         details: Value::Null,
@@ -99,7 +139,11 @@ fn plain_methods_go_straight_on_or_stay() {
     let forecast = |method: &dyn Forecaster| {
         let mut tick = || ControlFlow::Continue(());
         let (forecast, _) = method.forecast(&observed, 4, 1, &mut tick).expect("an answer").expect("whole");
-        forecast.iter().map(|path| path.iter().map(|point| point.x).collect()).collect::<Vec<Vec<f32>>>()
+        forecast
+            .forecast
+            .iter()
+            .map(|path| path.iter().map(|point| point.x).collect())
+            .collect::<Vec<Vec<f32>>>()
     };
     assert_eq!(forecast(&Stationary), [[10.0; 4], [25.0; 4], [8.0; 4]]);
     // Half a unit a step, as far as the arena goes.
@@ -148,7 +192,7 @@ proptest! {
         };
         let text = json!({ "events": [kept] }).to_string();
         let read = predictions::forecasts(&serde_json::from_str(&text).expect("JSON")).expect("forecasts");
-        prop_assert_eq!(&read["x"], &paths);
+        prop_assert_eq!(&read["x"].forecast, &paths);
         let truth = vec![path(0.0, 20); paths.len()];
         for errors in Errors::of(&paths, &truth).expect("errors") {
             prop_assert!(errors.by_step.iter().chain([&errors.ade, &errors.fde]).all(|error| error.is_finite()));

@@ -1,7 +1,9 @@
 //! The stage on which an event plays: what does not change, and the frames of what does.
 
 use crate::{
-    Annotation, Frame, Overlay, Palette, RenderError, Style, annotation::draw_course, bodies, caption, legend, overlay,
+    Annotation, Frame, Overlay, Palette, RenderError, Style,
+    annotation::draw_course,
+    bodies, caption, legend, overlay,
     painter::{Painter, View},
     text::{Align, SizedFont},
 };

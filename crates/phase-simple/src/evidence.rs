@@ -130,8 +130,7 @@ impl IntentEvidence {
             if !effort.take(cost) {
                 return Ok(false);
             }
-            let (action, thought) =
-                prepared.decide(&mut self.run, self.agent, likelihoods.step(decision))?;
+            let (action, thought) = prepared.decide(&mut self.run, self.agent, likelihoods.step(decision))?;
             self.chances.push(Chance::of(&choice::policy_of(action, &thought), &of_step[self.agent]));
         }
         Ok(true)

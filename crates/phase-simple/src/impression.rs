@@ -89,14 +89,11 @@ impl Interaction {
         let [one, other] = AgentId::ALL.map(Entity::Agent);
         let objects = || ObjectId::ALL.into_iter().take(observed.object_sizes().len()).map(Entity::Object);
         let at = |row: &[Body; MAX_ENTITIES], agent, object| gap(row, agent, object) < CONTACT;
-        let shared = |object| {
-            libm::sqrt(share(&|row| at(row, one, object)) * share(&|row| at(row, other, object)))
-        };
+        let shared =
+            |object| libm::sqrt(share(&|row| at(row, one, object)) * share(&|row| at(row, other, object)));
         Self {
             touching: share(&|row| gap(row, one, other) < CONTACT),
-            same_object: share(&|row| {
-                objects().any(|object| at(row, one, object) && at(row, other, object))
-            }),
+            same_object: share(&|row| objects().any(|object| at(row, one, object) && at(row, other, object))),
             near: share(&|row| gap(row, one, other) < NEAR),
             shared_object: objects().map(shared).fold(0.0, f64::max),
         }

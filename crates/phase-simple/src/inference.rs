@@ -1,8 +1,8 @@
 //! From an observed event to weighted hypotheses.
 
 use crate::{
-    Algorithm, ChainSettings, Effort, Guide, Hypothesis, InferenceSettings, InferredStrengths, Posterior, Proposal,
-    StrengthSource,
+    Algorithm, ChainSettings, Effort, Guide, Hypothesis, InferenceSettings, InferredStrengths, Posterior,
+    Proposal, StrengthSource,
     generative::PreparedEvent,
     impression::Impression,
     metropolis::Chains,

@@ -159,7 +159,8 @@ impl InversePlanner {
     pub(crate) fn weighted_after(&self, decisions: usize, guess: Option<&Guess>) -> Vec<(Hypothesis, f64)> {
         let weighted_intents: [WeightedIntents; AGENT_COUNT] = AgentId::ALL.map(|agent| {
             let weigh = |key: &Key| {
-                let log = self.evidence.get(key).map_or(0.0, |it| it.log_likelihood_of(decisions, &self.settings));
+                let log =
+                    self.evidence.get(key).map_or(0.0, |it| it.log_likelihood_of(decisions, &self.settings));
                 (key.1, log + guess.map_or(0.0, |guess| guess.log(agent, key.1)))
             };
             self.asked[agent].iter().map(weigh).collect()

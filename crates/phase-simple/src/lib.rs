@@ -68,7 +68,7 @@ pub mod strength;
 
 pub use dense::Dense;
 pub use evidence::{ActionLikelihoods, Effort, IntentEvidence};
-pub use forecast::{ForecastSettings, forecast};
+pub use forecast::{ForecastSettings, Futures, forecast, futures};
 pub use generative::PreparedEvent;
 pub use guide::{Guidance, Guide};
 pub use hypothesis::{Hypothesis, physical_goals};

@@ -1,8 +1,8 @@
 //! An observer that watches an event row by row.
 
 use crate::{
-    Algorithm, AlternativeMinds, Effort, Guidance, Guide, Inference, InferenceSettings, InversePlanningSettings,
-    Posterior, Proposal, UniformStrength,
+    Algorithm, AlternativeMinds, Effort, Guidance, Guide, Inference, InferenceSettings,
+    InversePlanningSettings, Posterior, Proposal, UniformStrength,
     generative::PreparedEvent,
     guide::Guess,
     impression::Impression,

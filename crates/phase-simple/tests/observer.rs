@@ -10,8 +10,9 @@ use phase_model::{
 use phase_sampler::{Request, Variant, sample};
 use phase_sim::SimulationSettings;
 use phase_simple::{
-    AlternativeMinds, ChainSettings, Cues, Effort, Guidance, Guide, Inference, InferenceSettings, IntentNetwork,
-    InverseDynamics, MotionTracker, Observer, ObserverError, PreparedEvent, UniformStrength, Update, infer,
+    AlternativeMinds, ChainSettings, Cues, Effort, Guidance, Guide, Inference, InferenceSettings,
+    IntentNetwork, InverseDynamics, MotionTracker, Observer, ObserverError, PreparedEvent, UniformStrength,
+    Update, infer,
 };
 use std::{fs, path::Path};
 
@@ -33,7 +34,8 @@ fn observed(variant: Variant, steps: usize) -> ObservedEvent {
 /// SIMPLE's settings with less search.
 fn settings() -> InferenceSettings {
     let averaged = InferenceSettings::averaged();
-    let cheap = |minds: MindParameters| MindParameters { particles: 5, simulations: 10, searches: 1, ..minds };
+    let cheap =
+        |minds: MindParameters| MindParameters { particles: 5, simulations: 10, searches: 1, ..minds };
     let alternative = averaged.alternative.map(|it| AlternativeMinds { minds: cheap(it.minds), ..it });
     InferenceSettings { minds: cheap(averaged.minds), alternative, ..averaged }
 }
@@ -50,7 +52,9 @@ fn at_once(observed: &ObservedEvent, guide: Option<Guide<'_>>) -> Inference {
 fn every_answer_is_that_of_the_rows_seen_so_far() {
     let network = IntentNetwork::bundled().expect("a sound file");
     let guide = Guide { network: &network, guidance: Guidance::default() };
-    for (variant, guide) in [(Variant::Places, None), (Variant::Carry, Some(guide)), (Variant::Block, Some(guide))] {
+    for (variant, guide) in
+        [(Variant::Places, None), (Variant::Carry, Some(guide)), (Variant::Block, Some(guide))]
+    {
         let whole = observed(variant, 45);
         let mut observer =
             Observer::new(&whole.prefix(0), guide.as_ref(), 3, &settings()).expect("inverse planning");
@@ -60,7 +64,8 @@ fn every_answer_is_that_of_the_rows_seen_so_far() {
                 continue;
             }
             let tick = &mut || ControlFlow::Continue(());
-            let inference = observer.inference(tick).expect("sound parameters").expect("nobody breaks it off");
+            let inference =
+                observer.inference(tick).expect("sound parameters").expect("nobody breaks it off");
             let expected = at_once(&whole.prefix(step), guide);
             assert_eq!(inference, expected, "{variant:?} after {step} steps");
         }
@@ -75,7 +80,8 @@ fn what_there_is_no_time_for_is_left_to_the_guide() {
     let whole = observed(Variant::Carry, 30);
     let settings = settings();
     let distance = |simulations: usize| {
-        let mut observer = Observer::new(&whole.prefix(0), Some(&guide), 3, &settings).expect("inverse planning");
+        let mut observer =
+            Observer::new(&whole.prefix(0), Some(&guide), 3, &settings).expect("inverse planning");
         observer.set_effort(Effort { simulations: Some(simulations) });
         let mut last = None;
         for row in &whole.rows()[1..] {
@@ -111,7 +117,8 @@ fn motion_is_explained_as_if_it_had_been_seen_at_once() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/real-phase/dev.json");
     if path.is_file() {
         let recordings = from_json(&fs::read_to_string(&path).expect("a text")).expect("the recordings");
-        let recordings = recordings.iter().step_by(9).map(|it| it.observed().expect("a sound event").prefix(60));
+        let recordings =
+            recordings.iter().step_by(9).map(|it| it.observed().expect("a sound event").prefix(60));
         events.extend(recordings);
     } else {
         println!("skipped: the published recordings are not at hand");

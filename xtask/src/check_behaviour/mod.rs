@@ -170,8 +170,11 @@ fn sheet(
     let Some(event) = runner.event(part, id, scene, index)? else {
         return Err(CliError::Interrupted(path.to_owned()));
     };
-    let items: Vec<RenderedState<'_>> =
-        event.frames().step_by(SUBSTEPS).map(|&state| RenderedState { state, minds: Vec::new(), observer: None }).collect();
+    let items: Vec<RenderedState<'_>> = event
+        .frames()
+        .step_by(SUBSTEPS)
+        .map(|&state| RenderedState { state, minds: Vec::new(), observer: None })
+        .collect();
     picture::write_sheet(path, id, &event.scene.physics(), Palette::PAPER, &items, SHEET_FRAMES)
 }
 

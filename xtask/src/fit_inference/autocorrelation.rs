@@ -16,6 +16,7 @@ pub(super) fn time(subjects: &[Subject], weights: &Weights) -> Option<f64> {
         }
     }
     let variance = *covariances.first().filter(|variance| **variance > 0.0)?;
-    let positive = covariances[1..].iter().map(|covariance| covariance / variance).take_while(|rho| *rho > 0.0);
+    let positive =
+        covariances[1..].iter().map(|covariance| covariance / variance).take_while(|rho| *rho > 0.0);
     Some((1.0 + 2.0 * positive.sum::<f64>()) * weights.interval as f64)
 }

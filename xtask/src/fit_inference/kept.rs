@@ -45,8 +45,7 @@ impl<'a> KeptEvidence<'a> {
         context: &'a Context,
     ) -> Result<Self, XtaskError> {
         let minds = json_text(&kinds, "the minds")?;
-        let made_by =
-            format!("{} {minds} {} {}", hexadecimal(&program()), planning.interval, arguments.seed);
+        let made_by = format!("{} {minds} {} {}", hexadecimal(&program()), planning.interval, arguments.seed);
         let network = IntentNetwork::bundled().map_err(XtaskError::IntentNetwork)?;
         let kept = arguments.out.as_deref().map(EvaluationsFile::beside).transpose()?;
         let (file, lines) = kept.map_or_else(|| (None, Vec::new()), |(file, lines)| (Some(file), lines));

@@ -123,7 +123,10 @@ fn planning(arguments: &FitInference, settings: &InferenceSettings) -> InversePl
         Algorithm::InversePlanning(planning) => planning,
         Algorithm::Chains(_) => InversePlanningSettings::default(),
     };
-    InversePlanningSettings { interval: arguments.interval.map_or(planning.interval, usize::from), ..planning }
+    InversePlanningSettings {
+        interval: arguments.interval.map_or(planning.interval, usize::from),
+        ..planning
+    }
 }
 
 /// The events of a file, as many as were asked for.

@@ -9,8 +9,8 @@ use phase_eval::MethodError;
 use phase_event::{ObservedEvent, Recording};
 use phase_model::{AGENT_COUNT, AgentId, EventKind, Goal, Strength};
 use phase_simple::{
-    ActionLikelihoods, Effort, Hypothesis, Intent, IntentEvidence, IntentNetwork, InversePlanningSettings, Posterior,
-    PreparedEvent, Proposal, UniformStrength, choice::Chance, cue::GAMMA, intent::joint_logs,
+    ActionLikelihoods, Effort, Hypothesis, Intent, IntentEvidence, IntentNetwork, InversePlanningSettings,
+    Posterior, PreparedEvent, Proposal, UniformStrength, choice::Chance, cue::GAMMA, intent::joint_logs,
 };
 use serde::{Deserialize, Serialize};
 
@@ -123,7 +123,8 @@ impl Subject {
         let mut ratios = Vec::new();
         for (kind, &rate) in self.evidence.kinds.iter().zip(lapse_rates) {
             for agent in AgentId::ALL {
-                let Some(meant) = self.intents[agent].iter().position(|it| is_true(it, &self.truth, agent)) else {
+                let Some(meant) = self.intents[agent].iter().position(|it| is_true(it, &self.truth, agent))
+                else {
                     continue;
                 };
                 let log = |&(mind, uniform): &(f64, f64)| Chance { mind, uniform }.log(rate);

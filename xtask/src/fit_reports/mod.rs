@@ -114,7 +114,10 @@ fn read(arguments: &FitReports) -> Result<(Vec<RecognisedEvent>, Vec<Rated>), Cl
             .map_err(|error| rule(&format!("an event cannot be read: {error}")))?;
         let Some(counts) = event.label.ratings else { continue };
         let Ok(Details { impression }) = serde_json::from_value(event.details.clone()) else {
-            return Err(rule(&format!("event {}: there is no impression of it; its method must be simple", event.id)));
+            return Err(rule(&format!(
+                "event {}: there is no impression of it; its method must be simple",
+                event.id
+            )));
         };
         events.push(event);
         rated.push(Rated { impression, counts });
@@ -154,7 +157,8 @@ fn choose(
 
 fn fitted(events: &[usize], rated: &[Rated], ridge: f64) -> Result<ReportModel, CliError> {
     let events: Vec<Rated> = events.iter().map(|&k| rated[k]).collect();
-    fit(&events, ridge).map_err(|error| CliError::Usage(format!("--results: the model cannot be fitted: {error}")))
+    fit(&events, ridge)
+        .map_err(|error| CliError::Usage(format!("--results: the model cannot be fitted: {error}")))
 }
 
 fn cross_entropy(model: &ReportModel, rated: &Rated) -> f64 {

@@ -5,13 +5,14 @@ use phase_agent::{Foresight, MindParameters};
 use phase_eval::{
     Forecaster, Recogniser,
     method::{MethodError, MethodResult, ProgressCallback},
+    trajectories::{Prediction, SAMPLES},
 };
 use phase_event::ObservedEvent;
-use phase_model::{Forecast, Judgement};
+use phase_model::Judgement;
 use phase_simple::{
     ChainSettings, Cues, ForecastSettings, Guidance, Guide, Inference, InferenceSettings, IntentNetwork,
-    MindPosterior, PreparedEvent, Proposal, ReportModel, StrengthRegressor, StrengthSource, UniformStrength, Update,
-    forecast, infer,
+    MindPosterior, PreparedEvent, Proposal, ReportModel, StrengthRegressor, StrengthSource, UniformStrength,
+    Update, futures, infer,
 };
 use serde_json::{Value, json};
 
@@ -132,12 +133,15 @@ impl Forecaster for Simple {
         steps: usize,
         seed: u64,
         tick: ProgressCallback<'_>,
-    ) -> MethodResult<Forecast> {
+    ) -> MethodResult<Prediction> {
         let prepared = PreparedEvent::new(observed, self.settings.minds, seed);
         let Some(inference) = self.infer(&prepared, seed, &mut *tick)? else { return Ok(None) };
-        let forecast =
-            forecast(&prepared, &inference, steps, seed, &self.forecast, tick).map_err(MethodError::new)?;
-        Ok(forecast.map(|forecast| (forecast, details(&inference))))
+        let futures =
+            futures(&prepared, &inference, steps, seed, &self.forecast, tick).map_err(MethodError::new)?;
+        Ok(futures.map(|futures| {
+            let prediction = Prediction { forecast: futures.median(), samples: futures.draw(SAMPLES, seed) };
+            (prediction, details(&inference))
+        }))
     }
 }
 

@@ -11,7 +11,9 @@ use crate::{context::Context, effort::MindOptions, error::CliError};
 use cpu_time::ThreadTime;
 use phase_eval::{
     Forecaster, MethodError, ProgressCallback, predictions, results,
-    trajectories::{Errors, ForecastEvent, ForecastSummary, PREDICTED_STEPS, WATCHED_STEPS},
+    trajectories::{
+        Errors, ForecastEvent, ForecastSummary, PREDICTED_STEPS, Prediction, SampleErrors, WATCHED_STEPS,
+    },
 };
 use phase_event::Recording;
 use phase_model::Forecast;
@@ -31,7 +33,7 @@ pub(super) fn run(arguments: &EvalTrajectories, context: &Context) -> Result<(),
     let task = match (&arguments.common.predictions, &arguments.method) {
         (Some(file), _) => {
             let fit = |event: &Event, forecast| {
-                predictions::fit(&forecast, event.entities, steps_to_predict(event.steps))
+                predictions::fit_prediction(&forecast, event.entities, steps_to_predict(event.steps))
             };
             let given = PredictionsFile::read(file, &input, context, predictions::forecasts, fit)?;
             Trajectories { name: given.name.clone(), answers: AnswerSource::PredictionsFile(given) }
@@ -48,7 +50,7 @@ pub(super) fn run(arguments: &EvalTrajectories, context: &Context) -> Result<(),
 /// The task.
 pub(crate) struct Trajectories {
     name: String,
-    answers: AnswerSource<dyn Forecaster, Forecast>,
+    answers: AnswerSource<dyn Forecaster, Prediction>,
 }
 
 impl Trajectories {
@@ -114,17 +116,18 @@ impl Task for Trajectories {
         let observed = recording.observed().map_err(MethodError::new)?;
         let truth: Forecast = observed.entities().map(|entity| path(&observed, entity.index())).collect();
         let steps = truth.first().map_or(0, Vec::len);
-        let (forecast, details, cpu_seconds) = match &self.answers {
+        let (prediction, details, cpu_seconds) = match &self.answers {
             AnswerSource::PredictionsFile(given) => (given.answer(event)?, Value::Null, None),
             AnswerSource::Method(method) => {
                 let begun = ThreadTime::now();
-                let forecast = method.forecast(&observed.prefix(WATCHED_STEPS), steps, seed, tick)?;
+                let prediction = method.forecast(&observed.prefix(WATCHED_STEPS), steps, seed, tick)?;
                 let cpu_seconds = begun.elapsed().as_secs_f64();
-                let Some((forecast, details)) = forecast else { return Ok(None) };
-                (forecast, details, Some(cpu_seconds))
+                let Some((prediction, details)) = prediction else { return Ok(None) };
+                (prediction, details, Some(cpu_seconds))
             }
         };
-        let [agents, entities] = Errors::of(&forecast, &truth)?;
+        let [agents, entities] = Errors::of(&prediction.forecast, &truth)?;
+        let samples = SampleErrors::of(&prediction.samples, &truth)?;
         Ok(Some(ForecastEvent {
             id: event.id.clone(),
             kind: recording.scene.kind,
@@ -132,7 +135,9 @@ impl Task for Trajectories {
             steps,
             agents,
             entities,
-            forecast: forecast
+            samples,
+            forecast: prediction
+                .forecast
                 .iter()
                 .map(|path| path.iter().map(|point| point.to_array()).collect())
                 .collect(),

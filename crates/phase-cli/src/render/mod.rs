@@ -56,7 +56,8 @@ pub fn run(arguments: &Render, context: &Context) -> Result<(), CliError> {
             false => None,
         };
         render(arguments, &recording, &path, watched.as_deref())?;
-        let observer = watched.map(|watched| ObserverCourse::write(&path, &recording.id, watched)).transpose()?;
+        let observer =
+            watched.map(|watched| ObserverCourse::write(&path, &recording.id, watched)).transpose()?;
         progress.event(0, &recording.id);
         let interpolated = recording.simulation.is_none();
         Ok(Some(Rendered { id: recording.id, file: path, interpolated, observer }))
@@ -154,7 +155,11 @@ impl Target {
         match self {
             Self::File(path) => path.clone(),
             Self::Folder(folder) => {
-                let suffix = if arguments.observer { ".observer" } else { arguments.belief.map_or("", Belief::suffix) };
+                let suffix = if arguments.observer {
+                    ".observer"
+                } else {
+                    arguments.belief.map_or("", Belief::suffix)
+                };
                 folder.join(format!("{id}{suffix}.{extension}"))
             }
         }

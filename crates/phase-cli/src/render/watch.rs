@@ -10,9 +10,7 @@ use phase_model::{
     arena::{FRAMES_PER_SECOND, SUBSTEPS},
 };
 use phase_render::{Caption, Palette};
-use phase_simple::{
-    Guidance, Guide, Inference, InferenceSettings, IntentNetwork, Observer, ReportModel,
-};
+use phase_simple::{Guidance, Guide, Inference, InferenceSettings, IntentNetwork, Observer, ReportModel};
 use serde::Serialize;
 use std::time::Instant;
 
@@ -67,7 +65,9 @@ pub(super) fn watch(
         }
         let begun = Instant::now();
         let inference = if step == 0 {
-            observer.inference(&mut || ControlFlow::Continue(())).map_err(|error| failed(MethodError::new(error)))?
+            observer
+                .inference(&mut || ControlFlow::Continue(()))
+                .map_err(|error| failed(MethodError::new(error)))?
         } else {
             Some(observer.push(*row).map_err(|error| failed(MethodError::new(error)))?)
         };
@@ -137,7 +137,9 @@ impl Watched {
         let roles = AgentId::ALL
             .into_iter()
             .flat_map(|agent| [of(agent, Attitude::Help, "helps"), of(agent, Attitude::Hinder, "hinders")]);
-        let Some((p, agent, verb)) = roles.max_by(|a, b| a.0.total_cmp(&b.0)) else { return Caption::default() };
+        let Some((p, agent, verb)) = roles.max_by(|a, b| a.0.total_cmp(&b.0)) else {
+            return Caption::default();
+        };
         let [who, whom] = [agent, agent.other()].map(|agent| palette.agent_names[agent]);
         Caption { cells: vec![format!("{p:.2}")], text: format!("{who} {verb} {whom}"), bar: p as f32 }
     }

@@ -87,7 +87,8 @@ impl Answer {
             ranked.sort_by(|a, b| b.p.total_cmp(&a.p));
         }
         let relation = distribution(&judgement.relation).ok_or(InvalidAnswer::Relation)?;
-        let reported = judgement.reported.map(|it| distribution(&it).ok_or(InvalidAnswer::Reported)).transpose()?;
+        let reported =
+            judgement.reported.map(|it| distribution(&it).ok_or(InvalidAnswer::Reported)).transpose()?;
         if let Some(RoleProbabilities { helps, hinders }) = judgement.roles {
             let four = || helps.into_iter().chain(hinders);
             if !four().all(probable) || four().sum::<f64>() > 1.0 + TOLERANCE {

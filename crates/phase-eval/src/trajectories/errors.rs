@@ -1,5 +1,6 @@
 //! Errors of a prediction.
 
+use super::SampleErrors;
 use phase_model::{AGENT_COUNT, EventKind, Forecast, Relation, Vec2};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -53,6 +54,9 @@ pub struct ForecastEvent {
     pub agents: Errors,
     /// Errors over agents and objects.
     pub entities: Errors,
+    /// Scores of the distribution of futures, if the method gave one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub samples: Option<SampleErrors>,
     /// The predicted positions, `[x, y]` (u) by entity and step.
     pub forecast: Vec<Vec<[f32; 2]>>,
     /// CPU time for the prediction (s).

@@ -1,10 +1,12 @@
 //! Task 2, multi-entity trajectory prediction: the errors of a method.
 
 mod errors;
+mod samples;
 mod summary;
 
 pub use errors::{Errors, ForecastError, ForecastEvent};
-pub use summary::{ForecastScores, ForecastSummary};
+pub use samples::{Prediction, SAMPLES, SampleErrors};
+pub use summary::{ForecastScores, ForecastSummary, SampleScores};
 
 /// Observed steps before the prediction (5 s of video).
 pub const WATCHED_STEPS: usize = 20;

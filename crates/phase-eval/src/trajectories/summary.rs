@@ -1,6 +1,6 @@
 //! Displacement errors of a method over many events.
 
-use super::{Errors, ForecastEvent, PREDICTED_STEPS};
+use super::{Errors, ForecastEvent, PREDICTED_STEPS, SampleErrors};
 use crate::{Estimate, GroupScores};
 use phase_model::{EventKind, Relation};
 use phase_statistics::mean;
@@ -19,6 +19,38 @@ pub struct ForecastScores {
     pub ade_entities: Estimate,
     /// Final displacement error of agents and objects.
     pub fde_entities: Estimate,
+    /// Scores of the distribution of futures, over the events for which the method gave one; `None` without any.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub samples: Option<SampleScores>,
+}
+
+/// Scores of distributions of futures over some events of equal weight (u); see
+/// [`SampleErrors`](super::SampleErrors).
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+pub struct SampleScores {
+    /// Number of events.
+    pub n: usize,
+    /// minADE.
+    pub min_ade: Estimate,
+    /// minFDE.
+    pub min_fde: Estimate,
+    /// Energy score.
+    pub energy: Estimate,
+}
+
+impl SampleScores {
+    fn of(events: &[&ForecastEvent], seed: u64) -> Option<Self> {
+        let sampled: Vec<&SampleErrors> = events.iter().filter_map(|event| event.samples.as_ref()).collect();
+        let estimate = |of: fn(&SampleErrors) -> f64| {
+            Estimate::of(&sampled.iter().map(|errors| of(errors)).collect::<Vec<f64>>(), seed)
+        };
+        Some(Self {
+            n: sampled.len(),
+            min_ade: estimate(|errors| errors.min_ade)?,
+            min_fde: estimate(|errors| errors.min_fde)?,
+            energy: estimate(|errors| errors.energy)?,
+        })
+    }
 }
 
 impl ForecastScores {
@@ -32,6 +64,7 @@ impl ForecastScores {
             fde: estimate(|event| event.agents.fde)?,
             ade_entities: estimate(|event| event.entities.ade)?,
             fde_entities: estimate(|event| event.entities.fde)?,
+            samples: SampleScores::of(events, seed),
         })
     }
 }

@@ -109,8 +109,7 @@ fn a_course_is_stacked_from_the_left() {
     let renderer = SceneRenderer::new(&physics(), style).expect("a valid style");
     let shares = [[0.5, 0.25, 0.25], [0.0, 1.0, 0.0]];
     let course = Course { shares: &shares, times: 4 };
-    let frame =
-        renderer.annotated(&state(), &Annotation { course: Some(course), ..Annotation::default() });
+    let frame = renderer.annotated(&state(), &Annotation { course: Some(course), ..Annotation::default() });
     let palette = Palette::default();
     let (top, bottom) = (style.course_top(), style.course_top() + style.course_height() - 1);
     // The arena is 440 pixels wide, a time 110.

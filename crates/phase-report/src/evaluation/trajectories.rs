@@ -8,7 +8,7 @@ use crate::{
 };
 use phase_eval::{
     Estimate,
-    trajectories::{ForecastScores, ForecastSummary, PREDICTED_STEPS, WATCHED_STEPS},
+    trajectories::{ForecastScores, ForecastSummary, PREDICTED_STEPS, SAMPLES, SampleScores, WATCHED_STEPS},
 };
 
 /// How well trajectories are predicted.
@@ -40,6 +40,10 @@ pub fn trajectories(subject: Subject<'_>, summary: &ForecastSummary) -> Document
         Block::Heading("As the prediction grows".into()),
     ];
     blocks.push(by_step(summary));
+    if let Some(scores) = &summary.all.samples {
+        blocks.push(Block::Heading("As a distribution".into()));
+        blocks.extend(samples(scores, &summary.all));
+    }
     Document { title: format!("Trajectories predicted by {}", subject.method), blocks }
 }
 
@@ -80,6 +84,23 @@ fn published_plot(
 ) -> Block {
     let published = published::TRAJECTORIES.iter().map(|row| (row.method, theirs(row)));
     bars_beside(file, title, " u", (ours, value), published)
+}
+
+/// Scores of the distribution of futures.
+fn samples(scores: &SampleScores, agents: &ForecastScores) -> [Block; 2] {
+    let rows = vec![
+        vec!["one future (ADE, FDE)".into(), length(&agents.ade), length(&agents.fde), "-".into()],
+        vec![
+            format!("best of {SAMPLES} futures (minADE, minFDE)"),
+            length(&scores.min_ade),
+            length(&scores.min_fde),
+            length(&scores.energy),
+        ],
+    ];
+    let text = "The best of the futures is chosen for each agent. The energy score is proper: the less, the nearer the \
+                distribution of futures to what happens; of one future it is the ADE.";
+    let columns = ["agents", "average displacement", "final displacement", "energy score"];
+    [Block::Text(text.into()), Block::Table { head: head(&columns), rows }]
 }
 
 fn kinds(summary: &ForecastSummary) -> Block {

@@ -23,6 +23,7 @@ fn off_by(errors: &[f64]) -> ForecastSummary {
             steps: 1,
             agents: errors.clone(),
             entities: errors,
+            samples: None,
             forecast: Vec::new(),
             cpu_seconds: Some(0.5),
             details: Value::Null,
@@ -126,7 +127,12 @@ fn rows_stand_where_they_belong() {
 fn mistakes_stand_in_their_columns() {
     let event = RecognisedEvent {
         id: "event".into(),
-        answer: Answer { goals: Default::default(), relation: RelationProbabilities::default(), roles: None, reported: None },
+        answer: Answer {
+            goals: Default::default(),
+            relation: RelationProbabilities::default(),
+            roles: None,
+            reported: None,
+        },
         label: Label {
             kind: EventKind::Independent,
             goals: [Goal::Touch { agent: AgentId::ZERO, other: AgentId::ONE, sign: Sign::Positive }; 2],

@@ -21,10 +21,11 @@ use phase_eval::{
     Forecaster, Recogniser,
     benchmark::{Curve, Training},
     method::{MethodError, MethodResult, ProgressCallback},
+    trajectories::Prediction,
     trivial::Chance,
 };
 use phase_event::ObservedEvent;
-use phase_model::{Forecast, Judgement};
+use phase_model::Judgement;
 use serde_json::{Value, json};
 use std::{
     ffi::OsString,
@@ -194,8 +195,8 @@ impl<N: PublishedNetwork + Forecasting + Sync> Forecaster for TrainedNetwork<N> 
         steps: usize,
         _seed: u64,
         _tick: ProgressCallback<'_>,
-    ) -> MethodResult<Forecast> {
-        answered(self.network.forecast(observed, steps))
+    ) -> MethodResult<Prediction> {
+        answered(self.network.forecast(observed, steps).map(Prediction::from))
     }
 }
 
