@@ -7,7 +7,7 @@ use phase_model::{AgentId, PhysicsConfig, State, arena::FRAMES_PER_SECOND};
 use phase_perception::CellSet;
 use phase_render::{
     Annotation, Caption, Course, Frame, Overlay, Palette, RenderError, SceneRenderer, Style, VideoEncoder,
-    annotation::SHARES, contact_sheet, side_by_side,
+    contact_sheet, palette::SHARES, side_by_side,
 };
 use std::path::Path;
 

@@ -1,10 +1,7 @@
 //! What is written and drawn around a state that is shown as it is: a title, captions, and the course of some shares.
 
-use crate::{Caption, Style, painter::fill};
+use crate::{Caption, Style, painter::fill, palette::SHARES};
 use tiny_skia::Pixmap;
-
-/// Number of shares of a [`Course`].
-pub const SHARES: usize = 3;
 
 /// How shares of a whole changed so far.
 #[derive(Clone, Copy, Debug)]

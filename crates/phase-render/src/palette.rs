@@ -1,9 +1,10 @@
 //! Colours.
 
-use crate::annotation::SHARES;
-
 /// An opaque sRGB colour: red, green, blue.
 pub type Colour = [u8; 3];
+
+/// Number of shares of a [`Course`](crate::Course).
+pub const SHARES: usize = 3;
 
 /// A palette by its name.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]

@@ -42,6 +42,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod answer;
 pub mod beliefs;
 pub mod choice;
 pub mod cue;
@@ -57,6 +58,7 @@ pub mod intent;
 pub mod intent_network;
 pub mod inverse_dynamics;
 mod inverse_planning;
+mod kinds;
 pub mod metropolis;
 pub mod observer;
 pub mod posterior;
@@ -66,6 +68,7 @@ pub mod settings;
 pub mod simulations;
 pub mod strength;
 
+pub use answer::{Inference, MindPosterior};
 pub use dense::Dense;
 pub use evidence::{ActionLikelihoods, Effort, IntentEvidence};
 pub use forecast::{ForecastSettings, Futures, forecast, futures};
@@ -73,7 +76,7 @@ pub use generative::PreparedEvent;
 pub use guide::{Guidance, Guide};
 pub use hypothesis::{Hypothesis, physical_goals};
 pub use impression::{Happening, Impression, Interaction};
-pub use inference::{Cues, Inference, MindPosterior, explain, infer};
+pub use inference::{Cues, explain, infer};
 pub use intent::Intent;
 pub use intent_network::IntentNetwork;
 pub use inverse_dynamics::{InverseDynamics, MotionTracker};

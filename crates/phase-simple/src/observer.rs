@@ -1,21 +1,17 @@
 //! An observer that watches an event row by row.
 
 use crate::{
-    Algorithm, AlternativeMinds, Effort, Guidance, Guide, Inference, InferenceSettings,
-    InversePlanningSettings, Posterior, Proposal, UniformStrength,
+    Algorithm, Effort, Guide, InferenceSettings,
+    answer::Inference,
     generative::PreparedEvent,
-    guide::Guess,
-    impression::Impression,
-    inference::average,
-    intent::{Intent, WeightedIntents},
-    intent_network::IntentReader,
     inverse_dynamics::MotionTracker,
     inverse_planning::InversePlanner,
+    kinds::{GuideCourse, planners, weigh},
 };
 use core::ops::ControlFlow;
 use phase_event::{ObservedError, ObservedEvent};
 use phase_minds::MindParameters;
-use phase_model::{AGENT_COUNT, AgentId, Body, MAX_ENTITIES, Strength};
+use phase_model::{Body, MAX_ENTITIES};
 use phase_pomcp::PomcpError;
 use std::sync::Arc;
 use thiserror::Error;
@@ -32,37 +28,6 @@ pub enum ObserverError {
     /// Invalid parameters of the agents' search.
     #[error("the minds cannot be simulated")]
     Search(#[from] PomcpError),
-}
-
-/// What the guide said after every row.
-#[derive(Clone, Debug)]
-pub(crate) struct GuideCourse<'a> {
-    guidance: Guidance,
-    reader: IntentReader<'a>,
-    /// ln Q of every intent of each agent after each row.
-    intents: Vec<[WeightedIntents; AGENT_COUNT]>,
-}
-
-impl<'a> GuideCourse<'a> {
-    /// Watches all rows that have been observed.
-    pub(crate) fn new(guide: &Guide<'a>, observed: &ObservedEvent) -> Self {
-        let reader = guide.network.watch(observed);
-        let mut course = Self { guidance: guide.guidance, reader, intents: Vec::new() };
-        observed.rows().iter().for_each(|row| course.push(row));
-        course
-    }
-
-    fn push(&mut self, row: &[Body; MAX_ENTITIES]) {
-        self.reader.push(row);
-        self.intents.push(self.reader.intents());
-    }
-
-    /// What it said after a row, of an event with so many objects whose agents have these strengths.
-    fn guess(&self, row: usize, objects: usize, strengths: [Strength; AGENT_COUNT]) -> Guess {
-        let last = self.intents.len().saturating_sub(1);
-        let intents = self.intents.get(row.min(last)).cloned().unwrap_or_default();
-        Guess::new(&self.guidance, intents, objects, strengths)
-    }
 }
 
 /// Watches an event row by row, and says after each what explains it.
@@ -168,76 +133,4 @@ impl<'a> Observer<'a> {
     pub fn prepared(&self) -> Option<&PreparedEvent> {
         self.planners.first().map(|(_, planner)| &planner.prepared)
     }
-}
-
-/// One planner for each kind of minds, in the order of the settings.
-pub(crate) fn planners(
-    prepared: &PreparedEvent,
-    planning: &InversePlanningSettings,
-    alternative: Option<AlternativeMinds>,
-) -> Vec<(MindParameters, InversePlanner)> {
-    let mut planners = vec![(*prepared.minds(), InversePlanner::new(prepared.clone(), planning))];
-    if let Some(AlternativeMinds { minds, lapse_rate }) = alternative {
-        let planning = InversePlanningSettings { lapse_rate, ..*planning };
-        planners.push((minds, InversePlanner::new(prepared.with_minds(minds), &planning)));
-    }
-    planners
-}
-
-/// The answer of all kinds of minds together, and how it came about. Intents that the effort does not suffice for are left to the
-/// guide.
-pub(crate) fn weigh(
-    planners: &mut [(MindParameters, InversePlanner)],
-    gamma: f64,
-    guide: Option<&GuideCourse<'_>>,
-    effort: &mut Effort,
-    tick: &mut dyn FnMut() -> ControlFlow<()>,
-) -> Result<Option<Inference>, PomcpError> {
-    let Some((_, first)) = planners.first() else { return Ok(Some(average(Vec::new(), None))) };
-    let observed = Arc::clone(first.prepared.shared_observed());
-    let objects = observed.object_sizes().len();
-    let strengths = first.prepared.motion().strengths();
-    let guess = |row| guide.map(|guide| guide.guess(row, objects, strengths));
-    let last = guess(observed.steps());
-    // The goal that each agent attributes to the other if it is not social.
-    let assumed = last.as_ref().and_then(Guess::goals).unwrap_or_else(|| {
-        let cue = Proposal::new(&observed, 0..=observed.steps(), gamma, &UniformStrength);
-        AgentId::ALL.map(|agent| cue.most_likely_goal(agent))
-    });
-    let all = || {
-        let of = |agent| Intent::all(agent, objects).into_iter().map(move |intent| (agent, intent));
-        AgentId::ALL.into_iter().flat_map(of).collect()
-    };
-    let mut intents: Vec<(AgentId, Intent)> = last.as_ref().map_or_else(all, Guess::kept);
-    for (_, planner) in &mut *planners {
-        planner.follow();
-    }
-    if effort.simulations.is_some() {
-        // Those for which every kind of minds knows what the others know.
-        let mut ready = Vec::with_capacity(intents.len());
-        for (agent, intent) in intents {
-            let mut known = true;
-            for (_, planner) in &mut *planners {
-                known &= planner.catch_up(agent, intent, assumed[agent.other()], effort)?;
-            }
-            if known {
-                ready.push((agent, intent));
-            }
-        }
-        intents = ready;
-    }
-    let mut kinds = Vec::with_capacity(planners.len());
-    for (minds, planner) in &mut *planners {
-        let own = planner.weighted_hypotheses(&intents, assumed, last.as_ref(), effort, tick)?;
-        let Some(own) = own else { return Ok(None) };
-        kinds.push((*minds, own));
-    }
-    let (_, first) = &planners[0];
-    let course = (1..=first.decisions()).map(|decisions| {
-        let guess = guess(first.row_after(decisions));
-        let of_kinds = planners.iter().map(|(_, planner)| planner.weighted_after(decisions, guess.as_ref()));
-        Posterior::new(of_kinds.flatten())
-    });
-    let impression = Impression::of(&observed, course);
-    Ok(Some(average(kinds, impression)))
 }
