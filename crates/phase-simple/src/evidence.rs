@@ -8,25 +8,24 @@ use crate::{
 use phase_model::{AGENT_COUNT, AgentId, Goal, Strength};
 use phase_pomcp::PomcpError;
 
-/// What may be spent on decisions.
+/// What may be spent.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct Effort {
-    /// POMCP simulations left; `None` for as many as it takes.
-    pub simulations: Option<usize>,
+    /// Decisions of simulated minds left; `None` for as many as it takes.
+    pub decisions: Option<usize>,
 }
 
 impl Effort {
     /// As much as it takes.
-    pub const UNLIMITED: Self = Self { simulations: None };
+    pub const UNLIMITED: Self = Self { decisions: None };
 
-    /// Takes some simulations, if there is anything left. The last decision may take more than that, so that there is always
-    /// progress.
-    const fn take(&mut self, simulations: usize) -> bool {
-        match &mut self.simulations {
+    /// Takes a decision, if there is one left.
+    const fn take(&mut self) -> bool {
+        match &mut self.decisions {
             None => true,
             Some(0) => false,
             Some(left) => {
-                *left = left.saturating_sub(simulations);
+                *left -= 1;
                 true
             }
         }
@@ -124,10 +123,8 @@ impl IntentEvidence {
         likelihoods: &ActionLikelihoods,
         effort: &mut Effort,
     ) -> Result<bool, PomcpError> {
-        let minds = prepared.minds();
-        let cost = minds.simulations.saturating_mul(minds.searches.max(1));
         for (decision, of_step) in likelihoods.of_decisions.iter().enumerate().skip(self.chances.len()) {
-            if !effort.take(cost) {
+            if !effort.take() {
                 return Ok(false);
             }
             let (action, thought) = prepared.decide(&mut self.run, self.agent, likelihoods.step(decision))?;

@@ -12,21 +12,22 @@ use rand::RngExt;
 /// Iterations of Weiszfeld's algorithm.
 const ROUNDS: usize = 30;
 
-/// How futures are combined; the defaults were selected on the validation events of PHASE-500.
+/// How futures are combined; the inverse temperature was fitted by `cargo xtask fit-forecast`, the numbers were selected on the
+/// validation events of PHASE-500.
 #[derive(Clone, Copy, PartialEq, Debug, serde::Serialize, serde::Deserialize)]
 pub struct ForecastSettings {
     /// Number of most likely hypotheses to simulate; at least 1.
     pub hypotheses: usize,
     /// Futures per hypothesis, each with its own random stream; at least 1.
     pub repeats: usize,
-    /// Inverse temperature of the posterior weights: after 20 steps the posterior is overconfident.
+    /// Inverse temperature of the posterior weights: 1 takes them as they are.
     #[serde(rename = "temper")]
     pub inverse_temperature: f64,
 }
 
 impl Default for ForecastSettings {
     fn default() -> Self {
-        Self { hypotheses: 5, repeats: 6, inverse_temperature: 0.4 }
+        Self { hypotheses: 5, repeats: 6, inverse_temperature: 1.0 }
     }
 }
 

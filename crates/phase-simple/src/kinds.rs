@@ -90,7 +90,7 @@ pub(crate) fn weigh(
     for (_, planner) in &mut *planners {
         planner.follow();
     }
-    if effort.simulations.is_some() {
+    if effort.decisions.is_some() {
         // Those for which every kind of minds knows what the others know.
         let mut ready = Vec::with_capacity(intents.len());
         for (agent, intent) in intents {

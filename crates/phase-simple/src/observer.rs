@@ -45,9 +45,9 @@ pub struct Observer<'a> {
     effort: Effort,
 }
 
-/// What an observer spends on a row by default (POMCP simulations): less than the 250 ms that a step lasts in a video on a
-/// core of 2020.
-const EFFORT: usize = 12_000;
+/// What an observer spends on a row by default (decisions): less than the 250 ms that a step lasts in a video. A decision takes 2 to 6 ms
+/// (docs/simple.md).
+const EFFORT: usize = 20;
 
 impl<'a> Observer<'a> {
     /// Watches an event from its beginning: `observed` has the rows seen so far, at least one.
@@ -69,7 +69,7 @@ impl<'a> Observer<'a> {
         let prepared = PreparedEvent::with_motion(Arc::clone(&observed), motion, settings.minds, seed);
         let planners = planners(&prepared, &planning, settings.alternative);
         let guide = guide.map(|guide| GuideCourse::new(guide, &observed));
-        let effort = Effort { simulations: Some(EFFORT) };
+        let effort = Effort { decisions: Some(EFFORT) };
         Ok(Self { observed, tracker, planners, guide, gamma: settings.gamma, effort })
     }
 

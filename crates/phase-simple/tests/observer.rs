@@ -79,17 +79,17 @@ fn what_there_is_no_time_for_is_left_to_the_guide() {
     let guide = Guide { network: &network, guidance: Guidance::default() };
     let whole = observed(Variant::Carry, 30);
     let settings = settings();
-    let distance = |simulations: usize| {
+    let distance = |decisions: usize| {
         let mut observer =
             Observer::new(&whole.prefix(0), Some(&guide), 3, &settings).expect("inverse planning");
-        observer.set_effort(Effort { simulations: Some(simulations) });
+        observer.set_effort(Effort { decisions: Some(decisions) });
         let mut last = None;
         for row in &whole.rows()[1..] {
             last = Some(observer.push(*row).expect("a sound row").posterior);
         }
         let expected = at_once(&whole, Some(guide)).posterior;
         let said = last.expect("there are rows");
-        if simulations == 0 {
+        if decisions == 0 {
             let alone = network.posterior(&whole);
             for agent in AgentId::ALL {
                 for ((goal, p), (expected, of_network)) in said.goals(agent).iter().zip(alone.goals(agent)) {
