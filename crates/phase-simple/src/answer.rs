@@ -30,23 +30,44 @@ pub struct MindPosterior {
     pub posterior: Posterior,
 }
 
-/// Averages over kinds of minds with an even prior, given ln P(Y) P(motion | Y, kind) of every hypothesis.
+/// What one kind of minds makes of an event: ln P(Y) P(motion | Y, kind) of every hypothesis but for a constant, and ln P(motion |
+/// kind).
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct KindEvidence {
+    pub(crate) joint: Vec<(Hypothesis, f64)>,
+    pub(crate) log_evidence: f64,
+}
+
+/// ln Σ e^x.
+pub(crate) fn log_sum(joint: &[(Hypothesis, f64)]) -> f64 {
+    let greatest = joint.iter().map(|it| it.1).fold(f64::NEG_INFINITY, f64::max);
+    greatest + libm::log(joint.iter().map(|it| libm::exp(it.1 - greatest)).sum())
+}
+
+/// The posterior averaged over kinds of minds with an even prior, and the probability of each kind.
+pub(crate) fn mixture(kinds: &[KindEvidence]) -> (Posterior, Vec<f64>) {
+    let greatest = kinds.iter().map(|kind| kind.log_evidence).fold(f64::NEG_INFINITY, f64::max);
+    let total: f64 = kinds.iter().map(|kind| libm::exp(kind.log_evidence - greatest)).sum();
+    let share = |kind: &KindEvidence| kind.log_evidence - greatest - libm::log(total);
+    let weighted = kinds.iter().flat_map(|kind| {
+        let shift = share(kind) - log_sum(&kind.joint);
+        kind.joint.iter().map(move |&(hypothesis, log)| (hypothesis, log + shift))
+    });
+    (Posterior::new(weighted), kinds.iter().map(|kind| libm::exp(share(kind))).collect())
+}
+
+/// The answer of all kinds of minds together.
 pub(crate) fn average(
-    kinds: Vec<(MindParameters, Vec<(Hypothesis, f64)>)>,
+    minds: &[MindParameters],
+    kinds: Vec<KindEvidence>,
     impression: Option<Impression>,
 ) -> Inference {
-    let all = kinds.iter().flat_map(|(_, joint)| joint.iter().copied());
-    let posterior = Posterior::new(all);
-    let greatest =
-        |joint: &[(Hypothesis, f64)]| joint.iter().map(|it| it.1).fold(f64::NEG_INFINITY, f64::max);
-    let reference = kinds.iter().map(|(_, joint)| greatest(joint)).fold(f64::NEG_INFINITY, f64::max);
-    let evidence = |joint: &[(Hypothesis, f64)]| -> f64 {
-        joint.iter().map(|(_, log)| libm::exp(log - reference)).sum()
+    let (posterior, probabilities) = mixture(&kinds);
+    let of_kind = |((&minds, kind), probability): ((&MindParameters, KindEvidence), f64)| MindPosterior {
+        minds,
+        probability,
+        posterior: Posterior::new(kind.joint),
     };
-    let total: f64 = kinds.iter().map(|(_, joint)| evidence(joint)).sum();
-    let minds = kinds.into_iter().map(|(minds, joint)| {
-        let probability = evidence(&joint) / total;
-        MindPosterior { minds, probability, posterior: Posterior::new(joint) }
-    });
-    Inference { posterior, minds: minds.collect(), impression, accepted: Vec::new(), simulated: 0 }
+    let minds = minds.iter().zip(kinds).zip(probabilities).map(of_kind).collect();
+    Inference { posterior, minds, impression, accepted: Vec::new(), simulated: 0 }
 }

@@ -5,7 +5,7 @@ use crate::{
     StrengthSource,
     answer::{Inference, MindPosterior},
     generative::PreparedEvent,
-    kinds::{GuideCourse, planners, weigh},
+    kinds::{GuideCourse, Planners},
     metropolis::Chains,
     simulations::Simulations,
     strength::StrengthCue,
@@ -41,8 +41,8 @@ pub fn infer(
     match &settings.algorithm {
         Algorithm::InversePlanning(planning) => {
             let guide = cues.guide.as_ref().map(|guide| GuideCourse::new(guide, prepared.observed()));
-            let mut planners = planners(prepared, planning, settings.alternative);
-            weigh(&mut planners, gamma, guide.as_ref(), &mut Effort::UNLIMITED.clone(), tick)
+            let mut planners = Planners::new(prepared, planning, settings.alternative);
+            planners.weigh(gamma, guide.as_ref(), &mut Effort::UNLIMITED.clone(), tick)
         }
         Algorithm::Chains(chains) => run_chains(prepared, cues.strengths, seed, gamma, chains, tick),
     }

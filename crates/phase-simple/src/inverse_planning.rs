@@ -80,26 +80,26 @@ impl InversePlanner {
         Ok(self.log_likelihood(agent, intent, others, effort)?.is_some())
     }
 
-    /// ln P(Y) P(motion | Y) of every hypothesis made up of these intents, with the strengths inferred from the physics; `None` if
-    /// `tick`, which is called about once per intent, cancelled it. `assumed` are the goals that neutral agents first attribute to
-    /// each other. A guide adds its guess.
+    /// Simulates these intents, as far as the effort suffices, with the strengths inferred from the physics; whether `tick`, which is
+    /// called about once per intent, let it. `assumed` are the goals that neutral agents first attribute to each other; the
+    /// likeliest ones, given what a guide guesses, take their place. [`InversePlanner::weighted_after`] has the result.
     ///
     /// # Errors
     /// Invalid parameters of the agents' search.
-    pub(crate) fn weighted_hypotheses(
+    pub(crate) fn simulate(
         &mut self,
         intents: &[(AgentId, Intent)],
         assumed: [Goal; AGENT_COUNT],
         guess: Option<&Guess>,
         effort: &mut Effort,
         tick: &mut dyn FnMut() -> ControlFlow<()>,
-    ) -> Result<Option<Vec<(Hypothesis, f64)>>, PomcpError> {
+    ) -> Result<bool, PomcpError> {
         let log_guess = |agent, intent| guess.map_or(0.0, |guess| guess.log(agent, intent));
         let mut weighted_intents: [WeightedIntents; AGENT_COUNT] = [Vec::new(), Vec::new()];
         self.asked = [Vec::new(), Vec::new()];
         for &(agent, intent) in intents {
             if tick().is_break() {
-                return Ok(None);
+                return Ok(false);
             }
             let others = assumed[agent.other()];
             let Some(log) = self.log_likelihood(agent, intent, others, effort)? else { continue };
@@ -124,7 +124,7 @@ impl InversePlanner {
                         continue;
                     }
                     if tick().is_break() {
-                        return Ok(None);
+                        return Ok(false);
                     }
                     let refined = self.log_likelihood(agent, *intent, others, effort)?;
                     if let Some(refined) = refined {
@@ -139,10 +139,7 @@ impl InversePlanner {
             assumed_goals = likeliest;
             joint = joint_logs(&weighted_intents, self.strengths, goals);
         }
-        Ok(Some(match guess {
-            Some(guess) => guess.complete(joint),
-            None => joint,
-        }))
+        Ok(true)
     }
 
     /// Number of decisions that were looked at.
@@ -155,12 +152,19 @@ impl InversePlanner {
         self.likelihoods.row_after(decisions)
     }
 
-    /// The last answer as it would have been after so many decisions, when the guide said `guess`.
-    pub(crate) fn weighted_after(&self, decisions: usize, guess: Option<&Guess>) -> Vec<(Hypothesis, f64)> {
+    /// The last answer as it would have been after so many decisions, when the guide said `guess`: ln P(Y) P(motion | Y) of every
+    /// hypothesis, those that were not simulated included, at the planner's own lapse rate or another.
+    pub(crate) fn weighted_after(
+        &self,
+        decisions: usize,
+        guess: Option<&Guess>,
+        lapse_rate: Option<f64>,
+    ) -> Vec<(Hypothesis, f64)> {
+        let lapse_rate = lapse_rate.unwrap_or(self.settings.lapse_rate);
+        let settings = InversePlanningSettings { lapse_rate, ..self.settings };
         let weighted_intents: [WeightedIntents; AGENT_COUNT] = AgentId::ALL.map(|agent| {
             let weigh = |key: &Key| {
-                let log =
-                    self.evidence.get(key).map_or(0.0, |it| it.log_likelihood_of(decisions, &self.settings));
+                let log = self.evidence.get(key).map_or(0.0, |it| it.log_likelihood_of(decisions, &settings));
                 (key.1, log + guess.map_or(0.0, |guess| guess.log(agent, key.1)))
             };
             self.asked[agent].iter().map(weigh).collect()

@@ -1,8 +1,8 @@
 //! Inverse planning with every kind of minds, and what the guide said while the event was watched.
 
 use crate::{
-    AlternativeMinds, Effort, Guidance, Guide, InversePlanningSettings, Posterior, Proposal, UniformStrength,
-    answer::{Inference, average},
+    AlternativeMinds, Effort, Guidance, Guide, InversePlanningSettings, Proposal, UniformStrength,
+    answer::{Inference, KindEvidence, average, log_sum, mixture},
     generative::PreparedEvent,
     guide::Guess,
     impression::Impression,
@@ -48,74 +48,94 @@ impl<'a> GuideCourse<'a> {
     }
 }
 
-/// One planner for each kind of minds, in the order of the settings.
-pub(crate) fn planners(
-    prepared: &PreparedEvent,
-    planning: &InversePlanningSettings,
-    alternative: Option<AlternativeMinds>,
-) -> Vec<(MindParameters, InversePlanner)> {
-    let mut planners = vec![(*prepared.minds(), InversePlanner::new(prepared.clone(), planning))];
-    if let Some(AlternativeMinds { minds, lapse_rate }) = alternative {
-        let planning = InversePlanningSettings { lapse_rate, ..*planning };
-        planners.push((minds, InversePlanner::new(prepared.with_minds(minds), &planning)));
-    }
-    planners
+/// One planner for each kind of minds.
+#[derive(Debug)]
+pub(crate) struct Planners {
+    /// In the order of the settings.
+    pub(crate) planners: Vec<InversePlanner>,
+    minds: Vec<MindParameters>,
+    /// ε at which kinds are compared, if there are two.
+    comparison: Option<f64>,
 }
 
-/// The answer of all kinds of minds together, and how it came about. Intents that the effort does not suffice for are left to the
-/// guide.
-pub(crate) fn weigh(
-    planners: &mut [(MindParameters, InversePlanner)],
-    gamma: f64,
-    guide: Option<&GuideCourse<'_>>,
-    effort: &mut Effort,
-    tick: &mut dyn FnMut() -> ControlFlow<()>,
-) -> Result<Option<Inference>, PomcpError> {
-    let Some((_, first)) = planners.first() else { return Ok(Some(average(Vec::new(), None))) };
-    let observed = Arc::clone(first.prepared.shared_observed());
-    let objects = observed.object_sizes().len();
-    let strengths = first.prepared.motion().strengths();
-    let guess = |row| guide.map(|guide| guide.guess(row, objects, strengths));
-    let last = guess(observed.steps());
-    // The goal that each agent attributes to the other if it is not social.
-    let assumed = last.as_ref().and_then(Guess::goals).unwrap_or_else(|| {
-        let cue = Proposal::new(&observed, 0..=observed.steps(), gamma, &UniformStrength);
-        AgentId::ALL.map(|agent| cue.most_likely_goal(agent))
-    });
-    let all = || {
-        let of = |agent| Intent::all(agent, objects).into_iter().map(move |intent| (agent, intent));
-        AgentId::ALL.into_iter().flat_map(of).collect()
-    };
-    let mut intents: Vec<(AgentId, Intent)> = last.as_ref().map_or_else(all, Guess::kept);
-    for (_, planner) in &mut *planners {
-        planner.follow();
+impl Planners {
+    pub(crate) fn new(
+        prepared: &PreparedEvent,
+        planning: &InversePlanningSettings,
+        alternative: Option<AlternativeMinds>,
+    ) -> Self {
+        let mut planners = vec![InversePlanner::new(prepared.clone(), planning)];
+        if let Some(AlternativeMinds { minds, lapse_rate, .. }) = alternative {
+            let planning = InversePlanningSettings { lapse_rate, ..*planning };
+            planners.push(InversePlanner::new(prepared.with_minds(minds), &planning));
+        }
+        let minds = planners.iter().map(|planner| *planner.prepared.minds()).collect();
+        Self { planners, minds, comparison: alternative.map(|it| it.comparison_lapse_rate) }
     }
-    if effort.decisions.is_some() {
-        // Those for which every kind of minds knows what the others know.
-        let mut ready = Vec::with_capacity(intents.len());
-        for (agent, intent) in intents {
-            let mut known = true;
-            for (_, planner) in &mut *planners {
-                known &= planner.catch_up(agent, intent, assumed[agent.other()], effort)?;
+
+    /// What each kind makes of the first so many decisions, when the guide said `guess`.
+    fn evidence(&self, decisions: usize, guess: Option<&Guess>) -> Vec<KindEvidence> {
+        let one = |planner: &InversePlanner| {
+            let joint = planner.weighted_after(decisions, guess, None);
+            let compared = self.comparison.map(|lapse| planner.weighted_after(decisions, guess, Some(lapse)));
+            let log_evidence = log_sum(compared.as_ref().unwrap_or(&joint));
+            KindEvidence { joint, log_evidence }
+        };
+        self.planners.iter().map(one).collect()
+    }
+
+    /// The answer of all kinds of minds together, and how it came about. Intents that the effort does not suffice for are left to
+    /// the guide.
+    pub(crate) fn weigh(
+        &mut self,
+        gamma: f64,
+        guide: Option<&GuideCourse<'_>>,
+        effort: &mut Effort,
+        tick: &mut dyn FnMut() -> ControlFlow<()>,
+    ) -> Result<Option<Inference>, PomcpError> {
+        let prepared = &self.planners[0].prepared;
+        let observed = Arc::clone(prepared.shared_observed());
+        let objects = observed.object_sizes().len();
+        let strengths = prepared.motion().strengths();
+        let guess = |row| guide.map(|guide| guide.guess(row, objects, strengths));
+        let last = guess(observed.steps());
+        // The goal that each agent attributes to the other if it is not social.
+        let assumed = last.as_ref().and_then(Guess::goals).unwrap_or_else(|| {
+            let cue = Proposal::new(&observed, 0..=observed.steps(), gamma, &UniformStrength);
+            AgentId::ALL.map(|agent| cue.most_likely_goal(agent))
+        });
+        let all = || {
+            let of = |agent| Intent::all(agent, objects).into_iter().map(move |intent| (agent, intent));
+            AgentId::ALL.into_iter().flat_map(of).collect()
+        };
+        let mut intents: Vec<(AgentId, Intent)> = last.as_ref().map_or_else(all, Guess::kept);
+        self.planners.iter_mut().for_each(InversePlanner::follow);
+        if effort.decisions.is_some() {
+            // Those for which every kind of minds knows what the others know.
+            let mut ready = Vec::with_capacity(intents.len());
+            for (agent, intent) in intents {
+                let mut known = true;
+                for planner in &mut self.planners {
+                    known &= planner.catch_up(agent, intent, assumed[agent.other()], effort)?;
+                }
+                if known {
+                    ready.push((agent, intent));
+                }
             }
-            if known {
-                ready.push((agent, intent));
+            intents = ready;
+        }
+        for planner in &mut self.planners {
+            if !planner.simulate(&intents, assumed, last.as_ref(), effort, tick)? {
+                return Ok(None);
             }
         }
-        intents = ready;
+        let first = &self.planners[0];
+        let course = (1..=first.decisions()).map(|decisions| {
+            let guess = guess(first.row_after(decisions));
+            mixture(&self.evidence(decisions, guess.as_ref())).0
+        });
+        let impression = Impression::of(&observed, course);
+        let evidence = self.evidence(first.decisions(), last.as_ref());
+        Ok(Some(average(&self.minds, evidence, impression)))
     }
-    let mut kinds = Vec::with_capacity(planners.len());
-    for (minds, planner) in &mut *planners {
-        let own = planner.weighted_hypotheses(&intents, assumed, last.as_ref(), effort, tick)?;
-        let Some(own) = own else { return Ok(None) };
-        kinds.push((*minds, own));
-    }
-    let (_, first) = &planners[0];
-    let course = (1..=first.decisions()).map(|decisions| {
-        let guess = guess(first.row_after(decisions));
-        let of_kinds = planners.iter().map(|(_, planner)| planner.weighted_after(decisions, guess.as_ref()));
-        Posterior::new(of_kinds.flatten())
-    });
-    let impression = Impression::of(&observed, course);
-    Ok(Some(average(kinds, impression)))
 }

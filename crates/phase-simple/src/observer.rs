@@ -5,12 +5,10 @@ use crate::{
     answer::Inference,
     generative::PreparedEvent,
     inverse_dynamics::MotionTracker,
-    inverse_planning::InversePlanner,
-    kinds::{GuideCourse, planners, weigh},
+    kinds::{GuideCourse, Planners},
 };
 use core::ops::ControlFlow;
 use phase_event::{ObservedError, ObservedEvent};
-use phase_minds::MindParameters;
 use phase_model::{Body, MAX_ENTITIES};
 use phase_pomcp::PomcpError;
 use std::sync::Arc;
@@ -39,7 +37,7 @@ pub enum ObserverError {
 pub struct Observer<'a> {
     observed: Arc<ObservedEvent>,
     tracker: MotionTracker,
-    planners: Vec<(MindParameters, InversePlanner)>,
+    planners: Planners,
     guide: Option<GuideCourse<'a>>,
     gamma: f64,
     effort: Effort,
@@ -67,7 +65,7 @@ impl<'a> Observer<'a> {
         let observed = Arc::new(observed.clone());
         let motion = Arc::new(tracker.motion().clone());
         let prepared = PreparedEvent::with_motion(Arc::clone(&observed), motion, settings.minds, seed);
-        let planners = planners(&prepared, &planning, settings.alternative);
+        let planners = Planners::new(&prepared, &planning, settings.alternative);
         let guide = guide.map(|guide| GuideCourse::new(guide, &observed));
         let effort = Effort { decisions: Some(EFFORT) };
         Ok(Self { observed, tracker, planners, guide, gamma: settings.gamma, effort })
@@ -84,7 +82,7 @@ impl<'a> Observer<'a> {
         // Without a guide there is nothing to say of what is not simulated.
         let mut effort = if self.guide.is_some() { self.effort } else { Effort::UNLIMITED };
         let tick = &mut || ControlFlow::Continue(());
-        let inference = weigh(&mut self.planners, self.gamma, self.guide.as_ref(), &mut effort, tick)?;
+        let inference = self.planners.weigh(self.gamma, self.guide.as_ref(), &mut effort, tick)?;
         Ok(inference.unwrap_or_else(|| unreachable!("not cancelled")))
     }
 
@@ -101,7 +99,7 @@ impl<'a> Observer<'a> {
         Arc::make_mut(&mut self.observed).push(row)?;
         let unchanged = self.tracker.push(&self.observed)?;
         let motion = Arc::new(self.tracker.motion().clone());
-        for (_, planner) in &mut self.planners {
+        for planner in &mut self.planners.planners {
             planner.prepared.follow(Arc::clone(&self.observed), Arc::clone(&motion), unchanged);
             planner.forget(unchanged);
         }
@@ -119,7 +117,7 @@ impl<'a> Observer<'a> {
         &mut self,
         tick: &mut dyn FnMut() -> ControlFlow<()>,
     ) -> Result<Option<Inference>, PomcpError> {
-        weigh(&mut self.planners, self.gamma, self.guide.as_ref(), &mut Effort::UNLIMITED.clone(), tick)
+        self.planners.weigh(self.gamma, self.guide.as_ref(), &mut Effort::UNLIMITED.clone(), tick)
     }
 
     /// What has been observed so far.
@@ -131,6 +129,6 @@ impl<'a> Observer<'a> {
     /// The event as prepared for the first kind of minds, such as for [`forecast()`](crate::forecast()).
     #[must_use]
     pub fn prepared(&self) -> Option<&PreparedEvent> {
-        self.planners.first().map(|(_, planner)| &planner.prepared)
+        self.planners.planners.first().map(|planner| &planner.prepared)
     }
 }

@@ -59,11 +59,17 @@ pub struct AlternativeMinds {
     pub minds: phase_agent::MindParameters,
     /// ε of their actions, in place of that of [`InversePlanningSettings`], 0 to 1.
     pub lapse_rate: f64,
+    /// ε at which the two kinds are compared, 0 to 1: of two kinds that explain an event alike, the one with the smaller ε would
+    /// seem likelier.
+    pub comparison_lapse_rate: f64,
 }
 
 /// ε of published minds where both kinds are considered, fitted to recordings and generated events together. That of our own
 /// minds is the default ε, which stands for what other minds do and ours do not.
 const LAPSE_RATE_OF_PUBLISHED: f64 = 0.1;
+/// ε at which the kinds are compared: that of events by such minds, for which the likelihood of the true intents is greatest near
+/// no lapse at all; a search that did not try an action must not rule an intent out.
+const COMPARISON_LAPSE_RATE: f64 = 0.05;
 
 /// Parameters of inverse planning. ε is fitted by `cargo xtask fit-inference` and κ measured by it (docs/simple.md), σ was
 /// selected on the validation events of PHASE-500.
@@ -141,7 +147,11 @@ impl InferenceSettings {
     #[must_use]
     pub fn averaged() -> Self {
         let minds = Self::minds_of(phase_agent::MindKind::Published);
-        let alternative = Some(AlternativeMinds { minds, lapse_rate: LAPSE_RATE_OF_PUBLISHED });
+        let alternative = Some(AlternativeMinds {
+            minds,
+            lapse_rate: LAPSE_RATE_OF_PUBLISHED,
+            comparison_lapse_rate: COMPARISON_LAPSE_RATE,
+        });
         Self { alternative, ..Self::default() }
     }
 

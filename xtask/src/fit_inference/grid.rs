@@ -70,6 +70,9 @@ fn answers(subject: &Subject, weights: &[Weights]) -> Vec<Answer> {
             }
         }
     }
+    let rate = weights.first().and_then(|weights| weights.comparison_lapse_rate);
+    let compared: Option<Vec<LogChoices>> =
+        rate.map(|rate| (0..subject.kinds()).map(|kind| subject.log_choices(kind, rate)).collect());
     let answer = |weights: &Weights| {
         let of = |(known, rate): (&'_ Vec<(f64, LogChoices)>, &f64)| {
             known.iter().position(|(it, _)| it == rate).unwrap_or_default()
@@ -77,7 +80,7 @@ fn answers(subject: &Subject, weights: &[Weights]) -> Vec<Answer> {
         let places: Vec<usize> = known.iter().zip(&weights.lapse_rates).map(of).collect();
         let choices: Vec<&LogChoices> =
             known.iter().zip(places).map(|(known, place)| &known[place].1).collect();
-        subject.answer(&choices, weights)
+        subject.answer(&choices, compared.as_deref(), weights)
     };
     weights.iter().map(answer).collect()
 }

@@ -138,27 +138,48 @@ impl Subject {
         ratios
     }
 
-    /// SIMPLE's answer beside the truth. `choices` are those of each kind of minds at its lapse rate.
-    pub(super) fn answer(&self, choices: &[&LogChoices], weights: &Weights) -> Answer {
-        let decision = weights.inverse_temperature * weights.interval as f64;
-        let joint = choices.iter().map(|choices| {
-            let weighted = AgentId::ALL.map(|agent| {
-                let weigh = |((intent, guess), log): ((&Intent, &f64), &f64)| {
-                    (*intent, decision * log + weights.exponent * guess)
-                };
-                let guesses = self.intents[agent].iter().zip(&self.evidence.network[agent]);
-                guesses.zip(&choices[agent]).map(weigh).collect()
-            });
-            joint_logs(&weighted, self.evidence.strengths, self.goals)
+    /// SIMPLE's answer beside the truth. `choices` are those of each kind of minds at its lapse rate, `compared` at the one at which
+    /// kinds are compared.
+    pub(super) fn answer(
+        &self,
+        choices: &[&LogChoices],
+        compared: Option<&[LogChoices]>,
+        weights: &Weights,
+    ) -> Answer {
+        let joint: Vec<Vec<(Hypothesis, f64)>> =
+            choices.iter().map(|choices| self.joint(choices, weights)).collect();
+        let evidence: Vec<f64> = match compared {
+            Some(compared) => compared.iter().map(|choices| log_sum(&self.joint(choices, weights))).collect(),
+            None => joint.iter().map(|joint| log_sum(joint)).collect(),
+        };
+        let greatest = evidence.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let shares: Vec<f64> = evidence.iter().map(|log| libm::exp(log - greatest)).collect();
+        let last_kind = shares.last().map_or(0.0, |share| share / shares.iter().sum::<f64>());
+        let weighted = joint.iter().zip(&evidence).flat_map(|(joint, evidence)| {
+            let shift = evidence - log_sum(joint);
+            joint.iter().map(move |&(hypothesis, log)| (hypothesis, log + shift))
         });
-        let joint: Vec<Vec<(Hypothesis, f64)>> = joint.collect();
-        let greatest = joint.iter().flatten().map(|it| it.1).fold(f64::NEG_INFINITY, f64::max);
-        let evidence = |of: &[(Hypothesis, f64)]| of.iter().map(|it| libm::exp(it.1 - greatest)).sum::<f64>();
-        let total: f64 = joint.iter().map(|of| evidence(of)).sum();
-        let last_kind = joint.last().map_or(0.0, |of| evidence(of) / total);
-        let posterior = Posterior::new(joint.into_iter().flatten());
-        Answer { recognition: Recognition::of(&posterior, &self.truth), last_kind }
+        Answer { recognition: Recognition::of(&Posterior::new(weighted), &self.truth), last_kind }
     }
+
+    /// ln P(Y) P(motion | Y) of every hypothesis for one kind of minds.
+    fn joint(&self, choices: &LogChoices, weights: &Weights) -> Vec<(Hypothesis, f64)> {
+        let decision = weights.inverse_temperature * weights.interval as f64;
+        let weighted = AgentId::ALL.map(|agent| {
+            let weigh = |((intent, guess), log): ((&Intent, &f64), &f64)| {
+                (*intent, decision * log + weights.exponent * guess)
+            };
+            let guesses = self.intents[agent].iter().zip(&self.evidence.network[agent]);
+            guesses.zip(&choices[agent]).map(weigh).collect()
+        });
+        joint_logs(&weighted, self.evidence.strengths, self.goals)
+    }
+}
+
+/// ln Σ e^x.
+fn log_sum(joint: &[(Hypothesis, f64)]) -> f64 {
+    let greatest = joint.iter().map(|it| it.1).fold(f64::NEG_INFINITY, f64::max);
+    greatest + libm::log(joint.iter().map(|it| libm::exp(it.1 - greatest)).sum())
 }
 
 fn cue(observed: &ObservedEvent) -> Proposal {

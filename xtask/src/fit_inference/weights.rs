@@ -23,6 +23,9 @@ pub(super) struct Weights {
     pub(super) lapse_rates: Vec<f64>,
     /// Steps from one decision to the next; not fitted.
     pub(super) interval: usize,
+    /// ε at which kinds are compared, if there are two; not fitted.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) comparison_lapse_rate: Option<f64>,
 }
 
 impl Weights {
@@ -31,7 +34,9 @@ impl Weights {
         let InversePlanningSettings { inverse_temperature, lapse_rate, interval, .. } = *planning;
         let alternative = settings.alternative.map(|it| it.lapse_rate);
         let lapse_rates = core::iter::once(lapse_rate).chain(alternative).collect();
-        Self { inverse_temperature, exponent: Guidance::default().exponent, lapse_rates, interval }
+        let comparison_lapse_rate = settings.alternative.map(|it| it.comparison_lapse_rate);
+        let exponent = Guidance::default().exponent;
+        Self { inverse_temperature, exponent, lapse_rates, interval, comparison_lapse_rate }
     }
 
     /// Every combination on the grid, and the present one first.
@@ -50,6 +55,7 @@ impl Weights {
                     exponent,
                     lapse_rates: lapse_rates.clone(),
                     interval: present.interval,
+                    comparison_lapse_rate: present.comparison_lapse_rate,
                 };
                 all.extend(EXPONENTS.map(with));
             }

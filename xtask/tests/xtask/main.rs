@@ -6,5 +6,6 @@ mod check_physics;
 mod commands;
 mod fit_inference;
 mod fit_minds;
+mod fit_reports;
 mod support;
 mod tidy;

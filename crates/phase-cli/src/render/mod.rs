@@ -91,7 +91,9 @@ struct ObserverCourse {
 
 impl ObserverCourse {
     fn write(video: &Path, id: &str, watched: Vec<Watched>) -> Result<Self, CliError> {
-        let file = video.with_extension("observer.json");
+        let name = video.file_stem().unwrap_or_default().to_string_lossy();
+        let name = name.strip_suffix(".observer").unwrap_or(&name);
+        let file = video.with_file_name(format!("{name}.observer.json"));
         let course = json!({ "format": OBSERVER_FORMAT, "id": id, "course": watched });
         let text = json_text(&course, "the course")?;
         atomic::write(&file, text.as_bytes()).map_err(CliError::Output)?;

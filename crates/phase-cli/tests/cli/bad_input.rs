@@ -34,6 +34,8 @@ fn numbers_and_names_out_of_range() {
         (&["render", "events.json", "--belief", "7"], &["--belief", "'7'", "both"]),
         (&["render", "events.json", "--palette", "grey"], &["--palette", "'grey'", "accessible"]),
         (&["render", "events.json", "--belief", "0"], &["events.json", "some-event-1", "--belief"]),
+        (&["render", "events.json", "--belief", "0", "--observer"], &["--belief", "--observer"]),
+        (&["render", "events.json", "--seed", "3"], &["--observer"]),
         (&["render", "events.json", "--contact-sheet", "0"], &["--contact-sheet"]),
         (&["render", "events.json", "--id", "other"], &["events.json", "\"other\""]),
         (&["render", "events.json", "--out", "one.mp4"], &["one.mp4", "2 events"]),

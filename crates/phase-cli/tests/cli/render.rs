@@ -65,3 +65,35 @@ fn datasets_are_rendered_as_they_were_made() {
     assert_eq!(names(&path.join("alone")), ["demo-0000.belief-both.mp4", "demo-0001.belief-both.mp4"]);
     assert!(alone == together, "the number of threads changes nothing");
 }
+
+#[test]
+fn an_observer_is_drawn_below_and_written_beside() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    write_events(&path.join("events.json"), &[recording("a")]);
+    let told = succeed(path, &["render", "events.json", "--observer", "--out", "watched"]);
+    assert!(told.contains("ms a step"), "{told}");
+    assert_eq!(names(&path.join("watched")), ["a.observer.json", "a.observer.mp4"]);
+    let course = |file: &str| -> serde_json::Value {
+        let bytes = fs::read(path.join(file)).expect("a course");
+        let mut course: serde_json::Value = serde_json::from_slice(&bytes).expect("JSON");
+        let steps = course["course"].as_array_mut().expect("steps");
+        for (step, said) in steps.iter_mut().enumerate() {
+            assert!((said["seconds"].as_f64().expect("seconds") - 0.25 * step as f64).abs() < 1e-9);
+            let relation = said["relation"].as_object().expect("probabilities").values();
+            let sum: f64 = relation.map(|p| p.as_f64().expect("a number")).sum();
+            assert!((sum - 1.0).abs() < 1e-9, "{said}");
+            // The time that a step took is measured.
+            said.as_object_mut().expect("an object").remove("took");
+        }
+        course
+    };
+    let first = course("watched/a.observer.json");
+    assert_eq!(first["format"], "phase-observer/1");
+    succeed(path, &["render", "events.json", "--observer", "--out", "again.mp4"]);
+    assert_eq!(course("again.observer.json"), first);
+    let sheet = ["--observer", "--contact-sheet", "1", "--out", "sheet.png"];
+    succeed(path, &[&["render", "events.json"], &sheet[..]].concat());
+    let (wide, high) = png_size(&fs::read(path.join("sheet.png")).expect("a picture"));
+    assert!(high > wide, "text and the course are below");
+}
