@@ -31,9 +31,9 @@
 //! let observed = ObservedEvent::new(Layout::new(0, None)?, [Size::Small; 2], Vec::new(), vec![row])?;
 //!
 //! let answer = ConstantVelocity.forecast(&observed, 4, 1, &mut || ControlFlow::Continue(()))?;
-//! let (forecast, _details) = answer.ok_or("interrupted")?;
+//! let (prediction, _details) = answer.ok_or("interrupted")?;
 //! let truth = vec![vec![row[0].position; 4], vec![row[1].position; 4]];
-//! let [agents, _entities] = Errors::of(&forecast, &truth)?;
+//! let [agents, _entities] = Errors::of(&prediction.forecast, &truth)?;
 //! // The errors of agent 0 are 0.5, 1, 1.5 and 2 u, those of agent 1 are 0.
 //! assert!((agents.ade - 1.25 / 2.0).abs() < 1e-5);
 //! assert!((agents.fde - 2.0 / 2.0).abs() < 1e-5);
