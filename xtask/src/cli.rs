@@ -6,7 +6,8 @@ use crate::{
     check_physics::{self, options::CheckPhysics},
     draw_behaviour::{self, DrawBehaviour},
     error::XtaskError,
-    fit_forecast::{self, options::FitForecast},
+    fit_events::FitEvents,
+    fit_forecast,
     fit_inference::{self, options::FitInference},
     fit_minds::{self, options::FitMinds},
     fit_reports::{self, options::FitReports},
@@ -50,7 +51,7 @@ pub enum Command {
     /// Fit how SIMPLE weighs its evidence to events whose labels are known
     FitInference(FitInference),
     /// Fit how SIMPLE combines simulated futures to events whose continuation is known
-    FitForecast(FitForecast),
+    FitForecast(FitEvents),
     /// Fit how people report what they saw to raters of recordings
     FitReports(FitReports),
     /// Run the golden tests of all crates, or rewrite the values that they compare with

@@ -22,6 +22,7 @@ pub mod cli;
 pub mod draw_behaviour;
 pub mod error;
 mod evaluations_file;
+pub mod fit_events;
 pub mod fit_forecast;
 pub mod fit_inference;
 pub mod fit_minds;

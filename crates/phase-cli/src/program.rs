@@ -28,37 +28,62 @@ pub trait Failure: Error {
     fn exit_code(&self) -> u8;
 }
 
-/// Runs a command line, program name first, and returns its exit code.
-pub fn main_with<I: Interface>(program: Program, arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+/// A command line that failed.
+#[derive(Debug)]
+pub struct Failed {
+    /// What the problem is: one sentence, or the help for a line without a command.
+    pub sentence: String,
+    /// The causes of it, nearest first.
+    pub causes: Vec<String>,
+    /// As of [`Failure::exit_code`].
+    pub exit_code: u8,
+    /// Whether the command line could not be understood.
+    pub usage: bool,
+}
+
+/// Runs a command line, program name first.
+///
+/// # Errors
+/// [`Failed`].
+pub fn run_with<I: Interface>(
+    program: Program,
+    arguments: impl IntoIterator<Item = OsString>,
+) -> Result<(), Failed> {
     let command = I::command().name(program.name).bin_name(program.name);
     let parsed = command.try_get_matches_from(arguments);
     match parsed.and_then(|matches| I::from_arg_matches(&matches)) {
         Ok(interface) => {
             let context = Context { program, verbosity: interface.verbosity() };
-            match interface.run(&context) {
-                Ok(()) => ExitCode::SUCCESS,
-                Err(error) => {
-                    print_message(format!("error: {error}"));
-                    causes(&error).for_each(|cause| context.detail(format!("  caused by: {cause}")));
-                    ExitCode::from(error.exit_code())
-                }
-            }
+            interface.run(&context).map_err(|error| {
+                let causes = if context.verbosity.verbose { causes(&error) } else { Vec::new() };
+                let exit_code = error.exit_code();
+                Failed { sentence: error.to_string(), causes, exit_code, usage: false }
+            })
         }
         Err(error) if !error.use_stderr() => {
             // Help or version was requested; a closed pipe is not reported.
             let _ = error.print();
-            ExitCode::SUCCESS
+            Ok(())
         }
         Err(error) => {
-            print_message(one_sentence(&error));
-            ExitCode::from(2)
+            let sentence = one_sentence(&error);
+            Err(Failed { sentence, causes: Vec::new(), exit_code: 2, usage: true })
         }
     }
 }
 
+/// Runs a command line, program name first, and returns its exit code.
+pub fn main_with<I: Interface>(program: Program, arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let Err(failed) = run_with::<I>(program, arguments) else { return ExitCode::SUCCESS };
+    let prefix = if failed.usage { "" } else { "error: " };
+    print_message(format!("{prefix}{}", failed.sentence));
+    failed.causes.iter().for_each(|cause| print_message(format!("  caused by: {cause}")));
+    ExitCode::from(failed.exit_code)
+}
+
 /// The chain of causes of an error, nearest first.
-fn causes(error: &dyn Error) -> impl Iterator<Item = &(dyn Error + 'static)> {
-    std::iter::successors(error.source(), |cause| (*cause).source())
+fn causes(error: &dyn Error) -> Vec<String> {
+    std::iter::successors(error.source(), |cause| (*cause).source()).map(ToString::to_string).collect()
 }
 
 /// The problem of a command line, on one line; the whole help for a line without a command.

@@ -57,18 +57,21 @@ impl Observation {
         observed: BodySet,
     ) -> Self {
         let own = Entity::Agent(agent);
-        let mut known = State::new([Body::default(); MAX_ENTITIES]);
-        for entity in observed.iter() {
-            *known.body_mut(entity) = *state.body(entity);
-            if let Entity::Agent(holder) = entity {
-                known.grips[usize::from(holder)] = state.grips[usize::from(holder)];
-            }
-            for other in observed.iter().filter(|&other| state.contacts.touching(entity, other)) {
-                known.contacts.insert(entity, other);
-            }
-        }
         let touched = physics.entities().filter(|&entity| state.touching(own, entity)).collect();
-        Self { agent, visible, observed, touched, known }
+        Self { agent, visible, observed, touched, known: observed_part(state, observed) }
+    }
+
+    /// An observation from its parts: `known` holds the bodies, grips and contacts of the entities observed; whatever else it holds
+    /// is ignored.
+    #[must_use]
+    pub fn from_parts(
+        agent: AgentId,
+        visible: CellSet,
+        observed: BodySet,
+        touched: BodySet,
+        known: &State,
+    ) -> Self {
+        Self { touched, known: observed_part(known, observed), agent, visible, observed }
     }
 
     /// The true body of an entity, or `None` if it is not observed.
@@ -101,6 +104,21 @@ impl Observation {
     pub fn sees_cell(&self, cell: Cell) -> bool {
         self.visible.contains(cell)
     }
+}
+
+/// The part of a state that is about these entities.
+fn observed_part(state: &State, observed: BodySet) -> State {
+    let mut known = State::new([Body::default(); MAX_ENTITIES]);
+    for entity in observed.iter() {
+        *known.body_mut(entity) = *state.body(entity);
+        if let Entity::Agent(holder) = entity {
+            known.grips[usize::from(holder)] = state.grips[usize::from(holder)];
+        }
+        for other in observed.iter().filter(|&other| state.contacts.touching(entity, other)) {
+            known.contacts.insert(entity, other);
+        }
+    }
+    known
 }
 
 /// The transitive closure of a set of entities under touch.

@@ -6,35 +6,48 @@ use phase_model::{AGENT_COUNT, Action, PhysicsConfig, State, arena::SUBSTEPS};
 use phase_world::World;
 
 /// The environment: the true dynamics, as opposed to the agents' models of it.
-pub(crate) enum Environment {
+pub struct Environment(Inner);
+
+impl core::fmt::Debug for Environment {
+    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let engine = match self.0 {
+            Inner::World(_) => Engine::World,
+            Inner::Forward(_) => Engine::Forward,
+        };
+        formatter.debug_tuple("Environment").field(&engine).finish()
+    }
+}
+
+enum Inner {
     World(Box<World>),
     Forward(Box<StatefulForward>),
 }
 
 impl Environment {
     /// A newly set-up world in the given state, without any memory of earlier steps.
-    pub(crate) fn new(engine: Engine, physics: &PhysicsConfig, state: &State) -> Self {
-        match engine {
-            Engine::World => Self::World(Box::new(World::new(physics, state))),
+    #[must_use]
+    pub fn new(engine: Engine, physics: &PhysicsConfig, state: &State) -> Self {
+        Self(match engine {
+            Engine::World => Inner::World(Box::new(World::new(physics, state))),
             Engine::Forward => {
                 let forward = Forward::new(physics);
                 let cache = forward.fresh_cache(state);
-                Self::Forward(Box::new(StatefulForward { forward, state: *state, cache }))
+                Inner::Forward(Box::new(StatefulForward { forward, state: *state, cache }))
             }
-        }
+        })
     }
 
     /// One step under both agents' actions; the state after each of its substeps.
-    pub(crate) fn step(&mut self, actions: [Action; AGENT_COUNT]) -> [State; SUBSTEPS] {
-        match self {
-            Self::World(world) => world.step(actions),
-            Self::Forward(replay) => replay.forward.step_warm(&mut replay.state, &mut replay.cache, actions),
+    pub fn step(&mut self, actions: [Action; AGENT_COUNT]) -> [State; SUBSTEPS] {
+        match &mut self.0 {
+            Inner::World(world) => world.step(actions),
+            Inner::Forward(replay) => replay.forward.step_warm(&mut replay.state, &mut replay.cache, actions),
         }
     }
 }
 
 /// The kernel with its cache, which is its closest approximation of the published simulator.
-pub(crate) struct StatefulForward {
+struct StatefulForward {
     forward: Forward,
     state: State,
     cache: SolverCache,

@@ -40,10 +40,11 @@
 #![deny(missing_docs)]
 
 pub mod beliefs;
-mod environment;
+pub mod environment;
 pub mod settings;
 pub mod simulation;
 
 pub use beliefs::{BeliefSnapshot, beliefs};
+pub use environment::Environment;
 pub use settings::{Engine, SimulationSettings};
 pub use simulation::{SimulationError, simulate, simulate_with};

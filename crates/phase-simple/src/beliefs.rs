@@ -13,7 +13,7 @@ use phase_perception::Observation;
 /// hypotheses. Forces play no part in it, since an agent observes the outcome of its own actions.
 #[derive(Clone, Debug)]
 pub struct EstimatedBeliefs {
-    /// After each step, with what is left of the random stream.
+    /// After each step, with the state of the random stream.
     steps: Vec<(Box<dyn BeliefState>, Pcg64Mcg)>,
 }
 
@@ -60,9 +60,12 @@ impl EstimatedBeliefs {
         (particles, observation.observed)
     }
 
-    /// The belief after the last observed step, to continue from.
+    /// The belief after the given number of steps, to continue from.
+    ///
+    /// # Panics
+    /// If the event has fewer steps.
     #[must_use]
-    pub fn last(&self) -> &dyn BeliefState {
-        &*self.steps[self.steps.len() - 1].0
+    pub fn after(&self, step: usize) -> &dyn BeliefState {
+        &*self.steps[step].0
     }
 }

@@ -2,8 +2,9 @@
 
 use crate::{Hypothesis, Inference, generative::PreparedEvent};
 use core::ops::ControlFlow;
+use phase_event::ObservedEvent;
 use phase_model::{
-    Forecast, Vec2,
+    AGENT_COUNT, Forecast, Vec2,
     random::{self, Purpose},
 };
 use phase_pomcp::PomcpError;
@@ -12,8 +13,8 @@ use rand::RngExt;
 /// Iterations of Weiszfeld's algorithm.
 const ROUNDS: usize = 30;
 
-/// How futures are combined; the inverse temperature was fitted by `cargo xtask fit-forecast`, the numbers were selected on the
-/// validation events of PHASE-500.
+/// How futures are combined. The inverse temperature, the error rate and the least weight were fitted by `cargo xtask-networks
+/// fit-forecast`.
 #[derive(Clone, Copy, PartialEq, Debug, serde::Serialize, serde::Deserialize)]
 pub struct ForecastSettings {
     /// Number of most likely hypotheses to simulate; at least 1.
@@ -23,11 +24,36 @@ pub struct ForecastSettings {
     /// Inverse temperature of the posterior weights: 1 takes them as they are.
     #[serde(rename = "temper")]
     pub inverse_temperature: f64,
+    /// Hindcasts of each hypothesis, from evenly spaced earlier steps to the last observed one. With 0 there are none.
+    pub hindcasts: usize,
+    /// How much a hypothesis loses by the mean displacement error of its hindcasts (nat/u).
+    pub hindcast_error_rate: f64,
+    /// Hypotheses with less than this share of the weight of the best one are not simulated further, 0 to 1.
+    pub least_weight: f64,
 }
 
 impl Default for ForecastSettings {
     fn default() -> Self {
-        Self { hypotheses: 5, repeats: 6, inverse_temperature: 1.0 }
+        Self {
+            hypotheses: 12,
+            repeats: 6,
+            inverse_temperature: 1.0,
+            hindcasts: 3,
+            hindcast_error_rate: 1.5,
+            least_weight: 0.05,
+        }
+    }
+}
+
+impl ForecastSettings {
+    /// The steps after which hindcasts begin if so many have been watched: evenly spaced, each before the last.
+    #[must_use]
+    pub fn starts(&self, watched: usize) -> Vec<usize> {
+        let start = |k: usize| watched * k / (self.hindcasts + 1);
+        let mut starts: Vec<usize> =
+            (1..=self.hindcasts).map(start).filter(|&start| start < watched).collect();
+        starts.dedup();
+        starts
     }
 }
 
@@ -47,6 +73,19 @@ impl Futures {
         let first = paths.first().map(|(path, _)| path);
         let (entities, steps) = first.map_or((0, 0), |path| (path.len(), path.first().map_or(0, Vec::len)));
         Self { paths, entities, steps }
+    }
+
+    /// The futures of hypotheses, those with enough weight; a hypothesis shares its weight among its futures.
+    #[must_use]
+    pub fn of(continuations: &[Continuation], settings: &ForecastSettings) -> Self {
+        let greatest = greatest_log_weight(continuations, settings);
+        let weight = |it: &Continuation| libm::exp(it.log_weight(settings) - greatest);
+        let kept = continuations.iter().map(|it| (it, weight(it))).filter(|it| it.1 >= settings.least_weight);
+        let weighted = kept.flat_map(|(continuation, weight)| {
+            let each = weight / continuation.futures.len().max(1) as f64;
+            continuation.futures.iter().map(move |future| (future.clone(), each))
+        });
+        Self::new(weighted.collect())
     }
 
     /// For every entity and step, the weighted geometric median of its positions, which minimises the expected displacement.
@@ -81,8 +120,103 @@ impl Futures {
     }
 }
 
-/// Simulates the most likely hypotheses, each by the minds that it is about, for the given number of further steps. `None` if
-/// `tick` cancelled it.
+/// What a hypothesis predicts.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Continuation {
+    /// Its posterior probability.
+    pub weight: f64,
+    /// Displacement errors of its hindcasts (u), in the order of [`ForecastSettings::starts`].
+    pub hindcast_errors: Vec<f64>,
+    /// Simulated futures, each with its own random stream; none if it has too little weight.
+    pub futures: Vec<Forecast>,
+}
+
+impl Continuation {
+    /// The weight of its futures together, on a logarithmic scale and not normalised: the posterior's, and what the hindcasts say.
+    #[must_use]
+    pub fn log_weight(&self, settings: &ForecastSettings) -> f64 {
+        let errors = &self.hindcast_errors;
+        let mean = errors.iter().sum::<f64>() / errors.len().max(1) as f64;
+        settings.inverse_temperature * libm::log(self.weight) - settings.hindcast_error_rate * mean
+    }
+}
+
+/// Simulates the most likely hypotheses, each by the minds that it is about: from earlier steps to the last observed one, and those
+/// with enough weight for the given number of further steps. `None` if `tick` cancelled it.
+///
+/// A hypothesis explains each decision by itself; a hindcast says whether it also explains where many decisions in a row lead.
+///
+/// # Errors
+///
+/// Invalid parameters of the agents' search.
+pub fn continuations(
+    prepared: &PreparedEvent,
+    inference: &Inference,
+    steps: usize,
+    seed: u64,
+    settings: &ForecastSettings,
+    tick: &mut dyn FnMut() -> ControlFlow<()>,
+) -> Result<Option<Vec<Continuation>>, PomcpError> {
+    let others: Vec<PreparedEvent> =
+        inference.minds.iter().skip(1).map(|kind| prepared.with_minds(kind.minds)).collect();
+    let by_kind = core::iter::once(prepared).chain(&others).zip(&inference.minds);
+    let mut likely: Vec<(&PreparedEvent, &Hypothesis, f64)> = by_kind
+        .flat_map(|(prepared, kind)| {
+            let hypotheses = kind.posterior.hypotheses.iter();
+            hypotheses.map(move |(hypothesis, weight)| (prepared, hypothesis, kind.probability * weight))
+        })
+        .collect();
+    likely.sort_by(|a, b| b.2.total_cmp(&a.2));
+    likely.truncate(settings.hypotheses.max(1));
+    let observed = prepared.observed();
+    let (last, starts) = (observed.steps(), settings.starts(observed.steps()));
+    let seeds = |repeat: usize| random::derive_seed(seed, Purpose::Inference, repeat as u64);
+    let mut found = Vec::with_capacity(likely.len());
+    for &(prepared, hypothesis, weight) in &likely {
+        if tick().is_break() {
+            return Ok(None);
+        }
+        let error = |&start: &usize| {
+            let hindcast = prepared.predict(hypothesis, start, last - start, seeds(0))?;
+            Ok(hindcast_error(&hindcast, observed, start))
+        };
+        let hindcast_errors = starts.iter().map(error).collect::<Result<_, PomcpError>>()?;
+        found.push(Continuation { weight, hindcast_errors, futures: Vec::new() });
+    }
+    let least = greatest_log_weight(&found, settings) + libm::log(settings.least_weight);
+    for (&(prepared, hypothesis, _), continuation) in likely.iter().zip(&mut found) {
+        if continuation.log_weight(settings) < least {
+            continue;
+        }
+        for repeat in 0..settings.repeats.max(1) {
+            if tick().is_break() {
+                return Ok(None);
+            }
+            continuation.futures.push(prepared.predict(hypothesis, last, steps, seeds(repeat))?);
+        }
+    }
+    Ok(Some(found))
+}
+
+/// The weight of the best hypothesis, on a logarithmic scale.
+fn greatest_log_weight(found: &[Continuation], settings: &ForecastSettings) -> f64 {
+    let weights = found.iter().map(|continuation| continuation.log_weight(settings));
+    weights.fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// Mean distance of the agents from where they were observed, in a forecast from an earlier step (u).
+#[must_use]
+pub fn hindcast_error(forecast: &Forecast, observed: &ObservedEvent, start: usize) -> f64 {
+    let rows = || observed.rows().iter().skip(1 + start);
+    let agents = forecast.iter().take(AGENT_COUNT).enumerate();
+    let distances = agents.flat_map(|(agent, path)| {
+        path.iter().zip(rows()).map(move |(place, row)| f64::from(place.distance(row[agent].position)))
+    });
+    let (sum, count) = distances.fold((0.0, 0_usize), |(sum, count), distance| (sum + distance, count + 1));
+    sum / count.max(1) as f64
+}
+
+/// The futures of the most likely hypotheses. `None` if `tick` cancelled it.
 ///
 /// # Errors
 ///
@@ -95,46 +229,8 @@ pub fn futures(
     settings: &ForecastSettings,
     tick: &mut dyn FnMut() -> ControlFlow<()>,
 ) -> Result<Option<Futures>, PomcpError> {
-    let others: Vec<PreparedEvent> =
-        inference.minds.iter().skip(1).map(|kind| prepared.with_minds(kind.minds)).collect();
-    let by_kind = core::iter::once(prepared).chain(&others).zip(&inference.minds);
-    let mut likely: Vec<(&PreparedEvent, &Hypothesis, f64)> = by_kind
-        .flat_map(|(prepared, kind)| {
-            let hypotheses = kind.posterior.hypotheses.iter();
-            hypotheses.map(move |(hypothesis, weight)| (prepared, hypothesis, kind.probability * weight))
-        })
-        .collect();
-    likely.sort_by(|a, b| b.2.total_cmp(&a.2));
-    let mut paths: Vec<(Forecast, f64)> = Vec::new();
-    for (prepared, hypothesis, weight) in likely.into_iter().take(settings.hypotheses.max(1)) {
-        for repeat in 0..settings.repeats.max(1) {
-            if tick().is_break() {
-                return Ok(None);
-            }
-            let seed = random::derive_seed(seed, Purpose::Inference, repeat as u64);
-            paths.push((
-                prepared.predict(hypothesis, steps, seed)?,
-                libm::pow(weight, settings.inverse_temperature),
-            ));
-        }
-    }
-    Ok(Some(Futures::new(paths)))
-}
-
-/// The geometric median of the [`futures`].
-///
-/// # Errors
-///
-/// Invalid parameters of the agents' search.
-pub fn forecast(
-    prepared: &PreparedEvent,
-    inference: &Inference,
-    steps: usize,
-    seed: u64,
-    settings: &ForecastSettings,
-    tick: &mut dyn FnMut() -> ControlFlow<()>,
-) -> Result<Option<Forecast>, PomcpError> {
-    Ok(futures(prepared, inference, steps, seed, settings, tick)?.map(|futures| futures.median()))
+    let found = continuations(prepared, inference, steps, seed, settings, tick)?;
+    Ok(found.map(|found| Futures::of(&found, settings)))
 }
 
 /// The point with the minimum weighted sum of distances to some places (Weiszfeld's algorithm from their

@@ -233,23 +233,28 @@ impl PreparedEvent {
         run.decide(agent, &belief_view)
     }
 
-    /// Continues from the last observed state for the given number of steps: where every entity will be after
+    /// Continues for the given number of steps from the state after `start` observed steps: where every entity will be after
     /// each, if the hypothesis is true. Beliefs continue from those estimated, by what the agents observe in
     /// the simulation.
     ///
     /// # Errors
     ///
     /// Invalid parameters of the agents' search.
+    ///
+    /// # Panics
+    ///
+    /// If fewer steps than `start` were observed.
     pub fn predict(
         &self,
         hypothesis: &Hypothesis,
+        start: usize,
         steps: usize,
         seed: u64,
     ) -> Result<phase_model::Forecast, PomcpError> {
-        let last = self.motion.states[self.observed.steps()];
-        let mut run = SimulationRun::new(&self.observed, hypothesis, self.acting(), seed, last, None)?;
-        self.resynchronise(&mut run, self.observed.steps());
-        let mut beliefs = self.beliefs.each_ref().map(|belief| belief.last().boxed());
+        let state = self.motion.states[start];
+        let mut run = SimulationRun::new(&self.observed, hypothesis, self.acting(), seed, state, None)?;
+        self.resynchronise(&mut run, start);
+        let mut beliefs = self.beliefs.each_ref().map(|belief| belief.after(start).boxed());
         let mut random: [Pcg64Mcg; AGENT_COUNT] =
             AgentId::ALL.map(|agent| random::stream(seed, Purpose::Belief, agent.number().into()));
         let mut forecast: phase_model::Forecast = self.observed.entities().map(|_| Vec::new()).collect();

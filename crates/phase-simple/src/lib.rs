@@ -6,7 +6,7 @@
 //! agents and physics that generate events, and is more likely the better they reproduce what was observed.
 //! [`infer`] weighs hypotheses, either all of them by what each agent would do next at every step
 //! (`inverse_planning`), or, as in Algorithm 2 of the paper, some of them by simulations of whole events
-//! ([`metropolis`]), and returns a [`Posterior`]; [`forecast()`] simulates the most likely ones further.
+//! ([`metropolis`]), and returns a [`Posterior`]; [`futures`] simulates the most likely ones further.
 //!
 //! Key design decision: everything starts from an [`ObservedEvent`](phase_event::ObservedEvent), a type
 //! without labels, so that labels cannot leak into the inference. The trade-off is that actions and grips,
@@ -71,7 +71,7 @@ pub mod strength;
 pub use answer::{Inference, MindPosterior};
 pub use dense::Dense;
 pub use evidence::{ActionLikelihoods, Effort, IntentEvidence};
-pub use forecast::{ForecastSettings, Futures, forecast, futures};
+pub use forecast::{Continuation, ForecastSettings, Futures, continuations, futures, hindcast_error};
 pub use generative::PreparedEvent;
 pub use guide::{Guidance, Guide};
 pub use hypothesis::{Hypothesis, physical_goals};

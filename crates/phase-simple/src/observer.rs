@@ -126,7 +126,7 @@ impl<'a> Observer<'a> {
         &self.observed
     }
 
-    /// The event as prepared for the first kind of minds, such as for [`forecast()`](crate::forecast()).
+    /// The event as prepared for the first kind of minds, such as for [`futures`](crate::futures).
     #[must_use]
     pub fn prepared(&self) -> Option<&PreparedEvent> {
         self.planners.planners.first().map(|planner| &planner.prepared)

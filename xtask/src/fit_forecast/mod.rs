@@ -1,70 +1,69 @@
 //! `fit-forecast`: fits how SIMPLE combines simulated futures to events whose continuation is known.
 //!
-//! The likeliest hypotheses after the seconds watched are simulated once, more of them than SIMPLE takes. How many of them are used,
-//! the inverse temperature of their weights, and the share of a learnt forecaster's future among them, are compared on a grid by the
-//! mean displacement error.
-
-pub mod options;
+//! The likeliest hypotheses after the seconds watched are simulated once, from there and from earlier steps. The inverse temperature of
+//! their weights, what they lose by the errors of their hindcasts, the least weight, and the share of a learnt forecaster's future
+//! among them, even or weighed by the error of its own hindcasts, are compared on a grid by the mean displacement error.
 
 use crate::{
-    check_minds,
     error::XtaskError,
-    evaluations_file::{EvaluationsFile, Line},
+    fit_events::{FitEvents, KeptFigures},
     json_file,
 };
 use core::ops::ControlFlow;
-use options::FitForecast;
 use phase_cli::{
-    console::{self, print_result},
-    context::Context,
-    effort::MindOptions,
-    error::CliError,
-    eval::methods,
-    event_writer::program,
-    interrupt,
+    console::print_result, context::Context, effort::MindOptions, error::CliError, eval::methods, interrupt,
     output::json_text,
-    parallel::make_all,
 };
-use phase_dataset::checksum::{hexadecimal, sha256};
 use phase_eval::{
     Forecaster, MethodError,
+    method::MethodResult,
     trajectories::{Errors, PREDICTED_STEPS, Prediction, WATCHED_STEPS},
 };
 use phase_event::Recording;
 use phase_model::{Forecast, Vec2};
 use phase_simple::{
-    Cues, ForecastSettings, Futures, Guidance, Guide, InferenceSettings, IntentNetwork, PreparedEvent,
-    UniformStrength, futures, infer,
+    Continuation, Cues, ForecastSettings, Futures, Guidance, Guide, InferenceSettings, IntentNetwork,
+    PreparedEvent, UniformStrength, continuations, hindcast_error, infer,
 };
 use serde::{Deserialize, Serialize};
-use std::{collections::BTreeMap, path::Path};
 
-/// Hypotheses that are simulated.
-const HYPOTHESES: usize = 12;
-/// Numbers of hypotheses that are compared.
-const COUNTS: [usize; 6] = [1, 2, 3, 5, 8, HYPOTHESES];
 /// Inverse temperatures that are compared.
-const INVERSE_TEMPERATURES: [f64; 6] = [0.1, 0.25, 0.4, 0.6, 0.8, 1.0];
+const INVERSE_TEMPERATURES: [f64; 3] = [0.6, 0.8, 1.0];
+/// Losses by the errors of hindcasts that are compared (nat/u).
+const HINDCAST_ERROR_RATES: [f64; 6] = [0.0, 0.5, 1.0, 1.5, 2.0, 3.0];
+/// Least weights that are compared.
+const LEAST_WEIGHTS: [f64; 4] = [0.0, 0.02, 0.05, 0.1];
 /// Shares of the learnt forecaster that are compared.
-const SHARES: [f64; 6] = [0.0, 0.05, 0.1, 0.2, 0.3, 0.5];
+const SHARES: [f64; 4] = [0.0, 0.1, 0.2, 0.3];
 /// The learnt forecaster.
 const LEARNT: &str = "social-lstm";
 
 /// How futures are combined.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize)]
 struct Combination {
-    hypotheses: usize,
-    inverse_temperature: f64,
+    #[serde(flatten)]
+    settings: ForecastSettings,
     /// Share of the learnt forecaster's future.
     learnt: f64,
+    /// Whether that share is weighed by the error of its hindcasts.
+    weighed: bool,
 }
 
-/// The futures of one event: by hypothesis, its weight and the places of all entities by repeat, entity and step.
+/// The futures of one event.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 struct KnownFutures {
-    hypotheses: Vec<(f64, Vec<Places>)>,
+    hypotheses: Vec<KnownHypothesis>,
     learnt: Places,
+    learnt_hindcasts: Vec<f64>,
     truth: Places,
+}
+
+/// A hypothesis with its futures and the errors of its hindcasts.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+struct KnownHypothesis {
+    weight: f64,
+    futures: Vec<Places>,
+    hindcasts: Vec<f64>,
 }
 
 /// Positions by entity and step (u).
@@ -74,52 +73,59 @@ type Places = Vec<Vec<[f32; 2]>>;
 ///
 /// # Errors
 /// Any [`XtaskError`] about the files, or an interruption.
-pub fn run(arguments: &FitForecast, context: &Context) -> Result<(), XtaskError> {
-    if let Some(out) = &arguments.out {
-        let inputs = arguments.events.iter().chain(&arguments.held_out);
-        json_file::check("--out", out, inputs.map(|file| file.as_path()))?;
-    }
-    let read = |files: &[std::path::PathBuf]| -> Result<Vec<Recording>, XtaskError> {
-        let mut recordings = Vec::new();
-        for file in files {
-            recordings.extend(some(arguments, file, context)?);
-        }
-        Ok(recordings)
-    };
-    let (own, others) = (read(&arguments.events)?, read(&arguments.held_out)?);
+pub fn run(arguments: &FitEvents, context: &Context) -> Result<(), XtaskError> {
+    arguments.check_out([])?;
+    let own = arguments.read_all(&arguments.events, context)?;
+    let others = arguments.read_all(&arguments.held_out, context)?;
     interrupt::listen();
     let learnt = methods::forecaster(LEARNT, None, &MindOptions::default())?;
-    let own = known(&own, &*learnt, arguments, context)?;
-    let others = known(&others, &*learnt, arguments, context)?;
+    let kept = KeptFigures::new("", arguments, context)?;
+    let known = |recordings: &[Recording]| {
+        let long: Vec<&Recording> =
+            recordings.iter().filter(|it| it.trajectory.steps() > WATCHED_STEPS).collect();
+        let ForecastSettings { hypotheses, repeats, .. } = ForecastSettings::default();
+        let each = hypotheses * (1 + repeats);
+        kept.of("simulating the futures", &long, each, |recording, tick| {
+            let found = simulated(recording, &*learnt, arguments.seed, tick);
+            found.map_err(|source| CliError::Method { id: recording.id.clone(), source })
+        })
+    };
+    let (own, others) = (known(&own)?, known(&others)?);
     let mut ranked: Vec<(f64, Combination)> =
         combinations().into_iter().map(|it| (mean(&own, &it)[0], it)).collect();
     ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut text = format!(
-        "{:<34} {:>10} {:>8} {:>8} {:>8} {:>8} {:>13} {:>13}\n",
-        "", "hypotheses", "1/T", "learnt", "ADE", "FDE", "ADE held out", "FDE held out"
+        "{:<34} {:>5} {:>8} {:>7} {:>8} {:>8} {:>8} {:>13} {:>13}\n",
+        "", "1/T", "nat/u", "least", "learnt", "ADE", "FDE", "ADE held out", "FDE held out"
     );
     let mut line = |name: &str, combination: &Combination| {
         let [ade, fde] = mean(&own, combination);
         let [other_ade, other_fde] = mean(&others, combination);
-        let Combination { hypotheses, inverse_temperature, learnt } = combination;
+        let Combination { settings, learnt, weighed } = combination;
+        let learnt = format!("{learnt}{}", if *weighed { " w" } else { "" });
+        let ForecastSettings { inverse_temperature, hindcast_error_rate, least_weight, .. } = settings;
         text += &format!(
-            "{name:<34} {hypotheses:>10} {inverse_temperature:>8} {learnt:>8} {ade:>8.3} {fde:>8.3} {other_ade:>13.3} \
-             {other_fde:>13.3}\n"
+            "{name:<34} {inverse_temperature:>5} {hindcast_error_rate:>8} {least_weight:>7} {learnt:>8} {ade:>8.3} {fde:>8.3} \
+             {other_ade:>13.3} {other_fde:>13.3}\n"
         );
     };
-    let ForecastSettings { hypotheses, inverse_temperature, .. } = ForecastSettings::default();
-    line("present", &Combination { hypotheses, inverse_temperature, learnt: 0.0 });
+    line("present", &Combination { settings: ForecastSettings::default(), learnt: 0.0, weighed: false });
     let best = |among: &dyn Fn(&Combination) -> bool| ranked.iter().map(|it| it.1).find(|it| among(it));
     for (name, found) in [
         ("fitted", best(&|_| true)),
         ("fitted, without the learnt", best(&|it| it.learnt == 0.0)),
-        ("fitted, present hypotheses", best(&|it| it.learnt == 0.0 && it.hypotheses == hypotheses)),
+        ("fitted, with the learnt weighed", best(&|it| it.learnt > 0.0 && it.weighed)),
+        ("fitted, with the learnt even", best(&|it| it.learnt > 0.0 && !it.weighed)),
+        ("fitted, without hindcasts", best(&|it| it.learnt == 0.0 && it.settings.hindcast_error_rate == 0.0)),
     ] {
         if let Some(found) = found {
             line(name, &found);
         }
     }
-    line("the learnt alone", &Combination { hypotheses: 1, inverse_temperature: 1.0, learnt: 1.0 });
+    line(
+        "the learnt alone",
+        &Combination { settings: ForecastSettings::default(), learnt: 1.0, weighed: false },
+    );
     if let Some((_, fitted)) = ranked.first() {
         json_file::write(arguments.out.as_deref(), &json_text(fitted, "the settings")?)?;
     }
@@ -129,9 +135,22 @@ pub fn run(arguments: &FitForecast, context: &Context) -> Result<(), XtaskError>
 
 fn combinations() -> Vec<Combination> {
     let mut all = Vec::new();
-    for hypotheses in COUNTS {
-        for inverse_temperature in INVERSE_TEMPERATURES {
-            all.extend(SHARES.map(|learnt| Combination { hypotheses, inverse_temperature, learnt }));
+    for inverse_temperature in INVERSE_TEMPERATURES {
+        for hindcast_error_rate in HINDCAST_ERROR_RATES {
+            for least_weight in LEAST_WEIGHTS {
+                let settings = ForecastSettings {
+                    inverse_temperature,
+                    hindcast_error_rate,
+                    least_weight,
+                    ..ForecastSettings::default()
+                };
+                for learnt in SHARES {
+                    all.push(Combination { settings, learnt, weighed: false });
+                    if learnt > 0.0 && hindcast_error_rate > 0.0 {
+                        all.push(Combination { settings, learnt, weighed: true });
+                    }
+                }
+            }
         }
     }
     all
@@ -152,19 +171,39 @@ fn mean(events: &[KnownFutures], combination: &Combination) -> [f64; 2] {
 
 impl KnownFutures {
     fn combined(&self, combination: &Combination) -> Forecast {
-        let mut paths: Vec<(Forecast, f64)> = Vec::new();
-        for (weight, repeats) in self.hypotheses.iter().take(combination.hypotheses) {
-            let weight = libm::pow(*weight, combination.inverse_temperature);
-            paths.extend(repeats.iter().map(|places| (forecast_of(places), weight)));
-        }
-        let total: f64 = paths.iter().map(|(_, weight)| weight).sum();
-        if combination.learnt >= 1.0 {
+        let Combination { settings, learnt, weighed } = combination;
+        if *learnt >= 1.0 {
             return forecast_of(&self.learnt);
         }
-        if combination.learnt > 0.0 {
-            paths.push((forecast_of(&self.learnt), total * combination.learnt / (1.0 - combination.learnt)));
+        let continuations: Vec<Continuation> =
+            self.hypotheses.iter().map(KnownHypothesis::continuation).collect();
+        let mut futures = Futures::of(&continuations, settings);
+        if *learnt > 0.0 {
+            let total: f64 = futures.paths.iter().map(|(_, weight)| weight).sum();
+            let even = total * learnt / (1.0 - learnt);
+            let weight = if *weighed { even * self.learnt_factor(&continuations, settings) } else { even };
+            futures.paths.push((forecast_of(&self.learnt), weight));
         }
-        Futures::new(paths).median()
+        futures.median()
+    }
+
+    /// What the learnt forecaster gains or loses against the hypotheses by the error of its hindcasts.
+    fn learnt_factor(&self, continuations: &[Continuation], settings: &ForecastSettings) -> f64 {
+        let mean = |errors: &[f64]| errors.iter().sum::<f64>() / errors.len().max(1) as f64;
+        let (mut sum, mut total) = (0.0, 0.0);
+        for continuation in continuations {
+            let weight = libm::exp(continuation.log_weight(settings));
+            sum += weight * mean(&continuation.hindcast_errors);
+            total += weight;
+        }
+        libm::exp(settings.hindcast_error_rate * (sum / total - mean(&self.learnt_hindcasts)))
+    }
+}
+
+impl KnownHypothesis {
+    fn continuation(&self) -> Continuation {
+        let futures = self.futures.iter().map(forecast_of).collect();
+        Continuation { weight: self.weight, hindcast_errors: self.hindcasts.clone(), futures }
     }
 }
 
@@ -174,51 +213,6 @@ fn forecast_of(places: &Places) -> Forecast {
 
 fn places_of(forecast: &Forecast) -> Places {
     forecast.iter().map(|path| path.iter().map(|place| place.to_array()).collect()).collect()
-}
-
-/// The futures of events that are long enough, simulated or taken from the file beside `--out`.
-fn known(
-    recordings: &[Recording],
-    learnt: &dyn Forecaster,
-    arguments: &FitForecast,
-    context: &Context,
-) -> Result<Vec<KnownFutures>, XtaskError> {
-    let kept = arguments.out.as_deref().map(EvaluationsFile::beside).transpose()?;
-    let (file, lines) = kept.map_or_else(|| (None, Vec::new()), |(file, lines)| (Some(file), lines));
-    let before: BTreeMap<String, KnownFutures> =
-        lines.into_iter().map(|line: Line<KnownFutures>| (line.key, line.figures)).collect();
-    let long: Vec<&Recording> =
-        recordings.iter().filter(|recording| recording.trajectory.steps() > WATCHED_STEPS).collect();
-    let activity = format!("simulating the futures of {}", console::events(long.len()));
-    let each = HYPOTHESES * ForecastSettings::default().repeats;
-    let progress = context.progress(&activity, long.len(), each);
-    let made = make_all(&arguments.jobs, long.len(), |k| {
-        let recording = long[k];
-        let event = recording.to_json().map_err(CliError::EventWrite)?;
-        let made_by = format!("{} {}", hexadecimal(&program()), arguments.seed);
-        let key = hexadecimal(&sha256(format!("{made_by} {event}").as_bytes()));
-        if let Some(known) = before.get(&key) {
-            progress.event(0, &recording.id);
-            return Ok(Some(known.clone()));
-        }
-        let mut ticks = 0;
-        let found = simulated(recording, learnt, arguments.seed, &mut || {
-            ticks += 1;
-            progress.step();
-            if interrupt::requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-        });
-        let found = found.map_err(|source| CliError::Method { id: recording.id.clone(), source })?;
-        if let (Some(file), Some(found)) = (&file, &found) {
-            file.add(&Line { key, event: recording.id.clone(), figures: found.clone() })?;
-        }
-        progress.event(ticks, &recording.id);
-        Ok::<_, CliError>(found)
-    })?;
-    drop(progress);
-    made.ok_or_else(|| match &file {
-        Some(file) => CliError::Interrupted(file.path().to_owned()).into(),
-        None => XtaskError::Interrupted,
-    })
 }
 
 fn simulated(
@@ -237,30 +231,32 @@ fn simulated(
     let cues = Cues { strengths: &UniformStrength, guide: Some(guide) };
     let inference = infer(&prepared, &cues, seed, &settings, tick).map_err(MethodError::new)?;
     let Some(inference) = inference else { return Ok(None) };
-    // With an inverse temperature of 1 the weights are the posterior's.
-    let repeats = ForecastSettings::default().repeats;
-    let settings = ForecastSettings { hypotheses: HYPOTHESES, repeats, inverse_temperature: 1.0 };
-    let found = futures(&prepared, &inference, steps, seed, &settings, tick).map_err(MethodError::new)?;
+    // Every hypothesis is simulated further, whatever its weight.
+    let settings = ForecastSettings { least_weight: 0.0, ..ForecastSettings::default() };
+    let found =
+        continuations(&prepared, &inference, steps, seed, &settings, tick).map_err(MethodError::new)?;
     let Some(found) = found else { return Ok(None) };
-    let hypotheses = found.paths.chunks(repeats).map(|repeats| {
-        let weight = repeats.first().map_or(0.0, |(_, weight)| *weight);
-        (weight, repeats.iter().map(|(path, _)| places_of(path)).collect())
+    let hypotheses = found.into_iter().map(|it| KnownHypothesis {
+        weight: it.weight,
+        futures: it.futures.iter().map(places_of).collect(),
+        hindcasts: it.hindcast_errors,
     });
-    let Some((Prediction { forecast, .. }, _)) = learnt.forecast(&observed, steps, seed, tick)? else {
-        return Ok(None);
+    let mut learnt_from = |start: usize, steps: usize| -> MethodResult<Forecast> {
+        let found = learnt.forecast(&observed.prefix(start), steps, seed, tick)?;
+        Ok(found.map(|(Prediction { forecast, .. }, details)| (forecast, details)))
     };
+    let mut learnt_hindcasts = Vec::new();
+    for start in settings.starts(WATCHED_STEPS) {
+        let Some((hindcast, _)) = learnt_from(start, WATCHED_STEPS - start)? else { return Ok(None) };
+        learnt_hindcasts.push(hindcast_error(&hindcast, &observed, start));
+    }
+    let Some((forecast, _)) = learnt_from(WATCHED_STEPS, steps)? else { return Ok(None) };
     let rows = || whole.rows().iter().skip(1 + WATCHED_STEPS).take(steps);
     let path = |entity: usize| rows().map(|row| row[entity].position.to_array()).collect();
     Ok(Some(KnownFutures {
         hypotheses: hypotheses.collect(),
         learnt: places_of(&forecast),
+        learnt_hindcasts,
         truth: whole.entities().map(|entity| path(entity.index())).collect(),
     }))
-}
-
-/// The events of a file, as many as were asked for.
-fn some(arguments: &FitForecast, file: &Path, context: &Context) -> Result<Vec<Recording>, CliError> {
-    let mut recordings = check_minds::recordings(file, None, context)?;
-    recordings.truncate(arguments.limit.map_or(usize::MAX, |limit| limit as usize));
-    Ok(recordings)
 }

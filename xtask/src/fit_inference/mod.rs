@@ -8,20 +8,15 @@
 
 mod autocorrelation;
 mod grid;
-mod kept;
 pub mod options;
 mod report;
 mod subject;
 mod weights;
 
 use crate::{
-    check_minds::{self, parameters},
-    error::XtaskError,
-    fit_minds::folds,
-    json_file,
+    check_minds::parameters, error::XtaskError, fit_events::KeptFigures, fit_minds::folds, json_file,
 };
 use grid::Grid;
-use kept::KeptEvidence;
 use options::FitInference;
 use phase_agent::MindParameters;
 use phase_cli::{
@@ -32,9 +27,10 @@ use phase_cli::{
     output::json_text,
 };
 use phase_event::Recording;
-use phase_simple::{Algorithm, AlternativeMinds, InferenceSettings, InversePlanningSettings};
+use phase_model::AGENT_COUNT;
+use phase_simple::{Algorithm, AlternativeMinds, InferenceSettings, IntentNetwork, InversePlanningSettings};
 use report::{Fold, Report};
-use std::path::Path;
+use subject::{EventEvidence, INTENTS, Subject};
 use weights::Weights;
 
 /// Runs the command.
@@ -42,15 +38,10 @@ use weights::Weights;
 /// # Errors
 /// Any [`XtaskError`] about the files, or an interruption.
 pub fn run(arguments: &FitInference, context: &Context) -> Result<(), XtaskError> {
-    if let Some(out) = &arguments.out {
-        let inputs = arguments.events.iter().chain(&arguments.held_out).chain(&arguments.parameters);
-        json_file::check("--out", out, inputs.map(|file| file.as_path()))?;
-    }
+    let files = &arguments.events;
+    files.check_out(&arguments.parameters)?;
     let settings = settings(arguments)?;
-    let mut recordings = Vec::new();
-    for file in &arguments.events {
-        recordings.extend(some(arguments, file, context)?);
-    }
+    let recordings = files.read_all(&files.events, context)?;
     let (own, folds) = (recordings.len(), usize::from(arguments.folds));
     if own < folds {
         let rule = format!("--events: {}, fewer than --folds {folds}", console::events(own));
@@ -60,23 +51,36 @@ pub fn run(arguments: &FitInference, context: &Context) -> Result<(), XtaskError
         parameters::check(settings.minds, &recording.scene, arguments.parameters.as_deref())?;
     }
     let mut held_out = Vec::new();
-    for file in &arguments.held_out {
-        held_out.push((file.display().to_string(), some(arguments, file, context)?));
+    for file in &files.held_out {
+        held_out.push((file.display().to_string(), files.read(file, context)?));
     }
     interrupt::listen();
     let planning = planning(arguments, &settings);
     let present = Weights::of(&settings, &planning);
     let kinds: Vec<MindParameters> =
         core::iter::once(settings.minds).chain(settings.alternative.map(|it| it.minds)).collect();
-    let evidence = KeptEvidence::new(&kinds, planning, arguments, context)?;
-    let subjects = evidence.of(&recordings)?;
+    let network = IntentNetwork::bundled().map_err(XtaskError::IntentNetwork)?;
+    let made_by = format!("{} {}", json_text(&kinds, "the minds")?, planning.interval);
+    let kept = KeptFigures::new(&made_by, files, context)?;
+    let evidence = |recordings: Vec<Recording>| -> Result<Vec<Subject>, XtaskError> {
+        let all: Vec<&Recording> = recordings.iter().collect();
+        let found = kept.of(
+            "simulating the intents",
+            &all,
+            kinds.len() * INTENTS * AGENT_COUNT,
+            |recording, tick| EventEvidence::of(recording, &kinds, &planning, &network, files.seed, tick),
+        )?;
+        let subjects = recordings.iter().zip(found);
+        subjects.map(|(recording, found)| Ok(Subject::new(recording, found)?)).collect()
+    };
+    let subjects = evidence(recordings)?;
     let grid = Grid::of(&subjects, &present);
     let mut others = Vec::with_capacity(held_out.len());
     for (file, recordings) in held_out {
-        others.push((file, Grid::of(&evidence.of(&recordings)?, &present)));
+        others.push((file, Grid::of(&evidence(recordings)?, &present)));
     }
     let named: Vec<_> = grid.events().collect();
-    let fold_of = folds::assign(&named, folds, arguments.seed);
+    let fold_of = folds::assign(&named, folds, files.seed);
     let fold = |fold| {
         let (validation, training): (Vec<usize>, Vec<usize>) = (0..own).partition(|&k| fold_of[k] == fold);
         Fold { weights: grid.fit(&training), validation }
@@ -90,7 +94,7 @@ pub fn run(arguments: &FitInference, context: &Context) -> Result<(), XtaskError
         grid: &grid,
         held_out: &others,
     };
-    json_file::write(arguments.out.as_deref(), &json_text(&report.fitted, "the weights")?)?;
+    json_file::write(files.out.as_deref(), &json_text(&report.fitted, "the weights")?)?;
     print_result(report.text().trim_end());
     Ok(())
 }
@@ -127,11 +131,4 @@ fn planning(arguments: &FitInference, settings: &InferenceSettings) -> InversePl
         interval: arguments.interval.map_or(planning.interval, usize::from),
         ..planning
     }
-}
-
-/// The events of a file, as many as were asked for.
-fn some(arguments: &FitInference, file: &Path, context: &Context) -> Result<Vec<Recording>, CliError> {
-    let mut recordings = check_minds::recordings(file, None, context)?;
-    recordings.truncate(arguments.limit.map_or(usize::MAX, |limit| limit as usize));
-    Ok(recordings)
 }

@@ -1,23 +1,17 @@
 //! The options of `fit-inference`.
 
+use crate::fit_events::FitEvents;
 use clap::{Args, value_parser};
 use phase_agent::MindKind;
-use phase_cli::{effort::mind_kinds, parallel::Jobs};
+use phase_cli::effort::mind_kinds;
 use std::path::PathBuf;
 
 /// Options of `fit-inference`.
 #[derive(Args, Debug)]
 pub struct FitInference {
-    /// The events to fit to: a file in the format phase-events/1, or the folder of a dataset or of simulations; may be given
-    /// several times
-    #[arg(long, value_name = "FILE|DIR", required = true)]
-    pub events: Vec<PathBuf>,
-    /// Further events, to which nothing is fitted; their figures are reported beside. May be given several times
-    #[arg(long, value_name = "FILE|DIR")]
-    pub held_out: Vec<PathBuf>,
-    /// Only the first N events of each file
-    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..))]
-    pub limit: Option<u32>,
+    /// Events, seed and result.
+    #[command(flatten)]
+    pub events: FitEvents,
     /// The weights of one kind of minds alone: `phase`, or `published`, those of the published simulator [default: both
     /// kinds, averaged, as SIMPLE has them]
     #[arg(long, value_name = "MINDS", hide_possible_values = true, value_parser = mind_kinds())]
@@ -34,14 +28,4 @@ pub struct FitInference {
     /// Steps from one decision that is looked at to the next [default: SIMPLE's, 3]
     #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=1000))]
     pub interval: Option<u16>,
-    /// Where to write the fitted weights as JSON; the evidence on each event is kept in a file beside it, and the same command
-    /// goes on from there
-    #[arg(long, value_name = "FILE")]
-    pub out: Option<PathBuf>,
-    /// The seed of all random draws, the same in every event, and of the division into folds
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    pub seed: u64,
-    /// How many events at once.
-    #[command(flatten)]
-    pub jobs: Jobs,
 }

@@ -148,6 +148,14 @@ impl Plan {
     }
 }
 
+/// A preset that is bundled with the program, by its name, or of a file.
+///
+/// # Errors
+/// [`CliError::UnknownPreset`], or if the file cannot be used.
+pub fn preset(name: &str) -> Result<Preset, CliError> {
+    Ok(Preset::parse(name, &preset_text(name)?)?)
+}
+
 /// The text of a preset: a bundled one, or a file.
 fn preset_text(name: &str) -> Result<String, CliError> {
     if let Some((_, text)) = PRESETS.iter().find(|(known, _)| *known == name) {

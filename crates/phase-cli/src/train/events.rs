@@ -44,12 +44,18 @@ impl Events {
         Ok(Self { data, more, validation, count })
     }
 
-    /// Checks that there are training and validation events.
+    /// Checks that there are training and validation events, and training events in each further folder.
     ///
     /// # Errors
     /// [`TrainError::NoEvents`].
     pub(super) fn check(&self) -> Result<(), TrainError> {
-        [Split::Train, Split::Validation].into_iter().try_for_each(|split| self.of(split).map(|_| ()))
+        [Split::Train, Split::Validation].into_iter().try_for_each(|split| self.of(split).map(|_| ()))?;
+        match self.more.iter().find(|dataset| dataset.entries(Split::Train).next().is_none()) {
+            Some(dataset) => {
+                Err(TrainError::NoEvents { folder: dataset.folder.clone(), split: Split::Train.name() })
+            }
+            None => Ok(()),
+        }
     }
 
     /// Reads the events of a split lazily, in the manifest's order.

@@ -1,0 +1,57 @@
+"""PHASE: physically grounded social events, the minds that make them, and inference that perceives them.
+
+>>> import phase_events
+>>> event = phase_events.simulate(phase_events.sample_scene("helping", seed=1), seed=1)   # doctest: +SKIP
+>>> phase_events.infer(event)["relation"]                                                # doctest: +SKIP
+
+Lengths are in arena units (u): the arena is the square from (6, 2) to (26, 22). A step lasts 0.25 s. Angles are in radians, and an
+agent at angle 0 faces up. Environments need ``phase-events[env]``; they are imported with :mod:`phase_events.env`.
+"""
+
+from ._native import ACTIONS, OBSERVATION_SIZE, PhaseError, Scene
+from .command import evaluate, generate, run
+from .events import Event, Events, load_events, simulate
+from .observation import split_observation
+from .perception import Observer, forecast, infer, methods
+from .policies import HeuristicPolicy, Mind, RandomPolicy, ReplayPolicy, StillPolicy
+from .scenes import sample_scene, scene
+
+__all__ = [
+    "ACTIONS",
+    "OBSERVATION_SIZE",
+    "Event",
+    "Events",
+    "HeuristicPolicy",
+    "Mind",
+    "Observer",
+    "PhaseError",
+    "PhaseEnv",
+    "PhaseParallelEnv",
+    "PhaseVectorEnv",
+    "RandomPolicy",
+    "ReplayPolicy",
+    "Scene",
+    "StillPolicy",
+    "evaluate",
+    "forecast",
+    "generate",
+    "infer",
+    "load_events",
+    "methods",
+    "run",
+    "sample_scene",
+    "scene",
+    "simulate",
+    "split_observation",
+]
+
+_ENVIRONMENTS = {"PhaseEnv": "env", "PhaseParallelEnv": "env", "PhaseVectorEnv": "vector"}
+
+
+def __getattr__(name):
+    # Environments need gymnasium and pettingzoo, which the rest does not.
+    if name in _ENVIRONMENTS:
+        from importlib import import_module
+
+        return getattr(import_module(f"{__name__}.{_ENVIRONMENTS[name]}"), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

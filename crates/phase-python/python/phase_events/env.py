@@ -1,0 +1,344 @@
+"""Environments for one learner (Gymnasium) and for two (PettingZoo). They need ``phase-events[env]``.
+
+A step lasts 0.25 s. Actions are indices of ``ACTIONS``. Observations are described in :mod:`phase_events.observation`. The reward of a
+step is Equation 1 of the paper, (1 - |attitude|) R(s, own goal) + attitude R(s, other's goal) + C(a), where R is 1 while the goal holds
+and C(a) is -0.02 for the seven pushes that are not forward, otherwise 0. Episodes do not terminate; they are truncated after
+``max_steps``.
+"""
+
+import gymnasium
+import numpy as np
+import pettingzoo
+from gymnasium import spaces
+
+from . import _native
+from ._native import ACTIONS, OBSERVATION_SIZE, PhaseError
+from .policies import HeuristicPolicy, Mind, RandomPolicy, StillPolicy
+from .scenes import as_source, seed_of
+
+RENDER_MODES = ("human", "rgb_array")
+STEPS_PER_SECOND = 4
+AGENTS = ("agent_0", "agent_1")
+VIEWS = ("view", "state")
+
+
+def observation_space():
+    """The space of an agent's observation."""
+    return spaces.Box(-np.inf, np.inf, (OBSERVATION_SIZE,), np.float32)
+
+
+class Arena:
+    """One world with its scene, clock and pictures: what both kinds of environments share."""
+
+    def __init__(self, scenes, engine, observation, max_steps, render_mode, side):
+        if observation not in VIEWS:
+            raise PhaseError(f"observation is view, what agents see and feel, or state, everything; not {observation!r}")
+        if not isinstance(max_steps, int) or max_steps < 1:
+            raise PhaseError(f"max_steps is a whole number of at least 1, not {max_steps!r}")
+        if render_mode is not None and render_mode not in RENDER_MODES:
+            raise PhaseError(f"render_mode is human, rgb_array or None, not {render_mode!r}")
+        self._source = as_source(scenes)
+        self._engine = engine
+        self._omniscient = observation == "state"
+        self._renderer = _native.Renderer(side)
+        self._random = np.random.default_rng()
+        self._window = None
+        self._worlds = None
+        self._closed = False
+        self.max_steps = max_steps
+        self.render_mode = render_mode
+        self.steps = 0
+        self.seed = 0
+        self.scene = None
+        self.observations = np.zeros((1, 2, OBSERVATION_SIZE), dtype=np.float32)
+        self.rewards = np.zeros((1, 2))
+        self.achieved = np.zeros((1, 2), dtype=bool)
+        # Wrong engines are reported at once.
+        _native.Worlds([], engine, self._omniscient, 1)
+
+    def reset(self, seed, options):
+        """Begins an episode."""
+        self.check_open()
+        if seed is not None:
+            self._random = np.random.default_rng(seed_of(seed))
+        self.seed = int(self._random.integers(2**63))
+        options = options or {}
+        source = as_source(options["scene"]) if "scene" in options else self._source
+        self.scene = source(self.seed)
+        if self._worlds is None:
+            self._worlds = _native.Worlds([self.scene], self._engine, self._omniscient, 1)
+        else:
+            self._worlds.reset(0, self.scene)
+        self.steps = 0
+        self._worlds.observe(self.observations, self.achieved)
+        if self.render_mode == "human":
+            self.render()
+
+    def step(self, actions):
+        """Lets both agents act."""
+        self.check_running()
+        self._worlds.step(np.array([actions], dtype=np.int64), self.observations, self.rewards, self.achieved)
+        self.steps += 1
+        if self.render_mode == "human":
+            self.render()
+
+    @property
+    def truncated(self):
+        """Whether the episode has reached its length."""
+        return self.steps >= self.max_steps
+
+    def observation(self, agent):
+        """A copy of an agent's observation."""
+        return self.observations[0, agent].copy()
+
+    @property
+    def bodies(self):
+        """(entities, 6): the true state."""
+        self.check_running()
+        return self._worlds.bodies(0)
+
+    def info(self, agent):
+        """What is true of an agent's goals: not for the agent."""
+        return {"goal_holds": bool(self.achieved[0, agent]), "other_goal_holds": bool(self.achieved[0, 1 - agent])}
+
+    def render(self):
+        """A picture, or a frame in a window."""
+        if self.render_mode is None:
+            gymnasium.logger.warn("render() needs render_mode='human' or 'rgb_array' when the environment is made")
+            return None
+        self.check_running()
+        picture = self._renderer.world(self._worlds, 0)
+        if self.render_mode == "rgb_array":
+            return picture
+        self._show(picture)
+        return None
+
+    def _show(self, picture):
+        try:
+            import pygame
+        except ImportError as error:
+            raise gymnasium.error.DependencyNotInstalled("render_mode='human' needs pygame: pip install pygame") from error
+        height, width, _ = picture.shape
+        if self._window is None:
+            pygame.init()
+            pygame.display.set_caption("PHASE")
+            self._window = (pygame.display.set_mode((width, height)), pygame.time.Clock())
+        window, clock = self._window
+        window.blit(pygame.surfarray.make_surface(picture.swapaxes(0, 1)), (0, 0))
+        pygame.event.pump()
+        pygame.display.flip()
+        clock.tick(STEPS_PER_SECOND)
+
+    def close(self):
+        """Ends everything; closing twice is allowed."""
+        if self._window is not None:
+            import pygame
+
+            pygame.display.quit()
+            self._window = None
+        self._closed = True
+
+    def check_open(self):
+        """Raises PhaseError after close."""
+        if self._closed:
+            raise PhaseError("the environment is closed")
+
+    def check_running(self):
+        """Raises PhaseError after close and before reset."""
+        self.check_open()
+        if self._worlds is None:
+            raise PhaseError("call reset before step, render and state")
+
+
+def as_action(action):
+    """The number of an action.
+
+    Raises:
+        PhaseError: if it is none.
+    """
+    try:
+        number = int(action)
+        exact = number == action
+    except (TypeError, ValueError, OverflowError):
+        exact = False
+    if not exact or not 0 <= number < len(ACTIONS):
+        raise PhaseError(f"an action is a whole number from 0 to {len(ACTIONS) - 1}, not {action!r}")
+    return number
+
+
+def as_policy(partner):
+    """A policy by its name, or the policy itself."""
+    named = {"phase": Mind, "heuristic": HeuristicPolicy, "random": RandomPolicy, "still": StillPolicy}
+    if isinstance(partner, str) and partner in named:
+        return named[partner]()
+    if callable(partner):
+        return partner
+    raise PhaseError(f"a partner is {', '.join(named)}, or a function of the observation, not {partner!r}")
+
+
+class PhaseParallelEnv(pettingzoo.ParallelEnv):
+    """Two agents in a PHASE world that act at the same time.
+
+    Args:
+        scenes: a scene, a kind of event, ``"preset:phase-500"``, a list of scenes, a function of a seed, or ``None`` for sampled scenes
+            of all kinds (:func:`phase_events.scenes.as_source`).
+        observation: ``view``, what agents see and feel, or ``state``, everything.
+        engine: ``world`` (rapier2d) or ``forward`` (the kernel that minds plan in: faster).
+        max_steps: steps after which an episode is truncated.
+        render_mode: ``None``, ``rgb_array`` or ``human``.
+        side: of a picture (pixels).
+
+    Raises:
+        PhaseError: for invalid arguments, actions and scenes, and for any use after :meth:`close`.
+    """
+
+    metadata = {
+        "name": "phase_v0",
+        "render_modes": list(RENDER_MODES),
+        "is_parallelizable": True,
+        "render_fps": STEPS_PER_SECOND,
+    }
+
+    def __init__(self, scenes=None, *, observation="view", engine="world", max_steps=100, render_mode=None, side=480):
+        self._arena = Arena(scenes, engine, observation, max_steps, render_mode, side)
+        self.render_mode = render_mode
+        self.possible_agents = list(AGENTS)
+        self.agents = []
+        self.observation_spaces = {agent: observation_space() for agent in AGENTS}
+        self.action_spaces = {agent: spaces.Discrete(len(ACTIONS)) for agent in AGENTS}
+        self.state_space = spaces.Box(-np.inf, np.inf, (4, 6), np.float32)
+
+    def observation_space(self, agent):
+        """The space of observations: the same object each time."""
+        return self.observation_spaces[agent]
+
+    def action_space(self, agent):
+        """The fourteen actions."""
+        return self.action_spaces[agent]
+
+    @property
+    def scene(self):
+        """The :class:`Scene` of the episode."""
+        return self._arena.scene
+
+    @property
+    def seed(self):
+        """The seed of the episode: minds with this seed play it as :func:`phase_events.simulate` does."""
+        return self._arena.seed
+
+    def reset(self, seed=None, options=None):
+        """Begins an episode. ``options={"scene": …}`` gives its scene; other options are ignored."""
+        self._arena.reset(seed, options)
+        self.agents = list(AGENTS)
+        return self._by_agent(self._arena.observation), self._by_agent(self._arena.info)
+
+    def step(self, actions):
+        """Both agents act: a dict from each agent to its action."""
+        arena = self._arena
+        arena.check_running()
+        if not self.agents:
+            return {}, {}, {}, {}, {}
+        missing = [agent for agent in AGENTS if agent not in actions]
+        if missing:
+            raise PhaseError(f"there is no action of {missing[0]}")
+        arena.step([as_action(actions[agent]) for agent in AGENTS])
+        truncated = arena.truncated
+        answer = (
+            self._by_agent(arena.observation),
+            {agent: float(arena.rewards[0, k]) for k, agent in enumerate(AGENTS)},
+            dict.fromkeys(AGENTS, False),
+            dict.fromkeys(AGENTS, truncated),
+            self._by_agent(arena.info),
+        )
+        if truncated:
+            self.agents = []
+        return answer
+
+    def state(self):
+        """The bodies: (4, 6), columns x, y, angle, vx, vy, angular velocity; 0 for absent objects."""
+        bodies = self._arena.bodies
+        state = np.zeros((4, 6), dtype=np.float32)
+        state[: len(bodies)] = bodies
+        return state
+
+    def render(self):
+        """A picture (side, side, 3), or a frame in a window."""
+        return self._arena.render()
+
+    def close(self):
+        """Ends everything; closing twice is allowed."""
+        self._arena.close()
+
+    @staticmethod
+    def _by_agent(of):
+        return {agent: of(k) for k, agent in enumerate(AGENTS)}
+
+
+class PhaseEnv(gymnasium.Env):
+    """One agent in a PHASE world; a partner drives the other.
+
+    Args:
+        scenes, observation, engine, max_steps, render_mode, side: as of :class:`PhaseParallelEnv`.
+        agent: which agent is the learner's, 0 or 1.
+        partner: ``phase`` (a mind with the paper's settings), ``heuristic``, ``random``, ``still``, or a policy, such as
+            ``Mind(parameters={"simulations": 100})`` or ``ReplayPolicy(event)``.
+
+    Raises:
+        PhaseError: for invalid arguments, actions and scenes, and for any use after :meth:`close`.
+    """
+
+    metadata = {"render_modes": list(RENDER_MODES), "render_fps": STEPS_PER_SECOND}
+
+    def __init__(
+        self,
+        scenes=None,
+        *,
+        agent=0,
+        partner="phase",
+        observation="view",
+        engine="world",
+        max_steps=100,
+        render_mode=None,
+        side=480,
+    ):
+        if agent not in (0, 1):
+            raise PhaseError(f"agent is 0 or 1, not {agent!r}")
+        self._arena = Arena(scenes, engine, observation, max_steps, render_mode, side)
+        self._partner = as_policy(partner)
+        self._agent = agent
+        self.render_mode = render_mode
+        self.observation_space = observation_space()
+        self.action_space = spaces.Discrete(len(ACTIONS))
+
+    @property
+    def scene(self):
+        """The :class:`Scene` of the episode."""
+        return self._arena.scene
+
+    def reset(self, *, seed=None, options=None):
+        """Begins an episode. ``options={"scene": …}`` gives its scene."""
+        super().reset(seed=seed)
+        arena = self._arena
+        arena.reset(seed, options)
+        if hasattr(self._partner, "reset"):
+            self._partner.reset(arena.scene, 1 - self._agent, arena.seed)
+        return arena.observation(self._agent), arena.info(self._agent)
+
+    def step(self, action):
+        """The learner and its partner act at the same time."""
+        arena, agent = self._arena, self._agent
+        arena.check_running()
+        actions = [0, 0]
+        actions[agent] = as_action(action)
+        actions[1 - agent] = as_action(self._partner(arena.observation(1 - agent)))
+        arena.step(actions)
+        info = dict(arena.info(agent), partner_action=actions[1 - agent])
+        return arena.observation(agent), float(arena.rewards[0, agent]), False, arena.truncated, info
+
+    def render(self):
+        """A picture (side, side, 3), or a frame in a window."""
+        return self._arena.render()
+
+    def close(self):
+        """Ends everything; closing twice is allowed."""
+        self._arena.close()

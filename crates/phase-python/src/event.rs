@@ -1,0 +1,165 @@
+//! Events: simulated, read, as arrays.
+
+use crate::{arrays::row_of, command::quiet, error::raise, mind::read_parameters, scene::Scene};
+use core::ops::ControlFlow;
+use numpy::{PyArray2, PyArray3};
+use phase_cli::{engine::GENERATOR, event_writer::settings_value, source::EventInput};
+use phase_event::{Recording, from_json, to_json};
+use phase_model::arena::SUBSTEPS;
+use phase_sim::{Engine, SimulationSettings, simulate_with};
+use pyo3::prelude::*;
+use std::{path::PathBuf, sync::Arc};
+
+/// An event: a scene and what happened in it.
+#[pyclass(frozen, module = "phase_events._native")]
+pub(crate) struct Event {
+    pub(crate) recording: Arc<Recording>,
+}
+
+#[pymethods]
+impl Event {
+    /// The events of a document in the format phase-events/1.
+    #[staticmethod]
+    fn list_from_json(py: Python<'_>, text: &str) -> PyResult<Vec<Self>> {
+        let read = py.detach(|| from_json(text)).map_err(raise)?;
+        Ok(read.into_iter().map(|recording| Self { recording: Arc::new(recording) }).collect())
+    }
+
+    /// The event in the format phase-events/1.
+    fn to_json(&self) -> PyResult<String> {
+        to_json(std::slice::from_ref(&*self.recording)).map_err(raise)
+    }
+
+    #[getter]
+    fn id(&self) -> &str {
+        &self.recording.id
+    }
+
+    #[getter]
+    fn kind(&self) -> &'static str {
+        self.recording.scene.kind.name()
+    }
+
+    #[getter]
+    fn relation(&self) -> &'static str {
+        self.recording.relation.name()
+    }
+
+    #[getter]
+    fn steps(&self) -> usize {
+        self.recording.trajectory.steps()
+    }
+
+    #[getter]
+    fn scene(&self) -> Scene {
+        Scene { scene: self.recording.scene.clone() }
+    }
+
+    /// The rows of the trajectory: (steps + 1, entities, 5), columns x, y, vx, vy, angle. Row 0 is the initial state, every other
+    /// the mean over the substeps of its step.
+    fn trajectory<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f32>>> {
+        let entities: Vec<_> = self.recording.trajectory.entities().collect();
+        let row = |step: usize| entities.iter().map(|rows| rows[step].to_vec()).collect();
+        let rows: Vec<Vec<Vec<f32>>> = (0..=self.recording.trajectory.steps()).map(row).collect();
+        PyArray3::from_vec3(py, &rows).map_err(raise)
+    }
+
+    /// The bodies after every substep, 60 a second: (5 · steps, entities, 6); `None` for a recording, which has none.
+    fn substeps<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyArray3<f32>>>> {
+        let Some(simulation) = &self.recording.simulation else { return Ok(None) };
+        let entities = self.recording.scene.physics().entities();
+        let entities: Vec<_> = entities.collect();
+        let states = simulation.event.steps.iter().flat_map(|step| &step.substeps);
+        let rows: Vec<Vec<Vec<f32>>> = states
+            .map(|state| entities.iter().map(|&entity| row_of(state.body(entity)).to_vec()).collect())
+            .collect();
+        debug_assert_eq!(rows.len(), SUBSTEPS * simulation.event.steps.len());
+        PyArray3::from_vec3(py, &rows).map(Some).map_err(raise)
+    }
+
+    /// Both agents' actions: (steps, 2); for a recording those that were recovered from its motion, if any.
+    fn actions<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyArray2<i64>>>> {
+        let simulated = self.recording.simulation.as_ref();
+        let simulated =
+            simulated.map(|simulation| simulation.event.steps.iter().map(|step| step.actions).collect());
+        let recovered = self.recording.recovered_actions.as_ref().map(|recovered| recovered.steps.clone());
+        let Some(steps): Option<Vec<_>> = simulated.or(recovered) else { return Ok(None) };
+        let rows: Vec<Vec<i64>> =
+            steps.iter().map(|actions| actions.map(|action| action.index() as i64).to_vec()).collect();
+        PyArray2::from_vec2(py, &rows).map(Some).map_err(raise)
+    }
+
+    /// The reasons of both agents' decisions at every step, as JSON; `None` for a recording.
+    fn thoughts(&self) -> PyResult<Option<String>> {
+        let Some(simulation) = &self.recording.simulation else { return Ok(None) };
+        let thoughts: Vec<_> = simulation.event.steps.iter().map(|step| &step.thoughts).collect();
+        serde_json::to_string(&thoughts).map(Some).map_err(raise)
+    }
+}
+
+/// The events of a file or folder, read one by one.
+#[pyclass(frozen, module = "phase_events._native")]
+pub(crate) struct EventSource {
+    source: EventInput,
+}
+
+#[pymethods]
+impl EventSource {
+    #[new]
+    fn open(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
+        let source = py.detach(|| EventInput::open(&path, &[], &quiet())).map_err(raise)?;
+        Ok(Self { source })
+    }
+
+    fn __len__(&self) -> usize {
+        self.source.len()
+    }
+
+    /// Reads the event at an index.
+    fn load(&self, py: Python<'_>, index: usize) -> PyResult<Event> {
+        if index >= self.source.len() {
+            return Err(raise(format!("there are {} events, and no event {index}", self.source.len())));
+        }
+        let recording = py.detach(|| self.source.load(index)).map_err(raise)?;
+        Ok(Event { recording: Arc::new(recording) })
+    }
+}
+
+/// Simulates a scene with two of PHASE's minds.
+#[pyfunction]
+#[pyo3(signature = (scene, seed, id, engine, max_steps, parameters))]
+pub(crate) fn simulate(
+    py: Python<'_>,
+    scene: PyRef<'_, Scene>,
+    seed: u64,
+    id: &str,
+    engine: &str,
+    max_steps: usize,
+    parameters: Option<&str>,
+) -> PyResult<Event> {
+    let named = Engine::ALL.into_iter().find(|it| it.name() == engine);
+    let engine = named.ok_or_else(|| raise(format!("engine must be world or forward, not {engine:?}")))?;
+    let minds = read_parameters(parameters)?;
+    let settings = SimulationSettings { engine, max_steps, minds, ..SimulationSettings::default() };
+    let scene = scene.scene.clone();
+    let mut interrupted = None;
+    let found = py.detach(|| {
+        simulate_with(&scene, seed, &settings, &mut |_| match Python::attach(|py| py.check_signals()) {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(error) => {
+                interrupted = Some(error);
+                ControlFlow::Break(())
+            }
+        })
+    });
+    if let Some(error) = interrupted {
+        return Err(error);
+    }
+    let (event, _) = found.map_err(raise)?;
+    let settings = settings_value(&settings).map_err(raise)?;
+    let recording = Recording::of_event(id, event, GENERATOR.into(), settings);
+    // What a file of it would be read as, so that an event is the same wherever it comes from, and its id is checked.
+    let text = to_json(&[recording]).map_err(raise)?;
+    let mut read = Event::list_from_json(py, &text)?;
+    read.pop().ok_or_else(|| raise("the event cannot be read back"))
+}

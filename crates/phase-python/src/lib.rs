@@ -1,0 +1,51 @@
+//! The native part of the Python package `phase_events`, the module `phase_events._native`.
+//!
+//! It hands numbers over as numpy arrays and everything else as JSON, in the formats of `docs/formats.md`, so that Python and files
+//! have one vocabulary. What users see, with types, units and errors, is documented in the package, `python/phase_events`.
+//!
+//! Key design decision: an agent's observation is one vector of fixed length ([`observation`]). Learners, vector environments and
+//! PHASE's own minds read the same vector, and nothing is lost in it: two minds that play in an environment make the event that
+//! [`phase_sim::simulate`] makes. The trade-off is a longer vector than most learners need.
+//!
+//! The interpreter's lock is released in every call that computes.
+
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+
+mod arrays;
+mod command;
+mod drawing;
+mod error;
+mod event;
+mod mind;
+mod observation;
+mod observer;
+mod perceive;
+mod scene;
+mod worlds;
+
+use pyo3::prelude::*;
+
+/// The native part of `phase_events`.
+#[pymodule]
+fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    let py = module.py();
+    module.add("PhaseError", py.get_type::<error::PhaseError>())?;
+    module.add("OBSERVATION_SIZE", observation::SIZE)?;
+    module.add("OBSERVATION_PARTS", observation::parts())?;
+    module.add("ACTIONS", scene::action_names())?;
+    module.add_class::<scene::Scene>()?;
+    module.add_class::<worlds::Worlds>()?;
+    module.add_class::<mind::Mind>()?;
+    module.add_class::<event::Event>()?;
+    module.add_class::<event::EventSource>()?;
+    module.add_class::<observer::Observer>()?;
+    module.add_class::<drawing::Renderer>()?;
+    module.add_function(wrap_pyfunction!(mind::decide_all, module)?)?;
+    module.add_function(wrap_pyfunction!(event::simulate, module)?)?;
+    module.add_function(wrap_pyfunction!(perceive::infer, module)?)?;
+    module.add_function(wrap_pyfunction!(perceive::forecast, module)?)?;
+    module.add_function(wrap_pyfunction!(perceive::methods, module)?)?;
+    module.add_function(wrap_pyfunction!(command::run, module)?)?;
+    Ok(())
+}

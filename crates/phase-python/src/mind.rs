@@ -1,0 +1,177 @@
+//! A mind that decides from observations.
+
+use crate::{
+    arrays::{BODY_COLUMNS, check_shape, row_of},
+    error::raise,
+    observation::{self, SIZE},
+    scene::{Scene, action_of, agent_of},
+};
+use numpy::{PyArray1, PyArray3, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
+use phase_agent::{BeliefView, MindKind, MindParameters};
+use phase_belief::Belief;
+use phase_event::Thought;
+use phase_forward::Forward;
+use phase_model::{
+    Action, AgentId, PhysicsConfig,
+    random::{self, Pcg64Mcg, Purpose},
+};
+use phase_perception::Observation;
+use pyo3::prelude::*;
+use rayon::prelude::*;
+use serde_json::Value;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// The mind of one agent, with its belief.
+#[pyclass(frozen, module = "phase_events._native")]
+pub(crate) struct Mind {
+    agent: AgentId,
+    entities: usize,
+    state: Arc<Mutex<MindState>>,
+}
+
+/// What changes as a mind observes and decides.
+struct MindState {
+    mind: Box<dyn phase_minds::Mind>,
+    belief: Option<Belief>,
+    physics: PhysicsConfig,
+    forward: Forward,
+    particles: usize,
+    belief_random: Pcg64Mcg,
+    search_random: Pcg64Mcg,
+    last_action: Option<Action>,
+    thought: Option<Thought>,
+}
+
+impl MindState {
+    fn decide(&mut self, observation: &Observation, action: Option<Action>) -> Result<Action, String> {
+        if let (Some(belief), Some(action)) = (&mut self.belief, action.or(self.last_action)) {
+            belief.update(&self.forward, &self.physics, action, observation, &mut self.belief_random);
+            self.last_action = Some(action);
+        } else {
+            let random = &mut self.belief_random;
+            self.belief = Some(Belief::new(&self.physics, observation, self.particles, random));
+        }
+        let particles = self.belief.as_ref().map(Belief::particles).unwrap_or_default();
+        let view = BeliefView { particles, observed: observation.observed, last_action: self.last_action };
+        let decided = self.mind.decide(view, &mut self.search_random);
+        let (action, thought) = decided.map_err(|error| error.to_string())?;
+        (self.last_action, self.thought) = (Some(action), Some(thought));
+        Ok(action)
+    }
+}
+
+#[pymethods]
+impl Mind {
+    #[new]
+    #[pyo3(signature = (scene, agent, seed, parameters))]
+    fn new(scene: PyRef<'_, Scene>, agent: usize, seed: u64, parameters: Option<&str>) -> PyResult<Self> {
+        let agent = agent_of(agent)?;
+        let parameters = read_parameters(parameters)?;
+        if parameters.kind != MindKind::Phase {
+            let rule = "a mind that decides from observations is of the kind phase: published minds have senses of their own";
+            return Err(raise(rule));
+        }
+        let scene = &scene.scene;
+        let physics = scene.physics();
+        let state = MindState {
+            mind: phase_minds::mind(scene, agent, &parameters).map_err(raise)?,
+            belief: None,
+            forward: Forward::new(&physics),
+            particles: parameters.particles,
+            belief_random: random::stream(seed, Purpose::Belief, agent.number().into()),
+            search_random: random::stream(seed, Purpose::Search, agent.number().into()),
+            last_action: None,
+            thought: None,
+            physics,
+        };
+        Ok(Self { agent, entities: state.physics.entities().count(), state: Arc::new(Mutex::new(state)) })
+    }
+
+    /// Observes and decides; `action` is what the agent did in fact since its last decision, if not what it decided.
+    #[pyo3(signature = (observation, action))]
+    fn decide(
+        &self,
+        py: Python<'_>,
+        observation: PyReadonlyArray1<'_, f32>,
+        action: Option<i64>,
+    ) -> PyResult<usize> {
+        let action = action.map(action_of).transpose()?;
+        let observation = observation::read(self.agent, observation.as_slice()?)?;
+        let decided = py.detach(|| {
+            self.state.lock().unwrap_or_else(PoisonError::into_inner).decide(&observation, action)
+        });
+        decided.map(Action::index).map_err(raise)
+    }
+
+    /// The possible worlds, equally likely: (particles, entities, 6); `None` before the first decision.
+    fn particles<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyArray3<f32>>>> {
+        let state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
+        let Some(belief) = &state.belief else { return Ok(None) };
+        let particles: Vec<Vec<Vec<f32>>> = belief
+            .particles()
+            .iter()
+            .map(|particle| {
+                particle.bodies[..self.entities].iter().map(|body| row_of(body).to_vec()).collect()
+            })
+            .collect();
+        debug_assert!(particles.iter().flatten().all(|row| row.len() == BODY_COLUMNS));
+        PyArray3::from_vec3(py, &particles).map(Some).map_err(raise)
+    }
+
+    /// The reasons of the last decision as JSON; `None` before the first one.
+    fn thought(&self) -> PyResult<Option<String>> {
+        let state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
+        state.thought.as_ref().map(serde_json::to_string).transpose().map_err(raise)
+    }
+}
+
+/// Lets several minds decide at once, each from a row of the observations, (N, OBSERVATION_SIZE). `threads` at most decide at the
+/// same time.
+#[pyfunction]
+pub(crate) fn decide_all<'py>(
+    py: Python<'py>,
+    minds: Vec<PyRef<'py, Mind>>,
+    observations: PyReadonlyArray2<'py, f32>,
+    threads: usize,
+) -> PyResult<Bound<'py, PyArray1<i64>>> {
+    check_shape("observations", observations.shape(), &[minds.len(), SIZE])?;
+    let numbers = observations.as_slice()?;
+    let rows = minds.iter().zip(numbers.chunks_exact(SIZE));
+    let tasks: Vec<(Arc<Mutex<MindState>>, Observation)> = rows
+        .map(|(mind, row)| Ok((Arc::clone(&mind.state), observation::read(mind.agent, row)?)))
+        .collect::<PyResult<_>>()?;
+    let decided: Result<Vec<i64>, String> = py.detach(|| {
+        let one = |(state, observation): &(Arc<Mutex<MindState>>, Observation)| {
+            let mut state = state.lock().unwrap_or_else(PoisonError::into_inner);
+            state.decide(observation, None).map(|action| action.index() as i64)
+        };
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.max(1)).build();
+        let pool = pool.map_err(|error| error.to_string())?;
+        pool.install(|| tasks.par_iter().map(one).collect())
+    });
+    decided.map(|actions| PyArray1::from_vec(py, actions)).map_err(raise)
+}
+
+/// The parameters of minds as a JSON object, of which all that are absent have their defaults.
+///
+/// # Errors
+/// `PhaseError` that names an unknown parameter, or one of the wrong type.
+pub(crate) fn read_parameters(text: Option<&str>) -> PyResult<MindParameters> {
+    let Some(text) = text else { return Ok(MindParameters::default()) };
+    let given: Value = serde_json::from_str(text).map_err(raise)?;
+    let Value::Object(given) = given else { return Err(raise("parameters must be an object")) };
+    let mut all = serde_json::to_value(MindParameters::default()).map_err(raise)?;
+    for (name, value) in given {
+        let place = all.get_mut(&name);
+        *place.ok_or_else(|| raise(format!("`{name}` is no parameter of the minds")))? = value;
+    }
+    let parameters: MindParameters =
+        serde_json::from_value(all).map_err(|error| raise(format!("parameters: {error}")))?;
+    if parameters.particles == 0 {
+        return Err(raise("parameters: `particles` must be at least 1"));
+    }
+    if !(parameters.decisiveness.is_finite() && parameters.decisiveness >= 0.0) {
+        return Err(raise("parameters: `decisiveness` must be finite and at least 0"));
+    }
+    Ok(parameters)
+}

@@ -1,0 +1,143 @@
+//! Scenes: read, written, sampled.
+
+use crate::error::raise;
+use phase_cli::gen_dataset::plan;
+use phase_dataset::composition::{Composition, EventSlot, SetSlot};
+use phase_model::{
+    Action, AgentId, EventKind, Layout, Scene as ModelScene,
+    random::{self, Purpose},
+};
+use phase_sampler::{Contrast, ContrastRequest, Request, SampleError, Variant, sample, sample_kind};
+use pyo3::prelude::*;
+use rand::RngExt;
+
+/// A valid scene.
+#[pyclass(frozen, module = "phase_events._native")]
+pub(crate) struct Scene {
+    pub(crate) scene: ModelScene,
+}
+
+#[pymethods]
+impl Scene {
+    /// Reads a scene as JSON, as it stands in a file of events.
+    #[staticmethod]
+    fn from_json(text: &str) -> PyResult<Self> {
+        let scene = ModelScene::from_json(text).map_err(raise)?;
+        scene.validate().map_err(raise)?;
+        Ok(Self { scene })
+    }
+
+    /// Draws a scene: of a kind and variant, or of any of the six kinds.
+    #[staticmethod]
+    #[pyo3(signature = (kind, variant, seed))]
+    fn sample(py: Python<'_>, kind: Option<&str>, variant: Option<&str>, seed: u64) -> PyResult<Self> {
+        let kind = kind.map(kind_of).transpose()?;
+        let variant = variant.map(|name| variant_of(name, kind)).transpose()?;
+        let scene = py.detach(|| {
+            let mut random = random::stream(seed, Purpose::Scene, 0);
+            match (variant, kind) {
+                (Some(variant), _) => {
+                    let layouts: Vec<Layout> = Layout::all_used().collect();
+                    let goal_index = random.random_range(0..variant.goal_count());
+                    sample(&Request { variant, goal_index, layouts: &layouts }, &mut random)
+                }
+                (None, Some(kind)) => sample_kind(kind, &mut random),
+                (None, None) => {
+                    let kind = EventKind::ALL[random.random_range(0..EventKind::ALL.len())];
+                    sample_kind(kind, &mut random)
+                }
+            }
+        });
+        Ok(Self { scene: scene.map_err(raise)? })
+    }
+
+    /// Draws a scene as a preset has them: of a random one of its slots, with that slot's variant, goals and layouts.
+    #[staticmethod]
+    fn sample_preset(py: Python<'_>, preset: &str, seed: u64) -> PyResult<Self> {
+        let preset = plan::preset(preset).map_err(raise)?;
+        let scene = py.detach(|| {
+            let composition = Composition::of(&preset);
+            let mut random = random::stream(seed, Purpose::Scene, 0);
+            let slots = composition.slots(preset.events()).unwrap_or_default().max(1);
+            let index = random.random_range(0..slots);
+            if let Some(set) = composition.set(index) {
+                let layouts = preset.pool(&set.layouts);
+                let SetSlot { stances, about, goal_index, .. } = &set;
+                let request =
+                    ContrastRequest { stances, about: *about, goal_index: *goal_index, layouts: &layouts };
+                let contrast = Contrast::sample(&request, &mut random)?;
+                let member = random.random_range(0..stances.len());
+                return Ok(contrast.scenes[member].clone());
+            }
+            let slot = composition.slot(index);
+            let layouts = preset.pool(&slot.layouts);
+            let EventSlot { variant, goal_index, .. } = slot;
+            sample(&Request { variant, goal_index, layouts: &layouts }, &mut random)
+        });
+        Ok(Self { scene: scene.map_err(|error: SampleError| raise(error))? })
+    }
+
+    /// The scene as JSON.
+    fn to_json(&self) -> PyResult<String> {
+        self.scene.to_json().map_err(raise)
+    }
+
+    /// Name of the kind of event that it was made for.
+    #[getter]
+    const fn kind(&self) -> &'static str {
+        self.scene.kind.name()
+    }
+
+    /// Name of the relation that its goals and attitudes have.
+    #[getter]
+    fn relation(&self) -> &'static str {
+        self.scene.relation().name()
+    }
+
+    /// Number of bodies.
+    #[getter]
+    fn entity_count(&self) -> usize {
+        self.scene.physics().entities().count()
+    }
+}
+
+/// Names of the fourteen actions, by their numbers.
+pub(crate) fn action_names() -> Vec<String> {
+    let name = |action: Action| serde_json::to_value(action).ok()?.as_str().map(str::to_owned);
+    Action::ALL.into_iter().filter_map(name).collect()
+}
+
+/// An agent by its number.
+///
+/// # Errors
+/// `PhaseError` for a number other than 0 and 1.
+pub(crate) fn agent_of(number: usize) -> PyResult<AgentId> {
+    let agent = AgentId::ALL.get(number).copied();
+    agent.ok_or_else(|| raise(format!("an agent is 0 or 1, not {number}")))
+}
+
+/// An action by its number.
+///
+/// # Errors
+/// `PhaseError` for a number past 13 or below 0.
+pub(crate) fn action_of(number: i64) -> PyResult<Action> {
+    let action = usize::try_from(number).ok().and_then(|number| Action::ALL.get(number)).copied();
+    action.ok_or_else(|| raise(format!("an action is a whole number from 0 to 13, not {number}")))
+}
+
+fn kind_of(name: &str) -> PyResult<EventKind> {
+    let kind = EventKind::ALL.into_iter().find(|kind| kind.name() == name);
+    kind.ok_or_else(|| {
+        let names = EventKind::ALL.map(EventKind::name).join(", ");
+        raise(format!("kind must be one of {names}, not {name:?}"))
+    })
+}
+
+fn variant_of(name: &str, kind: Option<EventKind>) -> PyResult<Variant> {
+    let fits = |variant: &Variant| kind.is_none_or(|kind| variant.kind() == kind);
+    let mut variants = Variant::ALL.into_iter().filter(fits);
+    variants.find(|variant| variant.name() == name).ok_or_else(|| {
+        let names: Vec<&str> = Variant::ALL.into_iter().filter(fits).map(Variant::name).collect();
+        raise(format!("variant must be one of {}, not {name:?}", names.join(", ")))
+    })
+}

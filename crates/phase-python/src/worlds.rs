@@ -1,0 +1,287 @@
+//! Worlds that are stepped together.
+
+use crate::{
+    arrays::{check_shape, row_of},
+    error::raise,
+    observation::{Encoder, SIZE},
+    scene::{Scene, action_of},
+};
+use numpy::{
+    PyArray1, PyArray2, PyArray3, PyReadonlyArray1, PyReadonlyArray2, PyReadwriteArray2, PyReadwriteArray3,
+    PyUntypedArrayMethods,
+};
+use phase_model::{
+    AGENT_COUNT, Action, AgentId, Attitude, BodySet, Goal, PhysicsConfig, State, arena::SUBSTEPS,
+    reward::social_reward,
+};
+use phase_perception::{Cell, CellSet, Observation, observe};
+use phase_predicates::achieved;
+use phase_sim::{Engine, Environment};
+use pyo3::prelude::*;
+use rayon::prelude::*;
+
+/// Several worlds, each with a scene of its own.
+#[pyclass(module = "phase_events._native")]
+pub(crate) struct Worlds {
+    lanes: Vec<Lane>,
+    engine: Engine,
+    /// Whether agents observe everything.
+    omniscient: bool,
+    pool: Option<rayon::ThreadPool>,
+}
+
+/// One world.
+struct Lane {
+    environment: Environment,
+    physics: PhysicsConfig,
+    goals: [Goal; AGENT_COUNT],
+    attitudes: [Attitude; AGENT_COUNT],
+    encoder: Encoder,
+    /// The states after each substep of the last step; the initial state before the first one.
+    substeps: [State; SUBSTEPS],
+}
+
+impl Lane {
+    fn new(scene: &Scene, engine: Engine) -> Self {
+        let (scene, physics) = (&scene.scene, scene.scene.physics());
+        let state = scene.initial_state();
+        Self {
+            environment: Environment::new(engine, &physics, &state),
+            encoder: Encoder::new(scene),
+            goals: scene.goals(),
+            attitudes: scene.attitudes(),
+            substeps: [state; SUBSTEPS],
+            physics,
+        }
+    }
+
+    const fn state(&self) -> &State {
+        &self.substeps[SUBSTEPS - 1]
+    }
+
+    fn observe(&self, omniscient: bool, out: &mut [f32]) {
+        for (agent, out) in AgentId::ALL.into_iter().zip(out.chunks_exact_mut(SIZE)) {
+            let observation = if omniscient {
+                let all: BodySet = self.physics.entities().collect();
+                let mut cells = CellSet::EMPTY;
+                Cell::all().for_each(|cell| cells.insert(cell));
+                Observation::of(&self.physics, self.state(), agent, cells, all)
+            } else {
+                observe(&self.physics, self.state(), agent)
+            };
+            self.encoder.write(&observation, out);
+        }
+    }
+
+    /// Whether each agent's goal holds.
+    fn achieved(&self) -> [bool; AGENT_COUNT] {
+        self.goals.map(|goal| achieved(&self.physics, self.state(), goal))
+    }
+
+    /// Equation 1 for each agent.
+    fn rewards(&self, achieved: [bool; AGENT_COUNT], actions: [Action; AGENT_COUNT]) -> [f64; AGENT_COUNT] {
+        let satisfied = achieved.map(|achieved| f64::from(u8::from(achieved)));
+        AgentId::ALL.map(|agent| {
+            let (own, other) = (satisfied[usize::from(agent)], satisfied[usize::from(agent.other())]);
+            social_reward(self.attitudes[agent], own, other, actions[usize::from(agent)])
+        })
+    }
+}
+
+/// What a step writes for one world.
+struct Row<'a> {
+    lane: &'a mut Lane,
+    actions: [Action; AGENT_COUNT],
+    observations: &'a mut [f32],
+    rewards: &'a mut [f64],
+    achieved: &'a mut [bool],
+}
+
+#[pymethods]
+impl Worlds {
+    #[new]
+    #[pyo3(signature = (scenes, engine, omniscient, threads))]
+    fn new(
+        py: Python<'_>,
+        scenes: Vec<PyRef<'_, Scene>>,
+        engine: &str,
+        omniscient: bool,
+        threads: usize,
+    ) -> PyResult<Self> {
+        let named = Engine::ALL.into_iter().find(|it| it.name() == engine);
+        let engine = named.ok_or_else(|| {
+            let names = Engine::ALL.map(Engine::name).join(" or ");
+            raise(format!("engine must be {names}, not {engine:?}"))
+        })?;
+        let pool = match threads {
+            0 | 1 => None,
+            threads => Some(
+                py.detach(|| rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(raise))?,
+            ),
+        };
+        let lanes = scenes.iter().map(|scene| Lane::new(scene, engine)).collect();
+        Ok(Self { lanes, engine, omniscient, pool })
+    }
+
+    fn __len__(&self) -> usize {
+        self.lanes.len()
+    }
+
+    /// Puts a scene into one of the worlds, at its start.
+    fn reset(&mut self, index: usize, scene: PyRef<'_, Scene>) -> PyResult<()> {
+        let engine = self.engine;
+        *self.lane_mut(index)? = Lane::new(&scene, engine);
+        Ok(())
+    }
+
+    /// Writes the observations of both agents of each world, (N, 2, OBSERVATION_SIZE), and whether their goals hold, (N, 2).
+    fn observe(
+        &self,
+        py: Python<'_>,
+        mut observations: PyReadwriteArray3<'_, f32>,
+        mut achieved: PyReadwriteArray2<'_, bool>,
+    ) -> PyResult<()> {
+        let count = self.lanes.len();
+        check_shape("observations", observations.shape(), &[count, AGENT_COUNT, SIZE])?;
+        check_shape("achieved", achieved.shape(), &[count, AGENT_COUNT])?;
+        let observations = observations.as_slice_mut()?;
+        let achieved = achieved.as_slice_mut()?;
+        py.detach(|| {
+            let rows = observations.chunks_exact_mut(AGENT_COUNT * SIZE);
+            for ((lane, observation), achieved) in
+                self.lanes.iter().zip(rows).zip(achieved.chunks_exact_mut(AGENT_COUNT))
+            {
+                lane.observe(self.omniscient, observation);
+                achieved.copy_from_slice(&lane.achieved());
+            }
+        });
+        Ok(())
+    }
+
+    /// Writes observations and goals as `observe`, of these worlds only.
+    fn observe_some(
+        &self,
+        py: Python<'_>,
+        worlds: PyReadonlyArray1<'_, i64>,
+        mut observations: PyReadwriteArray3<'_, f32>,
+        mut achieved: PyReadwriteArray2<'_, bool>,
+    ) -> PyResult<()> {
+        let count = self.lanes.len();
+        check_shape("observations", observations.shape(), &[count, AGENT_COUNT, SIZE])?;
+        check_shape("achieved", achieved.shape(), &[count, AGENT_COUNT])?;
+        let chosen: Vec<usize> = worlds
+            .as_array()
+            .iter()
+            .map(|&world| {
+                let index = usize::try_from(world).ok().filter(|&index| index < count);
+                index.ok_or_else(|| raise(format!("there are {count} worlds, and no world {world}")))
+            })
+            .collect::<PyResult<_>>()?;
+        let (observations, achieved) = (observations.as_slice_mut()?, achieved.as_slice_mut()?);
+        py.detach(|| {
+            for index in chosen {
+                let (lane, row) = (&self.lanes[index], AGENT_COUNT * SIZE);
+                lane.observe(self.omniscient, &mut observations[index * row..(index + 1) * row]);
+                achieved[index * AGENT_COUNT..(index + 1) * AGENT_COUNT].copy_from_slice(&lane.achieved());
+            }
+        });
+        Ok(())
+    }
+
+    /// Lets both agents of each world act, (N, 2) actions, and writes observations as `observe`, rewards (N, 2) of Equation 1,
+    /// and whether the goals hold. Nothing happens if an action is invalid.
+    fn step(
+        &mut self,
+        py: Python<'_>,
+        actions: PyReadonlyArray2<'_, i64>,
+        mut observations: PyReadwriteArray3<'_, f32>,
+        mut rewards: PyReadwriteArray2<'_, f64>,
+        mut achieved: PyReadwriteArray2<'_, bool>,
+    ) -> PyResult<()> {
+        let count = self.lanes.len();
+        check_shape("actions", actions.shape(), &[count, AGENT_COUNT])?;
+        check_shape("observations", observations.shape(), &[count, AGENT_COUNT, SIZE])?;
+        check_shape("rewards", rewards.shape(), &[count, AGENT_COUNT])?;
+        check_shape("achieved", achieved.shape(), &[count, AGENT_COUNT])?;
+        let numbers = actions.as_array();
+        let rows = numbers.rows().into_iter();
+        let actions: Vec<[Action; AGENT_COUNT]> =
+            rows.map(|row| Ok([action_of(row[0])?, action_of(row[1])?])).collect::<PyResult<_>>()?;
+        let observations = observations.as_slice_mut()?;
+        let rewards = rewards.as_slice_mut()?;
+        let achieved = achieved.as_slice_mut()?;
+        let Self { lanes, omniscient, pool, .. } = self;
+        let omniscient = *omniscient;
+        let one = |row: Row<'_>| {
+            row.lane.substeps = row.lane.environment.step(row.actions);
+            row.lane.observe(omniscient, row.observations);
+            let achieved = row.lane.achieved();
+            row.rewards.copy_from_slice(&row.lane.rewards(achieved, row.actions));
+            row.achieved.copy_from_slice(&achieved);
+        };
+        py.detach(|| {
+            let rows = lanes.iter_mut().zip(actions).zip(observations.chunks_exact_mut(AGENT_COUNT * SIZE));
+            let rows =
+                rows.zip(rewards.chunks_exact_mut(AGENT_COUNT)).zip(achieved.chunks_exact_mut(AGENT_COUNT));
+            let rows = rows.map(|((((lane, actions), observations), rewards), achieved)| Row {
+                lane,
+                actions,
+                observations,
+                rewards,
+                achieved,
+            });
+            match pool {
+                None => rows.for_each(one),
+                Some(pool) => {
+                    let rows: Vec<Row<'_>> = rows.collect();
+                    pool.install(|| rows.into_par_iter().with_min_len(8).for_each(one));
+                }
+            }
+        });
+        Ok(())
+    }
+
+    /// The bodies of a world: (entities, 6), columns x, y, angle, vx, vy, angular velocity.
+    fn bodies<'py>(&self, py: Python<'py>, index: usize) -> PyResult<Bound<'py, PyArray2<f32>>> {
+        let lane = self.lane(index)?;
+        let rows: Vec<Vec<f32>> =
+            lane.physics.entities().map(|entity| row_of(lane.state().body(entity)).to_vec()).collect();
+        PyArray2::from_vec2(py, &rows).map_err(raise)
+    }
+
+    /// The bodies after each substep of the last step: (5, entities, 6).
+    fn substeps<'py>(&self, py: Python<'py>, index: usize) -> PyResult<Bound<'py, PyArray3<f32>>> {
+        let lane = self.lane(index)?;
+        let rows = |state: &State| {
+            lane.physics.entities().map(|entity| row_of(state.body(entity)).to_vec()).collect()
+        };
+        let states: Vec<Vec<Vec<f32>>> = lane.substeps.iter().map(rows).collect();
+        PyArray3::from_vec3(py, &states).map_err(raise)
+    }
+
+    /// What each agent of a world holds: the number of the object, or −1.
+    fn held<'py>(&self, py: Python<'py>, index: usize) -> PyResult<Bound<'py, PyArray1<i64>>> {
+        let state = self.lane(index)?.state();
+        let held =
+            AgentId::ALL.map(|agent| state.held_object(agent).map_or(-1, |object| object.number().into()));
+        Ok(PyArray1::from_slice(py, &held))
+    }
+}
+
+impl Worlds {
+    fn lane(&self, index: usize) -> PyResult<&Lane> {
+        let count = self.lanes.len();
+        self.lanes.get(index).ok_or_else(|| raise(format!("there are {count} worlds, and no world {index}")))
+    }
+
+    fn lane_mut(&mut self, index: usize) -> PyResult<&mut Lane> {
+        let count = self.lanes.len();
+        let lane = self.lanes.get_mut(index);
+        lane.ok_or_else(|| raise(format!("there are {count} worlds, and no world {index}")))
+    }
+
+    /// The physics and the state of a world.
+    pub(crate) fn view(&self, index: usize) -> PyResult<(&PhysicsConfig, &State)> {
+        self.lane(index).map(|lane| (&lane.physics, lane.state()))
+    }
+}
