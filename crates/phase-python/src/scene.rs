@@ -7,9 +7,14 @@ use phase_model::{
     Action, AgentId, EventKind, Layout, Scene as ModelScene,
     random::{self, Purpose},
 };
-use phase_sampler::{Contrast, ContrastRequest, Request, SampleError, Variant, sample, sample_kind};
+use phase_sampler::{
+    Contrast, ContrastRequest, Part, Request, SampleError, Stage, Variant, sample, sample_kind,
+};
 use pyo3::prelude::*;
 use rand::RngExt;
+
+/// How often a slot of a preset is cast on its stage; most often once suffices.
+const CASTS: usize = 1000;
 
 /// A valid scene.
 #[pyclass(frozen, module = "phase_events._native")]
@@ -72,6 +77,12 @@ impl Scene {
             let slot = composition.slot(index);
             let layouts = preset.pool(&slot.layouts);
             let EventSlot { variant, goal_index, .. } = slot;
+            if let Some(place) = slot.block {
+                let stage = Stage::sample(&composition.parts(place), &layouts, &mut random)?;
+                let part = Part { variant, goal_index };
+                let drawn = (0..CASTS).find_map(|_| stage.cast(part, &mut random));
+                return drawn.ok_or(SampleError(variant));
+            }
             sample(&Request { variant, goal_index, layouts: &layouts }, &mut random)
         });
         Ok(Self { scene: scene.map_err(|error: SampleError| raise(error))? })

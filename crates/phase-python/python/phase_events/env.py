@@ -342,3 +342,12 @@ class PhaseEnv(gymnasium.Env):
     def close(self):
         """Ends everything; closing twice is allowed."""
         self._arena.close()
+
+
+# gymnasium.make("PHASE-v0") and gymnasium.make_vec("PHASE-v0")
+if "PHASE-v0" not in gymnasium.registry:
+    gymnasium.register(
+        "PHASE-v0",
+        entry_point="phase_events.env:PhaseEnv",
+        vector_entry_point="phase_events.vector:make_vector",
+    )

@@ -162,7 +162,8 @@ class HeuristicPolicy:
     _TURN = ACTIONS.index("turnleft")
     # Rooms: 0 top left, 1 top right, 2 bottom right, 3 bottom left. The wall between two rooms, and its direction from the centre.
     _CENTRE = np.array([16.0, 12.0])
-    _AWAY = 1.0
+    # It is there when it is this close (u).
+    _CLOSE = 0.3
 
     def __call__(self, observation):
         parts = split_observation(observation)
@@ -188,7 +189,7 @@ class HeuristicPolicy:
             # The other's place: whoever helps or hinders there pushes the other.
             return self._towards(own, entities[1][3:5], parts)
         carried = entities[subject][3:5] if kind == 1 else own[3:5]
-        if np.linalg.norm(carried - place) < self._AWAY:
+        if np.linalg.norm(carried - place) < self._CLOSE:
             return _STOP
         return self._towards(own, place + (own[3:5] - carried), parts)
 

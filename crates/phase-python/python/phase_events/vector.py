@@ -209,3 +209,8 @@ class PhaseVectorEnv(gymnasium.vector.VectorEnv):
 def _make(partner):
     """A policy of its own for each world."""
     return as_policy(partner) if isinstance(partner, str) else as_policy(partner())
+
+
+def make_vector(num_envs=1, *, agent=0, **options):
+    """``num_envs`` worlds with one learner each, for ``gymnasium.make_vec``."""
+    return PhaseVectorEnv(num_envs, agent=agent, **options)
