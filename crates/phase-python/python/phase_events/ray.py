@@ -1,0 +1,112 @@
+"""Datasets and evaluations on a Ray cluster. It needs ``phase-events[ray]``.
+
+Every task makes one shard in a folder that all machines share. A task that is killed is run again and goes on where it was; the parts
+are merged to the bytes of one machine's run. Use more shards than workers: events differ in cost.
+"""
+
+import json
+import os
+import shutil
+from pathlib import Path
+
+import ray
+
+from . import command
+from ._native import PhaseError
+
+RETRIES = 5
+
+
+def generate(preset="demo", events=None, out=None, *, shards=None, seed=None, video=True, options=(), retries=RETRIES):
+    """Generates a dataset as :func:`phase_events.generate`, one shard a task.
+
+    Args:
+        out: the folder of the dataset, on a file system that all workers share; the shards are in ``OUT.shards`` and are kept until
+            they are merged.
+        shards: how many; ``None`` for four a core of the cluster, at most one an event.
+        retries: how often a task is run again after its worker died.
+
+    Returns:
+        the folder.
+
+    Raises:
+        PhaseError: with the sentence of the command line.
+    """
+    out = Path(out) if out is not None else None
+    if out is None:
+        raise PhaseError("out: a folder for the dataset is needed")
+    count = _shards(shards, events)
+
+    def make(k):
+        folder = _parts(out) / f"{k:05d}"
+        command.generate(
+            preset, events, folder, shard=(k, count), seed=seed, video=video, jobs=1, options=options
+        )
+        return str(folder)
+
+    folders = _run(make, count, retries)
+    _merge(["merge", *folders, "--out", os.fspath(out), "--quiet"], out)
+    return out
+
+
+def evaluate(method, events, out, *, task="goals", split=None, shards=None, seed=1, retries=RETRIES):
+    """Evaluates one of PHASE's methods as :func:`phase_events.evaluate`, one shard a task.
+
+    Args:
+        method: its name.
+        events: a file or a dataset on a file system that all workers share.
+        out: a folder for results and report there.
+
+    Returns:
+        the document of results.
+
+    Raises:
+        PhaseError: with the sentence of the command line.
+    """
+    out, events = Path(out), os.fspath(events)
+    count = _shards(shards, None)
+    common = ["eval", task, "--method", method, "--events", events, "--seed", str(seed), "--quiet"]
+    if split is not None:
+        common += ["--split", split]
+
+    def make(k):
+        folder = _parts(out) / f"{k:05d}"
+        with command._silent_output(True):
+            command.run(*common, "--out", folder, "--shard", f"{k}/{count}", "--jobs", "1")
+        return str(folder)
+
+    folders = _run(make, count, retries)
+    _merge([*common, "--merge", *folders, "--out", os.fspath(out)], out)
+    return json.loads((out / "results.json").read_text(encoding="utf-8"))
+
+
+def _parts(out):
+    return out.with_name(out.name + ".shards")
+
+
+def _shards(shards, events):
+    if not ray.is_initialized():
+        ray.init()
+    count = shards if shards is not None else 4 * int(ray.cluster_resources().get("CPU", 1))
+    if not isinstance(count, int) or count < 1:
+        raise PhaseError(f"shards is a whole number of at least 1, not {count!r}")
+    return count if events is None else min(count, events)
+
+
+def _run(make, count, retries):
+    # A failure of the input is the same every time; only a worker that died is run again.
+    task = ray.remote(num_cpus=1, max_retries=retries, retry_exceptions=False)(make)
+    waiting = [task.remote(k) for k in range(1, count + 1)]
+    try:
+        return ray.get(waiting)
+    except ray.exceptions.RayTaskError as error:
+        raise (error.cause if isinstance(error.cause, PhaseError) else PhaseError(str(error.cause))) from error
+    finally:
+        for one in waiting:
+            ray.cancel(one, force=False)
+
+
+def _merge(arguments, out):
+    with command._silent_output(True):
+        command.run(*arguments)
+    shutil.rmtree(_parts(out), ignore_errors=True)
