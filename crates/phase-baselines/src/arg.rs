@@ -160,8 +160,8 @@ impl Network for Arg {
 }
 
 impl PublishedNetwork for Arg {
-    const BUNDLED_WEIGHTS: &'static [u8] = include_bytes!("../../../data/arg.safetensors");
-    const BUNDLED_RECORD: &'static str = include_str!("../../../data/arg.safetensors.training.json");
+    const BUNDLED_WEIGHTS: &'static [u8] = phase_data::ARG.weights;
+    const BUNDLED_RECORD: &'static str = phase_data::ARG.record;
 
     /// The paper does not give the number of graphs; four are used here.
     fn published(random: &mut Pcg64Mcg) -> Result<Self> {

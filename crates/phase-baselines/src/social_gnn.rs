@@ -184,8 +184,8 @@ impl Network for SocialGnn {
 }
 
 impl PublishedNetwork for SocialGnn {
-    const BUNDLED_WEIGHTS: &'static [u8] = include_bytes!("../../../data/socialgnn.safetensors");
-    const BUNDLED_RECORD: &'static str = include_str!("../../../data/socialgnn.safetensors.training.json");
+    const BUNDLED_WEIGHTS: &'static [u8] = phase_data::SOCIAL_GNN.weights;
+    const BUNDLED_RECORD: &'static str = phase_data::SOCIAL_GNN.record;
 
     /// 64 units in edges and nodes and 16 in the LSTM, as published.
     fn published(random: &mut Pcg64Mcg) -> Result<Self> {

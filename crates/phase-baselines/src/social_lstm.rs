@@ -95,8 +95,8 @@ impl Network for SocialLstm {
 }
 
 impl PublishedNetwork for SocialLstm {
-    const BUNDLED_WEIGHTS: &'static [u8] = include_bytes!("../../../data/social-lstm.safetensors");
-    const BUNDLED_RECORD: &'static str = include_str!("../../../data/social-lstm.safetensors.training.json");
+    const BUNDLED_WEIGHTS: &'static [u8] = phase_data::SOCIAL_LSTM.weights;
+    const BUNDLED_RECORD: &'static str = phase_data::SOCIAL_LSTM.record;
 
     /// The paper does not give the number of hidden units; it is that of the other networks.
     fn published(random: &mut Pcg64Mcg) -> Result<Self> {

@@ -183,8 +183,8 @@ impl Network for Stgat {
 }
 
 impl PublishedNetwork for Stgat {
-    const BUNDLED_WEIGHTS: &'static [u8] = include_bytes!("../../../data/stgat.safetensors");
-    const BUNDLED_RECORD: &'static str = include_str!("../../../data/stgat.safetensors.training.json");
+    const BUNDLED_WEIGHTS: &'static [u8] = phase_data::STGAT.weights;
+    const BUNDLED_RECORD: &'static str = phase_data::STGAT.record;
 
     /// The paper does not give the numbers of hidden units and heads; hidden units are as many as in the
     /// other networks.

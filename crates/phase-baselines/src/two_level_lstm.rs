@@ -81,9 +81,8 @@ impl Network for TwoLevelLstm {
 }
 
 impl PublishedNetwork for TwoLevelLstm {
-    const BUNDLED_WEIGHTS: &'static [u8] = include_bytes!("../../../data/two-level-lstm.safetensors");
-    const BUNDLED_RECORD: &'static str =
-        include_str!("../../../data/two-level-lstm.safetensors.training.json");
+    const BUNDLED_WEIGHTS: &'static [u8] = phase_data::TWO_LEVEL_LSTM.weights;
+    const BUNDLED_RECORD: &'static str = phase_data::TWO_LEVEL_LSTM.record;
 
     fn published(random: &mut Pcg64Mcg) -> Result<Self> {
         Self::new(64, random)

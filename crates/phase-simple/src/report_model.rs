@@ -57,7 +57,7 @@ pub enum ReportModelError {
 
 impl ReportModel {
     /// The weights fitted to the raters of the shared recordings (docs/simple.md).
-    pub const BUNDLED: &'static str = include_str!("../../../data/report-model.json");
+    pub const BUNDLED: &'static str = phase_data::REPORT_MODEL;
 
     /// The model that comes with the program.
     ///

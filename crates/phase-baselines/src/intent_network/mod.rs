@@ -210,9 +210,8 @@ impl Network for IntentNetwork {
 }
 
 impl PublishedNetwork for IntentNetwork {
-    const BUNDLED_WEIGHTS: &'static [u8] = include_bytes!("../../../../data/intent-network.safetensors");
-    const BUNDLED_RECORD: &'static str =
-        include_str!("../../../../data/intent-network.safetensors.training.json");
+    const BUNDLED_WEIGHTS: &'static [u8] = phase_data::INTENT_NETWORK.weights;
+    const BUNDLED_RECORD: &'static str = phase_data::INTENT_NETWORK.record;
 
     fn published(random: &mut Pcg64Mcg) -> Result<Self> {
         Self::new(UNITS, random)

@@ -19,15 +19,6 @@ use phase_sim::{Engine, SimulationSettings};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
-/// The presets bundled with the program.
-const PRESETS: [(&str, &str); 5] = [
-    ("demo", include_str!("../../../../data/presets/demo.json")),
-    ("phase-500", include_str!("../../../../data/presets/phase-500.json")),
-    ("phase-500-v1", include_str!("../../../../data/presets/phase-500-v1.json")),
-    ("phase-pairs", include_str!("../../../../data/presets/phase-pairs.json")),
-    ("phase-training", include_str!("../../../../data/presets/phase-training.json")),
-];
-
 /// A preset with all options of the command line.
 #[derive(Clone, Debug)]
 pub struct Plan {
@@ -158,7 +149,7 @@ pub fn preset(name: &str) -> Result<Preset, CliError> {
 
 /// The text of a preset: a bundled one, or a file.
 fn preset_text(name: &str) -> Result<String, CliError> {
-    if let Some((_, text)) = PRESETS.iter().find(|(known, _)| *known == name) {
+    if let Some((_, text)) = phase_data::PRESETS.iter().find(|(known, _)| *known == name) {
         return Ok((*text).into());
     }
     let is_file = Path::new(name).extension().is_some_and(|ending| ending == "json");
@@ -170,7 +161,7 @@ fn preset_text(name: &str) -> Result<String, CliError> {
         }),
         Err(_) if !is_file => Err(CliError::UnknownPreset {
             name: name.into(),
-            known: PRESETS.map(|(name, _)| name).join(", "),
+            known: phase_data::PRESETS.map(|(name, _)| name).join(", "),
         }),
         Err(error) => Err(error.into()),
     }

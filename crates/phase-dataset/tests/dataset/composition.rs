@@ -7,10 +7,7 @@ use phase_sampler::Stage;
 /// Otherwise a run would end in the middle.
 #[test]
 fn every_block_has_a_stage_in_its_layouts() {
-    for text in [
-        include_str!("../../../../data/presets/phase-500.json"),
-        include_str!("../../../../data/presets/phase-training.json"),
-    ] {
+    for text in [phase_data::PHASE_500, phase_data::PHASE_TRAINING] {
         let preset = Preset::parse("preset", text).expect("a preset");
         let composition = Composition::of(&preset);
         let mut missing = Vec::new();

@@ -1,5 +1,6 @@
 //! Presets and the slots they consist of.
 
+use phase_data::{DEMO, PHASE_500, PHASE_500_V1, PHASE_TRAINING};
 use phase_dataset::{
     composition::{Composition, EventSlot},
     labels::goal_counts,
@@ -9,11 +10,6 @@ use phase_dataset::{
 use phase_model::{AGENT_COUNT, EventKind, Relation};
 use phase_sampler::Variant;
 use std::collections::{BTreeMap, BTreeSet};
-
-const DEMO: &str = include_str!("../../../../data/presets/demo.json");
-const PHASE_500: &str = include_str!("../../../../data/presets/phase-500.json");
-const PHASE_500_V1: &str = include_str!("../../../../data/presets/phase-500-v1.json");
-const TRAINING: &str = include_str!("../../../../data/presets/phase-training.json");
 
 fn slots(preset: &Preset, count: usize) -> Vec<EventSlot> {
     let composition = Composition::of(preset);
@@ -163,7 +159,7 @@ fn lengths_are_the_same_for_all_kinds() {
 /// Every block has each relation, whatever its bodies are drawn for, and is in one part of the dataset.
 #[test]
 fn blocks_share_bodies_and_parts() {
-    for text in [PHASE_500, TRAINING] {
+    for text in [PHASE_500, PHASE_TRAINING] {
         let preset = Preset::parse("v2", text).expect("a preset");
         let composition = Composition::of(&preset);
         for first in (0..preset.events() * 2).step_by(5) {

@@ -14,7 +14,7 @@ pub struct StrengthRegressor {
 }
 
 /// The weights trained by `cargo train strength`; `docs/networks.md` describes the training data.
-const BUNDLED_WEIGHTS: &[u8] = include_bytes!("../../../../data/strength.safetensors");
+const BUNDLED_WEIGHTS: &[u8] = phase_data::STRENGTH_WEIGHTS;
 
 /// The mean of the levels (N).
 const MEAN_FORCE: f64 = 0.5 * (Strength::Weak.max_force() + Strength::Mighty.max_force()) as f64;

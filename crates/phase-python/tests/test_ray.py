@@ -1,0 +1,66 @@
+"""Shards on Ray, of which a worker is killed, merge to the bytes of one machine's run."""
+
+import hashlib
+import os
+import signal
+import subprocess
+import threading
+import time
+from pathlib import Path
+
+import pytest
+
+import phase_events as phase
+
+ray = pytest.importorskip("ray")
+OPTIONS = ["--simulations", "100", "--max-steps", "40"]
+
+
+@pytest.fixture(scope="module")
+def cluster():
+    ray.init(num_cpus=2, include_dashboard=False, log_to_driver=False)
+    yield
+    ray.shutdown()
+
+
+def digest(folder):
+    files = sorted(path for path in Path(folder).rglob("*") if path.is_file())
+    total = hashlib.sha256()
+    for path in files:
+        total.update(str(path.relative_to(folder)).encode())
+        total.update(path.read_bytes())
+    return total.hexdigest()
+
+
+def kill_a_worker(killed):
+    """Kills the first worker that has begun a shard."""
+    until = time.monotonic() + 60
+    while time.monotonic() < until and not killed:
+        found = subprocess.run(["pgrep", "-f", "^ray::make"], capture_output=True, text=True, check=False)
+        for process in found.stdout.split()[:1]:
+            os.kill(int(process), signal.SIGKILL)
+            killed.append(process)
+        time.sleep(0.02)
+
+
+def test_shards_merge_to_the_same_bytes(cluster, tmp_path):
+    from phase_events import ray as on_ray
+
+    one = phase.generate("demo", 6, tmp_path / "one", video=False, options=OPTIONS)
+    killed = []
+    killer = threading.Thread(target=kill_a_worker, args=(killed,))
+    killer.start()
+    many = on_ray.generate("demo", 6, tmp_path / "many", shards=6, video=False, options=OPTIONS)
+    killer.join()
+    assert killed, "a worker was killed on the way"
+    assert digest(one) == digest(many)
+    assert not (tmp_path / "many.shards").exists()
+    single = phase.evaluate("cue", many, seed=1)
+    assert on_ray.evaluate("cue", many, tmp_path / "scores", shards=3) == single
+
+
+def test_failures_are_phases(cluster, tmp_path):
+    from phase_events import ray as on_ray
+
+    with pytest.raises(phase.PhaseError, match="preset"):
+        on_ray.generate("none", 2, tmp_path / "out", shards=2)

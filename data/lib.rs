@@ -1,0 +1,61 @@
+//! What comes with PHASE: trained weights with the records of their training, fitted models, and presets of datasets, as bytes and text.
+//!
+//! The files are made by commands (docs/networks.md, docs/simple.md, docs/dataset.md) and lie beside this file. Key design decision: one
+//! crate has them all, so that every other crate can be packed without files from outside of it. What a program does not use is not
+//! linked into it.
+
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+
+/// A trained network: weights and the record of its training.
+#[derive(Clone, Copy, Debug)]
+pub struct Trained {
+    /// The weights (safetensors).
+    pub weights: &'static [u8],
+    /// The record of the training (JSON).
+    pub record: &'static str,
+}
+
+macro_rules! trained {
+    ($file:literal) => {
+        Trained { weights: include_bytes!($file), record: include_str!(concat!($file, ".training.json")) }
+    };
+}
+
+/// ARG (docs/networks.md).
+pub const ARG: Trained = trained!("arg.safetensors");
+/// The intent network of SIMPLE.
+pub const INTENT_NETWORK: Trained = trained!("intent-network.safetensors");
+/// The Social-LSTM.
+pub const SOCIAL_LSTM: Trained = trained!("social-lstm.safetensors");
+/// SocialGNN.
+pub const SOCIAL_GNN: Trained = trained!("socialgnn.safetensors");
+/// STGAT.
+pub const STGAT: Trained = trained!("stgat.safetensors");
+/// The weights of the strength network of Algorithm 2 (safetensors).
+pub const STRENGTH_WEIGHTS: &[u8] = include_bytes!("strength.safetensors");
+/// The 2-Level LSTM.
+pub const TWO_LEVEL_LSTM: Trained = trained!("two-level-lstm.safetensors");
+
+/// How people report what they saw (JSON, docs/simple.md).
+pub const REPORT_MODEL: &str = include_str!("report-model.json");
+
+/// Twelve events, two of each kind (JSON, format phase-preset/3, as all presets).
+pub const DEMO: &str = include_str!("presets/demo.json");
+/// The paper's 500 events, second edition (docs/dataset.md).
+pub const PHASE_500: &str = include_str!("presets/phase-500.json");
+/// The first edition of them.
+pub const PHASE_500_V1: &str = include_str!("presets/phase-500-v1.json");
+/// Minimal pairs and triples (docs/pairs.md).
+pub const PHASE_PAIRS: &str = include_str!("presets/phase-pairs.json");
+/// Training events of the same kind as those of PHASE-500.
+pub const PHASE_TRAINING: &str = include_str!("presets/phase-training.json");
+
+/// All presets by their names.
+pub const PRESETS: [(&str, &str); 5] = [
+    ("demo", DEMO),
+    ("phase-500", PHASE_500),
+    ("phase-500-v1", PHASE_500_V1),
+    ("phase-pairs", PHASE_PAIRS),
+    ("phase-training", PHASE_TRAINING),
+];
