@@ -1,0 +1,115 @@
+"""Steps a second of PHASE's environments beside those of PettingZoo's MPE and of VMAS, in one run on one core.
+
+A step is one of every environment: both agents of a PHASE world, all agents of `simple_tag`. Actions are random and drawn before the
+clock starts. MPE and VMAS are measured where they are installed (`pip install mpe2 vmas`).
+
+Usage: steps_per_second.py [--seconds 2]
+"""
+
+import argparse
+import json
+import os
+import time
+
+# One core for everybody.
+for variable in ("OMP_NUM_THREADS", "MKL_NUM_THREADS"):
+    os.environ[variable] = "1"
+if hasattr(os, "sched_setaffinity"):
+    os.sched_setaffinity(0, {0})
+
+import numpy as np
+
+from phase_events import _native, sample_scene
+from phase_events.env import PhaseParallelEnv
+from phase_events.vector import PhaseVectorEnv
+
+
+def rate(step, environments, seconds):
+    """Steps of an environment a second."""
+    for _ in range(3):
+        step()
+    count, begun = 0, time.perf_counter()
+    while time.perf_counter() - begun < seconds:
+        step()
+        count += 1
+    return count * environments / (time.perf_counter() - begun)
+
+
+def phase_single(engine):
+    env = PhaseParallelEnv(sample_scene("helping", seed=1), engine=engine, max_steps=10**9)
+    env.reset(seed=1)
+    actions = iter(np.random.default_rng(0).integers(14, size=(4_000_000, 2)).tolist())
+
+    def step():
+        first, second = next(actions)
+        env.step({"agent_0": first, "agent_1": second})
+
+    return step
+
+
+def phase_vector(worlds, engine, observation="view"):
+    env = PhaseVectorEnv(worlds, engine=engine, threads=1, observation=observation)
+    env.reset(seed=1)
+    actions = np.random.default_rng(0).integers(14, size=(50, 2 * worlds))
+    k = iter(range(10**9))
+    return lambda: env.step(actions[next(k) % 50])
+
+
+def native_vector(worlds, engine):
+    """The same without Gymnasium: what Rust takes by itself."""
+    native = _native.Worlds([sample_scene(seed=k) for k in range(worlds)], engine, False, 1)
+    observations = np.zeros((worlds, 2, _native.OBSERVATION_SIZE), dtype=np.float32)
+    rewards, achieved = np.zeros((worlds, 2)), np.zeros((worlds, 2), dtype=bool)
+    actions = np.random.default_rng(0).integers(14, size=(50, worlds, 2))
+    k = iter(range(10**9))
+    return lambda: native.step(actions[next(k) % 50], observations, rewards, achieved)
+
+
+def mpe():
+    from mpe2 import simple_tag_v3
+
+    env = simple_tag_v3.parallel_env(max_cycles=10**9)
+    env.reset(seed=1)
+    names = env.possible_agents
+    actions = iter(np.random.default_rng(0).integers(5, size=(1_000_000, len(names))).tolist())
+    return lambda: env.step(dict(zip(names, next(actions), strict=True)))
+
+
+def vmas(worlds):
+    import torch
+    from vmas import make_env
+
+    torch.set_num_threads(1)
+    env = make_env("simple_tag", num_envs=worlds, device="cpu", continuous_actions=False, seed=1)
+    env.reset()
+    actions = [torch.randint(5, (worlds,)) for _ in env.agents]
+    return lambda: env.step(actions)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--seconds", type=float, default=2.0, help="how long each is measured")
+    seconds = parser.parse_args().seconds
+    measured = {}
+
+    def measure(name, make, environments, *arguments):
+        try:
+            measured[name] = round(rate(make(*arguments), environments, seconds))
+        except ImportError as error:
+            measured[name] = f"not installed: {error.name}"
+        print(f"{name:<40} {measured[name]:>12}", flush=True)
+
+    for engine in ("world", "forward"):
+        measure(f"phase single {engine}", phase_single, 1, engine)
+    measure("mpe simple_tag", mpe, 1)
+    for worlds in (1, 64, 1024):
+        for engine in ("world", "forward"):
+            measure(f"phase vector {worlds} {engine}", phase_vector, worlds, worlds, engine)
+            measure(f"rust alone {worlds} {engine}", native_vector, worlds, worlds, engine)
+        measure(f"phase vector {worlds} forward, state", phase_vector, worlds, worlds, "forward", "state")
+        measure(f"vmas simple_tag {worlds}", vmas, worlds, worlds)
+    print(json.dumps(measured))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,39 @@
+"""The examples run."""
+
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+EXAMPLES = Path(__file__).parent.parent / "examples"
+
+
+def test_two_minds(tmp_path):
+    done = subprocess.run(
+        [sys.executable, EXAMPLES / "two_minds.py", tmp_path], capture_output=True, text=True, check=False, timeout=300
+    )
+    assert done.returncode == 0, done.stderr
+    assert "goals recognised" in done.stdout
+    assert (tmp_path / "event.mp4").stat().st_size > 1000
+
+
+def test_the_tutorial(tmp_path):
+    """The notebook runs from its first to its last cell."""
+    pytest.importorskip("nbmake")
+    shutil.copy(EXAMPLES / "tutorial.ipynb", tmp_path)
+    command = [sys.executable, "-m", "pytest", "-q", "--nbmake", "tutorial.ipynb"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False, timeout=600)
+    assert done.returncode == 0, done.stdout
+
+
+def test_the_command_line(tmp_path):
+    def phase(*arguments):
+        return subprocess.run([sys.executable, "-m", "phase_events", *arguments], capture_output=True, text=True, check=False)
+
+    done = phase("new-scene", "--out", str(tmp_path / "scene.json"))
+    assert done.returncode == 0, done.stderr
+    wrong = phase("verify", str(tmp_path / "nowhere"))
+    assert wrong.returncode == 2
+    assert wrong.stderr.startswith("error: ")
