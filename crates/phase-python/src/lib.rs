@@ -22,6 +22,7 @@ mod observation;
 mod observer;
 mod perceive;
 mod scene;
+mod thought;
 mod worlds;
 
 use pyo3::prelude::*;

@@ -39,8 +39,8 @@ impl Default for ForecastSettings {
             repeats: 6,
             inverse_temperature: 1.0,
             hindcasts: 3,
-            hindcast_error_rate: 1.5,
-            least_weight: 0.05,
+            hindcast_error_rate: 0.5,
+            least_weight: 0.1,
         }
     }
 }

@@ -92,7 +92,7 @@ class Mind:
 
     @property
     def thought(self):
-        """The reasons of the last decision as a dict: ``subgoal``; ``subgoals`` with their values V and numbers of particles;
+        """The reasons of the last decision as a dict: ``subgoal``, such as ``On(agent 0, landmark 1)``; ``subgoals`` with their values V and numbers of particles;
         ``plan``; ``actions`` with the visits and values of the search. ``None`` before the first decision."""
         thought = self.native.thought()
         return None if thought is None else json.loads(thought)
