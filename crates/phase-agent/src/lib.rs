@@ -42,10 +42,12 @@ pub mod agent;
 mod habits;
 pub mod mind;
 pub mod objective;
+pub mod overrides;
 pub mod rollout_policy;
 pub mod search_model;
 pub mod settings;
 
 pub use agent::Agent;
 pub use mind::{BeliefView, Mind};
+pub use overrides::ParametersError;
 pub use settings::{Foresight, MindKind, MindParameters};

@@ -28,9 +28,9 @@ impl Renderer {
         &self,
         py: Python<'py>,
         worlds: PyRef<'py, Worlds>,
-        index: usize,
+        world: i64,
     ) -> PyResult<Bound<'py, PyArray3<u8>>> {
-        let (physics, state) = worlds.view(index)?;
+        let (physics, state) = worlds.view(world)?;
         self.array(py, &self.frame(physics, state)?)
     }
 

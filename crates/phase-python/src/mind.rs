@@ -19,7 +19,6 @@ use phase_model::{
 use phase_perception::Observation;
 use pyo3::prelude::*;
 use rayon::prelude::*;
-use serde_json::Value;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// The mind of one agent, with its belief.
@@ -156,23 +155,9 @@ pub(crate) fn decide_all<'py>(
 /// The parameters of minds as a JSON object, of which all that are absent have their defaults.
 ///
 /// # Errors
-/// `PhaseError` that names an unknown parameter, or one of the wrong type.
+/// `PhaseError` that names the parameter and the rule.
 pub(crate) fn read_parameters(text: Option<&str>) -> PyResult<MindParameters> {
     let Some(text) = text else { return Ok(MindParameters::default()) };
-    let given: Value = serde_json::from_str(text).map_err(raise)?;
-    let Value::Object(given) = given else { return Err(raise("parameters must be an object")) };
-    let mut all = serde_json::to_value(MindParameters::default()).map_err(raise)?;
-    for (name, value) in given {
-        let place = all.get_mut(&name);
-        *place.ok_or_else(|| raise(format!("`{name}` is no parameter of the minds")))? = value;
-    }
-    let parameters: MindParameters =
-        serde_json::from_value(all).map_err(|error| raise(format!("parameters: {error}")))?;
-    if parameters.particles == 0 {
-        return Err(raise("parameters: `particles` must be at least 1"));
-    }
-    if !(parameters.decisiveness.is_finite() && parameters.decisiveness >= 0.0) {
-        return Err(raise("parameters: `decisiveness` must be finite and at least 0"));
-    }
-    Ok(parameters)
+    let given = serde_json::from_str(text).map_err(raise)?;
+    MindParameters::from_overrides(given).map_err(raise)
 }

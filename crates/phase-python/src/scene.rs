@@ -13,9 +13,6 @@ use phase_sampler::{
 use pyo3::prelude::*;
 use rand::RngExt;
 
-/// How often a slot of a preset is cast on its stage; most often once suffices.
-const CASTS: usize = 1000;
-
 /// A valid scene.
 #[pyclass(frozen, module = "phase_events._native")]
 pub(crate) struct Scene {
@@ -79,9 +76,7 @@ impl Scene {
             let EventSlot { variant, goal_index, .. } = slot;
             if let Some(place) = slot.block {
                 let stage = Stage::sample(&composition.parts(place), &layouts, &mut random)?;
-                let part = Part { variant, goal_index };
-                let drawn = (0..CASTS).find_map(|_| stage.cast(part, &mut random));
-                return drawn.ok_or(SampleError(variant));
+                return stage.scene(Part { variant, goal_index }, &mut random);
             }
             sample(&Request { variant, goal_index, layouts: &layouts }, &mut random)
         });
@@ -91,6 +86,11 @@ impl Scene {
     /// The scene as JSON.
     fn to_json(&self) -> PyResult<String> {
         self.scene.to_json().map_err(raise)
+    }
+
+    /// The scene as a dict, as it stands in a file of events.
+    fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        py.import("json")?.call_method1("loads", (self.to_json()?,))
     }
 
     /// Name of the kind of event that it was made for.

@@ -1,17 +1,17 @@
 //! Worlds that are stepped together.
 
 use crate::{
-    arrays::{check_shape, row_of},
+    arrays::{BODY_COLUMNS, check_shape, row_of},
     error::raise,
     observation::{Encoder, SIZE},
     scene::{Scene, action_of},
 };
 use numpy::{
-    PyArray1, PyArray2, PyArray3, PyReadonlyArray1, PyReadonlyArray2, PyReadwriteArray2, PyReadwriteArray3,
+    PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyReadwriteArray2, PyReadwriteArray3,
     PyUntypedArrayMethods,
 };
 use phase_model::{
-    AGENT_COUNT, Action, AgentId, Attitude, BodySet, Goal, PhysicsConfig, State, arena::SUBSTEPS,
+    AGENT_COUNT, Action, AgentId, Attitude, BodySet, Goal, MAX_ENTITIES, PhysicsConfig, State, arena::SUBSTEPS,
     reward::social_reward,
 };
 use phase_perception::{Cell, CellSet, Observation, observe};
@@ -128,55 +128,27 @@ impl Worlds {
     }
 
     /// Puts a scene into one of the worlds, at its start.
-    fn reset(&mut self, index: usize, scene: PyRef<'_, Scene>) -> PyResult<()> {
-        let engine = self.engine;
-        *self.lane_mut(index)? = Lane::new(&scene, engine);
+    fn reset(&mut self, world: i64, scene: PyRef<'_, Scene>) -> PyResult<()> {
+        let index = self.index(world)?;
+        self.lanes[index] = Lane::new(&scene, self.engine);
         Ok(())
     }
 
-    /// Writes the observations of both agents of each world, (N, 2, OBSERVATION_SIZE), and whether their goals hold, (N, 2).
+    /// Writes the observations of both agents, (N, 2, OBSERVATION_SIZE), and whether their goals hold, (N, 2): of these worlds, or
+    /// of all.
+    #[pyo3(signature = (observations, achieved, worlds=None))]
     fn observe(
         &self,
         py: Python<'_>,
         mut observations: PyReadwriteArray3<'_, f32>,
         mut achieved: PyReadwriteArray2<'_, bool>,
+        worlds: Option<PyReadonlyArray1<'_, i64>>,
     ) -> PyResult<()> {
-        let count = self.lanes.len();
-        check_shape("observations", observations.shape(), &[count, AGENT_COUNT, SIZE])?;
-        check_shape("achieved", achieved.shape(), &[count, AGENT_COUNT])?;
-        let observations = observations.as_slice_mut()?;
-        let achieved = achieved.as_slice_mut()?;
-        py.detach(|| {
-            let rows = observations.chunks_exact_mut(AGENT_COUNT * SIZE);
-            for ((lane, observation), achieved) in
-                self.lanes.iter().zip(rows).zip(achieved.chunks_exact_mut(AGENT_COUNT))
-            {
-                lane.observe(self.omniscient, observation);
-                achieved.copy_from_slice(&lane.achieved());
-            }
-        });
-        Ok(())
-    }
-
-    /// Writes observations and goals as `observe`, of these worlds only.
-    fn observe_some(
-        &self,
-        py: Python<'_>,
-        worlds: PyReadonlyArray1<'_, i64>,
-        mut observations: PyReadwriteArray3<'_, f32>,
-        mut achieved: PyReadwriteArray2<'_, bool>,
-    ) -> PyResult<()> {
-        let count = self.lanes.len();
-        check_shape("observations", observations.shape(), &[count, AGENT_COUNT, SIZE])?;
-        check_shape("achieved", achieved.shape(), &[count, AGENT_COUNT])?;
-        let chosen: Vec<usize> = worlds
-            .as_array()
-            .iter()
-            .map(|&world| {
-                let index = usize::try_from(world).ok().filter(|&index| index < count);
-                index.ok_or_else(|| raise(format!("there are {count} worlds, and no world {world}")))
-            })
-            .collect::<PyResult<_>>()?;
+        let chosen: Vec<usize> = match worlds {
+            None => (0..self.lanes.len()).collect(),
+            Some(worlds) => worlds.as_array().iter().map(|&world| self.index(world)).collect::<PyResult<_>>()?,
+        };
+        self.check_shapes(&observations, &achieved)?;
         let (observations, achieved) = (observations.as_slice_mut()?, achieved.as_slice_mut()?);
         py.detach(|| {
             for index in chosen {
@@ -200,9 +172,8 @@ impl Worlds {
     ) -> PyResult<()> {
         let count = self.lanes.len();
         check_shape("actions", actions.shape(), &[count, AGENT_COUNT])?;
-        check_shape("observations", observations.shape(), &[count, AGENT_COUNT, SIZE])?;
         check_shape("rewards", rewards.shape(), &[count, AGENT_COUNT])?;
-        check_shape("achieved", achieved.shape(), &[count, AGENT_COUNT])?;
+        self.check_shapes(&observations, &achieved)?;
         let numbers = actions.as_array();
         let rows = numbers.rows().into_iter();
         let actions: Vec<[Action; AGENT_COUNT]> =
@@ -242,16 +213,31 @@ impl Worlds {
     }
 
     /// The bodies of a world: (entities, 6), columns x, y, angle, vx, vy, angular velocity.
-    fn bodies<'py>(&self, py: Python<'py>, index: usize) -> PyResult<Bound<'py, PyArray2<f32>>> {
-        let lane = self.lane(index)?;
+    fn bodies<'py>(&self, py: Python<'py>, world: i64) -> PyResult<Bound<'py, PyArray2<f32>>> {
+        let lane = self.lane(world)?;
         let rows: Vec<Vec<f32>> =
             lane.physics.entities().map(|entity| row_of(lane.state().body(entity)).to_vec()).collect();
         PyArray2::from_vec2(py, &rows).map_err(raise)
     }
 
+    /// The bodies of all worlds: (N, 4, 6), columns as of `bodies`; 0 for absent objects.
+    fn states<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray3<f32>> {
+        let states = PyArray3::zeros(py, [self.lanes.len(), MAX_ENTITIES, BODY_COLUMNS], false);
+        let mut rows = states.readwrite();
+        for (lane, mut rows) in self.lanes.iter().zip(rows.as_array_mut().outer_iter_mut()) {
+            for (entity, mut row) in lane.physics.entities().zip(rows.outer_iter_mut()) {
+                for (to, from) in row.iter_mut().zip(row_of(lane.state().body(entity))) {
+                    *to = from;
+                }
+            }
+        }
+        drop(rows);
+        states
+    }
+
     /// The bodies after each substep of the last step: (5, entities, 6).
-    fn substeps<'py>(&self, py: Python<'py>, index: usize) -> PyResult<Bound<'py, PyArray3<f32>>> {
-        let lane = self.lane(index)?;
+    fn substeps<'py>(&self, py: Python<'py>, world: i64) -> PyResult<Bound<'py, PyArray3<f32>>> {
+        let lane = self.lane(world)?;
         let rows = |state: &State| {
             lane.physics.entities().map(|entity| row_of(state.body(entity)).to_vec()).collect()
         };
@@ -260,8 +246,8 @@ impl Worlds {
     }
 
     /// What each agent of a world holds: the number of the object, or −1.
-    fn held<'py>(&self, py: Python<'py>, index: usize) -> PyResult<Bound<'py, PyArray1<i64>>> {
-        let state = self.lane(index)?.state();
+    fn held<'py>(&self, py: Python<'py>, world: i64) -> PyResult<Bound<'py, PyArray1<i64>>> {
+        let state = self.lane(world)?.state();
         let held =
             AgentId::ALL.map(|agent| state.held_object(agent).map_or(-1, |object| object.number().into()));
         Ok(PyArray1::from_slice(py, &held))
@@ -269,19 +255,29 @@ impl Worlds {
 }
 
 impl Worlds {
-    fn lane(&self, index: usize) -> PyResult<&Lane> {
+    /// The number of a world.
+    fn index(&self, world: i64) -> PyResult<usize> {
         let count = self.lanes.len();
-        self.lanes.get(index).ok_or_else(|| raise(format!("there are {count} worlds, and no world {index}")))
+        let index = usize::try_from(world).ok().filter(|&index| index < count);
+        index.ok_or_else(|| raise(format!("there are {count} worlds, and no world {world}")))
     }
 
-    fn lane_mut(&mut self, index: usize) -> PyResult<&mut Lane> {
+    fn lane(&self, world: i64) -> PyResult<&Lane> {
+        Ok(&self.lanes[self.index(world)?])
+    }
+
+    fn check_shapes(
+        &self,
+        observations: &PyReadwriteArray3<'_, f32>,
+        achieved: &PyReadwriteArray2<'_, bool>,
+    ) -> PyResult<()> {
         let count = self.lanes.len();
-        let lane = self.lanes.get_mut(index);
-        lane.ok_or_else(|| raise(format!("there are {count} worlds, and no world {index}")))
+        check_shape("observations", observations.shape(), &[count, AGENT_COUNT, SIZE])?;
+        check_shape("achieved", achieved.shape(), &[count, AGENT_COUNT])
     }
 
     /// The physics and the state of a world.
-    pub(crate) fn view(&self, index: usize) -> PyResult<(&PhysicsConfig, &State)> {
-        self.lane(index).map(|lane| (&lane.physics, lane.state()))
+    pub(crate) fn view(&self, world: i64) -> PyResult<(&PhysicsConfig, &State)> {
+        self.lane(world).map(|lane| (&lane.physics, lane.state()))
     }
 }

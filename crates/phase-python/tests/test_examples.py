@@ -1,5 +1,6 @@
 """The examples run."""
 
+import json
 import shutil
 import subprocess
 import sys
@@ -17,6 +18,21 @@ def test_two_minds(tmp_path):
     assert done.returncode == 0, done.stderr
     assert "goals recognised" in done.stdout
     assert (tmp_path / "event.mp4").stat().st_size > 1000
+
+
+def test_learning_to_help(tmp_path):
+    """Two updates of PPO, and the comparison with other helpers."""
+    pytest.importorskip("torch")
+    command = [sys.executable, EXAMPLES / "learn_to_help.py", "--seconds", "1", "--out", tmp_path]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=300)
+    assert done.returncode == 0, done.stderr
+    document = json.loads((tmp_path / "curve.json").read_text())
+    means = {name: sum(numbers) / len(numbers) for name, numbers in document["finals"].items()}
+    # The agent that is to be helped cannot do it alone, and a mind that wants to help does.
+    assert means["nobody"] == 0
+    assert means["PHASE mind"] > means["learned"]
+    assert means["PHASE mind"] > 30
+    assert (tmp_path / "curve.png").stat().st_size > 1000
 
 
 def test_the_tutorial(tmp_path):

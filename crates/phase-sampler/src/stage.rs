@@ -35,6 +35,8 @@ pub struct Part {
 
 /// Draws of strengths for each assignment of roles.
 const STRENGTH_DRAWS: usize = 6;
+/// Casts of one part before a scene is given up; a stage on which the part was cast once is likely to allow it again.
+const MAX_CASTS: usize = 200;
 /// Maximum number of draws of a stage. Several variants have to be possible at once, so it takes more than one scene.
 const MAX_STAGE_DRAWS: usize = 5 * MAX_DRAWS;
 /// Draws of a stage in one layout before another layout is drawn.
@@ -88,6 +90,15 @@ impl Stage {
             }
         }
         None
+    }
+
+    /// A scene of this part on the stage, as [`cast`](Self::cast), which is repeated where it fails.
+    ///
+    /// # Errors
+    /// [`SampleError`] if the draws are exhausted.
+    pub fn scene(&self, part: Part, random: &mut impl Rng) -> Result<Scene, SampleError> {
+        let drawn = (0..MAX_CASTS).find_map(|_| self.cast(part, random));
+        drawn.ok_or(SampleError(part.variant))
     }
 
     /// The scene with role 0 as agent 0.

@@ -49,9 +49,6 @@ pub fn run(arguments: &CheckBehaviour, context: &Context) -> Result<(), CliError
     let scenes = scenes(arguments)?;
     let seeds = arguments.seeds as usize;
     let settings = settings(arguments)?;
-    if let Some((.., scene)) = scenes.first() {
-        parameters::check(settings.minds, scene, arguments.parameters.as_deref())?;
-    }
     let run = json!({
         "command": "check-behaviour", "generator": GENERATOR, "seeds": seeds,
         "set": arguments.scenes.is_none().then(|| arguments.set.name()),

@@ -53,9 +53,6 @@ pub fn run(arguments: &CheckMinds, context: &Context) -> Result<(), XtaskError> 
     let mut recordings = recordings(&arguments.events, arguments.only, context)?;
     retain(&mut recordings, &arguments.ids, &arguments.events)?;
     let plan = plan(arguments, minds(arguments, parameters.unwrap_or_default(), &recordings));
-    for recording in recordings.iter().take(1) {
-        parameters::check(plan.open_loop, &recording.scene, arguments.parameters.as_deref())?;
-    }
     interrupt::listen();
     let units = recordings.iter().map(|recording| plan.units(recording.trajectory.steps())).max();
     let activity = format!("measuring {}", console::events(recordings.len()));

@@ -47,9 +47,6 @@ pub fn run(arguments: &FitInference, context: &Context) -> Result<(), XtaskError
         let rule = format!("--events: {}, fewer than --folds {folds}", console::events(own));
         return Err(CliError::Usage(rule).into());
     }
-    for recording in recordings.iter().take(1) {
-        parameters::check(settings.minds, &recording.scene, arguments.parameters.as_deref())?;
-    }
     let mut held_out = Vec::new();
     for file in &files.held_out {
         held_out.push((file.display().to_string(), files.read(file, context)?));

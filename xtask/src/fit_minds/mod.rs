@@ -59,9 +59,6 @@ pub fn run(arguments: &FitMinds, context: &Context) -> Result<(), XtaskError> {
     if let Some(file) = &arguments.generated {
         recordings.extend(check_minds::recordings(file, None, context)?);
     }
-    for recording in recordings.iter().take(1) {
-        check_minds::parameters::check(start, &recording.scene, arguments.parameters.as_deref())?;
-    }
     let chosen = chosen(arguments, &start)?;
     interrupt::listen();
     let observed = observed(&recordings)?;

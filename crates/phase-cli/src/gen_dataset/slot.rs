@@ -40,8 +40,6 @@ use std::{
 /// Attempts on one stage before another is drawn: there are several assignments of roles and many seeds, and a stage that
 /// some variant rejects is a stage that the others of its block have alone.
 const ATTEMPTS_PER_STAGE: usize = 3;
-/// Draws of strengths and roles for one scene; a stage on which the part was cast once is likely to allow it again.
-const CASTS: usize = 200;
 /// Maximum number of stages kept.
 const MAX_STAGES: usize = 1000;
 /// Layouts from one block to the next. Coprime to the sizes of the pools of bundled presets: blocks that follow one another have different base layouts.
@@ -203,9 +201,7 @@ impl<'a> Slots<'a> {
             return phase_sampler::sample(&Request { variant, goal_index, layouts }, &mut random);
         };
         let stage = self.stage(place, layouts, number / ATTEMPTS_PER_STAGE)?;
-        let part = Part { variant, goal_index };
-        let drawn = (0..CASTS).find_map(|_| stage.cast(part, &mut random));
-        drawn.ok_or(SampleError(variant))
+        stage.scene(Part { variant, goal_index }, &mut random)
     }
 
     /// A stage of a block, by its number.

@@ -25,9 +25,6 @@ __all__ = [
     "Mind",
     "Observer",
     "PhaseError",
-    "PhaseEnv",
-    "PhaseParallelEnv",
-    "PhaseVectorEnv",
     "RandomPolicy",
     "ReplayPolicy",
     "Scene",
@@ -49,7 +46,8 @@ _ENVIRONMENTS = {"PhaseEnv": "env", "PhaseParallelEnv": "env", "PhaseVectorEnv":
 
 
 def __getattr__(name):
-    # Environments need gymnasium and pettingzoo, which the rest does not.
+    # Environments need gymnasium and pettingzoo, which the rest does not. They are not in `__all__`, so that a star import works
+    # without.
     if name in _ENVIRONMENTS:
         from importlib import import_module
 

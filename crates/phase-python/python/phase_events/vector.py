@@ -150,6 +150,16 @@ class PhaseVectorEnv(gymnasium.vector.VectorEnv):
         """The scene of a world."""
         return self._scenes[world]
 
+    def state(self):
+        """The bodies, (worlds, 4, 6): columns x, y, angle, vx, vy, angular velocity, bodies by number, agents first; 0 for absent objects.
+
+        It is the truth, for critics and for shaping rewards: agents do not see it.
+        """
+        self._check_open()
+        if self._worlds is None:
+            raise PhaseError("call reset before state")
+        return self._worlds.states()
+
     def render(self):
         """A picture of every world, or ``None`` without a render mode."""
         self._check_open()
@@ -178,7 +188,7 @@ class PhaseVectorEnv(gymnasium.vector.VectorEnv):
         for world in worlds:
             self._worlds.reset(int(world), self._begin(int(world)))
             self._steps[world] = 0
-        self._worlds.observe_some(worlds.astype(np.int64), self._observations, self._achieved)
+        self._worlds.observe(self._observations, self._achieved, worlds.astype(np.int64))
 
     def _partner_actions(self):
         observations = np.ascontiguousarray(self._observations[:, 1 - self._agent])
