@@ -47,4 +47,4 @@ pub mod simulation;
 pub use beliefs::{BeliefSnapshot, beliefs};
 pub use environment::Environment;
 pub use settings::{Engine, SimulationSettings};
-pub use simulation::{SimulationError, simulate, simulate_with};
+pub use simulation::{Given, Simulation, SimulationError, simulate, simulate_with};

@@ -51,39 +51,117 @@ pub fn simulate_with(
     settings: &SimulationSettings,
     on_step: &mut dyn FnMut(&Step) -> ControlFlow<()>,
 ) -> Result<(Event, bool), SimulationError> {
-    scene.validate()?;
-    if settings.minds.particles == 0 {
-        return Err(SimulationError::NoParticles);
+    let mut simulation = Simulation::new(scene, seed, settings)?;
+    while !simulation.is_over() {
+        if on_step(simulation.step(Given::default())?).is_break() {
+            return Ok((simulation.into_event(), false));
+        }
     }
-    let physics = scene.physics();
-    let initial = scene.initial_state();
-    let mut world = Environment::new(settings.engine, &physics, &initial);
-    let mut minds = Minds::new(scene, &initial, seed, settings)?;
-    let mut event = Event { scene: scene.clone(), seed, initial, steps: Vec::new() };
-    let (mut resting, mut still) = (0, 0);
-    let mut state = initial;
-    while event.steps.len() < settings.max_steps {
-        let (actions, thoughts) = minds.decide()?;
+    Ok((simulation.into_event(), true))
+}
+
+/// Who decides for each agent: an action that is given, or the agent's mind.
+pub type Given = [Option<Action>; AGENT_COUNT];
+
+/// A scene that is simulated step by step.
+#[derive(Debug)]
+pub struct Simulation {
+    settings: SimulationSettings,
+    physics: PhysicsConfig,
+    world: Environment,
+    minds: Minds,
+    state: State,
+    event: Event,
+    /// Steps in a row in which nobody had anything to do and nothing moved.
+    resting: usize,
+    /// Steps in a row in which nothing was seen to move.
+    still: usize,
+    over: bool,
+}
+
+impl Simulation {
+    /// The scene at its start.
+    ///
+    /// # Errors
+    /// [`SimulationError`] for invalid scenes and settings.
+    pub fn new(scene: &Scene, seed: u64, settings: &SimulationSettings) -> Result<Self, SimulationError> {
+        scene.validate()?;
+        if settings.minds.particles == 0 {
+            return Err(SimulationError::NoParticles);
+        }
+        let physics = scene.physics();
+        let initial = scene.initial_state();
+        Ok(Self {
+            settings: *settings,
+            world: Environment::new(settings.engine, &physics, &initial),
+            minds: Minds::new(scene, &initial, seed, settings)?,
+            state: initial,
+            event: Event { scene: scene.clone(), seed, initial, steps: Vec::new() },
+            resting: 0,
+            still: 0,
+            over: settings.max_steps == 0,
+            physics,
+        })
+    }
+
+    /// One step, also of an event that is over. An agent for which an action is given carries that out, and its mind, which
+    /// perceives all the same, does not decide: its thought is [`Thought::IDLE`].
+    ///
+    /// # Errors
+    /// [`SimulationError::Search`].
+    pub fn step(&mut self, given: Given) -> Result<&Step, SimulationError> {
+        if let (true, Some(last)) = (self.over, self.event.steps.last()) {
+            // It was thought to be the last step, of which nobody has to know what came of it.
+            self.minds.perceive(&self.state, last.actions);
+        }
+        let (actions, thoughts) = self.minds.decide(given)?;
         let idle = thoughts.iter().all(|thought| thought.subgoal == Subgoal::Stay);
-        let before = state;
-        let substeps = world.step(actions.map(|action| carried_out(action, &settings.minds, scene.layout)));
-        state = substeps[SUBSTEPS - 1];
-        let step = Step { actions, thoughts, substeps };
-        let flow = on_step(&step);
-        event.steps.push(step);
-        if flow.is_break() {
-            return Ok((event, false));
+        let before = self.state;
+        let (settings, layout) = (&self.settings, self.event.scene.layout);
+        let substeps = self.world.step(actions.map(|action| carried_out(action, &settings.minds, layout)));
+        self.state = substeps[SUBSTEPS - 1];
+        self.resting = if idle && is_at_rest(&self.physics, &self.state) { self.resting + 1 } else { 0 };
+        self.still = if is_unmoved(&self.physics, &before, &self.state) { self.still + 1 } else { 0 };
+        let steps = self.event.steps.len() + 1;
+        let ended = self.resting >= settings.rest_steps || self.still >= settings.still_steps;
+        self.over = (ended && steps >= settings.min_steps) || steps >= settings.max_steps;
+        if !self.over {
+            self.minds.perceive(&self.state, actions);
         }
-        resting = if idle && is_at_rest(&physics, &state) { resting + 1 } else { 0 };
-        still = if is_unmoved(&physics, &before, &state) { still + 1 } else { 0 };
-        let over = resting >= settings.rest_steps || still >= settings.still_steps;
-        if over && event.steps.len() >= settings.min_steps {
-            break;
-        }
-        minds.perceive(&state, actions);
+        debug_assert!(self.state.is_finite(&self.physics));
+        self.event.steps.push(Step { actions, thoughts, substeps });
+        Ok(&self.event.steps[steps - 1])
     }
-    debug_assert!(state.is_finite(&physics));
-    Ok((event, true))
+
+    /// Whether the event has come to its end: nothing happens any more, or it has as many steps as the settings allow.
+    #[must_use]
+    pub const fn is_over(&self) -> bool {
+        self.over
+    }
+
+    /// The world as it is.
+    #[must_use]
+    pub const fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// What an agent believes: possible states of the world, all equally likely.
+    #[must_use]
+    pub fn particles(&self, agent: AgentId) -> &[State] {
+        self.minds.agents[agent].belief().particles()
+    }
+
+    /// What has happened.
+    #[must_use]
+    pub const fn event(&self) -> &Event {
+        &self.event
+    }
+
+    /// What has happened.
+    #[must_use]
+    pub fn into_event(self) -> Event {
+        self.event
+    }
 }
 
 /// Whether a viewer would judge that nothing has moved in a step.
@@ -106,6 +184,7 @@ pub(crate) fn belief_stream(seed: u64, agent: AgentId) -> Pcg64Mcg {
 }
 
 /// Both agents with their random streams.
+#[derive(Debug)]
 struct Minds {
     agents: [Agent; AGENT_COUNT],
     beliefs: [Pcg64Mcg; AGENT_COUNT],
@@ -129,13 +208,23 @@ impl Minds {
         Ok(Self { agents, beliefs, searches, idle: settings.idle })
     }
 
-    fn decide(&mut self) -> Result<([Action; AGENT_COUNT], [Thought; AGENT_COUNT]), SimulationError> {
-        let (first, why_first) = self.decide_for(AgentId::ZERO)?;
-        let (second, why_second) = self.decide_for(AgentId::ONE)?;
+    fn decide(
+        &mut self,
+        given: Given,
+    ) -> Result<([Action; AGENT_COUNT], [Thought; AGENT_COUNT]), SimulationError> {
+        let (first, why_first) = self.decide_for(AgentId::ZERO, given[AgentId::ZERO])?;
+        let (second, why_second) = self.decide_for(AgentId::ONE, given[AgentId::ONE])?;
         Ok(([first, second], [why_first, why_second]))
     }
 
-    fn decide_for(&mut self, agent: AgentId) -> Result<(Action, Thought), SimulationError> {
+    fn decide_for(
+        &mut self,
+        agent: AgentId,
+        given: Option<Action>,
+    ) -> Result<(Action, Thought), SimulationError> {
+        if let Some(action) = given {
+            return Ok((action, Thought::IDLE));
+        }
         if self.idle == Some(agent) {
             return Ok((Action::Stop, Thought::IDLE));
         }

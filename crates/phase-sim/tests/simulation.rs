@@ -1,13 +1,14 @@
 //! One seed, one event; and beliefs that can be recomputed.
 
 use core::ops::ControlFlow;
+use phase_event::Thought;
 use phase_forward::Forward;
 use phase_model::{
     AgentId, Entity, EventKind, Scene,
     random::{Purpose, stream},
 };
 use phase_perception::observe;
-use phase_sim::{Engine, SimulationError, SimulationSettings, beliefs, simulate, simulate_with};
+use phase_sim::{Engine, Simulation, SimulationError, SimulationSettings, beliefs, simulate, simulate_with};
 
 fn scene(kind: EventKind) -> Scene {
     phase_sampler::sample_kind(kind, &mut stream(5, Purpose::Scene, 0)).expect("a scene of every kind")
@@ -161,5 +162,34 @@ fn an_idle_agent_stays_and_leaves_the_other_its_own_chance() {
         let start = without.initial.position(Entity::Agent(idle));
         let end = without.steps[0].substeps[4].position(Entity::Agent(idle));
         assert!(start.distance(end) < 0.01, "agent {idle} moved by itself");
+    }
+}
+
+/// Step by step it is the same event, and an agent whose mind's actions are given to it makes no difference to the other's mind.
+#[test]
+fn a_simulation_can_be_stepped_and_taken_over() {
+    let scene = scene(EventKind::Helping);
+    let settings = SimulationSettings { max_steps: 12, ..quick() };
+    let whole = simulate(&scene, 7, &settings).unwrap();
+    let mut stepped = Simulation::new(&scene, 7, &settings).unwrap();
+    let mut taken = Simulation::new(&scene, 7, &settings).unwrap();
+    for step in &whole.steps {
+        assert!(!stepped.is_over());
+        assert_eq!(stepped.step([None, None]).unwrap(), step);
+        let given = taken.step([Some(step.actions[0]), None]).unwrap();
+        assert_eq!((given.actions, given.substeps), (step.actions, step.substeps));
+        assert_eq!(given.thoughts[0], Thought::IDLE);
+        assert_eq!(given.thoughts[1], step.thoughts[1]);
+        assert_eq!(stepped.particles(AgentId::ONE), taken.particles(AgentId::ONE));
+    }
+    assert!(stepped.is_over());
+    assert_eq!(stepped.event(), &whole);
+    assert_eq!(stepped.into_event(), whole);
+    // Whoever goes on after the end goes on as if it had not been one.
+    let longer = SimulationSettings { max_steps: 14, rest_steps: 100, still_steps: 100, ..settings };
+    let long = simulate(&scene, 7, &longer).unwrap();
+    let mut on = Simulation::new(&scene, 7, &SimulationSettings { max_steps: 3, ..longer }).unwrap();
+    for step in &long.steps {
+        assert_eq!(on.step([None, None]).unwrap(), step);
     }
 }
