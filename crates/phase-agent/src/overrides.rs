@@ -118,8 +118,7 @@ mod tests {
     #[test]
     fn absent_parameters_have_their_defaults() {
         let given = MindParameters::from_overrides(json!({"simulations": 7, "guidance": 0.25})).unwrap();
-        let expected =
-            MindParameters { simulations: 7, heuristic_share: 0.25, ..MindParameters::default() };
+        let expected = MindParameters { simulations: 7, heuristic_share: 0.25, ..MindParameters::default() };
         assert_eq!(given, expected);
         assert_eq!(MindParameters::from_overrides(json!({})).unwrap(), MindParameters::default());
     }
@@ -128,9 +127,14 @@ mod tests {
     fn whatever_is_wrong_is_named() {
         assert_eq!(refused(json!(3)), "parameters of minds must be an object");
         assert_eq!(refused(json!({"patience": 3})), "field `patience` is no parameter of the minds");
-        assert!(refused(json!({"simulations": "many"})).starts_with("field `simulations` is wrong: invalid type"));
+        assert!(
+            refused(json!({"simulations": "many"})).starts_with("field `simulations` is wrong: invalid type")
+        );
         assert_eq!(refused(json!({"particles": 0})), "field `particles` must be at least 1, not 0");
-        assert_eq!(refused(json!({"decisiveness": -1})), "field `decisiveness` must be finite and at least 0, not -1");
+        assert_eq!(
+            refused(json!({"decisiveness": -1})),
+            "field `decisiveness` must be finite and at least 0, not -1"
+        );
         assert_eq!(refused(json!({"effort": 2})), "field `effort` must be from 0 to 1, not 2");
         assert_eq!(refused(json!({"rest_prior": 0})), "field `rest_prior` must be finite and above 0, not 0");
     }

@@ -2,6 +2,7 @@
 
 use phase_model::{Action, Subgoal};
 use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
 
 /// A subgoal proposed by some particles, with its value.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
@@ -43,6 +44,22 @@ impl Thought {
     /// The thought of an idle agent.
     pub const IDLE: Self =
         Self { subgoal: Subgoal::Stay, subgoals: Vec::new(), plan: Vec::new(), actions: Vec::new() };
+
+    /// As JSON with subgoals as people write them, such as `On(agent 0, landmark 1)`: `subgoal`, `subgoals` with `value` and
+    /// `particles`, `plan`, and `actions` with `visits` and `value`.
+    #[must_use]
+    pub fn described(&self) -> Value {
+        let Self { subgoal, subgoals, plan, actions } = self;
+        let proposed = subgoals.iter().map(
+            |it| json!({ "subgoal": it.subgoal.to_string(), "value": it.value, "particles": it.particles }),
+        );
+        json!({
+            "subgoal": subgoal.to_string(),
+            "subgoals": proposed.collect::<Vec<_>>(),
+            "plan": plan.iter().map(ToString::to_string).collect::<Vec<_>>(),
+            "actions": actions,
+        })
+    }
 
     /// The value of the subgoal pursued; `None` if no particle proposed it.
     #[must_use]

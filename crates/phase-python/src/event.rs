@@ -1,10 +1,10 @@
 //! Events: simulated, read, as arrays.
 
-use crate::{arrays::row_of, command::quiet, error::raise, mind::read_parameters, scene::Scene, thought};
+use crate::{arrays::row_of, command::quiet, error::raise, mind::read_parameters, scene::Scene};
 use core::ops::ControlFlow;
 use numpy::{PyArray2, PyArray3};
 use phase_cli::{engine::GENERATOR, event_writer::settings_value, source::EventInput};
-use phase_event::{Recording, from_json, to_json};
+use phase_event::{Recording, Thought, from_json, to_json};
 use phase_model::arena::SUBSTEPS;
 use phase_sim::{Engine, SimulationSettings, simulate_with};
 use pyo3::prelude::*;
@@ -92,8 +92,12 @@ impl Event {
     /// The reasons of both agents' decisions at every step, as JSON; `None` for a recording.
     fn thoughts(&self) -> PyResult<Option<String>> {
         let Some(simulation) = &self.recording.simulation else { return Ok(None) };
-        let thoughts: Vec<_> =
-            simulation.event.steps.iter().map(|step| step.thoughts.each_ref().map(thought::value)).collect();
+        let thoughts: Vec<_> = simulation
+            .event
+            .steps
+            .iter()
+            .map(|step| step.thoughts.each_ref().map(Thought::described))
+            .collect();
         serde_json::to_string(&thoughts).map(Some).map_err(raise)
     }
 }

@@ -22,7 +22,6 @@ mod observation;
 mod observer;
 mod perceive;
 mod scene;
-mod thought;
 mod worlds;
 
 use pyo3::prelude::*;

@@ -5,7 +5,6 @@ use crate::{
     error::raise,
     observation::{self, SIZE},
     scene::{Scene, action_of, agent_of},
-    thought,
 };
 use numpy::{PyArray1, PyArray3, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use phase_agent::{BeliefView, MindKind, MindParameters};
@@ -121,7 +120,7 @@ impl Mind {
     /// The reasons of the last decision as JSON; `None` before the first one.
     fn thought(&self) -> PyResult<Option<String>> {
         let state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
-        Ok(state.thought.as_ref().map(|thought| thought::value(thought).to_string()))
+        Ok(state.thought.as_ref().map(|thought| thought.described().to_string()))
     }
 }
 

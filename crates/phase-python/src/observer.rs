@@ -72,9 +72,7 @@ impl Observer {
 
 fn answer(inference: &Inference) -> PyResult<String> {
     let model = ReportModel::bundled().map_err(raise)?;
-    let reported = inference.impression.as_ref().map(|impression| model.reports(impression));
-    let judgement = phase_model::Judgement { reported, ..inference.posterior.judgement() };
-    let answer = Answer::of(&judgement).map_err(raise)?;
+    let answer = Answer::of(&inference.judgement(&model)).map_err(raise)?;
     serde_json::to_string(&json!({ "answer": answer })).map_err(raise)
 }
 

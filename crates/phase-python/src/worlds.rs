@@ -7,12 +7,12 @@ use crate::{
     scene::{Scene, action_of},
 };
 use numpy::{
-    PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyReadwriteArray2, PyReadwriteArray3,
-    PyUntypedArrayMethods,
+    PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyReadwriteArray2,
+    PyReadwriteArray3, PyUntypedArrayMethods,
 };
 use phase_model::{
-    AGENT_COUNT, Action, AgentId, Attitude, BodySet, Goal, MAX_ENTITIES, PhysicsConfig, State, arena::SUBSTEPS,
-    reward::social_reward,
+    AGENT_COUNT, Action, AgentId, Attitude, BodySet, Goal, MAX_ENTITIES, PhysicsConfig, State,
+    arena::SUBSTEPS, reward::social_reward,
 };
 use phase_perception::{Cell, CellSet, Observation, observe};
 use phase_predicates::achieved;
@@ -146,7 +146,9 @@ impl Worlds {
     ) -> PyResult<()> {
         let chosen: Vec<usize> = match worlds {
             None => (0..self.lanes.len()).collect(),
-            Some(worlds) => worlds.as_array().iter().map(|&world| self.index(world)).collect::<PyResult<_>>()?,
+            Some(worlds) => {
+                worlds.as_array().iter().map(|&world| self.index(world)).collect::<PyResult<_>>()?
+            }
         };
         self.check_shapes(&observations, &achieved)?;
         let (observations, achieved) = (observations.as_slice_mut()?, achieved.as_slice_mut()?);

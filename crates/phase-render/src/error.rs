@@ -72,9 +72,11 @@ pub enum RenderError {
     #[error("the video encoder skipped frame {0}")]
     SkippedFrame(usize),
     /// The video encoder failed.
+    #[cfg(feature = "video")]
     #[error("encoding the video failed")]
     Encoder(#[from] openh264::Error),
     /// The .mp4 could not be put together or written.
+    #[cfg(feature = "video")]
     #[error("writing the .mp4 failed: {0}")]
     Container(#[from] muxide::api::MuxerError),
     /// The .png could not be put together.

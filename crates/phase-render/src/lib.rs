@@ -45,10 +45,13 @@ pub mod renderer;
 pub mod sheet;
 pub mod style;
 pub mod text;
+#[cfg(feature = "video")]
 pub mod video;
+#[cfg(feature = "video")]
 pub mod yuv;
 
 mod bodies;
+mod goal_text;
 mod painter;
 
 pub use annotation::{Annotation, Course};
@@ -62,4 +65,5 @@ pub use renderer::SceneRenderer;
 pub use sheet::{contact_sheet, side_by_side};
 pub use style::Style;
 pub use text::SizedFont;
+#[cfg(feature = "video")]
 pub use video::VideoEncoder;

@@ -1,7 +1,8 @@
 //! The answer of an inference: the posterior, and what is known of its parts.
 
-use crate::{Hypothesis, Posterior, impression::Impression};
+use crate::{Hypothesis, Posterior, ReportModel, impression::Impression};
 use phase_minds::MindParameters;
+use phase_model::Judgement;
 
 /// The result of an inference.
 #[derive(Clone, PartialEq, Debug)]
@@ -17,6 +18,15 @@ pub struct Inference {
     /// Hypotheses that Algorithm 2 simulated, completely or until rejection was certain; 0 for inverse
     /// planning.
     pub simulated: usize,
+}
+
+impl Inference {
+    /// What it says of goals, relation and roles, and of how people would report the relation.
+    #[must_use]
+    pub fn judgement(&self, reports: &ReportModel) -> Judgement {
+        let reported = self.impression.as_ref().map(|impression| reports.reports(impression));
+        Judgement { reported, ..self.posterior.judgement() }
+    }
 }
 
 /// What is inferred about one kind of minds.

@@ -110,11 +110,7 @@ impl Recogniser for Simple {
         let prepared = PreparedEvent::new(observed, self.settings.minds, seed);
         let inference = self.infer(&prepared, seed, tick)?;
         let model = ReportModel::bundled().map_err(MethodError::new)?;
-        Ok(inference.map(|inference| {
-            let reported = inference.impression.as_ref().map(|impression| model.reports(impression));
-            let judgement = Judgement { reported, ..inference.posterior.judgement() };
-            (judgement, details(&inference))
-        }))
+        Ok(inference.map(|inference| (inference.judgement(&model), details(&inference))))
     }
 }
 

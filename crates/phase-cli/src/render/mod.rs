@@ -1,6 +1,5 @@
 //! `render`: events as videos, or as pictures of their key frames.
 
-mod goal_text;
 pub mod options;
 mod watch;
 

@@ -1,6 +1,5 @@
 //! What an observer makes of an event while it watches it, for `render --observer`.
 
-use super::goal_text::goal_text;
 use crate::error::CliError;
 use core::ops::ControlFlow;
 use phase_eval::MethodError;
@@ -123,7 +122,7 @@ impl Watched {
             lines.push(heading(&["P"], format!("the {} agent wants", palette.agent_names[agent])));
             let goals = self.goals[agent].iter().map(|share| Caption {
                 cells: vec![format!("{:.2}", share.p)],
-                text: goal_text(share.goal, agent, palette),
+                text: palette.goal_text(share.goal, agent),
                 bar: share.p as f32,
             });
             lines.extend(goals.chain(core::iter::repeat_with(Caption::default)).take(GOALS));

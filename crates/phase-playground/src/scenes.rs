@@ -1,0 +1,112 @@
+//! Scenes and files of events.
+
+use crate::{packed, sentence};
+use phase_event::Recording;
+use phase_model::{
+    AgentId, EventKind, Layout, Scene, State, arena,
+    layout::USED_BASES,
+    random::{self, Purpose},
+};
+use phase_render::Palette;
+use phase_sampler::{Request, Variant, sample as draw, sample_kind};
+use rand::RngExt;
+use serde_json::{Value, json};
+
+/// Reads and checks a scene.
+///
+/// # Errors
+/// A sentence that names the field and the rule.
+pub fn read(scene: &str) -> Result<Scene, String> {
+    let scene = Scene::from_json(scene).map_err(sentence)?;
+    scene.validate().map_err(sentence)?;
+    Ok(scene)
+}
+
+/// A scene in its canonical form, and what a page shows of it: `scene`, `walls` ([[x, y], [x, y]], u), `radii` (u), `landmarks`
+/// ([x, y], u), `relation`, and `goals` in words.
+///
+/// # Errors
+/// As [`read`].
+pub fn describe(scene: &str) -> Result<String, String> {
+    let scene = read(scene)?;
+    let physics = scene.physics();
+    let goals = AgentId::ALL.map(|agent| Palette::PAPER.goal_text(scene.goals()[agent], agent));
+    let walls: Vec<_> = physics.walls.iter().map(|wall| [wall.a.to_array(), wall.b.to_array()]).collect();
+    let canonical: Value = serde_json::from_str(&scene.to_json().map_err(sentence)?).map_err(sentence)?;
+    let radii: Vec<f32> = physics.entities().map(|entity| physics.radius(entity)).collect();
+    let landmarks = arena::LANDMARKS.map(|centre| centre.to_array());
+    let description = json!({
+        "scene": canonical, "walls": walls, "radii": radii, "landmarks": landmarks,
+        "relation": scene.relation().name(), "goals": goals,
+    });
+    Ok(description.to_string())
+}
+
+/// What there is to choose from: `kinds` with their `variants`, and the numbers of the `layouts` in use.
+#[must_use]
+pub fn choices() -> String {
+    let kinds: Vec<_> = EventKind::ALL
+        .into_iter()
+        .map(|kind| {
+            let variants: Vec<_> = Variant::of(kind).iter().map(|variant| variant.name()).collect();
+            json!({ "name": kind.name(), "variants": variants })
+        })
+        .collect();
+    json!({ "kinds": kinds, "layouts": USED_BASES }).to_string()
+}
+
+/// Draws a scene of a kind, and of a variant if one is given; the same seed gives the same scene.
+///
+/// # Errors
+/// A sentence for an unknown name, and if no scene was found.
+pub fn sample(kind: &str, variant: Option<&str>, seed: u64) -> Result<String, String> {
+    let kind = EventKind::ALL.into_iter().find(|it| it.name() == kind);
+    let kind = kind.ok_or("there is no such kind of event")?;
+    let mut random = random::stream(seed, Purpose::Scene, 0);
+    let scene = match variant {
+        None => sample_kind(kind, &mut random),
+        Some(name) => {
+            let variant = Variant::of(kind).iter().copied().find(|it| it.name() == name);
+            let variant = variant.ok_or("there is no such variant of the kind")?;
+            let layouts: Vec<Layout> = Layout::all_used().collect();
+            let goal_index = random.random_range(0..variant.goal_count());
+            draw(&Request { variant, goal_index, layouts: &layouts }, &mut random)
+        }
+    };
+    scene.map_err(sentence)?.to_json().map_err(sentence)
+}
+
+/// The state in which a scene begins, packed.
+///
+/// # Errors
+/// As [`read`].
+pub fn start(scene: &str) -> Result<Vec<f32>, String> {
+    let mut numbers = Vec::new();
+    packed::push(&read(scene)?.initial_state(), &mut numbers);
+    Ok(numbers)
+}
+
+/// The events of a file in the format `phase-events/1`.
+///
+/// # Errors
+/// A sentence that names the field and the rule.
+pub fn events(text: &str) -> Result<Vec<Recording>, String> {
+    phase_event::from_json(text).map_err(sentence)
+}
+
+/// The frames of an event, packed: its substeps, or for a recording, which has none, each row five times.
+#[must_use]
+pub fn frames(recording: &Recording) -> Vec<f32> {
+    let mut numbers = Vec::new();
+    match &recording.simulation {
+        Some(simulation) => simulation.event.frames().for_each(|state| packed::push(state, &mut numbers)),
+        None => {
+            let states: Vec<State> = recording.trajectory.states();
+            for (row, state) in states.iter().enumerate() {
+                let shown = if row == 0 { 1 } else { arena::SUBSTEPS };
+                (0..shown).for_each(|_| packed::push(state, &mut numbers));
+            }
+        }
+    }
+    numbers
+}
