@@ -12,11 +12,12 @@ use crate::{
     fit_minds::{self, options::FitMinds},
     fit_reports::{self, options::FitReports},
     golden::{self, GoldenOptions},
-    tidy,
+    tidy, wasm,
 };
 use clap::{Parser, Subcommand};
 use phase_cli::{
     context::{Context, Verbosity},
+    playground::{self, Playground},
     program::Interface,
 };
 
@@ -69,6 +70,11 @@ impl Interface for Cli {
 
     fn run(&self, context: &Context) -> Result<(), XtaskError> {
         match &self.command {
+            // The source can build what an installed program includes.
+            Command::Phase(phase_cli::cli::Command::Playground(Playground { out, wasm: None })) => {
+                let wasm = Some(wasm::build(context)?);
+                Ok(playground::run(&Playground { out: out.clone(), wasm }, context)?)
+            }
             Command::Phase(command) => Ok(command.run(context)?),
             Command::CheckPhysics(arguments) => check_physics::run(arguments, context),
             Command::CheckBehaviour(arguments) => Ok(check_behaviour::run(arguments, context)?),

@@ -37,6 +37,14 @@ pub enum XtaskError {
     /// Cargo cannot be started.
     #[error("cargo cannot be started: {0}")]
     Cargo(#[source] io::Error),
+    /// Something that has to be built is not.
+    #[error("{what}: {problem}")]
+    Build {
+        /// What was being built, or the tool that builds it.
+        what: &'static str,
+        /// What went wrong.
+        problem: String,
+    },
     /// A golden test failed; it has reported the differences.
     #[error("golden values differ from what is computed, or their tests cannot be built; see above")]
     GoldenTests,
@@ -58,6 +66,7 @@ impl Failure for XtaskError {
             | Self::Draw(_)
             | Self::IntentNetwork(_)
             | Self::Cargo(_)
+            | Self::Build { .. }
             | Self::GoldenTests
             | Self::Untidy(_) => 1,
         }

@@ -6,6 +6,7 @@
 //! - `check-minds` compares minds with recorded agents,
 //! - `fit-minds` fits the parameters of minds to recorded agents,
 //! - `draw-behaviour` draws scenes for `check-behaviour` from the sampler,
+//! - `playground` builds the WebAssembly first,
 //! - `golden` runs the golden tests, or rewrites what they compare with,
 //! - `tidy` checks what the compiler cannot.
 //!
@@ -31,6 +32,7 @@ pub mod golden;
 pub mod json_file;
 mod rooms;
 pub mod tidy;
+pub mod wasm;
 
 use clap::CommandFactory;
 use phase_cli::{context::Program, program};

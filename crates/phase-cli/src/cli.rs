@@ -12,6 +12,7 @@ use crate::{
         options::{GenDataset, Merge},
     },
     man::{self, ManPages},
+    playground::{self, Playground},
     new_scene::{self, options::NewScene},
     program::Interface,
     render::{self, options::Render},
@@ -64,6 +65,8 @@ pub enum Command {
     Train(Train),
     /// Evaluate all methods at both tasks and compare them with published results, in one report
     Benchmark(Benchmark),
+    /// Write the playground, a page on which minds play in a browser, as static files
+    Playground(Playground),
     /// Print a script with which a shell completes the commands and options of phase
     Completions(Completions),
     /// Write the manual pages of phase
@@ -101,6 +104,7 @@ impl Command {
             Self::Eval(arguments) => eval::run(arguments, context),
             Self::Train(arguments) => train::run(arguments, context),
             Self::Benchmark(arguments) => benchmark::run(arguments, context),
+            Self::Playground(arguments) => playground::run(arguments, context),
             Self::Completions(arguments) => completions::run(arguments, context),
             Self::Man(arguments) => man::run(arguments, context),
         }

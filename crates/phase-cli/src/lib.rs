@@ -11,6 +11,7 @@
 //! - `eval` measures how well a method perceives events,
 //! - `train` trains neural networks (feature `networks`),
 //! - `benchmark` evaluates all methods and compares them with published results,
+//! - `playground` writes the playground as static files,
 //! - `completions` and `man` describe the program to shells and to `man`.
 //!
 //! `cargo xtask` runs the same commands and those that need the source of this workspace.
@@ -62,6 +63,7 @@ pub mod new_scene;
 pub mod output;
 pub mod parallel;
 pub mod picture;
+pub mod playground;
 pub mod program;
 pub mod progress;
 pub mod render;

@@ -44,6 +44,12 @@ pub fn choices() -> String {
     scenes::choices()
 }
 
+/// As [`scenes::goals`].
+#[wasm_bindgen]
+pub fn goals(agent: u32, objects: usize) -> Result<String, JsError> {
+    Ok(scenes::goals(agent_of(agent)?, objects))
+}
+
 /// As [`scenes::describe`].
 #[wasm_bindgen(js_name = describeScene)]
 pub fn describe_scene(scene: &str) -> Result<String, JsError> {
@@ -204,10 +210,22 @@ impl Picture {
         self.0.size()[1]
     }
 
-    /// As [`crate::Picture::draw`]; a negative agent is none.
-    pub fn draw(&self, state: &[f32], agent: i32, view: &[u8], belief: &[f32]) -> Result<Vec<u8>, JsError> {
-        let agent = u32::try_from(agent).ok().map(agent_of).transpose()?;
-        self.0.draw(state, agent, view, belief).map_err(raise)
+    /// As [`crate::Picture::show_mind`].
+    #[wasm_bindgen(js_name = showMind)]
+    pub fn show_mind(&mut self, agent: u32, view: &[u8], belief: &[f32]) -> Result<(), JsError> {
+        self.0.show_mind(agent_of(agent)?, view, belief);
+        Ok(())
+    }
+
+    /// As [`crate::Picture::hide_mind`].
+    #[wasm_bindgen(js_name = hideMind)]
+    pub fn hide_mind(&mut self) {
+        self.0.hide_mind();
+    }
+
+    /// As [`crate::Picture::draw`].
+    pub fn draw(&self, state: &[f32]) -> Result<Vec<u8>, JsError> {
+        self.0.draw(state).map_err(raise)
     }
 
     /// As [`crate::Picture::pixel`].

@@ -3,7 +3,7 @@
 use crate::{packed, sentence};
 use phase_event::Recording;
 use phase_model::{
-    AgentId, EventKind, Layout, Scene, State, arena,
+    AgentId, EventKind, Goal, LandmarkId, Layout, ObjectId, Scene, Sign, State, arena,
     layout::USED_BASES,
     random::{self, Purpose},
 };
@@ -53,6 +53,25 @@ pub fn choices() -> String {
         })
         .collect();
     json!({ "kinds": kinds, "layouts": USED_BASES }).to_string()
+}
+
+/// The goals that an agent of a scene with so many objects can have: `goal`, as it stands in scenes, and `words`.
+#[must_use]
+pub fn goals(agent: AgentId, objects: usize) -> String {
+    let other = agent.other();
+    let places = LandmarkId::ALL.into_iter().flat_map(|landmark| {
+        let on = Sign::Positive;
+        let agents = [agent, other].map(|agent| Goal::AgentOnLandmark { agent, landmark, sign: on });
+        let objects = ObjectId::ALL.into_iter().take(objects);
+        let objects = objects.map(move |object| Goal::ObjectOnLandmark { object, landmark, sign: on });
+        agents.into_iter().chain(objects)
+    });
+    let chase = Goal::Touch { agent, other, sign: Sign::Positive };
+    let flee = Goal::Touch { agent: other, other: agent, sign: Sign::Negative };
+    let all = places.flat_map(|goal| [goal, goal.negated()]).chain([chase, flee]);
+    let told: Vec<_> =
+        all.map(|goal| json!({ "goal": goal, "words": Palette::PAPER.goal_text(goal, agent) })).collect();
+    Value::from(told).to_string()
 }
 
 /// Draws a scene of a kind, and of a variant if one is given; the same seed gives the same scene.

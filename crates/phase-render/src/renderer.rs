@@ -58,9 +58,7 @@ impl SceneRenderer {
         let palette = &self.style.palette;
         let mut painter = Painter { pixmap: self.background.clone(), view: View::of(&self.style) };
         if let Some(overlay) = overlay {
-            overlay::shade(&mut painter, palette, overlay.visible);
-            draw_walls(&mut painter, &self.physics.walls, palette);
-            overlay::draw_particles(&mut painter, palette, &self.physics, overlay);
+            self.draw_overlay(&mut painter, overlay);
         }
         bodies::draw(&mut painter, palette, &self.physics, state);
         if let Some(overlay) = overlay {
@@ -68,6 +66,23 @@ impl SceneRenderer {
             caption::draw(&mut painter.pixmap, &self.style, &self.font, overlay.captions);
         }
         Frame::of(painter.pixmap)
+    }
+
+    /// The same stage with what an agent sees and believes drawn into its background, less title and captions: its frames are
+    /// those that [`frame`](Self::frame) draws with the overlay, at the cost of frames without. Field of view and belief stay the
+    /// same for all frames of a step.
+    #[must_use]
+    pub fn with_backdrop(&self, overlay: &Overlay<'_>) -> Self {
+        let mut painter = Painter { pixmap: self.background.clone(), view: View::of(&self.style) };
+        self.draw_overlay(&mut painter, overlay);
+        Self { background: painter.pixmap, ..self.clone() }
+    }
+
+    fn draw_overlay(&self, painter: &mut Painter, overlay: &Overlay<'_>) {
+        let palette = &self.style.palette;
+        overlay::shade(painter, palette, overlay.visible);
+        draw_walls(painter, &self.physics.walls, palette);
+        overlay::draw_particles(painter, palette, &self.physics, overlay);
     }
 
     /// Draws a state with a title, captions and a course around it.

@@ -4,7 +4,7 @@ use super::Workspace;
 use std::path::{Path, PathBuf};
 
 /// The crates from the bottom layer up. A crate may use those before it, never those after it.
-pub const LAYERS: [&str; 30] = [
+pub const LAYERS: [&str; 31] = [
     "phase-model",
     "phase-event",
     "phase-statistics",
@@ -33,6 +33,7 @@ pub const LAYERS: [&str; 30] = [
     "phase-eval",
     "phase-report",
     "phase-playground",
+    "phase-web",
     "phase-cli",
     "phase-python",
 ];

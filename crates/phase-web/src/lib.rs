@@ -1,0 +1,56 @@
+//! The pages of PHASE, as files that any web server can host.
+//!
+//! Key design decision: pages are plain HTML, CSS and JavaScript modules, without a bundler and without other people's scripts, so that
+//! what is read here is what browsers run. The WebAssembly that they call is built from `phase-playground`, by another target of the
+//! compiler, so it is not always there: a release of `phase` includes it (`build.rs`), `cargo xtask playground` builds it.
+//! The trade-off is a command that has to say so where it is missing.
+//!
+//! ```
+//! let wasm = [&b"export default"[..], b"\0asm"];
+//! let files = phase_web::playground(wasm);
+//! assert!(files.iter().any(|file| file.path == "index.html"));
+//! assert!(files.iter().any(|file| file.path == "phase_bg.wasm" && file.bytes == b"\0asm"));
+//! ```
+
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+
+/// A file of a page.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct File<'a> {
+    /// Its path, relative to the page.
+    pub path: &'static str,
+    /// Its contents.
+    pub bytes: &'a [u8],
+}
+
+/// Names of the two files that the tool `wasm-bindgen` makes.
+pub const WASM: [&str; 2] = ["phase.js", "phase_bg.wasm"];
+
+/// What this build includes of them.
+const INCLUDED: Option<[&[u8]; 2]> = include!(concat!(env!("OUT_DIR"), "/wasm.rs"));
+
+const PLAYGROUND: [(&str, &[u8]); 9] = [
+    ("index.html", include_bytes!("../pages/playground/index.html")),
+    ("playground.css", include_bytes!("../pages/playground/playground.css")),
+    ("playground.js", include_bytes!("../pages/playground/playground.js")),
+    ("editor.js", include_bytes!("../pages/playground/editor.js")),
+    ("panels.js", include_bytes!("../pages/playground/panels.js")),
+    ("keyboard.js", include_bytes!("../pages/playground/keyboard.js")),
+    ("share.js", include_bytes!("../pages/playground/share.js")),
+    ("simulator.js", include_bytes!("../pages/playground/simulator.js")),
+    ("observer.js", include_bytes!("../pages/playground/observer.js")),
+];
+
+/// The WebAssembly that this build includes, in the order of [`WASM`]; `None` if it was built without.
+#[must_use]
+pub const fn included() -> Option<[&'static [u8]; 2]> {
+    INCLUDED
+}
+
+/// The files of the playground with this WebAssembly, in the order of [`WASM`].
+#[must_use]
+pub fn playground(wasm: [&[u8]; 2]) -> Vec<File<'_>> {
+    let pages = PLAYGROUND.into_iter().chain(WASM.into_iter().zip(wasm));
+    pages.map(|(path, bytes)| File { path, bytes }).collect()
+}
