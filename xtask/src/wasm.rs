@@ -45,7 +45,8 @@ pub fn build(context: &Context) -> Result<PathBuf, XtaskError> {
     let out = target.join("playground");
     let failed = |problem: String| XtaskError::Build { what: "the playground", problem };
     fs::create_dir_all(&out).map_err(|error| failed(format!("{}: {error}", out.display())))?;
-    let options = ["--target", "web", "--no-typescript", "--out-name", "phase", "--out-dir"];
+    let options =
+        ["--target", "web", "--no-typescript", "--remove-name-section", "--out-name", "phase", "--out-dir"];
     run(TOOL, Command::new(&tool).args(options).arg(&out).arg(&module))?;
     Ok(out)
 }

@@ -23,7 +23,8 @@ pub fn read(scene: &str) -> Result<Scene, String> {
 }
 
 /// A scene in its canonical form, and what a page shows of it: `scene`, `walls` ([[x, y], [x, y]], u), `radii` (u), `landmarks`
-/// ([x, y], u), `relation`, and `goals` in words.
+/// ([x, y], u), `relation`, `goals` in words, and `overlap`, what overlaps at the start, as a sentence: a recording may begin so, but
+/// nobody should make such a scene.
 ///
 /// # Errors
 /// As [`read`].
@@ -38,6 +39,7 @@ pub fn describe(scene: &str) -> Result<String, String> {
     let description = json!({
         "scene": canonical, "walls": walls, "radii": radii, "landmarks": landmarks,
         "relation": scene.relation().name(), "goals": goals,
+        "overlap": scene.validate_without_overlap().err().map(sentence),
     });
     Ok(description.to_string())
 }

@@ -38,7 +38,8 @@ impl Show {
     pub fn new(scene: &str, seed: u64, options: &str) -> Result<Self, String> {
         let scene = scenes::read(scene)?;
         let options: Options = serde_json::from_str(options).map_err(sentence)?;
-        let minds = options.minds.map_or_else(|| Ok(MindParameters::default()), MindParameters::from_overrides);
+        let minds =
+            options.minds.map_or_else(|| Ok(MindParameters::default()), MindParameters::from_overrides);
         let default = SimulationSettings::default();
         let settings = SimulationSettings {
             engine: options.engine,

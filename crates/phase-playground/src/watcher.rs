@@ -60,9 +60,7 @@ impl Watcher {
         let answer = Answer::of(&inference.judgement(&self.reports)).map_err(sentence)?;
         let words = AgentId::ALL.map(|agent| -> Vec<Value> {
             let goals = answer.goals[agent].iter().take(GOALS);
-            goals
-                .map(|it| json!({ "goal": Palette::PAPER.goal_text(it.goal, agent), "p": it.p }))
-                .collect()
+            goals.map(|it| json!({ "goal": Palette::PAPER.goal_text(it.goal, agent), "p": it.p })).collect()
         });
         let mut value = serde_json::to_value(&answer).map_err(sentence)?;
         value["words"] = json!(words);

@@ -80,7 +80,10 @@ export class Editor {
   #edit(change) {
     const scene = structuredClone(this.scene);
     change(scene);
+    settle(scene);
     try {
+      const { overlap } = JSON.parse(describeScene(JSON.stringify(scene)));
+      if (overlap && !this.description.overlap) throw new Error(overlap);
       this.take(scene);
     } catch (error) {
       this.#complain(error.message);
@@ -101,7 +104,7 @@ export class Editor {
         const more = structuredClone(scene);
         more.objects.push({ radius: RADII[0], size_level: 0, start });
         try {
-          describeScene(JSON.stringify(more));
+          if (JSON.parse(describeScene(JSON.stringify(more))).overlap) return false;
         } catch {
           return false;
         }
@@ -157,6 +160,8 @@ export class Editor {
     const goal = this.#field(select(known, own ?? JSON.stringify(spec.goal)), `goal-${agent}`, (scene, value) => {
       scene.agents[agent].goal = JSON.parse(value);
     });
+    goal.disabled = spec.alpha !== 0;
+    goal.title = goal.disabled ? "Whoever helps has the other's goal, whoever hinders its opposite." : "";
     const attitude = this.#field(select(ATTITUDES, spec.alpha), `attitude-${agent}`, (scene, value) => {
       scene.agents[agent].alpha = Number(value);
     });
@@ -193,6 +198,21 @@ export class Editor {
     });
     return [labelled(k === 0 ? "First object (light blue)" : "Second object (pink)", size), ...this.#place(k + 2)];
   }
+}
+
+/** Whoever helps has the other's goal, whoever hinders its opposite; and the event is called what its goals and attitudes are. */
+function settle(scene) {
+  const [first, second] = scene.agents;
+  for (const [own, other] of [[first, second], [second, first]]) {
+    if (own.alpha !== 0 && other.alpha === 0) own.goal = { ...other.goal, sign: own.alpha * other.goal.sign };
+  }
+  const alphas = scene.agents.map(({ alpha }) => alpha);
+  if (alphas.includes(1)) scene.event = "helping";
+  else if (alphas.includes(-1)) scene.event = "hindering";
+  else if (scene.agents.some(({ goal }) => goal.kind === "touch")) scene.event = "chasing";
+  else if (same(first.goal, second.goal)) scene.event = "collaborating";
+  else if (same({ ...first.goal, sign: 0, landmark: 0 }, { ...second.goal, sign: 0, landmark: 0 })) scene.event = "competing";
+  else scene.event = "independent";
 }
 
 function same(a, b) {

@@ -17,7 +17,7 @@ function share(label, value, text = `${Math.round(100 * value)} %`) {
 
 function two(of) {
   const agents = [0, 1].map((agent) =>
-    element("div", {}, element("h3", { className: `agent-${agent}`, textContent: NAMES[agent] }), ...of(agent)));
+    element("div", {}, element("h2", { className: `agent-${agent}`, textContent: NAMES[agent] }), ...of(agent)));
   return element("div", { className: "two" }, ...agents);
 }
 

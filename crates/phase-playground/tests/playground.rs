@@ -1,0 +1,146 @@
+//! What pages are given is what the crates below give.
+
+use phase_event::{Recording, to_json};
+use phase_model::{Action, AgentId, Scene};
+use phase_perception::observe;
+use phase_playground::{Picture, Show, Watcher, packed, scenes};
+use phase_render::{Overlay, Palette, SceneRenderer, Style};
+use phase_sim::{SimulationSettings, simulate};
+use phase_simple::IntentNetwork;
+use serde_json::Value;
+
+const OPTIONS: &str = r#"{"max_steps": 6, "minds": {"simulations": 30, "particles": 8}}"#;
+
+fn settings() -> SimulationSettings {
+    let mut settings = SimulationSettings { max_steps: 6, ..SimulationSettings::default() };
+    settings.minds.simulations = 30;
+    settings.minds.particles = 8;
+    settings
+}
+
+fn scene() -> String {
+    scenes::sample("hindering", None, 3).unwrap()
+}
+
+#[test]
+fn a_show_is_the_event_that_is_simulated() {
+    let mut show = Show::new(&scene(), 9, OPTIONS).unwrap();
+    let mut shown = show.frames();
+    while !show.is_over() {
+        show.step([None, None]).unwrap();
+        shown.extend(show.frames());
+    }
+    let model = Scene::from_json(&scene()).unwrap();
+    let event = simulate(&model, 9, &settings()).unwrap();
+    let mut expected = Vec::new();
+    event.frames().for_each(|state| packed::push(state, &mut expected));
+    assert_eq!(shown, expected);
+
+    let value = serde_json::to_value(settings()).unwrap();
+    let recording = Recording::of_event("it", event, "phase 0.1.0".into(), value);
+    let text = to_json(&[recording]).unwrap();
+    assert_eq!(show.document("it").unwrap(), text);
+    let read = scenes::events(&text).unwrap();
+    assert_eq!(scenes::frames(&read[0]), expected);
+
+    let report: Value = serde_json::from_str(&show.report()).unwrap();
+    assert_eq!(report["step"], 6);
+    assert_eq!(report["over"], true);
+    assert!(report["minds"][1]["subgoal"].is_string());
+}
+
+#[test]
+fn actions_from_outside_are_carried_out() {
+    let mut show = Show::new(&scene(), 9, OPTIONS).unwrap();
+    show.step([Some(Action::TurnLeft), None]).unwrap();
+    let report: Value = serde_json::from_str(&show.report()).unwrap();
+    assert_eq!(report["actions"][0], "turnleft");
+}
+
+/// The picture with a mind is the frame that videos have of it.
+#[test]
+fn pictures_are_frames() {
+    let mut show = Show::new(&scene(), 9, OPTIONS).unwrap();
+    show.step([None, None]).unwrap();
+    let frames = show.frames();
+    let last = &frames[frames.len() - packed::STATE..];
+    let state = packed::states(last).next().unwrap();
+    let model = Scene::from_json(&scene()).unwrap();
+    let style = Style { palette: Palette::ACCESSIBLE, ..Style::with_side(200) };
+    let renderer = SceneRenderer::new(&model.physics(), style).unwrap();
+    let mut picture = Picture::new(&scene(), 200, "accessible").unwrap();
+    assert_eq!(picture.draw(last).unwrap(), renderer.frame(&state, None).rgba());
+    for agent in AgentId::ALL {
+        let observation = observe(&model.physics(), &state, agent);
+        let belief = show.belief(agent);
+        let particles: Vec<_> = packed::states(&belief).collect();
+        let overlay =
+            Overlay { agent, visible: &observation.visible, particles: &particles, title: "", captions: &[] };
+        picture.show_mind(agent, &show.view(agent), &belief);
+        assert_eq!(picture.draw(last).unwrap(), renderer.frame(&state, Some(&overlay)).rgba());
+    }
+    picture.hide_mind();
+    assert_eq!(picture.draw(last).unwrap(), renderer.frame(&state, None).rgba());
+}
+
+#[test]
+fn what_is_watched_is_answered() {
+    let network: &'static IntentNetwork = Box::leak(Box::new(IntentNetwork::bundled().unwrap()));
+    let mut show = Show::new(&scene(), 9, OPTIONS).unwrap();
+    let mut watcher = Watcher::new(network, &scene(), &show.row(), 4).unwrap();
+    show.step([None, None]).unwrap();
+    let answer: Value = serde_json::from_str(&watcher.push(&show.row()).unwrap()).unwrap();
+    let relation = answer["relation"].as_object().unwrap();
+    let total: f64 = relation.values().map(|p| p.as_f64().unwrap()).sum();
+    assert!((total - 1.0).abs() < 1e-9, "{total}");
+    assert_eq!(answer["words"][0].as_array().unwrap().len(), 4);
+    assert!(watcher.push(&[f32::NAN; packed::STATE]).is_err());
+    assert!(watcher.push(&[]).is_err());
+}
+
+#[test]
+fn scenes_are_described_and_rubbish_is_refused() {
+    let description: Value = serde_json::from_str(&scenes::describe(&scene()).unwrap()).unwrap();
+    assert_eq!(description["relation"], "adversarial");
+    assert_eq!(description["landmarks"].as_array().unwrap().len(), 4);
+    assert_eq!(description["overlap"], Value::Null);
+    let mut wrong: Value = serde_json::from_str(&scene()).unwrap();
+    wrong["agents"][0]["start"]["x"] = 400.into();
+    assert!(scenes::describe(&wrong.to_string()).unwrap_err().contains("agents[0]"));
+    wrong["agents"][0]["start"] = wrong["agents"][1]["start"].clone();
+    let described: Value = serde_json::from_str(&scenes::describe(&wrong.to_string()).unwrap()).unwrap();
+    assert!(described["overlap"].as_str().unwrap().contains("agents[1]"));
+    for rubbish in ["", "{}", "[]", "null", "{\"layout\": 3}"] {
+        assert!(scenes::describe(rubbish).is_err());
+        assert!(scenes::events(rubbish).is_err());
+        assert!(Show::new(rubbish, 0, "{}").is_err());
+    }
+    for options in ["", "[]", r#"{"speed": 3}"#, r#"{"minds": {"simulations": 0}}"#, r#"{"minds": 3}"#] {
+        assert!(Show::new(&scene(), 0, options).is_err(), "{options}");
+    }
+    assert!(scenes::sample("helping", Some("chase"), 1).is_err());
+    assert!(scenes::sample("flying", None, 1).is_err());
+}
+
+/// Every goal that a page offers makes a valid scene, and has other words than the others.
+#[test]
+fn goals_on_offer_are_goals() {
+    let offered: Vec<Value> = serde_json::from_str(&scenes::goals(AgentId::ZERO, 2)).unwrap();
+    let mut words: Vec<&str> = offered.iter().map(|it| it["words"].as_str().unwrap()).collect();
+    assert_eq!(words.len(), 34);
+    words.sort_unstable();
+    words.dedup();
+    assert_eq!(words.len(), 34);
+    let mut scene: Value = serde_json::from_str(&scene()).unwrap();
+    // Whoever helps or hinders has the other's goal.
+    (0..2).for_each(|agent| scene["agents"][agent]["alpha"] = 0.into());
+    scene["event"] = "independent".into();
+    let objects = scene["objects"].as_array().unwrap().len() as u64;
+    for choice in &offered {
+        if choice["goal"]["object"].as_u64().is_some_and(|object| object >= objects) {
+            continue;
+        }
+        scene["agents"][0]["goal"] = choice["goal"].clone();
+        scenes::describe(&scene.to_string()).unwrap();
+    }
+}
