@@ -19,7 +19,7 @@ fn settings() -> SimulationSettings {
 }
 
 fn scene() -> String {
-    scenes::sample("hindering", None, 3).unwrap()
+    scenes::sample("hindering", None, 3).expect("a scene")
 }
 
 #[test]
