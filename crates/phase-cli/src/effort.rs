@@ -117,7 +117,7 @@ impl SimulationOptions {
 #[must_use]
 pub fn engines() -> impl TypedValueParser<Value = Engine> {
     let names = PossibleValuesParser::new(Engine::ALL.map(Engine::name));
-    names.try_map(|name| Engine::ALL.into_iter().find(|engine| engine.name() == name).ok_or("no such engine"))
+    names.try_map(|name| Engine::named(&name).ok_or("no such engine"))
 }
 
 /// Reads a kind of minds by its name.

@@ -35,6 +35,12 @@ impl EventKind {
         Self::Independent,
     ];
 
+    /// The kind of a name, as [`name`](Self::name) gives it.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|kind| kind.name() == name)
+    }
+
     /// The kind that follows from goals and attitudes, as scenes are labelled: a non-neutral attitude
     /// decides, otherwise the relation and the subjects of the goals.
     #[must_use]

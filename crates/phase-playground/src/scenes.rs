@@ -3,13 +3,10 @@
 use crate::{packed, sentence};
 use phase_event::Recording;
 use phase_model::{
-    AgentId, EventKind, Goal, LandmarkId, Layout, ObjectId, Scene, Sign, State, arena,
-    layout::USED_BASES,
-    random::{self, Purpose},
+    AgentId, EventKind, Goal, LandmarkId, ObjectId, Scene, Sign, State, arena, layout::USED_BASES,
 };
 use phase_render::Palette;
-use phase_sampler::{Request, Variant, sample as draw, sample_kind};
-use rand::RngExt;
+use phase_sampler::{Variant, sample_named};
 use serde_json::{Value, json};
 
 /// Reads and checks a scene.
@@ -23,7 +20,7 @@ pub fn read(scene: &str) -> Result<Scene, String> {
 }
 
 /// A scene in its canonical form, and what a page shows of it: `scene`, `walls` ([[x, y], [x, y]], u), `radii` (u), `landmarks`
-/// ([x, y], u), `relation`, `goals` in words, and `overlap`, what overlaps at the start, as a sentence: a recording may begin so, but
+/// ([x, y], u), `relation`, `goals` in words, `kind` as goals and attitudes have it, and `overlap`, what overlaps at the start, as a sentence: a recording may begin so, but
 /// nobody should make such a scene.
 ///
 /// # Errors
@@ -39,6 +36,7 @@ pub fn describe(scene: &str) -> Result<String, String> {
     let description = json!({
         "scene": canonical, "walls": walls, "radii": radii, "landmarks": landmarks,
         "relation": scene.relation().name(), "goals": goals,
+        "kind": EventKind::of(scene.goals(), scene.attitudes()).name(),
         "overlap": scene.validate_without_overlap().err().map(sentence),
     });
     Ok(description.to_string())
@@ -81,19 +79,7 @@ pub fn goals(agent: AgentId, objects: usize) -> String {
 /// # Errors
 /// A sentence for an unknown name, and if no scene was found.
 pub fn sample(kind: &str, variant: Option<&str>, seed: u64) -> Result<String, String> {
-    let kind = EventKind::ALL.into_iter().find(|it| it.name() == kind);
-    let kind = kind.ok_or("there is no such kind of event")?;
-    let mut random = random::stream(seed, Purpose::Scene, 0);
-    let scene = match variant {
-        None => sample_kind(kind, &mut random),
-        Some(name) => {
-            let variant = Variant::of(kind).iter().copied().find(|it| it.name() == name);
-            let variant = variant.ok_or("there is no such variant of the kind")?;
-            let layouts: Vec<Layout> = Layout::all_used().collect();
-            let goal_index = random.random_range(0..variant.goal_count());
-            draw(&Request { variant, goal_index, layouts: &layouts }, &mut random)
-        }
-    };
+    let scene = sample_named(Some(kind), variant, seed);
     scene.map_err(sentence)?.to_json().map_err(sentence)
 }
 

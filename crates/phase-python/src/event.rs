@@ -1,12 +1,14 @@
 //! Events: simulated, read, as arrays.
 
-use crate::{arrays::row_of, command::quiet, error::raise, mind::read_parameters, scene::Scene};
+use crate::{
+    arrays::row_of, command::quiet, error::raise, mind::read_parameters, scene::Scene, worlds::engine_of,
+};
 use core::ops::ControlFlow;
 use numpy::{PyArray2, PyArray3};
 use phase_cli::{engine::GENERATOR, event_writer::settings_value, source::EventInput};
 use phase_event::{Recording, Thought, from_json, to_json};
 use phase_model::arena::SUBSTEPS;
-use phase_sim::{Engine, SimulationSettings, simulate_with};
+use phase_sim::{SimulationSettings, simulate_with};
 use pyo3::prelude::*;
 use std::{path::PathBuf, sync::Arc};
 
@@ -142,8 +144,7 @@ pub(crate) fn simulate(
     max_steps: usize,
     parameters: Option<&str>,
 ) -> PyResult<Event> {
-    let named = Engine::ALL.into_iter().find(|it| it.name() == engine);
-    let engine = named.ok_or_else(|| raise(format!("engine must be world or forward, not {engine:?}")))?;
+    let engine = engine_of(engine)?;
     let minds = read_parameters(parameters)?;
     let settings = SimulationSettings { engine, max_steps, minds, ..SimulationSettings::default() };
     let scene = scene.scene.clone();

@@ -4,12 +4,10 @@ use crate::error::raise;
 use phase_cli::gen_dataset::plan;
 use phase_dataset::composition::{Composition, EventSlot, SetSlot};
 use phase_model::{
-    Action, AgentId, EventKind, Layout, Scene as ModelScene,
+    Action, AgentId, Scene as ModelScene,
     random::{self, Purpose},
 };
-use phase_sampler::{
-    Contrast, ContrastRequest, Part, Request, SampleError, Stage, Variant, sample, sample_kind,
-};
+use phase_sampler::{Contrast, ContrastRequest, Part, Request, SampleError, Stage, sample, sample_named};
 use pyo3::prelude::*;
 use rand::RngExt;
 
@@ -33,23 +31,7 @@ impl Scene {
     #[staticmethod]
     #[pyo3(signature = (kind, variant, seed))]
     fn sample(py: Python<'_>, kind: Option<&str>, variant: Option<&str>, seed: u64) -> PyResult<Self> {
-        let kind = kind.map(kind_of).transpose()?;
-        let variant = variant.map(|name| variant_of(name, kind)).transpose()?;
-        let scene = py.detach(|| {
-            let mut random = random::stream(seed, Purpose::Scene, 0);
-            match (variant, kind) {
-                (Some(variant), _) => {
-                    let layouts: Vec<Layout> = Layout::all_used().collect();
-                    let goal_index = random.random_range(0..variant.goal_count());
-                    sample(&Request { variant, goal_index, layouts: &layouts }, &mut random)
-                }
-                (None, Some(kind)) => sample_kind(kind, &mut random),
-                (None, None) => {
-                    let kind = EventKind::ALL[random.random_range(0..EventKind::ALL.len())];
-                    sample_kind(kind, &mut random)
-                }
-            }
-        });
+        let scene = py.detach(|| sample_named(kind, variant, seed));
         Ok(Self { scene: scene.map_err(raise)? })
     }
 
@@ -134,21 +116,4 @@ pub(crate) fn agent_of(number: usize) -> PyResult<AgentId> {
 pub(crate) fn action_of(number: i64) -> PyResult<Action> {
     let action = usize::try_from(number).ok().and_then(|number| Action::ALL.get(number)).copied();
     action.ok_or_else(|| raise(format!("an action is a whole number from 0 to 13, not {number}")))
-}
-
-fn kind_of(name: &str) -> PyResult<EventKind> {
-    let kind = EventKind::ALL.into_iter().find(|kind| kind.name() == name);
-    kind.ok_or_else(|| {
-        let names = EventKind::ALL.map(EventKind::name).join(", ");
-        raise(format!("kind must be one of {names}, not {name:?}"))
-    })
-}
-
-fn variant_of(name: &str, kind: Option<EventKind>) -> PyResult<Variant> {
-    let fits = |variant: &Variant| kind.is_none_or(|kind| variant.kind() == kind);
-    let mut variants = Variant::ALL.into_iter().filter(fits);
-    variants.find(|variant| variant.name() == name).ok_or_else(|| {
-        let names: Vec<&str> = Variant::ALL.into_iter().filter(fits).map(Variant::name).collect();
-        raise(format!("variant must be one of {}, not {name:?}", names.join(", ")))
-    })
 }

@@ -108,11 +108,7 @@ impl Worlds {
         omniscient: bool,
         threads: usize,
     ) -> PyResult<Self> {
-        let named = Engine::ALL.into_iter().find(|it| it.name() == engine);
-        let engine = named.ok_or_else(|| {
-            let names = Engine::ALL.map(Engine::name).join(" or ");
-            raise(format!("engine must be {names}, not {engine:?}"))
-        })?;
+        let engine = engine_of(engine)?;
         let pool = match threads {
             0 | 1 => None,
             threads => Some(
@@ -282,4 +278,15 @@ impl Worlds {
     pub(crate) fn view(&self, world: i64) -> PyResult<(&PhysicsConfig, &State)> {
         self.lane(world).map(|lane| (&lane.physics, lane.state()))
     }
+}
+
+/// An engine by its name.
+///
+/// # Errors
+/// `PhaseError` that has the names there are.
+pub(crate) fn engine_of(name: &str) -> PyResult<Engine> {
+    Engine::named(name).ok_or_else(|| {
+        let names = Engine::ALL.map(Engine::name).join(" or ");
+        raise(format!("engine must be {names}, not {name:?}"))
+    })
 }

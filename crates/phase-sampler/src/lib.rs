@@ -36,6 +36,7 @@ pub mod contrast;
 pub mod draft;
 pub mod feasibility;
 mod friendly;
+pub mod named;
 mod neutral;
 pub mod recipe;
 mod requirements;
@@ -43,6 +44,7 @@ pub mod stage;
 pub mod variant;
 
 pub use contrast::{About, Contrast, ContrastRequest, Stance};
-pub use recipe::{Request, SampleError, sample, sample_kind};
+pub use named::{NamedError, sample_named};
+pub use recipe::{Request, SampleError, sample, sample_kind, sample_variant};
 pub use stage::{Part, Stage};
 pub use variant::Variant;

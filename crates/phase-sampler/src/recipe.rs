@@ -56,17 +56,24 @@ pub(crate) fn propose(request: &Request<'_>, count: Objects, random: &mut impl R
     is_playable(variant, &scene, count == Objects::Two).then_some(scene)
 }
 
+/// Draws a scene of a variant in any of the 90 layouts, with any of its goals.
+///
+/// # Errors
+/// As [`sample`].
+pub fn sample_variant(variant: Variant, random: &mut impl Rng) -> Result<Scene, SampleError> {
+    let layouts: Vec<Layout> = Layout::all_used().collect();
+    let goal_index = random.random_range(0..variant.goal_count());
+    sample(&Request { variant, goal_index, layouts: &layouts }, random)
+}
+
 /// Draws a scene of a kind in any of the 90 layouts; one of the first edition's variants and goals are drawn as well.
 ///
 /// # Errors
 /// As [`sample`].
 pub fn sample_kind(kind: EventKind, random: &mut impl Rng) -> Result<Scene, SampleError> {
-    let layouts: Vec<Layout> = Layout::all_used().collect();
     let mut variants = Variant::of(kind);
     variants.retain(|variant| variant.is_first_edition());
-    let variant = choose(&variants, random);
-    let goal_index = random.random_range(0..variant.goal_count());
-    sample(&Request { variant, goal_index, layouts: &layouts }, random)
+    sample_variant(choose(&variants, random), random)
 }
 
 fn draft(variant: Variant, layout: Layout, goals: [Goal; 2], random: &mut impl Rng) -> Option<SceneDraft> {

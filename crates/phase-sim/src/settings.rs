@@ -18,6 +18,12 @@ impl Engine {
     /// All engines.
     pub const ALL: [Self; 2] = [Self::World, Self::Forward];
 
+    /// The engine of a name, as [`name`](Self::name) gives it.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|engine| engine.name() == name)
+    }
+
     /// The name used in files and options.
     #[must_use]
     pub const fn name(self) -> &'static str {

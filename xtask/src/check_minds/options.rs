@@ -54,5 +54,5 @@ pub struct CheckMinds {
 /// Reads a kind of event by its name.
 fn kinds() -> impl TypedValueParser<Value = EventKind> {
     let names = PossibleValuesParser::new(EventKind::ALL.map(EventKind::name));
-    names.try_map(|name| EventKind::ALL.into_iter().find(|kind| kind.name() == name).ok_or("no such kind"))
+    names.try_map(|name| EventKind::named(&name).ok_or("no such kind"))
 }

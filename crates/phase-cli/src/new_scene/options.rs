@@ -32,7 +32,5 @@ pub struct NewScene {
 /// Reads a kind of event by its name.
 fn kinds() -> impl TypedValueParser<Value = EventKind> {
     let names = PossibleValuesParser::new(EventKind::ALL.map(EventKind::name));
-    names.try_map(|name| {
-        EventKind::ALL.into_iter().find(|kind| kind.name() == name).ok_or("no such kind of event")
-    })
+    names.try_map(|name| EventKind::named(&name).ok_or("no such kind of event"))
 }

@@ -82,7 +82,8 @@ export class Editor {
     change(scene);
     settle(scene);
     try {
-      const { overlap } = JSON.parse(describeScene(JSON.stringify(scene)));
+      const { overlap, kind } = JSON.parse(describeScene(JSON.stringify(scene)));
+      scene.event = kind;
       if (overlap && !this.description.overlap) throw new Error(overlap);
       this.take(scene);
     } catch (error) {
@@ -200,19 +201,14 @@ export class Editor {
   }
 }
 
-/** Whoever helps has the other's goal, whoever hinders its opposite; and the event is called what its goals and attitudes are. */
+/** Whoever helps has the other's goal, whoever hinders its opposite. */
 function settle(scene) {
   const [first, second] = scene.agents;
   for (const [own, other] of [[first, second], [second, first]]) {
     if (own.alpha !== 0 && other.alpha === 0) own.goal = { ...other.goal, sign: own.alpha * other.goal.sign };
   }
-  const alphas = scene.agents.map(({ alpha }) => alpha);
-  if (alphas.includes(1)) scene.event = "helping";
-  else if (alphas.includes(-1)) scene.event = "hindering";
-  else if (scene.agents.some(({ goal }) => goal.kind === "touch")) scene.event = "chasing";
-  else if (same(first.goal, second.goal)) scene.event = "collaborating";
-  else if (same({ ...first.goal, sign: 0, landmark: 0 }, { ...second.goal, sign: 0, landmark: 0 })) scene.event = "competing";
-  else scene.event = "independent";
+  // Helping and hindering are names that have to fit; the right one is known once the rest is.
+  scene.event = "independent";
 }
 
 function same(a, b) {
