@@ -109,8 +109,11 @@ fn record_of(file: &Path, bytes: &[u8]) -> Result<Training, CliError> {
         network: record.network,
         weights: record.weights,
         seed: record.seed,
-        dataset: record.data.folder,
-        events: record.data.events,
+        dataset: match record.more.len() {
+            0 => record.data.folder,
+            further => format!("{} and {further} more", record.data.folder),
+        },
+        events: record.data.events + record.more.iter().map(|data| data.events).sum::<usize>(),
         round: record.settings.round,
         rounds: record.rounds.len(),
         best_round: record.best_round,
