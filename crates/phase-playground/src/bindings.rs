@@ -111,64 +111,64 @@ impl Events {
     }
 }
 
-/// As [`crate::Show`].
+/// As [`crate::Simulation`].
 #[wasm_bindgen]
-pub struct Show(crate::Show);
+pub struct Simulation(crate::Simulation);
 
 #[wasm_bindgen]
-impl Show {
-    /// As [`crate::Show::new`].
+impl Simulation {
+    /// As [`crate::Simulation::new`].
     #[wasm_bindgen(constructor)]
-    pub fn new(scene: &str, seed: u64, options: &str) -> Result<Show, JsError> {
-        crate::Show::new(scene, seed, options).map(Self).map_err(raise)
+    pub fn new(scene: &str, seed: u64, options: &str) -> Result<Simulation, JsError> {
+        crate::Simulation::new(scene, seed, options).map(Self).map_err(raise)
     }
 
-    /// As [`crate::Show::step`]; a negative number leaves the agent to its mind.
+    /// As [`crate::Simulation::step`]; a negative number leaves the agent to its mind.
     pub fn step(&mut self, first: i32, second: i32) -> Result<(), JsError> {
         let given: [Option<Action>; AGENT_COUNT] = [action_of(first)?, action_of(second)?];
         self.0.step(given).map_err(raise)
     }
 
-    /// As [`crate::Show::frames`].
+    /// As [`crate::Simulation::frames`].
     pub fn frames(&self) -> Vec<f32> {
         self.0.frames()
     }
 
-    /// As [`crate::Show::row`].
+    /// As [`crate::Simulation::row`].
     pub fn row(&self) -> Vec<f32> {
         self.0.row()
     }
 
-    /// As [`crate::Show::report`].
+    /// As [`crate::Simulation::report`].
     pub fn report(&self) -> String {
         self.0.report()
     }
 
-    /// As [`crate::Show::belief`].
+    /// As [`crate::Simulation::belief`].
     pub fn belief(&self, agent: u32) -> Result<Vec<f32>, JsError> {
         Ok(self.0.belief(agent_of(agent)?))
     }
 
-    /// As [`crate::Show::view`].
+    /// As [`crate::Simulation::view`].
     pub fn view(&self, agent: u32) -> Result<Vec<u8>, JsError> {
         Ok(self.0.view(agent_of(agent)?))
     }
 
-    /// As [`crate::Show::document`].
+    /// As [`crate::Simulation::document`].
     pub fn document(&self, id: &str) -> Result<String, JsError> {
         self.0.document(id).map_err(raise)
     }
 }
 
-/// As [`crate::Watcher`].
+/// As [`crate::Observer`].
 #[wasm_bindgen]
-pub struct Watcher(crate::Watcher);
+pub struct Observer(crate::Observer);
 
 #[wasm_bindgen]
-impl Watcher {
-    /// As [`crate::Watcher::new`], with the bundled intent network.
+impl Observer {
+    /// As [`crate::Observer::new`], with the bundled intent network.
     #[wasm_bindgen(constructor)]
-    pub fn new(scene: &str, row: &[f32], decisions: usize) -> Result<Watcher, JsError> {
+    pub fn new(scene: &str, row: &[f32], decisions: usize) -> Result<Observer, JsError> {
         static NETWORK: OnceLock<IntentNetwork> = OnceLock::new();
         let network = match NETWORK.get() {
             Some(network) => network,
@@ -177,10 +177,10 @@ impl Watcher {
                 NETWORK.get_or_init(|| network)
             }
         };
-        crate::Watcher::new(network, scene, row, decisions).map(Self).map_err(raise)
+        crate::Observer::new(network, scene, row, decisions).map(Self).map_err(raise)
     }
 
-    /// As [`crate::Watcher::push`].
+    /// As [`crate::Observer::push`].
     pub fn push(&mut self, row: &[f32]) -> Result<String, JsError> {
         self.0.push(row).map_err(raise)
     }

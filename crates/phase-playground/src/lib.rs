@@ -1,6 +1,6 @@
 //! PHASE in a browser: what the playground's pages call, as WebAssembly.
 //!
-//! A [`Show`] simulates a scene step by step, with minds or people's actions; a [`Watcher`] infers goals and relation while an event
+//! A [`Simulation`] simulates a scene step by step, with minds or people's actions; an [`Observer`] infers goals and relation while an event
 //! runs; a [`Picture`] draws as the videos are drawn; [`scenes`] checks, describes and samples scenes, and reads files of events.
 //! Everything is exchanged as JSON in the formats of `docs/formats.md`, or as 32-bit floats where there is one for each body and
 //! step ([`packed`]).
@@ -10,14 +10,14 @@
 //! a download of some megabytes.
 //!
 //! ```
-//! use phase_playground::{Show, scenes};
+//! use phase_playground::{Simulation, scenes};
 //!
 //! let scene = scenes::sample("helping", None, 1)?;
-//! let mut show = Show::new(&scene, 1, r#"{"max_steps": 3, "minds": {"simulations": 20}}"#)?;
-//! while !show.is_over() {
-//!     show.step([None, None])?;
+//! let mut simulation = Simulation::new(&scene, 1, r#"{"max_steps": 3, "minds": {"simulations": 20}}"#)?;
+//! while !simulation.is_over() {
+//!     simulation.step([None, None])?;
 //! }
-//! assert!(show.document("helping")?.starts_with("{\"format\":\"phase-events/1\""));
+//! assert!(simulation.document("helping")?.starts_with("{\"format\":\"phase-events/1\""));
 //! # Ok::<(), String>(())
 //! ```
 
@@ -26,15 +26,15 @@
 
 #[cfg(target_arch = "wasm32")]
 pub mod bindings;
+pub mod observer;
 pub mod packed;
 pub mod picture;
 pub mod scenes;
-pub mod show;
-pub mod watcher;
+pub mod simulation;
 
+pub use observer::Observer;
 pub use picture::Picture;
-pub use show::Show;
-pub use watcher::Watcher;
+pub use simulation::Simulation;
 
 /// The generator named in files.
 const GENERATOR: &str = concat!("phase ", env!("CARGO_PKG_VERSION"));

@@ -32,7 +32,7 @@ impl Picture {
         [self.stage.width(), self.stage.height()]
     }
 
-    /// Shows from now on what an agent sees (`view`, as of [`Show::view`](crate::Show::view)) and believes (`belief`, packed states).
+    /// Shows from now on what an agent sees (`view`, as of [`Simulation::view`](crate::Simulation::view)) and believes (`belief`, packed states).
     pub fn show_mind(&mut self, agent: AgentId, view: &[u8], belief: &[f32]) {
         let particles: Vec<_> = packed::states(belief).collect();
         let mut visible = CellSet::EMPTY;

@@ -3,7 +3,7 @@
 use phase_event::{Recording, to_json};
 use phase_model::{Action, AgentId, Scene};
 use phase_perception::observe;
-use phase_playground::{Picture, Show, Watcher, packed, scenes};
+use phase_playground::{Observer, Picture, Simulation, packed, scenes};
 use phase_render::{Overlay, Palette, SceneRenderer, Style};
 use phase_sim::{SimulationSettings, simulate};
 use phase_simple::IntentNetwork;
@@ -24,7 +24,7 @@ fn scene() -> String {
 
 #[test]
 fn a_show_is_the_event_that_is_simulated() {
-    let mut show = Show::new(&scene(), 9, OPTIONS).unwrap();
+    let mut show = Simulation::new(&scene(), 9, OPTIONS).unwrap();
     let mut shown = show.frames();
     while !show.is_over() {
         show.step([None, None]).unwrap();
@@ -51,7 +51,7 @@ fn a_show_is_the_event_that_is_simulated() {
 
 #[test]
 fn actions_from_outside_are_carried_out() {
-    let mut show = Show::new(&scene(), 9, OPTIONS).unwrap();
+    let mut show = Simulation::new(&scene(), 9, OPTIONS).unwrap();
     show.step([Some(Action::TurnLeft), None]).unwrap();
     let report: Value = serde_json::from_str(&show.report()).unwrap();
     assert_eq!(report["actions"][0], "turnleft");
@@ -60,7 +60,7 @@ fn actions_from_outside_are_carried_out() {
 /// The picture with a mind is the frame that videos have of it.
 #[test]
 fn pictures_are_frames() {
-    let mut show = Show::new(&scene(), 9, OPTIONS).unwrap();
+    let mut show = Simulation::new(&scene(), 9, OPTIONS).unwrap();
     show.step([None, None]).unwrap();
     let frames = show.frames();
     let last = &frames[frames.len() - packed::STATE..];
@@ -86,16 +86,16 @@ fn pictures_are_frames() {
 #[test]
 fn what_is_watched_is_answered() {
     let network: &'static IntentNetwork = Box::leak(Box::new(IntentNetwork::bundled().unwrap()));
-    let mut show = Show::new(&scene(), 9, OPTIONS).unwrap();
-    let mut watcher = Watcher::new(network, &scene(), &show.row(), 4).unwrap();
+    let mut show = Simulation::new(&scene(), 9, OPTIONS).unwrap();
+    let mut observer = Observer::new(network, &scene(), &show.row(), 4).unwrap();
     show.step([None, None]).unwrap();
-    let answer: Value = serde_json::from_str(&watcher.push(&show.row()).unwrap()).unwrap();
+    let answer: Value = serde_json::from_str(&observer.push(&show.row()).unwrap()).unwrap();
     let relation = answer["relation"].as_object().unwrap();
     let total: f64 = relation.values().map(|p| p.as_f64().unwrap()).sum();
     assert!((total - 1.0).abs() < 1e-9, "{total}");
     assert_eq!(answer["words"][0].as_array().unwrap().len(), 4);
-    assert!(watcher.push(&[f32::NAN; packed::STATE]).is_err());
-    assert!(watcher.push(&[]).is_err());
+    assert!(observer.push(&[f32::NAN; packed::STATE]).is_err());
+    assert!(observer.push(&[]).is_err());
 }
 
 #[test]
@@ -113,10 +113,10 @@ fn scenes_are_described_and_rubbish_is_refused() {
     for rubbish in ["", "{}", "[]", "null", "{\"layout\": 3}"] {
         assert!(scenes::describe(rubbish).is_err());
         assert!(scenes::events(rubbish).is_err());
-        assert!(Show::new(rubbish, 0, "{}").is_err());
+        assert!(Simulation::new(rubbish, 0, "{}").is_err());
     }
     for options in ["", "[]", r#"{"speed": 3}"#, r#"{"minds": {"simulations": 0}}"#, r#"{"minds": 3}"#] {
-        assert!(Show::new(&scene(), 0, options).is_err(), "{options}");
+        assert!(Simulation::new(&scene(), 0, options).is_err(), "{options}");
     }
     assert!(scenes::sample("helping", Some("chase"), 1).is_err());
     assert!(scenes::sample("flying", None, 1).is_err());

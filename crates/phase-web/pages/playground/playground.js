@@ -1,5 +1,5 @@
 // The playground: plays, edits and shows one event. A worker simulates it, another one infers; this page draws.
-import init, { Events, Picture, Show, sampleScene, startState, stateLength, actions } from "./phase.js";
+import init, { Events, Picture, Simulation, sampleScene, startState, stateLength, actions } from "./phase.js";
 import { Editor } from "./editor.js";
 import { Keyboard } from "./keyboard.js";
 import { showPosterior, showThoughts } from "./panels.js";
@@ -280,9 +280,9 @@ byId("time").oninput = () => { running = false; playhead = Number(byId("time").v
 byId("sample").onclick = sample;
 byId("save-scene").onclick = () => {
   const { seed, options } = settings();
-  const show = new Show(JSON.stringify(editor.scene), BigInt(seed), JSON.stringify(options));
-  save(show.document("scene"), "scene.json");
-  show.free();
+  const simulation = new Simulation(JSON.stringify(editor.scene), BigInt(seed), JSON.stringify(options));
+  save(simulation.document("scene"), "scene.json");
+  simulation.free();
 };
 byId("save-event").onclick = () => {
   if (!simulated) return say("This event comes from a file already.");

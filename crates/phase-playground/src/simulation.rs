@@ -6,14 +6,14 @@ use phase_event::{Recording, mean_state, to_json};
 use phase_model::{AGENT_COUNT, Action, AgentId, PhysicsConfig};
 use phase_perception::{Cell, observe};
 use phase_predicates::achieved;
-use phase_sim::{Engine, Simulation, SimulationSettings};
+use phase_sim::{Engine, SimulationSettings};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
 /// A scene with its minds.
 #[derive(Debug)]
-pub struct Show {
-    simulation: Simulation,
+pub struct Simulation {
+    simulation: phase_sim::Simulation,
     settings: SimulationSettings,
     physics: PhysicsConfig,
 }
@@ -29,7 +29,7 @@ struct Options {
     minds: Option<Value>,
 }
 
-impl Show {
+impl Simulation {
     /// A scene at its start. `options` is an object with `engine`, `max_steps`, `min_steps` and `minds`, parameters of the minds that
     /// differ from the defaults; all are optional.
     ///
@@ -48,7 +48,7 @@ impl Show {
             minds: minds.map_err(sentence)?,
             ..default
         };
-        let simulation = Simulation::new(&scene, seed, &settings).map_err(sentence)?;
+        let simulation = phase_sim::Simulation::new(&scene, seed, &settings).map_err(sentence)?;
         Ok(Self { simulation, settings, physics: scene.physics() })
     }
 

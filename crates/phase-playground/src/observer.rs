@@ -5,9 +5,7 @@ use phase_eval::goals::Answer;
 use phase_event::ObservedEvent;
 use phase_model::AgentId;
 use phase_render::Palette;
-use phase_simple::{
-    Effort, Guidance, Guide, Inference, InferenceSettings, IntentNetwork, Observer, ReportModel,
-};
+use phase_simple::{Effort, Guidance, Guide, Inference, InferenceSettings, IntentNetwork, ReportModel};
 use serde_json::{Value, json};
 
 /// Goals that are told in words.
@@ -15,12 +13,12 @@ const GOALS: usize = 4;
 
 /// Infers goals, relation and roles from an event row by row.
 #[derive(Debug)]
-pub struct Watcher {
-    observer: Observer<'static>,
+pub struct Observer {
+    observer: phase_simple::Observer<'static>,
     reports: ReportModel,
 }
 
-impl Watcher {
+impl Observer {
     /// Begins with the first row, a packed state. Of the scene only walls and sizes are looked at. `decisions` is what it spends on a
     /// row: a decision takes a few milliseconds.
     ///
@@ -40,7 +38,8 @@ impl Watcher {
             ObservedEvent::new(scene.layout, agents, sizes, vec![first.bodies]).map_err(sentence)?;
         let guide = Guide { network, guidance: Guidance::default() };
         let settings = InferenceSettings::default();
-        let mut observer = Observer::new(&observed, Some(&guide), 0, &settings).map_err(sentence)?;
+        let mut observer =
+            phase_simple::Observer::new(&observed, Some(&guide), 0, &settings).map_err(sentence)?;
         observer.set_effort(Effort { decisions: Some(decisions) });
         Ok(Self { observer, reports: ReportModel::bundled().map_err(sentence)? })
     }
