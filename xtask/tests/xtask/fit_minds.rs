@@ -115,15 +115,23 @@ fn rubbish_is_refused_in_one_sentence() {
     let folder = folder();
     let path = folder.path();
     fs::write(path.join("outside.json"), r#"{"momentum_prior": -1}"#).expect("written");
+    fs::write(path.join("beyond.json"), r#"{"momentum_prior": 1e9}"#).expect("written");
     let before = tree(path);
-    let cases: [(&[&str], &str); 8] = [
+    let cases: [(&[&str], &str); 9] = [
         (&["--only", "courage"], "courage"),
         (&["--folds", "4"], "fewer than --folds 4"),
         (&["--folds", "1"], "--folds"),
         (&["--thin", "0"], "--thin"),
         (&["--out", "events.json"], "--out events.json: is an input file"),
         (&["--out", "no/such/out.json"], "folder does not exist"),
-        (&["--folds", "3", "--parameters", "outside.json"], "outside.json: field `momentum_prior` is -1"),
+        (
+            &["--folds", "3", "--parameters", "outside.json"],
+            "outside.json: field `momentum_prior` must be finite and above 0, not -1",
+        ),
+        (
+            &["--folds", "3", "--parameters", "beyond.json"],
+            "beyond.json: field `momentum_prior` is 1000000000, but must be from",
+        ),
         (&["--folds", "3", "--generated", "missing.json"], "missing.json"),
     ];
     for (arguments, said) in cases {
