@@ -2,7 +2,7 @@
 
 use crate::{console::print_result, context::Context, error::CliError};
 use clap::Args;
-use phase_dataset::{WriteError, atomic};
+use phase_dataset::{FileError, Problem, WriteError, atomic};
 use phase_web::WASM;
 use std::{
     fs,
@@ -23,7 +23,7 @@ pub struct Playground {
 /// Runs the command.
 ///
 /// # Errors
-/// [`CliError::Usage`] if there is no WebAssembly, [`CliError::Output`] if a file cannot be written.
+/// [`CliError::Usage`] if there is no WebAssembly, [`CliError::File`] if it cannot be read, [`CliError::Output`] if a file cannot be written.
 pub fn run(arguments: &Playground, context: &Context) -> Result<(), CliError> {
     let out = &arguments.out;
     let given = arguments.wasm.as_deref().map(read).transpose()?;
@@ -38,11 +38,10 @@ pub fn run(arguments: &Playground, context: &Context) -> Result<(), CliError> {
     };
     let files = phase_web::playground(wasm);
     let bytes: usize = files.iter().map(|file| file.bytes.len()).sum();
+    let failed = |source| WriteError { path: out.clone(), action: "create the folder", source };
+    fs::create_dir_all(out).map_err(|source| CliError::Output(failed(source)))?;
     for file in &files {
-        let path = out.join(file.path);
-        let failed = |source| WriteError { path: out.clone(), action: "create the folder", source };
-        fs::create_dir_all(out).map_err(|source| CliError::Output(failed(source)))?;
-        atomic::write(&path, file.bytes).map_err(CliError::Output)?;
+        atomic::write(&out.join(file.path), file.bytes).map_err(CliError::Output)?;
     }
     print_result(format!(
         "{} files, {:.1} MB, in {}; host them with any web server, such as\npython3 -m http.server --bind 127.0.0.1 --directory {}",
@@ -57,8 +56,9 @@ pub fn run(arguments: &Playground, context: &Context) -> Result<(), CliError> {
 /// The two files of a folder.
 fn read(folder: &Path) -> Result<[Vec<u8>; 2], CliError> {
     let file = |name: &str| {
-        let path = folder.join(name);
-        fs::read(&path).map_err(|error| CliError::Usage(format!("--wasm: {}: {error}", path.display())))
+        let file = folder.join(name);
+        fs::read(&file)
+            .map_err(|error| CliError::File(FileError { file, problem: Problem::Unreadable(error) }))
     };
     Ok([file(WASM[0])?, file(WASM[1])?])
 }

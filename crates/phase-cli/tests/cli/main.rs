@@ -14,6 +14,7 @@ mod json;
 mod manual;
 mod networks;
 mod new_scene;
+mod playground;
 mod predictions;
 mod progress;
 mod render;
