@@ -52,7 +52,7 @@ impl Simulation {
         Ok(Self { simulation, settings, physics: scene.physics() })
     }
 
-    /// One step. An agent whose action is given is in somebody's hands; the other's mind decides.
+    /// One step. An agent for which an action is given carries that out; the others' minds decide.
     ///
     /// # Errors
     /// If the search fails.
@@ -87,7 +87,7 @@ impl Simulation {
     }
 
     /// The last step in words: `step`, its number; `over`; `actions`; `goals`, which hold now; and `minds`, the thoughts of both
-    /// agents as in the page's panel (`subgoal`, `subgoals`, `plan`, `actions`), all before the first step without actions and minds.
+    /// agents (`subgoal`, `subgoals`, `plan`, `actions`), all before the first step without actions and minds.
     #[must_use]
     pub fn report(&self) -> String {
         let event = self.simulation.event();

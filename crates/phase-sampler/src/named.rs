@@ -8,7 +8,7 @@ use phase_model::{
 use rand::RngExt;
 use thiserror::Error;
 
-/// Why there is no scene of a name.
+/// Why a scene cannot be sampled by name.
 #[derive(Clone, PartialEq, Eq, Debug, Error)]
 #[non_exhaustive]
 pub enum NamedError {
