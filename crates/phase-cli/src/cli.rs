@@ -16,6 +16,7 @@ use crate::{
     playground::{self, Playground},
     program::Interface,
     render::{self, options::Render},
+    serve::{self, options::Serve},
     simulate::{self, options::Simulate},
     splits::{self, Splits},
     stats::{self, Stats},
@@ -67,6 +68,8 @@ pub enum Command {
     Benchmark(Benchmark),
     /// Write the playground, a page on which minds play in a browser, as static files
     Playground(Playground),
+    /// Serve the playground, the two-player game and what belongs to them to browsers
+    Serve(Serve),
     /// Print a script with which a shell completes the commands and options of phase
     Completions(Completions),
     /// Write the manual pages of phase
@@ -105,6 +108,7 @@ impl Command {
             Self::Train(arguments) => train::run(arguments, context),
             Self::Benchmark(arguments) => benchmark::run(arguments, context),
             Self::Playground(arguments) => playground::run(arguments, context),
+            Self::Serve(arguments) => serve::run(arguments, context),
             Self::Completions(arguments) => completions::run(arguments, context),
             Self::Man(arguments) => man::run(arguments, context),
         }

@@ -12,6 +12,7 @@
 //! - `train` trains neural networks (feature `networks`),
 //! - `benchmark` evaluates all methods and compares them with published results,
 //! - `playground` writes the playground as static files,
+//! - `serve` serves the playground, the two-player game and the admin page (feature `serve`),
 //! - `completions` and `man` describe the program to shells and to `man`.
 //!
 //! `cargo xtask` runs the same commands and those that need the source of this workspace.
@@ -67,6 +68,7 @@ pub mod playground;
 pub mod program;
 pub mod progress;
 pub mod render;
+pub mod serve;
 pub mod shard_option;
 pub mod shortcuts;
 pub mod simulate;
@@ -84,6 +86,7 @@ use std::{ffi::OsString, process::ExitCode};
 pub const PHASE: Program = Program {
     name: "phase",
     networks_hint: "install `phase` with its default features (`cargo install --path crates/phase-cli`)",
+    serve_hint: "install `phase` with its default features (`cargo install --path crates/phase-cli`)",
     interface: cli::Cli::command,
 };
 

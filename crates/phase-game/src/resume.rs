@@ -1,7 +1,7 @@
 //! A game that goes on where its journal ends.
 
 use crate::{
-    Entry, JournalError, Player, Room, RoomError,
+    Effect, Entry, JournalError, Player, Room, RoomError,
     journal::{Actions, FORMAT},
     room::Phase,
 };
@@ -10,11 +10,12 @@ use phase_model::{AGENT_COUNT, AgentId};
 
 impl Room {
     /// The game of a journal, which goes on when its players are back. Minds decide anew, as they did, so that they go on as if nothing
-    /// had happened. `None` if the game is over.
+    /// had happened. What follows at once is the end of a round whose last step is the journal's last entry. `None` if the game is
+    /// over.
     ///
     /// # Errors
     /// [`JournalError`].
-    pub fn resume(entries: Vec<Entry>, now: Duration) -> Result<Option<Self>, JournalError> {
+    pub fn resume(entries: Vec<Entry>, now: Duration) -> Result<Option<(Self, Vec<Effect>)>, JournalError> {
         let mut entries = entries.into_iter().enumerate().map(|(k, entry)| (k + 1, entry));
         let Some((_, Entry::Opened { format, room, keys, settings, rounds })) = entries.next() else {
             return Err(JournalError::Opening);
@@ -50,6 +51,13 @@ impl Room {
             }
         }
         room.phase = if room.begun { Phase::Paused } else { Phase::Gathering };
-        Ok(Some(room))
+        let mut effects = Vec::new();
+        if room.begun && room.is_round_over() {
+            room.end_round(now, &mut effects);
+            if room.phase == Phase::Reading {
+                room.phase = Phase::Gathering;
+            }
+        }
+        Ok(Some((room, effects)))
     }
 }

@@ -352,10 +352,13 @@ impl Room {
     }
 
     pub(crate) fn end_round(&mut self, now: Duration, effects: &mut Vec<Effect>) {
+        if self.round > 0 {
+            // The journal says that it has ended once its recording is safe.
+            effects.push(Effect::Finished(Box::new(self.recording())));
+        }
         effects.push(Effect::Journal(Entry::Ended { round: self.round }));
         if self.round > 0 {
             let achieved = self.achieved_now();
-            effects.push(Effect::Finished(Box::new(self.recording())));
             self.send_all(effects, |_| ToPlayer::Result { achieved });
         }
         if self.round + 1 == self.rounds.len() {

@@ -4,7 +4,7 @@ use super::Workspace;
 use std::path::{Path, PathBuf};
 
 /// The crates from the bottom layer up. A crate may use those before it, never those after it.
-pub const LAYERS: [&str; 32] = [
+pub const LAYERS: [&str; 33] = [
     "phase-model",
     "phase-event",
     "phase-statistics",
@@ -35,6 +35,7 @@ pub const LAYERS: [&str; 32] = [
     "phase-report",
     "phase-playground",
     "phase-web",
+    "phase-serve",
     "phase-cli",
     "phase-python",
 ];
