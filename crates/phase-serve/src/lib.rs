@@ -52,6 +52,7 @@ use assets::Assets;
 use limits::PerAddress;
 use rooms::Rooms;
 use std::sync::Arc;
+use tokio::sync::Semaphore;
 
 /// What all requests share.
 pub(crate) struct App {
@@ -60,6 +61,9 @@ pub(crate) struct App {
     admin: String,
     assets: Assets,
     rooms: Arc<Rooms>,
+    /// Sockets that may be open at the same time: some for each player, since a page that reconnects may be faster than the end of its
+    /// last connection.
+    sockets: Arc<Semaphore>,
     /// Requests of an address.
     requests: PerAddress,
     /// Rooms opened from an address.
