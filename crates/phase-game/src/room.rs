@@ -145,6 +145,12 @@ impl Room {
         &self.keys
     }
 
+    /// Who plays each agent.
+    #[must_use]
+    pub const fn players(&self) -> [Player; AGENT_COUNT] {
+        self.settings.players
+    }
+
     /// What it is doing.
     #[must_use]
     pub const fn doing(&self) -> Doing {

@@ -18,6 +18,7 @@
 //!     behind_proxy: false,
 //!     folder: "out/serve".into(),
 //!     rooms: 200,
+//!     mind_rooms: 20,
 //!     open: true,
 //!     rounds: 5,
 //!     game: GameSettings::default(),

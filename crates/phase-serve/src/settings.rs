@@ -19,6 +19,9 @@ pub struct ServerSettings {
     pub folder: PathBuf,
     /// Games at the same time, at most.
     pub rooms: usize,
+    /// Of them games in which a mind plays, at most: minds need most of a processor's time, and a server that has too little is late with
+    /// every step.
+    pub mind_rooms: usize,
     /// Whether anybody may open a room, or only who has the admin token.
     pub open: bool,
     /// Rounds of a game after the practice.
@@ -58,6 +61,7 @@ mod tests {
             behind_proxy: false,
             folder: PathBuf::new(),
             rooms: 1,
+            mind_rooms: 1,
             open: true,
             rounds: 1,
             game: GameSettings::default(),

@@ -83,6 +83,13 @@ fn rooms_are_limited() {
     assert_eq!(answer.status, 503);
     assert!(answer.json()["error"].as_str().is_some_and(|it| it.contains("taken")));
 
+    // A mind plays in two of them at most.
+    let server = Running::start(settings());
+    let wish = r#"{"partner":"mind"}"#;
+    let statuses: Vec<u16> = (0..3).map(|_| server.ask("POST", "/api/rooms", &[], wish).status).collect();
+    assert_eq!(statuses, [201, 201, 503]);
+    assert_eq!(server.open("human").len(), 2);
+
     let mut closed = settings();
     closed.open = false;
     let server = Running::start(closed);

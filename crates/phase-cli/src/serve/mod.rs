@@ -52,6 +52,7 @@ pub fn run(arguments: &Serve, context: &Context) -> Result<(), CliError> {
         behind_proxy: arguments.behind_proxy,
         folder: arguments.out.clone(),
         rooms: usize::from(arguments.rooms),
+        mind_rooms: arguments.mind_rooms.map_or_else(mind_rooms, usize::from),
         open: !arguments.invite_only,
         rounds: usize::from(arguments.rounds),
         game: GameSettings { simulation, ..default },
@@ -65,6 +66,13 @@ pub fn run(arguments: &Serve, context: &Context) -> Result<(), CliError> {
         arguments.out.display()
     ));
     Ok(server.run(stopped())?)
+}
+
+/// Games with a mind that a machine of this size plays in time (docs/performance.md).
+#[cfg(feature = "serve")]
+fn mind_rooms() -> usize {
+    const PER_CORE: usize = 12;
+    PER_CORE * std::thread::available_parallelism().map_or(1, usize::from)
 }
 
 /// Until somebody asks this program to stop.

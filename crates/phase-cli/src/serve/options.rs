@@ -32,6 +32,9 @@ pub struct Serve {
     /// Games at the same time
     #[arg(long, value_name = "N", default_value_t = 200, value_parser = value_parser!(u16).range(1..=10_000))]
     pub rooms: u16,
+    /// Of them games in which a mind plays [default: 12 for each core]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(0..=10_000))]
+    pub mind_rooms: Option<u16>,
     /// Only who has the admin token opens games
     #[arg(long)]
     pub invite_only: bool,

@@ -79,6 +79,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         behind_proxy: false,
         folder: folder.path().to_owned(),
         rooms: usize::from(options.rooms),
+        mind_rooms: usize::from(options.rooms),
         open: true,
         rounds: scenes.len(),
         game,

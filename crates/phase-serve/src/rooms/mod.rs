@@ -58,6 +58,8 @@ pub(crate) struct Opened {
 }
 
 struct Running {
+    /// Whether a mind plays.
+    mind: bool,
     inbox: mpsc::Sender<Command>,
     status: Arc<Mutex<Status>>,
 }
@@ -150,8 +152,17 @@ impl Rooms {
     /// Opens a room.
     pub(crate) fn create(self: &Arc<Self>, wish: Wish) -> Result<Opened, ApiError> {
         let full = || ApiError::busy("all rooms are taken; try again later");
-        if lock(&self.table).rooms.len() >= self.settings.rooms {
-            return Err(full());
+        let minds = {
+            let table = lock(&self.table);
+            if table.rooms.len() >= self.settings.rooms {
+                return Err(full());
+            }
+            table.rooms.values().filter(|running| running.mind).count()
+        };
+        if wish.players.contains(&Player::Mind) && minds >= self.settings.mind_rooms {
+            return Err(ApiError::busy(
+                "all minds are playing; try again later, or play with another person",
+            ));
         }
         let failed = |error: getrandom::Error| ApiError::failed(&error);
         let name = token::short().map_err(failed)?;
@@ -209,7 +220,8 @@ impl Rooms {
                     table.seats.insert(key.clone(), (name.clone(), agent));
                 }
             }
-            table.rooms.insert(name.clone(), Running { inbox, status: Arc::clone(&status) });
+            let mind = room.players().contains(&Player::Mind);
+            table.rooms.insert(name.clone(), Running { mind, inbox, status: Arc::clone(&status) });
         }
         let task = Task {
             room,

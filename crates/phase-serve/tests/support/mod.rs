@@ -31,6 +31,7 @@ pub(crate) fn settings() -> ServerSettings {
         behind_proxy: false,
         folder: tempfile::tempdir().expect("a folder").keep(),
         rooms: 50,
+        mind_rooms: 2,
         open: true,
         rounds: 1,
         game,
