@@ -272,8 +272,8 @@ impl Failure for CliError {
             | Self::Threads { .. } => 1,
             #[cfg(feature = "serve")]
             Self::Serve(error) => match error {
-                phase_serve::ServeError::Listen { .. } | phase_serve::ServeError::Read { .. } => 2,
-                _ => 1,
+                phase_serve::ServeError::Random(_) | phase_serve::ServeError::Runtime(_) => 1,
+                _ => 2,
             },
             #[cfg(feature = "networks")]
             Self::Weights { .. } | Self::TrainingRecord { .. } => 2,

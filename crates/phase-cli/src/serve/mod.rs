@@ -35,9 +35,6 @@ pub fn run(arguments: &Serve, context: &Context) -> Result<(), CliError> {
         Some([script, code]) => Some([&script[..], &code[..]]),
         None => phase_web::included(),
     };
-    if wasm.is_none() {
-        context.note("note: built without the playground; `cargo xtask playground` builds it, and --wasm names its folder");
-    }
     let default = GameSettings::default();
     let simulation = SimulationSettings {
         stop_between_steps: !arguments.inertia,
@@ -59,6 +56,9 @@ pub fn run(arguments: &Serve, context: &Context) -> Result<(), CliError> {
         seed: arguments.seed,
     };
     let server = Server::bind(settings, practice, scenes, wasm)?;
+    if wasm.is_none() {
+        context.note("note: built without the playground; `cargo xtask playground` builds it, and --wasm names its folder");
+    }
     let address = server.address();
     print_result(format!(
         "http://{address}/\nhttp://{address}/admin/#{} (for you alone)\nrecordings and journals in {}; Ctrl-C stops",

@@ -19,6 +19,8 @@ mod predictions;
 mod progress;
 mod render;
 mod selection;
+#[cfg(feature = "serve")]
+mod serve;
 mod sets;
 mod simulate;
 mod support;

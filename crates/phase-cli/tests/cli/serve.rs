@@ -1,0 +1,66 @@
+//! `serve`: what it refuses, and that it stops when asked to.
+
+use crate::support::{phase, refuse, succeed};
+use std::{
+    fs,
+    io::{BufRead as _, BufReader, Read as _, Write as _},
+    net::{TcpListener, TcpStream},
+    process::Stdio,
+};
+
+#[test]
+fn what_cannot_be_served_is_refused_in_a_sentence() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let taken = TcpListener::bind("127.0.0.1:0").expect("a port");
+    let address = taken.local_addr().expect("its address").to_string();
+    let sentence = refuse(folder.path(), &["serve", "--listen", &address]);
+    assert!(sentence.contains(&address) && sentence.contains("another program uses it"), "{sentence}");
+    fs::write(folder.path().join("rubbish.json"), "{}").expect("written");
+    let free = ["serve", "--listen", "127.0.0.1:0"];
+    for (options, said) in [
+        (["--scenes", "nowhere.json"], "nowhere.json"),
+        (["--scenes", "rubbish.json"], "rubbish.json"),
+        (["--wasm", "nowhere"], "nowhere"),
+    ] {
+        let sentence = refuse(folder.path(), &[&free[..], &options[..]].concat());
+        assert!(sentence.contains(said), "{sentence}");
+    }
+    let dataset = ["--scenes", "rubbish.json", "--split", "test"];
+    assert!(refuse(folder.path(), &[&free[..], &dataset[..]].concat()).contains("--split needs a dataset"));
+    // The folder's name is taken by a file.
+    let sentence = refuse(folder.path(), &[&free[..], &["--out", "rubbish.json"]].concat());
+    assert!(sentence.contains("rubbish.json"), "{sentence}");
+}
+
+/// A dataset's test events are the scenes; SIGTERM ends the program, and what it says is where it can be reached.
+#[cfg(unix)]
+#[test]
+fn it_serves_until_it_is_told_to_stop() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let made =
+        ["gen-dataset", "--events", "2", "--max-steps", "2", "--simulations", "10", "--particles", "5"];
+    succeed(folder.path(), &[&made[..], &["--no-video", "--out", "made"]].concat());
+    let options =
+        ["serve", "--listen", "127.0.0.1:0", "--scenes", "made", "--split", "train", "--out", "kept"];
+    let mut child = phase(folder.path())
+        .args(options)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("the program starts");
+    let mut lines = BufReader::new(child.stdout.take().expect("its output")).lines();
+    let line = lines.next().expect("a line").expect("text");
+    let address = line.trim_start_matches("http://").trim_end_matches('/').to_owned();
+    let mut stream = TcpStream::connect(&address).expect("it listens");
+    let request = format!("GET /api/game HTTP/1.1\r\nHost: {address}\r\nConnection: close\r\n\r\n");
+    stream.write_all(request.as_bytes()).expect("written");
+    let mut answer = String::new();
+    stream.read_to_string(&mut answer).expect("an answer");
+    // Two scenes, although five rounds were asked for.
+    assert!(answer.starts_with("HTTP/1.1 200") && answer.contains("\"rounds\":2"), "{answer}");
+    let id = child.id().to_string();
+    let told = std::process::Command::new("kill").args(["-TERM", &id]).status().expect("kill");
+    assert!(told.success());
+    assert_eq!(child.wait().expect("an end").code(), Some(0));
+    assert!(folder.path().join("kept/rooms").is_dir() && folder.path().join("kept/events").is_dir());
+}
