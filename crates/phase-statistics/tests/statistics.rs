@@ -1,7 +1,7 @@
 //! Statistics compared with published tables and values derived from their definitions.
 
 use phase_statistics::{
-    Interval, bootstrap_mean, fisher_exact_greater, mean, median, percentile, quartiles, standard_error,
+    Interval, bootstrap_mean, fisher_exact_greater, krippendorff_alpha, mean, median, percentile, quartiles, standard_error,
     wilson_interval,
 };
 use proptest::prelude::*;
@@ -150,4 +150,31 @@ proptest! {
         prop_assert!(count(&|value| value <= found) >= hundredths * values.len());
         prop_assert!(count(&|value| value < found) < hundredths * values.len());
     }
+}
+
+#[test]
+fn krippendorffs_own_examples() {
+    // Krippendorff, Computing Krippendorff's Alpha-Reliability (2011). A: two raters, ten units, two values.
+    let first = [0, 1, 0, 0, 0, 0, 0, 0, 1, 0];
+    let second = [1, 1, 1, 0, 0, 1, 0, 0, 0, 0];
+    let units: Vec<Vec<u8>> = first.iter().zip(second).map(|(&a, b)| vec![a, b]).collect();
+    let alpha = krippendorff_alpha(&units).expect("values differ");
+    assert!((alpha - 0.095).abs() < 5e-4, "{alpha}");
+
+    // C: four raters, twelve units, five values, some missing (0).
+    let raters = [
+        [1, 2, 3, 3, 2, 1, 4, 1, 2, 0, 0, 0],
+        [1, 2, 3, 3, 2, 2, 4, 1, 2, 5, 0, 3],
+        [0, 3, 3, 3, 2, 3, 4, 2, 2, 5, 1, 0],
+        [1, 2, 3, 3, 2, 4, 4, 1, 2, 5, 1, 0],
+    ];
+    let unit = |k: usize| raters.iter().map(|rater| rater[k]).filter(|&value| value > 0).collect();
+    let units: Vec<Vec<u8>> = (0..12).map(unit).collect();
+    let alpha = krippendorff_alpha(&units).expect("values differ");
+    assert!((alpha - 0.743).abs() < 5e-4, "{alpha}");
+
+    assert_eq!(krippendorff_alpha(&[vec![1, 1], vec![2, 2]]), Some(1.0));
+    assert_eq!(krippendorff_alpha(&[vec![1, 1], vec![1, 1]]), None);
+    assert_eq!(krippendorff_alpha::<u8>(&[]), None);
+    assert_eq!(krippendorff_alpha(&[vec![1], vec![2]]), None);
 }

@@ -4,7 +4,7 @@ use super::Workspace;
 use std::path::{Path, PathBuf};
 
 /// The crates from the bottom layer up. A crate may use those before it, never those after it.
-pub const LAYERS: [&str; 31] = [
+pub const LAYERS: [&str; 32] = [
     "phase-model",
     "phase-event",
     "phase-statistics",
@@ -32,6 +32,7 @@ pub const LAYERS: [&str; 31] = [
     "phase-baselines",
     "phase-eval",
     "phase-report",
+    "phase-study",
     "phase-playground",
     "phase-web",
     "phase-cli",

@@ -1,0 +1,7 @@
+//! Studies against what their documentation says.
+
+mod assignment;
+mod config;
+mod session;
+mod store;
+mod support;
