@@ -3,7 +3,7 @@
 //! - [`mean`] and [`standard_error`] of a sample.
 //! - [`percentile`] and [`quartiles`] by nearest rank, and the conventional [`median`], the midpoint of the two
 //!   central values.
-//! - [`wilson_interval`] for a proportion, [`bootstrap_mean`] for the mean of anything, [`bootstrap`] for any statistic.
+//! - [`wilson_interval`] for a proportion, [`bootstrap_mean`] for the mean of anything, [`bootstrap_difference`] for that of two, [`bootstrap`] for any statistic.
 //! - [`pearson`] and [`spearman`] correlations, and [`spearman_brown`] for the reliability of a whole.
 //! - [`krippendorff_alpha`] for the agreement of raters, [`standard_deviation`] of a sample.
 //! - [`fisher_exact_greater`] to compare two proportions.
@@ -43,7 +43,7 @@ mod proportion;
 mod quantile;
 
 pub use agreement::krippendorff_alpha;
-pub use bootstrap::{bootstrap, bootstrap_mean};
+pub use bootstrap::{bootstrap, bootstrap_difference, bootstrap_mean};
 pub use correlation::{pearson, spearman, spearman_brown};
 pub use fisher::fisher_exact_greater;
 pub use interval::Interval;

@@ -100,6 +100,11 @@ impl Study {
         self.videos.get(name).map(|(_, file)| file.as_str())
     }
 
+    /// All videos: their names in addresses, and their files.
+    pub fn addresses(&self) -> impl Iterator<Item = (&str, &str)> {
+        self.videos.iter().map(|(name, (_, file))| (name.as_str(), file.as_str()))
+    }
+
     /// Lets a rater in. `parameters` are the members of the address with which it came; those that the study does not keep are
     /// ignored. One who has come before with the same identity goes on where it was. `random` has to be a generator whose
     /// numbers nobody can guess, such as the operating system's.

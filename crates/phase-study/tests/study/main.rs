@@ -1,7 +1,9 @@
 //! Studies against what their documentation says.
 
+mod analysis;
 mod assignment;
 mod config;
+mod export;
 mod session;
 mod store;
 mod support;
