@@ -42,6 +42,7 @@ use std::{ffi::OsString, process::ExitCode};
 pub const XTASK: Program = Program {
     name: "cargo xtask",
     networks_hint: "use `cargo xtask-networks` in place of `cargo xtask`",
+    studies_hint: "use `cargo xtask-studies` in place of `cargo xtask`",
     // The installed program is `phase`.
     interface: phase_cli::cli::Cli::command,
 };

@@ -12,6 +12,7 @@
 //! - `train` trains neural networks (feature `networks`),
 //! - `benchmark` evaluates all methods and compares them with published results,
 //! - `playground` writes the playground as static files,
+//! - `study` prepares rating studies, and exports and analyses their answers (feature `studies`),
 //! - `completions` and `man` describe the program to shells and to `man`.
 //!
 //! `cargo xtask` runs the same commands and those that need the source of this workspace.
@@ -73,6 +74,7 @@ pub mod simulate;
 pub mod source;
 pub mod splits;
 pub mod stats;
+pub mod study;
 pub mod train;
 pub mod verify;
 
@@ -84,6 +86,7 @@ use std::{ffi::OsString, process::ExitCode};
 pub const PHASE: Program = Program {
     name: "phase",
     networks_hint: "install `phase` with its default features (`cargo install --path crates/phase-cli`)",
+    studies_hint: "install `phase` with its default features (`cargo install --path crates/phase-cli`)",
     interface: cli::Cli::command,
 };
 
