@@ -3,6 +3,7 @@
 mod analysis;
 mod assignment;
 mod config;
+mod design;
 mod export;
 mod session;
 mod store;
