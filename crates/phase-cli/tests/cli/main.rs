@@ -21,6 +21,7 @@ mod render;
 mod selection;
 mod sets;
 mod simulate;
+mod study;
 mod support;
 #[cfg(feature = "networks")]
 mod train;
