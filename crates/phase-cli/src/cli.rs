@@ -16,6 +16,7 @@ use crate::{
     playground::{self, Playground},
     program::Interface,
     render::{self, options::Render},
+    serve::{self, options::Serve},
     simulate::{self, options::Simulate},
     splits::{self, Splits},
     stats::{self, Stats},
@@ -71,6 +72,8 @@ pub enum Command {
     /// Prepare a rating study of videos, export its answers, or analyse them
     #[command(subcommand)]
     Study(Study),
+    /// Serve the playground, the two-player game and what belongs to them to browsers
+    Serve(Serve),
     /// Print a script with which a shell completes the commands and options of phase
     Completions(Completions),
     /// Write the manual pages of phase
@@ -110,6 +113,7 @@ impl Command {
             Self::Benchmark(arguments) => benchmark::run(arguments, context),
             Self::Playground(arguments) => playground::run(arguments, context),
             Self::Study(arguments) => study::run(arguments, context),
+            Self::Serve(arguments) => serve::run(arguments, context),
             Self::Completions(arguments) => completions::run(arguments, context),
             Self::Man(arguments) => man::run(arguments, context),
         }

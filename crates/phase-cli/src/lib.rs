@@ -13,6 +13,7 @@
 //! - `benchmark` evaluates all methods and compares them with published results,
 //! - `playground` writes the playground as static files,
 //! - `study` prepares rating studies, and exports and analyses their answers (feature `studies`),
+//! - `serve` serves the playground, the two-player game and the admin page (feature `serve`),
 //! - `completions` and `man` describe the program to shells and to `man`.
 //!
 //! `cargo xtask` runs the same commands and those that need the source of this workspace.
@@ -68,6 +69,7 @@ pub mod playground;
 pub mod program;
 pub mod progress;
 pub mod render;
+pub mod serve;
 pub mod shard_option;
 pub mod shortcuts;
 pub mod simulate;
@@ -87,6 +89,7 @@ pub const PHASE: Program = Program {
     name: "phase",
     networks_hint: "install `phase` with its default features (`cargo install --path crates/phase-cli`)",
     studies_hint: "install `phase` with its default features (`cargo install --path crates/phase-cli`)",
+    serve_hint: "install `phase` with its default features (`cargo install --path crates/phase-cli`)",
     interface: cli::Cli::command,
 };
 

@@ -26,7 +26,7 @@ pub struct Playground {
 /// [`CliError::Usage`] if there is no WebAssembly, [`CliError::File`] if it cannot be read, [`CliError::Output`] if a file cannot be written.
 pub fn run(arguments: &Playground, context: &Context) -> Result<(), CliError> {
     let out = &arguments.out;
-    let given = arguments.wasm.as_deref().map(read).transpose()?;
+    let given = arguments.wasm.as_deref().map(read_wasm).transpose()?;
     let wasm = match &given {
         Some([script, code]) => [&script[..], &code[..]],
         None => phase_web::included().ok_or_else(|| {
@@ -53,8 +53,11 @@ pub fn run(arguments: &Playground, context: &Context) -> Result<(), CliError> {
     Ok(())
 }
 
-/// The two files of a folder.
-fn read(folder: &Path) -> Result<[Vec<u8>; 2], CliError> {
+/// The two files of a folder, in the order of [`WASM`].
+///
+/// # Errors
+/// [`CliError::File`].
+pub fn read_wasm(folder: &Path) -> Result<[Vec<u8>; 2], CliError> {
     let file = |name: &str| {
         let file = folder.join(name);
         fs::read(&file)

@@ -51,7 +51,7 @@ pub use event::{Event, Step};
 pub use mean::mean_state;
 pub use observed::{ObservedError, ObservedEvent};
 pub use read::{LONGEST_ID, from_json, parse};
-pub use recording::{Recording, Recovered, Simulation};
+pub use recording::{Controller, Recording, Recovered, Simulation};
 pub use subgoals::subgoal_of;
 pub use thought::{ActionEvaluation, SubgoalValue, Thought};
 pub use trajectory::{COLUMNS, Row, SUBSTEP_COLUMNS, SubstepRow, Trajectory, substep_row};

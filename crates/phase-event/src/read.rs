@@ -1,7 +1,7 @@
 //! From JSON to recordings.
 
 use crate::{
-    COLUMNS, Event, EventReadError, Recording, Recovered, Row, Trajectory,
+    COLUMNS, Controller, Event, EventReadError, Recording, Recovered, Row, Trajectory,
     read_simulation::{actions_of, event_of, seed_of, simulation_of},
     trajectory::body_of,
     write::FILE_FORMAT,
@@ -138,6 +138,7 @@ fn recording(event: &Field<'_>, name: impl FnOnce() -> Option<String>) -> Result
         relation_human: labels.relation_human,
         row_0: labels.row_0,
         recorded_steps: labels.recorded_steps,
+        controllers: controllers(event).map_err(in_event)?,
         recovered_actions: labels.recovered_actions,
         id,
         scene,
@@ -213,6 +214,18 @@ fn labels(event: &Field<'_>, rows: usize) -> Result<Labels, FieldError> {
             .map(|field| recovered(&field, rows))
             .transpose()?,
     })
+}
+
+/// Who moved each agent: `agents[i].controller`. The scene has been read, so there are two agents.
+fn controllers(event: &Field<'_>) -> Result<[Controller; AGENT_COUNT], FieldError> {
+    const NAMES: [(&str, Controller); 2] = [("mind", Controller::Mind), ("human", Controller::Human)];
+    let mut controllers = [Controller::default(); AGENT_COUNT];
+    for (controller, agent) in controllers.iter_mut().zip(event.required("agents")?.items()?) {
+        if let Some(field) = agent.optional("controller")? {
+            *controller = field.one_of(&NAMES)?;
+        }
+    }
+    Ok(controllers)
 }
 
 fn recovered(field: &Field<'_>, rows: usize) -> Result<Recovered, FieldError> {

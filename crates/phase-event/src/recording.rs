@@ -2,6 +2,7 @@
 
 use crate::{Event, ObservedError, ObservedEvent, Trajectory};
 use phase_model::{AGENT_COUNT, Action, Relation, Scene};
+use serde::Serialize;
 use serde_json::Value;
 
 /// The exact actions of a recording's first steps, where they are known.
@@ -11,6 +12,17 @@ pub struct Recovered {
     pub steps: Vec<[Action; AGENT_COUNT]>,
     /// The recording's remark on them.
     pub note: Option<String>,
+}
+
+/// Who moved an agent.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Controller {
+    /// A program, or it is unknown.
+    #[default]
+    Mind,
+    /// A person, who played.
+    Human,
 }
 
 /// Additional data of a simulated event: all substeps, actions and thoughts.
@@ -39,6 +51,8 @@ pub struct Recording {
     pub row_0: Option<String>,
     /// Steps that were recorded, which may exceed the number of rows.
     pub recorded_steps: Option<u32>,
+    /// Who moved each agent.
+    pub controllers: [Controller; AGENT_COUNT],
     /// The trajectories of all entities.
     pub trajectory: Trajectory,
     /// The actions of the first steps, where they are known for a measured event.
@@ -61,6 +75,7 @@ impl Recording {
             relation_human: None,
             row_0: Some("initial state".into()),
             recorded_steps: Some(event.steps.len() as u32),
+            controllers: [Controller::Mind; AGENT_COUNT],
             trajectory: Trajectory::means(&event),
             recovered_actions: None,
             seed: None,

@@ -1,8 +1,8 @@
 //! From recordings to JSON.
 
 use crate::{
-    COLUMNS, Event, EventWriteError, Recording, Recovered, Row, SUBSTEP_COLUMNS, SubstepRow, Thought,
-    Trajectory, line_formatter::LineFormatter, substep_row,
+    COLUMNS, Controller, Event, EventWriteError, Recording, Recovered, Row, SUBSTEP_COLUMNS, SubstepRow,
+    Thought, Trajectory, line_formatter::LineFormatter, substep_row,
 };
 use phase_model::{
     AGENT_COUNT, Action, Contacts, Entity, EventKind, Layout, MAX_ENTITIES, Relation, Scene, State, Vec2,
@@ -65,7 +65,7 @@ pub(crate) struct EventMembers<'a> {
     layout: Layout,
     walls: Vec<[Vec2; 2]>,
     landmarks: [Vec2; arena::LANDMARKS.len()],
-    agents: Vec<AgentMembers>,
+    agents: Vec<PlayedBy>,
     objects: Vec<ObjectMembers>,
     event: EventKind,
     relation: Relation,
@@ -96,6 +96,7 @@ impl<'a> EventMembers<'a> {
             recorded_steps: recording.recorded_steps,
             recovered_actions: recording.recovered_actions.as_ref().map(RecoveredMembers::of),
             seed: simulation.map_or(recording.seed, |simulation| Some(simulation.event.seed)),
+            agents: played(&recording.scene, recording.controllers),
             simulation: simulation.map(|simulation| SimulationMembers {
                 generator: Some(&simulation.generator),
                 settings: Some(&simulation.settings),
@@ -117,7 +118,7 @@ impl<'a> EventMembers<'a> {
             layout: scene.layout,
             walls: scene.layout.walls().iter().map(|wall| [wall.a, wall.b]).collect(),
             landmarks: arena::LANDMARKS,
-            agents: scene.agents.iter().map(AgentMembers::without_start).collect(),
+            agents: played(scene, [Controller::default(); AGENT_COUNT]),
             objects: scene.objects.iter().map(ObjectMembers::without_start).collect(),
             event: scene.kind,
             relation: scene.relation(),
@@ -131,6 +132,24 @@ impl<'a> EventMembers<'a> {
             simulation: None,
         }
     }
+}
+
+/// An agent, and who moved it unless that was a mind.
+#[derive(Serialize)]
+struct PlayedBy {
+    #[serde(flatten)]
+    agent: AgentMembers,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    controller: Option<Controller>,
+}
+
+fn played(scene: &Scene, controllers: [Controller; AGENT_COUNT]) -> Vec<PlayedBy> {
+    let agents = scene.agents.iter().map(AgentMembers::without_start).zip(controllers);
+    let played = agents.map(|(agent, controller)| PlayedBy {
+        agent,
+        controller: (controller != Controller::Mind).then_some(controller),
+    });
+    played.collect()
 }
 
 /// The additional members of a simulated event.

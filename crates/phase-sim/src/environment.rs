@@ -2,7 +2,7 @@
 
 use crate::Engine;
 use phase_forward::{Forward, SolverCache};
-use phase_model::{AGENT_COUNT, Action, PhysicsConfig, State, arena::SUBSTEPS};
+use phase_model::{AGENT_COUNT, Action, AgentId, Entity, PhysicsConfig, State, Vec2, arena::SUBSTEPS};
 use phase_world::World;
 
 /// The environment: the true dynamics, as opposed to the agents' models of it.
@@ -42,6 +42,23 @@ impl Environment {
         match &mut self.0 {
             Inner::World(world) => world.step(actions),
             Inner::Forward(replay) => replay.forward.step_warm(&mut replay.state, &mut replay.cache, actions),
+        }
+    }
+
+    /// Sets both agents' velocities to zero and returns the state; objects keep theirs.
+    pub fn stop_agents(&mut self) -> State {
+        match &mut self.0 {
+            Inner::World(world) => {
+                world.stop_agents();
+                world.state()
+            }
+            Inner::Forward(replay) => {
+                for agent in AgentId::ALL {
+                    let body = replay.state.body_mut(Entity::Agent(agent));
+                    (body.velocity, body.angular_velocity) = (Vec2::ZERO, 0.0);
+                }
+                replay.state
+            }
         }
     }
 }

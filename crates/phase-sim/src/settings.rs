@@ -54,6 +54,10 @@ pub struct SimulationSettings {
     /// counterfactual without that agent; usually none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub idle: Option<AgentId>,
+    /// Whether both agents' velocities are set to zero after every step, which makes agents easier to control, as in the paper's
+    /// two-player game (appendix, "Experiment 2"); never where minds play alone.
+    #[serde(default, skip_serializing_if = "core::ops::Not::not")]
+    pub stop_between_steps: bool,
     /// Parameters of both agents' minds.
     pub minds: phase_agent::MindParameters,
 }
@@ -72,6 +76,7 @@ impl Default for SimulationSettings {
             rest_steps: 8,
             still_steps: 24,
             idle: None,
+            stop_between_steps: false,
             minds: phase_agent::MindParameters::default(),
         }
     }

@@ -77,6 +77,8 @@ pub struct Simulation {
     /// Steps in a row in which nothing was seen to move.
     still: usize,
     over: bool,
+    /// Whether both agents know what came of the last step.
+    perceived: bool,
 }
 
 impl Simulation {
@@ -85,6 +87,20 @@ impl Simulation {
     /// # Errors
     /// [`SimulationError`] for invalid scenes and settings.
     pub fn new(scene: &Scene, seed: u64, settings: &SimulationSettings) -> Result<Self, SimulationError> {
+        Self::with_minds(scene, seed, settings, [true; AGENT_COUNT])
+    }
+
+    /// The scene at its start, where only some agents have minds. Those without believe nothing, and stop in a step in which no action
+    /// is given to them.
+    ///
+    /// # Errors
+    /// [`SimulationError`] for invalid scenes and settings.
+    pub fn with_minds(
+        scene: &Scene,
+        seed: u64,
+        settings: &SimulationSettings,
+        minds: [bool; AGENT_COUNT],
+    ) -> Result<Self, SimulationError> {
         scene.validate()?;
         if settings.minds.particles == 0 {
             return Err(SimulationError::NoParticles);
@@ -94,12 +110,13 @@ impl Simulation {
         Ok(Self {
             settings: *settings,
             world: Environment::new(settings.engine, &physics, &initial),
-            minds: Minds::new(scene, &initial, seed, settings)?,
+            minds: Minds::new(scene, &initial, seed, settings, minds)?,
             state: initial,
             event: Event { scene: scene.clone(), seed, initial, steps: Vec::new() },
             resting: 0,
             still: 0,
             over: settings.max_steps == 0,
+            perceived: true,
             physics,
         })
     }
@@ -110,27 +127,47 @@ impl Simulation {
     /// # Errors
     /// [`SimulationError::Search`].
     pub fn step(&mut self, given: Given) -> Result<&Step, SimulationError> {
-        if let (true, Some(last)) = (self.over, self.event.steps.last()) {
-            // It was thought to be the last step, of which nobody has to know what came of it.
-            self.minds.perceive(&self.state, last.actions);
-        }
+        self.perceive();
         let (actions, thoughts) = self.minds.decide(given)?;
         let idle = thoughts.iter().all(|thought| thought.subgoal == Subgoal::Stay);
         let before = self.state;
         let (settings, layout) = (&self.settings, self.event.scene.layout);
-        let substeps = self.world.step(actions.map(|action| carried_out(action, &settings.minds, layout)));
+        let carried_out = actions.map(|action| carried_out(action, &settings.minds, layout));
+        let mut substeps = self.world.step(carried_out);
+        if settings.stop_between_steps {
+            substeps[SUBSTEPS - 1] = self.world.stop_agents();
+        }
         self.state = substeps[SUBSTEPS - 1];
         self.resting = if idle && is_at_rest(&self.physics, &self.state) { self.resting + 1 } else { 0 };
         self.still = if is_unmoved(&self.physics, &before, &self.state) { self.still + 1 } else { 0 };
         let steps = self.event.steps.len() + 1;
         let ended = self.resting >= settings.rest_steps || self.still >= settings.still_steps;
         self.over = (ended && steps >= settings.min_steps) || steps >= settings.max_steps;
-        if !self.over {
-            self.minds.perceive(&self.state, actions);
-        }
         debug_assert!(self.state.is_finite(&self.physics));
         self.event.steps.push(Step { actions, thoughts, substeps });
+        self.perceived = false;
+        if !self.over {
+            self.perceive();
+        }
         Ok(&self.event.steps[steps - 1])
+    }
+
+    /// Decides for an agent before the step is due, which takes most of the time of a step. The next [`step`](Self::step) in which
+    /// that agent is not given an action carries the decision out; it is the one that the step itself would have made.
+    ///
+    /// # Errors
+    /// [`SimulationError::Search`].
+    pub fn decide_ahead(&mut self, agent: AgentId) -> Result<(), SimulationError> {
+        self.perceive();
+        self.minds.decide_ahead(agent)
+    }
+
+    /// Tells both agents what came of the last step; of an event's last step nobody has to know.
+    fn perceive(&mut self) {
+        if let (false, Some(last)) = (self.perceived, self.event.steps.last()) {
+            self.minds.perceive(&self.state, last.actions);
+            self.perceived = true;
+        }
     }
 
     /// Whether the event has come to its end: nothing happens any more, or it has as many steps as the settings allow.
@@ -145,10 +182,10 @@ impl Simulation {
         &self.state
     }
 
-    /// What an agent believes: possible states of the world, all equally likely.
+    /// What an agent believes: possible states of the world, all equally likely; none for an agent without a mind.
     #[must_use]
     pub fn particles(&self, agent: AgentId) -> &[State] {
-        self.minds.agents[agent].belief().particles()
+        self.minds.agents[agent].as_ref().map_or(&[], |mind| mind.belief().particles())
     }
 
     /// What has happened.
@@ -186,9 +223,11 @@ pub(crate) fn belief_stream(seed: u64, agent: AgentId) -> Pcg64Mcg {
 /// Both agents with their random streams.
 #[derive(Debug)]
 struct Minds {
-    agents: [Agent; AGENT_COUNT],
+    agents: [Option<Agent>; AGENT_COUNT],
     beliefs: [Pcg64Mcg; AGENT_COUNT],
     searches: [Pcg64Mcg; AGENT_COUNT],
+    /// What was decided before the step was due.
+    decided: [Option<(Action, Thought)>; AGENT_COUNT],
     /// The idle agent, if any.
     idle: Option<AgentId>,
 }
@@ -199,13 +238,16 @@ impl Minds {
         initial: &State,
         seed: u64,
         settings: &SimulationSettings,
+        minds: [bool; AGENT_COUNT],
     ) -> Result<Self, SimulationError> {
         let mut beliefs: [Pcg64Mcg; AGENT_COUNT] = AgentId::ALL.map(|agent| belief_stream(seed, agent));
         let searches = AgentId::ALL.map(|agent| random::stream(seed, Purpose::Search, agent.number().into()));
-        let mut mind =
-            |agent: AgentId| Agent::new(scene, agent, &settings.minds, initial, &mut beliefs[agent]);
+        let mut mind = |agent: AgentId| {
+            let mut new = || Agent::new(scene, agent, &settings.minds, initial, &mut beliefs[agent]);
+            minds[agent].then(&mut new).transpose()
+        };
         let agents = [mind(AgentId::ZERO)?, mind(AgentId::ONE)?];
-        Ok(Self { agents, beliefs, searches, idle: settings.idle })
+        Ok(Self { agents, beliefs, searches, decided: [None, None], idle: settings.idle })
     }
 
     fn decide(
@@ -222,13 +264,24 @@ impl Minds {
         agent: AgentId,
         given: Option<Action>,
     ) -> Result<(Action, Thought), SimulationError> {
+        let decided = self.decided[agent].take();
         if let Some(action) = given {
             return Ok((action, Thought::IDLE));
         }
-        if self.idle == Some(agent) {
-            return Ok((Action::Stop, Thought::IDLE));
+        if let Some(decided) = decided {
+            return Ok(decided);
         }
-        Ok(self.agents[agent].decide(&mut self.searches[agent])?)
+        match &mut self.agents[agent] {
+            Some(mind) if self.idle != Some(agent) => Ok(mind.decide(&mut self.searches[agent])?),
+            _ => Ok((Action::Stop, Thought::IDLE)),
+        }
+    }
+
+    fn decide_ahead(&mut self, agent: AgentId) -> Result<(), SimulationError> {
+        if self.decided[agent].is_none() {
+            self.decided[agent] = Some(self.decide_for(agent, None)?);
+        }
+        Ok(())
     }
 
     fn perceive(&mut self, state: &State, actions: [Action; AGENT_COUNT]) {
@@ -236,7 +289,9 @@ impl Minds {
             if self.idle == Some(agent) {
                 continue;
             }
-            mind.perceive(actions[agent], state, &mut self.beliefs[agent]);
+            if let Some(mind) = mind {
+                mind.perceive(actions[agent], state, &mut self.beliefs[agent]);
+            }
         }
     }
 }

@@ -4,7 +4,7 @@ use core::ops::ControlFlow;
 use phase_event::Thought;
 use phase_forward::Forward;
 use phase_model::{
-    AgentId, Entity, EventKind, Scene,
+    Action, AgentId, Entity, EventKind, Scene, Vec2,
     random::{Purpose, stream},
 };
 use phase_perception::observe;
@@ -191,5 +191,61 @@ fn a_simulation_can_be_stepped_and_taken_over() {
     let mut on = Simulation::new(&scene, 7, &SimulationSettings { max_steps: 3, ..longer }).unwrap();
     for step in &long.steps {
         assert_eq!(on.step([None, None]).unwrap(), step);
+    }
+}
+
+/// Deciding before the step is due makes no difference, nor does an agent without a mind whose actions are given.
+#[test]
+fn decisions_can_be_made_ahead_and_minds_left_out() {
+    let scene = scene(EventKind::Hindering);
+    let settings = SimulationSettings { max_steps: 12, ..quick() };
+    let whole = simulate(&scene, 7, &settings).unwrap();
+    let mut ahead = Simulation::new(&scene, 7, &settings).unwrap();
+    let mut alone = Simulation::with_minds(&scene, 7, &settings, [false, true]).unwrap();
+    for step in &whole.steps {
+        for agent in AgentId::ALL {
+            ahead.decide_ahead(agent).unwrap();
+            ahead.decide_ahead(agent).unwrap();
+        }
+        alone.decide_ahead(AgentId::ONE).unwrap();
+        assert_eq!(ahead.step([None, None]).unwrap(), step);
+        let taken = alone.step([Some(step.actions[0]), None]).unwrap();
+        assert_eq!(
+            (taken.actions, &taken.thoughts[1], taken.substeps),
+            (step.actions, &step.thoughts[1], step.substeps)
+        );
+        assert!(alone.particles(AgentId::ZERO).is_empty());
+    }
+    // Nobody decides for an agent without a mind.
+    assert_eq!(alone.step([None, None]).unwrap().actions[0], Action::Stop);
+}
+
+/// As in the paper's game: agents are at rest after each step, in both engines, and objects keep their velocities.
+#[test]
+fn agents_can_be_stopped_between_steps() {
+    let scene = scene(EventKind::Collaborating);
+    for engine in Engine::ALL {
+        let settings = SimulationSettings { stop_between_steps: true, engine, ..quick() };
+        let push = [Some(Action::Up), Some(Action::Left)];
+        let mut game = Simulation::with_minds(&scene, 7, &settings, [false; 2]).unwrap();
+        let mut free =
+            Simulation::with_minds(&scene, 7, &SimulationSettings { engine, ..quick() }, [false; 2]).unwrap();
+        for _ in 0..5 {
+            let substeps = game.step(push).unwrap().substeps;
+            free.step(push).unwrap();
+            for agent in AgentId::ALL.map(Entity::Agent) {
+                assert_eq!(substeps[4].body(agent).velocity, Vec2::ZERO);
+                assert_eq!(substeps[4].body(agent).angular_velocity, 0.0);
+            }
+        }
+        let path = |it: &Simulation| {
+            let moved = |agent| it.event().initial.position(agent).distance(it.state().position(agent));
+            moved(Entity::Agent(AgentId::ZERO)) + moved(Entity::Agent(AgentId::ONE))
+        };
+        let (slow, fast) = (path(&game), path(&free));
+        assert!(0.2 < slow && slow < fast, "{engine:?}: {slow}, {fast}");
+        // Each step begins at rest, so the first is like one in a simulation without it.
+        let first = |it: &Simulation| it.event().steps[0].substeps[4].bodies.map(|body| body.position);
+        assert_eq!(first(&game), first(&free));
     }
 }

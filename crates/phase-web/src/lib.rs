@@ -1,4 +1,4 @@
-//! The pages of PHASE, as files that any web server can host.
+//! The pages of PHASE, as files: the playground, which any web server can host, and those of the server.
 //!
 //! Key design decision: pages are plain HTML, CSS and JavaScript modules, without a bundler and without other people's scripts, so that
 //! what is read here is what browsers run. The WebAssembly that they call is built from `phase-playground`, by another target of the
@@ -41,6 +41,28 @@ const PLAYGROUND: [(&str, &[u8]); 9] = [
     ("simulator.js", include_bytes!("../pages/playground/simulator.js")),
     ("observer.js", include_bytes!("../pages/playground/observer.js")),
 ];
+
+/// What a server has beside the playground: the first page, the game, the admin page.
+const SITE: [(&str, &[u8]); 10] = [
+    ("index.html", include_bytes!("../pages/home/index.html")),
+    ("home.js", include_bytes!("../pages/home/home.js")),
+    ("site.css", include_bytes!("../pages/home/site.css")),
+    ("play/index.html", include_bytes!("../pages/play/index.html")),
+    ("play/play.css", include_bytes!("../pages/play/play.css")),
+    ("play/play.js", include_bytes!("../pages/play/play.js")),
+    ("play/arena.js", include_bytes!("../pages/play/arena.js")),
+    ("play/keys.js", include_bytes!("../pages/play/keys.js")),
+    ("admin/index.html", include_bytes!("../pages/admin/index.html")),
+    ("admin/admin.js", include_bytes!("../pages/admin/admin.js")),
+];
+
+/// The page in place of the playground where there is no WebAssembly.
+pub const NO_PLAYGROUND: &[u8] = include_bytes!("../pages/home/no-playground.html");
+
+/// The files of a server's pages, less the playground. They need the server's interface.
+pub fn site() -> impl Iterator<Item = File<'static>> {
+    SITE.into_iter().map(|(path, bytes)| File { path, bytes })
+}
 
 /// The WebAssembly that this build includes, in the order of [`WASM`]; `None` if it was built without.
 #[must_use]

@@ -69,6 +69,12 @@ impl DynamicBody {
         engine.bodies[self.body].set_angvel(0.0, true);
     }
 
+    /// Sets the velocity to zero.
+    pub(crate) fn stop(&self, engine: &mut PhysicsWorld) {
+        engine.bodies[self.body].set_linvel(Vec2::ZERO, true);
+        self.stop_turning(engine);
+    }
+
     /// The body's pose and velocity.
     #[must_use]
     pub(crate) fn motion(&self, engine: &PhysicsWorld) -> PoseAndVelocity {

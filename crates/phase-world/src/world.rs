@@ -100,6 +100,13 @@ impl World {
         })
     }
 
+    /// Sets both agents' velocities to zero; objects keep theirs.
+    pub fn stop_agents(&mut self) {
+        for dynamic_body in self.dynamic_bodies.iter().take(AGENT_COUNT) {
+            dynamic_body.stop(&mut self.engine);
+        }
+    }
+
     fn attach(&mut self, agent: AgentId) {
         let state = self.state();
         if let Some((object, side)) = state.attachable(&self.physics, agent) {

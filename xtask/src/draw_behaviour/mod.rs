@@ -17,9 +17,9 @@ use phase_cli::{
     parallel::{Jobs, make_all},
 };
 use phase_dataset::{WriteError, atomic};
-use phase_event::{Recording, Trajectory};
+use phase_event::{Controller, Recording, Trajectory};
 use phase_model::{
-    Attitude, Body, Layout, Scene, Vec2,
+    AGENT_COUNT, Attitude, Body, Layout, Scene, Vec2,
     layout::USED_BASES,
     random::{Purpose, stream},
 };
@@ -159,6 +159,7 @@ fn recording(id: String, scene: Scene) -> Recording {
         relation_human: None,
         row_0: Some("initial state".into()),
         recorded_steps: None,
+        controllers: [Controller::Mind; AGENT_COUNT],
         trajectory,
         recovered_actions: None,
         seed: None,

@@ -4,7 +4,7 @@ use super::Workspace;
 use std::path::{Path, PathBuf};
 
 /// The crates from the bottom layer up. A crate may use those before it, never those after it.
-pub const LAYERS: [&str; 32] = [
+pub const LAYERS: [&str; 34] = [
     "phase-model",
     "phase-event",
     "phase-statistics",
@@ -27,6 +27,7 @@ pub const LAYERS: [&str; 32] = [
     "phase-dataset",
     "phase-audit",
     "phase-render",
+    "phase-game",
     "phase-tensors",
     "phase-simple",
     "phase-baselines",
@@ -35,6 +36,7 @@ pub const LAYERS: [&str; 32] = [
     "phase-study",
     "phase-playground",
     "phase-web",
+    "phase-serve",
     "phase-cli",
     "phase-python",
 ];

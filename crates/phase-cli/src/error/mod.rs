@@ -237,6 +237,16 @@ pub enum CliError {
     #[cfg(feature = "studies")]
     #[error(transparent)]
     Forms(phase_study::forms::FormsError),
+    /// The server was requested from a program built without it.
+    #[error("the server is needed, which this program was built without; {hint}")]
+    NoServer {
+        /// What to do instead.
+        hint: &'static str,
+    },
+    /// The server cannot start or had to stop.
+    #[cfg(feature = "serve")]
+    #[error(transparent)]
+    Serve(#[from] phase_serve::ServeError),
     /// The user interrupted the run.
     #[error("interrupted; what is finished is kept in {}, and the same command goes on from there", .0.display())]
     Interrupted(PathBuf),
@@ -268,6 +278,7 @@ impl Failure for CliError {
             | Self::RulesBroken { .. }
             | Self::NoNetworks { .. }
             | Self::NoStudies { .. }
+            | Self::NoServer { .. }
             | Self::SimulationSettings { .. }
             | Self::StartAlone { .. }
             | Self::NoScene { .. }
@@ -283,6 +294,11 @@ impl Failure for CliError {
             | Self::Render { .. }
             | Self::Serialise { .. }
             | Self::Threads { .. } => 1,
+            #[cfg(feature = "serve")]
+            Self::Serve(error) => match error {
+                phase_serve::ServeError::Listen { .. } | phase_serve::ServeError::Read { .. } => 2,
+                _ => 1,
+            },
             #[cfg(feature = "networks")]
             Self::Weights { .. } | Self::TrainingRecord { .. } => 2,
             #[cfg(feature = "studies")]

@@ -131,7 +131,8 @@ fn seconds(text: &str) -> Result<f64, String> {
 }
 
 /// Reads a split by its name.
-fn splits() -> impl TypedValueParser<Value = Split> {
+#[must_use]
+pub fn splits() -> impl TypedValueParser<Value = Split> {
     let names = PossibleValuesParser::new(Split::ALL.map(Split::name));
     names.try_map(|name| Split::ALL.into_iter().find(|split| split.name() == name).ok_or("no such split"))
 }

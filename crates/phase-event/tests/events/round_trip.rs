@@ -1,7 +1,7 @@
 //! Reading and writing are exact inverses, bit for bit.
 
 use crate::support::{event, file, plain_event};
-use phase_event::{Recording, Trajectory, parse, subgoal_of, to_json};
+use phase_event::{Controller, Recording, Trajectory, parse, subgoal_of, to_json};
 use phase_model::{
     AgentId, Entity, LandmarkId, Literal, ObjectId, Predicate, PredicateTarget, Subgoal, arena::SUBSTEPS,
 };
@@ -32,6 +32,25 @@ fn a_measured_recording_comes_back_whole() {
     let read = parse(file().to_string().as_bytes()).expect("a good file");
     let text = to_json(&read).expect("finite");
     assert_eq!(parse(text.as_bytes()).expect("our own file"), read);
+}
+
+/// Who moved an agent is told of agents that people moved; a scene does not say it.
+#[test]
+fn controllers_come_back() {
+    let controllers = [Controller::Mind, Controller::Human];
+    let original = Recording { controllers, ..recording(1) };
+    let text = to_json(std::slice::from_ref(&original)).expect("finite");
+    let mut value: Value = serde_json::from_str(&text).expect("JSON");
+    let agents = value["events"][0]["agents"].as_array_mut().expect("agents");
+    assert_eq!((agents[0].get("controller"), &agents[1]["controller"]), (None, &json!("human")));
+    assert_eq!(parse(text.as_bytes()).expect("our own file"), [original]);
+    agents[0]["controller"] = "robot".into();
+    let refused = parse(value.to_string().as_bytes()).expect_err("no such controller").to_string();
+    assert!(refused.contains("agents[0].controller") && refused.contains("human"), "{refused}");
+    let mut scene: Value =
+        serde_json::from_str(&plain_event(1).scene.to_json().expect("finite")).expect("JSON");
+    scene["agents"][0]["controller"] = "human".into();
+    assert!(phase_model::Scene::from_json(&scene.to_string()).is_err());
 }
 
 #[test]

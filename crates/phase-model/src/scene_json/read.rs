@@ -62,7 +62,12 @@ fn layout(event: &Field<'_>) -> Result<Layout, FieldError> {
 }
 
 fn agent(field: &Field<'_>, starts: Starts) -> Result<AgentSpec, FieldError> {
-    only(field, &["radius", "size_level", "max_force", "strength_level", "goal", "alpha"], starts)?;
+    let keys: &[&str] = &["radius", "size_level", "max_force", "strength_level", "goal", "alpha"];
+    match starts {
+        // Of an event it is known who moved the agent; a scene leaves that open.
+        Starts::Elsewhere => field.only(&[keys, &["controller"]].concat())?,
+        Starts::Members => only(field, keys, starts)?,
+    }
     let size = size(field)?;
     let level = field.required("strength_level")?.whole(0, 3)?;
     let strength = Strength::ALL[level as usize];

@@ -1,0 +1,89 @@
+//! `serve`: the playground and the two-player game for browsers.
+
+pub mod options;
+#[cfg(feature = "serve")]
+mod scenes;
+
+use crate::{context::Context, error::CliError};
+use options::Serve;
+
+/// Runs the command, until Ctrl-C or SIGTERM.
+///
+/// # Errors
+/// [`CliError::NoServer`] where the program was built without the feature `serve`; [`CliError::Serve`], [`CliError::File`] or
+/// [`CliError::Usage`] for an address, scenes or WebAssembly that cannot be used.
+#[cfg(not(feature = "serve"))]
+pub fn run(_: &Serve, context: &Context) -> Result<(), CliError> {
+    Err(CliError::NoServer { hint: context.program.serve_hint })
+}
+
+/// Runs the command, until Ctrl-C or SIGTERM.
+///
+/// # Errors
+/// [`CliError::Serve`], [`CliError::File`] or [`CliError::Usage`] for an address, scenes or WebAssembly that cannot be used.
+#[cfg(feature = "serve")]
+pub fn run(arguments: &Serve, context: &Context) -> Result<(), CliError> {
+    use crate::{console::print_result, playground::read_wasm};
+    use phase_game::{GameSettings, playlist::Item};
+    use phase_serve::{Server, ServerSettings};
+    use phase_sim::SimulationSettings;
+
+    let scenes: Vec<Item> = scenes::of(arguments, context)?;
+    let practice = scenes::practice()?;
+    let given = arguments.wasm.as_deref().map(read_wasm).transpose()?;
+    let wasm = match &given {
+        Some([script, code]) => Some([&script[..], &code[..]]),
+        None => phase_web::included(),
+    };
+    if wasm.is_none() {
+        context.note("note: built without the playground; `cargo xtask playground` builds it, and --wasm names its folder");
+    }
+    let default = GameSettings::default();
+    let simulation = SimulationSettings {
+        stop_between_steps: !arguments.inertia,
+        min_steps: default.simulation.min_steps,
+        rest_steps: default.simulation.rest_steps,
+        still_steps: default.simulation.still_steps,
+        ..arguments.simulation.settings()
+    };
+    let settings = ServerSettings {
+        listen: arguments.listen,
+        host: arguments.host.clone(),
+        behind_proxy: arguments.behind_proxy,
+        folder: arguments.out.clone(),
+        rooms: usize::from(arguments.rooms),
+        open: !arguments.invite_only,
+        rounds: usize::from(arguments.rounds),
+        game: GameSettings { simulation, ..default },
+        seed: arguments.seed,
+    };
+    let server = Server::bind(settings, practice, scenes, wasm)?;
+    let address = server.address();
+    print_result(format!(
+        "http://{address}/\nhttp://{address}/admin/#{} (for you alone)\nrecordings and journals in {}; Ctrl-C stops",
+        server.admin_token(),
+        arguments.out.display()
+    ));
+    Ok(server.run(stopped())?)
+}
+
+/// Until somebody asks this program to stop.
+#[cfg(feature = "serve")]
+async fn stopped() {
+    let interrupted = tokio::signal::ctrl_c();
+    #[cfg(unix)]
+    {
+        let terminated = tokio::signal::unix::signal(tokio::signal::unix::SignalKind::terminate());
+        if let Ok(mut terminated) = terminated {
+            tokio::select! {
+                _ = interrupted => {}
+                _ = terminated.recv() => {}
+            }
+            return;
+        }
+    }
+    // Where signals cannot be listened for, they end the program at once.
+    if interrupted.await.is_err() {
+        std::future::pending::<()>().await;
+    }
+}

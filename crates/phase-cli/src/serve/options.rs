@@ -1,0 +1,50 @@
+//! Options of `serve`.
+
+use crate::{effort::SimulationOptions, eval::options::splits};
+use clap::{Args, value_parser};
+use phase_dataset::splits::Split;
+use std::{net::SocketAddr, path::PathBuf};
+
+/// Options of `serve`.
+#[derive(Args, Debug)]
+pub struct Serve {
+    /// Where to listen: address and port. Others than the loopback interface can be reached from outside
+    #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1:8017")]
+    pub listen: SocketAddr,
+    /// Name of this server for others, such as lab.example.org; requests by names that it does not have are refused
+    #[arg(long, value_name = "HOST")]
+    pub host: Option<String>,
+    /// A proxy in front of this server tells who asks (X-Forwarded-For)
+    #[arg(long)]
+    pub behind_proxy: bool,
+    /// Folder for journals and recordings of games; a server that is started again goes on with what it finds there
+    #[arg(long, value_name = "DIR", default_value = "out/serve")]
+    pub out: PathBuf,
+    /// Scenes to play: a phase-events/1 file or the folder of a dataset [default: 24 sampled scenes, four of each kind]
+    #[arg(long, value_name = "PATH")]
+    pub scenes: Option<PathBuf>,
+    /// Only the dataset's events of this split: train, validation or test
+    #[arg(long, value_name = "SPLIT", hide_possible_values = true, requires = "scenes", value_parser = splits())]
+    pub split: Option<Split>,
+    /// Scenes of a game after the practice; those that were played least come first
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = value_parser!(u16).range(1..=1000))]
+    pub rounds: u16,
+    /// Games at the same time
+    #[arg(long, value_name = "N", default_value_t = 200, value_parser = value_parser!(u16).range(1..=10_000))]
+    pub rooms: u16,
+    /// Only who has the admin token opens games
+    #[arg(long)]
+    pub invite_only: bool,
+    /// Agents keep their velocity from step to step, as in simulations; in the paper's game they are stopped after each step
+    #[arg(long)]
+    pub inertia: bool,
+    /// Seed of the order of scenes and of the minds that play
+    #[arg(long, value_name = "SEED", default_value_t = 1)]
+    pub seed: u64,
+    /// Engine, length of a round and minds.
+    #[command(flatten)]
+    pub simulation: SimulationOptions,
+    /// Folder with phase.js and phase_bg.wasm for the playground, instead of those that this program includes
+    #[arg(long, value_name = "DIR")]
+    pub wasm: Option<PathBuf>,
+}

@@ -1,0 +1,85 @@
+//! From the keys of a player to the action of a step.
+
+use phase_model::Action;
+
+/// What a player does, between two steps.
+///
+/// A key that is held acts in every step. One that is pressed and released between two steps acts in the next one, so that a short
+/// press is never lost.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Controls {
+    held: Action,
+    pressed: Option<Action>,
+    grab: bool,
+}
+
+impl Default for Controls {
+    fn default() -> Self {
+        Self { held: Action::Stop, pressed: None, grab: false }
+    }
+}
+
+impl Controls {
+    /// The player begins to do something, or with [`Action::Stop`] ceases to. Grabbing and letting go are not held:
+    /// [`grab`](Self::grab).
+    pub fn hold(&mut self, action: Action) {
+        if !matches!(action, Action::Attach | Action::Detach) {
+            self.held = action;
+            if action != Action::Stop {
+                self.pressed = Some(action);
+            }
+        }
+    }
+
+    /// The player grabs, or lets go.
+    pub const fn grab(&mut self) {
+        self.grab = true;
+    }
+
+    /// Nothing is held any more.
+    pub fn release(&mut self) {
+        *self = Self::default();
+    }
+
+    /// The action of the next step, for an agent that holds an object or not.
+    pub fn take(&mut self, holds: bool) -> Action {
+        let pressed = self.pressed.take();
+        match (core::mem::take(&mut self.grab), holds) {
+            (true, true) => Action::Detach,
+            (true, false) => Action::Attach,
+            (false, _) => pressed.unwrap_or(self.held),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_held_lasts_and_what_is_pressed_is_not_lost() {
+        let mut controls = Controls::default();
+        assert_eq!(controls.take(false), Action::Stop);
+        controls.hold(Action::Up);
+        assert_eq!([controls.take(false), controls.take(false)], [Action::Up, Action::Up]);
+        controls.hold(Action::Left);
+        controls.hold(Action::Stop);
+        assert_eq!([controls.take(false), controls.take(false)], [Action::Left, Action::Stop]);
+    }
+
+    #[test]
+    fn one_key_grabs_and_lets_go() {
+        let mut controls = Controls::default();
+        controls.hold(Action::Up);
+        controls.grab();
+        assert_eq!(controls.take(false), Action::Attach);
+        assert_eq!(controls.take(true), Action::Up);
+        controls.grab();
+        assert_eq!(controls.take(true), Action::Detach);
+        controls.hold(Action::Attach);
+        assert_eq!(controls.take(true), Action::Up);
+        controls.grab();
+        controls.release();
+        assert_eq!(controls.take(false), Action::Stop);
+    }
+}

@@ -1,0 +1,44 @@
+//! What players are told before a round.
+
+use phase_model::{AGENT_COUNT, AgentId, Attitude, Scene};
+use phase_render::Palette;
+use serde::Serialize;
+
+/// What a player is told before a round: both goals, as in the paper (appendix, "Experiment 2").
+#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+pub struct Instructions {
+    /// The colour of the player's agent.
+    pub you: &'static str,
+    /// What the player is to do.
+    pub yours: String,
+    /// What the other agent's player is to do.
+    pub theirs: String,
+}
+
+impl Instructions {
+    /// The instructions for the player of an agent.
+    #[must_use]
+    pub fn new(scene: &Scene, agent: AgentId, palette: &Palette) -> Self {
+        let names = palette.agent_names;
+        let other = agent.other();
+        let told = |who: AgentId, whose: &str| {
+            let goals = scene.goals();
+            let helped = palette.goal_text(goals[who.other()], who.other());
+            match scene.attitudes()[who] {
+                Attitude::Neutral => format!("{whose} goal: {}.", palette.goal_text(goals[who], who)),
+                Attitude::Help => {
+                    format!("Help the {} agent to reach its goal: {helped}.", names[who.other()])
+                }
+                Attitude::Hinder => {
+                    format!("Keep the {} agent from reaching its goal: {helped}.", names[who.other()])
+                }
+            }
+        };
+        Self { you: names[agent], yours: told(agent, "Your"), theirs: told(other, "Its") }
+    }
+}
+
+/// The instructions of both players.
+pub(crate) fn of_both(scene: &Scene) -> [Instructions; AGENT_COUNT] {
+    AgentId::ALL.map(|agent| Instructions::new(scene, agent, &Palette::PAPER))
+}

@@ -1,0 +1,510 @@
+//! One game: who is there, what is going on, and what happens next.
+
+use crate::{
+    Doing, Ending, Entry, FromPlayer, GameSettings, Instructions, Player, Round, STEP, ToPlayer,
+    controls::Controls,
+    instructions,
+    journal::{Actions, FORMAT},
+    message::PROTOCOL,
+    sight::{sight, stage},
+};
+use core::time::Duration;
+use phase_event::{Controller, Recording};
+use phase_model::{AGENT_COUNT, Action, AgentId, Goal, PhysicsConfig, Sign, State};
+use phase_predicates::achieved;
+use phase_sim::{Simulation, SimulationError, SimulationSettings};
+use serde_json::Value;
+use thiserror::Error;
+
+/// Why a game cannot be played.
+#[derive(Clone, PartialEq, Debug, Error)]
+pub enum RoomError {
+    /// There is nothing to play.
+    #[error("a game needs at least one scene")]
+    NoRound,
+    /// A scene or the settings are invalid.
+    #[error(transparent)]
+    Simulation(#[from] SimulationError),
+}
+
+/// Something that follows from what a room was told. Effects are to be carried out in their order: an entry is in the journal before
+/// anybody sees the step.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Effect {
+    /// An entry of the journal.
+    Journal(Entry),
+    /// A message to the player of an agent.
+    Send(AgentId, ToPlayer),
+    /// A round that was played to its end.
+    Finished(Box<Recording>),
+}
+
+/// What a room is doing; times are those at which it does the next thing.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) enum Phase {
+    Gathering,
+    Reading,
+    Countdown { until: Duration },
+    Playing { due: Duration },
+    Paused,
+    Over(Ending),
+}
+
+/// The place of a player.
+#[derive(Clone, Copy, Debug, Default)]
+struct Seat {
+    connected: bool,
+    away: bool,
+    ready: bool,
+    controls: Controls,
+}
+
+/// One game.
+#[derive(Debug)]
+pub struct Room {
+    name: String,
+    keys: [Option<String>; AGENT_COUNT],
+    settings: GameSettings,
+    pub(crate) rounds: Vec<Round>,
+    pub(crate) round: usize,
+    seats: [Seat; AGENT_COUNT],
+    physics: PhysicsConfig,
+    pub(crate) simulation: Simulation,
+    /// Whether the journal knows that the round has begun.
+    pub(crate) begun: bool,
+    /// Steps in a row after which both goals were achieved.
+    achieved: usize,
+    /// Whether all minds have decided on the next step.
+    thought: bool,
+    pub(crate) phase: Phase,
+    /// Since when a player has been absent; where nobody was there yet, since when the room has been open.
+    absent_since: Option<Duration>,
+}
+
+impl Room {
+    /// A room for a practice, the first of the rounds, and the rounds after it. `keys` are kept in the journal for whoever lets players
+    /// in.
+    ///
+    /// # Errors
+    /// [`RoomError`].
+    pub fn open(
+        name: &str,
+        keys: [Option<String>; AGENT_COUNT],
+        settings: GameSettings,
+        rounds: Vec<Round>,
+        now: Duration,
+    ) -> Result<Self, RoomError> {
+        for round in &rounds {
+            round.scene.validate().map_err(SimulationError::from)?;
+        }
+        let first = rounds.first().ok_or(RoomError::NoRound)?;
+        let simulation = simulation_of(first, &settings)?;
+        let seats = settings.players.map(|player| {
+            // A mind is always there.
+            let there = player == Player::Mind;
+            Seat { connected: there, ready: there, ..Seat::default() }
+        });
+        Ok(Self {
+            name: name.into(),
+            keys,
+            physics: first.scene.physics(),
+            simulation,
+            rounds,
+            round: 0,
+            seats,
+            settings,
+            begun: false,
+            achieved: 0,
+            thought: false,
+            phase: Phase::Gathering,
+            absent_since: Some(now),
+        })
+    }
+
+    /// The first entry of its journal.
+    #[must_use]
+    pub fn opening(&self) -> Entry {
+        Entry::Opened {
+            format: FORMAT.into(),
+            room: self.name.clone(),
+            keys: self.keys.clone(),
+            settings: Box::new(self.settings),
+            rounds: self.rounds.clone(),
+        }
+    }
+
+    /// Its name.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// By agent, what its player has to know to be let in.
+    #[must_use]
+    pub const fn keys(&self) -> &[Option<String>; AGENT_COUNT] {
+        &self.keys
+    }
+
+    /// What it is doing.
+    #[must_use]
+    pub const fn doing(&self) -> Doing {
+        match self.phase {
+            Phase::Gathering => Doing::Gathering,
+            Phase::Reading => Doing::Reading,
+            Phase::Countdown { .. } => Doing::Countdown,
+            Phase::Playing { .. } => Doing::Playing,
+            Phase::Paused => Doing::Paused,
+            Phase::Over(_) => Doing::Over,
+        }
+    }
+
+    /// The round that is played, 0 for the practice, and the number of rounds after the practice.
+    #[must_use]
+    pub const fn progress(&self) -> (usize, usize) {
+        (self.round, self.rounds.len() - 1)
+    }
+
+    /// When [`advance`](Self::advance) is to be called next; `None` once the game is over.
+    #[must_use]
+    pub fn due(&self) -> Option<Duration> {
+        let next = match self.phase {
+            Phase::Over(_) => return None,
+            Phase::Countdown { until } => Some(until),
+            Phase::Playing { due } => Some(due),
+            Phase::Gathering | Phase::Reading | Phase::Paused => None,
+        };
+        [next, self.given_up()].into_iter().flatten().min()
+    }
+
+    /// When the game is given up if nobody comes.
+    fn given_up(&self) -> Option<Duration> {
+        let gathering = self.phase == Phase::Gathering;
+        let patience = if gathering { self.settings.lobby_patience } else { self.settings.patience };
+        self.absent_since.map(|since| since + patience)
+    }
+
+    /// Whether a mind has to decide before the next step is due: [`think`](Self::think) takes some time.
+    #[must_use]
+    pub fn must_think(&self) -> bool {
+        let soon = matches!(self.phase, Phase::Countdown { .. } | Phase::Playing { .. });
+        soon && !self.thought && self.settings.players.contains(&Player::Mind)
+    }
+
+    /// Lets the minds decide on the next step. If that fails, so does the step.
+    pub fn think(&mut self) {
+        for agent in AgentId::ALL {
+            if self.settings.players[agent] == Player::Mind && self.simulation.decide_ahead(agent).is_err() {
+                break;
+            }
+        }
+        self.thought = true;
+    }
+
+    /// A player has come, or come back.
+    pub fn connect(&mut self, agent: AgentId, now: Duration) -> Vec<Effect> {
+        if self.settings.players[agent] == Player::Mind {
+            return Vec::new();
+        }
+        let seat = &mut self.seats[agent];
+        (seat.connected, seat.away, seat.controls) = (true, false, Controls::default());
+        let other = agent.other();
+        let welcome = ToPlayer::Welcome {
+            protocol: PROTOCOL,
+            agent,
+            view: self.settings.view,
+            mind: self.settings.players[other] == Player::Mind,
+            step_ms: STEP.as_millis() as u64,
+        };
+        let mut effects = vec![Effect::Send(agent, welcome)];
+        effects.extend(self.stage_for(agent));
+        self.presence_changed(now);
+        self.tell(now, &mut effects);
+        effects
+    }
+
+    /// A player's connection is lost.
+    pub fn disconnect(&mut self, agent: AgentId, now: Duration) -> Vec<Effect> {
+        let mut effects = Vec::new();
+        if self.settings.players[agent] == Player::Human {
+            self.seats[agent].connected = false;
+            self.presence_changed(now);
+            self.tell(now, &mut effects);
+        }
+        effects
+    }
+
+    /// A player's message.
+    pub fn receive(&mut self, agent: AgentId, message: FromPlayer, now: Duration) -> Vec<Effect> {
+        let mut effects = Vec::new();
+        if self.settings.players[agent] == Player::Mind || matches!(self.phase, Phase::Over(_)) {
+            return effects;
+        }
+        let playing = matches!(self.phase, Phase::Playing { .. });
+        let seat = &mut self.seats[agent];
+        match message {
+            FromPlayer::Hold(action) => {
+                // What is held when the countdown ends counts.
+                if playing || action == Action::Stop || matches!(self.phase, Phase::Countdown { .. }) {
+                    seat.controls.hold(action);
+                }
+                return effects;
+            }
+            FromPlayer::Grab => {
+                if playing {
+                    seat.controls.grab();
+                }
+                return effects;
+            }
+            FromPlayer::Ready => {
+                let practising = playing && self.round == 0;
+                seat.ready |= practising || self.phase == Phase::Reading;
+                if self.phase == Phase::Reading {
+                    self.begin_if_ready(now);
+                }
+            }
+            FromPlayer::Away(away) => {
+                seat.away = away;
+                self.presence_changed(now);
+            }
+            FromPlayer::Leave => self.finish(Ending::Left, &mut effects),
+        }
+        self.tell(now, &mut effects);
+        effects
+    }
+
+    /// Does what is due at this time.
+    pub fn advance(&mut self, now: Duration) -> Vec<Effect> {
+        let mut effects = Vec::new();
+        if matches!(self.phase, Phase::Over(_)) {
+            return effects;
+        }
+        if self.given_up().is_some_and(|at| now >= at) {
+            self.finish(Ending::Absent, &mut effects);
+            self.tell(now, &mut effects);
+            return effects;
+        }
+        match self.phase {
+            Phase::Countdown { until } if now >= until => {
+                self.phase = Phase::Playing { due: until.max(now.saturating_sub(STEP)) + STEP };
+                if !self.begun {
+                    self.begun = true;
+                    effects.push(Effect::Journal(Entry::Began { round: self.round }));
+                }
+                self.tell(now, &mut effects);
+            }
+            Phase::Playing { due } if now >= due => {
+                // Steps that are late by more than one are not made up for: nobody could follow.
+                self.phase = Phase::Playing { due: due.max(now.saturating_sub(STEP)) + STEP };
+                self.step(now, &mut effects);
+            }
+            _ => {}
+        }
+        effects
+    }
+
+    fn step(&mut self, now: Duration, effects: &mut Vec<Effect>) {
+        let grips = self.simulation.state().grips;
+        let mut given = [None; AGENT_COUNT];
+        for agent in AgentId::ALL {
+            if self.settings.players[agent] == Player::Human {
+                given[agent] = Some(self.seats[agent].controls.take(grips[agent].is_some()));
+            }
+        }
+        let (actions, substeps) = match self.simulation.step(given) {
+            Ok(step) => (step.actions, step.substeps),
+            Err(_) => {
+                self.finish(Ending::Failed, effects);
+                return self.tell(now, effects);
+            }
+        };
+        self.thought = false;
+        effects.push(Effect::Journal(Entry::Step { actions: Actions(actions) }));
+        self.show(&substeps, effects);
+        self.judge();
+        if self.is_round_over() {
+            self.end_round(now, effects);
+        }
+    }
+
+    /// Notes whether both goals are achieved.
+    pub(crate) fn judge(&mut self) {
+        let both = self.achieved_now().iter().all(|&achieved| achieved);
+        // What somebody is to avoid is avoided only once the time is over.
+        let positive = self.scene_goals().iter().all(|goal| goal.sign() == Sign::Positive);
+        self.achieved = if both && positive { self.achieved + 1 } else { 0 };
+    }
+
+    fn scene_goals(&self) -> [Goal; AGENT_COUNT] {
+        self.rounds[self.round].scene.goals()
+    }
+
+    fn achieved_now(&self) -> [bool; AGENT_COUNT] {
+        self.scene_goals().map(|goal| achieved(&self.physics, self.simulation.state(), goal))
+    }
+
+    pub(crate) fn is_round_over(&self) -> bool {
+        let steps = self.simulation.event().steps.len();
+        if self.round == 0 {
+            steps >= self.settings.practice_steps || self.seats.iter().all(|seat| seat.ready)
+        } else {
+            steps >= self.settings.simulation.max_steps || self.achieved >= self.settings.achieved_steps
+        }
+    }
+
+    pub(crate) fn end_round(&mut self, now: Duration, effects: &mut Vec<Effect>) {
+        if self.round > 0 {
+            // The journal says that it has ended once its recording is safe.
+            effects.push(Effect::Finished(Box::new(self.recording())));
+        }
+        effects.push(Effect::Journal(Entry::Ended { round: self.round }));
+        if self.round > 0 {
+            let achieved = self.achieved_now();
+            self.send_all(effects, |_| ToPlayer::Result { achieved });
+        }
+        if self.round + 1 == self.rounds.len() {
+            self.finish(Ending::Complete, effects);
+        } else if self.go_to(self.round + 1).is_err() {
+            self.finish(Ending::Failed, effects);
+        } else {
+            self.phase = Phase::Reading;
+            for agent in AgentId::ALL {
+                effects.extend(self.stage_for(agent));
+            }
+        }
+        self.tell(now, effects);
+    }
+
+    /// Prepares a round.
+    pub(crate) fn go_to(&mut self, round: usize) -> Result<(), SimulationError> {
+        self.round = round;
+        self.simulation = simulation_of(&self.rounds[round], &self.settings)?;
+        self.physics = self.rounds[round].scene.physics();
+        (self.begun, self.achieved, self.thought) = (false, 0, false);
+        for (seat, player) in self.seats.iter_mut().zip(self.settings.players) {
+            seat.ready = player == Player::Mind;
+            seat.controls.release();
+        }
+        Ok(())
+    }
+
+    /// What has been played of the round, as an event.
+    #[must_use]
+    pub fn recording(&self) -> Recording {
+        let round = &self.rounds[self.round];
+        let generator = concat!("phase ", env!("CARGO_PKG_VERSION")).to_owned();
+        let mut settings = serde_json::to_value(self.settings.simulation).unwrap_or_default();
+        if let (Value::Object(members), Ok(view)) = (&mut settings, serde_json::to_value(self.settings.view))
+        {
+            members.insert("view".into(), view);
+        }
+        let controllers = self.settings.players.map(|player| match player {
+            Player::Human => Controller::Human,
+            Player::Mind => Controller::Mind,
+        });
+        let event = self.simulation.event().clone();
+        Recording { controllers, ..Recording::of_event(round.id.clone(), event, generator, settings) }
+    }
+
+    fn finish(&mut self, ending: Ending, effects: &mut Vec<Effect>) {
+        self.phase = Phase::Over(ending);
+        self.absent_since = None;
+        effects.push(Effect::Journal(Entry::Over { ending }));
+    }
+
+    fn present(&self) -> [bool; AGENT_COUNT] {
+        self.seats.map(|seat| seat.connected && !seat.away)
+    }
+
+    fn presence_changed(&mut self, now: Duration) {
+        let all = self.present() == [true; AGENT_COUNT];
+        if all {
+            self.absent_since = None;
+        } else if self.absent_since.is_none() {
+            self.absent_since = Some(now);
+        }
+        match self.phase {
+            Phase::Gathering if all => self.phase = Phase::Reading,
+            Phase::Paused if all => self.count_down(now),
+            Phase::Countdown { .. } | Phase::Playing { .. } if !all => {
+                self.phase = Phase::Paused;
+                self.seats.iter_mut().for_each(|seat| seat.controls.release());
+            }
+            _ => {}
+        }
+    }
+
+    fn begin_if_ready(&mut self, now: Duration) {
+        if self.seats.iter().all(|seat| seat.ready && seat.connected && !seat.away) {
+            // In the practice, to be ready means from now on to have had enough of it.
+            for (seat, player) in self.seats.iter_mut().zip(self.settings.players) {
+                seat.ready = player == Player::Mind;
+            }
+            self.count_down(now);
+        }
+    }
+
+    fn count_down(&mut self, now: Duration) {
+        self.phase = Phase::Countdown { until: now + self.settings.countdown };
+    }
+
+    /// The round and what is seen of it now.
+    fn stage_for(&self, agent: AgentId) -> Vec<Effect> {
+        if self.settings.players[agent] == Player::Mind {
+            return Vec::new();
+        }
+        let scene = &self.rounds[self.round].scene;
+        let limit =
+            if self.round == 0 { self.settings.practice_steps } else { self.settings.simulation.max_steps };
+        let told: Option<[Instructions; AGENT_COUNT]> =
+            (self.round > 0).then(|| instructions::of_both(scene));
+        let told = told.map(|told| told[agent].clone());
+        let stage = stage(scene, self.round, self.rounds.len() - 1, limit, told);
+        let steps = self.simulation.event().steps.len();
+        let now = sight(&self.physics, &[*self.simulation.state()], steps, agent, self.settings.view);
+        vec![
+            Effect::Send(agent, ToPlayer::Stage(Box::new(stage))),
+            Effect::Send(agent, ToPlayer::Sight(Box::new(now))),
+        ]
+    }
+
+    fn show(&self, states: &[State], effects: &mut Vec<Effect>) {
+        let steps = self.simulation.event().steps.len();
+        self.send_all(effects, |agent| {
+            ToPlayer::Sight(Box::new(sight(&self.physics, states, steps, agent, self.settings.view)))
+        });
+    }
+
+    /// Tells the players what goes on.
+    fn tell(&self, now: Duration, effects: &mut Vec<Effect>) {
+        let countdown = match self.phase {
+            Phase::Countdown { until } => Some(until.saturating_sub(now).as_millis() as u64),
+            _ => None,
+        };
+        let ending = match self.phase {
+            Phase::Over(ending) => Some(ending),
+            _ => None,
+        };
+        self.send_all(effects, |_| ToPlayer::State {
+            doing: self.doing(),
+            ready: self.seats.map(|seat| seat.ready),
+            present: self.present(),
+            countdown_ms: countdown,
+            ending,
+        });
+    }
+
+    fn send_all(&self, effects: &mut Vec<Effect>, message: impl Fn(AgentId) -> ToPlayer) {
+        for agent in AgentId::ALL {
+            if self.settings.players[agent] == Player::Human && self.seats[agent].connected {
+                effects.push(Effect::Send(agent, message(agent)));
+            }
+        }
+    }
+}
+
+/// A round at its start. Only agents that are not played have minds.
+fn simulation_of(round: &Round, settings: &GameSettings) -> Result<Simulation, SimulationError> {
+    let minds = settings.players.map(|player| player == Player::Mind);
+    let simulation = SimulationSettings { max_steps: usize::MAX, ..settings.simulation };
+    Simulation::with_minds(&round.scene, round.seed, &simulation, minds)
+}

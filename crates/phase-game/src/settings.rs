@@ -1,0 +1,74 @@
+//! What can be chosen about a game.
+
+use core::time::Duration;
+use phase_model::AGENT_COUNT;
+use phase_sim::SimulationSettings;
+use serde::{Deserialize, Serialize};
+
+/// The time that a step takes on the screen: five frames, 20 a second.
+pub const STEP: Duration = Duration::from_millis(250);
+
+/// What a player sees of the world.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum View {
+    /// What its agent observes (paper, appendix, "Experiment 2").
+    #[default]
+    Own,
+    /// Everything.
+    All,
+}
+
+/// Who plays an agent.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Player {
+    /// A person.
+    Human,
+    /// The agent's mind.
+    Mind,
+}
+
+/// The settings of a game. Defaults are the paper's where it names them.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+pub struct GameSettings {
+    /// Who plays each agent.
+    pub players: [Player; AGENT_COUNT],
+    /// What players see.
+    pub view: View,
+    /// A round also ends when both goals were achieved for this many steps in a row, so that passing over a landmark does not
+    /// count (steps).
+    pub achieved_steps: usize,
+    /// Longest practice (steps); it ends sooner when all players are ready.
+    pub practice_steps: usize,
+    /// Time between the last player's being ready and the first step.
+    pub countdown: Duration,
+    /// How long a game waits for a player who has left, before it is given up.
+    pub patience: Duration,
+    /// How long a room waits for its players to come.
+    pub lobby_patience: Duration,
+    /// Engine, length of a round and parameters of minds.
+    pub simulation: SimulationSettings,
+}
+
+impl Default for GameSettings {
+    fn default() -> Self {
+        let simulation = SimulationSettings {
+            // The end of a round is decided here, and people may stop to think.
+            rest_steps: usize::MAX,
+            still_steps: usize::MAX,
+            stop_between_steps: true,
+            ..SimulationSettings::default()
+        };
+        Self {
+            players: [Player::Human; AGENT_COUNT],
+            view: View::default(),
+            achieved_steps: 4,
+            practice_steps: 240,
+            countdown: Duration::from_secs(3),
+            patience: Duration::from_secs(120),
+            lobby_patience: Duration::from_secs(30 * 60),
+            simulation,
+        }
+    }
+}

@@ -1,0 +1,102 @@
+//! What can go wrong, for the program and for who asks over HTTP.
+
+use axum::{
+    Json,
+    http::StatusCode,
+    response::{IntoResponse, Response},
+};
+use phase_dataset::WriteError;
+use serde_json::json;
+use std::{io, net::SocketAddr, path::PathBuf};
+use thiserror::Error;
+
+/// Why the server cannot start, or had to stop.
+#[derive(Debug, Error)]
+pub enum ServeError {
+    /// The address cannot be listened on.
+    #[error("cannot listen on {address}: {}", reason(source))]
+    Listen {
+        /// The address.
+        address: SocketAddr,
+        /// Why.
+        #[source]
+        source: io::Error,
+    },
+    /// A folder or file of the server cannot be written.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+    /// A folder or file of the server cannot be read.
+    #[error("{}: cannot be read", path.display())]
+    Read {
+        /// It.
+        path: PathBuf,
+        /// Why.
+        #[source]
+        source: io::Error,
+    },
+    /// There are no random numbers for tokens.
+    #[error("the operating system has no random numbers")]
+    Random(#[from] getrandom::Error),
+    /// The runtime failed.
+    #[error("the server failed")]
+    Runtime(#[source] io::Error),
+}
+
+/// The usual reasons in words.
+fn reason(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::AddrInUse => "another program uses it".into(),
+        io::ErrorKind::AddrNotAvailable => "this machine has no such address".into(),
+        io::ErrorKind::PermissionDenied => "it needs more rights".into(),
+        kind => kind.to_string(),
+    }
+}
+
+/// Why a request was not answered as hoped; one sentence, as `{"error": …}`.
+#[derive(Clone, PartialEq, Eq, Debug, Error)]
+#[error("{sentence}")]
+pub struct ApiError {
+    /// The status.
+    pub status: StatusCode,
+    /// What is wrong.
+    pub sentence: String,
+}
+
+impl ApiError {
+    /// An error of a status.
+    #[must_use]
+    pub fn new(status: StatusCode, sentence: impl Into<String>) -> Self {
+        Self { status, sentence: sentence.into() }
+    }
+
+    /// What was sent is wrong.
+    #[must_use]
+    pub fn bad(sentence: impl Into<String>) -> Self {
+        Self::new(StatusCode::BAD_REQUEST, sentence)
+    }
+
+    /// Nothing is there.
+    #[must_use]
+    pub fn missing() -> Self {
+        Self::new(StatusCode::NOT_FOUND, "there is nothing of this name")
+    }
+
+    /// Too much is going on.
+    #[must_use]
+    pub fn busy(sentence: impl Into<String>) -> Self {
+        Self::new(StatusCode::SERVICE_UNAVAILABLE, sentence)
+    }
+
+    /// The server failed; the reason goes to its log.
+    #[must_use]
+    pub fn failed(reason: &dyn std::error::Error) -> Self {
+        crate::log::failure(reason);
+        Self::new(StatusCode::INTERNAL_SERVER_ERROR, "the server failed; its log says why")
+    }
+}
+
+impl IntoResponse for ApiError {
+    fn into_response(self) -> Response {
+        (self.status, Json(json!({ "error": self.sentence }))).into_response()
+    }
+}

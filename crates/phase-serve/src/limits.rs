@@ -1,0 +1,104 @@
+//! How often somebody may ask: token buckets.
+
+use std::{
+    collections::HashMap,
+    net::IpAddr,
+    sync::{Mutex, PoisonError},
+    time::Instant,
+};
+
+/// So many addresses are remembered at most; then those that have asked for nothing lately are forgotten.
+const REMEMBERED: usize = 10_000;
+
+/// A bucket of permissions that fills at a steady rate.
+#[derive(Clone, Copy, Debug)]
+pub struct Bucket {
+    level: f64,
+    filled: Instant,
+    rate: f64,
+    size: f64,
+}
+
+impl Bucket {
+    /// A full bucket: so many at once, and then so many a second.
+    #[must_use]
+    pub const fn new(size: f64, rate: f64, now: Instant) -> Self {
+        Self { level: size, filled: now, rate, size }
+    }
+
+    /// Takes one, if there is one.
+    pub fn take(&mut self, now: Instant) -> bool {
+        let passed = now.saturating_duration_since(self.filled).as_secs_f64();
+        self.level = (self.level + passed * self.rate).min(self.size);
+        self.filled = now;
+        let allowed = self.level >= 1.0;
+        if allowed {
+            self.level -= 1.0;
+        }
+        allowed
+    }
+
+    fn is_full(&self, now: Instant) -> bool {
+        let passed = now.saturating_duration_since(self.filled).as_secs_f64();
+        self.level + passed * self.rate >= self.size
+    }
+}
+
+/// A bucket for each address.
+#[derive(Debug)]
+pub struct PerAddress {
+    buckets: Mutex<HashMap<IpAddr, Bucket>>,
+    size: f64,
+    rate: f64,
+}
+
+impl PerAddress {
+    /// So many at once, and then so many a second.
+    #[must_use]
+    pub fn new(size: f64, rate: f64) -> Self {
+        Self { buckets: Mutex::default(), size, rate }
+    }
+
+    /// Whether somebody may ask now.
+    pub fn take(&self, address: IpAddr, now: Instant) -> bool {
+        let mut buckets = self.buckets.lock().unwrap_or_else(PoisonError::into_inner);
+        if buckets.len() >= REMEMBERED {
+            buckets.retain(|_, bucket| !bucket.is_full(now));
+        }
+        if buckets.len() >= REMEMBERED && !buckets.contains_key(&address) {
+            return false;
+        }
+        buckets.entry(address).or_insert_with(|| Bucket::new(self.size, self.rate, now)).take(now)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::{net::Ipv4Addr, time::Duration};
+
+    #[test]
+    fn buckets_fill_at_their_rate() {
+        let start = Instant::now();
+        let mut bucket = Bucket::new(3.0, 2.0, start);
+        let allowed = (0..5).filter(|_| bucket.take(start)).count();
+        assert_eq!(allowed, 3);
+        let later = start + Duration::from_secs(1);
+        assert_eq!((0..5).filter(|_| bucket.take(later)).count(), 2);
+        let much_later = start + Duration::from_secs(100);
+        assert_eq!((0..9).filter(|_| bucket.take(much_later)).count(), 3);
+    }
+
+    #[test]
+    fn addresses_do_not_use_up_memory_or_one_another() {
+        let now = Instant::now();
+        let limit = PerAddress::new(1.0, 1.0);
+        let address = |k: u32| IpAddr::V4(Ipv4Addr::from(k));
+        assert!(limit.take(address(0), now) && !limit.take(address(0), now) && limit.take(address(1), now));
+        (2..20_000).for_each(|k| {
+            limit.take(address(k), now);
+        });
+        assert!(limit.buckets.lock().unwrap().len() <= REMEMBERED);
+        assert!(limit.take(address(30_000), now + Duration::from_secs(2)));
+    }
+}

@@ -1,0 +1,15 @@
+//! What the server says while it runs: failures of its own, on stderr, one line each. Who plays or rates what is nobody's business.
+
+use std::{error::Error, io::Write as _, iter::successors};
+
+/// Tells of a failure and its causes.
+pub(crate) fn failure(error: &dyn Error) {
+    let causes = successors(Some(error), |error| (*error).source()).map(ToString::to_string);
+    line(&format!("error: {}", causes.collect::<Vec<_>>().join(": ")));
+}
+
+/// Tells something.
+pub(crate) fn line(text: &str) {
+    // A closed stderr is no reason to stop.
+    let _ = writeln!(std::io::stderr(), "{text}");
+}

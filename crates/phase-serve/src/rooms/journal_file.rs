@@ -1,0 +1,72 @@
+//! The journal of a game on disk: `rooms/<name>.jsonl`.
+
+use phase_dataset::WriteError;
+use phase_game::Entry;
+use std::{
+    fs::{self, File, OpenOptions},
+    io::{self, Write as _},
+    path::{Path, PathBuf},
+};
+
+/// A journal that is being written.
+///
+/// An entry is with the operating system before anybody sees what it tells, so that nothing is lost if this program is killed; it is
+/// forced to the disk at the end of each round, so that a power failure costs the round that is played and nothing else.
+#[derive(Debug)]
+pub(super) struct JournalFile {
+    path: PathBuf,
+    file: File,
+}
+
+impl JournalFile {
+    /// The file of a room.
+    pub(super) fn path(folder: &Path, room: &str) -> PathBuf {
+        folder.join(format!("{room}.jsonl"))
+    }
+
+    /// A new journal; the file must not exist.
+    pub(super) fn create(folder: &Path, room: &str) -> Result<Self, WriteError> {
+        let path = Self::path(folder, room);
+        let opened = OpenOptions::new().append(true).create_new(true).open(&path);
+        match opened {
+            Ok(file) => Ok(Self { path, file }),
+            Err(source) => Err(WriteError { path, action: "create", source }),
+        }
+    }
+
+    /// A journal that goes on. A last line without its end, which nobody has seen the step of, is cut off.
+    pub(super) fn reopen(path: &Path, text: &str) -> Result<Self, WriteError> {
+        let failed = |source| WriteError { path: path.to_owned(), action: "continue", source };
+        let file = OpenOptions::new().append(true).open(path).map_err(failed)?;
+        let whole = text.rfind('\n').map_or(0, |end| end + 1);
+        file.set_len(whole as u64).map_err(failed)?;
+        Ok(Self { path: path.to_owned(), file })
+    }
+
+    /// Appends an entry.
+    pub(super) fn append(&mut self, entry: &Entry) -> Result<(), WriteError> {
+        let written = serde_json::to_vec(entry).map_err(io::Error::from).and_then(|mut line| {
+            line.push(b'\n');
+            self.file.write_all(&line)?;
+            match entry {
+                Entry::Step { .. } | Entry::Began { .. } => Ok(()),
+                _ => self.file.sync_data(),
+            }
+        });
+        written.map_err(|source| WriteError { path: self.path.clone(), action: "append to", source })
+    }
+}
+
+/// The journals of a folder and what is in them, by name of the file.
+pub(super) fn read_all(folder: &Path) -> io::Result<Vec<(PathBuf, String)>> {
+    let mut files = Vec::new();
+    for entry in fs::read_dir(folder)? {
+        let path = entry?.path();
+        if path.extension().is_some_and(|extension| extension == "jsonl") && path.is_file() {
+            let text = String::from_utf8_lossy(&fs::read(&path)?).into_owned();
+            files.push((path, text));
+        }
+    }
+    files.sort();
+    Ok(files)
+}

@@ -1,0 +1,147 @@
+//! From settings to a server that answers.
+
+use crate::{
+    App, ServeError, ServerSettings, admin,
+    assets::{self, Assets},
+    headers,
+    limits::PerAddress,
+    rooms::{self, Rooms},
+    token,
+};
+use axum::{Router, body::Bytes, extract::DefaultBodyLimit, middleware};
+use phase_game::playlist::Item;
+use std::{
+    future::Future,
+    net::{SocketAddr, TcpListener},
+    sync::Arc,
+    time::Duration,
+};
+use tokio::{runtime::Runtime, sync::watch};
+
+/// Largest body of a request (bytes): an answer, not a file.
+const LARGEST_BODY: usize = 64 * 1024;
+/// Requests of an address at once, and then a second. A page loads a few dozen files.
+const REQUESTS: (f64, f64) = (400.0, 200.0);
+/// Rooms opened from an address at once, and then a second.
+const OPENINGS: (f64, f64) = (30.0, 0.5);
+/// How long open connections may take to end when the server stops.
+const PATIENCE: Duration = Duration::from_secs(5);
+
+/// A server that listens.
+pub struct Server {
+    app: Arc<App>,
+    runtime: Runtime,
+    listener: tokio::net::TcpListener,
+    address: SocketAddr,
+    admin: String,
+    stop: watch::Sender<bool>,
+}
+
+impl core::fmt::Debug for Server {
+    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        formatter.debug_struct("Server").field("address", &self.address).finish_non_exhaustive()
+    }
+}
+
+impl Server {
+    /// Listens, and takes up the games in the settings' folder. `practice` comes before the rounds of each new game, which are drawn
+    /// from `scenes`; `wasm` is the playground's WebAssembly, in the order of [`phase_web::WASM`].
+    ///
+    /// # Errors
+    /// [`ServeError`].
+    pub fn bind(
+        settings: ServerSettings,
+        practice: Item,
+        scenes: Vec<Item>,
+        wasm: Option<[&[u8]; 2]>,
+    ) -> Result<Self, ServeError> {
+        let runtime =
+            tokio::runtime::Builder::new_multi_thread().enable_all().build().map_err(ServeError::Runtime)?;
+        let failed = |source| ServeError::Listen { address: settings.listen, source };
+        let listener = TcpListener::bind(settings.listen).map_err(failed)?;
+        listener.set_nonblocking(true).map_err(failed)?;
+        let address = listener.local_addr().map_err(failed)?;
+        let (stop, stopped) = watch::channel(false);
+        let _entered = runtime.enter();
+        let listener = tokio::net::TcpListener::from_std(listener).map_err(failed)?;
+        let admin = token::new()?;
+        let app = App {
+            rooms: Rooms::open(settings.clone(), practice, scenes, stopped)?,
+            assets: assets(wasm),
+            admin: token::kept(&admin),
+            requests: PerAddress::new(REQUESTS.0, REQUESTS.1),
+            openings: PerAddress::new(OPENINGS.0, OPENINGS.1),
+            settings,
+        };
+        drop(_entered);
+        Ok(Self { app: Arc::new(app), runtime, listener, address, admin, stop })
+    }
+
+    /// Where it listens.
+    #[must_use]
+    pub const fn address(&self) -> SocketAddr {
+        self.address
+    }
+
+    /// What the person in charge has to know.
+    #[must_use]
+    pub fn admin_token(&self) -> &str {
+        &self.admin
+    }
+
+    /// Serves until `until` is done. Games stop where they are; their journals are complete.
+    ///
+    /// # Errors
+    /// [`ServeError::Runtime`].
+    pub fn run(self, until: impl Future<Output = ()> + Send + 'static) -> Result<(), ServeError> {
+        let Self { app, runtime, listener, stop, .. } = self;
+        let service = router(app).into_make_service_with_connect_info::<SocketAddr>();
+        let served = runtime.block_on(async move {
+            let mut stopped = stop.subscribe();
+            let stopping = async move {
+                until.await;
+                // Nobody may be listening any more.
+                let _ = stop.send(true);
+            };
+            let late = async move {
+                // Connections that do not end by themselves are cut.
+                let _ = stopped.changed().await;
+                tokio::time::sleep(PATIENCE).await;
+            };
+            tokio::select! {
+                served = async { axum::serve(listener, service).with_graceful_shutdown(stopping).await } => served,
+                () = late => Ok(()),
+            }
+        });
+        runtime.shutdown_timeout(PATIENCE);
+        served.map_err(ServeError::Runtime)
+    }
+}
+
+/// All routes.
+fn router(app: Arc<App>) -> Router {
+    Router::new()
+        .merge(rooms::routes())
+        .merge(admin::routes())
+        .fallback(assets::file)
+        .layer(DefaultBodyLimit::max(LARGEST_BODY))
+        .layer(middleware::from_fn_with_state(Arc::clone(&app), headers::guard))
+        .with_state(app)
+}
+
+/// The pages by path.
+fn assets(wasm: Option<[&[u8]; 2]>) -> Assets {
+    let mut assets = Assets::default();
+    for file in phase_web::site() {
+        assets.add(format!("/{}", file.path), Bytes::from_static(file.bytes));
+    }
+    match wasm {
+        Some(wasm) => {
+            for file in phase_web::playground(wasm) {
+                assets.add(format!("/playground/{}", file.path), Bytes::copy_from_slice(file.bytes));
+            }
+        }
+        None => assets.add("/playground/index.html".into(), Bytes::from_static(phase_web::NO_PLAYGROUND)),
+    }
+    assets
+}
