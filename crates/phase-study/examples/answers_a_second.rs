@@ -4,12 +4,11 @@
 //! cargo run --release --package phase-study --example answers_a_second -- FOLDER
 //! ```
 
-use phase_model::random::{Purpose, stream};
 use phase_study::{
     config::StudyConfig,
     forms::Forms,
     store::Store,
-    study::{Stage, Study},
+    study::{Stage, Study, Token},
 };
 use serde_json::json;
 use std::{collections::BTreeMap, error::Error, path::PathBuf, time::Instant};
@@ -29,11 +28,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let file = folder.join("answers-a-second.sqlite");
     let store = Store::open(&file, &config.name, config.form.name())?;
     let mut study = Study::new(config, forms, store)?;
-    let mut random = stream(1, Purpose::Evaluation, 0);
     let begun = Instant::now();
     let mut tokens = Vec::new();
-    for _ in 0..RATERS {
-        let token = study.join(&BTreeMap::new(), 0, &mut random)?.token;
+    for k in 0..RATERS {
+        let token = study.join(&BTreeMap::new(), 0, Token::new((k as u128).to_le_bytes()))?.token;
         study.consent(&token, true, 0)?;
         study.instructed(&token, 0)?;
         tokens.push(token);

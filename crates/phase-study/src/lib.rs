@@ -15,8 +15,7 @@
 //! A study of two videos, each wanted by one rater, who answers both:
 //!
 //! ```
-//! use phase_study::{analysis::Analysis, config::StudyConfig, forms::Forms, store::Store, study::{Stage, Study}};
-//! use rand::SeedableRng;
+//! use phase_study::{analysis::Analysis, config::StudyConfig, forms::Forms, store::Store, study::{Stage, Study, Token}};
 //! use serde_json::json;
 //! use std::collections::BTreeMap;
 //!
@@ -32,9 +31,8 @@
 //! let store = Store::open(&folder.path().join("first.sqlite"), &config.name, config.form.name())?;
 //! let mut study = Study::new(config, forms.clone(), store)?;
 //!
-//! // A server would take random numbers that nobody can guess, and the time.
-//! let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(1);
-//! let token = study.join(&BTreeMap::new(), 0, &mut random)?.token;
+//! // A server would take random bytes of the operating system, and the time.
+//! let token = study.join(&BTreeMap::new(), 0, Token::new([7; 16]))?.token;
 //! study.consent(&token, true, 1000)?;
 //! study.instructed(&token, 2000)?;
 //! for trial in 1..=2 {

@@ -296,7 +296,10 @@ impl Failure for CliError {
             | Self::Threads { .. } => 1,
             #[cfg(feature = "serve")]
             Self::Serve(error) => match error {
-                phase_serve::ServeError::Listen { .. } | phase_serve::ServeError::Read { .. } => 2,
+                phase_serve::ServeError::Listen { .. }
+                | phase_serve::ServeError::Read { .. }
+                | phase_serve::ServeError::Study { .. }
+                | phase_serve::ServeError::Answers(_) => 2,
                 _ => 1,
             },
             #[cfg(feature = "networks")]

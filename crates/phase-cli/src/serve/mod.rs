@@ -1,4 +1,4 @@
-//! `serve`: the playground and the two-player game for browsers.
+//! `serve`: the playground, the two-player game and rating studies for browsers.
 
 pub mod options;
 #[cfg(feature = "serve")]
@@ -57,7 +57,8 @@ pub fn run(arguments: &Serve, context: &Context) -> Result<(), CliError> {
         game: GameSettings { simulation, ..default },
         seed: arguments.seed,
     };
-    let server = Server::bind(settings, practice, scenes, wasm)?;
+    let mut server = Server::bind(settings, practice, scenes, wasm)?;
+    server.open_studies(&arguments.studies)?;
     let address = server.address();
     print_result(format!(
         "http://{address}/\nhttp://{address}/admin/#{} (for you alone)\nrecordings and journals in {}; Ctrl-C stops",

@@ -18,12 +18,11 @@ fn a_program_without_studies_says_how_to_get_them() {
 mod built_in {
     use super::*;
     use crate::support::{recording, run, succeed, text, write_events};
-    use phase_model::random::{Purpose, stream};
     use phase_study::{
         config::StudyConfig,
         forms::Forms,
         store::Store,
-        study::{Stage, Study},
+        study::{Stage, Study, Token},
     };
     use serde_json::{Value, json};
     use std::{collections::BTreeMap, fs, path::Path};
@@ -40,15 +39,14 @@ mod built_in {
         let config = StudyConfig::read(&fs::read(path.join(config)).expect("bytes"), &forms).expect("valid");
         let store = Store::open(&path.join("answers.sqlite"), &config.name, config.form.name()).expect("a store");
         let mut study = Study::new(config, forms, store).expect("a study");
-        let mut random = stream(1, Purpose::Evaluation, 0);
-        for k in 0..3 {
+        for k in 0..3_u8 {
             let id = BTreeMap::from([("PROLIFIC_PID".to_owned(), format!("person-{k}"))]);
-            let token = study.join(&id, k, &mut random).expect("let in").token;
-            study.consent(&token, true, k).expect("agreed");
-            let mut stage = study.instructed(&token, k).expect("read");
+            let token = study.join(&id, k.into(), Token::new([k; 16])).expect("let in").token;
+            study.consent(&token, true, k.into()).expect("agreed");
+            let mut stage = study.instructed(&token, k.into()).expect("read");
             while let Stage::Trial(page) = stage {
                 let answer = json!({"trial": page.trial, "answer": {"relation": relation}, "response_time": 1000, "plays": 1});
-                stage = study.answer(&token, &answer, k).expect("answered");
+                stage = study.answer(&token, &answer, k.into()).expect("answered");
             }
         }
     }

@@ -207,7 +207,15 @@ impl Analysis {
     }
 }
 
-fn count(config: &StudyConfig, raters: &[Rater]) -> Raters {
+/// How often videos were judged by raters who count.
+#[must_use]
+pub fn coverage(config: &StudyConfig, raters: &[Rater]) -> Coverage {
+    Judgements::of(config, raters).coverage(config.stimuli.len())
+}
+
+/// How many raters came, and how far they got.
+#[must_use]
+pub fn count(config: &StudyConfig, raters: &[Rater]) -> Raters {
     let mut counts = Raters { joined: raters.len(), ..Raters::default() };
     for rater in raters {
         *match rater.standing(config) {

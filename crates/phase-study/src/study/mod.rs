@@ -17,7 +17,6 @@ use crate::{
     store::{Page, Store, Writing},
 };
 use phase_model::json::{Field, FieldError};
-use rand::Rng;
 use serde::Serialize;
 use serde_json::Value;
 use sha2::{Digest, Sha256};
@@ -106,8 +105,7 @@ impl Study {
     }
 
     /// Lets a rater in. `parameters` are the members of the address with which it came; those that the study does not keep are
-    /// ignored. One who has come before with the same identity goes on where it was. `random` has to be a generator whose
-    /// numbers nobody can guess, such as the operating system's.
+    /// ignored. One who has come before with the same identity goes on where it was. It is known by `token` from then on.
     ///
     /// # Errors
     /// [`StudyError::Field`] if a member of the address is missing, too long or not a line of text; [`StudyError::Store`].
@@ -115,11 +113,10 @@ impl Study {
         &mut self,
         parameters: &BTreeMap<String, String>,
         now: Millis,
-        random: &mut impl Rng,
+        token: Token,
     ) -> Result<Joined, StudyError> {
         let kept = self.kept(parameters)?;
         let identity = self.config.parameters.first().and_then(|name| kept.get(name)).map(String::as_str);
-        let token = Token::draw(random);
         let (config, forms) = (&self.config, &self.forms);
         self.store.write(|store| {
             let known = identity.map(|identity| store.rater_named(identity)).transpose()?.flatten();

@@ -1,6 +1,5 @@
 //! Tokens by which raters are known.
 
-use rand::Rng;
 use serde::{Serialize, Serializer};
 use sha2::{Digest, Sha256};
 
@@ -12,12 +11,10 @@ const BYTES: usize = 16;
 pub struct Token([u8; BYTES]);
 
 impl Token {
-    /// A new token.
+    /// A token of random bytes, which nobody must be able to guess: those of the operating system.
     #[must_use]
-    pub fn draw(random: &mut impl Rng) -> Self {
-        let mut bytes = [0; BYTES];
-        random.fill_bytes(&mut bytes);
-        Self(bytes)
+    pub const fn new(random: [u8; BYTES]) -> Self {
+        Self(random)
     }
 
     /// A token as it is written; `None` if it is not one.

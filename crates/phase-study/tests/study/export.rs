@@ -1,6 +1,6 @@
 //! Exports against the rules of Psych-DS and RFC 4180, and read back by what reads ratings.
 
-use crate::support::{begin, complete, document, forms, open, parameters, random, some_answer};
+use crate::support::{begin, complete, document, forms, open, parameters, random, token_of, some_answer};
 use phase_eval::ratings::ratings as read_ratings;
 use phase_study::{
     export::{File, psych_ds, ratings},
@@ -128,7 +128,7 @@ fn what_raters_write_is_data() {
         "=HYPERLINK(\"https://evil.example\",\"x\")", "+1", "-1", "@SUM(A1)", " =1", "a,b \"c\" 'd'", "<script>alert(1)</script>", "％",
     ];
     for (k, text) in texts.iter().enumerate() {
-        let joined = study.join(&parameters(&format!("={k}")), 0, &mut random(k as u64)).expect("let in");
+        let joined = study.join(&parameters(&format!("={k}")), 0, token_of(k as u64)).expect("let in");
         study.consent(&joined.token, true, 0).expect("agreed");
         study.demographics(&joined.token, &json!({"age": 20, "notes": text}), 0).expect("said");
     }
@@ -155,7 +155,7 @@ fn ratings_are_those_of_raters_who_count() {
     complete(&mut study, "p3", 0, |_| json!({"relation": "friendly"}));
     let gone = complete(&mut study, "p4", 0, neutral).expect("done");
     study.withdraw(&gone, 9).expect("withdrawn");
-    let token = study.join(&parameters("p5"), 0, &mut random(5)).expect("let in").token;
+    let token = study.join(&parameters("p5"), 0, token_of(5)).expect("let in").token;
     begin(&mut study, &token, 0);
     let raters = study_raters(&mut study);
     let counts = read_ratings(&ratings(study.config(), &raters).expect("relations")).expect("phase-ratings/1");

@@ -1,6 +1,6 @@
 //! The way of a rater through a study.
 
-use crate::support::{begin, complete, document, open, parameters, random, some_answer, submission};
+use crate::support::{begin, complete, document, open, parameters, random, token_of, some_answer, submission};
 use phase_study::{
     forms::Form,
     record::Standing,
@@ -29,7 +29,7 @@ fn a_rater_goes_from_consent_to_the_code() {
     for form in Form::ALL {
         let folder = tempfile::tempdir().expect("a folder");
         let mut study = open(folder.path(), &with_everything(form));
-        let joined = study.join(&parameters("p1"), 0, &mut random(1)).expect("let in");
+        let joined = study.join(&parameters("p1"), 0, token_of(1)).expect("let in");
         assert!(!joined.resumed && matches!(joined.stage, Stage::Consent { .. }));
         let token = Token::parse(&joined.token.text()).expect("a token");
         let stage = study.consent(&token, true, 1).expect("agreed");
@@ -53,7 +53,7 @@ fn a_rater_goes_from_consent_to_the_code() {
         let Stage::Done { code, url } = stage else { panic!("{stage:?}") };
         assert_eq!((code.as_deref(), url.as_deref()), (Some("ABC123"), Some("https://example.org/done?cc=ABC123")));
         // Whoever comes again with the same id is where it was, on another device too.
-        let again = study.join(&parameters("p1"), 9, &mut random(2)).expect("let in");
+        let again = study.join(&parameters("p1"), 9, token_of(2)).expect("let in");
         assert!(again.resumed && matches!(again.stage, Stage::Done { .. }) && again.token != token);
         assert_eq!(study.raters().expect("raters").len(), 1);
     }
@@ -63,7 +63,7 @@ fn a_rater_goes_from_consent_to_the_code() {
 fn wrong_answers_are_refused_and_change_nothing() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut study = open(folder.path(), &document(Form::Relation, 3, 2, 2));
-    let token = study.join(&BTreeMap::new(), 0, &mut random(1)).expect("let in").token;
+    let token = study.join(&BTreeMap::new(), 0, token_of(1)).expect("let in").token;
     let answer = json!({"relation": "neutral"});
     assert!(matches!(study.answer(&token, &submission(1, answer.clone()), 1), Err(StudyError::NotNow(_))));
     assert!(matches!(study.instructed(&token, 1), Err(StudyError::NotNow(_))));
@@ -97,7 +97,7 @@ fn wrong_answers_are_refused_and_change_nothing() {
 fn a_refusal_leaves_nothing_and_takes_no_place() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut study = open(folder.path(), &document(Form::Relation, 2, 1, 2));
-    let token = study.join(&parameters("p1"), 0, &mut random(1)).expect("let in").token;
+    let token = study.join(&parameters("p1"), 0, token_of(1)).expect("let in").token;
     assert_eq!(study.consent(&token, false, 1).expect("refused"), Stage::Declined);
     assert_eq!(study.consent(&token, false, 1).expect("refused"), Stage::Declined);
     assert!(matches!(study.consent(&token, true, 1), Err(StudyError::NotNow(_))));
@@ -111,14 +111,14 @@ fn a_refusal_leaves_nothing_and_takes_no_place() {
 fn the_study_is_full_and_places_of_who_is_gone_are_free_again() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut study = open(folder.path(), &document(Form::Relation, 2, 1, 2));
-    let token = study.join(&parameters("p1"), 0, &mut random(1)).expect("let in").token;
-    let late = study.join(&parameters("p3"), 0, &mut random(3)).expect("let in").token;
+    let token = study.join(&parameters("p1"), 0, token_of(1)).expect("let in").token;
+    let late = study.join(&parameters("p3"), 0, token_of(3)).expect("let in").token;
     begin(&mut study, &token, 0);
-    assert_eq!(study.join(&parameters("p2"), MINUTE, &mut random(2)).expect("told").stage, Stage::Full);
+    assert_eq!(study.join(&parameters("p2"), MINUTE, token_of(2)).expect("told").stage, Stage::Full);
     // One who was reading when the last place was taken is told, and may come again.
     assert_eq!(study.consent(&late, true, MINUTE).expect("told"), Stage::Full);
     study.answer(&token, &submission(1, json!({"relation": "neutral"})), 10 * MINUTE).expect("answered");
-    assert_eq!(study.join(&parameters("p2"), 70 * MINUTE, &mut random(2)).expect("told").stage, Stage::Full);
+    assert_eq!(study.join(&parameters("p2"), 70 * MINUTE, token_of(2)).expect("told").stage, Stage::Full);
     assert!(matches!(begin(&mut study, &late, 71 * MINUTE), Stage::Trial(_)));
     // Whoever was gone for long can still finish.
     let stage = study.answer(&token, &submission(2, json!({"relation": "neutral"})), 90 * MINUTE).expect("answered");
@@ -138,7 +138,7 @@ fn who_fails_the_catch_trials_does_not_count() {
     assert_eq!(raters[0].catch_failures(study.config()), 1);
     assert!(complete(&mut study, "p2", 2, |_| json!({"relation": "neutral"})).is_some());
     assert_eq!(study.raters().expect("raters")[1].standing(study.config()), Standing::Complete);
-    assert_eq!(study.join(&parameters("p3"), 3, &mut random(3)).expect("told").stage, Stage::Full);
+    assert_eq!(study.join(&parameters("p3"), 3, token_of(3)).expect("told").stage, Stage::Full);
 }
 
 #[test]
@@ -148,7 +148,7 @@ fn who_withdraws_is_deleted_and_the_place_is_free() {
     document["raters_per_video"] = json!(1);
     document["videos_per_rater"] = json!(6);
     let mut study = open(folder.path(), &document);
-    let joined = study.join(&parameters("A-PERSON-4711"), 0, &mut random(1)).expect("let in");
+    let joined = study.join(&parameters("A-PERSON-4711"), 0, token_of(1)).expect("let in");
     study.consent(&joined.token, true, 0).expect("agreed");
     study.demographics(&joined.token, &json!({"age": 30, "notes": "a secret 4712"}), 0).expect("said");
     study.instructed(&joined.token, 0).expect("read");
@@ -177,13 +177,13 @@ fn members_of_the_address_are_checked() {
     document["identity_required"] = json!(true);
     let mut study = open(folder.path(), &document);
     for wrong in ["", "a\nb", &"x".repeat(201)] {
-        let refused = study.join(&parameters(wrong), 0, &mut random(1)).expect_err("refused").to_string();
+        let refused = study.join(&parameters(wrong), 0, token_of(1)).expect_err("refused").to_string();
         assert!(refused.contains("PROLIFIC_PID"), "{refused}");
     }
     let mut more = parameters("p1");
     more.insert("SESSION_ID".into(), "s".into());
     more.insert("utm_source".into(), "not kept".into());
-    study.join(&more, 0, &mut random(1)).expect("let in");
+    study.join(&more, 0, token_of(1)).expect("let in");
     let kept: Vec<String> = study.raters().expect("raters")[0].parameters.keys().cloned().collect();
     assert_eq!(kept, ["PROLIFIC_PID", "SESSION_ID"]);
 }
@@ -194,7 +194,7 @@ fn exactly_as_many_raters_as_are_wanted_finish() {
     let mut study = open(folder.path(), &document(Form::Relation, 10, 3, 4));
     let answer = |_: &_| json!({"relation": "neutral"});
     let done = (0..20).filter(|k| {
-        let joined = study.join(&parameters(&format!("p{k}")), *k, &mut random(*k as u64)).expect("told");
+        let joined = study.join(&parameters(&format!("p{k}")), *k, token_of(*k as u64)).expect("told");
         joined.stage != Stage::Full && complete(&mut study, &format!("p{k}"), *k, answer).is_some()
     });
     assert_eq!(done.count(), 8);

@@ -1,6 +1,6 @@
 //! The file of answers.
 
-use crate::support::{begin, document, forms, open, parameters, random, read, submission};
+use crate::support::{begin, document, forms, open, parameters, read, token_of, submission};
 use phase_study::{
     forms::Form,
     store::{Store, StoreProblem},
@@ -15,7 +15,7 @@ fn answers_are_there_after_the_program_is_gone() {
     let folder = tempfile::tempdir().expect("a folder");
     let document = document(Form::Relation, 3, 2, 3);
     let mut study = open(folder.path(), &document);
-    let token = study.join(&parameters("p1"), 0, &mut random(1)).expect("let in").token;
+    let token = study.join(&parameters("p1"), 0, token_of(1)).expect("let in").token;
     begin(&mut study, &token, 1);
     study.answer(&token, &submission(1, json!({"relation": "neutral"})), 2).expect("answered");
     let (before, stage) = (study.raters().expect("raters"), study.stage(&token).expect("a stage"));
@@ -54,7 +54,7 @@ fn damage_is_named() {
     let folder = tempfile::tempdir().expect("a folder");
     let document = document(Form::Relation, 3, 2, 3);
     let mut study = open(folder.path(), &document);
-    let token = study.join(&parameters("p1"), 0, &mut random(1)).expect("let in").token;
+    let token = study.join(&parameters("p1"), 0, token_of(1)).expect("let in").token;
     begin(&mut study, &token, 1);
     study.answer(&token, &submission(1, json!({"relation": "neutral"})), 2).expect("answered");
     let other = Connection::open(folder.path().join("answers.sqlite")).expect("a database");
@@ -71,7 +71,7 @@ fn a_video_that_was_given_to_somebody_cannot_be_taken_away() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut document = document(Form::Relation, 3, 2, 3);
     let mut study = open(folder.path(), &document);
-    let token = study.join(&parameters("p1"), 0, &mut random(1)).expect("let in").token;
+    let token = study.join(&parameters("p1"), 0, token_of(1)).expect("let in").token;
     begin(&mut study, &token, 1);
     drop(study);
     document["stimuli"][0]["id"] = json!("another");

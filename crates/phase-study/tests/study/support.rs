@@ -43,6 +43,13 @@ pub(crate) fn random(seed: u64) -> Pcg64Mcg {
     Pcg64Mcg::seed_from_u64(seed)
 }
 
+/// A token that a test can predict.
+pub(crate) fn token_of(seed: u64) -> Token {
+    let mut bytes = [0; 16];
+    random(seed).fill_bytes(&mut bytes);
+    Token::new(bytes)
+}
+
 pub(crate) fn parameters(id: &str) -> BTreeMap<String, String> {
     BTreeMap::from([("PROLIFIC_PID".to_owned(), id.to_owned())])
 }
@@ -89,7 +96,7 @@ pub(crate) fn complete(
     mut answer: impl FnMut(&TrialPage) -> Value,
 ) -> Option<Token> {
     let seed = id.bytes().fold(u64::from(now.unsigned_abs() as u32), |sum, byte| sum * 31 % 1_000_003 + u64::from(byte));
-    let joined = study.join(&parameters(id), now, &mut random(seed)).expect("let in");
+    let joined = study.join(&parameters(id), now, token_of(seed)).expect("let in");
     let mut stage = begin(study, &joined.token, now);
     while let Stage::Trial(page) = &stage {
         let given = submission(page.trial, answer(page));
