@@ -43,11 +43,11 @@ impl Controls {
 
     /// The action of the next step, for an agent that holds an object or not.
     pub fn take(&mut self, holds: bool) -> Action {
-        let pressed = self.pressed.take();
         match (core::mem::take(&mut self.grab), holds) {
+            // What was pressed beside it acts in the step after.
             (true, true) => Action::Detach,
             (true, false) => Action::Attach,
-            (false, _) => pressed.unwrap_or(self.held),
+            (false, _) => self.pressed.take().unwrap_or(self.held),
         }
     }
 }
@@ -76,6 +76,11 @@ mod tests {
         assert_eq!(controls.take(true), Action::Up);
         controls.grab();
         assert_eq!(controls.take(true), Action::Detach);
+        controls.hold(Action::Left);
+        controls.hold(Action::Stop);
+        controls.grab();
+        assert_eq!([controls.take(false), controls.take(true)], [Action::Attach, Action::Left]);
+        controls.hold(Action::Up);
         controls.hold(Action::Attach);
         assert_eq!(controls.take(true), Action::Up);
         controls.grab();

@@ -18,7 +18,7 @@ pub(super) const LARGEST_MESSAGE: usize = 512;
 /// Messages that wait for a player at most: four seconds of a game.
 const OUTBOX: usize = 32;
 /// How long a page may take to say who it is.
-const INTRODUCTION: Duration = Duration::from_secs(10);
+const INTRODUCTION_TIME: Duration = Duration::from_secs(10);
 /// Time between questions whether a player is still there.
 const PING: Duration = Duration::from_secs(5);
 /// A player that answers none for so long is gone.
@@ -33,15 +33,17 @@ const ANOTHER_CONNECTION: u16 = 4001;
 
 /// The first message of a page.
 #[derive(Deserialize)]
-#[serde(tag = "type", rename = "join", deny_unknown_fields)]
-struct Join {
-    token: String,
+#[serde(tag = "type", rename_all = "lowercase", deny_unknown_fields)]
+enum Introduction {
+    Join { token: String },
 }
 
 /// Lets a page play whose first message has a token.
 pub(super) async fn play(rooms: Arc<Rooms>, mut socket: WebSocket) {
-    let token = match timeout(INTRODUCTION, socket.recv()).await {
-        Ok(Some(Ok(Message::Text(text)))) => serde_json::from_str(&text).ok().map(|Join { token }| token),
+    let token = match timeout(INTRODUCTION_TIME, socket.recv()).await {
+        Ok(Some(Ok(Message::Text(text)))) => {
+            serde_json::from_str(&text).ok().map(|Introduction::Join { token }| token)
+        }
         _ => None,
     };
     let Some((inbox, status, agent)) = token.and_then(|token| rooms.seat(&token)) else {

@@ -58,7 +58,7 @@ async function refresh() {
   at("count").textContent = `${rooms.length} of at most ${most_rooms} games, ${recordings} recordings.`;
   const trip = (ms) => (ms === null ? "–" : `${ms} ms`);
   at("rooms").replaceChildren(table(
-    ["room", "doing", "round", "red", "green", "round trip", ""],
+    ["room", "doing", "round", "red", "green", "round trip", "end"],
     rooms.map(({ room, doing, round, rounds, connected, round_trip_ms }) => [
       room, doing, `${round} of ${rounds}`, connected[0] ? "here" : "–", connected[1] ? "here" : "–", round_trip_ms.map(trip).join(", "),
       button("End", async () => (await ask(`api/rooms/${encodeURIComponent(room)}`, { method: "DELETE" })) && refresh()),
