@@ -12,7 +12,8 @@ pub fn krippendorff_alpha<'a>(units: impl IntoIterator<Item = &'a [usize]>) -> O
     let mut totals = Vec::<f64>::new();
     let (mut count, mut observed) = (0.0, 0.0);
     // Ordered pairs of equal values.
-    let equal = |counts: &mut dyn Iterator<Item = f64>| counts.map(|number| number * (number - 1.0)).sum::<f64>();
+    let equal =
+        |counts: &mut dyn Iterator<Item = f64>| counts.map(|number| number * (number - 1.0)).sum::<f64>();
     for unit in units {
         let raters = unit.iter().sum::<usize>() as f64;
         if raters < 2.0 {

@@ -1,8 +1,8 @@
 //! Statistics compared with published tables and values derived from their definitions.
 
 use phase_statistics::{
-    Interval, bootstrap_difference, bootstrap_mean, fisher_exact_greater, krippendorff_alpha, mean, median, percentile, quartiles, standard_error,
-    wilson_interval,
+    Interval, bootstrap_difference, bootstrap_mean, fisher_exact_greater, krippendorff_alpha, mean, median,
+    percentile, quartiles, standard_error, wilson_interval,
 };
 use proptest::prelude::*;
 use rand_pcg::Pcg64Mcg;
@@ -188,7 +188,10 @@ fn the_interval_of_a_difference() {
     let other: Vec<f64> = (0..400).map(|k| if k % 2 == 0 { 3.0 } else { -1.0 }).collect();
     let interval = bootstrap_difference(&one, &other, 10_000, 0.95, &mut random).expect("values");
     let half = 1.96 * (5.0_f64 / 400.0).sqrt();
-    assert!((interval.low - (2.0 - half)).abs() < 0.01 && (interval.high - (2.0 + half)).abs() < 0.01, "{interval:?}");
+    assert!(
+        (interval.low - (2.0 - half)).abs() < 0.01 && (interval.high - (2.0 + half)).abs() < 0.01,
+        "{interval:?}"
+    );
     assert_eq!(bootstrap_difference(&[], &other, 10, 0.95, &mut random), None);
     assert_eq!(bootstrap_difference(&one, &[], 10, 0.95, &mut random), None);
 }

@@ -18,7 +18,8 @@ const VIDEOS: usize = 20;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let folder = PathBuf::from(std::env::args().nth(1).ok_or("which folder?")?);
-    let stimuli: Vec<_> = (0..100).map(|k| json!({"id": k.to_string(), "video": format!("{k}.mp4")})).collect();
+    let stimuli: Vec<_> =
+        (0..100).map(|k| json!({"id": k.to_string(), "video": format!("{k}.mp4")})).collect();
     let config = json!({
         "format": "phase-study/1", "name": "bench", "title": "Bench", "form": "goals", "consent": ["?"], "instructions": ["!"],
         "stimuli": stimuli, "raters_per_video": RATERS, "videos_per_rater": VIDEOS, "raters": RATERS,
@@ -37,7 +38,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         tokens.push(token);
     }
     println!("{RATERS} raters let in: {:.1} ms each", begun.elapsed().as_secs_f64() * 1000.0 / RATERS as f64);
-    let answer = json!({"goal_0": "touch", "goal_1": "get away", "relation": "adversarial", "human_likeness": "4"});
+    let answer =
+        json!({"goal_0": "touch", "goal_1": "get away", "relation": "adversarial", "human_likeness": "4"});
     let mut times = Vec::new();
     for trial in 1..=VIDEOS {
         for token in &tokens {

@@ -138,7 +138,9 @@ fn entry(question: &Field<'_>, choices: &Field<'_>) -> Result<Entry, FieldError>
 fn read_offer(offer: &Field<'_>) -> Result<Offer, FieldError> {
     offer.only(&["value", "text", "objects"])?;
     let objects = offer.optional("objects")?.map(|field| field.whole(0, MOST_OBJECTS.into())).transpose()?;
-    let choice =
-        Choice { value: offer.required("value")?.text()?.into(), text: offer.required("text")?.text()?.into() };
+    let choice = Choice {
+        value: offer.required("value")?.text()?.into(),
+        text: offer.required("text")?.text()?.into(),
+    };
     Ok(Offer { choice, objects: objects.and_then(|number| u8::try_from(number).ok()).unwrap_or_default() })
 }

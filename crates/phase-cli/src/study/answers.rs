@@ -18,12 +18,14 @@ use std::{fs, path::Path};
 
 /// The raters of a study.
 fn raters(config: &StudyConfig, answers: &Path) -> Result<Vec<Rater>, CliError> {
-    let mut store = Store::open_existing(answers, &config.name, config.form.name()).map_err(CliError::Answers)?;
+    let mut store =
+        Store::open_existing(answers, &config.name, config.form.name()).map_err(CliError::Answers)?;
     store.raters().map_err(CliError::Answers)
 }
 
 fn folder(path: &Path) -> Result<(), CliError> {
-    let failed = |source| CliError::Output(WriteError { path: path.to_owned(), action: "create the folder", source });
+    let failed =
+        |source| CliError::Output(WriteError { path: path.to_owned(), action: "create the folder", source });
     fs::create_dir_all(path).map_err(failed)
 }
 
@@ -43,7 +45,8 @@ pub(super) fn export(arguments: &ExportStudy) -> Result<(), CliError> {
     }
     // Psych-DS has a folder for what was made of the data.
     let file = out.join("products/ratings.json");
-    let rated = ratings.as_ref().map_or(0, |ratings| ratings["ratings"].as_object().map_or(0, serde_json::Map::len));
+    let rated =
+        ratings.as_ref().map_or(0, |ratings| ratings["ratings"].as_object().map_or(0, serde_json::Map::len));
     if let Some(ratings) = ratings.filter(|_| rated > 0) {
         folder(&out.join("products"))?;
         atomic::write_json(&file, &ratings).map_err(CliError::Output)?;
@@ -64,7 +67,8 @@ pub(super) fn report(arguments: &ReportStudy) -> Result<(), CliError> {
     let analysis = Analysis::of(&config, &forms, &raters(&config, &arguments.answers)?);
     let document = document(&config.title, &analysis);
     folder(out)?;
-    let write = |name: &str, text: &str| atomic::write(&out.join(name), text.as_bytes()).map_err(CliError::Output);
+    let write =
+        |name: &str, text: &str| atomic::write(&out.join(name), text.as_bytes()).map_err(CliError::Output);
     for (file, svg) in document.plots() {
         write(file, svg)?;
     }

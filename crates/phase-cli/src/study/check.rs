@@ -27,15 +27,18 @@ pub(super) fn run(arguments: &CheckStudy, context: &Context) -> Result<(), CliEr
     }
     let open = |texts: &[String]| texts.iter().any(|text| text.contains('[') && text.contains(']'));
     let mut notes = Vec::new();
-    for (name, texts) in
-        [("introduction", &config.introduction), ("consent", &config.consent), ("instructions", &config.instructions)]
-    {
+    for (name, texts) in [
+        ("introduction", &config.introduction),
+        ("consent", &config.consent),
+        ("instructions", &config.instructions),
+    ] {
         if open(texts) {
             notes.push(format!("`{name}` has a text in [brackets] that waits to be replaced"));
         }
     }
     if config.completion.code.is_none() && config.completion.url.is_none() {
-        notes.push("`completion` has neither code nor url: raters cannot show that they have finished".into());
+        notes
+            .push("`completion` has neither code nor url: raters cannot show that they have finished".into());
     }
     if config.catch_trials.is_empty() {
         notes.push("`catch_trials` is empty: inattentive raters are not told from others".into());

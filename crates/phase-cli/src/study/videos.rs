@@ -64,7 +64,8 @@ fn of_dataset(folder: &Path, source: &str, base: &Path) -> Result<Vec<Stimulus>,
             let sentence = format!("{}: event {} has no video", folder.display(), entry.id);
             return Err(CliError::Usage(sentence));
         };
-        let attitudes = entry.agents.each_ref().map(|agent| Attitude::try_from(agent.alpha).unwrap_or_default());
+        let attitudes =
+            entry.agents.each_ref().map(|agent| Attitude::try_from(agent.alpha).unwrap_or_default());
         let goals = entry.agents.each_ref().map(|agent| agent.goal);
         Ok(Stimulus {
             id: entry.id.clone(),

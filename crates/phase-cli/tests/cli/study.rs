@@ -7,7 +7,9 @@ use crate::support::{refuse, tree};
 fn a_program_without_studies_says_how_to_get_them() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path();
-    for arguments in [&["study", "check", "s.json"][..], &["study", "new", "--experiment", "relations", "--videos", "v"]] {
+    for arguments in
+        [&["study", "check", "s.json"][..], &["study", "new", "--experiment", "relations", "--videos", "v"]]
+    {
         let sentence = refuse(path, arguments);
         assert!(sentence.contains("`cargo install --path crates/phase-cli`"), "{sentence}");
     }
@@ -37,7 +39,8 @@ mod built_in {
     fn answer(path: &Path, config: &str, relation: &str) {
         let forms = Forms::included().expect("forms");
         let config = StudyConfig::read(&fs::read(path.join(config)).expect("bytes"), &forms).expect("valid");
-        let store = Store::open(&path.join("answers.sqlite"), &config.name, config.form.name()).expect("a store");
+        let store =
+            Store::open(&path.join("answers.sqlite"), &config.name, config.form.name()).expect("a store");
         let mut study = Study::new(config, forms, store).expect("a study");
         for k in 0..3_u8 {
             let id = BTreeMap::from([("PROLIFIC_PID".to_owned(), format!("person-{k}"))]);
@@ -56,11 +59,16 @@ mod built_in {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path();
         dataset(path);
-        let new = ["study", "new", "--experiment", "relations", "--videos", "data", "--catch", "demo-0001=neutral"];
+        let new =
+            ["study", "new", "--experiment", "relations", "--videos", "data", "--catch", "demo-0001=neutral"];
         let told = succeed(path, &new);
         assert!(told.contains("3 videos") && told.contains("phase study check study.json"), "{told}");
-        let checked: Value = serde_json::from_str(&succeed(path, &["study", "check", "study.json", "--json"])).expect("JSON");
-        assert_eq!((&checked["videos"], &checked["catch_trials"], &checked["raters"]), (&json!(3), &json!(1), &json!(10)));
+        let checked: Value =
+            serde_json::from_str(&succeed(path, &["study", "check", "study.json", "--json"])).expect("JSON");
+        assert_eq!(
+            (&checked["videos"], &checked["catch_trials"], &checked["raters"]),
+            (&json!(3), &json!(1), &json!(10))
+        );
         assert!(checked["notes"].to_string().contains("[brackets]"), "{checked}");
 
         answer(path, "study.json", "neutral");
@@ -73,18 +81,38 @@ mod built_in {
         assert!(tables.iter().all(|table| !table.contains("person-0")), "ids stay here");
         succeed(path, &[&["study", "export"], &answers[..], &["--out", "named", "--external-ids"]].concat());
         assert!(tree(&path.join("named")).values().any(|bytes| text(bytes).contains("person-0")));
-        assert!(refuse(path, &[&["study", "export"], &answers[..], &["--out", "named"]].concat()).contains("not an empty folder"));
+        assert!(
+            refuse(path, &[&["study", "export"], &answers[..], &["--out", "named"]].concat())
+                .contains("not an empty folder")
+        );
 
-        let evaluated = succeed(path, &[
-            "eval", "goals", "--method", "chance", "--events", "data", "--ratings", "export/products/ratings.json", "--out", "eval", "--json",
-        ]);
+        let evaluated = succeed(
+            path,
+            &[
+                "eval",
+                "goals",
+                "--method",
+                "chance",
+                "--events",
+                "data",
+                "--ratings",
+                "export/products/ratings.json",
+                "--out",
+                "eval",
+                "--json",
+            ],
+        );
         let evaluated: Value = serde_json::from_str(&evaluated).expect("JSON");
         assert_eq!(evaluated["agreement"]["n"], 3);
         assert_eq!(evaluated["agreement"]["ratings"], 9);
 
-        let report = succeed(path, &[&["study", "report"], &answers[..], &["--out", "report", "--json"]].concat());
+        let report =
+            succeed(path, &[&["study", "report"], &answers[..], &["--out", "report", "--json"]].concat());
         let analysis: Value = serde_json::from_str(&report).expect("JSON");
-        assert_eq!((&analysis["raters"]["complete"], &analysis["coverage"]["judgements"]), (&json!(3), &json!(9)));
+        assert_eq!(
+            (&analysis["raters"]["complete"], &analysis["coverage"]["judgements"]),
+            (&json!(3), &json!(9))
+        );
         let files = tree(&path.join("report"));
         for file in ["report.md", "report.html", "analysis.json"] {
             assert!(files.contains_key(Path::new(file)), "{file}");
@@ -102,18 +130,36 @@ mod built_in {
             fs::copy(from, path.join(format!("human/played-{k}.mp4"))).expect("copied");
         }
         write_events(&path.join("events.json"), &[recording("played-0"), recording("another")]);
-        let told = succeed(path, &[
-            "study", "new", "--experiment", "experiment-2", "--videos", "data", "--videos", "human=human", "--events", "events.json",
-            "--sample", "2", "--json",
-        ]);
+        let told = succeed(
+            path,
+            &[
+                "study",
+                "new",
+                "--experiment",
+                "experiment-2",
+                "--videos",
+                "data",
+                "--videos",
+                "human=human",
+                "--events",
+                "events.json",
+                "--sample",
+                "2",
+                "--json",
+            ],
+        );
         let told: Value = serde_json::from_str(&told).expect("JSON");
         assert_eq!((&told["videos"], &told["videos_per_rater"]), (&json!(4), &json!(2)));
-        let config: Value = serde_json::from_slice(&fs::read(path.join("study.json")).expect("bytes")).expect("JSON");
+        let config: Value =
+            serde_json::from_slice(&fs::read(path.join("study.json")).expect("bytes")).expect("JSON");
         assert_eq!(config["between_sources"], true);
         let stimuli = config["stimuli"].as_array().expect("a list");
         let played = stimuli.iter().find(|it| it["id"] == "played-0").expect("there");
         assert_eq!((&played["source"], &played["objects"]), (&json!("human"), &json!(1)));
-        assert_eq!((&played["goals"], &played["relation"]), (&json!(["agent on blue", "agent on green"]), &json!("neutral")));
+        assert_eq!(
+            (&played["goals"], &played["relation"]),
+            (&json!(["agent on blue", "agent on green"]), &json!("neutral"))
+        );
         assert!(stimuli.iter().any(|it| it["id"] == "played-1" && it["relation"].is_null()));
         succeed(path, &["study", "check", "study.json"]);
     }
@@ -148,7 +194,9 @@ mod built_in {
         let other = ["study", "report", "study.json", "--answers", "study.json", "--out", "report"];
         assert!(refuse(path, &other).contains("is not a file with answers"));
         fs::write(path.join("data/videos/demo-0002.mp4"), "<html>").expect("written");
-        assert!(refuse(path, &["study", "check", "study.json"]).contains("demo-0002.mp4: is not an .mp4 file"));
+        assert!(
+            refuse(path, &["study", "check", "study.json"]).contains("demo-0002.mp4: is not an .mp4 file")
+        );
         fs::remove_file(path.join("data/videos/demo-0002.mp4")).expect("removed");
         assert!(refuse(path, &["study", "check", "study.json"]).contains("demo-0002.mp4"));
         let output = run(path, &["study", "check", "data/manifest.json"]);

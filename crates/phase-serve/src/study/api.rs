@@ -109,7 +109,12 @@ async fn state(State(app): State<Arc<App>>, Path(study): Path<String>, headers: 
 }
 
 /// `{"agrees": true}`.
-async fn consent(State(app): State<Arc<App>>, Path(study): Path<String>, headers: HeaderMap, body: Bytes) -> Answer {
+async fn consent(
+    State(app): State<Arc<App>>,
+    Path(study): Path<String>,
+    headers: HeaderMap,
+    body: Bytes,
+) -> Answer {
     post_with(&app, &study, &headers, &body, |study, token, document| {
         let root = Field::root(&document);
         root.only(&["agrees"])?;
@@ -127,7 +132,10 @@ async fn demographics(
     headers: HeaderMap,
     body: Bytes,
 ) -> Answer {
-    post_with(&app, &study, &headers, &body, |study, token, document| study.demographics(&token, &document, now())).await
+    post_with(&app, &study, &headers, &body, |study, token, document| {
+        study.demographics(&token, &document, now())
+    })
+    .await
 }
 
 /// `{}`.
@@ -145,12 +153,23 @@ async fn instructions(
 }
 
 /// `{"trial", "answer", "response_time", "plays"}`, see [`Study::answer`].
-async fn answer(State(app): State<Arc<App>>, Path(study): Path<String>, headers: HeaderMap, body: Bytes) -> Answer {
-    post_with(&app, &study, &headers, &body, |study, token, document| study.answer(&token, &document, now())).await
+async fn answer(
+    State(app): State<Arc<App>>,
+    Path(study): Path<String>,
+    headers: HeaderMap,
+    body: Bytes,
+) -> Answer {
+    post_with(&app, &study, &headers, &body, |study, token, document| study.answer(&token, &document, now()))
+        .await
 }
 
 /// `{}`.
-async fn withdraw(State(app): State<Arc<App>>, Path(study): Path<String>, headers: HeaderMap, body: Bytes) -> Answer {
+async fn withdraw(
+    State(app): State<Arc<App>>,
+    Path(study): Path<String>,
+    headers: HeaderMap,
+    body: Bytes,
+) -> Answer {
     post_with(&app, &study, &headers, &body, |study, token, document| {
         Field::root(&document).only(&[])?;
         study.withdraw(&token, now())

@@ -52,7 +52,8 @@ async fn file(
     let external_ids = query.as_deref() == Some("external_ids");
     let (kind, bytes) = match file.as_str() {
         "psych-ds.tar" => {
-            let made = computed(&running, move |config, forms, raters| tar(config, forms, raters, external_ids));
+            let made =
+                computed(&running, move |config, forms, raters| tar(config, forms, raters, external_ids));
             ("application/x-tar", made.await?)
         }
         "ratings.json" => {
@@ -69,7 +70,8 @@ async fn file(
         }
         "analysis.json" => {
             let made = computed(&running, |config, forms, raters| {
-                serde_json::to_vec_pretty(&Analysis::of(config, forms, raters)).map_err(|error| ApiError::failed(&error))
+                serde_json::to_vec_pretty(&Analysis::of(config, forms, raters))
+                    .map_err(|error| ApiError::failed(&error))
             });
             ("application/json", made.await?)
         }
@@ -77,7 +79,8 @@ async fn file(
     };
     let name = HeaderValue::try_from(format!("attachment; filename=\"{study}-{file}\""));
     let name = name.unwrap_or(HeaderValue::from_static("attachment"));
-    let headers = [(header::CONTENT_TYPE, HeaderValue::from_static(kind)), (header::CONTENT_DISPOSITION, name)];
+    let headers =
+        [(header::CONTENT_TYPE, HeaderValue::from_static(kind)), (header::CONTENT_DISPOSITION, name)];
     Ok((headers, bytes).into_response())
 }
 
@@ -93,7 +96,12 @@ async fn computed<T: Send + 'static>(
     done.await.map_err(|error| ApiError::failed(&error))?
 }
 
-fn tar(config: &StudyConfig, forms: &Forms, raters: &[Rater], external_ids: bool) -> Result<Vec<u8>, ApiError> {
+fn tar(
+    config: &StudyConfig,
+    forms: &Forms,
+    raters: &[Rater],
+    external_ids: bool,
+) -> Result<Vec<u8>, ApiError> {
     let write = || -> io::Result<Vec<u8>> {
         let mut tar = Builder::new(Vec::new());
         for file in psych_ds(config, forms, raters, external_ids) {

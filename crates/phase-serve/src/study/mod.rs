@@ -34,8 +34,8 @@ pub(crate) fn routes() -> Router<Arc<crate::App>> {
 pub(crate) struct Running {
     study: Mutex<Study>,
     forms: Forms,
-    /// The folder of the configuration, which videos are relative to.
-    folder: PathBuf,
+    /// Files of the videos by their names in addresses.
+    videos: BTreeMap<String, PathBuf>,
     name: String,
     title: String,
 }
@@ -81,7 +81,8 @@ impl Running {
         let store = Store::open(&path, &config.name, config.form.name())?;
         let (name, title) = (config.name.clone(), config.title.clone());
         let study = Study::new(config, forms.clone(), store).map_err(|error| wrong(error.to_string()))?;
-        Ok(Self { study: Mutex::new(study), forms, folder: base, name, title })
+        let videos = study.addresses().map(|(name, file)| (name.to_owned(), base.join(file))).collect();
+        Ok(Self { study: Mutex::new(study), forms, videos, name, title })
     }
 
     /// Does something with the study, on a thread that may wait for the disk.
@@ -102,7 +103,9 @@ fn refusal(error: StudyError) -> ApiError {
     use axum::http::StatusCode;
     match error {
         StudyError::Token => ApiError::new(StatusCode::UNAUTHORIZED, error.to_string()),
-        StudyError::NotNow(_) | StudyError::OtherAnswer => ApiError::new(StatusCode::CONFLICT, error.to_string()),
+        StudyError::NotNow(_) | StudyError::OtherAnswer => {
+            ApiError::new(StatusCode::CONFLICT, error.to_string())
+        }
         StudyError::Field(error) => ApiError::bad(error.to_string()),
         StudyError::Store(_) | StudyError::Unknown { .. } => ApiError::failed(&error),
     }

@@ -11,7 +11,7 @@ use futures_util::stream;
 use std::{
     fs::File,
     io::{self, Read as _, Seek as _, SeekFrom},
-    sync::{Arc, PoisonError},
+    sync::Arc,
 };
 
 /// Bytes read at once.
@@ -31,11 +31,8 @@ pub(super) async fn video(
     headers: HeaderMap,
 ) -> Result<Response, ApiError> {
     let running = app.studies.get(&study)?;
-    let file = {
-        let study = running.study.lock().unwrap_or_else(PoisonError::into_inner);
-        let file = name.strip_suffix(".mp4").and_then(|name| study.video(name));
-        running.folder.join(file.ok_or_else(ApiError::missing)?)
-    };
+    let file = name.strip_suffix(".mp4").and_then(|name| running.videos.get(name));
+    let file = file.cloned().ok_or_else(ApiError::missing)?;
     let opened = tokio::task::spawn_blocking(move || {
         let file = File::open(file)?;
         let length = file.metadata()?.len();
@@ -83,7 +80,9 @@ fn range(asked: &str, length: u64) -> Asked {
     let Some((from, to)) = asked.strip_prefix("bytes=").and_then(|range| range.trim().split_once('-')) else {
         return Asked::Whole;
     };
-    let number = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit()).then(|| text.parse::<u64>().ok()).flatten();
+    let number = |text: &str| {
+        text.bytes().all(|byte| byte.is_ascii_digit()).then(|| text.parse::<u64>().ok()).flatten()
+    };
     let (from, to) = match (from, to) {
         ("", last) => match number(last) {
             Some(last) => (length.saturating_sub(last), length.saturating_sub(u64::from(last > 0))),
@@ -144,7 +143,8 @@ mod tests {
         assert_eq!(range("bytes=10000-", 10_000), Asked::Nothing);
         assert_eq!(range("bytes=-0", 10_000), Asked::Nothing);
         assert_eq!(range("bytes=0-", 0), Asked::Nothing);
-        for other in ["bytes=0-0,-1", "items=0-5", "bytes=5-2", "bytes=a-b", "bytes", "bytes=+1-2", "bytes=-"] {
+        for other in ["bytes=0-0,-1", "items=0-5", "bytes=5-2", "bytes=a-b", "bytes", "bytes=+1-2", "bytes=-"]
+        {
             assert_eq!(range(other, 10_000), Asked::Whole, "{other}");
         }
     }

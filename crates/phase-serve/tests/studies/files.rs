@@ -18,7 +18,10 @@ fn videos_come_whole_and_in_parts() {
     };
     let whole = get("GET", None);
     assert!(whole.status == 200 && whole.body == bytes);
-    assert_eq!((whole.headers["content-type"].as_str(), whole.headers["accept-ranges"].as_str()), ("video/mp4", "bytes"));
+    assert_eq!(
+        (whole.headers["content-type"].as_str(), whole.headers["accept-ranges"].as_str()),
+        ("video/mp4", "bytes")
+    );
     let part = get("GET", Some("bytes=100-199"));
     assert!(part.status == 206 && part.body == bytes[100..200]);
     assert_eq!(part.headers["content-range"], "bytes 100-199/5000");
@@ -27,7 +30,8 @@ fn videos_come_whole_and_in_parts() {
     assert_eq!(get("GET", Some("bytes=5000-")).status, 416);
     let head = get("HEAD", None);
     assert!(head.status == 200 && head.body.is_empty() && head.headers["content-length"] == "5000");
-    for other in ["/study/pilot/videos/0.mp4", "/study/pilot/videos/..%2Fpilot.json", "/study/pilot/videos/x"] {
+    for other in ["/study/pilot/videos/0.mp4", "/study/pilot/videos/..%2Fpilot.json", "/study/pilot/videos/x"]
+    {
         assert_eq!(ask(site.address, "GET", other, None, None).status, 404, "{other}");
     }
 }
@@ -44,7 +48,10 @@ fn the_person_in_charge_sees_progress_and_downloads() {
     begin(site.address, "p2");
     let get = |path: &str| ask(site.address, "GET", path, Some(&site.admin), None);
     let study = get("/admin/api/studies").json()["studies"][0].clone();
-    assert_eq!((&study["raters"]["complete"], &study["raters"]["unfinished"], &study["wanted"]), (&json!(1), &json!(1), &json!(2)));
+    assert_eq!(
+        (&study["raters"]["complete"], &study["raters"]["unfinished"], &study["wanted"]),
+        (&json!(1), &json!(1), &json!(2))
+    );
     for path in ["/admin/api/studies", "/admin/api/studies/pilot/psych-ds.tar"] {
         for other in [None, Some(token.as_str())] {
             assert_eq!(ask(site.address, "GET", path, other, None).status, 401);
@@ -64,7 +71,9 @@ fn the_person_in_charge_sees_progress_and_downloads() {
     };
     let own = files("/admin/api/studies/pilot/psych-ds.tar");
     assert!(own.contains_key("pilot/dataset_description.json"));
-    assert!(own.values().any(|text| text.contains("'=1+1")) && !own.values().any(|text| text.contains(",=1+1")));
+    assert!(
+        own.values().any(|text| text.contains("'=1+1")) && !own.values().any(|text| text.contains(",=1+1"))
+    );
     assert!(!own.values().any(|text| text.contains("PROLIFIC_PID")));
     let with_ids = files("/admin/api/studies/pilot/psych-ds.tar?external_ids");
     assert!(with_ids.values().any(|text| text.contains("external_PROLIFIC_PID")));

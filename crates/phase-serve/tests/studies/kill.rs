@@ -1,12 +1,7 @@
 //! A server that is killed while raters answer, and how many answers a second it takes.
 
 use crate::support::{answer, ask, begin, bind, try_ask, write_study};
-use phase_study::{
-    config::StudyConfig,
-    forms::Forms,
-    question::Given,
-    store::Store,
-};
+use phase_study::{config::StudyConfig, forms::Forms, question::Given, store::Store};
 use serde_json::Value;
 use std::{
     collections::BTreeMap,
@@ -50,7 +45,8 @@ impl Process {
             .spawn()
             .expect("started");
         let lines = BufReader::new(child.stdout.take().expect("its output")).lines();
-        let address = lines.map_while(Result::ok).find_map(|line| line.strip_prefix("listening ")?.parse().ok());
+        let address =
+            lines.map_while(Result::ok).find_map(|line| line.strip_prefix("listening ")?.parse().ok());
         Self { child, address: address.expect("an address") }
     }
 }
@@ -94,9 +90,13 @@ fn no_acknowledged_answer_is_lost_when_the_server_is_killed() {
                         let body = answer(trial, relation(k, trial));
                         let headers = [("authorization", bearer.as_str())];
                         match try_ask(address, "POST", "/study/pilot/api/answer", &headers, Some(&body)) {
-                            Some(answered) if answered.status == 200 => *acknowledged.lock().expect("free") = trial,
+                            Some(answered) if answered.status == 200 => {
+                                *acknowledged.lock().expect("free") = trial
+                            }
                             // All raters come from one address, which may not ask more often.
-                            Some(answered) if answered.status == 429 => std::thread::sleep(Duration::from_millis(50)),
+                            Some(answered) if answered.status == 429 => {
+                                std::thread::sleep(Duration::from_millis(50))
+                            }
                             Some(answered) => panic!("{answered:?}"),
                             // Killed: whether this answer was stored is open, and it is sent again.
                             None => return,
@@ -124,7 +124,8 @@ fn check(config: &Path, answers: &Path, acknowledged: &[Mutex<u64>]) {
     let config = StudyConfig::read(&fs::read(config).expect("bytes"), &forms).expect("valid");
     let mut store = Store::open_existing(answers, &config.name, config.form.name()).expect("a store");
     let raters = store.raters().expect("raters");
-    let by_id: BTreeMap<&str, _> = raters.iter().map(|rater| (rater.parameters["PROLIFIC_PID"].as_str(), rater)).collect();
+    let by_id: BTreeMap<&str, _> =
+        raters.iter().map(|rater| (rater.parameters["PROLIFIC_PID"].as_str(), rater)).collect();
     for (k, count) in acknowledged.iter().enumerate() {
         let rater = by_id[format!("p{k}").as_str()];
         for trial in 1..=*count.lock().expect("free") {

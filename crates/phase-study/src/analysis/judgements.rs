@@ -27,9 +27,10 @@ impl<'a> Judgements<'a> {
                 }
             }
         }
-        let judged = config.stimuli.iter().filter_map(|stimulus| {
-            Some(Judged { stimulus, answers: answers.remove(stimulus.id.as_str())? })
-        });
+        let judged = config
+            .stimuli
+            .iter()
+            .filter_map(|stimulus| Some(Judged { stimulus, answers: answers.remove(stimulus.id.as_str())? }));
         Self(judged.collect())
     }
 

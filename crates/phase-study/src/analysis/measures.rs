@@ -11,7 +11,9 @@ use crate::{
 };
 use phase_eval::{CONFIDENCE, Estimate, RESAMPLES};
 use phase_model::random::{Purpose, stream};
-use phase_statistics::{bootstrap, bootstrap_difference, krippendorff_alpha, mean, standard_deviation, wilson_interval};
+use phase_statistics::{
+    bootstrap, bootstrap_difference, krippendorff_alpha, mean, standard_deviation, wilson_interval,
+};
 use std::collections::{BTreeMap, BTreeSet};
 
 impl Share {
@@ -70,7 +72,8 @@ pub(super) fn accuracy(
         let mut add = |question, scores: Vec<Score>| {
             if !scores.is_empty() {
                 let shares: Vec<f64> = scores.iter().map(|score| score.share).collect();
-                let (right, of) = scores.iter().fold((0, 0), |(right, of), score| (right + score.right, of + score.of));
+                let (right, of) =
+                    scores.iter().fold((0, 0), |(right, of), score| (right + score.right, of + score.of));
                 all.push(Accuracy {
                     question,
                     source: source.map(str::to_owned),
@@ -167,10 +170,15 @@ fn difference([one, other]: &[Vec<f64>; 2], seed: u64) -> Option<Estimate> {
     Some(Estimate { value, low: interval.low, high: interval.high })
 }
 
-pub(super) fn interactions(judgements: &Judgements<'_>, sources: &[Option<&str>], forms: &Forms) -> Vec<Categories> {
+pub(super) fn interactions(
+    judgements: &Judgements<'_>,
+    sources: &[Option<&str>],
+    forms: &Forms,
+) -> Vec<Categories> {
     let questions = forms.questions(Form::Interactions, MOST_OBJECTS);
     let asked = questions.iter().find(|question| question.name == INTERACTIONS);
-    let choices: Vec<&str> = asked.iter().flat_map(|it| it.kind.choices()).map(|it| it.value.as_str()).collect();
+    let choices: Vec<&str> =
+        asked.iter().flat_map(|it| it.kind.choices()).map(|it| it.value.as_str()).collect();
     let of = |source: &Option<&str>| {
         let videos: Vec<(usize, Vec<usize>)> = judgements
             .from(*source)

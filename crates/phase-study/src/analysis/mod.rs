@@ -183,7 +183,8 @@ impl Analysis {
             sources.extend(names.iter().map(|name| Some(*name)));
         }
         let (asks_goals, asks_interactions) = (config.form == Form::Goals, config.form == Form::Interactions);
-        let likeness = if asks_goals { measures::likeness(&judgements, &names, config.seed) } else { Vec::new() };
+        let likeness =
+            if asks_goals { measures::likeness(&judgements, &names, config.seed) } else { Vec::new() };
         Self {
             format: REPORT_FORMAT,
             name: config.name.clone(),

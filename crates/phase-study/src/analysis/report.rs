@@ -15,9 +15,16 @@ pub fn document(title: &str, analysis: &Analysis) -> Document {
         table(
             &["raters", "complete", "failed catch trials", "unfinished", "withdrawn", "declined"],
             vec![
-                [raters.joined, raters.complete, raters.failed, raters.unfinished, raters.withdrawn, raters.declined]
-                    .map(|count| count.to_string())
-                    .into(),
+                [
+                    raters.joined,
+                    raters.complete,
+                    raters.failed,
+                    raters.unfinished,
+                    raters.withdrawn,
+                    raters.declined,
+                ]
+                .map(|count| count.to_string())
+                .into(),
             ],
         ),
         Block::Text(format!(
@@ -36,7 +43,9 @@ pub fn document(title: &str, analysis: &Analysis) -> Document {
         blocks.extend(interactions(categories));
     }
     blocks.push(Block::Heading("Agreement".into()));
-    blocks.push(Block::Text("Krippendorff's α for nominal data: 1 is complete agreement, 0 that of chance.".into()));
+    blocks.push(Block::Text(
+        "Krippendorff's α for nominal data: 1 is complete agreement, 0 that of chance.".into(),
+    ));
     let row = |it: &super::Agreement| {
         let what = it.choice.as_ref().unwrap_or(&it.question).clone();
         vec![what, estimate(it.alpha, 3), it.videos.to_string()]
@@ -47,7 +56,13 @@ pub fn document(title: &str, analysis: &Analysis) -> Document {
 
 fn accuracy(accuracies: &[Accuracy]) -> Vec<Block> {
     let row = |it: &Accuracy| {
-        vec![it.question.into(), source(it.source.as_ref()), estimate(it.mean, 3), share(&it.majority), it.videos.to_string()]
+        vec![
+            it.question.into(),
+            source(it.source.as_ref()),
+            estimate(it.mean, 3),
+            share(&it.majority),
+            it.videos.to_string(),
+        ]
     };
     let head = ["question", "source", "judgements that are right", "majorities that are right", "videos"];
     vec![Block::Heading("Accuracy".into()), table(&head, accuracies.iter().map(row).collect())]
@@ -60,7 +75,10 @@ fn likeness(analysis: &Analysis) -> Vec<Block> {
     });
     let mut blocks = vec![
         Block::Heading("Human-likeness".into()),
-        Block::Text("How likely people would behave like this, 1 to 5: mean and standard deviation over videos.".into()),
+        Block::Text(
+            "How likely people would behave like this, 1 to 5: mean and standard deviation over videos."
+                .into(),
+        ),
         table(&["source", "mean", "sd", "videos"], rows.collect()),
     ];
     let differences: Vec<Vec<String>> = analysis
@@ -92,13 +110,24 @@ fn interactions(categories: &Categories) -> Vec<Block> {
             categories.categories.len(),
             categories.by_half
         )),
-        table(&["interaction", "videos in which at least half of the raters see it", "videos in which anybody does"], rows),
+        table(
+            &[
+                "interaction",
+                "videos in which at least half of the raters see it",
+                "videos in which anybody does",
+            ],
+            rows,
+        ),
     ];
     if categories.source.is_none() {
         let bar: Vec<(String, f64)> =
             sorted.iter().map(|it| (it.choice.clone(), 100.0 * it.by_half.share)).collect();
         let title = "Videos in which at least half of the raters see an interaction";
-        blocks.push(Block::Plot { file: "interactions.svg", title: title.into(), svg: bars(title, " %", &bar) });
+        blocks.push(Block::Plot {
+            file: "interactions.svg",
+            title: title.into(),
+            svg: bars(title, " %", &bar),
+        });
     }
     blocks
 }

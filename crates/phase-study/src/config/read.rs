@@ -69,7 +69,11 @@ fn config(root: &Field<'_>, forms: &Forms) -> Result<StudyConfig, FieldError> {
         name: name(&root.required("name")?)?,
         title: line(&root.required("title")?)?,
         form,
-        introduction: root.optional("introduction")?.map(|field| paragraphs(&field)).transpose()?.unwrap_or_default(),
+        introduction: root
+            .optional("introduction")?
+            .map(|field| paragraphs(&field))
+            .transpose()?
+            .unwrap_or_default(),
         consent: some(&root.required("consent")?)?,
         instructions: some(&root.required("instructions")?)?,
         demographics: demographics(root)?,
@@ -128,7 +132,11 @@ fn paragraphs(field: &Field<'_>) -> Result<Vec<String>, FieldError> {
     let read = |item: Field<'_>| {
         let text = item.text()?;
         let fits = !text.trim().is_empty() && text.chars().count() <= LONGEST_PARAGRAPH;
-        if fits { Ok(text.to_owned()) } else { Err(item.error(format!("must have 1 to {LONGEST_PARAGRAPH} letters"))) }
+        if fits {
+            Ok(text.to_owned())
+        } else {
+            Err(item.error(format!("must have 1 to {LONGEST_PARAGRAPH} letters")))
+        }
     };
     field.items()?.map(read).collect()
 }
@@ -154,7 +162,8 @@ fn completion(root: &Field<'_>) -> Result<Completion, FieldError> {
         let text = url.text()?;
         let plain = text.bytes().all(|byte| byte.is_ascii_graphic() && !b"\"'<>\\^`{|}".contains(&byte));
         let host = text.strip_prefix("https://").and_then(|rest| rest.split(['/', '?', '#']).next());
-        let fits = plain && text.len() <= 2000 && host.is_some_and(|host| !host.is_empty() && !host.contains('@'));
+        let fits =
+            plain && text.len() <= 2000 && host.is_some_and(|host| !host.is_empty() && !host.contains('@'));
         if fits { Ok(text.to_owned()) } else { Err(url.must_be("an address that begins with https://")) }
     });
     Ok(Completion { code, url: url.transpose()? })
@@ -206,7 +215,9 @@ fn demographic(field: &Field<'_>) -> Result<Question, FieldError> {
                 return Err(choices.error("must have at least two choices"));
             }
             distinct(&choices, texts.iter().map(String::as_str))?;
-            Kind::One { choices: texts.into_iter().map(|text| Choice { value: text.clone(), text }).collect() }
+            Kind::One {
+                choices: texts.into_iter().map(|text| Choice { value: text.clone(), text }).collect(),
+            }
         }
         _ => {
             only(&["longest"])?;

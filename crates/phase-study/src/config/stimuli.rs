@@ -24,7 +24,9 @@ pub(super) fn read(
         return Err(field.error("must hold at least one video"));
     }
     let trials = match root.optional("catch_trials")? {
-        Some(field) => field.items()?.map(|item| catch_trial(&item, form, forms)).collect::<Result<_, FieldError>>()?,
+        Some(field) => {
+            field.items()?.map(|item| catch_trial(&item, form, forms)).collect::<Result<_, FieldError>>()?
+        }
         None => Vec::<CatchTrial>::new(),
     };
     let ids = stimuli.iter().map(|it| it.id.as_str()).chain(trials.iter().map(|it| it.id.as_str()));
@@ -35,7 +37,10 @@ pub(super) fn read(
 }
 
 /// Checks that no name occurs twice.
-pub(super) fn distinct<'a>(field: &Field<'_>, names: impl Iterator<Item = &'a str>) -> Result<(), FieldError> {
+pub(super) fn distinct<'a>(
+    field: &Field<'_>,
+    names: impl Iterator<Item = &'a str>,
+) -> Result<(), FieldError> {
     let mut seen = BTreeSet::new();
     for name in names {
         if !seen.insert(name) {
@@ -49,7 +54,8 @@ fn stimulus(field: &Field<'_>, forms: &Forms) -> Result<Stimulus, FieldError> {
     field.only(&["id", "video", "source", "objects", "goals", "relation", "kind"])?;
     let objects = objects(field)?;
     let source = field.optional("source")?.map(|field| id(&field)).transpose()?;
-    let relations = [Relation::Friendly, Relation::Neutral, Relation::Adversarial].map(|relation| (relation.name(), relation.name()));
+    let relations = [Relation::Friendly, Relation::Neutral, Relation::Adversarial]
+        .map(|relation| (relation.name(), relation.name()));
     let kinds = EventKind::ALL.map(|kind| (kind.name(), kind.name()));
     let word = |name: &str, words: &[(&str, &'static str)]| -> Result<Option<String>, FieldError> {
         Ok(field.optional(name)?.map(|field| field.one_of(words)).transpose()?.map(str::to_owned))
@@ -99,8 +105,10 @@ fn choices(field: &Field<'_>, question: &Question) -> Result<BTreeSet<String>, F
     if !field.value().is_array() {
         return Ok(BTreeSet::from([field.one_of(&known)?.to_owned()]));
     }
-    let chosen: BTreeSet<String> =
-        field.items()?.map(|item| item.one_of(&known).map(str::to_owned)).collect::<Result<_, FieldError>>()?;
+    let chosen: BTreeSet<String> = field
+        .items()?
+        .map(|item| item.one_of(&known).map(str::to_owned))
+        .collect::<Result<_, FieldError>>()?;
     if chosen.is_empty() { Err(field.error("must have at least one choice")) } else { Ok(chosen) }
 }
 
@@ -116,7 +124,9 @@ fn known_goals(field: &Field<'_>, objects: u8, forms: &Forms) -> Result<[BTreeSe
 }
 
 fn objects(field: &Field<'_>) -> Result<u8, FieldError> {
-    let number = field.optional("objects")?.map_or(Ok(i64::from(MOST_OBJECTS)), |it| it.whole(0, MOST_OBJECTS.into()))?;
+    let number = field
+        .optional("objects")?
+        .map_or(Ok(i64::from(MOST_OBJECTS)), |it| it.whole(0, MOST_OBJECTS.into()))?;
     Ok(u8::try_from(number).unwrap_or_default())
 }
 

@@ -96,8 +96,10 @@ impl Design {
     pub fn numbers(&self) -> Numbers {
         let videos = self.stimuli.len().max(1);
         let groups: Vec<usize> = if self.between_sources() {
-            let sources: BTreeSet<&str> = self.stimuli.iter().map(|stimulus| stimulus.source.as_str()).collect();
-            let count = |source: &&str| self.stimuli.iter().filter(|stimulus| stimulus.source == **source).count();
+            let sources: BTreeSet<&str> =
+                self.stimuli.iter().map(|stimulus| stimulus.source.as_str()).collect();
+            let count =
+                |source: &&str| self.stimuli.iter().filter(|stimulus| stimulus.source == **source).count();
             sources.iter().map(count).collect()
         } else {
             vec![videos]
@@ -115,7 +117,9 @@ impl Design {
         };
         let most = match self.experiment {
             Experiment::Relations => 19,
-            _ => u32::try_from((u64::from(raters) * u64::from(each)).div_ceil(videos as u64)).unwrap_or(wanted),
+            _ => {
+                u32::try_from((u64::from(raters) * u64::from(each)).div_ceil(videos as u64)).unwrap_or(wanted)
+            }
         };
         Numbers {
             raters_per_video: wanted,

@@ -10,7 +10,8 @@ pub(super) fn file(design: &Design) -> String {
     let numbers = design.numbers();
     let stimuli: Vec<Value> = design.stimuli.iter().map(stimulus).collect();
     let catch_trials = design.catch_trials.iter().map(|trial| {
-        let expected = trial.expected.iter().map(|(question, choices)| (question.clone(), one_or_more(choices)));
+        let expected =
+            trial.expected.iter().map(|(question, choices)| (question.clone(), one_or_more(choices)));
         let expected: Map<String, Value> = expected.collect();
         json!({"id": trial.id, "video": trial.video, "objects": trial.objects, "expected": expected})
     });
@@ -38,7 +39,8 @@ pub(super) fn file(design: &Design) -> String {
         ("catch_trials", lines(catch_trials)),
         ("stimuli", lines(stimuli.into_iter())),
     ];
-    let members: Vec<String> = members.into_iter().map(|(name, value)| format!("\"{name}\": {value}")).collect();
+    let members: Vec<String> =
+        members.into_iter().map(|(name, value)| format!("\"{name}\": {value}")).collect();
     format!("{{\n{}\n}}\n", members.join(",\n"))
 }
 

@@ -39,7 +39,10 @@ pub fn psych_ds(config: &StudyConfig, forms: &Forms, raters: &[Rater], external_
     ];
     let mut files: Vec<File> = Vec::new();
     for (what, table) in &tables {
-        files.push(File { path: format!("data/study-{study}_description-{what}_data.csv"), text: table.to_csv() });
+        files.push(File {
+            path: format!("data/study-{study}_description-{what}_data.csv"),
+            text: table.to_csv(),
+        });
     }
     let description = description(config, &tables.each_ref().map(|(_, table)| table));
     files.push(File { path: "dataset_description.json".into(), text: format!("{description:#}\n") });

@@ -59,7 +59,11 @@ pub(super) fn answers(config: &StudyConfig, forms: &Forms, raters: &[&Rater]) ->
     table.column("catch", "Whether it is a catch trial, a video with a known answer");
     table.column("catch_passed", "Of a catch trial, whether the answer is right; missing for others");
     question_columns(&mut table, &questions, "");
-    table.measure("response_time", "ms", "Time from the first sight of the trial until the answer, as the rater's browser measured it");
+    table.measure(
+        "response_time",
+        "ms",
+        "Time from the first sight of the trial until the answer, as the rater's browser measured it",
+    );
     table.column("plays", "How often the rater played the video to its end before it answered");
     table.measure("time", "s", "When the answer was stored, in seconds since the rater came");
     for rater in raters {
@@ -76,7 +80,9 @@ pub(super) fn answers(config: &StudyConfig, forms: &Forms, raters: &[&Rater]) ->
                 trial.passed(config).map_or(Cell::Missing, Cell::Truth),
             ];
             cells.extend(question_cells(&questions, Some(&given.answer)));
-            cells.extend([given.response_time, given.plays, (given.at - rater.joined) / 1000].map(Cell::Number));
+            cells.extend(
+                [given.response_time, given.plays, (given.at - rater.joined) / 1000].map(Cell::Number),
+            );
             table.row(cells);
         }
     }
@@ -94,13 +100,17 @@ pub(super) fn raters(config: &StudyConfig, raters: &[&Rater], external_ids: bool
     table.column("catch_failures", "How many catch trials it answered wrongly");
     if external_ids {
         for name in &config.parameters {
-            table.column(format!("external_{name}"), format!("Member {name} of the address with which it came"));
+            table.column(
+                format!("external_{name}"),
+                format!("Member {name} of the address with which it came"),
+            );
         }
     }
     question_columns(&mut table, &config.demographics, "demographics_");
     for rater in raters {
         let answered = rater.trials.iter().filter(|trial| trial.given.is_some()).count();
-        let group = rater.trials.iter().find_map(|trial| source(config, trial)).filter(|_| config.between_sources);
+        let group =
+            rater.trials.iter().find_map(|trial| source(config, trial)).filter(|_| config.between_sources);
         let mut cells = vec![
             Cell::Number(i64::try_from(rater.number).unwrap_or(i64::MAX)),
             Cell::Text(rater.standing(config).name().into()),
@@ -110,10 +120,14 @@ pub(super) fn raters(config: &StudyConfig, raters: &[&Rater], external_ids: bool
             Cell::Number(rater.catch_failures(config) as i64),
         ];
         if external_ids {
-            let of = |name: &String| rater.parameters.get(name).map_or(Cell::Missing, |it| Cell::Text(it.clone()));
+            let of =
+                |name: &String| rater.parameters.get(name).map_or(Cell::Missing, |it| Cell::Text(it.clone()));
             cells.extend(config.parameters.iter().map(of));
         }
-        cells.extend(question_cells(&config.demographics, rater.demographics.as_ref().map(|(_, answer)| answer)));
+        cells.extend(question_cells(
+            &config.demographics,
+            rater.demographics.as_ref().map(|(_, answer)| answer),
+        ));
         table.row(cells);
     }
     table

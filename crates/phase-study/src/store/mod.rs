@@ -1,6 +1,6 @@
 //! Answers in one SQLite file.
 //!
-//! Tables are only added to: no row is ever changed, and none is removed unless a rater withdraws. An operation is one transaction,
+//! Tables are only added to: no row is ever changed, and none is removed unless a rater leaves; triggers of the database see to it. An operation is one transaction,
 //! which is on the disk when it is acknowledged (`journal_mode=WAL`, `synchronous=FULL`).
 
 mod error;
@@ -26,6 +26,8 @@ pub const SCHEMA_VERSION: i32 = 1;
 /// How long a transaction waits for another program's.
 const PATIENCE: Duration = Duration::from_secs(10);
 
+const CHECKPOINT: &str = "PRAGMA wal_checkpoint(TRUNCATE)";
+
 const SCHEMA: &str = "
 CREATE TABLE study (name TEXT NOT NULL, form TEXT NOT NULL) STRICT;
 CREATE TABLE rater (number INTEGER PRIMARY KEY AUTOINCREMENT, joined INTEGER NOT NULL) STRICT;
@@ -40,6 +42,29 @@ CREATE TABLE answer (rater INTEGER NOT NULL, number INTEGER NOT NULL, at INTEGER
     FOREIGN KEY (rater, number) REFERENCES trial) STRICT, WITHOUT ROWID;
 CREATE TABLE departure (rater INTEGER PRIMARY KEY REFERENCES rater, at INTEGER NOT NULL, kind TEXT NOT NULL) STRICT;
 ";
+
+/// All tables; no row of them is ever changed.
+const TABLES: [&str; 8] = ["study", "rater", "token", "departure", "origin", "page", "trial", "answer"];
+/// Those whose rows go when their rater leaves.
+const OF_RATERS: [&str; 4] = ["answer", "trial", "page", "origin"];
+
+/// What makes the database itself refuse changes, whatever program makes them.
+fn triggers() -> String {
+    let mut sql = String::new();
+    for table in TABLES {
+        let left = if OF_RATERS.contains(&table) {
+            "WHEN NOT EXISTS (SELECT 1 FROM departure WHERE departure.rater = OLD.rater)"
+        } else {
+            ""
+        };
+        sql += &format!(
+            "CREATE TRIGGER {table}_stays BEFORE UPDATE ON {table} BEGIN SELECT RAISE(ABORT, 'answers are never changed'); END;\n\
+             CREATE TRIGGER {table}_is_kept BEFORE DELETE ON {table} {left} \
+             BEGIN SELECT RAISE(ABORT, 'only who left is deleted'); END;\n"
+        );
+    }
+    sql
+}
 
 /// Pages before the first trial, as the table `page` names them.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -75,7 +100,9 @@ impl Store {
     /// [`StoreError`] if the file cannot be made or opened, is something else, is of another study, or was written by a newer
     /// program.
     pub fn open(path: &Path, name: &str, form: &str) -> Result<Self, StoreError> {
-        let flags = OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_CREATE | OpenFlags::SQLITE_OPEN_NO_MUTEX;
+        let flags = OpenFlags::SQLITE_OPEN_READ_WRITE
+            | OpenFlags::SQLITE_OPEN_CREATE
+            | OpenFlags::SQLITE_OPEN_NO_MUTEX;
         Self::with_flags(path, name, form, flags)
     }
 
@@ -87,7 +114,12 @@ impl Store {
         if !path.is_file() {
             return Err(StoreError { file: path.to_owned(), problem: StoreProblem::Absent });
         }
-        Self::with_flags(path, name, form, OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_NO_MUTEX)
+        Self::with_flags(
+            path,
+            name,
+            form,
+            OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_NO_MUTEX,
+        )
     }
 
     fn with_flags(path: &Path, name: &str, form: &str, flags: OpenFlags) -> Result<Self, StoreError> {
@@ -103,9 +135,11 @@ impl Store {
         let transaction = self.connection.transaction_with_behavior(TransactionBehavior::Immediate)?;
         let number = |pragma: &str| transaction.pragma_query_value(None, pragma, |row| row.get::<_, i32>(0));
         let (application, version) = (number("application_id")?, number("user_version")?);
-        let tables: i64 = transaction.query_row("SELECT count(*) FROM sqlite_schema", [], |row| row.get(0))?;
+        let tables: i64 =
+            transaction.query_row("SELECT count(*) FROM sqlite_schema", [], |row| row.get(0))?;
         if (application, version, tables) == (0, 0, 0) {
             transaction.execute_batch(SCHEMA)?;
+            transaction.execute_batch(&triggers())?;
             transaction.execute("INSERT INTO study (name, form) VALUES (?1, ?2)", [name, form])?;
             transaction.pragma_update(None, "application_id", APPLICATION)?;
             transaction.pragma_update(None, "user_version", SCHEMA_VERSION)?;
@@ -114,8 +148,8 @@ impl Store {
         } else if version != SCHEMA_VERSION {
             return Err(StoreProblem::Version { found: version });
         }
-        let found: (String, String) =
-            transaction.query_row("SELECT name, form FROM study", [], |row| Ok((row.get(0)?, row.get(1)?)))?;
+        let found: (String, String) = transaction
+            .query_row("SELECT name, form FROM study", [], |row| Ok((row.get(0)?, row.get(1)?)))?;
         if (found.0.as_str(), found.1.as_str()) != (name, form) {
             let (name, form) = found;
             return Err(StoreProblem::OtherStudy { name, form });
@@ -125,6 +159,8 @@ impl Store {
         self.connection.pragma_update(None, "synchronous", "FULL")?;
         self.connection.pragma_update(None, "foreign_keys", true)?;
         self.connection.pragma_update(None, "secure_delete", true)?;
+        // What could not be removed when somebody withdrew, since another program was reading.
+        self.connection.query_row(CHECKPOINT, [], |_| Ok(()))?;
         Ok(())
     }
 
@@ -149,9 +185,9 @@ impl Store {
         Ok(result)
     }
 
-    /// Removes what was deleted from the files beside the database, too.
+    /// Removes what was deleted from the file beside the database, too; where another program is reading, at the next occasion.
     pub(crate) fn forget(&mut self) -> Result<(), StoreError> {
-        let done = self.connection.query_row("PRAGMA wal_checkpoint(TRUNCATE)", [], |_| Ok(()));
+        let done = self.connection.query_row(CHECKPOINT, [], |_| Ok(()));
         done.map_err(|error| StoreError::of(&self.path, error))
     }
 }
@@ -182,7 +218,9 @@ impl Writing<'_> {
     ) -> Result<u64, StoreError> {
         self.execute("INSERT INTO rater (joined) VALUES (?1)", [joined])?;
         let number = self.transaction.last_insert_rowid();
-        let text = serde_json::Value::from_iter(parameters.iter().map(|(name, value)| (name.clone(), value.clone())));
+        let text = serde_json::Value::from_iter(
+            parameters.iter().map(|(name, value)| (name.clone(), value.clone())),
+        );
         let sql = "INSERT INTO origin (rater, identity, parameters) VALUES (?1, ?2, ?3)";
         self.execute(sql, params![number, identity, text.to_string()])?;
         Ok(number.unsigned_abs())
@@ -194,7 +232,13 @@ impl Writing<'_> {
     }
 
     /// Notes that a rater is done with a page.
-    pub(crate) fn add_page(&self, rater: u64, page: Page, at: Millis, answer: Option<&Answer>) -> Result<(), StoreError> {
+    pub(crate) fn add_page(
+        &self,
+        rater: u64,
+        page: Page,
+        at: Millis,
+        answer: Option<&Answer>,
+    ) -> Result<(), StoreError> {
         let text = answer.map(|answer| answer.to_json().to_string());
         let sql = "INSERT INTO page (rater, page, at, answer) VALUES (?1, ?2, ?3, ?4)";
         self.execute(sql, params![rater as i64, page.name(), at, text])
@@ -213,15 +257,34 @@ impl Writing<'_> {
     pub(crate) fn add_answer(&self, rater: u64, trial: usize, given: &GivenAnswer) -> Result<(), StoreError> {
         let sql = "INSERT INTO answer (rater, number, at, answer, response_time, plays) VALUES (?1, ?2, ?3, ?4, ?5, ?6)";
         let answer = given.answer.to_json().to_string();
-        self.execute(sql, params![rater as i64, trial as i64, given.at, answer, given.response_time, given.plays])
+        self.execute(
+            sql,
+            params![rater as i64, trial as i64, given.at, answer, given.response_time, given.plays],
+        )
     }
 
     /// Deletes all that a rater gave and what it came with, and notes that it left.
     pub(crate) fn depart(&self, rater: u64, at: Millis, departure: Departure) -> Result<(), StoreError> {
-        for table in ["answer", "trial", "page", "origin"] {
+        let sql = "INSERT INTO departure (rater, at, kind) VALUES (?1, ?2, ?3)";
+        self.execute(sql, params![rater as i64, at, read::departure_name(departure)])?;
+        for table in OF_RATERS {
             self.execute(&format!("DELETE FROM {table} WHERE rater = ?1"), [rater as i64])?;
         }
-        let sql = "INSERT INTO departure (rater, at, kind) VALUES (?1, ?2, ?3)";
-        self.execute(sql, params![rater as i64, at, read::departure_name(departure)])
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_acknowledged_is_on_the_disk() {
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::open(&folder.path().join("a.sqlite"), "a", "goals").unwrap();
+        let number = |pragma| store.connection.pragma_query_value(None, pragma, |row| row.get::<_, i64>(0)).unwrap();
+        let mode: String = store.connection.pragma_query_value(None, "journal_mode", |row| row.get(0)).unwrap();
+        // https://www.sqlite.org/pragma.html#pragma_synchronous: 2 is FULL.
+        assert_eq!((mode.as_str(), number("synchronous"), number("foreign_keys"), number("secure_delete")), ("wal", 2, 1, 1));
     }
 }

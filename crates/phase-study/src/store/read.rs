@@ -34,9 +34,10 @@ impl Writing<'_> {
     }
 
     fn number(&self, sql: &str, values: impl rusqlite::Params) -> Result<Option<u64>, StoreError> {
-        let found = self.transaction.prepare_cached(sql).and_then(|mut statement| {
-            statement.query_row(values, |row| row.get::<_, i64>(0)).optional()
-        });
+        let found = self
+            .transaction
+            .prepare_cached(sql)
+            .and_then(|mut statement| statement.query_row(values, |row| row.get::<_, i64>(0)).optional());
         found.map(|number| number.map(i64::unsigned_abs)).map_err(|error| self.failed(error))
     }
 

@@ -75,7 +75,8 @@ impl Study {
                 }
             }
         }
-        let videos = config.videos().map(|(id, file)| (address(config.seed, id), (id.to_owned(), file.to_owned())));
+        let videos =
+            config.videos().map(|(id, file)| (address(config.seed, id), (id.to_owned(), file.to_owned())));
         Ok(Self { videos: videos.collect(), config, forms, store })
     }
 
@@ -221,7 +222,9 @@ impl Study {
             let asked = !config.demographics.is_empty() && rater.demographics.is_none();
             match (rater.instructed, rater.consented) {
                 (Some(_), _) => Ok(()),
-                (None, Some(_)) if !asked => Ok(store.add_page(rater.number, Page::Instructions, now, None)?),
+                (None, Some(_)) if !asked => {
+                    Ok(store.add_page(rater.number, Page::Instructions, now, None)?)
+                }
                 _ => Err(StudyError::NotNow("instructions")),
             }
         })

@@ -1,7 +1,12 @@
 //! What a rater sees.
 
 use super::{address, questions};
-use crate::{config::StudyConfig, forms::Forms, question::Question, record::{Departure, Rater}};
+use crate::{
+    config::StudyConfig,
+    forms::Forms,
+    question::Question,
+    record::{Departure, Rater},
+};
 use serde::Serialize;
 
 /// The page that a rater sees. As JSON it has the member `page` (`consent`, `demographics`, `instructions`, `trial`, `done`,

@@ -24,7 +24,8 @@ fn study(folder: &Path, form: Form) -> Study {
 /// Lets raters answer as a function of rater and video (from 0) says.
 fn answered(study: &mut Study, raters: usize, answer: impl Fn(usize, usize) -> Value) -> Analysis {
     for rater in 0..raters {
-        let files: Vec<String> = study.config().stimuli.iter().map(|stimulus| stimulus.video.clone()).collect();
+        let files: Vec<String> =
+            study.config().stimuli.iter().map(|stimulus| stimulus.video.clone()).collect();
         let names: Vec<(String, usize)> = files.into_iter().enumerate().map(|(k, file)| (file, k)).collect();
         let addresses = addresses(study, &names);
         let given = |page: &TrialPage| {
@@ -63,7 +64,8 @@ fn goals_relations_and_human_likeness() {
     assert_eq!((analysis.raters.complete, analysis.coverage.judgements), (4, 16));
     assert_eq!((analysis.coverage.least, analysis.coverage.most), (4, 4));
     let of = |question: &str, source: Option<&str>| {
-        let found = analysis.accuracy.iter().find(|it| it.question == question && it.source.as_deref() == source);
+        let found =
+            analysis.accuracy.iter().find(|it| it.question == question && it.source.as_deref() == source);
         found.expect("asked").clone()
     };
     let relation = of("relation", None);
@@ -81,7 +83,9 @@ fn goals_relations_and_human_likeness() {
     assert!((phase.mean.expect("videos").value - 2.5).abs() < 1e-12);
     let difference = &analysis.human_likeness_differences[0];
     assert!((difference.difference.value - 2.5).abs() < 1e-12);
-    assert!((difference.difference.low - 2.5).abs() < 1e-12 && (difference.difference.high - 2.5).abs() < 1e-12);
+    assert!(
+        (difference.difference.low - 2.5).abs() < 1e-12 && (difference.difference.high - 2.5).abs() < 1e-12
+    );
     let text = report("A study", &analysis).to_markdown();
     assert!(text.contains("| human − phase | 2.50 [2.50, 2.50] |"), "{text}");
 }

@@ -89,7 +89,11 @@ fn mistakes_are_refused_with_field_and_rule() {
             json!([{"id": "c", "video": "c.mp4", "expected": {"relation": "angry"}}]),
             &["`catch_trials[0].expected.relation`"],
         ),
-        ("/catch_trials", json!([{"id": "c", "video": "c.mp4", "expected": {}}]), &["`catch_trials[0].expected`"]),
+        (
+            "/catch_trials",
+            json!([{"id": "c", "video": "c.mp4", "expected": {}}]),
+            &["`catch_trials[0].expected`"],
+        ),
         ("/catch_failures_allowed", json!(1), &["`catch_failures_allowed`"]),
         ("/rater", json!(1), &["`rater`", "`raters`"]),
         ("/seed", json!(-1), &["`seed`"]),

@@ -17,7 +17,10 @@ fn stimuli(source: &str, count: usize) -> Vec<Stimulus> {
         source: source.into(),
         objects: 2,
         labels: Labels {
-            goals: Some([BTreeSet::from(["help".into(), "light blue on green".into()]), BTreeSet::from(["none".into()])]),
+            goals: Some([
+                BTreeSet::from(["help".into(), "light blue on green".into()]),
+                BTreeSet::from(["none".into()]),
+            ]),
             relation: Some("friendly".into()),
             kind: Some("helping".into()),
         },
@@ -60,7 +63,8 @@ fn what_is_written_is_what_was_designed() {
     };
     let stimuli = [stimuli("human", 3), stimuli("phase", 2)].concat();
     let experiment = Experiment::HumanLikeness;
-    let config = read(&Design { experiment, stimuli: stimuli.clone(), catch_trials: vec![catch.clone()], seed: 5 });
+    let config =
+        read(&Design { experiment, stimuli: stimuli.clone(), catch_trials: vec![catch.clone()], seed: 5 });
     assert_eq!((config.stimuli, config.catch_trials, config.seed), (stimuli, vec![catch], 5));
     assert!(config.between_sources && config.form == Form::Goals && config.demographics.is_empty());
 }
@@ -81,13 +85,18 @@ fn goals_have_the_words_of_form_and_video() {
         }
     }
     for goal in goals {
-        let [first, _] = known_goals([goal, Goal::Touch { agent: agents[1], other: agents[0], sign: Sign::Negative }], [Attitude::Neutral; 2])
-            .expect("words");
+        let [first, _] = known_goals(
+            [goal, Goal::Touch { agent: agents[1], other: agents[0], sign: Sign::Negative }],
+            [Attitude::Neutral; 2],
+        )
+        .expect("words");
         let word = first.first().expect("a word");
-        let choice = choices(0).into_iter().find(|choice| choice.value == *word).expect("a choice of the form");
+        let choice =
+            choices(0).into_iter().find(|choice| choice.value == *word).expect("a choice of the form");
         // The palette tells what videos show: colours must be the same.
         let shown = palette.goal_text(goal, AgentId::ZERO);
-        let colours: Vec<&str> = palette.object_names.iter().copied().filter(|name| shown.contains(name)).collect();
+        let colours: Vec<&str> =
+            palette.object_names.iter().copied().filter(|name| shown.contains(name)).collect();
         assert!(colours.iter().all(|colour| choice.text.contains(colour)), "{shown}: {}", choice.text);
         let place = shown.rsplit(" on ").next().expect("a place").trim_start_matches("the ");
         assert!(choice.text.ends_with(place), "{shown}: {}", choice.text);
@@ -97,7 +106,8 @@ fn goals_have_the_words_of_form_and_video() {
     let words = known_goals([touch, away], [Attitude::Neutral, Attitude::Hinder]).expect("words");
     assert_eq!(words[0], BTreeSet::from(["touch".to_owned()]));
     assert_eq!(words[1], BTreeSet::from(["get away".to_owned(), "hinder".to_owned()]));
-    let other = Goal::AgentOnLandmark { agent: agents[0], landmark: LandmarkId::ALL[0], sign: Sign::Positive };
+    let other =
+        Goal::AgentOnLandmark { agent: agents[0], landmark: LandmarkId::ALL[0], sign: Sign::Positive };
     let words = known_goals([other, other], [Attitude::Neutral, Attitude::Help]).expect("words");
     assert_eq!(words[1], BTreeSet::from(["help".to_owned()]));
     let off = Goal::AgentOnLandmark { agent: agents[0], landmark: LandmarkId::ALL[0], sign: Sign::Negative };

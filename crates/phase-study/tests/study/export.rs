@@ -1,6 +1,6 @@
 //! Exports against the rules of Psych-DS and RFC 4180, and read back by what reads ratings.
 
-use crate::support::{begin, complete, document, forms, open, parameters, random, token_of, some_answer};
+use crate::support::{begin, complete, document, forms, open, parameters, random, some_answer, token_of};
 use phase_eval::ratings::ratings as read_ratings;
 use phase_study::{
     export::{File, psych_ds, ratings},
@@ -41,7 +41,8 @@ pub(crate) fn parse(text: &str) -> Vec<Vec<String>> {
 
 /// Checks what the Psych-DS validator calls errors, and that no keyword is unofficial.
 fn check(files: &[File]) {
-    let by_path: BTreeMap<&str, &str> = files.iter().map(|file| (file.path.as_str(), file.text.as_str())).collect();
+    let by_path: BTreeMap<&str, &str> =
+        files.iter().map(|file| (file.path.as_str(), file.text.as_str())).collect();
     assert!(by_path.values().all(|text| !text.is_empty()), "EMPTY_FILE");
     let description: Value = serde_json::from_str(by_path["dataset_description.json"]).expect("JSON");
     assert_eq!(description["@type"], "Dataset");
@@ -54,7 +55,8 @@ fn check(files: &[File]) {
     let measured: Vec<&str> = variables.iter().filter_map(|variable| variable["name"].as_str()).collect();
     let mut columns = BTreeSet::new();
     for (path, text) in by_path.iter().filter(|(path, _)| path.ends_with(".csv")) {
-        let name = path.strip_prefix("data/").and_then(|it| it.strip_suffix("_data.csv")).expect("a data file");
+        let name =
+            path.strip_prefix("data/").and_then(|it| it.strip_suffix("_data.csv")).expect("a data file");
         for pair in name.split('_') {
             let (key, value) = pair.split_once('-').expect("KEYWORD_FORMATTING_ERROR");
             assert!(KEYWORDS.contains(&key), "UNOFFICIAL_KEYWORD_WARNING {key}");
@@ -87,8 +89,11 @@ fn study(folder: &Path, form: Form) -> phase_study::study::Study {
         {"name": "age", "text": "How old are you?", "kind": "whole", "from": 18, "to": 120},
         {"name": "notes", "text": "Anything, \"else\"?", "kind": "text", "longest": 60},
     ]);
-    let expected =
-        if form == Form::Interactions { json!({"interactions": ["chasing"]}) } else { json!({"relation": "neutral"}) };
+    let expected = if form == Form::Interactions {
+        json!({"interactions": ["chasing"]})
+    } else {
+        json!({"relation": "neutral"})
+    };
     document["catch_trials"] = json!([{"id": "catch-0", "video": "catch.mp4", "expected": expected}]);
     open(folder, &document)
 }
@@ -125,7 +130,14 @@ fn what_raters_write_is_data() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut study = study(folder.path(), Form::Relation);
     let texts = [
-        "=HYPERLINK(\"https://evil.example\",\"x\")", "+1", "-1", "@SUM(A1)", " =1", "a,b \"c\" 'd'", "<script>alert(1)</script>", "％",
+        "=HYPERLINK(\"https://evil.example\",\"x\")",
+        "+1",
+        "-1",
+        "@SUM(A1)",
+        " =1",
+        "a,b \"c\" 'd'",
+        "<script>alert(1)</script>",
+        "％",
     ];
     for (k, text) in texts.iter().enumerate() {
         let joined = study.join(&parameters(&format!("={k}")), 0, token_of(k as u64)).expect("let in");
@@ -158,7 +170,8 @@ fn ratings_are_those_of_raters_who_count() {
     let token = study.join(&parameters("p5"), 0, token_of(5)).expect("let in").token;
     begin(&mut study, &token, 0);
     let raters = study_raters(&mut study);
-    let counts = read_ratings(&ratings(study.config(), &raters).expect("relations")).expect("phase-ratings/1");
+    let counts =
+        read_ratings(&ratings(study.config(), &raters).expect("relations")).expect("phase-ratings/1");
     assert_eq!(counts.len(), 4);
     for of in counts.values() {
         assert_eq!((of.friendly, of.neutral, of.adversarial), (0, 2, 0));

@@ -1,6 +1,8 @@
 //! The way of a rater through a study.
 
-use crate::support::{begin, complete, document, open, parameters, random, token_of, some_answer, submission};
+use crate::support::{
+    begin, complete, document, open, parameters, random, some_answer, submission, token_of,
+};
 use phase_study::{
     forms::Form,
     record::Standing,
@@ -18,7 +20,11 @@ fn with_everything(form: Form) -> Value {
         {"name": "sight", "text": "Do you see colours?", "kind": "one", "choices": ["yes", "no"]},
         {"name": "notes", "text": "Anything else?", "kind": "text", "longest": 20},
     ]);
-    let expected = if form == Form::Interactions { json!({"interactions": "chasing"}) } else { json!({"relation": "neutral"}) };
+    let expected = if form == Form::Interactions {
+        json!({"interactions": "chasing"})
+    } else {
+        json!({"relation": "neutral"})
+    };
     document["catch_trials"] = json!([{"id": "catch-0", "video": "catch.mp4", "expected": expected}]);
     document["completion"] = json!({"code": "ABC123", "url": "https://example.org/done?cc=ABC123"});
     document
@@ -34,8 +40,18 @@ fn a_rater_goes_from_consent_to_the_code() {
         let token = Token::parse(&joined.token.text()).expect("a token");
         let stage = study.consent(&token, true, 1).expect("agreed");
         assert!(matches!(&stage, Stage::Demographics { questions } if questions.len() == 3));
-        for rubbish in [json!(null), json!({}), json!({"age": 17}), json!({"age": "30"}), json!({"age": 30, "name": "x"}), json!({"age": 30, "notes": "a\nb"})] {
-            assert!(matches!(study.demographics(&token, &rubbish, 2), Err(StudyError::Field(_))), "{rubbish}");
+        for rubbish in [
+            json!(null),
+            json!({}),
+            json!({"age": 17}),
+            json!({"age": "30"}),
+            json!({"age": 30, "name": "x"}),
+            json!({"age": 30, "notes": "a\nb"}),
+        ] {
+            assert!(
+                matches!(study.demographics(&token, &rubbish, 2), Err(StudyError::Field(_))),
+                "{rubbish}"
+            );
         }
         let stage = study.demographics(&token, &json!({"age": 30}), 2).expect("said");
         assert!(matches!(stage, Stage::Instructions { .. }));
@@ -44,14 +60,21 @@ fn a_rater_goes_from_consent_to_the_code() {
         for trial in 1..=4 {
             let Stage::Trial(page) = &stage else { panic!("{stage:?}") };
             assert_eq!((page.trial, page.trials), (trial, 4));
-            let name = page.video.strip_prefix("videos/").and_then(|it| it.strip_suffix(".mp4")).expect("an address");
+            let name = page
+                .video
+                .strip_prefix("videos/")
+                .and_then(|it| it.strip_suffix(".mp4"))
+                .expect("an address");
             assert!(study.video(name).is_some_and(|file| file.ends_with(".mp4")));
             assert!(videos.insert(page.video.clone()), "no video twice");
             let answer = some_answer(&page.questions, &mut random(trial as u64));
             stage = study.answer(&token, &submission(trial, answer), 4).expect("answered");
         }
         let Stage::Done { code, url } = stage else { panic!("{stage:?}") };
-        assert_eq!((code.as_deref(), url.as_deref()), (Some("ABC123"), Some("https://example.org/done?cc=ABC123")));
+        assert_eq!(
+            (code.as_deref(), url.as_deref()),
+            (Some("ABC123"), Some("https://example.org/done?cc=ABC123"))
+        );
         // Whoever comes again with the same id is where it was, on another device too.
         let again = study.join(&parameters("p1"), 9, token_of(2)).expect("let in");
         assert!(again.resumed && matches!(again.stage, Stage::Done { .. }) && again.token != token);
@@ -69,8 +92,13 @@ fn wrong_answers_are_refused_and_change_nothing() {
     assert!(matches!(study.instructed(&token, 1), Err(StudyError::NotNow(_))));
     let first = begin(&mut study, &token, 1);
     let rubbish = [
-        json!(null), json!({}), json!([]), submission(0, answer.clone()), submission(1, json!({})),
-        submission(1, json!({"relation": "angry"})), submission(1, json!({"relation": ["neutral"]})),
+        json!(null),
+        json!({}),
+        json!([]),
+        submission(0, answer.clone()),
+        submission(1, json!({})),
+        submission(1, json!({"relation": "angry"})),
+        submission(1, json!({"relation": ["neutral"]})),
         submission(1, json!({"relation": "neutral", "mood": "good"})),
         json!({"trial": 1, "answer": answer, "response_time": -1, "plays": 1}),
         json!({"trial": 1, "answer": answer, "response_time": 10, "plays": 0}),
@@ -80,7 +108,10 @@ fn wrong_answers_are_refused_and_change_nothing() {
         assert!(matches!(study.answer(&token, &wrong, 1), Err(StudyError::Field(_))), "{wrong}");
     }
     for trial in [2, 3, 4_000_000_000_usize] {
-        assert!(matches!(study.answer(&token, &submission(trial, answer.clone()), 1), Err(StudyError::NotNow(_))));
+        assert!(matches!(
+            study.answer(&token, &submission(trial, answer.clone()), 1),
+            Err(StudyError::NotNow(_))
+        ));
     }
     assert_eq!(study.stage(&token).expect("a stage"), first);
     let second = study.answer(&token, &submission(1, answer.clone()), 2).expect("answered");
@@ -121,7 +152,8 @@ fn the_study_is_full_and_places_of_who_is_gone_are_free_again() {
     assert_eq!(study.join(&parameters("p2"), 70 * MINUTE, token_of(2)).expect("told").stage, Stage::Full);
     assert!(matches!(begin(&mut study, &late, 71 * MINUTE), Stage::Trial(_)));
     // Whoever was gone for long can still finish.
-    let stage = study.answer(&token, &submission(2, json!({"relation": "neutral"})), 90 * MINUTE).expect("answered");
+    let stage =
+        study.answer(&token, &submission(2, json!({"relation": "neutral"})), 90 * MINUTE).expect("answered");
     assert!(matches!(stage, Stage::Done { .. }));
 }
 
@@ -155,7 +187,9 @@ fn who_withdraws_is_deleted_and_the_place_is_free() {
     study.answer(&joined.token, &submission(1, json!({"relation": "neutral"})), 0).expect("answered");
     let bytes = || {
         let files = std::fs::read_dir(folder.path()).expect("a folder");
-        files.flat_map(|file| std::fs::read(file.expect("a file").path()).expect("bytes")).collect::<Vec<u8>>()
+        files
+            .flat_map(|file| std::fs::read(file.expect("a file").path()).expect("bytes"))
+            .collect::<Vec<u8>>()
     };
     let has = |text: &str| bytes().windows(text.len()).any(|window| window == text.as_bytes());
     assert!(has("A-PERSON-4711") && has("a secret 4712"));
@@ -166,7 +200,9 @@ fn who_withdraws_is_deleted_and_the_place_is_free() {
     let late = study.answer(&joined.token, &submission(2, json!({"relation": "neutral"})), 7);
     assert!(matches!(late, Err(StudyError::NotNow(_))));
     let raters = study.raters().expect("raters");
-    assert!(raters[0].trials.is_empty() && raters[0].demographics.is_none() && raters[0].parameters.is_empty());
+    assert!(
+        raters[0].trials.is_empty() && raters[0].demographics.is_none() && raters[0].parameters.is_empty()
+    );
     assert!(complete(&mut study, "p2", 8, |_| json!({"relation": "neutral"})).is_some());
 }
 

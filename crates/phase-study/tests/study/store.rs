@@ -1,6 +1,6 @@
 //! The file of answers.
 
-use crate::support::{begin, document, forms, open, parameters, read, token_of, submission};
+use crate::support::{begin, document, forms, open, parameters, read, submission, token_of};
 use phase_study::{
     forms::Form,
     store::{Store, StoreProblem},
@@ -40,7 +40,10 @@ fn what_is_not_its_file_is_refused_and_left_alone() {
     assert!(matches!(problem("a-study", "relation"), StoreProblem::Foreign));
     fs::remove_file(&path).expect("removed");
 
-    assert!(matches!(Store::open_existing(&path, "a", "goals").expect_err("none").problem, StoreProblem::Absent));
+    assert!(matches!(
+        Store::open_existing(&path, "a", "goals").expect_err("none").problem,
+        StoreProblem::Absent
+    ));
     drop(Store::open(&path, "a-study", "relation").expect("new"));
     assert!(matches!(problem("other", "relation"), StoreProblem::OtherStudy { .. }));
     assert!(matches!(problem("a-study", "goals"), StoreProblem::OtherStudy { .. }));
@@ -58,6 +61,18 @@ fn damage_is_named() {
     begin(&mut study, &token, 1);
     study.answer(&token, &submission(1, json!({"relation": "neutral"})), 2).expect("answered");
     let other = Connection::open(folder.path().join("answers.sqlite")).expect("a database");
+    for change in [
+        "UPDATE answer SET answer = '{}'",
+        "DELETE FROM answer",
+        "DELETE FROM rater",
+        "UPDATE rater SET joined = 0",
+        "UPDATE trial SET shown = 'x'",
+        "DELETE FROM page",
+    ] {
+        let refused = other.execute_batch(change).expect_err(change).to_string();
+        assert!(refused.contains("never changed") || refused.contains("who left"), "{refused}");
+    }
+    other.execute_batch("DROP TRIGGER answer_stays; DROP TRIGGER answer_is_kept; DROP TRIGGER trial_is_kept").expect("meddled");
     other.execute_batch("UPDATE answer SET answer = 'rubbish'").expect("damaged");
     let error = study.raters().expect_err("damaged").to_string();
     assert!(error.contains("rater 1"), "{error}");
@@ -76,7 +91,8 @@ fn a_video_that_was_given_to_somebody_cannot_be_taken_away() {
     drop(study);
     document["stimuli"][0]["id"] = json!("another");
     let config = read(&document);
-    let store = Store::open(&folder.path().join("answers.sqlite"), &config.name, config.form.name()).expect("a store");
+    let store = Store::open(&folder.path().join("answers.sqlite"), &config.name, config.form.name())
+        .expect("a store");
     let refused = Study::new(config, forms(), store).expect_err("refused");
     assert!(matches!(&refused, StudyError::Unknown { rater: 1, shown } if shown == "event-0"), "{refused}");
 }

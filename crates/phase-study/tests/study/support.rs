@@ -35,7 +35,8 @@ pub(crate) fn read(document: &Value) -> StudyConfig {
 /// A study with its answers in a folder.
 pub(crate) fn open(folder: &Path, document: &Value) -> Study {
     let config = read(document);
-    let store = Store::open(&folder.join("answers.sqlite"), &config.name, config.form.name()).expect("a store");
+    let store =
+        Store::open(&folder.join("answers.sqlite"), &config.name, config.form.name()).expect("a store");
     Study::new(config, forms(), store).expect("a study")
 }
 
@@ -95,7 +96,9 @@ pub(crate) fn complete(
     now: i64,
     mut answer: impl FnMut(&TrialPage) -> Value,
 ) -> Option<Token> {
-    let seed = id.bytes().fold(u64::from(now.unsigned_abs() as u32), |sum, byte| sum * 31 % 1_000_003 + u64::from(byte));
+    let seed = id
+        .bytes()
+        .fold(u64::from(now.unsigned_abs() as u32), |sum, byte| sum * 31 % 1_000_003 + u64::from(byte));
     let joined = study.join(&parameters(id), now, token_of(seed)).expect("let in");
     let mut stage = begin(study, &joined.token, now);
     while let Stage::Trial(page) = &stage {
