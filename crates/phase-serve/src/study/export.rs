@@ -32,7 +32,7 @@ async fn progress(State(app): State<Arc<App>>, headers: HeaderMap) -> Result<Jso
     let mut all = Vec::new();
     for running in app.studies.0.values() {
         all.push(computed(running, |config, _, raters| Ok(json!({
-            "name": config.name, "title": config.title, "raters": phase_study::analysis::count(config, raters),
+            "name": config.name, "form": config.form.name(), "title": config.title, "raters": phase_study::analysis::count(config, raters),
             "wanted": config.raters, "coverage": phase_study::analysis::coverage(config, raters),
             "raters_per_video": config.raters_per_video,
         }))).await?);

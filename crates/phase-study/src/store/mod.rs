@@ -282,9 +282,14 @@ mod tests {
     fn what_is_acknowledged_is_on_the_disk() {
         let folder = tempfile::tempdir().unwrap();
         let store = Store::open(&folder.path().join("a.sqlite"), "a", "goals").unwrap();
-        let number = |pragma| store.connection.pragma_query_value(None, pragma, |row| row.get::<_, i64>(0)).unwrap();
-        let mode: String = store.connection.pragma_query_value(None, "journal_mode", |row| row.get(0)).unwrap();
+        let number =
+            |pragma| store.connection.pragma_query_value(None, pragma, |row| row.get::<_, i64>(0)).unwrap();
+        let mode: String =
+            store.connection.pragma_query_value(None, "journal_mode", |row| row.get(0)).unwrap();
         // https://www.sqlite.org/pragma.html#pragma_synchronous: 2 is FULL.
-        assert_eq!((mode.as_str(), number("synchronous"), number("foreign_keys"), number("secure_delete")), ("wal", 2, 1, 1));
+        assert_eq!(
+            (mode.as_str(), number("synchronous"), number("foreign_keys"), number("secure_delete")),
+            ("wal", 2, 1, 1)
+        );
     }
 }

@@ -72,7 +72,9 @@ fn damage_is_named() {
         let refused = other.execute_batch(change).expect_err(change).to_string();
         assert!(refused.contains("never changed") || refused.contains("who left"), "{refused}");
     }
-    other.execute_batch("DROP TRIGGER answer_stays; DROP TRIGGER answer_is_kept; DROP TRIGGER trial_is_kept").expect("meddled");
+    other
+        .execute_batch("DROP TRIGGER answer_stays; DROP TRIGGER answer_is_kept; DROP TRIGGER trial_is_kept")
+        .expect("meddled");
     other.execute_batch("UPDATE answer SET answer = 'rubbish'").expect("damaged");
     let error = study.raters().expect_err("damaged").to_string();
     assert!(error.contains("rater 1"), "{error}");

@@ -11,10 +11,12 @@ document.getElementById("more").append(section);
 
 const FILES = [["psych-ds.tar", "Psych-DS"], ["ratings.json", "Ratings"], ["report.html", "Report"], ["analysis.json", "Analysis"]];
 
-function row({ name, title: text, raters, wanted, coverage, raters_per_video: each }) {
+function row({ name, form, title: text, raters, wanted, coverage, raters_per_video: each }) {
   const link = Object.assign(document.createElement("a"), { href: `../study/${encodeURIComponent(name)}/`, textContent: text });
   const downloads = document.createElement("span");
   for (const [file, label] of FILES) {
+    // Interactions are no relations.
+    if (file === "ratings.json" && form === "interactions") continue;
     const made = button(label, () => save(`api/studies/${encodeURIComponent(name)}/${file}`, `${name}-${file}`));
     made.setAttribute("aria-label", `${label} of ${name}`);
     downloads.append(made, " ");
