@@ -55,6 +55,7 @@ use limits::PerAddress;
 use rooms::Rooms;
 use std::sync::Arc;
 use study::Studies;
+use tokio::sync::Semaphore;
 
 /// What all requests share.
 pub(crate) struct App {
@@ -63,6 +64,9 @@ pub(crate) struct App {
     admin: String,
     assets: Assets,
     rooms: Arc<Rooms>,
+    /// Sockets that may be open at the same time: some for each player, since a page that reconnects may be faster than the end of its
+    /// last connection.
+    sockets: Arc<Semaphore>,
     /// Requests of an address.
     requests: PerAddress,
     /// Rooms opened from an address.

@@ -18,7 +18,10 @@ use std::{
     sync::Arc,
     time::Duration,
 };
-use tokio::{runtime::Runtime, sync::watch};
+use tokio::{
+    runtime::Runtime,
+    sync::{Semaphore, watch},
+};
 
 /// Largest body of a request (bytes): an answer, not a file.
 const LARGEST_BODY: usize = 64 * 1024;
@@ -28,6 +31,8 @@ const REQUESTS: (f64, f64) = (400.0, 200.0);
 const OPENINGS: (f64, f64) = (30.0, 0.5);
 /// Raters who come from an address at once, and then a second. A class may sit behind one.
 const JOININGS: (f64, f64) = (300.0, 5.0);
+/// Sockets for each room: two for each player.
+const SOCKETS: usize = 4;
 /// How long open connections may take to end when the server stops.
 const PATIENCE: Duration = Duration::from_secs(5);
 
@@ -73,6 +78,7 @@ impl Server {
             rooms: Rooms::open(settings.clone(), practice, scenes, stopped)?,
             assets: assets(wasm),
             admin: token::kept(&admin),
+            sockets: Arc::new(Semaphore::new(SOCKETS * settings.rooms)),
             requests: PerAddress::new(REQUESTS.0, REQUESTS.1),
             openings: PerAddress::new(OPENINGS.0, OPENINGS.1),
             studies: Studies::default(),

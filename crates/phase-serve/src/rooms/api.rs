@@ -87,7 +87,12 @@ async fn connect(
     if !same_origin(&headers) {
         return Err(ApiError::new(StatusCode::FORBIDDEN, "pages of other sites play no games"));
     }
+    let permit = Arc::clone(&app.sockets).try_acquire_owned();
+    let permit = permit.map_err(|_| ApiError::busy("too many players are here; try again later"))?;
     let rooms: Arc<Rooms> = Arc::clone(&app.rooms);
     let upgrade = upgrade.max_message_size(socket::LARGEST_MESSAGE).max_frame_size(socket::LARGEST_MESSAGE);
-    Ok(upgrade.on_upgrade(move |socket| socket::play(rooms, socket)))
+    Ok(upgrade.on_upgrade(async move |socket| {
+        socket::play(rooms, socket).await;
+        drop(permit);
+    }))
 }

@@ -41,8 +41,7 @@ export class Arena {
       c.fillStyle = UNSEEN;
       const side = this.#scale;
       seen.forEach((visible, k) => {
-        // Neighbours overlap by a fraction of a pixel, so that no lines show between them.
-        if (!visible) c.fillRect(this.#x(MIN[0] + (k % SIDE)), this.#y(MIN[1] + Math.floor(k / SIDE) + 1), side + 0.5, side + 0.5);
+        if (!visible) c.fillRect(this.#x(MIN[0] + (k % SIDE)), this.#y(MIN[1] + Math.floor(k / SIDE) + 1), side, side);
       });
     }
     c.strokeStyle = "#000";

@@ -1,7 +1,11 @@
 // The playground in a browser: run, scrub, edit, take over, share, save and open, without a complaint of the browser or of axe.
 import assert from "node:assert/strict";
-import { readFile } from "node:fs/promises";
+import { execFile } from "node:child_process";
+import { mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
 import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { promisify } from "node:util";
 import { after, before, test } from "node:test";
 import { launch, serve } from "./site.mjs";
 
@@ -150,4 +154,33 @@ test("nothing stands in the way of anybody", async () => {
 
 test("the browser has nothing to complain of", () => {
   assert.deepEqual(complaints.filter((text) => !text.includes("axe")), []);
+});
+
+test("an event made here is the one that the program makes", { skip: !process.env.PHASE && "PHASE does not name the program" }, async () => {
+  await begin();
+  await page.selectOption("#kind", "hindering");
+  await page.waitForSelector("#run:not([disabled])");
+  await page.fill("#simulations", "300");
+  await page.locator("#simulations").blur();
+  await page.click("#run");
+  await page.waitForFunction(() => Number.parseFloat(document.getElementById("clock").textContent) > 5);
+  await page.click("#run");
+  const { events: [here] } = await saved();
+  const rows = (tracks) => tracks.map(([first]) => [first]);
+  const { columns, agents, objects } = here.trajectory;
+  const scene = {
+    ...Object.fromEntries(["id", "layout", "agents", "objects", "event", "seed"].map((name) => [name, here[name]])),
+    trajectory: { columns, agents: rows(agents), objects: rows(objects) },
+  };
+  const folder = await mkdtemp(join(tmpdir(), "phase-same-"));
+  await writeFile(join(folder, "scene.json"), JSON.stringify({ format: "phase-events/1", events: [scene] }));
+  const options = ["--events", join(folder, "scene.json"), "--out", join(folder, "out"), "--no-video", "--quiet"];
+  const effort = ["--simulations", "300", "--max-steps", String(here.actions.length)];
+  await promisify(execFile)(process.env.PHASE, ["simulate", ...options, ...effort]);
+  const { events: [there] } = JSON.parse(await readFile(join(folder, "out", `${here.id}.json`), "utf8"));
+  await rm(folder, { recursive: true });
+  assert.ok(here.actions.length >= 20);
+  for (const name of ["seed", "actions", "subgoals", "values", "substeps", "thoughts", "trajectory"]) {
+    assert.deepEqual(here[name], there[name], name);
+  }
 });
