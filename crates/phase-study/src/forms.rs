@@ -63,12 +63,15 @@ struct Offer {
     objects: u8,
 }
 
+/// Makes the kind of a question of its choices.
+type MakeKind = fn(Vec<Choice>) -> Kind;
+
 /// A question as the data has it.
 #[derive(Clone, Debug)]
 struct Entry {
     name: String,
     text: String,
-    kind: fn(Vec<Choice>) -> Kind,
+    kind: MakeKind,
     choices: Vec<Offer>,
 }
 
@@ -121,7 +124,7 @@ impl Forms {
 
 fn entry(question: &Field<'_>, choices: &Field<'_>) -> Result<Entry, FieldError> {
     question.only(&["name", "text", "kind", "choices"])?;
-    let kinds: [(&str, fn(Vec<Choice>) -> Kind); 3] = [
+    let kinds: [(&str, MakeKind); 3] = [
         ("many", |choices| Kind::Many { choices }),
         ("one", |choices| Kind::One { choices }),
         ("list", |choices| Kind::List { choices }),

@@ -113,7 +113,7 @@ fn studies_that_cannot_begin_are_named() {
     assert!(refused(&[study.clone(), study.clone()]).contains("another study of the name \"pilot\""));
     assert!(refused(&[folder.path().join("none.json")]).contains("none.json"));
     fs::remove_file(folder.path().join("videos/1.mp4")).expect("removed");
-    assert!(refused(&[study.clone()]).contains("1.mp4"));
+    assert!(refused(std::slice::from_ref(&study)).contains("1.mp4"));
     fs::write(&study, "{}").expect("written");
     assert!(refused(&[study]).contains("pilot.json: field `format`"));
 }

@@ -188,9 +188,9 @@ impl Study {
             store.add_page(rater.number, Page::Consent, now, None)?;
             Ok(store.add_trials(rater.number, &trials)?)
         })
-        .and_then(|stage| match stage {
-            Stage::Consent { .. } if agrees => Ok(Stage::Full),
-            stage => Ok(stage),
+        .map(|stage| match stage {
+            Stage::Consent { .. } if agrees => Stage::Full,
+            stage => stage,
         })
     }
 
