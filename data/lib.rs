@@ -1,4 +1,5 @@
-//! What comes with PHASE: trained weights with the records of their training, fitted models, and presets of datasets, as bytes and text.
+//! What comes with PHASE: trained weights with the records of their training, fitted models, rating forms, and presets of datasets, as
+//! bytes and text.
 //!
 //! The files are made by commands (docs/networks.md, docs/simple.md, docs/dataset.md) and lie beside this file. Key design decision: one
 //! crate has them all, so that every other crate can be packed without files from outside of it. What a program does not use is not
@@ -39,6 +40,10 @@ pub const TWO_LEVEL_LSTM: Trained = trained!("two-level-lstm.safetensors");
 
 /// How people report what they saw (JSON, docs/simple.md).
 pub const REPORT_MODEL: &str = include_str!("report-model.json");
+
+/// The rating forms: what people are asked about a video (JSON, format phase-forms/1, docs/formats.md). The 23 types of interaction are
+/// those of the paper, in its order.
+pub const FORMS: &str = include_str!("forms.json");
 
 /// Twelve events, two of each kind (JSON, format phase-preset/3, as all presets).
 pub const DEMO: &str = include_str!("presets/demo.json");

@@ -43,6 +43,7 @@ pub const XTASK: Program = Program {
     name: "cargo xtask",
     serve_hint: "use `cargo serve`",
     networks_hint: "use `cargo xtask-networks` in place of `cargo xtask`",
+    studies_hint: "use `cargo xtask-studies` in place of `cargo xtask`",
     // The installed program is `phase`.
     interface: phase_cli::cli::Cli::command,
 };

@@ -20,6 +20,7 @@ use crate::{
     simulate::{self, options::Simulate},
     splits::{self, Splits},
     stats::{self, Stats},
+    study::{self, options::Study},
     train::{self, options::Train},
     verify::{self, Verify},
 };
@@ -68,6 +69,9 @@ pub enum Command {
     Benchmark(Benchmark),
     /// Write the playground, a page on which minds play in a browser, as static files
     Playground(Playground),
+    /// Prepare a rating study of videos, export its answers, or analyse them
+    #[command(subcommand)]
+    Study(Study),
     /// Serve the playground, the two-player game and what belongs to them to browsers
     Serve(Serve),
     /// Print a script with which a shell completes the commands and options of phase
@@ -108,6 +112,7 @@ impl Command {
             Self::Train(arguments) => train::run(arguments, context),
             Self::Benchmark(arguments) => benchmark::run(arguments, context),
             Self::Playground(arguments) => playground::run(arguments, context),
+            Self::Study(arguments) => study::run(arguments, context),
             Self::Serve(arguments) => serve::run(arguments, context),
             Self::Completions(arguments) => completions::run(arguments, context),
             Self::Man(arguments) => man::run(arguments, context),

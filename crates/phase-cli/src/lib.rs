@@ -12,6 +12,7 @@
 //! - `train` trains neural networks (feature `networks`),
 //! - `benchmark` evaluates all methods and compares them with published results,
 //! - `playground` writes the playground as static files,
+//! - `study` prepares rating studies, and exports and analyses their answers (feature `studies`),
 //! - `serve` serves the playground, the two-player game and the admin page (feature `serve`),
 //! - `completions` and `man` describe the program to shells and to `man`.
 //!
@@ -75,6 +76,7 @@ pub mod simulate;
 pub mod source;
 pub mod splits;
 pub mod stats;
+pub mod study;
 pub mod train;
 pub mod verify;
 
@@ -86,6 +88,7 @@ use std::{ffi::OsString, process::ExitCode};
 pub const PHASE: Program = Program {
     name: "phase",
     networks_hint: "install `phase` with its default features (`cargo install --path crates/phase-cli`)",
+    studies_hint: "install `phase` with its default features (`cargo install --path crates/phase-cli`)",
     serve_hint: "install `phase` with its default features (`cargo install --path crates/phase-cli`)",
     interface: cli::Cli::command,
 };

@@ -30,6 +30,8 @@ pub enum Purpose {
     Training = 10,
     /// Stages that events of several kinds share.
     Stage = 11,
+    /// Videos for a rater of a study (by the rater's number).
+    Assignment = 12,
 }
 
 /// A generator for one purpose and one index (an event's number, an agent's number, a step …).

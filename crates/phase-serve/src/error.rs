@@ -34,6 +34,17 @@ pub enum ServeError {
         #[source]
         source: io::Error,
     },
+    /// The configuration of a study cannot be used.
+    #[error("{}: {rule}", file.display())]
+    Study {
+        /// The file.
+        file: PathBuf,
+        /// What is wrong.
+        rule: String,
+    },
+    /// The answers of a study cannot be used.
+    #[error(transparent)]
+    Answers(#[from] phase_study::store::StoreError),
     /// There are no random numbers for tokens.
     #[error("the operating system has no random numbers")]
     Random(#[from] getrandom::Error),

@@ -1,7 +1,8 @@
-//! The server of PHASE: the [playground](phase_web::playground), the two-player game of `phase-game`, and the admin page.
+//! The server of PHASE: the [playground](phase_web::playground), the two-player game of `phase-game`, the rating studies of `phase-study`,
+//! and the admin page.
 //!
 //! [`Server::bind`] listens, [`Server::run`] serves until it is told to stop. What is kept is in one folder: `rooms/`, a journal for each
-//! game, and `events/`, the recordings. A server that was killed goes on with its games when it is started again.
+//! game, `events/`, the recordings, and `studies/`, the answers of raters. A server that was killed goes on with its games when it is started again.
 //!
 //! Key design decision: the server is a thin layer over state machines that know no sockets. Each game is one task, which owns its room
 //! and is told everything through one queue, so nothing is shared and nothing is locked while a game steps. The trade-off is that all
@@ -43,6 +44,7 @@ mod log;
 mod rooms;
 pub mod server;
 pub mod settings;
+mod study;
 pub mod token;
 
 pub use error::ServeError;
@@ -53,6 +55,7 @@ use assets::Assets;
 use limits::PerAddress;
 use rooms::Rooms;
 use std::sync::Arc;
+use study::Studies;
 use tokio::sync::Semaphore;
 
 /// What all requests share.
@@ -69,4 +72,7 @@ pub(crate) struct App {
     requests: PerAddress,
     /// Rooms opened from an address.
     openings: PerAddress,
+    studies: Studies,
+    /// Raters who came from an address.
+    joinings: PerAddress,
 }

@@ -6,6 +6,7 @@ use crate::{
     headers,
     limits::PerAddress,
     rooms::{self, Rooms},
+    study::{self, Studies},
     token,
 };
 use axum::{Router, body::Bytes, extract::DefaultBodyLimit, middleware};
@@ -13,6 +14,7 @@ use phase_game::playlist::Item;
 use std::{
     future::Future,
     net::{SocketAddr, TcpListener},
+    path::PathBuf,
     sync::Arc,
     time::Duration,
 };
@@ -27,6 +29,8 @@ const LARGEST_BODY: usize = 64 * 1024;
 const REQUESTS: (f64, f64) = (400.0, 200.0);
 /// Rooms opened from an address at once, and then a second.
 const OPENINGS: (f64, f64) = (30.0, 0.5);
+/// Raters who come from an address at once, and then a second. A class may sit behind one.
+const JOININGS: (f64, f64) = (300.0, 5.0);
 /// Sockets for each room: two for each player.
 const SOCKETS: usize = 4;
 /// How long open connections may take to end when the server stops.
@@ -34,7 +38,7 @@ const PATIENCE: Duration = Duration::from_secs(5);
 
 /// A server that listens.
 pub struct Server {
-    app: Arc<App>,
+    app: App,
     runtime: Runtime,
     listener: tokio::net::TcpListener,
     address: SocketAddr,
@@ -77,10 +81,21 @@ impl Server {
             sockets: Arc::new(Semaphore::new(SOCKETS * settings.rooms)),
             requests: PerAddress::new(REQUESTS.0, REQUESTS.1),
             openings: PerAddress::new(OPENINGS.0, OPENINGS.1),
+            studies: Studies::default(),
+            joinings: PerAddress::new(JOININGS.0, JOININGS.1),
             settings,
         };
         drop(_entered);
-        Ok(Self { app: Arc::new(app), runtime, listener, address, admin, stop })
+        Ok(Self { app, runtime, listener, address, admin, stop })
+    }
+
+    /// Opens rating studies, each a file of the format `phase-study/1`; their answers are in `studies/` in the settings' folder.
+    ///
+    /// # Errors
+    /// [`ServeError`] if a configuration, its videos or its answers cannot be used, or two studies have the same name.
+    pub fn open_studies(&mut self, configurations: &[PathBuf]) -> Result<(), ServeError> {
+        self.app.studies = Studies::open(configurations, &self.app.settings.folder.join("studies"))?;
+        Ok(())
     }
 
     /// Where it listens.
@@ -101,7 +116,7 @@ impl Server {
     /// [`ServeError::Runtime`].
     pub fn run(self, until: impl Future<Output = ()> + Send + 'static) -> Result<(), ServeError> {
         let Self { app, runtime, listener, stop, .. } = self;
-        let service = router(app).into_make_service_with_connect_info::<SocketAddr>();
+        let service = router(Arc::new(app)).into_make_service_with_connect_info::<SocketAddr>();
         let served = runtime.block_on(async move {
             let mut stopped = stop.subscribe();
             let stopping = async move {
@@ -129,6 +144,7 @@ fn router(app: Arc<App>) -> Router {
     Router::new()
         .merge(rooms::routes())
         .merge(admin::routes())
+        .merge(study::routes())
         .fallback(assets::file)
         .layer(DefaultBodyLimit::max(LARGEST_BODY))
         .layer(middleware::from_fn_with_state(Arc::clone(&app), headers::guard))

@@ -40,6 +40,31 @@ pub fn bootstrap<R: Rng>(
         sample.iter_mut().for_each(|place| *place = random.random_range(0..count));
         values.extend(statistic(&sample));
     }
+    central(values, confidence)
+}
+
+/// The same interval of the difference of two means, `one` less `other`: both samples are drawn independently. `None` if either is
+/// empty.
+#[must_use]
+pub fn bootstrap_difference<R: Rng>(
+    one: &[f64],
+    other: &[f64],
+    resamples: usize,
+    confidence: f64,
+    random: &mut R,
+) -> Option<Interval> {
+    if one.is_empty() || other.is_empty() {
+        return None;
+    }
+    let mut mean = |values: &[f64]| {
+        let sum: f64 = values.iter().map(|_| values[random.random_range(0..values.len())]).sum();
+        sum / values.len() as f64
+    };
+    central((0..resamples).map(|_| mean(one) - mean(other)).collect(), confidence)
+}
+
+/// The interval that holds the central share of values.
+fn central(mut values: Vec<f64>, confidence: f64) -> Option<Interval> {
     values.sort_by(f64::total_cmp);
     let last = values.len().checked_sub(1)?;
     let outside = ((1.0 - confidence) / 2.0 * values.len() as f64).round() as usize;

@@ -3,8 +3,9 @@
 //! - [`mean`] and [`standard_error`] of a sample.
 //! - [`percentile`] and [`quartiles`] by nearest rank, and the conventional [`median`], the midpoint of the two
 //!   central values.
-//! - [`wilson_interval`] for a proportion, [`bootstrap_mean`] for the mean of anything, [`bootstrap`] for any statistic.
+//! - [`wilson_interval`] for a proportion, [`bootstrap_mean`] for the mean of anything, [`bootstrap_difference`] for that of two, [`bootstrap`] for any statistic.
 //! - [`pearson`] and [`spearman`] correlations, and [`spearman_brown`] for the reliability of a whole.
+//! - [`krippendorff_alpha`] for the agreement of raters, [`standard_deviation`] of a sample.
 //! - [`fisher_exact_greater`] to compare two proportions.
 //!
 //! Key design decision: every function takes plain slices and counts and names its definition. Nine quantile
@@ -32,6 +33,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+mod agreement;
 mod bootstrap;
 mod correlation;
 mod fisher;
@@ -40,10 +42,11 @@ mod mean;
 mod proportion;
 mod quantile;
 
-pub use bootstrap::{bootstrap, bootstrap_mean};
+pub use agreement::krippendorff_alpha;
+pub use bootstrap::{bootstrap, bootstrap_difference, bootstrap_mean};
 pub use correlation::{pearson, spearman, spearman_brown};
 pub use fisher::fisher_exact_greater;
 pub use interval::Interval;
-pub use mean::{mean, standard_error};
+pub use mean::{mean, standard_deviation, standard_error};
 pub use proportion::wilson_interval;
 pub use quantile::{median, percentile, quartiles};

@@ -6,11 +6,20 @@ pub fn mean(values: &[f64]) -> Option<f64> {
     (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
 }
 
-/// The standard error of the mean: the sample standard deviation (with n − 1 degrees of freedom) over √n. `None`
-/// below two values.
+/// The sample standard deviation, with n − 1 degrees of freedom. `None` below two values.
+#[must_use]
+pub fn standard_deviation(values: &[f64]) -> Option<f64> {
+    variance(values).map(libm::sqrt)
+}
+
+/// The standard error of the mean: the sample standard deviation over √n. `None` below two values.
 #[must_use]
 pub fn standard_error(values: &[f64]) -> Option<f64> {
-    let (mean, count) = (mean(values)?, values.len() as f64);
+    variance(values).map(|variance| libm::sqrt(variance / values.len() as f64))
+}
+
+fn variance(values: &[f64]) -> Option<f64> {
+    let mean = mean(values)?;
     let squares = values.iter().map(|value| (value - mean) * (value - mean)).sum::<f64>();
-    (values.len() > 1).then(|| libm::sqrt(squares / (count - 1.0) / count))
+    (values.len() > 1).then(|| squares / (values.len() as f64 - 1.0))
 }

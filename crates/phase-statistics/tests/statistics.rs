@@ -1,8 +1,8 @@
 //! Statistics compared with published tables and values derived from their definitions.
 
 use phase_statistics::{
-    Interval, bootstrap_mean, fisher_exact_greater, mean, median, percentile, quartiles, standard_error,
-    wilson_interval,
+    Interval, bootstrap_difference, bootstrap_mean, fisher_exact_greater, krippendorff_alpha, mean, median,
+    percentile, quartiles, standard_error, wilson_interval,
 };
 use proptest::prelude::*;
 use rand_pcg::Pcg64Mcg;
@@ -150,4 +150,48 @@ proptest! {
         prop_assert!(count(&|value| value <= found) >= hundredths * values.len());
         prop_assert!(count(&|value| value < found) < hundredths * values.len());
     }
+}
+
+#[test]
+fn krippendorffs_own_examples() {
+    // Krippendorff, Computing Krippendorff's Alpha-Reliability (2011). A: two raters, ten units, two values.
+    let first = [0, 1, 0, 0, 0, 0, 0, 0, 1, 0];
+    let second = [1, 1, 1, 0, 0, 1, 0, 0, 0, 0];
+    let units: Vec<[usize; 2]> = first.iter().zip(second).map(|(a, b)| [2 - a - b, a + b]).collect();
+    let alpha = krippendorff_alpha(units.iter().map(|unit| &unit[..])).expect("values differ");
+    assert!((alpha - 0.095).abs() < 5e-4, "{alpha}");
+
+    // C: four raters, twelve units, five values, some missing (0).
+    let raters = [
+        [1, 2, 3, 3, 2, 1, 4, 1, 2, 0, 0, 0],
+        [1, 2, 3, 3, 2, 2, 4, 1, 2, 5, 0, 3],
+        [0, 3, 3, 3, 2, 3, 4, 2, 2, 5, 1, 0],
+        [1, 2, 3, 3, 2, 4, 4, 1, 2, 5, 1, 0],
+    ];
+    let count = |k: usize, value: usize| raters.iter().filter(|rater| rater[k] == value).count();
+    let units: Vec<[usize; 5]> = (0..12).map(|k| [1, 2, 3, 4, 5].map(|value| count(k, value))).collect();
+    let alpha = krippendorff_alpha(units.iter().map(|unit| &unit[..])).expect("values differ");
+    assert!((alpha - 0.743).abs() < 5e-4, "{alpha}");
+
+    let of = |units: &[[usize; 2]]| krippendorff_alpha(units.iter().map(|unit| &unit[..]));
+    assert_eq!(of(&[[2, 0], [0, 2]]), Some(1.0));
+    assert_eq!(of(&[[2, 0], [2, 0]]), None);
+    assert_eq!(of(&[]), None);
+    assert_eq!(of(&[[1, 0], [0, 1]]), None);
+}
+
+#[test]
+fn the_interval_of_a_difference() {
+    let mut random = Pcg64Mcg::new(1);
+    // Two samples of known spread: the difference of their means has the standard error √(1/400 + 4/400).
+    let one: Vec<f64> = (0..400).map(|k| if k % 2 == 0 { 4.0 } else { 2.0 }).collect();
+    let other: Vec<f64> = (0..400).map(|k| if k % 2 == 0 { 3.0 } else { -1.0 }).collect();
+    let interval = bootstrap_difference(&one, &other, 10_000, 0.95, &mut random).expect("values");
+    let half = 1.96 * (5.0_f64 / 400.0).sqrt();
+    assert!(
+        (interval.low - (2.0 - half)).abs() < 0.01 && (interval.high - (2.0 + half)).abs() < 0.01,
+        "{interval:?}"
+    );
+    assert_eq!(bootstrap_difference(&[], &other, 10, 0.95, &mut random), None);
+    assert_eq!(bootstrap_difference(&one, &[], 10, 0.95, &mut random), None);
 }

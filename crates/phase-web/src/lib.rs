@@ -42,8 +42,8 @@ const PLAYGROUND: [(&str, &[u8]); 9] = [
     ("observer.js", include_bytes!("../pages/playground/observer.js")),
 ];
 
-/// What a server has beside the playground: the first page, the game, the admin page.
-const SITE: [(&str, &[u8]); 10] = [
+/// What a server has beside the playground: the first page, the game, the admin page, what the pages of all studies share.
+const SITE: [(&str, &[u8]); 15] = [
     ("index.html", include_bytes!("../pages/home/index.html")),
     ("home.js", include_bytes!("../pages/home/home.js")),
     ("site.css", include_bytes!("../pages/home/site.css")),
@@ -54,7 +54,15 @@ const SITE: [(&str, &[u8]); 10] = [
     ("play/keys.js", include_bytes!("../pages/play/keys.js")),
     ("admin/index.html", include_bytes!("../pages/admin/index.html")),
     ("admin/admin.js", include_bytes!("../pages/admin/admin.js")),
+    ("admin/studies.js", include_bytes!("../pages/admin/studies.js")),
+    ("study/study.js", include_bytes!("../pages/study/study.js")),
+    ("study/study.css", include_bytes!("../pages/study/study.css")),
+    ("study/forms.js", include_bytes!("../pages/study/forms.js")),
+    ("study/connection.js", include_bytes!("../pages/study/connection.js")),
 ];
+
+/// The page of a rating study; it belongs below `study/<name>/`.
+pub const STUDY_PAGE: &[u8] = include_bytes!("../pages/study/index.html");
 
 /// The page in place of the playground where there is no WebAssembly.
 pub const NO_PLAYGROUND: &[u8] = include_bytes!("../pages/home/no-playground.html");

@@ -4,7 +4,7 @@ use super::Workspace;
 use std::path::{Path, PathBuf};
 
 /// The crates from the bottom layer up. A crate may use those before it, never those after it.
-pub const LAYERS: [&str; 33] = [
+pub const LAYERS: [&str; 34] = [
     "phase-model",
     "phase-event",
     "phase-statistics",
@@ -33,6 +33,7 @@ pub const LAYERS: [&str; 33] = [
     "phase-baselines",
     "phase-eval",
     "phase-report",
+    "phase-study",
     "phase-playground",
     "phase-web",
     "phase-serve",

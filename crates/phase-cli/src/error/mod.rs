@@ -214,6 +214,29 @@ pub enum CliError {
         /// What to do instead.
         hint: &'static str,
     },
+    /// Rating studies were requested from a program built without them.
+    #[error("rating studies are needed, which this program was built without; {hint}")]
+    NoStudies {
+        /// What to do instead.
+        hint: &'static str,
+    },
+    /// The configuration of a study cannot be used.
+    #[cfg(feature = "studies")]
+    #[error("{}: {source}", file.display())]
+    Study {
+        /// The file.
+        file: PathBuf,
+        /// Why.
+        source: Box<phase_study::config::ConfigError>,
+    },
+    /// The answers of a study cannot be read.
+    #[cfg(feature = "studies")]
+    #[error(transparent)]
+    Answers(phase_study::store::StoreError),
+    /// The forms that come with the program cannot be used.
+    #[cfg(feature = "studies")]
+    #[error(transparent)]
+    Forms(phase_study::forms::FormsError),
     /// The server was requested from a program built without it.
     #[error("the server is needed, which this program was built without; {hint}")]
     NoServer {
@@ -254,6 +277,7 @@ impl Failure for CliError {
             | Self::Unfinished(_)
             | Self::RulesBroken { .. }
             | Self::NoNetworks { .. }
+            | Self::NoStudies { .. }
             | Self::NoServer { .. }
             | Self::SimulationSettings { .. }
             | Self::StartAlone { .. }
@@ -277,6 +301,10 @@ impl Failure for CliError {
             },
             #[cfg(feature = "networks")]
             Self::Weights { .. } | Self::TrainingRecord { .. } => 2,
+            #[cfg(feature = "studies")]
+            Self::Study { .. } | Self::Answers(_) => 2,
+            #[cfg(feature = "studies")]
+            Self::Forms(_) => 1,
             #[cfg(feature = "networks")]
             Self::Train(error) => error.exit_code(),
         }

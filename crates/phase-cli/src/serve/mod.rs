@@ -1,4 +1,4 @@
-//! `serve`: the playground and the two-player game for browsers.
+//! `serve`: the playground, the two-player game and rating studies for browsers.
 
 pub mod options;
 #[cfg(feature = "serve")]
@@ -55,7 +55,8 @@ pub fn run(arguments: &Serve, context: &Context) -> Result<(), CliError> {
         game: GameSettings { simulation, ..default },
         seed: arguments.seed,
     };
-    let server = Server::bind(settings, practice, scenes, wasm)?;
+    let mut server = Server::bind(settings, practice, scenes, wasm)?;
+    server.open_studies(&arguments.studies)?;
     if wasm.is_none() {
         context.note("note: built without the playground; `cargo xtask playground` builds it, and --wasm names its folder");
     }

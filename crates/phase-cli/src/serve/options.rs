@@ -17,7 +17,7 @@ pub struct Serve {
     /// A proxy in front of this server tells who asks (X-Forwarded-For)
     #[arg(long)]
     pub behind_proxy: bool,
-    /// Folder for journals and recordings of games; a server that is started again goes on with what it finds there
+    /// Folder for journals and recordings of games and for the answers of studies; a server that is started again goes on with what it finds there
     #[arg(long, value_name = "DIR", default_value = "out/serve")]
     pub out: PathBuf,
     /// Scenes to play: a phase-events/1 file or the folder of a dataset [default: 24 sampled scenes, four of each kind]
@@ -41,6 +41,9 @@ pub struct Serve {
     /// Agents keep their velocity from step to step, as in simulations; in the paper's game they are stopped after each step
     #[arg(long)]
     pub inertia: bool,
+    /// A rating study (phase-study/1); may be given several times. Its page is /study/NAME/
+    #[arg(long = "study", value_name = "FILE")]
+    pub studies: Vec<PathBuf>,
     /// Seed of the order of scenes and of the minds that play
     #[arg(long, value_name = "SEED", default_value_t = 1)]
     pub seed: u64,

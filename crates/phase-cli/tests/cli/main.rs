@@ -23,6 +23,7 @@ mod selection;
 mod serve;
 mod sets;
 mod simulate;
+mod study;
 mod support;
 #[cfg(feature = "networks")]
 mod train;

@@ -30,10 +30,11 @@ async function barriers(page) {
 
 test("forms ask what they say", () => {
   assert.equal(INTERACTIONS.length, 23);
-  assert.equal(new Set(INTERACTIONS.map(([name]) => name)).size, 23);
+  assert.deepEqual([INTERACTIONS[0].text, INTERACTIONS[10].text, INTERACTIONS[22].text], ["not interacting", "following the lead (of another agent)", "collaborating"]);
+  assert.equal(new Set(INTERACTIONS.map(({ value }) => value)).size, 23);
   assert.deepEqual(questions("goals").map(({ name }) => name), ["goal_0", "goal_1", "relation", "human_likeness"]);
   assert.ok(questions("goals", { objects: 2 })[0].choices.length > questions("goals", { objects: 0 })[0].choices.length);
-  assert.throws(() => questions("mood"), /not mood/);
+  for (const form of ["mood", "toString"]) assert.throws(() => questions(form), new RegExp(`not ${form}`));
   assert.equal(problem("relation", { relation: "neutral" }), null);
   for (const rubbish of [null, {}, { relation: "" }, { relation: "angry" }, { relation: ["neutral", "friendly"] }]) {
     assert.notEqual(problem("relation", rubbish), null);
@@ -53,7 +54,7 @@ test("a person answers everything with the keyboard", async () => {
   await next.press("Enter");
   await page.getByRole("alert").getByText("Please answer").waitFor();
   assert.deepEqual(await barriers(page), []);
-  for (const label of ["helping", "giving or handing over"]) await page.getByLabel(label, { exact: true }).press("Space");
+  for (const label of ["helping", "playing tug of war"]) await page.getByLabel(label, { exact: true }).press("Space");
   await next.press("Enter");
 
   await page.getByLabel("goal of the red agent").selectOption("light blue on green");
@@ -69,7 +70,7 @@ test("a person answers everything with the keyboard", async () => {
   const [video, interactions, goals, relation] = await page.evaluate(() => window.finished);
   assert.equal(video.failed, !VIDEO);
   assert.equal(video.watched, VIDEO ? 1 : 0);
-  assert.deepEqual(interactions.response, { interactions: ["giving", "helping"] });
+  assert.deepEqual(interactions.response, { interactions: ["helping", "playing tug of war"] });
   assert.deepEqual(goals.response, { goal_0: "light blue on green", goal_1: "help", relation: "friendly", human_likeness: "5" });
   assert.deepEqual([relation.response, relation.correct, relation.event], [{ relation: "friendly" }, false, "demo-0000"]);
   assert.ok(relation.rt > 0);

@@ -71,7 +71,7 @@ class PhaseRatingPlugin {
   simulate(trial, simulation_mode, simulation_options, load_callback) {
     const { randomization, pluginAPI } = this.jsPsych;
     const draw = ({ kind, choices }) => {
-      const values = choices.map(([value]) => value);
+      const values = choices.map(({ value }) => value);
       return kind === "many" ? randomization.sampleWithoutReplacement(values, 2).sort() : randomization.sampleWithoutReplacement(values, 1)[0];
     };
     const response = Object.fromEntries(questions(trial.form, trial).map((question) => [question.name, draw(question)]));

@@ -1,0 +1,80 @@
+//! `study export` and `study report`.
+
+use super::{
+    check::read,
+    options::{ExportStudy, ReportStudy},
+};
+use crate::error::CliError;
+use phase_dataset::{WriteError, atomic};
+use phase_study::{
+    analysis::{Analysis, document},
+    config::StudyConfig,
+    export::{psych_ds, ratings},
+    record::Rater,
+    store::Store,
+};
+use serde_json::json;
+use std::{fs, path::Path};
+
+/// The raters of a study.
+fn raters(config: &StudyConfig, answers: &Path) -> Result<Vec<Rater>, CliError> {
+    let mut store =
+        Store::open_existing(answers, &config.name, config.form.name()).map_err(CliError::Answers)?;
+    store.raters().map_err(CliError::Answers)
+}
+
+fn folder(path: &Path) -> Result<(), CliError> {
+    let failed =
+        |source| CliError::Output(WriteError { path: path.to_owned(), action: "create the folder", source });
+    fs::create_dir_all(path).map_err(failed)
+}
+
+pub(super) fn export(arguments: &ExportStudy) -> Result<(), CliError> {
+    let out = &arguments.out;
+    let (config, forms) = read(&arguments.config)?;
+    let raters = raters(&config, &arguments.answers)?;
+    let is_empty = fs::read_dir(out).map_or(!out.exists(), |mut entries| entries.next().is_none());
+    if !is_empty {
+        return Err(CliError::Usage(format!("--out: {} is not an empty folder", out.display())));
+    }
+    let ratings = ratings(&config, &raters);
+    let files = psych_ds(&config, &forms, &raters, arguments.external_ids);
+    folder(&out.join("data"))?;
+    for file in &files {
+        atomic::write(&out.join(&file.path), file.text.as_bytes()).map_err(CliError::Output)?;
+    }
+    // Psych-DS has a folder for what was made of the data.
+    let file = out.join("products/ratings.json");
+    let rated =
+        ratings.as_ref().map_or(0, |ratings| ratings["ratings"].as_object().map_or(0, serde_json::Map::len));
+    if let Some(ratings) = ratings.filter(|_| rated > 0) {
+        folder(&out.join("products"))?;
+        atomic::write_json(&file, &ratings).map_err(CliError::Output)?;
+    }
+    let paths: Vec<&str> = files.iter().map(|file| file.path.as_str()).collect();
+    let rated_file = (rated > 0).then_some(&file);
+    let value = json!({ "folder": out, "files": paths, "ratings": rated_file, "rated": rated });
+    let mut text = format!("{} files in {}", files.len(), out.display());
+    if rated > 0 {
+        text += &format!("\nratings of {rated} events for eval goals --ratings in {}", file.display());
+    }
+    arguments.output.print(text, &value)
+}
+
+pub(super) fn report(arguments: &ReportStudy) -> Result<(), CliError> {
+    let out = &arguments.out;
+    let (config, forms) = read(&arguments.config)?;
+    let analysis = Analysis::of(&config, &forms, &raters(&config, &arguments.answers)?);
+    let document = document(&config.title, &analysis);
+    folder(out)?;
+    let write =
+        |name: &str, text: &str| atomic::write(&out.join(name), text.as_bytes()).map_err(CliError::Output);
+    for (file, svg) in document.plots() {
+        write(file, svg)?;
+    }
+    write("report.md", &document.to_markdown())?;
+    write("report.html", &document.to_html())?;
+    atomic::write_json(&out.join("analysis.json"), &analysis).map_err(CliError::Output)?;
+    let text = format!("{}\nreport in {}", document.first_table(), out.display());
+    arguments.output.print(text, &analysis)
+}

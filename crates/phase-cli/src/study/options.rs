@@ -1,0 +1,100 @@
+//! The options of `study`.
+
+use crate::output::Output;
+use clap::{Args, Subcommand, builder::PossibleValuesParser, value_parser};
+use std::path::PathBuf;
+
+/// The experiments whose numbers a new study takes over.
+const EXPERIMENTS: [&str; 3] = ["experiment-1", "experiment-2", "relations"];
+
+/// What to do.
+#[derive(Subcommand, Debug)]
+pub enum Study {
+    /// Write the configuration of a study of some videos, with comments
+    New(NewStudy),
+    /// Check a configuration, and that all of its videos are there
+    Check(CheckStudy),
+    /// Export the answers of a study as a Psych-DS dataset, and as phase-ratings/1 for eval
+    Export(ExportStudy),
+    /// Analyse the answers of a study: agreement, accuracies, human-likeness, interactions
+    Report(ReportStudy),
+}
+
+/// Options of `study new`.
+#[derive(Args, Debug)]
+pub struct NewStudy {
+    /// Whose form and numbers to take over: the paper's experiment-1 (types of interaction) or experiment-2 (goals, relation and
+    /// human-likeness), or the relations of Malik and Isik 2023
+    #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(EXPERIMENTS))]
+    pub experiment: String,
+    /// Folder with videos, a finished dataset or .mp4 files, below that of --out; SOURCE, such as phase or human, tells folders
+    /// apart [default source: phase]
+    #[arg(long, value_name = "[SOURCE=]DIR", required = true)]
+    pub videos: Vec<String>,
+    /// File in the format phase-events/1 with the events that .mp4 files show, for their labels
+    #[arg(long, value_name = "FILE")]
+    pub events: Vec<PathBuf>,
+    /// Take so many videos of each folder, at random
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..))]
+    pub sample: Option<u32>,
+    /// Make a video a catch trial: its id, and the relation or type of interaction that everybody sees in it
+    #[arg(long = "catch", value_name = "ID=ANSWER")]
+    pub catch_trials: Vec<String>,
+    /// Seed of assignments and of --sample
+    #[arg(long, value_name = "S", default_value_t = 1, value_parser = value_parser!(u64).range(..=i64::MAX as u64))]
+    pub seed: u64,
+    /// File for the configuration; it must not exist
+    #[arg(long, value_name = "FILE", default_value = "study.json")]
+    pub out: PathBuf,
+    /// How the result is printed.
+    #[command(flatten)]
+    pub output: Output,
+}
+
+/// Options of `study check`.
+#[derive(Args, Debug)]
+pub struct CheckStudy {
+    /// The configuration (phase-study/1)
+    #[arg(value_name = "FILE")]
+    pub config: PathBuf,
+    /// How the result is printed.
+    #[command(flatten)]
+    pub output: Output,
+}
+
+/// Options of `study export`.
+#[derive(Args, Debug)]
+pub struct ExportStudy {
+    /// The configuration (phase-study/1)
+    #[arg(value_name = "FILE")]
+    pub config: PathBuf,
+    /// The file with the answers (.sqlite), as the server keeps it
+    #[arg(long, value_name = "FILE")]
+    pub answers: PathBuf,
+    /// Folder for the dataset; new or empty
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    /// Also export with which members of the address raters came, such as their Prolific ids
+    #[arg(long)]
+    pub external_ids: bool,
+    /// How the result is printed.
+    #[command(flatten)]
+    pub output: Output,
+}
+
+/// Options of `study report`.
+#[derive(Args, Debug)]
+pub struct ReportStudy {
+    /// The configuration (phase-study/1)
+    #[arg(value_name = "FILE")]
+    pub config: PathBuf,
+    /// The file with the answers (.sqlite), as the server keeps it
+    #[arg(long, value_name = "FILE")]
+    pub answers: PathBuf,
+    /// Folder for the report
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    /// How the result is printed.
+    #[command(flatten)]
+    pub output: Output,
+}

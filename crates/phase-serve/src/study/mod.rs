@@ -1,0 +1,125 @@
+//! Rating studies over HTTP: `/study/<name>/…`, and what the person in charge sees of them.
+
+mod api;
+mod export;
+mod video;
+
+use crate::error::{ApiError, ServeError};
+use axum::{Router, routing::get};
+use phase_study::{
+    config::StudyConfig,
+    forms::Forms,
+    store::Store,
+    study::{Study, StudyError, Token},
+};
+use std::{
+    collections::BTreeMap,
+    fs,
+    path::{Path, PathBuf},
+    sync::{Arc, Mutex, PoisonError},
+    time::{SystemTime, UNIX_EPOCH},
+};
+
+/// The routes of studies.
+pub(crate) fn routes() -> Router<Arc<crate::App>> {
+    Router::new()
+        .route("/api/studies", get(api::list))
+        .merge(api::routes())
+        .route("/study/{study}/videos/{video}", get(video::video))
+        .merge(export::routes())
+}
+
+/// A study that is under way.
+#[derive(Debug)]
+pub(crate) struct Running {
+    study: Mutex<Study>,
+    forms: Forms,
+    /// Files of the videos by their names in addresses.
+    videos: BTreeMap<String, PathBuf>,
+    name: String,
+    title: String,
+}
+
+/// All studies of a server, by name.
+#[derive(Debug, Default)]
+pub(crate) struct Studies(BTreeMap<String, Arc<Running>>);
+
+impl Studies {
+    /// Opens studies with their answers in a folder. All of their videos must be there.
+    pub(crate) fn open(configurations: &[PathBuf], folder: &Path) -> Result<Self, ServeError> {
+        let mut studies = BTreeMap::new();
+        for file in configurations {
+            let running = Running::open(file, folder)?;
+            let name = running.name.clone();
+            if studies.insert(name.clone(), Arc::new(running)).is_some() {
+                let rule = format!("there is another study of the name {name:?}");
+                return Err(ServeError::Study { file: file.clone(), rule });
+            }
+        }
+        Ok(Self(studies))
+    }
+
+    /// A study.
+    fn get(&self, name: &str) -> Result<Arc<Running>, ApiError> {
+        self.0.get(name).cloned().ok_or_else(ApiError::missing)
+    }
+}
+
+impl Running {
+    fn open(file: &Path, folder: &Path) -> Result<Self, ServeError> {
+        let wrong = |rule: String| ServeError::Study { file: file.to_owned(), rule };
+        let read = |source| ServeError::Read { path: file.to_owned(), source };
+        let forms = Forms::included().map_err(|error| wrong(error.to_string()))?;
+        let bytes = fs::read(file).map_err(read)?;
+        let config = StudyConfig::read(&bytes, &forms).map_err(|error| wrong(error.to_string()))?;
+        let base = file.parent().unwrap_or_else(|| Path::new("")).to_owned();
+        if let Some((_, video)) = config.videos().find(|(_, video)| !base.join(video).is_file()) {
+            return Err(wrong(format!("there is no video {}", base.join(video).display())));
+        }
+        fs::create_dir_all(folder).map_err(|source| ServeError::Read { path: folder.to_owned(), source })?;
+        let path = folder.join(format!("{}.sqlite", config.name));
+        let store = Store::open(&path, &config.name, config.form.name())?;
+        let (name, title) = (config.name.clone(), config.title.clone());
+        let study = Study::new(config, forms.clone(), store).map_err(|error| wrong(error.to_string()))?;
+        let videos = study.addresses().map(|(name, file)| (name.to_owned(), base.join(file))).collect();
+        Ok(Self { study: Mutex::new(study), forms, videos, name, title })
+    }
+
+    /// Does something with the study, on a thread that may wait for the disk.
+    async fn with<T: Send + 'static>(
+        self: Arc<Self>,
+        action: impl FnOnce(&mut Study) -> Result<T, StudyError> + Send + 'static,
+    ) -> Result<T, ApiError> {
+        let done = tokio::task::spawn_blocking(move || {
+            let mut study = self.study.lock().unwrap_or_else(PoisonError::into_inner);
+            action(&mut study)
+        });
+        done.await.map_err(|error| ApiError::failed(&error))?.map_err(refusal)
+    }
+}
+
+/// What a study refuses, over HTTP.
+fn refusal(error: StudyError) -> ApiError {
+    use axum::http::StatusCode;
+    match error {
+        StudyError::Token => ApiError::new(StatusCode::UNAUTHORIZED, error.to_string()),
+        StudyError::NotNow(_) | StudyError::OtherAnswer => {
+            ApiError::new(StatusCode::CONFLICT, error.to_string())
+        }
+        StudyError::Field(error) => ApiError::bad(error.to_string()),
+        StudyError::Store(_) | StudyError::Unknown { .. } => ApiError::failed(&error),
+    }
+}
+
+/// Milliseconds since 1970-01-01 UTC.
+fn now() -> i64 {
+    let since = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
+    i64::try_from(since.as_millis()).unwrap_or(i64::MAX)
+}
+
+/// A new token.
+fn new_token() -> Result<Token, ApiError> {
+    let mut bytes = [0; 16];
+    getrandom::fill(&mut bytes).map_err(|error| ApiError::failed(&error))?;
+    Ok(Token::new(bytes))
+}

@@ -1,0 +1,6 @@
+//! Rating studies over HTTP.
+
+mod api;
+mod files;
+mod kill;
+mod support;

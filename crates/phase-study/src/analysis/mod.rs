@@ -1,0 +1,231 @@
+//! What the answers say: who took part, how far raters agree, whether they are right, how human-like they find the events, and what
+//! interactions they see.
+//!
+//! Only raters count who have answered everything and passed the catch trials ([`Standing::Complete`]). Intervals are 95 % and over
+//! videos: of means and α by the percentile bootstrap, of shares of videos Wilson's.
+
+mod judgements;
+mod measures;
+mod report;
+
+pub use report::document;
+
+use crate::{
+    config::StudyConfig,
+    forms::{Form, Forms},
+    record::{Rater, Standing},
+};
+use judgements::Judgements;
+use phase_eval::Estimate;
+use serde::Serialize;
+
+/// The value of the field `format` of an analysis.
+pub const REPORT_FORMAT: &str = "phase-study-report/1";
+
+/// How many raters came, and how far they got.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize)]
+pub struct Raters {
+    /// Those who came.
+    pub joined: usize,
+    /// Those who did not agree.
+    pub declined: usize,
+    /// Those who withdrew.
+    pub withdrawn: usize,
+    /// Those who have not answered everything.
+    pub unfinished: usize,
+    /// Those who failed more catch trials than allowed.
+    pub failed: usize,
+    /// Those who count.
+    pub complete: usize,
+}
+
+/// How often videos were judged by raters who count.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize)]
+pub struct Coverage {
+    /// Videos of the study.
+    pub videos: usize,
+    /// Those with at least one judgement.
+    pub judged: usize,
+    /// Judgements in all.
+    pub judgements: usize,
+    /// Judgements of the video with fewest.
+    pub least: usize,
+    /// Of that with most.
+    pub most: usize,
+}
+
+/// Agreement about a question: Krippendorff's α for nominal data ([`phase_statistics::krippendorff_alpha`]).
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Agreement {
+    /// The question.
+    pub question: String,
+    /// Of a question that wants several choices, the choice; whether it was given is what raters agree on.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub choice: Option<String>,
+    /// α and its interval over videos; `None` where all raters said the same.
+    pub alpha: Option<Estimate>,
+    /// Videos with at least two judgements.
+    pub videos: usize,
+}
+
+/// A share of items, and Wilson's interval.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize)]
+pub struct Share {
+    /// How many.
+    pub count: usize,
+    /// Of how many.
+    pub of: usize,
+    /// The share; 0 of none.
+    pub share: f64,
+    /// Lower end of the interval.
+    pub low: f64,
+    /// Upper end.
+    pub high: f64,
+}
+
+/// How often judgements agree with labels.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Accuracy {
+    /// `goals` (of both agents) or `relation`.
+    pub question: &'static str,
+    /// The source of the videos; all of them if `None`.
+    pub source: Option<String>,
+    /// Videos with a label and a judgement.
+    pub videos: usize,
+    /// The mean over videos of the share of judgements that are right, of goals over both agents.
+    pub mean: Option<Estimate>,
+    /// Labels (of goals one for each agent) that more raters named than anything else. A tie is no majority. Wilson's interval
+    /// takes the two agents of a video for independent.
+    pub majority: Share,
+}
+
+/// How human-like the events of a source are found.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Likeness {
+    /// The source.
+    pub source: String,
+    /// Videos with a judgement.
+    pub videos: usize,
+    /// The mean over videos of their mean ratings, 1 to 5.
+    pub mean: Option<Estimate>,
+    /// The standard deviation of the videos' mean ratings; `None` below two videos.
+    pub sd: Option<f64>,
+}
+
+/// By how much the mean of one source exceeds that of another.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Difference {
+    /// The one source.
+    pub source: String,
+    /// The other.
+    pub other: String,
+    /// The difference and its interval, videos of both sources drawn independently.
+    pub difference: Estimate,
+}
+
+/// A type of interaction, and in which videos people see it.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Category {
+    /// The type.
+    pub choice: String,
+    /// Videos of which at least one rater gave it.
+    pub given: usize,
+    /// Videos of which at least half of the raters gave it.
+    pub by_half: Share,
+}
+
+/// The types of interaction in the videos of a source.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Categories {
+    /// The source; all videos if `None`.
+    pub source: Option<String>,
+    /// How many types some rater gave to some video.
+    pub given: usize,
+    /// How many types at least half of the raters gave to some video.
+    pub by_half: usize,
+    /// All types, in the order of the form.
+    pub categories: Vec<Category>,
+}
+
+/// What the answers say. What the form does not ask for is empty.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Analysis {
+    /// [`REPORT_FORMAT`].
+    pub format: &'static str,
+    /// The study.
+    pub name: String,
+    /// Its form.
+    pub form: &'static str,
+    /// Who took part.
+    pub raters: Raters,
+    /// How often videos were judged.
+    pub coverage: Coverage,
+    /// How far raters agree.
+    pub agreement: Vec<Agreement>,
+    /// Whether they are right, where labels are known.
+    pub accuracy: Vec<Accuracy>,
+    /// How human-like they find the events, by source.
+    pub human_likeness: Vec<Likeness>,
+    /// The differences between every two sources.
+    pub human_likeness_differences: Vec<Difference>,
+    /// What interactions they see: in all videos, then by source if there are several.
+    pub interactions: Vec<Categories>,
+}
+
+impl Analysis {
+    /// Analyses the answers of raters. The configuration's seed decides the resamples of intervals.
+    #[must_use]
+    pub fn of(config: &StudyConfig, forms: &Forms, raters: &[Rater]) -> Self {
+        let judgements = Judgements::of(config, raters);
+        let mut sources: Vec<Option<&str>> = vec![None];
+        let names = config.sources();
+        if names.len() > 1 {
+            sources.extend(names.iter().map(|name| Some(*name)));
+        }
+        let (asks_goals, asks_interactions) = (config.form == Form::Goals, config.form == Form::Interactions);
+        let likeness =
+            if asks_goals { measures::likeness(&judgements, &names, config.seed) } else { Vec::new() };
+        Self {
+            format: REPORT_FORMAT,
+            name: config.name.clone(),
+            form: config.form.name(),
+            raters: count(config, raters),
+            coverage: judgements.coverage(config.stimuli.len()),
+            agreement: measures::agreement(&judgements, config, forms),
+            accuracy: measures::accuracy(&judgements, &sources, config.form, config.seed),
+            human_likeness_differences: if asks_goals {
+                measures::differences(&judgements, &names, config.seed)
+            } else {
+                Vec::new()
+            },
+            human_likeness: likeness,
+            interactions: if asks_interactions {
+                measures::interactions(&judgements, &sources, forms)
+            } else {
+                Vec::new()
+            },
+        }
+    }
+}
+
+/// How often videos were judged by raters who count.
+#[must_use]
+pub fn coverage(config: &StudyConfig, raters: &[Rater]) -> Coverage {
+    Judgements::of(config, raters).coverage(config.stimuli.len())
+}
+
+/// How many raters came, and how far they got.
+#[must_use]
+pub fn count(config: &StudyConfig, raters: &[Rater]) -> Raters {
+    let mut counts = Raters { joined: raters.len(), ..Raters::default() };
+    for rater in raters {
+        *match rater.standing(config) {
+            Standing::Unfinished => &mut counts.unfinished,
+            Standing::Failed => &mut counts.failed,
+            Standing::Complete => &mut counts.complete,
+            Standing::Declined => &mut counts.declined,
+            Standing::Withdrawn => &mut counts.withdrawn,
+        } += 1;
+    }
+    counts
+}

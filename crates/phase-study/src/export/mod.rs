@@ -1,0 +1,109 @@
+//! Answers for others: a Psych-DS dataset, and `phase-ratings/1`.
+//!
+//! Raters who withdrew or did not agree are in neither. Those who failed catch trials or have not finished are marked in the tables
+//! of the dataset and left out of the ratings. Raters are numbers; with what they came is only exported on demand.
+
+mod csv;
+mod tables;
+
+use crate::{
+    config::StudyConfig,
+    forms::{Form, Forms, RELATION},
+    record::{Rater, Standing},
+};
+use csv::Table;
+use phase_eval::ratings::{RATINGS_FORMAT, RatingCounts};
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+
+/// A file of an export.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct File {
+    /// Its path in the folder of the export, with `/`.
+    pub path: String,
+    /// Its contents.
+    pub text: String,
+}
+
+/// The Psych-DS dataset of a study (<https://psych-ds.github.io/>): `dataset_description.json`, `README.md` and two tables in
+/// `data`, of answers and of raters; `docs/formats.md` has their columns. With `external_ids` the table of raters has with what
+/// they came.
+#[must_use]
+pub fn psych_ds(config: &StudyConfig, forms: &Forms, raters: &[Rater], external_ids: bool) -> Vec<File> {
+    let present: Vec<&Rater> = raters.iter().filter(|rater| rater.departure.is_none()).collect();
+    // Values of keywords in names of files have letters and digits alone.
+    let study: String = config.name.chars().filter(char::is_ascii_alphanumeric).collect();
+    let tables = [
+        ("answers", tables::answers(config, forms, &present)),
+        ("raters", tables::raters(config, &present, external_ids)),
+    ];
+    let mut files: Vec<File> = Vec::new();
+    for (what, table) in &tables {
+        files.push(File {
+            path: format!("data/study-{study}_description-{what}_data.csv"),
+            text: table.to_csv(),
+        });
+    }
+    let description = description(config, &tables.each_ref().map(|(_, table)| table));
+    files.push(File { path: "dataset_description.json".into(), text: format!("{description:#}\n") });
+    files.push(File { path: "README.md".into(), text: readme(config, &files[0].path, &files[1].path) });
+    files
+}
+
+fn description(config: &StudyConfig, tables: &[&Table; 2]) -> Value {
+    let mut variables = BTreeMap::new();
+    for column in tables.iter().flat_map(|table| table.columns()) {
+        variables.entry(column.name.as_str()).or_insert_with(|| {
+            let mut variable = json!({
+                "@type": "PropertyValue", "name": column.name, "description": column.description,
+            });
+            if let Some(unit) = column.unit {
+                variable["unitText"] = unit.into();
+            }
+            variable
+        });
+    }
+    json!({
+        "@context": "http://schema.org/",
+        "@type": "Dataset",
+        "name": config.title,
+        "description": format!(
+            "Answers of raters to the form {:?} about {} videos, each by {} raters or more, collected with PHASE.",
+            config.form.name(), config.stimuli.len(), config.raters_per_video
+        ),
+        "variableMeasured": variables.into_values().collect::<Vec<_>>(),
+    })
+}
+
+fn readme(config: &StudyConfig, answers: &str, raters: &str) -> String {
+    format!(
+        "# {}\n\nA [Psych-DS](https://psych-ds.github.io/) dataset of the study `{}`. `{answers}` has a row for each answer, `{raters}` one \
+         for each rater; `dataset_description.json` describes their columns. Who withdrew is in neither. Rows with `standing` other than \
+         `complete` do not count in the analysis. An apostrophe stands before texts that a spreadsheet would take for formulas.\n",
+        config.title, config.name
+    )
+}
+
+/// How many raters who count called each video friendly, neutral and adversarial (`phase-ratings/1`), which `phase eval goals
+/// --ratings` reads. `None` if the form does not ask for relations.
+#[must_use]
+pub fn ratings(config: &StudyConfig, raters: &[Rater]) -> Option<Value> {
+    if config.form == Form::Interactions {
+        return None;
+    }
+    let mut counts = BTreeMap::<&str, RatingCounts>::new();
+    for rater in raters.iter().filter(|rater| rater.standing(config) == Standing::Complete) {
+        for trial in rater.trials.iter().filter(|trial| !trial.catch) {
+            let answer = trial.given.as_ref().and_then(|given| given.answer.get(RELATION)?.text());
+            let of = counts.entry(&trial.shown).or_default();
+            match answer {
+                Some("friendly") => of.friendly += 1,
+                Some("neutral") => of.neutral += 1,
+                Some("adversarial") => of.adversarial += 1,
+                _ => {}
+            }
+        }
+    }
+    counts.retain(|_, of| of.raters() > 0);
+    Some(json!({"format": RATINGS_FORMAT, "ratings": counts}))
+}

@@ -1,0 +1,66 @@
+//! Why a file of answers cannot be used.
+
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// A problem with a file of answers.
+#[derive(Debug, Error)]
+#[error("{}: {problem}", file.display())]
+pub struct StoreError {
+    /// The file.
+    pub file: PathBuf,
+    /// What the problem is.
+    #[source]
+    pub problem: StoreProblem,
+}
+
+/// What the problem with a file of answers is.
+#[derive(Debug, Error)]
+pub enum StoreProblem {
+    /// There is no such file.
+    #[error("no such file; `phase serve` makes it when the study begins")]
+    Absent,
+    /// It is a file of something else.
+    #[error("is not a file with answers of a study")]
+    Foreign,
+    /// Another program wrote it.
+    #[error("has version {found} of its tables; this program knows version {}", super::SCHEMA_VERSION)]
+    Version {
+        /// Its version.
+        found: i32,
+    },
+    /// It belongs to another study.
+    #[error("has the answers of the study {name:?} with the form {form:?}, not of this one")]
+    OtherStudy {
+        /// The name of that study.
+        name: String,
+        /// Its form.
+        form: String,
+    },
+    /// Something in it is not as it was written.
+    #[error("is damaged: rater {rater}: {what}")]
+    Damaged {
+        /// The rater.
+        rater: u64,
+        /// What is wrong.
+        what: String,
+    },
+    /// The database fails, for example because the disk is full.
+    #[error("the database fails: {0}")]
+    Database(#[source] rusqlite::Error),
+}
+
+impl From<rusqlite::Error> for StoreProblem {
+    fn from(error: rusqlite::Error) -> Self {
+        match error.sqlite_error_code() {
+            Some(rusqlite::ErrorCode::NotADatabase) => Self::Foreign,
+            _ => Self::Database(error),
+        }
+    }
+}
+
+impl StoreError {
+    pub(super) fn of(path: &Path, error: rusqlite::Error) -> Self {
+        Self { file: path.to_owned(), problem: error.into() }
+    }
+}

@@ -1,0 +1,295 @@
+//! Answers in one SQLite file.
+//!
+//! Tables are only added to: no row is ever changed, and none is removed unless a rater leaves; triggers of the database see to it. An operation is one transaction,
+//! which is on the disk when it is acknowledged (`journal_mode=WAL`, `synchronous=FULL`).
+
+mod error;
+mod read;
+
+pub use error::{StoreError, StoreProblem};
+
+use crate::{
+    question::Answer,
+    record::{Departure, GivenAnswer, Millis, Rater},
+};
+use rusqlite::{Connection, OpenFlags, Transaction, TransactionBehavior, params};
+use std::{
+    collections::BTreeMap,
+    path::{Path, PathBuf},
+    time::Duration,
+};
+
+/// `PHst`, by which SQLite files of studies are known (`application_id`).
+const APPLICATION: i32 = 0x5048_7374;
+/// Version of the tables (`user_version`).
+pub const SCHEMA_VERSION: i32 = 1;
+/// How long a transaction waits for another program's.
+const PATIENCE: Duration = Duration::from_secs(10);
+
+const CHECKPOINT: &str = "PRAGMA wal_checkpoint(TRUNCATE)";
+
+const SCHEMA: &str = "
+CREATE TABLE study (name TEXT NOT NULL, form TEXT NOT NULL) STRICT;
+CREATE TABLE rater (number INTEGER PRIMARY KEY AUTOINCREMENT, joined INTEGER NOT NULL) STRICT;
+CREATE TABLE token (digest BLOB PRIMARY KEY, rater INTEGER NOT NULL REFERENCES rater) STRICT, WITHOUT ROWID;
+CREATE TABLE origin (rater INTEGER PRIMARY KEY REFERENCES rater, identity TEXT UNIQUE, parameters TEXT NOT NULL) STRICT;
+CREATE TABLE page (rater INTEGER NOT NULL REFERENCES rater, page TEXT NOT NULL, at INTEGER NOT NULL, answer TEXT,
+    PRIMARY KEY (rater, page)) STRICT, WITHOUT ROWID;
+CREATE TABLE trial (rater INTEGER NOT NULL REFERENCES rater, number INTEGER NOT NULL, shown TEXT NOT NULL,
+    catch INTEGER NOT NULL, PRIMARY KEY (rater, number), UNIQUE (rater, shown)) STRICT, WITHOUT ROWID;
+CREATE TABLE answer (rater INTEGER NOT NULL, number INTEGER NOT NULL, at INTEGER NOT NULL, answer TEXT NOT NULL,
+    response_time INTEGER NOT NULL, plays INTEGER NOT NULL, PRIMARY KEY (rater, number),
+    FOREIGN KEY (rater, number) REFERENCES trial) STRICT, WITHOUT ROWID;
+CREATE TABLE departure (rater INTEGER PRIMARY KEY REFERENCES rater, at INTEGER NOT NULL, kind TEXT NOT NULL) STRICT;
+";
+
+/// All tables; no row of them is ever changed.
+const TABLES: [&str; 8] = ["study", "rater", "token", "departure", "origin", "page", "trial", "answer"];
+/// Those whose rows go when their rater leaves.
+const OF_RATERS: [&str; 4] = ["answer", "trial", "page", "origin"];
+
+/// What makes the database itself refuse changes, whatever program makes them.
+fn triggers() -> String {
+    let mut sql = String::new();
+    for table in TABLES {
+        let left = if OF_RATERS.contains(&table) {
+            "WHEN NOT EXISTS (SELECT 1 FROM departure WHERE departure.rater = OLD.rater)"
+        } else {
+            ""
+        };
+        sql += &format!(
+            "CREATE TRIGGER {table}_stays BEFORE UPDATE ON {table} BEGIN SELECT RAISE(ABORT, 'answers are never changed'); END;\n\
+             CREATE TRIGGER {table}_is_kept BEFORE DELETE ON {table} {left} \
+             BEGIN SELECT RAISE(ABORT, 'only who left is deleted'); END;\n"
+        );
+    }
+    sql
+}
+
+/// Pages before the first trial, as the table `page` names them.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Page {
+    Consent,
+    Demographics,
+    Instructions,
+}
+
+impl Page {
+    const ALL: [Self; 3] = [Self::Consent, Self::Demographics, Self::Instructions];
+
+    const fn name(self) -> &'static str {
+        match self {
+            Self::Consent => "consent",
+            Self::Demographics => "demographics",
+            Self::Instructions => "instructions",
+        }
+    }
+}
+
+/// The file with the answers of a study.
+#[derive(Debug)]
+pub struct Store {
+    connection: Connection,
+    path: PathBuf,
+}
+
+impl Store {
+    /// Opens the answers of a study of this name and form, or makes an empty file for them.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the file cannot be made or opened, is something else, is of another study, or was written by a newer
+    /// program.
+    pub fn open(path: &Path, name: &str, form: &str) -> Result<Self, StoreError> {
+        let flags = OpenFlags::SQLITE_OPEN_READ_WRITE
+            | OpenFlags::SQLITE_OPEN_CREATE
+            | OpenFlags::SQLITE_OPEN_NO_MUTEX;
+        Self::with_flags(path, name, form, flags)
+    }
+
+    /// Opens the answers of a study, which must exist.
+    ///
+    /// # Errors
+    /// As [`Store::open`], and [`StoreProblem::Absent`].
+    pub fn open_existing(path: &Path, name: &str, form: &str) -> Result<Self, StoreError> {
+        if !path.is_file() {
+            return Err(StoreError { file: path.to_owned(), problem: StoreProblem::Absent });
+        }
+        Self::with_flags(
+            path,
+            name,
+            form,
+            OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_NO_MUTEX,
+        )
+    }
+
+    fn with_flags(path: &Path, name: &str, form: &str, flags: OpenFlags) -> Result<Self, StoreError> {
+        let failed = |problem| StoreError { file: path.to_owned(), problem };
+        let connection = Connection::open_with_flags(path, flags).map_err(|error| failed(error.into()))?;
+        let mut store = Self { connection, path: path.to_owned() };
+        store.prepare(name, form).map_err(failed)?;
+        Ok(store)
+    }
+
+    fn prepare(&mut self, name: &str, form: &str) -> Result<(), StoreProblem> {
+        self.connection.busy_timeout(PATIENCE)?;
+        let transaction = self.connection.transaction_with_behavior(TransactionBehavior::Immediate)?;
+        let number = |pragma: &str| transaction.pragma_query_value(None, pragma, |row| row.get::<_, i32>(0));
+        let (application, version) = (number("application_id")?, number("user_version")?);
+        let tables: i64 =
+            transaction.query_row("SELECT count(*) FROM sqlite_schema", [], |row| row.get(0))?;
+        if (application, version, tables) == (0, 0, 0) {
+            transaction.execute_batch(SCHEMA)?;
+            transaction.execute_batch(&triggers())?;
+            transaction.execute("INSERT INTO study (name, form) VALUES (?1, ?2)", [name, form])?;
+            transaction.pragma_update(None, "application_id", APPLICATION)?;
+            transaction.pragma_update(None, "user_version", SCHEMA_VERSION)?;
+        } else if application != APPLICATION {
+            return Err(StoreProblem::Foreign);
+        } else if version != SCHEMA_VERSION {
+            return Err(StoreProblem::Version { found: version });
+        }
+        let found: (String, String) = transaction
+            .query_row("SELECT name, form FROM study", [], |row| Ok((row.get(0)?, row.get(1)?)))?;
+        if (found.0.as_str(), found.1.as_str()) != (name, form) {
+            let (name, form) = found;
+            return Err(StoreProblem::OtherStudy { name, form });
+        }
+        transaction.commit()?;
+        self.connection.pragma_update(None, "journal_mode", "WAL")?;
+        self.connection.pragma_update(None, "synchronous", "FULL")?;
+        self.connection.pragma_update(None, "foreign_keys", true)?;
+        self.connection.pragma_update(None, "secure_delete", true)?;
+        // What could not be removed when somebody withdrew, since another program was reading.
+        self.connection.query_row(CHECKPOINT, [], |_| Ok(()))?;
+        Ok(())
+    }
+
+    /// All raters in the order in which they came.
+    ///
+    /// # Errors
+    /// [`StoreError`].
+    pub fn raters(&mut self) -> Result<Vec<Rater>, StoreError> {
+        self.write(|store| store.raters())
+    }
+
+    /// Runs an operation as one transaction, which is undone if it fails.
+    pub(crate) fn write<T, E: From<StoreError>>(
+        &mut self,
+        operation: impl FnOnce(&Writing<'_>) -> Result<T, E>,
+    ) -> Result<T, E> {
+        let begun = self.connection.transaction_with_behavior(TransactionBehavior::Immediate);
+        let transaction = begun.map_err(|error| StoreError::of(&self.path, error))?;
+        let writing = Writing { transaction, path: &self.path };
+        let result = operation(&writing)?;
+        writing.transaction.commit().map_err(|error| StoreError::of(&self.path, error))?;
+        Ok(result)
+    }
+
+    /// Removes what was deleted from the file beside the database, too; where another program is reading, at the next occasion.
+    pub(crate) fn forget(&mut self) -> Result<(), StoreError> {
+        let done = self.connection.query_row(CHECKPOINT, [], |_| Ok(()));
+        done.map_err(|error| StoreError::of(&self.path, error))
+    }
+}
+
+/// A transaction.
+pub(crate) struct Writing<'a> {
+    transaction: Transaction<'a>,
+    path: &'a Path,
+}
+
+impl Writing<'_> {
+    fn failed(&self, error: rusqlite::Error) -> StoreError {
+        StoreError::of(self.path, error)
+    }
+
+    fn execute(&self, sql: &str, values: impl rusqlite::Params) -> Result<(), StoreError> {
+        let statement = self.transaction.prepare_cached(sql);
+        let done = statement.and_then(|mut statement| statement.execute(values));
+        done.map(|_| ()).map_err(|error| self.failed(error))
+    }
+
+    /// Adds a rater with what it came with, and returns its number.
+    pub(crate) fn add_rater(
+        &self,
+        joined: Millis,
+        identity: Option<&str>,
+        parameters: &BTreeMap<String, String>,
+    ) -> Result<u64, StoreError> {
+        self.execute("INSERT INTO rater (joined) VALUES (?1)", [joined])?;
+        let number = self.transaction.last_insert_rowid();
+        let text = serde_json::Value::from_iter(
+            parameters.iter().map(|(name, value)| (name.clone(), value.clone())),
+        );
+        let sql = "INSERT INTO origin (rater, identity, parameters) VALUES (?1, ?2, ?3)";
+        self.execute(sql, params![number, identity, text.to_string()])?;
+        Ok(number.unsigned_abs())
+    }
+
+    /// Adds a token of a rater by its digest.
+    pub(crate) fn add_token(&self, rater: u64, digest: &[u8; 32]) -> Result<(), StoreError> {
+        self.execute("INSERT INTO token (digest, rater) VALUES (?1, ?2)", params![digest, rater as i64])
+    }
+
+    /// Notes that a rater is done with a page.
+    pub(crate) fn add_page(
+        &self,
+        rater: u64,
+        page: Page,
+        at: Millis,
+        answer: Option<&Answer>,
+    ) -> Result<(), StoreError> {
+        let text = answer.map(|answer| answer.to_json().to_string());
+        let sql = "INSERT INTO page (rater, page, at, answer) VALUES (?1, ?2, ?3, ?4)";
+        self.execute(sql, params![rater as i64, page.name(), at, text])
+    }
+
+    /// Adds the trials of a rater: ids, and which of them are catch trials.
+    pub(crate) fn add_trials(&self, rater: u64, trials: &[(&str, bool)]) -> Result<(), StoreError> {
+        let sql = "INSERT INTO trial (rater, number, shown, catch) VALUES (?1, ?2, ?3, ?4)";
+        for (k, (shown, catch)) in trials.iter().enumerate() {
+            self.execute(sql, params![rater as i64, k as i64, shown, catch])?;
+        }
+        Ok(())
+    }
+
+    /// Adds the answer to a trial (index from 0).
+    pub(crate) fn add_answer(&self, rater: u64, trial: usize, given: &GivenAnswer) -> Result<(), StoreError> {
+        let sql = "INSERT INTO answer (rater, number, at, answer, response_time, plays) VALUES (?1, ?2, ?3, ?4, ?5, ?6)";
+        let answer = given.answer.to_json().to_string();
+        self.execute(
+            sql,
+            params![rater as i64, trial as i64, given.at, answer, given.response_time, given.plays],
+        )
+    }
+
+    /// Deletes all that a rater gave and what it came with, and notes that it left.
+    pub(crate) fn depart(&self, rater: u64, at: Millis, departure: Departure) -> Result<(), StoreError> {
+        let sql = "INSERT INTO departure (rater, at, kind) VALUES (?1, ?2, ?3)";
+        self.execute(sql, params![rater as i64, at, read::departure_name(departure)])?;
+        for table in OF_RATERS {
+            self.execute(&format!("DELETE FROM {table} WHERE rater = ?1"), [rater as i64])?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_acknowledged_is_on_the_disk() {
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::open(&folder.path().join("a.sqlite"), "a", "goals").unwrap();
+        let number =
+            |pragma| store.connection.pragma_query_value(None, pragma, |row| row.get::<_, i64>(0)).unwrap();
+        let mode: String =
+            store.connection.pragma_query_value(None, "journal_mode", |row| row.get(0)).unwrap();
+        // https://www.sqlite.org/pragma.html#pragma_synchronous: 2 is FULL.
+        assert_eq!(
+            (mode.as_str(), number("synchronous"), number("foreign_keys"), number("secure_delete")),
+            ("wal", 2, 1, 1)
+        );
+    }
+}

@@ -1,0 +1,319 @@
+//! A study that is under way: what each rater sees next, and what it answers.
+
+mod error;
+mod stage;
+mod token;
+
+pub use error::StudyError;
+pub use stage::{Stage, TrialPage};
+pub use token::Token;
+
+use crate::{
+    assignment::{Shown, assign},
+    config::StudyConfig,
+    forms::Forms,
+    question::{Answer, Question},
+    record::{Departure, GivenAnswer, Millis, Rater, load},
+    store::{Page, Store, Writing},
+};
+use phase_model::json::{Field, FieldError};
+use serde::Serialize;
+use serde_json::Value;
+use sha2::{Digest, Sha256};
+use std::collections::BTreeMap;
+
+/// Longest value of a member of the address that is kept (letters).
+const LONGEST_PARAMETER: usize = 200;
+/// Longest response time that is believed (ms): a week.
+const LONGEST_RESPONSE: i64 = 7 * 24 * 3600 * 1000;
+/// Most plays that are believed.
+const MOST_PLAYS: i64 = 10_000;
+
+/// What a rater gets who comes.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Joined {
+    /// With this it shows who it is.
+    pub token: Token,
+    /// Whether it had come before.
+    pub resumed: bool,
+    /// What it sees.
+    pub stage: Stage,
+}
+
+/// What is given in a study, whatever raters do.
+#[derive(Clone, Copy)]
+struct Given<'a> {
+    config: &'a StudyConfig,
+    forms: &'a Forms,
+}
+
+/// A study with its answers.
+#[derive(Debug)]
+pub struct Study {
+    config: StudyConfig,
+    forms: Forms,
+    store: Store,
+    /// By their names in addresses the ids and files of all videos.
+    videos: BTreeMap<String, (String, String)>,
+}
+
+impl Study {
+    /// A study and the answers that it has so far.
+    ///
+    /// # Errors
+    /// [`StudyError::Unknown`] if somebody is to see a video that the configuration does not have; [`StudyError::Store`].
+    pub fn new(config: StudyConfig, forms: Forms, mut store: Store) -> Result<Self, StudyError> {
+        for rater in store.raters()? {
+            for trial in &rater.trials {
+                let known = if trial.catch {
+                    config.catch_trial(&trial.shown).is_some()
+                } else {
+                    config.stimulus(&trial.shown).is_some()
+                };
+                if !known {
+                    return Err(StudyError::Unknown { rater: rater.number, shown: trial.shown.clone() });
+                }
+            }
+        }
+        let videos =
+            config.videos().map(|(id, file)| (address(config.seed, id), (id.to_owned(), file.to_owned())));
+        Ok(Self { videos: videos.collect(), config, forms, store })
+    }
+
+    /// The configuration.
+    #[must_use]
+    pub const fn config(&self) -> &StudyConfig {
+        &self.config
+    }
+
+    /// All raters in the order in which they came.
+    ///
+    /// # Errors
+    /// [`StudyError::Store`].
+    pub fn raters(&mut self) -> Result<Vec<Rater>, StudyError> {
+        Ok(self.store.raters()?)
+    }
+
+    /// The file of a video, relative to that of the configuration, by its name in addresses. Names tell nothing of the video.
+    #[must_use]
+    pub fn video(&self, name: &str) -> Option<&str> {
+        self.videos.get(name).map(|(_, file)| file.as_str())
+    }
+
+    /// All videos: their names in addresses, and their files.
+    pub fn addresses(&self) -> impl Iterator<Item = (&str, &str)> {
+        self.videos.iter().map(|(name, (_, file))| (name.as_str(), file.as_str()))
+    }
+
+    /// Lets a rater in. `parameters` are the members of the address with which it came; those that the study does not keep are
+    /// ignored. One who has come before with the same identity goes on where it was. It is known by `token` from then on.
+    ///
+    /// # Errors
+    /// [`StudyError::Field`] if a member of the address is missing, too long or not a line of text; [`StudyError::Store`].
+    pub fn join(
+        &mut self,
+        parameters: &BTreeMap<String, String>,
+        now: Millis,
+        token: Token,
+    ) -> Result<Joined, StudyError> {
+        let kept = self.kept(parameters)?;
+        let identity = self.config.parameters.first().and_then(|name| kept.get(name)).map(String::as_str);
+        let (config, forms) = (&self.config, &self.forms);
+        self.store.write(|store| {
+            let known = identity.map(|identity| store.rater_named(identity)).transpose()?.flatten();
+            if known.is_none() && is_full(config, store, now)? {
+                return Ok(Joined { token, resumed: false, stage: Stage::Full });
+            }
+            let number = match known {
+                Some(number) => number,
+                None => store.add_rater(now, identity, &kept)?,
+            };
+            store.add_token(number, &token.digest())?;
+            let stage = stage::of(config, forms, &store.rater(number)?);
+            Ok(Joined { token, resumed: known.is_some(), stage })
+        })
+    }
+
+    fn kept(&self, parameters: &BTreeMap<String, String>) -> Result<BTreeMap<String, String>, StudyError> {
+        let wrong = |name: &str, rule: String| StudyError::Field(FieldError { field: name.into(), rule });
+        let mut kept = BTreeMap::new();
+        for name in &self.config.parameters {
+            let Some(value) = parameters.get(name).filter(|value| !value.is_empty()) else { continue };
+            if value.chars().count() > LONGEST_PARAMETER || value.chars().any(char::is_control) {
+                return Err(wrong(name, format!("must be one line of at most {LONGEST_PARAMETER} letters")));
+            }
+            kept.insert(name.clone(), value.clone());
+        }
+        match self.config.parameters.first() {
+            Some(first) if self.config.identity_required && !kept.contains_key(first) => {
+                Err(wrong(first, "must be in the address with which one comes".into()))
+            }
+            _ => Ok(kept),
+        }
+    }
+
+    /// What a rater sees.
+    ///
+    /// # Errors
+    /// [`StudyError::Token`], [`StudyError::Store`].
+    pub fn stage(&mut self, token: &Token) -> Result<Stage, StudyError> {
+        self.step(token, |_, _, _| Ok(()))
+    }
+
+    /// Takes a rater's agreement, with which it gets its trials; or its refusal, after which nothing of it is kept.
+    ///
+    /// # Errors
+    /// [`StudyError::NotNow`] if the rater is past that; [`StudyError::Token`], [`StudyError::Store`].
+    pub fn consent(&mut self, token: &Token, agrees: bool, now: Millis) -> Result<Stage, StudyError> {
+        self.step(token, |Given { config, .. }, store, rater| {
+            if rater.departure.is_some() || rater.consented.is_some() {
+                let same = rater.departure.is_none() == agrees;
+                return if same { Ok(()) } else { Err(StudyError::NotNow("consent")) };
+            }
+            if !agrees {
+                return Ok(store.depart(rater.number, now, Departure::Declined)?);
+            }
+            let raters = store.raters()?;
+            let (load, holding) = load(config, &raters, earliest(config, now));
+            let trials = (holding < config.raters).then(|| assign(config, &load, rater.number)).flatten();
+            // Where no place is left, nothing is stored: it may come again.
+            let Some(trials) = trials else { return Ok(()) };
+            let trials: Vec<(&str, bool)> = trials
+                .iter()
+                .map(|shown| match *shown {
+                    Shown::Stimulus(k) => (config.stimuli[k].id.as_str(), false),
+                    Shown::CatchTrial(k) => (config.catch_trials[k].id.as_str(), true),
+                })
+                .collect();
+            store.add_page(rater.number, Page::Consent, now, None)?;
+            Ok(store.add_trials(rater.number, &trials)?)
+        })
+        .map(|stage| match stage {
+            Stage::Consent { .. } if agrees => Stage::Full,
+            stage => stage,
+        })
+    }
+
+    /// Takes what a rater says of itself, an object with a member for each question.
+    ///
+    /// # Errors
+    /// [`StudyError::Field`], [`StudyError::NotNow`], [`StudyError::OtherAnswer`] if it has said something else before;
+    /// [`StudyError::Token`], [`StudyError::Store`].
+    pub fn demographics(&mut self, token: &Token, answer: &Value, now: Millis) -> Result<Stage, StudyError> {
+        self.step(token, |Given { config, .. }, store, rater| {
+            if rater.consented.is_none() || config.demographics.is_empty() {
+                return Err(StudyError::NotNow("demographics"));
+            }
+            let answer = Answer::read(&Field::root(answer), &config.demographics)?;
+            match &rater.demographics {
+                Some((_, said)) if *said == answer => Ok(()),
+                Some(_) => Err(StudyError::OtherAnswer),
+                None => Ok(store.add_page(rater.number, Page::Demographics, now, Some(&answer))?),
+            }
+        })
+    }
+
+    /// Notes that a rater has read the instructions.
+    ///
+    /// # Errors
+    /// [`StudyError::NotNow`], [`StudyError::Token`], [`StudyError::Store`].
+    pub fn instructed(&mut self, token: &Token, now: Millis) -> Result<Stage, StudyError> {
+        self.step(token, |Given { config, .. }, store, rater| {
+            let asked = !config.demographics.is_empty() && rater.demographics.is_none();
+            match (rater.instructed, rater.consented) {
+                (Some(_), _) => Ok(()),
+                (None, Some(_)) if !asked => {
+                    Ok(store.add_page(rater.number, Page::Instructions, now, None)?)
+                }
+                _ => Err(StudyError::NotNow("instructions")),
+            }
+        })
+    }
+
+    /// Takes the answer to a trial: an object with `trial` (its number, from 1), `answer` (a member for each question),
+    /// `response_time` (ms) and `plays` (of the video to its end, at least 1). Once this returns it is on the disk. The same
+    /// answer to the same trial may come again.
+    ///
+    /// # Errors
+    /// [`StudyError::Field`], [`StudyError::NotNow`] for a trial that is not the next, [`StudyError::OtherAnswer`] for one that has
+    /// another answer; [`StudyError::Token`], [`StudyError::Store`].
+    pub fn answer(&mut self, token: &Token, submission: &Value, now: Millis) -> Result<Stage, StudyError> {
+        self.step(token, |Given { config, forms }, store, rater| {
+            let root = Field::root(submission);
+            root.only(&["trial", "answer", "response_time", "plays"])?;
+            let number = root.required("trial")?.whole(1, i64::from(u32::MAX))?;
+            let place = usize::try_from(number - 1).unwrap_or(usize::MAX);
+            let Some(trial) = rater.trials.get(place).filter(|_| rater.instructed.is_some()) else {
+                return Err(StudyError::NotNow("trial"));
+            };
+            let questions = questions(config, forms, &trial.shown, trial.catch);
+            let given = GivenAnswer {
+                at: now,
+                answer: Answer::read(&root.required("answer")?, &questions)?,
+                response_time: root.required("response_time")?.whole(0, LONGEST_RESPONSE)?,
+                plays: root.required("plays")?.whole(1, MOST_PLAYS)?,
+            };
+            match &trial.given {
+                Some(before) if before.answer == given.answer => Ok(()),
+                Some(_) => Err(StudyError::OtherAnswer),
+                None if rater.next_trial() != Some(place) => Err(StudyError::NotNow("trial")),
+                None => Ok(store.add_answer(rater.number, place, &given)?),
+            }
+        })
+    }
+
+    /// Lets a rater withdraw: its answers, what it said of itself and with what it came are deleted.
+    ///
+    /// # Errors
+    /// [`StudyError::Token`], [`StudyError::Store`].
+    pub fn withdraw(&mut self, token: &Token, now: Millis) -> Result<Stage, StudyError> {
+        let stage = self.step(token, |_, store, rater| match rater.departure {
+            Some(_) => Ok(()),
+            None => Ok(store.depart(rater.number, now, Departure::Withdrew)?),
+        })?;
+        self.store.forget()?;
+        Ok(stage)
+    }
+
+    /// Does something for a rater, and returns what it sees then.
+    fn step(
+        &mut self,
+        token: &Token,
+        action: impl FnOnce(Given<'_>, &Writing<'_>, &Rater) -> Result<(), StudyError>,
+    ) -> Result<Stage, StudyError> {
+        let (config, forms) = (&self.config, &self.forms);
+        self.store.write(|store| {
+            let number = store.rater_of(&token.digest())?.ok_or(StudyError::Token)?;
+            action(Given { config, forms }, store, &store.rater(number)?)?;
+            Ok(stage::of(config, forms, &store.rater(number)?))
+        })
+    }
+}
+
+/// The moment before which a rater must have given a sign to keep its places.
+fn earliest(config: &StudyConfig, now: Millis) -> Millis {
+    now.saturating_sub(i64::from(config.minutes) * 60_000)
+}
+
+/// Whether nobody can be let in.
+fn is_full(config: &StudyConfig, store: &Writing<'_>, now: Millis) -> Result<bool, StudyError> {
+    let (load, holding) = load(config, &store.raters()?, earliest(config, now));
+    Ok(holding >= config.raters || load.iter().all(|&raters| raters >= config.raters_per_video_at_most))
+}
+
+/// The questions of a trial.
+fn questions(config: &StudyConfig, forms: &Forms, shown: &str, catch: bool) -> Vec<Question> {
+    let objects = if catch {
+        config.catch_trial(shown).map(|trial| trial.objects)
+    } else {
+        config.stimulus(shown).map(|stimulus| stimulus.objects)
+    };
+    forms.questions(config.form, objects.unwrap_or_default())
+}
+
+/// The name of a video in addresses: 16 hexadecimal digits from its id and the seed, from which neither the event nor its source
+/// can be told.
+fn address(seed: u64, id: &str) -> String {
+    let digest = Sha256::new().chain_update(seed.to_le_bytes()).chain_update(id).finalize();
+    digest.iter().take(8).map(|byte| format!("{byte:02x}")).collect()
+}

@@ -1,0 +1,98 @@
+//! What a rater sees.
+
+use super::{address, questions};
+use crate::{
+    config::StudyConfig,
+    forms::Forms,
+    question::Question,
+    record::{Departure, Rater},
+};
+use serde::Serialize;
+
+/// The page that a rater sees. As JSON it has the member `page` (`consent`, `demographics`, `instructions`, `trial`, `done`,
+/// `declined`, `withdrawn`, `full`) and those of the page.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+#[serde(tag = "page", rename_all = "lowercase")]
+pub enum Stage {
+    /// It is asked whether it agrees to take part.
+    Consent {
+        /// The title of the study.
+        title: String,
+        /// Paragraphs about it.
+        introduction: Vec<String>,
+        /// What it agrees to.
+        consent: Vec<String>,
+    },
+    /// It is asked about itself.
+    Demographics {
+        /// What.
+        questions: Vec<Question>,
+    },
+    /// It is told what to do.
+    Instructions {
+        /// In paragraphs.
+        instructions: Vec<String>,
+    },
+    /// It watches a video and answers.
+    Trial(TrialPage),
+    /// It has answered everything.
+    Done {
+        /// A code that shows it.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        code: Option<String>,
+        /// Where to go.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        url: Option<String>,
+    },
+    /// It did not agree.
+    Declined,
+    /// It withdrew.
+    Withdrawn,
+    /// The study has all raters that it wants, at this time.
+    Full,
+}
+
+/// A trial as a rater sees it. Nothing in it tells which trials are catch trials.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct TrialPage {
+    /// Its number, from 1.
+    pub trial: usize,
+    /// How many there are.
+    pub trials: usize,
+    /// The address of the video, relative to that of the study.
+    pub video: String,
+    /// What is asked.
+    pub questions: Vec<Question>,
+}
+
+/// What a rater sees.
+pub(super) fn of(config: &StudyConfig, forms: &Forms, rater: &Rater) -> Stage {
+    match rater.departure {
+        Some(Departure::Declined) => return Stage::Declined,
+        Some(Departure::Withdrew) => return Stage::Withdrawn,
+        None => {}
+    }
+    if rater.consented.is_none() {
+        return Stage::Consent {
+            title: config.title.clone(),
+            introduction: config.introduction.clone(),
+            consent: config.consent.clone(),
+        };
+    }
+    if rater.demographics.is_none() && !config.demographics.is_empty() {
+        return Stage::Demographics { questions: config.demographics.clone() };
+    }
+    if rater.instructed.is_none() {
+        return Stage::Instructions { instructions: config.instructions.clone() };
+    }
+    let Some(k) = rater.next_trial() else {
+        return Stage::Done { code: config.completion.code.clone(), url: config.completion.url.clone() };
+    };
+    let trial = &rater.trials[k];
+    Stage::Trial(TrialPage {
+        trial: k + 1,
+        trials: rater.trials.len(),
+        video: format!("videos/{}.mp4", address(config.seed, &trial.shown)),
+        questions: questions(config, forms, &trial.shown, trial.catch),
+    })
+}

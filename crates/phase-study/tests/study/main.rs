@@ -1,0 +1,10 @@
+//! Studies against what their documentation says.
+
+mod analysis;
+mod assignment;
+mod config;
+mod design;
+mod export;
+mod session;
+mod store;
+mod support;
