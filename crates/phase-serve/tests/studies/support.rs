@@ -45,6 +45,7 @@ pub(crate) fn bind(folder: &Path, studies: &[PathBuf]) -> Result<Server, phase_s
         behind_proxy: false,
         folder: folder.join("out"),
         rooms: 1,
+        mind_rooms: 2,
         open: false,
         rounds: 1,
         game: GameSettings::default(),
