@@ -8,7 +8,7 @@ use std::{
 };
 
 /// The crates whose modules must not use each other in cycles. Add a crate once it has none.
-const ACYCLIC: [&str; 22] = [
+const ACYCLIC: [&str; 23] = [
     "phase-agent",
     "phase-baselines",
     "phase-belief",
@@ -31,6 +31,7 @@ const ACYCLIC: [&str; 22] = [
     "phase-sim",
     "phase-simple",
     "phase-statistics",
+    "phase-study",
 ];
 
 /// Reports every set of modules that use each other in a cycle, at the crate's root.

@@ -80,3 +80,49 @@ fn quoted(text: &str) -> String {
         text.into()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// The cells of a table of one row, read by the rules of RFC 4180.
+    fn read(line: &str) -> Vec<String> {
+        let (mut cells, mut rest) = (Vec::new(), line);
+        loop {
+            let end;
+            if let Some(inside) = rest.strip_prefix('"') {
+                let quotes = inside.match_indices('"').collect::<Vec<_>>();
+                let mut k = 0;
+                while quotes.get(k + 1).is_some_and(|next| next.0 == quotes[k].0 + 1) {
+                    k += 2;
+                }
+                end = quotes[k].0 + 2;
+                cells.push(inside[..quotes[k].0].replace("\"\"", "\""));
+            } else {
+                end = rest.find([',', '\n']).expect("an end");
+                cells.push(rest[..end].to_owned());
+            }
+            match &rest[end..=end] {
+                "," => rest = &rest[end + 1..],
+                _ => return cells,
+            }
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn any_text_is_read_back_and_none_is_a_formula(texts in prop::collection::vec(any::<String>(), 2..5)) {
+            let mut table = Table::default();
+            (0..texts.len()).for_each(|k| table.column(format!("c{k}"), ""));
+            table.row(texts.iter().cloned().map(Cell::Text).collect());
+            let csv = table.to_csv();
+            let cells = read(csv.split_once('\n').unwrap().1);
+            for (text, cell) in texts.iter().zip(&cells) {
+                prop_assert!(cell == text || *cell == format!("'{text}"));
+                prop_assert!(!cell.trim_start().starts_with(['=', '+', '-', '@']));
+            }
+            prop_assert_eq!(cells.len(), texts.len());
+        }
+    }
+}

@@ -8,6 +8,7 @@ use phase_study::{
     record::Standing,
     study::{Stage, StudyError, Token},
 };
+use proptest::prelude::*;
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -239,4 +240,46 @@ fn exactly_as_many_raters_as_are_wanted_finish() {
         *counts.entry(trial.shown).or_default() += 1;
     }
     assert!(counts.len() == 10 && counts.values().all(|&raters| raters == 3), "{counts:?}");
+}
+
+/// Any JSON, often with names that answers have.
+fn anything() -> impl Strategy<Value = Value> {
+    let names = prop_oneof![
+        Just("trial".to_owned()),
+        Just("answer".to_owned()),
+        Just("relation".to_owned()),
+        Just("response_time".to_owned()),
+        Just("plays".to_owned()),
+        Just("age".to_owned()),
+        any::<String>(),
+    ];
+    let leaf = prop_oneof![
+        Just(Value::Null),
+        any::<bool>().prop_map(Value::from),
+        any::<i64>().prop_map(Value::from),
+        any::<f64>().prop_map(Value::from),
+        any::<String>().prop_map(Value::from),
+        Just(json!(1)),
+        Just(json!("neutral")),
+    ];
+    leaf.prop_recursive(4, 24, 6, move |inner| {
+        prop_oneof![
+            prop::collection::vec(inner.clone(), 0..4).prop_map(Value::from),
+            prop::collection::btree_map(names.clone(), inner, 0..6)
+                .prop_map(|members| Value::Object(members.into_iter().collect())),
+        ]
+    })
+}
+
+#[test]
+fn nothing_that_is_sent_makes_it_panic_or_is_stored_in_part() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut study = open(folder.path(), &with_everything(Form::Relation));
+    let token = study.join(&parameters("p1"), 0, token_of(1)).expect("let in").token;
+    begin(&mut study, &token, 0);
+    let before = study.raters().expect("raters");
+    proptest!(ProptestConfig::with_cases(200), |(value in anything())| {
+        let answered = study.answer(&token, &value, 1).is_ok() || study.demographics(&token, &value, 1).is_ok();
+        prop_assert!(answered || study.raters().expect("raters") == before);
+    });
 }
