@@ -2,13 +2,18 @@
 
 use crate::{context::Context, error::CliError};
 use phase_dataset::{
+    FileError, Problem,
     manifest::{MANIFEST_FILE, Manifest},
     phase_events,
     shard::SHARD_FILE,
     summary::{SUMMARY_FILE, SimulationSummary},
 };
 use phase_event::Recording;
-use std::path::{Path, PathBuf};
+use std::{
+    collections::BTreeSet,
+    fs,
+    path::{Path, PathBuf},
+};
 
 /// Events that can be loaded one at a time.
 #[derive(Debug)]
@@ -31,7 +36,7 @@ pub struct EventFile {
 }
 
 impl EventInput {
-    /// Opens an event file, or the folder of a dataset or of simulations.
+    /// Opens an event file, the folder of a dataset or of simulations, or one with event files and nothing that describes them.
     ///
     /// # Errors
     /// If there is nothing of the kind, or no event of one of the ids. Files of a folder are only read when
@@ -45,7 +50,7 @@ impl EventInput {
             return Err(CliError::Usage(format!("{}: is a shard; merge all shards first", path.display())));
         }
         if !is_dataset && !path.join(SUMMARY_FILE).is_file() {
-            return Err(CliError::NotADataset(path.to_owned()));
+            return of_files(path, ids, context);
         }
         let files: Vec<(String, String)> = if !is_dataset {
             let summary = SimulationSummary::read(&path.join(SUMMARY_FILE))?;
@@ -140,6 +145,39 @@ pub fn read(file: &Path, ids: &[String], context: &Context) -> Result<Vec<(usize
         }
     }
     Ok(chosen)
+}
+
+/// The events of all event files of a folder, in the order of their names.
+fn of_files(folder: &Path, ids: &[String], context: &Context) -> Result<EventInput, CliError> {
+    let unreadable = |error| FileError { file: folder.to_owned(), problem: Problem::Unreadable(error) };
+    let mut files = Vec::new();
+    for entry in fs::read_dir(folder).map_err(unreadable)? {
+        let path = entry.map_err(unreadable)?.path();
+        let named = path.file_name().is_some_and(|name| !name.to_string_lossy().starts_with('.'));
+        if named && path.extension().is_some_and(|extension| extension == "json") {
+            files.push(path);
+        }
+    }
+    files.sort();
+    if files.is_empty() {
+        return Err(CliError::NotADataset(folder.to_owned()));
+    }
+    let mut recordings = Vec::new();
+    let mut known = BTreeSet::new();
+    for file in files {
+        for (_, recording) in read(&file, &[], context)? {
+            if !known.insert(recording.id.clone()) {
+                let (file, id) = (file.display(), &recording.id);
+                return Err(CliError::Usage(format!(
+                    "{file}: another file of the folder has an event {id}, too"
+                )));
+            }
+            recordings.push(recording);
+        }
+    }
+    check_ids(folder, recordings.iter().map(|recording| recording.id.as_str()), ids)?;
+    let chosen = recordings.into_iter().enumerate().filter(|(_, recording)| wanted(&recording.id, ids));
+    Ok(EventInput::Loaded(chosen.collect()))
 }
 
 fn check_ids<'a>(

@@ -64,7 +64,7 @@ pub enum CliError {
         near: String,
     },
     /// A folder holds nothing to render.
-    #[error("{}: is a folder without manifest.json or summary.json; give an event file or a finished dataset", .0.display())]
+    #[error("{}: is a folder without manifest.json or summary.json, and without event files; give one of them", .0.display())]
     NotADataset(PathBuf),
     /// An option is not compatible with the input.
     #[error("{0}")]

@@ -64,3 +64,20 @@ fn it_serves_until_it_is_told_to_stop() {
     assert_eq!(child.wait().expect("an end").code(), Some(0));
     assert!(folder.path().join("kept/rooms").is_dir() && folder.path().join("kept/events").is_dir());
 }
+
+/// Recordings of games are single files in one folder, which stands for all of them.
+#[test]
+fn a_folder_of_event_files_is_read_as_one() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let made =
+        ["gen-dataset", "--events", "2", "--max-steps", "2", "--simulations", "10", "--particles", "5"];
+    succeed(folder.path(), &[&made[..], &["--no-video", "--out", "made"]].concat());
+    let events = folder.path().join("made/events");
+    succeed(folder.path(), &["render", "made/events", "--contact-sheet", "2", "--out", "pictures"]);
+    let pictures = fs::read_dir(folder.path().join("pictures")).expect("a folder").count();
+    assert_eq!(pictures, 2);
+    let copied = events.join("demo-0000.json");
+    fs::copy(&copied, events.join("copy.json")).expect("copied");
+    let sentence = refuse(folder.path(), &["render", "made/events", "--out", "again"]);
+    assert!(sentence.contains("demo-0000") && sentence.contains("another file"), "{sentence}");
+}
