@@ -30,11 +30,13 @@ jump is off by fifths of a turn, which are taken away again.
 
 import argparse
 import io
-import json
 import math
 import pickle
 import re
 import sys
+
+from importer import (EXIT_BAD_INPUT, EXIT_FAILURE, Failure, Unusable, answer, ask, content_of, is_reading, load, save,
+                      shown)
 
 RADII = [0.8, 1.2, 1.6, 1.01]
 FORCES = [150.0, 300.0, 450.0, 600.0]
@@ -46,36 +48,12 @@ SUBSTEPS = 5
 # Start positions by their number in names, before the mirroring.
 STARTS = [(8, 20), (8, 14), (8, 10), (8, 4), (24, 20), (24, 14), (24, 10), (24, 4), (16, 16), (16, 8),
           (14, 16), (14, 8), (18, 16), (18, 8), (14, 20), (14, 4), (18, 20), (18, 4), (16, 12), (18, 14)]
+# The largest file that is read (bytes); the published recordings have less than a megabyte each.
+LARGEST_FILE_BYTES = 256 << 20
 # No agent turns farther than this in a step (rad).
 FASTEST_TURN = 1.1
 # How far one that turns clockwise alone may be pushed the other way in a step (rad); a fifth of a turn lies between.
 PUSHED = 0.15
-
-
-class Unusable(Exception):
-    """A record that cannot be converted; the text is one plain sentence."""
-
-
-class PlainUnpickler(pickle.Unpickler):
-    """Reads numbers, texts, lists, dictionaries and numpy arrays. A pickle may ask for anything to be run, so
-    nothing else is allowed."""
-
-    ALLOWED = re.compile(
-        r"(numpy\.)(_?core\.)?(multiarray\.(_reconstruct|scalar)|numeric\._frombuffer|ndarray|dtype)$"
-        r"|numpy\.dtypes\.\w+$"
-        r"|collections\.(OrderedDict|defaultdict)$"
-        r"|(builtins|__builtin__)\.(list|dict|set|tuple|int|float|complex|bool|str|bytes|bytearray)$"
-        r"|_codecs\.encode$")
-
-    def find_class(self, module, name):
-        if not self.ALLOWED.match(f"{module}.{name}"):
-            raise pickle.UnpicklingError(f"asks for {module}.{name}, which is no plain data")
-        return super().find_class(module, name)
-
-
-def load(stream):
-    # The recordings may have been made with Python 2, whose texts are bytes.
-    return PlainUnpickler(stream, encoding="latin1").load()
 
 
 def plain(value):
@@ -377,24 +355,25 @@ def records_of(content, stem):
     if isinstance(content, dict) and "trajectories" in content:
         return [named(content, stem)]
     if isinstance(content, dict):
-        content = list(content.items())
-        return [named(record, str(key)) for key, record in content if isinstance(record, dict)]
-    if isinstance(content, (list, tuple)):
-        return [named(record, stem) for record in content if isinstance(record, dict)]
-    raise Unusable("holds no records")
+        entries = [(str(key), record) for key, record in content.items()]
+    elif isinstance(content, (list, tuple)):
+        entries = [(stem, record) for record in content]
+    else:
+        raise Unusable("holds no records")
+    # An entry may be empty, where recordings were left out.
+    entries = [(default, record) for default, record in entries if record is not None]
+    if not entries:
+        raise Unusable("holds no records")
+    for default, record in entries:
+        if not isinstance(record, dict):
+            raise Unusable(f"holds something else than records ({type(record).__name__})")
+    return [named(record, default) for default, record in entries]
 
 
 def convert_file(path):
+    """The events of a file; runs in the reading process."""
     stem = re.sub(r"\.\w+$", "", re.split(r"[/\\]", path)[-1])
-    try:
-        with open(path, "rb") as stream:
-            records = records_of(load(stream), stem)
-    except OSError as error:
-        raise Unusable(f"{path}: cannot be read: {error.strerror}") from error
-    except Unusable as error:
-        raise Unusable(f"{path}: {error}") from error
-    except Exception as error:  # A damaged pickle may fail in any way.
-        raise Unusable(f"{path}: is no pickle of plain data: {error}") from error
+    records = records_of(content_of(path, LARGEST_FILE_BYTES), stem)
     events = []
     short = re.sub(r"[^A-Za-z0-9]+", "-", stem).strip("-")[:60] or "recording"
     for k, (name, record) in enumerate(records):
@@ -402,9 +381,10 @@ def convert_file(path):
         try:
             events.append(convert(record, name, event_id))
         except Unusable as error:
-            raise Unusable(f"{path}: record {k}: {error}") from error
-        except (KeyError, TypeError, ValueError, IndexError, AttributeError) as error:
-            raise Unusable(f"{path}: record {k}: a field is missing or malformed ({error!r})") from error
+            raise Unusable(f"record {k}: {error}") from error
+        except (KeyError, TypeError, ValueError, IndexError, AttributeError, OverflowError, RecursionError) as error:
+            # A record from elsewhere may lack any field or have one of another form.
+            raise Unusable(f"record {k}: a field is missing or malformed ({shown(repr(error))})") from error
     return events
 
 
@@ -413,9 +393,7 @@ def write(events, out):
     twice = next((name for name in ids if ids.count(name) > 1), None)
     if twice:
         raise Unusable(f"two recordings would have the id {twice}; convert them apart")
-    text = json.dumps({"format": "phase-events/1", "events": events}, allow_nan=False)
-    with open(out, "w", encoding="utf-8") as stream:
-        stream.write(text + "\n")
+    save({"format": "phase-events/1", "events": events}, out)
 
 
 # Self-test.
@@ -517,15 +495,21 @@ def main():
     if not arguments.files or not arguments.out:
         parser.error("give recordings and --out, or --self-test")
     try:
-        events = [event for path in arguments.files for event in convert_file(path)]
+        events = [event for path in arguments.files for event in ask(__file__, path)]
         if not events:
             raise Unusable("there are no records in these files")
         write(events, arguments.out)
     except Unusable as error:
         print(f"error: {error}", file=sys.stderr)
-        sys.exit(2)
+        sys.exit(EXIT_BAD_INPUT)
+    except Failure as error:
+        print(f"error: {error}", file=sys.stderr)
+        sys.exit(EXIT_FAILURE)
     print(f"{len(events)} events in {arguments.out}")
 
 
 if __name__ == "__main__":
-    main()
+    if is_reading(sys.argv):
+        answer(convert_file, *sys.argv[2:])
+    else:
+        main()

@@ -41,17 +41,11 @@ import argparse
 import json
 import math
 import os
-import pickle
 import re
-import stat
-import subprocess
 import sys
-import tempfile
 
-try:
-    import resource
-except ImportError:  # Only Unix has limits on memory.
-    resource = None
+from importer import (EXIT_BAD_INPUT, EXIT_FAILURE, Failure, Unusable, answer, ask, content_of, import_numpy, is_reading,
+                      open_regular, save, shown)
 
 RADII = [0.8, 1.2, 1.6, 1.01]
 FORCES = [150.0, 300.0, 450.0, 600.0]
@@ -87,13 +81,6 @@ LARGEST_FILE_BYTES = 64 << 20
 MOST_ENTRIES = 1000
 MOST_ROWS = 2000
 MOST_WALLS = 16
-# Address space that the reading process may take beyond what Python and numpy take, and its time.
-READ_MEMORY_BYTES = 1 << 30
-READ_SECONDS = 60
-# The reading process calls this file with this argument.
-READ_ARGUMENT = "--read-in-this-process"
-# How much of a foreign text an error message repeats.
-SHOWN_CHARACTERS = 100
 
 LARGEST_SHEET_BYTES = 1 << 20
 ANSWERS_PER_SHEET = 23
@@ -101,103 +88,13 @@ ANSWERS_PER_SHEET = 23
 CATCH_ENDING = "_mm"
 CATCH_TRIALS = {4: "adversarial", 12: "friendly", 0: "neutral"}
 
-EXIT_FAILURE = 1
-EXIT_BAD_INPUT = 2
-
-
-class Unusable(Exception):
-    """Input that cannot be converted; the text is one plain sentence."""
-
-
-class Failure(Exception):
-    """Something other than the input that went wrong; the text is one plain sentence."""
-
 
 # Reading.
 
-def import_numpy():
-    # One thread needs less address space; nothing is computed here.
-    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-    try:
-        import numpy
-    except ImportError as error:
-        raise Failure("numpy is needed to read the recordings") from error
-    try:
-        from numpy._core.multiarray import _reconstruct
-    except ImportError:  # numpy before 2.0
-        from numpy.core.multiarray import _reconstruct
-    return numpy, _reconstruct
-
-
-def load(stream):
-    """The content of a pickle of plain data and numpy arrays. A pickle may name any function to be called, so nothing
-    is looked up: the names admitted stand here with what they mean."""
-    numpy, reconstruct = import_numpy()
-    admitted = {
-        ("numpy", "ndarray"): numpy.ndarray,
-        ("numpy", "dtype"): numpy.dtype,
-        ("numpy.core.multiarray", "_reconstruct"): reconstruct,
-        ("numpy._core.multiarray", "_reconstruct"): reconstruct,
-    }
-
-    class PlainUnpickler(pickle.Unpickler):
-        def find_class(self, module, name):
-            if (module, name) not in admitted:
-                raise pickle.UnpicklingError(f"it asks for {module}.{name}, which is no plain data")
-            return admitted[module, name]
-
-    return PlainUnpickler(stream).load()
-
-
-def shown(value):
-    """A foreign text for a sentence: on one line, short, in ASCII."""
-    text = ascii(str(value))[1:-1]
-    return text if len(text) <= SHOWN_CHARACTERS else text[:SHOWN_CHARACTERS] + "..."
-
-
-def open_regular(path, largest):
-    """A regular file, open; pipes and devices may never end."""
-    # Not to wait for whoever writes into a pipe.
-    descriptor = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
-    state = os.fstat(descriptor)
-    if not stat.S_ISREG(state.st_mode):
-        os.close(descriptor)
-        raise Unusable("is no regular file")
-    if state.st_size > largest:
-        os.close(descriptor)
-        raise Unusable(f"is larger than {largest} bytes")
-    return os.fdopen(descriptor, "rb")
-
-
-def limit_memory():
-    """Limits what this process may take from now on; numpy must have been imported."""
-    if resource is None:
-        return
-    try:
-        with open("/proc/self/statm", encoding="ascii") as stream:
-            taken = int(stream.read().split()[0]) * resource.getpagesize()
-    except (OSError, ValueError):  # Not Linux.
-        taken = 0
-    _, hard = resource.getrlimit(resource.RLIMIT_AS)
-    limit = taken + READ_MEMORY_BYTES
-    if hard != resource.RLIM_INFINITY:
-        limit = min(limit, hard)
-    try:
-        resource.setrlimit(resource.RLIMIT_AS, (limit, hard))
-    except (ValueError, OSError):  # Some systems know this limit by name only.
-        pass
-
-
 def entries_of(path):
-    try:
-        with open_regular(path, LARGEST_FILE_BYTES) as stream:
-            content = load(stream)
-    except (Unusable, Failure, MemoryError):
-        raise
-    except OSError as error:
-        raise Unusable(f"cannot be read: {error.strerror}") from error
-    except Exception as error:  # A damaged pickle may fail in any way.
-        raise Unusable(f"is no pickle of plain data: {shown(error) or type(error).__name__}") from error
+    if import_numpy() is None:
+        raise Failure("numpy is needed to read the recordings")
+    content = content_of(path, LARGEST_FILE_BYTES)
     if type(content) is not list or not 0 < len(content) <= MOST_ENTRIES:
         raise Unusable(f"must hold a list of 1 to {MOST_ENTRIES} entries")
     return content
@@ -221,44 +118,6 @@ def converted_entries(path, angles):
         names.setdefault(entry["name"], []).append(event_id)
         events.append(event)
     return {"events": events, "names": names, "entries": len(content)}
-
-
-def read_in_this_process(path, angles):
-    """The reading process: prints one JSON object."""
-    try:
-        import_numpy()
-        limit_memory()
-        answer = json.dumps(converted_entries(path, angles), allow_nan=False)
-    except Unusable as error:
-        answer = json.dumps({"unusable": str(error)})
-    except Failure as error:
-        answer = json.dumps({"failure": str(error)})
-    except (MemoryError, RecursionError):
-        answer = json.dumps({"unusable": f"takes more than {READ_MEMORY_BYTES} bytes of memory to read"})
-    # Written as bytes: what a file holds must not depend on the system's encoding.
-    sys.stdout.buffer.write(answer.encode("ascii"))
-
-
-def read_recordings(path, angles):
-    """What `converted_entries` tells, found by a process of its own."""
-    command = [sys.executable, os.path.abspath(__file__), READ_ARGUMENT, os.path.abspath(path), angles]
-    try:
-        done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
-                              timeout=READ_SECONDS, check=False)
-    except subprocess.TimeoutExpired as error:
-        raise Unusable(f"{path}: takes more than {READ_SECONDS} s to read") from error
-    except OSError as error:
-        raise Failure(f"the process that reads {path} cannot be started: {error.strerror}") from error
-    try:
-        answer = json.loads(done.stdout)
-    except ValueError as error:
-        # An array made up in bad faith may crash numpy.
-        raise Unusable(f"{path}: the process that reads it ended with code {done.returncode}") from error
-    if "failure" in answer:
-        raise Failure(answer["failure"])
-    if "unusable" in answer:
-        raise Unusable(f"{path}: {answer['unusable']}")
-    return answer
 
 
 # Checks. What is in a pickle may have any type and any size.
@@ -288,7 +147,7 @@ def text(value, what):
 
 
 def array_rows(array):
-    numpy, _ = import_numpy()
+    numpy = import_numpy()
     if type(array) is not numpy.ndarray or array.ndim != 2 or array.dtype.kind != "f":
         raise Unusable("`trajectories` must hold arrays of numbers with rows and columns")
     rows, columns = array.shape
@@ -632,41 +491,22 @@ def count_ratings(folder, names):
 
 # The program.
 
-def write(content, path):
-    """A file that is there whole or not at all."""
-    line = json.dumps(content, allow_nan=False) + "\n"
-    part = None
-    try:
-        descriptor, part = tempfile.mkstemp(dir=os.path.dirname(os.path.abspath(path)), prefix=".import-")
-        with os.fdopen(descriptor, "w", encoding="utf-8") as stream:
-            stream.write(line)
-        # Like a file that is opened for writing, not for its owner alone.
-        mask = os.umask(0)
-        os.umask(mask)
-        os.chmod(part, 0o666 & ~mask)
-        os.replace(part, path)
-    except OSError as error:
-        if part and os.path.exists(part):
-            os.unlink(part)
-        raise Failure(f"{path}: cannot be written: {error.strerror}") from error
-
-
 def run(arguments):
     files = [path for path in (arguments.file, arguments.out, arguments.ratings) if path]
     if len({os.path.realpath(path) for path in files}) < len(files):
         raise Unusable("the files to read and to write must be different")
-    recordings = read_recordings(arguments.file, arguments.angles)
+    recordings = ask(__file__, arguments.file, arguments.angles)
     events = recordings["events"]
     if not events:
         raise Unusable(f"{arguments.file}: all entries are empty")
     ratings = None
     if arguments.raters:
         ratings, raters = count_ratings(arguments.raters, recordings["names"])
-    write({"format": "phase-events/1", "events": events}, arguments.out)
+    save({"format": "phase-events/1", "events": events}, arguments.out)
     empty = recordings["entries"] - len(events)
     print(f"{len(events)} events in {arguments.out}" + (f" (empty entries: {empty})" if empty else ""))
     if ratings:
-        write(ratings, arguments.ratings)
+        save(ratings, arguments.ratings)
         print(f"ratings of {len(ratings['ratings'])} events in {arguments.ratings} by {raters}")
 
 
@@ -692,7 +532,7 @@ def main():
 
 
 if __name__ == "__main__":
-    if len(sys.argv) == 4 and sys.argv[1] == READ_ARGUMENT:
-        read_in_this_process(*sys.argv[2:])
+    if is_reading(sys.argv):
+        answer(converted_entries, *sys.argv[2:])
     else:
         main()

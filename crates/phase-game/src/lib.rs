@@ -2,7 +2,7 @@
 //! observes.
 //!
 //! A [`Room`] is one game: a practice, then rounds, one scene each. It is told who comes, leaves and presses what ([`FromPlayer`]), and
-//! what time it is, and answers with [`Effect`]s: messages for the players ([`ToPlayer`]), entries of a [journal](journal), and
+//! what time it is, and answers with [`Effect`]s: messages for the players ([`ToPlayer`]), entries of a [`journal`], and
 //! recordings, which are events like all others, with [`Controller::Human`](phase_event::Controller::Human).
 //!
 //! Key design decision: a room knows no sockets, no files and no clock. It is a state machine, tested without waiting, and the
