@@ -150,9 +150,10 @@ pub fn settings_value(settings: &SimulationSettings) -> Result<Value, CliError> 
 /// # Errors
 /// As [`picture::write_video`].
 pub fn write_video(path: &Path, id: &str, event: &Event) -> Result<(), CliError> {
-    let items: Vec<RenderedState<'_>> =
-        event.frames().map(|&state| RenderedState { state, minds: Vec::new(), observer: None }).collect();
-    picture::write_video(path, id, &event.scene.physics(), Palette::PAPER, &items)
+    let items = event.frames().map(|&state| RenderedState { state, minds: Vec::new(), observer: None });
+    // Events that are generated are short: a video takes a second.
+    picture::write_video(path, id, &event.scene.physics(), Palette::PAPER, items, &|| false)?;
+    Ok(())
 }
 
 /// Digest of everything that determines an event besides its scene and seed: the settings and this

@@ -58,30 +58,39 @@ pub struct RenderedState<'a> {
     pub observer: Option<&'a ObserverFrame<'a>>,
 }
 
-/// Writes a video.
+/// Writes a video. States are drawn as they come, so that they need not be in memory at once; all have the same views. Returns
+/// whether it was written: before each frame `interrupted` is asked whether to stop, and then there is no file.
 ///
 /// # Errors
 /// [`CliError::Write`] or [`CliError::Render`]; then there is no file.
-pub fn write_video(
+pub fn write_video<'a>(
     path: &Path,
     id: &str,
     physics: &PhysicsConfig,
     palette: Palette,
-    items: &[RenderedState<'_>],
-) -> Result<(), CliError> {
-    let mp4 = || -> Result<Vec<u8>, RenderError> {
-        let renderer = SceneRenderer::new(physics, style(Style::default(), palette, items))?;
-        let mut frames = items.iter().map(|item| frame(&renderer, item));
-        let first = frames.next().ok_or(RenderError::NoFrames("video"))??;
+    items: impl IntoIterator<Item = RenderedState<'a>>,
+    interrupted: &dyn Fn() -> bool,
+) -> Result<bool, CliError> {
+    let mp4 = || -> Result<Option<Vec<u8>>, RenderError> {
+        let mut items = items.into_iter();
+        let first = items.next().ok_or(RenderError::NoFrames("video"))?;
+        let style = style(Style::default(), palette, core::slice::from_ref(&first));
+        let renderer = SceneRenderer::new(physics, style)?;
+        let first = frame(&renderer, &first)?;
         let mut video = VideoEncoder::new(Vec::new(), first.width(), first.height(), FRAMES_PER_SECOND)?;
         video.push(&first)?;
-        for frame in frames {
-            video.push(&frame?)?;
+        for item in items {
+            if interrupted() {
+                return Ok(None);
+            }
+            video.push(&frame(&renderer, &item)?)?;
         }
-        video.finish()
+        video.finish().map(Some)
     };
-    let mp4 = mp4().map_err(|source| CliError::Render { id: id.into(), source })?;
-    Ok(atomic::write(path, &mp4)?)
+    match mp4().map_err(|source| CliError::Render { id: id.into(), source })? {
+        Some(mp4) => Ok(atomic::write(path, &mp4).map(|()| true)?),
+        None => Ok(false),
+    }
 }
 
 /// Writes a video of several events beside each other, smaller, until the longest ends.

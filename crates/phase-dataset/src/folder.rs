@@ -162,7 +162,7 @@ impl Folder {
 /// Whether a finished folder still contains files that served its run.
 #[must_use]
 pub fn has_leftovers(path: &Path) -> bool {
-    path.join(MARKER).exists()
+    [MARKER, LOCK, CACHE].iter().any(|name| path.join(name).exists())
 }
 
 fn marker(path: &Path) -> Option<Value> {

@@ -16,6 +16,13 @@ use std::{
 /// The value of the field `format` of preset files.
 pub const PRESET_FORMAT: &str = "phase-preset/3";
 
+/// Most events of a dataset: their descriptions are in memory at once.
+pub const MOST_EVENTS: usize = 1_000_000;
+/// Longest event of a dataset (steps).
+pub const MOST_STEPS: usize = 10_000;
+/// Most scenes that are tried for an event.
+pub const MOST_ATTEMPTS: usize = 1_000_000;
+
 /// A recipe for a dataset.
 #[derive(Clone, PartialEq, Eq, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -180,6 +187,7 @@ impl Preset {
                     .into(),
             );
         }
+        self.check_counts()?;
         if self.groups.iter().any(|group| group.events == 0) {
             return Err("field `events` of a group must not be 0".into());
         }
@@ -204,6 +212,30 @@ impl Preset {
         }
         if self.selection.is_some_and(|it| it.attempts == 0 || it.min_steps > it.max_steps) {
             return Err("selection needs an attempt, and min_steps no greater than max_steps".into());
+        }
+        Ok(())
+    }
+
+    /// That counts are of a size that memory and time allow.
+    fn check_counts(&self) -> Result<(), String> {
+        let within = |field: &str, count: usize, most: usize| {
+            if count <= most {
+                Ok(())
+            } else {
+                Err(format!("field `{field}` must be at most {most}, not {count}"))
+            }
+        };
+        self.groups.iter().try_for_each(|group| within("events", group.events, MOST_EVENTS))?;
+        let blocks = self.blocks.iter().flat_map(|blocks| &blocks.groups);
+        blocks.into_iter().try_for_each(|group| within("blocks", group.blocks, MOST_EVENTS))?;
+        self.sets.iter().try_for_each(|group| within("sets", group.sets, MOST_EVENTS))?;
+        if let Some(selection) = self.selection {
+            within("max_steps", selection.max_steps, MOST_STEPS)?;
+            within("attempts", selection.attempts, MOST_ATTEMPTS)?;
+        }
+        let events = self.events();
+        if events > MOST_EVENTS {
+            return Err(format!("must have at most {MOST_EVENTS} events in all, not {events}"));
         }
         Ok(())
     }

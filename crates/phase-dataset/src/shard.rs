@@ -5,6 +5,7 @@ use crate::{
     atomic::{self, AtomicFile},
     checksum::FileEntry,
     json,
+    preset::MOST_EVENTS,
     slot_record::{Records, SlotRecord},
 };
 use phase_model::json::check_format;
@@ -102,6 +103,10 @@ impl Shard {
             serde_json::from_value(value).map_err(|source| fail(Problem::Incomplete { what, source }))?;
         if shard.shard == 0 || shard.shard > shard.of {
             let rule = format!("there is no shard {} of {}", shard.shard, shard.of);
+            return Err(fail(Problem::Shape { what, rule }));
+        }
+        if shard.whole.slots > MOST_EVENTS || shard.whole.events > MOST_EVENTS {
+            let rule = format!("a dataset has at most {MOST_EVENTS} events");
             return Err(fail(Problem::Shape { what, rule }));
         }
         shard.slots.verify(folder)?;

@@ -24,13 +24,12 @@ use std::{
 /// Any [`CliError`].
 pub fn run(arguments: &Merge, context: &Context) -> Result<(), CliError> {
     let (shards, out) = (Shards::read(&arguments.shards)?, &arguments.out);
-    let mut run = run_value(&shards.first().whole, None);
+    let whole = &shards.first().whole;
+    let finished = run_value(whole, None);
+    let mut run = finished.clone();
     run["command"] = "merge".into();
     match folder::inspect(out, MANIFEST_FILE)? {
-        Contents::Finished => {
-            let sentence = format!("{}: holds a finished dataset; choose a new folder", out.display());
-            return Err(CliError::Usage(sentence));
-        }
+        Contents::Finished => return super::check_finished(out, whole.slots, &finished, arguments.output),
         Contents::Unfinished(other) => {
             super::check_same(out, "an unfinished", &other, &run)?;
             context.note(format!("continuing in {}", out.display()));
@@ -40,11 +39,10 @@ pub fn run(arguments: &Merge, context: &Context) -> Result<(), CliError> {
     interrupt::listen();
     let folder = Folder::claim(out, &run)?;
     folder.subfolder("events")?;
-    if shards.first().whole.videos {
+    if whole.videos {
         folder.subfolder("videos")?;
     }
     folder.subfolder(parquet::FOLDER)?;
-    let whole = &shards.first().whole;
     let progress = context.progress_over(
         &format!("copying {} of {} shards", console::events(whole.events), shards.0.len()),
         whole.slots,

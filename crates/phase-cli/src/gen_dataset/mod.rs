@@ -37,7 +37,10 @@ pub fn run(arguments: &GenDataset, context: &Context) -> Result<(), CliError> {
     let out = arguments.out.clone().unwrap_or_else(|| plan.default_folder());
     let last_file = if plan.shard.is_some() { SHARD_FILE } else { MANIFEST_FILE };
     match folder::inspect(&out, last_file)? {
-        Contents::Finished => return check_finished(&plan, &out, arguments.output),
+        Contents::Finished if plan.shard.is_some() => {
+            return check_finished_shard(&plan, &out, arguments.output);
+        }
+        Contents::Finished => return check_finished(&out, plan.slot_count, &plan.run(), arguments.output),
         Contents::Unfinished(run) => {
             check_same(&out, "an unfinished", &run, &plan.run())?;
             context.note(format!("continuing in {}", out.display()));
@@ -98,42 +101,51 @@ fn page_line(out: &Path) -> String {
     page(out).map_or_else(String::new, |page| format!("open {} to watch them\n", page.display()))
 }
 
-/// A finished and complete dataset or shard is used unchanged if it is the requested one.
-fn check_finished(plan: &Plan, out: &Path, output: Output) -> Result<(), CliError> {
-    let whole = if plan.shard.is_some() {
-        let shard = Shard::read(out)?;
-        let whole = run_value(&shard.whole, Some((shard.shard, shard.of)));
-        check_same(out, "a finished", &whole, &plan.run())?;
-        for record in shard.records(out) {
-            record?.files().try_for_each(|file| file.verify(out)).map_err(CliError::Altered)?;
-        }
-        whole
-    } else {
-        let manifest = Manifest::read(&out.join(MANIFEST_FILE))?;
-        let description = DatasetDescription {
-            preset: manifest.preset.clone(),
-            events: manifest.events.len(),
-            slots: plan.slot_count,
-            seed: manifest.seed,
-            generator: manifest.generator.clone(),
-            settings: manifest.settings.clone(),
-            selected: !manifest.selection.is_empty(),
-            videos: manifest.events.iter().all(|entry| entry.video.is_some()),
-            date_published: manifest.date_published.clone(),
-            command: String::new(),
-        };
-        let whole = run_value(&description, None);
-        check_same(out, "a finished", &whole, &plan.run())?;
-        manifest.all_files().try_for_each(|file| file.verify(out)).map_err(CliError::Altered)?;
-        whole
-    };
-    if folder::has_leftovers(out) {
-        Folder::claim(out, &whole)?.finish()?;
+/// A finished and complete shard is used unchanged if it is the requested one.
+fn check_finished_shard(plan: &Plan, out: &Path, output: Output) -> Result<(), CliError> {
+    let shard = Shard::read(out)?;
+    let run = run_value(&shard.whole, Some((shard.shard, shard.of)));
+    check_same(out, "a finished", &run, &plan.run())?;
+    for record in shard.records(out) {
+        record?.files().try_for_each(|file| file.verify(out)).map_err(CliError::Altered)?;
     }
-    let (count, what) =
-        (plan.events_in(&plan.slots()), if plan.shard.is_some() { "shard" } else { "dataset" });
-    let text = format!("{} holds this {what} already; all {count} events are whole\n", out.display());
-    let value = json!({ "folder": out, "events": count, "page": page(out), "new": false });
+    let events = plan.events_in(&plan.slots());
+    keep_finished(out, &run, ("shard", events), output)
+}
+
+/// A finished and complete dataset is used unchanged if it is that of a run.
+fn check_finished(out: &Path, slots: usize, expected: &Value, output: Output) -> Result<(), CliError> {
+    let manifest = Manifest::read(&out.join(MANIFEST_FILE))?;
+    let description = DatasetDescription {
+        preset: manifest.preset.clone(),
+        events: manifest.events.len(),
+        slots,
+        seed: manifest.seed,
+        generator: manifest.generator.clone(),
+        settings: manifest.settings.clone(),
+        selected: !manifest.selection.is_empty(),
+        videos: manifest.events.iter().all(|entry| entry.video.is_some()),
+        date_published: manifest.date_published.clone(),
+        command: String::new(),
+    };
+    let run = run_value(&description, None);
+    check_same(out, "a finished", &run, expected)?;
+    manifest.all_files().try_for_each(|file| file.verify(out)).map_err(CliError::Altered)?;
+    keep_finished(out, &run, ("dataset", description.events), output)
+}
+
+/// Removes what a run that was killed at its very end has left, and says that everything is there.
+fn keep_finished(
+    out: &Path,
+    run: &Value,
+    (what, events): (&str, usize),
+    output: Output,
+) -> Result<(), CliError> {
+    if folder::has_leftovers(out) {
+        Folder::claim(out, run)?.finish()?;
+    }
+    let text = format!("{} holds this {what} already; all {events} events are whole\n", out.display());
+    let value = json!({ "folder": out, "events": events, "page": page(out), "new": false });
     output.print(text + &page_line(out), &value)
 }
 

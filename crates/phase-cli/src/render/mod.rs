@@ -54,7 +54,9 @@ pub fn run(arguments: &Render, context: &Context) -> Result<(), CliError> {
             },
             false => None,
         };
-        render(arguments, &recording, &path, watched.as_deref())?;
+        if !render(arguments, &recording, &path, watched.as_deref())? {
+            return Ok(None);
+        }
         let observer =
             watched.map(|watched| ObserverCourse::write(&path, &recording.id, watched)).transpose()?;
         progress.event(0, &recording.id);
@@ -181,13 +183,13 @@ fn check_ending(out: &Path, extension: &str) -> Result<(), CliError> {
     Err(CliError::Usage(format!("--out: {}: .{found} {rule}", out.display())))
 }
 
-/// Renders one event.
+/// Renders one event; returns whether that was not interrupted.
 fn render(
     arguments: &Render,
     recording: &Recording,
     path: &Path,
     watched: Option<&[Watched]>,
-) -> Result<(), CliError> {
+) -> Result<bool, CliError> {
     let (id, physics) = (&recording.id, recording.scene.physics());
     let palette = arguments.palette.palette();
     let minds: Vec<Vec<BeliefFrame>> = match (arguments.belief, &recording.simulation) {
@@ -198,9 +200,9 @@ fn render(
         }
         (Some(_), None) => return Err(unsimulated(arguments, id)),
     };
-    let states = match &recording.simulation {
-        Some(simulation) => simulation.event.frames().copied().collect(),
-        None => interpolated(&recording.trajectory),
+    let states: Box<dyn Iterator<Item = State>> = match &recording.simulation {
+        Some(simulation) => Box::new(simulation.event.frames().copied()),
+        None => Box::new(interpolated(&recording.trajectory)),
     };
     // The decision that chose a step is shown while the step lasts.
     let minds_at = |frame: usize| {
@@ -221,13 +223,17 @@ fn render(
         .collect();
     // The observer sees a step when it is over.
     let observer_at = |frame: usize| observers.get(frame / SUBSTEPS).or(observers.last());
-    let frames = states.into_iter().enumerate();
-    let items: Vec<RenderedState<'_>> = frames
-        .map(|(k, state)| RenderedState { state, minds: minds_at(k), observer: observer_at(k) })
-        .collect();
+    let items = states.enumerate().map(|(k, state)| RenderedState {
+        state,
+        minds: minds_at(k),
+        observer: observer_at(k),
+    });
     let result = match arguments.contact_sheet {
-        Some(count) => picture::write_sheet(path, id, &physics, palette, &items, count.into()),
-        None => picture::write_video(path, id, &physics, palette, &items),
+        Some(count) => {
+            let items: Vec<RenderedState<'_>> = items.collect();
+            picture::write_sheet(path, id, &physics, palette, &items, count.into()).map(|()| true)
+        }
+        None => picture::write_video(path, id, &physics, palette, items, &interrupt::requested),
     };
     result.map_err(|error| match error {
         CliError::Write(error) => CliError::Output(error),
@@ -277,22 +283,20 @@ fn minds(
 }
 
 /// Five frames for each step of a recording that has rows only: the bodies go straight from row to row.
-fn interpolated(trajectory: &Trajectory) -> Vec<State> {
+fn interpolated(trajectory: &Trajectory) -> impl Iterator<Item = State> + '_ {
     let between = |rows: &[Row], t: usize, share: f32| -> Row {
         core::array::from_fn(|column| rows[t - 1][column] + share * (rows[t][column] - rows[t - 1][column]))
     };
-    let mut states = Vec::with_capacity(1 + trajectory.steps() * SUBSTEPS);
-    states.extend(trajectory.state(0));
-    for t in 1..=trajectory.steps() {
-        for substep in 1..=SUBSTEPS {
-            let share = substep as f32 / SUBSTEPS as f32;
-            let row = |rows: &Vec<Row>| vec![between(rows, t, share)];
-            let moment = Trajectory {
-                agents: trajectory.agents.each_ref().map(row),
-                objects: trajectory.objects.iter().map(row).collect(),
-            };
-            states.extend(moment.state(0));
-        }
-    }
-    states
+    let moment = move |t: usize, substep: usize| {
+        let share = substep as f32 / SUBSTEPS as f32;
+        let row = |rows: &Vec<Row>| vec![between(rows, t, share)];
+        let moment = Trajectory {
+            agents: trajectory.agents.each_ref().map(row),
+            objects: trajectory.objects.iter().map(row).collect(),
+        };
+        moment.state(0)
+    };
+    let later = (1..=trajectory.steps())
+        .flat_map(move |t| (1..=SUBSTEPS).filter_map(move |substep| moment(t, substep)));
+    trajectory.state(0).into_iter().chain(later)
 }

@@ -81,9 +81,45 @@ fn merge_refuses_damaged_shards_and_goes_on_once_they_are_mended() {
         succeed(path, &["merge", "one", "two", "--out", &out]);
         assert!(tree(&path.join(&out)) == whole, "{file}: merged otherwise once it was mended");
     }
-    // An existing dataset is not overwritten.
-    let sentence = refuse(path, &["merge", "one", "two", "--out", "merged0"]);
-    assert!(sentence.contains("finished dataset") && tree(&path.join("merged0")) == whole, "{sentence}");
+}
+
+/// A merge that was killed after its last file is finished by the same command; another dataset is not overwritten.
+#[test]
+fn a_finished_merge_is_left_as_it_is() {
+    let folder = folder();
+    let path = folder.path();
+    let whole = tree(&path.join("whole"));
+    let merge = ["merge", "one", "two", "--out", "merged"];
+    succeed(path, &merge);
+    let merged = path.join("merged");
+    // In the order in which they are removed at the end.
+    for left in [
+        &[".cache", ".phase-run.json", ".phase-lock"][..],
+        &[".phase-run.json", ".phase-lock"],
+        &[".phase-lock"],
+        &[],
+    ] {
+        for name in left {
+            match *name {
+                ".cache" => fs::create_dir(merged.join(name)).expect("a folder"),
+                name => fs::write(merged.join(name), "{\"format\":\"phase-run/1\",\"run\":{}}\n")
+                    .expect("written"),
+            }
+        }
+        let told = succeed(path, &merge);
+        assert!(told.contains("holds this dataset already"), "{left:?}: {told}");
+        assert!(tree(&merged) == whole, "{left:?}");
+        succeed(path, &["verify", "merged"]);
+    }
+    flip(&merged.join("events/demo-0001.json"));
+    assert!(refuse(path, &merge).contains("differs in checksum"));
+    succeed(path, &generate("other", &["--seed", "9"]));
+    let other = tree(&path.join("other"));
+    let sentence = refuse(path, &["merge", "one", "two", "--out", "other"]);
+    assert!(
+        sentence.contains("holds a finished run of another kind") && tree(&path.join("other")) == other,
+        "{sentence}"
+    );
 }
 
 #[test]

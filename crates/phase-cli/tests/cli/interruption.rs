@@ -1,11 +1,12 @@
 //! An interrupted run resumes, with the same result as without the interruption.
 #![cfg(unix)]
 
-use crate::support::{phase, refuse, succeed, text, tree};
+use crate::support::{phase, recording, refuse, succeed, text, tree, write_events};
 use std::{
     io::{BufRead, BufReader},
     path::Path,
     process::{Child, Command, Stdio},
+    time::{Duration, Instant},
 };
 
 const COMMAND: [&str; 10] =
@@ -117,4 +118,28 @@ fn two_runs_in_one_folder_do_not_mix() {
     assert!(text(&output.stderr).contains("is in use by another run"), "{}", text(&output.stderr));
     signal(&child, "-INT");
     assert_eq!(child.wait().expect("it ends").code(), Some(130), "the first run was not disturbed");
+}
+
+/// Also within one event that takes minutes to draw.
+#[test]
+fn a_long_video_is_given_up_at_once() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    let mut long = recording("long");
+    for group in ["agents", "objects"] {
+        for rows in long["trajectory"][group].as_array_mut().expect("tracks") {
+            *rows = vec![rows[0].clone(); 20_000].into();
+        }
+    }
+    write_events(&path.join("long.json"), &[long]);
+    let options = ["render", "long.json", "--out", "long.mp4"];
+    let mut child = phase(path).args(options).stderr(Stdio::piped()).spawn().expect("the program starts");
+    let mut lines = BufReader::new(child.stderr.take().expect("a pipe")).lines();
+    assert!(lines.next().expect("a line").expect("text").contains("rendering"));
+    let told = Instant::now();
+    signal(&child, "-TERM");
+    assert_eq!(child.wait().expect("it ends").code(), Some(130));
+    // The whole video takes minutes.
+    assert!(told.elapsed() < Duration::from_secs(30), "{:?}", told.elapsed());
+    assert!(!path.join("long.mp4").exists());
 }

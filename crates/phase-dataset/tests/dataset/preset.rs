@@ -211,6 +211,20 @@ fn what_is_no_preset_is_refused() {
         (&PHASE_500.replace("400,", "0,"), "attempt"),
         (&PHASE_500.replace("\"max_steps\": 100", "\"max_steps\": 10"), "min_steps"),
         (&PHASE_500.replace("\"validation\"", "\"holdout\""), "holdout"),
+        // No memory for them is asked for before they are refused.
+        (&DEMO.replace("\"events\": 1", "\"events\": 10000000000"), "`events` must be at most 1000000"),
+        (
+            &DEMO.replace("\"events\": 1", "\"events\": 9223372036854775808"),
+            "`events` must be at most 1000000",
+        ),
+        (&DEMO.replace("\"events\": 1", "\"events\": 600000"), "in all"),
+        (&PHASE_500.replace("\"blocks\": 64", "\"blocks\": 9223372036854775807"), "`blocks` must be at most"),
+        (&PHASE_500.replace("\"blocks\": 64", "\"blocks\": 999999"), "in all"),
+        (
+            &PHASE_500.replace("\"max_steps\": 100", "\"max_steps\": 1000000000"),
+            "`max_steps` must be at most",
+        ),
+        (&PHASE_500.replace("400,", "18446744073709551615,"), "`attempts` must be at most"),
     ];
     for (text, part) in cases {
         let sentence = Preset::parse("demo", text).expect_err(part).to_string();
