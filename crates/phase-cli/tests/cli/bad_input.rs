@@ -45,7 +45,7 @@ fn numbers_and_names_out_of_range() {
             &["render", "events.json", "--out", "x.png"],
             &["x.png", ".png cannot be written", "--contact-sheet"],
         ),
-        (&["render", "."], &["manifest.json"]),
+        (&["render", "empty"], &["manifest.json", "event files"]),
         (&["new-scene", "--kind", "dancing"], &["dancing", "helping", "chasing"]),
         (&["new-scene", "--layout", "22"], &["--layout", "22"]),
         (&["new-scene", "--out", "events.json"], &["events.json exists"]),
@@ -54,6 +54,7 @@ fn numbers_and_names_out_of_range() {
         (&["verify", ".", "--quiet", "--verbose"], &["--quiet", "--verbose"]),
         (&["dance"], &["dance"]),
     ];
+    fs::create_dir(folder.path().join("empty")).expect("a folder");
     let before = tree(folder.path());
     for (arguments, expected) in cases {
         let sentence = refuse(folder.path(), arguments);
@@ -123,7 +124,9 @@ fn rubbish_instead_of_events() {
         }
         assert_eq!(tree(folder.path()), before, "{sentence}");
     }
-    for (path, part) in [("missing.json", "no such file"), (".", "folder")] {
+    fs::create_dir(folder.path().join("empty")).expect("a folder");
+    // A folder stands for all of its files, so one that is bad is named.
+    for (path, part) in [("missing.json", "no such file"), ("empty", "folder"), (".", "bad.json")] {
         let sentence = refuse(folder.path(), &["simulate", "--events", path, "--out", "out"]);
         assert!(sentence.contains(part), "{sentence}");
     }
