@@ -75,6 +75,11 @@ export class Arena {
     c.beginPath();
     points.forEach(([x, y], k) => (k ? c.lineTo(x, y) : c.moveTo(x, y)));
     c.closePath();
+    this.#paint(fill, stroke);
+  }
+
+  #paint(fill, stroke) {
+    const c = this.#context;
     c.fillStyle = fill;
     c.fill();
     if (stroke) {
@@ -88,13 +93,7 @@ export class Arena {
     const c = this.#context;
     c.beginPath();
     c.arc(x, y, radius * this.#scale, 0, 2 * Math.PI);
-    c.fillStyle = fill;
-    c.fill();
-    if (stroke) {
-      c.strokeStyle = stroke;
-      c.lineWidth = 2.5;
-      c.stroke();
-    }
+    this.#paint(fill, stroke);
   }
 
   #disc([x, y], radius, fill, stroke) {
