@@ -1,19 +1,19 @@
 //! One game: who is there, what is going on, and what happens next.
 
+mod presence;
+mod telling;
+
 use crate::{
-    Doing, Ending, Entry, FromPlayer, GameSettings, Instructions, Player, Round, STEP, ToPlayer,
+    Doing, Ending, Entry, FromPlayer, GameSettings, Player, Round, STEP, ToPlayer,
     controls::Controls,
-    instructions,
     journal::{Actions, FORMAT},
     message::PROTOCOL,
-    sight::{sight, stage},
 };
 use core::time::Duration;
-use phase_event::{Controller, Recording};
-use phase_model::{AGENT_COUNT, Action, AgentId, Goal, PhysicsConfig, Sign, State};
+use phase_event::Recording;
+use phase_model::{AGENT_COUNT, Action, AgentId, Goal, PhysicsConfig, Sign};
 use phase_predicates::achieved;
 use phase_sim::{Simulation, SimulationError, SimulationSettings};
-use serde_json::Value;
 use thiserror::Error;
 
 /// Why a game cannot be played.
@@ -393,118 +393,10 @@ impl Room {
         Ok(())
     }
 
-    /// What has been played of the round, as an event.
-    #[must_use]
-    pub fn recording(&self) -> Recording {
-        let round = &self.rounds[self.round];
-        let generator = concat!("phase ", env!("CARGO_PKG_VERSION")).to_owned();
-        let mut settings = serde_json::to_value(self.settings.simulation).unwrap_or_default();
-        if let (Value::Object(members), Ok(view)) = (&mut settings, serde_json::to_value(self.settings.view))
-        {
-            members.insert("view".into(), view);
-        }
-        let controllers = self.settings.players.map(|player| match player {
-            Player::Human => Controller::Human,
-            Player::Mind => Controller::Mind,
-        });
-        let event = self.simulation.event().clone();
-        Recording { controllers, ..Recording::of_event(round.id.clone(), event, generator, settings) }
-    }
-
     fn finish(&mut self, ending: Ending, effects: &mut Vec<Effect>) {
         self.phase = Phase::Over(ending);
         self.absent_since = None;
         effects.push(Effect::Journal(Entry::Over { ending }));
-    }
-
-    fn present(&self) -> [bool; AGENT_COUNT] {
-        self.seats.map(|seat| seat.connected && !seat.away)
-    }
-
-    fn presence_changed(&mut self, now: Duration) {
-        let all = self.present() == [true; AGENT_COUNT];
-        if all {
-            self.absent_since = None;
-        } else if self.absent_since.is_none() {
-            self.absent_since = Some(now);
-        }
-        match self.phase {
-            Phase::Gathering if all => self.phase = Phase::Reading,
-            Phase::Paused if all => self.count_down(now),
-            Phase::Countdown { .. } | Phase::Playing { .. } if !all => {
-                self.phase = Phase::Paused;
-                self.seats.iter_mut().for_each(|seat| seat.controls.release());
-            }
-            _ => {}
-        }
-    }
-
-    fn begin_if_ready(&mut self, now: Duration) {
-        if self.seats.iter().all(|seat| seat.ready && seat.connected && !seat.away) {
-            // In the practice, to be ready means from now on to have had enough of it.
-            for (seat, player) in self.seats.iter_mut().zip(self.settings.players) {
-                seat.ready = player == Player::Mind;
-            }
-            self.count_down(now);
-        }
-    }
-
-    fn count_down(&mut self, now: Duration) {
-        self.phase = Phase::Countdown { until: now + self.settings.countdown };
-    }
-
-    /// The round and what is seen of it now.
-    fn stage_for(&self, agent: AgentId) -> Vec<Effect> {
-        if self.settings.players[agent] == Player::Mind {
-            return Vec::new();
-        }
-        let scene = &self.rounds[self.round].scene;
-        let limit =
-            if self.round == 0 { self.settings.practice_steps } else { self.settings.simulation.max_steps };
-        let told: Option<[Instructions; AGENT_COUNT]> =
-            (self.round > 0).then(|| instructions::of_both(scene));
-        let told = told.map(|told| told[agent].clone());
-        let stage = stage(scene, self.round, self.rounds.len() - 1, limit, told);
-        let steps = self.simulation.event().steps.len();
-        let now = sight(&self.physics, &[*self.simulation.state()], steps, agent, self.settings.view);
-        vec![
-            Effect::Send(agent, ToPlayer::Stage(Box::new(stage))),
-            Effect::Send(agent, ToPlayer::Sight(Box::new(now))),
-        ]
-    }
-
-    fn show(&self, states: &[State], effects: &mut Vec<Effect>) {
-        let steps = self.simulation.event().steps.len();
-        self.send_all(effects, |agent| {
-            ToPlayer::Sight(Box::new(sight(&self.physics, states, steps, agent, self.settings.view)))
-        });
-    }
-
-    /// Tells the players what goes on.
-    fn tell(&self, now: Duration, effects: &mut Vec<Effect>) {
-        let countdown = match self.phase {
-            Phase::Countdown { until } => Some(until.saturating_sub(now).as_millis() as u64),
-            _ => None,
-        };
-        let ending = match self.phase {
-            Phase::Over(ending) => Some(ending),
-            _ => None,
-        };
-        self.send_all(effects, |_| ToPlayer::State {
-            doing: self.doing(),
-            ready: self.seats.map(|seat| seat.ready),
-            present: self.present(),
-            countdown_ms: countdown,
-            ending,
-        });
-    }
-
-    fn send_all(&self, effects: &mut Vec<Effect>, message: impl Fn(AgentId) -> ToPlayer) {
-        for agent in AgentId::ALL {
-            if self.settings.players[agent] == Player::Human && self.seats[agent].connected {
-                effects.push(Effect::Send(agent, message(agent)));
-            }
-        }
     }
 }
 

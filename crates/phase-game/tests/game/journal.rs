@@ -1,0 +1,69 @@
+//! Games that go on where their journals end.
+
+use crate::support::{RED, Table, lines, round, settings};
+use core::time::Duration;
+use phase_game::{
+    Doing, Entry, FromPlayer, Player, Room,
+    journal::{Actions, entries},
+};
+use phase_model::Action;
+
+/// Wherever the journal ends, the game goes on from its last step, and becomes the same event.
+#[test]
+fn a_game_goes_on_where_its_journal_ends() {
+    for players in [[Player::Human; 2], [Player::Human, Player::Mind]] {
+        let script = |table: &mut Table| {
+            // From the round's number and the step, so that it does not depend on when the game was interrupted.
+            let step = table.room.recording().simulation.map_or(0, |it| it.event.steps.len());
+            let action = Action::ALL[(table.room.progress().0 * 5 + step) % 8];
+            table.tell(RED, FromPlayer::Hold(action));
+        };
+        let play = |table: &mut Table| {
+            while table.room.doing() != Doing::Over {
+                match table.room.doing() {
+                    Doing::Reading => table.ready(),
+                    _ => {
+                        script(table);
+                        table.wait();
+                    }
+                }
+            }
+        };
+        let rounds = vec![round("", "independent"), round("a", "helping")];
+        let mut whole = Table::new(settings(players), rounds).both_come();
+        play(&mut whole);
+        let (journal, expected) = (whole.entries(), whole.recordings());
+        assert_eq!(expected.len(), 1);
+        for length in 1..journal.len() - 1 {
+            let text = lines(&journal[..length]) + "{\"entry\":\"st";
+            let read = entries(&text).expect("our own journal");
+            let resumed = Room::resume(read, Duration::ZERO).expect("our own journal");
+            let (room, effects) = resumed.unwrap_or_else(|| panic!("not over after {length} entries"));
+            let mut table = Table { room, now: Duration::ZERO, effects }.both_come();
+            play(&mut table);
+            assert_eq!(table.recordings(), expected, "after {length} entries");
+        }
+        for length in [journal.len() - 1, journal.len()] {
+            let resumed = Room::resume(journal[..length].to_vec(), Duration::ZERO).expect("our own journal");
+            assert!(resumed.is_none());
+        }
+    }
+}
+
+#[test]
+fn damaged_journals_are_refused() {
+    let mut table = Table::two().both_come();
+    table.ready();
+    table.play_until(Doing::Reading);
+    let journal = table.entries();
+    let refused =
+        |entries: Vec<Entry>| Room::resume(entries, Duration::ZERO).expect_err("damaged").to_string();
+    assert!(refused(Vec::new()).contains("must open a room"));
+    assert!(refused(journal[1..].to_vec()).contains("must open a room"));
+    let step = Entry::Step { actions: Actions([Action::Stop; 2]) };
+    assert!(refused(vec![journal[0].clone(), step]).contains("entry 2"));
+    assert!(refused(vec![journal[0].clone(), Entry::Ended { round: 0 }]).contains("entry 2"));
+    for text in ["{}\n", "nonsense\n", "{\"entry\":\"step\",\"actions\":[\"up\",\"fly\"]}\n", "[1]\n"] {
+        assert!(entries(text).expect_err("no entry").to_string().contains("entry 1"));
+    }
+}
