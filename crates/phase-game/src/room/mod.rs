@@ -1,7 +1,10 @@
 //! One game: who is there, what is going on, and what happens next.
 
+mod effect;
 mod presence;
 mod telling;
+
+pub use effect::{Effect, RoomError};
 
 use crate::{
     Doing, Ending, Entry, FromPlayer, GameSettings, Player, Round, STEP, ToPlayer,
@@ -14,30 +17,6 @@ use phase_event::Recording;
 use phase_model::{AGENT_COUNT, Action, AgentId, Goal, PhysicsConfig, Sign};
 use phase_predicates::achieved;
 use phase_sim::{Simulation, SimulationError, SimulationSettings};
-use thiserror::Error;
-
-/// Why a game cannot be played.
-#[derive(Clone, PartialEq, Debug, Error)]
-pub enum RoomError {
-    /// There is nothing to play.
-    #[error("a game needs at least one scene")]
-    NoRound,
-    /// A scene or the settings are invalid.
-    #[error(transparent)]
-    Simulation(#[from] SimulationError),
-}
-
-/// Something that follows from what a room was told. Effects are to be carried out in their order: an entry is in the journal before
-/// anybody sees the step.
-#[derive(Clone, PartialEq, Debug)]
-pub enum Effect {
-    /// An entry of the journal.
-    Journal(Entry),
-    /// A message to the player of an agent.
-    Send(AgentId, ToPlayer),
-    /// A round that was played to its end.
-    Finished(Box<Recording>),
-}
 
 /// What a room is doing; times are those at which it does the next thing.
 #[derive(Clone, Copy, PartialEq, Debug)]

@@ -1,0 +1,30 @@
+//! What follows from what a room is told.
+
+use crate::{Entry, ToPlayer};
+use phase_event::Recording;
+use phase_model::AgentId;
+use phase_sim::SimulationError;
+use thiserror::Error;
+
+/// Why a game cannot be played.
+#[derive(Clone, PartialEq, Debug, Error)]
+pub enum RoomError {
+    /// There is nothing to play.
+    #[error("a game needs at least one scene")]
+    NoRound,
+    /// A scene or the settings are invalid.
+    #[error(transparent)]
+    Simulation(#[from] SimulationError),
+}
+
+/// Something that follows from what a room was told. Effects are to be carried out in their order: an entry is in the journal before
+/// anybody sees the step.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Effect {
+    /// An entry of the journal.
+    Journal(Entry),
+    /// A message to the player of an agent.
+    Send(AgentId, ToPlayer),
+    /// A round that was played to its end.
+    Finished(Box<Recording>),
+}
