@@ -13,7 +13,6 @@ use crate::{
     message::PROTOCOL,
 };
 use core::time::Duration;
-use phase_event::Recording;
 use phase_model::{AGENT_COUNT, Action, AgentId, Goal, PhysicsConfig, Sign};
 use phase_predicates::achieved;
 use phase_sim::{Simulation, SimulationError, SimulationSettings};
