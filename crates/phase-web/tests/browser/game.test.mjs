@@ -227,8 +227,10 @@ test("the person in charge sees the games", async () => {
   const { format, events } = JSON.parse(await readFile(await download.path(), "utf8"));
   assert.equal(format, "phase-events/1");
   assert.equal(events.length, (await recordings()).length);
-  await page.click("#rooms button");
-  await page.waitForFunction(() => document.querySelectorAll("#rooms tr").length === 1, null, { timeout: 10_000 });
+  // Rooms of games that have just ended may still be there.
+  const [, room] = (await page.textContent("#links li")).match(/Room (\w+)/);
+  await page.click(`#rooms tr:has-text("${room}") button`);
+  await page.waitForFunction((name) => !document.getElementById("rooms").textContent.includes(name), room, { timeout: 10_000 });
   await page.context().close();
 });
 
