@@ -59,7 +59,7 @@ pub struct RenderedState<'a> {
 }
 
 /// Writes a video. States are drawn as they come, so that they need not be in memory at once; all have the same views. Returns
-/// whether it was written: before each frame `interrupted` is asked whether to stop, and then there is no file.
+/// `false`, and leaves no file, if `interrupted`, which is called before each frame, returns `true`.
 ///
 /// # Errors
 /// [`CliError::Write`] or [`CliError::Render`]; then there is no file.
