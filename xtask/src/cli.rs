@@ -4,6 +4,7 @@ use crate::{
     check_behaviour::{self, options::CheckBehaviour},
     check_minds::{self, options::CheckMinds},
     check_physics::{self, options::CheckPhysics},
+    check_schedule::{self, CheckSchedule},
     draw_behaviour::{self, DrawBehaviour},
     error::XtaskError,
     fit_events::FitEvents,
@@ -43,6 +44,8 @@ pub enum Command {
     CheckPhysics(CheckPhysics),
     /// Measure how reliably agents show the intended behaviour
     CheckBehaviour(CheckBehaviour),
+    /// Compute how long gen-dataset takes on a number of cores
+    CheckSchedule(CheckSchedule),
     /// Draw scenes for check-behaviour from the sampler
     DrawBehaviour(DrawBehaviour),
     /// Compare minds with the agents of recordings or events whose labels are known
@@ -78,6 +81,7 @@ impl Interface for Cli {
             Command::Phase(command) => Ok(command.run(context)?),
             Command::CheckPhysics(arguments) => check_physics::run(arguments, context),
             Command::CheckBehaviour(arguments) => Ok(check_behaviour::run(arguments, context)?),
+            Command::CheckSchedule(arguments) => check_schedule::run(arguments),
             Command::DrawBehaviour(arguments) => draw_behaviour::run(arguments),
             Command::CheckMinds(arguments) => check_minds::run(arguments, context),
             Command::FitInference(arguments) => fit_inference::run(arguments, context),

@@ -1,100 +1,57 @@
 //! Filling a slot with a set: events with the same scene and seed that differ in the stance of one agent.
 
-use super::slot::{Attempt, Slots, check};
+use super::{
+    attempt::{Cast, CastMember},
+    slot::Slots,
+};
 use crate::{engine, error::CliError, picture};
 use phase_dataset::{
-    acceptance::Refusal,
     checksum::FileEntry,
     composition::SetSlot,
-    event_set::{PairEntry, SetEntry, SetPlace, member_id, set_video_path},
+    event_set::{PairEntry, SetPlace, member_id, set_video_path},
     manifest::EventEntry,
 };
 use phase_event::Event;
-use phase_evidence::{Track, selection::Ending};
-use phase_model::{
-    AgentId,
-    random::{self, Purpose},
-};
-use phase_sampler::{Contrast, ContrastRequest, Stance};
+use phase_model::random::{self, Purpose};
+use phase_sampler::{Contrast, ContrastRequest, SampleError, Stance};
 use rand::seq::SliceRandom;
 
-/// The events of a set, in the order of their names.
-pub(super) struct MadeSet {
-    changed: AgentId,
-    members: Vec<(Stance, Event)>,
-}
-
 impl Slots<'_> {
-    /// One scene in all its stances; every event has to show its label.
-    pub(super) fn attempt_set(
-        &self,
-        index: usize,
-        slot: &SetSlot,
-        number: usize,
-    ) -> Result<Attempt<MadeSet>, CliError> {
-        let id = self.plan.preset.id(index);
-        let seed = engine::attempt_seed(self.plan.seed, index, number);
+    /// One scene in all its stances.
+    pub(super) fn cast_set(&self, index: usize, slot: &SetSlot, seed: u64) -> Result<Cast, SampleError> {
         let layouts = self.pool(&slot.layouts);
         let (stances, about, goal_index) = (&slot.stances[..], slot.about, slot.goal_index);
         let mut random = random::stream(seed, Purpose::Scene, 0);
         let request = ContrastRequest { stances, about, goal_index, layouts };
         let contrast = Contrast::sample(&request, &mut random)?;
-        let mut members = Vec::with_capacity(stances.len());
-        let mut to_compare = Vec::new();
-        for (&stance, scene) in stances.iter().zip(&contrast.scenes) {
-            let variant = stance.variant(about);
-            let settings = self.settings(scene, seed, index);
-            let Some(event) = self.simulate(&id, scene, seed, &settings)? else {
-                return Ok(Attempt::Interrupted);
-            };
-            if let Some(selection) = &self.plan.preset.selection {
-                match check(&event, selection, Ending::Drawn(None)) {
-                    Err(reason) => return Ok(Attempt::Refused(Refusal { variant, reason })),
-                    Ok(counterfactual) => to_compare.extend(counterfactual.map(|it| (members.len(), it))),
-                }
-            }
-            members.push((stance, event));
-        }
-        // Where the changed agent does nothing, its stance makes no difference: one simulation serves all comparisons with it.
-        let mut idle: Vec<(AgentId, Track)> = Vec::new();
-        for (k, counterfactual) in to_compare {
-            let (stance, event): &(Stance, Event) = &members[k];
-            if !idle.iter().any(|(agent, _)| *agent == counterfactual.idle) {
-                let settings = self.settings(&event.scene, seed, index);
-                let Some(track) = self.without(&id, event, &counterfactual, &settings)? else {
-                    return Ok(Attempt::Interrupted);
-                };
-                idle.push((counterfactual.idle, track));
-            }
-            for (_, without) in idle.iter().filter(|(agent, _)| *agent == counterfactual.idle) {
-                if let Err(reason) = counterfactual.judge(&event.scene, &Track::of_event(event), without) {
-                    return Ok(Attempt::Refused(Refusal { variant: stance.variant(about), reason }));
-                }
-            }
-        }
-        // The order of names reveals nothing.
-        let slot_seed = engine::event_seed(self.plan.seed, index);
-        members.shuffle(&mut random::stream(slot_seed, Purpose::Scene, 0));
-        Ok(Attempt::Accepted(MadeSet { changed: contrast.changed, members }))
+        let member = |(&stance, scene)| {
+            let settings = self.settings(&scene, seed, index);
+            CastMember { stance: Some(stance), variant: stance.variant(about), scene, settings }
+        };
+        let members = stances.iter().zip(contrast.scenes).map(member).collect();
+        Ok(Cast { seed, changed: Some(contrast.changed), members, compared: true })
     }
 
-    /// Writes the files of a set: those of its events, and the video that shows them side by side.
+    /// Writes the files of a set, the events of which are given in the order of its stances: those of its events, and the video
+    /// that shows them side by side.
     pub(super) fn keep_set(
         &self,
         id: &str,
         index: usize,
         slot: &SetSlot,
-        refused: usize,
-        made: &MadeSet,
-    ) -> Result<(Vec<EventEntry>, Option<SetEntry>), CliError> {
-        let mut entries = Vec::with_capacity(made.members.len());
-        for (k, (stance, event)) in made.members.iter().enumerate() {
-            let entry = self.keep(&member_id(id, k), index, event)?;
+        mut events: Vec<(Stance, Event)>,
+    ) -> Result<(Vec<EventEntry>, Vec<PairEntry>, Option<FileEntry>), CliError> {
+        // The order of names reveals nothing.
+        let slot_seed = engine::event_seed(self.plan.seed, index);
+        events.shuffle(&mut random::stream(slot_seed, Purpose::Scene, 0));
+        let mut entries = Vec::with_capacity(events.len());
+        for (k, (stance, event)) in events.iter().enumerate() {
+            let entry = self.keep_event(&member_id(id, k), index, event)?;
             let set = Some(SetPlace { set: id.into(), stance: *stance });
             let (variant, split) = (Some(stance.variant(slot.about)), slot.split);
             entries.push(EventEntry { variant, split, set, ..entry });
         }
-        let events: Vec<&Event> = made.members.iter().map(|(_, event)| event).collect();
+        let events: Vec<&Event> = events.iter().map(|(_, event)| event).collect();
         let named: Vec<(&str, &Event)> =
             entries.iter().map(|entry| entry.id.as_str()).zip(events.iter().copied()).collect();
         let pairs = PairEntry::all(&named);
@@ -105,7 +62,6 @@ impl Slots<'_> {
         } else {
             None
         };
-        let set = SetEntry { id: id.into(), changed: made.changed, attempts: refused + 1, pairs, video };
-        Ok((entries, Some(set)))
+        Ok((entries, pairs, video))
     }
 }

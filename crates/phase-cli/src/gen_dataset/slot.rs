@@ -1,6 +1,10 @@
-//! Filling one slot of a dataset: scenes are tried one after the other until one shows its label.
+//! What fills a slot of a dataset: the scenes of its attempts, their simulation, and the files of what is accepted.
 
-use super::plan::Plan;
+use super::{
+    attempt::{Attempt, Cast, CastMember, Member},
+    plan::Plan,
+    schedule::Part,
+};
 use crate::{
     console,
     context::Context,
@@ -9,14 +13,15 @@ use crate::{
     event_writer::{EventJob, EventWriter},
     interrupt,
 };
-use core::ops::ControlFlow;
+use cpu_time::ThreadTime;
 use phase_dataset::{
     FileError,
     acceptance::Refusal,
     composition::{BlockPlace, EventSlot, manner_of},
+    event_set::SetEntry,
     folder::Folder,
     manifest::{EventEntry, event_path, video_path},
-    preset::{Ends, Selection},
+    preset::Ends,
     slot_record::{Records, SlotRecord},
 };
 use phase_event::Event;
@@ -28,13 +33,12 @@ use phase_model::{
     Layout, Scene,
     random::{self, Purpose},
 };
-use phase_sampler::{Part, Request, SampleError, Stage};
+use phase_sampler::{Part as StagePart, Request, SampleError, Stage, Variant};
 use phase_sim::SimulationSettings;
 use std::{
     collections::BTreeMap,
     path::PathBuf,
-    sync::{Mutex, PoisonError},
-    time::Instant,
+    sync::{Arc, Mutex, OnceLock, PoisonError},
 };
 
 /// Attempts on one stage before another is drawn: there are several assignments of roles and many seeds, and a stage that
@@ -45,6 +49,9 @@ const MAX_STAGES: usize = 1000;
 /// Layouts from one block to the next. Coprime to the sizes of the pools of bundled presets: blocks that follow one another have different base layouts.
 const LAYOUT_STRIDE: usize = 11;
 
+/// A stage, or that there is none, once that is known.
+type DrawnStage = OnceLock<Result<Stage, SampleError>>;
+
 /// The slots of a dataset that is being generated in a folder.
 #[derive(Debug)]
 pub struct Slots<'a> {
@@ -52,16 +59,9 @@ pub struct Slots<'a> {
     pub(super) folder: &'a Folder,
     pub(super) event_writer: EventWriter,
     pools: BTreeMap<String, Vec<Layout>>,
-    /// Stages by block and number, which all slots of a block draw alike.
-    stages: Mutex<BTreeMap<(usize, usize), Stage>>,
+    /// Stages by block and number, which all slots of a block share.
+    stages: Mutex<BTreeMap<(usize, usize), Arc<DrawnStage>>>,
     context: Context,
-}
-
-/// The result of an attempt.
-pub(super) enum Attempt<T> {
-    Interrupted,
-    Refused(Refusal),
-    Accepted(T),
 }
 
 impl<'a> Slots<'a> {
@@ -76,115 +76,134 @@ impl<'a> Slots<'a> {
         Ok(Self { plan, folder, event_writer, pools, stages: Mutex::default(), context })
     }
 
-    /// Fills a slot, resuming where an earlier run stopped; `None` if interrupted. After every attempt the
-    /// slot's record is written, so that no more than one attempt is ever lost.
-    ///
-    /// # Errors
-    /// [`CliError::Exhausted`] and any failure of sampling, simulating and writing.
-    pub fn fill(&self, index: usize) -> Result<Option<()>, CliError> {
-        let (id, begun) = (self.plan.preset.id(index), Instant::now());
-        let path = record_path(self.plan, self.folder, index);
-        let mut record = SlotRecord::load(&path, &self.plan.fingerprint);
-        if record.is_filled() && record.files().all(|file| file.verify(self.folder.path()).is_ok()) {
-            self.report(&record, "kept");
-            return Ok(Some(()));
+    /// The record of a slot: filled, if its files are all there, or as far as an earlier run came.
+    pub(super) fn load(&self, index: usize) -> SlotRecord {
+        let mut record = SlotRecord::load(&self.record_path(index), &self.plan.fingerprint);
+        if record.is_filled() && record.files().any(|file| file.verify(self.folder.path()).is_err()) {
+            (record.entries, record.set) = (Vec::new(), None);
         }
-        (record.entries, record.set) = (Vec::new(), None);
-        let limit = self.plan.preset.selection.map_or(1, |selection| selection.attempts);
-        while record.refused.len() < limit {
-            let number = record.refused.len();
-            let refusal = match self.plan.composition.set(index) {
-                Some(slot) => match self.attempt_set(index, &slot, number)? {
-                    Attempt::Interrupted => return Ok(None),
-                    Attempt::Refused(refusal) => Some(refusal),
-                    Attempt::Accepted(made) => {
-                        (record.entries, record.set) = self.keep_set(&id, index, &slot, number, &made)?;
-                        None
-                    }
-                },
-                None => {
-                    let slot = self.plan.composition.slot(index);
-                    match self.attempt(&id, index, &slot, number)? {
-                        Attempt::Interrupted => return Ok(None),
-                        Attempt::Refused(refusal) => Some(refusal),
-                        Attempt::Accepted(event) => {
-                            let entry = self.keep(&id, index, &event)?;
-                            let (variant, split) = (Some(slot.variant), slot.split);
-                            record.entries = vec![EventEntry { variant, split, ..entry }];
-                            None
-                        }
-                    }
-                }
-            };
-            if let Some(refusal) = refusal {
-                self.context.detail(format!("{id} attempt {}: {}", number + 1, refusal.reason.name()));
-                record.refused.push(refusal);
-            }
-            record.save(&path)?;
-            if record.is_filled() {
-                self.report(&record, &format!("{:.1} s", begun.elapsed().as_secs_f64()));
-                return Ok(Some(()));
-            }
+        record
+    }
+
+    /// The id of a slot.
+    pub(super) fn id(&self, index: usize) -> String {
+        self.plan.preset.id(index)
+    }
+
+    /// Where the record of a slot is.
+    pub(super) fn record_path(&self, index: usize) -> PathBuf {
+        record_path(self.plan, self.folder, index)
+    }
+
+    /// Most attempts at a slot.
+    pub(super) fn most_attempts(&self) -> usize {
+        self.plan.preset.selection.map_or(1, |selection| selection.attempts)
+    }
+
+    /// The variants of a slot's events.
+    pub(super) fn variants(&self, index: usize) -> Vec<Variant> {
+        match self.plan.composition.set(index) {
+            Some(slot) => slot.stances.iter().map(|stance| stance.variant(slot.about)).collect(),
+            None => vec![self.plan.composition.slot(index).variant],
         }
-        Err(CliError::Exhausted { id, reasons: reasons(&record.refused) })
     }
 
     /// The slot's events are done.
-    fn report(&self, record: &SlotRecord, how: &str) {
+    pub(super) fn report(&self, record: &SlotRecord, how: &str) {
         let attempts = record.refused.len() + 1;
         let tried = if attempts == 1 { String::new() } else { format!(" at attempt {attempts}") };
         for entry in &record.entries {
-            let variant = entry.variant.map_or("", phase_sampler::Variant::name);
+            let variant = entry.variant.map_or("", Variant::name);
             let (id, kind, length) = (&entry.id, entry.kind.name(), entry.steps);
             self.event_writer.finished(0, &format!("{id} {kind}, {variant}: {length} steps{tried} ({how})"));
         }
     }
 
-    fn attempt(
-        &self,
-        id: &str,
-        index: usize,
-        slot: &EventSlot,
-        number: usize,
-    ) -> Result<Attempt<Event>, CliError> {
-        let seed = engine::attempt_seed(self.plan.seed, index, number);
-        let scene = self.scene(slot, seed, number)?;
-        let settings = self.settings(&scene, seed, index);
-        let Some(event) = self.simulate(id, &scene, seed, &settings)? else {
-            return Ok(Attempt::Interrupted);
-        };
-        let Some(selection) = &self.plan.preset.selection else { return Ok(Attempt::Accepted(event)) };
-        let refused = |reason| Attempt::Refused(Refusal { variant: slot.variant, reason });
-        let ending = match selection.ends {
-            Ends::Settled | Ends::AdversarialDrawn => Ending::Settled,
-            Ends::Drawn => Ending::Drawn(manner_of(slot.variant)),
-        };
-        // Cheap tests first; the counterfactual has to be simulated and comes last.
-        let counterfactual = match check(&event, selection, ending) {
-            Err(reason) => return Ok(refused(reason)),
-            Ok(None) => return Ok(Attempt::Accepted(event)),
-            Ok(Some(counterfactual)) => counterfactual,
-        };
-        let Some(without) = self.without(id, &event, &counterfactual, &settings)? else {
-            return Ok(Attempt::Interrupted);
-        };
-        Ok(match counterfactual.judge(&event.scene, &Track::of_event(&event), &without) {
-            Err(reason) => refused(reason),
-            Ok(()) => Attempt::Accepted(event),
-        })
+    /// An attempt was rejected.
+    pub(super) fn report_refusal(&self, id: &str, number: usize, refusal: Refusal) {
+        self.context.detail(format!("{id} attempt {}: {}", number + 1, refusal.reason.name()));
     }
 
-    /// What happens if the agent that is to make a difference does nothing; `None` if interrupted.
-    pub(super) fn without(
+    /// So many attempts were begun ahead and do not count.
+    pub(super) fn report_dropped(&self, attempts: usize) {
+        self.context.detail(format!("attempts begun ahead that did not count: {attempts}"));
+    }
+
+    /// Draws the scenes of an attempt.
+    pub(super) fn cast(&self, index: usize, number: usize) -> Result<Cast, SampleError> {
+        let seed = engine::attempt_seed(self.plan.seed, index, number);
+        if let Some(slot) = self.plan.composition.set(index) {
+            return self.cast_set(index, &slot, seed);
+        }
+        let slot = self.plan.composition.slot(index);
+        let scene = self.scene(&slot, seed, number)?;
+        let settings = self.settings(&scene, seed, index);
+        let members = vec![CastMember { stance: None, variant: slot.variant, scene, settings }];
+        Ok(Cast { seed, changed: None, members, compared: self.plan.preset.selection.is_some() })
+    }
+
+    /// Runs a simulation of an attempt, and adds it to its results; `false` if interrupted or no longer wanted.
+    pub(super) fn simulate(&self, index: usize, attempt: &Attempt, part: Part) -> Result<bool, CliError> {
+        let Some(cast) = attempt.cast() else { return Ok(false) };
+        let Some((scene, settings)) = cast.simulation(part) else { return Ok(false) };
+        let begun = ThreadTime::now();
+        let mut on_step = |_: &_| attempt.goes_on(interrupt::requested());
+        let id = self.plan.preset.id(index);
+        let Some(event) = engine::simulate(&id, &scene, cast.seed, &settings, &mut on_step)? else {
+            return Ok(false);
+        };
+        let track = Track::of_event(&event);
+        match part {
+            Part::Member(k) => {
+                let checked = self.check(&event, &track, &cast.members[k]);
+                let member = Member { event, track, checked };
+                attempt.results().add_member(k, member, begun.elapsed().as_secs_f64());
+            }
+            Part::Idle { member, agent } => {
+                attempt.results().add_idle(member, agent, track, begun.elapsed().as_secs_f64());
+            }
+        }
+        Ok(true)
+    }
+
+    /// Everything that can be tested on the event alone.
+    fn check(
         &self,
-        id: &str,
         event: &Event,
-        counterfactual: &Counterfactual,
-        settings: &SimulationSettings,
-    ) -> Result<Option<Track>, CliError> {
-        let settings = SimulationSettings { idle: Some(counterfactual.idle), ..*settings };
-        let without = self.simulate(id, &counterfactual.scene(&event.scene), event.seed, &settings)?;
-        Ok(without.map(|event| Track::of_event(&event)))
+        track: &Track,
+        cast: &CastMember,
+    ) -> Result<Option<Counterfactual>, RejectionReason> {
+        let Some(selection) = &self.plan.preset.selection else { return Ok(None) };
+        let ending = match selection.ends {
+            Ends::Settled | Ends::AdversarialDrawn => Ending::Settled,
+            // An event of a set may show its label in any manner.
+            Ends::Drawn => Ending::Drawn(manner_of(cast.variant).filter(|_| cast.stance.is_none())),
+        };
+        check_event(&event.scene, track, selection.min_steps..=selection.max_steps, ending)
+    }
+
+    /// Writes the files of a slot, and enters them in its record.
+    pub(super) fn keep(
+        &self,
+        index: usize,
+        cast: &Cast,
+        events: Vec<Event>,
+        record: &mut SlotRecord,
+    ) -> Result<(), CliError> {
+        let id = self.plan.preset.id(index);
+        if let (Some(slot), Some(changed)) = (self.plan.composition.set(index), cast.changed) {
+            let stances = cast.members.iter().filter_map(|member| member.stance);
+            let (entries, pairs, video) = self.keep_set(&id, index, &slot, stances.zip(events).collect())?;
+            record.entries = entries;
+            record.set = Some(SetEntry { id, changed, attempts: record.refused.len() + 1, pairs, video });
+            return Ok(());
+        }
+        let slot = self.plan.composition.slot(index);
+        for event in &events {
+            let entry = self.keep_event(&id, index, event)?;
+            record.entries.push(EventEntry { variant: Some(slot.variant), split: slot.split, ..entry });
+        }
+        Ok(())
     }
 
     /// The layouts of a name.
@@ -201,16 +220,23 @@ impl<'a> Slots<'a> {
             return phase_sampler::sample(&Request { variant, goal_index, layouts }, &mut random);
         };
         let stage = self.stage(place, layouts, number / ATTEMPTS_PER_STAGE)?;
-        stage.scene(Part { variant, goal_index }, &mut random)
+        stage.scene(StagePart { variant, goal_index }, &mut random)
     }
 
-    /// A stage of a block, by its number.
+    /// A stage of a block, by its number. It is drawn once; whoever needs it meanwhile waits for it.
     fn stage(&self, place: BlockPlace, layouts: &[Layout], number: usize) -> Result<Stage, SampleError> {
-        let stages = || self.stages.lock().unwrap_or_else(PoisonError::into_inner);
-        let key = (place.block, number);
-        if let Some(stage) = stages().get(&key) {
-            return Ok(stage.clone());
-        }
+        let drawn = {
+            let mut stages = self.stages.lock().unwrap_or_else(PoisonError::into_inner);
+            if stages.len() == MAX_STAGES && !stages.contains_key(&(place.block, number)) {
+                // Blocks are filled nearly in order, so the first are the least likely to be needed again.
+                stages.pop_first();
+            }
+            Arc::clone(stages.entry((place.block, number)).or_default())
+        };
+        drawn.get_or_init(|| self.draw_stage(place, layouts, number)).clone()
+    }
+
+    fn draw_stage(&self, place: BlockPlace, layouts: &[Layout], number: usize) -> Result<Stage, SampleError> {
         let parts = self.plan.composition.parts(place);
         let block = random::derive_seed(self.plan.seed, Purpose::Stage, place.block as u64);
         let mut random = random::stream(block, Purpose::Stage, number as u64);
@@ -218,14 +244,7 @@ impl<'a> Slots<'a> {
         let mut layouts = layouts.to_vec();
         let turn = (place.block + number) * LAYOUT_STRIDE % layouts.len().max(1);
         layouts.rotate_left(turn);
-        let stage = Stage::sample(&parts, &layouts, &mut random)?;
-        let mut stages = stages();
-        if stages.len() == MAX_STAGES {
-            // Blocks are filled nearly in order, so the first are the least likely to be needed again.
-            stages.pop_first();
-        }
-        stages.insert(key, stage.clone());
-        Ok(stage)
+        Stage::sample(&parts, &layouts, &mut random)
     }
 
     /// The run's settings, with a sampled length if the preset requires it.
@@ -239,21 +258,8 @@ impl<'a> Slots<'a> {
         settings
     }
 
-    pub(super) fn simulate(
-        &self,
-        id: &str,
-        scene: &Scene,
-        seed: u64,
-        settings: &SimulationSettings,
-    ) -> Result<Option<Event>, CliError> {
-        let mut on_step = |_: &_| {
-            if interrupt::requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-        };
-        engine::simulate(id, scene, seed, settings, &mut on_step)
-    }
-
     /// Writes the files of an accepted event.
-    pub(super) fn keep(&self, id: &str, index: usize, event: &Event) -> Result<EventEntry, CliError> {
+    pub(super) fn keep_event(&self, id: &str, index: usize, event: &Event) -> Result<EventEntry, CliError> {
         let out = self.folder.path();
         let settings = self.settings(&event.scene, event.seed, index);
         let job = EventJob {
@@ -290,18 +296,8 @@ fn record_path(plan: &Plan, folder: &Folder, index: usize) -> PathBuf {
     folder.cache().join(format!("{}.json", plan.preset.id(index)))
 }
 
-/// Everything that can be tested on the event alone.
-pub(super) fn check(
-    event: &Event,
-    selection: &Selection,
-    ending: Ending,
-) -> Result<Option<Counterfactual>, RejectionReason> {
-    let lengths = selection.min_steps..=selection.max_steps;
-    check_event(&event.scene, &Track::of_event(event), lengths, ending)
-}
-
 /// Variants, reasons and their numbers, in words.
-fn reasons(refused: &[Refusal]) -> String {
+pub(super) fn reasons(refused: &[Refusal]) -> String {
     let counted =
         RejectionReason::ALL.map(|reason| (reason, refused.iter().filter(|it| it.reason == reason).count()));
     let words = counted.iter().filter(|(_, count)| *count > 0);

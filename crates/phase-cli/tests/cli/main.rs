@@ -1,5 +1,6 @@
 //! The command line, run as a program.
 
+mod ahead;
 mod bad_input;
 mod benchmark;
 mod blocks;
@@ -18,6 +19,7 @@ mod playground;
 mod predictions;
 mod progress;
 mod render;
+mod schedule;
 mod selection;
 #[cfg(feature = "serve")]
 mod serve;

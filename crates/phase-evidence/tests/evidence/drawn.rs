@@ -1,21 +1,21 @@
 //! Which synthetic events that end at a sampled step show their label, and why the others do not.
 
 use crate::{
-    selection::{STEPS, THING, event, facing, fetch, on_way, place, scene},
+    selection::{STEPS, THING, event, facing, fetch, judged, on_way, place, scene},
     support::Move,
 };
 use phase_evidence::{
     Manner, Track,
-    selection::{CausalEffect, Counterfactual, Ending, RejectionReason, check_event},
+    selection::{CausalEffect, Counterfactual, Ending, RejectionReason},
 };
 use phase_model::{AgentId, Attitude, EventKind, Scene};
 
-fn judged(
+fn drawn(
     scene: &Scene,
     track: &Track,
     manner: Option<Manner>,
 ) -> Result<Option<Counterfactual>, RejectionReason> {
-    check_event(scene, track, 20..=100, Ending::Drawn(manner))
+    judged(scene, track, 20..=100, Ending::Drawn(manner))
 }
 
 /// As `fetch`, and agent 1 sets out for the object.
@@ -31,18 +31,18 @@ fn help_may_be_cut_before_the_goal_is_reached() {
         Counterfactual { idle: AgentId::ZERO, judged: AgentId::ONE, change: CausalEffect::Helped, cut: true };
     let (whole, cut) = (event(wanted), event(wanted).until(22));
     for track in [&whole, &cut] {
-        assert_eq!(judged(&scene, track, Some(Manner::Fetching)), Ok(Some(counterfactual)));
+        assert_eq!(drawn(&scene, track, Some(Manner::Fetching)), Ok(Some(counterfactual)));
     }
     let refused = [
-        (judged(&scene, &whole, Some(Manner::HandingOver)), RejectionReason::OtherManner),
-        (judged(&scene, &event(fetch), Some(Manner::Fetching)), RejectionReason::Aimless),
-        (judged(&scene, &whole.until(12), None), RejectionReason::TooShort),
+        (drawn(&scene, &whole, Some(Manner::HandingOver)), RejectionReason::OtherManner),
+        (drawn(&scene, &event(fetch), Some(Manner::Fetching)), RejectionReason::Aimless),
+        (drawn(&scene, &whole.until(12), None), RejectionReason::TooShort),
     ];
     for (found, reason) in refused {
         assert_eq!(found, Err(reason));
     }
     let unmoved = |t| Move { objects: vec![(12.0, 4.5)], ..wanted(t) };
-    assert_eq!(judged(&scene, &event(unmoved), None), Err(RejectionReason::NoProgress));
+    assert_eq!(drawn(&scene, &event(unmoved), None), Err(RejectionReason::NoProgress));
 }
 
 #[test]
@@ -76,13 +76,13 @@ fn errands(t: usize, arrived: usize) -> Move {
 #[test]
 fn most_of_an_event_must_not_be_still() {
     let scene = scene(EventKind::Independent, [place(0, 1), place(1, 3)], Attitude::Neutral);
-    assert_eq!(judged(&scene, &event(|t| errands(t, 15)), None), Ok(None));
-    assert_eq!(judged(&scene, &event(|t| errands(t, 9)), None), Err(RejectionReason::Lifeless));
+    assert_eq!(drawn(&scene, &event(|t| errands(t, 15)), None), Ok(None));
+    assert_eq!(drawn(&scene, &event(|t| errands(t, 9)), None), Err(RejectionReason::Lifeless));
     // Cut on the way.
-    assert_eq!(judged(&scene, &event(|t| errands(t, STEPS)).until(25), None), Ok(None));
+    assert_eq!(drawn(&scene, &event(|t| errands(t, STEPS)).until(25), None), Ok(None));
     let turned_back = |t| errands(if t < 4 { t } else { 8_usize.saturating_sub(t) }, STEPS);
-    assert!(judged(&scene, &event(turned_back).until(20), None).is_err());
-    let crossing = judged(&scene, &event(|t| errands(t, 15)), Some(Manner::Crossing));
+    assert!(drawn(&scene, &event(turned_back).until(20), None).is_err());
+    let crossing = drawn(&scene, &event(|t| errands(t, 15)), Some(Manner::Crossing));
     assert_eq!(crossing, Err(RejectionReason::OtherManner));
 }
 
@@ -97,8 +97,8 @@ fn to_be_stuck_is_not_to_be_done() {
             step
         })
     };
-    assert_eq!(judged(&scene, &stuck(14), None), Err(RejectionReason::Lifeless));
-    assert_eq!(judged(&scene, &stuck(20), None), Ok(None), "20 steps are short enough");
+    assert_eq!(drawn(&scene, &stuck(14), None), Err(RejectionReason::Lifeless));
+    assert_eq!(drawn(&scene, &stuck(20), None), Ok(None), "20 steps are short enough");
 }
 
 #[test]
@@ -127,8 +127,8 @@ fn a_chase_lasts_to_the_end() {
             }
         })
     };
-    assert!(judged(&scene, &chase(STEPS), None).is_ok());
-    assert_eq!(judged(&scene, &chase(25), None), Err(RejectionReason::NoPursuit));
+    assert!(drawn(&scene, &chase(STEPS), None).is_ok());
+    assert_eq!(drawn(&scene, &chase(25), None), Err(RejectionReason::NoPursuit));
     // Adversaries may not stand still for more than six seconds.
-    assert_eq!(judged(&scene, &chase(14), None), Err(RejectionReason::Lifeless));
+    assert_eq!(drawn(&scene, &chase(14), None), Err(RejectionReason::Lifeless));
 }

@@ -1,0 +1,334 @@
+//! Fills slots on several threads, which do what the schedule says.
+
+use super::{
+    attempt::{Attempt, Judgement},
+    attempt_times::{AttemptTimes, Line, Writer},
+    schedule::{AttemptId, Job, Progress, Schedule, Standing},
+    slot::{Slots, reasons},
+};
+use crate::{error::CliError, interrupt, parallel};
+use cpu_time::ThreadTime;
+use phase_dataset::{acceptance::Refusal, slot_record::SlotRecord};
+use phase_sampler::Variant;
+use std::{
+    collections::BTreeMap,
+    sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError},
+    time::Instant,
+};
+
+/// Fills the slots with these numbers in the dataset, resuming where an earlier run stopped; `false` if interrupted. After every
+/// attempt that counts the slot's record is written, so no more is ever lost than what is under way.
+///
+/// # Errors
+/// [`CliError::Exhausted`] and any failure of sampling, simulating and writing; of several, that of the lowest slot.
+pub(super) fn fill(
+    slots: &Slots<'_>,
+    indices: &[usize],
+    jobs: &parallel::Jobs,
+    times: Option<&Writer>,
+) -> Result<bool, CliError> {
+    let threads = jobs.threads();
+    let board = Board {
+        schedule: Schedule::new(indices.len(), slots.most_attempts(), threads),
+        in_hand: BTreeMap::new(),
+        failure: None,
+        is_stopped: false,
+        dropped: 0,
+    };
+    let crew = Crew { slots, indices, times, board: Mutex::new(board), changed: Condvar::new() };
+    parallel::on_threads(threads, || crew.work())?;
+    let board = crew.board.into_inner().unwrap_or_else(PoisonError::into_inner);
+    slots.report_dropped(board.dropped);
+    match board.failure {
+        Some((_, error)) => Err(error),
+        None => Ok(board.schedule.is_done()),
+    }
+}
+
+struct Crew<'a> {
+    slots: &'a Slots<'a>,
+    indices: &'a [usize],
+    times: Option<&'a Writer>,
+    board: Mutex<Board>,
+    /// There may be something to do, or nothing ever again.
+    changed: Condvar,
+}
+
+/// What all threads know. It is locked for moments only.
+struct Board {
+    schedule: Schedule<Vec<Variant>>,
+    in_hand: BTreeMap<usize, SlotInHand>,
+    failure: Option<(usize, CliError)>,
+    is_stopped: bool,
+    /// Attempts that were begun ahead and do not count.
+    dropped: usize,
+}
+
+/// A slot that is being filled.
+struct SlotInHand {
+    begun: Instant,
+    record: SlotRecord,
+    /// How many refusals the record on the disk has.
+    saved: Arc<Mutex<usize>>,
+    under_way: BTreeMap<usize, Arc<Attempt>>,
+    /// Results of attempts, until all attempts before them are refused.
+    outcomes: BTreeMap<usize, Outcome>,
+}
+
+/// The result of an attempt.
+enum Outcome {
+    Refused(Refusal, AttemptTimes),
+    Accepted(Arc<Attempt>, AttemptTimes),
+    Failed(CliError),
+}
+
+/// Something to be done, and the attempt that it belongs to.
+struct Assignment {
+    job: Job,
+    attempt: Arc<Attempt>,
+}
+
+impl Crew<'_> {
+    /// What each thread does: the next job, until there is none.
+    fn work(&self) {
+        // Others must not wait for a thread that has panicked.
+        let _guard = StopOnPanic(self);
+        while let Some(Assignment { job, attempt }) = self.next() {
+            let (slot, result) = match job {
+                Job::Open(slot) => (slot, self.open(slot)),
+                Job::Begin(id) => (id.slot, self.begin(id, &attempt)),
+                Job::Simulate(id, part) => (
+                    id.slot,
+                    self.report_after(id, &attempt, |index| self.slots.simulate(index, &attempt, part)),
+                ),
+                Job::Finish(slot) => (slot, self.finish(slot)),
+            };
+            if let Err(error) = result {
+                self.fail(slot, error);
+            }
+        }
+    }
+
+    /// Waits for the next job; `None` if there is none any more.
+    fn next(&self) -> Option<Assignment> {
+        let mut board = self.board();
+        loop {
+            if interrupt::requested() {
+                self.stop(&mut board);
+            }
+            if board.is_stopped || board.schedule.is_done() {
+                return None;
+            }
+            if let Some(job) = board.schedule.next() {
+                let attempt = match job {
+                    Job::Begin(id) | Job::Simulate(id, _) => {
+                        let slot = board.in_hand.get_mut(&id.slot);
+                        slot.map(|slot| Arc::clone(slot.under_way.entry(id.number).or_default()))
+                    }
+                    Job::Open(_) | Job::Finish(_) => None,
+                };
+                return Some(Assignment { job, attempt: attempt.unwrap_or_default() });
+            }
+            board = self.changed.wait(board).unwrap_or_else(PoisonError::into_inner);
+        }
+    }
+
+    fn open(&self, slot: usize) -> Result<(), CliError> {
+        let index = self.indices[slot];
+        let record = self.slots.load(index);
+        if record.is_filled() {
+            self.slots.report(&record, "kept");
+            self.board().schedule.closed(slot);
+        } else {
+            let (variants, refused) = (self.slots.variants(index), record.refused.len());
+            let mut board = self.board();
+            let events = variants.len();
+            board.schedule.opened(slot, variants, events, refused);
+            let (under_way, outcomes, saved) =
+                (BTreeMap::new(), BTreeMap::new(), Arc::new(Mutex::new(refused)));
+            board
+                .in_hand
+                .insert(slot, SlotInHand { begun: Instant::now(), record, saved, under_way, outcomes });
+        }
+        self.changed.notify_all();
+        Ok(())
+    }
+
+    fn begin(&self, id: AttemptId, attempt: &Arc<Attempt>) -> Result<(), CliError> {
+        self.report_after(id, attempt, |index| {
+            let begun = ThreadTime::now();
+            let cast = self.slots.cast(index, id.number)?;
+            attempt.set_cast(cast, begun.elapsed().as_secs_f64());
+            Ok(true)
+        })
+    }
+
+    /// Does something for an attempt, and draws the consequences.
+    fn report_after(
+        &self,
+        id: AttemptId,
+        attempt: &Arc<Attempt>,
+        act: impl FnOnce(usize) -> Result<bool, CliError>,
+    ) -> Result<(), CliError> {
+        match act(self.indices[id.slot]) {
+            Ok(true) => self.report(id, attempt),
+            Ok(false) => Ok(()),
+            // A failure counts only if the attempt does.
+            Err(error) => {
+                let progress = Progress { passed: 0, standing: Standing::Final };
+                self.draw_consequences(id, progress, Some(Outcome::Failed(error)))
+            }
+        }
+    }
+
+    /// Judges an attempt by what is known of it.
+    fn report(&self, id: AttemptId, attempt: &Arc<Attempt>) -> Result<(), CliError> {
+        let Some(cast) = attempt.cast() else { return Ok(()) };
+        // Until the schedule knows, so that it hears of one after the other.
+        let results = attempt.results();
+        let (passed, judgement) = results.judge(cast);
+        let times = |accepted| AttemptTimes {
+            slot: self.indices[id.slot],
+            attempt: id.number,
+            variants: cast.members.iter().map(|member| member.variant).collect(),
+            passed,
+            accepted,
+            scenes: results.scenes_seconds,
+            parts: results.times(cast, passed),
+            files: 0.0,
+        };
+        let (standing, outcome) = match judgement {
+            Judgement::Needs(needs) => (Standing::Needs(needs), None),
+            Judgement::Refused(refusal) => (Standing::Refused, Some(Outcome::Refused(refusal, times(false)))),
+            Judgement::Accepted => {
+                (Standing::Final, Some(Outcome::Accepted(Arc::clone(attempt), times(true))))
+            }
+        };
+        self.draw_consequences(id, Progress { passed, standing }, outcome)
+    }
+
+    fn draw_consequences(
+        &self,
+        id: AttemptId,
+        progress: Progress,
+        outcome: Option<Outcome>,
+    ) -> Result<(), CliError> {
+        let mut guard = self.board();
+        let board = &mut *guard;
+        let Some(slot) = board.in_hand.get_mut(&id.slot) else { return Ok(()) };
+        if !slot.under_way.contains_key(&id.number) {
+            return Ok(());
+        }
+        let consequences = board.schedule.progressed(id, progress);
+        self.changed.notify_all();
+        let Some(outcome) = outcome else { return Ok(()) };
+        if let Some(attempt) = slot.under_way.remove(&id.number) {
+            // What else was simulated of it is not needed.
+            attempt.abandon();
+        }
+        if !matches!(outcome, Outcome::Refused(..)) {
+            // Nothing after it counts.
+            slot.outcomes.split_off(&id.number);
+        }
+        slot.outcomes.insert(id.number, outcome);
+        board.dropped += consequences.dropped.len();
+        for number in consequences.dropped {
+            if let Some(attempt) = slot.under_way.remove(&number) {
+                attempt.abandon();
+            }
+        }
+        let name = self.slots.id(self.indices[id.slot]);
+        let mut times = Vec::new();
+        for number in consequences.refused {
+            if let Some(Outcome::Refused(refusal, spent)) = slot.outcomes.remove(&number) {
+                self.slots.report_refusal(&name, number, refusal);
+                slot.record.refused.push(refusal);
+                times.push(spent);
+            }
+        }
+        if times.is_empty() {
+            return Ok(());
+        }
+        let (record, saved) = (slot.record.clone(), Arc::clone(&slot.saved));
+        drop(guard);
+        for spent in times {
+            self.add_times(spent)?;
+        }
+        self.save(id.slot, &record, &saved)
+    }
+
+    /// Writes the files of a slot of which no further attempt counts.
+    fn finish(&self, slot: usize) -> Result<(), CliError> {
+        let index = self.indices[slot];
+        let taken = {
+            let mut board = self.board();
+            board.in_hand.remove(&slot)
+        };
+        let Some(SlotInHand { begun, mut record, saved, mut outcomes, .. }) = taken else { return Ok(()) };
+        match outcomes.remove(&record.refused.len()) {
+            Some(Outcome::Failed(error)) => return Err(error),
+            Some(Outcome::Accepted(attempt, mut spent)) => {
+                let Some(cast) = attempt.cast() else { return Ok(()) };
+                let events = attempt.results().take_events();
+                let began = ThreadTime::now();
+                self.slots.keep(index, cast, events, &mut record)?;
+                spent.files = began.elapsed().as_secs_f64();
+                self.add_times(spent)?;
+            }
+            Some(Outcome::Refused(..)) | None => {
+                let id = self.slots.id(index);
+                return Err(CliError::Exhausted { id, reasons: reasons(&record.refused) });
+            }
+        }
+        self.save(slot, &record, &saved)?;
+        self.slots.report(&record, &format!("{:.1} s", begun.elapsed().as_secs_f64()));
+        self.board().schedule.closed(slot);
+        self.changed.notify_all();
+        Ok(())
+    }
+
+    /// Writes a slot's record, unless a later one has been written.
+    fn save(&self, slot: usize, record: &SlotRecord, saved: &Mutex<usize>) -> Result<(), CliError> {
+        let mut saved = saved.lock().unwrap_or_else(PoisonError::into_inner);
+        if record.is_filled() || record.refused.len() > *saved {
+            record.save(&self.slots.record_path(self.indices[slot]))?;
+            *saved = if record.is_filled() { usize::MAX } else { record.refused.len() };
+        }
+        Ok(())
+    }
+
+    fn add_times(&self, times: AttemptTimes) -> Result<(), CliError> {
+        self.times.map_or(Ok(()), |writer| writer.add(&Line::Attempt(times)))
+    }
+
+    fn fail(&self, slot: usize, error: CliError) {
+        let mut board = self.board();
+        if board.failure.as_ref().is_none_or(|(number, _)| slot < *number) {
+            board.failure = Some((slot, error));
+        }
+        self.stop(&mut board);
+    }
+
+    /// Nothing is begun any more, and what is under way is given up.
+    fn stop(&self, board: &mut Board) {
+        board.is_stopped = true;
+        for attempt in board.in_hand.values().flat_map(|slot| slot.under_way.values()) {
+            attempt.abandon();
+        }
+        self.changed.notify_all();
+    }
+
+    fn board(&self) -> MutexGuard<'_, Board> {
+        self.board.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+struct StopOnPanic<'a>(&'a Crew<'a>);
+
+impl Drop for StopOnPanic<'_> {
+    fn drop(&mut self) {
+        if std::thread::panicking() {
+            self.0.stop(&mut self.0.board());
+        }
+    }
+}
