@@ -50,7 +50,7 @@ pub fn run(arguments: &CheckSchedule) -> Result<(), XtaskError> {
     for &cores in &arguments.cores {
         let [sequence, ahead] = [false, true].map(|ahead| simulate(&measured, usize::from(cores), ahead));
         let speed_up = |run: &Run| whole / run.seconds;
-        let in_vain = ahead.in_vain / (whole + ahead.in_vain);
+        let in_vain = ahead.in_vain.max(0.0) / (whole + ahead.in_vain);
         text += &format!(
             "| {cores} | {:.1} | {:.1} | {:.1} | {:.1} | {:.1} % |\n",
             sequence.seconds,

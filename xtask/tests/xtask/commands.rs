@@ -15,6 +15,7 @@ fn commands_and_chores_are_listed_under_this_name() {
         "check-physics",
         "check-behaviour",
         "check-minds",
+        "check-schedule",
         "fit-minds",
         "draw-behaviour",
         "tidy",

@@ -3,6 +3,7 @@
 mod check_behaviour;
 mod check_minds;
 mod check_physics;
+mod check_schedule;
 mod commands;
 mod fit_inference;
 mod fit_minds;
