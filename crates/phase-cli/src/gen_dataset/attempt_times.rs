@@ -75,7 +75,7 @@ impl AttemptTimes {
 pub fn read(path: &Path) -> Result<Vec<Line>, FileError> {
     let bytes = json::bytes(path)?;
     let failed = |problem| FileError { file: path.to_owned(), problem };
-    let what = "attempt times";
+    let what = "list of attempt times";
     let lines = bytes.split(|byte| *byte == b'\n').filter(|line| !line.is_empty());
     let lines = lines.map(|line| {
         serde_json::from_slice(line).map_err(|source| failed(Problem::Incomplete { what, source }))

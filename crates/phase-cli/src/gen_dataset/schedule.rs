@@ -5,7 +5,7 @@
 //! chance that its result counts, estimated from the attempts so far; the likeliest comes first. Work that is certain to count
 //! comes before any other, and a new slot before work that is not, so nothing is wasted while there are enough slots.
 //!
-//! There are no threads, files or clocks here: [`super::crew`] follows the schedule with simulations, and `cargo xtask check-schedule` with
+//! There are no threads, files or clocks here: the crew of `gen-dataset` follows the schedule with simulations, and `cargo xtask check-schedule` with
 //! measured times. What counts does not depend on the order, so neither does the dataset.
 
 use core::ops::Range;
