@@ -29,7 +29,8 @@ fn attempts_ahead_shorten_what_follows_one_another() {
     lines.extend([attempt(0, 5, 2.0, true), json!({"completing": 3.0})]);
     write(folder.path(), &lines);
     let output = run(folder.path(), &["check-schedule", "times.jsonl", "--cores", "1,2,32", "--json"]);
-    let value: Value = serde_json::from_slice(&output.stdout).expect(&text(&output.stderr));
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let value: Value = serde_json::from_slice(&output.stdout).expect("JSON");
     assert_eq!((&value["cpu_seconds"], &value["attempts"]), (&json!(18.0), &json!(6)));
     let seconds = |row: usize, field: &str| value["runs"][row][field].as_f64().expect("a number");
     for row in 0..3 {

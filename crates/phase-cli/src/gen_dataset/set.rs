@@ -8,11 +8,14 @@ use crate::{engine, error::CliError, picture};
 use phase_dataset::{
     checksum::FileEntry,
     composition::SetSlot,
-    event_set::{PairEntry, SetPlace, member_id, set_video_path},
+    event_set::{PairEntry, SetEntry, SetPlace, member_id, set_video_path},
     manifest::EventEntry,
 };
 use phase_event::Event;
-use phase_model::random::{self, Purpose};
+use phase_model::{
+    AgentId,
+    random::{self, Purpose},
+};
 use phase_sampler::{Contrast, ContrastRequest, SampleError, Stance};
 use rand::seq::SliceRandom;
 
@@ -32,15 +35,16 @@ impl Slots<'_> {
         Ok(Cast { seed, changed: Some(contrast.changed), members, compared: true })
     }
 
-    /// Writes the files of a set, the events of which are given in the order of its stances: those of its events, and the video
-    /// that shows them side by side.
+    /// Writes the files of a set: those of its events, and the video that shows them side by side. `changed` is the agent whose
+    /// stance differs, and `attempts` how many it took.
     pub(super) fn keep_set(
         &self,
         id: &str,
         index: usize,
         slot: &SetSlot,
+        (changed, attempts): (AgentId, usize),
         mut events: Vec<(Stance, Event)>,
-    ) -> Result<(Vec<EventEntry>, Vec<PairEntry>, Option<FileEntry>), CliError> {
+    ) -> Result<(Vec<EventEntry>, SetEntry), CliError> {
         // The order of names reveals nothing.
         let slot_seed = engine::event_seed(self.plan.seed, index);
         events.shuffle(&mut random::stream(slot_seed, Purpose::Scene, 0));
@@ -62,6 +66,6 @@ impl Slots<'_> {
         } else {
             None
         };
-        Ok((entries, pairs, video))
+        Ok((entries, SetEntry { id: id.into(), changed, attempts, pairs, video }))
     }
 }

@@ -18,7 +18,6 @@ use phase_dataset::{
     FileError,
     acceptance::Refusal,
     composition::{BlockPlace, EventSlot, manner_of},
-    event_set::SetEntry,
     folder::Folder,
     manifest::{EventEntry, event_path, video_path},
     preset::Ends,
@@ -193,9 +192,10 @@ impl<'a> Slots<'a> {
         let id = self.plan.preset.id(index);
         if let (Some(slot), Some(changed)) = (self.plan.composition.set(index), cast.changed) {
             let stances = cast.members.iter().filter_map(|member| member.stance);
-            let (entries, pairs, video) = self.keep_set(&id, index, &slot, stances.zip(events).collect())?;
-            record.entries = entries;
-            record.set = Some(SetEntry { id, changed, attempts: record.refused.len() + 1, pairs, video });
+            let events = stances.zip(events).collect();
+            let attempts = record.refused.len() + 1;
+            let (entries, set) = self.keep_set(&id, index, &slot, (changed, attempts), events)?;
+            (record.entries, record.set) = (entries, Some(set));
             return Ok(());
         }
         let slot = self.plan.composition.slot(index);
