@@ -25,6 +25,7 @@ impl Impulses {
 }
 
 /// The working data of one step.
+#[derive(Clone)]
 pub(crate) struct World<'a> {
     pub(crate) model: &'a Model,
     /// The four bodies and the static body for all walls.
