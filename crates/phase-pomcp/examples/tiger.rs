@@ -57,6 +57,7 @@ const SETTINGS: PomcpSettings = PomcpSettings {
     stop_when_decided: false,
     convergence: 0.0,
     untried_first: true,
+    batch: 1,
     simulations: 1000,
     rollout_steps: 10,
     c_init: 0.6,

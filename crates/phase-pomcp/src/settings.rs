@@ -47,6 +47,13 @@ pub struct PomcpSettings {
     /// untried action is scored like the others, with the mean value of the history in place of its own, so
     /// that its prior decides when it is tried (Silver et al. 2018).
     pub untried_first: bool,
+    /// Simulations in progress at a time, one or more (1 by default). They advance in lockstep, so that a model can
+    /// compute their steps together ([`advance_batch`](crate::GenerativeModel::advance_batch)); when one ends, the next
+    /// begins. Those in progress count as visits when actions are selected.
+    ///
+    /// Results depend on it, though not on how the model computes a batch. The trade-off: simulations in progress do not
+    /// know each other's returns, so keep it small beside `simulations`; docs/planners.md has measurements.
+    pub batch: usize,
 }
 
 impl Default for PomcpSettings {
@@ -61,6 +68,7 @@ impl Default for PomcpSettings {
             stop_when_decided: false,
             convergence: 0.0,
             untried_first: true,
+            batch: 1,
         }
     }
 }
@@ -69,11 +77,14 @@ impl PomcpSettings {
     /// Checks every parameter against its stated range.
     ///
     /// # Errors
-    /// [`PomcpError::ZeroSimulations`], [`PomcpError::ZeroHorizon`], [`PomcpError::InvalidExploration`] or
-    /// [`PomcpError::InvalidConvergence`].
+    /// [`PomcpError::ZeroSimulations`], [`PomcpError::ZeroBatch`], [`PomcpError::ZeroHorizon`],
+    /// [`PomcpError::InvalidExploration`] or [`PomcpError::InvalidConvergence`].
     pub fn validate(&self) -> Result<(), PomcpError> {
         if self.simulations == 0 {
             return Err(PomcpError::ZeroSimulations);
+        }
+        if self.batch == 0 {
+            return Err(PomcpError::ZeroBatch);
         }
         if self.horizon == 0 {
             return Err(PomcpError::ZeroHorizon);

@@ -2,7 +2,7 @@
 
 use rand::{Rng, RngExt};
 
-use crate::puct::{self, ValueRange};
+use crate::puct::{self, ExplorationTable, ValueRange};
 use crate::{PomcpError, PomcpSettings};
 
 /// The index of a history in its tree.
@@ -38,14 +38,19 @@ pub(crate) struct Tree<O> {
 #[derive(Debug, Clone, Copy)]
 struct History {
     visits: u32,
+    /// Simulations that have gone on from here and have not ended.
+    pending: u32,
     first_action: u32,
     action_count: u32,
+    /// Actions with neither visits nor simulations pending.
     untried: u32,
 }
 
 #[derive(Debug, Clone, Copy)]
 struct Action {
     visits: u32,
+    /// Simulations that have chosen it and have not ended.
+    pending: u32,
     /// The newest of the branches added after this action, or [`NONE`].
     branch: u32,
     value: f64,
@@ -94,7 +99,7 @@ impl<O: Eq> Tree<O> {
             if weight.is_nan() || weight < 0.0 || sum.is_infinite() {
                 return Err(PomcpError::InvalidPrior { weight, sum });
             }
-            self.actions.push(Action { visits: 0, branch: NONE, value: 0.0, prior: weight });
+            self.actions.push(Action { visits: 0, pending: 0, branch: NONE, value: 0.0, prior: weight });
         }
         if sum <= 0.0 {
             return Err(PomcpError::InvalidPrior { weight: last, sum });
@@ -105,17 +110,21 @@ impl<O: Eq> Tree<O> {
         }
         let action_count = added.len() as u32;
         self.histories[history.0 as usize] =
-            History { visits: 0, first_action: first as u32, action_count, untried: action_count };
+            History { first_action: first as u32, action_count, untried: action_count, ..History::LEAF };
         Ok(())
     }
 
     /// The next action to try after an expanded history: while there are actions never tried, one of them,
     /// uniformly sampled, if the settings ask for it; otherwise the one with the maximum PUCT score, of smallest
     /// index among equals.
+    ///
+    /// A simulation that is pending counts as a visit, but says nothing of the value, as in WU-UCT (Liu et al. 2020):
+    /// simulations at the same time spread over the actions just as far as exploration asks for.
     pub(crate) fn select(
         &self,
         history: HistoryId,
         settings: &PomcpSettings,
+        table: &mut ExplorationTable,
         range: &ValueRange,
         random: &mut impl Rng,
     ) -> usize {
@@ -123,17 +132,18 @@ impl<O: Eq> Tree<O> {
         let actions = self.actions_of(node);
         if node.untried > 0 && settings.untried_first {
             let drawn = random.random_range(0..node.untried) as usize;
-            let mut untried = actions.iter().enumerate().filter(|(_, action)| action.visits == 0);
+            let mut untried =
+                actions.iter().enumerate().filter(|(_, action)| action.visits + action.pending == 0);
             return untried.nth(drawn).map_or(0, |(index, _)| index);
         }
         // At the first visit, too, the priors decide.
-        let exploration = puct::exploration(settings, node.visits.max(1));
+        let exploration = table.at(settings, (node.visits + node.pending).max(1));
         let mean = node.mean(actions);
         let mut best = (0, f64::NEG_INFINITY);
         for (index, action) in actions.iter().enumerate() {
             let value = if action.visits == 0 { mean } else { action.value };
             let value = if settings.normalise_values { range.normalise(value) } else { value };
-            let score = puct::score(value, action.prior, exploration, action.visits);
+            let score = puct::score(value, action.prior, exploration, action.visits + action.pending);
             if score > best.1 {
                 best = (index, score);
             }
@@ -170,13 +180,23 @@ impl<O: Eq> Tree<O> {
         Some(HistoryId(branch.child))
     }
 
-    /// Counts one more visit with return `value`, and returns the action's new mean.
+    /// Notes that a simulation has chosen the action.
+    pub(crate) fn begin(&mut self, history: HistoryId, action: ActionId) {
+        let node = &mut self.histories[history.0 as usize];
+        let action = &mut self.actions[action.0 as usize];
+        if action.visits + action.pending == 0 {
+            node.untried -= 1;
+        }
+        node.pending += 1;
+        action.pending += 1;
+    }
+
+    /// Turns a simulation pending into a visit with return `value`, and returns the action's new mean.
     pub(crate) fn record(&mut self, history: HistoryId, action: ActionId, value: f64) -> f64 {
         let node = &mut self.histories[history.0 as usize];
         let action = &mut self.actions[action.0 as usize];
-        if action.visits == 0 {
-            node.untried -= 1;
-        }
+        node.pending -= 1;
+        action.pending -= 1;
         node.visits += 1;
         action.visits += 1;
         action.value += (value - action.value) / f64::from(action.visits);
@@ -216,7 +236,7 @@ impl<O: Eq> Tree<O> {
 }
 
 impl History {
-    const LEAF: Self = Self { visits: 0, first_action: 0, action_count: 0, untried: 0 };
+    const LEAF: Self = Self { visits: 0, pending: 0, first_action: 0, action_count: 0, untried: 0 };
 
     /// The mean of all returns after this history; 0 before the first.
     fn mean(&self, actions: &[Action]) -> f64 {
