@@ -189,7 +189,13 @@ impl World<'_> {
 
     /// Resolves impacts of a group on walls: it stops at the first wall that one of the given bodies reaches,
     /// loses its normal velocity, and continues from there for the remaining time.
-    pub(crate) fn resolve_wall_impacts(&mut self, groups: &mut Groups, name: usize, met: BodyMask, seconds: f32) {
+    pub(crate) fn resolve_wall_impacts(
+        &mut self,
+        groups: &mut Groups,
+        name: usize,
+        met: BodyMask,
+        seconds: f32,
+    ) {
         if groups.bodies[name].count_ones() < 2 {
             let walls = reach::walls_swept(self, name);
             self.seconds = seconds;

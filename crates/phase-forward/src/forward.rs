@@ -90,27 +90,6 @@ impl Forward {
         coarse::step(&self.model, state, actions);
     }
 
-    /// [`phase_model::Dynamics::step`] of several states at once, each by its own pair of actions: the same bits, at a fraction of
-    /// the cost. States of one scene are stepped eight at a time, one in each lane of a vector.
-    ///
-    /// # Panics
-    ///
-    /// If there are not as many pairs of actions as states.
-    pub fn step_batch(&self, states: &mut [State], actions: &[[Action; AGENT_COUNT]]) {
-        assert_eq!(states.len(), actions.len(), "one pair of actions for each state");
-        lanes::step(&self.model, states, actions, |state, actions| self.step(state, actions));
-    }
-
-    /// [`Forward::step_coarse`] of several states at once; see [`Forward::step_batch`].
-    ///
-    /// # Panics
-    ///
-    /// If there are not as many pairs of actions as states.
-    pub fn step_coarse_batch(&self, states: &mut [State], actions: &[[Action; AGENT_COUNT]]) {
-        assert_eq!(states.len(), actions.len(), "one pair of actions for each state");
-        lanes::step_coarse(&self.model, states, actions, |state, actions| self.step_coarse(state, actions));
-    }
-
     /// The cache of a world that has just been set up in a state: no impulses, every pair in reach ready to
     /// touch.
     #[must_use]
@@ -252,5 +231,25 @@ impl Dynamics for Forward {
     /// [`Forward::step_coarse`].
     fn step_approximate(&self, state: &mut State, actions: [Action; AGENT_COUNT]) {
         self.step_coarse(state, actions);
+    }
+
+    /// States are stepped eight at a time, one in each lane of a vector, with the bits that [`Dynamics::step`] gives them.
+    ///
+    /// # Panics
+    ///
+    /// If there are not as many pairs of actions as states.
+    fn step_batch(&self, states: &mut [State], actions: &[[Action; AGENT_COUNT]]) {
+        assert_eq!(states.len(), actions.len(), "one pair of actions for each state");
+        lanes::step(&self.model, states, actions, |state, actions| self.step(state, actions));
+    }
+
+    /// [`Forward::step_coarse`] of several states, as [`Dynamics::step_batch`].
+    ///
+    /// # Panics
+    ///
+    /// If there are not as many pairs of actions as states.
+    fn step_approximate_batch(&self, states: &mut [State], actions: &[[Action; AGENT_COUNT]]) {
+        assert_eq!(states.len(), actions.len(), "one pair of actions for each state");
+        lanes::step_coarse(&self.model, states, actions, |state, actions| self.step_coarse(state, actions));
     }
 }

@@ -3,9 +3,7 @@
 mod scenes;
 
 use phase_forward::Forward;
-use phase_model::{
-    AGENT_COUNT, Action, Body, Dynamics, Grip, ObjectId, PhysicsConfig, Side, State, Vec2,
-};
+use phase_model::{AGENT_COUNT, Action, Body, Dynamics, Grip, ObjectId, PhysicsConfig, Side, State, Vec2};
 use proptest::prelude::*;
 use scenes::{physiques, separated_bodies};
 
@@ -40,7 +38,7 @@ fn compare(
 ) -> Result<(), TestCaseError> {
     let ways: [(&str, StepAll, StepOne); 2] = [
         ("exact", Forward::step_batch, |forward, state, actions| forward.step(state, actions)),
-        ("coarse", Forward::step_coarse_batch, Forward::step_coarse),
+        ("coarse", Forward::step_approximate_batch, Forward::step_coarse),
     ];
     for (name, all, one) in ways {
         let mut together = starts.to_vec();

@@ -2,8 +2,11 @@
 
 use super::{
     groups::{Grounds, LaneGroups, moving},
-    real::{LaneSet, Real, Twists, at_least, at_most, differ, each, get, lanes, larger, less, mask, pick, set, splat},
     reach::{self, BodyLanes, any_body},
+    real::{
+        LaneSet, Real, Twists, at_least, at_most, differ, each, get, lanes, larger, less, mask, pick, set,
+        splat,
+    },
     touching::ContactList,
     worlds::{Start, Worlds},
 };
@@ -177,8 +180,7 @@ impl Worlds<'_> {
                 if set != 0 {
                     let name = groups.names[body];
                     let inverse_mass = groups.inverse_mass[name];
-                    change =
-                        larger(change, grounds[body].solve(set, &mut groups.twists[name], inverse_mass));
+                    change = larger(change, grounds[body].solve(set, &mut groups.twists[name], inverse_mass));
                 }
             }
             for contact in contacts.iter_mut() {

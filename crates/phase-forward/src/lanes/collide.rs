@@ -198,9 +198,8 @@ fn wall_agent(wall: &Wall, agent: &Motions, polygon: &Polygons, set: LaneSet) ->
         return Manifolds::NONE;
     }
     let touches = clipped.map(|named| at_most(normal.dot(named.point - face[0].corner), splat(SKINS)));
-    let placed = clipped.map(|named| {
-        Vector::pick(by_side, named.point, agent.local_vector(named.point - agent.centre))
-    });
+    let placed = clipped
+        .map(|named| Vector::pick(by_side, named.point, agent.local_vector(named.point - agent.centre)));
     let names = clipped.map(|named| named.name(by_side));
     let local_normal = agent.local_vector(normal);
     let local_anchor = agent.local_vector(face[0].corner - agent.centre);

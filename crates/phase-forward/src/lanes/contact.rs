@@ -4,8 +4,8 @@ use super::{
     manifold::{Manifolds, Side},
     motion::Motions,
     real::{
-        LaneSet, Real, Twists, Vector, add, at_least, differ, equal, lanes, larger, less, mask, pick, put, smaller,
-        splat,
+        LaneSet, Real, Twists, Vector, add, at_least, differ, equal, lanes, larger, less, mask, pick, put,
+        smaller, splat,
     },
 };
 use crate::{
@@ -234,13 +234,11 @@ impl Contacts {
             return after;
         }
         let alone = -free[0] / first;
-        let fits =
-            !solved & at_least(alone, Real::ZERO) & at_least(cross * alone + free[1], Real::ZERO);
+        let fits = !solved & at_least(alone, Real::ZERO) & at_least(cross * alone + free[1], Real::ZERO);
         after = [pick(fits, alone, after[0]), pick(fits, Real::ZERO, after[1])];
         solved |= fits;
         let alone = -free[1] / second;
-        let fits =
-            !solved & at_least(alone, Real::ZERO) & at_least(cross * alone + free[0], Real::ZERO);
+        let fits = !solved & at_least(alone, Real::ZERO) & at_least(cross * alone + free[0], Real::ZERO);
         after = [pick(fits, Real::ZERO, after[0]), pick(fits, alone, after[1])];
         solved |= fits;
         let parts = !solved & at_least(free[0], Real::ZERO) & at_least(free[1], Real::ZERO);

@@ -3,17 +3,15 @@
 use super::{
     contact::{Contacts, Yields},
     motion::{apply_friction, inverse_mass, solve_friction},
-    real::{LaneSet, Real, Twists, Vector, add, differ, lanes, larger, less, mask, splat},
     reach::{self, BodyLanes, any_body},
+    real::{LaneSet, Real, Twists, Vector, add, differ, lanes, larger, less, mask, splat},
     touching::{ContactList, TraceList},
     weld::Welds,
     worlds::{Start, Worlds},
 };
 use crate::{
     body::STATIC,
-    constants::{
-        BAUMGARTE, H, IMPULSE_TOLERANCE, LINEAR_SLOP, POSITION_ITERATIONS, VELOCITY_ITERATIONS,
-    },
+    constants::{BAUMGARTE, H, IMPULSE_TOLERANCE, LINEAR_SLOP, POSITION_ITERATIONS, VELOCITY_ITERATIONS},
     forward::COLD_ITERATIONS,
     key::{PAIRS, pair_key},
 };
@@ -173,7 +171,8 @@ impl Worlds<'_> {
         let shape = &shapes[body];
         let yields: Yields = [Twists::ZERO, inverse_mass(shape)];
         let centres = [Vector::ZERO, self.motions[body].centre];
-        let own = |contact: &&mut Contacts| contact.b == body && contact.with_wall() && contact.live() & set != 0;
+        let own =
+            |contact: &&mut Contacts| contact.b == body && contact.with_wall() && contact.live() & set != 0;
         let mut twists = [Twists::ZERO; 4];
         twists[body] = self.motions[body].twist();
         for contact in contacts.iter_mut().filter(own) {
@@ -202,8 +201,7 @@ impl Worlds<'_> {
         for _ in 0..POSITION_ITERATIONS {
             let mut settled = going;
             for contact in contacts.iter_mut().filter(own) {
-                settled &=
-                    contact.separate(going, shapes, &mut self.motions, BAUMGARTE, -3.0 * LINEAR_SLOP);
+                settled &= contact.separate(going, shapes, &mut self.motions, BAUMGARTE, -3.0 * LINEAR_SLOP);
             }
             going &= !settled;
             if going == 0 {
@@ -361,8 +359,7 @@ impl Worlds<'_> {
             let mut settled = going;
             for &index in &order {
                 let tolerance = -3.0 * LINEAR_SLOP;
-                settled &=
-                    contacts[index].separate(going, shapes, &mut self.motions, BAUMGARTE, tolerance);
+                settled &= contacts[index].separate(going, shapes, &mut self.motions, BAUMGARTE, tolerance);
             }
             for &joint in joints {
                 if let Some(weld) = joint.checked_sub(4).and_then(|agent| welds[agent].as_ref()) {

@@ -3,10 +3,11 @@
 use super::{
     contact::{Contacts, Yields, correction},
     motion::{inverse_mass, turned_lanes},
-    real::{
-        LaneSet, Real, Twists, Vector, at_least, at_most, differ, greater, lanes, less, mask, pick, put, splat,
-    },
     reach::BodyLanes,
+    real::{
+        LaneSet, Real, Twists, Vector, at_least, at_most, differ, greater, lanes, less, mask, pick, put,
+        splat,
+    },
     worlds::Worlds,
 };
 use crate::{
@@ -173,7 +174,8 @@ impl LaneGroups {
             return;
         }
         let length = length_squared.sqrt();
-        let limited = Vector { x: splat(MAX_SPEED) * (twist.x / length), y: splat(MAX_SPEED) * (twist.y / length) };
+        let limited =
+            Vector { x: splat(MAX_SPEED) * (twist.x / length), y: splat(MAX_SPEED) * (twist.y / length) };
         let slow = pick(less(spin, splat(-MAX_SPIN)), splat(-MAX_SPIN), spin);
         let slow = pick(greater(slow, splat(MAX_SPIN)), splat(MAX_SPIN), slow);
         let velocity = Vector::pick(fast, limited, twist.linear());
@@ -337,8 +339,7 @@ impl Grounds {
         let mask = mask(set);
         let slip = twist.linear() + self.offset.perp() * twist.spin;
         let [xx, xy, yy] = self.mass;
-        let wanted =
-            self.impulse - Vector { x: xx * slip.x + xy * slip.y, y: xy * slip.x + yy * slip.y };
+        let wanted = self.impulse - Vector { x: xx * slip.x + xy * slip.y, y: xy * slip.x + yy * slip.y };
         let length_squared = wanted.length_squared();
         let slides = greater(length_squared, self.greatest * self.greatest);
         let limited = wanted * (self.greatest / length_squared.sqrt());

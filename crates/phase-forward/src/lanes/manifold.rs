@@ -148,10 +148,6 @@ impl Manifolds {
 }
 
 #[inline(always)]
-fn choose(
-    mask: Real,
-    a: (Vector, Vector, Real),
-    b: (Vector, Vector, Real),
-) -> (Vector, Vector, Real) {
+fn choose(mask: Real, a: (Vector, Vector, Real), b: (Vector, Vector, Real)) -> (Vector, Vector, Real) {
     (Vector::pick(mask, a.0, b.0), Vector::pick(mask, a.1, b.1), pick(mask, a.2, b.2))
 }

@@ -113,9 +113,7 @@ impl Motions {
     /// The lanes in which linear and angular velocity are zero.
     #[inline(always)]
     pub(crate) fn at_rest(&self) -> Real {
-        equal(self.velocity.x, Real::ZERO)
-            & equal(self.velocity.y, Real::ZERO)
-            & equal(self.spin, Real::ZERO)
+        equal(self.velocity.x, Real::ZERO) & equal(self.velocity.y, Real::ZERO) & equal(self.spin, Real::ZERO)
     }
 
     /// Advances by one substep under ground friction alone. Returns the impulse of the friction.
@@ -170,10 +168,8 @@ pub(crate) fn turned_lanes(set: LaneSet, vector: Vector, by: Real) -> Vector {
         - square
             * (splat(0.5)
                 - square * (splat(1.0 / 24.0) - square * (splat(1.0 / 720.0) - square / splat(40320.0))));
-    let sin = by
-        * (one
-            - square
-                * (splat(1.0 / 6.0) - square * (splat(1.0 / 120.0) - square / splat(5040.0))));
+    let sin =
+        by * (one - square * (splat(1.0 / 6.0) - square * (splat(1.0 / 120.0) - square / splat(5040.0))));
     let mut result = Vector { x: cos, y: sin }.rotate(vector);
     let large = set & !lanes(at_most(by.abs(), splat(SMALL)));
     for lane in each(large) {
@@ -193,8 +189,8 @@ pub(crate) fn solve_friction(
     so_far: Vector,
 ) -> Vector {
     let slip = twist.linear() - right * (twist.spin * splat(shape.origin));
-    let wanted = so_far - slip * splat(shape.mass)
-        + right * (right.dot(slip) * splat(shape.lateral_mass_reduction));
+    let wanted =
+        so_far - slip * splat(shape.mass) + right * (right.dot(slip) * splat(shape.lateral_mass_reduction));
     let length_squared = wanted.length_squared();
     let slides = greater(length_squared, splat(MAX_FRICTION_IMPULSE * MAX_FRICTION_IMPULSE));
     let limited = wanted * (splat(MAX_FRICTION_IMPULSE) / length_squared.sqrt());
@@ -217,4 +213,3 @@ pub(crate) fn inverse_mass(shape: &Shape) -> Twists {
     let linear = Vector::splat(Vec2::splat(shape.inverse_mass));
     Twists::new(linear, splat(shape.inverse_inertia))
 }
-

@@ -2,7 +2,7 @@
 
 use super::{
     outline::{Boxes, WallLanes, walls_near},
-    real::{LaneSet, Real, Vector, differ, larger, lanes, less, mask, pick, splat},
+    real::{LaneSet, Real, Vector, differ, lanes, larger, less, mask, pick, splat},
     worlds::Worlds,
 };
 use crate::{
@@ -254,4 +254,3 @@ impl Worlds<'_> {
         direction
     }
 }
-

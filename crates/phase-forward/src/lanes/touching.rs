@@ -3,8 +3,8 @@
 use super::{
     contact::{Contacts, Trace},
     outline::WallLanes,
-    real::{LaneSet, Real},
     reach::BodyLanes,
+    real::{LaneSet, Real},
     worlds::Worlds,
 };
 use crate::{

@@ -4,8 +4,8 @@
 use super::{
     motion::turned_lanes,
     outline::{Polygons, WallLanes},
-    real::{LaneSet, Real, Vector, at_least, at_most, each, equal, get, greater, lanes, less, mask, splat},
     reach,
+    real::{LaneSet, Real, Vector, at_least, at_most, each, equal, get, greater, lanes, less, mask, splat},
     worlds::Worlds,
 };
 use crate::{

@@ -2,7 +2,7 @@
 
 use super::{
     motion::{Motions, inverse_mass},
-    real::{LaneSet, Real, Twists, Vector, add, at_most, equal, larger, lanes, mask, pick, set, splat},
+    real::{LaneSet, Real, Twists, Vector, add, at_most, equal, lanes, larger, mask, pick, set, splat},
     worlds::Worlds,
 };
 use crate::{
@@ -89,14 +89,7 @@ impl Welds {
     }
 
     #[inline]
-    fn apply(
-        &self,
-        mask: Real,
-        shapes: &[Shape; 5],
-        twists: &mut [Twists; 4],
-        impulse: Vector,
-        twist: Real,
-    ) {
+    fn apply(&self, mask: Real, shapes: &[Shape; 5], twists: &mut [Twists; 4], impulse: Vector, twist: Real) {
         let on_agent = Twists::new(impulse, self.offset.perp_dot(impulse) + twist);
         twists[self.agent].push(mask, on_agent, splat(-1.0), inverse_mass(&shapes[self.agent]));
         let on_object = Twists::new(impulse, twist);

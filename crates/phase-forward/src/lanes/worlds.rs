@@ -250,8 +250,7 @@ impl<'a> Worlds<'a> {
     /// Puts one body of one lane into the scratch world, as it was at the start of the substep and as it is now.
     pub(crate) fn extract(&mut self, body: usize, lane: usize) {
         let start = &self.starts[body];
-        self.scratch.starts[body] =
-            (start.centre.get(lane), get(&start.angle, lane), start.right.get(lane));
+        self.scratch.starts[body] = (start.centre.get(lane), get(&start.angle, lane), start.right.get(lane));
         self.scratch.motions[body] = self.motions[body].get(lane);
         self.scratch.moved(body);
     }
