@@ -49,10 +49,14 @@ pub struct PomcpSettings {
     pub untried_first: bool,
     /// Simulations in progress at a time, one or more (1 by default). They advance in lockstep, so that a model can
     /// compute their steps together ([`advance_batch`](crate::GenerativeModel::advance_batch)); when one ends, the next
-    /// begins. Those in progress count as visits when actions are selected.
+    /// begins.
     ///
-    /// Results depend on it, though not on how the model computes a batch. The trade-off: simulations in progress do not
-    /// know each other's returns, so keep it small beside `simulations`; docs/planners.md has measurements.
+    /// Those in progress count as visits when actions are selected, and say nothing of the values (WU-UCT, Liu et al.
+    /// 2020). One that comes to a history of which nothing is known yet, since all that came there before are still in
+    /// progress, follows the default policy from there instead of choosing blindly.
+    ///
+    /// Results depend on this number, not on how the model computes a batch. Keep it small beside `simulations`:
+    /// docs/planners.md has measurements for 1 to 32.
     pub batch: usize,
 }
 

@@ -39,8 +39,8 @@ pub(crate) struct Simulation {
 pub(crate) enum Stage {
     /// In the tree, at a history; the action chosen there is set with it.
     Tree { history: HistoryId, chosen: Option<ActionId> },
-    /// In a rollout: its discounted return so far, the weight of its next reward, and the steps left.
-    Rollout { total: f64, weight: f64, left: usize },
+    /// In a rollout from a history: its discounted return so far, the weight of its next reward, and the steps left.
+    Rollout { from: HistoryId, total: f64, weight: f64, left: usize },
     /// Backed up, or not started.
     Ended,
 }
@@ -79,18 +79,17 @@ impl<M: GenerativeModel> Simulations<'_, M> {
         state: &mut M::State,
         random: &mut impl Rng,
     ) -> Result<(), PomcpError> {
-        match simulation.stage {
-            Stage::Tree { history, .. } => self.select(simulation, history, state, random),
-            Stage::Rollout { .. } => {
-                let (action, action_count) = (self.model.rollout_action(state, random), self.action_count);
-                if action >= action_count {
-                    return Err(PomcpError::RolloutActionOutOfRange { action, action_count });
-                }
-                simulation.action = action;
-                Ok(())
-            }
-            Stage::Ended => Ok(()),
+        if let Stage::Tree { history, .. } = simulation.stage {
+            self.select(simulation, history, state, random)?;
         }
+        if let Stage::Rollout { .. } = simulation.stage {
+            let (action, action_count) = (self.model.rollout_action(state, random), self.action_count);
+            if action >= action_count {
+                return Err(PomcpError::RolloutActionOutOfRange { action, action_count });
+            }
+            simulation.action = action;
+        }
+        Ok(())
     }
 
     /// Takes a simulation to its end.
@@ -117,6 +116,8 @@ impl<M: GenerativeModel> Simulations<'_, M> {
     }
 
     /// Selects an action at `history`, and at those that known steps lead to, until a step has to be computed.
+    ///
+    /// At a history of which nothing is known yet, the choice of an action would be blind: a rollout begins there.
     fn select(
         &mut self,
         simulation: &mut Simulation,
@@ -125,6 +126,12 @@ impl<M: GenerativeModel> Simulations<'_, M> {
         random: &mut impl Rng,
     ) -> Result<(), PomcpError> {
         loop {
+            if self.tree.is_unknown(history, self.settings) {
+                if let Some(known) = &self.known {
+                    state.clone_from(&known[history.index()].0);
+                }
+                return self.start_rollout(simulation, history, state);
+            }
             self.expand(history, state)?;
             let chosen = self.tree.select(history, self.settings, self.table, &self.range, random);
             let action = self.tree.action(history, chosen);
@@ -190,8 +197,24 @@ impl<M: GenerativeModel> Simulations<'_, M> {
         if let Some(known) = &mut self.known {
             known.push((state.clone(), reward));
         }
-        let left = self.settings.rollout_steps.min(self.settings.horizon - steps);
-        self.continue_rollout(simulation, state, 0.0, 1.0, left)
+        self.start_rollout(simulation, child, state)
+    }
+
+    /// Sends a simulation at `history` on a rollout, of no step if the settings say so.
+    fn start_rollout(
+        &mut self,
+        simulation: &mut Simulation,
+        history: HistoryId,
+        state: &M::State,
+    ) -> Result<(), PomcpError> {
+        let left = self.settings.rollout_steps.min(self.settings.horizon - simulation.path.len());
+        if left == 0 {
+            let rest = 0.0 + self.estimate(state)?;
+            return self.back_up(simulation, rest);
+        }
+        self.tree.begin_rollout(history);
+        simulation.stage = Stage::Rollout { from: history, total: 0.0, weight: 1.0, left };
+        Ok(())
     }
 
     /// Continues a rollout with the step that it took to `state`.
@@ -202,31 +225,19 @@ impl<M: GenerativeModel> Simulations<'_, M> {
         state: &M::State,
         outcome: Transition<()>,
     ) -> Result<(), PomcpError> {
-        let Stage::Rollout { total, weight, left } = simulation.stage else { return Ok(()) };
+        let Stage::Rollout { from, mut total, mut weight, left } = simulation.stage else { return Ok(()) };
         self.check(simulation.action, outcome.reward)?;
-        let total = total + weight * outcome.reward;
-        if outcome.terminal {
-            return self.back_up(simulation, total);
-        }
-        self.continue_rollout(simulation, state, total, weight * self.discount, left - 1)
-    }
-
-    /// Goes on with a rollout, or ends it where no steps are left.
-    #[inline(always)]
-    fn continue_rollout(
-        &mut self,
-        simulation: &mut Simulation,
-        state: &M::State,
-        total: f64,
-        weight: f64,
-        left: usize,
-    ) -> Result<(), PomcpError> {
-        if left > 0 {
-            simulation.stage = Stage::Rollout { total, weight, left };
+        total += weight * outcome.reward;
+        weight *= self.discount;
+        if !outcome.terminal && left > 1 {
+            simulation.stage = Stage::Rollout { from, total, weight, left: left - 1 };
             return Ok(());
         }
-        let rest = total + weight * self.estimate(state)?;
-        self.back_up(simulation, rest)
+        if !outcome.terminal {
+            total += weight * self.estimate(state)?;
+        }
+        self.tree.end_rollout(from);
+        self.back_up(simulation, total)
     }
 
     /// Counts a step of the model and checks its reward.

@@ -38,12 +38,25 @@ pub(crate) struct Tree<O> {
 #[derive(Debug, Clone, Copy)]
 struct History {
     visits: u32,
-    /// Simulations that have gone on from here and have not ended.
+    /// Simulations that have chosen an action here and have not ended.
     pending: u32,
+    /// What is known of it as a leaf.
+    rollout: Rollout,
     first_action: u32,
     action_count: u32,
     /// Actions with neither visits nor simulations pending.
     untried: u32,
+}
+
+/// The rollouts from a history.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Rollout {
+    /// None has begun.
+    None,
+    /// None has ended.
+    InProgress,
+    /// One or more have ended.
+    Ended,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -112,6 +125,31 @@ impl<O: Eq> Tree<O> {
         self.histories[history.0 as usize] =
             History { first_action: first as u32, action_count, untried: action_count, ..History::LEAF };
         Ok(())
+    }
+
+    /// Whether nothing is known of a history, though simulations have come to it: of a leaf if no rollout from there
+    /// has ended, later if no simulation beyond it has ended and there is no untried action to begin with. The root is
+    /// excepted, where an action has to be chosen.
+    pub(crate) fn is_unknown(&self, history: HistoryId, settings: &PomcpSettings) -> bool {
+        let node = &self.histories[history.0 as usize];
+        if node.action_count == 0 {
+            return node.rollout == Rollout::InProgress;
+        }
+        let has_begun = node.visits == 0 && node.pending > 0;
+        has_begun && history != HistoryId::ROOT && !(settings.untried_first && node.untried > 0)
+    }
+
+    /// Notes that a simulation follows the default policy from a new history on.
+    pub(crate) fn begin_rollout(&mut self, history: HistoryId) {
+        let node = &mut self.histories[history.0 as usize];
+        if node.rollout == Rollout::None {
+            node.rollout = Rollout::InProgress;
+        }
+    }
+
+    /// Notes that a rollout from a history has ended.
+    pub(crate) fn end_rollout(&mut self, history: HistoryId) {
+        self.histories[history.0 as usize].rollout = Rollout::Ended;
     }
 
     /// The next action to try after an expanded history: while there are actions never tried, one of them,
@@ -236,7 +274,8 @@ impl<O: Eq> Tree<O> {
 }
 
 impl History {
-    const LEAF: Self = Self { visits: 0, pending: 0, first_action: 0, action_count: 0, untried: 0 };
+    const LEAF: Self =
+        Self { visits: 0, pending: 0, rollout: Rollout::None, first_action: 0, action_count: 0, untried: 0 };
 
     /// The mean of all returns after this history; 0 before the first.
     fn mean(&self, actions: &[Action]) -> f64 {

@@ -183,8 +183,21 @@ fn each_kind_of_step_has_its_batch() {
     assert_eq!(found, search(&FIXED, 3, settings, 1));
     let [in_tree, in_rollouts] = kinds.sizes.into_inner();
     assert_eq!(in_tree + in_rollouts, found.0.effort.steps);
-    // Nothing ends: every simulation adds a history, and has a whole rollout from there.
-    assert_eq!(in_rollouts, 10 * (found.0.effort.histories - 1));
+    // Nothing ends: every simulation has a whole rollout.
+    assert_eq!(in_rollouts, 10 * settings.simulations);
+}
+
+/// With one action and no observation, simulations that begin together meet at the same new history. The first adds
+/// it; the others, which know nothing of it yet, follow the default policy from there too.
+#[test]
+fn what_nothing_is_known_of_yet_is_not_searched() {
+    let path = Arbitrary { actions: 1, observations: 1, ..FIXED };
+    for (simulations, histories) in [(4, 2), (5, 3), (8, 3), (9, 4)] {
+        let settings = PomcpSettings { simulations, batch: 4, ..PomcpSettings::default() };
+        let effort = search(&path, 3, settings, 1).0.effort;
+        // Four at a time: each four go one history deeper than those before, and have ten steps from there.
+        assert_eq!((effort.histories, effort.depth), (histories, histories - 1), "{simulations} simulations");
+    }
 }
 
 /// Forgets the outcome of a batch's last step.
