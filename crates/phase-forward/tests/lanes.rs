@@ -1,5 +1,6 @@
 //! Worlds stepped together have the bits of worlds stepped one by one.
 
+#[allow(dead_code)]
 mod scenes;
 
 use phase_forward::Forward;

@@ -13,6 +13,7 @@ use super::{
 use crate::{
     coarse::{BAUMGARTE, ITERATIONS, POSITION_ITERATIONS, TOLERANCE_FACTOR},
     constants::{H, IMPULSE_TOLERANCE, LINEAR_SLOP},
+    model::Model,
     wall::MAX_WALLS,
 };
 use phase_model::{AGENT_COUNT, State, arena, arena::SUBSTEPS};
@@ -24,8 +25,8 @@ const SETTLED: f32 = -3.0 * LINEAR_SLOP;
 
 /// One approximate step, of worlds with equal signatures. Returns the lanes that were not stepped, because something rare has
 /// happened in them.
-pub(crate) fn step(starts: &[&Start<'_>], states: &mut [State]) -> LaneSet {
-    let mut worlds = Worlds::new(starts);
+pub(crate) fn step(model: &Model, starts: &[&Start], states: &mut [State]) -> LaneSet {
+    let mut worlds = Worlds::new(model, starts, states);
     let worlds = &mut worlds;
     let reachable = reach::reachable_bodies(worlds);
     let together = any_body(&reachable);
@@ -256,15 +257,11 @@ impl Worlds<'_> {
         }
         for lane in each(reached) {
             let mut own = groups.get(lane);
-            let mut meeting = 0;
-            for body in groups.bodies_of(name) {
-                self.extract(body, lane);
-                meeting |= (met[body] >> lane & 1) << body;
-            }
-            self.scratch.resolve_wall_impacts(&mut own, name, meeting, get(seconds, lane));
-            for body in groups.bodies_of(name) {
-                self.insert(body, lane);
-            }
+            let meeting = groups.bodies_of(name).fold(0, |set, body| set | (met[body] >> lane & 1) << body);
+            let seconds = get(seconds, lane);
+            let scratch = self.extract(groups.bodies_of(name), lane);
+            scratch.resolve_wall_impacts(&mut own, name, meeting, seconds);
+            self.insert(groups.bodies_of(name), lane);
             groups.centres[name].set(lane, own.centres[name]);
             set_twist(&mut groups.twists[name], lane, own.twists[name]);
         }

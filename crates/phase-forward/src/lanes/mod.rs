@@ -3,12 +3,18 @@
 //! Worlds in which the agents hold the same objects go together; within a group, masks say which lanes a contact, a correction
 //! or another iteration concerns. Every lane has the bits of the scalar kernel: operations are the same, in the same order, and
 //! what is rare or full of decisions (the moment of an impact, two agents that touch) is left to the scalar kernel, lane by lane.
+//!
+//! How much it saves depends on how much the worlds agree: `docs/performance.md` has measurements.
+
+// A body's number indexes several arrays at once here.
+#![allow(clippy::needless_range_loop)]
 
 mod coarse;
 mod collide;
 mod contact;
 mod exact;
 mod groups;
+mod islands;
 mod manifold;
 mod motion;
 mod outline;
@@ -19,7 +25,7 @@ mod walls;
 mod weld;
 mod worlds;
 
-use crate::{model::Model, world::World};
+use crate::model::Model;
 use arrayvec::ArrayVec;
 use phase_model::{AGENT_COUNT, Action, State};
 use real::{LANES, LaneSet, each};
@@ -36,7 +42,7 @@ fn step_all(
     model: &Model,
     states: &mut [State],
     actions: &[[Action; AGENT_COUNT]],
-    together: impl Fn(&[&Start<'_>], &mut [State]) -> LaneSet,
+    together: impl Fn(&Model, &[&Start], &mut [State]) -> LaneSet,
     alone: impl Fn(&mut State, [Action; AGENT_COUNT]),
 ) {
     for (states, actions) in states.chunks_mut(CHUNK).zip(actions.chunks(CHUNK)) {
@@ -46,21 +52,16 @@ fn step_all(
             }
             continue;
         }
-        let starts: ArrayVec<Start<'_>, CHUNK> = states
+        let starts: ArrayVec<Start, CHUNK> = states
             .iter()
             .zip(actions)
             .enumerate()
-            .map(|(index, (state, actions))| {
-                let mut world = World::new(model, state, *actions);
-                let released = world.grab(state);
-                world.exclude_pairs(state, released);
-                Start { index, world }
-            })
+            .map(|(index, (state, actions))| Start::new(model, index, state, *actions))
             .collect();
         let mut left: u32 = u32::MAX >> (CHUNK - starts.len());
         while left != 0 {
             let signature = starts[left.trailing_zeros() as usize].signature();
-            let group: ArrayVec<&Start<'_>, LANES> = starts
+            let group: ArrayVec<&Start, LANES> = starts
                 .iter()
                 .filter(|start| left & 1 << start.index != 0 && start.signature() == signature)
                 .take(LANES)
@@ -68,7 +69,7 @@ fn step_all(
             for start in &group {
                 left &= !(1 << start.index);
             }
-            let missed = if group.len() < MIN_TOGETHER { !0 } else { together(&group, states) };
+            let missed = if group.len() < MIN_TOGETHER { !0 } else { together(model, &group, states) };
             for lane in each(missed).take_while(|&lane| lane < group.len()) {
                 let index = group[lane].index;
                 alone(&mut states[index], actions[index]);

@@ -14,6 +14,7 @@ use crate::{
     time_of_impact,
     wall::Wall,
 };
+use core::iter::once;
 use phase_model::arena;
 
 impl Worlds<'_> {
@@ -22,12 +23,12 @@ impl Worlds<'_> {
         let walls = reach::walls_swept(self, body, set);
         let reached = self.reached(body, set, &walls);
         for lane in each(reached) {
-            self.extract(body, lane);
-            self.scratch.seconds = get(seconds, lane);
             let keys = keys(&walls, body, lane);
-            self.scratch.impacts(body, keys);
-            self.scratch.contain(body, keys);
-            self.insert(body, lane);
+            let scratch = self.extract(once(body), lane);
+            scratch.seconds = get(seconds, lane);
+            scratch.impacts(body, keys);
+            scratch.contain(body, keys);
+            self.insert(once(body), lane);
         }
         self.contain(body, set & !reached, &walls);
     }
@@ -84,9 +85,8 @@ impl Worlds<'_> {
             fine &= greater(before * after, Real::ZERO) | !mask(near);
         }
         for lane in each(set & !lanes(fine)) {
-            self.extract(body, lane);
-            self.scratch.contain(body, keys(walls, body, lane));
-            self.insert(body, lane);
+            self.extract(once(body), lane).contain(body, keys(walls, body, lane));
+            self.insert(once(body), lane);
         }
     }
 }

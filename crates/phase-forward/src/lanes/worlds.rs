@@ -3,29 +3,86 @@
 use super::{
     motion::{LaneActions, Motions},
     outline::{Outlines, WallLanes},
-    real::{LANES, LaneSet, Real, Vector, at_most, each, equal, get, greater, lanes, mask, put, set, splat},
+    real::{
+        LANES, LaneSet, Real, Vector, at_most, each, equal, get, greater, lanes, less, mask, pick, put, set,
+        splat,
+    },
 };
 use crate::{
-    constants::VELOCITY_ITERATIONS,
-    key::{PAIRS, bit, pair_key},
+    constants::{H, VELOCITY_ITERATIONS},
+    finish::stop_turning,
+    key::{PAIRS, pair_of},
     model::Model,
+    released::{APPROACH, CLEARANCE, CLEARANCE_SUBSTEPS},
     wall::MAX_WALLS,
-    world::World,
+    weld::held_body,
+    world::{World, sanitized_grip, unpacked, unpacked_angle},
 };
-use phase_model::{AGENT_COUNT, Action, Grip, State, Vec2};
+use phase_model::{AGENT_COUNT, Action, AgentId, Body, Contacts, Entity, Grip, State, Vec2};
 
 /// A state that is to be stepped, with its grips after grabbing and releasing.
-pub(crate) struct Start<'a> {
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Start {
     /// Its place in the batch.
     pub(crate) index: usize,
-    pub(crate) world: World<'a>,
+    grips: [Option<Grip>; AGENT_COUNT],
+    /// The body that each agent holds.
+    held: [Option<usize>; AGENT_COUNT],
+    /// The body that each agent lets go.
+    released: [Option<usize>; AGENT_COUNT],
+    latest_grip: usize,
+    actions: [Action; AGENT_COUNT],
 }
 
-impl Start<'_> {
+impl Start {
+    /// Lets both agents grab or release; see [`World::grab`].
+    pub(crate) fn new(model: &Model, index: usize, state: &State, actions: [Action; AGENT_COUNT]) -> Self {
+        let mut start = Self {
+            index,
+            grips: [None; AGENT_COUNT],
+            held: [None; AGENT_COUNT],
+            released: [None; AGENT_COUNT],
+            latest_grip: 1,
+            actions,
+        };
+        let idle = |action: Action| !matches!(action, Action::Attach | Action::Detach);
+        if state.grips == [None; AGENT_COUNT] && actions.into_iter().all(idle) {
+            return start;
+        }
+        let mut angles = [0.0; 5];
+        for (angle, body) in angles.iter_mut().zip(&state.bodies[..model.count]) {
+            *angle = unpacked_angle(body);
+        }
+        let held = |grip: &Option<Grip>| {
+            let body = held_body(grip.as_ref()?);
+            (body < model.count).then_some(body)
+        };
+        for agent in AgentId::ALL {
+            let (grip, number) = (&mut start.grips[agent], agent.index());
+            *grip = state.grips[agent].map(|grip| sanitized_grip(grip, number, &angles));
+            match actions[agent] {
+                Action::Attach => {
+                    if let Some((object, side)) = state.attachable(&model.physics, agent) {
+                        let angle = angles[Entity::Object(object).index()] - angles[number];
+                        *grip = Some(Grip { object, side, relative_angle: angle });
+                        start.latest_grip = number;
+                    }
+                }
+                Action::Detach => {
+                    start.released[agent] = held(grip);
+                    *grip = None;
+                }
+                _ => {}
+            }
+            start.held[agent] = held(grip);
+        }
+        start
+    }
+
     /// What must be equal for worlds to be stepped together: what each agent holds, and which of them grabbed last.
     pub(crate) fn signature(&self) -> u8 {
-        let held = |agent: usize| self.world.held(agent).map_or(0, |body| body as u8 - 1);
-        held(0) | held(1) << 2 | (self.world.latest_grip as u8) << 4
+        let held = |agent: usize| self.held[agent].map_or(0, |body| body as u8 - 1);
+        held(0) | held(1) << 2 | (self.latest_grip as u8) << 4
     }
 }
 
@@ -46,7 +103,6 @@ pub(crate) struct Worlds<'a> {
     pub(crate) held: [Option<usize>; AGENT_COUNT],
     pub(crate) grips: [[Option<Grip>; AGENT_COUNT]; LANES],
     pub(crate) latest_grip: usize,
-    pub(crate) actions: [[Action; AGENT_COUNT]; LANES],
     pub(crate) acts: [LaneActions; AGENT_COUNT],
     /// Impulses of ground friction of the last substep (N s).
     pub(crate) ground: [Vector; 4],
@@ -62,8 +118,8 @@ pub(crate) struct Worlds<'a> {
     pub(crate) sleeping: [LaneSet; 4],
     pub(crate) iterations: usize,
     pub(crate) max_displacements: [Real; 4],
-    /// What one body of one lane is computed with where lanes differ too much.
-    pub(crate) scratch: World<'a>,
+    /// What a body of one lane is computed with where lanes differ too much; made when it is needed.
+    scratch: Option<World<'a>>,
 }
 
 /// A pose: centre of mass, angle, unit vector to the right.
@@ -81,9 +137,7 @@ impl Place {
 
 impl<'a> Worlds<'a> {
     /// Unpacks at most eight states, whose signatures are equal.
-    pub(crate) fn new(starts: &[&Start<'a>]) -> Self {
-        let first = &starts[0].world;
-        let model = first.model;
+    pub(crate) fn new(model: &'a Model, starts: &[&Start], states: &[State]) -> Self {
         let used = !0_u8 >> (LANES - starts.len());
         let mut worlds = Self {
             model,
@@ -93,10 +147,9 @@ impl<'a> Worlds<'a> {
             starts: [Place::NONE; 4],
             outlines: Outlines::NONE,
             walls: [[0; MAX_WALLS]; 4],
-            held: [first.held(0), first.held(1)],
+            held: starts[0].held,
             grips: [[None; AGENT_COUNT]; LANES],
-            latest_grip: first.latest_grip,
-            actions: [[Action::NoForce; AGENT_COUNT]; LANES],
+            latest_grip: starts[0].latest_grip,
             acts: [LaneActions::NONE; AGENT_COUNT],
             ground: [Vector::ZERO; 4],
             grasps: [(Vector::ZERO, Real::ZERO); AGENT_COUNT],
@@ -107,38 +160,68 @@ impl<'a> Worlds<'a> {
             sleeping: [0; 4],
             iterations: VELOCITY_ITERATIONS,
             max_displacements: [Real::ZERO; 4],
-            scratch: first.clone(),
+            scratch: None,
         };
-        for (lane, start) in starts.iter().enumerate() {
-            worlds.unpack(lane, &start.world);
+        let mut actions = [[Action::NoForce; LANES]; AGENT_COUNT];
+        // Unused lanes repeat the last one, so that no number in them is exceptional.
+        for lane in 0..LANES {
+            let start = starts[lane.min(starts.len() - 1)];
+            for (body, motion) in worlds.motions.iter_mut().enumerate().take(model.count) {
+                motion.set(lane, &unpacked(model, body, &states[start.index].bodies[body]));
+            }
+            worlds.grips[lane] = start.grips;
+            for agent in 0..AGENT_COUNT {
+                actions[agent][lane] = start.actions[agent];
+            }
         }
-        // Unused lanes repeat the first one, so that no number in them is exceptional.
-        for lane in starts.len()..LANES {
-            worlds.unpack(lane, first);
-        }
-        for pair in 0..PAIRS.len() {
-            worlds.excluded[pair] &= used;
-            worlds.released[pair] &= used;
-        }
-        worlds.acts = [0, 1].map(|agent| LaneActions::new(worlds.actions.map(|actions| actions[agent])));
+        worlds.acts = actions.map(LaneActions::new);
+        worlds.exclude_pairs(starts, states);
         worlds
     }
 
-    fn unpack(&mut self, lane: usize, world: &World<'a>) {
-        for body in 0..self.model.count {
-            self.motions[body].set(lane, &world.motions[body]);
+    /// See [`World::exclude_pairs`].
+    fn exclude_pairs(&mut self, starts: &[&Start], states: &[State]) {
+        let model = self.model;
+        for agent in 0..AGENT_COUNT {
+            if let Some(held) = self.held[agent] {
+                self.excluded[pair_of(agent, held)] |= self.used;
+            }
+            for (lane, start) in starts.iter().enumerate() {
+                if let Some(released) = start.released[agent] {
+                    self.released[pair_of(agent, released)] |= 1 << lane;
+                }
+            }
+            let (motion, shape) = (&self.motions[agent], &model.shapes[agent]);
+            let origin = motion.place(Vector::splat(Vec2::new(0.0, shape.origin)));
+            for object in AGENT_COUNT..model.count {
+                let held = &self.motions[object];
+                let reach = shape.radius + model.shapes[object].radius;
+                let between = held.centre - origin;
+                let clear = (reach + CLEARANCE) * (reach + CLEARANCE);
+                let mut near = self.used & !lanes(greater(between.length_squared(), splat(clear)));
+                if near == 0 {
+                    continue;
+                }
+                for lane in each(near) {
+                    let contacts = states[starts[lane].index].contacts;
+                    if contacts.touching(Entity::ALL[agent], Entity::ALL[object]) {
+                        near &= !(1 << lane);
+                    }
+                }
+                let along = between.dot(motion.right);
+                let side = pick(along.is_sign_negative(), splat(-reach), splat(reach));
+                let approach = (motion.velocity - held.velocity).dot(between.normalize_or(Vector::ZERO));
+                let there = (motion.right * side).distance_squared(between);
+                let fits = less(there, splat(CLEARANCE * CLEARANCE)) & less(approach, splat(APPROACH));
+                self.released[pair_of(agent, object)] |= near & lanes(fits);
+            }
         }
-        self.grips[lane] = world.grips;
-        self.actions[lane] = world.actions;
-        for pair in 0..PAIRS.len() {
-            let key = bit(pair_key(pair));
-            self.excluded[pair] |= u8::from(world.excluded_pairs & key != 0) << lane;
-            self.released[pair] |= u8::from(world.released & key != 0) << lane;
-        }
-        if world.released != 0 {
-            for body in 0..self.model.count {
-                self.let_go_at[body].set(lane, world.let_go_at[body]);
-                set(&mut self.release_distance[body], lane, world.release_distance[body]);
+        if self.any_released() {
+            for body in 0..model.count {
+                let motion = &self.motions[body];
+                self.let_go_at[body] = motion.centre;
+                let ahead = splat(CLEARANCE_SUBSTEPS * H) * motion.velocity.length();
+                self.release_distance[body] = splat(CLEARANCE) + ahead;
             }
         }
     }
@@ -179,14 +262,14 @@ impl<'a> Worlds<'a> {
 
     /// Writes bodies, grips and contacts of the lanes that have not failed into their states. Contacts are tested for in the
     /// given lanes only.
-    pub(crate) fn finish(&mut self, starts: &[&Start<'_>], states: &mut [State], candidates: LaneSet) {
+    pub(crate) fn finish(&mut self, starts: &[&Start], states: &mut [State], candidates: LaneSet) {
         let touching = self.touching(candidates);
         for body in 0..self.model.count {
             let (motion, shape) = (&self.motions[body], &self.model.shapes[body]);
             let position = motion.centre + motion.right.perp() * splat(shape.origin);
             for (lane, start) in starts.iter().enumerate() {
                 if self.failed & 1 << lane == 0 {
-                    states[start.index].bodies[body] = phase_model::Body {
+                    states[start.index].bodies[body] = Body {
                         position: position.get(lane),
                         velocity: motion.velocity.get(lane),
                         angle: get(&motion.angle, lane),
@@ -198,13 +281,13 @@ impl<'a> Worlds<'a> {
         for lane in each(self.used & !self.failed) {
             let state = &mut states[starts[lane].index];
             state.grips = self.grips[lane];
-            state.contacts = phase_model::Contacts::NONE;
+            state.contacts = Contacts::NONE;
             for (pair, (a, b)) in PAIRS.into_iter().enumerate() {
                 if touching[pair] & 1 << lane != 0 {
-                    state.contacts.insert(phase_model::Entity::ALL[a], phase_model::Entity::ALL[b]);
+                    state.contacts.insert(Entity::ALL[a], Entity::ALL[b]);
                 }
             }
-            crate::finish::stop_turning(state);
+            stop_turning(state);
         }
     }
 
@@ -247,19 +330,29 @@ impl<'a> Worlds<'a> {
         mask(self.released[pair]) & splat(phase_model::physics::RELEASED_OVERLAP)
     }
 
-    /// Puts one body of one lane into the scratch world, as it was at the start of the substep and as it is now.
-    pub(crate) fn extract(&mut self, body: usize, lane: usize) {
-        let start = &self.starts[body];
-        self.scratch.starts[body] = (start.centre.get(lane), get(&start.angle, lane), start.right.get(lane));
-        self.scratch.motions[body] = self.motions[body].get(lane);
-        self.scratch.moved(body);
+    /// A world of the scalar kernel with some bodies of one lane, as they were at the start of the substep and as they are now.
+    pub(crate) fn extract(&mut self, bodies: impl Iterator<Item = usize>, lane: usize) -> &mut World<'a> {
+        let model = self.model;
+        let scratch = self.scratch.get_or_insert_with(|| {
+            World::new(model, &State::new([Body::default(); 4]), [Action::NoForce; AGENT_COUNT])
+        });
+        for body in bodies {
+            let start = &self.starts[body];
+            scratch.starts[body] = (start.centre.get(lane), get(&start.angle, lane), start.right.get(lane));
+            scratch.motions[body] = self.motions[body].get(lane);
+            scratch.moved(body);
+        }
+        scratch
     }
 
-    /// Takes one body of one lane back from the scratch world.
-    pub(crate) fn insert(&mut self, body: usize, lane: usize) {
-        let motion = self.scratch.motions[body];
-        self.motions[body].set(lane, &motion);
-        self.outlines.moved(body, 1 << lane);
+    /// Takes some bodies of one lane back from there.
+    pub(crate) fn insert(&mut self, bodies: impl Iterator<Item = usize>, lane: usize) {
+        if let Some(scratch) = &self.scratch {
+            for body in bodies {
+                self.motions[body].set(lane, &scratch.motions[body]);
+                self.outlines.moved(body, 1 << lane);
+            }
+        }
     }
 }
 
