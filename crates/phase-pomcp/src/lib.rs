@@ -67,8 +67,10 @@
 #![deny(missing_docs)]
 
 mod batch;
+mod belief;
 mod decision;
 mod error;
+mod forest;
 mod model;
 pub mod puct;
 mod search;
@@ -76,8 +78,10 @@ mod settings;
 mod simulation;
 mod tree;
 
+pub use belief::{BeliefError, BeliefModel, BeliefUpdate, DEFAULT_ATTEMPTS, ParticleBelief};
 pub use decision::{ActionStatistics, Decision, SearchStatistics};
 pub use error::PomcpError;
+pub use forest::Forest;
 pub use model::{GenerativeModel, Transition};
 pub use search::Pomcp;
 pub use settings::PomcpSettings;

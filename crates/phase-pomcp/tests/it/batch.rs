@@ -165,7 +165,7 @@ impl GenerativeModel for Kinds {
     }
 }
 
-const FIXED: Arbitrary = Arbitrary {
+pub(crate) const FIXED: Arbitrary = Arbitrary {
     seed: 4,
     states: 3,
     actions: 3,
