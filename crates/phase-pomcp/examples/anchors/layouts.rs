@@ -25,12 +25,6 @@ impl From<&Published> for Layout {
     }
 }
 
-impl From<&Self> for Layout {
-    fn from(layout: &Self) -> Self {
-        layout.clone()
-    }
-}
-
 /// `RockSample_7_8.pomdpx` of APPL (SARSOP), as in the sources of POMCP and DESPOT (`Init_7_8`).
 pub(crate) const SARSOP_7_8: Published = Published {
     side: 7,

@@ -111,7 +111,7 @@ fn row(name: Name, effort: &Effort) -> Result<Row, Box<dyn Error + Send + Sync>>
         Name::RockSample7 => effort.row(|_| RockSample::new(&layouts::SARSOP_7_8)),
         Name::RockSample11 => effort.row(|_| RockSample::new(&layouts::SARSOP_11_11)),
         Name::RockSample15 => effort.row(|_| RockSample::new(&layouts::DESPOT_JL_15_15)),
-        Name::RockSample15Random => effort.row(|random| RockSample::new(&layouts::random(15, random))),
+        Name::RockSample15Random => effort.row(|random| RockSample::new(layouts::random(15, random))),
         Name::Tag => effort.row(|_| tag::Tag::new()),
     }
 }
