@@ -88,11 +88,26 @@ pub trait GenerativeModel {
         self.rollout_step_batch(rollout_states, rollout_actions, random, rollout_outcomes);
     }
 
-    /// The action of the default policy, which is followed from a new leaf on; in `0..action_count()`.
+    /// The action of the default policy, which is followed from a new leaf on; in `0..action_count()`,
+    /// and legal.
     ///
-    /// Uniform unless overridden. A sensible policy is the cheapest way to better plans.
-    fn rollout_action(&self, _state: &Self::State, random: &mut impl Rng) -> usize {
-        random.random_range(0..self.action_count())
+    /// Uniform among the legal actions unless overridden. A sensible policy is the cheapest way to better plans.
+    fn rollout_action(&self, state: &Self::State, random: &mut impl Rng) -> usize {
+        let legal = || (0..self.action_count()).filter(|&action| self.is_legal(state, action));
+        match legal().count() {
+            0 => 0,
+            count => legal().nth(random.random_range(0..count)).unwrap_or(0),
+        }
+    }
+
+    /// Whether `action` may be taken in `state`. All may unless overridden; one at least must, unless the problem has
+    /// ended.
+    ///
+    /// A search never takes an illegal action, and reports no visits of it. It asks once per history, for the first
+    /// state that selects an action there: legality must follow from the actions and observations so far, the same for
+    /// all states that share them. Start states must agree on it too.
+    fn is_legal(&self, _state: &Self::State, _action: usize) -> bool {
+        true
     }
 
     /// Prior weight of `action` before any search: finite, zero or more, relative to the other actions'

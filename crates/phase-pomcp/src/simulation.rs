@@ -87,6 +87,9 @@ impl<M: GenerativeModel> Simulations<'_, M> {
             if action >= action_count {
                 return Err(PomcpError::RolloutActionOutOfRange { action, action_count });
             }
+            if !self.model.is_legal(state, action) {
+                return Err(PomcpError::IllegalRolloutAction { action });
+            }
             simulation.action = action;
         }
         Ok(())
@@ -167,7 +170,7 @@ impl<M: GenerativeModel> Simulations<'_, M> {
         if weights != action_count {
             return Err(PomcpError::PriorCount { weights, action_count });
         }
-        self.tree.add_actions(history, &self.weights)
+        self.tree.add_actions(history, &self.weights, |action| self.model.is_legal(here, action))
     }
 
     /// Continues a simulation in the tree with the step that it took to `state`.

@@ -44,7 +44,7 @@ struct History {
     rollout: Rollout,
     first_action: u32,
     action_count: u32,
-    /// Actions with neither visits nor simulations pending.
+    /// Legal actions with neither visits nor simulations pending.
     untried: u32,
 }
 
@@ -67,6 +67,7 @@ struct Action {
     /// The newest of the branches added after this action, or [`NONE`].
     branch: u32,
     value: f64,
+    /// Prior probability, or [`ILLEGAL`].
     prior: f64,
 }
 
@@ -80,6 +81,8 @@ struct Branch<O> {
 }
 
 const NONE: u32 = u32::MAX;
+/// The prior of an action that must not be taken.
+const ILLEGAL: f64 = -1.0;
 
 impl<O: Eq> Tree<O> {
     pub(crate) fn new() -> Self {
@@ -102,28 +105,41 @@ impl<O: Eq> Tree<O> {
         self.histories[history.0 as usize].action_count > 0
     }
 
-    /// Expands a leaf with its actions, whose priors are proportional to `weights`.
-    pub(crate) fn add_actions(&mut self, history: HistoryId, weights: &[f64]) -> Result<(), PomcpError> {
+    /// Expands a leaf with its actions. The priors of those that are legal are proportional to `weights`.
+    pub(crate) fn add_actions(
+        &mut self,
+        history: HistoryId,
+        weights: &[f64],
+        is_legal: impl Fn(usize) -> bool,
+    ) -> Result<(), PomcpError> {
         let first = self.actions.len();
-        let (mut last, mut sum) = (0.0, 0.0_f64);
-        for &weight in weights {
+        let (mut last, mut sum, mut untried) = (0.0, 0.0_f64, 0);
+        for (action, &weight) in weights.iter().enumerate() {
+            if !is_legal(action) {
+                self.actions.push(Action::with_prior(ILLEGAL));
+                continue;
+            }
+            untried += 1;
             last = weight;
             sum += weight;
             if weight.is_nan() || weight < 0.0 || sum.is_infinite() {
                 return Err(PomcpError::InvalidPrior { weight, sum });
             }
-            self.actions.push(Action { visits: 0, pending: 0, branch: NONE, value: 0.0, prior: weight });
+            self.actions.push(Action::with_prior(weight));
+        }
+        if untried == 0 {
+            return Err(PomcpError::NoLegalAction);
         }
         if sum <= 0.0 {
             return Err(PomcpError::InvalidPrior { weight: last, sum });
         }
         let added = &mut self.actions[first..];
-        for action in added.iter_mut() {
+        for action in added.iter_mut().filter(|action| action.is_legal()) {
             action.prior /= sum;
         }
         let action_count = added.len() as u32;
         self.histories[history.0 as usize] =
-            History { first_action: first as u32, action_count, untried: action_count, ..History::LEAF };
+            History { first_action: first as u32, action_count, untried, ..History::LEAF };
         Ok(())
     }
 
@@ -170,15 +186,14 @@ impl<O: Eq> Tree<O> {
         let actions = self.actions_of(node);
         if node.untried > 0 && settings.untried_first {
             let drawn = random.random_range(0..node.untried) as usize;
-            let mut untried =
-                actions.iter().enumerate().filter(|(_, action)| action.visits + action.pending == 0);
+            let mut untried = actions.iter().enumerate().filter(|(_, action)| action.is_untried());
             return untried.nth(drawn).map_or(0, |(index, _)| index);
         }
         // At the first visit, too, the priors decide.
         let exploration = table.at(settings, (node.visits + node.pending).max(1));
         let mean = node.mean(actions);
         let mut best = (0, f64::NEG_INFINITY);
-        for (index, action) in actions.iter().enumerate() {
+        for (index, action) in actions.iter().enumerate().filter(|(_, action)| action.is_legal()) {
             let value = if action.visits == 0 { mean } else { action.value };
             let value = if settings.normalise_values { range.normalise(value) } else { value };
             let score = puct::score(value, action.prior, exploration, action.visits + action.pending);
@@ -222,7 +237,7 @@ impl<O: Eq> Tree<O> {
     pub(crate) fn begin(&mut self, history: HistoryId, action: ActionId) {
         let node = &mut self.histories[history.0 as usize];
         let action = &mut self.actions[action.0 as usize];
-        if action.visits + action.pending == 0 {
+        if action.is_untried() {
             node.untried -= 1;
         }
         node.pending += 1;
@@ -270,6 +285,20 @@ impl<O: Eq> Tree<O> {
     fn actions_of(&self, node: &History) -> &[Action] {
         let first = node.first_action as usize;
         &self.actions[first..first + node.action_count as usize]
+    }
+}
+
+impl Action {
+    fn with_prior(prior: f64) -> Self {
+        Self { visits: 0, pending: 0, branch: NONE, value: 0.0, prior }
+    }
+
+    fn is_legal(&self) -> bool {
+        self.prior >= 0.0
+    }
+
+    fn is_untried(&self) -> bool {
+        self.visits + self.pending == 0 && self.is_legal()
     }
 }
 

@@ -2,9 +2,12 @@
 
 mod arbitrary;
 mod batch;
+mod belief;
 mod chain;
 mod errors;
+mod forest;
 mod invariants;
+mod legal;
 mod pinned;
 mod puct;
 mod returns;
