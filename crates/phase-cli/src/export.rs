@@ -145,6 +145,6 @@ fn append(tar: &mut Builder<AtomicFile>, name: &str, bytes: &[u8]) -> std::io::R
 /// The bytes of a file that is as its dataset's manifest says.
 fn whole(from: &Path, file: &FileEntry) -> Result<Vec<u8>, CliError> {
     file.verify(from).map_err(CliError::Altered)?;
-    let path = from.join(&file.path);
+    let path = file.place(from);
     fs::read(&path).map_err(|error| FileError { file: path, problem: Problem::Unreadable(error) }.into())
 }

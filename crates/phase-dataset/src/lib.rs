@@ -47,6 +47,7 @@ pub mod describe;
 pub mod error;
 pub mod event_set;
 pub mod folder;
+mod ids;
 pub mod json;
 pub mod labels;
 pub mod manifest;

@@ -27,7 +27,7 @@ pub(crate) fn events(folder: &Path, lengths: &[usize]) -> Vec<EventEntry> {
         let (id, event) = (format!("made-up-{k}"), plain_event(steps));
         let recording = Recording::of_event(id.clone(), event.clone(), "phase test".into(), json!({}));
         fs::write(folder.join(event_path(&id)), to_json(&[recording]).expect("finite")).expect("written");
-        fs::write(folder.join(video_path(&id)), "a video").expect("written");
+        fs::write(folder.join(video_path(&id)), crate::boxes::video(1 + 5 * steps)).expect("written");
         let split = if k % 3 == 2 { Split::Test } else { Split::Train };
         EventEntry { split: Some(split), ..EventEntry::of(folder, &id, &event, true).expect("described") }
     };
@@ -38,7 +38,7 @@ pub(crate) fn events(folder: &Path, lengths: &[usize]) -> Vec<EventEntry> {
 pub(crate) fn export(folder: &Path, entries: &[EventEntry]) -> Result<Vec<FileEntry>, ExportError> {
     let mut writer = ParquetWriter::new(folder, &counts(entries))?;
     for entry in entries {
-        writer.push(entry, &phase_events::read(&folder.join(&entry.event.path))?[0])?;
+        writer.push(entry, &phase_events::read(&entry.event.place(folder))?[0])?;
     }
     writer.finish()
 }
@@ -198,7 +198,7 @@ fn the_same_events_make_the_same_bytes_in_groups_of_any_number() {
     let first = export(path, &entries).expect("written");
     let second = export(path, &entries).expect("written");
     assert_eq!(first, second);
-    let train = rows(&path.join(&first[0].path));
+    let train = rows(&first[0].place(path));
     assert_eq!(train.len(), 107);
     assert_eq!(train[106]["id"], "made-up-159");
     for part in parts(&entries) {
@@ -228,7 +228,7 @@ fn files_are_limited_in_length() {
 fn files_that_are_not_finished_do_not_appear() {
     let folder = tempfile::tempdir().expect("a folder");
     let entries = events(folder.path(), &[1, 1]);
-    let recording = &phase_events::read(&folder.path().join(&entries[0].event.path)).expect("an event")[0];
+    let recording = &phase_events::read(&entries[0].event.place(folder.path())).expect("an event")[0];
     let mut writer = ParquetWriter::new(folder.path(), &counts(&entries)).expect("a folder");
     writer.push(&entries[0], recording).expect("the first of two");
     drop(writer);

@@ -1,0 +1,67 @@
+//! Writing the files that describe a dataset again, and comparing them with those that are there.
+
+use super::origin::command;
+use crate::{context::Context, error::CliError, gen_dataset::complete::describe_all};
+use phase_dataset::{
+    FileError, Problem, WriteError,
+    checksum::FileEntry,
+    manifest::{CARD_FILE, DIGEST_FILE, EventEntry, MANIFEST_FILE, Manifest},
+    overview::Overview,
+    slot_record::{Records, SlotRecord},
+};
+use std::{collections::BTreeMap, path::Path};
+
+/// The files that differ from what the event files, the manifest's list of events and the command in the card give.
+///
+/// # Errors
+/// [`CliError::Output`] if nothing can be written into the system's folder for temporary files.
+pub(super) fn problems(
+    folder: &Path,
+    manifest: &Manifest,
+    context: &Context,
+) -> Result<Vec<FileError>, CliError> {
+    let path = std::env::temp_dir();
+    let scratch = tempfile::tempdir()
+        .map_err(|source| CliError::Output(WriteError { path, action: "create a folder", source }))?;
+    let differs = |name: &str| FileError {
+        file: folder.join(name),
+        problem: Problem::Differs("what the events give".into()),
+    };
+    let Some(command) = command(folder)? else { return Ok(vec![differs(CARD_FILE)]) };
+    let overview = Overview { files: Vec::new(), ..Overview::of(manifest) };
+    let videos = scratch.path().join("videos");
+    std::fs::create_dir(&videos).map_err(|source| {
+        CliError::Output(WriteError { path: videos.clone(), action: "create the folder", source })
+    })?;
+    let places = (folder, scratch.path());
+    let again = describe_all(places, overview, &command, &ListedEvents(manifest), context)?;
+    let files = again.overview.files.iter().map(|file| file.path.as_str());
+    let mut found = Vec::new();
+    for name in files.chain([DIGEST_FILE, MANIFEST_FILE]) {
+        let (there, here) = (FileEntry::of(folder, name)?, FileEntry::of(scratch.path(), name)?);
+        if there != here {
+            found.push(differs(name));
+        }
+    }
+    Ok(found)
+}
+
+/// The events of a manifest as the records of their slots.
+struct ListedEvents<'a>(&'a Manifest);
+
+impl Records for ListedEvents<'_> {
+    fn records(&self) -> Box<dyn Iterator<Item = Result<SlotRecord, FileError>> + '_> {
+        let sets: BTreeMap<&str, _> = self.0.sets.iter().map(|set| (set.id.as_str(), set)).collect();
+        let set_of = |entry: &EventEntry| entry.set.as_ref().map(|place| place.set.as_str());
+        // The events of a set follow one another.
+        let slots = self.0.events.chunk_by(move |a, b| set_of(a).is_some() && set_of(a) == set_of(b));
+        Box::new(slots.map(move |entries| {
+            let set = entries.first().and_then(set_of).and_then(|id| sets.get(id));
+            Ok(SlotRecord {
+                entries: entries.to_vec(),
+                set: set.map(|&set| set.clone()),
+                ..SlotRecord::default()
+            })
+        }))
+    }
+}
