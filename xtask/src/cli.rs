@@ -4,6 +4,7 @@ use crate::{
     check_behaviour::{self, options::CheckBehaviour},
     check_minds::{self, options::CheckMinds},
     check_physics::{self, options::CheckPhysics},
+    check_verify::{self, CheckVerify},
     draw_behaviour::{self, DrawBehaviour},
     error::XtaskError,
     fit_events::FitEvents,
@@ -47,6 +48,8 @@ pub enum Command {
     DrawBehaviour(DrawBehaviour),
     /// Compare minds with the agents of recordings or events whose labels are known
     CheckMinds(CheckMinds),
+    /// Edit a dataset many times, and count what verify finds
+    CheckVerify(CheckVerify),
     /// Fit the parameters of the minds to recordings or events whose labels are known
     FitMinds(FitMinds),
     /// Fit how SIMPLE weighs its evidence to events whose labels are known
@@ -80,6 +83,7 @@ impl Interface for Cli {
             Command::CheckBehaviour(arguments) => Ok(check_behaviour::run(arguments, context)?),
             Command::DrawBehaviour(arguments) => draw_behaviour::run(arguments),
             Command::CheckMinds(arguments) => check_minds::run(arguments, context),
+            Command::CheckVerify(arguments) => check_verify::run(arguments, context),
             Command::FitInference(arguments) => fit_inference::run(arguments, context),
             Command::FitMinds(arguments) => fit_minds::run(arguments, context),
             Command::FitForecast(arguments) => fit_forecast::run(arguments, context),

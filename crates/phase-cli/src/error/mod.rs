@@ -97,10 +97,10 @@ pub enum CliError {
         reasons: String,
     },
     /// Writing failed, for example because the disk is full.
-    #[error("{0}; {}", kept(&.0.path))]
+    #[error("{failure}; {after}", failure = .0, after = kept(&.0.path))]
     Write(#[from] WriteError),
     /// A file that was just written cannot be read back.
-    #[error("{0}; {}", kept(&.0.file))]
+    #[error("{failure}; {after}", failure = .0, after = kept(&.0.file))]
     ReadBack(#[source] FileError),
     /// An event cannot be written.
     #[error(transparent)]

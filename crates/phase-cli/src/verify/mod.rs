@@ -1,6 +1,6 @@
 //! `verify`: whether a dataset is complete and its files agree, and whether they are what they say they are.
 
-mod derived;
+pub mod derived;
 pub mod options;
 mod origin;
 mod replay;
@@ -24,7 +24,7 @@ use phase_dataset::{
 use phase_model::random::{self, Purpose};
 use rand::seq::SliceRandom;
 use serde_json::json;
-use std::path::Path;
+use std::{fs, path::Path};
 
 /// Runs the command: a sentence for each problem, or one stating that there is none.
 ///
@@ -41,7 +41,7 @@ pub fn run(arguments: &Verify, context: &Context) -> Result<(), CliError> {
             return Err(CliError::Usage(format!("{}: {rule}", folder.display())));
         }
     }
-    let manifest = Manifest::read(&folder.join(MANIFEST_FILE))?;
+    let manifest = manifest(folder)?;
     let digest = FileEntry::of(folder, MANIFEST_FILE)?.sha256;
     let problems = problems(folder, &manifest, &arguments.checks, &arguments.jobs, context)?;
     for problem in &problems {
@@ -68,6 +68,21 @@ pub fn run(arguments: &Verify, context: &Context) -> Result<(), CliError> {
         }
         Err(CliError::NotWhole { folder: folder.clone(), problems: problems.len() })
     }
+}
+
+/// Reads the manifest of a dataset, which has to be a file: nothing is waited for.
+///
+/// # Errors
+/// If it is none, or cannot be used.
+pub fn manifest(folder: &Path) -> Result<Manifest, FileError> {
+    let file = folder.join(MANIFEST_FILE);
+    let problem = match fs::symlink_metadata(&file) {
+        Ok(about) if about.is_file() => return Manifest::read(&file),
+        Ok(about) if about.is_symlink() => Problem::Link,
+        Ok(_) => Problem::NoFile,
+        Err(error) => Problem::Unreadable(error),
+    };
+    Err(FileError { file, problem })
 }
 
 /// Everything that is wrong with a dataset. Deeper checks are made of what no cheaper one has found wrong.

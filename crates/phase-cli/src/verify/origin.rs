@@ -1,6 +1,6 @@
 //! What a dataset's preset and seed make of each of its events: variant, split, seed, scene, and that the event shows its label.
 
-use super::options::Checks;
+use super::{derived::command, options::Checks};
 use crate::{
     engine::{GENERATOR, attempt_seed},
     error::CliError,
@@ -18,7 +18,6 @@ use phase_dataset::{
     FileError, Problem,
     acceptance::Acceptance,
     event_set::member_id,
-    json,
     manifest::{CARD_FILE, EventEntry, MANIFEST_FILE, Manifest},
 };
 use phase_event::Event;
@@ -42,17 +41,6 @@ struct Slot {
     index: usize,
     /// The place among the events of a set, in the order of their names.
     member: usize,
-}
-
-/// The command that made a dataset, as its card has it.
-///
-/// # Errors
-/// If the card cannot be read.
-pub(super) fn command(folder: &Path) -> Result<Option<String>, FileError> {
-    let text = json::bytes(&folder.join(CARD_FILE))?;
-    let text = String::from_utf8_lossy(&text);
-    let command = text.split("```sh\n").nth(1).and_then(|rest| rest.split("\n```").next());
-    Ok(command.map(String::from))
 }
 
 /// The command line in a card.

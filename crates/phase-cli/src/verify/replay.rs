@@ -16,7 +16,6 @@ use phase_dataset::{
     FileError, Problem,
     checksum::{FileEntry, sha256_hex},
     event_set::SetEntry,
-    json,
     manifest::{EventEntry, Manifest},
     phase_events,
 };

@@ -40,7 +40,7 @@ fn the_folder_holds_what_it_promises() {
     let kinds: Vec<&str> = manifest.events.iter().map(|event| event.kind.name()).collect();
     assert_eq!(kinds, ["helping", "hindering", "chasing"]);
     for entry in &manifest.events {
-        let bytes = fs::read(out.join(&entry.event.path)).expect("an event file");
+        let bytes = fs::read(entry.event.place(&out)).expect("an event file");
         let events: Vec<Recording> = parse(&bytes).expect("a good event file");
         assert_eq!(events.len(), 1);
         let simulation = events[0].simulation.as_ref().expect("a simulation");
@@ -48,7 +48,7 @@ fn the_folder_holds_what_it_promises() {
         assert_eq!(simulation.event.steps.len(), 4);
         events[0].scene.validate_without_overlap().expect("nothing overlaps at the start");
         let video = entry.video.as_ref().expect("a video");
-        let video = fs::read(out.join(&video.path)).expect("its file");
+        let video = fs::read(video.place(&out)).expect("its file");
         assert_eq!(&video[4..8], b"ftyp");
     }
     let page = fs::read_to_string(out.join("index.html")).expect("a page");

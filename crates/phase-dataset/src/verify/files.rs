@@ -27,9 +27,13 @@ pub(super) fn manifest(folder: &Path, manifest: &Manifest, problems: &mut Vec<Fi
         Err(error) => fail(MANIFEST_FILE, Problem::Encode(error)),
     }
     let digest = folder.join(DIGEST_FILE);
-    let is_file = fs::symlink_metadata(&digest).is_ok_and(|about| about.is_file());
-    match fs::read(&digest) {
-        _ if !is_file => fail(DIGEST_FILE, Problem::Unlisted),
+    // What is there, but no file, is reported with all such things.
+    let about = fs::symlink_metadata(&digest);
+    if about.as_ref().is_ok_and(|about| !about.is_file()) {
+        return;
+    }
+    match about.and_then(|_| fs::read(&digest)) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => fail(DIGEST_FILE, Problem::Unlisted),
         Ok(line) if line == digest_line(&sha256_hex(&bytes)).as_bytes() => {}
         Ok(_) => fail(DIGEST_FILE, Problem::Differs(format!("the digest of {MANIFEST_FILE}"))),
         Err(error) => fail(DIGEST_FILE, Problem::Unreadable(error)),

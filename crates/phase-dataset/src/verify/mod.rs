@@ -57,7 +57,8 @@ pub fn verify_with<E>(
     let files = files::listed(folder, manifest, &mut problems);
     problems.extend(events::names(folder, manifest));
     let mut broken: BTreeSet<&str> = BTreeSet::new();
-    files::foreign(folder, &files, &mut broken, &mut problems);
+    let mut foreign = Vec::new();
+    files::foreign(folder, &files, &mut broken, &mut foreign);
     let entries: Vec<&FileEntry> = files.values().copied().collect();
     let answers = run(entries.len(), &|k| {
         let is_file = !broken.contains(entries[k].path.as_str());
@@ -69,6 +70,7 @@ pub fn verify_with<E>(
         broken.extend(problem.is_some().then_some(entry.path.as_str()));
         problems.extend(problem);
     }
+    problems.extend(foreign);
     let answers = run(manifest.events.len(), &|k| {
         let entry = &manifest.events[k];
         let whole = entry.files().all(|file| !broken.contains(file.path.as_str()));
