@@ -13,7 +13,9 @@ use crate::{
     fit_minds::{self, options::FitMinds},
     fit_reports::{self, options::FitReports},
     golden::{self, GoldenOptions},
-    tidy, wasm,
+    tidy,
+    torture::{self, Torture},
+    wasm,
 };
 use clap::{Parser, Subcommand};
 use phase_cli::{
@@ -62,6 +64,8 @@ pub enum Command {
     Golden(GoldenOptions),
     /// Check the project rules that the compiler cannot
     Tidy,
+    /// Stop commands while they write, and check that nothing is lost
+    Torture(Torture),
 }
 
 impl Interface for Cli {
@@ -90,6 +94,7 @@ impl Interface for Cli {
             Command::FitReports(arguments) => fit_reports::run(arguments),
             Command::Golden(options) => golden::run(options),
             Command::Tidy => tidy::run(),
+            Command::Torture(arguments) => torture::run(arguments, context),
         }
     }
 }

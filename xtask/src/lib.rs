@@ -33,6 +33,7 @@ pub mod golden;
 pub mod json_file;
 mod rooms;
 pub mod tidy;
+pub mod torture;
 pub mod wasm;
 
 use clap::CommandFactory;

@@ -167,7 +167,7 @@ fn of_files(folder: &Path, ids: &[String], context: &Context) -> Result<EventInp
     let mut known = BTreeSet::new();
     for file in files {
         for (_, recording) in read(&file, &[], context)? {
-            if !known.insert(recording.id.clone()) {
+            if !known.insert(recording.id.to_ascii_lowercase()) {
                 let (file, id) = (file.display(), &recording.id);
                 return Err(CliError::Usage(format!(
                     "{file}: another file of the folder has an event {id}, too"

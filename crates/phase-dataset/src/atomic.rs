@@ -1,6 +1,6 @@
 //! Files that are complete or absent: written to a temporary file, synced, renamed.
 
-use crate::WriteError;
+use crate::{WriteError, fault};
 use serde::Serialize;
 use std::{
     ffi::OsString,
@@ -45,7 +45,7 @@ pub fn write_json_line(path: &Path, value: &impl Serialize) -> Result<(), WriteE
 /// # Errors
 /// If it exists and cannot be removed.
 pub fn remove(path: &Path) -> Result<(), WriteError> {
-    match fs::remove_file(path) {
+    match fault::step().and_then(|()| fs::remove_file(path)) {
         Err(source) if source.kind() != io::ErrorKind::NotFound => {
             Err(WriteError { path: path.to_owned(), action: "remove the file", source })
         }
@@ -68,7 +68,7 @@ impl AtomicFile {
     /// If no file can be created there.
     pub fn create(path: &Path) -> Result<Self, WriteError> {
         let part = part_path(path);
-        match File::create(&part) {
+        match fault::step().and_then(|()| File::create(&part)) {
             Ok(file) => Ok(Self { path: path.to_owned(), part, writer: Some(BufWriter::new(file)) }),
             Err(source) => Err(error(path, source)),
         }
@@ -89,12 +89,16 @@ impl AtomicFile {
     }
 
     fn finish(&mut self) -> io::Result<()> {
+        fault::step()?;
         if let Some(writer) = self.writer.take() {
             let file = writer.into_inner().map_err(io::IntoInnerError::into_error)?;
             file.sync_all()?;
         }
+        fault::step()?;
         fs::rename(&self.part, &self.path)?;
         sync_folder(&self.path);
+        // Under its name it is there, whatever comes.
+        let _ = fault::step();
         Ok(())
     }
 }

@@ -1,6 +1,6 @@
 //! Output folders: which run they belong to, and that only one run at a time writes into them.
 
-use crate::{WriteError, atomic, error::plain_reason, json};
+use crate::{WriteError, atomic, error::plain_reason, fault, json};
 use serde_json::{Value, json};
 use std::{
     fs::{self, File, OpenOptions, TryLockError},
@@ -182,7 +182,7 @@ fn clear_parts(folder: &Path) {
 }
 
 fn remove(path: &Path, how: impl Fn(&Path) -> io::Result<()>) -> Result<(), WriteError> {
-    match how(path) {
+    match fault::step().and_then(|()| how(path)) {
         Err(source) if source.kind() != io::ErrorKind::NotFound => {
             Err(WriteError { path: path.to_owned(), action: "remove it", source })
         }

@@ -1,10 +1,9 @@
 //! The dataset that is edited, and copies of it.
 
-use crate::{cli::Cli, error::XtaskError};
-use clap::Parser;
+use crate::error::XtaskError;
 use phase_cli::{
     context::Context,
-    program::Interface,
+    error::CliError,
     verify::{self, derived},
 };
 use phase_dataset::{
@@ -21,6 +20,7 @@ use std::{
     collections::BTreeMap,
     fs, io,
     path::{Path, PathBuf},
+    process::{Command, Stdio},
 };
 use tempfile::TempDir;
 
@@ -68,19 +68,20 @@ pub(super) struct Original {
 }
 
 impl Original {
-    pub(super) fn make(context: &Context) -> Result<Self, XtaskError> {
+    pub(super) fn make() -> Result<Self, XtaskError> {
         let scratch =
             tempfile::tempdir().map_err(|source| failed(Path::new("."), "create a folder", source))?;
         let preset = scratch.path().join("small.json");
         write(&preset, PRESET.as_bytes())?;
         for (name, seed) in [("original", "7"), ("other", "8")] {
             let out = scratch.path().join(name);
-            let words = ["xtask", "gen-dataset", "--json", "--seed", seed, "--preset"].map(String::from);
-            let places = [preset.display().to_string(), "--out".into(), out.display().to_string()];
-            let words = words.into_iter().chain(places).chain(OPTIONS.map(String::from));
-            let parsed = Cli::try_parse_from(words);
-            let parsed = parsed.map_err(|error| phase_cli::error::CliError::Usage(error.to_string()))?;
-            parsed.run(context)?;
+            let mut command = Command::new(std::env::current_exe().map_err(XtaskError::Cargo)?);
+            command.args(["gen-dataset", "--quiet", "--seed", seed, "--preset"]).arg(&preset);
+            command.arg("--out").arg(&out).args(OPTIONS).stdout(Stdio::null());
+            if !command.status().map_err(XtaskError::Cargo)?.success() {
+                let problem = "the dataset to be edited cannot be made".into();
+                return Err(XtaskError::Build { what: "gen-dataset", problem });
+            }
         }
         let digest = FileEntry::of(&scratch.path().join("original"), MANIFEST_FILE).map_err(cli)?.sha256;
         Ok(Self { scratch, digest })
@@ -157,9 +158,10 @@ impl Copy {
     /// The event of an entry.
     pub(super) fn recording(&self, entry: &EventEntry) -> Result<Recording, XtaskError> {
         let recordings = phase_events::read(&entry.event.place(&self.path())).map_err(cli)?;
-        recordings.into_iter().next().ok_or_else(|| {
-            phase_cli::error::CliError::Usage(format!("{}: holds no event", entry.event.path)).into()
-        })
+        recordings
+            .into_iter()
+            .next()
+            .ok_or_else(|| CliError::Usage(format!("{}: holds no event", entry.event.path)).into())
     }
 
     /// Some event.
@@ -278,10 +280,10 @@ pub(super) fn failed(path: &Path, action: &'static str, source: io::Error) -> Xt
     output(WriteError { path: path.to_owned(), action, source }).into()
 }
 
-fn output(error: WriteError) -> phase_cli::error::CliError {
-    phase_cli::error::CliError::Output(error)
+fn output(error: WriteError) -> CliError {
+    CliError::Output(error)
 }
 
-pub(super) fn cli(error: phase_dataset::FileError) -> phase_cli::error::CliError {
+pub(super) fn cli(error: phase_dataset::FileError) -> CliError {
     error.into()
 }

@@ -83,7 +83,7 @@ pub fn run(arguments: &CheckVerify, context: &Context) -> Result<(), XtaskError>
     if kinds.is_empty() {
         return Err(CliError::Usage("--only: no kind of edit has such a name".into()).into());
     }
-    let original = Original::make(&context.quiet())?;
+    let original = Original::make()?;
     let count = arguments.edits as usize;
     let progress = context.progress_over(&format!("{count} edits"), count);
     let mut counts = vec![[0; Found::ALL.len()]; kinds.len()];

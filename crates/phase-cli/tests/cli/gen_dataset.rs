@@ -17,7 +17,7 @@ fn results_do_not_depend_on_the_number_of_jobs() {
     succeed(path, &generate("one", &["--jobs", "1"]));
     succeed(path, &generate("two", &["--jobs", "2"]));
     let (one, two) = (tree(&path.join("one")), tree(&path.join("two")));
-    assert_eq!(one.len(), 6 + 2 * 3);
+    assert_eq!(one.len(), 7 + 2 * 3);
     assert!(
         one == two,
         "{:?}",
@@ -127,10 +127,10 @@ fn the_engine_is_recorded_and_kept_to() {
     assert!(tree(&path.join("forward")) == forward);
 
     // Before there was a choice, nothing was recorded.
-    let file = path.join("world/manifest.json");
-    let mut manifest = Manifest::read(&file).expect("a manifest");
+    let world = path.join("world");
+    let mut manifest = Manifest::read(&world.join("manifest.json")).expect("a manifest");
     manifest.settings.as_object_mut().expect("settings").remove("engine").expect("an engine");
-    manifest.write(&file).expect("written");
+    manifest.write(&world).expect("written");
     assert!(succeed(path, &generate("world", &["--engine", "world"])).contains("already"));
     refuse(path, &generate("world", &["--engine", "forward"]));
 }

@@ -1,0 +1,193 @@
+//! The commands that are tortured.
+
+/// A command, what it needs, and what it makes.
+pub(super) struct Job {
+    pub(super) name: &'static str,
+    /// Commands that make its input, run once in the folder that `{in}` stands for.
+    pub(super) prepare: &'static [&'static [&'static str]],
+    /// The command. It writes into `out`, in a folder of its own.
+    pub(super) command: &'static [&'static str],
+    /// Files that are the same in every run; all of them if none is named. Measured times differ.
+    pub(super) same: &'static [&'static str],
+}
+
+/// Three events that take a moment.
+const EVENTS: &[&str] = &[
+    "gen-dataset",
+    "--events",
+    "3",
+    "--simulations",
+    "20",
+    "--particles",
+    "6",
+    "--max-steps",
+    "4",
+    "--out",
+    "data",
+];
+/// A dataset that is divided, as its preset says.
+const DIVIDED: &[&str] = &[
+    "gen-dataset",
+    "--preset",
+    "divided.json",
+    "--simulations",
+    "20",
+    "--particles",
+    "6",
+    "--max-steps",
+    "4",
+    "--no-video",
+    "--out",
+    "data",
+];
+/// The preset of that dataset, which is written before.
+pub(super) const PRESET: (&str, &str) = (
+    "divided.json",
+    r#"{"format": "phase-preset/3", "name": "divided", "seed": 1, "layouts": {"all": [0, 4, 8, 12]},
+    "groups": [{"variant": "places", "split": "train", "layouts": "all", "events": 3},
+               {"variant": "places", "split": "validation", "layouts": "all", "events": 1},
+               {"variant": "chase", "split": "test", "layouts": "all", "events": 2}]}"#,
+);
+
+pub(super) const JOBS: [Job; 8] = [
+    Job {
+        name: "gen-dataset",
+        prepare: &[],
+        command: &[
+            "gen-dataset",
+            "--events",
+            "3",
+            "--simulations",
+            "20",
+            "--particles",
+            "6",
+            "--max-steps",
+            "4",
+            "--jobs",
+            "2",
+            "--out",
+            "out",
+        ],
+        same: &[],
+    },
+    Job {
+        name: "gen-dataset --shard",
+        prepare: &[],
+        command: &[
+            "gen-dataset",
+            "--events",
+            "4",
+            "--simulations",
+            "20",
+            "--particles",
+            "6",
+            "--max-steps",
+            "4",
+            "--shard",
+            "1/2",
+            "--out",
+            "out",
+        ],
+        same: &[],
+    },
+    Job {
+        name: "merge",
+        prepare: &[
+            &[
+                "gen-dataset",
+                "--events",
+                "4",
+                "--simulations",
+                "20",
+                "--particles",
+                "6",
+                "--max-steps",
+                "4",
+                "--shard",
+                "1/2",
+                "--out",
+                "one",
+            ],
+            &[
+                "gen-dataset",
+                "--events",
+                "4",
+                "--simulations",
+                "20",
+                "--particles",
+                "6",
+                "--max-steps",
+                "4",
+                "--shard",
+                "2/2",
+                "--out",
+                "two",
+            ],
+        ],
+        command: &["merge", "{in}/one", "{in}/two", "--out", "out"],
+        same: &[],
+    },
+    Job {
+        name: "simulate",
+        prepare: &[&["new-scene", "--kind", "chasing", "--out", "scene.json"]],
+        command: &[
+            "simulate",
+            "--events",
+            "{in}/scene.json",
+            "--seeds",
+            "3",
+            "--simulations",
+            "20",
+            "--particles",
+            "6",
+            "--max-steps",
+            "4",
+            "--out",
+            "out",
+        ],
+        same: &[],
+    },
+    Job {
+        name: "export",
+        prepare: &[EVENTS],
+        command: &["export", "{in}/data", "--events-per-file", "1", "--out", "out"],
+        same: &[],
+    },
+    Job {
+        name: "eval",
+        prepare: &[DIVIDED],
+        command: &["eval", "goals", "--method", "cue", "--events", "{in}/data", "--out", "out"],
+        same: &["results.json"],
+    },
+    Job {
+        name: "benchmark",
+        prepare: &[DIVIDED],
+        command: &[
+            "benchmark",
+            "--data",
+            "{in}/data",
+            "--methods",
+            "cue,chance,still",
+            "--evaluations",
+            "out/eval",
+            "--out",
+            "out/report",
+        ],
+        same: &["report/benchmark.json"],
+    },
+    Job {
+        name: "train",
+        prepare: &[DIVIDED],
+        command: &[
+            "train",
+            "social-lstm",
+            "--data",
+            "{in}/data",
+            "--rounds",
+            "2",
+            "--out",
+            "out/weights.safetensors",
+        ],
+        same: &["weights.safetensors"],
+    },
+];
