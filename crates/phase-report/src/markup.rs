@@ -22,12 +22,15 @@ pub fn escape(text: &str) -> String {
 #[must_use]
 pub fn escape_markdown(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
-    for letter in text.chars() {
+    let mut letters = text.chars().peekable();
+    while let Some(letter) = letters.next() {
         match letter {
             '<' => safe.push_str("&lt;"),
             '>' => safe.push_str("&gt;"),
             '&' => safe.push_str("&amp;"),
-            '\\' | '`' | '*' | '[' | ']' | '|' => safe.extend(['\\', letter]),
+            '\\' | '`' | '*' | '|' => safe.extend(['\\', letter]),
+            // Other brackets, such as those of intervals, are no links.
+            ']' if matches!(letters.peek(), Some('(' | '[' | ':')) => safe.push_str("\\]"),
             letter if letter.is_control() || matches!(letter, '\u{2028}' | '\u{2029}') => safe.push(' '),
             letter => safe.push(letter),
         }

@@ -7,8 +7,10 @@ pub(super) struct Job {
     pub(super) prepare: &'static [&'static [&'static str]],
     /// The command. It writes into `out`, in a folder of its own.
     pub(super) command: &'static [&'static str],
-    /// Files that are the same in every run; all of them if none is named. Measured times differ.
+    /// Files that are the same in every run, but for CPU times in them; all of them if none is named. Others have measured times.
     pub(super) same: &'static [&'static str],
+    /// A file that is there only until the command has finished.
+    pub(super) meanwhile: Option<&'static str>,
 }
 
 /// Three events that take a moment.
@@ -31,11 +33,11 @@ const DIVIDED: &[&str] = &[
     "--preset",
     "divided.json",
     "--simulations",
-    "20",
+    "8",
     "--particles",
-    "6",
-    "--max-steps",
     "4",
+    "--max-steps",
+    "24",
     "--no-video",
     "--out",
     "data",
@@ -69,6 +71,7 @@ pub(super) const JOBS: [Job; 8] = [
             "out",
         ],
         same: &[],
+        meanwhile: None,
     },
     Job {
         name: "gen-dataset --shard",
@@ -89,6 +92,7 @@ pub(super) const JOBS: [Job; 8] = [
             "out",
         ],
         same: &[],
+        meanwhile: None,
     },
     Job {
         name: "merge",
@@ -126,6 +130,7 @@ pub(super) const JOBS: [Job; 8] = [
         ],
         command: &["merge", "{in}/one", "{in}/two", "--out", "out"],
         same: &[],
+        meanwhile: None,
     },
     Job {
         name: "simulate",
@@ -146,18 +151,21 @@ pub(super) const JOBS: [Job; 8] = [
             "out",
         ],
         same: &[],
+        meanwhile: None,
     },
     Job {
         name: "export",
         prepare: &[EVENTS],
         command: &["export", "{in}/data", "--events-per-file", "1", "--out", "out"],
         same: &[],
+        meanwhile: None,
     },
     Job {
         name: "eval",
         prepare: &[DIVIDED],
         command: &["eval", "goals", "--method", "cue", "--events", "{in}/data", "--out", "out"],
         same: &["results.json"],
+        meanwhile: None,
     },
     Job {
         name: "benchmark",
@@ -174,6 +182,7 @@ pub(super) const JOBS: [Job; 8] = [
             "out/report",
         ],
         same: &["report/benchmark.json"],
+        meanwhile: None,
     },
     Job {
         name: "train",
@@ -189,5 +198,6 @@ pub(super) const JOBS: [Job; 8] = [
             "out/weights.safetensors",
         ],
         same: &["weights.safetensors"],
+        meanwhile: Some("weights.safetensors.checkpoint"),
     },
 ];

@@ -5,6 +5,7 @@ use crate::error::XtaskError;
 use core::fmt;
 use phase_cli::error::CliError;
 use phase_dataset::{WriteError, atomic, fault};
+use serde_json::Value;
 use std::{
     collections::BTreeMap,
     fs, io,
@@ -172,31 +173,49 @@ impl Ground {
         Ok(low.max(1))
     }
 
-    fn is_compared(&self, name: &str) -> bool {
-        self.job.same.is_empty() || self.job.same.contains(&name)
+    /// Whether a file is what an undisturbed run writes.
+    fn is_whole(&self, name: &str, bytes: &[u8]) -> bool {
+        let Some(whole) = self.whole.get(name) else { return false };
+        let is_compared = self.job.same.is_empty() || self.job.same.contains(&name);
+        !is_compared
+            || whole == bytes
+            || without_times(whole).is_some_and(|it| Some(it) == without_times(bytes))
     }
 
     /// A file under its own name that is not what a whole run writes there.
     pub(super) fn damaged(&self, place: &TempDir) -> Result<Option<String>, XtaskError> {
         let found = tree(&place.path().join("out"))?;
         let visible = found.iter().filter(|(name, _)| !name.split('/').any(|part| part.starts_with('.')));
-        let wrong = |name: &str, bytes: &Vec<u8>| match self.whole.get(name) {
-            Some(whole) => self.is_compared(name) && whole != bytes,
-            None => true,
-        };
-        Ok(visible.filter(|(name, bytes)| wrong(name, bytes)).map(|(name, _)| name.clone()).next())
+        let mut wrong = visible.filter(|(name, bytes)| {
+            self.job.meanwhile.is_none_or(|expected| expected != *name) && !self.is_whole(name, bytes)
+        });
+        Ok(wrong.next().map(|(name, _)| name.clone()))
     }
 
     /// A file that differs from what a whole run leaves, or is missing or extra.
     pub(super) fn different(&self, place: &TempDir) -> Result<Option<String>, XtaskError> {
         let found = tree(&place.path().join("out"))?;
         let missing = self.whole.keys().find(|name| !found.contains_key(*name));
-        let other = found.iter().find(|(name, bytes)| match self.whole.get(*name) {
-            Some(whole) => self.is_compared(name) && whole != *bytes,
-            None => true,
-        });
+        let other = found.iter().find(|(name, bytes)| !self.is_whole(name, bytes));
         Ok(missing.or(other.map(|(name, _)| name)).cloned())
     }
+}
+
+/// A JSON file without the CPU times in it; `None` for other files.
+fn without_times(bytes: &[u8]) -> Option<Value> {
+    fn remove(value: &mut Value) {
+        match value {
+            Value::Array(items) => items.iter_mut().for_each(remove),
+            Value::Object(members) => {
+                members.retain(|name, _| !name.starts_with("cpu_seconds"));
+                members.values_mut().for_each(remove);
+            }
+            _ => {}
+        }
+    }
+    let mut value = serde_json::from_slice(bytes).ok()?;
+    remove(&mut value);
+    Some(value)
 }
 
 /// This program.

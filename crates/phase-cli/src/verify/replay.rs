@@ -50,7 +50,7 @@ pub(super) fn problems(
     problems.extend(over(folder, jobs, manifest.sets.len(), |k| set(folder, manifest, &manifest.sets[k]))?);
     drop(progress);
     if problems.is_empty() {
-        problems = derived::problems(folder, manifest, context)?;
+        problems = derived::problems(folder, manifest, &context.quiet())?;
     }
     Ok(problems)
 }

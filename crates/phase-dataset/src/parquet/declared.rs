@@ -29,7 +29,7 @@ mod field {
 /// The rule that is violated.
 pub(super) fn check_description(file: &mut File) -> Result<()> {
     let length = file.metadata().map_err(|error| error.to_string())?.len();
-    let tail = bytes(file, length.saturating_sub(TAIL), TAIL.min(length))?;
+    let tail = bytes(file, length.saturating_sub(TAIL), TAIL)?;
     let Some((count, _)) = tail.split_first_chunk() else { return Err("it is too short".into()) };
     let count = u64::from(u32::from_le_bytes(*count));
     let begins = length.saturating_sub(TAIL).checked_sub(count);
