@@ -64,6 +64,7 @@ pub fn run(arguments: &Export, context: &Context) -> Result<(), CliError> {
         Contents::Finished => {
             let index: Value = phase_dataset::json::read(&out.join(INDEX_FILE))?;
             check_same(out, "a finished", &index["run"], &run)?;
+            folder::remove_leftovers(out, &run)?;
             return announce(arguments, &index, false);
         }
         Contents::Unfinished(other) => {

@@ -159,10 +159,15 @@ impl Folder {
     }
 }
 
-/// Whether a finished folder still contains files that served its run.
-#[must_use]
-pub fn has_leftovers(path: &Path) -> bool {
-    [MARKER, LOCK, CACHE].iter().any(|name| path.join(name).exists())
+/// Removes from a finished folder what a run that was stopped at its very end has left there.
+///
+/// # Errors
+/// [`FolderError::NotWritable`] or [`FolderError::Busy`].
+pub fn remove_leftovers(path: &Path, run: &Value) -> Result<(), FolderError> {
+    if [MARKER, LOCK, CACHE].iter().any(|name| path.join(name).exists()) {
+        Folder::claim(path, run)?.finish()?;
+    }
+    Ok(())
 }
 
 fn marker(path: &Path) -> Option<Value> {

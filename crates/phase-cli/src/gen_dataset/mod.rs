@@ -149,9 +149,7 @@ fn keep_finished(
     (what, events): (&str, usize),
     output: Output,
 ) -> Result<(), CliError> {
-    if folder::has_leftovers(out) {
-        Folder::claim(out, run)?.finish()?;
-    }
+    folder::remove_leftovers(out, run)?;
     let text = format!("{} holds this {what} already; all {events} events are whole\n", out.display());
     let value = json!({ "folder": out, "events": events, "page": page(out), "new": false });
     output.print(text + &page_line(out), &value)
