@@ -19,6 +19,7 @@
 pub mod check_behaviour;
 pub mod check_minds;
 pub mod check_physics;
+pub mod check_verify;
 pub mod cli;
 pub mod draw_behaviour;
 pub mod error;
@@ -32,6 +33,7 @@ pub mod golden;
 pub mod json_file;
 mod rooms;
 pub mod tidy;
+pub mod torture;
 pub mod wasm;
 
 use clap::CommandFactory;

@@ -114,10 +114,13 @@ impl<'a> World<'a> {
         Some(place.distance(self.motions[held].centre))
     }
 
-    /// Writes the bodies and grips into a state, whose contacts are not changed.
+    /// Writes the bodies and grips into a state, whose contacts are not changed. Origins lie inside the arena, as in the reference
+    /// world: an agent's is ahead of its centre of mass, which alone is contained while bodies move.
     pub(crate) fn write(&self, state: &mut State) {
         for index in 0..self.model.count {
-            state.bodies[index] = self.motions[index].body(&self.model.shapes[index]);
+            let body = &mut state.bodies[index];
+            *body = self.motions[index].body(&self.model.shapes[index]);
+            body.position = body.position.clamp(arena::MIN, arena::MAX);
         }
         state.grips = self.grips;
     }

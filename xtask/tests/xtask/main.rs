@@ -3,9 +3,11 @@
 mod check_behaviour;
 mod check_minds;
 mod check_physics;
+mod check_verify;
 mod commands;
 mod fit_inference;
 mod fit_minds;
 mod fit_reports;
 mod support;
 mod tidy;
+mod torture;

@@ -11,12 +11,8 @@ use phase_dataset::{
 };
 use phase_event::Event;
 use phase_evidence::{Track, selection::Ending};
-use phase_model::{
-    AgentId,
-    random::{self, Purpose},
-};
-use phase_sampler::{Contrast, ContrastRequest, Stance};
-use rand::seq::SliceRandom;
+use phase_model::AgentId;
+use phase_sampler::Stance;
 
 /// The events of a set, in the order of their names.
 pub(super) struct MadeSet {
@@ -34,16 +30,13 @@ impl Slots<'_> {
     ) -> Result<Attempt<MadeSet>, CliError> {
         let id = self.plan.preset.id(index);
         let seed = engine::attempt_seed(self.plan.seed, index, number);
-        let layouts = self.pool(&slot.layouts);
-        let (stances, about, goal_index) = (&slot.stances[..], slot.about, slot.goal_index);
-        let mut random = random::stream(seed, Purpose::Scene, 0);
-        let request = ContrastRequest { stances, about, goal_index, layouts };
-        let contrast = Contrast::sample(&request, &mut random)?;
+        let (stances, about) = (&slot.stances[..], slot.about);
+        let contrast = self.scenes.contrast(slot, seed)?;
         let mut members = Vec::with_capacity(stances.len());
         let mut to_compare = Vec::new();
         for (&stance, scene) in stances.iter().zip(&contrast.scenes) {
             let variant = stance.variant(about);
-            let settings = self.settings(scene, seed, index);
+            let settings = self.scenes.settings(scene.relation(), seed, index);
             let Some(event) = self.simulate(&id, scene, seed, &settings)? else {
                 return Ok(Attempt::Interrupted);
             };
@@ -60,7 +53,7 @@ impl Slots<'_> {
         for (k, counterfactual) in to_compare {
             let (stance, event): &(Stance, Event) = &members[k];
             if !idle.iter().any(|(agent, _)| *agent == counterfactual.idle) {
-                let settings = self.settings(&event.scene, seed, index);
+                let settings = self.scenes.settings(event.scene.relation(), seed, index);
                 let Some(track) = self.without(&id, event, &counterfactual, &settings)? else {
                     return Ok(Attempt::Interrupted);
                 };
@@ -72,9 +65,7 @@ impl Slots<'_> {
                 }
             }
         }
-        // The order of names reveals nothing.
-        let slot_seed = engine::event_seed(self.plan.seed, index);
-        members.shuffle(&mut random::stream(slot_seed, Purpose::Scene, 0));
+        self.scenes.order(index, &mut members);
         Ok(Attempt::Accepted(MadeSet { changed: contrast.changed, members }))
     }
 

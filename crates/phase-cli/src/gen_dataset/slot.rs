@@ -1,6 +1,6 @@
 //! Filling one slot of a dataset: scenes are tried one after the other until one shows its label.
 
-use super::plan::Plan;
+use super::{plan::Plan, scenes::Scenes};
 use crate::{
     console,
     context::Context,
@@ -13,7 +13,7 @@ use core::ops::ControlFlow;
 use phase_dataset::{
     FileError,
     acceptance::Refusal,
-    composition::{BlockPlace, EventSlot, manner_of},
+    composition::{EventSlot, manner_of},
     folder::Folder,
     manifest::{EventEntry, event_path, video_path},
     preset::{Ends, Selection},
@@ -24,26 +24,10 @@ use phase_evidence::{
     Track,
     selection::{Counterfactual, Ending, RejectionReason, check_event},
 };
-use phase_model::{
-    Layout, Scene,
-    random::{self, Purpose},
-};
-use phase_sampler::{Part, Request, SampleError, Stage};
+use phase_model::Scene;
+use phase_sampler::Variant;
 use phase_sim::SimulationSettings;
-use std::{
-    collections::BTreeMap,
-    path::PathBuf,
-    sync::{Mutex, PoisonError},
-    time::Instant,
-};
-
-/// Attempts on one stage before another is drawn: there are several assignments of roles and many seeds, and a stage that
-/// some variant rejects is a stage that the others of its block have alone.
-const ATTEMPTS_PER_STAGE: usize = 3;
-/// Maximum number of stages kept.
-const MAX_STAGES: usize = 1000;
-/// Layouts from one block to the next. Coprime to the sizes of the pools of bundled presets: blocks that follow one another have different base layouts.
-const LAYOUT_STRIDE: usize = 11;
+use std::{path::PathBuf, time::Instant};
 
 /// The slots of a dataset that is being generated in a folder.
 #[derive(Debug)]
@@ -51,9 +35,7 @@ pub struct Slots<'a> {
     pub(super) plan: &'a Plan,
     pub(super) folder: &'a Folder,
     pub(super) event_writer: EventWriter,
-    pools: BTreeMap<String, Vec<Layout>>,
-    /// Stages by block and number, which all slots of a block draw alike.
-    stages: Mutex<BTreeMap<(usize, usize), Stage>>,
+    pub(super) scenes: Scenes<'a>,
     context: Context,
 }
 
@@ -70,10 +52,9 @@ impl<'a> Slots<'a> {
     /// # Errors
     /// [`CliError::Serialise`].
     pub fn new(plan: &'a Plan, folder: &'a Folder, count: usize, context: Context) -> Result<Self, CliError> {
-        let pools = plan.preset.layouts.keys().map(|name| (name.clone(), plan.preset.pool(name))).collect();
         let activity = format!("making {}", console::events(count));
         let event_writer = EventWriter::new(&context, &activity, folder, plan.settings, count)?;
-        Ok(Self { plan, folder, event_writer, pools, stages: Mutex::default(), context })
+        Ok(Self { plan, folder, event_writer, scenes: Scenes::of(plan), context })
     }
 
     /// Fills a slot, resuming where an earlier run stopped; `None` if interrupted. After every attempt the
@@ -148,17 +129,14 @@ impl<'a> Slots<'a> {
         number: usize,
     ) -> Result<Attempt<Event>, CliError> {
         let seed = engine::attempt_seed(self.plan.seed, index, number);
-        let scene = self.scene(slot, seed, number)?;
-        let settings = self.settings(&scene, seed, index);
+        let scene = self.scenes.scene(slot, seed, number)?;
+        let settings = self.scenes.settings(scene.relation(), seed, index);
         let Some(event) = self.simulate(id, &scene, seed, &settings)? else {
             return Ok(Attempt::Interrupted);
         };
         let Some(selection) = &self.plan.preset.selection else { return Ok(Attempt::Accepted(event)) };
         let refused = |reason| Attempt::Refused(Refusal { variant: slot.variant, reason });
-        let ending = match selection.ends {
-            Ends::Settled | Ends::AdversarialDrawn => Ending::Settled,
-            Ends::Drawn => Ending::Drawn(manner_of(slot.variant)),
-        };
+        let ending = ending(selection, slot.variant);
         // Cheap tests first; the counterfactual has to be simulated and comes last.
         let counterfactual = match check(&event, selection, ending) {
             Err(reason) => return Ok(refused(reason)),
@@ -187,58 +165,6 @@ impl<'a> Slots<'a> {
         Ok(without.map(|event| Track::of_event(&event)))
     }
 
-    /// The layouts of a name.
-    pub(super) fn pool(&self, name: &str) -> &[Layout] {
-        self.pools.get(name).map_or(&[][..], Vec::as_slice)
-    }
-
-    /// The scene of an attempt: with bodies of its own, or cast on the stage of its block.
-    fn scene(&self, slot: &EventSlot, seed: u64, number: usize) -> Result<Scene, SampleError> {
-        let layouts = self.pool(&slot.layouts);
-        let mut random = random::stream(seed, Purpose::Scene, 0);
-        let (variant, goal_index) = (slot.variant, slot.goal_index);
-        let Some(place) = slot.block else {
-            return phase_sampler::sample(&Request { variant, goal_index, layouts }, &mut random);
-        };
-        let stage = self.stage(place, layouts, number / ATTEMPTS_PER_STAGE)?;
-        stage.scene(Part { variant, goal_index }, &mut random)
-    }
-
-    /// A stage of a block, by its number.
-    fn stage(&self, place: BlockPlace, layouts: &[Layout], number: usize) -> Result<Stage, SampleError> {
-        let stages = || self.stages.lock().unwrap_or_else(PoisonError::into_inner);
-        let key = (place.block, number);
-        if let Some(stage) = stages().get(&key) {
-            return Ok(stage.clone());
-        }
-        let parts = self.plan.composition.parts(place);
-        let block = random::derive_seed(self.plan.seed, Purpose::Stage, place.block as u64);
-        let mut random = random::stream(block, Purpose::Stage, number as u64);
-        // Blocks begin with different layouts, so that all are used.
-        let mut layouts = layouts.to_vec();
-        let turn = (place.block + number) * LAYOUT_STRIDE % layouts.len().max(1);
-        layouts.rotate_left(turn);
-        let stage = Stage::sample(&parts, &layouts, &mut random)?;
-        let mut stages = stages();
-        if stages.len() == MAX_STAGES {
-            // Blocks are filled nearly in order, so the first are the least likely to be needed again.
-            stages.pop_first();
-        }
-        stages.insert(key, stage.clone());
-        Ok(stage)
-    }
-
-    /// The run's settings, with a sampled length if the preset requires it.
-    pub(super) fn settings(&self, scene: &Scene, seed: u64, index: usize) -> SimulationSettings {
-        let mut settings = self.plan.settings;
-        let slot = engine::event_seed(self.plan.seed, index);
-        let selection = self.plan.preset.selection;
-        if let Some((min, max)) = selection.and_then(|it| it.sampled_length(scene.relation(), seed, slot)) {
-            (settings.min_steps, settings.max_steps) = (settings.min_steps.max(min), max);
-        }
-        settings
-    }
-
     pub(super) fn simulate(
         &self,
         id: &str,
@@ -255,7 +181,7 @@ impl<'a> Slots<'a> {
     /// Writes the files of an accepted event.
     pub(super) fn keep(&self, id: &str, index: usize, event: &Event) -> Result<EventEntry, CliError> {
         let out = self.folder.path();
-        let settings = self.settings(&event.scene, event.seed, index);
+        let settings = self.scenes.settings(event.scene.relation(), event.seed, index);
         let job = EventJob {
             id: id.into(),
             seed: event.seed,
@@ -290,8 +216,16 @@ fn record_path(plan: &Plan, folder: &Folder, index: usize) -> PathBuf {
     folder.cache().join(format!("{}.json", plan.preset.id(index)))
 }
 
+/// How an event of a variant ends.
+pub(crate) const fn ending(selection: &Selection, variant: Variant) -> Ending {
+    match selection.ends {
+        Ends::Settled | Ends::AdversarialDrawn => Ending::Settled,
+        Ends::Drawn => Ending::Drawn(manner_of(variant)),
+    }
+}
+
 /// Everything that can be tested on the event alone.
-pub(super) fn check(
+pub(crate) fn check(
     event: &Event,
     selection: &Selection,
     ending: Ending,

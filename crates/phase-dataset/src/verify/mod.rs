@@ -1,23 +1,27 @@
 //! Whether a dataset's folder contains exactly what its manifest lists, and whether its files agree with each
 //! other.
+//!
+//! Nothing is simulated or drawn for this; `docs/explanation/reliability.md` states what can be found in this way and what cannot.
+
+mod events;
+mod files;
+mod video;
 
 use crate::{
     FileError, Problem,
     checksum::FileEntry,
     croissant::{CROISSANT_FILE, checksums},
-    event_set::{PairEntry, SetEntry},
     json,
-    manifest::{CARD_FILE, EventEntry, MANIFEST_FILE, Manifest, PAGE_FILE},
+    manifest::{CARD_FILE, EventEntry, Manifest, PAGE_FILE},
     overview::Overview,
     parquet::{self, ParquetFile},
 };
 use core::convert::Infallible;
-use phase_event::{Event, EventReadError, Recording};
-use phase_model::json::{FieldError, shown};
+use phase_event::EventReadError;
+use phase_model::json::FieldError;
 use serde_json::Value;
 use std::{
     collections::{BTreeMap, BTreeSet},
-    fs, io,
     path::Path,
 };
 
@@ -25,8 +29,9 @@ use std::{
 pub type Check<'a> = dyn Fn(usize) -> Option<FileError> + Sync + 'a;
 
 /// Everything that is wrong with a finished dataset, one error for each problem: files that are missing,
-/// changed or extra, and event files, Parquet files and descriptions that contradict the manifest. The
-/// contents of a damaged file are not checked. Files are read one after the other; besides the manifest, one
+/// changed or extra, links and what is no file, a manifest or events that are not in the form in which they are written, videos
+/// that are cut or of another length than their events, and event files, Parquet files and descriptions that contradict the
+/// manifest. The contents of a damaged file are not checked. Files are read one after the other; besides the manifest, one
 /// group of events is in memory.
 #[must_use]
 pub fn verify(folder: &Path, manifest: &Manifest) -> Vec<FileError> {
@@ -48,23 +53,28 @@ pub fn verify_with<E>(
     run: impl Fn(usize, &Check<'_>) -> Result<Vec<Option<FileError>>, E>,
 ) -> Result<Vec<FileError>, E> {
     let mut problems = Vec::new();
-    let files = listed(folder, manifest, &mut problems);
+    files::manifest(folder, manifest, &mut problems);
+    let files = files::listed(folder, manifest, &mut problems);
+    problems.extend(events::names(folder, manifest));
+    let mut broken: BTreeSet<&str> = BTreeSet::new();
+    let mut foreign = Vec::new();
+    files::foreign(folder, &files, &mut broken, &mut foreign);
     let entries: Vec<&FileEntry> = files.values().copied().collect();
     let answers = run(entries.len(), &|k| {
-        let answer = entries[k].verify(folder).err();
+        let is_file = !broken.contains(entries[k].path.as_str());
+        let answer = is_file.then(|| entries[k].verify(folder).err()).flatten();
         done(1);
         answer
     })?;
-    let mut broken: BTreeSet<&str> = BTreeSet::new();
     for (entry, problem) in entries.iter().zip(answers) {
         broken.extend(problem.is_some().then_some(entry.path.as_str()));
         problems.extend(problem);
     }
-    extra(folder, folder, &files, &mut problems);
+    problems.extend(foreign);
     let answers = run(manifest.events.len(), &|k| {
         let entry = &manifest.events[k];
-        let whole = !broken.contains(entry.event.path.as_str());
-        let answer = whole.then(|| event(folder, entry).err()).flatten();
+        let whole = entry.files().all(|file| !broken.contains(file.path.as_str()));
+        let answer = whole.then(|| events::check(folder, manifest, entry).err()).flatten();
         done(1);
         answer
     })?;
@@ -90,17 +100,18 @@ pub fn verify_with<E>(
     if readable(CROISSANT_FILE) {
         problems.extend(croissant(folder, &files).err());
     }
-    let members = members(manifest);
+    let members = events::members(manifest);
     let sets = run(manifest.sets.len(), &|k| {
         let set = &manifest.sets[k];
         let members = members.get(set.id.as_str()).map_or(&[][..], Vec::as_slice);
-        let whole = members.iter().all(|entry| readable(&entry.event.path));
-        whole.then(|| pairs(folder, set, members).err()).flatten()
+        let whole = members.iter().all(|entry| readable(entry.event.path.as_str()));
+        let video = set.video.as_ref().is_none_or(|video| readable(video.path.as_str()));
+        (whole && video).then(|| events::pairs(folder, set, members).err()).flatten()
     })?;
     problems.extend(sets.into_iter().flatten());
     let with_events = parts.iter().map(|part| (part, part.of(&manifest.events)));
     let whole = |(part, events): &(&ParquetFile, Vec<&EventEntry>)| {
-        readable(&part.path) && events.iter().all(|entry| readable(&entry.event.path))
+        readable(&part.path) && events.iter().all(|entry| readable(entry.event.path.as_str()))
     };
     problems.extend(compare(folder, &with_events.filter(whole).collect::<Vec<_>>(), done, run)?);
     Ok(problems)
@@ -135,114 +146,6 @@ fn compare<E>(
         }
     }
     Ok(found.into_values().collect())
-}
-
-/// The files that the manifest names, by path; every path and every id may be named once.
-fn listed<'a>(
-    folder: &Path,
-    manifest: &'a Manifest,
-    problems: &mut Vec<FileError>,
-) -> BTreeMap<&'a str, &'a FileEntry> {
-    let mut fail = |problem| problems.push(FileError { file: folder.join(MANIFEST_FILE), problem });
-    let mut ids = BTreeSet::new();
-    for event in &manifest.events {
-        if !ids.insert(&event.id) {
-            fail(EventReadError::DuplicateId(event.id.clone()).into());
-        }
-    }
-    let mut files = BTreeMap::new();
-    for file in manifest.all_files() {
-        if files.insert(file.path.as_str(), file).is_some() {
-            fail(Problem::DuplicatePath(file.path.clone()));
-        }
-    }
-    files
-}
-
-/// Files below a folder that the manifest does not name. Links are files here, so nothing outside is looked at.
-fn extra(root: &Path, folder: &Path, files: &BTreeMap<&str, &FileEntry>, problems: &mut Vec<FileError>) {
-    let entries = match fs::read_dir(folder).and_then(Iterator::collect::<io::Result<Vec<_>>>) {
-        Ok(entries) => entries,
-        Err(error) => {
-            let problem = Problem::Unreadable(error);
-            return problems.push(FileError { file: folder.to_owned(), problem });
-        }
-    };
-    let mut paths: Vec<_> = entries.iter().map(|entry| (entry.path(), entry.file_type())).collect();
-    paths.sort_by(|a, b| a.0.cmp(&b.0));
-    for (path, kind) in paths {
-        if kind.is_ok_and(|kind| kind.is_dir()) {
-            extra(root, &path, files, problems);
-            continue;
-        }
-        let parts = path.strip_prefix(root).unwrap_or(&path).components();
-        let name = parts.map(|part| part.as_os_str().to_string_lossy()).collect::<Vec<_>>().join("/");
-        if name != MANIFEST_FILE && !files.contains_key(name.as_str()) {
-            problems.push(FileError { file: path, problem: Problem::Extra });
-        }
-    }
-}
-
-/// Checks that an event's file agrees with the manifest.
-fn event(folder: &Path, entry: &EventEntry) -> Result<(), FileError> {
-    let file = folder.join(&entry.event.path);
-    let recording = parquet::read(folder, entry)?;
-    let fail = |field: &str, rule: String| {
-        let problem = FieldError { field: field.into(), rule };
-        FileError {
-            file: file.clone(),
-            problem: EventReadError::Field { event: Some(recording.id.clone()), problem }.into(),
-        }
-    };
-    let Some(simulation) = &recording.simulation else {
-        return Err(fail("substeps", "is missing".into()));
-    };
-    let (json, video) = (entry.event.clone(), entry.video.clone());
-    let mut found = EventEntry::with_files(&recording.id, &simulation.event, json, video);
-    found.relation = recording.relation;
-    (found.variant, found.split, found.set) = (entry.variant, entry.split, entry.set.clone());
-    let encode = |entry: &EventEntry| {
-        serde_json::to_value(entry)
-            .map_err(|error| FileError { file: file.clone(), problem: Problem::Encode(error) })
-    };
-    let (found, expected) = (encode(&found)?, encode(entry)?);
-    let members = expected.as_object().into_iter().flatten();
-    match members.into_iter().find(|(key, value)| found.get(key.as_str()) != Some(value)) {
-        Some((key, value)) => {
-            let found = found.get(key).map_or_else(String::new, shown);
-            Err(fail(key, format!("is {found}, but the manifest says {}", shown(value))))
-        }
-        None => Ok(()),
-    }
-}
-
-/// The events of each set, in order.
-fn members(manifest: &Manifest) -> BTreeMap<&str, Vec<&EventEntry>> {
-    let mut members: BTreeMap<&str, Vec<&EventEntry>> = BTreeMap::new();
-    for entry in &manifest.events {
-        if let Some(place) = &entry.set {
-            members.entry(&place.set).or_default().push(entry);
-        }
-    }
-    members
-}
-
-/// Checks that the events of a set part where the manifest says.
-fn pairs(folder: &Path, set: &SetEntry, members: &[&EventEntry]) -> Result<(), FileError> {
-    let read = |entry: &&EventEntry| parquet::read(folder, entry);
-    let recordings: Vec<Recording> = members.iter().map(read).collect::<Result<_, _>>()?;
-    let simulated = |recording: &Recording| recording.simulation.as_ref().map(|it| it.event.clone());
-    let events: Vec<(&str, Event)> =
-        recordings.iter().filter_map(|it| Some((it.id.as_str(), simulated(it)?))).collect();
-    let named: Vec<(&str, &Event)> = events.iter().map(|(id, event)| (*id, event)).collect();
-    if PairEntry::all(&named) == set.pairs {
-        return Ok(());
-    }
-    let rule = format!("field `pairs` of the set {} is not what its events show", set.id);
-    Err(FileError {
-        file: folder.join(MANIFEST_FILE),
-        problem: Problem::Shape { what: "dataset manifest", rule },
-    })
 }
 
 /// Checks that the description's checksums are the manifest's.
