@@ -75,15 +75,14 @@ fn alter_at(value: &mut Value, left: &mut usize, texts: &[String], random: &mut 
             return true;
         }
     };
-    let changed = children.into_iter().any(|child| {
+    children.into_iter().any(|child| {
         let here = count(child);
         if *left >= here {
             *left -= here;
             return false;
         }
         alter_at(child, left, texts, random)
-    });
-    changed
+    })
 }
 
 fn altered(leaf: &Value, texts: &[String], random: &mut Pcg64Mcg) -> Value {

@@ -34,6 +34,8 @@ const PRESET: &str = r#"{
     {"variant": "places", "split": "test", "layouts": "all", "events": 1}
   ]
 }"#;
+/// The file that it is written into.
+const PRESET_FILE: &str = "small.json";
 /// Options that make its events quickly.
 const OPTIONS: [&str; 6] = ["--simulations", "30", "--particles", "6", "--max-steps", "6"];
 
@@ -71,7 +73,7 @@ impl Original {
     pub(super) fn make() -> Result<Self, XtaskError> {
         let scratch =
             tempfile::tempdir().map_err(|source| failed(Path::new("."), "create a folder", source))?;
-        let preset = scratch.path().join("small.json");
+        let preset = scratch.path().join(PRESET_FILE);
         write(&preset, PRESET.as_bytes())?;
         for (name, seed) in [("original", "7"), ("other", "8")] {
             let out = scratch.path().join(name);
@@ -89,6 +91,11 @@ impl Original {
 
     fn path(&self) -> PathBuf {
         self.scratch.path().join("original")
+    }
+
+    /// The file of its preset.
+    pub(super) fn preset(&self) -> PathBuf {
+        self.scratch.path().join(PRESET_FILE)
     }
 
     /// A genuine dataset that is not this one.

@@ -131,7 +131,7 @@ fn look(
     if with(Checks::default())? {
         return Ok(Found::Files);
     }
-    if with(Checks { replay: true, ..Checks::default() })? {
+    if with(Checks { replay: true, preset: Some(original.preset()), ..Checks::default() })? {
         return Ok(Found::Replay);
     }
     if with(Checks { resimulate: Some(usize::MAX), ..Checks::default() })? {

@@ -111,11 +111,10 @@ pub fn problems(
     drop(progress);
     std::panic::set_hook(hook);
     let mut problems = problems?;
-    if let Some(expected) = &checks.digest {
-        if FileEntry::of(folder, MANIFEST_FILE)?.sha256 != *expected {
-            let file = folder.join(MANIFEST_FILE);
-            problems.push(FileError { file, problem: Problem::Differs("the digest that was given".into()) });
-        }
+    let digest = FileEntry::of(folder, MANIFEST_FILE)?.sha256;
+    if checks.digest.as_ref().is_some_and(|expected| *expected != digest) {
+        let file = folder.join(MANIFEST_FILE);
+        problems.push(FileError { file, problem: Problem::Differs("the digest that was given".into()) });
     }
     if problems.is_empty() && checks.replay {
         problems = replay::problems(folder, manifest, checks, jobs, context)?;

@@ -39,7 +39,7 @@ pub struct Checks {
     /// Which events --resimulate takes: another seed takes others
     #[arg(long, value_name = "S", default_value_t = 0, value_parser = value_parser!(u64))]
     pub resimulate_seed: u64,
-    /// File of the preset for --replay, if it is not one that comes with the program and not where it was
+    /// File of the preset for --replay, if it is not one that comes with the program
     #[arg(long, value_name = "FILE")]
     pub preset: Option<PathBuf>,
 }

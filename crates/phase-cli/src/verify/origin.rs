@@ -67,8 +67,7 @@ impl Origin {
         let plan = match plan(folder, checks) {
             Ok(Ok(plan)) => plan,
             Ok(Err(error)) => {
-                let what =
-                    format!("what can be replayed: {error} (for the file of a preset there is --preset)");
+                let what = format!("what can be replayed: {error}");
                 return Err(vec![differs(CARD_FILE, what)]);
             }
             Err(rule) => return Err(vec![differs(CARD_FILE, rule)]),
@@ -101,8 +100,33 @@ impl Origin {
                 rules.push(format!("its preset, which has {id} in place of {}", entry.id));
             }
         }
-        if self.plan.composition.set(0).is_none() && rules.is_empty() {
+        if !rules.is_empty() {
+            return rules;
+        }
+        if self.plan.composition.set(0).is_none() {
             rules.extend(self.attempts(manifest));
+        } else {
+            rules.extend(self.sets(manifest));
+        }
+        rules
+    }
+
+    /// The sets whose number of attempts or whose changed agent is not what the seed of their events tells.
+    fn sets(&self, manifest: &Manifest) -> Vec<String> {
+        let scenes = self.scenes();
+        let firsts = self.slots.iter().zip(&manifest.events).filter(|(slot, _)| slot.member == 0);
+        let wrong = firsts.filter_map(|(slot, entry)| {
+            let (id, plan) = (self.plan.preset.id(slot.index), self.plan.composition.set(slot.index)?);
+            let found = manifest.sets.iter().find(|set| set.id == id)?;
+            // Those without a number, or without a scene, are reported as events.
+            let number = self.attempt(slot.index, entry.seed)?;
+            let changed = scenes.contrast(&plan, entry.seed).ok()?.changed;
+            let right = found.attempts == number + 1 && found.changed == changed;
+            (!right).then(|| format!("what the seed tells of the set {id}"))
+        });
+        let mut rules: Vec<String> = wrong.collect();
+        if manifest.sets.len() != self.plan.slot_count {
+            rules.push(format!("its preset, which has {} sets", self.plan.slot_count));
         }
         rules
     }
@@ -199,6 +223,10 @@ fn plan(folder: &Path, checks: &Checks) -> Result<Result<Plan, CliError>, String
     let mut options = parsed.options;
     if let Some(file) = &checks.preset {
         options.preset = file.to_string_lossy().into_owned();
+    } else if !phase_data::PRESETS.iter().any(|(name, _)| *name == options.preset) {
+        // The card may name any file, and is not believed.
+        let preset = &options.preset;
+        return Err(format!("what can be replayed: give the file of its preset, {preset:?}, with --preset"));
     }
     Ok(Plan::of(&options))
 }

@@ -40,7 +40,7 @@ fn sets_are_whole_whatever_the_shards() {
     }
     succeed(path, &["merge", "shard1", "shard2", "--out", "merged"]);
     assert!(tree(&path.join("merged")) == tree(&path.join("whole")), "merged shards differ from one run");
-    succeed(path, &["verify", "whole", "--replay", "--resimulate", "1"]);
+    succeed(path, &["verify", "whole", "--replay", "--preset", "sets.json", "--resimulate", "1"]);
 
     let manifest = manifest(&path.join("whole"));
     assert_eq!((manifest.events.len(), manifest.sets.len()), (5, 2));
