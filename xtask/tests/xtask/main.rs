@@ -4,6 +4,7 @@ mod check_behaviour;
 mod check_minds;
 mod check_physics;
 mod commands;
+mod documents;
 mod fit_inference;
 mod fit_minds;
 mod fit_reports;
