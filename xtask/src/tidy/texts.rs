@@ -51,9 +51,12 @@ pub(super) fn check(workspace: &mut Workspace) {
 fn documents(workspace: &Workspace) -> Vec<PathBuf> {
     let mut documents = workspace.files(&FOLDERS, &[".md"]);
     // What tools leave behind, beside the sources that they serve.
-    documents.retain(|document| !document.iter().any(|part| part == "node_modules" || part == ".pytest_cache"));
+    documents
+        .retain(|document| !document.iter().any(|part| part == "node_modules" || part == ".pytest_cache"));
     let roots = fs::read_dir(&workspace.root).into_iter().flatten().flatten().map(|entry| entry.file_name());
-    documents.extend(roots.map(PathBuf::from).filter(|file| file.extension().is_some_and(|ending| ending == "md")));
+    documents.extend(
+        roots.map(PathBuf::from).filter(|file| file.extension().is_some_and(|ending| ending == "md")),
+    );
     documents.sort();
     documents
 }

@@ -60,9 +60,8 @@ fn commands(line: &str) -> Vec<Vec<String>> {
 fn complaint(words: &[String]) -> Option<String> {
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
     let arguments: Vec<&str> = match words.as_slice() {
-        ["cargo", "xtask" | "xtask-networks" | "xtask-studies", rest @ ..] | ["xtask" | "/xtask", rest @ ..] => {
-            [&["xtask"], rest].concat()
-        }
+        ["cargo", "xtask" | "xtask-networks" | "xtask-studies", rest @ ..]
+        | ["xtask" | "/xtask", rest @ ..] => [&["xtask"], rest].concat(),
         ["phase", rest @ ..] => [&["phase"], rest].concat(),
         ["cargo", command @ ("train" | "serve"), rest @ ..] => [&["phase", command], rest].concat(),
         _ => return None,

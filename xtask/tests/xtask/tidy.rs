@@ -7,13 +7,14 @@ const ROOT: &str = "//! It.\n//!\n//! ```\n//! # hidden();\n//! f();\n//! ```\n#
 /// What a crate says of itself.
 const KEYS: &str = "description = \"\"\nreadme = \"\"\nkeywords = []\ncategories = []\n";
 
-fn readme(name: &str) -> String {
+fn readme_of(name: &str) -> String {
     format!("# {name}\n\nIt.\n\n```rust\nf();\n```\n")
 }
 
 /// Writes a workspace of two crates in which nothing is wrong.
 fn workspace(root: &Path) {
-    let readme = "# It\n\n## Two\n\n```sh\ncargo xtask gen-dataset\n```\n\n```sh\ncargo test --workspace\n```\n";
+    let readme =
+        "# It\n\n## Two\n\n```sh\ncargo xtask gen-dataset\n```\n\n```sh\ncargo test --workspace\n```\n";
     let files = [
         ("README.md", readme.to_owned()),
         (".ci/run", "cargo test --workspace\ncargo xtask gen-dataset --events 1\n".to_owned()),
@@ -22,13 +23,16 @@ fn workspace(root: &Path) {
             "| `phase-model` |\n| `phase-world` | [it](../README.md#two) |\nlater `phase-x`\n".to_owned(),
         ),
         ("crates/phase-model/Cargo.toml", format!("{KEYS}[dependencies]\nserde.workspace = true\n")),
-        ("crates/phase-model/README.md", readme("phase-model")),
+        ("crates/phase-model/README.md", readme_of("phase-model")),
         ("crates/phase-model/src/lib.rs", ROOT.to_owned()),
-        ("crates/phase-world/Cargo.toml", "publish = false\n[dependencies]\nphase-model.workspace = true\n".to_owned()),
-        ("crates/phase-world/README.md", readme("phase-world")),
+        (
+            "crates/phase-world/Cargo.toml",
+            "publish = false\n[dependencies]\nphase-model.workspace = true\n".to_owned(),
+        ),
+        ("crates/phase-world/README.md", readme_of("phase-world")),
         ("crates/phase-world/src/lib.rs", ROOT.to_owned()),
         ("data/Cargo.toml", KEYS.to_owned()),
-        ("data/README.md", readme("phase-data")),
+        ("data/README.md", readme_of("phase-data")),
         ("data/lib.rs", ROOT.to_owned()),
         ("xtask/src/lib.rs", ROOT.to_owned()),
         ("xtask/src/main.rs", ROOT.to_owned()),
@@ -95,7 +99,11 @@ fn every_rule_is_checked() {
             &["docs/more.md:1: links to missing.md"],
         ),
         ("docs/more.md", "[out](../../etc/passwd)\n", &["docs/more.md:1: links to ../../etc/passwd"]),
-        ("docs/more.md", "## A `b` (c)\n## D\n## D\n[1](#a-b-c), [2](more.md#d-1), `[3](no.md)`\n```\n[4](no.md)\n```\n", &[]),
+        (
+            "docs/more.md",
+            "## A `b` (c)\n## D\n## D\n[1](#a-b-c), [2](more.md#d-1), `[3](no.md)`\n```\n[4](no.md)\n```\n",
+            &[],
+        ),
         (
             "docs/more.md",
             "```sh\n# d\n```\n[1](#d), [2](../README.md#three)\n",
@@ -105,7 +113,11 @@ fn every_rule_is_checked() {
             ],
         ),
         ("crates/phase-model/notes.md", "[1](no.md)\n", &["crates/phase-model/notes.md:1: links to no.md"]),
-        ("data/README.md", "# phase-x\n", &["data/README.md:1: must begin", "data/README.md:1: must show the first example"]),
+        (
+            "data/README.md",
+            "# phase-x\n",
+            &["data/README.md:1: must begin", "data/README.md:1: must show the first example"],
+        ),
         (
             "crates/phase-model/src/lib.rs",
             &other_example,
