@@ -46,7 +46,7 @@ fn check_crate(workspace: &mut Workspace, name: &str, folder: &Path, root: &Path
 
 /// The first block of code that opens with a fence, without lines that documentation hides and without empty lines at its end.
 fn example<'a>(lines: impl Iterator<Item = &'a str>, fence: &str) -> Vec<&'a str> {
-    let block = lines.skip_while(|line| *line != fence).skip(1).take_while(|line| *line != "```");
+    let block = lines.skip_while(|line| !line.starts_with(fence)).skip(1).take_while(|line| *line != "```");
     let mut shown: Vec<&str> = block.filter(|line| *line != "#" && !line.starts_with("# ")).collect();
     while shown.last().is_some_and(|line| line.trim().is_empty()) {
         shown.pop();

@@ -82,8 +82,8 @@ fn commands_in_documents_parse() {
     for document in documents() {
         let text = fs::read_to_string(&document).expect("a document");
         for command in shell(&text).iter().flat_map(|line| commands(line)) {
-            // A word in angle brackets or dots stands for others.
-            if command.iter().any(|word| word == "…" || word == "...") {
+            // A variable or dots stand for other words.
+            if command.iter().any(|word| word.starts_with('$') || word == "…") {
                 continue;
             }
             count += 1;

@@ -160,7 +160,7 @@ fn every_rule_is_checked() {
         ),
         (
             "README.md",
-            "cargo test --workspace\n",
+            "## Two\ncargo test --workspace\n",
             &["README.md:1: must show the command `cargo xtask gen-dataset`"],
         ),
     ];
