@@ -5,6 +5,7 @@ mod check_minds;
 mod check_physics;
 mod check_verify;
 mod commands;
+mod documents;
 mod fit_inference;
 mod fit_minds;
 mod fit_reports;
