@@ -4,6 +4,14 @@
 //! The files are made by commands (docs/networks.md, docs/simple.md, docs/dataset.md) and lie beside this file. Key design decision: one
 //! crate has them all, so that every other crate can be packed without files from outside of it. What a program does not use is not
 //! linked into it.
+//!
+//! Every preset has a name, and every network the record of its training:
+//!
+//! ```
+//! let names = phase_data::PRESETS.map(|(name, _json)| name);
+//! assert!(names.contains(&"phase-500"));
+//! assert!(phase_data::ARG.record.contains("validation"));
+//! ```
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]

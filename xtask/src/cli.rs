@@ -5,6 +5,7 @@ use crate::{
     check_minds::{self, options::CheckMinds},
     check_physics::{self, options::CheckPhysics},
     check_schedule::{self, CheckSchedule},
+    check_verify::{self, CheckVerify},
     draw_behaviour::{self, DrawBehaviour},
     error::XtaskError,
     fit_events::FitEvents,
@@ -13,7 +14,9 @@ use crate::{
     fit_minds::{self, options::FitMinds},
     fit_reports::{self, options::FitReports},
     golden::{self, GoldenOptions},
-    tidy, wasm,
+    tidy,
+    torture::{self, Torture},
+    wasm,
 };
 use clap::{Parser, Subcommand};
 use phase_cli::{
@@ -50,6 +53,8 @@ pub enum Command {
     DrawBehaviour(DrawBehaviour),
     /// Compare minds with the agents of recordings or events whose labels are known
     CheckMinds(CheckMinds),
+    /// Edit a dataset many times, and count what verify finds
+    CheckVerify(CheckVerify),
     /// Fit the parameters of the minds to recordings or events whose labels are known
     FitMinds(FitMinds),
     /// Fit how SIMPLE weighs its evidence to events whose labels are known
@@ -62,6 +67,8 @@ pub enum Command {
     Golden(GoldenOptions),
     /// Check the project rules that the compiler cannot
     Tidy,
+    /// Stop commands while they write, and check that nothing is lost
+    Torture(Torture),
 }
 
 impl Interface for Cli {
@@ -84,12 +91,14 @@ impl Interface for Cli {
             Command::CheckSchedule(arguments) => check_schedule::run(arguments),
             Command::DrawBehaviour(arguments) => draw_behaviour::run(arguments),
             Command::CheckMinds(arguments) => check_minds::run(arguments, context),
+            Command::CheckVerify(arguments) => check_verify::run(arguments, context),
             Command::FitInference(arguments) => fit_inference::run(arguments, context),
             Command::FitMinds(arguments) => fit_minds::run(arguments, context),
             Command::FitForecast(arguments) => fit_forecast::run(arguments, context),
             Command::FitReports(arguments) => fit_reports::run(arguments),
             Command::Golden(options) => golden::run(options),
             Command::Tidy => tidy::run(),
+            Command::Torture(arguments) => torture::run(arguments, context),
         }
     }
 }

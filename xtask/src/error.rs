@@ -51,6 +51,9 @@ pub enum XtaskError {
     /// The user interrupted a command that keeps nothing of what it has done.
     #[error("interrupted; nothing is written")]
     Interrupted,
+    /// Commands that were stopped or disturbed lost something.
+    #[error("{0} time(s) something was lost, half-written or different; see above")]
+    Tortured(usize),
     /// Tidy found something.
     #[error("{0} rule(s) broken")]
     Untidy(usize),
@@ -68,6 +71,7 @@ impl Failure for XtaskError {
             | Self::Cargo(_)
             | Self::Build { .. }
             | Self::GoldenTests
+            | Self::Tortured(_)
             | Self::Untidy(_) => 1,
         }
     }

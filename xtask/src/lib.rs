@@ -21,6 +21,7 @@ pub mod check_behaviour;
 pub mod check_minds;
 pub mod check_physics;
 pub mod check_schedule;
+pub mod check_verify;
 pub mod cli;
 pub mod draw_behaviour;
 pub mod error;
@@ -34,6 +35,7 @@ pub mod golden;
 pub mod json_file;
 mod rooms;
 pub mod tidy;
+pub mod torture;
 pub mod wasm;
 
 use clap::CommandFactory;

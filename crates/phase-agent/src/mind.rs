@@ -61,6 +61,7 @@ impl<D: Dynamics> Mind<D> {
             c_base: settings.c_base,
             stop_when_decided: true,
             convergence: settings.convergence,
+            batch: settings.batch,
             untried_first: false,
             ..PomcpSettings::default()
         })?;

@@ -58,9 +58,12 @@ impl MindParameters {
     /// # Errors
     /// [`ParametersError::Range`] for the first that is not.
     pub fn validate(&self) -> Result<(), ParametersError> {
-        for (name, count) in
-            [("particles", self.particles), ("simulations", self.simulations), ("searches", self.searches)]
-        {
+        for (name, count) in [
+            ("particles", self.particles),
+            ("simulations", self.simulations),
+            ("batch", self.batch),
+            ("searches", self.searches),
+        ] {
             ensure(name, count as f64, "at least 1", count >= 1)?;
         }
         for (name, share) in [

@@ -6,6 +6,7 @@ use crate::{
     objective::{ARENA_DIAGONAL, Objective},
     rollout_policy,
 };
+use arrayvec::ArrayVec;
 use phase_model::{
     AGENT_COUNT, Action, AgentId, Attitude, Dynamics, Entity, Goal, PhysicsConfig, State, reward,
 };
@@ -13,6 +14,9 @@ use phase_perception::observed_set;
 use phase_pomcp::{GenerativeModel, Transition};
 use phase_predicates::achieved;
 use rand::{Rng, RngExt};
+
+/// Simulations whose physics is computed together.
+const TOGETHER: usize = 32;
 
 /// The search model of an agent: its dynamics, its own action set, a model of the other agent, and Equation 1
 /// less the distance to go of the subgoal.
@@ -62,6 +66,21 @@ impl<D> SearchModel<'_, D> {
         let held = state.held_object(first);
         state.contacts.touching(Entity::Agent(first), Entity::Agent(second))
             || held.is_some() && held == state.held_object(second)
+    }
+
+    /// The actions of both agents where this one does something.
+    fn joint_action(&self, search_state: &SearchState, action: Action) -> [Action; AGENT_COUNT] {
+        let mut actions = [self.other_action(search_state); AGENT_COUNT];
+        actions[self.objective.agent()] = action;
+        actions
+    }
+
+    /// Evaluates a state that an action has led to.
+    fn conclude(&self, search_state: &mut SearchState, action: Action) -> Transition<()> {
+        search_state.distance = self.objective.distance(&search_state.state);
+        search_state.last_action = Some(action);
+        search_state.steps += 1;
+        Transition { observation: (), reward: self.reward(search_state, action), terminal: false }
     }
 
     fn reward(&self, search_state: &SearchState, action: Action) -> f64 {
@@ -145,19 +164,57 @@ impl<D: Dynamics> GenerativeModel for SearchModel<'_, D> {
         action: usize,
         _random: &mut impl Rng,
     ) -> Transition<()> {
-        let agent = self.objective.agent();
         let action = self.actions[action];
-        let mut actions = [self.other_action(search_state); AGENT_COUNT];
-        actions[agent] = action;
+        let actions = self.joint_action(search_state, action);
         let state = &mut search_state.state;
         match self.parameters.foresight {
             Foresight::Coarse | Foresight::Points => self.dynamics.step_approximate(state, actions),
             Foresight::Exact => self.dynamics.step(state, actions),
         }
-        search_state.distance = self.objective.distance(&search_state.state);
-        search_state.last_action = Some(action);
-        search_state.steps += 1;
-        Transition { observation: (), reward: self.reward(search_state, action), terminal: false }
+        self.conclude(search_state, action)
+    }
+
+    /// The physics of all simulations together; see [`Dynamics::step_batch`].
+    fn advance_batch(
+        &self,
+        states: &mut [SearchState],
+        actions: &[usize],
+        in_tree: usize,
+        _random: &mut impl Rng,
+        outcomes: &mut Vec<Transition<u16>>,
+        rollout_outcomes: &mut Vec<Transition<()>>,
+    ) {
+        for (chunk, (states, actions)) in
+            states.chunks_mut(TOGETHER).zip(actions.chunks(TOGETHER)).enumerate()
+        {
+            let mut worlds: ArrayVec<State, TOGETHER> =
+                states.iter().map(|search_state| search_state.state).collect();
+            let joint: ArrayVec<[Action; AGENT_COUNT], TOGETHER> = states
+                .iter()
+                .zip(actions)
+                .map(|(search_state, &action)| self.joint_action(search_state, self.actions[action]))
+                .collect();
+            match self.parameters.foresight {
+                Foresight::Coarse | Foresight::Points => {
+                    self.dynamics.step_approximate_batch(&mut worlds, &joint)
+                }
+                Foresight::Exact => self.dynamics.step_batch(&mut worlds, &joint),
+            }
+            for (index, (search_state, world)) in states.iter_mut().zip(worlds).enumerate() {
+                search_state.state = world;
+                let outcome = self.conclude(search_state, self.actions[actions[index]]);
+                if chunk * TOGETHER + index < in_tree {
+                    let observation = self.observation_code(&search_state.state);
+                    outcomes.push(Transition {
+                        observation,
+                        reward: outcome.reward,
+                        terminal: outcome.terminal,
+                    });
+                } else {
+                    rollout_outcomes.push(outcome);
+                }
+            }
+        }
     }
 
     fn rollout_action(&self, search_state: &SearchState, random: &mut impl Rng) -> usize {

@@ -81,6 +81,10 @@ pub struct MindParameters {
     /// Change of the policy, as total variation, below which a search ends early
     /// ([`PomcpSettings::convergence`](phase_pomcp::PomcpSettings::convergence)), 0 to 1.
     pub convergence: f64,
+    /// Simulations that a search has in progress at a time; at least 1. More of them share the cost of a step, and choose
+    /// without knowing what the others will find. Absent in older files, which means 1. `published` minds have 1.
+    #[serde(default = "one_at_a_time")]
+    pub batch: usize,
     /// Independent searches per decision, whose visits are added up; at least 1. Of `published` minds only, whose searches
     /// commit themselves early; `phase` minds search once.
     pub searches: usize,
@@ -131,6 +135,10 @@ const fn legacy_foresight() -> Foresight {
     Foresight::Exact
 }
 
+const fn one_at_a_time() -> usize {
+    1
+}
+
 impl MindParameters {
     /// The costs of plans.
     #[must_use]
@@ -148,6 +156,7 @@ impl Default for MindParameters {
             lambda: phase_planner::value::LAMBDA,
             simulations: 1000,
             convergence: 0.1,
+            batch: 1,
             searches: 1,
             rollout_steps: 10,
             c_init: 1.25,

@@ -68,8 +68,8 @@ impl Belief {
         (self.resampled, self.unresolved) = (0, 0);
         let mut sampler = PoseSampler::new(physics, &self.memory);
         let observed = observation.observed;
+        predict(dynamics, physics, &mut self.particles, self.agent, own_action, observed);
         for particle in &mut self.particles {
-            predict(dynamics, physics, particle, self.agent, own_action, observed);
             let contradicted_by_touch = contradicted_by_touch(physics, particle, self.agent, observed);
             overwrite(particle, observation);
             let impossible =

@@ -2,10 +2,14 @@
 
 use crate::consistency::{PENETRATION_TOLERANCE, overlap_beyond_tolerance, shrunk_outline};
 use phase_model::{
-    AGENT_COUNT, Action, AgentId, BodySet, Dynamics, Entity, PhysicsConfig, State, Vec2, arena,
+    AGENT_COUNT, Action, AgentId, Body, BodySet, Dynamics, Entity, MAX_ENTITIES, PhysicsConfig, State, Vec2,
+    arena,
 };
 
-/// Advances a particle by one step in which the believing agent acts and the other continues its motion.
+/// Particles whose dynamics are computed together.
+const TOGETHER: usize = 32;
+
+/// Advances all particles by one step in which the believing agent acts and the other continues its motion.
 ///
 /// Without an action the dynamics would let the other agent slide to a stop. The constant-motion assumption
 /// keeps its velocity instead, and that of the object it holds, unless something is in the way; then the
@@ -14,18 +18,24 @@ use phase_model::{
 pub(crate) fn predict(
     dynamics: &impl Dynamics,
     physics: &PhysicsConfig,
-    particle: &mut State,
+    particles: &mut [State],
     agent: AgentId,
     own_action: Action,
     observed: BodySet,
 ) {
-    let before = *particle;
     let mut actions = [Action::NoForce; AGENT_COUNT];
     actions[agent] = own_action;
-    dynamics.step(particle, actions);
     let other = agent.other();
-    if !observed.contains(Entity::Agent(other)) {
-        apply_constant_motion(physics, &before, particle, other);
+    for particles in particles.chunks_mut(TOGETHER) {
+        let mut before = [State::new([Body::default(); MAX_ENTITIES]); TOGETHER];
+        let before = &mut before[..particles.len()];
+        before.copy_from_slice(particles);
+        dynamics.step_batch(particles, &[actions; TOGETHER][..particles.len()]);
+        if !observed.contains(Entity::Agent(other)) {
+            for (particle, before) in particles.iter_mut().zip(before) {
+                apply_constant_motion(physics, before, particle, other);
+            }
+        }
     }
 }
 

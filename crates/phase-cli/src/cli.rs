@@ -22,7 +22,7 @@ use crate::{
     stats::{self, Stats},
     study::{self, options::Study},
     train::{self, options::Train},
-    verify::{self, Verify},
+    verify::{self, options::Verify},
 };
 use clap::{Parser, Subcommand};
 

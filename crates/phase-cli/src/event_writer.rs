@@ -150,10 +150,18 @@ pub fn settings_value(settings: &SimulationSettings) -> Result<Value, CliError> 
 /// # Errors
 /// As [`picture::write_video`].
 pub fn write_video(path: &Path, id: &str, event: &Event) -> Result<(), CliError> {
+    Ok(atomic::write(path, &video(id, event)?)?)
+}
+
+/// The same video in memory.
+///
+/// # Errors
+/// As [`picture::video`].
+pub fn video(id: &str, event: &Event) -> Result<Vec<u8>, CliError> {
     let items = event.frames().map(|&state| RenderedState { state, minds: Vec::new(), observer: None });
     // Events that are generated are short: a video takes a second.
-    picture::write_video(path, id, &event.scene.physics(), Palette::PAPER, items, &|| false)?;
-    Ok(())
+    let video = picture::video(id, &event.scene.physics(), Palette::PAPER, items, &|| false)?;
+    Ok(video.unwrap_or_default())
 }
 
 /// Digest of everything that determines an event besides its scene and seed: the settings and this

@@ -64,6 +64,7 @@ pub fn run(arguments: &Export, context: &Context) -> Result<(), CliError> {
         Contents::Finished => {
             let index: Value = phase_dataset::json::read(&out.join(INDEX_FILE))?;
             check_same(out, "a finished", &index["run"], &run)?;
+            folder::remove_leftovers(out, &run)?;
             return announce(arguments, &index, false);
         }
         Contents::Unfinished(other) => {
@@ -145,6 +146,6 @@ fn append(tar: &mut Builder<AtomicFile>, name: &str, bytes: &[u8]) -> std::io::R
 /// The bytes of a file that is as its dataset's manifest says.
 fn whole(from: &Path, file: &FileEntry) -> Result<Vec<u8>, CliError> {
     file.verify(from).map_err(CliError::Altered)?;
-    let path = from.join(&file.path);
+    let path = file.place(from);
     fs::read(&path).map_err(|error| FileError { file: path, problem: Problem::Unreadable(error) }.into())
 }

@@ -71,6 +71,23 @@ pub fn write_video<'a>(
     items: impl IntoIterator<Item = RenderedState<'a>>,
     interrupted: &dyn Fn() -> bool,
 ) -> Result<bool, CliError> {
+    match video(id, physics, palette, items, interrupted)? {
+        Some(mp4) => Ok(atomic::write(path, &mp4).map(|()| true)?),
+        None => Ok(false),
+    }
+}
+
+/// The same video in memory; `None` if it was interrupted.
+///
+/// # Errors
+/// [`CliError::Render`].
+pub fn video<'a>(
+    id: &str,
+    physics: &PhysicsConfig,
+    palette: Palette,
+    items: impl IntoIterator<Item = RenderedState<'a>>,
+    interrupted: &dyn Fn() -> bool,
+) -> Result<Option<Vec<u8>>, CliError> {
     let mp4 = || -> Result<Option<Vec<u8>>, RenderError> {
         let mut items = items.into_iter();
         let first = items.next().ok_or(RenderError::NoFrames("video"))?;
@@ -87,10 +104,7 @@ pub fn write_video<'a>(
         }
         video.finish().map(Some)
     };
-    match mp4().map_err(|source| CliError::Render { id: id.into(), source })? {
-        Some(mp4) => Ok(atomic::write(path, &mp4).map(|()| true)?),
-        None => Ok(false),
-    }
+    mp4().map_err(|source| CliError::Render { id: id.into(), source })
 }
 
 /// Writes a video of several events beside each other, smaller, until the longest ends.
@@ -98,6 +112,14 @@ pub fn write_video<'a>(
 /// # Errors
 /// As [`write_video`].
 pub fn write_side_by_side(path: &Path, id: &str, events: &[&Event]) -> Result<(), CliError> {
+    Ok(atomic::write(path, &beside(id, events)?)?)
+}
+
+/// The same video in memory.
+///
+/// # Errors
+/// [`CliError::Render`].
+pub fn beside(id: &str, events: &[&Event]) -> Result<Vec<u8>, CliError> {
     let mp4 = || -> Result<Vec<u8>, RenderError> {
         let style = Style::with_side(SHEET_SIDE);
         let renderers = events.iter().map(|event| SceneRenderer::new(&event.scene.physics(), style));
@@ -123,8 +145,7 @@ pub fn write_side_by_side(path: &Path, id: &str, events: &[&Event]) -> Result<()
         }
         video.ok_or(RenderError::NoFrames("video"))?.finish()
     };
-    let mp4 = mp4().map_err(|source| CliError::Render { id: id.into(), source })?;
-    Ok(atomic::write(path, &mp4)?)
+    mp4().map_err(|source| CliError::Render { id: id.into(), source })
 }
 
 /// Writes one picture of `count` frames evenly spaced from the first to the last.

@@ -9,6 +9,7 @@ use phase_dataset::{
     summary::{SUMMARY_FILE, SimulationSummary},
 };
 use phase_event::Recording;
+use phase_model::path::RelativePath;
 use std::{
     collections::BTreeSet,
     fs,
@@ -52,7 +53,7 @@ impl EventInput {
         if !is_dataset && !path.join(SUMMARY_FILE).is_file() {
             return of_files(path, ids, context);
         }
-        let files: Vec<(String, String)> = if !is_dataset {
+        let files: Vec<(String, RelativePath)> = if !is_dataset {
             let summary = SimulationSummary::read(&path.join(SUMMARY_FILE))?;
             summary.events.into_iter().map(|event| (event.id, event.event.path)).collect()
         } else {
@@ -61,7 +62,7 @@ impl EventInput {
         };
         check_ids(path, files.iter().map(|(id, _)| id.as_str()), ids)?;
         let chosen = files.into_iter().enumerate().filter(|(_, (id, _))| wanted(id, ids));
-        let events = chosen.map(|(place, (id, file))| EventFile { place, id, path: path.join(file) });
+        let events = chosen.map(|(place, (id, file))| EventFile { place, id, path: file.below(path) });
         Ok(Self::Files(events.collect()))
     }
 
@@ -166,7 +167,7 @@ fn of_files(folder: &Path, ids: &[String], context: &Context) -> Result<EventInp
     let mut known = BTreeSet::new();
     for file in files {
         for (_, recording) in read(&file, &[], context)? {
-            if !known.insert(recording.id.clone()) {
+            if !known.insert(recording.id.to_ascii_lowercase()) {
                 let (file, id) = (file.display(), &recording.id);
                 return Err(CliError::Usage(format!(
                     "{file}: another file of the folder has an event {id}, too"

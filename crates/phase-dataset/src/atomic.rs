@@ -1,6 +1,6 @@
 //! Files that are complete or absent: written to a temporary file, synced, renamed.
 
-use crate::WriteError;
+use crate::{WriteError, fault};
 use serde::Serialize;
 use std::{
     ffi::OsString,
@@ -40,12 +40,29 @@ pub fn write_json_line(path: &Path, value: &impl Serialize) -> Result<(), WriteE
     write(path, format!("{text}\n").as_bytes())
 }
 
+/// Removes the temporary files of a file that programs have left which were killed while they wrote it. Those that are being written are
+/// locked, and stay.
+pub fn remove_abandoned(path: &Path) {
+    let Some((folder, name)) = path.parent().zip(path.file_name()) else { return };
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let begin = format!(".{}.", name.to_string_lossy());
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let part = entry.file_name().to_string_lossy().into_owned();
+        let number = part.strip_prefix(&begin).and_then(|rest| rest.strip_suffix(PART_SUFFIX));
+        let is_part = number.is_some_and(|number| number.bytes().all(|digit| digit.is_ascii_digit()));
+        if is_part && File::open(entry.path()).is_ok_and(|file| file.try_lock().is_ok()) {
+            // One that cannot be removed is harmless.
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}
+
 /// Removes a file if it exists.
 ///
 /// # Errors
 /// If it exists and cannot be removed.
 pub fn remove(path: &Path) -> Result<(), WriteError> {
-    match fs::remove_file(path) {
+    match fault::step().and_then(|()| fs::remove_file(path)) {
         Err(source) if source.kind() != io::ErrorKind::NotFound => {
             Err(WriteError { path: path.to_owned(), action: "remove the file", source })
         }
@@ -68,8 +85,12 @@ impl AtomicFile {
     /// If no file can be created there.
     pub fn create(path: &Path) -> Result<Self, WriteError> {
         let part = part_path(path);
-        match File::create(&part) {
-            Ok(file) => Ok(Self { path: path.to_owned(), part, writer: Some(BufWriter::new(file)) }),
+        match fault::step().and_then(|()| File::create(&part)) {
+            Ok(file) => {
+                // The lock tells that it is being written. Where there are no locks, nothing is ever taken for abandoned.
+                let _ = file.try_lock();
+                Ok(Self { path: path.to_owned(), part, writer: Some(BufWriter::new(file)) })
+            }
             Err(source) => Err(error(path, source)),
         }
     }
@@ -89,12 +110,16 @@ impl AtomicFile {
     }
 
     fn finish(&mut self) -> io::Result<()> {
+        fault::step()?;
         if let Some(writer) = self.writer.take() {
             let file = writer.into_inner().map_err(io::IntoInnerError::into_error)?;
             file.sync_all()?;
         }
+        fault::step()?;
         fs::rename(&self.part, &self.path)?;
         sync_folder(&self.path);
+        // Under its name it is there, whatever comes.
+        let _ = fault::step();
         Ok(())
     }
 }

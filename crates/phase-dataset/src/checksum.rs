@@ -1,13 +1,14 @@
 //! Sizes and SHA-256 checksums of files.
 
 use crate::{FileError, Problem};
+use phase_model::path::RelativePath;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::{
     fmt::Write as _,
-    fs::File,
-    io::{self, Read},
-    path::{Component, Path},
+    fs::{self, File},
+    io::{self, Read, Write},
+    path::Path,
 };
 
 /// A file of a dataset as listed in its manifest.
@@ -15,7 +16,7 @@ use std::{
 #[serde(deny_unknown_fields)]
 pub struct FileEntry {
     /// Path relative to the dataset's folder, with `/`.
-    pub path: String,
+    pub path: RelativePath,
     /// Size (bytes).
     pub bytes: u64,
     /// SHA-256 of the contents, in lower-case hexadecimal.
@@ -26,32 +27,40 @@ impl FileEntry {
     /// Measures a file of a folder.
     ///
     /// # Errors
-    /// [`Problem::Unreadable`].
+    /// [`Problem::Path`] if the path is none inside a folder, [`Problem::Unreadable`] or [`Problem::NoFile`].
     pub fn of(folder: &Path, path: impl Into<String>) -> Result<Self, FileError> {
         let path = path.into();
-        let file = folder.join(&path);
-        let (bytes, sha256) =
-            digest(&file).map_err(|error| FileError { problem: Problem::Unreadable(error), file })?;
-        Ok(Self { path, bytes, sha256 })
+        let named = RelativePath::new(path.as_str());
+        named
+            .map_err(|rule| FileError { file: folder.join(path), problem: Problem::Path(rule) })
+            .and_then(|path| Self::measure(folder, path))
+    }
+
+    fn measure(folder: &Path, path: RelativePath) -> Result<Self, FileError> {
+        let file = path.below(folder);
+        match digest(&file) {
+            Ok((bytes, sha256)) => Ok(Self { path, bytes, sha256 }),
+            Err(problem) => Err(FileError { file, problem }),
+        }
+    }
+
+    /// Where the file is in the dataset's folder.
+    #[must_use]
+    pub fn place(&self, folder: &Path) -> std::path::PathBuf {
+        self.path.below(folder)
     }
 
     /// Checks that the file is unchanged.
     ///
     /// # Errors
-    /// [`Problem::Unreadable`] if it is gone, [`Problem::Altered`] if it differs, [`Problem::OutsideFolder`] if
-    /// its path leads out of the folder.
+    /// [`Problem::Unreadable`] if it is gone, [`Problem::NoFile`] if it is something else, [`Problem::Altered`] if it differs.
     pub fn verify(&self, folder: &Path) -> Result<(), FileError> {
-        let file = folder.join(&self.path);
-        let plain = |part: Component<'_>| matches!(part, Component::Normal(_));
-        if self.path.is_empty() || !Path::new(&self.path).components().all(plain) {
-            return Err(FileError { file, problem: Problem::OutsideFolder });
-        }
-        let found = Self::of(folder, self.path.clone())?;
+        let found = Self::measure(folder, self.path.clone())?;
         if found == *self {
             Ok(())
         } else {
             let what = if found.bytes == self.bytes { "checksum" } else { "size" };
-            Err(FileError { file, problem: Problem::Altered(what) })
+            Err(FileError { file: self.place(folder), problem: Problem::Altered(what) })
         }
     }
 }
@@ -60,6 +69,43 @@ impl FileEntry {
 #[must_use]
 pub fn sha256(bytes: &[u8]) -> [u8; 32] {
     Sha256::digest(bytes).into()
+}
+
+/// SHA-256 of bytes, in lower-case hexadecimal.
+#[must_use]
+pub fn sha256_hex(bytes: &[u8]) -> String {
+    hexadecimal(&sha256(bytes))
+}
+
+/// A writer that knows the checksum of what was written through it.
+#[derive(Debug)]
+pub struct HashingWriter<W> {
+    writer: W,
+    hasher: Sha256,
+}
+
+impl<W: Write> HashingWriter<W> {
+    /// Nothing written yet.
+    pub fn new(writer: W) -> Self {
+        Self { writer, hasher: Sha256::new() }
+    }
+
+    /// The writer, and the SHA-256 of what it received, in lower-case hexadecimal.
+    pub fn finish(self) -> (W, String) {
+        (self.writer, hexadecimal(&self.hasher.finalize()))
+    }
+}
+
+impl<W: Write> Write for HashingWriter<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let count = self.writer.write(bytes)?;
+        self.hasher.update(&bytes[..count]);
+        Ok(count)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.writer.flush()
+    }
 }
 
 /// Bytes in lower-case hexadecimal.
@@ -72,7 +118,13 @@ pub fn hexadecimal(bytes: &[u8]) -> String {
     })
 }
 
-fn digest(path: &Path) -> io::Result<(u64, String)> {
+/// Size and checksum. Only of files: to open a pipe would wait for whoever writes into it.
+fn digest(path: &Path) -> Result<(u64, String), Problem> {
+    let is_file = fs::metadata(path).map_err(Problem::Unreadable)?.is_file();
+    if is_file { digest_of(path).map_err(Problem::Unreadable) } else { Err(Problem::NoFile) }
+}
+
+fn digest_of(path: &Path) -> io::Result<(u64, String)> {
     let mut file = File::open(path)?;
     let mut hasher = Sha256::new();
     let mut buffer = vec![0; 1 << 16];

@@ -51,7 +51,7 @@ fn name(overview: &Overview) -> String {
 }
 
 fn file(entry: &FileEntry) -> Value {
-    let format = match entry.path.rsplit('.').next() {
+    let format = match entry.path.as_str().rsplit('.').next() {
         Some("parquet") => "application/x-parquet",
         Some("html") => "text/html",
         Some("md") => "text/markdown",

@@ -1,7 +1,7 @@
 //! What can be wrong with a file, in one plain sentence each.
 
 use phase_event::EventReadError;
-use phase_model::json::JsonError;
+use phase_model::{json::JsonError, path::PathError};
 use std::{
     io,
     path::{Path, PathBuf},
@@ -70,9 +70,23 @@ pub enum Problem {
         /// The first column that differs.
         column: &'static str,
     },
-    /// A manifest names a path that leads out of its folder.
-    #[error("lies outside of the dataset's folder")]
-    OutsideFolder,
+    /// It is no file, but a folder, a pipe or something else.
+    #[error("is not a file")]
+    NoFile,
+    /// It is a link, which may stand for different files at different times.
+    #[error("is a link; a dataset holds files")]
+    Link,
+    /// It says what it should, but has other bytes than PHASE writes for that.
+    #[error(
+        "is not in the form in which it is written: it holds more, or something else, than follows from its contents"
+    )]
+    Form,
+    /// It is not what follows from other files.
+    #[error("differs from {0}")]
+    Differs(String),
+    /// Its path is none that a file may have.
+    #[error("{0}")]
+    Path(#[source] PathError),
     /// A finished dataset must have it, but its manifest does not name it.
     #[error("is not in the manifest, but every dataset has it")]
     Unlisted,

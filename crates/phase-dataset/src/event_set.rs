@@ -1,6 +1,6 @@
 //! Sets of events that differ in one social variable, and where and when their events part.
 
-use crate::checksum::FileEntry;
+use crate::{checksum::FileEntry, ids};
 use phase_event::Event;
 use phase_evidence::{Track, parting::Parting};
 use phase_model::{AgentId, arena};
@@ -15,6 +15,7 @@ pub const PAIRS_FILE: &str = "pairs.csv";
 #[serde(deny_unknown_fields)]
 pub struct SetPlace {
     /// Name of the set.
+    #[serde(deserialize_with = "ids::deserialize")]
     pub set: String,
     /// What the changed agent wants with regard to the other.
     pub stance: Stance,
@@ -25,6 +26,7 @@ pub struct SetPlace {
 #[serde(deny_unknown_fields)]
 pub struct SetEntry {
     /// Name; the names of its events are this and a letter.
+    #[serde(deserialize_with = "ids::deserialize")]
     pub id: String,
     /// The agent whose stance differs.
     pub changed: AgentId,

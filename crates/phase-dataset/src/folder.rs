@@ -1,6 +1,6 @@
 //! Output folders: which run they belong to, and that only one run at a time writes into them.
 
-use crate::{WriteError, atomic, error::plain_reason, json};
+use crate::{WriteError, atomic, error::plain_reason, fault, json};
 use serde_json::{Value, json};
 use std::{
     fs::{self, File, OpenOptions, TryLockError},
@@ -159,10 +159,15 @@ impl Folder {
     }
 }
 
-/// Whether a finished folder still contains files that served its run.
-#[must_use]
-pub fn has_leftovers(path: &Path) -> bool {
-    [MARKER, LOCK, CACHE].iter().any(|name| path.join(name).exists())
+/// Removes from a finished folder what a run that was stopped at its very end has left there.
+///
+/// # Errors
+/// [`FolderError::NotWritable`] or [`FolderError::Busy`].
+pub fn remove_leftovers(path: &Path, run: &Value) -> Result<(), FolderError> {
+    if [MARKER, LOCK, CACHE].iter().any(|name| path.join(name).exists()) {
+        Folder::claim(path, run)?.finish()?;
+    }
+    Ok(())
 }
 
 fn marker(path: &Path) -> Option<Value> {
@@ -182,7 +187,7 @@ fn clear_parts(folder: &Path) {
 }
 
 fn remove(path: &Path, how: impl Fn(&Path) -> io::Result<()>) -> Result<(), WriteError> {
-    match how(path) {
+    match fault::step().and_then(|()| how(path)) {
         Err(source) if source.kind() != io::ErrorKind::NotFound => {
             Err(WriteError { path: path.to_owned(), action: "remove it", source })
         }

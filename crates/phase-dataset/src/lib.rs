@@ -8,7 +8,7 @@
 //!   [`acceptance`] and [`shard`] what was tried for each of its events.
 //! - [`summary`] compares simulations with recordings.
 //! - [`atomic`], [`folder`] and [`cache`] allow a run to be interrupted at any moment without half-written
-//!   files.
+//!   files; [`fault`] interrupts it there on demand.
 //!
 //! Key design decision: files are read manually from a tree of JSON values instead of by derived readers, so
 //! that errors name the event, the field and the rule. The cost is a reader four times as long, and a file
@@ -46,7 +46,9 @@ pub mod croissant;
 pub mod describe;
 pub mod error;
 pub mod event_set;
+pub mod fault;
 pub mod folder;
+mod ids;
 pub mod json;
 pub mod labels;
 pub mod manifest;

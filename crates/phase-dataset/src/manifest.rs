@@ -4,9 +4,9 @@ use crate::{
     FileError, Problem, WriteError,
     acceptance::Acceptance,
     atomic,
-    checksum::FileEntry,
+    checksum::{FileEntry, sha256_hex},
     event_set::{SetEntry, SetPlace},
-    json,
+    ids, json,
     splits::{Item, Split},
 };
 use phase_event::Event;
@@ -21,6 +21,11 @@ use std::path::Path;
 pub const DATASET_FORMAT: &str = "phase-dataset/1";
 /// The manifest's file name. It is written last: a folder with a manifest is complete.
 pub const MANIFEST_FILE: &str = "manifest.json";
+/// The file with the manifest's checksum, in the form of `sha256sum`. It is written before the manifest.
+pub const DIGEST_FILE: &str = "manifest.sha256";
+/// Detached signatures of the manifest, by `ssh-keygen -Y sign` and by minisign. They are not part of the dataset, but may lie in
+/// its folder.
+pub const SIGNATURE_FILES: [&str; 2] = ["manifest.json.sig", "manifest.json.minisig"];
 /// File name of the dataset card.
 pub const CARD_FILE: &str = "README.md";
 /// File name of the gallery, the page that shows every video; a dataset without videos has none.
@@ -60,6 +65,7 @@ pub struct Manifest {
 #[serde(deny_unknown_fields)]
 pub struct EventEntry {
     /// Name.
+    #[serde(deserialize_with = "ids::deserialize")]
     pub id: String,
     /// The intended kind of event.
     pub kind: EventKind,
@@ -179,6 +185,20 @@ impl EventEntry {
     }
 }
 
+/// The text of [`DIGEST_FILE`].
+#[must_use]
+pub fn digest_line(sha256: &str) -> String {
+    format!("{sha256}  {MANIFEST_FILE}\n")
+}
+
+/// Writes [`DIGEST_FILE`] atomically.
+///
+/// # Errors
+/// If it cannot be written.
+pub fn write_digest(folder: &Path, sha256: &str) -> Result<(), WriteError> {
+    atomic::write(&folder.join(DIGEST_FILE), digest_line(sha256).as_bytes())
+}
+
 /// Where an event's JSON lies in a dataset's folder.
 #[must_use]
 pub fn event_path(id: &str) -> String {
@@ -204,12 +224,23 @@ impl Manifest {
         serde_json::from_value(value).map_err(|source| fail(Problem::Incomplete { what, source }))
     }
 
-    /// Writes the manifest atomically.
+    /// The text of its file.
     ///
     /// # Errors
-    /// If it cannot be written as JSON, or the file cannot be written.
-    pub fn write(&self, path: &Path) -> Result<(), WriteError> {
-        atomic::write_json(path, self)
+    /// If it cannot be written as JSON.
+    pub fn to_text(&self) -> serde_json::Result<String> {
+        serde_json::to_string_pretty(self).map(|text| text + "\n")
+    }
+
+    /// Writes the manifest into a folder, each file atomically: first [`DIGEST_FILE`], then [`MANIFEST_FILE`].
+    ///
+    /// # Errors
+    /// If it cannot be written as JSON, or a file cannot be written.
+    pub fn write(&self, folder: &Path) -> Result<(), WriteError> {
+        let path = folder.join(MANIFEST_FILE);
+        let text = self.to_text().map_err(|error| WriteError::json(&path, error))?;
+        write_digest(folder, &sha256_hex(text.as_bytes()))?;
+        atomic::write(&path, text.as_bytes())
     }
 
     /// The properties of each event that determine which splits it may belong to, in the events' order.

@@ -4,15 +4,18 @@ use crate::{
     ExportError, FileError,
     acceptance::Acceptance,
     atomic::AtomicFile,
-    checksum::FileEntry,
-    manifest::DATASET_FORMAT,
+    checksum::{FileEntry, HashingWriter},
+    manifest::{DATASET_FORMAT, MANIFEST_FILE, write_digest},
     overview::Overview,
     slot_record::{Records, SlotRecord},
 };
 use core::cell::RefCell;
 use serde::{Serialize, Serializer};
 use serde_json::Value;
-use std::{io::Write, path::Path};
+use std::{
+    io::{self, Write},
+    path::Path,
+};
 
 /// The members of [`Manifest`](crate::manifest::Manifest), in its order; the same bytes result.
 #[derive(Serialize)]
@@ -52,11 +55,15 @@ impl<T: Serialize, I: IntoIterator<Item = T>, F: Fn(SlotRecord) -> I> Serialize 
     }
 }
 
-/// Writes the manifest of a dataset atomically. The events are those of the records, of which one at a time is in memory.
+/// Writes the manifest of a dataset into a folder, its digest first, each atomically, and returns the digest. The events are those of the records, of which one at a time is in memory.
 ///
 /// # Errors
 /// [`ExportError`].
-pub fn write_manifest(path: &Path, overview: &Overview, records: &dyn Records) -> Result<(), ExportError> {
+pub fn write_manifest(
+    folder: &Path,
+    overview: &Overview,
+    records: &dyn Records,
+) -> Result<String, ExportError> {
     let failure = RefCell::new(None);
     let text = ManifestText {
         format: DATASET_FORMAT,
@@ -74,12 +81,15 @@ pub fn write_manifest(path: &Path, overview: &Overview, records: &dyn Records) -
         }),
         files: &overview.files,
     };
-    let mut file = AtomicFile::create(path)?;
-    let written = serde_json::to_writer_pretty(&mut file, &text);
-    written.map_err(|error| file.failed(error.into()))?;
+    let mut file = HashingWriter::new(AtomicFile::create(&folder.join(MANIFEST_FILE))?);
+    let written = serde_json::to_writer_pretty(&mut file, &text).map_err(io::Error::from);
+    let written = written.and_then(|()| file.write_all(b"\n"));
+    let (file, digest) = file.finish();
     if let Some(error) = failure.take() {
         return Err(error.into());
     }
-    file.write_all(b"\n").map_err(|source| file.failed(source))?;
-    Ok(file.commit()?)
+    written.map_err(|source| file.failed(source))?;
+    write_digest(folder, &digest)?;
+    file.commit()?;
+    Ok(digest)
 }

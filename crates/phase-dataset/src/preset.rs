@@ -1,6 +1,7 @@
 //! The composition of a generated dataset.
 
 use crate::{FileError, Problem, splits::Split};
+use phase_event::check_id;
 use phase_model::{
     Layout, Relation,
     layout::USED_BASES,
@@ -169,10 +170,11 @@ impl Preset {
         if self.format != PRESET_FORMAT {
             return Err(format!("field `format` must be {PRESET_FORMAT:?}"));
         }
-        let plain = |letter: char| letter.is_ascii_alphanumeric() || "-_.".contains(letter);
-        if self.name.is_empty() || self.name.len() > 60 || !self.name.chars().all(plain) {
-            return Err("field `name` must be 1 to 60 letters, digits, `-`, `_`, `.`".into());
+        if self.name.is_empty() || self.name.len() > 60 {
+            return Err("field `name` must have 1 to 60 letters".into());
         }
+        // Ids begin with it.
+        check_id(&self.id(0)).map_err(|rule| format!("field `name` with a number {rule}"))?;
         let given = [!self.groups.is_empty(), self.blocks.is_some(), !self.sets.is_empty()];
         if given.into_iter().filter(|&given| given).count() != 1 {
             return Err(
@@ -260,7 +262,7 @@ impl Preset {
     /// The id of the slot with this number: that of its event, or of its set.
     #[must_use]
     pub fn id(&self, index: usize) -> String {
-        format!("{}-{index:04}", self.name)
+        slot_id(&self.name, index)
     }
 }
 
@@ -278,4 +280,10 @@ impl SetGroup {
             None => Ok(()),
         }
     }
+}
+
+/// The name of a slot, which is that of its event, or of its set.
+#[must_use]
+pub fn slot_id(preset: &str, index: usize) -> String {
+    format!("{preset}-{index:04}")
 }

@@ -5,9 +5,10 @@ use crate::{
     atomic::{self, AtomicFile},
     checksum::FileEntry,
     json,
-    preset::MOST_EVENTS,
+    preset::{MOST_EVENTS, slot_id},
     slot_record::{Records, SlotRecord},
 };
+use core::{iter::StepBy, ops::Range};
 use phase_model::json::check_format;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -137,7 +138,8 @@ impl Shard {
     #[must_use]
     pub fn records(&self, folder: &Path) -> SlotReader {
         let (file, fingerprint) = (folder.join(SLOTS_FILE), self.fingerprint.clone());
-        SlotReader { file, fingerprint, offset: 0, left: self.len() }
+        let slots = slots(self.shard, self.of, self.whole.slots);
+        SlotReader { file, fingerprint, preset: self.whole.preset.clone(), offset: 0, slots }
     }
 }
 
@@ -161,12 +163,15 @@ pub fn write_slots(folder: &Path, records: &dyn Records) -> Result<(), ExportErr
 pub struct SlotReader {
     file: PathBuf,
     fingerprint: String,
+    /// Name of the preset, with which ids begin.
+    preset: String,
     offset: u64,
-    left: usize,
+    /// The slots to come.
+    slots: StepBy<Range<usize>>,
 }
 
 impl SlotReader {
-    fn read(&mut self) -> Result<SlotRecord, FileError> {
+    fn read(&mut self, slot: usize) -> Result<SlotRecord, FileError> {
         let fail = |problem| FileError { file: self.file.clone(), problem };
         let what = "list of slots";
         let mut line = String::new();
@@ -177,18 +182,23 @@ impl SlotReader {
         };
         let bytes = read(&mut line).map_err(|error| fail(Problem::Unreadable(error)))?;
         if bytes == 0 {
-            let rule = format!("the records of {} slots are missing", self.left);
+            let rule = format!("the records of {} slots are missing", self.slots.len() + 1);
             return Err(fail(Problem::Shape { what, rule }));
         }
         self.offset += bytes as u64;
         let record: SlotRecord =
             serde_json::from_str(&line).map_err(|source| fail(Problem::Incomplete { what, source }))?;
-        let rule = match (record.is_filled(), record.fingerprint == self.fingerprint) {
-            (true, true) => return Ok(record),
-            (false, _) => "a slot holds no event",
-            (true, false) => "a slot is of another program or of other settings",
+        let id = slot_id(&self.preset, slot);
+        let rule = if !record.is_filled() {
+            format!("the slot {id} holds no event")
+        } else if record.fingerprint != self.fingerprint {
+            format!("the slot {id} is of another program or of other settings")
+        } else if !record.is_named(&id) {
+            format!("the slot {id} has an event, a set or a file of another name")
+        } else {
+            return Ok(record);
         };
-        Err(fail(Problem::Shape { what, rule: rule.into() }))
+        Err(fail(Problem::Shape { what, rule }))
     }
 }
 
@@ -197,16 +207,16 @@ impl Iterator for SlotReader {
 
     /// The next record; none after an error.
     fn next(&mut self) -> Option<Self::Item> {
-        if self.left == 0 {
-            return None;
+        let slot = self.slots.next()?;
+        let record = self.read(slot);
+        if record.is_err() {
+            self.slots = slots(1, 1, 0);
         }
-        let record = self.read();
-        self.left = if record.is_ok() { self.left - 1 } else { 0 };
         Some(record)
     }
 }
 
 /// The slots of shard `shard` (from 1) of `of`, out of `count`.
-pub fn slots(shard: usize, of: usize, count: usize) -> impl Iterator<Item = usize> {
+pub fn slots(shard: usize, of: usize, count: usize) -> StepBy<Range<usize>> {
     (shard.saturating_sub(1)..count).step_by(of.max(1))
 }

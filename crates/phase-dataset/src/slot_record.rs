@@ -1,7 +1,12 @@
 //! The attempts at each slot of a dataset, with the reasons for rejection.
 
 use crate::{
-    FileError, Problem, WriteError, acceptance::Refusal, atomic, event_set::SetEntry, manifest::EventEntry,
+    FileError, Problem, WriteError,
+    acceptance::Refusal,
+    atomic,
+    checksum::FileEntry,
+    event_set::{SetEntry, member_id, set_video_path},
+    manifest::{EventEntry, event_path, video_path},
 };
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -67,8 +72,27 @@ impl SlotRecord {
         !self.entries.is_empty()
     }
 
+    /// Whether its events, its set and their files have the names that belong to the slot with this name.
+    #[must_use]
+    pub fn is_named(&self, slot: &str) -> bool {
+        let event = |(k, entry): (usize, &EventEntry)| {
+            let in_set = self.set.is_some();
+            let id = if in_set { member_id(slot, k) } else { slot.into() };
+            let video = entry.video.as_ref().is_none_or(|video| *video.path.as_str() == *video_path(&id));
+            let set = entry.set.as_ref().map(|place| place.set.as_str());
+            entry.id == id
+                && *entry.event.path.as_str() == *event_path(&id)
+                && video
+                && set == in_set.then_some(slot)
+        };
+        let video = |video: &FileEntry| *video.path.as_str() == *set_video_path(slot);
+        self.set.as_ref().is_none_or(|set| set.id == slot && set.video.as_ref().is_none_or(video))
+            && (self.set.is_some() || self.entries.len() == 1)
+            && self.entries.iter().enumerate().all(event)
+    }
+
     /// The files of its events and of its set.
-    pub fn files(&self) -> impl Iterator<Item = &crate::checksum::FileEntry> {
+    pub fn files(&self) -> impl Iterator<Item = &FileEntry> {
         let of_set = self.set.iter().filter_map(|set| set.video.as_ref());
         self.entries.iter().flat_map(EventEntry::files).chain(of_set)
     }

@@ -2,7 +2,6 @@
 //! reads them.
 
 use crate::{describe, manifest::EventEntry};
-use std::path::Path;
 
 /// The file, in a dataset's folder.
 pub const VIDEO_TABLE_FILE: &str = "videos/metadata.csv";
@@ -13,11 +12,11 @@ pub const VIDEO_TABLE_HEADER: &str = "file_name,id,kind,variant,relation,split,s
 /// The row of an event; none if it has no video. Names of files are relative to the folder of the table.
 #[must_use]
 pub fn video_row(event: &EventEntry) -> Option<String> {
-    let file = event.video.as_ref().and_then(|video| Path::new(&video.path).file_name())?;
+    let file = event.video.as_ref()?.path.name();
     let (set, stance) =
         event.set.as_ref().map_or(("", ""), |place| (place.set.as_str(), place.stance.name()));
     let fields = [
-        &*file.to_string_lossy(),
+        file,
         &event.id,
         event.kind.name(),
         event.variant.map_or("", phase_sampler::Variant::name),

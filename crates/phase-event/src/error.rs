@@ -15,8 +15,8 @@ pub enum EventReadError {
     /// It contains no events.
     #[error("field `events` must hold at least one event")]
     NoEvents,
-    /// Two events have the same id.
-    #[error("event {0}: field `id` must differ from that of every other event")]
+    /// Two events have the same id, or ids that differ in case only.
+    #[error("event {0}: field `id` must differ from that of every other event, and not in case alone")]
     DuplicateId(String),
     /// A field violates a rule.
     #[error("{}{problem}", event_prefix(event))]

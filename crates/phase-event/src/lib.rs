@@ -50,7 +50,7 @@ pub use error::{EventReadError, EventWriteError};
 pub use event::{Event, Step};
 pub use mean::mean_state;
 pub use observed::{ObservedError, ObservedEvent};
-pub use read::{LONGEST_ID, from_json, parse};
+pub use read::{LONGEST_ID, check_id, from_json, parse};
 pub use recording::{Controller, Recording, Recovered, Simulation};
 pub use subgoals::subgoal_of;
 pub use thought::{ActionEvaluation, SubgoalValue, Thought};

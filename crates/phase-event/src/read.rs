@@ -10,6 +10,7 @@ use phase_model::{
     AGENT_COUNT, Relation, Scene, Vec2,
     arena::{self, FRAMES_PER_SECOND, SUBSTEPS},
     json::{self, Field, FieldError, finite, shown},
+    path::check_file_name,
     scene_json::Starts,
 };
 use serde_json::Value;
@@ -75,7 +76,8 @@ fn all_of(document: &Value) -> Result<Vec<Recording>, EventReadError> {
     for (k, value) in events.iter().enumerate() {
         let number = || Some(format!("number {k}"));
         let recording = recording(&Field::root(value), number)?;
-        if !ids.insert(recording.id.clone()) {
+        // Some systems take names for one that differ in case only.
+        if !ids.insert(recording.id.to_ascii_lowercase()) {
             return Err(EventReadError::DuplicateId(recording.id));
         }
         recordings.push(recording);
@@ -167,19 +169,27 @@ fn start_and_motion(event: &Field<'_>, id: Option<&str>) -> Result<(Scene, Traje
     }
 }
 
-/// An id becomes a file name, so it must be valid on every system.
 fn id_of(event: &Field<'_>) -> Result<String, FieldError> {
     let field = event.required("id")?;
     let id = field.text()?;
+    check_id(id)
+        .map(|()| id.into())
+        .map_err(|rule| field.error(format!("{rule}, not {}", shown(field.value()))))
+}
+
+/// Checks the name of an event. It becomes a file name, so it must be valid on every system.
+///
+/// # Errors
+/// The rule that it violates, which continues a sentence that begins with the name of the field.
+pub fn check_id(id: &str) -> Result<(), String> {
     let plain = |letter: char| letter.is_ascii_alphanumeric() || "-_.".contains(letter);
-    let good = (1..=LONGEST_ID).contains(&id.len()) && id.chars().all(plain) && !id.starts_with(['.', '-']);
-    if good {
-        Ok(id.into())
-    } else {
-        let rule =
-            format!("1 to {LONGEST_ID} letters, digits, `-`, `_` and `.`, beginning with a letter or digit");
-        Err(field.must_be(&rule))
+    let fits = (1..=LONGEST_ID).contains(&id.len()) && id.chars().all(plain);
+    if !fits || id.starts_with(['.', '-']) {
+        return Err(format!(
+            "must be 1 to {LONGEST_ID} letters, digits, `-`, `_` and `.`, not beginning with `.` or `-`"
+        ));
     }
+    check_file_name(id).map_err(|rule| rule.to_string())
 }
 
 struct Labels {

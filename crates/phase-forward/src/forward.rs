@@ -1,13 +1,13 @@
 //! The kernel: the constants of a scene's physics, and steps from state to state.
 
 use crate::{
-    coarse, constants::VELOCITY_ITERATIONS, finish::stop_turning, key::BodyMask, model::Model, reach,
+    coarse, constants::VELOCITY_ITERATIONS, finish::stop_turning, key::BodyMask, lanes, model::Model, reach,
     solver_cache::SolverCache, touching::ContactSet, world::World,
 };
 use phase_model::{AGENT_COUNT, Action, Dynamics, PhysicsConfig, State, arena::SUBSTEPS};
 
 /// Iterations of the velocity solver in a substep without warm starting.
-const COLD_ITERATIONS: usize = 20;
+pub(crate) const COLD_ITERATIONS: usize = 20;
 
 /// The dynamics of one scene: walls, shapes, masses and forces, prepared for stepping.
 ///
@@ -231,5 +231,25 @@ impl Dynamics for Forward {
     /// [`Forward::step_coarse`].
     fn step_approximate(&self, state: &mut State, actions: [Action; AGENT_COUNT]) {
         self.step_coarse(state, actions);
+    }
+
+    /// States are stepped eight at a time, one in each lane of a vector, with the bits that [`Dynamics::step`] gives them.
+    ///
+    /// # Panics
+    ///
+    /// If there are not as many pairs of actions as states.
+    fn step_batch(&self, states: &mut [State], actions: &[[Action; AGENT_COUNT]]) {
+        assert_eq!(states.len(), actions.len(), "one pair of actions for each state");
+        lanes::step(&self.model, states, actions, |state, actions| self.step(state, actions));
+    }
+
+    /// [`Forward::step_coarse`] of several states, as [`Dynamics::step_batch`].
+    ///
+    /// # Panics
+    ///
+    /// If there are not as many pairs of actions as states.
+    fn step_approximate_batch(&self, states: &mut [State], actions: &[[Action; AGENT_COUNT]]) {
+        assert_eq!(states.len(), actions.len(), "one pair of actions for each state");
+        lanes::step_coarse(&self.model, states, actions, |state, actions| self.step_coarse(state, actions));
     }
 }

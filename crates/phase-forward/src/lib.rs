@@ -103,6 +103,7 @@ mod forward;
 mod grasp;
 mod group;
 mod key;
+mod lanes;
 mod manifold;
 mod model;
 mod narrow;

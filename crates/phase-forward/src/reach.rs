@@ -11,14 +11,14 @@ use crate::{
 use phase_model::{AGENT_COUNT, arena};
 
 /// Substeps in a step, as seconds.
-const STEP: f32 = arena::SUBSTEPS as f32 * H;
+pub(crate) const STEP: f32 = arena::SUBSTEPS as f32 * H;
 /// Displacement in a step per unit of constant acceleration, since each substep moves with its final speed
 /// (s²).
-const DISPLACEMENT_PER_ACCELERATION: f32 = 15.0 * H * H;
+pub(crate) const DISPLACEMENT_PER_ACCELERATION: f32 = 15.0 * H * H;
 /// Margin for position corrections in a group of bodies (u).
-const CORRECTION_MARGIN: f32 = 0.5;
+pub(crate) const CORRECTION_MARGIN: f32 = 0.5;
 /// Leeway of all tests (u).
-const MARGIN: f32 = 0.02;
+pub(crate) const MARGIN: f32 = 0.02;
 
 /// The bodies that may touch or hold anything in the coming step, whatever happens; all others move alone.
 /// Records for each of them which walls it can reach.

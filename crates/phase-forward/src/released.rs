@@ -8,9 +8,11 @@ use crate::{
 use phase_model::{AGENT_COUNT, AgentId, Entity, State, Vec2};
 
 /// Distance from the point of release beyond which an object is clear of its holder (u).
-const CLEARANCE: f32 = 0.1;
+pub(crate) const CLEARANCE: f32 = 0.1;
 /// Additional distance, in substeps at the body's current speed.
-const CLEARANCE_SUBSTEPS: f32 = 4.0;
+pub(crate) const CLEARANCE_SUBSTEPS: f32 = 4.0;
+/// Speed of approach above which an object was not just released (u/s).
+pub(crate) const APPROACH: f32 = 1.0;
 
 impl World<'_> {
     /// Excludes contacts of held objects, and limits those of objects that are released in this step or
@@ -21,8 +23,6 @@ impl World<'_> {
     ///
     /// [`RELEASED_OVERLAP`]: phase_model::physics::RELEASED_OVERLAP
     pub(crate) fn exclude_pairs(&mut self, state: &State, released: [Option<usize>; AGENT_COUNT]) {
-        /// Speed of approach above which it was not just released (u/s).
-        const APPROACH: f32 = 1.0;
         for (holder, released) in AgentId::ALL.into_iter().zip(released) {
             let agent = holder.index();
             if let Some(held) = self.held(agent) {

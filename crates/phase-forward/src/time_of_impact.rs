@@ -108,6 +108,11 @@ fn target(shape: &Shape) -> f32 {
     (shape.skin + SKIN - 3.0 * LINEAR_SLOP).max(LINEAR_SLOP)
 }
 
+/// Distance from a body's outline (or from a disc's centre) beyond which a wall cannot be reached (u).
+pub(crate) fn clearance(shape: &Shape) -> f32 {
+    target(shape) + TOLERANCE
+}
+
 /// The margin around its box within which a body has to be free of overlaps to be clear (u).
 pub(crate) fn room(shape: &Shape) -> f32 {
     let inside = if shape.origin > 0.0 { 0.0 } else { shape.radius };
@@ -127,7 +132,7 @@ impl SweepEnds {
     pub(crate) fn new(shape: &Shape, sweep: &Sweep) -> Self {
         let polygons = (shape.origin > 0.0)
             .then(|| [Polygon::new(shape, &sweep.at(0.0)), Polygon::new(shape, &sweep.at(1.0))]);
-        Self { centres: [sweep.from, sweep.to], polygons, clear: target(shape) + TOLERANCE }
+        Self { centres: [sweep.from, sweep.to], polygons, clear: clearance(shape) }
     }
 
     /// Whether some axis separates body and wall at both ends of the path: the wall's normal, also for bodies

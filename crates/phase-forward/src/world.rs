@@ -25,6 +25,7 @@ impl Impulses {
 }
 
 /// The working data of one step.
+#[derive(Clone)]
 pub(crate) struct World<'a> {
     pub(crate) model: &'a Model,
     /// The four bodies and the static body for all walls.
@@ -64,21 +65,10 @@ impl<'a> World<'a> {
     pub(crate) fn new(model: &'a Model, state: &State, actions: [Action; AGENT_COUNT]) -> Self {
         let mut motions = [BodyMotion::AT_REST; 5];
         for (index, motion) in motions.iter_mut().enumerate().take(model.count) {
-            let mut body = state.bodies[index];
-            if !is_sane(&body) {
-                body = sanitized(body);
-            }
-            *motion = if index < AGENT_COUNT {
-                BodyMotion::of_agent(&body, &model.shapes[index])
-            } else {
-                BodyMotion::of_object(&body)
-            };
-            if !arena::contains(motion.centre) {
-                motion.centre =
-                    motion.centre.clamp(arena::MIN + BOUNDARY_MARGIN, arena::MAX - BOUNDARY_MARGIN);
-            }
+            *motion = unpacked(model, index, &state.bodies[index]);
         }
-        let grips = [0, 1].map(|agent| Some(sanitized_grip(state.grips[agent]?, agent, &motions)));
+        let angles = motions.map(|motion| motion.angle);
+        let grips = [0, 1].map(|agent| Some(sanitized_grip(state.grips[agent]?, agent, &angles)));
         let rest_length = |agent: usize| {
             let held = held_body(grips[agent].as_ref()?);
             let origin = motions[agent].place(Vec2::new(0.0, model.shapes[agent].origin));
@@ -124,10 +114,13 @@ impl<'a> World<'a> {
         Some(place.distance(self.motions[held].centre))
     }
 
-    /// Writes the bodies and grips into a state, whose contacts are not changed.
+    /// Writes the bodies and grips into a state, whose contacts are not changed. Origins lie inside the arena, as in the reference
+    /// world: an agent's is ahead of its centre of mass, which alone is contained while bodies move.
     pub(crate) fn write(&self, state: &mut State) {
         for index in 0..self.model.count {
-            state.bodies[index] = self.motions[index].body(&self.model.shapes[index]);
+            let body = &mut state.bodies[index];
+            *body = self.motions[index].body(&self.model.shapes[index]);
+            body.position = body.position.clamp(arena::MIN, arena::MAX);
         }
         state.grips = self.grips;
     }
@@ -185,9 +178,36 @@ const MAX_ANGLE: f32 = 1e5;
 /// Maximum accepted twist of a grip (rad); the strongest agents stay far below it.
 const MAX_GRIP_ANGLE: f32 = 1.0;
 
-/// The same grip, at the actual angle of its object if the stated angle differs much from that or is NaN.
-fn sanitized_grip(grip: Grip, agent: usize, motions: &[BodyMotion; 5]) -> Grip {
-    let angle = motions[held_body(&grip)].angle - motions[agent].angle;
+/// A body of a state. Invalid values are replaced, and its centre of mass is clamped to the arena.
+#[inline]
+pub(crate) fn unpacked(model: &Model, index: usize, body: &Body) -> BodyMotion {
+    let replaced;
+    let body = if is_sane(body) {
+        body
+    } else {
+        replaced = sanitized(*body);
+        &replaced
+    };
+    let mut motion = if index < AGENT_COUNT {
+        BodyMotion::of_agent(body, &model.shapes[index])
+    } else {
+        BodyMotion::of_object(body)
+    };
+    if !arena::contains(motion.centre) {
+        motion.centre = motion.centre.clamp(arena::MIN + BOUNDARY_MARGIN, arena::MAX - BOUNDARY_MARGIN);
+    }
+    motion
+}
+
+/// The angle of a body of a state, as [`unpacked`] has it.
+pub(crate) fn unpacked_angle(body: &Body) -> f32 {
+    if is_sane(body) { body.angle } else { sanitized(*body).angle }
+}
+
+/// The same grip, at the actual angle of its object if the stated angle differs much from that or is NaN. Takes the angles of the
+/// bodies.
+pub(crate) fn sanitized_grip(grip: Grip, agent: usize, angles: &[f32; 5]) -> Grip {
+    let angle = angles[held_body(&grip)] - angles[agent];
     let is_sane = (grip.relative_angle - angle).abs() <= MAX_GRIP_ANGLE;
     Grip { relative_angle: if is_sane { grip.relative_angle } else { angle }, ..grip }
 }

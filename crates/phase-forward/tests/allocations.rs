@@ -14,6 +14,8 @@ use scenes::{actions, clear_of_walls, separated_bodies};
 /// Scenes, and runs of held actions in each.
 const SCENES: usize = 250;
 const RUNS: usize = 10;
+/// Worlds stepped together.
+const WORLDS: usize = 11;
 
 #[test]
 fn steps_allocate_nothing() {
@@ -37,6 +39,11 @@ fn steps_allocate_nothing() {
             });
             allocated("step", &mut || forward.step(&mut cold, actions));
             let mut imagined = cold;
+            let (mut worlds, mut imagined_worlds) = ([cold; WORLDS], [cold; WORLDS]);
+            allocated("step_batch", &mut || forward.step_batch(&mut worlds, &[actions; WORLDS]));
+            allocated("step_approximate_batch", &mut || {
+                forward.step_approximate_batch(&mut imagined_worlds, &[actions; WORLDS]);
+            });
             allocated("step_coarse", &mut || forward.step_coarse(&mut imagined, actions));
             allocated("step_warm", &mut || {
                 black_box(forward.step_warm(&mut warm, &mut solver_cache, actions));

@@ -49,6 +49,7 @@ pub mod id;
 pub mod json;
 pub mod judgement;
 pub mod layout;
+pub mod path;
 mod penetration;
 pub mod physics;
 pub mod predicate;

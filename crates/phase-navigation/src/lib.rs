@@ -14,6 +14,23 @@
 //!
 //! [`Navigator`] computes fields on demand and caches them. All functions are pure: equal arguments give equal
 //! bits.
+//!
+//! Layout 4 has a door of 2.5 u on the left. A body that fits goes straight through it, a wider one has to go round or pay for it:
+//!
+//! ```
+//! use phase_model::{Layout, Vec2};
+//! use phase_navigation::{Field, Map, Mover, NavigationCosts, Target};
+//!
+//! let map = Map::new(Layout::new(4, None)?);
+//! let (above, below) = (Vec2::new(7.25, 16.0), Vec2::new(7.25, 6.0));
+//! let costs = NavigationCosts { impassable: 10.0, obstruction: 4.0 };
+//! let field = |half_width| Field::new(&map, Target::Point(below), Mover { half_width }, &[], costs);
+//!
+//! assert!((field(1.2).distance(above) - 10.0).abs() < 1e-3);
+//! assert!(field(1.2).direction(above).y < -0.99);
+//! assert!(field(1.8).distance(above) > 15.0);
+//! # Ok::<(), phase_model::LayoutError>(())
+//! ```
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]

@@ -1,15 +1,13 @@
 //! Definition and solution of a custom problem: the tiger behind one of two doors (Kaelbling, Littman &
 //! Cassandra 1998).
 //!
-//! The problem is the `impl` block, the solution is `one_episode`; a table then shows the returns of whole
-//! episodes with growing numbers of simulations. Run it with
-//! `cargo run --release -p phase-pomcp --example tiger -- [EPISODES [SEED]]`.
+//! The problem is the `impl` block, the solution is `main`: twelve steps of an episode, with a search and an update of
+//! the belief at each. Run it with `cargo run --release -p phase-pomcp --example tiger -- [SEED]`; the example `anchors`
+//! measures the returns of whole episodes.
 
-mod support;
-
-use phase_pomcp::{GenerativeModel, Pomcp, PomcpError, PomcpSettings, Transition};
+use phase_pomcp::{BeliefModel, GenerativeModel, ParticleBelief, Pomcp, PomcpSettings, Transition};
 use rand::{Rng, RngExt, SeedableRng};
-use support::Problem;
+use std::error::Error;
 
 const NAMES: [&str; 3] = ["listen", "open left", "open right"];
 
@@ -45,11 +43,7 @@ impl GenerativeModel for Tiger {
     }
 }
 
-impl Problem for Tiger {
-    fn start(&self, random: &mut impl Rng) -> bool {
-        random.random()
-    }
-}
+impl BeliefModel for Tiger {}
 
 /// The tiger's worst return sets the scale of values, about −130 to 20, on which a listening action that pays
 /// is only a hundredth better than one that does not; a small exploration rate distinguishes them.
@@ -57,7 +51,8 @@ const SETTINGS: PomcpSettings = PomcpSettings {
     stop_when_decided: false,
     convergence: 0.0,
     untried_first: true,
-    simulations: 1000,
+    batch: 1,
+    simulations: 4096,
     rollout_steps: 10,
     c_init: 0.6,
     c_base: 1e6,
@@ -65,24 +60,22 @@ const SETTINGS: PomcpSettings = PomcpSettings {
     normalise_values: true,
 };
 
-fn main() -> Result<(), PomcpError> {
-    let (episodes, seed) = support::arguments(1000);
-    one_episode(seed)?;
-    support::table(&Tiger, SETTINGS, &[16, 64, 256, 1024, 4096], episodes, seed)?;
-    println!("the optimum from an even belief, for ever: 19.37");
-    Ok(())
-}
+/// Particles of the belief.
+const PARTICLES: usize = 1000;
 
-/// Prints the actions of one episode and their explanations.
-fn one_episode(seed: u64) -> Result<(), PomcpError> {
+fn main() -> Result<(), Box<dyn Error>> {
+    let seed = match std::env::args().nth(1) {
+        Some(seed) => seed.parse()?,
+        None => 1,
+    };
     let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(seed);
-    let mut pomcp = Pomcp::new(PomcpSettings { simulations: 4096, ..SETTINGS })?;
+    let mut pomcp = Pomcp::new(SETTINGS)?;
     let mut tiger: bool = random.random();
-    let mut belief = vec![true, false];
+    let mut belief = ParticleBelief::new((0..PARTICLES).map(|k| k % 2 == 0).collect())?;
     for _ in 0..12 {
-        let decision = pomcp.search(&Tiger, &belief, &mut random)?;
+        let decision = pomcp.search(&Tiger, belief.particles(), &mut random)?;
         let outcome = Tiger.step(&mut tiger, decision.action, &mut random);
-        belief = support::updated(&Tiger, &belief, decision.action, &outcome.observation, &mut random);
+        belief.update(&Tiger, decision.action, &outcome.observation, &mut random)?;
         let visits: Vec<usize> = decision.actions.iter().map(|action| action.visits).collect();
         println!("{:10}  earns {:4}  visits {visits:?}", NAMES[decision.action], outcome.reward);
     }

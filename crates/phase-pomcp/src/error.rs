@@ -11,6 +11,12 @@ pub enum PomcpError {
     /// The settings specify zero simulations.
     #[error("`simulations` is 0; a decision needs at least one")]
     ZeroSimulations,
+    /// The settings allow no simulation at a time.
+    #[error("`batch` is 0; a search runs at least one simulation at a time")]
+    ZeroBatch,
+    /// A forest has no trees.
+    #[error("`trees` is 0; a forest has at least one")]
+    ZeroTrees,
     /// The settings do not allow even the first step.
     #[error("`horizon` is 0; a decision looks at least one step ahead")]
     ZeroHorizon,
@@ -34,6 +40,15 @@ pub enum PomcpError {
     /// The model has no actions.
     #[error("the model has no actions; `action_count` must be at least 1")]
     NoActions,
+    /// No action is legal in a state in which the problem has not ended.
+    #[error("`is_legal` allows no action in a state that was not terminal")]
+    NoLegalAction,
+    /// The default policy chose an action that is not legal.
+    #[error("`rollout_action` chose {action}, which `is_legal` forbids")]
+    IllegalRolloutAction {
+        /// The action it chose.
+        action: usize,
+    },
     /// The tree could exceed its 32-bit indices.
     #[error("{simulations} simulations of {action_count} actions could need more than 2^32 nodes; use fewer")]
     TooLarge {
@@ -68,8 +83,8 @@ pub enum PomcpError {
         /// The return.
         value: f64,
     },
-    /// A prior weight is negative, infinite or NaN, or the weights of a history are all zero or their sum
-    /// overflows.
+    /// A prior weight is negative, infinite or NaN, or the weights of a history's legal actions are all zero
+    /// or their sum overflows.
     #[error("prior weight {weight} (or sum {sum}) must be finite and not negative, the sum positive")]
     InvalidPrior {
         /// The last weight queried.
@@ -84,6 +99,14 @@ pub enum PomcpError {
         weights: usize,
         /// The model's number of actions.
         action_count: usize,
+    },
+    /// The model did not give one outcome for each state of a batch.
+    #[error("a batch of {states} steps gave {outcomes} outcomes")]
+    OutcomeCount {
+        /// The number of outcomes that the model appended.
+        outcomes: usize,
+        /// The number of states.
+        states: usize,
     },
     /// The default policy returned an invalid action.
     #[error("`rollout_action` chose {action}, but there are only {action_count} actions")]

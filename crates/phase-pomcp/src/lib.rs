@@ -35,8 +35,13 @@
 //! ```
 //!
 //! The hidden lines import `rand`, declare the problem (`struct Cups;`) and seed a generator.
-//! `examples/tiger.rs` and `examples/rocksample` simulate whole episodes, with a particle belief between the
-//! real steps.
+//! `examples/tiger.rs` goes on to whole episodes, with a [`ParticleBelief`] between the real steps; `examples/anchors`
+//! measures returns on published problems, which docs/planners.md lists. Where not every action is possible everywhere, a
+//! model says so ([`GenerativeModel::is_legal`]).
+//!
+//! Two ways to search faster: several simulations in progress, whose steps a model computes together
+//! ([`PomcpSettings::batch`]), and several trees at the same time ([`Forest`], on all threads with the feature
+//! `parallel`).
 //!
 //! # Key design decision
 //!
@@ -44,17 +49,17 @@
 //! states. So a plan can react to future observations, which gives information gathering its value, and the
 //! whole tree is three flat vectors of a few words per node that are reused from search to search. Only for a
 //! model that declares itself deterministic does a search keep the states it reached, and computes no step of
-//! the tree twice.
+//! the tree twice, unless several simulations in progress come to it at once.
 //!
 //! The trade-off: the model must return observations coarse enough for simulations to meet again, since the
 //! tree has no notion of similar observations; branches of an action are searched linearly, fine for dozens
-//! and slow for thousands; and every search starts from an empty tree, as updating the belief by the
-//! particles of a subtree, which POMCP offers, is left to the owner of the belief.
+//! and slow for thousands; and every search starts from an empty tree: a belief is updated by the model, not by the
+//! particles of a subtree as in POMCP.
 //!
 //! # Determinism
 //!
-//! A search is a function of its settings, model, particles and generator, to the last bit: it does not
-//! iterate over hashes or read a clock, and the logarithm is that of the `libm` crate on every platform.
+//! A search is a function of its settings, model, particles and generator, to the last bit, and that of a [`Forest`]
+//! does not depend on the number of threads: it does not iterate over hashes or read a clock, and the logarithm is that of the `libm` crate on every platform.
 //!
 //! # Deviations from the sources
 //!
@@ -66,8 +71,11 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+mod batch;
+mod belief;
 mod decision;
 mod error;
+mod forest;
 mod model;
 pub mod puct;
 mod search;
@@ -75,8 +83,10 @@ mod settings;
 mod simulation;
 mod tree;
 
+pub use belief::{BeliefError, BeliefModel, BeliefUpdate, DEFAULT_ATTEMPTS, ParticleBelief};
 pub use decision::{ActionStatistics, Decision, SearchStatistics};
 pub use error::PomcpError;
+pub use forest::Forest;
 pub use model::{GenerativeModel, Transition};
 pub use search::Pomcp;
 pub use settings::PomcpSettings;

@@ -16,6 +16,29 @@ pub fn score(value: f64, prior: f64, exploration: f64, visits: u32) -> f64 {
     value + prior * exploration / (1.0 + f64::from(visits))
 }
 
+/// [`exploration`] by visits, each computed once: its logarithm costs more than the rest of a selection.
+#[derive(Debug, Clone)]
+pub(crate) struct ExplorationTable {
+    factors: Vec<f64>,
+}
+
+/// Visits up to which factors are kept (half a megabyte); histories with more are few.
+const GREATEST_KEPT: u32 = 1 << 16;
+
+impl ExplorationTable {
+    pub(crate) const EMPTY: Self = Self { factors: Vec::new() };
+
+    /// `exploration(settings, visits)`; the settings must be the same in all calls.
+    pub(crate) fn at(&mut self, settings: &PomcpSettings, visits: u32) -> f64 {
+        if visits > GREATEST_KEPT {
+            return exploration(settings, visits);
+        }
+        let kept = self.factors.len() as u32;
+        self.factors.extend((kept..=visits).map(|visits| exploration(settings, visits)));
+        self.factors[visits as usize]
+    }
+}
+
 /// The minimum and maximum mean value of any action in the tree so far.
 ///
 /// Means, not single returns, as in MuZero: the scale has to distinguish actions, and one unlucky rollout

@@ -1,9 +1,10 @@
 //! The planner and its memory: one search from root particles to a decision.
 
-use rand::{Rng, RngExt};
+use rand::Rng;
 
-use crate::puct::ValueRange;
-use crate::simulation::{PathStep, Simulation};
+use crate::batch::{self, Lanes};
+use crate::puct::{ExplorationTable, ValueRange};
+use crate::simulation::Simulations;
 use crate::tree::{HistoryId, Tree};
 use crate::{ActionStatistics, Decision, GenerativeModel, PomcpError, PomcpSettings, SearchStatistics};
 
@@ -12,13 +13,14 @@ use crate::{ActionStatistics, Decision, GenerativeModel, PomcpError, PomcpSettin
 ///
 /// Every search starts from an empty tree, and its result depends on the settings, the model, the particles
 /// and the generator alone, not on earlier searches. Only the memory is reused, so that after the first few
-/// searches a search allocates its [`Decision`] and one copy of a state, and nothing per simulation; for a
+/// searches a search allocates its [`Decision`] and one copy of a state for each simulation in progress, and nothing per simulation; for a
 /// [deterministic](GenerativeModel::is_deterministic) model, a copy of every state in the tree.
 #[derive(Debug, Clone)]
 pub struct Pomcp<O> {
     settings: PomcpSettings,
     tree: Tree<O>,
-    path: Vec<PathStep>,
+    table: ExplorationTable,
+    lanes: Lanes<O>,
 }
 
 impl<O: Eq> Pomcp<O> {
@@ -28,7 +30,7 @@ impl<O: Eq> Pomcp<O> {
     /// As [`PomcpSettings::validate`].
     pub fn new(settings: PomcpSettings) -> Result<Self, PomcpError> {
         settings.validate()?;
-        Ok(Self { settings, tree: Tree::new(), path: Vec::new() })
+        Ok(Self { settings, tree: Tree::new(), table: ExplorationTable::EMPTY, lanes: Lanes::new() })
     }
 
     /// The settings it searches with.
@@ -55,40 +57,27 @@ impl<O: Eq> Pomcp<O> {
     where
         M: GenerativeModel<Observation = O>,
     {
-        let mut state = roots.first().ok_or(PomcpError::NoRoots)?.clone();
+        let root = roots.first().ok_or(PomcpError::NoRoots)?;
         let action_count = checked_action_count(model, self.settings.simulations)?;
         let discount = checked_discount(model)?;
         self.tree.reset();
-        let mut simulation = Simulation {
+        let mut simulations = Simulations {
             model,
             settings: &self.settings,
             action_count,
             discount,
             tree: &mut self.tree,
-            path: &mut self.path,
-            known: (model.is_deterministic() && roots.len() == 1).then(|| vec![(state.clone(), 0.0)]),
+            known: (model.is_deterministic() && roots.len() == 1).then(|| vec![(root.clone(), 0.0)]),
+            table: &mut self.table,
             range: ValueRange::EMPTY,
             weights: Vec::with_capacity(action_count),
             depth: 0,
             steps: 0,
         };
-        let mut policy = Vec::new();
-        for left in (0..self.settings.simulations).rev() {
-            state.clone_from(&roots[random.random_range(0..roots.len())]);
-            simulation.run(&mut state, random)?;
-            if self.settings.stop_when_decided && simulation.tree.is_decided(left) {
-                break;
-            }
-            let run = self.settings.simulations - left;
-            if self.settings.convergence > 0.0 && run.is_power_of_two() && run >= FIRST_COMPARISON / 2 {
-                let now = simulation.tree.policy();
-                if run >= FIRST_COMPARISON && total_variation(&policy, &now) < self.settings.convergence {
-                    break;
-                }
-                policy = now;
-            }
-        }
-        let (depth, steps) = (simulation.depth, simulation.steps);
+        let mut progress = Progress { ended: 0, policy: Vec::new() };
+        let is_over = |search: &Simulations<'_, M>| progress.is_over(search.settings, search.tree);
+        batch::run(&mut simulations, &mut self.lanes, roots, random, is_over)?;
+        let (depth, steps) = (simulations.depth, simulations.steps);
         let effort = SearchStatistics { histories: self.tree.history_count(), depth, steps };
         let evidence = self.tree.evidence(HistoryId::ROOT);
         let actions = evidence.map(|(visits, value)| ActionStatistics { visits: visits as usize, value });
@@ -98,6 +87,33 @@ impl<O: Eq> Pomcp<O> {
 
 /// Number of simulations at which a policy is first compared with that of half as many.
 const FIRST_COMPARISON: usize = 128;
+
+/// How far a search is.
+struct Progress {
+    /// Simulations that have ended.
+    ended: usize,
+    /// The policy at the last comparison.
+    policy: Vec<f64>,
+}
+
+impl Progress {
+    /// Counts one more simulation, and says whether no more are needed.
+    fn is_over<O: Eq>(&mut self, settings: &PomcpSettings, tree: &Tree<O>) -> bool {
+        self.ended += 1;
+        if settings.stop_when_decided && tree.is_decided(settings.simulations - self.ended) {
+            return true;
+        }
+        let compares = self.ended.is_power_of_two() && self.ended >= FIRST_COMPARISON / 2;
+        if settings.convergence > 0.0 && compares {
+            let now = tree.policy();
+            if self.ended >= FIRST_COMPARISON && total_variation(&self.policy, &now) < settings.convergence {
+                return true;
+            }
+            self.policy = now;
+        }
+        false
+    }
+}
 
 /// Half the sum of the absolute differences of two distributions, 0 to 1.
 fn total_variation(a: &[f64], b: &[f64]) -> f64 {

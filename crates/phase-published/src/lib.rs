@@ -26,6 +26,29 @@
 //! - Either agent may help or hinder; in the original only the first can.
 //!
 //! Unknown: about one agent in four that has reached its goal coasts to rest instead of stopping.
+//!
+//! An agent that faces the landmark it wants to reach pushes forward:
+//!
+//! ```
+//! use phase_model::{Action, AgentId, LandmarkId, Scene, Sign, random::{Purpose, stream}};
+//! use phase_published::{Aim, Belief, Mind, PublishedParameters, senses::observe};
+//!
+//! let scene = Scene::from_json(
+//!     r#"{"layout": {"base": 0}, "objects": [], "event": "independent", "agents": [
+//!         {"size_level": 0, "strength_level": 2, "alpha": 0, "start": {"x": 23.5, "y": 14, "angle": 0},
+//!          "goal": {"kind": "agent_on_landmark", "agent": 0, "landmark": 1, "sign": 1}},
+//!         {"size_level": 0, "strength_level": 2, "alpha": 0, "start": {"x": 8.5, "y": 14, "angle": 0},
+//!          "goal": {"kind": "agent_on_landmark", "agent": 1, "landmark": 0, "sign": 1}}]}"#,
+//! )?;
+//! let (physics, state, own) = (scene.physics(), scene.initial_state(), AgentId::ZERO);
+//! let mut random = stream(1, Purpose::Search, 0);
+//! let belief = Belief::new(scene.layout, &physics, &observe(&physics, &state, own), 5, &mut random);
+//! let parameters = PublishedParameters { simulations: 100, ..PublishedParameters::default() };
+//! let mut mind = Mind::new(&scene, own, parameters)?;
+//! assert_eq!(mind.aim(&state), Aim::AgentToLandmark(own, LandmarkId::TOP_RIGHT, Sign::Positive));
+//! assert_eq!(mind.decide(belief.particles(), &mut random)?.0, Action::Up);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]

@@ -1,6 +1,6 @@
 //! A text with tables and pictures, in two forms.
 
-use crate::markup::escape;
+use crate::markup::{escape, escape_markdown};
 
 /// A part of a document.
 #[derive(Clone, PartialEq, Debug)]
@@ -46,13 +46,13 @@ impl Document {
     #[must_use]
     pub fn to_markdown(&self) -> String {
         let blocks = self.blocks.iter().map(|block| match block {
-            Block::Heading(text) => format!("## {text}\n"),
-            Block::Text(text) => format!("{text}\n"),
+            Block::Heading(text) => format!("## {}\n", escape_markdown(text)),
+            Block::Text(text) => format!("{}\n", escape_markdown(text)),
             Block::Table { head, rows } => markdown_table(head, rows),
-            Block::Plot { file, title, .. } => format!("![{title}]({file})\n"),
+            Block::Plot { file, title, .. } => format!("![{}]({file})\n", escape_markdown(title)),
         });
         let blocks: Vec<String> = blocks.collect();
-        format!("# {}\n\n{}", self.title, blocks.join("\n"))
+        format!("# {}\n\n{}", escape_markdown(&self.title), blocks.join("\n"))
     }
 
     /// The document as a page with everything in it.
@@ -103,9 +103,8 @@ pub(crate) fn head(names: &[&str]) -> Vec<String> {
 }
 
 fn markdown_table(head: &[String], rows: &[Vec<String>]) -> String {
-    // A bar would end the cell.
     let line = |cells: &[String]| {
-        let cells: Vec<String> = cells.iter().map(|cell| cell.replace('|', "\\|")).collect();
+        let cells: Vec<String> = cells.iter().map(|cell| escape_markdown(cell)).collect();
         format!("| {} |\n", cells.join(" | "))
     };
     let rule = vec!["---".to_owned(); head.len()];

@@ -41,10 +41,12 @@
 
 pub mod beliefs;
 pub mod environment;
+pub mod replay;
 pub mod settings;
 pub mod simulation;
 
 pub use beliefs::{BeliefSnapshot, beliefs};
 pub use environment::Environment;
+pub use replay::replay;
 pub use settings::{Engine, SimulationSettings};
 pub use simulation::{Given, Simulation, SimulationError, simulate, simulate_with};

@@ -2,6 +2,7 @@
 
 mod layers;
 mod modules;
+mod readmes;
 mod sources;
 mod texts;
 
@@ -55,6 +56,7 @@ pub fn check(root: &Path) -> Vec<Finding> {
     let mut workspace = Workspace { root: root.to_owned(), findings: Vec::new() };
     layers::check(&mut workspace);
     modules::check(&mut workspace);
+    readmes::check(&mut workspace);
     sources::check(&mut workspace);
     texts::check(&mut workspace);
     let mut findings = workspace.findings;

@@ -16,9 +16,11 @@ fn commands_and_chores_are_listed_under_this_name() {
         "check-behaviour",
         "check-minds",
         "check-schedule",
+        "check-verify",
         "fit-minds",
         "draw-behaviour",
         "tidy",
+        "torture",
     ] {
         assert!(help.lines().any(|line| line.trim_start().starts_with(command)), "{command}: {help}");
     }

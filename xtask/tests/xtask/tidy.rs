@@ -3,11 +3,18 @@
 use std::{fs, path::Path};
 use xtask::tidy::{LAYERS, check};
 
-const ROOT: &str = "#![forbid(unsafe_code)]\n#![deny(missing_docs)]\n";
+const ROOT: &str = "//! It.\n//!\n//! ```\n//! # hidden();\n//! f();\n//! ```\n#![forbid(unsafe_code)]\n#![deny(missing_docs)]\n";
+/// What a crate says of itself.
+const KEYS: &str = "description = \"\"\nreadme = \"\"\nkeywords = []\ncategories = []\n";
+
+fn readme_of(name: &str) -> String {
+    format!("# {name}\n\nIt.\n\n```rust\nf();\n```\n")
+}
 
 /// Writes a workspace of two crates in which nothing is wrong.
 fn workspace(root: &Path) {
-    let readme = "# It\n\n```sh\ncargo xtask gen-dataset\n```\n\n```sh\ncargo test --workspace\n```\n";
+    let readme =
+        "# It\n\n## Two\n\n```sh\ncargo xtask gen-dataset\n```\n\n```sh\ncargo test --workspace\n```\n";
     let files = [
         ("README.md", readme.to_owned()),
         (".ci/run", "cargo test --workspace\ncargo xtask gen-dataset --events 1\n".to_owned()),
@@ -15,10 +22,18 @@ fn workspace(root: &Path) {
             "docs/ARCHITECTURE.md",
             "| `phase-model` |\n| `phase-world` | [it](../README.md#two) |\nlater `phase-x`\n".to_owned(),
         ),
-        ("crates/phase-model/Cargo.toml", "[dependencies]\nserde.workspace = true\n".to_owned()),
+        ("crates/phase-model/Cargo.toml", format!("{KEYS}[dependencies]\nserde.workspace = true\n")),
+        ("crates/phase-model/README.md", readme_of("phase-model")),
         ("crates/phase-model/src/lib.rs", ROOT.to_owned()),
-        ("crates/phase-world/Cargo.toml", "[dependencies]\nphase-model.workspace = true\n".to_owned()),
+        (
+            "crates/phase-world/Cargo.toml",
+            "publish = false\n[dependencies]\nphase-model.workspace = true\n".to_owned(),
+        ),
+        ("crates/phase-world/README.md", readme_of("phase-world")),
         ("crates/phase-world/src/lib.rs", ROOT.to_owned()),
+        ("data/Cargo.toml", KEYS.to_owned()),
+        ("data/README.md", readme_of("phase-data")),
+        ("data/lib.rs", ROOT.to_owned()),
         ("xtask/src/lib.rs", ROOT.to_owned()),
         ("xtask/src/main.rs", ROOT.to_owned()),
     ];
@@ -46,20 +61,29 @@ fn a_tidy_workspace_passes() {
 
 #[test]
 fn every_rule_is_checked() {
-    let long = format!("{ROOT}{}", "//\n".repeat(399));
+    let long = format!("{ROOT}{}", "//\n".repeat(393));
+    let upwards = format!("{KEYS}[dependencies]\nserde = \"1\"\nphase-world.workspace = true\n");
+    let for_tests = format!("{KEYS}[dev-dependencies]\nphase-world = {{ path = \"\" }}\n");
+    let unsafe_root = ROOT.replace("#![forbid(unsafe_code)]\n", "");
+    let other_example = ROOT.replace("f();", "g();");
     let encoding = format!("{ROOT}use bin{}::serde;\n", "code");
     let cases: &[(&str, &str, &[&str])] = &[
         (
             "crates/phase-model/Cargo.toml",
-            "[dependencies]\nserde = \"1\"\nphase-world.workspace = true\n",
-            &["crates/phase-model/Cargo.toml:3: phase-model must not use phase-world, which is not below it"],
+            &upwards,
+            &["crates/phase-model/Cargo.toml:7: phase-model must not use phase-world, which is not below it"],
         ),
-        ("crates/phase-model/Cargo.toml", "[dev-dependencies]\nphase-world = { path = \"\" }\n", &[]),
+        ("crates/phase-model/Cargo.toml", &for_tests, &[]),
         (
             "crates/phase-new/Cargo.toml",
             "",
             &[
+                "crates/phase-new/Cargo.toml:1: a published crate must have `categories`",
+                "crates/phase-new/Cargo.toml:1: a published crate must have `description`",
+                "crates/phase-new/Cargo.toml:1: a published crate must have `keywords`",
+                "crates/phase-new/Cargo.toml:1: a published crate must have `readme`",
                 "crates/phase-new/Cargo.toml:1: phase-new is missing in xtask/src/tidy/layers.rs",
+                "crates/phase-new/README.md:1: cannot be read",
                 "crates/phase-new/src/lib.rs:1: cannot be read",
                 "docs/ARCHITECTURE.md:1: the map does not mention phase-new",
             ],
@@ -75,10 +99,34 @@ fn every_rule_is_checked() {
             &["docs/more.md:1: links to missing.md"],
         ),
         ("docs/more.md", "[out](../../etc/passwd)\n", &["docs/more.md:1: links to ../../etc/passwd"]),
+        (
+            "docs/more.md",
+            "## A `b` (c)\n## D\n## D\n[1](#a-b-c), [2](more.md#d-1), `[3](no.md)`\n```\n[4](no.md)\n```\n",
+            &[],
+        ),
+        (
+            "docs/more.md",
+            "```sh\n# d\n```\n[1](#d), [2](../README.md#three)\n",
+            &[
+                "docs/more.md:4: links to #d, but there is no such heading",
+                "docs/more.md:4: links to ../README.md#three, but",
+            ],
+        ),
+        ("crates/phase-model/notes.md", "[1](no.md)\n", &["crates/phase-model/notes.md:1: links to no.md"]),
+        (
+            "data/README.md",
+            "# phase-x\n",
+            &["data/README.md:1: must begin", "data/README.md:1: must show the first example"],
+        ),
+        (
+            "crates/phase-model/src/lib.rs",
+            &other_example,
+            &["crates/phase-model/README.md:1: must show the first example of crates/phase-model/src/lib.rs"],
+        ),
         ("docs/more.md", "a space \n", &["docs/more.md:1: ends in a space"]),
         (
             "crates/phase-model/src/lib.rs",
-            "#![deny(missing_docs)]\n",
+            &unsafe_root,
             &["crates/phase-model/src/lib.rs:1: the crate root must say #![forbid(unsafe_code)]"],
         ),
         (
@@ -90,7 +138,7 @@ fn every_rule_is_checked() {
         (
             "crates/phase-model/src/lib.rs",
             &encoding,
-            &["crates/phase-model/src/lib.rs:3: only crates/phase-dataset/src/cache.rs"],
+            &["crates/phase-model/src/lib.rs:9: only crates/phase-dataset/src/cache.rs"],
         ),
         (
             "crates/phase-model/tests/all.rs",
@@ -112,7 +160,7 @@ fn every_rule_is_checked() {
         ),
         (
             "README.md",
-            "cargo test --workspace\n",
+            "## Two\ncargo test --workspace\n",
             &["README.md:1: must show the command `cargo xtask gen-dataset`"],
         ),
     ];

@@ -97,10 +97,10 @@ pub enum CliError {
         reasons: String,
     },
     /// Writing failed, for example because the disk is full.
-    #[error("{0}; what is finished is kept, and the same command goes on from there")]
+    #[error("{failure}; {after}", failure = .0, after = kept(&.0.path))]
     Write(#[from] WriteError),
     /// A file that was just written cannot be read back.
-    #[error("{0}; what is finished is kept, and the same command goes on from there")]
+    #[error("{failure}; {after}", failure = .0, after = kept(&.0.file))]
     ReadBack(#[source] FileError),
     /// An event cannot be written.
     #[error(transparent)]
@@ -250,6 +250,16 @@ pub enum CliError {
     /// The user interrupted the run.
     #[error("interrupted; what is finished is kept in {}, and the same command goes on from there", .0.display())]
     Interrupted(PathBuf),
+}
+
+/// What has become of a run that could not write or read one of its files.
+fn kept(path: &Path) -> &'static str {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    if folder.is_none_or(Path::exists) {
+        "what is finished is kept, and the same command goes on from there"
+    } else {
+        "its folder is no longer there, nor is what was finished in it; the same command makes it again"
+    }
 }
 
 impl From<ExportError> for CliError {

@@ -168,6 +168,7 @@ pub(crate) fn evaluate<T: Task>(
     match folder::inspect(&out, last_file)? {
         Contents::Finished if shard.is_some() => {
             check_same(&out, "a finished", &shards::read(&out)?.run(), &run)?;
+            folder::remove_leftovers(&out, &run)?;
             return Ok(None);
         }
         Contents::Finished => return finished(task, &whole, subject, out).map(Some),
@@ -346,9 +347,7 @@ fn finished<T: Task>(
     if again != results {
         return Err(altered("its figures are not those of its events".into()));
     }
-    if folder::has_leftovers(&out) {
-        Folder::claim(&out, run)?.finish()?;
-    }
+    folder::remove_leftovers(&out, run)?;
     Ok(Evaluation { events, results, document, out, already_finished: true })
 }
 

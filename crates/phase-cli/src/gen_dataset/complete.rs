@@ -12,7 +12,7 @@ use phase_dataset::{
     checksum::FileEntry,
     croissant::{CROISSANT_FILE, croissant},
     event_set::{PAIRS_FILE, PAIRS_HEADER, pair_rows},
-    manifest::{CARD_FILE, EventEntry, MANIFEST_FILE},
+    manifest::{CARD_FILE, EventEntry},
     manifest_writer::write_manifest,
     overview::Overview,
     parquet::ParquetWriter,
@@ -28,6 +28,15 @@ use phase_report::{
 };
 use std::{io::Write, path::Path};
 
+/// A dataset that is complete.
+#[derive(Debug)]
+pub struct Completed {
+    /// What it is.
+    pub overview: Overview,
+    /// SHA-256 of its manifest, in hexadecimal.
+    pub digest: String,
+}
+
 /// Writes the files that describe the whole; the manifest last, since with it the dataset is complete.
 /// `records` are those of all slots, in order.
 ///
@@ -38,18 +47,30 @@ pub fn complete(
     whole: &DatasetDescription,
     records: &dyn Records,
     context: &Context,
-) -> Result<Overview, CliError> {
-    let progress = context.progress_over("writing tables, page and manifest", whole.events);
-    let mut overview = count(whole, records)?;
-    let gallery = Gallery {
-        preset: &whole.preset,
-        generator: &whole.generator,
-        seed: whole.seed,
-        events: whole.events,
-    };
-    let mut pages = whole.videos.then(|| GalleryWriter::new(out, gallery));
+) -> Result<Completed, CliError> {
+    let overview = count(whole, records)?;
+    describe_all((out, out), overview, &whole.command, records, context)
+}
+
+/// Writes the files that describe a dataset whose events have been counted into a folder; the events themselves are in another
+/// folder, or in the same. `overview` names no files yet.
+///
+/// # Errors
+/// As [`complete`].
+pub(crate) fn describe_all(
+    (from, out): (&Path, &Path),
+    mut overview: Overview,
+    command: &str,
+    records: &dyn Records,
+    context: &Context,
+) -> Result<Completed, CliError> {
+    let progress = context.progress_over("writing tables, page and manifest", overview.events);
+    let (preset, generator) = (overview.preset.clone(), overview.generator.clone());
+    let gallery =
+        Gallery { preset: &preset, generator: &generator, seed: overview.seed, events: overview.events };
+    let mut pages = overview.videos.then(|| GalleryWriter::new(out, gallery));
     let mut parquet = ParquetWriter::new(out, &overview.splits)?;
-    let videos = whole.videos.then_some((VIDEO_TABLE_FILE, VIDEO_TABLE_HEADER));
+    let videos = overview.videos.then_some((VIDEO_TABLE_FILE, VIDEO_TABLE_HEADER));
     let mut videos = videos.map(|(name, header)| Table::create(out, name, header)).transpose()?;
     let sets = (overview.sets > 0).then_some((PAIRS_FILE, PAIRS_HEADER));
     let mut sets = sets.map(|(name, header)| Table::create(out, name, header)).transpose()?;
@@ -64,7 +85,7 @@ pub fn complete(
             if interrupt::requested() {
                 return Err(CliError::Interrupted(out.to_owned()));
             }
-            let recording = read_back(out, &entry)?;
+            let recording = read_back(from, &entry)?;
             if audited.len() < MAX_EVENTS {
                 audited.push(AuditItem::of(&recording));
             }
@@ -89,12 +110,12 @@ pub fn complete(
         table.finish(out, &mut overview)?;
     }
     let shortcuts = shortcuts::section(audit(&audited, overview.events).as_ref(), overview.events);
-    let text = card(&overview, &whole.command, &shortcuts);
+    let text = card(&overview, command, &shortcuts);
     describe(out, &mut overview, CARD_FILE, &text)?;
     let text = croissant(&overview, card::about());
     describe(out, &mut overview, CROISSANT_FILE, &text)?;
-    write_manifest(&out.join(MANIFEST_FILE), &overview, records)?;
-    Ok(overview)
+    let digest = write_manifest(out, &overview, records)?;
+    Ok(Completed { overview, digest })
 }
 
 /// Counts attempts and events.
@@ -147,11 +168,11 @@ fn describe(out: &Path, overview: &mut Overview, name: &str, text: &str) -> Resu
 
 /// The event of an entry, from its file.
 fn read_back(out: &Path, entry: &EventEntry) -> Result<Recording, CliError> {
-    let file = out.join(&entry.event.path);
+    let file = entry.event.place(out);
     let recordings = phase_events::read(&file).map_err(CliError::ReadBack)?;
-    let simulated = recordings.into_iter().find(|recording| recording.simulation.is_some());
-    simulated.ok_or(CliError::ReadBack(FileError {
-        file,
-        problem: Problem::Shape { what: "event of a dataset", rule: "it was not simulated".into() },
-    }))
+    let ours = |recording: &Recording| recording.simulation.is_some() && recording.id == entry.id;
+    recordings.into_iter().find(ours).ok_or_else(|| {
+        let rule = format!("it has no simulated event {}", entry.id);
+        CliError::ReadBack(FileError { file, problem: Problem::Shape { what: "event of a dataset", rule } })
+    })
 }

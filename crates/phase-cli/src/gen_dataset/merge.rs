@@ -57,10 +57,10 @@ pub fn run(arguments: &Merge, context: &Context) -> Result<(), CliError> {
         }
     }
     drop(progress);
-    let overview = complete(out, whole, &shards, context)?;
+    let completed = complete(out, whole, &shards, context)?;
     folder.finish()?;
     let more = format!("the {} shards are no longer needed", shards.0.len());
-    announce(out, &overview, arguments.output, &more)
+    announce(out, &completed, arguments.output, &more)
 }
 
 /// All shards of one dataset, in order, with their folders; never empty.
@@ -130,11 +130,11 @@ fn copy(file: &FileEntry, from: &Path, to: &Path) -> Result<(), CliError> {
         return Ok(());
     }
     file.verify(from)?;
-    let source = from.join(&file.path);
+    let source = file.place(from);
     let bytes = fs::read(&source).map_err(|source_error| WriteError {
         path: source,
         action: "read the file",
         source: source_error,
     })?;
-    Ok(atomic::write(&to.join(&file.path), &bytes)?)
+    Ok(atomic::write(&file.place(to), &bytes)?)
 }

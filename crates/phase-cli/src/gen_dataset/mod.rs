@@ -11,19 +11,19 @@ mod crew;
 pub mod merge;
 pub mod options;
 pub mod plan;
+pub(crate) mod scenes;
 pub mod schedule;
 mod set;
 pub mod slot;
 
 use crate::{context::Context, error::CliError, interrupt, output::Output};
 use attempt_times::{Line, Writer};
-use complete::complete;
+use complete::{Completed, complete};
 use cpu_time::ThreadTime;
 use options::GenDataset;
 use phase_dataset::{
     folder::{self, Contents, Folder},
     manifest::{MANIFEST_FILE, Manifest, PAGE_FILE},
-    overview::Overview,
     parquet,
     shard::{self, DatasetDescription, SHARD_FILE, Shard},
 };
@@ -82,10 +82,10 @@ pub fn run(arguments: &GenDataset, context: &Context) -> Result<(), CliError> {
         return arguments.output.print(text, &value);
     }
     let begun = ThreadTime::now();
-    let overview = complete(&out, &plan.whole(), &records, context)?;
+    let completed = complete(&out, &plan.whole(), &records, context)?;
     folder.finish()?;
     finish_times(times, Some(begun.elapsed().as_secs_f64()))?;
-    announce(&out, &overview, arguments.output, "")
+    announce(&out, &completed, arguments.output, "")
 }
 
 /// Completes the file of attempt times, if one was requested.
@@ -98,15 +98,18 @@ fn finish_times(times: Option<Writer>, completing: Option<f64>) -> Result<(), Cl
 }
 
 /// Prints what a finished dataset contains, and how it was generated.
-fn announce(out: &Path, overview: &Overview, output: Output, more: &str) -> Result<(), CliError> {
+fn announce(out: &Path, completed: &Completed, output: Output, more: &str) -> Result<(), CliError> {
+    let Completed { overview, digest } = completed;
     let mut text = String::new();
     if !overview.selection.is_empty() {
         text += &format!("{}\n", acceptance::table(&overview.selection).trim_end());
     }
-    text += &format!("{} events in {}\n{}{more}", overview.events, out.display(), page_line(out));
+    text +=
+        &format!("{} events in {}\nSHA-256 of {MANIFEST_FILE}: {digest}\n", overview.events, out.display());
+    text += &format!("{}{more}", page_line(out));
     let value = json!({
         "folder": out, "events": overview.events, "seed": overview.seed, "page": page(out),
-        "selection": overview.selection, "new": true,
+        "selection": overview.selection, "manifest_sha256": digest, "new": true,
     });
     output.print(text, &value)
 }
@@ -135,7 +138,16 @@ fn check_finished_shard(plan: &Plan, out: &Path, output: Output) -> Result<(), C
 /// A finished and complete dataset is used unchanged if it is that of a run.
 fn check_finished(out: &Path, slots: usize, expected: &Value, output: Output) -> Result<(), CliError> {
     let manifest = Manifest::read(&out.join(MANIFEST_FILE))?;
-    let description = DatasetDescription {
+    let description = description(&manifest, slots);
+    let run = run_value(&description, None);
+    check_same(out, "a finished", &run, expected)?;
+    manifest.all_files().try_for_each(|file| file.verify(out)).map_err(CliError::Altered)?;
+    keep_finished(out, &run, ("dataset", description.events), output)
+}
+
+/// What a finished dataset says of itself, but for the command that made it.
+pub(crate) fn description(manifest: &Manifest, slots: usize) -> DatasetDescription {
+    DatasetDescription {
         preset: manifest.preset.clone(),
         events: manifest.events.len(),
         slots,
@@ -146,11 +158,7 @@ fn check_finished(out: &Path, slots: usize, expected: &Value, output: Output) ->
         videos: manifest.events.iter().all(|entry| entry.video.is_some()),
         date_published: manifest.date_published.clone(),
         command: String::new(),
-    };
-    let run = run_value(&description, None);
-    check_same(out, "a finished", &run, expected)?;
-    manifest.all_files().try_for_each(|file| file.verify(out)).map_err(CliError::Altered)?;
-    keep_finished(out, &run, ("dataset", description.events), output)
+    }
 }
 
 /// Removes what a run that was killed at its very end has left, and says that everything is there.
@@ -160,16 +168,14 @@ fn keep_finished(
     (what, events): (&str, usize),
     output: Output,
 ) -> Result<(), CliError> {
-    if folder::has_leftovers(out) {
-        Folder::claim(out, run)?.finish()?;
-    }
+    folder::remove_leftovers(out, run)?;
     let text = format!("{} holds this {what} already; all {events} events are whole\n", out.display());
     let value = json!({ "folder": out, "events": events, "page": page(out), "new": false });
     output.print(text + &page_line(out), &value)
 }
 
 /// The identity of a run, as stored in the folder it works in.
-fn run_value(whole: &DatasetDescription, shard: Option<(usize, usize)>) -> Value {
+pub(crate) fn run_value(whole: &DatasetDescription, shard: Option<(usize, usize)>) -> Value {
     let mut value = json!({
         "command": "gen-dataset", "preset": whole.preset, "events": whole.events, "seed": whole.seed,
         "generator": whole.generator, "settings": whole.settings,
@@ -203,7 +209,7 @@ pub fn check_same(out: &Path, state: &'static str, other: &Value, run: &Value) -
 }
 
 /// The first difference between another run and this one, in words.
-fn difference(other: &Value, this: &Value) -> Option<String> {
+pub(crate) fn difference(other: &Value, this: &Value) -> Option<String> {
     match (other, this) {
         (Value::Object(a), Value::Object(b)) => {
             let mut keys: Vec<&String> = b.keys().chain(a.keys()).collect();

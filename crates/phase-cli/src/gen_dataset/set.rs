@@ -4,7 +4,7 @@ use super::{
     attempt::{Cast, CastMember},
     slot::Slots,
 };
-use crate::{engine, error::CliError, picture};
+use crate::{error::CliError, picture};
 use phase_dataset::{
     checksum::FileEntry,
     composition::SetSlot,
@@ -12,23 +12,16 @@ use phase_dataset::{
     manifest::EventEntry,
 };
 use phase_event::Event;
-use phase_model::{
-    AgentId,
-    random::{self, Purpose},
-};
-use phase_sampler::{Contrast, ContrastRequest, SampleError, Stance};
-use rand::seq::SliceRandom;
+use phase_model::{AgentId, Scene};
+use phase_sampler::{SampleError, Stance};
 
 impl Slots<'_> {
     /// One scene in all its stances.
     pub(super) fn cast_set(&self, index: usize, slot: &SetSlot, seed: u64) -> Result<Cast, SampleError> {
-        let layouts = self.pool(&slot.layouts);
-        let (stances, about, goal_index) = (&slot.stances[..], slot.about, slot.goal_index);
-        let mut random = random::stream(seed, Purpose::Scene, 0);
-        let request = ContrastRequest { stances, about, goal_index, layouts };
-        let contrast = Contrast::sample(&request, &mut random)?;
-        let member = |(&stance, scene)| {
-            let settings = self.settings(&scene, seed, index);
+        let (stances, about) = (&slot.stances[..], slot.about);
+        let contrast = self.scenes.contrast(slot, seed)?;
+        let member = |(&stance, scene): (&Stance, Scene)| {
+            let settings = self.scenes.settings(scene.relation(), seed, index);
             CastMember { stance: Some(stance), variant: stance.variant(about), scene, settings }
         };
         let members = stances.iter().zip(contrast.scenes).map(member).collect();
@@ -45,9 +38,7 @@ impl Slots<'_> {
         (changed, attempts): (AgentId, usize),
         mut events: Vec<(Stance, Event)>,
     ) -> Result<(Vec<EventEntry>, SetEntry), CliError> {
-        // The order of names reveals nothing.
-        let slot_seed = engine::event_seed(self.plan.seed, index);
-        events.shuffle(&mut random::stream(slot_seed, Purpose::Scene, 0));
+        self.scenes.order(index, &mut events);
         let mut entries = Vec::with_capacity(events.len());
         for (k, (stance, event)) in events.iter().enumerate() {
             let entry = self.keep_event(&member_id(id, k), index, event)?;

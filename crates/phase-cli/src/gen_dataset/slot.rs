@@ -3,6 +3,7 @@
 use super::{
     attempt::{Attempt, Cast, CastMember, Member},
     plan::Plan,
+    scenes::Scenes,
     schedule::Part,
 };
 use crate::{
@@ -17,10 +18,10 @@ use cpu_time::ThreadTime;
 use phase_dataset::{
     FileError,
     acceptance::Refusal,
-    composition::{BlockPlace, EventSlot, manner_of},
+    composition::manner_of,
     folder::Folder,
     manifest::{EventEntry, event_path, video_path},
-    preset::Ends,
+    preset::{Ends, Selection},
     slot_record::{Records, SlotRecord},
 };
 use phase_event::Event;
@@ -28,28 +29,8 @@ use phase_evidence::{
     Track,
     selection::{Counterfactual, Ending, RejectionReason, check_event},
 };
-use phase_model::{
-    Layout, Scene,
-    random::{self, Purpose},
-};
-use phase_sampler::{Part as StagePart, Request, SampleError, Stage, Variant};
-use phase_sim::SimulationSettings;
-use std::{
-    collections::BTreeMap,
-    path::PathBuf,
-    sync::{Arc, Mutex, OnceLock, PoisonError},
-};
-
-/// Attempts on one stage before another is drawn: there are several assignments of roles and many seeds, and a stage that
-/// some variant rejects is a stage that the others of its block have alone.
-const ATTEMPTS_PER_STAGE: usize = 3;
-/// Maximum number of stages kept.
-const MAX_STAGES: usize = 1000;
-/// Layouts from one block to the next. Coprime to the sizes of the pools of bundled presets: blocks that follow one another have different base layouts.
-const LAYOUT_STRIDE: usize = 11;
-
-/// A stage, or that there is none, once that is known.
-type DrawnStage = OnceLock<Result<Stage, SampleError>>;
+use phase_sampler::{SampleError, Variant};
+use std::path::PathBuf;
 
 /// The slots of a dataset that is being generated in a folder.
 #[derive(Debug)]
@@ -57,9 +38,7 @@ pub struct Slots<'a> {
     pub(super) plan: &'a Plan,
     pub(super) folder: &'a Folder,
     pub(super) event_writer: EventWriter,
-    pools: BTreeMap<String, Vec<Layout>>,
-    /// Stages by block and number, which all slots of a block share.
-    stages: Mutex<BTreeMap<(usize, usize), Arc<DrawnStage>>>,
+    pub(super) scenes: Scenes<'a>,
     context: Context,
 }
 
@@ -69,10 +48,9 @@ impl<'a> Slots<'a> {
     /// # Errors
     /// [`CliError::Serialise`].
     pub fn new(plan: &'a Plan, folder: &'a Folder, count: usize, context: Context) -> Result<Self, CliError> {
-        let pools = plan.preset.layouts.keys().map(|name| (name.clone(), plan.preset.pool(name))).collect();
         let activity = format!("making {}", console::events(count));
         let event_writer = EventWriter::new(&context, &activity, folder, plan.settings, count)?;
-        Ok(Self { plan, folder, event_writer, pools, stages: Mutex::default(), context })
+        Ok(Self { plan, folder, event_writer, scenes: Scenes::of(plan), context })
     }
 
     /// The record of a slot: filled, if its files are all there, or as far as an earlier run came.
@@ -135,8 +113,8 @@ impl<'a> Slots<'a> {
             return self.cast_set(index, &slot, seed);
         }
         let slot = self.plan.composition.slot(index);
-        let scene = self.scene(&slot, seed, number)?;
-        let settings = self.settings(&scene, seed, index);
+        let scene = self.scenes.scene(&slot, seed, number)?;
+        let settings = self.scenes.settings(scene.relation(), seed, index);
         let members = vec![CastMember { stance: None, variant: slot.variant, scene, settings }];
         Ok(Cast { seed, changed: None, members, compared: self.plan.preset.selection.is_some() })
     }
@@ -173,12 +151,7 @@ impl<'a> Slots<'a> {
         cast: &CastMember,
     ) -> Result<Option<Counterfactual>, RejectionReason> {
         let Some(selection) = &self.plan.preset.selection else { return Ok(None) };
-        let ending = match selection.ends {
-            Ends::Settled | Ends::AdversarialDrawn => Ending::Settled,
-            // An event of a set may show its label in any manner.
-            Ends::Drawn => Ending::Drawn(manner_of(cast.variant).filter(|_| cast.stance.is_none())),
-        };
-        check_event(&event.scene, track, selection.min_steps..=selection.max_steps, ending)
+        check(event, track, selection, ending(selection, cast.variant, cast.stance.is_some()))
     }
 
     /// Writes the files of a slot, and enters them in its record.
@@ -206,62 +179,10 @@ impl<'a> Slots<'a> {
         Ok(())
     }
 
-    /// The layouts of a name.
-    pub(super) fn pool(&self, name: &str) -> &[Layout] {
-        self.pools.get(name).map_or(&[][..], Vec::as_slice)
-    }
-
-    /// The scene of an attempt: with bodies of its own, or cast on the stage of its block.
-    fn scene(&self, slot: &EventSlot, seed: u64, number: usize) -> Result<Scene, SampleError> {
-        let layouts = self.pool(&slot.layouts);
-        let mut random = random::stream(seed, Purpose::Scene, 0);
-        let (variant, goal_index) = (slot.variant, slot.goal_index);
-        let Some(place) = slot.block else {
-            return phase_sampler::sample(&Request { variant, goal_index, layouts }, &mut random);
-        };
-        let stage = self.stage(place, layouts, number / ATTEMPTS_PER_STAGE)?;
-        stage.scene(StagePart { variant, goal_index }, &mut random)
-    }
-
-    /// A stage of a block, by its number. It is drawn once; whoever needs it meanwhile waits for it.
-    fn stage(&self, place: BlockPlace, layouts: &[Layout], number: usize) -> Result<Stage, SampleError> {
-        let drawn = {
-            let mut stages = self.stages.lock().unwrap_or_else(PoisonError::into_inner);
-            if stages.len() == MAX_STAGES && !stages.contains_key(&(place.block, number)) {
-                // Blocks are filled nearly in order, so the first are the least likely to be needed again.
-                stages.pop_first();
-            }
-            Arc::clone(stages.entry((place.block, number)).or_default())
-        };
-        drawn.get_or_init(|| self.draw_stage(place, layouts, number)).clone()
-    }
-
-    fn draw_stage(&self, place: BlockPlace, layouts: &[Layout], number: usize) -> Result<Stage, SampleError> {
-        let parts = self.plan.composition.parts(place);
-        let block = random::derive_seed(self.plan.seed, Purpose::Stage, place.block as u64);
-        let mut random = random::stream(block, Purpose::Stage, number as u64);
-        // Blocks begin with different layouts, so that all are used.
-        let mut layouts = layouts.to_vec();
-        let turn = (place.block + number) * LAYOUT_STRIDE % layouts.len().max(1);
-        layouts.rotate_left(turn);
-        Stage::sample(&parts, &layouts, &mut random)
-    }
-
-    /// The run's settings, with a sampled length if the preset requires it.
-    pub(super) fn settings(&self, scene: &Scene, seed: u64, index: usize) -> SimulationSettings {
-        let mut settings = self.plan.settings;
-        let slot = engine::event_seed(self.plan.seed, index);
-        let selection = self.plan.preset.selection;
-        if let Some((min, max)) = selection.and_then(|it| it.sampled_length(scene.relation(), seed, slot)) {
-            (settings.min_steps, settings.max_steps) = (settings.min_steps.max(min), max);
-        }
-        settings
-    }
-
     /// Writes the files of an accepted event.
     pub(super) fn keep_event(&self, id: &str, index: usize, event: &Event) -> Result<EventEntry, CliError> {
         let out = self.folder.path();
-        let settings = self.settings(&event.scene, event.seed, index);
+        let settings = self.scenes.settings(event.scene.relation(), event.seed, index);
         let job = EventJob {
             id: id.into(),
             seed: event.seed,
@@ -294,6 +215,24 @@ impl Records for FilledSlots<'_> {
 
 fn record_path(plan: &Plan, folder: &Folder, index: usize) -> PathBuf {
     folder.cache().join(format!("{}.json", plan.preset.id(index)))
+}
+
+/// How an event of a variant ends. One of a set may show its label in any manner.
+pub(crate) fn ending(selection: &Selection, variant: Variant, of_set: bool) -> Ending {
+    match selection.ends {
+        Ends::Settled | Ends::AdversarialDrawn => Ending::Settled,
+        Ends::Drawn => Ending::Drawn(manner_of(variant).filter(|_| !of_set)),
+    }
+}
+
+/// Everything that can be tested on an event alone.
+pub(crate) fn check(
+    event: &Event,
+    track: &Track,
+    selection: &Selection,
+    ending: Ending,
+) -> Result<Option<Counterfactual>, RejectionReason> {
+    check_event(&event.scene, track, selection.min_steps..=selection.max_steps, ending)
 }
 
 /// Variants, reasons and their numbers, in words.

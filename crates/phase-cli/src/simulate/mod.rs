@@ -181,9 +181,7 @@ fn check_finished(arguments: &Simulate, run: &Value) -> Result<(), CliError> {
     let summary = SimulationSummary::read(&out.join(SUMMARY_FILE))?;
     check_same(out, "a finished", &summary.run, run)?;
     summary.verify(out).map_err(CliError::Altered)?;
-    if folder::has_leftovers(out) {
-        Folder::claim(out, run)?.finish()?;
-    }
+    folder::remove_leftovers(out, run)?;
     let line = format!("{} holds these {} simulated events already", out.display(), summary.events.len());
     print(arguments, &summary, &line, false)
 }

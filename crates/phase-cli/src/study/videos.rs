@@ -69,7 +69,7 @@ fn of_dataset(folder: &Path, source: &str, base: &Path) -> Result<Vec<Stimulus>,
         let goals = entry.agents.each_ref().map(|agent| agent.goal);
         Ok(Stimulus {
             id: entry.id.clone(),
-            video: relative(&folder.join(&video.path), base)?,
+            video: relative(&video.place(folder), base)?,
             source: source.into(),
             objects: objects(entry.object_size_levels.len()),
             labels: Labels {

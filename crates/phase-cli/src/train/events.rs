@@ -11,6 +11,7 @@ use phase_dataset::{
     summary::{EventComparison, SUMMARY_FILE, SimulationSummary},
 };
 use phase_event::Recording;
+use phase_model::path::RelativePath;
 use std::path::{Path, PathBuf};
 
 /// The datasets selected by the options.
@@ -74,7 +75,7 @@ impl Events {
         let more = more.flat_map(move |dataset| dataset.entries(split).map(move |entry| (dataset, entry)));
         let all = dataset.entries(split).take(count).map(move |entry| (dataset, entry)).chain(more);
         Ok(all.map(|(dataset, entry)| {
-            let file = dataset.folder.join(&entry.path);
+            let file = entry.path.below(&dataset.folder);
             let found = phase_events::read(&file)?.into_iter().find(|recording| recording.id == entry.id);
             found.ok_or_else(|| TrainError::UnknownId { file, id: entry.id.clone() })
         }))
@@ -117,7 +118,7 @@ struct Dataset {
 struct Entry {
     id: String,
     split: Option<Split>,
-    path: String,
+    path: RelativePath,
     sha256: String,
 }
 

@@ -45,6 +45,7 @@ impl TrainingFiles {
         let data = format!("{} {} {}{more_data}", training.sha256, training.events, validation.sha256);
         let (checkpoint, file) = (beside(out, ".checkpoint"), beside(out, ".training.json"));
         let record = TrainingRecord::new(run, training, more, validation);
+        [out, checkpoint.as_path(), file.as_path()].into_iter().for_each(atomic::remove_abandoned);
         let mut training_files = Self { checkpoint, file, record, data, last: None };
         if training_files.checkpoint.exists() {
             let wrong = |source| TrainError::Checkpoint { file: training_files.checkpoint.clone(), source };

@@ -35,6 +35,7 @@ fn events_of_a_block_share_bodies_whatever_the_shards() {
     let path = folder.path();
     fs::write(path.join("blocks.json"), PRESET).expect("written");
     succeed(path, &generate("whole", &[]));
+    succeed(path, &["verify", "whole", "--replay", "--preset", "blocks.json", "--resimulate", "2"]);
     for shard in ["1/2", "2/2"] {
         succeed(path, &generate(&format!("shard{}", &shard[..1]), &["--shard", shard]));
     }

@@ -5,7 +5,8 @@ use crate::support::{fail, phase, refuse, run, succeed, text, tree};
 use std::{
     fs,
     path::Path,
-    process::{Command, Output},
+    process::{Command, Output, Stdio},
+    time::Duration,
 };
 
 /// Two events whose files are small.
@@ -167,4 +168,28 @@ fn without_space_it_fails_and_goes_on_once_there_is_some() {
         assert_eq!(resumed, if out == "all-events" { 2 } else { 0 }, "{out}: {told}");
         assert!(tree(&path.join(out)) == whole, "{out}: the resumed run differs");
     }
+}
+
+/// Whoever removes the folder of a run loses what was finished, and is not told otherwise.
+#[test]
+fn a_folder_that_is_removed_meanwhile_is_told() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    let mut arguments = generate("out", &["--no-video"]);
+    arguments[2] = "500";
+    let mut command = phase(path);
+    let run = command.args(&arguments).stderr(Stdio::piped()).stdout(Stdio::null()).spawn().expect("started");
+    let events = path.join("out/events");
+    while fs::read_dir(&events).map_or(0, Iterator::count) < 3 {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    // While files are added, a folder cannot always be removed at once.
+    while path.join("out").exists() {
+        let _ = fs::remove_dir_all(path.join("out"));
+    }
+    let output = run.wait_with_output().expect("ended");
+    let told = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{told}");
+    assert!(told.contains("its folder is no longer there, nor is what was finished in it"), "{told}");
+    assert!(!told.contains("is kept"), "{told}");
 }

@@ -17,7 +17,7 @@ fn results_do_not_depend_on_the_number_of_jobs() {
     succeed(path, &generate("one", &["--jobs", "1"]));
     succeed(path, &generate("two", &["--jobs", "2"]));
     let (one, two) = (tree(&path.join("one")), tree(&path.join("two")));
-    assert_eq!(one.len(), 6 + 2 * 3);
+    assert_eq!(one.len(), 7 + 2 * 3);
     assert!(
         one == two,
         "{:?}",
@@ -40,7 +40,7 @@ fn the_folder_holds_what_it_promises() {
     let kinds: Vec<&str> = manifest.events.iter().map(|event| event.kind.name()).collect();
     assert_eq!(kinds, ["helping", "hindering", "chasing"]);
     for entry in &manifest.events {
-        let bytes = fs::read(out.join(&entry.event.path)).expect("an event file");
+        let bytes = fs::read(entry.event.place(&out)).expect("an event file");
         let events: Vec<Recording> = parse(&bytes).expect("a good event file");
         assert_eq!(events.len(), 1);
         let simulation = events[0].simulation.as_ref().expect("a simulation");
@@ -48,7 +48,7 @@ fn the_folder_holds_what_it_promises() {
         assert_eq!(simulation.event.steps.len(), 4);
         events[0].scene.validate_without_overlap().expect("nothing overlaps at the start");
         let video = entry.video.as_ref().expect("a video");
-        let video = fs::read(out.join(&video.path)).expect("its file");
+        let video = fs::read(video.place(&out)).expect("its file");
         assert_eq!(&video[4..8], b"ftyp");
     }
     let page = fs::read_to_string(out.join("index.html")).expect("a page");
@@ -127,10 +127,10 @@ fn the_engine_is_recorded_and_kept_to() {
     assert!(tree(&path.join("forward")) == forward);
 
     // Before there was a choice, nothing was recorded.
-    let file = path.join("world/manifest.json");
-    let mut manifest = Manifest::read(&file).expect("a manifest");
+    let world = path.join("world");
+    let mut manifest = Manifest::read(&world.join("manifest.json")).expect("a manifest");
     manifest.settings.as_object_mut().expect("settings").remove("engine").expect("an engine");
-    manifest.write(&file).expect("written");
+    manifest.write(&world).expect("written");
     assert!(succeed(path, &generate("world", &["--engine", "world"])).contains("already"));
     refuse(path, &generate("world", &["--engine", "forward"]));
 }

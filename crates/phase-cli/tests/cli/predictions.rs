@@ -186,7 +186,7 @@ fn rubbish_is_refused_in_one_sentence() {
             "both",
             "/events/1/id",
             json!("one"),
-            "event one: field `id` must differ from that of every other event",
+            "event one: field `id` must differ from that of every other event, and not in case alone",
         ),
         ("both", "/events/1/id", json!("tow"), "has no event \"two\"; it has tow, one"),
         ("goals", "/events/1/goals/1", json!({}), "event two: field `goals[1]` must be an array, not {}"),

@@ -40,7 +40,7 @@ fn sets_are_whole_whatever_the_shards() {
     }
     succeed(path, &["merge", "shard1", "shard2", "--out", "merged"]);
     assert!(tree(&path.join("merged")) == tree(&path.join("whole")), "merged shards differ from one run");
-    succeed(path, &["verify", "whole"]);
+    succeed(path, &["verify", "whole", "--replay", "--preset", "sets.json", "--resimulate", "1"]);
 
     let manifest = manifest(&path.join("whole"));
     assert_eq!((manifest.events.len(), manifest.sets.len()), (5, 2));
@@ -52,7 +52,7 @@ fn sets_are_whole_whatever_the_shards() {
         assert_eq!(stances.len(), members.len());
         assert_eq!(set.pairs.len(), members.len() * (members.len() - 1) / 2);
         assert!(members.iter().all(|event| event.steps == members[0].steps && event.seed == members[0].seed));
-        assert!(path.join("whole").join(&set.video.as_ref().expect("a video").path).exists());
+        assert!(set.video.as_ref().expect("a video").place(&path.join("whole")).exists());
         // Where the manifest says that a pair parts, bodies are elsewhere, and before they are not.
         for pair in &set.pairs {
             let rows = pair.events.clone().map(|id| {

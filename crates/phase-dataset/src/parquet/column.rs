@@ -47,6 +47,8 @@ pub(super) trait Column {
     fn floating_path(&self) -> Option<ColumnPath>;
     /// Adds the value of one more event.
     fn push(&mut self, row: &Row<'_>);
+    /// Number of the collected values, absent ones included.
+    fn levels(&self) -> usize;
     /// Writes the collected values and clears them.
     fn flush(&mut self, writer: &mut SerializedColumnWriter<'_>) -> Result<()>;
     /// Compares the collected values with those of a file and clears them: the first event that differs.
@@ -89,6 +91,10 @@ impl<C: Cell> Column for TypedColumn<C> {
     fn push(&mut self, row: &Row<'_>) {
         (self.get)(row).shred(0, 0, &mut self.leaves);
         self.events += 1;
+    }
+
+    fn levels(&self) -> usize {
+        self.leaves.definition.len()
     }
 
     fn flush(&mut self, writer: &mut SerializedColumnWriter<'_>) -> Result<()> {

@@ -46,7 +46,7 @@ fn scene() -> Vec<Box<dyn Column>> {
             .entry
             .video
             .as_ref()
-            .map_or_else(String::new, |video| video.path.clone())),
+            .map_or_else(String::new, |video| video.path.to_string())),
         ("layout_base", "", "int32", "", "which walls, 0 to 21", |row| i32::from(
             row.recording.scene.layout.base()
         )),

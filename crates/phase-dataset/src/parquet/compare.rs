@@ -1,6 +1,10 @@
 //! Checking that a file still agrees with the event files.
 
-use super::{EVENTS_PER_GROUP, ParquetFile, columns, push, read, schema};
+use super::{
+    EVENTS_PER_GROUP, ParquetFile, columns,
+    declared::{check_description, check_pages},
+    push, read, schema,
+};
 use crate::{FileError, Problem, manifest::EventEntry};
 use parquet::{
     errors::ParquetError,
@@ -51,7 +55,10 @@ fn compare_columns(
     let path = folder.join(&part.path);
     let fail = |problem| FileError { file: path.clone(), problem };
     let broken = |error: ParquetError| fail(Problem::Parquet(error.into()));
-    let file = File::open(&path).map_err(|error| fail(Problem::Unreadable(error)))?;
+    let unfit = |rule| fail(Problem::Shape { what: "Parquet file", rule });
+    let open = || File::open(&path).map_err(|error| fail(Problem::Unreadable(error)));
+    let (mut pages, file) = (open()?, open()?);
+    check_description(&mut pages).map_err(unfit)?;
     let reader = SerializedFileReader::new(file).map_err(broken)?;
     let mut columns = columns::all();
     let expected = schema(&columns).map_err(broken)?;
@@ -78,6 +85,7 @@ fn compare_columns(
             push(&mut columns, folder, entry, &read(folder, entry)?)?;
         }
         for (c, column) in columns.iter_mut().enumerate() {
+            check_pages(&mut pages, group.metadata().column(c), column.levels()).map_err(unfit)?;
             let reader = group.get_column_reader(c).map_err(broken)?;
             if let Some(event) = column.compare(reader).map_err(broken)? {
                 let event = events.get(first + event).map_or_else(String::new, |entry| entry.id.clone());

@@ -89,7 +89,7 @@ impl<'a> ParquetWriter<'a> {
                         what: "dataset",
                         rule: format!("there are more {} events than were counted", split.name()),
                     };
-                    FileError { file: self.folder.join(&entry.event.path), problem }
+                    FileError { file: entry.event.place(self.folder), problem }
                 };
                 OpenFile::create(self.folder, &next.ok_or_else(uncounted)?)?
             }
@@ -117,7 +117,7 @@ impl<'a> ParquetWriter<'a> {
             let problem = Problem::Shape { what: "Parquet file", rule };
             return Err(FileError { file: file.path.clone(), problem }.into());
         }
-        let place = |file: &FileEntry| self.order.iter().position(|path| *path == file.path);
+        let place = |file: &FileEntry| self.order.iter().position(|path| *path == file.path.as_str());
         self.complete.sort_by_key(place);
         Ok(self.complete)
     }

@@ -12,8 +12,10 @@ mod cell;
 mod column;
 mod columns;
 mod compare;
+mod declared;
 mod export;
 mod row;
+mod thrift;
 
 pub use column::Description;
 pub use columns::descriptions;
@@ -83,7 +85,7 @@ fn schema(columns: &[Box<dyn Column>]) -> Result<Arc<Type>> {
 
 /// Reads the event of an entry.
 pub(crate) fn read(folder: &Path, entry: &EventEntry) -> std::result::Result<Recording, FileError> {
-    let file = folder.join(&entry.event.path);
+    let file = entry.event.place(folder);
     let recordings = phase_events::read(&file)?;
     let count = recordings.len();
     match <[Recording; 1]>::try_from(recordings) {
@@ -100,7 +102,7 @@ fn push(
     recording: &Recording,
 ) -> std::result::Result<(), FileError> {
     let Some(simulation) = &recording.simulation else {
-        let file = folder.join(&entry.event.path);
+        let file = entry.event.place(folder);
         return Err(not_whole(file, Some(&recording.id), "substeps", "is missing".into()));
     };
     let row = Row { entry, recording, simulation };

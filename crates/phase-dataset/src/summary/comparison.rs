@@ -1,7 +1,7 @@
 //! One event, recorded and simulated.
 
 use super::Quartiles;
-use crate::{FileError, checksum::FileEntry};
+use crate::{FileError, checksum::FileEntry, ids};
 use phase_event::{Event, Recording};
 use phase_evidence::{GoalOutcome, MotionStatistics, Track, motion::common_steps};
 use phase_model::{AGENT_COUNT, AgentId, EventKind, Goal, Sign};
@@ -13,6 +13,7 @@ use std::path::Path;
 #[serde(deny_unknown_fields)]
 pub struct EventComparison {
     /// The simulated event's id.
+    #[serde(deserialize_with = "ids::deserialize")]
     pub id: String,
     /// Which recording it started from, and with what seed.
     pub source: RecordingSource,

@@ -63,3 +63,21 @@ fn removing_what_is_not_there_is_fine() {
     atomic::remove(&path).expect("removed");
     assert!(!path.exists());
 }
+
+/// What a killed program has left is removed, what is being written and what belongs to others is not.
+#[test]
+fn abandoned_parts_are_removed() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("weights");
+    let left = [".weights.17.part", ".weights.json.17.part", ".weights.part", ".weights.17x.part"];
+    for name in left {
+        fs::write(folder.path().join(name), "half").expect("written");
+    }
+    let open = AtomicFile::create(&path).expect("created");
+    atomic::remove_abandoned(&path);
+    for name in left {
+        assert_eq!(folder.path().join(name).exists(), name != ".weights.17.part", "{name}");
+    }
+    open.commit().expect("still there");
+    assert!(path.exists());
+}

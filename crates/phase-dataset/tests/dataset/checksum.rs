@@ -4,6 +4,7 @@ use phase_dataset::{
     Problem,
     checksum::{FileEntry, hexadecimal, sha256},
 };
+use serde_json::json;
 use std::fs;
 
 #[test]
@@ -51,8 +52,21 @@ fn a_path_that_leads_out_of_the_folder_is_refused() {
     let inside = folder.path().join("inside");
     let absolute = folder.path().join("secret").to_string_lossy().into_owned();
     for path in ["../secret", "", "a/../../secret", absolute.as_str()] {
-        let entry = FileEntry { path: path.into(), bytes: 4, sha256: hexadecimal(&sha256(b"text")) };
-        let error = entry.verify(&inside).expect_err(path);
-        assert!(matches!(error.problem, Problem::OutsideFolder), "{path}: {error}");
+        let error = FileEntry::of(&inside, path).expect_err(path);
+        assert!(matches!(error.problem, Problem::Path(_)), "{path}: {error}");
+        let text = json!({ "path": path, "bytes": 4, "sha256": hexadecimal(&sha256(b"text")) }).to_string();
+        let error = serde_json::from_str::<FileEntry>(&text).expect_err(path).to_string();
+        assert!(error.contains(&format!("the path {path:?} must")), "{path}: {error}");
     }
+}
+
+/// To open a pipe would wait for whoever writes into it.
+#[test]
+#[cfg(unix)]
+fn what_is_no_file_is_not_opened() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let made = std::process::Command::new("mkfifo").arg(folder.path().join("pipe")).status();
+    assert!(made.expect("mkfifo").success());
+    let error = FileEntry::of(folder.path(), "pipe").expect_err("a pipe");
+    assert!(matches!(error.problem, Problem::NoFile), "{error}");
 }

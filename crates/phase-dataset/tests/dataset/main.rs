@@ -1,6 +1,7 @@
 //! Events on disk, tested module by module.
 
 mod atomic;
+mod boxes;
 mod cache;
 mod checksum;
 mod composition;

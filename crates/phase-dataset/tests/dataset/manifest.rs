@@ -43,7 +43,7 @@ fn an_event_is_described_as_it_is() {
     );
     assert_eq!(event.object_size_levels, [0, 2]);
     let video = event.video.as_ref().expect("a video");
-    assert_eq!(video.path, "videos/demo-0000.mp4");
+    assert_eq!(video.path.as_str(), "videos/demo-0000.mp4");
     assert_eq!(video.bytes, "videos/demo-0000.mp4".len() as u64);
 }
 
@@ -52,7 +52,7 @@ fn a_manifest_is_read_as_it_was_written() {
     let folder = tempfile::tempdir().expect("a folder");
     let manifest = dataset(folder.path(), "demo-0000");
     let path = folder.path().join(MANIFEST_FILE);
-    manifest.write(&path).expect("written");
+    manifest.write(folder.path()).expect("written");
     let read = Manifest::read(&path).expect("our own manifest");
     assert_eq!(read, manifest);
     read.verify(folder.path()).expect("unchanged");
@@ -76,6 +76,17 @@ fn what_is_no_manifest_is_refused() {
     value.as_object_mut().expect("an object").remove("seed");
     let problem = read(&value.to_string());
     assert!(problem.to_string().contains("seed"), "{problem}");
+    for (pointer, name, rule) in [
+        ("/events/0/event/path", "/etc/passwd", "the path \"/etc/passwd\" must be a relative path"),
+        ("/events/0/video/path", "../a", "the path \"../a\" must be a relative path"),
+        ("/events/0/id", "../../a", "the id \"../../a\" must be 1 to 100 letters"),
+        ("/events/0/id", "nul", "the id \"nul\" must not have a name that is a device's"),
+    ] {
+        let mut value = good.clone();
+        *value.pointer_mut(pointer).expect("a member") = name.into();
+        let problem = read(&value.to_string());
+        assert!(problem.to_string().contains(rule), "{problem}");
+    }
     let text = good.to_string();
     assert!(matches!(read(&text[..text.len() - 9]), Problem::Json(JsonError::Truncated(_))));
 }

@@ -27,7 +27,7 @@ pub(crate) fn events(folder: &Path, lengths: &[usize]) -> Vec<EventEntry> {
         let (id, event) = (format!("made-up-{k}"), plain_event(steps));
         let recording = Recording::of_event(id.clone(), event.clone(), "phase test".into(), json!({}));
         fs::write(folder.join(event_path(&id)), to_json(&[recording]).expect("finite")).expect("written");
-        fs::write(folder.join(video_path(&id)), "a video").expect("written");
+        fs::write(folder.join(video_path(&id)), crate::boxes::video(1 + 5 * steps)).expect("written");
         let split = if k % 3 == 2 { Split::Test } else { Split::Train };
         EventEntry { split: Some(split), ..EventEntry::of(folder, &id, &event, true).expect("described") }
     };
@@ -38,7 +38,7 @@ pub(crate) fn events(folder: &Path, lengths: &[usize]) -> Vec<EventEntry> {
 pub(crate) fn export(folder: &Path, entries: &[EventEntry]) -> Result<Vec<FileEntry>, ExportError> {
     let mut writer = ParquetWriter::new(folder, &counts(entries))?;
     for entry in entries {
-        writer.push(entry, &phase_events::read(&folder.join(&entry.event.path))?[0])?;
+        writer.push(entry, &phase_events::read(&entry.event.place(folder))?[0])?;
     }
     writer.finish()
 }
@@ -198,7 +198,7 @@ fn the_same_events_make_the_same_bytes_in_groups_of_any_number() {
     let first = export(path, &entries).expect("written");
     let second = export(path, &entries).expect("written");
     assert_eq!(first, second);
-    let train = rows(&path.join(&first[0].path));
+    let train = rows(&first[0].place(path));
     assert_eq!(train.len(), 107);
     assert_eq!(train[106]["id"], "made-up-159");
     for part in parts(&entries) {
@@ -228,7 +228,7 @@ fn files_are_limited_in_length() {
 fn files_that_are_not_finished_do_not_appear() {
     let folder = tempfile::tempdir().expect("a folder");
     let entries = events(folder.path(), &[1, 1]);
-    let recording = &phase_events::read(&folder.path().join(&entries[0].event.path)).expect("an event")[0];
+    let recording = &phase_events::read(&entries[0].event.place(folder.path())).expect("an event")[0];
     let mut writer = ParquetWriter::new(folder.path(), &counts(&entries)).expect("a folder");
     writer.push(&entries[0], recording).expect("the first of two");
     drop(writer);
@@ -313,4 +313,64 @@ fn damaged_files_are_errors() {
             let _ = compare(path, part, &entries);
         }
     }
+}
+
+/// What a file says of itself is not believed: a few bytes could ask for gigabytes.
+#[test]
+fn declared_sizes_are_checked_before_anything_is_reserved() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    let entries = events(path, &[2]);
+    export(path, &entries).expect("written");
+    let part = &parts(&entries)[0];
+    let file = path.join(&part.path);
+    let good = fs::read(&file).expect("a file");
+    let refused = |bytes: &[u8], rule: &str| {
+        fs::write(&file, bytes).expect("written");
+        let error = compare(path, part, &entries).expect_err(rule).to_string();
+        assert!(error.contains(rule), "{error}");
+    };
+    // A description of version 2 whose schema has as many elements as fit into a number.
+    let description = [0x15, 4, 0x19, 0xfc, 0xff, 0xff, 0xff, 0xff, 0x07, 0, 0];
+    let length = (description.len() as u32).to_le_bytes();
+    refused(
+        &[b"PAR1", &description[..], &length, b"PAR1"].concat(),
+        "it declares 2147483647 elements in 2 bytes",
+    );
+    refused(&[b"PAR1", &length[..], b"PAR1"].concat(), "it describes itself in 11 bytes, but has 12");
+    refused(b"PAR1", "it ends too early");
+
+    // A page that unfolds to 2 GiB: the number takes more bytes, which the page has fewer.
+    fs::write(&file, &good).expect("written");
+    let reader = SerializedFileReader::new(fs::File::open(&file).expect("a file")).expect("Parquet");
+    let name = "substeps";
+    let columns = reader.metadata().row_group(0).columns();
+    let column = columns.iter().find(|it| it.column_path().parts()[0] == name).expect("the column");
+    let page = usize::try_from(column.data_page_offset()).expect("a place");
+    assert_eq!((good[page], good[page + 2]), (0x15, 0x15), "type, then size");
+    let size = page + 3;
+    let next = size + good[size..].iter().position(|byte| *byte < 128).expect("its end") + 1;
+    assert_eq!(good[next], 0x15, "then compressed size");
+    let end = next + 1 + good[next + 1..].iter().position(|byte| *byte < 128).expect("its end") + 1;
+    let number =
+        |bytes: &[u8]| bytes.iter().rev().fold(0_u64, |sum, byte| sum << 7 | u64::from(byte & 127)) / 2;
+    let varint = |mut value: u64| {
+        let mut bytes = Vec::new();
+        while value > 127 {
+            bytes.push((value & 127) as u8 | 128);
+            value >>= 7;
+        }
+        bytes.push(value as u8);
+        bytes
+    };
+    let huge = varint(2 * 0x7fff_ffff);
+    let longer = huge.len() - (next - size);
+    let compressed = number(&good[next + 1..end]) - longer as u64;
+    let compressed = varint(2 * compressed);
+    assert_eq!(compressed.len(), end - next - 1, "as long as before");
+    let total = usize::try_from(column.compressed_size()).expect("a size");
+    let mut bytes = [&good[..size], &huge, &[0x15], &compressed, &good[end..page + total - longer]].concat();
+    bytes.extend(&good[page + total..]);
+    assert_eq!(bytes.len(), good.len());
+    refused(&bytes, "it declares a page of 2147483647 bytes, and none has more than 16777216");
 }

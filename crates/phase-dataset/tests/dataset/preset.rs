@@ -204,6 +204,8 @@ fn what_is_no_preset_is_refused() {
         (&DEMO.replace("{\"all\"", "{\"most\""), "all"),
         (&DEMO.replace("[0, 2", "[1, 2"), "base 1"),
         (&DEMO.replace("\"demo\"", "\"../demo\""), "name"),
+        (&DEMO.replace("\"demo\"", "\".demo\""), "name"),
+        (&DEMO.replace("\"demo\"", "\"nul.\""), "name"),
         (&PHASE_500.replace("\"blocks\": 64", "\"blocks\": 0"), "`blocks`"),
         (&PHASE_500.replace("[\"carry\"]", "[]"), "`columns`"),
         (&PHASE_500.replace("\"blocks\": {", "\"groups\": [{}], \"blocks\": {"), "variant"),

@@ -5,9 +5,10 @@ use phase_dataset::{
     FileError, Problem,
     acceptance::{Refusal, Tally},
     checksum::FileEntry,
-    manifest::{EventEntry, Manifest, event_path},
+    manifest::{DIGEST_FILE, EventEntry, MANIFEST_FILE, Manifest, event_path},
     manifest_writer::write_manifest,
     overview::Overview,
+    preset::slot_id,
     shard::{DatasetDescription, Shard, slots, write_slots},
     slot_record::{Records, SlotRecord},
 };
@@ -79,12 +80,12 @@ impl Records for Listed {
     }
 }
 
-/// Records of as many slots, each with one event.
+/// Records of as many slots of the first of two shards, each with one event.
 fn filled(folder: &Path, count: usize) -> Listed {
-    let entry = |k: usize| EventEntry::of(folder, &format!("slot-{k}"), &plain_event(1), false);
+    let entry = |k: usize| EventEntry::of(folder, &slot_id("p", 2 * k), &plain_event(1), false);
     let record = |k: usize| {
         fs::create_dir_all(folder.join("events")).expect("a folder");
-        fs::write(folder.join(event_path(&format!("slot-{k}"))), "an event").expect("written");
+        fs::write(folder.join(event_path(&slot_id("p", 2 * k))), "an event").expect("written");
         let entries = vec![entry(k).expect("described")];
         SlotRecord { fingerprint: "a".into(), entries, ..SlotRecord::default() }
     };
@@ -142,7 +143,21 @@ fn a_shard_whose_slots_are_not_its_own_is_refused() {
     let records = filled(path, 3);
     let empty = SlotRecord { fingerprint: "a".into(), ..SlotRecord::default() };
     let foreign = SlotRecord { fingerprint: "b".into(), ..records.0[1].clone() };
-    let [first, second, _] = <[SlotRecord; 3]>::try_from(records.0).expect("three");
+    let [first, second, third] = <[SlotRecord; 3]>::try_from(records.0).expect("three");
+    let entry = second.entries[0].clone();
+    let with = |entry: EventEntry| SlotRecord { entries: vec![entry], ..second.clone() };
+    let other_id = with(EventEntry { id: "p-0004".into(), ..entry.clone() });
+    let other_file = with(EventEntry { event: third.entries[0].event.clone(), ..entry.clone() });
+    let other_video = with(EventEntry { video: Some(entry.event.clone()), ..entry.clone() });
+    let two = SlotRecord { entries: vec![entry.clone(), entry], ..second.clone() };
+    for record in [other_id, other_file, other_video, two, third.clone()] {
+        let shard = first_shard(path, &Listed(vec![first.clone(), record, third.clone()]));
+        let sentence = shard.records(path).find_map(Result::err).expect("another name").to_string();
+        assert!(
+            sentence.contains("the slot p-0002 has an event, a set or a file of another name"),
+            "{sentence}"
+        );
+    }
     for (records, rule) in [
         (vec![first.clone(), second.clone()], "the records of 1 slots are missing"),
         (vec![first.clone(), empty, second], "holds no event"),
@@ -166,14 +181,17 @@ fn manifests_do_not_depend_on_how_they_are_written() {
         let mut overview = Overview::new(&whole());
         records.0.iter().flat_map(|record| &record.entries).for_each(|entry| overview.count(entry));
         overview.selection = selection;
-        overview.files = vec![FileEntry::of(path, event_path("slot-1")).expect("there")];
-        write_manifest(&path.join("streamed.json"), &overview, &records).expect("written");
-        let manifest = Manifest::read(&path.join("streamed.json")).expect("a manifest");
+        overview.files = vec![FileEntry::of(path, event_path(&slot_id("p", 2))).expect("there")];
+        let bytes = || [MANIFEST_FILE, DIGEST_FILE].map(|name| fs::read(path.join(name)).expect("bytes"));
+        let digest = write_manifest(path, &overview, &records).expect("written");
+        assert_eq!(digest, FileEntry::of(path, MANIFEST_FILE).expect("there").sha256);
+        let manifest = Manifest::read(&path.join(MANIFEST_FILE)).expect("a manifest");
         assert_eq!(manifest.events.len(), 3);
         assert_eq!(Overview::of(&manifest), overview);
-        manifest.write(&path.join("whole.json")).expect("written");
-        let bytes = |name: &str| fs::read(path.join(name)).expect("bytes");
-        assert_eq!(bytes("streamed.json"), bytes("whole.json"));
+        let streamed = bytes();
+        assert_eq!(String::from_utf8_lossy(&streamed[1]), format!("{digest}  manifest.json\n"));
+        manifest.write(path).expect("written");
+        assert_eq!(streamed, bytes());
     }
 }
 
@@ -187,8 +205,8 @@ fn a_manifest_is_not_written_if_a_record_is_missing() {
     }
     let folder = tempfile::tempdir().expect("a folder");
     let missing = || FileError { file: "slot.json".into(), problem: Problem::IsFolder };
-    let path = folder.path().join("manifest.json");
-    let error = write_manifest(&path, &Overview::new(&whole()), &Broken(missing)).expect_err("no record");
+    let error =
+        write_manifest(folder.path(), &Overview::new(&whole()), &Broken(missing)).expect_err("no record");
     assert!(error.to_string().contains("slot.json"), "{error}");
     assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 0);
 }

@@ -1,12 +1,8 @@
 //! Simulations compared with recordings.
 
 use crate::support;
-use phase_dataset::{
-    checksum::FileEntry,
-    summary::{
-        AgentComparison, EventComparison, MeasuredPair, Quartiles, RecordingSource, SimulationSummary,
-        tabulate,
-    },
+use phase_dataset::summary::{
+    AgentComparison, EventComparison, MeasuredPair, Quartiles, RecordingSource, SimulationSummary, tabulate,
 };
 use phase_event::{Event, Recording};
 use phase_evidence::{GoalOutcome, MotionStatistics};
@@ -45,7 +41,8 @@ fn pair(id: &str, kind: EventKind, agents: [(Option<usize>, Option<usize>); 2]) 
             recorded_motion: None,
             simulated_motion: None,
         }),
-        event: FileEntry { path: format!("{id}.json"), bytes: 0, sha256: String::new() },
+        event: serde_json::from_value(json!({ "path": format!("{id}.json"), "bytes": 0, "sha256": "" }))
+            .expect("an entry"),
         video: None,
     };
     MeasuredPair {

@@ -4,7 +4,7 @@ use phase_dataset::{
     atomic,
     checksum::FileEntry,
     croissant::croissant,
-    manifest::{MANIFEST_FILE, Manifest, event_path, video_path},
+    manifest::{Manifest, event_path, video_path},
     overview::Overview,
     verify::{Check, verify, verify_with, work},
 };
@@ -26,7 +26,7 @@ fn dataset(folder: &Path) -> Manifest {
             if name == "croissant.json" { croissant(&Overview::of(&manifest), "about") } else { name.into() };
         describe(folder, &mut manifest, name, &text);
     }
-    manifest.write(&folder.join(MANIFEST_FILE)).expect("written");
+    manifest.write(folder).expect("written");
     manifest
 }
 
@@ -35,7 +35,13 @@ fn describe(folder: &Path, manifest: &mut Manifest, name: &str, text: &str) {
     manifest.files.push(FileEntry::of(folder, name).expect("there"));
 }
 
+/// What is found wrong with a folder that has this manifest.
 fn sentences(folder: &Path, manifest: &Manifest) -> Vec<String> {
+    manifest.write(folder).expect("written");
+    found(folder, manifest)
+}
+
+fn found(folder: &Path, manifest: &Manifest) -> Vec<String> {
     let problems = verify(folder, manifest);
     problems
         .iter()
@@ -47,7 +53,7 @@ fn sentences(folder: &Path, manifest: &Manifest) -> Vec<String> {
 fn renew(folder: &Path, manifest: &mut Manifest, path: &str) {
     let of_events =
         manifest.events.iter_mut().flat_map(|event| [Some(&mut event.event), event.video.as_mut()]).flatten();
-    for entry in of_events.chain(&mut manifest.files).filter(|entry| entry.path == path) {
+    for entry in of_events.chain(&mut manifest.files).filter(|entry| *entry.path.as_str() == *path) {
         *entry = FileEntry::of(folder, path).expect("there");
     }
 }
@@ -65,7 +71,7 @@ fn damage_is_named() {
     type Damage = fn(&Path);
     let event = event_path("made-up-1");
     let video = video_path("made-up-1");
-    let cases: [(&str, Damage, &str, &str); 8] = [
+    let cases: [(&str, Damage, &str, &str); 9] = [
         (
             "missing",
             |root| fs::remove_file(root.join(video_path("made-up-1"))).expect("gone"),
@@ -108,7 +114,13 @@ fn damage_is_named() {
                 fs::create_dir(root.join("index.html")).expect("made");
             },
             "index.html",
-            "cannot be read",
+            "is not a file",
+        ),
+        (
+            "empty folder",
+            |root| fs::create_dir(root.join("more")).expect("made"),
+            "more",
+            "not in the manifest",
         ),
     ];
     for (name, damage, file, rule) in cases {
@@ -181,6 +193,7 @@ fn the_order_of_checks_does_not_matter() {
         renew(path, &mut manifest, &event);
     }
     fs::write(path.join(video_path("made-up-7")), "").expect("written");
+    manifest.write(path).expect("written");
     let expected: Vec<String> = verify(path, &manifest).iter().map(ToString::to_string).collect();
     let told = expected.join("\n");
     assert!(told.contains("event made-up-99: column `contacts`"), "{told}");
@@ -237,10 +250,14 @@ fn manifests_that_lie_are_found_out() {
     let found = sentences(path, &moved).join("\n");
     assert!(found.contains("it holds 2 events instead of 1"), "{found}");
 
-    let mut outside = manifest.clone();
-    outside.files[0].path = "../elsewhere".into();
-    let found = sentences(path, &outside).join("\n");
-    assert!(found.contains("lies outside"), "{found}");
+    let mut renamed = manifest.clone();
+    renamed.events.swap(0, 1);
+    let (event, video) = (renamed.events[0].event.clone(), renamed.events[0].video.clone());
+    (renamed.events[0].event, renamed.events[0].video) =
+        (renamed.events[1].event.clone(), renamed.events[1].video.clone());
+    (renamed.events[1].event, renamed.events[1].video) = (event, video);
+    let found = sentences(path, &renamed).join("\n");
+    assert!(found.contains("the files of the event made-up-1 have other names"), "{found}");
 
     let mut other = manifest.clone();
     let sum = other.files[0].sha256.clone();
@@ -253,5 +270,112 @@ fn manifests_that_lie_are_found_out() {
         [format!(
             "croissant.json: field `distribution` does not give the checksum of {DATA} that the manifest gives"
         )]
+    );
+}
+
+/// What stands for a file is not one, and nothing behind it is looked at.
+#[test]
+#[cfg(unix)]
+fn links_and_pipes_are_named() {
+    use std::os::unix::fs::symlink;
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    let manifest = dataset(path);
+    let elsewhere = tempfile::tempdir().expect("a folder");
+    let event = event_path("made-up-1");
+    fs::rename(path.join(&event), elsewhere.path().join("copy")).expect("moved");
+    symlink(elsewhere.path().join("copy"), path.join(&event)).expect("linked");
+    assert_eq!(found(path, &manifest), [format!("{event}: is a link; a dataset holds files")]);
+    fs::remove_file(path.join(&event)).expect("removed");
+    let made = std::process::Command::new("mkfifo").arg(path.join(&event)).status();
+    assert!(made.expect("mkfifo").success());
+    assert_eq!(found(path, &manifest), [format!("{event}: is not a file")]);
+    fs::remove_file(path.join(&event)).expect("removed");
+    fs::rename(elsewhere.path().join("copy"), path.join(&event)).expect("moved back");
+    fs::rename(path.join("events"), elsewhere.path().join("events")).expect("moved");
+    symlink(elsewhere.path().join("events"), path.join("events")).expect("linked");
+    assert_eq!(found(path, &manifest), ["events: is a link; a dataset holds files"]);
+}
+
+/// Everything in a file has a meaning, and a file says everything in one way only.
+#[test]
+fn stray_bytes_are_named() {
+    let append = |path: &Path, more: &str| {
+        let bytes = fs::read(path).expect("a file");
+        fs::write(path, [&bytes, more.as_bytes()].concat()).expect("written");
+    };
+    let cases: [(&str, &str); 4] = [
+        ("events/made-up-1.json", "is not in the form in which it is written"),
+        ("videos/made-up-1.mp4", "is not a complete video: 3 bytes follow after its end"),
+        ("manifest.json", "manifest.json: is not in the form in which it is written"),
+        ("manifest.sha256", "manifest.sha256: differs from the digest of manifest.json"),
+    ];
+    for (file, rule) in cases {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path();
+        let mut manifest = dataset(path);
+        append(&path.join(file), " \n ");
+        renew(path, &mut manifest, file);
+        if !file.starts_with("manifest") {
+            manifest.write(path).expect("written");
+        }
+        let found = found(path, &manifest).join("\n");
+        assert!(found.contains(rule), "{found}");
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let manifest = dataset(folder.path());
+    fs::remove_file(folder.path().join("manifest.sha256")).expect("removed");
+    assert_eq!(
+        found(folder.path(), &manifest),
+        ["manifest.sha256: is not in the manifest, but every dataset has it"]
+    );
+    manifest.write(folder.path()).expect("written");
+    fs::write(folder.path().join("manifest.json.sig"), "a signature").expect("written");
+    assert_eq!(found(folder.path(), &manifest), [""; 0]);
+}
+
+/// What a file of an event says beside its motion follows from it, or is the same in the whole dataset.
+#[test]
+fn edits_beside_the_motion_are_named() {
+    let event = event_path("made-up-1");
+    for (from, to, problem) in [
+        ("\"generator\":\"phase test\"", "\"generator\":\"phase 9\"", "field `generator` is \"phase 9\""),
+        ("\"settings\":{}", "\"settings\":{\"engine\":\"forward\"}", "field `settings` differs"),
+        ("\"row_0\":\"initial state\"", "\"row_0\":\"another\"", "is not in the form"),
+        ("\"step_seconds\":0.25", "\"step_seconds\":0.250", "is not in the form"),
+        ("\"format\":\"phase-events/1\"", "\"_note\":1,\"format\":\"phase-events/1\"", "is not in the form"),
+    ] {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path();
+        let mut manifest = dataset(path);
+        let text = fs::read_to_string(path.join(&event)).expect("an event");
+        let changed = text.replacen(from, to, 1);
+        assert_ne!(text, changed, "{from}");
+        fs::write(path.join(&event), changed).expect("written");
+        renew(path, &mut manifest, &event);
+        let found = sentences(path, &manifest);
+        assert_eq!(found.len(), 1, "{from}: {found:?}");
+        assert!(found[0].starts_with(&event) && found[0].contains(problem), "{found:?}");
+    }
+}
+
+/// A video has a frame for each state of its event.
+#[test]
+fn videos_of_other_events_are_named() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    let mut manifest = dataset(path);
+    let [one, other] = ["made-up-0", "made-up-1"].map(|id| path.join(video_path(id)));
+    let (first, second) = (fs::read(&one).expect("a video"), fs::read(&other).expect("a video"));
+    fs::write(&one, second).expect("written");
+    fs::write(&other, first).expect("written");
+    for id in ["made-up-0", "made-up-1"] {
+        renew(path, &mut manifest, &video_path(id));
+    }
+    let found = sentences(path, &manifest);
+    assert_eq!(found.len(), 2, "{found:?}");
+    assert!(
+        found[0].contains("made-up-0.mp4: is not a complete video: it has 16 frames instead of 11"),
+        "{found:?}"
     );
 }

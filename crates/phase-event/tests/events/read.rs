@@ -228,6 +228,25 @@ fn two_events_need_two_names() {
     let event = value["events"][0].clone();
     value["events"].as_array_mut().expect("events").push(event);
     assert_eq!(parse_value(&value), Err(EventReadError::DuplicateId("made-up-1".into())));
+    // Some systems take these for the same file.
+    value["events"][1]["id"] = "Made-Up-1".into();
+    assert_eq!(parse_value(&value), Err(EventReadError::DuplicateId("Made-Up-1".into())));
+}
+
+/// Names of files that some systems refuse, or take for something else.
+#[test]
+fn ids_are_names_of_files_on_every_system() {
+    for id in ["CON", "aux", "nul.json", "Com1", "lpt9.a", "a.", "..", "-a", "a b", "a/b", "a:b", "ä"] {
+        let mut value = file();
+        value["events"][0]["id"] = id.into();
+        let sentence = parse_value(&value).expect_err(id).to_string();
+        assert!(sentence.contains("field `id` must "), "{id}: {sentence}");
+    }
+    for id in ["CONTROL", "auxiliary", "nul-1", "com10", "a.b"] {
+        let mut value = file();
+        value["events"][0]["id"] = id.into();
+        assert!(parse_value(&value).is_ok(), "{id}");
+    }
 }
 
 #[test]

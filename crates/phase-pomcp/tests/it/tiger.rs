@@ -20,6 +20,7 @@ const SHARP: PomcpSettings = PomcpSettings {
     stop_when_decided: false,
     convergence: 0.0,
     untried_first: true,
+    batch: 1,
     simulations: 2000,
     rollout_steps: 10,
     c_init: 0.6,
@@ -93,6 +94,16 @@ fn root_values_approach_the_exact_ones() {
     }
 }
 
+#[test]
+fn episodes_earn_nearly_the_optimum() {
+    assert_near_optimum(SHARP);
+}
+
+#[test]
+fn in_batches_episodes_earn_nearly_the_optimum() {
+    assert_near_optimum(PomcpSettings { batch: 8, ..SHARP });
+}
+
 /// Simulates whole episodes, planning at every step from a particle belief, and compares them with the
 /// optimum in two ways.
 ///
@@ -101,15 +112,14 @@ fn root_values_approach_the_exact_ones() {
 /// the planner loses by finite search and by approximating beliefs with particles. And the actual return must
 /// equal the optimum less that loss, within three standard errors. An episode is cut after 30 steps and
 /// credited with the exact value of the belief it ended in, so nothing is lost by cutting.
-#[test]
-fn episodes_earn_nearly_the_optimum() {
+fn assert_near_optimum(settings: PomcpSettings) {
     const EPISODES: u64 = 100;
     const GREATEST_LEAD: i32 = 8;
     let exact: Vec<[f64; 3]> =
         (-GREATEST_LEAD..=GREATEST_LEAD).map(|lead| CLASSIC.exact(FOREVER, lead)).collect();
     let exact = |lead: i32| exact[(lead + GREATEST_LEAD) as usize];
     let optimum = exact(0)[LISTEN];
-    let mut pomcp = Pomcp::new(SHARP).unwrap();
+    let mut pomcp = Pomcp::new(settings).expect("the settings are valid");
     let (mut losses, mut surprises) = (Vec::new(), Vec::new());
     for episode in 0..EPISODES {
         let mut random = Pcg64Mcg::seed_from_u64(episode);
@@ -117,7 +127,8 @@ fn episodes_earn_nearly_the_optimum() {
         let mut belief = particles(&CLASSIC, 0, 1000);
         let (mut earned, mut lost, mut weight, mut lead) = (0.0, 0.0, 1.0, 0_i32);
         for _ in 0..30 {
-            let action = pomcp.search(&CLASSIC, &belief, &mut random).unwrap().action;
+            let action =
+                pomcp.search(&CLASSIC, &belief, &mut random).expect("the tiger can be searched").action;
             let values = exact(lead);
             lost += weight * (values[best(values)] - values[action]);
             let outcome = CLASSIC.step(&mut tiger, action, &mut random);

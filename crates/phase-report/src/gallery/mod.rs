@@ -253,9 +253,9 @@ fn card(event: &EventEntry) -> String {
             format!(" · <a href=\"{}\">its set side by side</a>", escape(&set_video_path(&place.set)))
         }),
         what = escape(describe::kind(event.kind)),
-        video = event.video.as_ref().map_or_else(String::new, |video| escape(&video.path)),
+        video = event.video.as_ref().map_or_else(String::new, |video| escape(video.path.as_str())),
         buttons = buttons.concat(),
-        json = escape(&event.event.path),
+        json = escape(event.event.path.as_str()),
         base = event.layout.base,
         steps = event.steps,
         seconds = event.steps as f64 * SECONDS_PER_STEP,

@@ -18,6 +18,19 @@ fn text_stays_text() {
     assert_eq!(document.plots().collect::<Vec<_>>(), [("x.svg", "<svg></svg>")]);
 }
 
+/// A name that somebody chose is no markup in Markdown either, which may hold HTML.
+#[test]
+fn names_are_no_markup_in_markdown() {
+    let name = "<img src=x onerror=alert(1)>\n# [a](javascript:b) ![c](http://d) `e` *f* \\|";
+    let table = Block::Table { head: vec![name.into()], rows: vec![vec![name.into()]] };
+    let blocks = vec![Block::Heading(name.into()), Block::Text(name.into()), table];
+    let text = Document { title: name.into(), blocks }.to_markdown();
+    let expected =
+        "&lt;img src=x onerror=alert(1)&gt; # [a\\](javascript:b) ![c\\](http://d) \\`e\\` \\*f\\* \\\\\\|";
+    assert_eq!(text.matches(expected).count(), 5, "{text}");
+    assert!(!text.contains('<') && text.lines().filter(|line| line.starts_with('#')).count() == 2, "{text}");
+}
+
 #[test]
 fn published_rows_are_shares_and_in_order() {
     for row in published::GOALS {

@@ -5,6 +5,7 @@ use phase_dataset::{
     manifest::{EventEntry, Manifest},
     splits::Split,
 };
+use phase_model::path::RelativePath;
 use phase_report::{
     gallery::{EVENTS_PER_PAGE, Gallery, PageSummary, Timeline},
     markup::{escape, escape_script},
@@ -103,12 +104,13 @@ fn subgoals_and_shares_change_with_the_steps() {
 #[test]
 fn nothing_breaks_out_of_its_place() {
     let nasty = "</script><script>alert('x')</script>\"&{{cards}}<!--";
+    let path = RelativePath::new(nasty).expect("a path, though an odd one");
     let (mut manifest, mut timelines) = example("demo-0000");
     manifest.preset = nasty.into();
     manifest.generator = nasty.into();
     manifest.events[0].id = nasty.into();
-    manifest.events[0].video.as_mut().expect("a video").path = nasty.into();
-    manifest.events[0].event.path = nasty.into();
+    manifest.events[0].video.as_mut().expect("a video").path = path.clone();
+    manifest.events[0].event.path = path;
     timelines[0].0[0].subgoals[0].1 = nasty.into();
     let page = page(&manifest, &timelines);
     assert!(!page.contains("alert('x')</script>"));

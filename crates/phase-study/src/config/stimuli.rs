@@ -8,6 +8,7 @@ use crate::{
 use phase_model::{
     EventKind, Relation,
     json::{Field, FieldError},
+    path::RelativePath,
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -140,9 +141,7 @@ fn id(field: &Field<'_>) -> Result<String, FieldError> {
 /// A path below the folder of the configuration.
 fn video(field: &Field<'_>) -> Result<String, FieldError> {
     let path = field.text()?;
-    let inside = path.split('/').all(|part| !part.is_empty() && part != "." && part != "..");
-    let fits = inside && path.ends_with(".mp4") && path.len() <= 1000 && !path.contains(['\\', ':', '\0']);
-    if fits {
+    if path.ends_with(".mp4") && RelativePath::new(path).is_ok() {
         Ok(path.into())
     } else {
         Err(field.must_be("the path of an .mp4 file, relative to the configuration and below its folder"))

@@ -1,0 +1,117 @@
+//! Mean discounted returns of whole episodes on published problems, over numbers of simulations.
+//!
+//! ```sh
+//! cargo run --release -p phase-pomcp --example anchors -- rocksample-15-15 --simulations 1024,4096 --episodes 200
+//! ```
+//!
+//! docs/planners.md has the results beside published ones. Episodes are spread over all threads; episode k has seed
+//! `--seed` + k in every row, so that all rows share the start states, and results do not depend on the number of
+//! threads.
+
+mod episodes;
+mod layouts;
+mod rocksample;
+mod tag;
+mod tiger;
+mod tour;
+
+use clap::{Parser, ValueEnum};
+use episodes::{Effort, Row};
+use rocksample::RockSample;
+use serde_json::json;
+use std::error::Error;
+
+#[derive(Debug, Parser)]
+struct Arguments {
+    /// The problem.
+    #[arg(value_enum)]
+    problem: Name,
+    /// Numbers of simulations per decision, one row each.
+    #[arg(long, value_delimiter = ',', default_values_t = [64, 256, 1024])]
+    simulations: Vec<usize>,
+    /// Simulations in progress at a time.
+    #[arg(long, default_value_t = 1)]
+    batch: usize,
+    /// Episodes per row.
+    #[arg(long, default_value_t = 200)]
+    episodes: u64,
+    /// Seed of the first episode.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Print one JSON object instead of a table.
+    #[arg(long)]
+    json: bool,
+}
+
+/// The problems. What differs between layouts of the same size is said in `layouts.rs`.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum Name {
+    Tiger,
+    #[value(name = "rocksample-7-8")]
+    RockSample7,
+    #[value(name = "rocksample-11-11")]
+    RockSample11,
+    /// The layout of DESPOT.jl.
+    #[value(name = "rocksample-15-15")]
+    RockSample15,
+    /// Another layout for each episode, with uniformly sampled rocks.
+    #[value(name = "rocksample-15-15-random")]
+    RockSample15Random,
+    Tag,
+}
+
+fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
+    let arguments = Arguments::parse();
+    let name =
+        arguments.problem.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default();
+    if !arguments.json {
+        println!("{name}: mean discounted return of {} episodes, 95 % interval", arguments.episodes);
+        println!("simulations          return  simulations/s");
+    }
+    let mut rows = Vec::new();
+    for &simulations in &arguments.simulations {
+        let effort = Effort {
+            simulations,
+            batch: arguments.batch,
+            episodes: arguments.episodes,
+            seed: arguments.seed,
+        };
+        let row = row(arguments.problem, &effort)?;
+        if !arguments.json {
+            let Row { mean, half_width, speed, .. } = row;
+            println!("{simulations:11}  {mean:6.2} ± {half_width:5.2}  {speed:13.0}");
+        }
+        rows.push(row);
+    }
+    if arguments.json {
+        let rows: Vec<_> = rows
+            .iter()
+            .map(|row| {
+                json!({
+                    "simulations": row.simulations,
+                    "mean": row.mean,
+                    "half_width_95": row.half_width,
+                    "simulations_per_second": row.speed,
+                    "steps_per_episode": row.steps,
+                })
+            })
+            .collect();
+        let (episodes, seed, batch) = (arguments.episodes, arguments.seed, arguments.batch);
+        println!(
+            "{}",
+            json!({"problem": name, "episodes": episodes, "seed": seed, "batch": batch, "rows": rows})
+        );
+    }
+    Ok(())
+}
+
+fn row(name: Name, effort: &Effort) -> Result<Row, Box<dyn Error + Send + Sync>> {
+    match name {
+        Name::Tiger => effort.row(|_| tiger::Tiger),
+        Name::RockSample7 => effort.row(|_| RockSample::new(&layouts::SARSOP_7_8)),
+        Name::RockSample11 => effort.row(|_| RockSample::new(&layouts::SARSOP_11_11)),
+        Name::RockSample15 => effort.row(|_| RockSample::new(&layouts::DESPOT_JL_15_15)),
+        Name::RockSample15Random => effort.row(|random| RockSample::new(layouts::random(15, random))),
+        Name::Tag => effort.row(|_| tag::Tag::new()),
+    }
+}

@@ -1,0 +1,23 @@
+//! The motion of a recorded event, stepped again from its actions.
+
+use crate::{Environment, SimulationSettings};
+use phase_event::Event;
+use phase_minds::carried_out;
+use phase_model::{State, arena::SUBSTEPS};
+
+/// The states that an event's actions lead to from its first state, by step, in the engine and with the rules that `settings` name:
+/// those of the event itself, bit for bit, if it was simulated with them by this version. No mind is asked.
+pub fn replay<'a>(
+    event: &'a Event,
+    settings: &'a SimulationSettings,
+) -> impl Iterator<Item = [State; SUBSTEPS]> + 'a {
+    let mut world = Environment::new(settings.engine, &event.scene.physics(), &event.initial);
+    event.steps.iter().map(move |step| {
+        let layout = event.scene.layout;
+        let mut states = world.step(step.actions.map(|action| carried_out(action, &settings.minds, layout)));
+        if settings.stop_between_steps {
+            states[SUBSTEPS - 1] = world.stop_agents();
+        }
+        states
+    })
+}

@@ -1,0 +1,133 @@
+//! Random changes of bytes and of JSON.
+
+use phase_model::{Action, random::Pcg64Mcg};
+use rand::{
+    RngExt,
+    seq::{IndexedRandom, IteratorRandom},
+};
+use serde_json::{Number, Value};
+
+/// Changes some byte.
+pub(super) fn flip(bytes: &mut [u8], random: &mut Pcg64Mcg) -> bool {
+    let Some(byte) = bytes.iter_mut().choose(random) else { return false };
+    *byte ^= 1 << random.random_range(0..8);
+    true
+}
+
+/// Puts bytes without a meaning at the begin, at the end or somewhere within.
+pub(super) fn insert(bytes: &mut Vec<u8>, random: &mut Pcg64Mcg) {
+    let stray: &[u8] =
+        [&b" "[..], b"\n", b"\0", b"PHASE", b"\xff\xd8\xff"].choose(random).copied().unwrap_or(b" ");
+    let place = *[0, bytes.len(), random.random_range(0..=bytes.len())].choose(random).unwrap_or(&0);
+    bytes.splice(place..place, stray.iter().copied());
+}
+
+/// Inserts white space after a bracket, a comma or a colon, where JSON admits it.
+pub(super) fn space(text: &mut String, random: &mut Pcg64Mcg) -> bool {
+    let Some(place) = text.rmatch_indices(['[', '{', ',', ':']).map(|(at, _)| at + 1).choose(random) else {
+        return false;
+    };
+    text.insert(place, ' ');
+    true
+}
+
+/// Changes one number, text or truth value somewhere in a value, or drops an element of a list. Texts become others of the same
+/// value, so that they keep a meaning.
+pub(super) fn alter(value: &mut Value, random: &mut Pcg64Mcg) -> bool {
+    let mut texts = Vec::new();
+    collect(value, &mut texts);
+    texts.extend(Action::ALL.map(|action| action.name().to_owned()));
+    let leaves = count(value);
+    if leaves == 0 {
+        return false;
+    }
+    let mut left = random.random_range(0..leaves);
+    alter_at(value, &mut left, &texts, random)
+}
+
+fn collect(value: &Value, texts: &mut Vec<String>) {
+    match value {
+        Value::String(text) => texts.push(text.clone()),
+        Value::Array(items) => items.iter().for_each(|item| collect(item, texts)),
+        Value::Object(members) => members.values().for_each(|item| collect(item, texts)),
+        _ => {}
+    }
+}
+
+fn count(value: &Value) -> usize {
+    match value {
+        Value::Array(items) => items.iter().map(count).sum(),
+        Value::Object(members) => members.values().map(count).sum(),
+        _ => 1,
+    }
+}
+
+fn alter_at(value: &mut Value, left: &mut usize, texts: &[String], random: &mut Pcg64Mcg) -> bool {
+    let children: Vec<&mut Value> = match value {
+        Value::Array(items) => items.iter_mut().collect(),
+        Value::Object(members) => members.values_mut().collect(),
+        leaf => {
+            if *left > 0 {
+                *left -= 1;
+                return false;
+            }
+            *leaf = altered(leaf, texts, random);
+            return true;
+        }
+    };
+    children.into_iter().any(|child| {
+        let here = count(child);
+        if *left >= here {
+            *left -= here;
+            return false;
+        }
+        alter_at(child, left, texts, random)
+    })
+}
+
+fn altered(leaf: &Value, texts: &[String], random: &mut Pcg64Mcg) -> Value {
+    match leaf {
+        Value::Bool(truth) => Value::Bool(!truth),
+        Value::Null => Value::from(random.random_range(0..3)),
+        Value::String(text) => {
+            let other = texts.iter().filter(|other| *other != text).choose(random);
+            Value::from(other.cloned().unwrap_or_else(|| format!("{text}x")))
+        }
+        Value::Number(number) => Value::Number(nudged(number, random)),
+        other => other.clone(),
+    }
+}
+
+/// A number near by: whole ones a step away, others by as little as their last digit or by a hundredth.
+fn nudged(number: &Number, random: &mut Pcg64Mcg) -> Number {
+    if let Some(whole) = number.as_i64() {
+        return Number::from(if random.random_bool(0.5) {
+            whole.wrapping_add(1)
+        } else {
+            whole.wrapping_sub(1)
+        });
+    }
+    if let Some(whole) = number.as_u64() {
+        return Number::from(whole - 1);
+    }
+    let value: f64 = number.as_f64().unwrap_or_default();
+    let near = if random.random_bool(0.5) {
+        let single = value as f32;
+        f64::from(f32::from_bits(single.to_bits() ^ 1))
+    } else {
+        (value * 1.01 * 1e4).round() / 1e4 + 1e-4
+    };
+    Number::from_f64(near).unwrap_or_else(|| number.clone())
+}
+
+/// Changes something in a member of an event, in the text of its file, which has a line for each member.
+pub(super) fn alter_member(text: &str, member: &str, random: &mut Pcg64Mcg) -> Option<String> {
+    let begin = format!("\"{member}\":");
+    let line = text.lines().find(|line| line.trim_start_matches('{').starts_with(&begin))?;
+    let content = line.trim_start_matches('{').strip_prefix(&begin)?;
+    let content = content.strip_suffix(',').unwrap_or(content);
+    let content =
+        if serde_json::from_str::<Value>(content).is_ok() { content } else { content.strip_suffix('}')? };
+    let mut value: Value = serde_json::from_str(content).ok()?;
+    alter(&mut value, random).then(|| text.replacen(content, &value.to_string(), 1))
+}

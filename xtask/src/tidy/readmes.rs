@@ -1,0 +1,55 @@
+//! What every crate has to show on the page of a registry: a README whose example is compiled, and the keys to find it by.
+
+use super::Workspace;
+use std::path::{Path, PathBuf};
+
+/// Its README is that of the Python package.
+const PYTHON: &str = "phase-python";
+/// What a published crate must say of itself. Cargo asks for the description, registries for nothing more.
+const KEYS: [&str; 4] = ["description", "readme", "keywords", "categories"];
+
+/// Every crate has a README with its name and the example of its documentation, which is compiled and run.
+pub(super) fn check(workspace: &mut Workspace) {
+    for name in workspace.crates() {
+        let folder = PathBuf::from(format!("crates/{name}"));
+        check_crate(workspace, &name, &folder, &folder.join("src/lib.rs"));
+    }
+    check_crate(workspace, "phase-data", Path::new("data"), Path::new("data/lib.rs"));
+}
+
+fn check_crate(workspace: &mut Workspace, name: &str, folder: &Path, root: &Path) {
+    if name == PYTHON {
+        return;
+    }
+    let (manifest, readme) = (folder.join("Cargo.toml"), folder.join("README.md"));
+    let Some(settings) = workspace.read(&manifest) else { return };
+    let says = |key: &str| settings.lines().any(|line| line.starts_with(&format!("{key} = ")));
+    if !says("publish") {
+        for key in KEYS.into_iter().filter(|key| !says(key)) {
+            workspace.report(&manifest, 1, format!("a published crate must have `{key}`"));
+        }
+    }
+    let (Some(code), Some(text)) = (workspace.read(root), workspace.read(&readme)) else { return };
+    if text.lines().next() != Some(&format!("# {name}")) {
+        workspace.report(&readme, 1, format!("must begin with the heading `# {name}`"));
+    }
+    let documentation: Vec<&str> = code
+        .lines()
+        .map_while(|line| line.strip_prefix("//!"))
+        .map(|line| line.strip_prefix(' ').unwrap_or(line))
+        .collect();
+    let shown = example(text.lines(), "```rust");
+    if shown.is_empty() || shown != example(documentation.into_iter(), "```") {
+        workspace.report(&readme, 1, format!("must show the first example of {}", root.display()));
+    }
+}
+
+/// The first block of code that opens with a fence, without lines that documentation hides and without empty lines at its end.
+fn example<'a>(lines: impl Iterator<Item = &'a str>, fence: &str) -> Vec<&'a str> {
+    let block = lines.skip_while(|line| !line.starts_with(fence)).skip(1).take_while(|line| *line != "```");
+    let mut shown: Vec<&str> = block.filter(|line| *line != "#" && !line.starts_with("# ")).collect();
+    while shown.last().is_some_and(|line| line.trim().is_empty()) {
+        shown.pop();
+    }
+    shown
+}

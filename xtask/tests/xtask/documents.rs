@@ -1,0 +1,103 @@
+//! The commands that the documents show are commands of the programs, with options that exist.
+
+use clap::Parser;
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
+
+/// Documents at the root and in `docs`, and of crates.
+fn documents() -> Vec<PathBuf> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let mut folders = vec![root.join("docs"), root.join("crates")];
+    let mut found: Vec<PathBuf> = ["README.md", "CONTRIBUTING.md"].map(|name| root.join(name)).into();
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(&folder).expect("a folder").flatten() {
+            let (path, name) = (entry.path(), entry.file_name());
+            if path.is_dir() && name != "node_modules" && name != "target" {
+                folders.push(path);
+            } else if name.to_string_lossy().ends_with(".md") {
+                found.push(path);
+            }
+        }
+    }
+    found
+}
+
+/// The lines of blocks of shell code, with continued ones in one piece.
+fn shell(text: &str) -> Vec<String> {
+    let mut lines = Vec::new();
+    let mut inside = false;
+    let mut continued = String::new();
+    for line in text.lines() {
+        if line.trim_start().starts_with("```") {
+            inside = matches!(line.trim(), "```sh" | "```bash" | "```console");
+        } else if inside {
+            continued.push_str(line.trim_end_matches('\\'));
+            if !line.ends_with('\\') {
+                lines.push(std::mem::take(&mut continued));
+            }
+        }
+    }
+    lines
+}
+
+/// The words of each simple command of a line, without comments, quotes and assignments before it.
+fn commands(line: &str) -> Vec<Vec<String>> {
+    let line = line.split(" #").next().unwrap_or_default();
+    if line.starts_with('#') {
+        return Vec::new();
+    }
+    let simple = line.split("&&").flat_map(|part| part.split([';', '|', '>', '&']));
+    let words = simple.map(|command| {
+        let words = command.split_whitespace().map(|word| word.replace(['"', '\''], ""));
+        words.skip_while(|word| word.contains('=') && !word.starts_with('-')).collect()
+    });
+    words.filter(|words: &Vec<String>| !words.is_empty()).collect()
+}
+
+/// What is wrong with a command of `phase` or `cargo xtask`; nothing with others.
+fn complaint(words: &[String]) -> Option<String> {
+    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    let arguments: Vec<&str> = match words.as_slice() {
+        ["cargo", "xtask" | "xtask-networks" | "xtask-studies", rest @ ..]
+        | ["xtask" | "/xtask", rest @ ..] => [&["xtask"], rest].concat(),
+        ["phase", rest @ ..] => [&["phase"], rest].concat(),
+        ["cargo", command @ ("train" | "serve"), rest @ ..] => [&["phase", command], rest].concat(),
+        _ => return None,
+    };
+    let error = if arguments[0] == "xtask" {
+        xtask::cli::Cli::try_parse_from(&arguments).err()
+    } else {
+        phase_cli::cli::Cli::try_parse_from(&arguments).err()
+    };
+    // Help and versions are errors to the parser, but what was asked for.
+    error.filter(clap::Error::use_stderr).map(|error| format!("`{}`: {error}", words.join(" ")))
+}
+
+#[test]
+fn commands_in_documents_parse() {
+    let mut count = 0;
+    let mut complaints = Vec::new();
+    for document in documents() {
+        let text = fs::read_to_string(&document).expect("a document");
+        for command in shell(&text).iter().flat_map(|line| commands(line)) {
+            // A variable or dots stand for other words.
+            if command.iter().any(|word| word.starts_with('$') || word == "…") {
+                continue;
+            }
+            count += 1;
+            complaints.extend(complaint(&command).map(|said| format!("{}: {said}", document.display())));
+        }
+    }
+    assert!(complaints.is_empty(), "{}", complaints.join("\n"));
+    assert!(count > 100, "{count} commands were read");
+}
+
+#[test]
+fn a_command_that_does_not_exist_is_noticed() {
+    let wrong = |line: &str| commands(line).iter().filter_map(|words| complaint(words)).count();
+    assert_eq!(wrong("cargo xtask tidy && A=1 phase simulate --events a.json --out b # the rest"), 0);
+    assert_eq!(wrong("cargo xtask tidy --fast"), 1);
+    assert_eq!(wrong("cd x && phase no-such-command; phase simulate --evnets a.json"), 2);
+}
