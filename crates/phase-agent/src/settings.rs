@@ -82,8 +82,8 @@ pub struct MindParameters {
     /// ([`PomcpSettings::convergence`](phase_pomcp::PomcpSettings::convergence)), 0 to 1.
     pub convergence: f64,
     /// Simulations that a search has in progress at a time; at least 1. More of them share the cost of a step, and choose
-    /// without knowing what the others will find. Absent in older files, which means 1. `published` minds have 1.
-    #[serde(default = "one_at_a_time")]
+    /// without knowing what the others will find. Files leave it out where it is 1. `published` minds have 1.
+    #[serde(default = "one_at_a_time", skip_serializing_if = "is_one_at_a_time")]
     pub batch: usize,
     /// Independent searches per decision, whose visits are added up; at least 1. Of `published` minds only, whose searches
     /// commit themselves early; `phase` minds search once.
@@ -137,6 +137,10 @@ const fn legacy_foresight() -> Foresight {
 
 const fn one_at_a_time() -> usize {
     1
+}
+
+const fn is_one_at_a_time(batch: &usize) -> bool {
+    *batch == one_at_a_time()
 }
 
 impl MindParameters {
