@@ -70,7 +70,7 @@ pub enum Problem {
         /// The first column that differs.
         column: &'static str,
     },
-    /// It is no file, but a folder, a pipe or something else.
+    /// It is not a regular file, but a folder, a pipe or something else.
     #[error("is not a file")]
     NoFile,
     /// It is a link, which may stand for different files at different times.

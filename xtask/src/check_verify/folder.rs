@@ -252,7 +252,7 @@ impl Copy {
     }
 }
 
-/// What is in a folder, by name; no bytes for what is no file.
+/// What is in a folder, by name; without bytes for anything but regular files.
 fn tree(folder: &Path) -> Result<BTreeMap<String, Option<Vec<u8>>>, XtaskError> {
     let mut found = BTreeMap::new();
     let mut folders = vec![folder.to_owned()];

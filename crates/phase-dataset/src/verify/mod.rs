@@ -29,7 +29,7 @@ use std::{
 pub type Check<'a> = dyn Fn(usize) -> Option<FileError> + Sync + 'a;
 
 /// Everything that is wrong with a finished dataset, one error for each problem: files that are missing,
-/// changed or extra, links and what is no file, a manifest or events that are not in the form in which they are written, videos
+/// changed or extra, links, special files, a manifest or events that are not in the form in which they are written, videos
 /// that are cut or of another length than their events, and event files, Parquet files and descriptions that contradict the
 /// manifest. The contents of a damaged file are not checked. Files are read one after the other; besides the manifest and its text, one
 /// group of events is in memory.
