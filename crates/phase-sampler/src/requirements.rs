@@ -9,7 +9,7 @@ use crate::{
 use phase_model::{
     AgentId, Entity, EventKind, Goal, LandmarkId, ObjectId, RoomId, Scene, Sign, Strength, layout::room_of,
 };
-use phase_planner::{Routes, problem::obstruct};
+use phase_planner::{Routes, problem::obstruct, routes::IMPASSABLE_COST};
 
 /// Minimum ratio of a goal's cost without the helper to its cost with the helper.
 const MIN_COST_RATIO: f32 = 1.5;
@@ -25,6 +25,8 @@ const MAX_HIDDEN: f32 = 13.0;
 const MAX_SHARED: f32 = 8.0;
 /// An agent this near to an object, in its room and facing it, sees it at the start (u).
 const MAX_BY: f32 = 8.0;
+/// Maximum distance from an object's way to its landmark of an agent that is to take it over there (u).
+const MAX_ASIDE: f32 = 2.0;
 /// The hinderer is that much nearer to the object that it is to take first, or farther from the one that it is to take
 /// later, than the victim (u).
 const MIN_HEAD_START: f32 = 4.0;
@@ -140,7 +142,7 @@ fn is_placed(variant: Variant, scene: &Scene) -> bool {
         }
         Variant::Carry => away && near.max(far) <= MAX_SHARED,
         Variant::Fetch | Variant::Assist => away && near <= MAX_ARRIVAL,
-        Variant::HandOver => away,
+        Variant::HandOver => away && is_handed_over_on_the_way(scene, object, goal),
         Variant::Drag => away && near <= MAX_ARRIVAL,
         Variant::Take => beside && far + MIN_HEAD_START <= near && near <= MAX_ARRIVAL,
         Variant::Hide => {
@@ -157,6 +159,22 @@ fn is_placed(variant: Variant, scene: &Scene) -> bool {
         }
         _ => true,
     }
+}
+
+/// Whether agent 1 cannot come to the object that it wants, but stands by the way on which agent 0 brings it. Elsewhere it has
+/// nothing to do until the object is there, or takes it itself.
+fn is_handed_over_on_the_way(scene: &Scene, object: ObjectId, goal: Goal) -> bool {
+    let (physics, routes, state) = (scene.physics(), Routes::new(scene.layout), scene.initial_state());
+    let Some(landmark) = goal.landmark() else { return false };
+    let (from, to) = (state.position(Entity::Object(object)), phase_model::arena::LANDMARKS[landmark]);
+    let [helper, helpee] = [0, 1].map(|role: usize| physics.agents[role].width());
+    let waits = scene.agents[1].start.position;
+    if routes.cost(waits, from, helpee, routes.gaps()) < IMPASSABLE_COST {
+        return false;
+    }
+    let width = helper.max(2.0 * physics.object_radii[object.index()]);
+    let way = routes.best(from, to, width, routes.gaps());
+    way.is_some_and(|way| way.nearest(from, to, waits).distance(waits) <= MAX_ASIDE)
 }
 
 /// Whether each agent goes to the room in which the other starts.

@@ -124,10 +124,10 @@ impl Stage {
         if objects_swapped {
             objects.reverse();
         }
-        if variant == Variant::Hide
+        if matches!(variant, Variant::Hide | Variant::HandOver)
             && let Some(object) = object_of(goals[1]).and_then(|object| objects.get(object.index()))
         {
-            // One who has to look for the object first seldom comes before the other.
+            // One who has to look for the object first seldom comes before the other, or in time to hand it over.
             let towards = object.start.position - agents[0].start.position;
             agents[0].start.angle = heading(towards);
         }

@@ -1,9 +1,10 @@
 //! Stages that several variants share.
 
 use phase_model::{
-    Layout, Relation,
+    AgentId, Attitude, Entity, Goal, Layout, Relation, arena,
     random::{Purpose, stream},
 };
+use phase_planner::{Routes, routes::IMPASSABLE_COST};
 use phase_sampler::{Part, SampleError, Stage, Variant};
 use std::collections::BTreeSet;
 
@@ -42,6 +43,34 @@ fn every_part_is_played_by_the_same_bodies() {
             relations.insert(scene.relation());
         }
         assert_eq!(relations, BTreeSet::from([Relation::Friendly, Relation::Adversarial, Relation::Neutral]));
+    }
+}
+
+/// Where an object is handed over, the way past the agent that waits for it is hardly a detour, and that agent has no way to the object.
+#[test]
+fn objects_are_handed_over_on_their_way() {
+    let mut layouts: Vec<Layout> = Layout::all_used().collect();
+    for k in 0..12 {
+        let mut random = stream(5, Purpose::Stage, k);
+        layouts.rotate_left(7);
+        let stage =
+            Stage::sample(&parts(&[Variant::HandOver, Variant::Carry], 0), &layouts, &mut random).unwrap();
+        let scene =
+            stage.cast(Part { variant: Variant::HandOver, goal_index: k as usize }, &mut random).unwrap();
+        let is_helpee = |agent: &AgentId| scene.agents[*agent].attitude == Attitude::Neutral;
+        let helpee = AgentId::ALL.into_iter().find(is_helpee).unwrap();
+        let Goal::ObjectOnLandmark { object, landmark, .. } = scene.agents[helpee].goal else {
+            panic!("no object")
+        };
+        let [from, past] =
+            [Entity::Object(object), Entity::Agent(helpee)].map(|it| scene.initial_state().position(it));
+        let (routes, physics, to) = (Routes::new(scene.layout), scene.physics(), arena::LANDMARKS[landmark]);
+        let way = |from, to, width| routes.cost(from, to, width, routes.gaps());
+        assert!(way(past, from, physics.agents[helpee].width()) >= IMPASSABLE_COST, "{k}");
+        let width = physics.agents[helpee.other()].width().max(2.0 * physics.object_radii[object.index()]);
+        let detour = way(from, past, width) + way(past, to, width) - way(from, to, width);
+        // There and back over 2 u.
+        assert!(detour <= 4.01, "{k}: {detour}");
     }
 }
 
