@@ -14,6 +14,8 @@ use crate::{
     fit_minds::{self, options::FitMinds},
     fit_reports::{self, options::FitReports},
     golden::{self, GoldenOptions},
+    leaderboard::{self, Leaderboard},
+    results::{self, Results},
     tidy,
     torture::{self, Torture},
     wasm,
@@ -65,6 +67,10 @@ pub enum Command {
     FitReports(FitReports),
     /// Run the golden tests of all crates, or rewrite the values that they compare with
     Golden(GoldenOptions),
+    /// Score the predictions in docs/leaderboard, and rewrite its page
+    Leaderboard(Leaderboard),
+    /// Rewrite the documents that show results from docs/results.json, which `benchmark --page` writes
+    Results(Results),
     /// Check the project rules that the compiler cannot
     Tidy,
     /// Stop commands while they write, and check that nothing is lost
@@ -97,6 +103,8 @@ impl Interface for Cli {
             Command::FitForecast(arguments) => fit_forecast::run(arguments, context),
             Command::FitReports(arguments) => fit_reports::run(arguments),
             Command::Golden(options) => golden::run(options),
+            Command::Leaderboard(options) => leaderboard::run(options, context),
+            Command::Results(options) => results::run(options),
             Command::Tidy => tidy::run(),
             Command::Torture(arguments) => torture::run(arguments, context),
         }

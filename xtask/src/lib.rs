@@ -9,6 +9,8 @@
 //! - `draw-behaviour` draws scenes for `check-behaviour` from the sampler,
 //! - `playground` builds the WebAssembly first,
 //! - `golden` runs the golden tests, or rewrites what they compare with,
+//! - `leaderboard` scores the predictions in `docs/leaderboard`,
+//! - `results` rewrites the documents that show results,
 //! - `tidy` checks what the compiler cannot.
 //!
 //! Key design decision: development commands are not installed, since they are useless without the source.
@@ -33,7 +35,9 @@ pub mod fit_minds;
 pub mod fit_reports;
 pub mod golden;
 pub mod json_file;
+pub mod leaderboard;
 mod rooms;
+pub mod results;
 pub mod tidy;
 pub mod torture;
 pub mod wasm;
