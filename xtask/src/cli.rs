@@ -1,6 +1,7 @@
 //! The commands of `cargo xtask`.
 
 use crate::{
+    book::{self, Book},
     check_behaviour::{self, options::CheckBehaviour},
     check_minds::{self, options::CheckMinds},
     check_physics::{self, options::CheckPhysics},
@@ -67,6 +68,8 @@ pub enum Command {
     FitReports(FitReports),
     /// Run the golden tests of all crates, or rewrite the values that they compare with
     Golden(GoldenOptions),
+    /// Make the book of the documents, with mdBook
+    Book(Book),
     /// Score the predictions in docs/leaderboard, and rewrite its page
     Leaderboard(Leaderboard),
     /// Rewrite the documents that show results from docs/results.json, which `benchmark --page` writes
@@ -103,6 +106,7 @@ impl Interface for Cli {
             Command::FitForecast(arguments) => fit_forecast::run(arguments, context),
             Command::FitReports(arguments) => fit_reports::run(arguments),
             Command::Golden(options) => golden::run(options),
+            Command::Book(options) => book::run(options),
             Command::Leaderboard(options) => leaderboard::run(options, context),
             Command::Results(options) => results::run(options),
             Command::Tidy => tidy::run(),

@@ -94,7 +94,10 @@ pub fn run(options: &Leaderboard, context: &Context) -> Result<(), XtaskError> {
     if options.check {
         return match all == known {
             true => Ok(print_result("the scores are those of the predictions")),
-            false => Err(results::shape(&root.join(FOLDER).join(SCORES), "is not what `cargo xtask leaderboard` writes")),
+            false => Err(results::shape(
+                &root.join(FOLDER).join(SCORES),
+                "is not what `cargo xtask leaderboard` writes",
+            )),
         };
     }
     atomic::write_json(&root.join(FOLDER).join(SCORES), &all).map_err(CliError::from)?;
@@ -108,7 +111,9 @@ pub fn run(options: &Leaderboard, context: &Context) -> Result<(), XtaskError> {
 pub fn page(root: &Path, benchmark: &Benchmark) -> Result<String, XtaskError> {
     let (scores, predictions) = (scores(root)?, predictions(root)?);
     let file = root.join(FOLDER).join(SCORES);
-    if let Some(missing) = predictions.iter().find(|it| !scores.scores.iter().any(|score| it.is_scored_by(score))) {
+    if let Some(missing) =
+        predictions.iter().find(|it| !scores.scores.iter().any(|score| it.is_scored_by(score)))
+    {
         return Err(results::shape(&file, &format!("lacks the score of {}", missing.file.display())));
     }
     if scores.scores.len() != predictions.len() {
@@ -132,9 +137,14 @@ fn predictions(root: &Path) -> Result<Vec<Predictions>, XtaskError> {
     for set in [GENERATED, RECORDED, PAIRS] {
         for task in TASKS {
             // A folder that is not there holds no predictions.
-            let entries = fs::read_dir(root.join(FOLDER).join(set).join(task)).into_iter().flatten().flatten();
-            for file in entries.map(|entry| entry.path()).filter(|file| file.extension().is_some_and(|it| it == "json")) {
-                let bytes = fs::read(&file).map_err(|source| XtaskError::Unreadable { file: file.clone(), source })?;
+            let entries =
+                fs::read_dir(root.join(FOLDER).join(set).join(task)).into_iter().flatten().flatten();
+            for file in entries
+                .map(|entry| entry.path())
+                .filter(|file| file.extension().is_some_and(|it| it == "json"))
+            {
+                let bytes = fs::read(&file)
+                    .map_err(|source| XtaskError::Unreadable { file: file.clone(), source })?;
                 let method = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
                 found.push(Predictions { set, task, method, file, sha256: sha256_hex(&bytes) });
             }
@@ -150,12 +160,14 @@ impl Predictions {
             Measures::Goals { .. } => TASKS[0],
             Measures::Trajectories { .. } => TASKS[1],
         };
-        (self.set, self.task, &self.method, &self.sha256) == (&score.set, task, &score.method, &score.predictions)
+        (self.set, self.task, &self.method, &self.sha256)
+            == (&score.set, task, &score.method, &score.predictions)
     }
 
     /// Scores the predictions as `eval` does, on the events that the benchmark was run on.
     fn score(&self, events: &Path, benchmark: &Benchmark, context: &Context) -> Result<Score, XtaskError> {
-        let folder = tempfile::tempdir().map_err(|source| XtaskError::Unreadable { file: "a temporary folder".into(), source })?;
+        let folder = tempfile::tempdir()
+            .map_err(|source| XtaskError::Unreadable { file: "a temporary folder".into(), source })?;
         let out = folder.path().join("scored");
         let split: &[&str] = if self.set == GENERATED { &["--split", "test"] } else { &[] };
         let paths = [("--predictions", self.file.as_path()), ("--events", events), ("--out", &out)];
@@ -170,8 +182,9 @@ impl Predictions {
         if set.is_some_and(|set| set.sha256 != digest) {
             return Err(results::shape(events, "does not have the events of docs/results.json"));
         }
-        let measures = measures(self.task, &results)
-            .ok_or_else(|| results::shape(&self.file, "has results without the measures of the leaderboard"))?;
+        let measures = measures(self.task, &results).ok_or_else(|| {
+            results::shape(&self.file, "has results without the measures of the leaderboard")
+        })?;
         let (method, set, predictions) = (self.method.clone(), self.set.into(), self.sha256.clone());
         Ok(Score { method, set, predictions, events: digest, measures })
     }

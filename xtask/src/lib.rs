@@ -1,6 +1,7 @@
 //! `cargo xtask`: the commands of `phase` (the crate `phase_cli`), and development commands that need the
 //! source of this workspace.
 //!
+//! - `book` makes a book of the documents,
 //! - `check-physics` compares an engine with recorded motion,
 //! - `check-behaviour` shows how reliably agents do what they are planned to do,
 //! - `check-minds` compares minds with recorded agents,
@@ -19,6 +20,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod book;
 pub mod check_behaviour;
 pub mod check_minds;
 pub mod check_physics;
@@ -36,8 +38,8 @@ pub mod fit_reports;
 pub mod golden;
 pub mod json_file;
 pub mod leaderboard;
-mod rooms;
 pub mod results;
+mod rooms;
 pub mod tidy;
 pub mod torture;
 pub mod wasm;

@@ -144,7 +144,9 @@ fn own_format<'de, D: Deserializer<'de>>(deserializer: D) -> Result<String, D::E
     let format = String::deserialize(deserializer)?;
     match format == BENCHMARK_FORMAT {
         true => Ok(format),
-        false => Err(de::Error::custom(format!("field `format` must be {BENCHMARK_FORMAT:?}, not {format:?}"))),
+        false => {
+            Err(de::Error::custom(format!("field `format` must be {BENCHMARK_FORMAT:?}, not {format:?}")))
+        }
     }
 }
 

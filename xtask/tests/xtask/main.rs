@@ -14,3 +14,4 @@ mod results;
 mod support;
 mod tidy;
 mod torture;
+mod walks;

@@ -20,7 +20,8 @@ use crate::{
 use phase_dataset::{FileError, Problem, json, splits::Split};
 use phase_eval::{
     benchmark::{
-        self, BENCHMARK_FORMAT, EventSet, Familiarity, GENERATED, Origin, PAIRS, RECORDED, Row, Subset, Training,
+        self, BENCHMARK_FORMAT, EventSet, Familiarity, GENERATED, Origin, PAIRS, RECORDED, Row, Subset,
+        Training,
     },
     goals::{self, ErrorBreakdown, RecognisedEvent},
     results::{GOALS_FORMAT, TRAJECTORIES_FORMAT},

@@ -58,9 +58,11 @@ pub(super) fn agreement(benchmark: &Benchmark) -> Option<Block> {
     let lines = rows(benchmark).flat_map(|row| {
         let summary = &row.summary;
         let (name, posterior) = (name(row), summary.relation_agreement.as_ref());
-        let reports = if posterior.is_some() { format!("{name}, the reports that it predicts") } else { name.clone() };
+        let reports =
+            if posterior.is_some() { format!("{name}, the reports that it predicts") } else { name.clone() };
         let own = summary.agreement.as_ref().map(|agreement| line(reports, agreement));
-        let posterior = posterior.map(|agreement| line(format!("{name}, its posterior of the relation"), agreement));
+        let posterior =
+            posterior.map(|agreement| line(format!("{name}, its posterior of the relation"), agreement));
         own.into_iter().chain(posterior)
     });
     let columns =
