@@ -1,6 +1,7 @@
 //! The commands of `cargo xtask`.
 
 use crate::{
+    book::{self, Book},
     check_behaviour::{self, options::CheckBehaviour},
     check_minds::{self, options::CheckMinds},
     check_physics::{self, options::CheckPhysics},
@@ -14,6 +15,8 @@ use crate::{
     fit_minds::{self, options::FitMinds},
     fit_reports::{self, options::FitReports},
     golden::{self, GoldenOptions},
+    leaderboard::{self, Leaderboard},
+    results::{self, Results},
     tidy,
     torture::{self, Torture},
     wasm,
@@ -65,6 +68,12 @@ pub enum Command {
     FitReports(FitReports),
     /// Run the golden tests of all crates, or rewrite the values that they compare with
     Golden(GoldenOptions),
+    /// Make the book of the documents, with mdBook
+    Book(Book),
+    /// Score the predictions in docs/leaderboard, and rewrite its page
+    Leaderboard(Leaderboard),
+    /// Rewrite the documents that show results from docs/results.json, which `benchmark --page` writes
+    Results(Results),
     /// Check the project rules that the compiler cannot
     Tidy,
     /// Stop commands while they write, and check that nothing is lost
@@ -97,6 +106,9 @@ impl Interface for Cli {
             Command::FitForecast(arguments) => fit_forecast::run(arguments, context),
             Command::FitReports(arguments) => fit_reports::run(arguments),
             Command::Golden(options) => golden::run(options),
+            Command::Book(options) => book::run(options),
+            Command::Leaderboard(options) => leaderboard::run(options, context),
+            Command::Results(options) => results::run(options),
             Command::Tidy => tidy::run(),
             Command::Torture(arguments) => torture::run(arguments, context),
         }

@@ -51,6 +51,9 @@ pub enum XtaskError {
     /// The user interrupted a command that keeps nothing of what it has done.
     #[error("interrupted; nothing is written")]
     Interrupted,
+    /// Documents do not have the figures of `docs/results.json`.
+    #[error("{0} document(s) differ from what `cargo xtask results` writes")]
+    Results(usize),
     /// Commands that were stopped or disturbed lost something.
     #[error("{0} time(s) something was lost, half-written or different; see above")]
     Tortured(usize),
@@ -71,6 +74,7 @@ impl Failure for XtaskError {
             | Self::Cargo(_)
             | Self::Build { .. }
             | Self::GoldenTests
+            | Self::Results(_)
             | Self::Tortured(_)
             | Self::Untidy(_) => 1,
         }

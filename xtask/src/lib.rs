@@ -1,6 +1,7 @@
 //! `cargo xtask`: the commands of `phase` (the crate `phase_cli`), and development commands that need the
 //! source of this workspace.
 //!
+//! - `book` makes a book of the documents,
 //! - `check-physics` compares an engine with recorded motion,
 //! - `check-behaviour` shows how reliably agents do what they are planned to do,
 //! - `check-minds` compares minds with recorded agents,
@@ -9,6 +10,8 @@
 //! - `draw-behaviour` draws scenes for `check-behaviour` from the sampler,
 //! - `playground` builds the WebAssembly first,
 //! - `golden` runs the golden tests, or rewrites what they compare with,
+//! - `leaderboard` scores the predictions in `docs/leaderboard`,
+//! - `results` rewrites the documents that show results,
 //! - `tidy` checks what the compiler cannot.
 //!
 //! Key design decision: development commands are not installed, since they are useless without the source.
@@ -17,6 +20,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod book;
 pub mod check_behaviour;
 pub mod check_minds;
 pub mod check_physics;
@@ -33,6 +37,8 @@ pub mod fit_minds;
 pub mod fit_reports;
 pub mod golden;
 pub mod json_file;
+pub mod leaderboard;
+pub mod results;
 mod rooms;
 pub mod tidy;
 pub mod torture;

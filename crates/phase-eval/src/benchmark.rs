@@ -1,18 +1,28 @@
 //! Many methods on the same events, side by side: the contents of the benchmark's report, as data.
 
 use crate::{goals, trajectories};
-use serde::Serialize;
+use serde::{Deserialize, Deserializer, Serialize, de};
 
 /// The value of the field `format` of a benchmark.
 pub const BENCHMARK_FORMAT: &str = "phase-benchmark/1";
 
+/// The label of the test events of a dataset.
+pub const GENERATED: &str = "generated";
+/// The label of recordings.
+pub const RECORDED: &str = "recorded";
+/// The label of events in sets that differ in one social variable.
+pub const PAIRS: &str = "pairs";
+
 /// A whole benchmark.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Benchmark {
     /// Always [`BENCHMARK_FORMAT`].
-    pub format: &'static str,
+    #[serde(deserialize_with = "own_format")]
+    pub format: String,
     /// Name and version of the program.
     pub generator: String,
+    /// The options that determine what is measured, as given on the command line.
+    pub options: Vec<String>,
     /// Seed of methods and intervals.
     pub seed: u64,
     /// The events; the first are those of the dataset, the test split.
@@ -26,11 +36,11 @@ pub struct Benchmark {
 }
 
 /// Some events.
-#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
 pub struct EventSet {
     /// In words.
     pub name: String,
-    /// What they are called in a table.
+    /// What they are called in a table: [`GENERATED`], [`RECORDED`] or [`PAIRS`].
     pub label: String,
     /// Digest of the events.
     pub sha256: String,
@@ -39,7 +49,7 @@ pub struct EventSet {
 }
 
 /// The origin of a row.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Origin {
     /// A method bundled with the program.
@@ -51,7 +61,7 @@ pub enum Origin {
 }
 
 /// One method on one set of events.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Row<S> {
     /// The method's name.
     pub method: String,
@@ -64,14 +74,14 @@ pub struct Row<S> {
     /// Its scores.
     pub summary: S,
     /// Error breakdown of its goals; Task 1 only.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mistakes: Option<goals::ErrorBreakdown>,
     /// Scores on events with seen and unseen layouts or interaction types; empty if unknown.
     pub parts: Vec<Subset<S>>,
 }
 
 /// Some of a set's events.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Subset<S> {
     /// What they have in common.
     pub familiarity: Familiarity,
@@ -80,7 +90,7 @@ pub struct Subset<S> {
 }
 
 /// What an event has in common with the training and validation events.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Serialize)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Familiarity {
     /// Its base layout.
@@ -94,7 +104,7 @@ pub enum Familiarity {
 }
 
 /// How a network was trained.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Training {
     /// The kind of network.
     pub network: String,
@@ -119,7 +129,7 @@ pub struct Training {
 }
 
 /// A metric over the rounds of a training.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Curve {
     /// The metric.
     pub measure: String,
@@ -127,6 +137,17 @@ pub struct Curve {
     pub training: Vec<f64>,
     /// On the validation events.
     pub validation: Vec<f64>,
+}
+
+/// Reads the format, which must be [`BENCHMARK_FORMAT`].
+fn own_format<'de, D: Deserializer<'de>>(deserializer: D) -> Result<String, D::Error> {
+    let format = String::deserialize(deserializer)?;
+    match format == BENCHMARK_FORMAT {
+        true => Ok(format),
+        false => {
+            Err(de::Error::custom(format!("field `format` must be {BENCHMARK_FORMAT:?}, not {format:?}")))
+        }
+    }
 }
 
 impl Familiarity {

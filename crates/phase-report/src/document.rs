@@ -45,13 +45,7 @@ impl Document {
     /// The document as Markdown; plots are links to their files.
     #[must_use]
     pub fn to_markdown(&self) -> String {
-        let blocks = self.blocks.iter().map(|block| match block {
-            Block::Heading(text) => format!("## {}\n", escape_markdown(text)),
-            Block::Text(text) => format!("{}\n", escape_markdown(text)),
-            Block::Table { head, rows } => markdown_table(head, rows),
-            Block::Plot { file, title, .. } => format!("![{}]({file})\n", escape_markdown(title)),
-        });
-        let blocks: Vec<String> = blocks.collect();
+        let blocks: Vec<String> = self.blocks.iter().map(Block::to_markdown).collect();
         format!("# {}\n\n{}", escape_markdown(&self.title), blocks.join("\n"))
     }
 
@@ -94,6 +88,19 @@ impl Document {
             _ => None,
         });
         table.unwrap_or_default()
+    }
+}
+
+impl Block {
+    /// The block as lines of Markdown; a plot is a link to its file.
+    #[must_use]
+    pub fn to_markdown(&self) -> String {
+        match self {
+            Self::Heading(text) => format!("## {}\n", escape_markdown(text)),
+            Self::Text(text) => format!("{}\n", escape_markdown(text)),
+            Self::Table { head, rows } => markdown_table(head, rows),
+            Self::Plot { file, title, .. } => format!("![{}]({file})\n", escape_markdown(title)),
+        }
     }
 }
 

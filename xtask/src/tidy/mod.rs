@@ -4,7 +4,7 @@ mod layers;
 mod modules;
 mod readmes;
 mod sources;
-mod texts;
+pub(crate) mod texts;
 
 pub use layers::LAYERS;
 

@@ -104,6 +104,18 @@ fn links(line: &str) -> impl Iterator<Item = &str> {
     line.split("](").skip(1).filter_map(|rest| rest.split(')').next())
 }
 
+/// The files and folders of the workspace that a document links to; the document relative to the workspace.
+pub(crate) fn targets(document: &Path, text: &str) -> Vec<PathBuf> {
+    let folder = document.parent().unwrap_or(Path::new(""));
+    let lines = prose(text).map(|(_, line)| without_code(line));
+    let links = lines.flat_map(|line| links(&line).map(ToOwned::to_owned).collect::<Vec<_>>());
+    let targets = links.filter_map(|link| {
+        let target = link.split('#').next().unwrap_or_default();
+        (!target.is_empty() && !target.contains(':')).then(|| resolve(&folder.join(target))).flatten()
+    });
+    targets.collect()
+}
+
 fn check_link(
     workspace: &mut Workspace,
     anchors: &BTreeMap<&PathBuf, BTreeSet<String>>,
@@ -127,7 +139,7 @@ fn check_link(
 }
 
 /// A path without `..`, or `None` if it leads out of the workspace.
-fn resolve(path: &Path) -> Option<PathBuf> {
+pub(crate) fn resolve(path: &Path) -> Option<PathBuf> {
     let mut resolved = PathBuf::new();
     for part in path.components() {
         match part {

@@ -25,7 +25,7 @@ fn documents() -> Vec<PathBuf> {
 }
 
 /// The lines of blocks of shell code, with continued ones in one piece.
-fn shell(text: &str) -> Vec<String> {
+pub(crate) fn shell(text: &str) -> Vec<String> {
     let mut lines = Vec::new();
     let mut inside = false;
     let mut continued = String::new();
@@ -43,7 +43,7 @@ fn shell(text: &str) -> Vec<String> {
 }
 
 /// The words of each simple command of a line, without comments, quotes and assignments before it.
-fn commands(line: &str) -> Vec<Vec<String>> {
+pub(crate) fn commands(line: &str) -> Vec<Vec<String>> {
     let line = line.split(" #").next().unwrap_or_default();
     if line.starts_with('#') {
         return Vec::new();

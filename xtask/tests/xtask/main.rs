@@ -10,6 +10,8 @@ mod documents;
 mod fit_inference;
 mod fit_minds;
 mod fit_reports;
+mod results;
 mod support;
 mod tidy;
 mod torture;
+mod walks;

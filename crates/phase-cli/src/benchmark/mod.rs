@@ -23,6 +23,7 @@ use phase_report::evaluation;
 use plan::{entries, needs_networks};
 use rows::Rows;
 use serde_json::json;
+use std::path::Path;
 
 /// The benchmark's figures; written last.
 const BENCHMARK_FILE: &str = "benchmark.json";
@@ -49,7 +50,8 @@ pub fn run(arguments: &Benchmark, context: &Context) -> Result<(), CliError> {
         None => Some(Folder::claim(out, &run)?),
         Some(_) => None,
     };
-    let (mut begun, all) = (0, entries.len() * rows.sets());
+    let asked = entries.iter().map(|entry| (0..rows.sets()).filter(|&set| rows.asks(entry, set)).count());
+    let (mut begun, all) = (0, asked.sum::<usize>());
     for entry in &entries {
         let training = match &entry.weights {
             Some(file) => Some(networks::training_of(file)?),
@@ -57,6 +59,9 @@ pub fn run(arguments: &Benchmark, context: &Context) -> Result<(), CliError> {
         };
         let training = training.map(|training| rows.add_training(training));
         for set in 0..rows.sets() {
+            if !rows.asks(entry, set) {
+                continue;
+            }
             begun += 1;
             context.note(format!("{begun} of {all}: {}, {}", entry.description(), rows.name(set)));
             rows.add(entry, training, set, context)?;
@@ -73,9 +78,23 @@ pub fn run(arguments: &Benchmark, context: &Context) -> Result<(), CliError> {
     let benchmark = rows.finish();
     let document = evaluation::benchmark(&benchmark);
     task::write_report(out, &document)?;
+    if let Some(page) = &arguments.page {
+        write_page(page, &benchmark)?;
+    }
     atomic::write_json(&out.join(BENCHMARK_FILE), &benchmark)?;
     folder.map_or(Ok(()), Folder::finish)?;
     let report = out.join(task::REPORT_FILE);
     let text = format!("{}\nreport in {}", document.first_table().trim_end(), report.display());
     arguments.output.print(text, &benchmark)
+}
+
+/// Writes the results page, its figures and its pictures.
+fn write_page(file: &Path, benchmark: &phase_eval::benchmark::Benchmark) -> Result<(), CliError> {
+    let page = evaluation::page(benchmark)
+        .map_err(|error| CliError::Usage(format!("{}: the page lacks a figure: {error}", file.display())))?;
+    for (picture, svg) in page.pictures {
+        atomic::write(&file.with_file_name(picture), svg.as_bytes())?;
+    }
+    atomic::write_json(&file.with_extension("json"), benchmark)?;
+    Ok(atomic::write(file, page.text.as_bytes())?)
 }

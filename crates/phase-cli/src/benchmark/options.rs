@@ -4,7 +4,10 @@ use super::plan::METHODS;
 use crate::{effort::mind_kinds, eval::options::Parts, output::Output, parallel::Jobs};
 use clap::{Args, builder::PossibleValuesParser, value_parser};
 use phase_agent::MindKind;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+
+/// The default seed.
+const SEED: u64 = 1;
 
 /// Options of `benchmark`.
 #[derive(Args, Debug)]
@@ -18,6 +21,9 @@ pub struct Benchmark {
     /// How people rated the relations of the recordings (phase-ratings/1; see docs/formats.md)
     #[arg(long, value_name = "FILE", requires = "real")]
     pub ratings: Option<PathBuf>,
+    /// Also evaluate goals on this dataset of sets, such as phase-pairs; not the variants of SIMPLE and not --trained
+    #[arg(long, value_name = "DIR")]
+    pub pairs: Option<PathBuf>,
     /// Only these methods, such as simple,arg,stgat [default: all]
     #[arg(long, value_name = "METHODS", value_delimiter = ',', value_parser = PossibleValuesParser::new(METHODS))]
     pub methods: Vec<String>,
@@ -37,7 +43,7 @@ pub struct Benchmark {
     #[arg(long, value_name = "N", value_parser = value_parser!(u64).range(1..=1_000_000_000))]
     pub limit: Option<u64>,
     /// Random seed of methods and intervals
-    #[arg(long, value_name = "S", default_value_t = 1)]
+    #[arg(long, value_name = "S", default_value_t = SEED)]
     pub seed: u64,
     /// Folder with a folder for each method and task, as `eval` leaves them; finished evaluations are not
     /// repeated
@@ -46,6 +52,10 @@ pub struct Benchmark {
     /// Folder for the report; new, empty, or of a benchmark, which is overwritten
     #[arg(long, value_name = "DIR", default_value = "out/benchmark")]
     pub out: PathBuf,
+    /// Also write the results page of the documents here, its figures beside it (the same name, .json) and its pictures in a
+    /// folder `images`
+    #[arg(long, value_name = "FILE.md", conflicts_with = "shard", value_parser = page)]
+    pub page: Option<PathBuf>,
     /// Which part of the events, and the parts that are merged.
     #[command(flatten)]
     pub parts: Parts,
@@ -55,4 +65,38 @@ pub struct Benchmark {
     /// How many events at once.
     #[command(flatten)]
     pub jobs: Jobs,
+}
+
+impl Benchmark {
+    /// The options that determine what is measured, as a command line has them; those that are left at their defaults are
+    /// left out.
+    #[must_use]
+    pub fn measured(&self) -> Vec<String> {
+        let path = |path: &Path| path.display().to_string();
+        let paths = |paths: &[PathBuf]| paths.iter().map(|it| path(it)).collect::<Vec<_>>();
+        let one = |value: &Option<PathBuf>| paths(value.as_slice());
+        let all = [
+            ("--data", vec![path(&self.data)]),
+            ("--real", one(&self.real)),
+            ("--ratings", one(&self.ratings)),
+            ("--pairs", one(&self.pairs)),
+            ("--methods", if self.methods.is_empty() { Vec::new() } else { vec![self.methods.join(",")] }),
+            ("--minds", self.minds.iter().map(|minds| minds.name().to_owned()).collect()),
+            ("--trained", paths(&self.trained)),
+            ("--results", paths(&self.results)),
+            ("--limit", self.limit.iter().map(u64::to_string).collect()),
+            ("--seed", if self.seed == SEED { Vec::new() } else { vec![self.seed.to_string()] }),
+        ];
+        let given = all.into_iter().filter(|(_, values)| !values.is_empty());
+        given.flat_map(|(name, values)| [name.to_owned()].into_iter().chain(values)).collect()
+    }
+}
+
+/// Reads the name of a page, which must not be that of its figures.
+fn page(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    match path.extension().is_some_and(|ending| ending == "md") {
+        true => Ok(path),
+        false => Err(format!("must end in .md, not {text:?}")),
+    }
 }

@@ -82,6 +82,15 @@ impl BenchmarkEntry {
     }
 }
 
+impl BenchmarkEntry {
+    /// Whether the method is asked about sets that differ in one social variable: about goals, with its own weights, and
+    /// without the variants of SIMPLE, which take several times as long.
+    #[must_use]
+    pub fn does_pairs(&self) -> bool {
+        self.task == Task::Goals && self.weights.is_none() && !self.method.starts_with("simple-")
+    }
+}
+
 impl Task {
     /// The folder name of its evaluations.
     #[must_use]

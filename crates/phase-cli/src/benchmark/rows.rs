@@ -19,7 +19,10 @@ use crate::{
 };
 use phase_dataset::{FileError, Problem, json, splits::Split};
 use phase_eval::{
-    benchmark::{self, BENCHMARK_FORMAT, EventSet, Familiarity, Origin, Row, Subset, Training},
+    benchmark::{
+        self, BENCHMARK_FORMAT, EventSet, Familiarity, GENERATED, Origin, PAIRS, RECORDED, Row, Subset,
+        Training,
+    },
     goals::{self, ErrorBreakdown, RecognisedEvent},
     results::{GOALS_FORMAT, TRAJECTORIES_FORMAT},
     trajectories::{self, ForecastEvent},
@@ -65,10 +68,11 @@ impl<'a> Rows<'a> {
             parts: arguments.parts.clone(),
             jobs: arguments.jobs.clone(),
         };
-        let generated = ("generated", common(&arguments.data, Some(Split::Test)));
-        let real = arguments.real.as_deref().map(|file| ("recorded", common(file, None)));
+        let generated = (GENERATED, common(&arguments.data, Some(Split::Test)));
+        let real = arguments.real.as_deref().map(|file| (RECORDED, common(file, None)));
+        let pairs = arguments.pairs.as_deref().map(|folder| (PAIRS, common(folder, None)));
         let (mut inputs, mut sets) = (Vec::new(), Vec::new());
-        for (label, common) in [generated].into_iter().chain(real) {
+        for (label, common) in [generated].into_iter().chain(real).chain(pairs) {
             let input = Input::open(&common, context)?;
             let (name, label, sha256) = (input.description.clone(), label.into(), input.sha256.clone());
             sets.push(EventSet { name, label, sha256, events: input.events.len() });
@@ -80,8 +84,9 @@ impl<'a> Rows<'a> {
         };
         let ratings = arguments.ratings.as_deref().map(of_file).transpose()?;
         let benchmark = benchmark::Benchmark {
-            format: BENCHMARK_FORMAT,
+            format: BENCHMARK_FORMAT.into(),
             generator: GENERATOR.into(),
+            options: arguments.measured(),
             seed: arguments.seed,
             sets,
             goals: Vec::new(),
@@ -94,6 +99,11 @@ impl<'a> Rows<'a> {
     /// Number of sets of events.
     pub(super) const fn sets(&self) -> usize {
         self.inputs.len()
+    }
+
+    /// Whether a method is asked about a set.
+    pub(super) fn asks(&self, entry: &BenchmarkEntry, set: usize) -> bool {
+        self.benchmark.sets[set].label != PAIRS || entry.does_pairs()
     }
 
     /// A set in words.
@@ -133,11 +143,12 @@ impl<'a> Rows<'a> {
         let (weights, origin) =
             (weights.as_deref(), if weights.is_some() { Origin::Trained } else { Origin::Ours });
         let (name, seed) = (name.clone(), self.arguments.seed);
-        let minds = minds_of(self.arguments, method, set > 0);
+        let recorded = self.benchmark.sets[set].label == RECORDED;
+        let minds = minds_of(self.arguments, method, recorded);
         match task {
             Task::Goals => {
                 // Ratings are of recordings.
-                let ratings = self.ratings.clone().filter(|_| set > 0);
+                let ratings = self.ratings.clone().filter(|_| recorded);
                 let task = Goals::by_method(&name, method, weights, &minds)?.with_ratings(ratings);
                 let Some(done) = evaluate(&task, input, common, context)? else { return Ok(()) };
                 let events = done.events;

@@ -37,9 +37,11 @@ pub(crate) struct Event {
     pub entities: usize,
     /// The set that it belongs to, if its dataset consists of sets.
     pub set: Option<String>,
-    /// Whether its base layout is in the training or validation events too, if the dataset is divided.
+    /// Whether its base layout is in the training or validation events too, if the dataset is divided
+    /// and has such events.
     pub layout_seen: Option<bool>,
-    /// Whether its type of interaction is in the training or validation events too, if the dataset is divided.
+    /// Whether its type of interaction is in the training or validation events too, if the dataset is divided
+    /// and has such events.
     pub interaction_seen: Option<bool>,
     index: usize,
     contents: String,
@@ -85,8 +87,9 @@ impl Input {
 }
 
 fn of_manifest(manifest: &Manifest, split: Option<Split>) -> Vec<Event> {
-    let divided = manifest.events.iter().any(|entry| entry.split.is_some());
     let learnt = || manifest.events.iter().filter(|entry| entry.split() != Split::Test);
+    // A dataset of test events alone has nothing to learn from.
+    let divided = manifest.events.iter().any(|entry| entry.split.is_some()) && learnt().next().is_some();
     let layouts: BTreeSet<u8> = learnt().map(|entry| entry.layout.base).collect();
     let variants: BTreeSet<Variant> = learnt().filter_map(|entry| entry.variant).collect();
     let entries = manifest.events.iter().enumerate();

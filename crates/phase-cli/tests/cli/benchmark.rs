@@ -18,6 +18,13 @@ const PRESET: &str = r#"{
     {"variant": "mixed", "split": "test", "layouts": "unseen", "events": 1}
   ]
 }"#;
+/// One minimal pair.
+const PAIRS: &str = r#"{
+  "format": "phase-preset/3", "name": "pairs", "seed": 3,
+  "layouts": {"some": [0, 2, 6]},
+  "selection": {"min_steps": 40, "max_steps": 50, "attempts": 400, "ends": "drawn"},
+  "sets": [{"stances": ["hinder", "indifferent"], "about": "place", "split": "test", "layouts": "some", "sets": 1}]
+}"#;
 const PLAIN: &str = "chance,cue,still,constant-velocity";
 
 /// A folder with the dataset `tiny` and the recordings `events.json`.
@@ -148,6 +155,42 @@ fn methods_from_outside_stand_beside_ours() {
     fs::write(path.join("full/thesis.tex"), "").expect("written");
     let sentence = refuse(path, &["benchmark", "--data", "tiny", "--methods", "cue", "--out", "full"]);
     assert!(sentence.contains("full: contains other files (thesis.tex)"), "{sentence}");
+}
+
+/// The page and its figures are of one run; minimal pairs are asked of methods alone.
+#[test]
+fn the_results_page_has_the_figures_beside_it() {
+    let folder = folder();
+    let path = folder.path();
+    fs::create_dir(path.join("docs")).expect("a folder");
+    fs::write(path.join("pairs.json"), PAIRS).expect("written");
+    let options = ["--simulations", "10", "--particles", "4", "--no-video", "--out", "pairs"];
+    succeed(path, &[&["gen-dataset", "--preset", "pairs.json"], &options[..]].concat());
+    let measured = ["--data", "tiny", "--pairs", "pairs", "--methods", "cue,still"];
+    succeed(path, &[&["benchmark", "--page", "docs/results.md"], &measured[..]].concat());
+    let page = fs::read_to_string(path.join("docs/results.md")).expect("a page");
+    let command = format!("cargo xtask-networks benchmark {} --page docs/results.md", measured.join(" "));
+    assert!(page.lines().any(|line| line == command), "{page}");
+    assert!(page.contains("## Minimal pairs") && !page.contains("## Agreement"), "{page}");
+    let figures = figures(&path.join("docs/results.json"));
+    assert_eq!(figures["options"], json!(measured));
+    let labels: Vec<&Value> =
+        figures["sets"].as_array().expect("sets").iter().map(|set| &set["label"]).collect();
+    assert_eq!(labels, ["generated", "pairs"]);
+    let top1 = found(&figures, "goals", "cue", "/summary/all/top1/value");
+    assert_eq!((top1.len(), found(&figures, "trajectories", "still", "/set").len()), (2, 1));
+    // What was seen in training is a question about the generated events alone.
+    assert_eq!(found(&figures, "goals", "cue", "/parts")[1], &json!([]));
+    for value in top1 {
+        let value = value.as_f64().expect("a number");
+        assert!(page.contains(&format!("| {value:.3} [")), "{value} in {page}");
+    }
+    assert!(
+        fs::read(path.join("docs/results.json")).ok()
+            == fs::read(path.join("out/benchmark/benchmark.json")).ok()
+    );
+    let sentence = refuse(path, &["benchmark", "--data", "tiny", "--methods", "cue", "--page", "page.html"]);
+    assert!(sentence.contains("must end in .md"), "{sentence}");
 }
 
 #[cfg(not(feature = "networks"))]

@@ -288,7 +288,7 @@ fn rubbish_is_refused_in_one_sentence() {
     }
 }
 
-/// The worked example of docs/benchmark.md. Its rules are those of its own text; their results here are
+/// The worked example of docs/how-to/method.md. Its rules are those of its own text; their results here are
 /// computed by hand.
 #[test]
 fn the_example_in_python_is_accepted() {

@@ -2,14 +2,14 @@
 
 use super::{RecognisedEvent, canonical};
 use phase_model::Goal;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Kinds of goals, in the order of [`ErrorBreakdown::kinds`].
 pub const GOAL_KINDS: [&str; 3] = ["agent on landmark", "object on landmark", "touch"];
 
 /// Error breakdown of the most likely goals, counted by agents. Goals that are neither correct nor of another
 /// kind nor missing are counted in one of `sign`, `landmark`, `entity` and `both`.
-#[derive(Clone, PartialEq, Eq, Default, Debug, Serialize)]
+#[derive(Clone, PartialEq, Eq, Default, Debug, Serialize, Deserialize)]
 pub struct ErrorBreakdown {
     /// Everything is correct.
     pub right: usize,

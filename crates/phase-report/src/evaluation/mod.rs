@@ -2,10 +2,12 @@
 
 mod benchmark;
 mod goals;
+mod leaderboard;
 mod trajectories;
 
-pub use benchmark::benchmark;
+pub use benchmark::{Page, benchmark, overview, page};
 pub use goals::goals;
+pub use leaderboard::{LEADERBOARD_FORMAT, Measures, Score, Scores, Source, leaderboard};
 pub use trajectories::trajectories;
 
 use crate::{document::Block, plot::bars};

@@ -1,13 +1,14 @@
 //! The benchmark's report, with figures that are easily checked.
 
 use phase_eval::{
+    Estimate,
     benchmark::{BENCHMARK_FORMAT, Benchmark, Curve, EventSet, Familiarity, Origin, Row, Subset, Training},
     goals::{self, Answer, ErrorBreakdown, Label, RecognisedEvent},
     trajectories::{Errors, ForecastEvent, ForecastSummary},
 };
 use phase_model::{AgentId, EventKind, Goal, Relation, RelationProbabilities, Sign};
 use phase_report::{
-    evaluation,
+    evaluation::{self, LEADERBOARD_FORMAT, Measures, Score, Scores, Source},
     plot::{Axis, Series, line_chart},
 };
 use serde_json::{Value, json};
@@ -64,8 +65,9 @@ fn training(events: usize) -> Training {
 fn benchmark() -> Benchmark {
     let set = EventSet { name: "Made up".into(), label: "generated".into(), sha256: "0".into(), events: 3 };
     Benchmark {
-        format: BENCHMARK_FORMAT,
+        format: BENCHMARK_FORMAT.into(),
         generator: "test".into(),
+        options: vec!["--data".into(), "out/made-up".into()],
         seed: 1,
         sets: vec![set],
         goals: Vec::new(),
@@ -205,4 +207,59 @@ fn doubling_is_always_the_same_way() {
         let svg = line_chart("Growth", axes, &[Series { name: "ours", points: points.clone() }]);
         assert!(!svg.contains("NaN"), "{from} {to}: {svg}");
     }
+}
+
+#[test]
+fn the_page_shows_the_same_figures_after_a_round_trip() {
+    let benchmark = benchmark();
+    let page = evaluation::page(&benchmark).expect("a page");
+    let text = &page.text;
+    assert!(
+        text.contains("cargo xtask-networks benchmark --data out/made-up --page docs/results.md\n"),
+        "{text}"
+    );
+    assert!(text.contains("Made up\n(3;"), "{text}");
+    // Every section with something in it, and its heading alone on a line.
+    for heading in ["# Results", "## Table 2: trajectories", "## Training", "## As training data grows"] {
+        assert!(
+            text.contains(&format!("\n\n{heading}\n\n")) || text.starts_with(heading),
+            "{heading} in {text}"
+        );
+    }
+    assert!(!text.contains("## Agreement") && !text.contains("## Minimal pairs"), "{text}");
+    assert!(!text.contains("\n\n\n") && text.ends_with('\n') && !text.ends_with("\n\n"), "{text}");
+    assert_eq!(page.pictures[0].0, "images/growth-ade.svg");
+    let json = serde_json::to_string(&benchmark).expect("JSON");
+    let again: Benchmark = serde_json::from_str(&json).expect("a benchmark");
+    assert_eq!(again, benchmark);
+    let other = json.replace(BENCHMARK_FORMAT, "phase-benchmark/0");
+    assert!(serde_json::from_str::<Benchmark>(&other).is_err());
+}
+
+#[test]
+fn the_leaderboard_has_the_best_first() {
+    let estimate = |value| Estimate { value, low: value, high: value };
+    let score = |method: &str, ade| Score {
+        method: method.into(),
+        set: "generated".into(),
+        predictions: "0".into(),
+        events: "0".into(),
+        measures: Measures::Trajectories { ade: estimate(ade), fde: estimate(2.0 * ade) },
+    };
+    let scores =
+        Scores { format: LEADERBOARD_FORMAT.into(), scores: vec![score("better", 1.0), score("worse", 3.0)] };
+    let source = Source { by: "A | B".into(), source: "https://example.org".into() };
+    let text = evaluation::leaderboard(&benchmark(), &scores, &[("better".to_owned(), source)].into());
+    let place = |line: &str| text.find(line).unwrap_or_else(|| panic!("{line} in {text}"));
+    let in_order = [
+        place("| humans (paper, Table 1) | – | – | 0.970 | 0.99 | – |"),
+        place("| better | 1.00 [1.00, 1.00] | 2.00 [2.00, 2.00] | – | – |"),
+        place("| simple (ours) | 1.50 [1.50, 1.50] |"),
+        place("| worse | 3.00 [3.00, 3.00] |"),
+        place("| SIMPLE (paper, Table 2) | – | – | 3.84 | 5.23 |"),
+        place("- better: A \\| B, https://example.org"),
+    ];
+    assert!(in_order.is_sorted(), "{in_order:?}");
+    let json = serde_json::to_string(&scores).expect("JSON");
+    assert_eq!(serde_json::from_str::<Scores>(&json).expect("scores"), scores);
 }

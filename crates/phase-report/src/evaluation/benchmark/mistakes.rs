@@ -9,6 +9,21 @@ use phase_eval::{
 
 /// A table of all methods but those trained to show a curve; nothing without any.
 pub(super) fn blocks(benchmark: &Benchmark) -> Vec<Block> {
+    let Some(table) = table(benchmark) else { return Vec::new() };
+    vec![
+        Block::Heading("What goals were taken for".into()),
+        Block::Text(
+            "The goals thought likeliest, counted by agents, two to an event. The four columns after the right ones have \
+             the kind of goal right (an agent on a landmark, here called a place; an object on one; touching); where the \
+             landmark, the object or the agent is wrong, the sign may be too."
+                .into(),
+        ),
+        table,
+    ]
+}
+
+/// The table alone.
+pub(super) fn table(benchmark: &Benchmark) -> Option<Block> {
     let shown = benchmark.goals.iter().filter(|row| row.origin != Origin::Trained);
     let rows: Vec<Vec<String>> = shown
         .filter_map(|row| {
@@ -17,9 +32,6 @@ pub(super) fn blocks(benchmark: &Benchmark) -> Vec<Block> {
             Some(names.into_iter().chain(counts).collect())
         })
         .collect();
-    if rows.is_empty() {
-        return Vec::new();
-    }
     let columns = [
         "method",
         "events",
@@ -36,16 +48,7 @@ pub(super) fn blocks(benchmark: &Benchmark) -> Vec<Block> {
         "touch for object",
         "none named",
     ];
-    vec![
-        Block::Heading("What goals were taken for".into()),
-        Block::Text(
-            "The goals thought likeliest, counted by agents, two to an event. The four columns after the right ones have \
-             the kind of goal right (an agent on a landmark, here called a place; an object on one; touching); where the \
-             landmark, the object or the agent is wrong, the sign may be too."
-                .into(),
-        ),
-        Block::Table { head: head(&columns), rows },
-    ]
+    (!rows.is_empty()).then(|| Block::Table { head: head(&columns), rows })
 }
 
 /// The counts in the order of the columns.

@@ -3,15 +3,21 @@
 
 mod growth;
 mod mistakes;
+mod overview;
+mod page;
+mod people;
 mod tables;
 mod training;
+
+pub use overview::overview;
+pub use page::{Page, page};
 
 use super::BESIDE;
 use crate::{
     document::{Block, Document},
     plot::bars,
 };
-use phase_eval::benchmark::{Benchmark, Origin, Row};
+use phase_eval::benchmark::{Benchmark, Familiarity, Origin, Row};
 
 /// The benchmark's whole report.
 #[must_use]
@@ -33,7 +39,7 @@ pub fn benchmark(benchmark: &Benchmark) -> Document {
     blocks.extend(chart(benchmark, "relations.svg", "Relations right, %", &benchmark.goals, |summary| {
         100.0 * summary.all.relation.value
     }));
-    blocks.extend(tables::people(benchmark));
+    blocks.extend(people::blocks(benchmark));
     blocks.push(Block::Heading("Table 2: trajectories".into()));
     blocks.push(tables::trajectories(benchmark));
     blocks.push(Block::Text(
@@ -57,7 +63,14 @@ pub fn benchmark(benchmark: &Benchmark) -> Document {
          others. Of methods that learn nothing the difference says how hard these events are."
             .into(),
     ));
-    blocks.extend(tables::parts(benchmark));
+    for pair in Familiarity::PAIRS {
+        blocks.extend(tables::goal_parts(benchmark, pair));
+        blocks.extend(tables::trajectory_parts(benchmark, pair));
+    }
+    if let Some(table) = tables::sets(benchmark) {
+        blocks.push(Block::Heading("Sets that differ in one social variable".into()));
+        blocks.push(table);
+    }
     blocks.extend(training::blocks(benchmark));
     blocks.extend(growth::blocks(benchmark));
     Document { title: "The PHASE benchmark".into(), blocks }

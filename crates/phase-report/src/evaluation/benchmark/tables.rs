@@ -26,7 +26,7 @@ const ABLATION: [(&str, &str); 5] = [
     ("simple-global", "SIMPLE (global)"),
     ("simple-initial", "SIMPLE (initial)"),
 ];
-const NOTHING: &str = "–";
+pub(super) const NOTHING: &str = "–";
 
 /// Table 1: every method that is not an ablation, below the published row of its name.
 pub(super) fn goals(benchmark: &Benchmark) -> Block {
@@ -83,67 +83,6 @@ fn goal_row(benchmark: &Benchmark, row: &Row<goals::RecognitionSummary>) -> Vec<
     ]
 }
 
-/// Roles, calibration and agreement with people; nothing where no method says who helps or hinders and nobody was asked.
-pub(super) fn people(benchmark: &Benchmark) -> Vec<Block> {
-    let rows = || benchmark.goals.iter().filter(|row| row.origin != Origin::Trained);
-    let agreement = |row: &Row<goals::RecognitionSummary>| row.summary.agreement.clone();
-    if !rows().any(|row| row.summary.roles.is_some() || row.summary.agreement.is_some()) {
-        return Vec::new();
-    }
-    let or_nothing = |estimate: Option<Estimate>| estimate.map_or_else(|| NOTHING.into(), |it| share(&it));
-    let line = |row: &Row<goals::RecognitionSummary>| {
-        let (summary, agreement) = (&row.summary, agreement(row));
-        let people = agreement.as_ref();
-        vec![
-            name(row),
-            events(benchmark, row.set, summary.all.n),
-            or_nothing(summary.roles.as_ref().map(|roles| roles.named)),
-            or_nothing(summary.roles.as_ref().map(|roles| roles.brier)),
-            format!("{:.3}", summary.goal_calibration.error),
-            format!("{:.3}", summary.relation_calibration.error),
-            or_nothing(people.and_then(|it| it.correlation)),
-            or_nothing(people.map(|it| it.cross_entropy)),
-            or_nothing(people.and_then(|it| it.similarity)),
-            or_nothing(people.map(|it| it.mode)),
-        ]
-    };
-    let mut lines: Vec<Vec<String>> = rows().map(line).collect();
-    if let Some(ceiling) = rows().find_map(|row| row.summary.agreement.as_ref()?.ceiling) {
-        let number = |value: f64| format!("{value:.3}");
-        let mut line = vec![NOTHING.to_owned(); 6];
-        line[0] = "people".into();
-        let or_nothing = |value: Option<f64>| value.map_or_else(|| NOTHING.into(), number);
-        line.extend([
-            or_nothing(ceiling.correlation),
-            number(ceiling.entropy),
-            or_nothing(ceiling.similarity),
-            number(ceiling.mode),
-        ]);
-        lines.push(line);
-    }
-    let columns = [
-        "method",
-        "events",
-        "helper or hinderer named",
-        "Brier score",
-        "calibration error, goals",
-        "relations",
-        "correlation with people",
-        "cross-entropy (nat)",
-        "similarity",
-        "their most frequent rating named",
-    ];
-    vec![
-        Block::Heading("Roles, calibration, and agreement with people".into()),
-        Block::Table { head: head(&columns), rows: lines },
-        Block::Text(
-            "People: how well one half of the raters predicts the other, and the entropy of their ratings, the least \
-             cross-entropy that is possible."
-                .into(),
-        ),
-    ]
-}
-
 /// Table 2.
 pub(super) fn trajectories(benchmark: &Benchmark) -> Block {
     let in_table = |method: &str| TABLE_2.iter().any(|(name, _)| *name == method);
@@ -190,18 +129,39 @@ fn trajectory_row(benchmark: &Benchmark, row: &Row<trajectories::ForecastSummary
         .collect()
 }
 
-/// Scores of methods on events similar and dissimilar to the training data, task by task.
-pub(super) fn parts(benchmark: &Benchmark) -> Vec<Block> {
-    let mut blocks = Vec::new();
-    for pair in Familiarity::PAIRS {
-        blocks.extend(part_table(&benchmark.goals, pair, ["goal top-1", "relation"], |summary| {
-            (summary.all.n, [share(&summary.all.top1), share(&summary.all.relation)])
-        }));
-        blocks.extend(part_table(&benchmark.trajectories, pair, ["ADE", "FDE"], |summary| {
-            (summary.all.n, [length(&summary.all.ade), length(&summary.all.fde)])
-        }));
-    }
-    blocks
+/// Goals and relations on events similar and dissimilar to the training data.
+pub(super) fn goal_parts(benchmark: &Benchmark, pair: [Familiarity; 2]) -> Option<Block> {
+    part_table(&benchmark.goals, pair, ["goal top-1", "relation"], |summary| {
+        (summary.all.n, [share(&summary.all.top1), share(&summary.all.relation)])
+    })
+}
+
+/// Trajectories of events similar and dissimilar to the training data.
+pub(super) fn trajectory_parts(benchmark: &Benchmark, pair: [Familiarity; 2]) -> Option<Block> {
+    part_table(&benchmark.trajectories, pair, ["ADE", "FDE"], |summary| {
+        (summary.all.n, [length(&summary.all.ade), length(&summary.all.fde)])
+    })
+}
+
+/// Sets whose events differ in one social variable: the share of them of which all events are right.
+pub(super) fn sets(benchmark: &Benchmark) -> Option<Block> {
+    let line = |row: &Row<goals::RecognitionSummary>| {
+        let (sets, all) = (row.summary.sets.as_ref()?, &row.summary.all);
+        let scores = [&sets.relation, &sets.goals, &sets.all, &all.top1, &all.relation].map(share);
+        Some([name(row), format!("{} ({} events)", sets.n, all.n)].into_iter().chain(scores).collect())
+    };
+    let rows = benchmark.goals.iter().filter(|row| row.origin != Origin::Trained);
+    let rows: Vec<Vec<String>> = rows.filter_map(line).collect();
+    let columns = [
+        "method",
+        "sets",
+        "all relations right",
+        "all goals right",
+        "both",
+        "single events: goal top-1",
+        "relation",
+    ];
+    (!rows.is_empty()).then(|| Block::Table { head: head(&columns), rows })
 }
 
 fn part_table<S>(

@@ -8,9 +8,7 @@ use phase_eval::benchmark::{Benchmark, Curve, Origin, Training};
 
 /// A table of all trainings, and the curves of those whose weights are bundled; nothing without networks.
 pub(super) fn blocks(benchmark: &Benchmark) -> Vec<Block> {
-    if benchmark.trainings.is_empty() {
-        return Vec::new();
-    }
+    let Some(table) = table(benchmark) else { return Vec::new() };
     let mut blocks = vec![
         Block::Heading("Training".into()),
         Block::Text(
@@ -18,7 +16,7 @@ pub(super) fn blocks(benchmark: &Benchmark) -> Vec<Block> {
              and the weights of the best round are kept."
                 .into(),
         ),
-        table(benchmark),
+        table,
     ];
     for (index, training) in benchmark.trainings.iter().enumerate() {
         if let (true, Some(file)) = (is_ours(benchmark, index), file(&training.network)) {
@@ -35,7 +33,8 @@ fn is_ours(benchmark: &Benchmark, training: usize) -> bool {
         || benchmark.trajectories.iter().any(|row| ours(row.origin, row.training))
 }
 
-fn table(benchmark: &Benchmark) -> Block {
+/// What every network cost; nothing without networks.
+pub(super) fn table(benchmark: &Benchmark) -> Option<Block> {
     let row = |training: &Training| {
         vec![
             training.network.clone(),
@@ -50,7 +49,8 @@ fn table(benchmark: &Benchmark) -> Block {
     let columns = ["network", "weights", "learnt from", "events", "rounds", "best", "CPU min"];
     let mut trainings: Vec<&Training> = benchmark.trainings.iter().collect();
     trainings.sort_by_key(|training| (&training.network, &training.dataset, training.events, training.seed));
-    Block::Table { head: head(&columns), rows: trainings.into_iter().map(row).collect() }
+    let rows: Vec<Vec<String>> = trainings.into_iter().map(row).collect();
+    (!rows.is_empty()).then(|| Block::Table { head: head(&columns), rows })
 }
 
 fn plot(training: &Training, file: &'static str) -> Block {

@@ -1,0 +1,240 @@
+//! The leaderboard: methods by measures, those of the benchmark and those that others have handed in.
+
+use super::{length, share};
+use crate::{
+    document::{Block, head},
+    markup::escape_markdown,
+    published,
+};
+use phase_eval::{
+    Estimate,
+    benchmark::{Benchmark, GENERATED, Origin, PAIRS, RECORDED, Row},
+};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// The value of the field `format` of [`Scores`].
+pub const LEADERBOARD_FORMAT: &str = "phase-leaderboard/1";
+/// What the table says where a method was not asked.
+const NOTHING: &str = "–";
+
+/// The scores of all predictions that were handed in.
+#[derive(Clone, PartialEq, Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Scores {
+    /// Always [`LEADERBOARD_FORMAT`].
+    pub format: String,
+    /// A score for each file of predictions, by method, task and set.
+    pub scores: Vec<Score>,
+}
+
+/// The score of one file of predictions.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+pub struct Score {
+    /// The method: the name of its files.
+    pub method: String,
+    /// The set of events: the label of one of [`Benchmark::sets`].
+    pub set: String,
+    /// Digest of the file of predictions.
+    pub predictions: String,
+    /// Digest of the events, as [`phase_eval::benchmark::EventSet`] has it.
+    pub events: String,
+    /// What was measured.
+    #[serde(flatten)]
+    pub measures: Measures,
+}
+
+/// The measures of a task.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(tag = "task", rename_all = "kebab-case")]
+pub enum Measures {
+    /// Task 1.
+    Goals {
+        /// The correct goal is the most likely one.
+        top1: Estimate,
+        /// The most likely relation is the intended one.
+        relation: Estimate,
+        /// All goals and relations of a set of events that differ in one social variable; of events in such sets only.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        whole_sets: Option<Estimate>,
+    },
+    /// Task 2 (u).
+    Trajectories {
+        /// Average displacement error of the agents.
+        ade: Estimate,
+        /// Final displacement error of the agents.
+        fde: Estimate,
+    },
+}
+
+/// Who made a method that was handed in.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Source {
+    /// Its authors.
+    pub by: String,
+    /// Where its code or description is.
+    pub source: String,
+}
+
+/// One line before it is sorted: the value that it is sorted by, and its cells.
+struct Line {
+    rank: f64,
+    cells: Vec<String>,
+}
+
+/// The page as Markdown: goals and relations, best first, and trajectories.
+#[must_use]
+pub fn leaderboard(benchmark: &Benchmark, scores: &Scores, sources: &BTreeMap<String, Source>) -> String {
+    let set = |label: &str| benchmark.sets.iter().find(|set| set.label == label);
+    let described = [(GENERATED, "generated events"), (RECORDED, "recordings"), (PAIRS, "minimal pairs")];
+    let described = described.into_iter().filter_map(|(label, name)| {
+        set(label).map(|set| format!("{name}: {} ({} events)", set.name, set.events))
+    });
+    let table = |columns: &[&str], mut lines: Vec<Line>| {
+        lines.sort_by(|a, b| a.rank.total_cmp(&b.rank));
+        let rows = lines.into_iter().map(|line| line.cells).collect();
+        Block::Table { head: head(columns), rows }.to_markdown()
+    };
+    let goals = table(
+        &[
+            "method",
+            "generated: goals",
+            "relations",
+            "recordings: goals",
+            "relations",
+            "minimal pairs: whole sets",
+        ],
+        goal_lines(benchmark, scores),
+    );
+    let trajectories = table(
+        &["method", "generated: ADE", "FDE", "recordings: ADE", "FDE"],
+        trajectory_lines(benchmark, scores),
+    );
+    let sources = sources.iter().map(|(method, Source { by, source })| {
+        let [method, by, source] = [method, by, source].map(|text| escape_markdown(text));
+        format!("- {method}: {by}, {source}\n")
+    });
+    format!(
+        "# Leaderboard\n\n\
+         <!-- Written by `cargo xtask results` from results.json and leaderboard/scores.json. -->\n\n\
+         {}. Square brackets hold 95 % bootstrap intervals. [results.md](results.md) has all measures of the methods that come with \
+         the program, [how-to/method.md](how-to/method.md) what a method may use \
+         and how to hand in yours. Published figures are of all 100 recordings.\n\n\
+         ## Goals and relations\n\n{goals}\n\
+         Sorted by goals in generated events, those without by goals in recordings. A set of minimal pairs counts where all goals and relations of its \
+         events are right.\n\n\
+         ## Trajectories\n\n{trajectories}\n\
+         Displacement errors of the agents in u, sorted by ADE.\n\n\
+         ## Methods that were handed in\n\n{}",
+        described.collect::<Vec<_>>().join("; "),
+        sources.collect::<String>(),
+    )
+}
+
+fn goal_lines(benchmark: &Benchmark, scores: &Scores) -> Vec<Line> {
+    let line = |name: String, of: &dyn Fn(&str) -> Option<(Estimate, Estimate, Option<Estimate>)>| {
+        let [generated, recorded, pairs] = [GENERATED, RECORDED, PAIRS].map(of);
+        let two = |scores: &Option<(Estimate, Estimate, Option<Estimate>)>| {
+            [scores.as_ref().map(|it| it.0), scores.as_ref().map(|it| it.1)].map(share_or_nothing)
+        };
+        let sets = share_or_nothing(pairs.and_then(|scores| scores.2));
+        let rank = generated.as_ref().or(recorded.as_ref()).map_or(0.0, |scores| -scores.0.value);
+        let cells = [name].into_iter().chain(two(&generated)).chain(two(&recorded)).chain([sets]).collect();
+        Line { rank, cells }
+    };
+    let published = published::GOALS.iter().map(|row| Line {
+        rank: -row.goal[0],
+        cells: vec![
+            format!("{} ({})", row.method, row.source),
+            NOTHING.into(),
+            NOTHING.into(),
+            format!("{:.3}", row.goal[0]),
+            format!("{:.2}", row.relation),
+            NOTHING.into(),
+        ],
+    });
+    let ours = methods(&benchmark.goals).into_iter().map(|method| {
+        line(format!("{method} (ours)"), &|label| {
+            let summary = &row(benchmark, &benchmark.goals, method, label)?.summary;
+            Some((summary.all.top1, summary.all.relation, summary.sets.as_ref().map(|sets| sets.all)))
+        })
+    });
+    let given = handed_in(scores, |measures| matches!(measures, Measures::Goals { .. }));
+    let given = given.into_iter().map(|method| {
+        line(method.to_owned(), &|label| {
+            let of = scores.scores.iter().filter(|score| score.method == method && score.set == label);
+            of.into_iter().find_map(|score| match &score.measures {
+                Measures::Goals { top1, relation, whole_sets } => Some((*top1, *relation, *whole_sets)),
+                Measures::Trajectories { .. } => None,
+            })
+        })
+    });
+    published.chain(ours).chain(given).collect()
+}
+
+fn trajectory_lines(benchmark: &Benchmark, scores: &Scores) -> Vec<Line> {
+    let line = |name: String, of: &dyn Fn(&str) -> Option<(Estimate, Estimate)>| {
+        let [generated, recorded] = [GENERATED, RECORDED].map(of);
+        let two = |scores: Option<(Estimate, Estimate)>| {
+            [scores.map(|it| it.0), scores.map(|it| it.1)]
+                .map(|it| it.map_or_else(|| NOTHING.into(), |it| length(&it)))
+        };
+        let rank = generated.or(recorded).map_or(f64::INFINITY, |scores| scores.0.value);
+        Line { rank, cells: [name].into_iter().chain(two(generated)).chain(two(recorded)).collect() }
+    };
+    let published = published::TRAJECTORIES.iter().map(|row| Line {
+        rank: row.ade[2],
+        cells: vec![
+            format!("{} ({})", row.method, row.source),
+            NOTHING.into(),
+            NOTHING.into(),
+            format!("{:.2}", row.ade[2]),
+            format!("{:.2}", row.fde[2]),
+        ],
+    });
+    let ours = methods(&benchmark.trajectories).into_iter().map(|method| {
+        line(format!("{method} (ours)"), &|label| {
+            let all = &row(benchmark, &benchmark.trajectories, method, label)?.summary.all;
+            Some((all.ade, all.fde))
+        })
+    });
+    let given = handed_in(scores, |measures| matches!(measures, Measures::Trajectories { .. }));
+    let given = given.into_iter().map(|method| {
+        line(method.to_owned(), &|label| {
+            let of = scores.scores.iter().filter(|score| score.method == method && score.set == label);
+            of.into_iter().find_map(|score| match &score.measures {
+                Measures::Trajectories { ade, fde } => Some((*ade, *fde)),
+                Measures::Goals { .. } => None,
+            })
+        })
+    });
+    published.chain(ours).chain(given).collect()
+}
+
+/// The methods of the program, each once.
+fn methods<S>(rows: &[Row<S>]) -> Vec<&str> {
+    let mut names: Vec<&str> =
+        rows.iter().filter(|row| row.origin == Origin::Ours).map(|row| row.method.as_str()).collect();
+    names.sort_unstable();
+    names.dedup();
+    names
+}
+
+fn row<'a, S>(benchmark: &Benchmark, rows: &'a [Row<S>], method: &str, label: &str) -> Option<&'a Row<S>> {
+    let set = benchmark.sets.iter().position(|set| set.label == label)?;
+    rows.iter().find(|row| row.origin == Origin::Ours && row.method == method && row.set == set)
+}
+
+/// The methods that were handed in for a task, each once.
+fn handed_in(scores: &Scores, does: fn(&Measures) -> bool) -> Vec<&str> {
+    let scores = scores.scores.iter().filter(|score| does(&score.measures));
+    let mut names: Vec<&str> = scores.map(|score| score.method.as_str()).collect();
+    names.sort_unstable();
+    names.dedup();
+    names
+}
+
+fn share_or_nothing(estimate: Option<Estimate>) -> String {
+    estimate.map_or_else(|| NOTHING.into(), |it| share(&it))
+}

@@ -1,0 +1,146 @@
+//! `book`: the documents as a book of pages, with every link inside it.
+//!
+//! Documents link to files elsewhere in the repository, which mdBook, whose source is one folder, would not have. So the book's
+//! source is a copy of the documents and of what they link to, in the same places.
+
+use crate::{error::XtaskError, results::root, tidy::texts};
+use clap::Args;
+use phase_cli::console::print_result;
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    fs, io,
+    path::{Path, PathBuf},
+    process::Command,
+};
+
+/// The folder of the documents, with the book's settings and contents.
+const DOCUMENTS: &str = "docs";
+/// The contents, as mdBook wants them at the top of its source.
+const CONTENTS: &str = "SUMMARY.md";
+/// The book's settings.
+const SETTINGS: &str = "book.toml";
+/// The heading of the documents that are elsewhere.
+const ELSEWHERE: &str = "# Beside the documents";
+
+/// Options of `book`.
+#[derive(Args, Debug)]
+pub struct Book {
+    /// Folder for the pages; it is emptied
+    #[arg(long, value_name = "DIR", default_value = "target/book")]
+    pub out: PathBuf,
+}
+
+/// Copies the documents, has mdBook make pages of them and run their examples, and checks the links of the pages.
+///
+/// # Errors
+/// [`XtaskError`] if a file cannot be used, mdBook is missing or fails, or a page has a link to nothing.
+pub fn run(options: &Book) -> Result<(), XtaskError> {
+    let folder = root().join("target/book-source");
+    let documents =
+        assemble(root(), &folder).map_err(|(file, source)| XtaskError::Unreadable { file, source })?;
+    let out = std::path::absolute(&options.out).unwrap_or_else(|_| options.out.clone());
+    for arguments in [&["build", "--dest-dir"][..], &["test", "--dest-dir"]] {
+        let status = Command::new("mdbook").current_dir(&folder).args(arguments).arg(&out).status();
+        let problem = match status {
+            Ok(status) if status.success() => continue,
+            Ok(status) => format!("mdbook {}: {status}", arguments[0]),
+            Err(error) => {
+                format!("mdbook cannot be started ({error}); cargo install mdbook --version 0.5.4 --locked")
+            }
+        };
+        return Err(XtaskError::Build { what: "the book", problem });
+    }
+    let broken = broken_links(&out).map_err(|source| XtaskError::Unreadable { file: out.clone(), source })?;
+    if let Some((page, link)) = broken.first() {
+        let problem =
+            format!("{}: links to {link}, which is not there ({} such links)", page.display(), broken.len());
+        return Err(XtaskError::Build { what: "the book", problem });
+    }
+    print_result(format!("{documents} documents in {}", out.join("index.html").display()));
+    Ok(())
+}
+
+/// Makes the book's source and returns the number of its documents.
+fn assemble(root: &Path, folder: &Path) -> Result<usize, (PathBuf, io::Error)> {
+    let failed = |file: &Path| {
+        let file = file.to_owned();
+        |error| (file, error)
+    };
+    if folder.exists() {
+        fs::remove_dir_all(folder).map_err(failed(folder))?;
+    }
+    let mut todo: Vec<PathBuf> = Vec::new();
+    files(&root.join(DOCUMENTS), &mut todo).map_err(failed(&root.join(DOCUMENTS)))?;
+    let mut todo: Vec<PathBuf> =
+        todo.into_iter().filter_map(|file| file.strip_prefix(root).map(Path::to_owned).ok()).collect();
+    let mut copied: BTreeMap<PathBuf, String> = BTreeMap::new();
+    while let Some(file) = todo.pop() {
+        if copied.contains_key(&file) {
+            continue;
+        }
+        let place = folder.join("src").join(&file);
+        let parent = place.parent().unwrap_or(folder);
+        fs::create_dir_all(parent).map_err(failed(parent))?;
+        fs::copy(root.join(&file), &place).map_err(failed(&file))?;
+        let mut title = String::new();
+        if file.extension().is_some_and(|ending| ending == "md") {
+            let text = fs::read_to_string(&place).map_err(failed(&place))?;
+            title = text.lines().find_map(|line| line.strip_prefix("# ")).unwrap_or("Untitled").to_owned();
+            let targets = texts::targets(&file, &text);
+            todo.extend(targets.into_iter().filter(|target| root.join(target).is_file()));
+        }
+        copied.insert(file, title);
+    }
+    let contents = Path::new(DOCUMENTS).join(CONTENTS);
+    let text = fs::read_to_string(root.join(&contents)).map_err(failed(&contents))?;
+    let mut text = text.replace("](", &format!("]({DOCUMENTS}/"));
+    let others = copied.iter().filter(|(file, title)| !file.starts_with(DOCUMENTS) && !title.is_empty());
+    text.push_str(&format!("\n{ELSEWHERE}\n\n"));
+    for (file, title) in others {
+        text.push_str(&format!("- [{}]({})\n", title.replace(['[', ']', '`'], ""), file.display()));
+    }
+    let place = folder.join("src").join(CONTENTS);
+    fs::write(&place, text).map_err(failed(&place))?;
+    let settings =
+        fs::read_to_string(root.join(DOCUMENTS).join(SETTINGS)).map_err(failed(Path::new(SETTINGS)))?;
+    let settings = settings.replace("src = \".\"", "src = \"src\"");
+    fs::write(folder.join(SETTINGS), settings).map_err(failed(folder))?;
+    Ok(copied.values().filter(|title| !title.is_empty()).count() - 1)
+}
+
+/// All files below a folder.
+fn files(folder: &Path, found: &mut Vec<PathBuf>) -> io::Result<()> {
+    for entry in fs::read_dir(folder)? {
+        let path = entry?.path();
+        if path.is_dir() { files(&path, found)? } else { found.push(path) }
+    }
+    Ok(())
+}
+
+/// Links of the pages to files that are not there: the page, and the link.
+fn broken_links(out: &Path) -> io::Result<Vec<(PathBuf, String)>> {
+    let mut all = Vec::new();
+    files(out, &mut all)?;
+    let all: BTreeSet<&Path> = all.iter().filter_map(|file| file.strip_prefix(out).ok()).collect();
+    let mut broken = Vec::new();
+    for &page in all.iter().filter(|file| file.extension().is_some_and(|ending| ending == "html")) {
+        let text = fs::read_to_string(out.join(page))?;
+        let links = ["href=\"", "src=\""].into_iter().flat_map(|attribute| {
+            text.split(attribute).skip(1).filter_map(|rest| rest.split('"').next()).collect::<Vec<_>>()
+        });
+        for link in links {
+            let target = link.split(['#', '?']).next().unwrap_or_default();
+            // The page of an address that was not found has links from the top of a site.
+            let elsewhere = target.contains(':') || target.starts_with('/') || page.ends_with("404.html");
+            if target.is_empty() || elsewhere {
+                continue;
+            }
+            let place = texts::resolve(&page.parent().unwrap_or(Path::new("")).join(target));
+            let there = |path: &Path| all.contains(path) || all.contains(path.join("index.html").as_path());
+            if !place.is_some_and(|path| there(&path)) {
+                broken.push((page.to_owned(), link.to_owned()));
+            }
+        }
+    }
+    Ok(broken)
+}

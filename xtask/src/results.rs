@@ -1,0 +1,103 @@
+//! `results`: rewrites the documents that show results from `docs/results.json`, which `benchmark --page` wrote.
+
+use crate::{error::XtaskError, leaderboard};
+use clap::Args;
+use phase_cli::{console::print_result, error::CliError};
+use phase_dataset::{FileError, Problem, atomic};
+use phase_eval::benchmark::Benchmark;
+use phase_report::evaluation;
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
+
+/// The benchmark's figures.
+const FIGURES: &str = "docs/results.json";
+/// The page of all results.
+const PAGE: &str = "docs/results.md";
+/// The first page, with the most important ones between two comments.
+const README: &str = "README.md";
+/// Where its table begins and ends.
+const MARKS: [&str; 2] =
+    ["<!-- Written by `cargo xtask results`. -->\n", "<!-- End of what `cargo xtask results` writes. -->\n"];
+
+/// Options of `results`.
+#[derive(Args, Debug)]
+pub struct Results {
+    /// Write nothing, and fail if a document is not what would be written
+    #[arg(long)]
+    pub check: bool,
+}
+
+/// Rewrites the documents of the workspace that this program was built from, or compares them.
+///
+/// # Errors
+/// [`XtaskError`] if a file cannot be used, or, with `--check`, if one differs.
+pub fn run(options: &Results) -> Result<(), XtaskError> {
+    let root = root();
+    let mut different = 0;
+    for (file, text) in documents(root)? {
+        let path = root.join(&file);
+        if fs::read_to_string(&path).is_ok_and(|there| there == text) {
+            continue;
+        }
+        different += 1;
+        if !options.check {
+            atomic::write(&path, text.as_bytes()).map_err(CliError::from)?;
+        }
+        print_result(format!("{}: {}", file.display(), if options.check { "differs" } else { "rewritten" }));
+    }
+    match different {
+        0 => print_result("the documents have the figures of docs/results.json"),
+        count if options.check => return Err(XtaskError::Results(count)),
+        _ => {}
+    }
+    Ok(())
+}
+
+/// The workspace that this program was built from.
+pub(crate) fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."))
+}
+
+/// The documents as they must be: paths relative to the workspace, and contents.
+///
+/// # Errors
+/// [`XtaskError`] if a file cannot be used.
+pub fn documents(root: &Path) -> Result<Vec<(PathBuf, String)>, XtaskError> {
+    let benchmark = benchmark(root)?;
+    let page = evaluation::page(&benchmark)
+        .map_err(|error| CliError::Usage(format!("{FIGURES}: the page lacks a figure: {error}")))?;
+    let readme = with_table(&read(&root.join(README))?, &evaluation::overview(&benchmark).to_markdown());
+    let readme = readme.ok_or_else(|| shape(&root.join(README), "has no place for the table of results"))?;
+    let pictures = page.pictures.into_iter().map(|(picture, svg)| (Path::new("docs").join(picture), svg));
+    let leaderboard = leaderboard::page(root, &benchmark)?;
+    let texts =
+        [(PathBuf::from(PAGE), page.text), (README.into(), readme), (leaderboard::PAGE.into(), leaderboard)];
+    Ok(texts.into_iter().chain(pictures).collect())
+}
+
+/// The benchmark whose figures are shown.
+pub(crate) fn benchmark(root: &Path) -> Result<Benchmark, XtaskError> {
+    read_json(&root.join(FIGURES))
+}
+
+/// A text with a table between the two marks; `None` without them.
+fn with_table(text: &str, table: &str) -> Option<String> {
+    let (before, rest) = text.split_once(MARKS[0])?;
+    let (_, after) = rest.split_once(MARKS[1])?;
+    Some(format!("{before}{}\n{table}\n{}{after}", MARKS[0], MARKS[1]))
+}
+
+fn read(file: &Path) -> Result<String, XtaskError> {
+    fs::read_to_string(file).map_err(|source| XtaskError::Unreadable { file: file.to_owned(), source })
+}
+
+pub(crate) fn read_json<T: serde::de::DeserializeOwned>(file: &Path) -> Result<T, XtaskError> {
+    serde_json::from_str(&read(file)?).map_err(|error| shape(file, &error.to_string()))
+}
+
+pub(crate) fn shape(file: &Path, rule: &str) -> XtaskError {
+    let problem = Problem::Shape { what: "document", rule: rule.into() };
+    CliError::File(FileError { file: file.to_owned(), problem }).into()
+}
