@@ -15,6 +15,10 @@ use std::{
 
 /// The folder of the documents, with the book's settings and contents.
 const DOCUMENTS: &str = "docs";
+/// The first page.
+const FIRST: &str = "README.md";
+/// What mdBook calls it, and every other of this name.
+const INDEX: &str = "index.md";
 /// The contents, as mdBook wants them at the top of its source.
 const CONTENTS: &str = "SUMMARY.md";
 /// The book's settings.
@@ -39,11 +43,12 @@ pub fn run(options: &Book) -> Result<(), XtaskError> {
     let documents =
         assemble(root(), &folder).map_err(|(file, source)| XtaskError::Unreadable { file, source })?;
     let out = std::path::absolute(&options.out).unwrap_or_else(|_| options.out.clone());
-    for arguments in [&["build", "--dest-dir"][..], &["test", "--dest-dir"]] {
-        let status = Command::new("mdbook").current_dir(&folder).args(arguments).arg(&out).status();
+    let place = out.as_os_str();
+    for arguments in [&["build".as_ref(), "--dest-dir".as_ref(), place][..], &["test".as_ref()]] {
+        let status = Command::new("mdbook").current_dir(&folder).args(arguments).status();
         let problem = match status {
             Ok(status) if status.success() => continue,
-            Ok(status) => format!("mdbook {}: {status}", arguments[0]),
+            Ok(status) => format!("mdbook {}: {status}", arguments[0].display()),
             Err(error) => {
                 format!("mdbook cannot be started ({error}); cargo install mdbook --version 0.5.4 --locked")
             }
@@ -73,18 +78,21 @@ fn assemble(root: &Path, folder: &Path) -> Result<usize, (PathBuf, io::Error)> {
     files(&root.join(DOCUMENTS), &mut todo).map_err(failed(&root.join(DOCUMENTS)))?;
     let mut todo: Vec<PathBuf> =
         todo.into_iter().filter_map(|file| file.strip_prefix(root).map(Path::to_owned).ok()).collect();
+    todo.push(FIRST.into());
     let mut copied: BTreeMap<PathBuf, String> = BTreeMap::new();
     while let Some(file) = todo.pop() {
         if copied.contains_key(&file) {
             continue;
         }
-        let place = folder.join("src").join(&file);
+        let place = folder.join("src").join(place_of(&file));
         let parent = place.parent().unwrap_or(folder);
         fs::create_dir_all(parent).map_err(failed(parent))?;
-        fs::copy(root.join(&file), &place).map_err(failed(&file))?;
         let mut title = String::new();
-        if file.extension().is_some_and(|ending| ending == "md") {
-            let text = fs::read_to_string(&place).map_err(failed(&place))?;
+        if file.extension().is_none_or(|ending| ending != "md") {
+            fs::copy(root.join(&file), &place).map_err(failed(&file))?;
+        } else {
+            let text = fs::read_to_string(root.join(&file)).map_err(failed(&file))?;
+            fs::write(&place, with_places(&text)).map_err(failed(&place))?;
             title = text.lines().find_map(|line| line.strip_prefix("# ")).unwrap_or("Untitled").to_owned();
             let targets = texts::targets(&file, &text);
             todo.extend(targets.into_iter().filter(|target| root.join(target).is_file()));
@@ -93,19 +101,32 @@ fn assemble(root: &Path, folder: &Path) -> Result<usize, (PathBuf, io::Error)> {
     }
     let contents = Path::new(DOCUMENTS).join(CONTENTS);
     let text = fs::read_to_string(root.join(&contents)).map_err(failed(&contents))?;
-    let mut text = text.replace("](", &format!("]({DOCUMENTS}/"));
-    let others = copied.iter().filter(|(file, title)| !file.starts_with(DOCUMENTS) && !title.is_empty());
+    let mut text = text.replace("](", &format!("]({DOCUMENTS}/")).replace(&format!("{DOCUMENTS}/../"), "");
+    let elsewhere = |file: &Path| !file.starts_with(DOCUMENTS) && file != Path::new(FIRST);
+    let others = copied.iter().filter(|(file, title)| elsewhere(file) && !title.is_empty());
     text.push_str(&format!("\n{ELSEWHERE}\n\n"));
     for (file, title) in others {
         text.push_str(&format!("- [{}]({})\n", title.replace(['[', ']', '`'], ""), file.display()));
     }
     let place = folder.join("src").join(CONTENTS);
-    fs::write(&place, text).map_err(failed(&place))?;
+    fs::write(&place, with_places(&text)).map_err(failed(&place))?;
     let settings =
         fs::read_to_string(root.join(DOCUMENTS).join(SETTINGS)).map_err(failed(Path::new(SETTINGS)))?;
     let settings = settings.replace("src = \".\"", "src = \"src\"");
     fs::write(folder.join(SETTINGS), settings).map_err(failed(folder))?;
     Ok(copied.values().filter(|title| !title.is_empty()).count() - 1)
+}
+
+/// Where a file lies in the book's source: a `README.md` is the page that mdBook calls `index.md`.
+fn place_of(file: &Path) -> PathBuf {
+    if file.ends_with(FIRST) { file.with_file_name(INDEX) } else { file.to_owned() }
+}
+
+/// A text with its links to a `README.md` led to where that lies in the book.
+fn with_places(text: &str) -> String {
+    [")", "#"]
+        .iter()
+        .fold(text.to_owned(), |text, end| text.replace(&format!("{FIRST}{end}"), &format!("{INDEX}{end}")))
 }
 
 /// All files below a folder.
@@ -124,7 +145,16 @@ fn broken_links(out: &Path) -> io::Result<Vec<(PathBuf, String)>> {
     let all: BTreeSet<&Path> = all.iter().filter_map(|file| file.strip_prefix(out).ok()).collect();
     let mut broken = Vec::new();
     for &page in all.iter().filter(|file| file.extension().is_some_and(|ending| ending == "html")) {
-        let text = fs::read_to_string(out.join(page))?;
+        // What a block of code shows is no link.
+        let text: String = fs::read_to_string(out.join(page))?
+            .split("<code")
+            .enumerate()
+            .map(
+                |(k, part)| {
+                    if k == 0 { part } else { part.split_once("</code>").map_or("", |(_, rest)| rest) }
+                },
+            )
+            .collect();
         let links = ["href=\"", "src=\""].into_iter().flat_map(|attribute| {
             text.split(attribute).skip(1).filter_map(|rest| rest.split('"').next()).collect::<Vec<_>>()
         });

@@ -1,10 +1,10 @@
 //! ARG, after Wu et al. (2019): an actor relation graph over all nodes of a few frames.
 
 use crate::{
-    attention::{MASK_BIAS, attend},
+    attention::attend,
     goals::CLASSES,
     layer::Layer,
-    nodes::{Batch, NODES, NodeEmbedding},
+    nodes::{Batch, GoalHead, NODES, NodeEmbedding, max_pool},
     parameters::Parameter,
     perceptron::Perceptron,
     recognition::{self, LabelledEvent, Logits, RELATIONS, Recognition},
@@ -26,7 +26,7 @@ pub const STRIDE: usize = 5;
 pub struct Arg {
     nodes: NodeEmbedding,
     graphs: Vec<Graph>,
-    goals: Perceptron,
+    goals: GoalHead,
     relation: Perceptron,
 }
 
@@ -57,7 +57,7 @@ impl Arg {
         Ok(Self {
             nodes,
             graphs: graphs.collect::<Result<_>>()?,
-            goals: Perceptron::head(hidden, CLASSES, random)?,
+            goals: GoalHead::new(hidden, random)?,
             relation: Perceptron::head(hidden, RELATIONS.len(), random)?,
         })
     }
@@ -81,10 +81,8 @@ impl Arg {
         let all = Tensor::cat(embeddings, 0)?;
         let hidden = all.dim(D::Minus1)?;
         let nodes = all.index_select(&rows, 0)?.reshape((count, FRAMES * NODES, hidden))?;
-        let present = windows.iter().flat_map(|window| {
-            (0..FRAMES * NODES)
-                .map(|place| if batch.has(window.event, place % NODES) { 0.0 } else { MASK_BIAS })
-        });
+        let present =
+            windows.iter().flat_map(|window| (0..FRAMES).flat_map(|_| batch.attention_bias(window.event)));
         let mask = Tensor::from_iter(present, &Device::Cpu)?.reshape((count, 1, FRAMES * NODES))?;
         let mut related = nodes.clone();
         for Graph { from, to, taken } in &self.graphs {
@@ -93,11 +91,10 @@ impl Arg {
             related = (related + attend(&scores, &mask, &taken.forward(&nodes)?)?.relu()?)?;
         }
         let frames = related.reshape((count * FRAMES, NODES, hidden))?;
-        let agents = frames.narrow(1, 0, AGENT_COUNT)?.reshape(((), hidden))?;
-        let goals = self.goals.forward(&agents)?.reshape((count, FRAMES, AGENT_COUNT * CLASSES))?;
+        let goals = self.goals.forward(&frames)?.reshape((count, FRAMES, AGENT_COUNT * CLASSES))?;
         let mask = mask.reshape((count * FRAMES, NODES, 1))?;
-        let pooled = frames.broadcast_add(&mask)?.max(1)?;
-        let relations = self.relation.forward(&pooled)?.reshape((count, FRAMES, RELATIONS.len()))?;
+        let relations =
+            self.relation.forward(&max_pool(&frames, &mask)?)?.reshape((count, FRAMES, RELATIONS.len()))?;
         Ok(Logits {
             goals: goals.mean(1)?.reshape((count, AGENT_COUNT, CLASSES))?,
             relations: relations.mean(1)?,

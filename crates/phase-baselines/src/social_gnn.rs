@@ -4,7 +4,7 @@
 use crate::{
     layer::Layer,
     lstm::Lstm,
-    nodes::{Batch, LENGTH, MOVING, Nodes, SPEED, WALLS},
+    nodes::{Batch, LENGTH, MOVING, Nodes, SPEED, WALLS, last_output},
     parameters::Parameter,
     recognition::{self, LabelledEvent, RELATIONS, log_likelihoods, relation_probabilities},
     training::{Loss, Metrics, Network, PublishedNetwork, TrainingSettings},
@@ -68,11 +68,8 @@ impl SocialGnn {
     /// If a tensor cannot be allocated.
     pub fn logits(&self, batch: &Batch) -> Result<Tensor> {
         let graphs = self.graphs(batch)?;
-        let mut memory = self.memory.start(batch.events())?;
-        for row in 0..graphs.dim(0)? {
-            memory = self.memory.step(&graphs.get(row)?, &memory, batch.active(row, 1))?;
-        }
-        self.relation.forward(&self.memory.output(&memory)?)
+        let rows = (0..graphs.dim(0)?).map(|row| graphs.get(row));
+        self.relation.forward(&last_output(&self.memory, batch, rows)?)
     }
 
     /// The probabilities of the relations in an event.

@@ -5,7 +5,7 @@ use crate::{
     forecasting::{self, ForecastOrigin, Forecasting, HORIZON, places},
     layer::Layer,
     lstm::Lstm,
-    nodes::{Batch, FEATURES, FIXED, MOVING, NODES, Nodes},
+    nodes::{Batch, FEATURES, FixedEmbedding, MOVING, NODES, Nodes},
     parameters::Parameter,
     training::{Loss, Network, PublishedNetwork},
 };
@@ -23,7 +23,7 @@ pub const CELL: f32 = 4.0;
 #[derive(Clone, Debug)]
 pub struct SocialLstm {
     features: Layer,
-    fixed: Layer,
+    fixed: FixedEmbedding,
     neighbours: Layer,
     memory: Lstm,
     displacement: Layer,
@@ -39,7 +39,7 @@ impl SocialLstm {
     pub fn new(hidden: usize, random: &mut Pcg64Mcg) -> Result<Self> {
         Ok(Self {
             features: Layer::new(FEATURES, hidden, random)?,
-            fixed: Layer::new(FEATURES, hidden, random)?,
+            fixed: FixedEmbedding::new(hidden, random)?,
             neighbours: Layer::new(CELLS * CELLS * hidden, hidden, random)?,
             memory: Lstm::new(2 * hidden, hidden, random)?,
             displacement: Layer::new(hidden, 2 * HORIZON, random)?,
@@ -51,9 +51,7 @@ impl SocialLstm {
 impl Forecasting for SocialLstm {
     fn displacements(&self, batch: &Batch, origins: &[ForecastOrigin]) -> Result<Tensor> {
         let (events, hidden) = (batch.events(), self.hidden);
-        // Between −1 and 1, as the outputs of LSTMs.
-        let fixed = self.fixed.forward(&batch.fixed)?.tanh()?.index_select(&batch.fixed_places, 0)?;
-        let fixed = fixed.reshape((events, FIXED, hidden))?;
+        let fixed = self.fixed.forward(batch)?;
         let mut state = self.memory.start(events * MOVING)?;
         let mut outputs = Vec::with_capacity(batch.moving.len());
         for (row, features) in batch.moving.iter().enumerate() {
@@ -77,14 +75,10 @@ impl Network for SocialLstm {
     const METRICS: &'static [&'static str] = &forecasting::METRICS;
 
     fn parameters(&self) -> Vec<Parameter> {
-        let layers = [
-            ("features", &self.features),
-            ("fixed", &self.fixed),
-            ("neighbours", &self.neighbours),
-            ("displacement", &self.displacement),
-        ];
-        let mut parameters: Vec<Parameter> =
-            layers.into_iter().flat_map(|(name, layer)| layer.parameters(name)).collect();
+        let mut parameters = self.features.parameters("features");
+        parameters.extend(self.fixed.parameters("fixed"));
+        parameters.extend(self.neighbours.parameters("neighbours"));
+        parameters.extend(self.displacement.parameters("displacement"));
         parameters.extend(self.memory.parameters("memory"));
         parameters
     }

@@ -1,11 +1,11 @@
 //! STGAT, after Huang et al. (2019): motion LSTM, graph attention at every step, graph LSTM and decoder.
 
 use crate::{
-    attention::{MASK_BIAS, attend},
+    attention::attend,
     forecasting::{self, ForecastOrigin, Forecasting, HORIZON, places},
     layer::Layer,
     lstm::Lstm,
-    nodes::{Batch, FEATURES, FIXED, MOVING, NODES, Nodes},
+    nodes::{Batch, FEATURES, FixedEmbedding, MOVING, NODES, Nodes},
     parameters::Parameter,
     training::{Loss, Network, PublishedNetwork},
 };
@@ -34,7 +34,7 @@ const SPEED: f64 = 10.0;
 pub struct Stgat {
     features: Layer,
     motion: Lstm,
-    fixed: Layer,
+    fixed: FixedEmbedding,
     heads: Vec<Head>,
     graph: Lstm,
     step: Layer,
@@ -61,7 +61,7 @@ impl Stgat {
     pub fn new(hidden: usize, heads: usize, random: &mut Pcg64Mcg) -> Result<Self> {
         let features = Layer::new(FEATURES, hidden, random)?;
         let motion = Lstm::new(hidden, hidden, random)?;
-        let fixed = Layer::new(FEATURES, hidden, random)?;
+        let fixed = FixedEmbedding::new(hidden, random)?;
         let width = hidden / heads.max(1);
         let heads = (0..heads).map(|_| {
             Ok(Head { taken: Layer::new(hidden, width, random)?, scores: Layer::new(width, 2, random)? })
@@ -99,11 +99,8 @@ impl Stgat {
     /// Hidden states of motion and graph LSTM after each row: (events · [`MOVING`]) × 2·hidden.
     fn encoded(&self, batch: &Batch) -> Result<Vec<Tensor>> {
         let (events, hidden) = (batch.events(), self.hidden);
-        let fixed = self.fixed.forward(&batch.fixed)?.tanh()?.index_select(&batch.fixed_places, 0)?;
-        let fixed = fixed.reshape((events, FIXED, hidden))?;
-        let present = (0..events).flat_map(|event| {
-            (0..NODES).map(move |node| if batch.has(event, node) { 0.0 } else { MASK_BIAS })
-        });
+        let fixed = self.fixed.forward(batch)?;
+        let present = (0..events).flat_map(|event| batch.attention_bias(event));
         let mask = Tensor::from_iter(present, &Device::Cpu)?.reshape((events, 1, NODES))?;
         let mut motion = self.motion.start(events * MOVING)?;
         let mut graph = self.graph.start(events * MOVING)?;

@@ -2,24 +2,22 @@
 //! together.
 
 use crate::{
-    goals::CLASSES,
     layer::Layer,
     lstm::Lstm,
-    nodes::{Batch, NodeEmbedding},
+    nodes::{Batch, GoalHead, NodeEmbedding, last_output, max_pool},
     parameters::Parameter,
-    perceptron::Perceptron,
     recognition::{self, LabelledEvent, Logits, RELATIONS, Recognition},
     training::{Loss, Metrics, Network, PublishedNetwork},
 };
-use candle_core::{D, Module, Result};
-use phase_model::{AGENT_COUNT, random::Pcg64Mcg};
+use candle_core::{Module, Result};
+use phase_model::random::Pcg64Mcg;
 
 /// Node embeddings; from an agent's, its goal; from the max-pool over all nodes at every step, through
 /// another LSTM, the relation. Both are read after the last row.
 #[derive(Clone, Debug)]
 pub struct TwoLevelLstm {
     nodes: NodeEmbedding,
-    goals: Perceptron,
+    goals: GoalHead,
     context: Lstm,
     relation: Layer,
 }
@@ -33,7 +31,7 @@ impl TwoLevelLstm {
     pub fn new(hidden: usize, random: &mut Pcg64Mcg) -> Result<Self> {
         Ok(Self {
             nodes: NodeEmbedding::new(hidden, random)?,
-            goals: Perceptron::head(hidden, CLASSES, random)?,
+            goals: GoalHead::new(hidden, random)?,
             context: Lstm::new(hidden, hidden, random)?,
             relation: Layer::new(hidden, RELATIONS.len(), random)?,
         })
@@ -44,17 +42,10 @@ impl Recognition for TwoLevelLstm {
     fn logits(&self, batch: &Batch, _chance: Option<&mut Pcg64Mcg>) -> Result<Logits> {
         let embeddings = self.nodes.forward(batch)?;
         let padding_mask = batch.padding_mask.unsqueeze(2)?;
-        let mut context = self.context.start(batch.events())?;
-        for (row, embedding) in embeddings.iter().enumerate() {
-            let pooled = embedding.broadcast_add(&padding_mask)?.max(1)?;
-            context = self.context.step(&pooled, &context, batch.active(row, 1))?;
-        }
-        let relations = self.relation.forward(&self.context.output(&context)?)?;
+        let pooled = embeddings.iter().map(|embedding| max_pool(embedding, &padding_mask));
+        let relations = self.relation.forward(&last_output(&self.context, batch, pooled)?)?;
         let Some(last) = embeddings.last() else { candle_core::bail!("there is no event to look at") };
-        let agents = last.narrow(1, 0, AGENT_COUNT)?;
-        let hidden = agents.dim(D::Minus1)?;
-        let goals = self.goals.forward(&agents.reshape(((), hidden))?)?;
-        Ok(Logits { goals: goals.reshape((batch.events(), AGENT_COUNT, CLASSES))?, relations })
+        Ok(Logits { goals: self.goals.forward(last)?, relations })
     }
 }
 

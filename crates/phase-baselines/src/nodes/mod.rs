@@ -5,12 +5,15 @@ mod batch;
 mod contact;
 mod embedding;
 mod features;
+mod readers;
 
 pub use batch::Batch;
 pub use contact::ContactMatrix;
 pub use embedding::NodeEmbedding;
 pub use features::FEATURES;
 pub(crate) use features::{LENGTH, SPEED};
+pub use readers::{FixedEmbedding, GoalHead};
+pub(crate) use readers::{last_output, max_pool};
 
 use contact::contacts;
 use features::{body, landmark, wall};
