@@ -18,6 +18,7 @@
 #![deny(missing_docs)]
 
 pub mod check_behaviour;
+pub mod check_engines;
 pub mod check_minds;
 pub mod check_physics;
 pub mod check_schedule;
