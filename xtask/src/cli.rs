@@ -3,6 +3,7 @@
 use crate::{
     book::{self, Book},
     check_behaviour::{self, options::CheckBehaviour},
+    check_engines::{self, CheckEngines},
     check_minds::{self, options::CheckMinds},
     check_physics::{self, options::CheckPhysics},
     check_schedule::{self, CheckSchedule},
@@ -48,6 +49,8 @@ pub enum Command {
     Phase(phase_cli::cli::Command),
     /// Compare an engine of the physics with recorded motion
     CheckPhysics(CheckPhysics),
+    /// Look for energy from nowhere, overlaps and other oddities of both engines in random scenes
+    CheckEngines(CheckEngines),
     /// Measure how reliably agents show the intended behaviour
     CheckBehaviour(CheckBehaviour),
     /// Compute how long gen-dataset takes on a number of cores
@@ -96,6 +99,7 @@ impl Interface for Cli {
             }
             Command::Phase(command) => Ok(command.run(context)?),
             Command::CheckPhysics(arguments) => check_physics::run(arguments, context),
+            Command::CheckEngines(arguments) => check_engines::run(arguments, context),
             Command::CheckBehaviour(arguments) => Ok(check_behaviour::run(arguments, context)?),
             Command::CheckSchedule(arguments) => check_schedule::run(arguments),
             Command::DrawBehaviour(arguments) => draw_behaviour::run(arguments),

@@ -22,6 +22,7 @@
 
 pub mod book;
 pub mod check_behaviour;
+pub mod check_engines;
 pub mod check_minds;
 pub mod check_physics;
 pub mod check_schedule;

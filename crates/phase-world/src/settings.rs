@@ -28,11 +28,9 @@ const DAMPING_RATIO: f32 = 1.0e4;
 #[must_use]
 pub(crate) fn engine() -> PhysicsWorld {
     let softness = rigid_contact(CORRECTION, SUBSTEP_SECONDS);
-    let integration_parameters = IntegrationParameters {
+    let mut integration_parameters = IntegrationParameters {
         dt: SUBSTEP_SECONDS,
         num_solver_iterations: 1,
-        num_internal_pgs_iterations: SOLVER_PASSES,
-        num_internal_stabilization_iterations: SOLVER_PASSES,
         contact_softness: softness,
         static_contact_softness: softness,
         normalized_max_corrective_velocity: MAX_SPEED,
@@ -43,7 +41,14 @@ pub(crate) fn engine() -> PhysicsWorld {
         max_ccd_substeps: 0,
         ..IntegrationParameters::default()
     };
+    set_passes(&mut integration_parameters, SOLVER_PASSES);
     PhysicsWorld { gravity: Vector::ZERO, integration_parameters, ..PhysicsWorld::default() }
+}
+
+/// Sets the number of sweeps over all constraints in a substep.
+pub(crate) fn set_passes(parameters: &mut IntegrationParameters, passes: usize) {
+    parameters.num_internal_pgs_iterations = passes;
+    parameters.num_internal_stabilization_iterations = passes;
 }
 
 /// An empty engine for impacts, whose step is so short that overlaps are resolved and velocities into walls

@@ -4,7 +4,7 @@ use super::Workspace;
 use std::path::{Path, PathBuf};
 
 /// The crates from the bottom layer up. A crate may use those before it, never those after it.
-pub const LAYERS: [&str; 34] = [
+pub const LAYERS: [&str; 35] = [
     "phase-model",
     "phase-event",
     "phase-statistics",
@@ -39,6 +39,7 @@ pub const LAYERS: [&str; 34] = [
     "phase-serve",
     "phase-cli",
     "phase-python",
+    "phase-fuzz",
 ];
 
 const MAP: &str = "docs/ARCHITECTURE.md";

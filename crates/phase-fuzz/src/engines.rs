@@ -1,0 +1,93 @@
+//! Both engines in random scenes: energy from nowhere, overlaps, worlds rebuilt from their state, two agents that meet.
+
+mod energy;
+mod meeting;
+mod overlap;
+mod rebuilt;
+mod report;
+
+pub use energy::{EnergyGains, GAIN, energy_gains};
+pub use meeting::{Meetings, meetings};
+pub use overlap::{Overlaps, overlap_beyond, overlaps};
+pub use rebuilt::{Rebuilt, rebuilt};
+pub use report::report;
+
+use phase_forward::{Forward, SolverCache};
+use phase_model::{AGENT_COUNT, Action, PhysicsConfig, State, arena::SUBSTEPS};
+use phase_world::World;
+
+/// An engine, and how it is run.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Kind {
+    /// The reference world.
+    World,
+    /// The reference world with this many sweeps over the constraints of a substep.
+    WorldWithPasses(usize),
+    /// The kernel, every step from the state alone.
+    Kernel,
+    /// The kernel with what its solver remembers.
+    KernelWithCache,
+}
+
+impl Kind {
+    /// The engine in tables.
+    #[must_use]
+    pub fn name(self) -> String {
+        match self {
+            Self::World => "world".into(),
+            Self::WorldWithPasses(passes) => format!("world, {passes} sweeps"),
+            Self::Kernel => "kernel".into(),
+            Self::KernelWithCache => "kernel with cache".into(),
+        }
+    }
+}
+
+/// An engine in the middle of a scene.
+pub enum Running {
+    /// The reference world.
+    World(Box<World>),
+    /// The kernel, a state and perhaps the solver's memory.
+    Kernel(Box<Forward>, State, Option<Box<SolverCache>>),
+}
+
+impl Running {
+    /// An engine at the start of a scene.
+    #[must_use]
+    pub fn new(kind: Kind, physics: &PhysicsConfig, start: &State) -> Self {
+        match kind {
+            Kind::World => Self::World(Box::new(World::new(physics, start))),
+            Kind::WorldWithPasses(passes) => {
+                Self::World(Box::new(World::new(physics, start).with_solver_passes(passes)))
+            }
+            Kind::Kernel => Self::Kernel(Box::new(Forward::new(physics)), *start, None),
+            Kind::KernelWithCache => {
+                let forward = Forward::new(physics);
+                let cache = Box::new(forward.fresh_cache(start));
+                Self::Kernel(Box::new(forward), *start, Some(cache))
+            }
+        }
+    }
+
+    /// The present state.
+    #[must_use]
+    pub fn state(&self) -> State {
+        match self {
+            Self::World(world) => world.state(),
+            Self::Kernel(_, state, _) => *state,
+        }
+    }
+
+    /// One step; the state after each substep.
+    pub fn step(&mut self, actions: [Action; AGENT_COUNT]) -> [State; SUBSTEPS] {
+        match self {
+            Self::World(world) => world.step(actions),
+            Self::Kernel(forward, state, None) => forward.step_substeps(state, actions),
+            Self::Kernel(forward, state, Some(cache)) => forward.step_warm(state, cache, actions),
+        }
+    }
+}
+
+/// The largest distance between the places of one body in two states (u).
+pub(crate) fn apart(physics: &PhysicsConfig, a: &State, b: &State) -> f32 {
+    physics.entities().map(|entity| a.position(entity).distance(b.position(entity))).fold(0.0, f32::max)
+}

@@ -1,0 +1,69 @@
+//! Energy that appears while nothing pushes.
+
+use super::{Kind, Running};
+use crate::scenes::{Doing, Start, actions, energy, physique, start};
+use phase_model::{
+    State,
+    random::{Purpose, stream},
+};
+
+/// Energy that a scene may seem to gain in a substep by rounding (J).
+pub const GAIN: f32 = 0.02;
+/// Steps of a scene.
+const STEPS: usize = 30;
+
+/// Gains of energy in scenes in which agents do no work.
+#[derive(Clone, Copy, PartialEq, Default, Debug)]
+pub struct EnergyGains {
+    /// Substeps in which something moved.
+    pub substeps: usize,
+    /// Those with a gain above [`GAIN`] while an object is held, or at its grabbing or release.
+    pub holding: usize,
+    /// The largest of these (J).
+    pub most_holding: f32,
+    /// Those above it in the first step, which separates what overlaps, without a held object.
+    pub separating: usize,
+    /// The largest of these (J).
+    pub most_separating: f32,
+    /// Those above it elsewhere.
+    pub free: usize,
+    /// The largest gain elsewhere, above [`GAIN`] or not (J).
+    pub most_free: f32,
+}
+
+/// Counts gains of energy in scenes `seeds`.
+#[must_use]
+pub fn energy_gains(kind: Kind, begins: Start, seeds: core::ops::Range<u64>) -> EnergyGains {
+    let mut gains = EnergyGains::default();
+    for seed in seeds {
+        let mut random = stream(seed, Purpose::Scene, 0);
+        let physics = physique(&mut random);
+        let Some(state) = start(&physics, begins, &mut random) else { continue };
+        let mut engine = Running::new(kind, &physics, &state);
+        let mut before = engine.state();
+        for (step, actions) in actions(Doing::Nothing, STEPS, &mut random).into_iter().enumerate() {
+            for after in engine.step(actions) {
+                let [was, is] = [&before, &after].map(|state| energy(&physics, state));
+                let holds = |state: &State| state.grips.iter().any(Option::is_some);
+                if was.max(is) > GAIN {
+                    gains.count(is - was, holds(&before) || holds(&after), step == 0);
+                }
+                before = after;
+            }
+        }
+    }
+    gains
+}
+
+impl EnergyGains {
+    fn count(&mut self, gain: f32, holding: bool, first: bool) {
+        self.substeps += 1;
+        let (count, most) = match (holding, first) {
+            (true, _) => (&mut self.holding, &mut self.most_holding),
+            (false, true) => (&mut self.separating, &mut self.most_separating),
+            (false, false) => (&mut self.free, &mut self.most_free),
+        };
+        *count += usize::from(gain > GAIN);
+        *most = most.max(gain);
+    }
+}
