@@ -17,3 +17,4 @@
 pub mod draw;
 pub mod engines;
 pub mod scenes;
+pub mod targets;

@@ -17,7 +17,7 @@ const STEPS: usize = 15;
 const DISTURBANCE: f32 = 1.0e-5;
 
 /// Distances between two engines in the same meetings (u): median, nine in ten, 99 in 100, all.
-pub type Quantiles = Option<[f32; 4]>;
+pub(super) type Quantiles = Option<[f32; 4]>;
 
 /// The world beside the kernel with its cache, in meetings of two agents without objects or inner walls.
 #[derive(Clone, PartialEq, Default, Debug)]

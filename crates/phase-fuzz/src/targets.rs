@@ -1,0 +1,43 @@
+//! The targets: functions of some bytes that panic if anything is wrong.
+//!
+//! A reader may refuse any input, but must not panic, and what it accepts must be written and read again unchanged where there
+//! is a writer.
+
+mod engines;
+mod files;
+mod searches;
+mod texts;
+
+/// A function of some bytes that panics if anything is wrong.
+pub type Check = fn(&[u8]);
+
+/// Every target, by its name in `crates/phase-fuzz/fuzz/fuzz_targets`.
+pub const TARGETS: [(&str, Check); 21] = [
+    ("events", texts::events),
+    ("scene", texts::scene),
+    ("preset", texts::preset),
+    ("paths", texts::paths),
+    ("settings", texts::settings),
+    ("predictions", texts::predictions),
+    ("journal", texts::journal),
+    ("message", texts::message),
+    ("study", texts::study),
+    ("forms", texts::forms),
+    ("report_model", texts::report_model),
+    ("calibration", texts::calibration),
+    ("weights", texts::weights),
+    ("manifest", files::manifest),
+    ("records", files::records),
+    ("parquet", files::parquet),
+    ("world", engines::world),
+    ("kernel", engines::kernel),
+    ("lanes", engines::lanes),
+    ("planner", searches::planner),
+    ("pomcp", searches::pomcp),
+];
+
+/// The target of a name.
+#[must_use]
+pub fn named(name: &str) -> Option<Check> {
+    TARGETS.into_iter().find(|(other, _)| *other == name).map(|(_, check)| check)
+}

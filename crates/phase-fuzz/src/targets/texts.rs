@@ -1,0 +1,120 @@
+//! Readers of texts and bytes.
+
+use phase_calibration::{Probe, Run};
+use phase_dataset::preset::Preset;
+use phase_eval::predictions;
+use phase_event::{from_json, to_json};
+use phase_game::{FromPlayer, journal};
+use phase_model::{Scene, json, path::RelativePath};
+use phase_sim::SimulationSettings;
+use phase_simple::{IntentNetwork, ReportModel, StrengthRegressor};
+use phase_study::{config::StudyConfig, forms::Forms};
+use phase_tensors::TensorFile;
+use std::path::Path;
+
+/// Events: what is accepted is written, and read again the same.
+pub(super) fn events(data: &[u8]) {
+    let Ok(recordings) = phase_event::parse(data) else { return };
+    let text = to_json(&recordings).expect("what is read can be written");
+    let again = from_json(&text).expect("what is written can be read");
+    assert_eq!(again, recordings, "read from its own text, it differs");
+    assert_eq!(to_json(&again).expect("written"), text, "its text differs");
+}
+
+/// Scenes: what is valid has a physics and a start.
+pub(super) fn scene(data: &[u8]) {
+    let Ok(text) = core::str::from_utf8(data) else { return };
+    let Ok(scene) = Scene::from_json(text) else { return };
+    assert!(scene.validate().is_ok(), "an invalid scene was accepted: {scene:?}");
+    assert!(scene.initial_state().is_finite(&scene.physics()));
+}
+
+/// Compositions of datasets.
+pub(super) fn preset(data: &[u8]) {
+    let Ok(text) = core::str::from_utf8(data) else { return };
+    let _ = Preset::parse("fuzz.json", text);
+}
+
+/// Paths in files: what is accepted stays below its folder and has one form.
+pub(super) fn paths(data: &[u8]) {
+    let Ok(text) = core::str::from_utf8(data) else { return };
+    let Ok(path) = RelativePath::new(text) else { return };
+    assert_eq!(path.as_str(), text);
+    let folder = Path::new("/folder");
+    let below = path.below(folder);
+    assert!(below.starts_with(folder) && below != folder, "{below:?} is not below its folder");
+    let plain = |part: std::path::Component<'_>| {
+        matches!(part, std::path::Component::Normal(_) | std::path::Component::RootDir)
+    };
+    assert!(below.components().all(plain), "{below:?} does not stay where it is");
+}
+
+/// Settings of simulations.
+pub(super) fn settings(data: &[u8]) {
+    let Ok(settings) = serde_json::from_slice::<SimulationSettings>(data) else { return };
+    let Ok(text) = serde_json::to_string(&settings) else { return };
+    let again: SimulationSettings = serde_json::from_str(&text).expect("what is written can be read");
+    assert_eq!(serde_json::to_string(&again).expect("written"), text);
+}
+
+/// Answers of external methods.
+pub(super) fn predictions(data: &[u8]) {
+    let Ok(value) = json::parse(data) else { return };
+    let _ = predictions::goals(&value);
+    if let Ok(forecasts) = predictions::forecasts(&value) {
+        for prediction in forecasts.values() {
+            let _ = predictions::fit_prediction(prediction, 4, 20);
+        }
+    }
+}
+
+/// Journals of games: what is read can be resumed or is refused.
+pub(super) fn journal(data: &[u8]) {
+    let Ok(text) = core::str::from_utf8(data) else { return };
+    let Ok(entries) = journal::entries(text) else { return };
+    for entry in &entries {
+        let text = serde_json::to_string(entry).expect("what is read can be written");
+        let again = journal::entries(&format!("{text}\n")).expect("what is written can be read");
+        assert_eq!(serde_json::to_string(&again).expect("written"), format!("[{text}]"));
+    }
+}
+
+/// Messages of players.
+pub(super) fn message(data: &[u8]) {
+    let Ok(text) = core::str::from_utf8(data) else { return };
+    let _ = FromPlayer::parse(text);
+}
+
+/// Configurations of studies.
+pub(super) fn study(data: &[u8]) {
+    let forms = Forms::read(phase_data::FORMS).expect("the forms that come with the program");
+    let _ = StudyConfig::read(data, &forms);
+}
+
+/// Forms of studies.
+pub(super) fn forms(data: &[u8]) {
+    let Ok(text) = core::str::from_utf8(data) else { return };
+    let _ = Forms::read(text);
+}
+
+/// Models of how people report.
+pub(super) fn report_model(data: &[u8]) {
+    let Ok(text) = core::str::from_utf8(data) else { return };
+    let _ = ReportModel::from_json(text);
+}
+
+/// Probes and runs of `check-physics`.
+pub(super) fn calibration(data: &[u8]) {
+    let Ok(text) = core::str::from_utf8(data) else { return };
+    let _ = (Probe::parse(text), Run::parse(text));
+}
+
+/// Weights of networks.
+pub(super) fn weights(data: &[u8]) {
+    if let Ok(file) = TensorFile::open(data, "fuzz") {
+        for name in file.names() {
+            let _ = file.tensor(name);
+        }
+    }
+    let _ = (StrengthRegressor::from_safetensors(data), IntentNetwork::from_safetensors(data));
+}
