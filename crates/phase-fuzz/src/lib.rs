@@ -1,4 +1,4 @@
-//! What fuzzing checks: every reader, both engines, planners and searches, each as a function of some bytes.
+//! Random scenes, and what both engines do wrong in them: energy from nowhere, overlaps, worlds rebuilt from their states.
 //!
 //! ```
 //! use phase_fuzz::scenes::{Doing, Start, actions, physique, start};
