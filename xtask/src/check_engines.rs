@@ -22,6 +22,6 @@ pub struct CheckEngines {
 /// None; the result is what was measured.
 pub fn run(arguments: &CheckEngines, context: &Context) -> Result<(), XtaskError> {
     let first = u64::from(arguments.seed);
-    print_result(&engines::report(first..first + u64::from(arguments.scenes), |what| context.note(what)));
+    print_result(engines::report(first..first + u64::from(arguments.scenes), |what| context.note(what)));
     Ok(())
 }

@@ -15,6 +15,7 @@ use crate::{
     fit_inference::{self, options::FitInference},
     fit_minds::{self, options::FitMinds},
     fit_reports::{self, options::FitReports},
+    fuzz::{self, Fuzz},
     golden::{self, GoldenOptions},
     leaderboard::{self, Leaderboard},
     results::{self, Results},
@@ -51,6 +52,8 @@ pub enum Command {
     CheckPhysics(CheckPhysics),
     /// Look for energy from nowhere, overlaps and other oddities of both engines in random scenes
     CheckEngines(CheckEngines),
+    /// Run readers, engines, planner and searches on mutated inputs
+    Fuzz(Fuzz),
     /// Measure how reliably agents show the intended behaviour
     CheckBehaviour(CheckBehaviour),
     /// Compute how long gen-dataset takes on a number of cores
@@ -100,6 +103,7 @@ impl Interface for Cli {
             Command::Phase(command) => Ok(command.run(context)?),
             Command::CheckPhysics(arguments) => check_physics::run(arguments, context),
             Command::CheckEngines(arguments) => check_engines::run(arguments, context),
+            Command::Fuzz(arguments) => fuzz::run(arguments, context),
             Command::CheckBehaviour(arguments) => Ok(check_behaviour::run(arguments, context)?),
             Command::CheckSchedule(arguments) => check_schedule::run(arguments),
             Command::DrawBehaviour(arguments) => draw_behaviour::run(arguments),

@@ -54,6 +54,19 @@ pub enum XtaskError {
     /// Documents do not have the figures of `docs/results.json`.
     #[error("{0} document(s) differ from what `cargo xtask results` writes")]
     Results(usize),
+    /// A target of fuzzing panicked on an input.
+    #[error("the target {target} failed: {message}; {}", match file {
+        Some(file) => format!("its input is {}", file.display()),
+        None => "its input could not be written".into(),
+    })]
+    Fuzz {
+        /// The target.
+        target: String,
+        /// What the panic said.
+        message: String,
+        /// Where the input is kept.
+        file: Option<PathBuf>,
+    },
     /// Commands that were stopped or disturbed lost something.
     #[error("{0} time(s) something was lost, half-written or different; see above")]
     Tortured(usize),
@@ -75,6 +88,7 @@ impl Failure for XtaskError {
             | Self::Build { .. }
             | Self::GoldenTests
             | Self::Results(_)
+            | Self::Fuzz { .. }
             | Self::Tortured(_)
             | Self::Untidy(_) => 1,
         }

@@ -9,6 +9,7 @@
 //! - `fit-minds` fits the parameters of minds to recorded agents,
 //! - `draw-behaviour` draws scenes for `check-behaviour` from the sampler,
 //! - `playground` builds the WebAssembly first,
+//! - `fuzz` runs the targets of `phase-fuzz`,
 //! - `golden` runs the golden tests, or rewrites what they compare with,
 //! - `leaderboard` scores the predictions in `docs/leaderboard`,
 //! - `results` rewrites the documents that show results,
@@ -36,6 +37,7 @@ pub mod fit_forecast;
 pub mod fit_inference;
 pub mod fit_minds;
 pub mod fit_reports;
+pub mod fuzz;
 pub mod golden;
 pub mod json_file;
 pub mod leaderboard;

@@ -16,5 +16,8 @@
 
 pub mod draw;
 pub mod engines;
+pub mod fuzzing;
+mod mutate;
 pub mod scenes;
+mod seeds;
 pub mod targets;

@@ -11,7 +11,7 @@ mod texts;
 /// A function of some bytes that panics if anything is wrong.
 pub type Check = fn(&[u8]);
 
-/// Every target, by its name in `crates/phase-fuzz/fuzz/fuzz_targets`.
+/// Every target, by its name.
 pub const TARGETS: [(&str, Check); 21] = [
     ("events", texts::events),
     ("scene", texts::scene),
