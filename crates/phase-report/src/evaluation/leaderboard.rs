@@ -132,10 +132,13 @@ pub fn leaderboard(benchmark: &Benchmark, scores: &Scores, sources: &BTreeMap<St
     )
 }
 
+/// Goals, relations, and, of sets that differ in one social variable, whole sets.
+type GoalScores = (Estimate, Estimate, Option<Estimate>);
+
 fn goal_lines(benchmark: &Benchmark, scores: &Scores) -> Vec<Line> {
-    let line = |name: String, of: &dyn Fn(&str) -> Option<(Estimate, Estimate, Option<Estimate>)>| {
+    let line = |name: String, of: &dyn Fn(&str) -> Option<GoalScores>| {
         let [generated, recorded, pairs] = [GENERATED, RECORDED, PAIRS].map(of);
-        let two = |scores: &Option<(Estimate, Estimate, Option<Estimate>)>| {
+        let two = |scores: &Option<GoalScores>| {
             [scores.as_ref().map(|it| it.0), scores.as_ref().map(|it| it.1)].map(share_or_nothing)
         };
         let sets = share_or_nothing(pairs.and_then(|scores| scores.2));
