@@ -75,18 +75,25 @@ def admitted_names():
     for module in ("builtins", "__builtin__"):
         # What a defaultdict makes, and sets, which old protocols make by a call.
         names.update({(module, kind.__name__): kind for kind in (dict, float, int, list, set)})
-    numpy = import_numpy()
-    if numpy is not None:
-        try:
-            from numpy._core import multiarray, numeric
-        except ImportError:  # numpy before 2.0
-            from numpy.core import multiarray, numeric
-        names.update({("numpy", "ndarray"): numpy.ndarray, ("numpy", "dtype"): numpy.dtype})
-        for package in ("numpy.core", "numpy._core"):
-            names[f"{package}.multiarray", "_reconstruct"] = multiarray._reconstruct
-            names[f"{package}.multiarray", "scalar"] = multiarray.scalar
-            names[f"{package}.numeric", "_frombuffer"] = numeric._frombuffer
+    names.update(numpy_names())
     return names
+
+
+def numpy_names():
+    """What numpy arrays need; each is None where numpy is not installed."""
+    names = {("numpy", "ndarray"): None, ("numpy", "dtype"): None}
+    for package in ("numpy.core", "numpy._core"):
+        names.update({(f"{package}.multiarray", name): None for name in ("_reconstruct", "scalar")})
+        names[f"{package}.numeric", "_frombuffer"] = None
+    numpy = import_numpy()
+    if numpy is None:
+        return names
+    try:
+        from numpy._core import multiarray, numeric
+    except ImportError:  # numpy before 2.0
+        from numpy.core import multiarray, numeric
+    found = {"numpy": numpy, "multiarray": multiarray, "numeric": numeric}
+    return {(module, name): getattr(found[module.split(".")[-1]], name) for module, name in names}
 
 
 def load(stream):
@@ -95,11 +102,11 @@ def load(stream):
 
     class PlainUnpickler(pickle.Unpickler):
         def find_class(self, module, name):
-            if (module, name) in admitted:
-                return admitted[module, name]
-            if module.split(".")[0] == "numpy" and import_numpy() is None:
+            if (module, name) not in admitted:
+                raise pickle.UnpicklingError(f"it asks for {module}.{name}, which is no plain data")
+            if admitted[module, name] is None:
                 raise Failure("numpy is needed to read the recordings")
-            raise pickle.UnpicklingError(f"it asks for {module}.{name}, which is no plain data")
+            return admitted[module, name]
 
     return PlainUnpickler(stream, encoding="latin1").load()
 

@@ -4,7 +4,9 @@
 mod scenes;
 
 use phase_forward::Forward;
-use phase_model::{AGENT_COUNT, Action, Body, Dynamics, Grip, ObjectId, PhysicsConfig, Side, State, Vec2};
+use phase_model::{
+    AGENT_COUNT, Action, AgentBody, Body, Dynamics, Grip, ObjectId, PhysicsConfig, Side, State, Vec2,
+};
 use proptest::prelude::*;
 use scenes::{physiques, separated_bodies};
 
@@ -136,6 +138,27 @@ proptest! {
             .collect();
         compare(&Forward::new(&physics), &physics, &starts, &actions)?;
     }
+}
+
+/// An agent's centre of mass stays inside the arena, and its position, which lies ahead of it, is moved there.
+#[test]
+fn agents_pulled_through_the_boundary() {
+    let physics = PhysicsConfig {
+        walls: Vec::new(),
+        agents: [0.8, 1.2].map(|radius| AgentBody { radius, max_force: 150.0 }),
+        object_radii: [0.8; 2],
+        object_count: 1,
+    };
+    let body = |x, y, angle| Body { position: Vec2::new(x, y), angle, ..Body::default() };
+    let [agent, holder, mut object, other] =
+        [(18.0, 3.3, 0.0), (6.1, 22.0, -0.6), (15.2, 20.7, -0.6), (6.1, 2.1, 0.0)]
+            .map(|(x, y, angle)| body(x, y, angle));
+    (object.velocity, object.angular_velocity) = (Vec2::new(-1.4, -4.5), -0.5);
+    // The object is far from its holder, which is therefore pulled and turned.
+    let grip = Grip { object: ObjectId::ZERO, side: Side::Head, relative_angle: 0.0 };
+    let start = State { grips: [None, Some(grip)], ..State::new([agent, holder, object, other]) };
+    let actions = vec![vec![[Action::NoForce; AGENT_COUNT]; 8]; STEPS];
+    compare(&Forward::new(&physics), &physics, &[start; 8], &actions).expect("the same bits");
 }
 
 /// The planner's imagined dynamics have springs, which are stepped one by one.

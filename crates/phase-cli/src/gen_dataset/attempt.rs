@@ -48,12 +48,12 @@ pub(super) struct CastMember {
     pub(super) settings: SimulationSettings,
 }
 
-/// An event that was simulated, and what the tests on it alone say: `Ok(None)` if it needs no comparison.
+/// An event that has passed the tests on itself, and the comparison that it needs.
 #[derive(Debug)]
 pub(super) struct Member {
     pub(super) event: Event,
     pub(super) track: Track,
-    pub(super) checked: Result<Option<Counterfactual>, RejectionReason>,
+    pub(super) counterfactual: Option<Counterfactual>,
 }
 
 /// What is known of an attempt.
@@ -76,7 +76,7 @@ pub(super) struct Attempt {
 /// The simulations so far.
 #[derive(Debug, Default)]
 pub(super) struct Results {
-    members: BTreeMap<usize, Member>,
+    members: BTreeMap<usize, Result<Member, RejectionReason>>,
     idle: BTreeMap<(usize, AgentId), Track>,
     /// CPU time of the scenes (s).
     pub(super) scenes_seconds: f64,
@@ -135,8 +135,9 @@ impl Cast {
     fn comparisons(&self, results: &Results) -> Vec<Need> {
         let mut comparisons: Vec<Need> = Vec::new();
         for (member, cast) in self.members.iter().enumerate().filter(|_| self.compared) {
-            let agents = match results.members.get(&member).map(|it| it.checked) {
-                Some(checked) => checked.ok().flatten().map(|it| it.idle).into_iter().collect(),
+            let agents = match results.members.get(&member) {
+                Some(Ok(member)) => member.counterfactual.map(|it| it.idle).into_iter().collect(),
+                Some(Err(_)) => Vec::new(),
                 None => possibly_idle(&cast.scene),
             };
             let share = 1.0 / agents.len().max(1) as f64;
@@ -155,8 +156,13 @@ impl Cast {
 }
 
 impl Results {
-    /// Stores an event.
-    pub(super) fn add_member(&mut self, number: usize, member: Member, seconds: f64) {
+    /// Stores an event, or why it was rejected.
+    pub(super) fn add_member(
+        &mut self,
+        number: usize,
+        member: Result<Member, RejectionReason>,
+        seconds: f64,
+    ) {
         self.members.insert(number, member);
         self.times.insert(Part::Member(number), seconds);
     }
@@ -169,7 +175,7 @@ impl Results {
 
     /// The events of an accepted attempt, in order.
     pub(super) fn take_events(&mut self) -> Vec<Event> {
-        core::mem::take(&mut self.members).into_values().map(|member| member.event).collect()
+        core::mem::take(&mut self.members).into_values().flatten().map(|member| member.event).collect()
     }
 
     /// What is known of the attempt, and how many events have passed the tests on themselves.
@@ -178,10 +184,10 @@ impl Results {
             |k: usize, reason| Judgement::Refused(Refusal { variant: cast.members[k].variant, reason });
         let mut needs = Vec::new();
         for k in 0..cast.members.len() {
-            match self.members.get(&k).map(|member| member.checked) {
+            match self.members.get(&k) {
                 None => needs.push(Need { part: Part::Member(k), share: 1.0 }),
                 Some(Ok(_)) => {}
-                Some(Err(reason)) if needs.is_empty() => return (k, refused(k, reason)),
+                Some(&Err(reason)) if needs.is_empty() => return (k, refused(k, reason)),
                 // It is refused, but one before it may give another reason.
                 Some(Err(_)) => return (self.passed(), Judgement::Needs(needs)),
             }
@@ -193,7 +199,8 @@ impl Results {
             return (self.passed(), Judgement::Needs(needs));
         }
         for (k, member) in &self.members {
-            let Ok(Some(counterfactual)) = member.checked else { continue };
+            let Ok(member) = member else { continue };
+            let Some(counterfactual) = member.counterfactual else { continue };
             let serves =
                 |need: &&Need| matches!(need.part, Part::Idle { agent, .. } if agent == counterfactual.idle);
             let without = comparisons.iter().find(serves).and_then(|need| self.idle_of(need.part));
@@ -217,7 +224,7 @@ impl Results {
 
     /// How many of the first events have passed the tests on themselves.
     fn passed(&self) -> usize {
-        let passes = |k: &usize| self.members.get(k).is_some_and(|member| member.checked.is_ok());
+        let passes = |k: &usize| self.members.get(k).is_some_and(Result::is_ok);
         (0..self.members.len()).take_while(passes).count()
     }
 

@@ -14,6 +14,7 @@ use crate::{
     event_writer::{EventJob, EventWriter},
     interrupt,
 };
+use core::ops::{ControlFlow, RangeInclusive};
 use cpu_time::ThreadTime;
 use phase_dataset::{
     FileError,
@@ -24,11 +25,12 @@ use phase_dataset::{
     preset::{Ends, Selection},
     slot_record::{Records, SlotRecord},
 };
-use phase_event::Event;
+use phase_event::{Event, Step, mean_state};
 use phase_evidence::{
     Track,
-    selection::{Counterfactual, Ending, RejectionReason, check_event},
+    selection::{Ending, RejectionReason, certain_rejection, check_event},
 };
+use phase_model::Scene;
 use phase_sampler::{SampleError, Variant};
 use std::path::PathBuf;
 
@@ -124,34 +126,33 @@ impl<'a> Slots<'a> {
         let Some(cast) = attempt.cast() else { return Ok(false) };
         let Some((scene, settings)) = cast.simulation(part) else { return Ok(false) };
         let begun = ThreadTime::now();
-        let mut on_step = |_: &_| attempt.goes_on(interrupt::requested());
         let id = self.plan.preset.id(index);
-        let Some(event) = engine::simulate(&id, &scene, cast.seed, &settings, &mut on_step)? else {
-            return Ok(false);
+        let simulate = |on_step: &mut dyn FnMut(&Step) -> ControlFlow<()>| {
+            engine::simulate(&id, &scene, cast.seed, &settings, on_step)
         };
-        let track = Track::of_event(&event);
         match part {
             Part::Member(k) => {
-                let checked = self.check(&event, &track, &cast.members[k]);
-                let member = Member { event, track, checked };
+                let member = &cast.members[k];
+                let selection = self.plan.preset.selection.as_ref();
+                let mut watch = Watch::new(
+                    &scene,
+                    selection.map(|it| required(it, member.variant, member.stance.is_some())),
+                );
+                let event = simulate(&mut |step| {
+                    attempt.goes_on(interrupt::requested())?;
+                    watch.goes_on(step)
+                })?;
+                let Some(member) = watch.judge(event) else { return Ok(false) };
                 attempt.results().add_member(k, member, begun.elapsed().as_secs_f64());
             }
             Part::Idle { member, agent } => {
+                let event = simulate(&mut |_| attempt.goes_on(interrupt::requested()))?;
+                let Some(event) = event else { return Ok(false) };
+                let track = Track::of_event(&event);
                 attempt.results().add_idle(member, agent, track, begun.elapsed().as_secs_f64());
             }
         }
         Ok(true)
-    }
-
-    /// Everything that can be tested on the event alone.
-    fn check(
-        &self,
-        event: &Event,
-        track: &Track,
-        cast: &CastMember,
-    ) -> Result<Option<Counterfactual>, RejectionReason> {
-        let Some(selection) = &self.plan.preset.selection else { return Ok(None) };
-        check(event, track, selection, ending(selection, cast.variant, cast.stance.is_some()))
     }
 
     /// Writes the files of a slot, and enters them in its record.
@@ -217,22 +218,53 @@ fn record_path(plan: &Plan, folder: &Folder, index: usize) -> PathBuf {
     folder.cache().join(format!("{}.json", plan.preset.id(index)))
 }
 
-/// How an event of a variant ends. One of a set may show its label in any manner.
-pub(crate) fn ending(selection: &Selection, variant: Variant, of_set: bool) -> Ending {
-    match selection.ends {
-        Ends::Settled | Ends::AdversarialDrawn => Ending::Settled,
-        Ends::Drawn => Ending::Drawn(manner_of(variant).filter(|_| !of_set)),
+/// An event under test while it is simulated.
+struct Watch<'a> {
+    scene: &'a Scene,
+    required: Option<(RangeInclusive<usize>, Ending)>,
+    track: Track,
+    lost: Option<RejectionReason>,
+}
+
+impl<'a> Watch<'a> {
+    fn new(scene: &'a Scene, required: Option<(RangeInclusive<usize>, Ending)>) -> Self {
+        let track = Track { physics: scene.physics(), states: vec![scene.initial_state()] };
+        Self { scene, required, track, lost: None }
+    }
+
+    /// To be asked after every step: an event whose rejection is certain need not go on.
+    fn goes_on(&mut self, step: &Step) -> ControlFlow<()> {
+        self.track.states.push(mean_state(step));
+        let Some((lengths, ending)) = &self.required else { return ControlFlow::Continue(()) };
+        self.lost = certain_rejection(self.scene, &self.track, lengths.clone(), *ending);
+        if self.lost.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+
+    /// The result, if the event was completed or lost.
+    fn judge(self, event: Option<Event>) -> Option<Result<Member, RejectionReason>> {
+        if let Some(reason) = self.lost {
+            return Some(Err(reason));
+        }
+        let event = event?;
+        let checked = match self.required {
+            Some((lengths, ending)) => check_event(&event.scene, &self.track, lengths, ending),
+            None => Ok(None),
+        };
+        Some(checked.map(|counterfactual| Member { event, track: self.track, counterfactual }))
     }
 }
 
-/// Everything that can be tested on an event alone.
-pub(crate) fn check(
-    event: &Event,
-    track: &Track,
+/// What is required of an event of a variant: its length (steps), and how it ends. One of a set may show its label in any manner.
+pub(crate) fn required(
     selection: &Selection,
-    ending: Ending,
-) -> Result<Option<Counterfactual>, RejectionReason> {
-    check_event(&event.scene, track, selection.min_steps..=selection.max_steps, ending)
+    variant: Variant,
+    of_set: bool,
+) -> (RangeInclusive<usize>, Ending) {
+    let ending = match selection.ends {
+        Ends::Settled | Ends::AdversarialDrawn => Ending::Settled,
+        Ends::Drawn => Ending::Drawn(manner_of(variant).filter(|_| !of_set)),
+    };
+    (selection.min_steps..=selection.max_steps, ending)
 }
 
 /// Variants, reasons and their numbers, in words.

@@ -5,12 +5,7 @@ use crate::{
     engine::{GENERATOR, attempt_seed},
     error::CliError,
     gen_dataset::{
-        description, difference,
-        options::GenDataset,
-        plan::Plan,
-        run_value,
-        scenes::Scenes,
-        slot::{check, ending},
+        description, difference, options::GenDataset, plan::Plan, run_value, scenes::Scenes, slot::required,
     },
 };
 use clap::Parser;
@@ -21,7 +16,7 @@ use phase_dataset::{
     manifest::{CARD_FILE, EventEntry, MANIFEST_FILE, Manifest},
 };
 use phase_event::Event;
-use phase_evidence::Track;
+use phase_evidence::{Track, selection::check_event};
 use phase_model::Scene;
 use phase_sampler::{Stance, Variant};
 use phase_sim::SimulationSettings;
@@ -205,8 +200,8 @@ impl Origin {
             return Err(("settings", "has other lengths than the seed leads to".into()));
         }
         let Some(selection) = &self.plan.preset.selection else { return Ok(()) };
-        let ending = ending(selection, variant, stance.is_some());
-        match check(event, &Track::of_event(event), selection, ending) {
+        let (lengths, ending) = required(selection, variant, stance.is_some());
+        match check_event(&event.scene, &Track::of_event(event), lengths, ending) {
             Ok(_) => Ok(()),
             Err(reason) => Err(("substeps", format!("do not show the label ({})", reason.name()))),
         }

@@ -8,7 +8,7 @@ use super::{
     common::{object_of, pursued, reached, require},
     kinds,
 };
-use crate::{GoalOutcome, Manner, Track, contact, holding, manner, pursuit::Pursuit, rest};
+use crate::{GoalOutcome, Manner, Track, contact, holding, manner, outcome, pursuit::Pursuit, rest};
 use core::ops::Range;
 use phase_model::{AgentId, Entity, EventKind, Goal, ObjectId, Relation, Scene, Sign};
 
@@ -57,6 +57,28 @@ fn lively(scene: &Scene, track: &Track) -> Result<(), RejectionReason> {
     let stuck = |from: usize| from < done && stays(track, from..from + MAX_STANDSTILL + 1);
     let windows = 0..track.states.len().saturating_sub(MAX_STANDSTILL);
     require(!windows.into_iter().any(stuck), RejectionReason::Lifeless)
+}
+
+/// Whether every event of at most so many steps that begins with this track is [lifeless](RejectionReason::Lifeless).
+pub(super) fn is_lifeless_however_it_goes_on(scene: &Scene, track: &Track, most_steps: usize) -> bool {
+    let still = (1..track.states.len()).filter(|&step| rest::is_still(track, step)).count();
+    let stuck =
+        |from: usize| stays(track, from..from + MAX_STANDSTILL + 1) && is_done_after(scene, track, from);
+    100 * still > MAX_STILL_PERCENT * most_steps
+        || (0..track.states.len().saturating_sub(MAX_STANDSTILL)).any(stuck)
+}
+
+/// Whether, however the event goes on, [`done_at`] is after a step: a goal does not hold then or later, or has not been reached
+/// by touching until then.
+fn is_done_after(scene: &Scene, track: &Track, step: usize) -> bool {
+    scene.relation() == Relation::Adversarial
+        || scene.goals().into_iter().any(|goal| match (goal, goal.sign()) {
+            (_, Sign::Negative) => true,
+            (Goal::Touch { .. }, _) => {
+                track.states[..=step].iter().all(|state| !outcome::condition(&track.physics, state, goal))
+            }
+            _ => track.states[step..].iter().any(|state| !outcome::condition(&track.physics, state, goal)),
+        })
 }
 
 /// The step at which the goals of both agents have been reached; never for adversaries, nor for goals to keep something

@@ -204,6 +204,20 @@ pub fn check_event(
     }
 }
 
+/// What [`check_event`] will say of every event that begins with this track and has one of the allowed lengths, where that is
+/// certain already; `None` where it is not. The rest of such an event need not be simulated.
+#[must_use]
+pub fn certain_rejection(
+    scene: &Scene,
+    track: &Track,
+    lengths: RangeInclusive<usize>,
+    ending: Ending,
+) -> Option<RejectionReason> {
+    let lost = matches!(ending, Ending::Drawn(_))
+        && drawn::is_lifeless_however_it_goes_on(scene, track, *lengths.end());
+    lost.then_some(RejectionReason::Lifeless)
+}
+
 /// How far the goal's subject is from the goal at the end (u); infinite for tracks without states.
 fn remaining(goal: Goal, track: &Track) -> f32 {
     let positive = if goal.sign() == Sign::Positive { goal } else { goal.negated() };

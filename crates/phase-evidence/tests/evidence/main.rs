@@ -1,5 +1,6 @@
 //! Judgements on synthetic tracks.
 
+mod certain;
 mod contact;
 mod drawn;
 mod effect;

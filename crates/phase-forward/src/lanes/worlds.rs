@@ -18,7 +18,7 @@ use crate::{
     weld::held_body,
     world::{World, sanitized_grip, unpacked, unpacked_angle},
 };
-use phase_model::{AGENT_COUNT, Action, AgentId, Body, Contacts, Entity, Grip, State, Vec2};
+use phase_model::{AGENT_COUNT, Action, AgentId, Body, Contacts, Entity, Grip, State, Vec2, arena};
 
 /// A state that is to be stepped, with its grips after grabbing and releasing.
 #[derive(Clone, Copy, Debug)]
@@ -270,7 +270,7 @@ impl<'a> Worlds<'a> {
             for (lane, start) in starts.iter().enumerate() {
                 if self.failed & 1 << lane == 0 {
                     states[start.index].bodies[body] = Body {
-                        position: position.get(lane),
+                        position: position.get(lane).clamp(arena::MIN, arena::MAX),
                         velocity: motion.velocity.get(lane),
                         angle: get(&motion.angle, lane),
                         angular_velocity: get(&motion.spin, lane),

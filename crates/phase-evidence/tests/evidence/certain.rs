@@ -1,0 +1,106 @@
+//! When the rejection of an event is certain before its end.
+
+use crate::{
+    selection::{THING, TOUCH, event, facing, fetch, on_way, place, scene},
+    support::{Move, track},
+};
+use phase_evidence::{
+    Track,
+    selection::{Ending, RejectionReason, certain_rejection, check_event},
+};
+use phase_model::{Attitude, EventKind, Goal, Scene};
+use proptest::prelude::*;
+
+const ENDING: Ending = Ending::Drawn(None);
+/// Every event of these tests is this long (steps).
+const LENGTH: usize = 80;
+
+fn certain(scene: &Scene, track: &Track) -> Option<RejectionReason> {
+    certain_rejection(scene, track, 40..=LENGTH, ENDING)
+}
+
+/// The first step after which rejection is certain.
+fn certain_at(scene: &Scene, track: &Track) -> Option<usize> {
+    (0..=track.steps()).find(|&step| certain(scene, &track.until(step)).is_some())
+}
+
+/// Both agents stand from step 4 on.
+fn standing(t: usize) -> Move {
+    let agent = facing(on_way(t, (8.0, 8.0), (12.0, 8.0), 0..4));
+    Move { agents: [agent, (18.0, 18.0, 0.0)], objects: vec![(12.0, 4.5)], held: [None, None] }
+}
+
+#[test]
+fn six_seconds_of_standstill_are_enough() {
+    let scene = scene(EventKind::Helping, [THING, THING], Attitude::Help);
+    assert_eq!(certain_at(&scene, &event(standing)), Some(4 + 24));
+    assert_eq!(certain(&scene, &event(fetch).until(30)), None);
+    let settled = certain_rejection(&scene, &event(standing), 40..=LENGTH, Ending::Settled);
+    assert_eq!(settled, None);
+}
+
+#[test]
+fn rest_after_success_is_certain_only_once_the_goal_is_lost() {
+    // Agent 0 stands on landmark 0, whose centre is (8.5, 19.5), agent 1 on landmark 1.
+    let scene = scene(EventKind::Independent, [place(0, 0), place(1, 1)], Attitude::Neutral);
+    let leaves = |t: usize| {
+        let away = on_way(t, (8.5, 19.5), (8.5, 9.5), 30..40);
+        Move { agents: [facing(away), (23.5, 19.5, 0.0)], objects: vec![(12.0, 4.5)], held: [None, None] }
+    };
+    let track = event(leaves);
+    assert_eq!(certain(&scene, &track.until(30)), None);
+    let at = certain_at(&scene, &track);
+    assert!(at.is_some_and(|at| (31..36).contains(&at)), "{at:?}");
+}
+
+fn goals() -> impl Strategy<Value = (EventKind, [Goal; 2], Attitude)> {
+    use EventKind::{Chasing, Collaborating, Helping, Hindering, Independent};
+    prop::sample::select(vec![
+        (Helping, [THING, THING], Attitude::Help),
+        (Helping, [place(1, 0), place(1, 0)], Attitude::Help),
+        (Hindering, [THING.negated(), THING], Attitude::Hinder),
+        (Chasing, [TOUCH, TOUCH.negated()], Attitude::Neutral),
+        (Collaborating, [THING, THING], Attitude::Neutral),
+        (Independent, [place(0, 0), place(1, 1)], Attitude::Neutral),
+        (Independent, [TOUCH, THING], Attitude::Neutral),
+    ])
+}
+
+/// A body that goes from place to place, some of which are landmarks, and stays at each for a time.
+fn path() -> impl Strategy<Value = Vec<(f32, f32)>> {
+    let places = vec![(8.5, 19.5), (23.5, 19.5), (23.5, 4.5), (16.0, 12.0), (16.4, 12.2), (21.0, 17.5)];
+    let visits = prop::collection::vec((prop::sample::select(places), 0..40_usize, 1..12_usize), 2..8);
+    visits.prop_map(|visits| {
+        let mut path = vec![visits[0].0];
+        for &(place, stay, way) in visits.iter().cycle().take(40) {
+            let from = path[path.len() - 1];
+            path.extend((1..=way).map(|t| on_way(t, from, place, 0..way)));
+            path.extend(core::iter::repeat_n(place, stay));
+        }
+        path.truncate(LENGTH + 1);
+        path
+    })
+}
+
+proptest! {
+    /// What is certain after some steps is what the whole event is rejected for.
+    #[test]
+    fn what_is_certain_comes_true((kind, goals, first) in goals(), paths in [path(), path(), path()]) {
+        let scene = scene(kind, goals, first);
+        let last = paths.iter().map(Vec::len).min().unwrap_or(0);
+        let track = track((0..last).map(|t| Move {
+            agents: [facing(paths[0][t]), facing(paths[1][t])],
+            objects: vec![paths[2][t]],
+            held: [None, None],
+        }));
+        prop_assume!(track.steps() == LENGTH);
+        let judged = check_event(&scene, &track, 40..=LENGTH, ENDING).err();
+        for step in 0..LENGTH {
+            if let Some(reason) = certain(&scene, &track.until(step)) {
+                prop_assert_eq!(Some(reason), judged, "after {} steps", step);
+            }
+        }
+        // At the end everything is certain.
+        prop_assert_eq!(certain(&scene, &track).is_some(), judged == Some(RejectionReason::Lifeless));
+    }
+}
