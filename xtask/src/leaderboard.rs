@@ -92,13 +92,12 @@ pub fn run(options: &Leaderboard, context: &Context) -> Result<(), XtaskError> {
         all.scores.push(score);
     }
     if options.check {
-        return match all == known {
-            true => Ok(print_result("the scores are those of the predictions")),
-            false => Err(results::shape(
-                &root.join(FOLDER).join(SCORES),
-                "is not what `cargo xtask leaderboard` writes",
-            )),
-        };
+        if all != known {
+            let file = root.join(FOLDER).join(SCORES);
+            return Err(results::shape(&file, "is not what `cargo xtask leaderboard` writes"));
+        }
+        print_result("the scores are those of the predictions");
+        return Ok(());
     }
     atomic::write_json(&root.join(FOLDER).join(SCORES), &all).map_err(CliError::from)?;
     results::run(&results::Results { check: false })

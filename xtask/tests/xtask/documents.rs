@@ -101,3 +101,16 @@ fn a_command_that_does_not_exist_is_noticed() {
     assert_eq!(wrong("cargo xtask tidy --fast"), 1);
     assert_eq!(wrong("cd x && phase no-such-command; phase simulate --evnets a.json"), 2);
 }
+
+/// Every test is a test of the oldest toolchain that the crates promise to work with.
+#[test]
+fn the_oldest_toolchain_is_the_one_that_tests() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let value = |file: &str, key: &str| {
+        let text = fs::read_to_string(root.join(file)).expect("a file");
+        let line = text.lines().find(|line| line.starts_with(key)).expect("a line").to_owned();
+        line.split('"').nth(1).expect("a value").to_owned()
+    };
+    let (promised, used) = (value("Cargo.toml", "rust-version"), value("rust-toolchain.toml", "channel"));
+    assert!(used.starts_with(&format!("{promised}.")) || used == promised, "{used} tests {promised}");
+}

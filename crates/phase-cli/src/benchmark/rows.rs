@@ -13,6 +13,7 @@ use crate::{
         input::{Event, Input},
         options::Common,
         ratings::Ratings,
+        scored::ScoredEvent,
         task::evaluate,
         trajectories::Trajectories,
     },
@@ -23,11 +24,9 @@ use phase_eval::{
         self, BENCHMARK_FORMAT, EventSet, Familiarity, GENERATED, Origin, PAIRS, RECORDED, Row, Subset,
         Training,
     },
-    goals::{self, ErrorBreakdown, RecognisedEvent},
-    results::{GOALS_FORMAT, TRAJECTORIES_FORMAT},
-    trajectories::{self, ForecastEvent},
+    goals::RecognisedEvent,
+    trajectories::ForecastEvent,
 };
-use serde::de::DeserializeOwned;
 use serde_json::Value;
 use std::path::Path;
 
@@ -37,18 +36,6 @@ pub(super) struct Rows<'a> {
     inputs: Vec<(Input, Common)>,
     ratings: Option<Ratings>,
     benchmark: benchmark::Benchmark,
-}
-
-/// An event with a method's answer.
-trait ScoredEvent: Sized + Clone + DeserializeOwned {
-    type Summary;
-
-    fn id(&self) -> &str;
-
-    fn sum_up(events: &[Self], seed: u64) -> Option<Self::Summary>;
-
-    /// Error breakdown of goals, for Task 1.
-    fn mistakes(events: &[Self]) -> Option<ErrorBreakdown>;
 }
 
 impl<'a> Rows<'a> {
@@ -180,17 +167,19 @@ impl<'a> Rows<'a> {
         let set = set.ok_or_else(|| fail("field `run.events_sha256` is not that of these events".into()))?;
         let (input, seed) = (&self.inputs[set].0, self.arguments.seed);
         match format {
-            Some(GOALS_FORMAT) => {
+            Some(RecognisedEvent::FORMAT) => {
                 let events: Vec<RecognisedEvent> = events_of(&results, input).map_err(fail)?;
                 self.benchmark.goals.extend(row(name, Origin::Given, set, None, input, &events, seed));
             }
-            Some(TRAJECTORIES_FORMAT) => {
+            Some(ForecastEvent::FORMAT) => {
                 let events: Vec<ForecastEvent> = events_of(&results, input).map_err(fail)?;
                 self.benchmark.trajectories.extend(row(name, Origin::Given, set, None, input, &events, seed));
             }
             _ => {
                 return Err(fail(format!(
-                    "field `format` must be {GOALS_FORMAT:?} or {TRAJECTORIES_FORMAT:?}"
+                    "field `format` must be {:?} or {:?}",
+                    RecognisedEvent::FORMAT,
+                    ForecastEvent::FORMAT
                 )));
             }
         }
@@ -239,37 +228,5 @@ fn familiar(event: &Event, familiarity: Familiarity) -> bool {
         Familiarity::UnseenLayout => event.layout_seen == Some(false),
         Familiarity::SeenInteraction => event.interaction_seen == Some(true),
         Familiarity::UnseenInteraction => event.interaction_seen == Some(false),
-    }
-}
-
-impl ScoredEvent for RecognisedEvent {
-    type Summary = goals::RecognitionSummary;
-
-    fn id(&self) -> &str {
-        &self.id
-    }
-
-    fn sum_up(events: &[Self], seed: u64) -> Option<Self::Summary> {
-        goals::RecognitionSummary::of(events, seed)
-    }
-
-    fn mistakes(events: &[Self]) -> Option<ErrorBreakdown> {
-        Some(ErrorBreakdown::of(events))
-    }
-}
-
-impl ScoredEvent for ForecastEvent {
-    type Summary = trajectories::ForecastSummary;
-
-    fn id(&self) -> &str {
-        &self.id
-    }
-
-    fn sum_up(events: &[Self], seed: u64) -> Option<Self::Summary> {
-        trajectories::ForecastSummary::of(events, seed)
-    }
-
-    fn mistakes(_: &[Self]) -> Option<ErrorBreakdown> {
-        None
     }
 }

@@ -2,6 +2,7 @@
 
 use super::input::{Event, Input};
 use crate::{context::Context, error::CliError};
+use cpu_time::ThreadTime;
 use phase_dataset::{
     FileError, Problem,
     checksum::{hexadecimal, sha256},
@@ -19,6 +20,53 @@ pub(super) enum AnswerSource<M: ?Sized, A> {
     Method(Box<M>),
     /// An external method.
     PredictionsFile(PredictionsFile<A>),
+}
+
+/// The answer to an event with details of the method, and the CPU time for it (s) where a method was asked; `None` if it was
+/// cancelled.
+pub(super) type Answered<A> = Option<(A, Value, Option<f64>)>;
+
+impl<M: ?Sized, A: Clone> AnswerSource<M, A> {
+    /// Whether the answers come from a file.
+    pub(super) const fn is_external(&self) -> bool {
+        matches!(self, Self::PredictionsFile(_))
+    }
+
+    /// The method, unless the answers come from a file.
+    pub(super) fn method(&self) -> Option<&M> {
+        match self {
+            Self::Method(method) => Some(method),
+            Self::PredictionsFile(_) => None,
+        }
+    }
+
+    /// Everything that determines the answers: what `of_method` says of a method, or the contents of the file.
+    pub(super) fn settings(&self, of_method: impl FnOnce(&M) -> Value) -> Value {
+        match self {
+            Self::Method(method) => of_method(method),
+            Self::PredictionsFile(given) => given.settings(),
+        }
+    }
+
+    /// The answer to an event: the file's, or the one that `ask` gets from the method, with the CPU time that it takes.
+    ///
+    /// # Errors
+    /// If there is none.
+    pub(super) fn answer(
+        &self,
+        event: &Event,
+        ask: impl FnOnce(&M) -> Result<Option<(A, Value)>, MethodError>,
+    ) -> Result<Answered<A>, MethodError> {
+        match self {
+            Self::PredictionsFile(given) => Ok(Some((given.answer(event)?, Value::Null, None))),
+            Self::Method(method) => {
+                let begun = ThreadTime::now();
+                let asked = ask(method)?;
+                let cpu_seconds = begun.elapsed().as_secs_f64();
+                Ok(asked.map(|(answer, details)| (answer, details, Some(cpu_seconds))))
+            }
+        }
+    }
 }
 
 /// The answers of a file, one for each requested event.
@@ -62,7 +110,7 @@ impl<A> PredictionsFile<A> {
     }
 
     /// Everything that determines the answers: the contents of the file.
-    pub(super) fn settings(&self) -> Value {
+    fn settings(&self) -> Value {
         json!({ "predictions_sha256": self.sha256 })
     }
 }
@@ -72,7 +120,7 @@ impl<A: Clone> PredictionsFile<A> {
     ///
     /// # Errors
     /// If there is none.
-    pub(super) fn answer(&self, event: &Event) -> Result<A, MethodError> {
+    fn answer(&self, event: &Event) -> Result<A, MethodError> {
         self.answers.get(&event.id).cloned().ok_or_else(|| MethodError::new("has no prediction"))
     }
 }

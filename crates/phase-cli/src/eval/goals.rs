@@ -9,19 +9,13 @@ use super::{
     task::{self, Task},
 };
 use crate::{context::Context, effort::MindOptions, error::CliError};
-use cpu_time::ThreadTime;
 use phase_eval::{
     MethodError, ProgressCallback, Recogniser,
-    goals::{Answer, Label, PartialAnswer, RecognisedEvent, RecognitionSummary, SocialRole},
+    goals::{Answer, Label, PartialAnswer, RecognisedEvent, SocialRole},
     predictions,
     ratings::RatingCounts,
-    results,
 };
 use phase_event::{ObservedEvent, Recording};
-use phase_report::{
-    document::Document,
-    evaluation::{self, Subject},
-};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -101,14 +95,12 @@ impl Task for Goals {
     }
 
     fn is_external(&self) -> bool {
-        matches!(self.answers, AnswerSource::PredictionsFile(_))
+        self.answers.is_external()
     }
 
     fn settings(&self) -> Value {
-        let mut settings = match &self.answers {
-            AnswerSource::Method(method) => json!({ "method": method.settings(), "watched": self.watched }),
-            AnswerSource::PredictionsFile(given) => given.settings(),
-        };
+        let mut settings =
+            self.answers.settings(|method| json!({ "method": method.settings(), "watched": self.watched }));
         if let Some(ratings) = &self.ratings {
             settings["ratings_sha256"] = ratings.sha256.as_str().into();
         }
@@ -116,10 +108,7 @@ impl Task for Goals {
     }
 
     fn ticks(&self) -> usize {
-        match &self.answers {
-            AnswerSource::Method(method) => method.ticks() * (1 + self.watched.len()),
-            AnswerSource::PredictionsFile(_) => 1,
-        }
+        self.answers.method().map_or(1, |method| method.ticks() * (1 + self.watched.len()))
     }
 
     fn check(&self, event: &Event, file: &Path) -> Result<(), CliError> {
@@ -137,49 +126,20 @@ impl Task for Goals {
         seed: u64,
         tick: ProgressCallback<'_>,
     ) -> Result<Option<RecognisedEvent>, MethodError> {
-        let (answer, details, cpu_seconds, watched) = match &self.answers {
-            AnswerSource::PredictionsFile(given) => (given.answer(event)?, Value::Null, None, Vec::new()),
-            AnswerSource::Method(method) => {
-                let observed = recording.observed().map_err(MethodError::new)?;
-                let begun = ThreadTime::now();
-                let judged = judge(method.as_ref(), &observed, seed, tick)?;
-                let cpu_seconds = begun.elapsed().as_secs_f64();
-                let Some((answer, details)) = judged else { return Ok(None) };
-                let mut watched = Vec::with_capacity(self.watched.len());
-                for &seconds in &self.watched {
-                    let part = observed.prefix(steps_of(seconds));
-                    let Some((answer, _)) = judge(method.as_ref(), &part, seed, tick)? else {
-                        return Ok(None);
-                    };
-                    watched.push(PartialAnswer { seconds, answer });
-                }
-                (answer, details, Some(cpu_seconds), watched)
+        let observed = recording.observed().map_err(MethodError::new)?;
+        let asked = self.answers.answer(event, |method| judge(method, &observed, seed, tick))?;
+        let Some((answer, details, cpu_seconds)) = asked else { return Ok(None) };
+        let mut watched = Vec::with_capacity(self.watched.len());
+        if let Some(method) = self.answers.method() {
+            for &seconds in &self.watched {
+                let part = observed.prefix(steps_of(seconds));
+                let Some((answer, _)) = judge(method, &part, seed, tick)? else { return Ok(None) };
+                watched.push(PartialAnswer { seconds, answer });
             }
-        };
+        }
         let ratings = self.ratings.as_ref().and_then(|ratings| ratings.of(&event.id));
         let label = label(event, recording, ratings);
         Ok(Some(RecognisedEvent { id: event.id.clone(), answer, label, watched, cpu_seconds, details }))
-    }
-
-    fn id(event: &RecognisedEvent) -> &str {
-        &event.id
-    }
-
-    fn cpu_seconds(event: &mut RecognisedEvent) -> &mut Option<f64> {
-        &mut event.cpu_seconds
-    }
-
-    fn sum_up(
-        &self,
-        run: &Value,
-        subject: Subject<'_>,
-        events: &[RecognisedEvent],
-    ) -> Option<serde_json::Result<(Value, Document)>> {
-        let summary = RecognitionSummary::of(events, subject.seed)?;
-        Some(
-            results::goals(run, &summary, events)
-                .map(|results| (results, evaluation::goals(subject, &summary))),
-        )
     }
 }
 

@@ -12,6 +12,7 @@ pub mod methods;
 pub mod networks;
 pub mod options;
 pub(crate) mod ratings;
+pub(crate) mod scored;
 mod shards;
 pub mod simple;
 pub(crate) mod task;

@@ -3,6 +3,7 @@
 use super::{
     input::{Event, Input},
     options::Common,
+    scored::ScoredEvent,
     shards,
 };
 use crate::{
@@ -50,7 +51,7 @@ pub(super) const EVENTS: &str = "events";
 /// A task and the method that does it.
 pub(crate) trait Task: Sync {
     /// One event with the method's answer.
-    type ScoredEvent: Serialize + DeserializeOwned + Clone + Send;
+    type ScoredEvent: ScoredEvent;
 
     /// The task's name.
     const NAME: &'static str;
@@ -85,20 +86,6 @@ pub(crate) trait Task: Sync {
         seed: u64,
         tick: ProgressCallback<'_>,
     ) -> Result<Option<Self::ScoredEvent>, MethodError>;
-
-    /// The name of an answered event.
-    fn id(event: &Self::ScoredEvent) -> &str;
-
-    /// The CPU time for an answer (s), if it was measured.
-    fn cpu_seconds(event: &mut Self::ScoredEvent) -> &mut Option<f64>;
-
-    /// Results and report; `None` without events.
-    fn sum_up(
-        &self,
-        run: &Value,
-        subject: Subject<'_>,
-        events: &[Self::ScoredEvent],
-    ) -> Option<serde_json::Result<(Value, Document)>>;
 }
 
 /// A task that is done.
@@ -171,7 +158,7 @@ pub(crate) fn evaluate<T: Task>(
             folder::remove_leftovers(&out, &run)?;
             return Ok(None);
         }
-        Contents::Finished => return finished(task, &whole, subject, out).map(Some),
+        Contents::Finished => return finished(&whole, subject, out).map(Some),
         Contents::Unfinished(other) => {
             check_same(&out, "an unfinished", &other, &run)?;
             context.note(format!("continuing in {}", out.display()));
@@ -197,12 +184,10 @@ pub(crate) fn evaluate<T: Task>(
         folder.finish()?;
         return Ok(None);
     }
-    let (results, document) = summary(task, &whole, subject, &answered, &out)?;
+    let (results, document) = summary(&whole, subject, &answered, &out)?;
     write_report(&out, &document)?;
-    let times: BTreeMap<&str, f64> = answered
-        .iter()
-        .filter_map(|event| Some((T::id(event), T::cpu_seconds(&mut event.clone()).take()?)))
-        .collect();
+    let times: BTreeMap<&str, f64> =
+        answered.iter().filter_map(|event| Some((event.id(), event.clone().cpu_seconds().take()?))).collect();
     atomic::write_json(&out.join(TIMES_FILE), &json!({ "format": TIMES_FORMAT, "cpu_seconds": times }))?;
     atomic::write(&out.join(RESULTS_FILE), text_of(&results).as_bytes())?;
     folder.finish()?;
@@ -210,20 +195,18 @@ pub(crate) fn evaluate<T: Task>(
 }
 
 /// Results, without measured times, and report, with them.
-fn summary<T: Task>(
-    task: &T,
+fn summary<A: ScoredEvent>(
     run: &Value,
     subject: Subject<'_>,
-    answered: &[T::ScoredEvent],
+    answered: &[A],
     out: &Path,
 ) -> Result<(Value, Document), CliError> {
     let mut untimed = answered.to_vec();
-    untimed.iter_mut().for_each(|event| *T::cpu_seconds(event) = None);
-    let sum_up = |events: &[T::ScoredEvent]| {
-        let summed_up = task.sum_up(run, subject, events).ok_or_else(|| no_events(out))?;
-        summed_up.map_err(|error| CliError::from(WriteError::json(&out.join(RESULTS_FILE), error)))
-    };
-    Ok((sum_up(&untimed)?.0, sum_up(answered)?.1))
+    untimed.iter_mut().for_each(|event| *event.cpu_seconds() = None);
+    let sum_up = |events: &[A]| A::sum_up(events, subject.seed).ok_or_else(|| no_events(out));
+    let results = A::results(run, &sum_up(&untimed)?, &untimed);
+    let results = results.map_err(|error| WriteError::json(&out.join(RESULTS_FILE), error))?;
+    Ok((results, A::report(subject, &sum_up(answered)?)))
 }
 
 /// One event: its stored answer, or a new one that is stored.
@@ -323,12 +306,11 @@ fn write_copies(arguments: &Common, results: &Value, document: &Document) -> Res
 }
 
 /// A finished folder of the same run is used unchanged.
-fn finished<T: Task>(
-    task: &T,
+fn finished<A: ScoredEvent>(
     run: &Value,
     subject: Subject<'_>,
     out: PathBuf,
-) -> Result<Evaluation<T::ScoredEvent>, CliError> {
+) -> Result<Evaluation<A>, CliError> {
     let file = out.join(RESULTS_FILE);
     let results = json::read(&file)?;
     check_same(&out, "a finished", &results["run"], run)?;
@@ -336,14 +318,15 @@ fn finished<T: Task>(
         let problem = Problem::Shape { what: "results file", rule };
         CliError::Altered(FileError { file: file.clone(), problem })
     };
-    let mut events: Vec<T::ScoredEvent> =
+    let mut events: Vec<A> =
         serde_json::from_value(results["events"].clone()).map_err(|error| altered(error.to_string()))?;
     // Times are only for the report; without their file there are none.
     let times = json::read(&out.join(TIMES_FILE)).unwrap_or_default();
     for event in &mut events {
-        *T::cpu_seconds(event) = times["cpu_seconds"][T::id(event)].as_f64();
+        let seconds = times["cpu_seconds"][event.id()].as_f64();
+        *event.cpu_seconds() = seconds;
     }
-    let (again, document) = summary(task, run, subject, &events, &out)?;
+    let (again, document) = summary(run, subject, &events, &out)?;
     if again != results {
         return Err(altered("its figures are not those of its events".into()));
     }

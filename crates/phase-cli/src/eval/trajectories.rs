@@ -8,19 +8,12 @@ use super::{
     task::{self, Task},
 };
 use crate::{context::Context, effort::MindOptions, error::CliError};
-use cpu_time::ThreadTime;
 use phase_eval::{
-    Forecaster, MethodError, ProgressCallback, predictions, results,
-    trajectories::{
-        Errors, ForecastEvent, ForecastSummary, PREDICTED_STEPS, Prediction, SampleErrors, WATCHED_STEPS,
-    },
+    Forecaster, MethodError, ProgressCallback, predictions,
+    trajectories::{Errors, ForecastEvent, PREDICTED_STEPS, Prediction, SampleErrors, WATCHED_STEPS},
 };
 use phase_event::Recording;
 use phase_model::Forecast;
-use phase_report::{
-    document::Document,
-    evaluation::{self, Subject},
-};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -79,21 +72,15 @@ impl Task for Trajectories {
     }
 
     fn is_external(&self) -> bool {
-        matches!(self.answers, AnswerSource::PredictionsFile(_))
+        self.answers.is_external()
     }
 
     fn settings(&self) -> Value {
-        match &self.answers {
-            AnswerSource::Method(method) => json!({ "method": method.settings() }),
-            AnswerSource::PredictionsFile(given) => given.settings(),
-        }
+        self.answers.settings(|method| json!({ "method": method.settings() }))
     }
 
     fn ticks(&self) -> usize {
-        match &self.answers {
-            AnswerSource::Method(method) => method.ticks(),
-            AnswerSource::PredictionsFile(_) => 1,
-        }
+        self.answers.method().map_or(1, Forecaster::ticks)
     }
 
     fn check(&self, event: &Event, file: &Path) -> Result<(), CliError> {
@@ -116,16 +103,9 @@ impl Task for Trajectories {
         let observed = recording.observed().map_err(MethodError::new)?;
         let truth: Forecast = observed.entities().map(|entity| path(&observed, entity.index())).collect();
         let steps = truth.first().map_or(0, Vec::len);
-        let (prediction, details, cpu_seconds) = match &self.answers {
-            AnswerSource::PredictionsFile(given) => (given.answer(event)?, Value::Null, None),
-            AnswerSource::Method(method) => {
-                let begun = ThreadTime::now();
-                let prediction = method.forecast(&observed.prefix(WATCHED_STEPS), steps, seed, tick)?;
-                let cpu_seconds = begun.elapsed().as_secs_f64();
-                let Some((prediction, details)) = prediction else { return Ok(None) };
-                (prediction, details, Some(cpu_seconds))
-            }
-        };
+        let watched = observed.prefix(WATCHED_STEPS);
+        let asked = self.answers.answer(event, |method| method.forecast(&watched, steps, seed, tick))?;
+        let Some((prediction, details, cpu_seconds)) = asked else { return Ok(None) };
         let [agents, entities] = Errors::of(&prediction.forecast, &truth)?;
         let samples = SampleErrors::of(&prediction.samples, &truth)?;
         Ok(Some(ForecastEvent {
@@ -144,27 +124,6 @@ impl Task for Trajectories {
             cpu_seconds,
             details,
         }))
-    }
-
-    fn id(event: &ForecastEvent) -> &str {
-        &event.id
-    }
-
-    fn cpu_seconds(event: &mut ForecastEvent) -> &mut Option<f64> {
-        &mut event.cpu_seconds
-    }
-
-    fn sum_up(
-        &self,
-        run: &Value,
-        subject: Subject<'_>,
-        events: &[ForecastEvent],
-    ) -> Option<serde_json::Result<(Value, Document)>> {
-        let summary = ForecastSummary::of(events, subject.seed)?;
-        Some(
-            results::trajectories(run, &summary, events)
-                .map(|results| (results, evaluation::trajectories(subject, &summary))),
-        )
     }
 }
 

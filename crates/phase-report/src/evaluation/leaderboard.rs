@@ -132,7 +132,7 @@ pub fn leaderboard(benchmark: &Benchmark, scores: &Scores, sources: &BTreeMap<St
     )
 }
 
-/// Shares of goals, of relations, and of sets of minimal pairs that are wholly right.
+/// Goals, relations, and, of sets that differ in one social variable, whole sets.
 type GoalScores = (Estimate, Estimate, Option<Estimate>);
 
 fn goal_lines(benchmark: &Benchmark, scores: &Scores) -> Vec<Line> {
