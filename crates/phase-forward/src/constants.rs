@@ -6,6 +6,8 @@ pub(crate) const H: f32 = phase_model::arena::SUBSTEP_SECONDS;
 pub(crate) const MAX_FRICTION_IMPULSE: f32 = phase_model::physics::GROUND_FRICTION * H;
 /// Iterations of the velocity solver.
 pub(crate) const VELOCITY_ITERATIONS: usize = 10;
+/// Iterations of the velocity solver in a substep without warm starting.
+pub(crate) const COLD_ITERATIONS: usize = 20;
 /// Iterations of the position solver.
 pub(crate) const POSITION_ITERATIONS: usize = 10;
 /// Iterations of the position solver after an impact on a wall.

@@ -1,13 +1,18 @@
 //! The kernel: the constants of a scene's physics, and steps from state to state.
 
 use crate::{
-    coarse, constants::VELOCITY_ITERATIONS, finish::stop_turning, key::BodyMask, lanes, model::Model, reach,
-    solver_cache::SolverCache, touching::ContactSet, world::World,
+    coarse,
+    constants::{COLD_ITERATIONS, VELOCITY_ITERATIONS},
+    finish::stop_turning,
+    key::BodyMask,
+    lanes,
+    model::Model,
+    reach,
+    solver_cache::SolverCache,
+    touching::ContactSet,
+    world::World,
 };
 use phase_model::{AGENT_COUNT, Action, Dynamics, PhysicsConfig, State, arena::SUBSTEPS};
-
-/// Iterations of the velocity solver in a substep without warm starting.
-pub(crate) const COLD_ITERATIONS: usize = 20;
 
 /// The dynamics of one scene: walls, shapes, masses and forces, prepared for stepping.
 ///

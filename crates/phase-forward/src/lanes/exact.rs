@@ -10,8 +10,10 @@ use super::{
 };
 use crate::{
     body::STATIC,
-    constants::{BAUMGARTE, H, IMPULSE_TOLERANCE, LINEAR_SLOP, POSITION_ITERATIONS, VELOCITY_ITERATIONS},
-    forward::COLD_ITERATIONS,
+    constants::{
+        BAUMGARTE, COLD_ITERATIONS, H, IMPULSE_TOLERANCE, LINEAR_SLOP, POSITION_ITERATIONS,
+        VELOCITY_ITERATIONS,
+    },
     model::Model,
 };
 use phase_model::{AGENT_COUNT, State, arena::SUBSTEPS};
