@@ -14,9 +14,6 @@ const STEPS: usize = 8;
 const WORLDS: usize = 11;
 /// How far an origin may be outside the arena in the kernel, which keeps centres of mass inside (u).
 const OUTSIDE: f32 = 0.3;
-/// Speed that no body may have (u/s): the sum of the world's limit, 2 u in a substep, and what separates bodies in another.
-const TOP_SPEED: f32 = 400.0;
-
 /// A scene, and a start with any numbers in it.
 fn scene(bytes: &mut Bytes<'_>) -> (PhysicsConfig, State) {
     let physics = physique(bytes);
@@ -38,8 +35,8 @@ fn scene(bytes: &mut Bytes<'_>) -> (PhysicsConfig, State) {
     (physics, state)
 }
 
-/// Nothing that is no number, nothing outside, nothing faster than the limits. The energy of a step may exceed the one before by the work
-/// of pushes and by what separation at the top speed may give.
+/// Nothing that is no number, and nothing outside. There is no bound of speeds: an impact turns the spin of a body, which may begin with any,
+/// into speed of another.
 fn check(physics: &PhysicsConfig, after: &State, outside: f32) {
     assert!(after.is_finite(physics), "not finite: {after:?}");
     for entity in physics.entities() {
@@ -58,10 +55,6 @@ pub(super) fn world(data: &[u8]) {
     for actions in actions(Doing::Anything, STEPS, &mut bytes) {
         for after in engine.step(actions) {
             check(&physics, &after, 0.0);
-            for entity in physics.entities() {
-                let speed = after.body(entity).velocity.length();
-                assert!(speed <= TOP_SPEED, "{entity:?} at {speed} u/s: {after:?}");
-            }
         }
     }
 }
