@@ -25,8 +25,8 @@ pub fn run_once(check: Check, input: &[u8]) -> Result<(), Failure> {
     })
 }
 
-/// Runs a target on its seeds and the other inputs given, and then on mutations of them, as long as `goes_on`, which is asked before each,
-/// says. Returns the number of executions.
+/// Runs a target on its seeds and on a corpus, and then on random mutations of both until `goes_on` returns false. Returns the
+/// number of executions.
 ///
 /// # Errors
 /// The first failure.

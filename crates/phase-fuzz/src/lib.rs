@@ -19,5 +19,5 @@ pub mod engines;
 pub mod fuzzing;
 mod mutate;
 pub mod scenes;
-mod seeds;
+pub mod seeds;
 pub mod targets;

@@ -18,7 +18,7 @@ const CHOICES: [usize; 3] = [16, 64, 256];
 
 /// The seeds of a target, at least one.
 #[must_use]
-pub(crate) fn seeds(target: &str) -> Vec<Vec<u8>> {
+pub fn seeds(target: &str) -> Vec<Vec<u8>> {
     let texts = |texts: &[&str]| texts.iter().map(|text| text.as_bytes().to_vec()).collect();
     match target {
         "events" => EventKind::ALL.into_iter().filter_map(event).collect(),
@@ -29,20 +29,21 @@ pub(crate) fn seeds(target: &str) -> Vec<Vec<u8>> {
         }
         "settings" => serde_json::to_vec(&SimulationSettings::default()).into_iter().collect(),
         "predictions" => texts(&[
-            r#"{"events": [{"id": "a", "goals": [[["help", 0.9]], [["approach", 1.0]]], "relation": {"friendly": 1.0}}]}"#,
+            r#"{"events": [{"id": "a", "goals": [[{"goal": {"kind": "touch", "agent": 0, "other": 1, "sign": 1}, "p": 1.0}], [{"goal": {"kind": "touch", "agent": 1, "other": 0, "sign": 1}, "p": 1.0}]], "relation": {"friendly": 0.04201006613406606, "adversarial": 0.8437947344813396, "neutral": 0.1141951993845945}}]}"#,
             r#"{"events": [{"id": "a", "forecast": [[[8.1, 19.2], [8.2, 19.3]], [[20, 8], [20, 8]]]}]}"#,
         ]),
-        "journal" => texts(&[
-            "{\"began\":{\"round\":0}}\n{\"ended\":{\"round\":0}}\n",
-            "{\"type\":\"began\",\"round\":0}\n",
-        ]),
+        "journal" => texts(&[concat!(
+            "{\"entry\":\"began\",\"round\":0}\n",
+            "{\"entry\":\"step\",\"actions\":[\"up\",\"left\"]}\n",
+            "{\"entry\":\"ended\",\"round\":0}\n",
+        )]),
         "message" => texts(&[
             r#"{"type": "hold", "action": "up"}"#,
             r#"{"type": "away", "away": true}"#,
             r#"{"type": "leave"}"#,
         ]),
         "study" => texts(&[
-            r#"{"format":"phase-study/1","name":"a","title":"A","form":"relation","consent":["c"],"instructions":["i"],"stimuli":[{"id":"s","video":"s.mp4"}]}"#,
+            r#"{"format":"phase-study/1","name":"a","title":"A","form":"relation","consent":["c"],"instructions":["i"],"stimuli":[{"id":"s","video":"s.mp4"}],"raters_per_video":1,"videos_per_rater":1}"#,
         ]),
         "forms" => texts(&[phase_data::FORMS]),
         "report_model" => texts(&[phase_data::REPORT_MODEL]),

@@ -1,6 +1,13 @@
 //! Every target, shortly: on its seeds, on inputs that once failed, and on mutations of both. `cargo xtask fuzz` runs them for longer.
 
-use phase_fuzz::{fuzzing, targets};
+use phase_dataset::preset::Preset;
+use phase_eval::predictions;
+use phase_fuzz::{fuzzing, seeds::seeds, targets};
+use phase_game::{FromPlayer, journal};
+use phase_model::{Scene, json, path::RelativePath};
+use phase_sim::SimulationSettings;
+use phase_simple::ReportModel;
+use phase_study::{config::StudyConfig, forms::Forms};
 use std::{cell::Cell, fs, path::Path};
 
 /// Mutations of each target.
@@ -39,4 +46,34 @@ fn failures_are_found() {
     let failure = failure.expect_err("mutations have other bytes");
     assert_eq!(failure.message, "not ASCII");
     assert!(!failure.input.is_ascii());
+}
+
+/// Readers accept the seeds, so that mutations reach what comes after the first check.
+#[test]
+fn seeds_are_accepted() {
+    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).expect("a text");
+    type Accepts<'a> = (&'a str, &'a dyn Fn(&[u8]) -> bool);
+    let forms = Forms::read(phase_data::FORMS).expect("forms");
+    let readers: [Accepts<'_>; 11] = [
+        ("events", &|seed| phase_event::parse(seed).is_ok()),
+        ("scene", &|seed| Scene::from_json(&text(seed)).is_ok()),
+        ("preset", &|seed| Preset::parse("seed.json", &text(seed)).is_ok()),
+        ("paths", &|seed| RelativePath::new(&text(seed)).is_ok()),
+        ("settings", &|seed| serde_json::from_slice::<SimulationSettings>(seed).is_ok()),
+        ("predictions", &|seed| {
+            let value = json::parse(seed).expect("JSON");
+            predictions::goals(&value).is_ok() || predictions::forecasts(&value).is_ok()
+        }),
+        ("journal", &|seed| journal::entries(&text(seed)).is_ok()),
+        ("message", &|seed| FromPlayer::parse(&text(seed)).is_ok()),
+        ("study", &|seed| StudyConfig::read(seed, &forms).is_ok()),
+        ("forms", &|seed| Forms::read(&text(seed)).is_ok()),
+        ("report_model", &|seed| ReportModel::from_json(&text(seed)).is_ok()),
+    ];
+    let refused: Vec<&str> = readers
+        .iter()
+        .filter(|(name, accepts)| seeds(name).is_empty() || !seeds(name).iter().all(|seed| accepts(seed)))
+        .map(|(name, _)| *name)
+        .collect();
+    assert_eq!(refused, [""; 0]);
 }

@@ -1,11 +1,8 @@
 //! Energy that appears while nothing pushes.
 
-use super::{Kind, Running};
-use crate::scenes::{Doing, Start, actions, energy, physique, start};
-use phase_model::{
-    State,
-    random::{Purpose, stream},
-};
+use super::{Kind, Scenes, Substep};
+use crate::scenes::{Doing, Start, energy};
+use phase_model::State;
 
 /// Energy that a scene may seem to gain in a substep by rounding (J).
 pub const GAIN: f32 = 0.02;
@@ -35,23 +32,14 @@ pub struct EnergyGains {
 #[must_use]
 pub fn energy_gains(kind: Kind, begins: Start, seeds: core::ops::Range<u64>) -> EnergyGains {
     let mut gains = EnergyGains::default();
-    for seed in seeds {
-        let mut random = stream(seed, Purpose::Scene, 0);
-        let physics = physique(&mut random);
-        let Some(state) = start(&physics, begins, &mut random) else { continue };
-        let mut engine = Running::new(kind, &physics, &state);
-        let mut before = engine.state();
-        for (step, actions) in actions(Doing::Nothing, STEPS, &mut random).into_iter().enumerate() {
-            for after in engine.step(actions) {
-                let [was, is] = [&before, &after].map(|state| energy(&physics, state));
-                let holds = |state: &State| state.grips.iter().any(Option::is_some);
-                if was.max(is) > GAIN {
-                    gains.count(is - was, holds(&before) || holds(&after), step == 0);
-                }
-                before = after;
-            }
+    Scenes { kind, begins, doing: Doing::Nothing, steps: STEPS, seeds }.run(|substep| {
+        let Substep { physics, step, before, after, .. } = substep;
+        let [was, is] = [before, after].map(|state| energy(physics, state));
+        let holds = |state: &State| state.grips.iter().any(Option::is_some);
+        if was.max(is) > GAIN {
+            gains.count(is - was, holds(before) || holds(after), step == 0);
         }
-    }
+    });
     gains
 }
 

@@ -1,6 +1,6 @@
 //! Two agents that meet: the world beside the kernel, which reproduces recordings of such meetings to a thousandth of a unit.
 
-use super::{Kind, Running, apart};
+use super::{Kind, Quantiles, Running, apart, quantiles};
 use crate::{
     draw::Draw,
     scenes::{Doing, actions, outline, physique},
@@ -9,15 +9,13 @@ use phase_model::{
     Body, Contacts, PhysicsConfig, State, Vec2, arena,
     random::{Purpose, stream},
 };
-use phase_statistics::percentile;
 
 /// Steps of a meeting, as many as a long probe has.
 const STEPS: usize = 15;
 /// By how much the start of a disturbed kernel differs (u): what a recording's rounding is.
 const DISTURBANCE: f32 = 1.0e-5;
-
-/// Distances between two engines in the same meetings (u): median, nine in ten, 99 in 100, all.
-pub(super) type Quantiles = Option<[f32; 4]>;
+/// The world's median error at the first contact (u), as measured.
+const ERROR_AT_CONTACT: f32 = 3.0e-3;
 
 /// The world beside the kernel with its cache, in meetings of two agents without objects or inner walls.
 #[derive(Clone, PartialEq, Default, Debug)]
@@ -47,8 +45,6 @@ pub struct Meetings {
 pub fn meetings(seeds: core::ops::Range<u64>) -> Meetings {
     let mut found = Meetings::default();
     let mut errors: [Vec<f32>; 7] = Default::default();
-    // The world's median error at the first contact, as measured.
-    let as_world = 3.0e-3;
     for seed in seeds {
         let mut random = stream(seed, Purpose::Scene, 0);
         let Some((physics, start)) = two_agents(&mut random) else { continue };
@@ -67,7 +63,7 @@ pub fn meetings(seeds: core::ops::Range<u64>) -> Meetings {
             start.bodies[0].position.x += by;
             run(Kind::KernelWithCache, &start)
         };
-        let [rounded, as_far] = [DISTURBANCE, as_world].map(moved);
+        let [rounded, as_far] = [DISTURBANCE, ERROR_AT_CONTACT].map(moved);
         for (step, states) in kernel.iter().enumerate() {
             let distance = |other: &[[State; 5]]| apart(&physics, &states[4], &other[step][4]);
             let phase = match step.checked_sub(first) {
@@ -99,11 +95,6 @@ pub fn meetings(seeds: core::ops::Range<u64>) -> Meetings {
         disturbed_as_world: as_far,
         ..found
     }
-}
-
-fn quantiles(errors: &[f32]) -> Quantiles {
-    let [a, b, c, d] = [50, 90, 99, 100].map(|hundredths| percentile(errors, hundredths));
-    Some([a?, b?, c?, d?])
 }
 
 /// Two agents at rest, 2.5 to 6 u apart, inside the arena, turned anywhere.

@@ -1,12 +1,8 @@
 //! How deeply bodies overlap.
 
-use super::{Kind, Running};
-use crate::scenes::{Doing, Overlap, Start, actions, deepest_overlap, physique, start};
-use phase_model::{
-    Entity, PhysicsConfig, State,
-    physics::RELEASED_OVERLAP,
-    random::{Purpose, stream},
-};
+use super::{Kind, Scenes, Substep};
+use crate::scenes::{Doing, Overlap, Start, deepest_overlap};
+use phase_model::{Entity, PhysicsConfig, State, physics::RELEASED_OVERLAP};
 
 /// Overlaps that are not looked at (u).
 const LEAST: f32 = 0.02;
@@ -37,24 +33,18 @@ pub struct Overlaps {
 #[must_use]
 pub fn overlaps(kind: Kind, begins: Start, seeds: core::ops::Range<u64>) -> Overlaps {
     let mut found = Overlaps::default();
-    for seed in seeds {
-        let mut random = stream(seed, Purpose::Scene, 0);
-        let physics = physique(&mut random);
-        let Some(state) = start(&physics, begins, &mut random) else { continue };
-        let mut engine = Running::new(kind, &physics, &state);
-        let mut before = engine.state();
-        let mut lasts = 0;
-        for (step, actions) in actions(Doing::Anything, STEPS, &mut random).into_iter().enumerate() {
-            for after in engine.step(actions) {
-                // The first step separates what overlaps at the start.
-                if step > 0 {
-                    found.substeps += 1;
-                    lasts = found.look(&physics, &before, &after, lasts);
-                }
-                before = after;
-            }
+    let mut lasts = 0;
+    Scenes { kind, begins, doing: Doing::Anything, steps: STEPS, seeds }.run(|substep| {
+        let Substep { physics, step, is_first, before, after } = substep;
+        if is_first {
+            lasts = 0;
         }
-    }
+        // The first step separates what overlaps at the start.
+        if step > 0 {
+            found.substeps += 1;
+            lasts = found.look(physics, before, after, lasts);
+        }
+    });
     found
 }
 

@@ -1,9 +1,8 @@
 //! Worlds that are rebuilt from their own states.
 
-use super::apart;
+use super::{Quantiles, apart, quantiles};
 use crate::scenes::{Doing, Start, actions, physique, start};
 use phase_model::random::{Purpose, stream};
-use phase_statistics::percentile;
 use phase_world::World;
 
 /// Steps of a scene.
@@ -19,7 +18,7 @@ pub struct Rebuilt {
     /// Those of them in which no object had been released before.
     pub differ_unreleased: usize,
     /// How far apart bodies then are (u): median, nine in ten, 99 in 100, all, where nothing had been released.
-    pub apart: Option<[f32; 4]>,
+    pub apart: Quantiles,
     /// How far at most where something had been (u).
     pub most_released: f32,
     /// Steps after which a copy of the world differed.
@@ -59,11 +58,6 @@ pub fn rebuilt(seeds: core::ops::Range<u64>) -> Rebuilt {
                 before.grips.iter().zip(&after[4].grips).any(|(was, is)| was.is_some() && is.is_none());
         }
     }
-    let quantile = |hundredths| percentile(&distances, hundredths);
-    found.apart = quantile(50)
-        .zip(quantile(90))
-        .zip(quantile(99))
-        .zip(quantile(100))
-        .map(|(((half, nine), ninety), all)| [half, nine, ninety, all]);
+    found.apart = quantiles(&distances);
     found
 }
