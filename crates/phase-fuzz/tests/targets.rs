@@ -58,7 +58,7 @@ fn seeds_are_accepted() {
         ("events", &|seed| phase_event::parse(seed).is_ok()),
         ("scene", &|seed| Scene::from_json(&text(seed)).is_ok()),
         ("preset", &|seed| Preset::parse("seed.json", &text(seed)).is_ok()),
-        ("paths", &|seed| RelativePath::new(&text(seed)).is_ok()),
+        ("paths", &|seed| RelativePath::new(text(seed)).is_ok()),
         ("settings", &|seed| serde_json::from_slice::<SimulationSettings>(seed).is_ok()),
         ("predictions", &|seed| {
             let value = json::parse(seed).expect("JSON");
