@@ -40,20 +40,20 @@ pub fn sample(request: &Request<'_>, random: &mut impl Rng) -> Result<Scene, Sam
         if request.layouts.is_empty() {
             break;
         }
-        if let Some(scene) = propose(request, Objects::Varied, random) {
+        let proposed = propose(request, Objects::Varied, random);
+        if let Some(scene) = proposed.filter(|scene| is_playable(request.variant, scene, false)) {
             return Ok(if random.random_bool(0.5) { exchanged(&scene) } else { scene });
         }
     }
     Err(SampleError(request.variant))
 }
 
-/// One draw of a scene with role 0 as agent 0; `None` if the draw cannot show its label.
+/// One draw of a scene with role 0 as agent 0, which may be unable to show its variant; `None` if there is no place for its bodies.
 pub(crate) fn propose(request: &Request<'_>, count: Objects, random: &mut impl Rng) -> Option<Scene> {
     let Request { variant, goal_index, layouts } = *request;
     let layout = choose(layouts, random);
     let draft = draft(variant, layout, variant.goals(goal_index), random)?;
-    let scene = draft.into_scene(variant.kind(), layout, count, random);
-    is_playable(variant, &scene, count == Objects::Two).then_some(scene)
+    Some(draft.into_scene(variant.kind(), layout, count, random))
 }
 
 /// Draws a scene of a variant in any of the 90 layouts, with any of its goals.

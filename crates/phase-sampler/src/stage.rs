@@ -33,29 +33,60 @@ pub struct Part {
     pub goal_index: usize,
 }
 
+/// Which goals a part may have.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Goals {
+    /// Those of its index.
+    Own,
+    /// Those of its index, or of the next one that can be pursued.
+    Any,
+}
+
+impl Part {
+    /// The part with each of the goals that it may have.
+    fn with(self, goals: Goals) -> impl Iterator<Item = Self> {
+        let Self { variant, goal_index } = self;
+        let count = if goals == Goals::Own { 1 } else { variant.goal_count() };
+        (goal_index..goal_index + count).map(move |goal_index| Self { variant, goal_index })
+    }
+}
+
+/// The assignments of roles to the agents' bodies and of numbers to the objects' bodies: whether either is swapped.
+const WAYS: [(bool, bool); 4] = [(false, false), (false, true), (true, false), (true, true)];
 /// Draws of strengths for each assignment of roles.
 const STRENGTH_DRAWS: usize = 6;
-/// Casts of one part before a scene is given up; a stage on which the part was cast once is likely to allow it again.
+/// Casts of one part, with its own goals and with any, before a scene is given up; a stage on which the part was cast once is likely to allow it again.
 const MAX_CASTS: usize = 200;
-/// Maximum number of draws of a stage. Several variants have to be possible at once, so it takes more than one scene.
-const MAX_STAGE_DRAWS: usize = 5 * MAX_DRAWS;
+/// Maximum number of draws of a stage, with the parts' own goals and with any: thousands are needed if several variants have to be
+/// possible at once with goals that are given. In PHASE-500, one block in fifty needs others.
+const MAX_STAGE_DRAWS: usize = 10 * MAX_DRAWS;
 /// Draws of a stage in one layout before another layout is drawn.
 const DRAWS_PER_LAYOUT: usize = 200;
 
 impl Stage {
-    /// Draws a stage on which every part can be played. The first part proposes the bodies, and all accept or reject them. Layouts are tried in the order given, so that a caller can use all of them equally often.
+    /// Draws a stage on which every part can be played with its own goals. The first part proposes the bodies, and all accept or
+    /// reject them. Layouts are tried in the order given, so that a caller can use all of them equally often. If no draw allows
+    /// all goals, one is drawn that allows all variants.
     ///
     /// # Errors
     /// [`SampleError`] if the draws are exhausted, for example because no layout fits a variant.
     pub fn sample(parts: &[Part], layouts: &[Layout], random: &mut impl Rng) -> Result<Self, SampleError> {
         let Some(&lead) = parts.first() else { return Err(SampleError(Variant::Places)) };
-        for draw in 0..MAX_STAGE_DRAWS {
-            let Some(layout) = layouts.get((draw / DRAWS_PER_LAYOUT) % layouts.len().max(1)) else { break };
-            let request = Request { variant: lead.variant, goal_index: lead.goal_index, layouts: &[*layout] };
-            let Some(scene) = recipe::propose(&request, Objects::Two, random) else { continue };
-            let stage = Self::of(&scene);
-            if parts.iter().all(|&part| stage.cast(part, random).is_some()) {
-                return Ok(stage);
+        for goals in [Goals::Own, Goals::Any] {
+            for draw in 0..MAX_STAGE_DRAWS {
+                let Some(layout) = layouts.get((draw / DRAWS_PER_LAYOUT) % layouts.len().max(1)) else {
+                    break;
+                };
+                let request =
+                    Request { variant: lead.variant, goal_index: lead.goal_index, layouts: &[*layout] };
+                let Some(scene) = recipe::propose(&request, Objects::Two, random) else { continue };
+                let stage = Self::of(&scene);
+                // Searching for plans takes the most time, so bodies at the wrong places are rejected before.
+                if parts.iter().all(|part| part.with(goals).any(|part| stage.may_allow(part, random)))
+                    && parts.iter().all(|&part| stage.cast_with(goals, part, random).is_some())
+                {
+                    return Ok(stage);
+                }
             }
         }
         Err(SampleError(lead.variant))
@@ -75,29 +106,43 @@ impl Stage {
     /// are drawn. Where the part's goals cannot be pursued on the stage, the next ones are tried. `None` if the variant
     /// cannot be played at all.
     pub fn cast(&self, part: Part, random: &mut impl Rng) -> Option<Scene> {
-        let mut ways = [(false, false), (false, true), (true, false), (true, true)];
+        self.cast_with(Goals::Any, part, random)
+    }
+
+    fn cast_with(&self, goals: Goals, part: Part, random: &mut impl Rng) -> Option<Scene> {
+        part.with(goals).find_map(|part| self.cast_exactly(part, random))
+    }
+
+    /// Whether the bodies' places allow the part; see [`requirements::may_be_playable`].
+    fn may_allow(&self, part: Part, random: &mut impl Rng) -> bool {
+        WAYS.iter().any(|&(agents_swapped, objects_swapped)| {
+            let scene = self.assigned(part, agents_swapped, objects_swapped, random);
+            requirements::may_be_playable(part.variant, &scene)
+        })
+    }
+
+    /// A scene of this part on the stage, with its own goals.
+    fn cast_exactly(&self, part: Part, random: &mut impl Rng) -> Option<Scene> {
+        let mut ways = WAYS;
         ways.shuffle(random);
-        let Part { variant, goal_index } = part;
-        for goal_index in goal_index..goal_index + variant.goal_count() {
-            for (agents_swapped, objects_swapped) in ways {
-                for _ in 0..STRENGTH_DRAWS {
-                    let part = Part { variant, goal_index };
-                    let scene = self.assigned(part, agents_swapped, objects_swapped, random);
-                    if requirements::is_playable(variant, &scene, true) {
-                        return Some(if agents_swapped { recipe::exchanged(&scene) } else { scene });
-                    }
+        for (agents_swapped, objects_swapped) in ways {
+            for _ in 0..STRENGTH_DRAWS {
+                let scene = self.assigned(part, agents_swapped, objects_swapped, random);
+                if requirements::is_playable(part.variant, &scene, true) {
+                    return Some(if agents_swapped { recipe::exchanged(&scene) } else { scene });
                 }
             }
         }
         None
     }
 
-    /// A scene of this part on the stage, as [`cast`](Self::cast), which is repeated where it fails.
+    /// A scene of this part on the stage, as [`cast`](Self::cast), which is repeated where it fails, first with the part's own goals.
     ///
     /// # Errors
     /// [`SampleError`] if the draws are exhausted.
     pub fn scene(&self, part: Part, random: &mut impl Rng) -> Result<Scene, SampleError> {
-        let drawn = (0..MAX_CASTS).find_map(|_| self.cast(part, random));
+        let mut goals = [Goals::Own, Goals::Any].into_iter().flat_map(|goals| [goals; MAX_CASTS]);
+        let drawn = goals.find_map(|goals| self.cast_with(goals, part, random));
         drawn.ok_or(SampleError(part.variant))
     }
 

@@ -74,6 +74,30 @@ fn objects_are_handed_over_on_their_way() {
     }
 }
 
+/// Otherwise the goals of a dataset would not be those of its composition, and would tell of the bodies' places.
+#[test]
+fn nearly_every_part_has_its_own_goals() {
+    let blocks = [
+        [Variant::Fetch, Variant::Carry, Variant::Hide, Variant::Chase, Variant::Mixed],
+        [Variant::Move, Variant::Carry, Variant::Undo, Variant::Compete, Variant::Places],
+    ];
+    let mut layouts: Vec<Layout> = Layout::all_used().collect();
+    let mut own = 0;
+    for k in 0..16 {
+        layouts.rotate_left(11);
+        let mut random = stream(7, Purpose::Stage, k as u64);
+        let parts = parts(&blocks[k % 2], k);
+        let stage = Stage::sample(&parts, &layouts, &mut random).unwrap();
+        for part in parts {
+            let scene = stage.scene(part, &mut random).unwrap();
+            let landmarks =
+                |goals: [Goal; 2]| goals.map(|goal| goal.landmark()).into_iter().collect::<BTreeSet<_>>();
+            own += usize::from(landmarks(scene.goals()) == landmarks(part.variant.goals(part.goal_index)));
+        }
+    }
+    assert!(own >= 76, "{own} of 80");
+}
+
 #[test]
 fn a_stage_that_cannot_be_is_an_error() {
     let open = [Layout::new(0, None).unwrap()];
