@@ -24,9 +24,11 @@ mod selection;
 #[cfg(feature = "serve")]
 mod serve;
 mod sets;
+mod shell;
 mod simulate;
 mod study;
 mod support;
 #[cfg(feature = "networks")]
 mod train;
 mod verify;
+mod walks;
