@@ -17,3 +17,6 @@ mod shell;
 mod support;
 mod tidy;
 mod torture;
+
+/// The program that is run.
+const PROGRAM: &str = env!("CARGO_BIN_EXE_xtask");

@@ -32,3 +32,6 @@ mod support;
 mod train;
 mod verify;
 mod walks;
+
+/// The program that is run.
+const PROGRAM: &str = env!("CARGO_BIN_EXE_phase");
