@@ -26,7 +26,7 @@ pub struct Event {
     /// The steps, in order.
     pub steps: Vec<Step>,
 }
-
+impl Event {
     /// The initial state and the state after every substep: one frame of video each.
     pub fn frames(&self) -> impl Iterator<Item = &State> {
         core::iter::once(&self.initial).chain(self.steps.iter().flat_map(|step| &step.substeps))

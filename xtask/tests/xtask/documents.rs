@@ -63,6 +63,35 @@ fn commands_in_documents_parse() {
     assert!(count > 100, "{count} commands were read");
 }
 
+/// The word after one of these.
+fn after<'a>(words: &'a [String], names: &[&str]) -> Option<&'a str> {
+    let place = words.iter().position(|word| names.contains(&word.as_str()))?;
+    words.get(place + 1).map(String::as_str)
+}
+
+/// Examples are run by the tests of their crates; here, that documents name those that there are.
+#[test]
+fn examples_in_documents_exist() {
+    let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates");
+    let mut count = 0;
+    for document in documents() {
+        let text = fs::read_to_string(&document).expect("a document");
+        for command in shell(&text).iter().flat_map(|line| commands(line)) {
+            let Some(example) = after(&command, &["--example"]) else { continue };
+            let package = after(&command, &["--package", "-p"]).expect("a package");
+            let places =
+                [format!("{package}/examples/{example}.rs"), format!("{package}/examples/{example}/main.rs")];
+            assert!(
+                places.iter().any(|place| crates.join(place).is_file()),
+                "{}: {command:?}",
+                document.display()
+            );
+            count += 1;
+        }
+    }
+    assert!(count > 3, "{count} examples were named");
+}
+
 #[test]
 fn a_command_that_does_not_exist_is_noticed() {
     let wrong = |line: &str| commands(line).iter().filter_map(|words| complaint(words)).count();
