@@ -26,6 +26,7 @@ pub struct Event {
     /// The steps, in order.
     pub steps: Vec<Step>,
 }
+
 impl Event {
     /// The initial state and the state after every substep: one frame of video each.
     pub fn frames(&self) -> impl Iterator<Item = &State> {
