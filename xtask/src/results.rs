@@ -3,7 +3,7 @@
 use crate::{error::XtaskError, leaderboard};
 use clap::Args;
 use phase_cli::{console::print_result, error::CliError};
-use phase_dataset::{FileError, Problem, atomic};
+use phase_dataset::{FileError, Problem, WriteError, atomic};
 use phase_eval::benchmark::Benchmark;
 use phase_report::evaluation;
 use std::{
@@ -66,14 +66,20 @@ pub(crate) fn root() -> &'static Path {
 /// [`XtaskError`] if a file cannot be used.
 pub fn documents(root: &Path) -> Result<Vec<(PathBuf, String)>, XtaskError> {
     let benchmark = benchmark(root)?;
+    let figures = evaluation::to_lines(&evaluation::figures(&benchmark))
+        .map_err(|error| CliError::from(WriteError::json(Path::new(FIGURES), error)))?;
     let page = evaluation::page(&benchmark)
         .map_err(|error| CliError::Usage(format!("{FIGURES}: the page lacks a figure: {error}")))?;
     let readme = with_table(&read(&root.join(README))?, &evaluation::overview(&benchmark).to_markdown());
     let readme = readme.ok_or_else(|| shape(&root.join(README), "has no place for the table of results"))?;
     let pictures = page.pictures.into_iter().map(|(picture, svg)| (Path::new("docs").join(picture), svg));
     let leaderboard = leaderboard::page(root, &benchmark)?;
-    let texts =
-        [(PathBuf::from(PAGE), page.text), (README.into(), readme), (leaderboard::PAGE.into(), leaderboard)];
+    let texts = [
+        (PathBuf::from(FIGURES), figures),
+        (PAGE.into(), page.text),
+        (README.into(), readme),
+        (leaderboard::PAGE.into(), leaderboard),
+    ];
     Ok(texts.into_iter().chain(pictures).collect())
 }
 

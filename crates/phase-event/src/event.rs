@@ -28,12 +28,6 @@ pub struct Event {
 }
 
 impl Event {
-    /// The state after the last step (or the first state of an event without steps).
-    #[must_use]
-    pub fn last_state(&self) -> &State {
-        self.steps.last().map_or(&self.initial, |step| &step.substeps[SUBSTEPS - 1])
-    }
-
     /// The initial state and the state after every substep: one frame of video each.
     pub fn frames(&self) -> impl Iterator<Item = &State> {
         core::iter::once(&self.initial).chain(self.steps.iter().flat_map(|step| &step.substeps))

@@ -10,9 +10,10 @@
 //! correct and ends the problem, peeking (action 2) costs 0.1 and reveals the coin:
 //!
 //! ```
-//! use phase_pomcp::{GenerativeModel, Transition, Pomcp, PomcpSettings};
-//! # use rand::{Rng, SeedableRng};
-//! # struct Cups;
+//! use phase_pomcp::{GenerativeModel, Pomcp, PomcpSettings, Transition};
+//! use rand::{Rng, SeedableRng};
+//!
+//! struct Cups;
 //!
 //! impl GenerativeModel for Cups {
 //!     type State = usize; // the cup that hides the coin
@@ -25,7 +26,7 @@
 //!     }
 //! }
 //!
-//! # let mut random = rand_pcg::Pcg32::seed_from_u64(1);
+//! let mut random = rand_pcg::Pcg32::seed_from_u64(1);
 //! let mut pomcp = Pomcp::new(PomcpSettings::default())?;
 //! let unsure = pomcp.search(&Cups, &[0, 1], &mut random)?;
 //! assert_eq!(unsure.action, 2); // peek: −0.1 + 0.95 × 1 beats a guess's 0.5
@@ -34,8 +35,7 @@
 //! # Ok::<(), phase_pomcp::PomcpError>(())
 //! ```
 //!
-//! The hidden lines import `rand`, declare the problem (`struct Cups;`) and seed a generator.
-//! `examples/tiger.rs` goes on to whole episodes, with a [`ParticleBelief`] between the real steps; `examples/anchors`
+//! A generator is any of `rand` 0.10, here `rand_pcg`'s. `examples/tiger.rs` goes on to whole episodes, with a [`ParticleBelief`] between the real steps; `examples/anchors`
 //! measures returns on published problems, which docs/planners.md lists. Where not every action is possible everywhere, a
 //! model says so ([`GenerativeModel::is_legal`]).
 //!

@@ -98,6 +98,11 @@ impl Server {
         Ok(())
     }
 
+    /// The names of its studies, each of which has the page `/study/NAME/`.
+    pub fn studies(&self) -> impl Iterator<Item = &str> {
+        self.app.studies.names()
+    }
+
     /// Where it listens.
     #[must_use]
     pub const fn address(&self) -> SocketAddr {

@@ -68,21 +68,43 @@ pub(super) fn check(workspace: &mut Workspace) {
 fn check_uses(workspace: &mut Workspace, name: &str, manifest: &Path) {
     let level = |name: &str| LAYERS.iter().position(|layer| *layer == name);
     let Some(text) = workspace.read(manifest) else { return };
+    let published = !text.lines().any(|line| line == "publish = false");
+    let versions = workspace.read(Path::new("Cargo.toml")).unwrap_or_default();
     let mut section = "";
     for (k, line) in text.lines().enumerate() {
         if line.starts_with('[') {
             section = line.trim();
             continue;
         }
-        // Tests may use crates of higher layers; the library may not.
-        if section != "[dependencies]" {
+        let used = line.split(['.', '=', ' ']).next().unwrap_or_default();
+        if !used.starts_with("phase-") || level(used) < level(name) {
             continue;
         }
-        let used = line.split(['.', '=', ' ']).next().unwrap_or_default();
-        if used.starts_with("phase-") && level(used) >= level(name) {
-            workspace.report(manifest, k + 1, format!("{name} must not use {used}, which is not below it"));
+        match section {
+            "[dependencies]" => {
+                workspace.report(
+                    manifest,
+                    k + 1,
+                    format!("{name} must not use {used}, which is not below it"),
+                );
+            }
+            // Tests may use crates of higher layers. With a version these would have to be published before this crate is.
+            "[dev-dependencies]" if published && has_version(line, used, &versions) => {
+                let rule = format!("tests of {name} use {used}, which is not below it: by `path` alone");
+                workspace.report(manifest, k + 1, rule);
+            }
+            _ => {}
         }
     }
+}
+
+/// Whether the line of a dependency gives a version, itself or through the workspace's manifest.
+fn has_version(line: &str, used: &str, workspace: &str) -> bool {
+    if !line.starts_with(&format!("{used}.workspace")) {
+        return line.contains("version");
+    }
+    let entry = format!("{used} = ");
+    workspace.lines().any(|line| line.starts_with(&entry) && line.contains("version"))
 }
 
 /// The crates that have a row in the map's table, with their lines.

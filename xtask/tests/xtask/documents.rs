@@ -1,5 +1,6 @@
 //! The commands that the documents show are commands of the programs, with options that exist.
 
+use crate::shell::{commands, shell};
 use clap::Parser;
 use std::{
     fs,
@@ -22,38 +23,6 @@ fn documents() -> Vec<PathBuf> {
         }
     }
     found
-}
-
-/// The lines of blocks of shell code, with continued ones in one piece.
-pub(crate) fn shell(text: &str) -> Vec<String> {
-    let mut lines = Vec::new();
-    let mut inside = false;
-    let mut continued = String::new();
-    for line in text.lines() {
-        if line.trim_start().starts_with("```") {
-            inside = matches!(line.trim(), "```sh" | "```bash" | "```console");
-        } else if inside {
-            continued.push_str(line.trim_end_matches('\\'));
-            if !line.ends_with('\\') {
-                lines.push(std::mem::take(&mut continued));
-            }
-        }
-    }
-    lines
-}
-
-/// The words of each simple command of a line, without comments, quotes and assignments before it.
-pub(crate) fn commands(line: &str) -> Vec<Vec<String>> {
-    let line = line.split(" #").next().unwrap_or_default();
-    if line.starts_with('#') {
-        return Vec::new();
-    }
-    let simple = line.split("&&").flat_map(|part| part.split([';', '|', '>', '&']));
-    let words = simple.map(|command| {
-        let words = command.split_whitespace().map(|word| word.replace(['"', '\''], ""));
-        words.skip_while(|word| word.contains('=') && !word.starts_with('-')).collect()
-    });
-    words.filter(|words: &Vec<String>| !words.is_empty()).collect()
 }
 
 /// What is wrong with a command of `phase` or `cargo xtask`; nothing with others.
@@ -92,6 +61,35 @@ fn commands_in_documents_parse() {
     }
     assert!(complaints.is_empty(), "{}", complaints.join("\n"));
     assert!(count > 100, "{count} commands were read");
+}
+
+/// The word after one of these.
+fn after<'a>(words: &'a [String], names: &[&str]) -> Option<&'a str> {
+    let place = words.iter().position(|word| names.contains(&word.as_str()))?;
+    words.get(place + 1).map(String::as_str)
+}
+
+/// Examples are run by the tests of their crates; here, that documents name those that there are.
+#[test]
+fn examples_in_documents_exist() {
+    let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates");
+    let mut count = 0;
+    for document in documents() {
+        let text = fs::read_to_string(&document).expect("a document");
+        for command in shell(&text).iter().flat_map(|line| commands(line)) {
+            let Some(example) = after(&command, &["--example"]) else { continue };
+            let package = after(&command, &["--package", "-p"]).expect("a package");
+            let places =
+                [format!("{package}/examples/{example}.rs"), format!("{package}/examples/{example}/main.rs")];
+            assert!(
+                places.iter().any(|place| crates.join(place).is_file()),
+                "{}: {command:?}",
+                document.display()
+            );
+            count += 1;
+        }
+    }
+    assert!(count > 3, "{count} examples were named");
 }
 
 #[test]

@@ -11,7 +11,12 @@ mod fit_inference;
 mod fit_minds;
 mod fit_reports;
 mod results;
+// Also used by the tests that follow documents.
+#[path = "../../../crates/phase-cli/tests/cli/shell.rs"]
+mod shell;
 mod support;
 mod tidy;
 mod torture;
-mod walks;
+
+/// The program that is run.
+const PROGRAM: &str = env!("CARGO_BIN_EXE_xtask");

@@ -17,6 +17,7 @@ fn workspace(root: &Path) {
         "# It\n\n## Two\n\n```sh\ncargo xtask gen-dataset\n```\n\n```sh\ncargo test --workspace\n```\n";
     let files = [
         ("README.md", readme.to_owned()),
+        ("Cargo.toml", "phase-world = { path = \"\", version = \"1\" }\n".to_owned()),
         (".ci/run", "cargo test --workspace\ncargo xtask gen-dataset --events 1\n".to_owned()),
         (
             "docs/ARCHITECTURE.md",
@@ -64,6 +65,7 @@ fn every_rule_is_checked() {
     let long = format!("{ROOT}{}", "//\n".repeat(393));
     let upwards = format!("{KEYS}[dependencies]\nserde = \"1\"\nphase-world.workspace = true\n");
     let for_tests = format!("{KEYS}[dev-dependencies]\nphase-world = {{ path = \"\" }}\n");
+    let in_a_cycle = format!("{KEYS}[dev-dependencies]\nphase-world.workspace = true\n");
     let unsafe_root = ROOT.replace("#![forbid(unsafe_code)]\n", "");
     let other_example = ROOT.replace("f();", "g();");
     let encoding = format!("{ROOT}use bin{}::serde;\n", "code");
@@ -74,6 +76,11 @@ fn every_rule_is_checked() {
             &["crates/phase-model/Cargo.toml:7: phase-model must not use phase-world, which is not below it"],
         ),
         ("crates/phase-model/Cargo.toml", &for_tests, &[]),
+        (
+            "crates/phase-model/Cargo.toml",
+            &in_a_cycle,
+            &["crates/phase-model/Cargo.toml:6: tests of phase-model use phase-world, which is not below it"],
+        ),
         (
             "crates/phase-new/Cargo.toml",
             "",

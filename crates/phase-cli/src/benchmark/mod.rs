@@ -16,7 +16,7 @@ use crate::{
 };
 use options::Benchmark;
 use phase_dataset::{
-    atomic,
+    WriteError, atomic,
     folder::{self, Contents, Folder},
 };
 use phase_report::evaluation;
@@ -95,6 +95,9 @@ fn write_page(file: &Path, benchmark: &phase_eval::benchmark::Benchmark) -> Resu
     for (picture, svg) in page.pictures {
         atomic::write(&file.with_file_name(picture), svg.as_bytes())?;
     }
-    atomic::write_json(&file.with_extension("json"), benchmark)?;
+    let figures = file.with_extension("json");
+    let text = evaluation::to_lines(&evaluation::figures(benchmark))
+        .map_err(|error| WriteError::json(&figures, error))?;
+    atomic::write(&figures, text.as_bytes())?;
     Ok(atomic::write(file, page.text.as_bytes())?)
 }

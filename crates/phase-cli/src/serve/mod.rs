@@ -61,8 +61,9 @@ pub fn run(arguments: &Serve, context: &Context) -> Result<(), CliError> {
         context.note("note: built without the playground; `cargo xtask playground` builds it, and --wasm names its folder");
     }
     let address = server.address();
+    let studies: String = server.studies().map(|name| format!("http://{address}/study/{name}/\n")).collect();
     print_result(format!(
-        "http://{address}/\nhttp://{address}/admin/#{} (for you alone)\nrecordings and journals in {}; Ctrl-C stops",
+        "http://{address}/\n{studies}http://{address}/admin/#{} (for you alone)\nrecordings and journals in {}; Ctrl-C stops",
         server.admin_token(),
         arguments.out.display()
     ));

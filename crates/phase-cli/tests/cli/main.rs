@@ -24,9 +24,14 @@ mod selection;
 #[cfg(feature = "serve")]
 mod serve;
 mod sets;
+mod shell;
 mod simulate;
 mod study;
 mod support;
 #[cfg(feature = "networks")]
 mod train;
 mod verify;
+mod walks;
+
+/// The program that is run.
+const PROGRAM: &str = env!("CARGO_BIN_EXE_phase");

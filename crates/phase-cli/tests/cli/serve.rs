@@ -3,9 +3,10 @@
 use crate::support::{phase, refuse, succeed};
 use std::{
     fs,
-    io::{BufRead as _, BufReader, Read as _, Write as _},
+    io::{BufRead as _, BufReader, Lines, Read as _, Write as _},
     net::{TcpListener, TcpStream},
-    process::Stdio,
+    path::Path,
+    process::{Child, ChildStdout, Stdio},
 };
 
 #[test]
@@ -32,6 +33,55 @@ fn what_cannot_be_served_is_refused_in_a_sentence() {
     assert!(sentence.contains("rubbish.json"), "{sentence}");
 }
 
+/// A running server, at a port that was free.
+#[cfg(unix)]
+pub(crate) struct Served {
+    child: Child,
+    lines: Lines<BufReader<ChildStdout>>,
+    address: String,
+}
+
+#[cfg(unix)]
+impl Served {
+    pub(crate) fn start(folder: &Path, options: &[&str]) -> Self {
+        let mut child = phase(folder)
+            .args(["serve", "--listen", "127.0.0.1:0"])
+            .args(options)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("the program starts");
+        let mut lines = BufReader::new(child.stdout.take().expect("its output")).lines();
+        let line = lines.next().expect("a line").expect("text");
+        let address = line.trim_start_matches("http://").trim_end_matches('/').to_owned();
+        Self { child, lines, address }
+    }
+
+    /// The next line of what it says, after the first.
+    pub(crate) fn said(&mut self) -> String {
+        self.lines.next().expect("a line").expect("text")
+    }
+
+    /// The answer to a request, with its head.
+    pub(crate) fn get(&self, page: &str) -> String {
+        let address = &self.address;
+        let mut stream = TcpStream::connect(address).expect("it listens");
+        let request = format!("GET {page} HTTP/1.1\r\nHost: {address}\r\nConnection: close\r\n\r\n");
+        stream.write_all(request.as_bytes()).expect("written");
+        let mut answer = String::new();
+        stream.read_to_string(&mut answer).expect("an answer");
+        answer
+    }
+
+    /// Stops it as a terminal or a service manager does.
+    pub(crate) fn stop(mut self) {
+        let id = self.child.id().to_string();
+        let told = std::process::Command::new("kill").args(["-TERM", &id]).status().expect("kill");
+        assert!(told.success());
+        assert_eq!(self.child.wait().expect("an end").code(), Some(0));
+    }
+}
+
 /// A dataset's test events are the scenes; SIGTERM ends the program, and what it says is where it can be reached.
 #[cfg(unix)]
 #[test]
@@ -40,28 +90,11 @@ fn it_serves_until_it_is_told_to_stop() {
     let made =
         ["gen-dataset", "--events", "2", "--max-steps", "2", "--simulations", "10", "--particles", "5"];
     succeed(folder.path(), &[&made[..], &["--no-video", "--out", "made"]].concat());
-    let options =
-        ["serve", "--listen", "127.0.0.1:0", "--scenes", "made", "--split", "train", "--out", "kept"];
-    let mut child = phase(folder.path())
-        .args(options)
-        .stdout(Stdio::piped())
-        .stderr(Stdio::null())
-        .spawn()
-        .expect("the program starts");
-    let mut lines = BufReader::new(child.stdout.take().expect("its output")).lines();
-    let line = lines.next().expect("a line").expect("text");
-    let address = line.trim_start_matches("http://").trim_end_matches('/').to_owned();
-    let mut stream = TcpStream::connect(&address).expect("it listens");
-    let request = format!("GET /api/game HTTP/1.1\r\nHost: {address}\r\nConnection: close\r\n\r\n");
-    stream.write_all(request.as_bytes()).expect("written");
-    let mut answer = String::new();
-    stream.read_to_string(&mut answer).expect("an answer");
+    let served = Served::start(folder.path(), &["--scenes", "made", "--split", "train", "--out", "kept"]);
+    let answer = served.get("/api/game");
     // Two scenes, although five rounds were asked for.
     assert!(answer.starts_with("HTTP/1.1 200") && answer.contains("\"rounds\":2"), "{answer}");
-    let id = child.id().to_string();
-    let told = std::process::Command::new("kill").args(["-TERM", &id]).status().expect("kill");
-    assert!(told.success());
-    assert_eq!(child.wait().expect("an end").code(), Some(0));
+    served.stop();
     assert!(folder.path().join("kept/rooms").is_dir() && folder.path().join("kept/events").is_dir());
 }
 

@@ -20,6 +20,8 @@ fn a_program_without_studies_says_how_to_get_them() {
 mod built_in {
     use super::*;
     use crate::support::{recording, run, succeed, text, write_events};
+    #[cfg(all(feature = "serve", unix))]
+    use crate::{serve::Served, walks::walk_and_look};
     use phase_study::{
         config::StudyConfig,
         forms::Forms,
@@ -35,12 +37,11 @@ mod built_in {
         succeed(path, &[&["gen-dataset", "--events", "4", "--out", "data"], &effort[..]].concat());
     }
 
-    /// Lets some people answer as a server would.
-    fn answer(path: &Path, config: &str, relation: &str) {
+    /// Lets three people answer a study of relations as a server would.
+    fn answer(path: &Path, config: &str, answers: &str, relation: &str) {
         let forms = Forms::included().expect("forms");
         let config = StudyConfig::read(&fs::read(path.join(config)).expect("bytes"), &forms).expect("valid");
-        let store =
-            Store::open(&path.join("answers.sqlite"), &config.name, config.form.name()).expect("a store");
+        let store = Store::open(&path.join(answers), &config.name, config.form.name()).expect("a store");
         let mut study = Study::new(config, forms, store).expect("a study");
         for k in 0..3_u8 {
             let id = BTreeMap::from([("PROLIFIC_PID".to_owned(), format!("person-{k}"))]);
@@ -71,7 +72,7 @@ mod built_in {
         );
         assert!(checked["notes"].to_string().contains("[brackets]"), "{checked}");
 
-        answer(path, "study.json", "neutral");
+        answer(path, "study.json", "answers.sqlite", "neutral");
         let answers = ["study.json", "--answers", "answers.sqlite"];
         let told = succeed(path, &[&["study", "export"], &answers[..], &["--out", "export"]].concat());
         assert!(told.contains("ratings of 3 events"), "{told}");
@@ -117,6 +118,31 @@ mod built_in {
         for file in ["report.md", "report.html", "analysis.json"] {
             assert!(files.contains_key(Path::new(file)), "{file}");
         }
+    }
+
+    /// docs/how-to/studies.md, from top to bottom: the server shows the page that it names, then programs answer in the place of people.
+    #[cfg(all(feature = "serve", unix))]
+    #[test]
+    fn as_documented() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path();
+        let before = |arguments: &[&str]| match arguments {
+            ["serve", options @ ..] => {
+                let mut served = Served::start(path, options);
+                let page = served.said();
+                assert!(page.ends_with("/study/relations/"), "{page}");
+                assert!(served.get("/study/relations/").starts_with("HTTP/1.1 200"));
+                assert!(served.get("/api/study/relations/").contains("404"));
+                served.stop();
+                true
+            }
+            ["study", "report", ..] => {
+                answer(path, "study/study.json", "study/answers/studies/relations.sqlite", "friendly");
+                false
+            }
+            _ => false,
+        };
+        walk_and_look("how-to/studies.md", path, "study/", before);
     }
 
     #[test]

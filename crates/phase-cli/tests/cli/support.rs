@@ -1,4 +1,4 @@
-//! Running the program and inspecting its output.
+//! Running the program, `crate::PROGRAM`, and inspecting its output.
 
 use serde_json::{Value, json};
 use std::{
@@ -13,7 +13,7 @@ pub(crate) const QUICK: [&str; 6] = ["--simulations", "20", "--particles", "10",
 
 /// The program, to be run in a folder.
 pub(crate) fn phase(folder: &Path) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_phase"));
+    let mut command = Command::new(crate::PROGRAM);
     command.current_dir(folder);
     command
 }

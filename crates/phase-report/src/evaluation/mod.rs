@@ -5,7 +5,7 @@ mod goals;
 mod leaderboard;
 mod trajectories;
 
-pub use benchmark::{Page, benchmark, overview, page};
+pub use benchmark::{Page, benchmark, figures, overview, page, to_lines};
 pub use goals::goals;
 pub use leaderboard::{LEADERBOARD_FORMAT, Measures, Score, Scores, Source, leaderboard};
 pub use trajectories::trajectories;

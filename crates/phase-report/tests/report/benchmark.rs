@@ -125,8 +125,8 @@ fn rows_stand_where_they_belong() {
     assert_eq!(text.matches("(training-stgat.svg)").count(), 1);
 }
 
-#[test]
-fn mistakes_stand_in_their_columns() {
+/// A method's row about goals in one event of which it said nothing.
+fn goals_row(mistakes: ErrorBreakdown) -> Row<goals::RecognitionSummary> {
     let event = RecognisedEvent {
         id: "event".into(),
         answer: Answer {
@@ -149,18 +149,25 @@ fn mistakes_stand_in_their_columns() {
         cpu_seconds: None,
         details: Value::Null,
     };
-    let kinds = [[0, 6, 7], [8, 0, 9], [10, 11, 0]];
-    let mistakes = ErrorBreakdown { right: 1, sign: 2, landmark: 3, entity: 4, both: 5, kinds, nothing: 12 };
-    let mut benchmark = benchmark();
-    benchmark.goals.push(Row {
+    let summary = goals::RecognitionSummary::of(&[event], 1).expect("an event");
+    let part = |familiarity| Subset { familiarity, summary: summary.clone() };
+    Row {
         method: "arg".into(),
         origin: Origin::Ours,
         set: 0,
         training: None,
-        summary: goals::RecognitionSummary::of(&[event], 1).expect("an event"),
+        parts: [Familiarity::SeenLayout, Familiarity::UnseenInteraction].map(part).to_vec(),
+        summary,
         mistakes: Some(mistakes),
-        parts: Vec::new(),
-    });
+    }
+}
+
+#[test]
+fn mistakes_stand_in_their_columns() {
+    let kinds = [[0, 6, 7], [8, 0, 9], [10, 11, 0]];
+    let mistakes = ErrorBreakdown { right: 1, sign: 2, landmark: 3, entity: 4, both: 5, kinds, nothing: 12 };
+    let mut benchmark = benchmark();
+    benchmark.goals.push(goals_row(mistakes));
     let text = evaluation::benchmark(&benchmark).to_markdown();
     let line = "| arg (ours) | generated (1) | 1 | 2 | 3 | 4 | 5 | 6 | 7 | 8 | 9 | 10 | 11 | 12 |";
     assert!(text.contains(line), "{text}");
@@ -234,6 +241,28 @@ fn the_page_shows_the_same_figures_after_a_round_trip() {
     assert_eq!(again, benchmark);
     let other = json.replace(BENCHMARK_FORMAT, "phase-benchmark/0");
     assert!(serde_json::from_str::<Benchmark>(&other).is_err());
+}
+
+/// What is kept beside the page is all that it shows; the rest is gone.
+#[test]
+fn the_figures_of_the_page_make_the_same_page() {
+    let mut whole = benchmark();
+    let (kinds, nothing) = ([[0; 3]; 3], 2);
+    let mistakes = ErrorBreakdown { right: 0, sign: 0, landmark: 0, entity: 0, both: 0, kinds, nothing };
+    whole.goals.push(goals_row(mistakes));
+    let figures = evaluation::figures(&whole);
+    assert_eq!(evaluation::page(&figures).expect("a page"), evaluation::page(&whole).expect("a page"));
+    assert_eq!(evaluation::overview(&figures), evaluation::overview(&whole));
+    assert_eq!(evaluation::figures(&figures), figures);
+    assert_ne!(figures, whole);
+    let text = evaluation::to_lines(&figures).expect("JSON");
+    assert_eq!(serde_json::from_str::<Benchmark>(&text).expect("a benchmark"), figures);
+    for gone in ["\"validation\"", "\"from\"", "\"name\": \"independent\""] {
+        assert!(serde_json::to_string_pretty(&whole).expect("JSON").contains(gone), "{gone}");
+        assert!(!text.contains(gone), "{gone}");
+    }
+    let rows = text.lines().filter(|line| line.starts_with("  {\"method\"")).count();
+    assert_eq!(rows, figures.goals.len() + figures.trajectories.len(), "{text}");
 }
 
 #[test]

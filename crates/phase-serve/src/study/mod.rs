@@ -59,6 +59,11 @@ impl Studies {
         Ok(Self(studies))
     }
 
+    /// Names of all, sorted.
+    pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
+        self.0.keys().map(String::as_str)
+    }
+
     /// A study.
     fn get(&self, name: &str) -> Result<Arc<Running>, ApiError> {
         self.0.get(name).cloned().ok_or_else(ApiError::missing)

@@ -1,6 +1,7 @@
 //! The report of the benchmark: the paper's two tables and its ablation, with published beside measured
 //! figures, and how well methods generalise.
 
+mod figures;
 mod growth;
 mod mistakes;
 mod overview;
@@ -9,6 +10,7 @@ mod people;
 mod tables;
 mod training;
 
+pub use figures::{figures, to_lines};
 pub use overview::overview;
 pub use page::{Page, page};
 
