@@ -88,12 +88,38 @@ pub fn inspect(path: &Path, last_file: &str) -> Result<Contents, FolderError> {
     }
 }
 
+/// That no other program writes into a folder, until this is dropped.
+#[derive(Debug)]
+pub struct Lock {
+    // Held for its lock alone.
+    _file: File,
+}
+
+impl Lock {
+    /// Creates the folder if necessary, and locks it.
+    ///
+    /// # Errors
+    /// [`FolderError::NotWritable`] or [`FolderError::Busy`].
+    pub fn take(path: &Path) -> Result<Self, FolderError> {
+        let failed = |action, source| WriteError { path: path.to_owned(), action, source };
+        fs::create_dir_all(path).map_err(|source| failed("create the folder", source))?;
+        let mut options = OpenOptions::new();
+        let file = options.create(true).write(true).truncate(false).open(path.join(LOCK));
+        let file = file.map_err(|source| failed("write into the folder", source))?;
+        match file.try_lock() {
+            Ok(()) => Ok(Self { _file: file }),
+            Err(TryLockError::WouldBlock) => Err(FolderError::Busy(path.to_owned())),
+            Err(TryLockError::Error(source)) => Err(failed("lock the folder", source).into()),
+        }
+    }
+}
+
 /// A folder that only this run writes into, until it is dropped.
 #[derive(Debug)]
 pub struct Folder {
     path: PathBuf,
-    // Held for its lock alone.
-    _lock: File,
+    // Held, not used.
+    _lock: Lock,
 }
 
 impl Folder {
@@ -103,16 +129,7 @@ impl Folder {
     /// # Errors
     /// [`FolderError::NotWritable`] or [`FolderError::Busy`].
     pub fn claim(path: &Path, run: &Value) -> Result<Self, FolderError> {
-        let failed = |action, source| WriteError { path: path.to_owned(), action, source };
-        fs::create_dir_all(path).map_err(|source| failed("create the folder", source))?;
-        let mut options = OpenOptions::new();
-        let lock = options.create(true).write(true).truncate(false).open(path.join(LOCK));
-        let lock = lock.map_err(|source| failed("write into the folder", source))?;
-        match lock.try_lock() {
-            Ok(()) => {}
-            Err(TryLockError::WouldBlock) => return Err(FolderError::Busy(path.to_owned())),
-            Err(TryLockError::Error(source)) => return Err(failed("lock the folder", source).into()),
-        }
+        let lock = Lock::take(path)?;
         let marker = json!({ "format": MARKER_FORMAT, "run": run });
         atomic::write(&path.join(MARKER), format!("{marker}\n").as_bytes())?;
         let folder = Self { path: path.to_owned(), _lock: lock };

@@ -1,6 +1,12 @@
 //! Every target, shortly: on its seeds, on inputs that once failed, and on mutations of both. `cargo xtask fuzz` runs them for longer.
 
-use phase_dataset::preset::Preset;
+use phase_calibration::{Probe, Run};
+use phase_dataset::{
+    manifest::Manifest,
+    preset::Preset,
+    shard::{SHARD_FILE, SLOTS_FILE, Shard},
+    slot_record::SlotRecord,
+};
 use phase_eval::predictions;
 use phase_fuzz::{fuzzing, seeds::seeds, targets};
 use phase_game::{FromPlayer, journal};
@@ -13,7 +19,7 @@ use std::{cell::Cell, fs, path::Path};
 /// Mutations of each target.
 const MUTATIONS: u32 = 60;
 
-/// The inputs kept in `corpus/<target>`.
+/// The inputs kept in `corpus/<target>`: some that once failed, small files that were made by commands, and what fuzzing guided by coverage found.
 fn corpus(target: &str) -> Vec<Vec<u8>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("corpus").join(target);
     let Ok(files) = fs::read_dir(folder) else { return Vec::new() };
@@ -76,4 +82,26 @@ fn seeds_are_accepted() {
         .map(|(name, _)| *name)
         .collect();
     assert_eq!(refused, [""; 0]);
+}
+
+/// Files that commands have made are accepted, for targets whose seeds cannot be written by hand.
+#[test]
+fn kept_files_are_accepted() {
+    let kept = |target: &str, name: &str| {
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("corpus").join(target).join(name)
+    };
+    let text = |path: &Path| fs::read_to_string(path).expect("a kept file");
+    Manifest::read(&kept("manifest", "tiny")).expect("a manifest");
+    let record = SlotRecord::load(&kept("records", "slot-of-fuzz"), "fuzz");
+    assert!(record.is_filled());
+    assert_eq!(Probe::parse(&text(&kept("calibration", "probe"))).expect("probes").len(), 1);
+    assert_eq!(Run::parse(&text(&kept("calibration", "run"))).expect("runs").len(), 1);
+    // Its records have to be beside it, and the file is one of three.
+    let folder = tempfile::tempdir().expect("a folder");
+    for (name, file) in [("shard", SHARD_FILE), ("slot", SLOTS_FILE)] {
+        fs::copy(kept("records", name), folder.path().join(file)).expect("copied");
+    }
+    Shard::read(folder.path()).expect("a shard");
+    // What is compared with no events is refused for its rows, after its description has been read.
+    assert!(fs::read(kept("parquet", "tiny")).expect("a kept file").starts_with(b"PAR1"));
 }

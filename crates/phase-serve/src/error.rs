@@ -5,7 +5,7 @@ use axum::{
     http::StatusCode,
     response::{IntoResponse, Response},
 };
-use phase_dataset::WriteError;
+use phase_dataset::{WriteError, folder::FolderError};
 use serde_json::json;
 use std::{io, net::SocketAddr, path::PathBuf};
 use thiserror::Error;
@@ -22,6 +22,9 @@ pub enum ServeError {
         #[source]
         source: io::Error,
     },
+    /// The server's folder is another one's, or cannot be written.
+    #[error(transparent)]
+    Folder(#[from] FolderError),
     /// A folder or file of the server cannot be written.
     #[error(transparent)]
     Write(#[from] WriteError),

@@ -10,6 +10,7 @@ use crate::{
     token,
 };
 use axum::{Router, body::Bytes, extract::DefaultBodyLimit, middleware};
+use phase_dataset::folder::Lock;
 use phase_game::playlist::Item;
 use std::{
     future::Future,
@@ -44,6 +45,8 @@ pub struct Server {
     address: SocketAddr,
     admin: String,
     stop: watch::Sender<bool>,
+    // Held while it serves.
+    lock: Lock,
 }
 
 impl core::fmt::Debug for Server {
@@ -64,6 +67,8 @@ impl Server {
         scenes: Vec<Item>,
         wasm: Option<[&[u8]; 2]>,
     ) -> Result<Self, ServeError> {
+        // Two servers would both go on with the same games.
+        let lock = Lock::take(&settings.folder)?;
         let runtime =
             tokio::runtime::Builder::new_multi_thread().enable_all().build().map_err(ServeError::Runtime)?;
         let failed = |source| ServeError::Listen { address: settings.listen, source };
@@ -86,7 +91,7 @@ impl Server {
             settings,
         };
         drop(_entered);
-        Ok(Self { app, runtime, listener, address, admin, stop })
+        Ok(Self { app, runtime, listener, address, admin, stop, lock })
     }
 
     /// Opens rating studies, each a file of the format `phase-study/1`; their answers are in `studies/` in the settings' folder.
@@ -120,7 +125,7 @@ impl Server {
     /// # Errors
     /// [`ServeError::Runtime`].
     pub fn run(self, until: impl Future<Output = ()> + Send + 'static) -> Result<(), ServeError> {
-        let Self { app, runtime, listener, stop, .. } = self;
+        let Self { app, runtime, listener, stop, lock: _lock, .. } = self;
         let service = router(Arc::new(app)).into_make_service_with_connect_info::<SocketAddr>();
         let served = runtime.block_on(async move {
             let mut stopped = stop.subscribe();

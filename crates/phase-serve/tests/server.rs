@@ -2,7 +2,8 @@
 
 mod support;
 
-use phase_game::{GameSettings, View};
+use phase_game::{GameSettings, View, playlist::Item};
+use phase_serve::Server;
 use serde_json::{Value, json};
 use std::time::Duration;
 use support::{Player, Running, settings};
@@ -183,6 +184,22 @@ fn a_game_outlives_its_server() {
     let mut late = Player::open(&server);
     late.send(&json!({ "type": "join", "token": tokens[0] }));
     assert_eq!(late.closed(), Some(1008));
+}
+
+/// Two servers would both go on with the games of one folder.
+#[test]
+fn a_folder_has_one_server() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut given = settings();
+    given.folder = folder.path().to_owned();
+    let server = Running::start(given.clone());
+    let scene = phase_sampler::sample_named(Some("independent"), None, 1).expect("a scene");
+    let item = Item { source: "one".into(), scene };
+    let bind = || Server::bind(given.clone(), item.clone(), vec![item.clone()], None);
+    let error = bind().expect_err("the folder is taken");
+    assert!(error.to_string().contains("is in use by another run"), "{error}");
+    server.stop();
+    bind().expect("the folder is free again");
 }
 
 /// A damaged journal is left alone and does not keep the server from starting.

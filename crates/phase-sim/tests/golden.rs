@@ -46,14 +46,18 @@ fn digest(event: &Event) -> String {
 }
 
 fn check(name: &str, events: &[(EventKind, SimulationSettings)]) -> Result<(), String> {
-    // One event per thread: the result depends on the seed alone.
-    let events = std::thread::scope(|scope| {
-        let threads: Vec<_> = events
-            .iter()
-            .map(|(kind, settings)| scope.spawn(|| (*kind, simulate(&scene(*kind), SEED, settings))))
-            .collect();
-        threads.into_iter().map(|thread| thread.join().expect("no panic")).collect::<Vec<_>>()
-    });
+    let run =
+        |(kind, settings): &(EventKind, SimulationSettings)| (*kind, simulate(&scene(*kind), SEED, settings));
+    let events: Vec<_> = if cfg!(target_family = "wasm") {
+        // There are no threads.
+        events.iter().map(run).collect()
+    } else {
+        // One event per thread: the result depends on the seed alone.
+        std::thread::scope(|scope| {
+            let threads: Vec<_> = events.iter().map(|it| scope.spawn(|| run(it))).collect();
+            threads.into_iter().map(|thread| thread.join().expect("no panic")).collect()
+        })
+    };
     let mut golden = Golden::new(env!("CARGO_MANIFEST_DIR"), name);
     for (kind, event) in events {
         let event = event.map_err(|error| error.to_string())?;

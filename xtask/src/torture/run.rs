@@ -1,6 +1,9 @@
 //! Running a command whole, with a fault, and beside itself.
 
-use super::jobs::{Job, PRESET};
+use super::{
+    jobs::{Job, PRESET},
+    permissions,
+};
 use crate::error::XtaskError;
 use core::fmt;
 use phase_cli::error::CliError;
@@ -19,10 +22,11 @@ use tempfile::TempDir;
 /// Most steps of writing that are looked for.
 const MOST_STEPS: u64 = 1 << 20;
 /// What a program says that was built without what a command needs.
-const BUILT_WITHOUT: &str = "which this program was built without";
+pub(super) const BUILT_WITHOUT: &str = "which this program was built without";
 
 /// A command with its input, and what it makes if nothing happens.
-pub(super) struct Ground {
+pub(super) struct Ground<'a> {
+    program: &'a Path,
     job: &'static Job,
     input: TempDir,
     whole: BTreeMap<String, Vec<u8>>,
@@ -64,16 +68,21 @@ impl fmt::Display for End {
     }
 }
 
-impl Ground {
+impl<'a> Ground<'a> {
     /// Makes the input, and runs the command once; `None` if the program was built without it.
-    pub(super) fn new(job: &'static Job) -> Result<Option<Self>, XtaskError> {
+    pub(super) fn new(program: &'a Path, job: &'static Job) -> Result<Option<Self>, XtaskError> {
         let input = folder()?;
         let preset = input.path().join(PRESET.0);
         atomic::write(&preset, PRESET.1.as_bytes()).map_err(CliError::Output)?;
-        let mut ground = Self { job, input, whole: BTreeMap::new(), seconds: 0.0 };
+        let mut ground = Self { program, job, input, whole: BTreeMap::new(), seconds: 0.0 };
         for words in job.prepare {
-            let output = program()?.current_dir(ground.input.path()).args(*words).output();
+            let output = ground.program().current_dir(ground.input.path()).args(*words).output();
             ground.expect(&End { output: output.map_err(XtaskError::Cargo)? })?;
+        }
+        if permissions::EXIST {
+            // Whoever is not an administrator has to read it, too.
+            let shown = permissions::show(ground.input.path());
+            shown.map_err(|source| failed(ground.input.path(), "show", source))?;
         }
         let place = ground.place()?;
         let begun = Instant::now();
@@ -110,25 +119,31 @@ impl Ground {
         Ok(place)
     }
 
-    fn command(&self, place: &TempDir) -> Result<Command, XtaskError> {
+    fn command(&self, place: &TempDir) -> Command {
         let input = self.input.path().to_string_lossy();
-        let mut command = program()?;
+        let mut command = self.program();
         command.current_dir(place.path()).stdout(Stdio::null()).stderr(Stdio::piped());
         command.args(self.job.command.iter().map(|word| word.replace("{in}", &input)));
-        Ok(command)
+        command
+    }
+
+    fn program(&self) -> Command {
+        let mut command = Command::new(self.program);
+        command.env_remove(fault::VARIABLE);
+        command
     }
 
     pub(super) fn run(&self, place: &TempDir) -> Result<End, XtaskError> {
-        finish(self.command(place)?.spawn().map_err(XtaskError::Cargo)?)
+        finish(self.command(place).spawn().map_err(XtaskError::Cargo)?)
     }
 
     pub(super) fn run_with_fault(&self, place: &TempDir, fault: &str) -> Result<End, XtaskError> {
-        let mut command = self.command(place)?;
+        let mut command = self.command(place);
         finish(command.env(fault::VARIABLE, fault).spawn().map_err(XtaskError::Cargo)?)
     }
 
     pub(super) fn run_and_kill(&self, place: &TempDir, after: Duration) -> Result<End, XtaskError> {
-        let mut child = self.command(place)?.spawn().map_err(XtaskError::Cargo)?;
+        let mut child = self.command(place).spawn().map_err(XtaskError::Cargo)?;
         thread::sleep(after);
         // It may have ended by itself.
         let _ = child.kill();
@@ -137,7 +152,7 @@ impl Ground {
 
     /// Runs the command where no file may be larger. The signal is ignored, so that writing fails as on a full disk.
     pub(super) fn run_on_small_disk(&self, place: &TempDir, bytes: u64) -> Result<End, XtaskError> {
-        let inner = self.command(place)?;
+        let inner = self.command(place);
         let script = format!("trap '' XFSZ; ulimit -f {}; exec \"$@\"", bytes.div_ceil(512));
         let mut command = Command::new("sh");
         command.args(["-c", &script, "sh"]).arg(inner.get_program()).args(inner.get_args());
@@ -145,9 +160,23 @@ impl Ground {
         finish(command.spawn().map_err(XtaskError::Cargo)?)
     }
 
+    /// Runs the command, and takes away its permission to write after a time. Returns how it ended.
+    pub(super) fn revoke(&self, place: &TempDir, after: Duration) -> Result<End, XtaskError> {
+        let path = place.path();
+        permissions::own(path).map_err(|source| failed(path, "give away", source))?;
+        let mut command = self.command(place);
+        permissions::bind(&mut command);
+        let child = command.spawn().map_err(XtaskError::Cargo)?;
+        thread::sleep(after);
+        permissions::revoke(path).map_err(|source| failed(path, "make read-only", source))?;
+        let end = finish(child)?;
+        permissions::give_back(path).map_err(|source| failed(path, "make writable", source))?;
+        Ok(end)
+    }
+
     /// Two processes at once.
     pub(super) fn race(&self, place: &TempDir) -> Result<Vec<End>, XtaskError> {
-        let start = || self.command(place)?.spawn().map_err(XtaskError::Cargo);
+        let start = || self.command(place).spawn().map_err(XtaskError::Cargo);
         let children = [start()?, start()?];
         children.into_iter().map(finish).collect()
     }
@@ -218,13 +247,6 @@ fn without_times(bytes: &[u8]) -> Option<Value> {
     Some(value)
 }
 
-/// This program.
-fn program() -> Result<Command, XtaskError> {
-    let mut command = Command::new(std::env::current_exe().map_err(XtaskError::Cargo)?);
-    command.env_remove(fault::VARIABLE);
-    Ok(command)
-}
-
 fn finish(child: Child) -> Result<End, XtaskError> {
     Ok(End { output: child.wait_with_output().map_err(XtaskError::Cargo)? })
 }
@@ -256,6 +278,6 @@ fn tree(root: &Path) -> Result<BTreeMap<String, Vec<u8>>, XtaskError> {
     Ok(files)
 }
 
-fn failed(path: &Path, action: &'static str, source: io::Error) -> XtaskError {
+pub(super) fn failed(path: &Path, action: &'static str, source: io::Error) -> XtaskError {
     CliError::Output(WriteError { path: path.to_owned(), action, source }).into()
 }

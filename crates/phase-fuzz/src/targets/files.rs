@@ -3,7 +3,7 @@
 use phase_dataset::{
     manifest::Manifest,
     parquet::{compare, parts},
-    shard::Shard,
+    shard::{SHARD_FILE, Shard},
     slot_record::SlotRecord,
     split_list::SplitList,
     summary::SimulationSummary,
@@ -35,8 +35,8 @@ pub(super) fn manifest(data: &[u8]) {
 
 /// Shards, records of slots, lists of splits, summaries.
 pub(super) fn records(data: &[u8]) {
-    let folder = folder_with("phase-shard.json", data);
-    let file = folder.path().join("phase-shard.json");
+    let folder = folder_with(SHARD_FILE, data);
+    let file = folder.path().join(SHARD_FILE);
     let _ = (Shard::read(folder.path()), SplitList::read(&file), SimulationSummary::read(&file));
     let _ = SlotRecord::load(&file, "fuzz");
 }

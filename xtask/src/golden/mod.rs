@@ -1,7 +1,11 @@
-//! `golden`: runs the golden tests of all crates, or rewrites the values that they compare with.
+//! `golden`: runs the golden tests of all crates, or rewrites the values that they compare with; also those of the engines and of
+//! events as another machine.
+
+mod machine;
 
 use crate::error::XtaskError;
 use clap::Args;
+use machine::Machine;
 use phase_cli::console::print_result;
 use phase_golden::{BLESS, table::differences};
 use std::{
@@ -17,7 +21,14 @@ pub struct GoldenOptions {
     /// Rewrite the golden values and print every line that changed
     #[arg(long)]
     pub bless: bool,
+    /// Run those of the engines, of events and of an inference as another machine does, by an emulator; compare them with the same values
+    #[arg(long, value_enum, conflicts_with = "bless")]
+    pub machine: Option<Machine>,
 }
+
+/// Packages whose golden tests other machines run: both engines, whole events, an inference. The one that is left needs other processes,
+/// which not every machine has.
+const ELSEWHERE: [&str; 4] = ["phase-forward", "phase-sim", "phase-simple", "phase-world"];
 
 /// Runs every test named `golden` of the workspace that this program was built from. With `--bless` their files are
 /// rewritten and every line that changed is printed.
@@ -26,7 +37,10 @@ pub struct GoldenOptions {
 /// [`XtaskError`] if a value differs, or if a file or cargo cannot be used.
 pub fn run(options: &GoldenOptions) -> Result<(), XtaskError> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."));
-    let packages = packages(root)?;
+    let mut packages = packages(root)?;
+    if options.machine.is_some() {
+        packages.retain(|package| ELSEWHERE.contains(&package.name()));
+    }
     let before = tables(root, &packages)?;
     // Cargo names the executable that started this one.
     let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
@@ -34,6 +48,9 @@ pub fn run(options: &GoldenOptions) -> Result<(), XtaskError> {
     tests.current_dir(root).args(["test", "--test", "golden"]);
     for package in &packages {
         tests.args(["--package", package.name()]);
+    }
+    if let Some(machine) = options.machine {
+        machine.prepare(root, &mut tests);
     }
     if options.bless {
         tests.env(BLESS, "1");
