@@ -10,7 +10,7 @@
 //! - `draw-behaviour` draws scenes for `check-behaviour` from the sampler,
 //! - `playground` builds the WebAssembly first,
 //! - `fuzz` runs the targets of `phase-fuzz`,
-//! - `golden` runs the golden tests, or rewrites what they compare with,
+//! - `golden` runs the golden tests, also as another machine, or rewrites what they compare with,
 //! - `leaderboard` scores the predictions in `docs/leaderboard`,
 //! - `results` rewrites the documents that show results,
 //! - `tidy` checks what the compiler cannot.

@@ -8,7 +8,7 @@ fn nothing_is_lost_when_a_command_is_stopped() {
     let folder = tempfile::tempdir().expect("a folder");
     let table = succeed(folder.path(), &["torture", "--kills", "2", "--only", "merge", "--seed", "3"]);
     let row = table.lines().find(|line| line.starts_with("| merge |")).expect("a row");
-    assert!(row.ends_with("| 2 | 2 | 2 | 2 | 2 |"), "{table}");
+    assert!(row.ends_with("| 2 | 2 | 2 | 2 | 2 | 2 |"), "{table}");
 }
 
 /// A fault that is asked for happens: otherwise nothing would be tested.
