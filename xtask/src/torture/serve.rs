@@ -10,7 +10,7 @@ use core::fmt;
 use phase_cli::error::CliError;
 use phase_model::random::Pcg64Mcg;
 use rand::RngExt;
-use serde_json::{Value, json};
+use serde_json::json;
 use server::{Server, Start};
 use std::{
     fs,
@@ -157,9 +157,12 @@ fn place(is_plain: bool) -> Result<TempDir, XtaskError> {
         phase_dataset::atomic::write(&place.path().join(name), bytes)
             .map_err(|error| XtaskError::from(CliError::Output(error)))
     };
-    write("v.mp4", b"no video, which nobody looks at here")?;
-    let stimuli: Vec<Value> =
-        (0..VIDEOS).map(|k| json!({ "id": format!("event-{k}"), "video": "v.mp4" })).collect();
+    let mut stimuli = Vec::with_capacity(VIDEOS);
+    for k in 0..VIDEOS {
+        let video = format!("event-{k}.mp4");
+        write(&video, b"no video, which nobody looks at here")?;
+        stimuli.push(json!({ "id": format!("event-{k}"), "video": video }));
+    }
     let study = json!({
         "format": "phase-study/1", "name": "torture", "title": "Torture", "form": "relation",
         "consent": ["Do you agree?"], "instructions": ["Watch."], "stimuli": stimuli,

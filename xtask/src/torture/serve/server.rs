@@ -50,12 +50,12 @@ impl Server {
         }
         let mut child = command.spawn().map_err(|error| error.to_string())?;
         let lines = child.stdout.take().map(|output| BufReader::new(output).lines());
-        // The address, and then the same with the token of who is in charge.
+        // The address, those of studies, and that of who is in charge, with a token.
         let mut lines = lines.into_iter().flatten().map_while(Result::ok);
         let address = lines
             .next()
             .and_then(|line| line.strip_prefix("http://")?.strip_suffix('/')?.parse::<SocketAddr>().ok());
-        let admin = lines.next().and_then(|line| {
+        let admin = lines.find_map(|line| {
             let (_, token) = line.split_once("/admin/#")?;
             Some(token.split(' ').next()?.to_owned())
         });
