@@ -12,7 +12,7 @@ use phase_render::{
 use std::path::Path;
 
 /// Side of each frame of a contact sheet (pixels).
-const SHEET_SIDE: u32 = 320;
+pub(crate) const SHEET_SIDE: u32 = 320;
 /// Lines of text below frames that show an agent's decisions.
 const CAPTION_LINES: u32 = crate::captions::COUNT as u32;
 /// Height of an observer's course, in lines of text.

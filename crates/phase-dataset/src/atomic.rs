@@ -4,9 +4,10 @@ use crate::{WriteError, fault};
 use serde::Serialize;
 use std::{
     ffi::OsString,
-    fs::{self, File},
+    fs::{self, File, TryLockError},
     io::{self, BufWriter, Write},
     path::{Path, PathBuf},
+    sync::atomic::{AtomicU64, Ordering},
 };
 
 /// Suffix of files that are still being written.
@@ -48,10 +49,15 @@ pub fn remove_abandoned(path: &Path) {
     let begin = format!(".{}.", name.to_string_lossy());
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let part = entry.file_name().to_string_lossy().into_owned();
-        let number = part.strip_prefix(&begin).and_then(|rest| rest.strip_suffix(PART_SUFFIX));
-        let is_part = number.is_some_and(|number| number.bytes().all(|digit| digit.is_ascii_digit()));
-        if is_part && File::open(entry.path()).is_ok_and(|file| file.try_lock().is_ok()) {
-            // One that cannot be removed is harmless.
+        let numbers = part.strip_prefix(&begin).and_then(|rest| rest.strip_suffix(PART_SUFFIX));
+        let is_part = numbers.is_some_and(|it| it.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.'));
+        if !is_part {
+            continue;
+        }
+        if let Ok(file) = File::open(entry.path())
+            && file.try_lock().is_ok()
+        {
+            // One that cannot be removed is harmless. It stays locked meanwhile, so that nobody takes it for its own.
             let _ = fs::remove_file(entry.path());
         }
     }
@@ -84,13 +90,8 @@ impl AtomicFile {
     /// # Errors
     /// If no file can be created there.
     pub fn create(path: &Path) -> Result<Self, WriteError> {
-        let part = part_path(path);
-        match fault::step().and_then(|()| File::create(&part)) {
-            Ok(file) => {
-                // The lock tells that it is being written. Where there are no locks, nothing is ever taken for abandoned.
-                let _ = file.try_lock();
-                Ok(Self { path: path.to_owned(), part, writer: Some(BufWriter::new(file)) })
-            }
+        match fault::step().and_then(|()| create_locked(path)) {
+            Ok((part, file)) => Ok(Self { path: path.to_owned(), part, writer: Some(BufWriter::new(file)) }),
             Err(source) => Err(error(path, source)),
         }
     }
@@ -111,8 +112,10 @@ impl AtomicFile {
 
     fn finish(&mut self) -> io::Result<()> {
         fault::step()?;
-        if let Some(writer) = self.writer.take() {
-            let file = writer.into_inner().map_err(io::IntoInnerError::into_error)?;
+        // Open, and so locked, until it has its name: without the lock it would be taken for abandoned.
+        let file = self.writer.take().map(BufWriter::into_inner).transpose();
+        let file = file.map_err(io::IntoInnerError::into_error)?;
+        if let Some(file) = &file {
             file.sync_all()?;
         }
         fault::step()?;
@@ -147,11 +150,30 @@ pub fn is_part(name: &str) -> bool {
     name.starts_with('.') && name.ends_with(PART_SUFFIX)
 }
 
-/// The hidden name beside a path; the process number keeps two programs apart.
+/// Creates the temporary file of a path, and locks it. Between its creation and its lock [`remove_abandoned`] can take it for abandoned;
+/// then another one is created.
+fn create_locked(path: &Path) -> io::Result<(PathBuf, File)> {
+    loop {
+        let part = part_path(path);
+        let file = File::create(&part)?;
+        match file.try_lock() {
+            // Somebody is removing it.
+            Err(TryLockError::WouldBlock) => {}
+            Ok(()) if !part.exists() => {}
+            // Where there are no locks, nothing is ever taken for abandoned.
+            Ok(()) | Err(TryLockError::Error(_)) => return Ok((part, file)),
+        }
+    }
+}
+
+/// A hidden name beside a path. The process number keeps two programs apart. The other number is new each time: whoever has opened a file to
+/// see whether it is abandoned must not remove another that has its name by then.
 fn part_path(path: &Path) -> PathBuf {
+    static FILES: AtomicU64 = AtomicU64::new(0);
+    let file = FILES.fetch_add(1, Ordering::Relaxed);
     let mut name = OsString::from(".");
     name.push(path.file_name().unwrap_or_default());
-    name.push(format!(".{}{PART_SUFFIX}", std::process::id()));
+    name.push(format!(".{}.{file}{PART_SUFFIX}", std::process::id()));
     path.with_file_name(name)
 }
 

@@ -5,7 +5,7 @@ use phase_eval::goals::Answer;
 use phase_event::ObservedEvent;
 use phase_model::AgentId;
 use phase_render::Palette;
-use phase_simple::{Effort, Guidance, Guide, Inference, InferenceSettings, IntentNetwork, ReportModel};
+use phase_simple::{Budget, Guidance, Guide, Inference, InferenceSettings, IntentNetwork, ReportModel};
 use serde_json::{Value, json};
 
 /// Goals that are told in words.
@@ -40,7 +40,7 @@ impl Observer {
         let settings = InferenceSettings::default();
         let mut observer =
             phase_simple::Observer::new(&observed, Some(&guide), 0, &settings).map_err(sentence)?;
-        observer.set_effort(Effort { decisions: Some(decisions) });
+        observer.set_budget(Budget { decisions: Some(decisions) });
         Ok(Self { observer, reports: ReportModel::bundled().map_err(sentence)? })
     }
 

@@ -2,7 +2,7 @@
 
 use crate::PomcpError;
 
-/// Effort and parameters of a search.
+/// Numbers of simulations and parameters of a search.
 ///
 /// The defaults are those of the PHASE paper's appendix: 1000 simulations, 10 rollout steps, c_init 1.25 and
 /// c_base 1000.

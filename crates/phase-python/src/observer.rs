@@ -7,7 +7,7 @@ use phase_eval::goals::Answer;
 use phase_event::ObservedEvent;
 use phase_model::{Body, MAX_ENTITIES, Vec2};
 use phase_simple::{
-    Effort, Guidance, Guide, Inference, InferenceSettings, IntentNetwork, Observer as Simple, ReportModel,
+    Budget, Guidance, Guide, Inference, InferenceSettings, IntentNetwork, Observer as Simple, ReportModel,
 };
 use pyo3::prelude::*;
 use serde_json::json;
@@ -47,7 +47,7 @@ impl Observer {
         });
         let mut simple = simple.map_err(raise)?;
         if let Some(decisions) = decisions {
-            simple.set_effort(Effort { decisions: Some(decisions) });
+            simple.set_budget(Budget { decisions: Some(decisions) });
         }
         Ok(Self { simple: Mutex::new(simple), entities })
     }

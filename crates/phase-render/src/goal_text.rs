@@ -25,6 +25,18 @@ impl Palette {
             Goal::Touch { sign: Sign::Negative, .. } => "to get away from the other".to_owned(),
         }
     }
+
+    /// [`goal_text`](Self::goal_text) short enough for a line below a picture, such as "pink object on blue".
+    #[must_use]
+    pub fn goal_label(&self, goal: Goal, whose: AgentId) -> String {
+        let text = self.goal_text(goal, whose);
+        match goal {
+            Goal::AgentOnLandmark { .. } | Goal::ObjectOnLandmark { .. } => {
+                text.replace("the ", "").trim_end_matches(" landmark").to_owned()
+            }
+            Goal::Touch { .. } => text,
+        }
+    }
 }
 
 const fn place(sign: Sign) -> &'static str {
@@ -50,5 +62,7 @@ mod tests {
         assert_eq!(text(own), format!("to be on the {name} landmark"));
         assert_eq!(text(others), format!("the green agent away from the {name} landmark"));
         assert_eq!(text(object), format!("the pink object on the {name} landmark"));
+        assert_eq!(Palette::PAPER.goal_label(object, AgentId::ZERO), format!("pink object on {name}"));
+        assert_eq!(Palette::PAPER.goal_label(own, AgentId::ZERO), format!("to be on {name}"));
     }
 }

@@ -10,12 +10,12 @@ use phase_pomcp::PomcpError;
 
 /// What may be spent.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-pub struct Effort {
+pub struct Budget {
     /// Decisions of simulated minds left; `None` for as many as it takes.
     pub decisions: Option<usize>,
 }
 
-impl Effort {
+impl Budget {
     /// As much as it takes.
     pub const UNLIMITED: Self = Self { decisions: None };
 
@@ -113,7 +113,7 @@ impl IntentEvidence {
     }
 
     /// Catches up with the event: lets the mind of the intent decide in every state that is looked at. `likelihoods` have
-    /// caught up with the same event. Whether it has caught up: it stops when the effort is spent.
+    /// caught up with the same event. Whether it has caught up: it stops when the budget is spent.
     ///
     /// # Errors
     /// Invalid parameters of the agents' search.
@@ -121,10 +121,10 @@ impl IntentEvidence {
         &mut self,
         prepared: &PreparedEvent,
         likelihoods: &ActionLikelihoods,
-        effort: &mut Effort,
+        budget: &mut Budget,
     ) -> Result<bool, PomcpError> {
         for (decision, of_step) in likelihoods.of_decisions.iter().enumerate().skip(self.chances.len()) {
-            if !effort.take() {
+            if !budget.take() {
                 return Ok(false);
             }
             let (action, thought) = prepared.decide(&mut self.run, self.agent, likelihoods.step(decision))?;

@@ -1,7 +1,7 @@
 //! From an observed event to weighted hypotheses.
 
 use crate::{
-    Algorithm, ChainSettings, Effort, Guide, InferenceSettings, InferredStrengths, Posterior, Proposal,
+    Algorithm, Budget, ChainSettings, Guide, InferenceSettings, InferredStrengths, Posterior, Proposal,
     StrengthSource,
     answer::{Inference, MindPosterior},
     generative::PreparedEvent,
@@ -42,7 +42,7 @@ pub fn infer(
         Algorithm::InversePlanning(planning) => {
             let guide = cues.guide.as_ref().map(|guide| GuideCourse::new(guide, prepared.observed()));
             let mut planners = Planners::new(prepared, planning, settings.alternative);
-            planners.weigh(gamma, guide.as_ref(), &mut Effort::UNLIMITED.clone(), tick)
+            planners.weigh(gamma, guide.as_ref(), &mut Budget::UNLIMITED.clone(), tick)
         }
         Algorithm::Chains(chains) => run_chains(prepared, cues.strengths, seed, gamma, chains, tick),
     }

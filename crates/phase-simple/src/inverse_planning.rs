@@ -9,7 +9,7 @@
 
 use crate::{
     Hypothesis, IntentEvidence, InversePlanningSettings, Posterior,
-    evidence::{ActionLikelihoods, Effort},
+    evidence::{ActionLikelihoods, Budget},
     generative::PreparedEvent,
     guide::Guess,
     hypothesis::physical_goals,
@@ -66,7 +66,7 @@ impl InversePlanner {
         self.likelihoods.follow(&self.prepared);
     }
 
-    /// Catches up with an intent of an agent, the other pursuing `others`. Whether that is done, and the effort not spent before.
+    /// Catches up with an intent of an agent, the other pursuing `others`. Whether it could, within the budget.
     ///
     /// # Errors
     /// Invalid parameters of the agents' search.
@@ -75,12 +75,12 @@ impl InversePlanner {
         agent: AgentId,
         intent: Intent,
         others: Goal,
-        effort: &mut Effort,
+        budget: &mut Budget,
     ) -> Result<bool, PomcpError> {
-        Ok(self.log_likelihood(agent, intent, others, effort)?.is_some())
+        Ok(self.log_likelihood(agent, intent, others, budget)?.is_some())
     }
 
-    /// Simulates these intents, as far as the effort suffices, with the strengths inferred from the physics; whether `tick`, which is
+    /// Simulates these intents, as far as the budget suffices, with the strengths inferred from the physics; whether `tick`, which is
     /// called about once per intent, let it. `assumed` are the goals that neutral agents first attribute to each other; the
     /// likeliest ones, given what a guide guesses, take their place. [`InversePlanner::weighted_after`] has the result.
     ///
@@ -91,7 +91,7 @@ impl InversePlanner {
         intents: &[(AgentId, Intent)],
         assumed: [Goal; AGENT_COUNT],
         guess: Option<&Guess>,
-        effort: &mut Effort,
+        budget: &mut Budget,
         tick: &mut dyn FnMut() -> ControlFlow<()>,
     ) -> Result<bool, PomcpError> {
         let log_guess = |agent, intent| guess.map_or(0.0, |guess| guess.log(agent, intent));
@@ -102,7 +102,7 @@ impl InversePlanner {
                 return Ok(false);
             }
             let others = assumed[agent.other()];
-            let Some(log) = self.log_likelihood(agent, intent, others, effort)? else { continue };
+            let Some(log) = self.log_likelihood(agent, intent, others, budget)? else { continue };
             weighted_intents[agent].push((intent, log + log_guess(agent, intent)));
             self.asked[agent].push(key(agent, intent, others));
         }
@@ -126,7 +126,7 @@ impl InversePlanner {
                     if tick().is_break() {
                         return Ok(false);
                     }
-                    let refined = self.log_likelihood(agent, *intent, others, effort)?;
+                    let refined = self.log_likelihood(agent, *intent, others, budget)?;
                     if let Some(refined) = refined {
                         *log = refined + log_guess(agent, *intent);
                         self.asked[agent][place] = key(agent, *intent, others);
@@ -177,13 +177,13 @@ impl InversePlanner {
         }
     }
 
-    /// ln P(motion | intent) of an agent's part of the motion, the other pursuing `others`; `None` if the effort does not suffice.
+    /// ln P(motion | intent) of an agent's part of the motion, the other pursuing `others`; `None` if the budget does not suffice.
     fn log_likelihood(
         &mut self,
         agent: AgentId,
         intent: Intent,
         others: Goal,
-        effort: &mut Effort,
+        budget: &mut Budget,
     ) -> Result<Option<f64>, PomcpError> {
         let key = key(agent, intent, others);
         if !self.evidence.contains_key(&key) {
@@ -191,7 +191,7 @@ impl InversePlanner {
             self.evidence.insert(key, evidence);
         }
         let Some(evidence) = self.evidence.get_mut(&key) else { return Ok(None) };
-        let known = evidence.follow(&self.prepared, &self.likelihoods, effort)?;
+        let known = evidence.follow(&self.prepared, &self.likelihoods, budget)?;
         Ok(known.then(|| evidence.log_likelihood(&self.settings)))
     }
 }

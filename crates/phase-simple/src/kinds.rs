@@ -1,7 +1,7 @@
 //! Inverse planning with every kind of minds, and what the guide said while the event was watched.
 
 use crate::{
-    AlternativeMinds, Effort, Guidance, Guide, InversePlanningSettings, Proposal, UniformStrength,
+    AlternativeMinds, Budget, Guidance, Guide, InversePlanningSettings, Proposal, UniformStrength,
     answer::{Inference, KindEvidence, average, log_sum, mixture},
     generative::PreparedEvent,
     guide::Guess,
@@ -84,13 +84,13 @@ impl Planners {
         self.planners.iter().map(one).collect()
     }
 
-    /// The answer of all kinds of minds together, and how it came about. Intents that the effort does not suffice for are left to
+    /// The answer of all kinds of minds together, and how it came about. Intents that the budget does not suffice for are left to
     /// the guide.
     pub(crate) fn weigh(
         &mut self,
         gamma: f64,
         guide: Option<&GuideCourse<'_>>,
-        effort: &mut Effort,
+        budget: &mut Budget,
         tick: &mut dyn FnMut() -> ControlFlow<()>,
     ) -> Result<Option<Inference>, PomcpError> {
         let prepared = &self.planners[0].prepared;
@@ -110,13 +110,13 @@ impl Planners {
         };
         let mut intents: Vec<(AgentId, Intent)> = last.as_ref().map_or_else(all, Guess::kept);
         self.planners.iter_mut().for_each(InversePlanner::follow);
-        if effort.decisions.is_some() {
+        if budget.decisions.is_some() {
             // Those for which every kind of minds knows what the others know.
             let mut ready = Vec::with_capacity(intents.len());
             for (agent, intent) in intents {
                 let mut known = true;
                 for planner in &mut self.planners {
-                    known &= planner.catch_up(agent, intent, assumed[agent.other()], effort)?;
+                    known &= planner.catch_up(agent, intent, assumed[agent.other()], budget)?;
                 }
                 if known {
                     ready.push((agent, intent));
@@ -125,7 +125,7 @@ impl Planners {
             intents = ready;
         }
         for planner in &mut self.planners {
-            if !planner.simulate(&intents, assumed, last.as_ref(), effort, tick)? {
+            if !planner.simulate(&intents, assumed, last.as_ref(), budget, tick)? {
                 return Ok(None);
             }
         }

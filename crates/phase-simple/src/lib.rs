@@ -70,7 +70,7 @@ pub mod strength;
 
 pub use answer::{Inference, MindPosterior};
 pub use dense::Dense;
-pub use evidence::{ActionLikelihoods, Effort, IntentEvidence};
+pub use evidence::{ActionLikelihoods, Budget, IntentEvidence};
 pub use forecast::{Continuation, ForecastSettings, Futures, continuations, futures, hindcast_error};
 pub use generative::PreparedEvent;
 pub use guide::{Guidance, Guide};

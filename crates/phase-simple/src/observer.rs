@@ -1,7 +1,7 @@
 //! An observer that watches an event row by row.
 
 use crate::{
-    Algorithm, Effort, Guide, InferenceSettings,
+    Algorithm, Budget, Guide, InferenceSettings,
     answer::Inference,
     generative::PreparedEvent,
     inverse_dynamics::MotionTracker,
@@ -31,7 +31,7 @@ pub enum ObserverError {
 /// Watches an event row by row, and says after each what explains it.
 ///
 /// What is learnt later about earlier steps is taken back, so [`Observer::inference`] gives the answer of
-/// [`infer`](crate::infer) for the rows seen so far, bit for bit. [`Observer::push`] gives the same with limited effort, so that an
+/// [`infer`](crate::infer) for the rows seen so far, bit for bit. [`Observer::push`] gives the same within a budget, so that an
 /// event can be watched as it happens; the two differ while intents that have just become likely are being simulated.
 #[derive(Debug)]
 pub struct Observer<'a> {
@@ -40,12 +40,12 @@ pub struct Observer<'a> {
     planners: Planners,
     guide: Option<GuideCourse<'a>>,
     gamma: f64,
-    effort: Effort,
+    budget: Budget,
 }
 
 /// What an observer spends on a row by default (decisions): less than the 250 ms that a step lasts in a video. A decision takes 2 to 6 ms
 /// (docs/simple.md).
-const EFFORT: usize = 20;
+const BUDGET: usize = 20;
 
 impl<'a> Observer<'a> {
     /// Watches an event from its beginning: `observed` has the rows seen so far, at least one.
@@ -67,12 +67,12 @@ impl<'a> Observer<'a> {
         let prepared = PreparedEvent::with_motion(Arc::clone(&observed), motion, settings.minds, seed);
         let planners = Planners::new(&prepared, &planning, settings.alternative);
         let guide = guide.map(|guide| GuideCourse::new(guide, &observed));
-        let effort = Effort { decisions: Some(EFFORT) };
-        Ok(Self { observed, tracker, planners, guide, gamma: settings.gamma, effort })
+        let budget = Budget { decisions: Some(BUDGET) };
+        Ok(Self { observed, tracker, planners, guide, gamma: settings.gamma, budget })
     }
 
-    /// Watches the next row, and infers what explains the event so far with at most as much effort as
-    /// [`Observer::set_effort`] says: intents that have become likely and cannot all be simulated at once are taken one after the
+    /// Watches the next row, and infers what explains the event so far with no more decisions than
+    /// [`Observer::set_budget`] says: intents that have become likely and cannot all be simulated at once are taken one after the
     /// other, the likeliest first, and have what the guide gives them until it is their turn.
     ///
     /// # Errors
@@ -80,15 +80,15 @@ impl<'a> Observer<'a> {
     pub fn push(&mut self, row: [Body; MAX_ENTITIES]) -> Result<Inference, ObserverError> {
         self.watch(row)?;
         // Without a guide there is nothing to say of what is not simulated.
-        let mut effort = if self.guide.is_some() { self.effort } else { Effort::UNLIMITED };
+        let mut budget = if self.guide.is_some() { self.budget } else { Budget::UNLIMITED };
         let tick = &mut || ControlFlow::Continue(());
-        let inference = self.planners.weigh(self.gamma, self.guide.as_ref(), &mut effort, tick)?;
+        let inference = self.planners.weigh(self.gamma, self.guide.as_ref(), &mut budget, tick)?;
         Ok(inference.unwrap_or_else(|| unreachable!("not cancelled")))
     }
 
     /// Sets what [`Observer::push`] may spend on a row if the observer has a guide; without one it spends what it takes.
-    pub const fn set_effort(&mut self, effort: Effort) {
-        self.effort = effort;
+    pub const fn set_budget(&mut self, budget: Budget) {
+        self.budget = budget;
     }
 
     /// Watches the next row without asking what explains it, which is left to the next [`Observer::inference`].
@@ -109,7 +109,7 @@ impl<'a> Observer<'a> {
         Ok(())
     }
 
-    /// What explains the event so far, with as much effort as it takes; `None` if `tick`, which is called once for each intent of each kind of minds, cancelled it.
+    /// What explains the event so far, with as many decisions as it takes; `None` if `tick`, which is called once for each intent of each kind of minds, cancelled it.
     ///
     /// # Errors
     /// Invalid parameters of the agents' search.
@@ -117,7 +117,7 @@ impl<'a> Observer<'a> {
         &mut self,
         tick: &mut dyn FnMut() -> ControlFlow<()>,
     ) -> Result<Option<Inference>, PomcpError> {
-        self.planners.weigh(self.gamma, self.guide.as_ref(), &mut Effort::UNLIMITED.clone(), tick)
+        self.planners.weigh(self.gamma, self.guide.as_ref(), &mut Budget::UNLIMITED.clone(), tick)
     }
 
     /// What has been observed so far.

@@ -10,7 +10,7 @@ use phase_model::{
 use phase_sampler::{Request, Variant, sample};
 use phase_sim::SimulationSettings;
 use phase_simple::{
-    AlternativeMinds, ChainSettings, Cues, Effort, Guidance, Guide, Inference, InferenceSettings,
+    AlternativeMinds, Budget, ChainSettings, Cues, Guidance, Guide, Inference, InferenceSettings,
     IntentNetwork, InverseDynamics, MotionTracker, Observer, ObserverError, PreparedEvent, UniformStrength,
     Update, infer,
 };
@@ -82,7 +82,7 @@ fn what_there_is_no_time_for_is_left_to_the_guide() {
     let distance = |decisions: usize| {
         let mut observer =
             Observer::new(&whole.prefix(0), Some(&guide), 3, &settings).expect("inverse planning");
-        observer.set_effort(Effort { decisions: Some(decisions) });
+        observer.set_budget(Budget { decisions: Some(decisions) });
         let mut last = None;
         for row in &whole.rows()[1..] {
             last = Some(observer.push(*row).expect("a sound row").posterior);

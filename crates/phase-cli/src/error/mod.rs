@@ -256,7 +256,7 @@ pub enum CliError {
 fn kept(path: &Path) -> &'static str {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
     if folder.is_none_or(Path::exists) {
-        "what is finished is kept, and the same command goes on from there"
+        "the same command goes on from what is finished there"
     } else {
         "its folder is no longer there, nor is what was finished in it; the same command makes it again"
     }

@@ -112,7 +112,7 @@ impl Watched {
             bar: 0.0,
         };
         let mut lines = vec![
-            heading(&["P", "people"], "relation, and how people would report it".to_owned()),
+            heading(&["P", "people"], "relation (people: as reported)".to_owned()),
             line("friendly", friendly, reported(|it| it.friendly)),
             line("adversarial", adversarial, reported(|it| it.adversarial)),
             line("neutral", neutral, reported(|it| it.neutral)),
@@ -122,7 +122,7 @@ impl Watched {
             lines.push(heading(&["P"], format!("the {} agent wants", palette.agent_names[agent])));
             let goals = self.goals[agent].iter().map(|share| Caption {
                 cells: vec![format!("{:.2}", share.p)],
-                text: palette.goal_text(share.goal, agent),
+                text: palette.goal_label(share.goal, agent),
                 bar: share.p as f32,
             });
             lines.extend(goals.chain(core::iter::repeat_with(Caption::default)).take(GOALS));
@@ -146,5 +146,44 @@ impl Watched {
     /// The relation's probabilities as shares of a course.
     pub(super) fn shares(&self) -> [f32; 3] {
         [self.relation.friendly, self.relation.adversarial, self.relation.neutral].map(|p| p as f32)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Watched;
+    use crate::picture::SHEET_SIDE;
+    use phase_model::{AgentId, RelationProbabilities, RoleProbabilities};
+    use phase_render::{Palette, SizedFont, Style};
+    use phase_simple::physical_goals;
+
+    /// No line is cut off, neither in a video nor in the smaller pictures of a contact sheet.
+    #[test]
+    fn what_is_said_of_every_goal_fits_below_the_picture() {
+        let relation = RelationProbabilities { friendly: 0.2, adversarial: 0.3, neutral: 0.5 };
+        let of = |agent| {
+            physical_goals(agent, 2)
+                .into_iter()
+                .flat_map(move |goal| [(agent, goal), (agent, goal.negated())])
+        };
+        for (agent, goal) in AgentId::ALL.into_iter().flat_map(of) {
+            let mut goals = [Vec::new(), Vec::new()];
+            goals[agent].push(super::GoalShare { goal, p: 0.25 });
+            let roles = RoleProbabilities::default();
+            let watched =
+                Watched { seconds: 9.0, goals, relation, reported: Some(relation), roles, took: 0.0 };
+            for style in [Style::default(), Style::with_side(SHEET_SIDE)] {
+                let font = SizedFont::new(style.text_size()).expect("the font");
+                for line in watched.captions(&Palette::PAPER) {
+                    let left = style.cell_width() * line.cells.len() as u32 + style.text_size().div_ceil(2);
+                    let room = style.text_width() - left;
+                    assert!(
+                        font.width(&line.text) <= room as f32,
+                        "{} does not fit {room} pixels",
+                        line.text
+                    );
+                }
+            }
+        }
     }
 }

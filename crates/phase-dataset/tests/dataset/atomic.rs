@@ -1,7 +1,11 @@
 //! Files are complete or absent.
 
 use phase_dataset::atomic::{self, AtomicFile};
-use std::{fs, io::Write};
+use std::{
+    fs,
+    io::Write,
+    sync::atomic::{AtomicBool, Ordering},
+};
 
 fn names(folder: &std::path::Path) -> Vec<String> {
     let entries = fs::read_dir(folder).expect("a folder");
@@ -69,15 +73,35 @@ fn removing_what_is_not_there_is_fine() {
 fn abandoned_parts_are_removed() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("weights");
-    let left = [".weights.17.part", ".weights.json.17.part", ".weights.part", ".weights.17x.part"];
+    let left = [".weights.17.3.part", ".weights.json.17.3.part", ".weights.part", ".weights.17.x.part"];
     for name in left {
         fs::write(folder.path().join(name), "half").expect("written");
     }
     let open = AtomicFile::create(&path).expect("created");
     atomic::remove_abandoned(&path);
     for name in left {
-        assert_eq!(folder.path().join(name).exists(), name != ".weights.17.part", "{name}");
+        assert_eq!(folder.path().join(name).exists(), name != ".weights.17.3.part", "{name}");
     }
     open.commit().expect("still there");
     assert!(path.exists());
+}
+
+/// Whoever begins to write a file removes what others have left of it, and nothing of those that are writing it.
+#[test]
+fn files_that_are_being_written_are_not_taken_for_abandoned() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("weights");
+    let done = AtomicBool::new(false);
+    std::thread::scope(|scope| {
+        let remover = scope.spawn(|| {
+            while !done.load(Ordering::Relaxed) {
+                atomic::remove_abandoned(&path);
+            }
+        });
+        let written: Result<(), _> = (0..500_u32).try_for_each(|k| atomic::write(&path, &k.to_le_bytes()));
+        done.store(true, Ordering::Relaxed);
+        remover.join().expect("removed");
+        written.expect("every file is written");
+    });
+    assert_eq!(fs::read(&path).expect("the last"), 499_u32.to_le_bytes());
 }

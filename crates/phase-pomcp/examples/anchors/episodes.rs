@@ -27,7 +27,7 @@ pub(crate) trait Problem: BeliefModel {
 }
 
 /// What is simulated for a row of the table.
-pub(crate) struct Effort {
+pub(crate) struct RowSettings {
     pub(crate) simulations: usize,
     pub(crate) batch: usize,
     pub(crate) episodes: u64,
@@ -55,7 +55,7 @@ struct Episode {
     steps: usize,
 }
 
-impl Effort {
+impl RowSettings {
     /// Simulates the episodes of a problem, which may differ from episode to episode.
     pub(crate) fn row<P: Problem>(
         &self,

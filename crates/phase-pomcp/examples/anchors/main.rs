@@ -16,7 +16,7 @@ mod tiger;
 mod tour;
 
 use clap::{Parser, ValueEnum};
-use episodes::{Effort, Row};
+use episodes::{Row, RowSettings};
 use rocksample::RockSample;
 use serde_json::json;
 use std::error::Error;
@@ -70,13 +70,13 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
     }
     let mut rows = Vec::new();
     for &simulations in &arguments.simulations {
-        let effort = Effort {
+        let settings = RowSettings {
             simulations,
             batch: arguments.batch,
             episodes: arguments.episodes,
             seed: arguments.seed,
         };
-        let row = row(arguments.problem, &effort)?;
+        let row = row(arguments.problem, &settings)?;
         if !arguments.json {
             let Row { mean, half_width, speed, .. } = row;
             println!("{simulations:11}  {mean:6.2} ± {half_width:5.2}  {speed:13.0}");
@@ -105,13 +105,13 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
     Ok(())
 }
 
-fn row(name: Name, effort: &Effort) -> Result<Row, Box<dyn Error + Send + Sync>> {
+fn row(name: Name, settings: &RowSettings) -> Result<Row, Box<dyn Error + Send + Sync>> {
     match name {
-        Name::Tiger => effort.row(|_| tiger::Tiger),
-        Name::RockSample7 => effort.row(|_| RockSample::new(&layouts::SARSOP_7_8)),
-        Name::RockSample11 => effort.row(|_| RockSample::new(&layouts::SARSOP_11_11)),
-        Name::RockSample15 => effort.row(|_| RockSample::new(&layouts::DESPOT_JL_15_15)),
-        Name::RockSample15Random => effort.row(|random| RockSample::new(layouts::random(15, random))),
-        Name::Tag => effort.row(|_| tag::Tag::new()),
+        Name::Tiger => settings.row(|_| tiger::Tiger),
+        Name::RockSample7 => settings.row(|_| RockSample::new(&layouts::SARSOP_7_8)),
+        Name::RockSample11 => settings.row(|_| RockSample::new(&layouts::SARSOP_11_11)),
+        Name::RockSample15 => settings.row(|_| RockSample::new(&layouts::DESPOT_JL_15_15)),
+        Name::RockSample15Random => settings.row(|random| RockSample::new(layouts::random(15, random))),
+        Name::Tag => settings.row(|_| tag::Tag::new()),
     }
 }
