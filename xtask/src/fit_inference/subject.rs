@@ -9,7 +9,7 @@ use phase_eval::MethodError;
 use phase_event::{ObservedEvent, Recording};
 use phase_model::{AGENT_COUNT, AgentId, EventKind, Goal, Strength};
 use phase_simple::{
-    ActionLikelihoods, Effort, Hypothesis, Intent, IntentEvidence, IntentNetwork, InversePlanningSettings,
+    ActionLikelihoods, Budget, Hypothesis, Intent, IntentEvidence, IntentNetwork, InversePlanningSettings,
     Posterior, PreparedEvent, Proposal, UniformStrength, choice::Chance, cue::GAMMA, intent::joint_logs,
 };
 use serde::{Deserialize, Serialize};
@@ -196,7 +196,7 @@ fn agents(
     let mut likelihoods = ActionLikelihoods::new(planning);
     likelihoods.follow(prepared);
     let strengths = prepared.motion().strengths();
-    let (mut evidence, mut effort) = ([Vec::new(), Vec::new()], Effort::UNLIMITED);
+    let (mut evidence, mut budget) = ([Vec::new(), Vec::new()], Budget::UNLIMITED);
     for agent in AgentId::ALL {
         let others = assumed[agent.other()];
         for intent in Intent::all(agent, prepared.observed().object_sizes().len()) {
@@ -205,7 +205,7 @@ fn agents(
             }
             let mut one =
                 IntentEvidence::new(prepared, agent, intent, others, strengths).map_err(MethodError::new)?;
-            one.follow(prepared, &likelihoods, &mut effort).map_err(MethodError::new)?;
+            one.follow(prepared, &likelihoods, &mut budget).map_err(MethodError::new)?;
             evidence[agent].push(one.chances().iter().map(|chance| (chance.mind, chance.uniform)).collect());
         }
     }

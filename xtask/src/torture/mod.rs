@@ -9,7 +9,12 @@ mod serve;
 use crate::error::XtaskError;
 use clap::{Args, value_parser};
 use jobs::{JOBS, Job};
-use phase_cli::{console::print_result, context::Context, error::CliError};
+use phase_cli::{
+    console::print_result,
+    context::Context,
+    error::CliError,
+    parallel::{Jobs, make_all},
+};
 use phase_model::random::{Pcg64Mcg, Purpose, stream};
 use rand::RngExt;
 use run::{End, Ground};
@@ -41,6 +46,9 @@ pub struct Torture {
     /// The program, such as `target/release/phase`, which has `train` and `serve` [default: this one]
     #[arg(long, value_name = "FILE")]
     pub program: Option<PathBuf>,
+    /// How many at once.
+    #[command(flatten)]
+    pub jobs: Jobs,
 }
 
 /// What is done to a command.
@@ -90,106 +98,135 @@ pub fn run(arguments: &Torture, context: &Context) -> Result<(), XtaskError> {
         if permissions::EXIST { permissions::show(folder.path()) } else { Ok(()) }
     };
     copy().map_err(|source| run::failed(&program, "copy the program to", source))?;
-    let wanted = |name: &str| arguments.only.as_ref().is_none_or(|text| name.contains(text.as_str()));
-    if !JOBS.iter().map(|job| job.name).chain([serve::NAME]).any(wanted) {
-        return Err(CliError::Usage("--only: no command has such a name".into()).into());
-    }
-    let mut done = Done { context, rows: Vec::new(), failures: 0 };
-    for (number, job) in (0..).zip(&JOBS) {
-        if wanted(job.name) {
-            command(arguments, &program, job, number, &mut done)?;
+    let subjects = subjects(arguments, &program, context)?;
+    let all = disturbances(arguments, &subjects);
+    let progress = context.progress_over(&format!("{} disturbances", all.len()), all.len());
+    // What a disturbance is does not depend on which others there were.
+    let results = make_all(&arguments.jobs, all.len(), |index| {
+        let disturbance = &all[index];
+        let subject = &subjects[disturbance.subject];
+        let result = subject.suffer(&program, disturbance, arguments.seed);
+        if let Ok(Some(what)) = &result {
+            context.note(format!("{} {}: {what}", subject.name, disturbance.torment.name()));
         }
-    }
-    if wanted(serve::NAME) {
-        server(arguments, &program, &mut done)?;
-    }
+        progress.step();
+        Ok(Some(result))
+    })?;
+    drop(progress);
+    let Some(results) = results else { return Err(XtaskError::Interrupted) };
+    let wrong = results.into_iter().collect::<Result<Vec<_>, _>>()?;
     let heads = Torment::ALL.map(Torment::name).join(" | ");
     let rule = "---:|".repeat(1 + Torment::ALL.len());
-    print_result(format!("| command | steps | {heads} |\n|---|{rule}\n{}", done.rows.join("\n")));
-    if done.failures == 0 { Ok(()) } else { Err(XtaskError::Tortured(done.failures)) }
+    let rows: Vec<String> = (0..subjects.len()).map(|number| row(number, &subjects[number], &all)).collect();
+    print_result(format!("| command | steps | {heads} |\n|---|{rule}\n{}", rows.join("\n")));
+    match wrong.iter().flatten().count() {
+        0 => Ok(()),
+        failures => Err(XtaskError::Tortured(failures)),
+    }
 }
 
-/// What has been done so far.
-struct Done<'a> {
-    context: &'a Context,
-    rows: Vec<String>,
-    failures: usize,
+/// A command or the server.
+struct Subject<'a> {
+    name: &'static str,
+    /// Which one of all there are, wanted or not.
+    number: u64,
+    /// Where the command runs, and its steps of writing; `None` for the server.
+    command: Option<(Ground<'a>, u64)>,
 }
 
-impl Done<'_> {
-    fn row(&mut self, name: &str, steps: &str, counts: [u32; Torment::ALL.len()]) {
-        let cells = counts.map(|count| count.to_string()).join(" | ");
-        self.rows.push(format!("| {name} | {steps} | {cells} |"));
+/// Something that is done to a subject.
+struct Disturbance {
+    subject: usize,
+    torment: Torment,
+    /// Which one of this subject.
+    number: u64,
+    /// The step of writing that it concerns; `None` for a random one.
+    step: Option<u64>,
+}
+
+impl Subject<'_> {
+    /// What goes wrong after a disturbance, if anything.
+    fn suffer(&self, program: &Path, it: &Disturbance, seed: u64) -> Result<Option<String>, XtaskError> {
+        let mut random = stream(seed, Purpose::Event, self.number << 32 | it.number);
+        let Some((ground, steps)) = &self.command else {
+            return serve::inflict(program, it.torment, &mut random);
+        };
+        let step = it.step.unwrap_or_else(|| random.random_range(1..=*steps));
+        let what = inflict(ground, it.torment, step, &mut random)?;
+        Ok(what.map(|what| format!("(step {step}) {what}")))
     }
 
-    fn note(&mut self, name: &str, torment: Torment, what: Option<String>) {
-        if let Some(what) = what {
-            self.failures += 1;
-            self.context.note(format!("{name} {}: {what}", torment.name()));
+    /// What can be done to it on this system.
+    fn torments(&self) -> impl Iterator<Item = Torment> {
+        let of_servers = self.command.is_none();
+        let fits = move |torment: &Torment| !of_servers || serve::TORMENTS.contains(torment);
+        Torment::ALL.into_iter().filter(fits).filter(|torment| exists(*torment))
+    }
+}
+
+/// What is to be disturbed, prepared; without what the program was built without.
+fn subjects<'a>(
+    arguments: &Torture,
+    program: &'a Path,
+    context: &Context,
+) -> Result<Vec<Subject<'a>>, XtaskError> {
+    let wanted = |name: &str| arguments.only.as_ref().is_none_or(|text| name.contains(text.as_str()));
+    let jobs: Vec<(u64, &Job)> = (0..).zip(&JOBS).filter(|(_, job)| wanted(job.name)).collect();
+    if jobs.is_empty() && !wanted(serve::NAME) {
+        return Err(CliError::Usage("--only: no command has such a name".into()).into());
+    }
+    let without = |name: &str| context.note(format!("{name}: the program was built without it"));
+    let prepared = make_all(&arguments.jobs, jobs.len(), |index| {
+        let (number, job) = jobs[index];
+        let prepare = || -> Result<Option<Subject<'a>>, XtaskError> {
+            let Some(ground) = Ground::new(program, job)? else {
+                without(job.name);
+                return Ok(None);
+            };
+            let steps = ground.steps()?;
+            context.note(format!("{}: {steps} steps of writing", job.name));
+            Ok(Some(Subject { name: job.name, number, command: Some((ground, steps)) }))
+        };
+        Ok(Some(prepare()))
+    })?;
+    let Some(prepared) = prepared else { return Err(XtaskError::Interrupted) };
+    let mut subjects: Vec<Subject<'a>> =
+        prepared.into_iter().filter_map(Result::transpose).collect::<Result<_, _>>()?;
+    if wanted(serve::NAME) {
+        if serve::is_built_in(program)? {
+            context.note(format!("{}: with raters and a player", serve::NAME));
+            subjects.push(Subject { name: serve::NAME, number: JOBS.len() as u64, command: None });
+        } else {
+            without(serve::NAME);
         }
     }
+    Ok(subjects)
+}
+
+/// All that is to be done, to one subject after the other.
+fn disturbances(arguments: &Torture, subjects: &[Subject<'_>]) -> Vec<Disturbance> {
+    let mut all = Vec::new();
+    for (subject, it) in subjects.iter().enumerate() {
+        let steps = it.command.as_ref().map_or(0, |(_, steps)| if arguments.every_step { *steps } else { 0 });
+        let each = (1..=steps).map(|step| (Torment::Stop, Some(step)));
+        let random = (0..arguments.kills).flat_map(|_| it.torments().map(|torment| (torment, None)));
+        let of = |(number, (torment, step))| Disturbance { subject, torment, number, step };
+        all.extend((0..).zip(each.chain(random)).map(of));
+    }
+    all
+}
+
+/// The row of a subject: how often what was done to it.
+fn row(number: usize, subject: &Subject<'_>, all: &[Disturbance]) -> String {
+    let times = |torment| all.iter().filter(|it| it.subject == number && it.torment == torment).count();
+    let counts = Torment::ALL.map(|torment| times(torment).to_string()).join(" | ");
+    let steps = subject.command.as_ref().map(|(_, steps)| steps.to_string()).unwrap_or_default();
+    format!("| {} | {steps} | {counts} |", subject.name)
 }
 
 /// A torment that this system has.
 fn exists(torment: Torment) -> bool {
     torment != Torment::Revoke || permissions::EXIST
-}
-
-/// Tortures a command that ends by itself.
-fn command(
-    arguments: &Torture,
-    program: &Path,
-    job: &'static Job,
-    number: u64,
-    done: &mut Done<'_>,
-) -> Result<(), XtaskError> {
-    let Some(ground) = Ground::new(program, job)? else {
-        done.context.note(format!("{}: the program was built without it", job.name));
-        return Ok(());
-    };
-    let mut random = stream(arguments.seed, Purpose::Event, number);
-    let steps = ground.steps()?;
-    done.context.note(format!("{}: {steps} steps of writing", job.name));
-    let mut counts = [0; Torment::ALL.len()];
-    let mut apply = |torment: Torment, step: u64, random: &mut Pcg64Mcg| -> Result<(), XtaskError> {
-        counts[torment as usize] += 1;
-        let what = inflict(&ground, torment, step, random)?;
-        done.note(job.name, torment, what.map(|what| format!("(step {step}) {what}")));
-        Ok(())
-    };
-    if arguments.every_step {
-        for step in 1..=steps {
-            apply(Torment::Stop, step, &mut random)?;
-        }
-    }
-    for _ in 0..arguments.kills {
-        for torment in Torment::ALL.into_iter().filter(|torment| exists(*torment)) {
-            let step = random.random_range(1..=steps);
-            apply(torment, step, &mut random)?;
-        }
-    }
-    done.row(job.name, &steps.to_string(), counts);
-    Ok(())
-}
-
-/// Tortures the server.
-fn server(arguments: &Torture, program: &Path, done: &mut Done<'_>) -> Result<(), XtaskError> {
-    if !serve::is_built_in(program)? {
-        done.context.note(format!("{}: the program was built without it", serve::NAME));
-        return Ok(());
-    }
-    done.context.note(format!("{}: with raters and a player", serve::NAME));
-    let mut random = stream(arguments.seed, Purpose::Event, JOBS.len() as u64);
-    let mut counts = [0; Torment::ALL.len()];
-    for _ in 0..arguments.kills {
-        for torment in serve::TORMENTS.into_iter().filter(|torment| exists(*torment)) {
-            counts[torment as usize] += 1;
-            let what = serve::inflict(program, torment, &mut random)?;
-            done.note(serve::NAME, torment, what);
-        }
-    }
-    done.row(serve::NAME, "", counts);
-    Ok(())
 }
 
 /// Does something to a command in a fresh folder, and lets it go on: what is wrong then, if anything.
