@@ -32,10 +32,9 @@ def digest(folder):
     return total.hexdigest()
 
 
-def kill_a_worker(killed):
-    """Kills the first worker that has begun a shard."""
-    until = time.monotonic() + 60
-    while time.monotonic() < until and not killed:
+def kill_a_worker(killed, finished):
+    """Kills the first worker that has begun a shard, however long that takes to happen."""
+    while not killed and not finished.is_set():
         found = subprocess.run(["pgrep", "-f", "^ray::make"], capture_output=True, text=True, check=False)
         for process in found.stdout.split()[:1]:
             os.kill(int(process), signal.SIGKILL)
@@ -47,11 +46,14 @@ def test_shards_merge_to_the_same_bytes(cluster, tmp_path):
     from phase_events import ray as on_ray
 
     one = phase.generate("demo", 6, tmp_path / "one", video=False, options=OPTIONS)
-    killed = []
-    killer = threading.Thread(target=kill_a_worker, args=(killed,))
+    killed, finished = [], threading.Event()
+    killer = threading.Thread(target=kill_a_worker, args=(killed, finished))
     killer.start()
-    many = on_ray.generate("demo", 6, tmp_path / "many", shards=6, video=False, options=OPTIONS)
-    killer.join()
+    try:
+        many = on_ray.generate("demo", 6, tmp_path / "many", shards=6, video=False, options=OPTIONS)
+    finally:
+        finished.set()
+        killer.join()
     assert killed, "a worker was killed on the way"
     assert digest(one) == digest(many)
     assert not (tmp_path / "many.shards").exists()
