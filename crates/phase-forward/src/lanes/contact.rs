@@ -39,10 +39,10 @@ pub(crate) struct Contacts {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Trace {
     pub(crate) key: u8,
-    live: LaneSet,
-    two: LaneSet,
-    names: [Real; 2],
-    impulses: [Real; 2],
+    pub(crate) live: LaneSet,
+    pub(crate) two: LaneSet,
+    pub(crate) names: [Real; 2],
+    pub(crate) impulses: [Real; 2],
 }
 
 /// The effect of impulses on the two sides of a contact: [`Shape::inverse_mass_vector`] of each.

@@ -15,6 +15,8 @@ use phase_model::Vec2;
 pub(crate) struct LaneActions {
     /// Pushes as a multiple of the agent's force, and the lanes that push.
     pub(crate) push: Vector,
+    /// Maximum push (N).
+    pub(crate) max_force: Real,
     pub(crate) pushes: Real,
     /// The lanes that stop.
     pub(crate) stops: Real,
@@ -101,7 +103,7 @@ impl Motions {
     #[inline]
     pub(crate) fn act(&mut self, mask: Real, shape: &Shape, action: &LaneActions) {
         let pushed = mask & action.pushes;
-        let force = action.push * splat(shape.max_force);
+        let force = action.push * action.max_force;
         self.velocity.add(pushed, self.turn(force) * splat(H * shape.inverse_mass));
         let change = splat(shape.push_point) * force.x * splat(H * shape.inverse_inertia);
         add(&mut self.spin, pushed, -change);

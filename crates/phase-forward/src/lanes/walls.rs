@@ -21,16 +21,28 @@ impl Worlds<'_> {
     /// Resolves the impacts of a body on walls in a substep of the exact kernel, in the given lanes.
     pub(crate) fn impacts(&mut self, body: usize, set: LaneSet, seconds: &Real) {
         let walls = reach::walls_swept(self, body, set);
-        let reached = self.reached(body, set, &walls);
+        self.impacts_on(body, set, &walls, seconds);
+        self.contain(body, set, &walls);
+    }
+
+    /// The same on some walls, after which the body may be beyond a wall. Returns the lanes in which there were any impacts.
+    pub(crate) fn impacts_on(
+        &mut self,
+        body: usize,
+        set: LaneSet,
+        walls: &WallLanes,
+        seconds: &Real,
+    ) -> LaneSet {
+        let reached = self.reached(body, set, walls);
+        let mut hit = 0;
         for lane in each(reached) {
-            let keys = keys(&walls, body, lane);
+            let keys = keys(walls, body, lane);
             let scratch = self.extract(once(body), lane);
             scratch.seconds = get(seconds, lane);
-            scratch.impacts(body, keys);
-            scratch.contain(body, keys);
+            hit |= u8::from(scratch.impacts(body, keys).is_some()) << lane;
             self.insert(once(body), lane);
         }
-        self.contain(body, set & !reached, &walls);
+        hit
     }
 
     /// The lanes among the given ones in which a body may reach one of the walls on its path: no axis separates it from that wall

@@ -1,0 +1,65 @@
+//! Inverse dynamics of whole events: six simulated ones, one of each kind, and the recordings of the file `PHASE_EVENTS`.
+
+use core::hint::black_box;
+use criterion::{Criterion, SamplingMode};
+use phase_agent::MindParameters;
+use phase_dataset::phase_events;
+use phase_event::{ObservedEvent, Recording};
+use phase_model::{
+    EventKind,
+    random::{Purpose, stream},
+};
+use phase_sim::SimulationSettings;
+use phase_simple::InverseDynamics;
+use std::path::Path;
+
+/// Of the recordings, every so many are explained.
+const THINNED: usize = 5;
+
+fn main() {
+    let mut criterion = Criterion::default().configure_from_args();
+    bench(&mut criterion, "inverse dynamics/generated", &EventKind::ALL.map(simulated));
+    if let Some(path) = std::env::var_os("PHASE_EVENTS") {
+        match recorded(Path::new(&path)) {
+            Ok(events) => bench(&mut criterion, "inverse dynamics/recordings", &events),
+            Err(error) => {
+                eprintln!("error: {error}");
+                std::process::exit(2);
+            }
+        }
+    }
+    criterion.final_summary();
+}
+
+/// An event of a kind, by minds that search little.
+fn simulated(kind: EventKind) -> ObservedEvent {
+    let scene =
+        phase_sampler::sample_kind(kind, &mut stream(1, Purpose::Scene, 0)).expect("a scene of every kind");
+    let minds = MindParameters { simulations: 100, ..MindParameters::default() };
+    let settings = SimulationSettings { minds, ..SimulationSettings::default() };
+    let event = phase_sim::simulate(&scene, 1, &settings).expect("a sound scene");
+    let recording = Recording::of_event("event", event, "bench".into(), serde_json::Value::Null);
+    recording.observed().expect("a sound event")
+}
+
+fn recorded(path: &Path) -> Result<Vec<ObservedEvent>, phase_dataset::FileError> {
+    let recordings = phase_events::read(path)?;
+    Ok(recordings.iter().step_by(THINNED).filter_map(|recording| recording.observed().ok()).collect())
+}
+
+fn bench(criterion: &mut Criterion, name: &str, events: &[ObservedEvent]) {
+    let steps: usize = events.iter().map(ObservedEvent::steps).sum();
+    println!("{name}: {} events, {steps} steps", events.len());
+    let mut group = criterion.benchmark_group(name);
+    group.sample_size(10).sampling_mode(SamplingMode::Flat);
+    group.bench_function("new", |bencher| {
+        bencher.iter(|| {
+            black_box(events)
+                .iter()
+                .map(InverseDynamics::new)
+                .map(|motion| motion.residuals.len())
+                .sum::<usize>()
+        });
+    });
+    group.finish();
+}
