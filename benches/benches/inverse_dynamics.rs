@@ -1,4 +1,4 @@
-//! Inverse dynamics of whole events: six simulated ones, one of each kind, and the recordings of the file `PHASE_EVENTS`.
+//! Inverse dynamics of whole events, with steps computed one by one and in lanes: six simulated ones, one of each kind, and the recordings of the file `PHASE_EVENTS`.
 
 use core::hint::black_box;
 use criterion::{Criterion, SamplingMode};
@@ -10,7 +10,7 @@ use phase_model::{
     random::{Purpose, stream},
 };
 use phase_sim::SimulationSettings;
-use phase_simple::InverseDynamics;
+use phase_simple::{MotionTracker, inverse_dynamics::BATCH};
 use std::path::Path;
 
 /// Of the recordings, every so many are explained.
@@ -52,14 +52,13 @@ fn bench(criterion: &mut Criterion, name: &str, events: &[ObservedEvent]) {
     println!("{name}: {} events, {steps} steps", events.len());
     let mut group = criterion.benchmark_group(name);
     group.sample_size(10).sampling_mode(SamplingMode::Flat);
-    group.bench_function("new", |bencher| {
-        bencher.iter(|| {
-            black_box(events)
-                .iter()
-                .map(InverseDynamics::new)
-                .map(|motion| motion.residuals.len())
-                .sum::<usize>()
+    for (name, batch) in [("one by one", 1), ("in lanes", BATCH)] {
+        group.bench_function(name, |bencher| {
+            bencher.iter(|| -> usize {
+                let explained = |event| MotionTracker::with_batch(event, batch).into_motion().residuals.len();
+                black_box(events).iter().map(explained).sum()
+            });
         });
-    });
+    }
     group.finish();
 }
