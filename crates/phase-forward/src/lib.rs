@@ -122,4 +122,5 @@ mod weld;
 mod world;
 
 pub use forward::{Exertion, Forward};
+pub use lanes::LANES;
 pub use solver_cache::SolverCache;

@@ -3,6 +3,7 @@
 use super::{
     contact::{Contacts, Trace},
     outline::{Boxes, Polygons, WallLanes},
+    reach::BodyLanes,
     real::{LANES, LaneSet, Real, Vector, at_most, each, get, lanes, less, mask, set, splat},
     touching::{ContactList, TraceList},
     worlds::{Place, Start, Worlds},
@@ -37,6 +38,8 @@ pub(crate) struct Memory {
     /// dropped.
     to_find: [LaneSet; 4],
     to_drop: [LaneSet; 4],
+    /// For each body, the lanes in which its box contains it where it is.
+    pub(crate) boxed: [LaneSet; 4],
     /// For each pair, the lanes in which one holds the other.
     held: [LaneSet; PAIRS.len()],
     pub(crate) traces: TraceList,
@@ -57,6 +60,7 @@ impl Memory {
             boxes: [(Vector::ZERO, Vector::ZERO); 4],
             to_find: [0; 4],
             to_drop: [used; 4],
+            boxed: [0; 4],
             held: [0; PAIRS.len()],
             traces: TraceList::new(),
         };
@@ -168,10 +172,18 @@ impl Memory {
         if contacts.len() < 2 {
             return failed;
         }
-        contacts.sort_by_key(|contact| {
+        let age = |contact: &Contacts| {
             let first = contact.live().trailing_zeros() as usize;
-            core::cmp::Reverse(self.since[usize::from(contact.key)][first])
-        });
+            self.since[usize::from(contact.key)][first]
+        };
+        // They are few, large, and nearly always in order.
+        for place in 1..contacts.len() {
+            let mut place = place;
+            while place > 0 && age(&contacts[place - 1]) < age(&contacts[place]) {
+                contacts.swap(place - 1, place);
+                place -= 1;
+            }
+        }
         for (index, newer) in contacts.iter().enumerate() {
             for older in &contacts[index + 1..] {
                 let (a, b) = (usize::from(newer.key), usize::from(older.key));
@@ -185,12 +197,18 @@ impl Memory {
         failed
     }
 
-    /// Updates the boxes that bodies have left in this substep, and finds the new contact candidates.
-    pub(crate) fn update_boxes(&mut self, worlds: &mut Worlds<'_>) {
+    /// Updates the boxes that bodies have left in this substep, and finds the new contact candidates. Takes the lanes in which each
+    /// of them has moved.
+    pub(crate) fn update_boxes(&mut self, worlds: &mut Worlds<'_>, moved: &BodyLanes) {
         for body in 0..worlds.model.count {
+            let unknown = moved[body] | worlds.used & !self.boxed[body];
+            if unknown == 0 {
+                continue;
+            }
             let motion = &worlds.motions[body];
             let after = Place { centre: motion.centre, angle: motion.angle, right: motion.right };
-            self.refit_box(worlds, body, worlds.used, worlds.starts[body], after);
+            self.refit_box(worlds, body, unknown, worlds.starts[body], after);
+            self.boxed[body] = worlds.used;
         }
         self.find_new_pairs(worlds);
     }

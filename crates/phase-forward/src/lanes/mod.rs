@@ -30,7 +30,8 @@ mod worlds;
 use crate::{Exertion, SolverCache, model::Model};
 use arrayvec::ArrayVec;
 use phase_model::{AGENT_COUNT, Action, State, arena::SUBSTEPS};
-use real::{LANES, LaneSet, each};
+pub use real::LANES;
+use real::{LaneSet, each};
 pub(crate) use warm::WarmBatch;
 use worlds::Start;
 

@@ -122,6 +122,9 @@ impl Motions {
     #[inline]
     pub(crate) fn coast(&mut self, mask: Real, shape: &Shape) -> Vector {
         let mask = mask & !self.at_rest();
+        if !mask.any() {
+            return Vector::ZERO;
+        }
         let mut twist = self.twist();
         let rubbed = solve_friction(&mut twist, mask, shape, self.right, Vector::ZERO);
         self.set_twist(mask, twist);

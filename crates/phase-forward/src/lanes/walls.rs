@@ -33,14 +33,22 @@ impl Worlds<'_> {
         walls: &WallLanes,
         seconds: &Real,
     ) -> LaneSet {
-        let reached = self.reached(body, set, walls);
+        let mut left = self.reached(body, set, walls);
         let mut hit = 0;
-        for lane in each(reached) {
+        while left != 0 {
+            let lane = left.trailing_zeros() as usize;
+            // What moves alike in several lanes is moved once: often only one agent does different things in them.
+            let alike = left & self.alike(body, lane, seconds) & same_walls(walls, lane);
             let keys = keys(walls, body, lane);
             let scratch = self.extract(once(body), lane);
             scratch.seconds = get(seconds, lane);
-            hit |= u8::from(scratch.impacts(body, keys).is_some()) << lane;
-            self.insert(once(body), lane);
+            if scratch.impacts(body, keys).is_some() {
+                hit |= alike;
+            }
+            for lane in each(alike) {
+                self.insert(once(body), lane);
+            }
+            left &= !(alike | 1 << lane);
         }
         hit
     }
@@ -76,10 +84,43 @@ impl Worlds<'_> {
         reached
     }
 
-    /// Moves a body back where its centre of mass has left the arena or crossed one of the walls; see [`crate::contain`].
-    pub(crate) fn contain(&mut self, body: usize, set: LaneSet, walls: &WallLanes) {
+    /// The lanes in which a body has moved in this substep as it has in a given lane.
+    fn alike(&self, body: usize, lane: usize, seconds: &Real) -> LaneSet {
+        let (start, motion) = (&self.starts[body], &self.motions[body]);
+        let numbers = [
+            &start.centre.x,
+            &start.centre.y,
+            &start.angle,
+            &start.right.x,
+            &start.right.y,
+            &motion.centre.x,
+            &motion.centre.y,
+            &motion.velocity.x,
+            &motion.velocity.y,
+            &motion.right.x,
+            &motion.right.y,
+            &motion.angle,
+            &motion.spin,
+            seconds,
+        ];
+        let same = |number: &Real| {
+            let bits = get(number, lane).to_bits();
+            number
+                .as_array()
+                .iter()
+                .enumerate()
+                .fold(0, |set, (other, number)| set | LaneSet::from(number.to_bits() == bits) << other)
+        };
+        numbers
+            .into_iter()
+            .fold(!0, |set, number| if set.is_power_of_two() { set } else { set & same(number) })
+    }
+
+    /// Moves a body back where its centre of mass has left the arena or crossed one of the walls; see [`crate::contain`]. Returns
+    /// the lanes in which it may have been moved.
+    pub(crate) fn contain(&mut self, body: usize, set: LaneSet, walls: &WallLanes) -> LaneSet {
         if set == 0 {
-            return;
+            return 0;
         }
         let (start, motion) = (self.starts[body].centre, self.motions[body]);
         let (min, max) = (arena::MIN + BOUNDARY_MARGIN, arena::MAX - BOUNDARY_MARGIN);
@@ -96,11 +137,18 @@ impl Worlds<'_> {
             let (before, after) = (normal.dot(start - a), normal.dot(motion.centre - a));
             fine &= greater(before * after, Real::ZERO) | !mask(near);
         }
-        for lane in each(set & !lanes(fine)) {
+        let unsure = set & !lanes(fine);
+        for lane in each(unsure) {
             self.extract(once(body), lane).contain(body, keys(walls, body, lane));
             self.insert(once(body), lane);
         }
+        unsure
     }
+}
+
+/// The lanes in which the same walls are to be looked at as in a given lane.
+fn same_walls(walls: &WallLanes, lane: usize) -> LaneSet {
+    walls.iter().fold(!0, |set, &near| set & if near & 1 << lane != 0 { near } else { !near })
 }
 
 /// The keys of a body with the walls that have a lane.

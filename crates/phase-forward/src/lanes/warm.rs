@@ -4,8 +4,8 @@ use super::{
     Batch,
     contact::Contacts,
     memory::{Memory, warm_start},
-    reach,
-    real::{LaneSet, each, splat},
+    reach::{self, BodyLanes},
+    real::{LaneSet, differ, each, lanes, splat},
     touching::ContactList,
     worlds::{Start, Worlds},
 };
@@ -74,6 +74,22 @@ fn step(model: &Model, starts: &[&Start], batch: &mut WarmBatch<'_>) -> LaneSet 
 }
 
 impl Worlds<'_> {
+    /// For each body, the lanes in which it is not where it was at the start of the substep.
+    fn moved(&self) -> BodyLanes {
+        core::array::from_fn(|body| {
+            if body >= self.model.count {
+                return 0;
+            }
+            let (motion, start) = (&self.motions[body], &self.starts[body]);
+            let moved = differ(motion.centre.x, start.centre.x)
+                | differ(motion.centre.y, start.centre.y)
+                | differ(motion.angle, start.angle)
+                | differ(motion.right.x, start.right.x)
+                | differ(motion.right.y, start.right.y);
+            self.used & lanes(moved)
+        })
+    }
+
     /// One substep of all bodies.
     fn substep_warm(&mut self, memory: &mut Memory, contacts: &mut ContactList, substep: usize) {
         let everyone = core::array::from_fn(|body| if body < self.model.count { self.used } else { 0 });
@@ -92,9 +108,10 @@ impl Worlds<'_> {
         self.solve(&everyone, contacts);
         memory.traces.clear();
         memory.traces.extend(contacts.iter().map(Contacts::trace));
-        memory.update_boxes(self);
+        let moved = self.moved();
+        memory.update_boxes(self, &moved);
         for body in 0..self.model.count {
-            let swept = reach::walls_swept(self, body, self.used);
+            let swept = reach::walls_swept(self, body, moved[body]);
             let mut candidates = swept;
             for (swept, candidates) in candidates.iter_mut().zip(&memory.walls[body]) {
                 *swept &= candidates;
@@ -103,8 +120,10 @@ impl Worlds<'_> {
             if hit != 0 {
                 memory.update_box(self, body, hit);
             }
-            self.contain(body, self.used, &swept);
-            self.outlines.moved(body, self.used);
+            // A body that has not moved is where it was contained before.
+            let contained = if substep == 0 { 0 } else { memory.boxed[body] & !moved[body] };
+            memory.boxed[body] &= !self.contain(body, self.used & !contained, &swept);
+            self.outlines.moved(body, moved[body]);
         }
         memory.find_new_pairs(self);
     }

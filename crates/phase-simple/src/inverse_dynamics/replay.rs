@@ -4,7 +4,7 @@ use super::{
     difference::Difference,
     reading::{Reading, Start},
 };
-use phase_forward::{Exertion, Forward, SolverCache};
+use phase_forward::{Exertion, Forward, LANES, SolverCache};
 use phase_model::{
     AGENT_COUNT, Action, AgentId, Body, Entity, MAX_ENTITIES, PhysicsConfig, State, Strength, arena::SUBSTEPS,
 };
@@ -111,6 +111,11 @@ impl Replay {
 
     fn run(&self, tracked: &mut TrackedState, deeds: [Deed; AGENT_COUNT]) -> [State; SUBSTEPS] {
         self.forward.step_warm_with(&mut tracked.state, &mut tracked.cache, &exertion(deeds))
+    }
+
+    /// How many steps more can be computed together with some from a state at no cost, in lanes that are left.
+    pub(super) fn room(&self, tracked: &TrackedState, steps: usize) -> usize {
+        if tracked.late || self.batch < 2 { 0 } else { steps.next_multiple_of(LANES) - steps }
     }
 
     /// Steps from one state, each compared with what was observed; [`Replay::step`] of each.
