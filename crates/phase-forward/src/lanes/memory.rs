@@ -4,7 +4,7 @@ use super::{
     contact::{Contacts, Trace},
     outline::{Boxes, Polygons, WallLanes},
     reach::BodyLanes,
-    real::{LANES, LaneSet, Real, Vector, at_most, each, get, lanes, less, mask, set, splat},
+    real::{LANES, LaneSet, Vector, at_most, each, get, lanes, less, mask, set, splat},
     touching::{ContactList, TraceList},
     worlds::{Place, Start, Worlds},
 };
@@ -14,7 +14,7 @@ use crate::{
     constants::SKIN,
     key::{KEYS, KeySet, PAIRS, bit, descending, pair_key, pair_of, wall_key},
     solver_cache::{AABB_MULTIPLIER, MARGIN, UNLIMITED_SUBSTEPS},
-    touching::{CachedContact, CachedContacts},
+    touching::CachedContacts,
     wall::MAX_WALLS,
 };
 use phase_model::{AGENT_COUNT, Vec2, arena::SUBSTEPS};
@@ -336,35 +336,6 @@ impl Memory {
                 }
             }
         }
-    }
-}
-
-impl Trace {
-    fn none(key: u8) -> Self {
-        Self { key, live: 0, two: 0, names: [Real::ZERO; 2], impulses: [Real::ZERO; 2] }
-    }
-
-    fn set(&mut self, lane: usize, kept: &CachedContact) {
-        self.live |= 1 << lane;
-        self.two |= u8::from(kept.count == 2) << lane;
-        for point in 0..2 {
-            set(&mut self.names[point], lane, f32::from(kept.names[point]));
-            set(&mut self.impulses[point], lane, kept.impulses[point]);
-        }
-    }
-
-    fn get(&self, lane: usize) -> Option<CachedContact> {
-        let has = |set: LaneSet| set & 1 << lane != 0;
-        if !has(self.live) {
-            return None;
-        }
-        let mut kept = CachedContact { key: self.key, count: 1, ..CachedContact::NONE };
-        for point in 0..if has(self.two) { 2 } else { 1 } {
-            kept.count = point as u8 + 1;
-            kept.names[point] = get(&self.names[point], lane) as u16;
-            kept.impulses[point] = get(&self.impulses[point], lane);
-        }
-        Some(kept)
     }
 }
 

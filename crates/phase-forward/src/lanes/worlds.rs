@@ -3,10 +3,7 @@
 use super::{
     motion::{LaneActions, Motions},
     outline::{Outlines, WallLanes},
-    real::{
-        LANES, LaneSet, Real, Vector, at_most, each, equal, get, greater, lanes, less, mask, pick, put, set,
-        splat,
-    },
+    real::{LANES, LaneSet, Real, Vector, at_most, each, get, greater, lanes, less, mask, pick, put, splat},
 };
 use crate::{
     Exertion,
@@ -378,36 +375,5 @@ impl<'a> Worlds<'a> {
                 self.outlines.moved(body, 1 << lane);
             }
         }
-    }
-}
-
-impl LaneActions {
-    pub(crate) const NONE: Self = Self {
-        push: Vector::ZERO,
-        max_force: Real::ZERO,
-        pushes: Real::ZERO,
-        stops: Real::ZERO,
-        turn: Real::ZERO,
-    };
-
-    /// What an agent does in each lane, and its maximum push (N).
-    pub(crate) fn new(acts_of: [(Action, f32); LANES]) -> Self {
-        let mut acts = Self::NONE;
-        let (mut pushes, mut stops): (LaneSet, LaneSet) = (0, 0);
-        for (lane, (action, max_force)) in acts_of.into_iter().enumerate() {
-            set(&mut acts.max_force, lane, max_force);
-            acts.push.set(lane, action.push().unwrap_or(Vec2::ZERO));
-            pushes |= u8::from(action.push().is_some()) << lane;
-            stops |= u8::from(action == Action::Stop) << lane;
-            set(&mut acts.turn, lane, action.turn());
-        }
-        acts.pushes = mask(pushes);
-        acts.stops = mask(stops);
-        acts
-    }
-
-    /// The lanes in which nothing is done.
-    pub(crate) fn idle(&self) -> Real {
-        !(self.pushes) & equal(self.turn, Real::ZERO)
     }
 }
