@@ -4,6 +4,9 @@
 //! or another iteration concerns. Every lane has the bits of the scalar kernel: operations are the same, in the same order, and
 //! what is rare or full of decisions (the moment of an impact, two agents that touch) is left to the scalar kernel, lane by lane.
 //!
+//! States are stepped alone (`exact`, `coarse`) or with their caches (`warm`, `memory`). Lanes differ in what is done and, with
+//! caches, in the agents' strengths.
+//!
 //! How much it saves depends on how much the worlds agree: `docs/performance.md` has measurements.
 
 // A body's number indexes several arrays at once here.
