@@ -191,11 +191,11 @@ impl BodyMotion {
         }
     }
 
-    /// Applies an agent's action for one substep, before friction and contacts.
+    /// Applies an action of an agent that pushes with at most some force (N) for one substep, before friction and contacts.
     #[inline]
-    pub(crate) fn act(&mut self, shape: &Shape, action: Action) {
+    pub(crate) fn act(&mut self, shape: &Shape, action: Action, max_force: f32) {
         if let Some(push) = action.push() {
-            let force = push * shape.max_force;
+            let force = push * max_force;
             self.velocity += self.turn(force) * (H * shape.inverse_mass);
             self.spin -= shape.push_point * force.x * (H * shape.inverse_inertia);
         } else if action == Action::Stop {

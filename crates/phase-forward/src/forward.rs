@@ -14,6 +14,15 @@ use crate::{
 };
 use phase_model::{AGENT_COUNT, Action, Dynamics, PhysicsConfig, State, arena::SUBSTEPS};
 
+/// What both agents do in a step, and how strong they are.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Exertion {
+    /// The action of each agent.
+    pub actions: [Action; AGENT_COUNT],
+    /// Maximum push of each agent (N).
+    pub max_forces: [f32; AGENT_COUNT],
+}
+
 /// The dynamics of one scene: walls, shapes, masses and forces, prepared for stepping.
 ///
 /// At most two objects and four inner walls are used, which is all that PHASE has; more are ignored.
@@ -71,8 +80,20 @@ impl Forward {
         solver_cache: &mut SolverCache,
         actions: [Action; AGENT_COUNT],
     ) -> [State; SUBSTEPS] {
-        let mut world = World::new(&self.model, state, actions);
-        solver_cache.enter(&mut world);
+        let max_forces = [0, 1].map(|agent: usize| self.model.shapes[agent].max_force);
+        self.step_warm_with(state, solver_cache, &Exertion { actions, max_forces })
+    }
+
+    /// [`Forward::step_warm`] by agents whose strengths are not those of the scene.
+    pub fn step_warm_with(
+        &self,
+        state: &mut State,
+        solver_cache: &mut SolverCache,
+        exertion: &Exertion,
+    ) -> [State; SUBSTEPS] {
+        let mut world = World::new(&self.model, state, exertion.actions);
+        world.max_forces = exertion.max_forces;
+        let mut touching = solver_cache.enter(&mut world);
         for (agent, held) in world.grab(state).into_iter().enumerate() {
             if let Some(held) = held {
                 solver_cache.release(agent, held);
@@ -80,14 +101,38 @@ impl Forward {
         }
         let mut substeps = [*state; SUBSTEPS];
         for substep in &mut substeps {
-            self.substep_warm(&mut world, solver_cache);
+            self.substep_warm(&mut world, solver_cache, &mut touching);
             world.finish(state, solver_cache.active_pairs());
             *substep = *state;
         }
-        solver_cache.leave(&world);
+        solver_cache.leave(&world, &touching);
         stop_turning(state);
         substeps[SUBSTEPS - 1] = *state;
         substeps
+    }
+
+    /// [`Forward::step_warm_with`] of several states, each with its cache, with the states after each substep: eight at a time, one
+    /// in each lane of a vector, with the same bits. That saves most where the states are one state in which different things are
+    /// done.
+    ///
+    /// # Panics
+    ///
+    /// If there are not as many caches, exertions and places for substeps as states.
+    pub fn step_warm_batch(
+        &self,
+        states: &mut [State],
+        caches: &mut [SolverCache],
+        exertions: &[Exertion],
+        substeps: &mut [[State; SUBSTEPS]],
+    ) {
+        let count = states.len();
+        assert_eq!(caches.len(), count, "one cache for each state");
+        assert_eq!(exertions.len(), count, "one exertion for each state");
+        assert_eq!(substeps.len(), count, "one place for each state");
+        let mut batch = lanes::WarmBatch { states, caches, exertions, substeps };
+        lanes::step_warm(&self.model, &mut batch, |state, cache, exertion| {
+            self.step_warm_with(state, cache, exertion)
+        });
     }
 
     /// One approximate step: as [`phase_model::Dynamics::step`], at a fraction of its cost.
@@ -115,9 +160,9 @@ impl Forward {
     /// [`Forward::settle`] with warm starting.
     pub fn settle_warm(&self, state: &mut State, solver_cache: &mut SolverCache) {
         let mut world = World::new(&self.model, state, [Action::NoForce; AGENT_COUNT]);
-        solver_cache.enter(&mut world);
-        self.substep_warm(&mut world, solver_cache);
-        solver_cache.leave(&world);
+        let mut touching = solver_cache.enter(&mut world);
+        self.substep_warm(&mut world, solver_cache, &mut touching);
+        solver_cache.leave(&world, &touching);
         world.finish(state, solver_cache.active_pairs());
         stop_turning(state);
     }
@@ -177,12 +222,16 @@ impl Forward {
     #[inline]
     fn drift(&self, world: &mut World<'_>, body: usize, substeps: usize) {
         let (shape, motion) = (&self.model.shapes[body], &mut world.motions[body]);
-        let action = if body < AGENT_COUNT { world.actions[body] } else { Action::NoForce };
+        let (action, max_force) = if body < AGENT_COUNT {
+            (world.actions[body], world.max_forces[body])
+        } else {
+            (Action::NoForce, 0.0)
+        };
         if motion.is_at_rest() && action.push().is_none() && action.turn() == 0.0 {
             return;
         }
         for _ in 0..substeps {
-            motion.act(shape, action);
+            motion.act(shape, action, max_force);
             motion.coast(shape);
         }
         world.moved(body);
@@ -207,14 +256,14 @@ impl Forward {
         }
     }
 
-    fn substep_warm(&self, world: &mut World<'_>, solver_cache: &mut SolverCache) {
+    fn substep_warm(&self, world: &mut World<'_>, solver_cache: &mut SolverCache, touching: &mut ContactSet) {
         solver_cache.drop_stale(world);
         world.all_moved();
         world.outline(self.model.everyone());
         world.released = solver_cache.limited_pairs();
-        solver_cache.touching.replace(world.contacts(solver_cache.active_pairs() | world.released));
-        solver_cache.sort_newest_first();
-        world.solve(self.model.everyone(), &mut solver_cache.touching);
+        touching.replace(world.contacts(solver_cache.active_pairs() | world.released));
+        solver_cache.sort_newest_first(touching);
+        world.solve(self.model.everyone(), touching);
         solver_cache.update_boxes(world);
         for body in 0..self.model.count {
             let walls = reach::walls_swept(world, body);

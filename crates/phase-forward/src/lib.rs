@@ -9,7 +9,7 @@
 //! - [`phase_model::Dynamics::step_approximate`] goes from a state alone as well, at a fraction of the cost. This is what
 //!   searches use; see below.
 //! - [`Forward::step_warm`] also takes a [`SolverCache`] of the last impulses and of the broad-phase pairs.
-//!   This is what replays of recordings need.
+//!   This is what replays of recordings need. [`Forward::step_warm_batch`] does so for many deeds at a time.
 //!
 //! Key design decision: the solver is of the same *kind* as the one that made the published recordings
 //! (sequential impulses with ten iterations, ground friction and grips as constraints among the contacts,
@@ -121,5 +121,6 @@ mod wall;
 mod weld;
 mod world;
 
-pub use forward::Forward;
+pub use forward::{Exertion, Forward};
+pub use lanes::LANES;
 pub use solver_cache::SolverCache;

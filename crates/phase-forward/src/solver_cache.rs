@@ -5,17 +5,17 @@ use crate::{
     constants::SKIN,
     key::{KEYS, KeySet, PAIRS, bit, descending, pair_key, pair_of, wall_key},
     polygon::Polygon,
-    touching::ContactSet,
+    touching::{CachedContacts, ContactSet},
     world::{Impulses, World},
 };
 use phase_model::{AGENT_COUNT, Vec2, arena::SUBSTEPS};
 
 /// Margin around a body when its box is updated (u).
-const MARGIN: f32 = 0.1;
+pub(crate) const MARGIN: f32 = 0.1;
 /// Substeps after a release in which a pair may overlap without limit, as in the original: three steps.
-const UNLIMITED_SUBSTEPS: u8 = 3 * SUBSTEPS as u8;
+pub(crate) const UNLIMITED_SUBSTEPS: u8 = 3 * SUBSTEPS as u8;
 /// Share of its last displacement that a body is expected to repeat, in updated boxes.
-const AABB_MULTIPLIER: f32 = 2.0;
+pub(crate) const AABB_MULTIPLIER: f32 = 2.0;
 
 /// The cache of a replay: the last impulses of contacts, grips and ground friction, and the original's broad
 /// phase. There, a pair of shapes becomes a contact candidate once their enlarged boxes overlap, and a box is
@@ -25,26 +25,27 @@ const AABB_MULTIPLIER: f32 = 2.0;
 /// [`phase_model::physics::RELEASED_OVERLAP`] only.
 #[derive(Clone, Copy, Debug)]
 pub struct SolverCache {
-    impulses: Impulses,
-    pub(crate) touching: ContactSet,
-    /// When each pair became a contact candidate; 0 for pairs that are not.
-    since: [u32; KEYS],
-    now: u32,
-    active_pairs: KeySet,
+    pub(crate) impulses: Impulses,
+    /// The contacts of the last substep.
+    pub(crate) traces: CachedContacts,
+    /// When each pair became a contact candidate; 0 for pairs that never were.
+    pub(crate) since: [u32; KEYS],
+    pub(crate) now: u32,
+    pub(crate) active_pairs: KeySet,
     /// Pairs that were released and are not contact candidates again.
-    released: KeySet,
+    pub(crate) released: KeySet,
     /// For each pair, the substeps since its release.
-    released_for: [u8; PAIRS.len()],
-    boxes: [(Vec2, Vec2); 4],
+    pub(crate) released_for: [u8; PAIRS.len()],
+    pub(crate) boxes: [(Vec2, Vec2); 4],
     moved: u8,
-    latest_grip: usize,
+    pub(crate) latest_grip: usize,
 }
 
 impl SolverCache {
     pub(crate) fn new(world: &World<'_>) -> Self {
         let mut solver_cache = Self {
             impulses: Impulses::NONE,
-            touching: ContactSet::NONE,
+            traces: CachedContacts::NONE,
             since: [0; KEYS],
             now: 1,
             active_pairs: 0,
@@ -88,14 +89,18 @@ impl SolverCache {
         limited
     }
 
-    pub(crate) fn enter(&self, world: &mut World<'_>) {
+    /// Hands over what a step begins with, and returns the contacts of the substep before it.
+    pub(crate) fn enter(&self, world: &mut World<'_>) -> ContactSet {
         world.impulses = self.impulses;
         world.latest_grip = self.latest_grip;
+        ContactSet { traces: self.traces, ..ContactSet::NONE }
     }
 
-    pub(crate) fn leave(&mut self, world: &World<'_>) {
+    /// Takes back what a step ends with.
+    pub(crate) fn leave(&mut self, world: &World<'_>, touching: &ContactSet) {
         self.impulses = world.impulses;
         self.latest_grip = world.latest_grip;
+        self.traces = touching.traces;
     }
 
     /// Removes pairs that are held together or whose boxes no longer overlap.
@@ -110,10 +115,10 @@ impl SolverCache {
     }
 
     /// Sorts the contacts found from newest to oldest.
-    pub(crate) fn sort_newest_first(&mut self) {
-        let since = &self.since;
-        self.touching.contacts[..self.touching.count]
-            .sort_by_key(|contact| core::cmp::Reverse(since[usize::from(contact.key)]));
+    pub(crate) fn sort_newest_first(&self, touching: &mut ContactSet) {
+        touching
+            .current_mut()
+            .sort_by_key(|contact| core::cmp::Reverse(self.since[usize::from(contact.key)]));
     }
 
     /// Updates the boxes of bodies that have left theirs, and finds the new contact candidates.

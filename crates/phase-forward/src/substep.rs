@@ -48,7 +48,7 @@ impl World<'_> {
             self.starts[body] = (motion.centre, motion.angle, motion.right);
             still |= u8::from(motion.is_at_rest()) << body;
             if body < AGENT_COUNT {
-                motion.act(shape, self.actions[body]);
+                motion.act(shape, self.actions[body], self.max_forces[body]);
                 still &= !(u8::from(!motion.is_at_rest()) << body);
             }
             if linked & 1 << body != 0 {

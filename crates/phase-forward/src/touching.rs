@@ -1,6 +1,7 @@
 //! The contacts of a substep, and the data kept for the next substep.
 
 use crate::contact::Contact;
+use core::fmt;
 
 /// Maximum number of contacts solved at once; more than four bodies between walls ever have.
 pub(crate) const MAX_CONTACTS: usize = 16;
@@ -66,18 +67,37 @@ impl ContactSet {
 }
 
 /// The data kept of all contacts of a substep.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub(crate) struct CachedContacts {
     list: [CachedContact; MAX_CONTACTS],
     count: usize,
 }
 
+impl fmt::Debug for CachedContacts {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.debug_list().entries(self.kept()).finish()
+    }
+}
+
 impl CachedContacts {
     pub(crate) const NONE: Self = Self { list: [CachedContact::NONE; MAX_CONTACTS], count: 0 };
 
+    /// What is kept, newest first.
+    pub(crate) fn kept(&self) -> &[CachedContact] {
+        &self.list[..self.count]
+    }
+
+    /// Keeps another contact, older than the others. Those past the maximum are dropped.
+    pub(crate) fn push(&mut self, contact: CachedContact) {
+        if let Some(place) = self.list.get_mut(self.count) {
+            *place = contact;
+            self.count += 1;
+        }
+    }
+
     /// Restores the impulses of a contact's points.
     fn warm_start(&self, contact: &mut Contact) {
-        let Some(trace) = self.list[..self.count].iter().find(|trace| trace.key == contact.key) else {
+        let Some(trace) = self.kept().iter().find(|trace| trace.key == contact.key) else {
             return;
         };
         for point in 0..contact.manifold.count {

@@ -41,6 +41,8 @@ pub(crate) struct World<'a> {
     /// The agent that grabbed last; its weld comes first.
     pub(crate) latest_grip: usize,
     pub(crate) actions: [Action; AGENT_COUNT],
+    /// Maximum push of each agent (N).
+    pub(crate) max_forces: [f32; AGENT_COUNT],
     pub(crate) impulses: Impulses,
     /// Pairs that may not touch, because one holds the other.
     pub(crate) excluded_pairs: KeySet,
@@ -84,6 +86,7 @@ impl<'a> World<'a> {
             grips,
             latest_grip: 1,
             actions,
+            max_forces: [0, 1].map(|agent: usize| model.shapes[agent].max_force),
             impulses: Impulses::NONE,
             excluded_pairs: 0,
             released: 0,

@@ -3,8 +3,8 @@
 mod scenes;
 
 use core::hint::black_box;
-use phase_forward::Forward;
-use phase_model::{Contacts, Dynamics};
+use phase_forward::{Exertion, Forward};
+use phase_model::{Contacts, Dynamics, arena::SUBSTEPS};
 use proptest::{
     strategy::{Strategy, ValueTree},
     test_runner::TestRunner,
@@ -45,6 +45,13 @@ fn steps_allocate_nothing() {
                 forward.step_approximate_batch(&mut imagined_worlds, &[actions; WORLDS]);
             });
             allocated("step_coarse", &mut || forward.step_coarse(&mut imagined, actions));
+            let (mut worlds, mut caches) = ([warm; WORLDS], [solver_cache; WORLDS]);
+            let max_forces = physics.agents.each_ref().map(|agent| agent.max_force);
+            let exertions = [Exertion { actions, max_forces }; WORLDS];
+            let mut substeps = [[warm; SUBSTEPS]; WORLDS];
+            allocated("step_warm_batch", &mut || {
+                forward.step_warm_batch(&mut worlds, &mut caches, &exertions, &mut substeps);
+            });
             allocated("step_warm", &mut || {
                 black_box(forward.step_warm(&mut warm, &mut solver_cache, actions));
             });

@@ -3,9 +3,10 @@
 #[allow(dead_code)]
 mod scenes;
 
-use phase_forward::Forward;
+use phase_forward::{Exertion, Forward};
 use phase_model::{
-    AGENT_COUNT, Action, AgentBody, Body, Dynamics, Grip, ObjectId, PhysicsConfig, Side, State, Vec2,
+    AGENT_COUNT, Action, AgentBody, Body, Dynamics, Grip, ObjectId, PhysicsConfig, Side, State, Strength,
+    Vec2, arena::SUBSTEPS,
 };
 use proptest::prelude::*;
 use scenes::{physiques, separated_bodies};
@@ -31,6 +32,44 @@ fn bits(physics: &PhysicsConfig, state: &State) -> (Vec<u32>, [Option<Grip>; AGE
 
 type StepAll = fn(&Forward, &mut [State], &[[Action; AGENT_COUNT]]);
 type StepOne = fn(&Forward, &mut State, [Action; AGENT_COUNT]);
+
+/// Steps all worlds with their caches together and one by one, by agents of any strength, and compares states, substeps and caches.
+fn compare_warm(
+    forward: &Forward,
+    physics: &PhysicsConfig,
+    starts: &[State],
+    actions: &[Vec<[Action; AGENT_COUNT]>],
+) -> Result<(), TestCaseError> {
+    let mut states = starts.to_vec();
+    let mut caches: Vec<_> = starts.iter().map(|state| forward.fresh_cache(state)).collect();
+    for (step, actions) in actions.iter().enumerate() {
+        let strength = |world: usize, agent: usize| Strength::ALL[(world * (agent + 1) + step) % 4];
+        let exertion = |world: usize| Exertion {
+            actions: actions[world],
+            max_forces: [0, 1].map(|agent| strength(world, agent).max_force()),
+        };
+        let exertions: Vec<_> = (0..starts.len()).map(exertion).collect();
+        let mut substeps = vec![[State::new([Body::default(); 4]); SUBSTEPS]; starts.len()];
+        let (before, before_caches) = (states.clone(), caches.clone());
+        forward.step_warm_batch(&mut states, &mut caches, &exertions, &mut substeps);
+        for world in 0..starts.len() {
+            let (mut state, mut cache) = (before[world], before_caches[world]);
+            let alone = forward.step_warm_with(&mut state, &mut cache, &exertions[world]);
+            let bits_of = |state: &State| bits(physics, state);
+            let context =
+                format!("step {step} of world {world}: {:?} from {:?}", exertions[world], before[world]);
+            prop_assert_eq!(
+                substeps[world].each_ref().map(bits_of),
+                alone.each_ref().map(bits_of),
+                "{}",
+                context
+            );
+            prop_assert_eq!(bits_of(&states[world]), bits_of(&state), "{}", context);
+            prop_assert_eq!(format!("{:?}", caches[world]), format!("{cache:?}"), "{}", context);
+        }
+    }
+    Ok(())
+}
 
 /// Steps all worlds both ways and compares them after each step.
 fn compare(
@@ -117,12 +156,15 @@ proptest! {
     #[test]
     fn worlds_from_one_state((physics, state) in separated_bodies(), actions in actions(), worlds in 1..=WORLDS) {
         compare(&Forward::new(&physics), &physics, &vec![state; worlds], &actions)?;
+        compare_warm(&Forward::new(&physics), &physics, &vec![state; worlds], &actions)?;
     }
 
     /// The same without collisions between bodies.
     #[test]
     fn worlds_of_points((physics, state) in separated_bodies(), actions in actions()) {
-        compare(&Forward::new(&physics).without_collisions(), &physics, &[state; 8], &actions)?;
+        let forward = Forward::new(&physics).without_collisions();
+        compare(&forward, &physics, &[state; 8], &actions)?;
+        compare_warm(&forward, &physics, &[state; 8], &actions)?;
     }
 
     /// Any states of one scene: overlapping, fast, with stretched grips.
@@ -137,6 +179,7 @@ proptest! {
             .map(|(bodies, grips)| State { grips, ..State::new(bodies) })
             .collect();
         compare(&Forward::new(&physics), &physics, &starts, &actions)?;
+        compare_warm(&Forward::new(&physics), &physics, &starts, &actions)?;
     }
 }
 
@@ -159,6 +202,7 @@ fn agents_pulled_through_the_boundary() {
     let start = State { grips: [None, Some(grip)], ..State::new([agent, holder, object, other]) };
     let actions = vec![vec![[Action::NoForce; AGENT_COUNT]; 8]; STEPS];
     compare(&Forward::new(&physics), &physics, &[start; 8], &actions).expect("the same bits");
+    compare_warm(&Forward::new(&physics), &physics, &[start; 8], &actions).expect("the same bits");
 }
 
 /// The planner's imagined dynamics have springs, which are stepped one by one.
@@ -168,7 +212,8 @@ fn imagined_worlds() {
     let strategy = (separated_bodies(), actions());
     runner
         .run(&strategy, |((physics, state), actions)| {
-            compare(&Forward::imagined(&physics), &physics, &[state; 8], &actions)
+            compare(&Forward::imagined(&physics), &physics, &[state; 8], &actions)?;
+            compare_warm(&Forward::imagined(&physics), &physics, &[state; 8], &actions)
         })
         .unwrap_or_else(|error| panic!("{error}"));
 }

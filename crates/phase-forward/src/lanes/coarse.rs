@@ -27,6 +27,7 @@ const SETTLED: f32 = -3.0 * LINEAR_SLOP;
 /// happened in them.
 pub(crate) fn step(model: &Model, starts: &[&Start], states: &mut [State]) -> LaneSet {
     let mut worlds = Worlds::new(model, starts, states);
+    worlds.exclude_pairs(starts, states);
     let worlds = &mut worlds;
     let reachable = reach::reachable_bodies(worlds);
     let together = any_body(&reachable);

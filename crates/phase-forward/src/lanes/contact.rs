@@ -4,14 +4,15 @@ use super::{
     manifold::{Manifolds, Side},
     motion::Motions,
     real::{
-        LaneSet, Real, Twists, Vector, add, at_least, differ, equal, lanes, larger, less, mask, pick, put,
-        smaller, splat,
+        LaneSet, Real, Twists, Vector, add, at_least, differ, equal, get, lanes, larger, less, mask, pick,
+        put, set, smaller, splat,
     },
 };
 use crate::{
     body::{STATIC, Shape},
     constants::{LINEAR_SLOP, MAX_CORRECTION},
     contact::MAX_CONDITION_NUMBER,
+    touching::CachedContact,
 };
 
 /// A contact and all data for its solution.
@@ -43,6 +44,38 @@ pub(crate) struct Trace {
     two: LaneSet,
     names: [Real; 2],
     impulses: [Real; 2],
+}
+
+impl Trace {
+    /// Nothing in any lane.
+    pub(crate) fn none(key: u8) -> Self {
+        Self { key, live: 0, two: 0, names: [Real::ZERO; 2], impulses: [Real::ZERO; 2] }
+    }
+
+    /// Takes over what was kept in one lane.
+    pub(crate) fn set(&mut self, lane: usize, kept: &CachedContact) {
+        self.live |= 1 << lane;
+        self.two |= u8::from(kept.count == 2) << lane;
+        for point in 0..2 {
+            set(&mut self.names[point], lane, f32::from(kept.names[point]));
+            set(&mut self.impulses[point], lane, kept.impulses[point]);
+        }
+    }
+
+    /// What is kept of one lane; `None` if there is no contact.
+    pub(crate) fn get(&self, lane: usize) -> Option<CachedContact> {
+        let has = |set: LaneSet| set & 1 << lane != 0;
+        if !has(self.live) {
+            return None;
+        }
+        let mut kept = CachedContact { key: self.key, count: 1, ..CachedContact::NONE };
+        for point in 0..if has(self.two) { 2 } else { 1 } {
+            kept.count = point as u8 + 1;
+            kept.names[point] = get(&self.names[point], lane) as u16;
+            kept.impulses[point] = get(&self.impulses[point], lane);
+        }
+        Some(kept)
+    }
 }
 
 /// The effect of impulses on the two sides of a contact: [`Shape::inverse_mass_vector`] of each.

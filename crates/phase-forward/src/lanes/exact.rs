@@ -2,6 +2,7 @@
 
 use super::{
     contact::{Contacts, Yields},
+    memory::warm_start,
     motion::{apply_friction, inverse_mass, solve_friction},
     reach::{self, BodyLanes, any_body},
     real::{LaneSet, Real, Twists, Vector, add, differ, lanes, larger, less, mask, splat},
@@ -22,6 +23,7 @@ use phase_model::{AGENT_COUNT, State, arena::SUBSTEPS};
 /// has happened in them.
 pub(crate) fn step(model: &Model, starts: &[&Start], states: &mut [State]) -> LaneSet {
     let mut worlds = Worlds::new(model, starts, states);
+    worlds.exclude_pairs(starts, states);
     let worlds = &mut worlds;
     let reachable = reach::reachable_bodies(worlds);
     let together = any_body(&reachable);
@@ -81,11 +83,7 @@ impl Worlds<'_> {
         }
         let walls = self.walls_of(&active);
         self.find_contacts(contacts, &pairs, &walls);
-        for contact in contacts.iter_mut() {
-            if let Some(trace) = traces.iter().find(|trace| trace.key == contact.key) {
-                contact.warm_start(trace);
-            }
-        }
+        warm_start(contacts, traces);
         let boxes = self.outlines.boxes;
         self.solve(&active, contacts);
         // Those of lanes in which nothing changes any more are not needed again.
@@ -103,7 +101,7 @@ impl Worlds<'_> {
     }
 
     /// Applies forces and solves all given bodies.
-    fn solve(&mut self, active: &BodyLanes, contacts: &mut ContactList) {
+    pub(crate) fn solve(&mut self, active: &BodyLanes, contacts: &mut ContactList) {
         let (mut leaning, mut linked): (BodyLanes, BodyLanes) = ([0; 4], [0; 4]);
         for agent in 0..AGENT_COUNT {
             if let Some(held) = self.held[agent] {

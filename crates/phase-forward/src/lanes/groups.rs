@@ -154,7 +154,7 @@ impl LaneGroups {
         let (name, act) = (self.names[body], &worlds.acts[body]);
         let (shape, motion) = (&worlds.model.shapes[body], &worlds.motions[body]);
         let at = motion.place(Vector::splat(Vec2::new(0.0, shape.push_point)));
-        let force = motion.turn(act.push * (splat(shape.max_force) * seconds));
+        let force = motion.turn(act.push * (act.max_force * seconds));
         let push = Twists::of_impulse(force, at - self.centres[name]);
         let torque = act.turn * splat(shape.turn_torque) * seconds;
         let turn = Twists { x: Real::ZERO, y: Real::ZERO, spin: torque };

@@ -12,7 +12,7 @@ use super::{
 use crate::{
     body::STATIC,
     constants::{BAUMGARTE, H, IMPULSE_TOLERANCE, LINEAR_SLOP, POSITION_ITERATIONS},
-    key::{PAIRS, pair_key},
+    key::PAIRS,
 };
 use arrayvec::ArrayVec;
 use phase_model::AGENT_COUNT;
@@ -26,33 +26,31 @@ impl Worlds<'_> {
             let lane = left.trailing_zeros();
             let alike = |set: LaneSet| if set & 1 << lane != 0 { set } else { !set };
             let mut group = left;
-            let mut pairs = 0_u8;
+            let mut pairs = Pairs::new();
             let mut bodies = 0_u8;
             for (body, &set) in joined.iter().enumerate() {
                 group &= alike(set);
                 bodies |= u8::from(set & 1 << lane != 0) << body;
             }
-            for pair in 0..PAIRS.len() {
-                let set = contacts
-                    .iter()
-                    .find(|contact| usize::from(contact.key) == pair_key(pair))
-                    .map_or(0, Contacts::live);
-                group &= alike(set);
-                pairs |= u8::from(set & 1 << lane != 0) << pair;
+            for contact in contacts.iter().filter(|contact| !contact.with_wall()) {
+                group &= alike(contact.live());
+                if contact.live() & 1 << lane != 0 {
+                    pairs.push((contact.a, contact.b));
+                }
             }
             left &= !group;
             let mut done = !bodies;
             for seed in (0..self.model.count).rev() {
                 if done & 1 << seed == 0 {
-                    let island = self.island(seed, pairs, &mut done);
+                    let island = self.island(seed, &pairs, &mut done);
                     self.solve_island(group, &island, contacts);
                 }
             }
         }
     }
 
-    /// All bodies connected with a body by contacts and grips, in the order of solution.
-    fn island(&self, seed: usize, pairs: u8, done: &mut u8) -> Island {
+    /// All bodies connected with a body by contacts, given newest first, and grips, in the order of solution.
+    fn island(&self, seed: usize, pairs: &Pairs, done: &mut u8) -> Island {
         let mut island = Island { bodies: [0; 4], body_count: 0, joints: [0; 6], joint_count: 0 };
         let mut taken = 0_u8;
         let mut joined = 0_u8;
@@ -70,8 +68,8 @@ impl Worlds<'_> {
                     height += 1;
                 }
             };
-            for (pair, (a, b)) in PAIRS.into_iter().enumerate().rev() {
-                if pairs & 1 << pair != 0 && taken & 1 << pair == 0 && (a == body || b == body) {
+            for (pair, &(a, b)) in pairs.iter().enumerate() {
+                if taken & 1 << pair == 0 && (a == body || b == body) {
                     taken |= 1 << pair;
                     reach(if a == body { b } else { a });
                 }
@@ -187,6 +185,9 @@ impl Worlds<'_> {
         }
     }
 }
+
+/// Pairs of bodies that touch.
+type Pairs = ArrayVec<(usize, usize), { PAIRS.len() }>;
 
 /// Connected bodies, with their joints: ground friction of a body (0 to 3), or the grip of an agent (4 and 5).
 struct Island {

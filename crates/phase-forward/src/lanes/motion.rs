@@ -1,25 +1,59 @@
 //! Pose and velocity of one body in each lane; see [`crate::body::BodyMotion`].
 
 use super::real::{
-    LaneSet, Real, Twists, Vector, add, at_most, differ, each, equal, get, greater, lanes, put, set, splat,
+    LANES, LaneSet, Real, Twists, Vector, add, at_most, differ, each, equal, get, greater, lanes, mask, put,
+    set, splat,
 };
 use crate::{
     body::{BodyMotion, Shape},
     constants::{H, MAX_FRICTION_IMPULSE, MAX_ROTATION, MAX_TRANSLATION},
     turn::{SMALL, turned},
 };
-use phase_model::Vec2;
+use phase_model::{Action, Vec2};
 
 /// What an agent does in each lane, prepared for a substep.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LaneActions {
     /// Pushes as a multiple of the agent's force, and the lanes that push.
     pub(crate) push: Vector,
+    /// Maximum push (N).
+    pub(crate) max_force: Real,
     pub(crate) pushes: Real,
     /// The lanes that stop.
     pub(crate) stops: Real,
     /// [`phase_model::Action::turn`].
     pub(crate) turn: Real,
+}
+
+impl LaneActions {
+    pub(crate) const NONE: Self = Self {
+        push: Vector::ZERO,
+        max_force: Real::ZERO,
+        pushes: Real::ZERO,
+        stops: Real::ZERO,
+        turn: Real::ZERO,
+    };
+
+    /// What an agent does in each lane, and its maximum push (N).
+    pub(crate) fn new(acts_of: [(Action, f32); LANES]) -> Self {
+        let mut acts = Self::NONE;
+        let (mut pushes, mut stops): (LaneSet, LaneSet) = (0, 0);
+        for (lane, (action, max_force)) in acts_of.into_iter().enumerate() {
+            set(&mut acts.max_force, lane, max_force);
+            acts.push.set(lane, action.push().unwrap_or(Vec2::ZERO));
+            pushes |= u8::from(action.push().is_some()) << lane;
+            stops |= u8::from(action == Action::Stop) << lane;
+            set(&mut acts.turn, lane, action.turn());
+        }
+        acts.pushes = mask(pushes);
+        acts.stops = mask(stops);
+        acts
+    }
+
+    /// The lanes in which nothing is done.
+    pub(crate) fn idle(&self) -> Real {
+        !(self.pushes) & equal(self.turn, Real::ZERO)
+    }
 }
 
 /// One body in each lane.
@@ -101,7 +135,7 @@ impl Motions {
     #[inline]
     pub(crate) fn act(&mut self, mask: Real, shape: &Shape, action: &LaneActions) {
         let pushed = mask & action.pushes;
-        let force = action.push * splat(shape.max_force);
+        let force = action.push * action.max_force;
         self.velocity.add(pushed, self.turn(force) * splat(H * shape.inverse_mass));
         let change = splat(shape.push_point) * force.x * splat(H * shape.inverse_inertia);
         add(&mut self.spin, pushed, -change);
@@ -120,6 +154,9 @@ impl Motions {
     #[inline]
     pub(crate) fn coast(&mut self, mask: Real, shape: &Shape) -> Vector {
         let mask = mask & !self.at_rest();
+        if !mask.any() {
+            return Vector::ZERO;
+        }
         let mut twist = self.twist();
         let rubbed = solve_friction(&mut twist, mask, shape, self.right, Vector::ZERO);
         self.set_twist(mask, twist);

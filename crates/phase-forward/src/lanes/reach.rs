@@ -31,8 +31,9 @@ pub(crate) fn reachable_bodies(worlds: &mut Worlds<'_>) -> BodyLanes {
         let (motion, shape) = (&worlds.motions[body], &model.shapes[body]);
         let mut sweep = motion.velocity.length() * splat(STEP);
         if body < AGENT_COUNT {
-            let pushed = splat(shape.max_force * shape.inverse_mass * DISPLACEMENT_PER_ACCELERATION);
-            sweep = pick(worlds.acts[body].pushes, sweep + pushed, sweep);
+            let act = &worlds.acts[body];
+            let pushed = act.max_force * splat(shape.inverse_mass) * splat(DISPLACEMENT_PER_ACCELERATION);
+            sweep = pick(act.pushes, sweep + pushed, sweep);
         }
         worlds.max_displacements[body] = sweep;
         let room = splat(shape.bounding_radius) + sweep + splat(MARGIN);

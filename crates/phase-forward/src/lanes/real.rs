@@ -7,8 +7,8 @@ use core::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
 use phase_model::Vec2;
 use wide::f32x8;
 
-/// Number of worlds that are stepped together.
-pub(crate) const LANES: usize = 8;
+/// Number of worlds that are stepped together, one in each lane of a vector.
+pub const LANES: usize = 8;
 
 /// A set of lanes, one bit each.
 pub(crate) type LaneSet = u8;

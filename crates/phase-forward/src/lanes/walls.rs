@@ -21,16 +21,36 @@ impl Worlds<'_> {
     /// Resolves the impacts of a body on walls in a substep of the exact kernel, in the given lanes.
     pub(crate) fn impacts(&mut self, body: usize, set: LaneSet, seconds: &Real) {
         let walls = reach::walls_swept(self, body, set);
-        let reached = self.reached(body, set, &walls);
-        for lane in each(reached) {
-            let keys = keys(&walls, body, lane);
+        self.impacts_on(body, set, &walls, seconds);
+        self.contain(body, set, &walls);
+    }
+
+    /// The same on some walls, after which the body may be beyond a wall. Returns the lanes in which there were any impacts.
+    pub(crate) fn impacts_on(
+        &mut self,
+        body: usize,
+        set: LaneSet,
+        walls: &WallLanes,
+        seconds: &Real,
+    ) -> LaneSet {
+        let mut left = self.reached(body, set, walls);
+        let mut hit = 0;
+        while left != 0 {
+            let lane = left.trailing_zeros() as usize;
+            // What moves alike in several lanes is moved once: often only one agent does different things in them.
+            let alike = left & self.alike(body, lane, seconds) & same_walls(walls, lane);
+            let keys = keys(walls, body, lane);
             let scratch = self.extract(once(body), lane);
             scratch.seconds = get(seconds, lane);
-            scratch.impacts(body, keys);
-            scratch.contain(body, keys);
-            self.insert(once(body), lane);
+            if scratch.impacts(body, keys).is_some() {
+                hit |= alike;
+            }
+            for lane in each(alike) {
+                self.insert(once(body), lane);
+            }
+            left &= !(alike | 1 << lane);
         }
-        self.contain(body, set & !reached, &walls);
+        hit
     }
 
     /// The lanes among the given ones in which a body may reach one of the walls on its path: no axis separates it from that wall
@@ -64,10 +84,43 @@ impl Worlds<'_> {
         reached
     }
 
-    /// Moves a body back where its centre of mass has left the arena or crossed one of the walls; see [`crate::contain`].
-    pub(crate) fn contain(&mut self, body: usize, set: LaneSet, walls: &WallLanes) {
+    /// The lanes in which a body has moved in this substep as it has in a given lane.
+    fn alike(&self, body: usize, lane: usize, seconds: &Real) -> LaneSet {
+        let (start, motion) = (&self.starts[body], &self.motions[body]);
+        let numbers = [
+            &start.centre.x,
+            &start.centre.y,
+            &start.angle,
+            &start.right.x,
+            &start.right.y,
+            &motion.centre.x,
+            &motion.centre.y,
+            &motion.velocity.x,
+            &motion.velocity.y,
+            &motion.right.x,
+            &motion.right.y,
+            &motion.angle,
+            &motion.spin,
+            seconds,
+        ];
+        let same = |number: &Real| {
+            let bits = get(number, lane).to_bits();
+            number
+                .as_array()
+                .iter()
+                .enumerate()
+                .fold(0, |set, (other, number)| set | LaneSet::from(number.to_bits() == bits) << other)
+        };
+        numbers
+            .into_iter()
+            .fold(!0, |set, number| if set.is_power_of_two() { set } else { set & same(number) })
+    }
+
+    /// Moves a body back where its centre of mass has left the arena or crossed one of the walls; see [`crate::contain`]. Returns
+    /// the lanes in which it may have been moved.
+    pub(crate) fn contain(&mut self, body: usize, set: LaneSet, walls: &WallLanes) -> LaneSet {
         if set == 0 {
-            return;
+            return 0;
         }
         let (start, motion) = (self.starts[body].centre, self.motions[body]);
         let (min, max) = (arena::MIN + BOUNDARY_MARGIN, arena::MAX - BOUNDARY_MARGIN);
@@ -84,11 +137,18 @@ impl Worlds<'_> {
             let (before, after) = (normal.dot(start - a), normal.dot(motion.centre - a));
             fine &= greater(before * after, Real::ZERO) | !mask(near);
         }
-        for lane in each(set & !lanes(fine)) {
+        let unsure = set & !lanes(fine);
+        for lane in each(unsure) {
             self.extract(once(body), lane).contain(body, keys(walls, body, lane));
             self.insert(once(body), lane);
         }
+        unsure
     }
+}
+
+/// The lanes in which the same walls are to be looked at as in a given lane.
+fn same_walls(walls: &WallLanes, lane: usize) -> LaneSet {
+    walls.iter().fold(!0, |set, &near| set & if near & 1 << lane != 0 { near } else { !near })
 }
 
 /// The keys of a body with the walls that have a lane.

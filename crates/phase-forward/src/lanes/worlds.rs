@@ -3,12 +3,10 @@
 use super::{
     motion::{LaneActions, Motions},
     outline::{Outlines, WallLanes},
-    real::{
-        LANES, LaneSet, Real, Vector, at_most, each, equal, get, greater, lanes, less, mask, pick, put, set,
-        splat,
-    },
+    real::{LANES, LaneSet, Real, Vector, at_most, each, get, greater, lanes, less, mask, pick, put, splat},
 };
 use crate::{
+    Exertion,
     constants::{H, VELOCITY_ITERATIONS},
     finish::stop_turning,
     key::{PAIRS, pair_of},
@@ -29,21 +27,31 @@ pub(crate) struct Start {
     /// The body that each agent holds.
     held: [Option<usize>; AGENT_COUNT],
     /// The body that each agent lets go.
-    released: [Option<usize>; AGENT_COUNT],
+    pub(crate) released: [Option<usize>; AGENT_COUNT],
     latest_grip: usize,
-    actions: [Action; AGENT_COUNT],
+    /// Whether each agent grabs something.
+    pub(crate) grabbed: [bool; AGENT_COUNT],
+    exertion: Exertion,
 }
 
 impl Start {
-    /// Lets both agents grab or release; see [`World::grab`].
-    pub(crate) fn new(model: &Model, index: usize, state: &State, actions: [Action; AGENT_COUNT]) -> Self {
+    /// Lets both agents grab or release; see [`World::grab`]. Takes the agent that grabbed last before.
+    pub(crate) fn new(
+        model: &Model,
+        index: usize,
+        state: &State,
+        latest_grip: usize,
+        exertion: Exertion,
+    ) -> Self {
+        let actions = exertion.actions;
         let mut start = Self {
             index,
             grips: [None; AGENT_COUNT],
             held: [None; AGENT_COUNT],
             released: [None; AGENT_COUNT],
-            latest_grip: 1,
-            actions,
+            latest_grip,
+            grabbed: [false; AGENT_COUNT],
+            exertion,
         };
         let idle = |action: Action| !matches!(action, Action::Attach | Action::Detach);
         if state.grips == [None; AGENT_COUNT] && actions.into_iter().all(idle) {
@@ -66,6 +74,7 @@ impl Start {
                         let angle = angles[Entity::Object(object).index()] - angles[number];
                         *grip = Some(Grip { object, side, relative_angle: angle });
                         start.latest_grip = number;
+                        start.grabbed[number] = true;
                     }
                 }
                 Action::Detach => {
@@ -162,7 +171,7 @@ impl<'a> Worlds<'a> {
             max_displacements: [Real::ZERO; 4],
             scratch: None,
         };
-        let mut actions = [[Action::NoForce; LANES]; AGENT_COUNT];
+        let mut acts = [[(Action::NoForce, 0.0); LANES]; AGENT_COUNT];
         // Unused lanes repeat the last one, so that no number in them is exceptional.
         for lane in 0..LANES {
             let start = starts[lane.min(starts.len() - 1)];
@@ -171,16 +180,15 @@ impl<'a> Worlds<'a> {
             }
             worlds.grips[lane] = start.grips;
             for agent in 0..AGENT_COUNT {
-                actions[agent][lane] = start.actions[agent];
+                acts[agent][lane] = (start.exertion.actions[agent], start.exertion.max_forces[agent]);
             }
         }
-        worlds.acts = actions.map(LaneActions::new);
-        worlds.exclude_pairs(starts, states);
+        worlds.acts = acts.map(LaneActions::new);
         worlds
     }
 
     /// See [`World::exclude_pairs`].
-    fn exclude_pairs(&mut self, starts: &[&Start], states: &[State]) {
+    pub(crate) fn exclude_pairs(&mut self, starts: &[&Start], states: &[State]) {
         let model = self.model;
         for agent in 0..AGENT_COUNT {
             if let Some(held) = self.held[agent] {
@@ -260,16 +268,30 @@ impl<'a> Worlds<'a> {
         start.right.put(mask, motion.right);
     }
 
-    /// Writes bodies, grips and contacts of the lanes that have not failed into their states. Contacts are tested for in the
-    /// given lanes only.
+    /// Writes what a step ends with into the states of the lanes that have not failed. Contacts are tested for in the given lanes
+    /// only.
     pub(crate) fn finish(&mut self, starts: &[&Start], states: &mut [State], candidates: LaneSet) {
-        let touching = self.touching(candidates);
+        let touching = self.touching(&[candidates; PAIRS.len()]);
+        self.write(starts, &touching, states, |state| state);
+        for lane in each(self.used & !self.failed) {
+            stop_turning(&mut states[starts[lane].index]);
+        }
+    }
+
+    /// Writes bodies, grips and contacts of the lanes that have not failed into states, one of each place in the batch.
+    pub(crate) fn write<T>(
+        &self,
+        starts: &[&Start],
+        touching: &[LaneSet; PAIRS.len()],
+        batch: &mut [T],
+        state: impl Fn(&mut T) -> &mut State,
+    ) {
         for body in 0..self.model.count {
             let (motion, shape) = (&self.motions[body], &self.model.shapes[body]);
             let position = motion.centre + motion.right.perp() * splat(shape.origin);
             for (lane, start) in starts.iter().enumerate() {
                 if self.failed & 1 << lane == 0 {
-                    states[start.index].bodies[body] = Body {
+                    state(&mut batch[start.index]).bodies[body] = Body {
                         position: position.get(lane).clamp(arena::MIN, arena::MAX),
                         velocity: motion.velocity.get(lane),
                         angle: get(&motion.angle, lane),
@@ -279,7 +301,7 @@ impl<'a> Worlds<'a> {
             }
         }
         for lane in each(self.used & !self.failed) {
-            let state = &mut states[starts[lane].index];
+            let state = state(&mut batch[starts[lane].index]);
             state.grips = self.grips[lane];
             state.contacts = Contacts::NONE;
             for (pair, (a, b)) in PAIRS.into_iter().enumerate() {
@@ -287,19 +309,19 @@ impl<'a> Worlds<'a> {
                     state.contacts.insert(Entity::ALL[a], Entity::ALL[b]);
                 }
             }
-            stop_turning(state);
         }
     }
 
-    /// For each pair of bodies, the lanes in which they touch at their present poses.
-    fn touching(&mut self, candidates: LaneSet) -> [LaneSet; PAIRS.len()] {
+    /// For each pair of bodies, the lanes among the given ones in which they touch at their present poses.
+    pub(crate) fn touching(&mut self, candidates: &[LaneSet; PAIRS.len()]) -> [LaneSet; PAIRS.len()] {
         let mut touching = [0; PAIRS.len()];
-        if candidates == 0 {
+        let any = candidates.iter().fold(0, |all, set| all | set);
+        if any == 0 {
             return touching;
         }
-        let near = self.pairs_near(&[candidates; 4]);
+        let near = self.pairs_near(&[any; 4]);
         for (pair, (a, b)) in PAIRS.into_iter().enumerate() {
-            let near = near[pair] & !(self.excluded[pair] | self.released[pair]);
+            let near = near[pair] & candidates[pair] & !(self.excluded[pair] | self.released[pair]);
             if near != 0 {
                 self.outline(a, near);
                 self.outline(b, near);
@@ -353,30 +375,5 @@ impl<'a> Worlds<'a> {
                 self.outlines.moved(body, 1 << lane);
             }
         }
-    }
-}
-
-impl LaneActions {
-    pub(crate) const NONE: Self =
-        Self { push: Vector::ZERO, pushes: Real::ZERO, stops: Real::ZERO, turn: Real::ZERO };
-
-    /// What an agent does in each lane.
-    pub(crate) fn new(actions: [Action; LANES]) -> Self {
-        let mut acts = Self::NONE;
-        let (mut pushes, mut stops): (LaneSet, LaneSet) = (0, 0);
-        for (lane, action) in actions.into_iter().enumerate() {
-            acts.push.set(lane, action.push().unwrap_or(Vec2::ZERO));
-            pushes |= u8::from(action.push().is_some()) << lane;
-            stops |= u8::from(action == Action::Stop) << lane;
-            set(&mut acts.turn, lane, action.turn());
-        }
-        acts.pushes = mask(pushes);
-        acts.stops = mask(stops);
-        acts
-    }
-
-    /// The lanes in which nothing is done.
-    pub(crate) fn idle(&self) -> Real {
-        !(self.pushes) & equal(self.turn, Real::ZERO)
     }
 }

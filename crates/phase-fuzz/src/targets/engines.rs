@@ -5,8 +5,10 @@ use crate::{
     engines::{Kind, Running},
     scenes::{Doing, Start, actions, energy, physique, start},
 };
-use phase_forward::Forward;
-use phase_model::{AGENT_COUNT, Action, Body, Dynamics, PhysicsConfig, State, Vec2, arena};
+use phase_forward::{Exertion, Forward};
+use phase_model::{
+    AGENT_COUNT, Action, Body, Dynamics, PhysicsConfig, State, Strength, Vec2, arena, arena::SUBSTEPS,
+};
 
 /// Steps of a scene.
 const STEPS: usize = 8;
@@ -119,6 +121,35 @@ pub(super) fn lanes(data: &[u8]) {
             for (a, b) in together.iter().zip(&alone) {
                 assert_eq!(bits(&physics, a), bits(&physics, b), "lanes differ: {a:?} {b:?}");
             }
+        }
+    }
+    lanes_with_caches(&forward, &physics, states, &mut bytes);
+}
+
+/// The same with caches, by agents of any strength.
+fn lanes_with_caches(
+    forward: &Forward,
+    physics: &PhysicsConfig,
+    mut states: Vec<State>,
+    bytes: &mut Bytes<'_>,
+) {
+    let mut caches: Vec<_> = states.iter().map(|state| forward.fresh_cache(state)).collect();
+    let mut substeps: Vec<_> = states.iter().map(|state| [*state; SUBSTEPS]).collect();
+    for _ in 0..4 {
+        let mut exertion = || Exertion {
+            actions: [(); AGENT_COUNT].map(|()| bytes.pick(&Action::ALL)),
+            max_forces: [(); AGENT_COUNT].map(|()| bytes.pick(&Strength::ALL).max_force()),
+        };
+        let exertions: Vec<_> = states.iter().map(|_| exertion()).collect();
+        let mut alone: Vec<_> = states.iter().copied().zip(caches.iter().copied()).collect();
+        forward.step_warm_batch(&mut states, &mut caches, &exertions, &mut substeps);
+        for (world, (state, cache)) in alone.iter_mut().enumerate() {
+            let expected = forward.step_warm_with(state, cache, &exertions[world]);
+            for (a, b) in substeps[world].iter().zip(&expected) {
+                assert_eq!(bits(physics, a), bits(physics, b), "lanes differ: {a:?} {b:?}");
+            }
+            assert_eq!(bits(physics, &states[world]), bits(physics, state), "lanes differ");
+            assert_eq!(format!("{:?}", caches[world]), format!("{cache:?}"), "caches differ");
         }
     }
 }

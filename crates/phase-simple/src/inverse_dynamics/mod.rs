@@ -31,6 +31,9 @@ use strength::LevelCosts;
 /// Residual up to which a step counts as explained (u).
 pub const EXPLAINED_RESIDUAL: f32 = 0.05;
 
+/// Steps that are computed together, unless [`MotionTracker::with_batch`] says otherwise.
+pub const BATCH: usize = 32;
+
 /// An event explained by what its agents did.
 #[derive(Clone, Debug)]
 pub struct InverseDynamics {
@@ -59,6 +62,7 @@ pub struct InverseDynamics {
 /// Explains an event while it is watched.
 #[derive(Clone, Debug)]
 pub struct MotionTracker {
+    batch: usize,
     beam: Beam,
     motion: InverseDynamics,
 }
@@ -67,9 +71,16 @@ impl MotionTracker {
     /// Explains what was observed so far.
     #[must_use]
     pub fn new(observed: &ObservedEvent) -> Self {
-        let beam = Beam::new(observed);
+        Self::with_batch(observed, BATCH)
+    }
+
+    /// The same with at most so many steps computed together, in the lanes of vectors; one by one if there are fewer than two. The
+    /// explanation does not depend on it.
+    #[must_use]
+    pub fn with_batch(observed: &ObservedEvent, batch: usize) -> Self {
+        let beam = Beam::new(observed, batch);
         let motion = InverseDynamics::of(&beam, None);
-        Self { beam, motion }
+        Self { batch, beam, motion }
     }
 
     /// Watches the next row of `observed`, its last one. How many states are explained as before: what follows may show what
@@ -80,7 +91,7 @@ impl MotionTracker {
     pub fn push(&mut self, observed: &ObservedEvent) -> Result<usize, ObservedError> {
         let Some(row) = observed.rows().last() else { return Err(ObservedError::Empty) };
         if !self.beam.push(row)? {
-            *self = Self::new(observed);
+            *self = Self::with_batch(observed, self.batch);
             return Ok(1);
         }
         // The last step was followed without the row after it.
@@ -199,11 +210,13 @@ impl InverseDynamics {
         let deed = |agent: AgentId, action| (reading.observed_action(action), levels[agent]);
         let (tracked, actions) = (&self.tracked[step], &self.actions[step]);
         AgentId::ALL.map(|agent| {
-            Action::ALL.map(|action| {
+            let both = Action::ALL.map(|action| {
                 let mut deeds = AgentId::ALL.map(|agent| deed(agent, actions[agent]));
                 deeds[agent] = deed(agent, action);
-                self.replay.step(tracked, self.replay.row(step + 1), deeds).residual
-            })
+                deeds
+            });
+            let predicted = self.replay.steps(tracked, self.replay.row(step + 1), &both);
+            core::array::from_fn(|action| predicted[action].residual)
         })
     }
 }

@@ -4,7 +4,7 @@ use super::{
     difference::Difference,
     reading::{Reading, Start},
 };
-use phase_forward::{Forward, SolverCache};
+use phase_forward::{Exertion, Forward, LANES, SolverCache};
 use phase_model::{
     AGENT_COUNT, Action, AgentId, Body, Entity, MAX_ENTITIES, PhysicsConfig, State, Strength, arena::SUBSTEPS,
 };
@@ -39,22 +39,20 @@ pub(super) struct PredictedStep {
     pub(super) residual: f32,
 }
 
-/// The physics of one reading of an event, for every pair of strengths.
+/// The physics of one reading of an event, for any strengths.
 #[derive(Clone, Debug)]
 pub(super) struct Replay {
     pub(super) reading: Reading,
     pub(super) physics: PhysicsConfig,
     pub(super) radii: [f32; MAX_ENTITIES],
-    /// By both agents' strengths.
-    worlds: Vec<Forward>,
+    forward: Forward,
+    /// Steps that are computed together at most.
+    batch: usize,
 }
 
 impl Replay {
-    pub(super) fn new(reading: Reading) -> Self {
+    pub(super) fn new(reading: Reading, batch: usize) -> Self {
         let event = &reading.event;
-        let forces = Strength::ALL.map(Strength::max_force);
-        let pairs = forces.into_iter().flat_map(|first| forces.map(|second| [first, second]));
-        let worlds = pairs.map(|pair| Forward::new(&event.physics(pair))).collect();
         let physics = event.physics([0.0; AGENT_COUNT]);
         let mut radii = [0.0; MAX_ENTITIES];
         for entity in event.entities() {
@@ -63,7 +61,7 @@ impl Replay {
                 Entity::Object(object) => physics.object_radii[object],
             };
         }
-        Self { reading, physics, radii, worlds }
+        Self { forward: Forward::new(&physics), reading, physics, radii, batch }
     }
 
     /// What was observed after so many steps.
@@ -87,13 +85,13 @@ impl Replay {
         tracked
     }
 
-    /// A state with the contacts that follow from it alone; strengths play no part in them.
+    /// A state with the contacts that follow from it alone.
     pub(super) fn at(&self, state: State) -> TrackedState {
-        TrackedState { state, cache: self.worlds[0].fresh_cache(&state), late: false }
+        TrackedState { state, cache: self.forward.fresh_cache(&state), late: false }
     }
 
     fn settle(&self, tracked: &mut TrackedState) {
-        self.worlds[0].settle_warm(&mut tracked.state, &mut tracked.cache);
+        self.forward.settle_warm(&mut tracked.state, &mut tracked.cache);
     }
 
     /// A step, compared with what was observed.
@@ -112,8 +110,36 @@ impl Replay {
     }
 
     fn run(&self, tracked: &mut TrackedState, deeds: [Deed; AGENT_COUNT]) -> [State; SUBSTEPS] {
-        let world = &self.worlds[deeds[0].1 * LEVELS + deeds[1].1];
-        world.step_warm(&mut tracked.state, &mut tracked.cache, deeds.map(|(action, _)| action))
+        self.forward.step_warm_with(&mut tracked.state, &mut tracked.cache, &exertion(deeds))
+    }
+
+    /// How many steps more can be computed together with some from a state at no cost, in lanes that are left.
+    pub(super) fn room(&self, tracked: &TrackedState, steps: usize) -> usize {
+        if tracked.late || self.batch < 2 { 0 } else { steps.next_multiple_of(LANES) - steps }
+    }
+
+    /// Steps from one state, each compared with what was observed; [`Replay::step`] of each.
+    pub(super) fn steps(
+        &self,
+        tracked: &TrackedState,
+        row: &[Body; MAX_ENTITIES],
+        deeds: &[[Deed; AGENT_COUNT]],
+    ) -> Vec<PredictedStep> {
+        if tracked.late || self.batch < 2 {
+            return deeds.iter().map(|&both| self.step(tracked, row, both)).collect();
+        }
+        let mut steps = Vec::with_capacity(deeds.len());
+        for deeds in deeds.chunks(self.batch) {
+            let exertions: Vec<Exertion> = deeds.iter().map(|&both| exertion(both)).collect();
+            let mut states = vec![tracked.state; deeds.len()];
+            let mut caches = vec![tracked.cache; deeds.len()];
+            let mut substeps = vec![[tracked.state; SUBSTEPS]; deeds.len()];
+            self.forward.step_warm_batch(&mut states, &mut caches, &exertions, &mut substeps);
+            for ((state, cache), substeps) in states.into_iter().zip(caches).zip(&substeps) {
+                steps.push(self.compare(TrackedState { state, cache, late: false }, substeps, row));
+            }
+        }
+        steps
     }
 
     fn compare(
@@ -216,6 +242,14 @@ impl Replay {
             }
         }
         deeds
+    }
+}
+
+/// What deeds are for the kernel.
+fn exertion(deeds: [Deed; AGENT_COUNT]) -> Exertion {
+    Exertion {
+        actions: deeds.map(|(action, _)| action),
+        max_forces: deeds.map(|(_, level)| Strength::ALL[level].max_force()),
     }
 }
 

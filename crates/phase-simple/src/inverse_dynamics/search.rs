@@ -28,8 +28,10 @@ struct Search<'a> {
     replay: &'a Replay,
     tracked: &'a TrackedState,
     row: &'a [Body; MAX_ENTITIES],
-    /// What each agent can do.
+    /// What each agent can do. Deeds are named by their places here.
     deeds: [Vec<Deed>; AGENT_COUNT],
+    /// The residuals (u) of pairs of deeds, by the first agent's deed and then by the second's, as far as they are known.
+    residuals: Vec<Option<f32>>,
 }
 
 /// The best explanations of a step from a state, at least one, best first. `strengths` are those possible for each agent, one
@@ -42,28 +44,47 @@ pub(super) fn explanations(
     last: [Action; AGENT_COUNT],
 ) -> Vec<Explanation> {
     let deeds = AgentId::ALL.map(|agent| replay.deeds(&tracked.state, agent, strengths[agent]));
-    let search = Search { replay, tracked, row, deeds };
+    let residuals = vec![None; deeds[0].len() * deeds[1].len()];
+    let mut search = Search { replay, tracked, row, deeds, residuals };
     let [firsts, seconds] = search.candidates(last);
-    let mut pairs = Vec::with_capacity(firsts.len() * seconds.len());
-    for &first in &firsts {
-        pairs.extend(seconds.iter().map(|&second| ([first, second], search.residual([first, second]))));
-    }
+    let both = firsts.iter().flat_map(|&first| seconds.iter().map(move |&second| [first, second]));
+    let both: Vec<_> = both.collect();
+    let residuals = search.residuals(&both, &[]);
+    let mut pairs: Vec<_> = both.iter().map(|&pair| search.named(pair)).zip(residuals).collect();
     pairs.sort_by(|a, b| a.1.total_cmp(&b.1));
-    let predicted = |deeds| Explanation { deeds, predicted: replay.step(tracked, row, deeds) };
-    best(&pairs).into_iter().map(predicted).collect()
+    let best = best(&pairs);
+    let predicted = replay.steps(tracked, row, &best);
+    best.into_iter().zip(predicted).map(|(deeds, predicted)| Explanation { deeds, predicted }).collect()
 }
 
 impl Search<'_> {
-    fn residual(&self, deeds: [Deed; AGENT_COUNT]) -> f32 {
-        self.replay.step(self.tracked, self.row, deeds).residual
+    fn named(&self, [first, second]: [usize; AGENT_COUNT]) -> [Deed; AGENT_COUNT] {
+        [self.deeds[0][first], self.deeds[1][second]]
+    }
+
+    /// The residuals of some pairs of deeds (u). Those that are not known yet are computed together, with as many of those that
+    /// are likely to be asked for next as do not cost anything.
+    fn residuals(&mut self, pairs: &[[usize; AGENT_COUNT]], next: &[[usize; AGENT_COUNT]]) -> Vec<f32> {
+        let count = self.deeds[1].len();
+        let place = |[first, second]: [usize; AGENT_COUNT]| first * count + second;
+        let is_unknown = |&pair: &[usize; AGENT_COUNT]| self.residuals[place(pair)].is_none();
+        // Only where both hold what they held can a pair share a vector with others.
+        let holds = |&pair: &[usize; AGENT_COUNT]| !self.named(pair).into_iter().any(changes_grip);
+        let mut unknown: Vec<_> = pairs.iter().copied().filter(is_unknown).collect();
+        let room = self.replay.room(self.tracked, unknown.iter().copied().filter(holds).count());
+        let new = |pair: &[usize; AGENT_COUNT]| is_unknown(pair) && holds(pair) && !pairs.contains(pair);
+        unknown.extend(next.iter().copied().filter(new).take(room));
+        let deeds: Vec<_> = unknown.iter().map(|&pair| self.named(pair)).collect();
+        for (&pair, predicted) in unknown.iter().zip(self.replay.steps(self.tracked, self.row, &deeds)) {
+            self.residuals[place(pair)] = Some(predicted.residual);
+        }
+        pairs.iter().map(|&pair| self.residuals[place(pair)].unwrap_or(f32::INFINITY)).collect()
     }
 
     /// The deeds of each agent that are to be combined with those of the other.
-    fn candidates(&self, last: [Action; AGENT_COUNT]) -> [Vec<Deed>; AGENT_COUNT] {
-        let again = |agent: AgentId| {
-            let again = self.deeds[agent].iter().find(|deed| deed.0 == last[agent]);
-            again.or(self.deeds[agent].first()).copied().unwrap_or((Action::NoForce, 0))
-        };
+    fn candidates(&mut self, last: [Action; AGENT_COUNT]) -> [Vec<usize>; AGENT_COUNT] {
+        let again =
+            |agent: AgentId| self.deeds[agent].iter().position(|deed| deed.0 == last[agent]).unwrap_or(0);
         let mut best = AgentId::ALL.map(again);
         let mut residuals: [Vec<f32>; AGENT_COUNT] = [Vec::new(), Vec::new()];
         let mut given = [None; AGENT_COUNT];
@@ -74,29 +95,34 @@ impl Search<'_> {
                     continue;
                 }
                 given[agent] = Some(best[agent.other()]);
-                let instead = |&deed: &Deed| {
+                let instead = |agent: AgentId, deed: usize| {
                     let mut pair = best;
                     pair[agent] = deed;
-                    self.residual(pair)
+                    pair
                 };
-                residuals[agent] = self.deeds[agent].iter().map(instead).collect();
-                let pairs = self.deeds[agent].iter().zip(&residuals[agent]);
-                if let Some((deed, _)) = pairs.min_by(|a, b| a.1.total_cmp(b.1)) {
-                    best[agent] = *deed;
+                let instead = |agent: AgentId| -> Vec<_> {
+                    (0..self.deeds[agent].len()).map(|deed| instead(agent, deed)).collect()
+                };
+                // What is asked for next if this agent's best deed stays the best.
+                let (pairs, next) = (instead(agent), instead(agent.other()));
+                residuals[agent] = self.residuals(&pairs, &next);
+                let deeds = residuals[agent].iter().enumerate();
+                if let Some((deed, _)) = deeds.min_by(|a, b| a.1.total_cmp(b.1)) {
+                    best[agent] = deed;
                 }
             }
         }
         let least = residuals[1].iter().copied().fold(f32::INFINITY, f32::min);
         if least > EXACT && coupled(self.replay, &self.tracked.state) {
-            return self.deeds.clone();
+            return AgentId::ALL.map(|agent| (0..self.deeds[agent].len()).collect());
         }
         let limit = limit(least);
         AgentId::ALL.map(|agent| {
-            let follow = |(deed, residual): (&Deed, &f32)| {
-                let good = *residual <= limit || *deed == best[agent];
-                (good || least > EXACT && changes_grip(*deed)).then_some(*deed)
+            let follow = |(deed, residual): (usize, &f32)| {
+                let good = *residual <= limit || deed == best[agent];
+                (good || least > EXACT && changes_grip(self.deeds[agent][deed])).then_some(deed)
             };
-            self.deeds[agent].iter().zip(&residuals[agent]).filter_map(follow).collect()
+            residuals[agent].iter().enumerate().filter_map(follow).collect()
         })
     }
 }

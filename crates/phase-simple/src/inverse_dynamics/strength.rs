@@ -2,7 +2,7 @@
 
 use super::{
     path,
-    replay::{ALL_LEVELS, LEVELS, Replay, TrackedState},
+    replay::{ALL_LEVELS, Deed, LEVELS, Replay, TrackedState},
 };
 use phase_model::{AGENT_COUNT, Action, AgentId, Body, MAX_ENTITIES};
 
@@ -21,10 +21,15 @@ pub(super) fn level_costs(
     let found = [(actions[0], levels[0]), (actions[1], levels[1])];
     AgentId::ALL.map(|agent| {
         let mut costs = [f64::INFINITY; LEVELS];
-        for deed in replay.deeds(&tracked.state, agent, ALL_LEVELS) {
-            let mut deeds = found;
-            deeds[agent] = deed;
-            let cost = path::cost(replay.step(tracked, row, deeds).residual);
+        let deeds = replay.deeds(&tracked.state, agent, ALL_LEVELS);
+        let instead = |&deed: &Deed| {
+            let mut both = found;
+            both[agent] = deed;
+            both
+        };
+        let both: Vec<_> = deeds.iter().map(instead).collect();
+        for (deed, predicted) in deeds.iter().zip(replay.steps(tracked, row, &both)) {
+            let cost = path::cost(predicted.residual);
             let pushes = deed.0.push().is_some();
             for (level, least) in costs.iter_mut().enumerate() {
                 if !pushes || level == deed.1 {

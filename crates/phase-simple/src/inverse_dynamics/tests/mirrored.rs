@@ -12,7 +12,7 @@ use phase_model::{AGENT_COUNT, Action, Body, Flip, MAX_ENTITIES, State, arena::S
 
 /// What the recorder made of an event: every substep mirrored, angles of agents wrapped if the axes were exchanged, and the
 /// mean taken.
-fn recorded(event: &Simulated, flip: Flip) -> ObservedEvent {
+pub(super) fn recorded(event: &Simulated, flip: Flip) -> ObservedEvent {
     let wraps = matches!(flip, Flip::Diagonal | Flip::AntiDiagonal);
     let body = |index: usize, body: &Body| {
         let mut body = body.mirrored(flip);

@@ -3,11 +3,12 @@
 mod contact;
 mod mirrored;
 
-use super::InverseDynamics;
+use super::{BATCH, InverseDynamics, MotionTracker};
 use phase_event::ObservedEvent;
 use phase_forward::Forward;
 use phase_model::{
-    AGENT_COUNT, Action, AgentId, Body, Layout, MAX_ENTITIES, Size, State, Strength, Vec2, arena::SUBSTEPS,
+    AGENT_COUNT, Action, AgentId, Body, Flip, Layout, MAX_ENTITIES, Size, State, Strength, Vec2,
+    arena::SUBSTEPS,
 };
 
 /// Steps for which an action is held.
@@ -146,13 +147,32 @@ fn what_was_done_explains_more_than_anything_else() {
 fn an_explanation_repeats_bit_for_bit() {
     let event = pulled();
     let [first, second] = [0, 1].map(|_| InverseDynamics::new(&event.observed));
+    assert_same(&first, &second);
+}
+
+#[test]
+fn steps_computed_together_explain_as_steps_one_by_one() {
+    let contested = contact::contested();
+    let mirrored = mirrored::recorded(&contested, Flip::Diagonal);
+    for observed in [apart().observed, pulled().observed, contested.observed, mirrored] {
+        let explained = |batch| MotionTracker::with_batch(&observed, batch).into_motion();
+        let one_by_one = explained(1);
+        for batch in [5, BATCH, usize::MAX] {
+            assert_same(&explained(batch), &one_by_one);
+        }
+    }
+}
+
+/// Explanations are equal, bit for bit.
+fn assert_same(first: &InverseDynamics, second: &InverseDynamics) {
     assert_eq!(first.states, second.states);
     assert_eq!(first.actions, second.actions);
-    let bits = |action_likelihoods: &InverseDynamics| {
-        let strengths = action_likelihoods.log_strengths.concat().into_iter().map(f64::to_bits);
-        strengths
-            .chain(action_likelihoods.residuals.iter().map(|&residual| u64::from(residual.to_bits())))
-            .collect::<Vec<_>>()
+    assert_eq!(first.late_start, second.late_start);
+    let bits = |motion: &InverseDynamics| {
+        let alternatives = motion.alternatives().concat().concat();
+        let strengths = motion.log_strengths.concat().into_iter().map(f64::to_bits);
+        let residuals = motion.residuals.iter().copied().chain(alternatives);
+        strengths.chain(residuals.map(|residual| u64::from(residual.to_bits()))).collect::<Vec<_>>()
     };
-    assert_eq!(bits(&first), bits(&second));
+    assert_eq!(bits(first), bits(second));
 }

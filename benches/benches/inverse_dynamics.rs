@@ -1,0 +1,105 @@
+//! Inverse dynamics, and all of SIMPLE beside it. Inverse dynamics of whole events, with steps computed one by one and in lanes: six simulated ones, one of each kind, and the recordings of the file `PHASE_EVENTS`.
+
+use core::{hint::black_box, ops::ControlFlow};
+use criterion::{Criterion, SamplingMode};
+use phase_agent::MindParameters;
+use phase_dataset::phase_events;
+use phase_event::{ObservedEvent, Recording};
+use phase_model::{
+    EventKind,
+    random::{Purpose, stream},
+};
+use phase_sim::SimulationSettings;
+use phase_simple::{
+    Cues, ForecastSettings, Guidance, Guide, InferenceSettings, IntentNetwork, MotionTracker, PreparedEvent,
+    UniformStrength, futures, infer, inverse_dynamics::BATCH,
+};
+use std::path::Path;
+
+/// Of the recordings, every so many are explained.
+const THINNED: usize = 5;
+/// Of these, every so many are understood by SIMPLE.
+const UNDERSTOOD: usize = 5;
+/// Steps that are watched, and as many are foreseen.
+const WATCHED: usize = 20;
+
+fn main() {
+    let mut criterion = Criterion::default().configure_from_args();
+    bench(&mut criterion, "inverse dynamics/generated", &EventKind::ALL.map(simulated));
+    if let Some(path) = std::env::var_os("PHASE_EVENTS") {
+        match recorded(Path::new(&path)) {
+            Ok(events) => {
+                bench(&mut criterion, "inverse dynamics/recordings", &events);
+                bench_simple(&mut criterion, &events);
+            }
+            Err(error) => {
+                eprintln!("error: {error}");
+                std::process::exit(2);
+            }
+        }
+    }
+    criterion.final_summary();
+}
+
+/// An event of a kind, by minds that search little.
+fn simulated(kind: EventKind) -> ObservedEvent {
+    let scene =
+        phase_sampler::sample_kind(kind, &mut stream(1, Purpose::Scene, 0)).expect("a scene of every kind");
+    let minds = MindParameters { simulations: 100, ..MindParameters::default() };
+    let settings = SimulationSettings { minds, ..SimulationSettings::default() };
+    let event = phase_sim::simulate(&scene, 1, &settings).expect("a sound scene");
+    let recording = Recording::of_event("event", event, "bench".into(), serde_json::Value::Null);
+    recording.observed().expect("a sound event")
+}
+
+fn recorded(path: &Path) -> Result<Vec<ObservedEvent>, phase_dataset::FileError> {
+    let recordings = phase_events::read(path)?;
+    Ok(recordings.iter().step_by(THINNED).filter_map(|recording| recording.observed().ok()).collect())
+}
+
+fn bench(criterion: &mut Criterion, name: &str, events: &[ObservedEvent]) {
+    let steps: usize = events.iter().map(ObservedEvent::steps).sum();
+    println!("{name}: {} events, {steps} steps", events.len());
+    let mut group = criterion.benchmark_group(name);
+    group.sample_size(10).sampling_mode(SamplingMode::Flat);
+    for (name, batch) in [("one by one", 1), ("in lanes", BATCH)] {
+        group.bench_function(name, |bencher| {
+            bencher.iter(|| -> usize {
+                let explained = |event| MotionTracker::with_batch(event, batch).into_motion().residuals.len();
+                black_box(events).iter().map(explained).sum()
+            });
+        });
+    }
+    group.finish();
+}
+
+/// Goals of whole events, and futures after their first seconds.
+fn bench_simple(criterion: &mut Criterion, events: &[ObservedEvent]) {
+    let network = IntentNetwork::bundled().expect("a sound file");
+    let guide = Guide { network: &network, guidance: Guidance::default() };
+    let cues = Cues { strengths: &UniformStrength, guide: Some(guide) };
+    let settings = InferenceSettings::averaged();
+    let tick = &mut || ControlFlow::Continue(());
+    let mut understand = |event: &ObservedEvent, ahead: usize| {
+        let prepared = PreparedEvent::new(event, settings.minds, 1);
+        let inference = infer(&prepared, &cues, 1, &settings, tick).expect("sound parameters");
+        let inference = inference.expect("nobody breaks it off");
+        if ahead > 0 {
+            let forecast = ForecastSettings::default();
+            black_box(futures(&prepared, &inference, ahead, 1, &forecast, tick).expect("sound parameters"));
+        }
+        black_box(inference);
+    };
+    let mut group = criterion.benchmark_group("SIMPLE/recordings");
+    group.sample_size(10).sampling_mode(SamplingMode::Flat);
+    for (name, watched, ahead) in [("goals", usize::MAX, 0), ("futures", WATCHED, WATCHED)] {
+        group.bench_function(name, |bencher| {
+            bencher.iter(|| {
+                for event in events.iter().step_by(UNDERSTOOD) {
+                    understand(&event.prefix(watched.min(event.steps())), ahead);
+                }
+            });
+        });
+    }
+    group.finish();
+}
