@@ -150,7 +150,7 @@ fn without_space_it_fails_and_goes_on_once_there_is_some() {
             sentence.starts_with("error: ") && sentence.contains("cannot write the file: "),
             "{out}: {told}"
         );
-        assert!(sentence.ends_with("the same command goes on from there"), "{out}: {told}");
+        assert!(sentence.ends_with("the same command goes on from what is finished there"), "{out}: {told}");
 
         let left = tree(&path.join(out));
         let files =
