@@ -1,7 +1,7 @@
 //! The kernel: the constants of a scene's physics, and steps from state to state.
 
 use crate::{
-    coarse,
+    Exertion, coarse,
     constants::{COLD_ITERATIONS, VELOCITY_ITERATIONS},
     finish::stop_turning,
     key::BodyMask,
@@ -13,15 +13,6 @@ use crate::{
     world::World,
 };
 use phase_model::{AGENT_COUNT, Action, Dynamics, PhysicsConfig, State, arena::SUBSTEPS};
-
-/// What both agents do in a step, and how strong they are.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Exertion {
-    /// The action of each agent.
-    pub actions: [Action; AGENT_COUNT],
-    /// Maximum push of each agent (N).
-    pub max_forces: [f32; AGENT_COUNT],
-}
 
 /// The dynamics of one scene: walls, shapes, masses and forces, prepared for stepping.
 ///

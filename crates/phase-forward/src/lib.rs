@@ -98,6 +98,7 @@ mod constants;
 mod contact;
 mod contain;
 mod continuous;
+mod exertion;
 mod finish;
 mod forward;
 mod grasp;
@@ -121,6 +122,7 @@ mod wall;
 mod weld;
 mod world;
 
-pub use forward::{Exertion, Forward};
+pub use exertion::Exertion;
+pub use forward::Forward;
 pub use lanes::LANES;
 pub use solver_cache::SolverCache;
