@@ -1,28 +1,70 @@
-//! Progress of a run: a bar with the remaining time on a terminal, a line for each event elsewhere.
+//! Progress of a run: a bar with the remaining time on a terminal; elsewhere a line for each event, or now and then.
 
 use crate::console::print_message;
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 use std::{
     fmt::Write,
     io::IsTerminal,
-    sync::atomic::{AtomicUsize, Ordering},
-    time::Duration,
+    sync::{
+        Mutex,
+        atomic::{AtomicUsize, Ordering},
+    },
+    time::{Duration, Instant},
 };
 
 /// The bar. The part that may be cut to the width of the terminal comes last.
 const TEMPLATE: &str = "{bar:16} {percent:>3} %{times} · {wide_msg}";
 /// How often the bar is drawn again while nothing happens.
 const TICK: Duration = Duration::from_millis(500);
+/// How often there is a line where there is no terminal and no event is reported.
+const BETWEEN_LINES: Duration = Duration::from_secs(30);
 
 /// Progress on stderr, from the first moment on: the current activity, and how much of it is done. The bar is
 /// cleared when this is dropped, so results must be printed afterwards.
 #[derive(Debug)]
 pub struct Progress {
     bar: Option<ProgressBar>,
+    lines: Option<Lines>,
     quiet: bool,
     events: usize,
     steps_each: usize,
     finished: AtomicUsize,
+}
+
+/// Progress by steps, where there is no terminal.
+#[derive(Debug)]
+struct Lines {
+    activity: String,
+    steps: usize,
+    begun: Instant,
+    done: AtomicUsize,
+    last: Mutex<Instant>,
+}
+
+impl Lines {
+    fn new(activity: &str, steps: usize) -> Self {
+        let begun = Instant::now();
+        let last = Mutex::new(begun);
+        Self { activity: activity.to_owned(), steps, begun, done: AtomicUsize::new(0), last }
+    }
+
+    fn add(&self, count: usize) {
+        let done = count + self.done.fetch_add(count, Ordering::Relaxed);
+        // Somebody else is just writing a line, or has failed to.
+        let Ok(mut last) = self.last.try_lock() else { return };
+        if done < self.steps && last.elapsed() >= BETWEEN_LINES {
+            *last = Instant::now();
+            print_message(&line(&self.activity, done, self.steps, self.begun.elapsed()));
+        }
+    }
+}
+
+/// What a line says where there is no terminal: how much of `steps` is done, and the time that took and will take.
+#[must_use]
+pub fn line(activity: &str, done: usize, steps: usize, elapsed: Duration) -> String {
+    let share = done as f64 / steps.max(1) as f64;
+    let remaining = (share > 0.0).then(|| elapsed.mul_f64((1.0 - share) / share));
+    format!("{activity}: {:.0} %{}", 100.0 * share, times(elapsed, remaining))
 }
 
 impl Progress {
@@ -49,7 +91,8 @@ impl Progress {
             bar.tick();
             bar
         });
-        Self { bar, quiet, events, steps_each, finished: AtomicUsize::new(0) }
+        let lines = (!quiet && !terminal && events == 0).then(|| Lines::new(activity, steps));
+        Self { bar, lines, quiet, events, steps_each, finished: AtomicUsize::new(0) }
     }
 
     /// One step of some event is done.
@@ -61,6 +104,9 @@ impl Progress {
     pub fn steps(&self, count: usize) {
         if let Some(bar) = &self.bar {
             bar.inc(count as u64);
+        }
+        if let Some(lines) = &self.lines {
+            lines.add(count);
         }
     }
 

@@ -12,6 +12,8 @@
 //! where it was. Clock and randomness are arguments, HTTP is elsewhere. The trade-off is that every answer waits for the disk, and
 //! that where videos are assigned all raters are read.
 //!
+//! Feature `store` (on by default) has [`store`] and [`study`], and builds SQLite from its source.
+//!
 //! A study of two videos, each wanted by one rater, who answers both:
 //!
 //! ```
@@ -58,5 +60,7 @@ pub mod export;
 pub mod forms;
 pub mod question;
 pub mod record;
+#[cfg(feature = "store")]
 pub mod store;
+#[cfg(feature = "store")]
 pub mod study;

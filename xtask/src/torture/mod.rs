@@ -13,6 +13,7 @@ use phase_cli::{
     console::print_result,
     context::Context,
     error::CliError,
+    interrupt,
     parallel::{Jobs, make_all},
 };
 use phase_model::random::{Pcg64Mcg, Purpose, stream};
@@ -21,6 +22,7 @@ use run::{End, Ground};
 use std::{
     fs, io,
     path::{Path, PathBuf},
+    sync::atomic::{AtomicBool, Ordering},
     time::Duration,
 };
 
@@ -83,7 +85,7 @@ impl Torment {
     }
 }
 
-/// Runs the command.
+/// Runs the command. What was done until an interruption is told, too.
 ///
 /// # Errors
 /// [`XtaskError::Tortured`] if something was lost, half-written or different; if a command cannot be run at all.
@@ -101,24 +103,33 @@ pub fn run(arguments: &Torture, context: &Context) -> Result<(), XtaskError> {
     let subjects = subjects(arguments, &program, context)?;
     let all = disturbances(arguments, &subjects);
     let progress = context.progress_over(&format!("{} disturbances", all.len()), all.len());
+    let done: Vec<AtomicBool> = all.iter().map(|_| AtomicBool::new(false)).collect();
     // What a disturbance is does not depend on which others there were.
     let results = make_all(&arguments.jobs, all.len(), |index| {
         let disturbance = &all[index];
         let subject = &subjects[disturbance.subject];
         let result = subject.suffer(&program, disturbance, arguments.seed);
+        if interrupt::requested() {
+            // An interruption reaches the command as well.
+            return Ok(None);
+        }
         if let Ok(Some(what)) = &result {
             context.note(format!("{} {}: {what}", subject.name, disturbance.torment.name()));
         }
+        done[index].store(true, Ordering::Relaxed);
         progress.step();
         Ok(Some(result))
     })?;
     drop(progress);
-    let Some(results) = results else { return Err(XtaskError::Interrupted) };
-    let wrong = results.into_iter().collect::<Result<Vec<_>, _>>()?;
     let heads = Torment::ALL.map(Torment::name).join(" | ");
     let rule = "---:|".repeat(1 + Torment::ALL.len());
-    let rows: Vec<String> = (0..subjects.len()).map(|number| row(number, &subjects[number], &all)).collect();
+    let counted = |(it, done): (_, &AtomicBool)| done.load(Ordering::Relaxed).then_some(it);
+    let counted: Vec<&Disturbance> = all.iter().zip(&done).filter_map(counted).collect();
+    let rows: Vec<String> =
+        (0..subjects.len()).map(|number| row(number, &subjects[number], &counted)).collect();
     print_result(format!("| command | steps | {heads} |\n|---|{rule}\n{}", rows.join("\n")));
+    let Some(results) = results else { return Err(XtaskError::Interrupted) };
+    let wrong = results.into_iter().collect::<Result<Vec<_>, _>>()?;
     match wrong.iter().flatten().count() {
         0 => Ok(()),
         failures => Err(XtaskError::Tortured(failures)),
@@ -217,7 +228,7 @@ fn disturbances(arguments: &Torture, subjects: &[Subject<'_>]) -> Vec<Disturbanc
 }
 
 /// The row of a subject: how often what was done to it.
-fn row(number: usize, subject: &Subject<'_>, all: &[Disturbance]) -> String {
+fn row(number: usize, subject: &Subject<'_>, all: &[&Disturbance]) -> String {
     let times = |torment| all.iter().filter(|it| it.subject == number && it.torment == torment).count();
     let counts = Torment::ALL.map(|torment| times(torment).to_string()).join(" | ");
     let steps = subject.command.as_ref().map(|(_, steps)| steps.to_string()).unwrap_or_default();

@@ -47,11 +47,15 @@ impl GenerativeModel for Promises {
     }
 }
 
+/// Simulations until a broken promise has shown.
+const SIMULATIONS: usize = 100;
+
 /// Searches with `model`, and checks that the planner is unaffected afterwards.
 fn fails(model: Promises, roots: &[()]) -> PomcpError {
-    let mut used = Pomcp::new(PomcpSettings::default()).expect("the defaults are valid");
+    let settings = PomcpSettings { simulations: SIMULATIONS, ..PomcpSettings::default() };
+    let mut used = Pomcp::new(settings).expect("the defaults are valid");
     let error = used.search(&model, roots, &mut Pcg32::seed_from_u64(1)).expect_err("the model is broken");
-    let mut fresh = Pomcp::new(PomcpSettings::default()).expect("the defaults are valid");
+    let mut fresh = Pomcp::new(settings).expect("the defaults are valid");
     let after = used.search(&KEPT, &[()], &mut Pcg32::seed_from_u64(2));
     assert_eq!(after, fresh.search(&KEPT, &[()], &mut Pcg32::seed_from_u64(2)));
     assert!(after.is_ok());
@@ -63,7 +67,7 @@ fn what_cannot_be_searched_is_refused() {
     assert_eq!(fails(KEPT, &[]), PomcpError::NoRoots);
     assert_eq!(fails(Promises { actions: 0, ..KEPT }, &[()]), PomcpError::NoActions);
     let actions = usize::MAX / 2;
-    let too_large = PomcpError::TooLarge { simulations: 1000, action_count: actions };
+    let too_large = PomcpError::TooLarge { simulations: SIMULATIONS, action_count: actions };
     assert_eq!(fails(Promises { actions, ..KEPT }, &[()]), too_large);
 }
 
