@@ -54,7 +54,7 @@ impl Lines {
         let Ok(mut last) = self.last.try_lock() else { return };
         if done < self.steps && last.elapsed() >= BETWEEN_LINES {
             *last = Instant::now();
-            print_message(&line(&self.activity, done, self.steps, self.begun.elapsed()));
+            print_message(line(&self.activity, done, self.steps, self.begun.elapsed()));
         }
     }
 }
