@@ -90,6 +90,7 @@ impl Torment {
 /// # Errors
 /// [`XtaskError::Tortured`] if something was lost, half-written or different; if a command cannot be run at all.
 pub fn run(arguments: &Torture, context: &Context) -> Result<(), XtaskError> {
+    interrupt::listen();
     let this = std::env::current_exe().map_err(XtaskError::Cargo)?;
     // Where everybody may run it, even who may not enter the folder that it was built in.
     let folder = tempfile::tempdir()
