@@ -62,7 +62,7 @@ impl Lines {
 /// What a line says where there is no terminal: how much of `steps` is done, and the time that took and will take.
 #[must_use]
 pub fn line(activity: &str, done: usize, steps: usize, elapsed: Duration) -> String {
-    let share = done as f64 / steps.max(1) as f64;
+    let share = (done as f64 / steps.max(1) as f64).min(1.0);
     let remaining = (share > 0.0).then(|| elapsed.mul_f64((1.0 - share) / share));
     format!("{activity}: {:.0} %{}", 100.0 * share, times(elapsed, remaining))
 }

@@ -27,36 +27,27 @@ const EVENTS: &[&str] = &[
     "--out",
     "data",
 ];
-/// A dataset that is divided, as its preset says.
-const DIVIDED: &[&str] = &[
-    "gen-dataset",
-    "--preset",
-    "divided.json",
-    "--simulations",
-    "8",
-    "--particles",
-    "4",
-    "--max-steps",
-    "24",
-    "--no-video",
-    "--out",
-    "data",
-];
-/// The same with shorter events, from which a network learns in less than a second.
-const SHORT: &[&str] = &[
-    "gen-dataset",
-    "--preset",
-    "divided.json",
-    "--simulations",
-    "8",
-    "--particles",
-    "4",
-    "--max-steps",
-    "8",
-    "--no-video",
-    "--out",
-    "data",
-];
+/// Makes a dataset that is divided, as its preset says, of events of that many steps.
+const fn divided(steps: &'static str) -> [&'static str; 12] {
+    [
+        "gen-dataset",
+        "--preset",
+        PRESET.0,
+        "--simulations",
+        "8",
+        "--particles",
+        "4",
+        "--max-steps",
+        steps,
+        "--no-video",
+        "--out",
+        "data",
+    ]
+}
+/// One to evaluate.
+const DIVIDED: &[&str] = &divided("24");
+/// One from which a network learns in less than a second.
+const SHORT: &[&str] = &divided("8");
 /// The preset of these datasets, which is written before.
 pub(super) const PRESET: (&str, &str) = (
     "divided.json",
