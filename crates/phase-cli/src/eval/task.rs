@@ -121,7 +121,7 @@ pub(super) fn run<T: Task>(
     print_result(if done.already_finished {
         format!("{} holds this evaluation already", done.out.display())
     } else {
-        format!("{} events; report in {}", done.events.len(), done.out.join(REPORT_FILE).display())
+        format!("{}; report in {}", console::events(done.events.len()), done.out.join(REPORT_FILE).display())
     });
     Ok(())
 }

@@ -16,7 +16,7 @@ pub mod schedule;
 mod set;
 pub mod slot;
 
-use crate::{context::Context, error::CliError, interrupt, output::Output};
+use crate::{console, context::Context, error::CliError, interrupt, output::Output};
 use attempt_times::{Line, Writer};
 use complete::{Completed, complete};
 use cpu_time::ThreadTime;
@@ -77,7 +77,8 @@ pub fn run(arguments: &GenDataset, context: &Context) -> Result<(), CliError> {
         header.map_err(CliError::ReadBack)?.write(&out)?;
         folder.finish()?;
         finish_times(times, None)?;
-        let text = format!("{events} events in {}; merge all {of} shards with merge", out.display());
+        let text =
+            format!("{} in {}; merge all {of} shards with merge", console::events(events), out.display());
         let value = json!({ "folder": out, "events": events, "shard": shard, "of": of, "new": true });
         return arguments.output.print(text, &value);
     }
@@ -104,8 +105,8 @@ fn announce(out: &Path, completed: &Completed, output: Output, more: &str) -> Re
     if !overview.selection.is_empty() {
         text += &format!("{}\n", acceptance::table(&overview.selection).trim_end());
     }
-    text +=
-        &format!("{} events in {}\nSHA-256 of {MANIFEST_FILE}: {digest}\n", overview.events, out.display());
+    let events = console::events(overview.events);
+    text += &format!("{events} in {}\nSHA-256 of {MANIFEST_FILE}: {digest}\n", out.display());
     text += &format!("{}{more}", page_line(out));
     let value = json!({
         "folder": out, "events": overview.events, "seed": overview.seed, "page": page(out),

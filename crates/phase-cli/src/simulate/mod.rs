@@ -68,7 +68,7 @@ pub fn run(arguments: &Simulate, context: &Context) -> Result<(), CliError> {
     let summary = SimulationSummary::new(run, pairs);
     summary.write(&out.join(SUMMARY_FILE))?;
     folder.finish()?;
-    let line = format!("{} simulated events in {}", summary.events.len(), out.display());
+    let line = format!("simulated {} in {}", console::events(summary.events.len()), out.display());
     print(arguments, &summary, &line, true)
 }
 

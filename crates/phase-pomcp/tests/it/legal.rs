@@ -141,7 +141,7 @@ impl GenerativeModel for Rules {
 #[test]
 fn rules_that_allow_nothing_are_named() {
     let search = |legal, rollout, rollout_steps| {
-        let settings = PomcpSettings { rollout_steps, ..PomcpSettings::default() };
+        let settings = PomcpSettings { rollout_steps, simulations: 50, ..PomcpSettings::default() };
         let mut pomcp = Pomcp::new(settings).expect("the settings are valid");
         pomcp.search(&Rules { legal, rollout }, &[0], &mut Pcg64Mcg::seed_from_u64(1)).err()
     };
