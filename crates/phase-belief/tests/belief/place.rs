@@ -86,11 +86,10 @@ fn where_no_place_is_left_bodies_lie_in_view_and_are_counted() {
     for (name, visible) in cases {
         let mut observation = observe(&physics, &truth(), AgentId::ZERO);
         observation.visible = visible;
-        let mut belief = Belief::new(&physics, &observation, 3, &mut chance);
+        let mut belief = Belief::new(&physics, &observation, 10, &mut chance);
         for _ in 0..3 {
-            // Two bodies in each particle.
-            assert_eq!(belief.unresolved(), 6, "{name}");
-            assert_eq!(belief.resampled(), 6, "{name}");
+            assert_eq!(belief.unresolved(), 20, "{name}");
+            assert_eq!(belief.resampled(), 20, "{name}");
             for particle in belief.particles() {
                 let outlines: Vec<_> = physics
                     .entities()
