@@ -92,7 +92,9 @@ fn assemble(root: &Path, folder: &Path) -> Result<usize, (PathBuf, io::Error)> {
             fs::copy(root.join(&file), &place).map_err(failed(&file))?;
         } else {
             let text = fs::read_to_string(root.join(&file)).map_err(failed(&file))?;
-            fs::write(&place, with_places(&text)).map_err(failed(&place))?;
+            let page =
+                with_places(&if file.starts_with(DOCUMENTS) { text.clone() } else { without_tests(&text) });
+            fs::write(&place, page).map_err(failed(&place))?;
             title = text.lines().find_map(|line| line.strip_prefix("# ")).unwrap_or("Untitled").to_owned();
             let targets = texts::targets(&file, &text);
             todo.extend(targets.into_iter().filter(|target| root.join(target).is_file()));
@@ -127,6 +129,12 @@ fn with_places(text: &str) -> String {
     [")", "#"]
         .iter()
         .fold(text.to_owned(), |text, end| text.replace(&format!("{FIRST}{end}"), &format!("{INDEX}{end}")))
+}
+
+/// The page of a crate without tests: mdBook, which has none of the crates, cannot run the example. It is that of the
+/// crate's documentation (`tidy`), which `cargo test` runs.
+fn without_tests(text: &str) -> String {
+    text.replace("```rust\n", "```rust,ignore\n")
 }
 
 /// All files below a folder.
@@ -173,4 +181,25 @@ fn broken_links(out: &Path) -> io::Result<Vec<(PathBuf, String)>> {
         }
     }
     Ok(broken)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn mdbook_is_asked_to_run_no_example_of_a_crate() {
+        let folder = tempfile::tempdir().unwrap();
+        assemble(root(), folder.path()).unwrap();
+        let (source, mut pages) = (folder.path().join("src"), Vec::new());
+        files(&source, &mut pages).unwrap();
+        pages.retain(|page| {
+            page.extension().is_some_and(|ending| ending == "md") && !page.starts_with(source.join(DOCUMENTS))
+        });
+        assert!(pages.iter().any(|page| page.ends_with("phase-pomcp/index.md")));
+        for page in pages {
+            let text = fs::read_to_string(&page).unwrap();
+            assert!(!text.lines().any(|line| line == "```rust"), "{}", page.display());
+        }
+    }
 }
