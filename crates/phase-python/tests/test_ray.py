@@ -1,5 +1,6 @@
 """Shards on Ray, of which a worker is killed, merge to the bytes of one machine's run."""
 
+import contextlib
 import hashlib
 import os
 import signal
@@ -32,29 +33,37 @@ def digest(folder):
     return total.hexdigest()
 
 
-def kill_a_worker(killed, finished):
-    """Kills the first worker that has begun a shard, however long that takes to happen."""
-    while not killed and not finished.is_set():
-        found = subprocess.run(["pgrep", "-f", "^ray::make"], capture_output=True, text=True, check=False)
+def kill_workers(killed, finished, most):
+    """Kills the first worker that has begun a shard, however long that takes to happen, until so many are killed."""
+    while len(killed) < most and not finished.is_set():
+        found = subprocess.run(["pgrep", "-f", r"^ray::Shard\.make"], capture_output=True, text=True, check=False)
         for process in found.stdout.split()[:1]:
-            os.kill(int(process), signal.SIGKILL)
-            killed.append(process)
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(int(process), signal.SIGKILL)
+                killed.append(process)
         time.sleep(0.02)
+
+
+@contextlib.contextmanager
+def killed_workers(most=1):
+    """Has workers killed while the block runs."""
+    killed, finished = [], threading.Event()
+    killer = threading.Thread(target=kill_workers, args=(killed, finished, most))
+    killer.start()
+    try:
+        yield
+    finally:
+        finished.set()
+        killer.join()
+    assert killed, "a worker was killed on the way"
 
 
 def test_shards_merge_to_the_same_bytes(cluster, tmp_path):
     from phase_events import ray as on_ray
 
     one = phase.generate("demo", 6, tmp_path / "one", video=False, options=OPTIONS)
-    killed, finished = [], threading.Event()
-    killer = threading.Thread(target=kill_a_worker, args=(killed, finished))
-    killer.start()
-    try:
+    with killed_workers():
         many = on_ray.generate("demo", 6, tmp_path / "many", shards=6, video=False, options=OPTIONS)
-    finally:
-        finished.set()
-        killer.join()
-    assert killed, "a worker was killed on the way"
     assert digest(one) == digest(many)
     assert not (tmp_path / "many.shards").exists()
     single = phase.evaluate("cue", many, seed=1)
@@ -64,5 +73,14 @@ def test_shards_merge_to_the_same_bytes(cluster, tmp_path):
 def test_failures_are_phases(cluster, tmp_path):
     from phase_events import ray as on_ray
 
-    with pytest.raises(phase.PhaseError, match="preset"):
-        on_ray.generate("none", 2, tmp_path / "out", shards=2)
+    # All shards fail at about the same time, which must not bring down this process.
+    for _ in range(4):
+        with pytest.raises(phase.PhaseError, match="preset"):
+            on_ray.generate("none", 2, tmp_path / "out", shards=2)
+
+
+def test_retries_end(cluster, tmp_path):
+    from phase_events import ray as on_ray
+
+    with killed_workers(most=1000), pytest.raises(phase.PhaseError, match="0 retries were not enough"):
+        on_ray.generate("demo", 2, tmp_path / "out", shards=2, video=False, options=OPTIONS, retries=0)

@@ -1,7 +1,7 @@
 """Datasets and evaluations on a Ray cluster. It needs ``phase-events[ray]``.
 
-Every task makes one shard in a folder that all machines share. A task that is killed is run again and goes on where it was; the parts
-are merged to the bytes of one machine's run. Use more shards than workers: events differ in cost.
+Every shard is made by an actor of its own, in a folder that all machines share. One whose worker is killed is made again and
+goes on where it was; the parts are merged to the bytes of one machine's run. Use more shards than workers: events differ in cost.
 """
 
 import json
@@ -15,16 +15,18 @@ from . import command
 from ._native import PhaseError
 
 RETRIES = 5
+# Seconds that the other shards have to end by themselves after a failure, as they do where the input is at fault. To kill takes longer.
+GRACE = 1.0
 
 
 def generate(preset="demo", events=None, out=None, *, shards=None, seed=None, video=True, options=(), retries=RETRIES):
-    """Generates a dataset as :func:`phase_events.generate`, one shard a task.
+    """Generates a dataset as :func:`phase_events.generate`, one shard an actor.
 
     Args:
         out: the folder of the dataset, on a file system that all workers share; the shards are in ``OUT.shards`` and are kept until
             they are merged.
         shards: how many; ``None`` for four a core of the cluster, at most one an event.
-        retries: how often a task is run again after its worker died.
+        retries: how often a shard is made again after its worker died.
 
     Returns:
         the folder.
@@ -50,7 +52,7 @@ def generate(preset="demo", events=None, out=None, *, shards=None, seed=None, vi
 
 
 def evaluate(method, events, out, *, task="goals", split=None, shards=None, seed=1, retries=RETRIES):
-    """Evaluates one of PHASE's methods as :func:`phase_events.evaluate`, one shard a task.
+    """Evaluates one of PHASE's methods as :func:`phase_events.evaluate`, one shard an actor.
 
     Args:
         method: its name.
@@ -94,16 +96,35 @@ def _shards(shards, events):
 
 
 def _run(make, count, retries):
-    # A failure of the input is the same every time; only a worker that died is run again.
-    task = ray.remote(num_cpus=1, max_retries=retries, retry_exceptions=False)(make)
-    waiting = [task.remote(k) for k in range(1, count + 1)]
+    # An actor for each shard, not a task: actors can be killed, while cancelling a task just as it ends, as all do at once where the
+    # input is at fault, can crash this process (https://github.com/ray-project/ray/pull/54798). What a killed one has made is kept.
+    class Shard:
+        def make(self, k):
+            return make(k)
+
+    # A failure of the input is the same every time; only a shard whose worker died is made again.
+    actor = ray.remote(num_cpus=1, max_restarts=retries, max_task_retries=retries)(Shard)
+    actors = [actor.remote() for _ in range(count)]
+    results = [one.make.remote(k) for k, one in enumerate(actors, 1)]
+    running = dict(zip(results, actors, strict=True))
+    del actors
     try:
-        return ray.get(waiting)
+        while running:
+            # Without its handle an actor ends, and the next has its place.
+            (ended,), _ = ray.wait(list(running), num_returns=1)
+            ray.get(ended)
+            del running[ended]
+        return ray.get(results)
     except ray.exceptions.RayTaskError as error:
         raise (error.cause if isinstance(error.cause, PhaseError) else PhaseError(str(error.cause))) from error
+    except ray.exceptions.RayActorError as error:
+        raise PhaseError(f"retries: the worker of a shard died, and {retries} retries were not enough") from error
     finally:
-        for one in waiting:
-            ray.cancel(one, force=False)
+        _, unfinished = ray.wait(results, num_returns=count, timeout=GRACE)
+        for one in unfinished:
+            ray.kill(running[one])
+        # The error's traceback has this frame, whose handles would keep the actors of ended shards, and their cores.
+        running.clear()
 
 
 def _merge(arguments, out):
