@@ -40,6 +40,8 @@ pub(crate) struct Memory {
     to_drop: [LaneSet; 4],
     /// For each body, the lanes in which its box contains it where it is.
     pub(crate) boxed: [LaneSet; 4],
+    /// For each body, the lanes in which it was found inside the arena, on its side of all walls, at the end of the last substep.
+    pub(crate) inside: [LaneSet; 4],
     /// For each pair, the lanes in which one holds the other.
     held: [LaneSet; PAIRS.len()],
     pub(crate) traces: TraceList,
@@ -61,6 +63,7 @@ impl Memory {
             to_find: [0; 4],
             to_drop: [used; 4],
             boxed: [0; 4],
+            inside: [0; 4],
             held: [0; PAIRS.len()],
             traces: TraceList::new(),
         };

@@ -120,9 +120,11 @@ impl Worlds<'_> {
             if hit != 0 {
                 memory.update_box(self, body, hit);
             }
-            // A body that has not moved is where it was contained before.
-            let contained = if substep == 0 { 0 } else { memory.boxed[body] & !moved[body] };
-            memory.boxed[body] &= !self.contain(body, self.used & !contained, &swept);
+            // A body that has not moved since it was found inside is inside.
+            let inside = memory.inside[body] & !moved[body];
+            let outside = self.contain(body, self.used & !inside, &swept);
+            memory.inside[body] = self.used & !outside;
+            memory.boxed[body] &= !outside;
             self.outlines.moved(body, moved[body]);
         }
         memory.find_new_pairs(self);
