@@ -52,7 +52,7 @@ fn simulated(kind: EventKind) -> ObservedEvent {
     recording.observed().expect("a sound event")
 }
 
-fn recorded(path: &Path) -> Result<Vec<ObservedEvent>, phase_dataset::FileError> {
+fn recorded(path: &Path) -> Result<Vec<ObservedEvent>, phase_files::FileError> {
     let recordings = phase_events::read(path)?;
     Ok(recordings.iter().step_by(THINNED).filter_map(|recording| recording.observed().ok()).collect())
 }

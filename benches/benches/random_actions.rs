@@ -68,7 +68,7 @@ fn play(kind: EventKind, index: u64, random: &mut Pcg64Mcg) -> (Forward, Vec<Sta
 }
 
 /// The states of all rows of all recordings of a file.
-fn recorded(path: &Path) -> Result<Vec<(Forward, Vec<State>)>, phase_dataset::FileError> {
+fn recorded(path: &Path) -> Result<Vec<(Forward, Vec<State>)>, phase_files::FileError> {
     let recordings = phase_events::read(path)?;
     let rows = |recording: &phase_event::Recording| {
         let trajectory = &recording.trajectory;

@@ -1,7 +1,7 @@
 //! A file in which evaluations are kept, so that an interrupted fit goes on where it was: one JSON object a line.
 
 use phase_cli::error::CliError;
-use phase_dataset::{FileError, Problem, WriteError};
+use phase_files::{FileError, Problem, WriteError};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use std::{
     fs::{File, OpenOptions, read_to_string},

@@ -16,8 +16,8 @@ use phase_cli::{
     interrupt,
     parallel::{Jobs, make_all},
 };
-use phase_dataset::checksum::{hexadecimal, sha256};
 use phase_event::Recording;
+use phase_files::checksum::{hexadecimal, sha256};
 use serde::{Serialize, de::DeserializeOwned};
 use std::{
     collections::BTreeMap,

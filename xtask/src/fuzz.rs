@@ -3,7 +3,7 @@
 use crate::error::XtaskError;
 use clap::{Args, builder::PossibleValuesParser, value_parser};
 use phase_cli::{console::print_result, context::Context, interrupt};
-use phase_dataset::{atomic, checksum::sha256_hex};
+use phase_files::{atomic, checksum::sha256_hex};
 use phase_fuzz::{
     fuzzing::{self, Failure},
     targets::{Check, TARGETS},

@@ -1,7 +1,7 @@
 //! The file that an option such as `--json FILE` writes.
 
 use phase_cli::error::CliError;
-use phase_dataset::atomic;
+use phase_files::atomic;
 use std::path::Path;
 
 /// The name that means stdout where a file may be named.

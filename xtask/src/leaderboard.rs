@@ -11,11 +11,11 @@ use phase_cli::{
     context::Context,
     error::CliError,
 };
-use phase_dataset::{atomic, checksum::sha256_hex};
 use phase_eval::{
     Estimate,
     benchmark::{Benchmark, GENERATED, PAIRS, RECORDED},
 };
+use phase_files::{atomic, checksum::sha256_hex};
 use phase_report::evaluation::{self, LEADERBOARD_FORMAT, Measures, Score, Scores, Source};
 use serde_json::Value;
 use std::{

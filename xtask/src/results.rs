@@ -3,8 +3,8 @@
 use crate::{error::XtaskError, leaderboard};
 use clap::Args;
 use phase_cli::{console::print_result, error::CliError};
-use phase_dataset::{FileError, Problem, WriteError, atomic};
 use phase_eval::benchmark::Benchmark;
+use phase_files::{FileError, Problem, WriteError, atomic};
 use phase_report::evaluation;
 use std::{
     fs,

@@ -9,8 +9,9 @@ use crate::{
     progress::Progress,
 };
 use core::ops::ControlFlow;
-use phase_dataset::{atomic, cache::Cache, checksum::sha256, folder::Folder};
+use phase_dataset::event_cache::EventCache;
 use phase_event::{Event, Recording};
+use phase_files::{atomic, checksum::sha256, folder::Folder};
 use phase_model::{Relation, Scene};
 use phase_render::Palette;
 use phase_sim::SimulationSettings;
@@ -25,7 +26,7 @@ use std::{
 pub struct EventWriter {
     settings: SimulationSettings,
     settings_value: Value,
-    cache: Cache,
+    cache: EventCache,
     progress: Progress,
 }
 
@@ -59,7 +60,7 @@ impl EventWriter {
         events: usize,
     ) -> Result<Self, CliError> {
         let settings_value = settings_value(&settings)?;
-        let cache = Cache::new(&folder.cache(), fingerprint(&settings_value));
+        let cache = EventCache::new(&folder.cache(), fingerprint(&settings_value));
         let progress = context.progress(activity, events, settings.max_steps);
         Ok(Self { settings, settings_value, cache, progress })
     }

@@ -6,12 +6,14 @@
 use crate::{console, context::Context, error::CliError, gen_dataset::check_same, interrupt, output::Output};
 use clap::{Args, value_parser};
 use phase_dataset::{
+    manifest::{EventEntry, MANIFEST_FILE, Manifest},
+    splits::Split,
+};
+use phase_files::{
     FileError, Problem, WriteError,
     atomic::{self, AtomicFile},
     checksum::FileEntry,
     folder::{self, Contents, Folder},
-    manifest::{EventEntry, MANIFEST_FILE, Manifest},
-    splits::Split,
 };
 use serde_json::{Value, json};
 use std::{
@@ -62,7 +64,7 @@ pub fn run(arguments: &Export, context: &Context) -> Result<(), CliError> {
     });
     match folder::inspect(out, INDEX_FILE)? {
         Contents::Finished => {
-            let index: Value = phase_dataset::json::read(&out.join(INDEX_FILE))?;
+            let index: Value = phase_files::json::read(&out.join(INDEX_FILE))?;
             check_same(out, "a finished", &index["run"], &run)?;
             folder::remove_leftovers(out, &run)?;
             return announce(arguments, &index, false);

@@ -2,10 +2,8 @@
 //! memory.
 
 use crate::error::CliError;
-use phase_dataset::{
-    WriteError, atomic,
-    manifest::{EventEntry, PAGE_FILE},
-};
+use phase_dataset::manifest::{EventEntry, PAGE_FILE};
+use phase_files::{WriteError, atomic};
 use phase_report::gallery::{EVENTS_PER_PAGE, Gallery, PAGES_FOLDER, PageSummary, Timeline};
 use std::path::Path;
 

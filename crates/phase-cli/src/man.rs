@@ -3,7 +3,7 @@
 use crate::{console::print_result, context::Context, error::CliError};
 use clap::Args;
 use clap_mangen::Man;
-use phase_dataset::{WriteError, atomic};
+use phase_files::{WriteError, atomic};
 use std::path::{Path, PathBuf};
 
 /// Options of `man`.

@@ -1,8 +1,8 @@
 //! Events as videos and contact sheets in files.
 
 use crate::error::CliError;
-use phase_dataset::atomic;
 use phase_event::Event;
+use phase_files::atomic;
 use phase_model::{AgentId, PhysicsConfig, State, arena::FRAMES_PER_SECOND};
 use phase_perception::CellSet;
 use phase_render::{

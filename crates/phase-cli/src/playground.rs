@@ -2,7 +2,7 @@
 
 use crate::{console::print_result, context::Context, error::CliError};
 use clap::Args;
-use phase_dataset::{FileError, Problem, WriteError, atomic};
+use phase_files::{FileError, Problem, WriteError, atomic};
 use phase_web::WASM;
 use std::{
     fs,

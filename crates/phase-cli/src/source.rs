@@ -2,13 +2,13 @@
 
 use crate::{context::Context, error::CliError};
 use phase_dataset::{
-    FileError, Problem,
     manifest::{MANIFEST_FILE, Manifest},
     phase_events,
     shard::SHARD_FILE,
     summary::{SUMMARY_FILE, SimulationSummary},
 };
 use phase_event::Recording;
+use phase_files::{FileError, Problem};
 use phase_model::path::RelativePath;
 use std::{
     collections::BTreeSet,

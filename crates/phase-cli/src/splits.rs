@@ -3,11 +3,11 @@
 use crate::{context::Context, error::CliError, output::Output, source::EventInput};
 use clap::Args;
 use phase_dataset::{
-    FileError,
     manifest::{MANIFEST_FILE, Manifest},
     split_list::SplitList,
     splits::{self, Item, Rule, Split},
 };
+use phase_files::FileError;
 use serde_json::json;
 use std::path::PathBuf;
 

@@ -11,16 +11,16 @@ use crate::{
 use clap::Args;
 use phase_audit::{Audit, Target};
 use phase_dataset::{
-    WriteError,
     acceptance::Acceptance,
-    atomic, describe,
+    describe,
     labels::goal_counts,
     manifest::{MANIFEST_FILE, Manifest},
 };
+use phase_document::plot::bars;
+use phase_files::{WriteError, atomic};
 use phase_model::Scene;
 use phase_report::{
     acceptance,
-    plot::bars,
     statistics::{self, Statistics, StatisticsRow},
 };
 use serde_json::{Value, json};

@@ -1,10 +1,10 @@
 //! `croissant.json`: the dataset in the vocabulary Croissant 1.0, for search engines and loaders.
 
 use crate::{
-    checksum::FileEntry,
     overview::Overview,
     parquet::{self, Description, ParquetFile},
 };
+use phase_files::checksum::FileEntry;
 use serde_json::{Value, json};
 
 /// The file's name.

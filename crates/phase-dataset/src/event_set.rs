@@ -1,8 +1,9 @@
 //! Sets of events that differ in one social variable, and where and when their events part.
 
-use crate::{checksum::FileEntry, ids};
+use crate::ids;
 use phase_event::Event;
 use phase_evidence::{Track, parting::Parting};
+use phase_files::checksum::FileEntry;
 use phase_model::{AgentId, arena};
 use phase_sampler::Stance;
 use serde::{Deserialize, Serialize};

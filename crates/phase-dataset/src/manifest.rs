@@ -1,16 +1,18 @@
 //! `manifest.json`: what a dataset contains, how it was generated, and the checksum of every file.
 
 use crate::{
-    FileError, Problem, WriteError,
     acceptance::Acceptance,
-    atomic,
-    checksum::{FileEntry, sha256_hex},
     event_set::{SetEntry, SetPlace},
-    ids, json,
+    ids,
     splits::{Item, Split},
 };
 use phase_event::Event;
 use phase_evidence::{GoalOutcome, Manner, Track};
+use phase_files::{
+    FileError, Problem, WriteError, atomic,
+    checksum::{FileEntry, sha256_hex},
+    json,
+};
 use phase_model::{AGENT_COUNT, EventKind, Goal, Relation, json::check_format};
 use phase_sampler::Variant;
 use serde::{Deserialize, Serialize};

@@ -1,15 +1,18 @@
 //! Writing a manifest while its events are read, so that they are never all in memory.
 
 use crate::{
-    ExportError, FileError,
+    ExportError,
     acceptance::Acceptance,
-    atomic::AtomicFile,
-    checksum::{FileEntry, HashingWriter},
     manifest::{DATASET_FORMAT, MANIFEST_FILE, write_digest},
     overview::Overview,
     slot_record::{Records, SlotRecord},
 };
 use core::cell::RefCell;
+use phase_files::{
+    FileError,
+    atomic::AtomicFile,
+    checksum::{FileEntry, HashingWriter},
+};
 use serde::{Serialize, Serializer};
 use serde_json::Value;
 use std::{

@@ -2,11 +2,11 @@
 
 use crate::{
     acceptance::Acceptance,
-    checksum::FileEntry,
     manifest::{EventEntry, Manifest},
     shard::DatasetDescription,
     splits::Split,
 };
+use phase_files::checksum::FileEntry;
 use phase_model::EventKind;
 use serde_json::Value;
 use std::collections::BTreeMap;

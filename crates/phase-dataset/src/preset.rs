@@ -1,7 +1,8 @@
 //! The composition of a generated dataset.
 
-use crate::{FileError, Problem, splits::Split};
+use crate::splits::Split;
 use phase_event::check_id;
+use phase_files::{FileError, Problem};
 use phase_model::{
     Layout, Relation,
     layout::USED_BASES,

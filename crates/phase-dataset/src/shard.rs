@@ -1,14 +1,17 @@
 //! `shard.json`: one part of a dataset that is generated in several places.
 
 use crate::{
-    ExportError, FileError, Problem, WriteError,
-    atomic::{self, AtomicFile},
-    checksum::FileEntry,
-    json,
+    ExportError,
     preset::{MOST_EVENTS, slot_id},
     slot_record::{Records, SlotRecord},
 };
 use core::{iter::StepBy, ops::Range};
+use phase_files::{
+    FileError, Problem, WriteError,
+    atomic::{self, AtomicFile},
+    checksum::FileEntry,
+    json,
+};
 use phase_model::json::check_format;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;

@@ -1,13 +1,11 @@
 //! The attempts at each slot of a dataset, with the reasons for rejection.
 
 use crate::{
-    FileError, Problem, WriteError,
     acceptance::Refusal,
-    atomic,
-    checksum::FileEntry,
     event_set::{SetEntry, member_id, set_video_path},
     manifest::{EventEntry, event_path, video_path},
 };
+use phase_files::{FileError, Problem, WriteError, atomic, checksum::FileEntry};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 

@@ -1,9 +1,7 @@
 //! `phase-splits/1`: a split as lists of ids.
 
-use crate::{
-    FileError, Problem, WriteError, atomic, json,
-    splits::{Item, Split},
-};
+use crate::splits::{Item, Split};
+use phase_files::{FileError, Problem, WriteError, atomic, json};
 use phase_model::json::check_format;
 use serde::{Deserialize, Serialize};
 use std::{collections::BTreeMap, path::Path};

@@ -5,7 +5,7 @@ use axum::{
     http::StatusCode,
     response::{IntoResponse, Response},
 };
-use phase_dataset::{WriteError, folder::FolderError};
+use phase_files::{WriteError, folder::FolderError};
 use serde_json::json;
 use std::{io, net::SocketAddr, path::PathBuf};
 use thiserror::Error;

@@ -10,7 +10,7 @@ use crate::{
     token,
 };
 use axum::{Router, body::Bytes, extract::DefaultBodyLimit, middleware};
-use phase_dataset::folder::Lock;
+use phase_files::folder::Lock;
 use phase_game::playlist::Item;
 use std::{
     future::Future,

@@ -20,10 +20,10 @@ use phase_cli::{
     parallel::make_all,
     picture::{self, RenderedState},
 };
-use phase_dataset::{
+use phase_dataset::phase_events;
+use phase_files::{
     WriteError, atomic,
     folder::{self, Folder},
-    phase_events,
 };
 use phase_model::{Scene, arena::SUBSTEPS};
 use phase_render::Palette;

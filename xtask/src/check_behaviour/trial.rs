@@ -11,9 +11,10 @@ use phase_cli::{
     interrupt,
     progress::Progress,
 };
-use phase_dataset::{cache::Cache, checksum::sha256, folder::Folder};
+use phase_dataset::event_cache::EventCache;
 use phase_event::Event;
 use phase_evidence::Track;
+use phase_files::{checksum::sha256, folder::Folder};
 use phase_model::{AgentId, Attitude, Flip, Scene};
 use phase_sim::SimulationSettings;
 use std::{path::PathBuf, time::Instant};
@@ -118,7 +119,7 @@ impl TrialRunner {
         let seed = index as u64 + 1;
         let name = format!("{name}.{seed}");
         let key = format!("{} {scene:?}", settings_value(settings)?);
-        let cache = Cache::new(&self.cache, sha256(&[&self.program[..], key.as_bytes()].concat()));
+        let cache = EventCache::new(&self.cache, sha256(&[&self.program[..], key.as_bytes()].concat()));
         if let Some(event) = cache.load(&name, seed) {
             return Ok(Some(event));
         }

@@ -24,9 +24,9 @@ use phase_cli::{
     parallel::make_all,
     source::EventInput,
 };
-use phase_dataset::atomic;
 use phase_eval::goals::canonical;
 use phase_event::Recording;
+use phase_files::atomic;
 use phase_model::{AgentId, Attitude, EventKind, Goal, Scene};
 use phase_simple::{Hypothesis, InferenceSettings, Intent};
 use report::Report;

@@ -2,7 +2,7 @@
 
 use phase_agent::MindParameters;
 use phase_cli::error::CliError;
-use phase_dataset::json;
+use phase_files::json;
 use std::path::Path;
 
 /// The default parameters with those of a file in their place.

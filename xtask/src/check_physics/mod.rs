@@ -13,7 +13,7 @@ use phase_calibration::{
 use phase_cli::{
     console::print_result, context::Context, error::CliError, output::json_text, source::EventInput,
 };
-use phase_dataset::{atomic, json};
+use phase_files::{atomic, json};
 use serde::Serialize;
 use serde_json::Value;
 use std::path::Path;

@@ -7,7 +7,7 @@ use phase_cli::{
         schedule::{Need, Part},
     },
 };
-use phase_dataset::{FileError, Problem};
+use phase_files::{FileError, Problem};
 use phase_model::{
     AgentId, EventKind,
     random::{Purpose, derive_seed},

@@ -7,13 +7,12 @@ use phase_cli::{
     verify::{self, derived},
 };
 use phase_dataset::{
-    WriteError, atomic,
-    checksum::FileEntry,
     croissant::CROISSANT_FILE,
     manifest::{EventEntry, MANIFEST_FILE, Manifest},
     phase_events,
 };
 use phase_event::Recording;
+use phase_files::{WriteError, atomic, checksum::FileEntry};
 use phase_model::random::Pcg64Mcg;
 use rand::seq::{IndexedRandom, SliceRandom};
 use std::{
@@ -291,6 +290,6 @@ fn output(error: WriteError) -> CliError {
     CliError::Output(error)
 }
 
-pub(super) fn cli(error: phase_dataset::FileError) -> CliError {
+pub(super) fn cli(error: phase_files::FileError) -> CliError {
     error.into()
 }

@@ -21,7 +21,8 @@ use phase_cli::{
     parallel::Jobs,
     verify::{self, options::Checks},
 };
-use phase_dataset::{FileError, manifest::Manifest};
+use phase_dataset::manifest::Manifest;
+use phase_files::FileError;
 use phase_model::random::{Purpose, stream};
 use serde_json::{Value, json};
 use std::path::Path;

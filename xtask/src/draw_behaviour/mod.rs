@@ -16,8 +16,8 @@ use phase_cli::{
     error::CliError,
     parallel::{Jobs, make_all},
 };
-use phase_dataset::{WriteError, atomic};
 use phase_event::{Controller, Recording, Trajectory};
+use phase_files::{WriteError, atomic};
 use phase_model::{
     AGENT_COUNT, Attitude, Body, Layout, Scene, Vec2,
     layout::USED_BASES,

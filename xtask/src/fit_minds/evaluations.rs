@@ -13,7 +13,7 @@ use phase_cli::{
     output::json_text,
     parallel::{Jobs, make_all},
 };
-use phase_dataset::checksum::{hexadecimal, sha256};
+use phase_files::checksum::{hexadecimal, sha256};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Hexadecimal digits of a key: 128 bits.

@@ -1,6 +1,6 @@
 //! The division of events into folds.
 
-use phase_dataset::checksum::sha256;
+use phase_files::checksum::sha256;
 use phase_model::EventKind;
 
 /// The fold of each event, from 0. Every kind is spread evenly over the folds, whose sizes differ by at most one; which

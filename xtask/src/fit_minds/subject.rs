@@ -4,9 +4,9 @@ use crate::check_minds::{is_true, recognition::Recognition, truth};
 use cpu_time::ThreadTime;
 use phase_agent::MindParameters;
 use phase_cli::{error::CliError, interrupt};
-use phase_dataset::checksum::{hexadecimal, sha256};
 use phase_eval::MethodError;
 use phase_event::{ObservedEvent, Recording};
+use phase_files::checksum::{hexadecimal, sha256};
 use phase_model::{AGENT_COUNT, AgentId, Attitude, EventKind};
 use phase_simple::{
     Hypothesis, Intent, InversePlanningSettings, Posterior, PreparedEvent,

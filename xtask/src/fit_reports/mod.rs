@@ -10,12 +10,12 @@ mod regression;
 use crate::{error::XtaskError, fit_minds::folds, json_file};
 use options::FitReports;
 use phase_cli::{console::print_result, error::CliError, output::json_text};
-use phase_dataset::{FileError, Problem, json};
 use phase_eval::{
     Estimate,
     goals::{Agreement, RecognisedEvent},
     results::GOALS_FORMAT,
 };
+use phase_files::{FileError, Problem, json};
 use phase_model::RelationProbabilities;
 use phase_simple::{Impression, ReportModel};
 use regression::{Rated, fit};

@@ -4,10 +4,12 @@ use super::Workspace;
 use std::path::{Path, PathBuf};
 
 /// The crates from the bottom layer up. A crate may use those before it, never those after it.
-pub const LAYERS: [&str; 35] = [
+pub const LAYERS: [&str; 37] = [
     "phase-model",
     "phase-event",
     "phase-statistics",
+    "phase-files",
+    "phase-document",
     "phase-golden",
     "phase-world",
     "phase-forward",

@@ -7,7 +7,7 @@ use super::{
 use crate::error::XtaskError;
 use core::fmt;
 use phase_cli::error::CliError;
-use phase_dataset::{WriteError, atomic, fault};
+use phase_files::{WriteError, atomic, fault};
 use serde_json::Value;
 use std::{
     collections::BTreeMap,

@@ -154,7 +154,7 @@ fn place(is_plain: bool) -> Result<TempDir, XtaskError> {
     let place = tempfile::tempdir()
         .map_err(|source| super::run::failed(&std::env::temp_dir(), "create a folder", source))?;
     let write = |name: &str, bytes: &[u8]| {
-        phase_dataset::atomic::write(&place.path().join(name), bytes)
+        phase_files::atomic::write(&place.path().join(name), bytes)
             .map_err(|error| XtaskError::from(CliError::Output(error)))
     };
     let mut stimuli = Vec::with_capacity(VIDEOS);

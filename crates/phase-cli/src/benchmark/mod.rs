@@ -15,7 +15,7 @@ use crate::{
     gen_dataset::check_same,
 };
 use options::Benchmark;
-use phase_dataset::{
+use phase_files::{
     WriteError, atomic,
     folder::{self, Contents, Folder},
 };

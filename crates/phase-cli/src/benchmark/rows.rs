@@ -18,7 +18,7 @@ use crate::{
         trajectories::Trajectories,
     },
 };
-use phase_dataset::{FileError, Problem, json, splits::Split};
+use phase_dataset::splits::Split;
 use phase_eval::{
     benchmark::{
         self, BENCHMARK_FORMAT, EventSet, Familiarity, GENERATED, Origin, PAIRS, RECORDED, Row, Subset,
@@ -27,6 +27,7 @@ use phase_eval::{
     goals::RecognisedEvent,
     trajectories::ForecastEvent,
 };
+use phase_files::{FileError, Problem, json};
 use serde_json::Value;
 use std::path::Path;
 

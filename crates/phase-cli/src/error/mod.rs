@@ -6,9 +6,10 @@ pub mod train;
 use crate::program::Failure;
 #[cfg(feature = "networks")]
 use phase_baselines::training::{NetworkError, TrainingRecordError};
-use phase_dataset::{ExportError, FileError, WriteError, folder::FolderError};
+use phase_dataset::ExportError;
 use phase_eval::MethodError;
 use phase_event::EventWriteError;
+use phase_files::{FileError, WriteError, folder::FolderError};
 use phase_model::EventKind;
 use phase_render::RenderError;
 use phase_sampler::SampleError;

@@ -6,8 +6,8 @@ use phase_baselines::{
     strength,
     training::{CheckpointError, NetworkError, TrainingError, TrainingRecordError},
 };
-use phase_dataset::{FileError, WriteError};
 use phase_event::ObservedError;
+use phase_files::{FileError, WriteError};
 use phase_simple::strength::WeightsError;
 use std::path::PathBuf;
 use thiserror::Error;

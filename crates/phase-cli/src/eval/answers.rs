@@ -3,13 +3,13 @@
 use super::input::{Event, Input};
 use crate::{context::Context, error::CliError};
 use cpu_time::ThreadTime;
-use phase_dataset::{
+use phase_eval::MethodError;
+use phase_event::EventReadError;
+use phase_files::{
     FileError, Problem,
     checksum::{hexadecimal, sha256},
     json,
 };
-use phase_eval::MethodError;
-use phase_event::EventReadError;
 use phase_model::json::FieldError;
 use serde_json::{Value, json};
 use std::{collections::BTreeMap, path::Path};
@@ -90,7 +90,8 @@ impl<A> PredictionsFile<A> {
         fit: impl Fn(&Event, A) -> Result<A, FieldError>,
     ) -> Result<Self, CliError> {
         let value = json::read(file)?;
-        let fail = |error: EventReadError| FileError { file: file.to_owned(), problem: Problem::from(error) };
+        let fail =
+            |error: EventReadError| FileError { file: file.to_owned(), problem: Problem::content(error) };
         let mut others = parse(&value).map_err(fail)?;
         if let Some(event) = input.events.iter().find(|event| !others.contains_key(&event.id)) {
             return Err(CliError::unknown_id(file, &event.id, others.keys().map(String::as_str)));

@@ -3,11 +3,11 @@
 use super::options::Common;
 use crate::{context::Context, error::CliError, source::EventInput};
 use phase_dataset::{
-    checksum::{hexadecimal, sha256},
     manifest::{MANIFEST_FILE, Manifest},
     splits::Split,
 };
 use phase_event::Recording;
+use phase_files::checksum::{hexadecimal, sha256};
 use phase_model::AGENT_COUNT;
 use phase_sampler::Variant;
 use std::{collections::BTreeSet, path::Path};

@@ -1,15 +1,15 @@
 //! SIMPLE's intent network alone, without any simulation.
 
 use crate::error::CliError;
-use phase_dataset::{
-    checksum::{hexadecimal, sha256},
-    json,
-};
 use phase_eval::{
     Recogniser,
     method::{MethodResult, ProgressCallback},
 };
 use phase_event::ObservedEvent;
+use phase_files::{
+    checksum::{hexadecimal, sha256},
+    json,
+};
 use phase_model::Judgement;
 use phase_simple::IntentNetwork;
 use serde_json::{Value, json};

@@ -2,12 +2,12 @@
 
 use super::input::Input;
 use crate::{context::Context, error::CliError};
-use phase_dataset::{
+use phase_eval::ratings::{RatingCounts, ratings};
+use phase_files::{
     FileError, Problem,
     checksum::{hexadecimal, sha256},
     json,
 };
-use phase_eval::ratings::{RatingCounts, ratings};
 use std::{collections::BTreeMap, path::Path};
 
 /// How people rated events.
@@ -27,7 +27,7 @@ impl Ratings {
         let bytes = json::bytes(file)?;
         let fail = |problem: Problem| FileError { file: file.to_owned(), problem };
         let value = phase_model::json::parse(&bytes).map_err(|error| fail(error.into()))?;
-        let counts = ratings(&value).map_err(|error| fail(error.into()))?;
+        let counts = ratings(&value).map_err(|error| fail(Problem::content(error)))?;
         let ids = || inputs.iter().flat_map(|input| input.events.iter().map(|event| event.id.as_str()));
         let rated = ids().filter(|id| counts.contains_key(*id)).count();
         if rated == 0 {

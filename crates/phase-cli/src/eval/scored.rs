@@ -1,14 +1,12 @@
 //! What the answers to both tasks have in common once they are compared with the labels.
 
+use phase_document::document::Document;
 use phase_eval::{
     goals::{ErrorBreakdown, RecognisedEvent, RecognitionSummary},
     results::{self, GOALS_FORMAT, TRAJECTORIES_FORMAT},
     trajectories::{ForecastEvent, ForecastSummary},
 };
-use phase_report::{
-    document::Document,
-    evaluation::{self, Subject},
-};
+use phase_report::evaluation::{self, Subject};
 use serde::{Serialize, de::DeserializeOwned};
 use serde_json::Value;
 

@@ -2,7 +2,7 @@
 
 use super::task::{AnswerStore, EVENTS};
 use crate::{error::CliError, gen_dataset::check_same};
-use phase_dataset::{FileError, Problem, atomic, json};
+use phase_files::{FileError, Problem, atomic, json};
 use phase_model::json::check_format;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;

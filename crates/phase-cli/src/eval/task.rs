@@ -17,17 +17,18 @@ use crate::{
     parallel::make_all,
     progress::Progress,
 };
-use phase_dataset::{
+use phase_dataset::shard::slots;
+use phase_document::document::Document;
+use phase_eval::{MethodError, ProgressCallback};
+use phase_event::Recording;
+use phase_files::{
     FileError, Problem, WriteError, atomic,
     checksum::{hexadecimal, sha256},
     folder::{self, Contents, Folder},
     json,
-    shard::slots,
 };
-use phase_eval::{MethodError, ProgressCallback};
-use phase_event::Recording;
 use phase_model::random::{Purpose, derive_seed};
-use phase_report::{document::Document, evaluation::Subject};
+use phase_report::evaluation::Subject;
 use serde::{Serialize, de::DeserializeOwned};
 use serde_json::{Value, json};
 use std::{

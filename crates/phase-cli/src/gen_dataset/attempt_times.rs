@@ -4,7 +4,7 @@
 
 use super::schedule::Part;
 use crate::error::CliError;
-use phase_dataset::{FileError, Problem, WriteError, atomic::AtomicFile, json};
+use phase_files::{FileError, Problem, WriteError, atomic::AtomicFile, json};
 use phase_sampler::Variant;
 use serde::{Deserialize, Serialize};
 use std::{

@@ -6,10 +6,7 @@
 use crate::{context::Context, error::CliError, gallery_writer::GalleryWriter, interrupt, shortcuts};
 use phase_audit::{AuditItem, MAX_EVENTS, audit};
 use phase_dataset::{
-    FileError, Problem,
     acceptance::Tally,
-    atomic::{self, AtomicFile},
-    checksum::FileEntry,
     croissant::{CROISSANT_FILE, croissant},
     event_set::{PAIRS_FILE, PAIRS_HEADER, pair_rows},
     manifest::{CARD_FILE, EventEntry},
@@ -22,6 +19,11 @@ use phase_dataset::{
     video_table::{VIDEO_TABLE_FILE, VIDEO_TABLE_HEADER, video_row},
 };
 use phase_event::Recording;
+use phase_files::{
+    FileError, Problem,
+    atomic::{self, AtomicFile},
+    checksum::FileEntry,
+};
 use phase_report::{
     card::{self, card},
     gallery::{Gallery, Timeline},

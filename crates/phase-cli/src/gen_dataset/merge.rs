@@ -3,14 +3,15 @@
 use super::{announce, complete::complete, options::Merge, run_value};
 use crate::{console, context::Context, error::CliError, interrupt};
 use phase_dataset::{
-    FileError, atomic,
-    checksum::FileEntry,
-    error::WriteError,
-    folder::{self, Contents, Folder},
     manifest::MANIFEST_FILE,
     parquet,
     shard::{SHARD_FILE, Shard, SlotReader},
     slot_record::{Records, SlotRecord},
+};
+use phase_files::{
+    FileError, WriteError, atomic,
+    checksum::FileEntry,
+    folder::{self, Contents, Folder},
 };
 use std::{
     fs,

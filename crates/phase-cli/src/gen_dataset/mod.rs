@@ -22,11 +22,11 @@ use complete::{Completed, complete};
 use cpu_time::ThreadTime;
 use options::GenDataset;
 use phase_dataset::{
-    folder::{self, Contents, Folder},
     manifest::{MANIFEST_FILE, Manifest, PAGE_FILE},
     parquet,
     shard::{self, DatasetDescription, SHARD_FILE, Shard},
 };
+use phase_files::folder::{self, Contents, Folder};
 use phase_report::acceptance;
 use phase_sim::Engine;
 use plan::Plan;

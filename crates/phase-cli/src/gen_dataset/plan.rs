@@ -7,12 +7,14 @@ use crate::{
     event_writer::{program, settings_value},
 };
 use phase_dataset::{
-    FileError,
-    checksum::{hexadecimal, sha256},
     composition::Composition,
-    json,
     preset::Preset,
     shard::{self, DatasetDescription},
+};
+use phase_files::{
+    FileError,
+    checksum::{hexadecimal, sha256},
+    json,
 };
 use phase_model::json::JsonError;
 use phase_sim::{Engine, SimulationSettings};

@@ -6,12 +6,12 @@ use super::{
 };
 use crate::{error::CliError, picture};
 use phase_dataset::{
-    checksum::FileEntry,
     composition::SetSlot,
     event_set::{PairEntry, SetEntry, SetPlace, member_id, set_video_path},
     manifest::EventEntry,
 };
 use phase_event::Event;
+use phase_files::checksum::FileEntry;
 use phase_model::{AgentId, Scene};
 use phase_sampler::{SampleError, Stance};
 

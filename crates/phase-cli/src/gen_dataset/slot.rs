@@ -17,10 +17,8 @@ use crate::{
 use core::ops::{ControlFlow, RangeInclusive};
 use cpu_time::ThreadTime;
 use phase_dataset::{
-    FileError,
     acceptance::Refusal,
     composition::manner_of,
-    folder::Folder,
     manifest::{EventEntry, event_path, video_path},
     preset::{Ends, Selection},
     slot_record::{Records, SlotRecord},
@@ -30,6 +28,7 @@ use phase_evidence::{
     Track,
     selection::{Ending, RejectionReason, certain_rejection, check_event},
 };
+use phase_files::{FileError, folder::Folder};
 use phase_model::Scene;
 use phase_sampler::{SampleError, Variant};
 use std::path::PathBuf;

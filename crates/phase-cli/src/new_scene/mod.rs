@@ -8,7 +8,7 @@ mod text;
 
 use crate::{context::Context, error::CliError};
 use options::NewScene;
-use phase_dataset::atomic;
+use phase_files::atomic;
 use phase_model::{Layout, Scene, layout::USED_BASES, random};
 use phase_sampler::{Request, Variant, sample};
 use serde_json::json;

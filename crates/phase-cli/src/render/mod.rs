@@ -15,8 +15,8 @@ use crate::{
     source::EventInput,
 };
 use options::{Belief, Render};
-use phase_dataset::{WriteError, atomic};
 use phase_event::{Recording, Row, Simulation, Trajectory};
+use phase_files::{WriteError, atomic};
 use phase_model::{AgentId, State, arena::SUBSTEPS};
 use phase_render::Palette;
 use phase_sim::SimulationSettings;

@@ -18,12 +18,14 @@ use crate::{
 use gallery::Shown;
 use options::Simulate;
 use phase_dataset::{
-    checksum::{hexadecimal, sha256},
-    folder::{self, Contents, Folder},
     manifest::PAGE_FILE,
     summary::{MeasuredPair, SUMMARY_FILE, SimulationSummary},
 };
 use phase_event::Recording;
+use phase_files::{
+    checksum::{hexadecimal, sha256},
+    folder::{self, Contents, Folder},
+};
 use phase_model::Relation;
 use phase_report::summary;
 use serde_json::{Value, json};

@@ -5,7 +5,7 @@ use super::{
     options::{ExportStudy, ReportStudy},
 };
 use crate::error::CliError;
-use phase_dataset::{WriteError, atomic};
+use phase_files::{WriteError, atomic};
 use phase_study::{
     analysis::{Analysis, document},
     config::StudyConfig,

@@ -2,7 +2,7 @@
 
 use super::options::CheckStudy;
 use crate::{context::Context, error::CliError};
-use phase_dataset::{FileError, Problem, json};
+use phase_files::{FileError, Problem, json};
 use phase_study::{config::StudyConfig, forms::Forms};
 use serde_json::json;
 use std::{

@@ -2,7 +2,7 @@
 
 use super::{options::NewStudy, videos};
 use crate::{context::Context, error::CliError};
-use phase_dataset::atomic;
+use phase_files::atomic;
 use phase_study::{
     config::{CatchTrial, Stimulus, StudyConfig},
     design::{Design, Experiment},

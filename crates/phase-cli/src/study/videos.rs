@@ -89,9 +89,9 @@ fn of_folder(
     known: &BTreeMap<String, Recording>,
 ) -> Result<Vec<Stimulus>, CliError> {
     let listed = fs::read_dir(folder).and_then(Iterator::collect::<Result<Vec<_>, _>>);
-    let unreadable = |error| phase_dataset::FileError {
+    let unreadable = |error| phase_files::FileError {
         file: folder.to_owned(),
-        problem: phase_dataset::Problem::Unreadable(error),
+        problem: phase_files::Problem::Unreadable(error),
     };
     let mut files: Vec<PathBuf> = listed.map_err(unreadable)?.into_iter().map(|entry| entry.path()).collect();
     files.retain(|file| file.extension().is_some_and(|extension| extension == "mp4"));
@@ -124,8 +124,8 @@ fn relative(file: &Path, base: &Path) -> Result<String, CliError> {
     let absolute = |path: &Path| {
         let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
         fs::canonicalize(path).map_err(|error| {
-            let problem = phase_dataset::Problem::Unreadable(error);
-            CliError::File(phase_dataset::FileError { file: path.to_owned(), problem })
+            let problem = phase_files::Problem::Unreadable(error);
+            CliError::File(phase_files::FileError { file: path.to_owned(), problem })
         })
     };
     let (file, base) = (absolute(file)?, absolute(base)?);

@@ -4,13 +4,13 @@ use super::options::Options;
 use crate::error::train::TrainError;
 use phase_baselines::training::DataSource;
 use phase_dataset::{
-    checksum::{hexadecimal, sha256},
     manifest::{EventEntry, MANIFEST_FILE, Manifest},
     phase_events,
     splits::Split,
     summary::{EventComparison, SUMMARY_FILE, SimulationSummary},
 };
 use phase_event::Recording;
+use phase_files::checksum::{hexadecimal, sha256};
 use phase_model::path::RelativePath;
 use std::path::{Path, PathBuf};
 

@@ -7,8 +7,9 @@ use phase_baselines::training::{
     Final, Metrics, NamedMetrics, NetworkError, PublishedNetwork, Round, TrainingRun, TrainingSettings,
     evaluate, to_safetensors,
 };
-use phase_dataset::{atomic, splits::Split};
+use phase_dataset::splits::Split;
 use phase_event::{ObservedEvent, Recording};
+use phase_files::atomic;
 use serde_json::json;
 
 /// Trains a network on the samples that `sample` makes of events.

@@ -6,7 +6,8 @@ use crate::{context::Context, error::CliError};
 use phase_baselines::strength::{
     AgentSamples, Sample, Score, StrengthTrainingSettings, most_common, score, train,
 };
-use phase_dataset::{atomic::AtomicFile, splits::Split};
+use phase_dataset::splits::Split;
+use phase_files::atomic::AtomicFile;
 use phase_model::Strength;
 use phase_simple::StrengthRegressor;
 use serde::Serialize;

@@ -4,7 +4,7 @@ use crate::context::Context;
 use crate::error::train::TrainError;
 use cpu_time::ProcessTime;
 use phase_baselines::training::{DataSource, Final, Network, TrainingRecord, TrainingRun};
-use phase_dataset::{WriteError, atomic, json};
+use phase_files::{WriteError, atomic, json};
 use std::{
     ffi::OsString,
     path::{Path, PathBuf},

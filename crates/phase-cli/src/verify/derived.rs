@@ -6,14 +6,12 @@ use crate::{
     gen_dataset::complete::{Completed, describe_all},
 };
 use phase_dataset::{
-    FileError, Problem, WriteError,
-    checksum::FileEntry,
-    json,
     manifest::{CARD_FILE, DIGEST_FILE, EventEntry, MANIFEST_FILE, Manifest},
     overview::Overview,
     slot_record::{Records, SlotRecord},
     video_table::VIDEO_TABLE_FILE,
 };
+use phase_files::{FileError, Problem, WriteError, checksum::FileEntry, json};
 use std::{collections::BTreeMap, path::Path};
 
 /// The files that differ from what the event files, the manifest's list of events and the command in the card give.

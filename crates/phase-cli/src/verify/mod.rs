@@ -15,11 +15,13 @@ use crate::{
 };
 use options::{Checks, Verify};
 use phase_dataset::{
+    manifest::{MANIFEST_FILE, Manifest},
+    verify::{Check, verify_with, work},
+};
+use phase_files::{
     FileError, Problem,
     checksum::FileEntry,
     folder::{self, Contents},
-    manifest::{MANIFEST_FILE, Manifest},
-    verify::{Check, verify_with, work},
 };
 use phase_model::random::{self, Purpose};
 use rand::seq::SliceRandom;

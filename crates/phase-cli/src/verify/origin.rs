@@ -10,13 +10,13 @@ use crate::{
 };
 use clap::Parser;
 use phase_dataset::{
-    FileError, Problem,
     acceptance::Acceptance,
     event_set::member_id,
     manifest::{CARD_FILE, EventEntry, MANIFEST_FILE, Manifest},
 };
 use phase_event::Event;
 use phase_evidence::{Track, selection::check_event};
+use phase_files::{FileError, Problem};
 use phase_model::Scene;
 use phase_sampler::{Stance, Variant};
 use phase_sim::SimulationSettings;

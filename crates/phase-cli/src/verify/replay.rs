@@ -13,13 +13,15 @@ use crate::{
 };
 use core::ops::ControlFlow;
 use phase_dataset::{
-    FileError, Problem,
-    checksum::{FileEntry, sha256_hex},
     event_set::SetEntry,
     manifest::{EventEntry, Manifest},
     phase_events,
 };
 use phase_event::{Event, EventReadError, Recording, Simulation};
+use phase_files::{
+    FileError, Problem,
+    checksum::{FileEntry, sha256_hex},
+};
 use phase_model::{AGENT_COUNT, PhysicsConfig, State, json::FieldError};
 use phase_sim::SimulationSettings;
 use std::path::Path;
@@ -165,7 +167,7 @@ impl<'a> Recorded<'a> {
 
     fn fail(&self, field: &str, rule: String) -> FileError {
         let problem = FieldError { field: field.into(), rule };
-        let problem = EventReadError::Field { event: Some(self.entry.id.clone()), problem }.into();
+        let problem = Problem::content(EventReadError::Field { event: Some(self.entry.id.clone()), problem });
         FileError { file: self.entry.event.place(self.folder), problem }
     }
 

@@ -1,7 +1,7 @@
 //! `eval`, with the trivial baselines.
 
 use crate::support::{recording, refuse, run, succeed, text, tree, write_events};
-use phase_dataset::folder::Folder;
+use phase_files::folder::Folder;
 use serde_json::{Value, json};
 use std::{fs, path::Path};
 

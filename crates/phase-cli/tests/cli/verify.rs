@@ -1,7 +1,8 @@
 //! `verify`, on a dataset of agents that searched little.
 
 use crate::support::{QUICK, refuse, run, succeed, text};
-use phase_dataset::{checksum::FileEntry, manifest::Manifest};
+use phase_dataset::manifest::Manifest;
+use phase_files::checksum::FileEntry;
 use std::{fs, path::Path};
 
 #[test]

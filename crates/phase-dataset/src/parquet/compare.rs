@@ -5,11 +5,13 @@ use super::{
     declared::{check_description, check_pages},
     push, read, schema,
 };
-use crate::{FileError, Problem, manifest::EventEntry};
+use crate::DatasetProblem;
+use crate::manifest::EventEntry;
 use parquet::{
     errors::ParquetError,
     file::reader::{FileReader, SerializedFileReader},
 };
+use phase_files::{FileError, Problem};
 use std::{
     fs::File,
     panic::{AssertUnwindSafe, catch_unwind},
@@ -42,8 +44,9 @@ pub(crate) fn compare_share(
 ) -> Result<(), FileError> {
     // The library panics on some files that were damaged on purpose; no state that it has touched is used
     // afterwards.
-    catch_unwind(AssertUnwindSafe(|| compare_columns(folder, part, events, share)))
-        .unwrap_or_else(|_| Err(FileError { file: folder.join(&part.path), problem: Problem::ParquetPages }))
+    catch_unwind(AssertUnwindSafe(|| compare_columns(folder, part, events, share))).unwrap_or_else(|_| {
+        Err(FileError { file: folder.join(&part.path), problem: DatasetProblem::ParquetPages.into() })
+    })
 }
 
 fn compare_columns(
@@ -54,7 +57,7 @@ fn compare_columns(
 ) -> Result<(), FileError> {
     let path = folder.join(&part.path);
     let fail = |problem| FileError { file: path.clone(), problem };
-    let broken = |error: ParquetError| fail(Problem::Parquet(error.into()));
+    let broken = |error: ParquetError| fail(DatasetProblem::Parquet(error.into()).into());
     let unfit = |rule| fail(Problem::Shape { what: "Parquet file", rule });
     let open = || File::open(&path).map_err(|error| fail(Problem::Unreadable(error)));
     let (mut pages, file) = (open()?, open()?);
@@ -89,7 +92,9 @@ fn compare_columns(
             let reader = group.get_column_reader(c).map_err(broken)?;
             if let Some(event) = column.compare(reader).map_err(broken)? {
                 let event = events.get(first + event).map_or_else(String::new, |entry| entry.id.clone());
-                return Err(fail(Problem::Disagrees { event, column: column.description().name }));
+                return Err(fail(
+                    DatasetProblem::Disagrees { event, column: column.description().name }.into(),
+                ));
             }
         }
         first += count;

@@ -1,10 +1,7 @@
 //! Writing.
 
 use super::{EVENTS_PER_GROUP, FOLDER, ParquetFile, column::Column, columns, parts, push, schema};
-use crate::{
-    ExportError, FileError, Problem, WriteError, atomic::AtomicFile, checksum::FileEntry,
-    manifest::EventEntry, splits::Split,
-};
+use crate::{ExportError, manifest::EventEntry, splits::Split};
 use parquet::{
     basic::{Compression, Encoding, ZstdLevel},
     errors::{ParquetError, Result},
@@ -14,6 +11,7 @@ use parquet::{
     },
 };
 use phase_event::Recording;
+use phase_files::{FileError, Problem, WriteError, atomic::AtomicFile, checksum::FileEntry};
 use std::{
     collections::BTreeMap,
     fs, io,

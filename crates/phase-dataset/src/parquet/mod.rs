@@ -23,10 +23,11 @@ pub use compare::compare;
 pub(crate) use compare::{compare_share, shares};
 pub use export::ParquetWriter;
 
-use crate::{FileError, manifest::EventEntry, phase_events, splits::Split};
+use crate::{manifest::EventEntry, phase_events, splits::Split};
 use ::parquet::{errors::Result, schema::types::Type};
 use column::Column;
 use phase_event::{EventReadError, Recording};
+use phase_files::{FileError, Problem};
 use phase_model::json::FieldError;
 use row::Row;
 use std::{collections::BTreeMap, path::Path, sync::Arc};
@@ -112,5 +113,6 @@ fn push(
 
 fn not_whole(file: std::path::PathBuf, event: Option<&str>, field: &str, rule: String) -> FileError {
     let problem = FieldError { field: field.into(), rule };
-    FileError { file, problem: EventReadError::Field { event: event.map(String::from), problem }.into() }
+    let problem = EventReadError::Field { event: event.map(String::from), problem };
+    FileError { file, problem: Problem::content(problem) }
 }

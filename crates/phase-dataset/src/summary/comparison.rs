@@ -1,9 +1,10 @@
 //! One event, recorded and simulated.
 
 use super::Quartiles;
-use crate::{FileError, checksum::FileEntry, ids};
+use crate::ids;
 use phase_event::{Event, Recording};
 use phase_evidence::{GoalOutcome, MotionStatistics, Track, motion::common_steps};
+use phase_files::{FileError, checksum::FileEntry};
 use phase_model::{AGENT_COUNT, AgentId, EventKind, Goal, Sign};
 use serde::{Deserialize, Serialize};
 use std::path::Path;

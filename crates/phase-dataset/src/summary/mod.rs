@@ -11,7 +11,7 @@ pub use comparison::{AgentComparison, EventComparison, MeasuredPair, MotionSumma
 pub use quartiles::Quartiles;
 pub use rows::{KindRow, MotionQuartiles, tabulate};
 
-use crate::{FileError, Problem, WriteError, atomic, json};
+use phase_files::{FileError, Problem, WriteError, atomic, json};
 use phase_model::json::check_format;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;

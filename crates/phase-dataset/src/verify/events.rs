@@ -1,14 +1,14 @@
 //! Whether the file of an event is what PHASE writes for the event in it, and agrees with the manifest.
 
 use super::video;
+use crate::DatasetProblem;
 use crate::{
-    FileError, Problem,
     event_set::{PairEntry, SetEntry, set_video_path},
-    json,
     manifest::{EventEntry, MANIFEST_FILE, Manifest, event_path, video_path},
     parquet,
 };
 use phase_event::{Event, EventReadError, Recording};
+use phase_files::{FileError, Problem, json};
 use phase_model::json::{FieldError, shown};
 use serde_json::Value;
 use std::{collections::BTreeMap, path::Path};
@@ -24,7 +24,7 @@ pub(super) fn check(folder: &Path, manifest: &Manifest, entry: &EventEntry) -> R
         let problem = FieldError { field: field.into(), rule };
         FileError {
             file: file.clone(),
-            problem: EventReadError::Field { event: Some(recording.id.clone()), problem }.into(),
+            problem: Problem::content(EventReadError::Field { event: Some(recording.id.clone()), problem }),
         }
     };
     let Some(simulation) = &recording.simulation else {
@@ -36,7 +36,7 @@ pub(super) fn check(folder: &Path, manifest: &Manifest, entry: &EventEntry) -> R
     (found.variant, found.split, found.set) = (entry.variant, entry.split, entry.set.clone());
     let encode = |entry: &EventEntry| {
         serde_json::to_value(entry)
-            .map_err(|error| FileError { file: file.clone(), problem: Problem::Encode(error) })
+            .map_err(|error| FileError { file: file.clone(), problem: DatasetProblem::Encode(error).into() })
     };
     let (found, expected) = (encode(&found)?, encode(entry)?);
     let disagree =
@@ -57,7 +57,7 @@ pub(super) fn check(folder: &Path, manifest: &Manifest, entry: &EventEntry) -> R
     }
     let whole = written(&recording).map_err(|error| fail("values", error.to_string()))?;
     if json::bytes(&file)? != whole.as_bytes() {
-        return Err(FileError { file, problem: Problem::Form });
+        return Err(FileError { file, problem: DatasetProblem::Form.into() });
     }
     match &entry.video {
         Some(video) => video::check(folder, video, simulation.event.steps.len()),

@@ -1,12 +1,13 @@
 //! Which files a folder holds, and which its manifest names.
 
-use crate::{
+use crate::DatasetProblem;
+use crate::manifest::{DIGEST_FILE, MANIFEST_FILE, Manifest, SIGNATURE_FILES, digest_line};
+use phase_event::EventReadError;
+use phase_files::{
     FileError, Problem,
     checksum::{FileEntry, sha256_hex},
     json,
-    manifest::{DIGEST_FILE, MANIFEST_FILE, Manifest, SIGNATURE_FILES, digest_line},
 };
-use phase_event::EventReadError;
 use std::{
     collections::{BTreeMap, BTreeSet},
     fs, io,
@@ -23,8 +24,8 @@ pub(super) fn manifest(folder: &Path, manifest: &Manifest, problems: &mut Vec<Fi
     let mut fail = |file: &str, problem| problems.push(FileError { file: folder.join(file), problem });
     match manifest.to_text() {
         Ok(text) if text.as_bytes() == bytes => {}
-        Ok(_) => fail(MANIFEST_FILE, Problem::Form),
-        Err(error) => fail(MANIFEST_FILE, Problem::Encode(error)),
+        Ok(_) => fail(MANIFEST_FILE, DatasetProblem::Form.into()),
+        Err(error) => fail(MANIFEST_FILE, DatasetProblem::Encode(error).into()),
     }
     let digest = folder.join(DIGEST_FILE);
     // What is there, but no file, is reported with all such things.
@@ -33,7 +34,9 @@ pub(super) fn manifest(folder: &Path, manifest: &Manifest, problems: &mut Vec<Fi
         return;
     }
     match about.and_then(|_| fs::read(&digest)) {
-        Err(error) if error.kind() == io::ErrorKind::NotFound => fail(DIGEST_FILE, Problem::Unlisted),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => {
+            fail(DIGEST_FILE, DatasetProblem::Unlisted.into())
+        }
         Ok(line) if line == digest_line(&sha256_hex(&bytes)).as_bytes() => {}
         Ok(_) => fail(DIGEST_FILE, Problem::Differs(format!("the digest of {MANIFEST_FILE}"))),
         Err(error) => fail(DIGEST_FILE, Problem::Unreadable(error)),
@@ -50,14 +53,14 @@ pub(super) fn listed<'a>(
     let mut ids = BTreeSet::new();
     for event in &manifest.events {
         if !ids.insert(event.id.to_ascii_lowercase()) {
-            fail(EventReadError::DuplicateId(event.id.clone()).into());
+            fail(Problem::content(EventReadError::DuplicateId(event.id.clone())));
         }
     }
     let (mut files, mut names) = (BTreeMap::new(), BTreeSet::new());
     for file in manifest.all_files() {
         let path = file.path.as_str();
         if !names.insert(path.to_lowercase()) {
-            fail(Problem::DuplicatePath(path.into()));
+            fail(DatasetProblem::DuplicatePath(path.into()).into());
         }
         files.insert(path, file);
     }
@@ -126,7 +129,7 @@ impl Walk<'_, '_> {
         let before = self.problems.len();
         self.folder(folder);
         if self.problems.len() == before {
-            self.fail(folder, Problem::Extra);
+            self.fail(folder, DatasetProblem::Extra.into());
         }
     }
 
@@ -134,7 +137,7 @@ impl Walk<'_, '_> {
         let name = self.name(path);
         let beside = [MANIFEST_FILE, DIGEST_FILE].into_iter().chain(SIGNATURE_FILES);
         if !self.files.contains_key(name.as_str()) && !beside.into_iter().any(|known| known == name) {
-            self.fail(path, Problem::Extra);
+            self.fail(path, DatasetProblem::Extra.into());
         }
     }
 

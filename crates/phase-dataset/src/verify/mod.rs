@@ -7,17 +7,16 @@ mod events;
 mod files;
 mod video;
 
+use crate::DatasetProblem;
 use crate::{
-    FileError, Problem,
-    checksum::FileEntry,
     croissant::{CROISSANT_FILE, checksums},
-    json,
     manifest::{CARD_FILE, EventEntry, Manifest, PAGE_FILE},
     overview::Overview,
     parquet::{self, ParquetFile},
 };
 use core::convert::Infallible;
 use phase_event::EventReadError;
+use phase_files::{FileError, Problem, checksum::FileEntry, json};
 use phase_model::json::FieldError;
 use serde_json::Value;
 use std::{
@@ -88,13 +87,13 @@ pub fn verify_with<E>(
     let described = [CARD_FILE, CROISSANT_FILE].into_iter().chain(page);
     for path in described.chain(parts.iter().map(|part| part.path.as_str())) {
         if !files.contains_key(path) {
-            problems.push(FileError { file: folder.join(path), problem: Problem::Unlisted });
+            problems.push(FileError { file: folder.join(path), problem: DatasetProblem::Unlisted.into() });
         }
     }
     let is_part = |path: &str| parts.iter().any(|part| part.path == path);
     let in_data = |path: &&str| path.starts_with(&format!("{}/", parquet::FOLDER));
     for path in files.keys().copied().filter(in_data).filter(|path| !is_part(path)) {
-        problems.push(FileError { file: folder.join(path), problem: Problem::Eventless });
+        problems.push(FileError { file: folder.join(path), problem: DatasetProblem::Eventless.into() });
     }
     let readable = |path: &str| files.contains_key(path) && !broken.contains(path);
     if readable(CROISSANT_FILE) {
@@ -165,7 +164,7 @@ fn croissant(folder: &Path, files: &BTreeMap<&str, &FileEntry>) -> Result<(), Fi
                     rule: format!("does not give the checksum of {path} that the manifest gives"),
                 },
             };
-            Err(FileError { file, problem: problem.into() })
+            Err(FileError { file, problem: Problem::content(problem) })
         }
         None => Ok(()),
     }

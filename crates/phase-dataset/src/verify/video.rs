@@ -1,7 +1,7 @@
 //! Whether a video is whole and has as many frames as its event, by the boxes of its container alone. Whether it shows the event
 //! takes drawing it again.
 
-use crate::{FileError, Problem, checksum::FileEntry};
+use phase_files::{FileError, Problem, checksum::FileEntry};
 use phase_model::arena::SUBSTEPS;
 use std::{
     fs::File,

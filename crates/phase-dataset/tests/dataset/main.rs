@@ -1,13 +1,10 @@
 //! Events on disk, tested module by module.
 
-mod atomic;
 mod boxes;
-mod cache;
-mod checksum;
 mod composition;
 mod croissant;
 mod describe;
-mod folder;
+mod event_cache;
 mod import_pik;
 mod import_socialgnn;
 mod manifest;

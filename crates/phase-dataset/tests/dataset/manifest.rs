@@ -1,10 +1,8 @@
 //! Manifests describe a dataset and detect changes.
 
 use crate::support::plain_event;
-use phase_dataset::{
-    Problem,
-    manifest::{DATASET_FORMAT, EventEntry, MANIFEST_FILE, Manifest, event_path, video_path},
-};
+use phase_dataset::manifest::{DATASET_FORMAT, EventEntry, MANIFEST_FILE, Manifest, event_path, video_path};
+use phase_files::Problem;
 use phase_model::{EventKind, Relation, json::JsonError};
 use serde_json::{Value, json};
 use std::{fs, path::Path};

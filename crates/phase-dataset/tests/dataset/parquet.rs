@@ -7,14 +7,14 @@ use parquet::{
     record::{Field, Row},
 };
 use phase_dataset::{
-    ExportError, FileError,
-    checksum::FileEntry,
+    ExportError,
     manifest::{EventEntry, event_path, video_path},
     parquet::{EVENTS_PER_FILE, ParquetFile, ParquetWriter, descriptions},
     phase_events,
     splits::Split,
 };
 use phase_event::{Recording, to_json};
+use phase_files::{FileError, checksum::FileEntry};
 use serde_json::{Value, json};
 use std::{collections::BTreeMap, fs, path::Path};
 

@@ -1,6 +1,7 @@
 //! Error messages about event files that cannot be read.
 
-use phase_dataset::{Problem, phase_events::read};
+use phase_dataset::phase_events::read;
+use phase_files::Problem;
 use phase_model::json::JsonError;
 
 #[test]

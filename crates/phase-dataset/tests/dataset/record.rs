@@ -2,9 +2,7 @@
 
 use crate::support::plain_event;
 use phase_dataset::{
-    FileError, Problem,
     acceptance::{Refusal, Tally},
-    checksum::FileEntry,
     manifest::{DIGEST_FILE, EventEntry, MANIFEST_FILE, Manifest, event_path},
     manifest_writer::write_manifest,
     overview::Overview,
@@ -13,6 +11,7 @@ use phase_dataset::{
     slot_record::{Records, SlotRecord},
 };
 use phase_evidence::selection::RejectionReason;
+use phase_files::{FileError, Problem, checksum::FileEntry};
 use phase_sampler::Variant;
 use std::{fs, path::Path};
 

@@ -1,13 +1,12 @@
 //! Whole datasets, and damaged ones.
 
 use phase_dataset::{
-    atomic,
-    checksum::FileEntry,
     croissant::croissant,
     manifest::{Manifest, event_path, video_path},
     overview::Overview,
     verify::{Check, verify, verify_with, work},
 };
+use phase_files::{atomic, checksum::FileEntry};
 use std::{
     fs,
     path::Path,

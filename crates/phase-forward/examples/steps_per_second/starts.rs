@@ -37,7 +37,7 @@ pub(crate) fn generated() -> Vec<Starts> {
 }
 
 /// States of all recordings of a file in the format `phase-events/1`.
-pub(crate) fn recorded(path: &Path) -> Result<Vec<Starts>, phase_dataset::FileError> {
+pub(crate) fn recorded(path: &Path) -> Result<Vec<Starts>, phase_files::FileError> {
     let recordings = phase_dataset::phase_events::read(path)?;
     let starts = |recording: &Recording| {
         let trajectory = &recording.trajectory;

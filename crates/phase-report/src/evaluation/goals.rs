@@ -1,12 +1,12 @@
 //! The report of Task 1.
 
 use super::{BESIDE, Subject, bars_beside, cost, share};
-use crate::{
+use crate::published;
+use phase_dataset::describe;
+use phase_document::{
     document::{Block, Document, head},
     plot::{Axis, Series, line_chart},
-    published,
 };
-use phase_dataset::describe;
 use phase_eval::{
     Estimate, GroupScores,
     goals::{

@@ -1,10 +1,10 @@
 //! The leaderboard: methods by measures, those of the benchmark and those that others have handed in.
 
 use super::{length, share};
-use crate::{
+use crate::published;
+use phase_document::{
     document::{Block, head},
     markup::escape_markdown,
-    published,
 };
 use phase_eval::{
     Estimate,

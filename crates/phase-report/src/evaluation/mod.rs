@@ -10,7 +10,7 @@ pub use goals::goals;
 pub use leaderboard::{LEADERBOARD_FORMAT, Measures, Score, Scores, Source, leaderboard};
 pub use trajectories::trajectories;
 
-use crate::{document::Block, plot::bars};
+use phase_document::{document::Block, plot::bars};
 use phase_eval::Estimate;
 
 /// What a report is about.

@@ -1,10 +1,10 @@
 //! The report of Task 2.
 
 use super::{BESIDE, Subject, bars_beside, cost, length};
-use crate::{
+use crate::published;
+use phase_document::{
     document::{Block, Document, head},
     plot::{Axis, Series, line_chart},
-    published,
 };
 use phase_eval::{
     Estimate,

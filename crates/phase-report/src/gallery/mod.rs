@@ -5,12 +5,12 @@ mod timeline;
 
 pub use timeline::Timeline;
 
-use crate::markup::{escape, escape_script};
 use phase_dataset::{
     describe::{self, Fragment},
     event_set::set_video_path,
     manifest::{AgentEntry, EventEntry, PAGE_FILE},
 };
+use phase_document::markup::{escape, escape_script};
 use phase_model::{
     AgentId, Attitude, Entity, Goal, ObjectId, Sign, Size, Strength,
     arena::{FRAMES_PER_SECOND, SUBSTEPS},

@@ -1,5 +1,6 @@
 //! The benchmark's report, with figures that are easily checked.
 
+use phase_document::plot::{Axis, Series, line_chart};
 use phase_eval::{
     Estimate,
     benchmark::{BENCHMARK_FORMAT, Benchmark, Curve, EventSet, Familiarity, Origin, Row, Subset, Training},
@@ -7,10 +8,7 @@ use phase_eval::{
     trajectories::{Errors, ForecastEvent, ForecastSummary},
 };
 use phase_model::{AgentId, EventKind, Goal, Relation, RelationProbabilities, Sign};
-use phase_report::{
-    evaluation::{self, LEADERBOARD_FORMAT, Measures, Score, Scores, Source},
-    plot::{Axis, Series, line_chart},
-};
+use phase_report::evaluation::{self, LEADERBOARD_FORMAT, Measures, Score, Scores, Source};
 use serde_json::{Value, json};
 
 /// Events in which the agents always have these errors.

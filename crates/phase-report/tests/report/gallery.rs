@@ -5,11 +5,9 @@ use phase_dataset::{
     manifest::{EventEntry, Manifest},
     splits::Split,
 };
+use phase_document::markup::{escape, escape_script};
 use phase_model::path::RelativePath;
-use phase_report::{
-    gallery::{EVENTS_PER_PAGE, Gallery, PageSummary, Timeline},
-    markup::{escape, escape_script},
-};
+use phase_report::gallery::{EVENTS_PER_PAGE, Gallery, PageSummary, Timeline};
 use serde_json::{Value, json};
 
 fn example(id: &str) -> (Manifest, Vec<Timeline>) {

@@ -3,7 +3,7 @@
 mod acceptance;
 mod benchmark;
 mod card;
-mod document;
 mod gallery;
+mod published;
 mod summary;
 mod support;

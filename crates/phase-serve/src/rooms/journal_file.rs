@@ -1,6 +1,6 @@
 //! The journal of a game on disk: `rooms/<name>.jsonl`.
 
-use phase_dataset::WriteError;
+use phase_files::WriteError;
 use phase_game::Entry;
 use std::{
     fs::{self, File, OpenOptions},

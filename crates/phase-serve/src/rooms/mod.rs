@@ -14,7 +14,7 @@ use crate::{
 use axum::http::StatusCode;
 use core::time::Duration;
 use journal_file::JournalFile;
-use phase_dataset::WriteError;
+use phase_files::WriteError;
 use phase_game::{
     Effect, GameSettings, Player, Playlist, Room, Round, View,
     journal::{Entry, entries},

@@ -3,8 +3,8 @@
 use super::journal_file::JournalFile;
 use crate::log;
 use axum::extract::ws::Utf8Bytes;
-use phase_dataset::{WriteError, atomic};
 use phase_event::Recording;
+use phase_files::{WriteError, atomic};
 use phase_game::{Doing, Effect, Ending, Entry, FromPlayer, Room, ToPlayer};
 use phase_model::{AGENT_COUNT, AgentId};
 use std::{

@@ -1,11 +1,11 @@
 //! An analysis as a text with tables and plots.
 
 use super::{Accuracy, Analysis, Categories, Share};
-use phase_eval::Estimate;
-use phase_report::{
+use phase_document::{
     document::{Block, Document},
     plot::bars,
 };
+use phase_eval::Estimate;
 
 /// The analysis of a study with a title.
 #[must_use]

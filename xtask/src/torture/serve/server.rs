@@ -43,7 +43,7 @@ impl Server {
             }
         };
         command.current_dir(place).args(words).args(minds).args(["--study", "torture.json"]);
-        command.env_remove(phase_dataset::fault::VARIABLE);
+        command.env_remove(phase_files::fault::VARIABLE);
         command.stdout(Stdio::piped()).stderr(Stdio::piped());
         if start.is_plain {
             permissions::bind(&mut command);

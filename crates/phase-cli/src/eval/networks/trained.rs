@@ -13,10 +13,6 @@ use phase_baselines::{
     training::{NamedMetrics, NetworkError, PublishedNetwork, RecordedRound, TrainingRecord},
     two_level_lstm::TwoLevelLstm,
 };
-use phase_dataset::{
-    checksum::{hexadecimal, sha256},
-    json,
-};
 use phase_eval::{
     Forecaster, Recogniser,
     benchmark::{Curve, Training},
@@ -25,6 +21,10 @@ use phase_eval::{
     trivial::Chance,
 };
 use phase_event::ObservedEvent;
+use phase_files::{
+    checksum::{hexadecimal, sha256},
+    json,
+};
 use phase_model::Judgement;
 use serde_json::{Value, json};
 use std::{

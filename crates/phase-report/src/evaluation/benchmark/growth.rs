@@ -1,7 +1,7 @@
 //! How networks improve with the amount of training data.
 
 use super::super::{length, share};
-use crate::{
+use phase_document::{
     document::{Block, head},
     plot::{Axis, Series, line_chart},
 };

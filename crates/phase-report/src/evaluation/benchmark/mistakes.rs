@@ -1,7 +1,7 @@
 //! Error breakdown of the recognised goals.
 
 use super::tables::{events, name};
-use crate::document::{Block, head};
+use phase_document::document::{Block, head};
 use phase_eval::{
     benchmark::{Benchmark, Origin},
     goals::ErrorBreakdown,

@@ -15,7 +15,7 @@ pub use overview::overview;
 pub use page::{Page, page};
 
 use super::BESIDE;
-use crate::{
+use phase_document::{
     document::{Block, Document},
     plot::bars,
 };

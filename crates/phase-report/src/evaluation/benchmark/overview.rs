@@ -1,9 +1,7 @@
 //! The benchmark in a few rows.
 
-use crate::{
-    document::{Block, head},
-    published,
-};
+use crate::published;
+use phase_document::document::{Block, head};
 use phase_eval::benchmark::{Benchmark, Origin, RECORDED};
 
 /// The published rows, and what they are called here.

@@ -1,8 +1,8 @@
 //! The results page of the documents: prose from a template, every figure from the benchmark.
 
 use super::{growth, mistakes, people, tables, training};
-use crate::document::Block;
 use minijinja::{Environment, Error, UndefinedBehavior, syntax::SyntaxConfig};
+use phase_document::document::Block;
 use phase_eval::{
     benchmark::{Benchmark, Familiarity, Origin, Row},
     goals::RecognitionSummary,

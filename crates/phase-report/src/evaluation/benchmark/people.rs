@@ -4,7 +4,7 @@ use super::{
     super::share,
     tables::{NOTHING, events, name},
 };
-use crate::document::{Block, head};
+use phase_document::document::{Block, head};
 use phase_eval::{
     Estimate,
     benchmark::{Benchmark, Origin, Row},

@@ -4,10 +4,8 @@ use super::{
     super::{length, share},
     label,
 };
-use crate::{
-    document::{Block, head},
-    published,
-};
+use crate::published;
+use phase_document::document::{Block, head};
 use phase_eval::{
     Estimate,
     benchmark::{Benchmark, Familiarity, Origin, Row, Training},

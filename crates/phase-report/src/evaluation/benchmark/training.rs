@@ -1,6 +1,6 @@
 //! The training cost and learning curves of networks.
 
-use crate::{
+use phase_document::{
     document::{Block, head},
     plot::{Axis, Series, line_chart},
 };

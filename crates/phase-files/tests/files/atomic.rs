@@ -1,6 +1,6 @@
 //! Files are complete or absent.
 
-use phase_dataset::atomic::{self, AtomicFile};
+use phase_files::atomic::{self, AtomicFile};
 use std::{
     fs,
     io::Write,

@@ -1,6 +1,6 @@
 //! Checksums of files.
 
-use phase_dataset::{
+use phase_files::{
     Problem,
     checksum::{FileEntry, hexadecimal, sha256},
 };

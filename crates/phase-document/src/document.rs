@@ -1,4 +1,4 @@
-//! A text with tables and pictures, in two forms.
+//! A text with tables and plots, as Markdown or as a page.
 
 use crate::markup::{escape, escape_markdown};
 
@@ -27,7 +27,7 @@ pub enum Block {
     },
 }
 
-/// A report.
+/// A text of several blocks below a title.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Document {
     /// Its title.
@@ -104,8 +104,9 @@ impl Block {
     }
 }
 
-/// Texts as the head of a table.
-pub(crate) fn head(names: &[&str]) -> Vec<String> {
+/// The head of a table with these names of columns.
+#[must_use]
+pub fn head(names: &[&str]) -> Vec<String> {
     names.iter().map(|&name| name.into()).collect()
 }
 

@@ -1,6 +1,6 @@
 //! Which run a folder belongs to.
 
-use phase_dataset::folder::{self, Contents, Folder, FolderError};
+use phase_files::folder::{self, Contents, Folder, FolderError};
 use serde_json::json;
 use std::fs;
 

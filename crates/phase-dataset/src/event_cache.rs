@@ -1,50 +1,30 @@
-//! Finished events kept for a later run, in `bincode`.
-//!
-//! This is the only place that knows the encoding. It is for internal use between two runs of the same
-//! program: a cache that is foreign, damaged, or of another program or other settings is not an error; it is
-//! ignored, and the event is generated again.
+//! Finished events kept for a later run of the same program.
 
-use crate::{WriteError, atomic, checksum::sha256};
 use phase_event::{Event, Step, Thought};
+use phase_files::{WriteError, cache::Cache};
 use phase_model::{
     AGENT_COUNT, Action, AgentId, AgentSpec, Attitude, Body, EventKind, Flip, Goal, LandmarkId, Layout,
     ObjectId, ObjectSpec, Scene, Sign, Size, State, Strength, arena::SUBSTEPS,
 };
 use serde::{Deserialize, Serialize};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-/// First bytes of every cache file; the last is the version of what follows.
-const MAGIC: [u8; 8] = *b"PHASEch1";
-/// No event comes near this size (bytes); a greater length indicates damage.
-const LIMIT: usize = 1 << 28;
-
-/// A folder of cached events that were all generated in the same way.
+/// A folder of cached events that were all generated in one way.
 #[derive(Clone, Debug)]
-pub struct Cache {
-    folder: PathBuf,
-    fingerprint: [u8; 32],
-}
+pub struct EventCache(Cache);
 
-impl Cache {
+impl EventCache {
     /// A cache in a folder, which must exist when something is stored. `fingerprint` is a digest of
     /// everything that determines an event besides its id and seed: the program and its settings.
     #[must_use]
     pub fn new(folder: &Path, fingerprint: [u8; 32]) -> Self {
-        Self { folder: folder.to_owned(), fingerprint }
+        Self(Cache::new(folder, fingerprint))
     }
 
     /// The event stored under an id and seed, if there is a valid one.
     #[must_use]
     pub fn load(&self, id: &str, seed: u64) -> Option<Event> {
-        let bytes = std::fs::read(self.path(id)).ok()?;
-        let payload = bytes.strip_prefix(&self.head(id, seed)[..])?;
-        let (sum, payload) = payload.split_first_chunk::<32>()?;
-        if *sum != sha256(payload) {
-            return None;
-        }
-        let config = bincode::config::standard().with_limit::<LIMIT>();
-        let (cached, read): (CachedEvent, usize) = bincode::serde::decode_from_slice(payload, config).ok()?;
-        (read == payload.len()).then(|| cached.into_event(seed))?
+        self.0.load::<CachedEvent>(id, seed)?.into_event(seed)
     }
 
     /// Stores an event.
@@ -52,24 +32,7 @@ impl Cache {
     /// # Errors
     /// If the file cannot be written.
     pub fn store(&self, id: &str, event: &Event) -> Result<(), WriteError> {
-        let path = self.path(id);
-        let config = bincode::config::standard().with_limit::<LIMIT>();
-        let payload = bincode::serde::encode_to_vec(CachedEvent::of(event), config).map_err(|error| {
-            let source = std::io::Error::other(error);
-            WriteError { path: path.clone(), action: "encode the event", source }
-        })?;
-        let bytes = [&self.head(id, event.seed)[..], &sha256(&payload), &payload].concat();
-        atomic::write(&path, &bytes)
-    }
-
-    fn path(&self, id: &str) -> PathBuf {
-        self.folder.join(format!("{id}.bin"))
-    }
-
-    /// The header of every valid cache file.
-    fn head(&self, id: &str, seed: u64) -> Vec<u8> {
-        let key = [&self.fingerprint[..], id.as_bytes(), &seed.to_le_bytes()].concat();
-        [&MAGIC[..], &sha256(&key)].concat()
+        self.0.store(id, event.seed, &CachedEvent::of(event))
     }
 }
 

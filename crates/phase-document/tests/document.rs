@@ -1,9 +1,8 @@
-//! Reports: two forms of the same, and no id or name becomes markup.
+//! Documents as Markdown and as pages; no name becomes markup.
 
-use phase_report::{
+use phase_document::{
     document::{Block, Document},
     plot::{Axis, Series, line_chart},
-    published,
 };
 
 #[test]
@@ -29,18 +28,6 @@ fn names_are_no_markup_in_markdown() {
         "&lt;img src=x onerror=alert(1)&gt; # [a\\](javascript:b) ![c\\](http://d) \\`e\\` \\*f\\* \\\\\\|";
     assert_eq!(text.matches(expected).count(), 5, "{text}");
     assert!(!text.contains('<') && text.lines().filter(|line| line.starts_with('#')).count() == 2, "{text}");
-}
-
-#[test]
-fn published_rows_are_shares_and_in_order() {
-    for row in published::GOALS {
-        let [one, two, three] = row.goal;
-        assert!(0.0 < one && one <= two && two <= three && three <= 1.0, "{row:?}");
-    }
-    for row in published::TRAJECTORIES {
-        let [independent, social, all] = row.ade;
-        assert!(independent <= all && all <= social && row.fde[2] >= all, "{row:?}");
-    }
 }
 
 /// From 0 to the first round step that is large enough.

@@ -1,0 +1,6 @@
+//! Files and folders, tested module by module.
+
+mod atomic;
+mod cache;
+mod checksum;
+mod folder;
