@@ -6,7 +6,6 @@ use crate::{
     check_engines::{self, CheckEngines},
     check_minds::{self, options::CheckMinds},
     check_physics::{self, options::CheckPhysics},
-    check_schedule::{self, CheckSchedule},
     check_verify::{self, CheckVerify},
     draw_behaviour::{self, DrawBehaviour},
     error::XtaskError,
@@ -56,8 +55,6 @@ pub enum Command {
     Fuzz(Fuzz),
     /// Measure how reliably agents show the intended behaviour
     CheckBehaviour(CheckBehaviour),
-    /// Compute how long gen-dataset takes on a number of cores
-    CheckSchedule(CheckSchedule),
     /// Draw scenes for check-behaviour from the sampler
     DrawBehaviour(DrawBehaviour),
     /// Compare minds with the agents of recordings or events whose labels are known
@@ -105,7 +102,6 @@ impl Interface for Cli {
             Command::CheckEngines(arguments) => check_engines::run(arguments, context),
             Command::Fuzz(arguments) => fuzz::run(arguments, context),
             Command::CheckBehaviour(arguments) => Ok(check_behaviour::run(arguments, context)?),
-            Command::CheckSchedule(arguments) => check_schedule::run(arguments),
             Command::DrawBehaviour(arguments) => draw_behaviour::run(arguments),
             Command::CheckMinds(arguments) => check_minds::run(arguments, context),
             Command::CheckVerify(arguments) => check_verify::run(arguments, context),

@@ -5,7 +5,6 @@
 //! - `check-physics` compares an engine with recorded motion,
 //! - `check-behaviour` shows how reliably agents do what they are planned to do,
 //! - `check-minds` compares minds with recorded agents,
-//! - `check-schedule` computes how long `gen-dataset` takes on a number of cores,
 //! - `fit-minds` fits the parameters of minds to recorded agents,
 //! - `draw-behaviour` draws scenes for `check-behaviour` from the sampler,
 //! - `playground` builds the WebAssembly first,
@@ -26,7 +25,6 @@ pub mod check_behaviour;
 pub mod check_engines;
 pub mod check_minds;
 pub mod check_physics;
-pub mod check_schedule;
 pub mod check_verify;
 pub mod cli;
 pub mod draw_behaviour;

@@ -15,7 +15,6 @@ fn commands_and_chores_are_listed_under_this_name() {
         "check-physics",
         "check-behaviour",
         "check-minds",
-        "check-schedule",
         "check-verify",
         "fit-minds",
         "draw-behaviour",

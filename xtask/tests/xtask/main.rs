@@ -3,7 +3,6 @@
 mod check_behaviour;
 mod check_minds;
 mod check_physics;
-mod check_schedule;
 mod check_verify;
 mod commands;
 mod documents;

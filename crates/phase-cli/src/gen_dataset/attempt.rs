@@ -4,10 +4,7 @@
 //! whoever runs them when. Where several events are simulated, or compared with what happens while an agent is idle, the
 //! first in order that fails is the reason for rejection.
 
-use super::{
-    attempt_times::PartTime,
-    schedule::{Need, Part},
-};
+use super::schedule::{Need, Part};
 use core::ops::ControlFlow;
 use phase_dataset::acceptance::Refusal;
 use phase_event::Event;
@@ -78,9 +75,6 @@ pub(super) struct Attempt {
 pub(super) struct Results {
     members: BTreeMap<usize, Result<Member, RejectionReason>>,
     idle: BTreeMap<(usize, AgentId), Track>,
-    /// CPU time of the scenes (s).
-    pub(super) scenes_seconds: f64,
-    times: BTreeMap<Part, f64>,
 }
 
 impl Attempt {
@@ -104,8 +98,7 @@ impl Attempt {
     }
 
     /// Stores the scenes. There is one thread that draws them.
-    pub(super) fn set_cast(&self, cast: Cast, seconds: f64) {
-        self.results().scenes_seconds = seconds;
+    pub(super) fn set_cast(&self, cast: Cast) {
         let _ = self.cast.set(cast);
     }
 
@@ -157,20 +150,13 @@ impl Cast {
 
 impl Results {
     /// Stores an event, or why it was rejected.
-    pub(super) fn add_member(
-        &mut self,
-        number: usize,
-        member: Result<Member, RejectionReason>,
-        seconds: f64,
-    ) {
+    pub(super) fn add_member(&mut self, number: usize, member: Result<Member, RejectionReason>) {
         self.members.insert(number, member);
-        self.times.insert(Part::Member(number), seconds);
     }
 
     /// Stores what happens while an agent is idle.
-    pub(super) fn add_idle(&mut self, member: usize, agent: AgentId, track: Track, seconds: f64) {
+    pub(super) fn add_idle(&mut self, member: usize, agent: AgentId, track: Track) {
         self.idle.insert((member, agent), track);
-        self.times.insert(Part::Idle { member, agent }, seconds);
     }
 
     /// The events of an accepted attempt, in order.
@@ -212,14 +198,6 @@ impl Results {
             }
         }
         (self.members.len(), Judgement::Accepted)
-    }
-
-    /// CPU times of the simulations that the judgement is based on, in the order in which one thread runs them.
-    pub(super) fn times(&self, cast: &Cast, passed: usize) -> Vec<PartTime> {
-        let members = (0..cast.members.len()).take(passed + 1).map(Part::Member);
-        let comparisons = if passed == cast.members.len() { cast.comparisons(self) } else { Vec::new() };
-        let parts = members.chain(comparisons.into_iter().map(|need| need.part));
-        parts.filter_map(|part| Some(PartTime { part, cpu_seconds: *self.times.get(&part)? })).collect()
     }
 
     /// How many of the first events have passed the tests on themselves.

@@ -2,12 +2,10 @@
 
 use super::{
     attempt::{Attempt, Judgement},
-    attempt_times::{AttemptTimes, Line, Writer},
     schedule::{AttemptId, Job, Progress, Schedule, Standing},
     slot::{Slots, reasons},
 };
 use crate::{error::CliError, interrupt, parallel};
-use cpu_time::ThreadTime;
 use phase_dataset::{acceptance::Refusal, slot_record::SlotRecord};
 use phase_sampler::Variant;
 use std::{
@@ -21,12 +19,7 @@ use std::{
 ///
 /// # Errors
 /// [`CliError::Exhausted`] and any failure of sampling, simulating and writing; of several, that of the lowest slot.
-pub(super) fn fill(
-    slots: &Slots<'_>,
-    indices: &[usize],
-    jobs: &parallel::Jobs,
-    times: Option<&Writer>,
-) -> Result<bool, CliError> {
+pub(super) fn fill(slots: &Slots<'_>, indices: &[usize], jobs: &parallel::Jobs) -> Result<bool, CliError> {
     let threads = jobs.threads();
     let board = Board {
         schedule: Schedule::new(indices.len(), slots.most_attempts(), threads),
@@ -35,7 +28,7 @@ pub(super) fn fill(
         is_stopped: false,
         dropped: 0,
     };
-    let crew = Crew { slots, indices, times, board: Mutex::new(board), changed: Condvar::new() };
+    let crew = Crew { slots, indices, board: Mutex::new(board), changed: Condvar::new() };
     parallel::on_threads(threads, || crew.work())?;
     let board = crew.board.into_inner().unwrap_or_else(PoisonError::into_inner);
     slots.report_dropped(board.dropped);
@@ -48,7 +41,6 @@ pub(super) fn fill(
 struct Crew<'a> {
     slots: &'a Slots<'a>,
     indices: &'a [usize],
-    times: Option<&'a Writer>,
     board: Mutex<Board>,
     /// There may be something to do, or nothing ever again.
     changed: Condvar,
@@ -77,8 +69,8 @@ struct SlotInHand {
 
 /// The result of an attempt.
 enum Outcome {
-    Refused(Refusal, AttemptTimes),
-    Accepted(Arc<Attempt>, AttemptTimes),
+    Refused(Refusal),
+    Accepted(Arc<Attempt>),
     Failed(CliError),
 }
 
@@ -156,9 +148,7 @@ impl Crew<'_> {
 
     fn begin(&self, id: AttemptId, attempt: &Arc<Attempt>) -> Result<(), CliError> {
         self.report_after(id, attempt, |index| {
-            let begun = ThreadTime::now();
-            let cast = self.slots.cast(index, id.number)?;
-            attempt.set_cast(cast, begun.elapsed().as_secs_f64());
+            attempt.set_cast(self.slots.cast(index, id.number)?);
             Ok(true)
         })
     }
@@ -187,22 +177,10 @@ impl Crew<'_> {
         // Until the schedule knows, so that it hears of one after the other.
         let results = attempt.results();
         let (passed, judgement) = results.judge(cast);
-        let times = |accepted| AttemptTimes {
-            slot: self.indices[id.slot],
-            attempt: id.number,
-            variants: cast.members.iter().map(|member| member.variant).collect(),
-            passed,
-            accepted,
-            scenes: results.scenes_seconds,
-            parts: results.times(cast, passed),
-            files: 0.0,
-        };
         let (standing, outcome) = match judgement {
             Judgement::Needs(needs) => (Standing::Needs(needs), None),
-            Judgement::Refused(refusal) => (Standing::Refused, Some(Outcome::Refused(refusal, times(false)))),
-            Judgement::Accepted => {
-                (Standing::Final, Some(Outcome::Accepted(Arc::clone(attempt), times(true))))
-            }
+            Judgement::Refused(refusal) => (Standing::Refused, Some(Outcome::Refused(refusal))),
+            Judgement::Accepted => (Standing::Final, Some(Outcome::Accepted(Arc::clone(attempt)))),
         };
         self.draw_consequences(id, Progress { passed, standing }, outcome)
     }
@@ -238,22 +216,18 @@ impl Crew<'_> {
             }
         }
         let name = self.slots.id(self.indices[id.slot]);
-        let mut times = Vec::new();
+        let before = slot.record.refused.len();
         for number in consequences.refused {
-            if let Some(Outcome::Refused(refusal, spent)) = slot.outcomes.remove(&number) {
+            if let Some(Outcome::Refused(refusal)) = slot.outcomes.remove(&number) {
                 self.slots.report_refusal(&name, number, refusal);
                 slot.record.refused.push(refusal);
-                times.push(spent);
             }
         }
-        if times.is_empty() {
+        if slot.record.refused.len() == before {
             return Ok(());
         }
         let (record, saved) = (slot.record.clone(), Arc::clone(&slot.saved));
         drop(guard);
-        for spent in times {
-            self.add_times(spent)?;
-        }
         self.save(id.slot, &record, &saved)
     }
 
@@ -267,13 +241,10 @@ impl Crew<'_> {
         let Some(SlotInHand { begun, mut record, saved, mut outcomes, .. }) = taken else { return Ok(()) };
         match outcomes.remove(&record.refused.len()) {
             Some(Outcome::Failed(error)) => return Err(error),
-            Some(Outcome::Accepted(attempt, mut spent)) => {
+            Some(Outcome::Accepted(attempt)) => {
                 let Some(cast) = attempt.cast() else { return Ok(()) };
                 let events = attempt.results().take_events();
-                let began = ThreadTime::now();
                 self.slots.keep(index, cast, events, &mut record)?;
-                spent.files = began.elapsed().as_secs_f64();
-                self.add_times(spent)?;
             }
             Some(Outcome::Refused(..)) | None => {
                 let id = self.slots.id(index);
@@ -295,10 +266,6 @@ impl Crew<'_> {
             *saved = if record.is_filled() { usize::MAX } else { record.refused.len() };
         }
         Ok(())
-    }
-
-    fn add_times(&self, times: AttemptTimes) -> Result<(), CliError> {
-        self.times.map_or(Ok(()), |writer| writer.add(&Line::Attempt(times)))
     }
 
     fn fail(&self, slot: usize, error: CliError) {

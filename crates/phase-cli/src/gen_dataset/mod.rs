@@ -5,7 +5,6 @@
 //! do not affect it. [`schedule`] decides what is done next, also ahead, and `crew` does it on several threads. When all slots are filled, [`mod@complete`] writes the files that describe the whole.
 
 mod attempt;
-pub mod attempt_times;
 pub mod complete;
 mod crew;
 pub mod merge;
@@ -17,9 +16,7 @@ mod set;
 pub mod slot;
 
 use crate::{console, context::Context, error::CliError, interrupt, output::Output};
-use attempt_times::{Line, Writer};
 use complete::{Completed, complete};
-use cpu_time::ThreadTime;
 use options::GenDataset;
 use phase_dataset::{
     manifest::{MANIFEST_FILE, Manifest, PAGE_FILE},
@@ -64,8 +61,7 @@ pub fn run(arguments: &GenDataset, context: &Context) -> Result<(), CliError> {
     let indices = plan.slots();
     let events = plan.events_in(&indices);
     let slots = Slots::new(&plan, &folder, events, *context)?;
-    let times = arguments.attempt_times.as_deref().map(Writer::new).transpose()?;
-    if !crew::fill(&slots, &indices, &arguments.jobs, times.as_ref())? {
+    if !crew::fill(&slots, &indices, &arguments.jobs)? {
         return Err(CliError::Interrupted(out));
     }
     // The progress bar goes with them, before anything else is printed.
@@ -76,26 +72,14 @@ pub fn run(arguments: &GenDataset, context: &Context) -> Result<(), CliError> {
         let header = Shard::of_records(&out, (shard, of), plan.whole(), plan.fingerprint.clone());
         header.map_err(CliError::ReadBack)?.write(&out)?;
         folder.finish()?;
-        finish_times(times, None)?;
         let text =
             format!("{} in {}; merge all {of} shards with merge", console::events(events), out.display());
         let value = json!({ "folder": out, "events": events, "shard": shard, "of": of, "new": true });
         return arguments.output.print(text, &value);
     }
-    let begun = ThreadTime::now();
     let completed = complete(&out, &plan.whole(), &records, context)?;
     folder.finish()?;
-    finish_times(times, Some(begun.elapsed().as_secs_f64()))?;
     announce(&out, &completed, arguments.output, "")
-}
-
-/// Completes the file of attempt times, if one was requested.
-fn finish_times(times: Option<Writer>, completing: Option<f64>) -> Result<(), CliError> {
-    let Some(times) = times else { return Ok(()) };
-    if let Some(seconds) = completing {
-        times.add(&Line::Completing(seconds))?;
-    }
-    times.finish()
 }
 
 /// Prints what a finished dataset contains, and how it was generated.

@@ -33,9 +33,6 @@ pub struct GenDataset {
     /// jobs) and HyperQueue, or --shard auto for a whole Slurm array
     #[arg(long, value_name = "K/N", value_parser = shard)]
     pub shard: Option<(usize, usize)>,
-    /// Write what each attempt cost, in CPU seconds, to this file (phase-attempt-times/1), for `cargo xtask check-schedule`
-    #[arg(long, value_name = "FILE")]
-    pub attempt_times: Option<PathBuf>,
     /// How the result is printed.
     #[command(flatten)]
     pub output: Output,

@@ -5,12 +5,10 @@
 //! chance that its result counts, estimated from the attempts so far; the likeliest comes first. Work that is certain to count
 //! comes before any other, and a new slot before work that is not, so nothing is wasted while there are enough slots.
 //!
-//! There are no threads, files or clocks here: the crew of `gen-dataset` follows the schedule with simulations, and `cargo xtask check-schedule` with
-//! measured times. What counts does not depend on the order, so neither does the dataset.
+//! There are no threads, files or clocks here: the crew of `gen-dataset` follows the schedule with simulations. What counts does not depend on the order, so neither does the dataset.
 
 use core::ops::Range;
 use phase_model::AgentId;
-use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// An attempt at a slot.
@@ -23,8 +21,7 @@ pub struct AttemptId {
 }
 
 /// One simulation of an attempt.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum Part {
     /// An event: the only one, or that of a set with this number.
     Member(usize),
@@ -140,13 +137,6 @@ impl<C: Ord + Clone> Schedule<C> {
         }
     }
 
-    /// The same without anything that runs ahead, for comparison: a slot's simulations follow one another.
-    #[must_use]
-    pub const fn in_sequence(mut self) -> Self {
-        self.most_under_way = 0;
-        self
-    }
-
     /// The most useful thing to begin now, which is then under way. `None` if there is nothing to do until something
     /// under way is done.
     #[allow(
@@ -166,7 +156,7 @@ impl<C: Ord + Clone> Schedule<C> {
             }
         }
         let certain = best.filter(|(chance, _)| *chance >= 1.0).map(|(_, job)| job);
-        let ahead = best.filter(|_| self.most_under_way > 0).map(|(_, job)| job);
+        let ahead = best.map(|(_, job)| job);
         let job = certain.or_else(|| self.unopened.next().map(Job::Open)).or(ahead)?;
         self.start(job);
         Some(job)

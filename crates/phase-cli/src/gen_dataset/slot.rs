@@ -15,7 +15,6 @@ use crate::{
     interrupt,
 };
 use core::ops::{ControlFlow, RangeInclusive};
-use cpu_time::ThreadTime;
 use phase_dataset::{
     acceptance::Refusal,
     composition::manner_of,
@@ -124,7 +123,6 @@ impl<'a> Slots<'a> {
     pub(super) fn simulate(&self, index: usize, attempt: &Attempt, part: Part) -> Result<bool, CliError> {
         let Some(cast) = attempt.cast() else { return Ok(false) };
         let Some((scene, settings)) = cast.simulation(part) else { return Ok(false) };
-        let begun = ThreadTime::now();
         let id = self.plan.preset.id(index);
         let simulate = |on_step: &mut dyn FnMut(&Step) -> ControlFlow<()>| {
             engine::simulate(&id, &scene, cast.seed, &settings, on_step)
@@ -142,13 +140,13 @@ impl<'a> Slots<'a> {
                     watch.goes_on(step)
                 })?;
                 let Some(member) = watch.judge(event) else { return Ok(false) };
-                attempt.results().add_member(k, member, begun.elapsed().as_secs_f64());
+                attempt.results().add_member(k, member);
             }
             Part::Idle { member, agent } => {
                 let event = simulate(&mut |_| attempt.goes_on(interrupt::requested()))?;
                 let Some(event) = event else { return Ok(false) };
                 let track = Track::of_event(&event);
-                attempt.results().add_idle(member, agent, track, begun.elapsed().as_secs_f64());
+                attempt.results().add_idle(member, agent, track);
             }
         }
         Ok(true)
