@@ -118,15 +118,15 @@ pub fn leaderboard(benchmark: &Benchmark, scores: &Scores, sources: &BTreeMap<St
     format!(
         "# Leaderboard\n\n\
          <!-- Written by `cargo xtask results` from results.json and leaderboard/scores.json. -->\n\n\
-         {}. Square brackets hold 95 % bootstrap intervals. [results.md](results.md) has all measures of the methods that come with \
-         the program, [how-to/method.md](how-to/method.md) what a method may use \
-         and how to hand in yours. Published figures are of all 100 recordings.\n\n\
+         {}. Square brackets hold 95 % bootstrap intervals. [results.md](results.md) has all measures of the bundled methods; \
+         [how-to/method.md](how-to/method.md) says what a method may use and how to submit yours. Published figures are of all \
+         100 recordings.\n\n\
          ## Goals and relations\n\n{goals}\n\
-         Sorted by goals in generated events, those without by goals in recordings. A set of minimal pairs counts where all goals and relations of its \
-         events are right.\n\n\
+         Sorted by goal accuracy on generated events; methods without that score by goal accuracy on recordings. A minimal-pair \
+         set counts as correct only if all its goals and relations are.\n\n\
          ## Trajectories\n\n{trajectories}\n\
          Displacement errors of the agents in u, sorted by ADE.\n\n\
-         ## Methods that were handed in\n\n{}",
+         ## Submitted methods\n\n{}",
         described.collect::<Vec<_>>().join("; "),
         sources.collect::<String>(),
     )
