@@ -30,7 +30,7 @@ fn main() {
             });
         }
     }
-    // What a plan pays for the same distance, through doors alone (docs/decisions.md).
+    // What a plan pays for the same distance, through doors alone (docs/minds.md).
     let routes = Routes::new(Layout::new(16, None).expect("layout 16 exists"));
     criterion.bench_function("navigation/route of a plan", |bencher| {
         let (from, to) = (Vec2::new(24.0, 20.0), Vec2::new(8.5, 19.5));
