@@ -1,4 +1,4 @@
-//! `cargo xtask`: the commands of `phase`, and the development commands of this workspace.
+//! `cargo xtask`: the commands of `phase`, and chores of this repository.
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]

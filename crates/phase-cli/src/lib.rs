@@ -93,6 +93,16 @@ pub const PHASE: Program = Program {
     interface: cli::Cli::command,
 };
 
+/// The program `cargo xtask`, and the packages that it starts.
+pub const CARGO_XTASK: Program = Program {
+    name: "cargo xtask",
+    serve_hint: "use `cargo serve`",
+    networks_hint: "use `cargo xtask-networks` in place of `cargo xtask`",
+    studies_hint: "use `cargo xtask-studies` in place of `cargo xtask`",
+    // The installed program is `phase`.
+    interface: cli::Cli::command,
+};
+
 /// Runs a command line of `phase`, program name first, and returns its exit code.
 pub fn main_with(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     program::main_with::<cli::Cli>(PHASE, arguments)

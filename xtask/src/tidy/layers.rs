@@ -1,10 +1,10 @@
 //! The crates and their layers.
 
 use super::Workspace;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-/// The crates from the bottom layer up. A crate may use those before it, never those after it.
-pub const LAYERS: [&str; 37] = [
+/// The crates, and the packages below `xtask/`, from the bottom layer up. Each may use those before it, never those after it.
+pub const LAYERS: [&str; 39] = [
     "phase-model",
     "phase-event",
     "phase-statistics",
@@ -42,16 +42,18 @@ pub const LAYERS: [&str; 37] = [
     "phase-cli",
     "phase-python",
     "phase-fuzz",
+    "phase-torture",
+    "phase-lab",
 ];
 
 const MAP: &str = "docs/ARCHITECTURE.md";
 
 /// Every crate is in the list above and on the map; what is on the map exists; none uses one above it.
 pub(super) fn check(workspace: &mut Workspace) {
-    let crates = workspace.crates();
+    let packages = workspace.packages();
     let map = workspace.read(Path::new(MAP)).unwrap_or_default();
-    for name in &crates {
-        let manifest = PathBuf::from(format!("crates/{name}/Cargo.toml"));
+    for package in &packages {
+        let (name, manifest) = (&package.name, package.manifest());
         if !LAYERS.contains(&name.as_str()) {
             workspace.report(&manifest, 1, format!("{name} is missing in xtask/src/tidy/layers.rs"));
         }
@@ -61,7 +63,7 @@ pub(super) fn check(workspace: &mut Workspace) {
         check_uses(workspace, name, &manifest);
     }
     for (line, mentioned) in mentions(&map) {
-        if !crates.iter().any(|name| name == mentioned) {
+        if !packages.iter().any(|package| package.name == mentioned) {
             workspace.report(MAP, line, format!("the map mentions {mentioned}, which is no crate"));
         }
     }

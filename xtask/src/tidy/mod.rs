@@ -65,6 +65,28 @@ pub fn check(root: &Path) -> Vec<Finding> {
     findings
 }
 
+/// The folder of chores, with packages of people who work on PHASE below it.
+const XTASK: &str = "xtask";
+
+/// A package of the workspace.
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
+struct Package {
+    name: String,
+    /// Relative to the workspace.
+    folder: PathBuf,
+}
+
+impl Package {
+    fn manifest(&self) -> PathBuf {
+        self.folder.join("Cargo.toml")
+    }
+
+    /// Whether it is below `xtask/`, so that only people who work on PHASE have it.
+    fn is_of_xtask(&self) -> bool {
+        self.folder.starts_with(XTASK)
+    }
+}
+
 /// A workspace and what was found in it so far.
 struct Workspace {
     root: PathBuf,
@@ -82,14 +104,19 @@ impl Workspace {
         text.map_err(|error| self.report(file, 1, format!("cannot be read: {error}"))).ok()
     }
 
-    /// Names of the folders in `crates/`, sorted.
-    fn crates(&self) -> Vec<String> {
-        let entries = fs::read_dir(self.root.join("crates")).into_iter().flatten().flatten();
-        let folders = entries.filter(|entry| entry.path().join("Cargo.toml").is_file());
-        let mut names: Vec<String> =
-            folders.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
-        names.sort();
-        names
+    /// The packages in `crates/`, and those in `xtask/`, which `phase-` precedes in their names, sorted.
+    fn packages(&self) -> Vec<Package> {
+        let mut packages = Vec::new();
+        for (parent, prefix) in [("crates", ""), (XTASK, "phase-")] {
+            let entries = fs::read_dir(self.root.join(parent)).into_iter().flatten().flatten();
+            for entry in entries.filter(|entry| entry.path().join("Cargo.toml").is_file()) {
+                let name = entry.file_name().to_string_lossy().into_owned();
+                let folder = Path::new(parent).join(&name);
+                packages.push(Package { name: format!("{prefix}{name}"), folder });
+            }
+        }
+        packages.sort();
+        packages
     }
 
     /// All files with one of these endings below some folders, relative to the workspace, sorted.

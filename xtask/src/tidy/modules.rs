@@ -41,11 +41,12 @@ const ACYCLIC: [&str; 25] = [
 /// A module is a file or folder right below `src`; it uses another if it names it, or something that the crate
 /// root re-exports from it, in a path that starts with `crate::`.
 pub(super) fn check(workspace: &mut Workspace) {
-    for name in workspace.crates() {
-        if !ACYCLIC.contains(&name.as_str()) {
+    for package in workspace.packages() {
+        if !ACYCLIC.contains(&package.name.as_str()) {
             continue;
         }
-        let root = format!("crates/{name}/src");
+        let root = package.folder.join("src");
+        let root = root.to_string_lossy();
         let modules = read(workspace, &root);
         for cycle in cycles(&modules) {
             let rule = format!("the modules {} use each other in a cycle", cycle.join(", "));

@@ -1,27 +1,29 @@
 //! What every crate has to show on the page of a registry: a README whose example is compiled, and the keys to find it by.
 
-use super::Workspace;
-use std::path::{Path, PathBuf};
+use super::{Package, Workspace};
+use std::path::Path;
 
 /// Its README is that of the Python package.
 const PYTHON: &str = "phase-python";
 /// What a published crate must say of itself. Cargo asks for the description, registries for nothing more.
 const KEYS: [&str; 4] = ["description", "readme", "keywords", "categories"];
 
-/// Every crate has a README with its name and the example of its documentation, which is compiled and run.
+/// Every package has a README with its name and the example of its documentation, which is compiled and run.
 pub(super) fn check(workspace: &mut Workspace) {
-    for name in workspace.crates() {
-        let folder = PathBuf::from(format!("crates/{name}"));
-        check_crate(workspace, &name, &folder, &folder.join("src/lib.rs"));
+    for package in workspace.packages() {
+        let root = package.folder.join("src/lib.rs");
+        check_package(workspace, &package, &root);
     }
-    check_crate(workspace, "phase-data", Path::new("data"), Path::new("data/lib.rs"));
+    let data = Package { name: "phase-data".into(), folder: "data".into() };
+    check_package(workspace, &data, Path::new("data/lib.rs"));
 }
 
-fn check_crate(workspace: &mut Workspace, name: &str, folder: &Path, root: &Path) {
+fn check_package(workspace: &mut Workspace, package: &Package, root: &Path) {
+    let name = &package.name;
     if name == PYTHON {
         return;
     }
-    let (manifest, readme) = (folder.join("Cargo.toml"), folder.join("README.md"));
+    let (manifest, readme) = (package.manifest(), package.folder.join("README.md"));
     let Some(settings) = workspace.read(&manifest) else { return };
     let says = |key: &str| settings.lines().any(|line| line.starts_with(&format!("{key} = ")));
     if !says("publish") {
@@ -39,7 +41,9 @@ fn check_crate(workspace: &mut Workspace, name: &str, folder: &Path, root: &Path
         .map(|line| line.strip_prefix(' ').unwrap_or(line))
         .collect();
     let shown = example(text.lines(), "```rust");
-    if shown.is_empty() || shown != example(documentation.into_iter(), "```") {
+    // A package of commands below `xtask/` has nothing to call.
+    let may_lack = package.is_of_xtask();
+    if (shown.is_empty() && !may_lack) || shown != example(documentation.into_iter(), "```") {
         workspace.report(&readme, 1, format!("must show the first example of {}", root.display()));
     }
 }

@@ -1,7 +1,7 @@
 //! What Rust files must and must not contain.
 
 use super::Workspace;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Maximum length of a Rust file (lines).
 const LONGEST: usize = 400;
@@ -12,8 +12,8 @@ const ROOT_ATTRIBUTES: [&str; 2] = ["#![forbid(unsafe_code)]", "#![deny(missing_
 
 /// Checks every Rust file of crates and command line.
 pub(super) fn check(workspace: &mut Workspace) {
-    let crates = workspace.crates();
-    let roots = crates.iter().map(|name| PathBuf::from(format!("crates/{name}/src/lib.rs")));
+    let packages = workspace.packages();
+    let roots = packages.iter().map(|package| package.folder.join("src/lib.rs"));
     for root in roots.chain(["xtask/src/lib.rs".into(), "xtask/src/main.rs".into()]) {
         let Some(text) = workspace.read(&root) else { continue };
         for attribute in ROOT_ATTRIBUTES {

@@ -8,19 +8,7 @@ fn commands_and_chores_are_listed_under_this_name() {
     let output = run(folder.path(), &["--help"]);
     let help = text(&output.stdout);
     assert!(output.status.success() && help.contains("Usage: cargo xtask"), "{help}");
-    for command in [
-        "gen-dataset",
-        "eval",
-        "train",
-        "check-physics",
-        "check-behaviour",
-        "check-minds",
-        "check-verify",
-        "fit-minds",
-        "draw-behaviour",
-        "tidy",
-        "torture",
-    ] {
+    for command in ["gen-dataset", "eval", "train", "results", "tidy"] {
         assert!(help.lines().any(|line| line.trim_start().starts_with(command)), "{command}: {help}");
     }
     let sentence = refuse(folder.path(), &["dance"]);

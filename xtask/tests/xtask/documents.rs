@@ -6,11 +6,12 @@ use std::{
     fs,
     path::{Path, PathBuf},
 };
+use xtask::packages::PACKAGES;
 
 /// Documents at the root and in `docs`, and of crates.
 fn documents() -> Vec<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let mut folders = vec![root.join("docs"), root.join("crates")];
+    let mut folders = vec![root.join("docs"), root.join("crates"), root.join("xtask")];
     let mut found: Vec<PathBuf> = ["README.md", "CONTRIBUTING.md"].map(|name| root.join(name)).into();
     while let Some(folder) = folders.pop() {
         for entry in fs::read_dir(&folder).expect("a folder").flatten() {
@@ -35,10 +36,15 @@ fn complaint(words: &[String]) -> Option<String> {
         ["cargo", command @ ("train" | "serve"), rest @ ..] => [&["phase", command], rest].concat(),
         _ => return None,
     };
-    let error = if arguments[0] == "xtask" {
-        xtask::cli::Cli::try_parse_from(&arguments).err()
-    } else {
-        phase_cli::cli::Cli::try_parse_from(&arguments).err()
+    let package =
+        |(_, commands): &&(_, &[(&str, &str)])| commands.iter().any(|it| Some(&it.0) == arguments.get(1));
+    let error = match PACKAGES.iter().find(package).map(|it| it.0) {
+        _ if arguments[0] == "phase" => phase_cli::cli::Cli::try_parse_from(&arguments).err(),
+        Some("phase-lab") => phase_lab::cli::Cli::try_parse_from(&arguments).err(),
+        Some("phase-torture") => phase_torture::cli::Cli::try_parse_from(&arguments).err(),
+        Some("phase-fuzz") => phase_fuzz::command::Cli::try_parse_from(&arguments).err(),
+        Some("phase-golden") => phase_golden::command::Cli::try_parse_from(&arguments).err(),
+        _ => xtask::cli::Cli::try_parse_from(&arguments).err(),
     };
     // Help and versions are errors to the parser, but what was asked for.
     error.filter(clap::Error::use_stderr).map(|error| format!("`{}`: {error}", words.join(" ")))
@@ -96,7 +102,7 @@ fn examples_in_documents_exist() {
 fn a_command_that_does_not_exist_is_noticed() {
     let wrong = |line: &str| commands(line).iter().filter_map(|words| complaint(words)).count();
     assert_eq!(wrong("cargo xtask tidy && A=1 phase simulate --events a.json --out b # the rest"), 0);
-    assert_eq!(wrong("cargo xtask tidy --fast"), 1);
+    assert_eq!(wrong("cargo xtask tidy --fast; cargo xtask fit-minds --fast"), 2);
     assert_eq!(wrong("cd x && phase no-such-command; phase simulate --evnets a.json"), 2);
 }
 

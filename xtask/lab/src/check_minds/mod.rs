@@ -1,0 +1,168 @@
+//! `check-minds`: how minds compare with the agents of recordings or of other events whose labels are known.
+
+mod figures;
+mod measure;
+mod motion;
+pub mod options;
+pub(crate) mod parameters;
+pub(crate) mod recognition;
+mod report;
+mod role;
+mod table;
+
+use crate::{error::LabError, json_file};
+use measure::Plan;
+use options::CheckMinds;
+use phase_agent::{MindKind, MindParameters};
+use phase_cli::{
+    console::{self, print_result},
+    context::Context,
+    engine::GENERATOR,
+    error::CliError,
+    interrupt,
+    output::json_text,
+    parallel::make_all,
+    source::EventInput,
+};
+use phase_eval::goals::canonical;
+use phase_event::Recording;
+use phase_files::atomic;
+use phase_model::{AgentId, Attitude, EventKind, Goal, Scene};
+use phase_simple::{Hypothesis, InferenceSettings, Intent};
+use report::Report;
+use serde_json::{Value, json};
+use std::path::Path;
+
+/// Simulations a decision at observed states by our own minds.
+const SIMULATIONS: u32 = 50;
+/// The same by published minds, which need more, and whose searches settle early on what is partly chance.
+const PUBLISHED_SIMULATIONS: u32 = 200;
+/// Searches a decision at observed states by published minds.
+const PUBLISHED_SEARCHES: u32 = 5;
+
+/// Runs the command.
+///
+/// # Errors
+/// Any [`LabError`] about the files, or an interruption.
+pub fn run(arguments: &CheckMinds, context: &Context) -> Result<(), LabError> {
+    if let Some(out) = &arguments.json {
+        let inputs = [Some(&arguments.events), arguments.parameters.as_ref()];
+        json_file::check("--json", out, inputs.into_iter().flatten().map(|file| file.as_path()))?;
+    }
+    let parameters = arguments.parameters.as_deref().map(parameters::read).transpose()?;
+    let mut recordings = recordings(&arguments.events, arguments.only, context)?;
+    retain(&mut recordings, &arguments.ids, &arguments.events)?;
+    let plan = plan(arguments, minds(arguments, parameters.unwrap_or_default(), &recordings));
+    interrupt::listen();
+    let units = recordings.iter().map(|recording| plan.units(recording.trajectory.steps())).max();
+    let activity = format!("measuring {}", console::events(recordings.len()));
+    let progress = context.progress(&activity, recordings.len(), units.unwrap_or(0));
+    let events = make_all(&arguments.jobs, recordings.len(), |k| plan.measure(&recordings[k], &progress))?;
+    drop(progress);
+    let Some(events) = events else { return Err(LabError::Interrupted) };
+    let report = Report::of(&events, description(arguments, &plan));
+    if let Some(out) = &arguments.json {
+        let text = json_text(&report, "the report")?;
+        if out == Path::new(json_file::STDOUT) {
+            print_result(text.trim_end());
+            return Ok(());
+        }
+        atomic::write(out, text.as_bytes()).map_err(CliError::Output)?;
+    }
+    print_result(table::print(&report).trim_end());
+    Ok(())
+}
+
+/// Keeps the events with these ids, or all of them if there are none.
+fn retain(recordings: &mut Vec<Recording>, ids: &[String], file: &Path) -> Result<(), CliError> {
+    for id in ids {
+        if !recordings.iter().any(|recording| recording.id == *id) {
+            return Err(CliError::Usage(format!("{}: has no event {id}", file.display())));
+        }
+    }
+    recordings.retain(|recording| ids.is_empty() || ids.contains(&recording.id));
+    Ok(())
+}
+
+/// The parameters of the minds that were asked for. Published minds in recordings have bodies that turn one way, as those
+/// of the recorder did; events that were simulated here had others.
+fn minds(arguments: &CheckMinds, parameters: MindParameters, recordings: &[Recording]) -> MindParameters {
+    let kind = arguments.minds.unwrap_or(parameters.kind);
+    let recorded = recordings.iter().all(|recording| recording.simulation.is_none());
+    let one_way_turns = parameters.one_way_turns || kind == MindKind::Published && recorded;
+    MindParameters { kind, one_way_turns, ..parameters }
+}
+
+/// What is to be measured, with these parameters of the minds.
+fn plan(arguments: &CheckMinds, parameters: MindParameters) -> Plan {
+    let minds = |simulations: u32| MindParameters { simulations: simulations as usize, ..parameters };
+    let (simulations, searches) = match parameters.kind {
+        MindKind::Phase => (SIMULATIONS, 1),
+        MindKind::Published => (PUBLISHED_SIMULATIONS, PUBLISHED_SEARCHES),
+    };
+    let at_states = MindParameters {
+        searches: arguments.searches.unwrap_or(searches) as usize,
+        ..minds(arguments.simulations.unwrap_or(simulations))
+    };
+    Plan {
+        inference: InferenceSettings { minds: at_states, ..InferenceSettings::default() },
+        posterior: !arguments.no_posterior,
+        open_loop: minds(arguments.simulations_open_loop),
+        open_loop_seeds: arguments.open_loop_seeds.into(),
+        seed: arguments.seed,
+    }
+}
+
+/// The events of a file or folder, of one kind only if one is given: at least one, and each with a step.
+///
+/// # Errors
+/// If there are no such events, or they cannot be read.
+pub(crate) fn recordings(
+    file: &Path,
+    only: Option<EventKind>,
+    context: &Context,
+) -> Result<Vec<Recording>, CliError> {
+    let source = EventInput::open(file, &[], context)?;
+    let mut recordings = (0..source.len()).map(|k| source.load(k)).collect::<Result<Vec<_>, _>>()?;
+    if let Some(kind) = only {
+        recordings.retain(|recording| recording.scene.kind == kind);
+    }
+    if recordings.is_empty() {
+        let what = only.map_or_else(String::new, |kind| format!(" of the kind {}", kind.name()));
+        return Err(CliError::Usage(format!("{}: has no events{what}", file.display())));
+    }
+    match recordings.iter().find(|recording| recording.trajectory.steps() == 0) {
+        Some(recording) => Err(CliError::StartAlone {
+            file: file.to_owned(),
+            id: recording.id.clone(),
+            needed: "to compare minds with it, at least one step is needed",
+        }),
+        None => Ok(recordings),
+    }
+}
+
+/// The hypothesis that the labels of a scene state.
+pub(crate) fn truth(scene: &Scene) -> Hypothesis {
+    let attitudes = scene.agents.map(|agent| agent.attitude);
+    let strengths = scene.agents.map(|agent| agent.strength);
+    Hypothesis::new(scene.goals(), attitudes, strengths)
+}
+
+/// Whether an intent of an agent is its part of a hypothesis.
+pub(crate) fn is_true(intent: &Intent, truth: &Hypothesis, agent: AgentId) -> bool {
+    let goal: Goal = match truth.attitudes[agent] {
+        Attitude::Neutral => truth.goals[agent],
+        Attitude::Help | Attitude::Hinder => truth.goals[agent.other()],
+    };
+    intent.attitude == truth.attitudes[agent] && canonical(intent.goal) == canonical(goal)
+}
+
+/// How the report is made.
+fn description(arguments: &CheckMinds, plan: &Plan) -> Value {
+    json!({
+        "command": "check-minds", "generator": GENERATOR, "seed": plan.seed,
+        "only": arguments.only.map(EventKind::name), "ids": arguments.ids, "minds": plan.open_loop.kind.name(),
+        "inference": plan.inference, "posterior": plan.posterior,
+        "open_loop": plan.open_loop, "open_loop_seeds": plan.open_loop_seeds,
+    })
+}

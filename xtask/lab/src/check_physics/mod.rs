@@ -1,0 +1,139 @@
+//! `check-physics`: the error of an engine with respect to recorded motion.
+
+pub mod options;
+mod table;
+mod targets;
+
+use crate::{error::LabError, json_file};
+use options::CheckPhysics;
+use phase_calibration::{
+    ColdForward, Engine, Probe, ReadError, Replay, Report, Run, StatelessErrors, WarmForward, WorldEngine,
+    horizon_errors, probes_report, replay_reports, run_reports,
+};
+use phase_cli::{
+    console::print_result, context::Context, error::CliError, output::json_text, source::EventInput,
+};
+use phase_files::{atomic, json};
+use serde::Serialize;
+use serde_json::Value;
+use std::path::Path;
+use targets::Target;
+
+/// What the engine is compared with.
+struct Records {
+    probes: Option<Vec<Probe>>,
+    runs: Option<Vec<Run>>,
+    replays: Option<Vec<Replay>>,
+    /// Events with recovered actions that cannot be replayed because they are reflected.
+    mirrored: usize,
+}
+
+/// Runs the command. A missed target is a result, not an error.
+///
+/// # Errors
+/// Any [`LabError`] about the files.
+pub fn run(arguments: &CheckPhysics, context: &Context) -> Result<(), LabError> {
+    let files = [&arguments.probes, &arguments.runs, &arguments.events];
+    if files.iter().all(|file| file.is_none()) {
+        let rule = "check-physics needs at least one of --probes, --runs and --events";
+        return Err(CliError::Usage(rule.into()).into());
+    }
+    if let Some(out) = &arguments.json {
+        json_file::check("--json", out, files.into_iter().flatten().map(|file| file.as_path()))?;
+    }
+    let records = Records::read(arguments, context)?;
+    context.note(format!("measuring the engine {}", arguments.engine.name()));
+    let (report, targets) = match arguments.engine {
+        phase_sim::Engine::World => {
+            let report = records.measure::<WorldEngine>("world");
+            let targets = targets::of_world(&report);
+            (report, targets)
+        }
+        phase_sim::Engine::Forward => {
+            let mut report = records.measure::<WarmForward>("forward");
+            report.state_alone = records.runs.as_ref().map(|runs| StatelessErrors {
+                one_step: horizon_errors::<ColdForward>(runs, 1),
+                ten_steps: horizon_errors::<ColdForward>(runs, 10),
+            });
+            let targets = targets::of_forward(&report);
+            (report, targets)
+        }
+    };
+    if let Some(out) = &arguments.json {
+        let text = to_json(&report, &targets, records.mirrored)?;
+        if out == Path::new(json_file::STDOUT) {
+            print_result(text.trim_end());
+            return Ok(());
+        }
+        atomic::write(out, text.as_bytes()).map_err(CliError::Output)?;
+    }
+    print_result(table::print(&report, &targets, records.mirrored).trim_end());
+    Ok(())
+}
+
+impl Records {
+    fn read(arguments: &CheckPhysics, context: &Context) -> Result<Self, LabError> {
+        let (replays, mirrored) = match &arguments.events {
+            None => (None, 0),
+            Some(file) => {
+                let (replays, mirrored) = replays(file, context)?;
+                (Some(replays), mirrored)
+            }
+        };
+        Ok(Self {
+            probes: arguments.probes.as_ref().map(|file| read(file, Probe::from_value)).transpose()?,
+            runs: arguments.runs.as_ref().map(|file| read(file, Run::from_value)).transpose()?,
+            replays,
+            mirrored,
+        })
+    }
+
+    fn measure<E: Engine>(&self, engine: &str) -> Report {
+        let runs = self.runs.as_deref();
+        Report {
+            engine: engine.into(),
+            probes: self.probes.as_deref().map(probes_report::<E>),
+            runs: runs.map(run_reports::<E>),
+            replays: self.replays.as_deref().map(replay_reports::<E>),
+            one_step: runs.and_then(|runs| horizon_errors::<E>(runs, 1)),
+            ten_steps: runs.and_then(|runs| horizon_errors::<E>(runs, 10)),
+            state_alone: None,
+        }
+    }
+}
+
+fn read<T>(file: &Path, parse: impl Fn(&Value) -> Result<T, ReadError>) -> Result<T, LabError> {
+    let value = json::read(file).map_err(CliError::File)?;
+    parse(&value).map_err(|source| LabError::Calibration { file: file.to_owned(), source })
+}
+
+/// The events of a file that can be replayed, and the number of those that cannot only because they are
+/// reflected.
+fn replays(file: &Path, context: &Context) -> Result<(Vec<Replay>, usize), CliError> {
+    let source = EventInput::open(file, &[], context)?;
+    let mut recordings = (0..source.len()).map(|k| source.load(k)).collect::<Result<Vec<_>, _>>()?;
+    recordings.retain(|recording| recording.recovered_actions.is_some());
+    let replays: Vec<Replay> = recordings.iter().filter_map(Replay::of_recording).collect();
+    let mirrored = recordings.iter().filter(|recording| recording.scene.layout.flip().is_some()).count();
+    if replays.is_empty() {
+        let rule = "field `events` must hold an event with `recovered_actions` that is not mirrored";
+        return Err(CliError::Usage(format!("{}: {rule}", file.display())));
+    }
+    Ok((replays, mirrored))
+}
+
+/// The file that `--json` writes.
+#[derive(Serialize)]
+struct Output<'a> {
+    #[serde(flatten)]
+    report: &'a Report,
+    targets: &'a [Target],
+    /// Events with recovered actions that were skipped because they are reflected.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    mirrored_left_out: Option<usize>,
+}
+
+fn to_json(report: &Report, targets: &[Target], mirrored: usize) -> Result<String, CliError> {
+    let mirrored_left_out = report.replays.as_ref().map(|_| mirrored);
+    json_text(&Output { report, targets, mirrored_left_out }, "the report")
+}

@@ -1,0 +1,73 @@
+//! The commands of the lab.
+
+use crate::{
+    check_behaviour::{self, options::CheckBehaviour},
+    check_minds::{self, options::CheckMinds},
+    check_physics::{self, options::CheckPhysics},
+    draw_behaviour::{self, DrawBehaviour},
+    error::LabError,
+    fit_events::FitEvents,
+    fit_forecast,
+    fit_inference::{self, options::FitInference},
+    fit_minds::{self, options::FitMinds},
+    fit_reports::{self, options::FitReports},
+};
+use clap::{Parser, Subcommand};
+use phase_cli::{
+    context::{Context, Verbosity},
+    program::Interface,
+};
+
+/// Fits and checks of minds, inference, behaviour and physics
+#[derive(Parser, Debug)]
+#[command(version)]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+    /// Verbosity.
+    #[command(flatten)]
+    pub verbosity: Verbosity,
+}
+
+/// A command of the lab.
+#[derive(Subcommand, Debug)]
+pub enum Command {
+    /// Compare an engine of the physics with recorded motion
+    CheckPhysics(CheckPhysics),
+    /// Measure how reliably agents show the intended behaviour
+    CheckBehaviour(CheckBehaviour),
+    /// Draw scenes for check-behaviour from the sampler
+    DrawBehaviour(DrawBehaviour),
+    /// Compare minds with the agents of recordings or events whose labels are known
+    CheckMinds(CheckMinds),
+    /// Fit the parameters of the minds to recordings or events whose labels are known
+    FitMinds(FitMinds),
+    /// Fit how SIMPLE weighs its evidence to events whose labels are known
+    FitInference(FitInference),
+    /// Fit how SIMPLE combines simulated futures to events whose continuation is known
+    FitForecast(FitEvents),
+    /// Fit how people report what they saw to raters of recordings
+    FitReports(FitReports),
+}
+
+impl Interface for Cli {
+    type Error = LabError;
+
+    fn verbosity(&self) -> Verbosity {
+        self.verbosity
+    }
+
+    fn run(&self, context: &Context) -> Result<(), LabError> {
+        match &self.command {
+            Command::CheckPhysics(arguments) => check_physics::run(arguments, context),
+            Command::CheckBehaviour(arguments) => Ok(check_behaviour::run(arguments, context)?),
+            Command::DrawBehaviour(arguments) => draw_behaviour::run(arguments),
+            Command::CheckMinds(arguments) => check_minds::run(arguments, context),
+            Command::FitInference(arguments) => fit_inference::run(arguments, context),
+            Command::FitMinds(arguments) => fit_minds::run(arguments, context),
+            Command::FitForecast(arguments) => fit_forecast::run(arguments, context),
+            Command::FitReports(arguments) => fit_reports::run(arguments),
+        }
+    }
+}

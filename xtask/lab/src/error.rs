@@ -1,0 +1,43 @@
+//! Every way in which a command of the lab can fail, and its exit code.
+
+use crate::draw_behaviour::DrawError;
+use phase_calibration::ReadError;
+use phase_cli::{error::CliError, program::Failure};
+use std::path::PathBuf;
+use thiserror::Error;
+
+/// Reason that a command of the lab failed. The text is one plain sentence.
+#[derive(Debug, Error)]
+pub enum LabError {
+    /// Code that the lab shares with the commands of `phase` failed.
+    #[error(transparent)]
+    Cli(#[from] CliError),
+    /// A file of probes or runs cannot be used.
+    #[error("{}: {source}", file.display())]
+    Calibration {
+        /// The file.
+        file: PathBuf,
+        /// What is wrong with it.
+        source: ReadError,
+    },
+    /// The bundled intent network cannot be read.
+    #[error("the bundled intent network: {0}")]
+    IntentNetwork(#[from] phase_simple::intent_network::IntentNetworkError),
+    /// A scene cannot be drawn.
+    #[error(transparent)]
+    Draw(#[from] DrawError),
+    /// The user interrupted a command that keeps nothing of what it has done.
+    #[error("interrupted; nothing is written")]
+    Interrupted,
+}
+
+impl Failure for LabError {
+    fn exit_code(&self) -> u8 {
+        match self {
+            Self::Cli(error) => error.exit_code(),
+            Self::Calibration { .. } => 2,
+            Self::Interrupted => 130,
+            Self::Draw(_) | Self::IntentNetwork(_) => 1,
+        }
+    }
+}

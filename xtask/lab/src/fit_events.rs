@@ -1,0 +1,164 @@
+//! What the commands that fit SIMPLE to events share: their options, and figures of events that are computed once and kept.
+
+use crate::{
+    check_minds,
+    error::LabError,
+    evaluations_file::{EvaluationsFile, Line},
+    json_file,
+};
+use clap::{Args, value_parser};
+use core::ops::ControlFlow;
+use phase_cli::{
+    console,
+    context::Context,
+    error::CliError,
+    event_writer::program,
+    interrupt,
+    parallel::{Jobs, make_all},
+};
+use phase_event::Recording;
+use phase_files::checksum::{hexadecimal, sha256};
+use serde::{Serialize, de::DeserializeOwned};
+use std::{
+    collections::BTreeMap,
+    path::{Path, PathBuf},
+};
+
+/// Options of `fit-forecast` and `fit-inference`.
+#[derive(Args, Debug)]
+pub struct FitEvents {
+    /// The events to fit to: a file in the format phase-events/1, or the folder of a dataset or of simulations; may be given
+    /// several times
+    #[arg(long, value_name = "FILE|DIR", required = true)]
+    pub events: Vec<PathBuf>,
+    /// Further events, to which nothing is fitted; their figures are reported beside. May be given several times
+    #[arg(long, value_name = "FILE|DIR")]
+    pub held_out: Vec<PathBuf>,
+    /// Only the first N events of each file
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..))]
+    pub limit: Option<u32>,
+    /// Where to write what was fitted as JSON; what was simulated of each event is kept in a file beside it, and the same command
+    /// goes on from there
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// The seed of all random draws, the same in every event, and of a division into folds
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub seed: u64,
+    /// How many events at once.
+    #[command(flatten)]
+    pub jobs: Jobs,
+}
+
+impl FitEvents {
+    /// Checks that `--out` can be written and is no input.
+    ///
+    /// # Errors
+    /// If not.
+    pub(crate) fn check_out<'a>(
+        &'a self,
+        others: impl IntoIterator<Item = &'a PathBuf>,
+    ) -> Result<(), CliError> {
+        let Some(out) = &self.out else { return Ok(()) };
+        let inputs = self.events.iter().chain(&self.held_out).chain(others);
+        json_file::check("--out", out, inputs.map(|file| file.as_path()))
+    }
+
+    /// The events of a file, as many as were asked for.
+    ///
+    /// # Errors
+    /// If it has none, or they cannot be read.
+    pub(crate) fn read(&self, file: &Path, context: &Context) -> Result<Vec<Recording>, CliError> {
+        let mut recordings = check_minds::recordings(file, None, context)?;
+        recordings.truncate(self.limit.map_or(usize::MAX, |limit| limit as usize));
+        Ok(recordings)
+    }
+
+    /// The events of all these files, one after the other.
+    ///
+    /// # Errors
+    /// As [`FitEvents::read`].
+    pub(crate) fn read_all(&self, files: &[PathBuf], context: &Context) -> Result<Vec<Recording>, CliError> {
+        let files = files.iter().map(|file| self.read(file, context)).collect::<Result<Vec<_>, _>>()?;
+        Ok(files.into_iter().flatten().collect())
+    }
+}
+
+/// Figures of events, computed once each and kept in the file beside `--out`.
+pub(crate) struct KeptFigures<'a, T> {
+    arguments: &'a FitEvents,
+    context: &'a Context,
+    /// Program, settings and seed, as they enter every key.
+    made_by: String,
+    file: Option<EvaluationsFile>,
+    known: BTreeMap<String, T>,
+}
+
+impl<'a, T: Clone + Send + Sync + Serialize + DeserializeOwned> KeptFigures<'a, T> {
+    /// Nothing yet but what the file holds. `settings` names what determines the figures beside program, seed and event.
+    ///
+    /// # Errors
+    /// If that file cannot be used.
+    pub(crate) fn new(
+        settings: &str,
+        arguments: &'a FitEvents,
+        context: &'a Context,
+    ) -> Result<Self, CliError> {
+        let made_by = format!("{} {settings} {}", hexadecimal(&program()), arguments.seed);
+        let kept = arguments.out.as_deref().map(EvaluationsFile::beside).transpose()?;
+        let (file, lines) = kept.map_or_else(|| (None, Vec::new()), |(file, lines)| (Some(file), lines));
+        let known = lines.into_iter().map(|line: Line<T>| (line.key, line.figures)).collect();
+        Ok(Self { arguments, context, made_by, file, known })
+    }
+
+    /// The figures of these events, in their order. `compute` calls its tick about once a simulation, `ticks` times an event, and
+    /// returns `None` if the tick breaks.
+    ///
+    /// # Errors
+    /// An event that cannot be simulated, a file that cannot be written, or an interruption.
+    pub(crate) fn of(
+        &self,
+        activity: &str,
+        recordings: &[&Recording],
+        ticks: usize,
+        compute: impl Fn(&Recording, &mut dyn FnMut() -> ControlFlow<()>) -> Result<Option<T>, CliError> + Sync,
+    ) -> Result<Vec<T>, LabError> {
+        let activity = format!("{activity} of {}", console::events(recordings.len()));
+        let progress = self.context.progress(&activity, recordings.len(), ticks);
+        let made = make_all(&self.arguments.jobs, recordings.len(), |k| {
+            let mut ticks = 0;
+            let figures = self.one(recordings[k], |event| {
+                compute(event, &mut || {
+                    ticks += 1;
+                    progress.step();
+                    if interrupt::requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+                })
+            })?;
+            if figures.is_some() {
+                progress.event(ticks, &recordings[k].id);
+            }
+            Ok(figures)
+        })?;
+        drop(progress);
+        made.ok_or_else(|| match &self.file {
+            Some(file) => CliError::Interrupted(file.path().to_owned()).into(),
+            None => LabError::Interrupted,
+        })
+    }
+
+    fn one(
+        &self,
+        recording: &Recording,
+        mut compute: impl FnMut(&Recording) -> Result<Option<T>, CliError>,
+    ) -> Result<Option<T>, CliError> {
+        let event = recording.to_json().map_err(CliError::EventWrite)?;
+        let key = hexadecimal(&sha256(format!("{} {event}", self.made_by).as_bytes()));
+        if let Some(known) = self.known.get(&key) {
+            return Ok(Some(known.clone()));
+        }
+        let figures = compute(recording)?;
+        if let (Some(file), Some(figures)) = (&self.file, &figures) {
+            file.add(&Line { key, event: recording.id.clone(), figures: figures.clone() })?;
+        }
+        Ok(figures)
+    }
+}

@@ -1,0 +1,129 @@
+//! `fit-inference`: fits how SIMPLE weighs its evidence to events whose labels are known.
+//!
+//! Every intent of both agents is simulated once with each kind of minds. Three numbers say what the evidence is worth: the
+//! weight κ of what the minds would choose, the exponent a of the intent network's guess, and the rate ε at which minds of a kind
+//! lapse. All combinations on a grid are compared by the log posterior of the true goals and attitudes, averaged over the kinds,
+//! and every fold of the events is held out of one fit. Beside that, κ is measured without labels being fitted: as one over the
+//! integrated autocorrelation time of the log likelihood ratios of the intents.
+
+mod autocorrelation;
+mod grid;
+pub mod options;
+mod report;
+mod subject;
+mod weights;
+
+use crate::{check_minds::parameters, error::LabError, fit_events::KeptFigures, fit_minds::folds, json_file};
+use grid::Grid;
+use options::FitInference;
+use phase_agent::MindParameters;
+use phase_cli::{
+    console::{self, print_result},
+    context::Context,
+    error::CliError,
+    interrupt,
+    output::json_text,
+};
+use phase_event::Recording;
+use phase_model::AGENT_COUNT;
+use phase_simple::{Algorithm, AlternativeMinds, InferenceSettings, IntentNetwork, InversePlanningSettings};
+use report::{Fold, Report};
+use subject::{EventEvidence, INTENTS, Subject};
+use weights::Weights;
+
+/// Runs the command.
+///
+/// # Errors
+/// Any [`LabError`] about the files, or an interruption.
+pub fn run(arguments: &FitInference, context: &Context) -> Result<(), LabError> {
+    let files = &arguments.events;
+    files.check_out(&arguments.parameters)?;
+    let settings = settings(arguments)?;
+    let recordings = files.read_all(&files.events, context)?;
+    let (own, folds) = (recordings.len(), usize::from(arguments.folds));
+    if own < folds {
+        let rule = format!("--events: {}, fewer than --folds {folds}", console::events(own));
+        return Err(CliError::Usage(rule).into());
+    }
+    let mut held_out = Vec::new();
+    for file in &files.held_out {
+        held_out.push((file.display().to_string(), files.read(file, context)?));
+    }
+    interrupt::listen();
+    let planning = planning(arguments, &settings);
+    let present = Weights::of(&settings, &planning);
+    let kinds: Vec<MindParameters> =
+        core::iter::once(settings.minds).chain(settings.alternative.map(|it| it.minds)).collect();
+    let network = IntentNetwork::bundled().map_err(LabError::IntentNetwork)?;
+    let made_by = format!("{} {}", json_text(&kinds, "the minds")?, planning.interval);
+    let kept = KeptFigures::new(&made_by, files, context)?;
+    let evidence = |recordings: Vec<Recording>| -> Result<Vec<Subject>, LabError> {
+        let all: Vec<&Recording> = recordings.iter().collect();
+        let found = kept.of(
+            "simulating the intents",
+            &all,
+            kinds.len() * INTENTS * AGENT_COUNT,
+            |recording, tick| EventEvidence::of(recording, &kinds, &planning, &network, files.seed, tick),
+        )?;
+        let subjects = recordings.iter().zip(found);
+        subjects.map(|(recording, found)| Ok(Subject::new(recording, found)?)).collect()
+    };
+    let subjects = evidence(recordings)?;
+    let grid = Grid::of(&subjects, &present);
+    let mut others = Vec::with_capacity(held_out.len());
+    for (file, recordings) in held_out {
+        others.push((file, Grid::of(&evidence(recordings)?, &present)));
+    }
+    let named: Vec<_> = grid.events().collect();
+    let fold_of = folds::assign(&named, folds, files.seed);
+    let fold = |fold| {
+        let (validation, training): (Vec<usize>, Vec<usize>) = (0..own).partition(|&k| fold_of[k] == fold);
+        Fold { weights: grid.fit(&training), validation }
+    };
+    let all: Vec<usize> = (0..own).collect();
+    let report = Report {
+        folds: (0..folds).map(fold).collect(),
+        fitted: grid.fit(&all),
+        autocorrelation_time: autocorrelation::time(&subjects, &present),
+        present,
+        grid: &grid,
+        held_out: &others,
+    };
+    json_file::write(files.out.as_deref(), &json_text(&report.fitted, "the weights")?)?;
+    print_result(report.text().trim_end());
+    Ok(())
+}
+
+/// SIMPLE's settings with the minds that were asked for: both kinds, unless one was named or given.
+fn settings(arguments: &FitInference) -> Result<InferenceSettings, CliError> {
+    let one = InferenceSettings::default();
+    let given = arguments.parameters.as_deref().map(parameters::read).transpose()?;
+    let mut settings = match (given, arguments.minds) {
+        (Some(minds), _) => one.with_minds(MindParameters {
+            simulations: InferenceSettings::minds_of(minds.kind).simulations,
+            ..minds
+        }),
+        (None, Some(kind)) => one.with_minds(InferenceSettings::minds_of(kind)),
+        (None, None) => InferenceSettings::averaged(),
+    };
+    if let Some(simulations) = arguments.simulations {
+        let simulations = simulations as usize;
+        settings.minds.simulations = simulations;
+        settings.alternative = settings
+            .alternative
+            .map(|it| AlternativeMinds { minds: MindParameters { simulations, ..it.minds }, ..it });
+    }
+    Ok(settings)
+}
+
+/// How these settings weigh what minds would choose.
+fn planning(arguments: &FitInference, settings: &InferenceSettings) -> InversePlanningSettings {
+    let planning = match settings.algorithm {
+        Algorithm::InversePlanning(planning) => planning,
+        Algorithm::Chains(_) => InversePlanningSettings::default(),
+    };
+    InversePlanningSettings {
+        interval: arguments.interval.map_or(planning.interval, usize::from),
+        ..planning
+    }
+}

@@ -1,0 +1,149 @@
+//! `fit-minds`: fits the parameters of the minds to events whose labels are known.
+//!
+//! What is maximised is how well the truth stands out: the log posterior of the true goals and attitudes among all
+//! hypotheses. A mind that makes what was done likelier under every hypothesis alike would gain likelihood and tell
+//! nobody's goals; the log likelihood under the truth is reported beside it. `subject` evaluates one event,
+//! `search` changes the parameters, and every fold of the events is held out of one fit.
+
+mod ablation;
+mod evaluations;
+pub(crate) mod folds;
+mod means;
+pub mod options;
+mod parameter;
+mod report;
+mod search;
+mod subject;
+
+use crate::{check_minds, error::LabError, evaluations_file::EvaluationsFile, json_file};
+use ablation::Ablation;
+use evaluations::Evaluations;
+use options::FitMinds;
+use parameter::{PARAMETERS, Parameter};
+use phase_agent::MindParameters;
+use phase_cli::{
+    console::{self, print_result},
+    context::Context,
+    error::CliError,
+    interrupt,
+    output::json_text,
+    parallel::make_all,
+};
+use phase_eval::MethodError;
+use phase_event::{ObservedEvent, Recording};
+use search::Fit;
+use std::path::Path;
+use subject::{Method, Subject};
+
+/// Runs the command.
+///
+/// # Errors
+/// Any [`LabError`] about the files, or an interruption.
+pub fn run(arguments: &FitMinds, context: &Context) -> Result<(), LabError> {
+    if let Some(out) = &arguments.out {
+        let inputs = [Some(&arguments.events), arguments.generated.as_ref(), arguments.parameters.as_ref()];
+        json_file::check("--out", out, inputs.into_iter().flatten().map(|file| file.as_path()))?;
+        if out == Path::new(json_file::STDOUT) {
+            return Err(CliError::Usage("--out -: a file is needed".into()).into());
+        }
+    }
+    let start = arguments.parameters.as_deref().map(check_minds::parameters::read).transpose()?;
+    let start = start.unwrap_or_default();
+    let mut recordings = check_minds::recordings(&arguments.events, None, context)?;
+    let own = recordings.len();
+    if !arguments.ablation && own < usize::from(arguments.folds) {
+        let (file, folds) = (arguments.events.display(), arguments.folds);
+        let rule = format!("{file}: has {}, fewer than --folds {folds}", console::events(own));
+        return Err(CliError::Usage(rule).into());
+    }
+    if let Some(file) = &arguments.generated {
+        recordings.extend(check_minds::recordings(file, None, context)?);
+    }
+    let chosen = chosen(arguments, &start)?;
+    interrupt::listen();
+    let observed = observed(&recordings)?;
+    let method = Method::new(arguments.thin.into(), arguments.simulations as usize, arguments.seed);
+    let subjects = prepare(&recordings, &observed, method, start.particles, arguments, context)?;
+    let kept = arguments.out.as_deref().map(EvaluationsFile::beside).transpose()?;
+    let mut evaluations = Evaluations::new(&subjects, method, kept, &arguments.jobs, context)?;
+    let everything: Vec<usize> = (0..subjects.len()).collect();
+    let (events, held_out) = everything.split_at(own);
+    if arguments.ablation {
+        let ablation = Ablation::of(start, &chosen, &everything, method, &mut evaluations)?;
+        json_file::write(arguments.out.as_deref(), &json_text(&ablation, "the ablation")?)?;
+        print_result(ablation.table().trim_end());
+        return Ok(());
+    }
+    let mut fits = fits(&subjects[..own], events, start, arguments);
+    search::run(&mut fits, &chosen, arguments.rounds.into(), &mut evaluations, context)?;
+    let text = report::of(&fits, start, &chosen, held_out, method, &mut evaluations)?;
+    if let Some(all) = fits.last() {
+        json_file::write(arguments.out.as_deref(), &json_text(&all.parameters, "the parameters")?)?;
+    }
+    print_result(text.trim_end());
+    Ok(())
+}
+
+/// The parameters to be changed.
+///
+/// # Errors
+/// If one of them starts from a value that it may not have.
+fn chosen(arguments: &FitMinds, start: &MindParameters) -> Result<Vec<&'static Parameter>, CliError> {
+    let wanted =
+        |it: &&Parameter| arguments.only.is_empty() || arguments.only.iter().any(|name| name == it.name);
+    let chosen: Vec<&'static Parameter> = PARAMETERS.iter().filter(wanted).collect();
+    for parameter in &chosen {
+        let ((low, high), value) = (parameter.range(), parameter.value(start));
+        if !(low..=high).contains(&value) {
+            let name = parameter.name;
+            let file =
+                arguments.parameters.as_ref().map_or_else(String::new, |it| format!("{}: ", it.display()));
+            let rule = format!("{file}field `{name}` is {value}, but must be from {low} to {high}");
+            return Err(CliError::Usage(rule));
+        }
+    }
+    Ok(chosen)
+}
+
+/// What an observer sees of each event.
+fn observed(recordings: &[Recording]) -> Result<Vec<ObservedEvent>, CliError> {
+    let one = |recording: &Recording| {
+        let failed = |error| CliError::Method { id: recording.id.clone(), source: MethodError::new(error) };
+        recording.observed().map_err(failed)
+    };
+    recordings.iter().map(one).collect()
+}
+
+/// Everything that does not depend on the parameters.
+fn prepare<'a>(
+    recordings: &'a [Recording],
+    observed: &'a [ObservedEvent],
+    method: Method,
+    particles: usize,
+    arguments: &FitMinds,
+    context: &Context,
+) -> Result<Vec<Subject<'a>>, LabError> {
+    let activity = format!("preparing {}", console::events(recordings.len()));
+    let progress = context.progress_over(&activity, recordings.len());
+    let subjects = make_all(&arguments.jobs, recordings.len(), |k| {
+        let subject = Subject::new(&recordings[k], &observed[k], method, particles)?;
+        progress.step();
+        Ok(Some(subject))
+    })?;
+    subjects.ok_or(LabError::Interrupted)
+}
+
+/// One fit without each fold, and at last one on all events.
+fn fits(subjects: &[Subject<'_>], events: &[usize], start: MindParameters, arguments: &FitMinds) -> Vec<Fit> {
+    let folds = usize::from(arguments.folds);
+    let named: Vec<_> = subjects.iter().map(|subject| (subject.id, subject.kind)).collect();
+    let fold_of = folds::assign(&named, folds, arguments.seed);
+    let mut fits: Vec<Fit> = (0..folds)
+        .map(|fold| {
+            let (validation, training) = events.iter().partition(|&&event| fold_of[event] == fold);
+            Fit::new(format!("fold {}", fold + 1), start, training, validation)
+        })
+        .collect();
+    fits.push(Fit::new("all".into(), start, events.to_vec(), Vec::new()));
+    fits
+}

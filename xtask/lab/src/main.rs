@@ -1,0 +1,12 @@
+//! The program of the library `phase_lab`, started by `cargo xtask`.
+
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+
+use phase_cli::{CARGO_XTASK, program};
+use phase_lab::cli::Cli;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    program::main_with::<Cli>(CARGO_XTASK, std::env::args_os())
+}

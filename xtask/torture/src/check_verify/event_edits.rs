@@ -1,0 +1,220 @@
+//! Edits of events, and of what is the same in all of them.
+
+use super::{
+    edit::{alter, alter_member, space},
+    folder::{Copy, Original, failed},
+};
+use crate::error::TortureError;
+use phase_cli::{error::CliError, event_writer::video};
+use phase_dataset::{
+    manifest::{CARD_FILE, event_path, video_path},
+    splits::Split,
+};
+use phase_event::{Recording, Simulation, to_json};
+use phase_model::random::Pcg64Mcg;
+use phase_sampler::Variant;
+use rand::{
+    RngExt,
+    seq::{IndexedMutRandom, IndexedRandom, SliceRandom},
+};
+use serde_json::Value;
+use std::fs;
+
+pub(super) fn in_event(
+    copy: &Copy,
+    random: &mut Pcg64Mcg,
+    change: impl FnOnce(&str, &mut Pcg64Mcg) -> Option<String>,
+) -> Result<bool, TortureError> {
+    let Some(entry) = copy.some_event(random) else { return Ok(false) };
+    let name = event_path(&entry.id);
+    let text = String::from_utf8_lossy(&copy.read(&name)?).into_owned();
+    let Some(changed) = change(&text, random) else { return Ok(false) };
+    copy.write(&name, changed.as_bytes()).map(|()| true)
+}
+
+pub(super) fn white_space(
+    copy: &mut Copy,
+    random: &mut Pcg64Mcg,
+    _: &Original,
+) -> Result<bool, TortureError> {
+    in_event(copy, random, |text, random| {
+        let mut text = text.to_owned();
+        space(&mut text, random).then_some(text)
+    })
+}
+
+pub(super) fn comment(copy: &mut Copy, random: &mut Pcg64Mcg, _: &Original) -> Result<bool, TortureError> {
+    in_event(copy, random, |text, _| Some(text.replacen("\"format\"", "\"_comment\":\"\",\"format\"", 1)))
+}
+
+/// Changes a member of an event. Whoever does it writes the file as PHASE does, if the event can still be read.
+pub(super) fn member(copy: &Copy, random: &mut Pcg64Mcg, member: &str) -> Result<bool, TortureError> {
+    in_event(copy, random, |text, random| {
+        let changed = alter_member(text, member, random)?;
+        let Some(recording) = phase_event::from_json(&changed).ok().and_then(|mut read| read.pop()) else {
+            return Some(changed);
+        };
+        to_json(&[recording]).ok()
+    })
+}
+
+pub(super) fn one_of(copy: &Copy, random: &mut Pcg64Mcg, members: &[&str]) -> Result<bool, TortureError> {
+    let name = members.choose(random).copied().unwrap_or_default();
+    member(copy, random, name)
+}
+
+pub(super) fn subgoals(copy: &mut Copy, random: &mut Pcg64Mcg, _: &Original) -> Result<bool, TortureError> {
+    one_of(copy, random, &["subgoals", "values"])
+}
+
+pub(super) fn labels(copy: &mut Copy, random: &mut Pcg64Mcg, _: &Original) -> Result<bool, TortureError> {
+    one_of(copy, random, &["layout", "agents", "objects", "event", "relation", "recorded_steps", "row_0"])
+}
+
+/// Changes every event.
+pub(super) fn in_all(copy: &Copy, change: impl Fn(&mut Simulation)) -> Result<bool, TortureError> {
+    for entry in &copy.manifest.events {
+        let recording = copy.recording(entry)?;
+        let Some(mut simulation) = recording.simulation else { return Ok(false) };
+        change(&mut simulation);
+        write_event(copy, &entry.id, simulation)?;
+    }
+    Ok(true)
+}
+
+pub(super) fn write_event(copy: &Copy, id: &str, simulation: Simulation) -> Result<(), TortureError> {
+    let Simulation { event, generator, settings } = simulation;
+    let text = to_json(&[Recording::of_event(id, event, generator, settings)]);
+    copy.write(&event_path(id), text.map_err(CliError::from)?.as_bytes())
+}
+
+pub(super) fn generator_everywhere(
+    copy: &mut Copy,
+    random: &mut Pcg64Mcg,
+    _: &Original,
+) -> Result<bool, TortureError> {
+    let generator = format!("phase 0.{}.{}", random.random_range(0..9), random.random_range(1..99));
+    copy.manifest.generator.clone_from(&generator);
+    in_all(copy, |simulation| simulation.generator.clone_from(&generator))
+}
+
+pub(super) fn settings_everywhere(
+    copy: &mut Copy,
+    random: &mut Pcg64Mcg,
+    _: &Original,
+) -> Result<bool, TortureError> {
+    let mut settings = copy.manifest.settings.clone();
+    if !alter(&mut settings, random) {
+        return Ok(false);
+    }
+    let lengths = |key: &str, own: &Value| {
+        if settings[key] == copy.manifest.settings[key] { own[key].clone() } else { settings[key].clone() }
+    };
+    let done = in_all(copy, |simulation| {
+        let own = simulation.settings.clone();
+        simulation.settings = settings.clone();
+        for key in ["min_steps", "max_steps"] {
+            simulation.settings[key] = lengths(key, &own);
+        }
+    });
+    copy.manifest.settings = settings.clone();
+    done
+}
+
+pub(super) fn dataset_seed(
+    copy: &mut Copy,
+    random: &mut Pcg64Mcg,
+    _: &Original,
+) -> Result<bool, TortureError> {
+    let (before, now) = (copy.manifest.seed, random.random_range(100..1000));
+    copy.manifest.seed = now;
+    // In the command, too.
+    let card = String::from_utf8_lossy(&copy.read(CARD_FILE)?).into_owned();
+    let card = card.replace(&format!("--seed {before} "), &format!("--seed {now} "));
+    copy.write(CARD_FILE, card.as_bytes()).map(|()| true)
+}
+
+pub(super) fn split(copy: &mut Copy, random: &mut Pcg64Mcg, _: &Original) -> Result<bool, TortureError> {
+    let Some(entry) = copy.manifest.events.choose_mut(random) else { return Ok(false) };
+    entry.split = Split::ALL.choose(random).copied();
+    Ok(true)
+}
+
+pub(super) fn variant(copy: &mut Copy, random: &mut Pcg64Mcg, _: &Original) -> Result<bool, TortureError> {
+    let Some(entry) = copy.manifest.events.choose_mut(random) else { return Ok(false) };
+    entry.variant = Variant::ALL.choose(random).copied();
+    Ok(true)
+}
+
+/// Moves something in one frame, and draws the video again.
+pub(super) fn substeps_with_video(
+    copy: &mut Copy,
+    random: &mut Pcg64Mcg,
+    _: &Original,
+) -> Result<bool, TortureError> {
+    let Some(entry) = copy.some_event(random) else { return Ok(false) };
+    let Some(mut simulation) = copy.recording(entry)?.simulation else { return Ok(false) };
+    let Some(step) = simulation.event.steps.choose_mut(random) else { return Ok(false) };
+    let Some(state) = step.substeps.choose_mut(random) else { return Ok(false) };
+    state.bodies[random.random_range(0..2)].position.x = random.random_range(8.0..24.0);
+    copy.write(&video_path(&entry.id), &video(&entry.id, &simulation.event)?)?;
+    write_event(copy, &entry.id, simulation).map(|()| true)
+}
+
+pub(super) fn last_step(copy: &mut Copy, random: &mut Pcg64Mcg, _: &Original) -> Result<bool, TortureError> {
+    let Some(entry) = copy.some_event(random) else { return Ok(false) };
+    let Some(mut simulation) = copy.recording(entry)?.simulation else { return Ok(false) };
+    simulation.event.steps.pop();
+    copy.write(&video_path(&entry.id), &video(&entry.id, &simulation.event)?)?;
+    write_event(copy, &entry.id, simulation).map(|()| true)
+}
+
+pub(super) fn events_exchanged(
+    copy: &mut Copy,
+    random: &mut Pcg64Mcg,
+    _: &Original,
+) -> Result<bool, TortureError> {
+    let Some((one, other)) = copy.two_events(random) else { return Ok(false) };
+    let entries = [one, other].map(|k| copy.manifest.events[k].clone());
+    let [first, second] = entries.each_ref().map(|entry| copy.recording(entry).map(|it| it.simulation));
+    let (Some(first), Some(second)) = (first?, second?) else { return Ok(false) };
+    write_event(copy, &entries[0].id, second)?;
+    write_event(copy, &entries[1].id, first)?;
+    copy.exchange(&video_path(&entries[0].id), &video_path(&entries[1].id))?;
+    let [first, second] = entries;
+    (copy.manifest.events[one].variant, copy.manifest.events[one].split) = (second.variant, second.split);
+    (copy.manifest.events[other].variant, copy.manifest.events[other].split) = (first.variant, first.split);
+    Ok(true)
+}
+
+pub(super) fn order(copy: &mut Copy, random: &mut Pcg64Mcg, _: &Original) -> Result<bool, TortureError> {
+    copy.manifest.events.shuffle(random);
+    Ok(true)
+}
+
+/// An event of the other dataset under the name of one of this, with its own seed and video.
+pub(super) fn other_event(
+    copy: &mut Copy,
+    random: &mut Pcg64Mcg,
+    original: &Original,
+) -> Result<bool, TortureError> {
+    let Some(entry) = copy.some_event(random) else { return Ok(false) };
+    for name in [event_path(&entry.id), video_path(&entry.id)] {
+        let path = original.other().join(&name);
+        let bytes = fs::read(&path).map_err(|source| failed(&path, "read the file", source))?;
+        copy.write(&name, &bytes)?;
+    }
+    Ok(true)
+}
+
+/// A date of publication where there was none, in the command, too.
+pub(super) fn date(copy: &mut Copy, random: &mut Pcg64Mcg, _: &Original) -> Result<bool, TortureError> {
+    let date = format!("2026-{:02}-{:02}", random.random_range(1..=12), random.random_range(1..=28));
+    let card = String::from_utf8_lossy(&copy.read(CARD_FILE)?).into_owned();
+    let mut lines: Vec<String> = card.lines().map(String::from).collect();
+    for line in lines.iter_mut().filter(|line| line.starts_with("phase gen-dataset ")) {
+        *line += &format!(" --date-published {date}");
+    }
+    copy.manifest.date_published = Some(date);
+    copy.write(CARD_FILE, format!("{}\n", lines.join("\n")).as_bytes()).map(|()| true)
+}
