@@ -1,4 +1,5 @@
-//! Inverse dynamics, and all of SIMPLE beside it. Inverse dynamics of whole events, with steps computed one by one and in lanes: six simulated ones, one of each kind, and the recordings of the file `PHASE_EVENTS`.
+//! Inverse dynamics, and all of SIMPLE beside it. Inverse dynamics of whole events: six simulated ones, one of each kind,
+//! and the recordings of the file `PHASE_EVENTS`.
 
 use core::{hint::black_box, ops::ControlFlow};
 use criterion::{Criterion, SamplingMode};
@@ -12,7 +13,7 @@ use phase_model::{
 use phase_sim::SimulationSettings;
 use phase_simple::{
     Cues, ForecastSettings, Guidance, Guide, InferenceSettings, IntentNetwork, MotionTracker, PreparedEvent,
-    UniformStrength, futures, infer, inverse_dynamics::BATCH,
+    UniformStrength, futures, infer,
 };
 use std::path::Path;
 
@@ -62,14 +63,12 @@ fn bench(criterion: &mut Criterion, name: &str, events: &[ObservedEvent]) {
     println!("{name}: {} events, {steps} steps", events.len());
     let mut group = criterion.benchmark_group(name);
     group.sample_size(10).sampling_mode(SamplingMode::Flat);
-    for (name, batch) in [("one by one", 1), ("in lanes", BATCH)] {
-        group.bench_function(name, |bencher| {
-            bencher.iter(|| -> usize {
-                let explained = |event| MotionTracker::with_batch(event, batch).into_motion().residuals.len();
-                black_box(events).iter().map(explained).sum()
-            });
+    group.bench_function("explained", |bencher| {
+        bencher.iter(|| -> usize {
+            let explained = |event| MotionTracker::new(event).into_motion().residuals.len();
+            black_box(events).iter().map(explained).sum()
         });
-    }
+    });
     group.finish();
 }
 

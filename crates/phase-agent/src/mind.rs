@@ -61,7 +61,6 @@ impl<D: Dynamics> Mind<D> {
             c_base: settings.c_base,
             stop_when_decided: true,
             convergence: settings.convergence,
-            batch: settings.batch,
             untried_first: false,
             ..PomcpSettings::default()
         })?;

@@ -45,10 +45,6 @@ impl MindParameters {
         let mut parameters = Self::default();
         for (name, value) in given {
             let mut all = serde_json::to_value(parameters).map_err(|source| typed(&name, source))?;
-            if let Value::Object(all) = &mut all {
-                // Files leave it out at its default.
-                all.entry("batch").or_insert_with(|| parameters.batch.into());
-            }
             let Some(place) = all.get_mut(&name) else { return Err(ParametersError::Unknown(name)) };
             *place = value;
             parameters = serde_json::from_value(all).map_err(|source| typed(&name, source))?;
@@ -62,12 +58,9 @@ impl MindParameters {
     /// # Errors
     /// [`ParametersError::Range`] for the first that is not.
     pub fn validate(&self) -> Result<(), ParametersError> {
-        for (name, count) in [
-            ("particles", self.particles),
-            ("simulations", self.simulations),
-            ("batch", self.batch),
-            ("searches", self.searches),
-        ] {
+        for (name, count) in
+            [("particles", self.particles), ("simulations", self.simulations), ("searches", self.searches)]
+        {
             ensure(name, count as f64, "at least 1", count >= 1)?;
         }
         for (name, share) in [
@@ -124,8 +117,6 @@ mod tests {
 
     #[test]
     fn absent_parameters_have_their_defaults() {
-        let given = MindParameters::from_overrides(json!({"batch": 8})).unwrap();
-        assert_eq!(given, MindParameters { batch: 8, ..MindParameters::default() });
         let given = MindParameters::from_overrides(json!({"simulations": 7, "guidance": 0.25})).unwrap();
         let expected = MindParameters { simulations: 7, heuristic_share: 0.25, ..MindParameters::default() };
         assert_eq!(given, expected);

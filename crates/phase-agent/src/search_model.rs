@@ -6,7 +6,6 @@ use crate::{
     objective::{ARENA_DIAGONAL, Objective},
     rollout_policy,
 };
-use arrayvec::ArrayVec;
 use phase_model::{
     AGENT_COUNT, Action, AgentId, Attitude, Dynamics, Entity, Goal, PhysicsConfig, State, reward,
 };
@@ -14,9 +13,6 @@ use phase_perception::observed_set;
 use phase_pomcp::{GenerativeModel, Transition};
 use phase_predicates::achieved;
 use rand::{Rng, RngExt};
-
-/// Simulations whose physics is computed together.
-const TOGETHER: usize = 32;
 
 /// The search model of an agent: its dynamics, its own action set, a model of the other agent, and Equation 1
 /// less the distance to go of the subgoal.
@@ -172,49 +168,6 @@ impl<D: Dynamics> GenerativeModel for SearchModel<'_, D> {
             Foresight::Exact => self.dynamics.step(state, actions),
         }
         self.conclude(search_state, action)
-    }
-
-    /// The physics of all simulations together; see [`Dynamics::step_batch`].
-    fn advance_batch(
-        &self,
-        states: &mut [SearchState],
-        actions: &[usize],
-        in_tree: usize,
-        _random: &mut impl Rng,
-        outcomes: &mut Vec<Transition<u16>>,
-        rollout_outcomes: &mut Vec<Transition<()>>,
-    ) {
-        for (chunk, (states, actions)) in
-            states.chunks_mut(TOGETHER).zip(actions.chunks(TOGETHER)).enumerate()
-        {
-            let mut worlds: ArrayVec<State, TOGETHER> =
-                states.iter().map(|search_state| search_state.state).collect();
-            let joint: ArrayVec<[Action; AGENT_COUNT], TOGETHER> = states
-                .iter()
-                .zip(actions)
-                .map(|(search_state, &action)| self.joint_action(search_state, self.actions[action]))
-                .collect();
-            match self.parameters.foresight {
-                Foresight::Coarse | Foresight::Points => {
-                    self.dynamics.step_approximate_batch(&mut worlds, &joint)
-                }
-                Foresight::Exact => self.dynamics.step_batch(&mut worlds, &joint),
-            }
-            for (index, (search_state, world)) in states.iter_mut().zip(worlds).enumerate() {
-                search_state.state = world;
-                let outcome = self.conclude(search_state, self.actions[actions[index]]);
-                if chunk * TOGETHER + index < in_tree {
-                    let observation = self.observation_code(&search_state.state);
-                    outcomes.push(Transition {
-                        observation,
-                        reward: outcome.reward,
-                        terminal: outcome.terminal,
-                    });
-                } else {
-                    rollout_outcomes.push(outcome);
-                }
-            }
-        }
     }
 
     fn rollout_action(&self, search_state: &SearchState, random: &mut impl Rng) -> usize {

@@ -81,10 +81,6 @@ pub struct MindParameters {
     /// Change of the policy, as total variation, below which a search ends early
     /// ([`PomcpSettings::convergence`](phase_pomcp::PomcpSettings::convergence)), 0 to 1.
     pub convergence: f64,
-    /// Simulations that a search has in progress at a time; at least 1. More of them share the cost of a step, and choose
-    /// without knowing what the others will find. Files leave it out where it is 1. `published` minds have 1.
-    #[serde(default = "one_at_a_time", skip_serializing_if = "is_one_at_a_time")]
-    pub batch: usize,
     /// Independent searches per decision, whose visits are added up; at least 1. Of `published` minds only, whose searches
     /// commit themselves early; `phase` minds search once.
     pub searches: usize,
@@ -135,14 +131,6 @@ const fn legacy_foresight() -> Foresight {
     Foresight::Exact
 }
 
-const fn one_at_a_time() -> usize {
-    1
-}
-
-const fn is_one_at_a_time(batch: &usize) -> bool {
-    *batch == one_at_a_time()
-}
-
 impl MindParameters {
     /// The costs of plans.
     #[must_use]
@@ -160,7 +148,6 @@ impl Default for MindParameters {
             lambda: phase_planner::value::LAMBDA,
             simulations: 1000,
             convergence: 0.1,
-            batch: 1,
             searches: 1,
             rollout_steps: 10,
             c_init: 1.25,

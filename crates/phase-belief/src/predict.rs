@@ -2,12 +2,8 @@
 
 use crate::consistency::{PENETRATION_TOLERANCE, overlap_beyond_tolerance, shrunk_outline};
 use phase_model::{
-    AGENT_COUNT, Action, AgentId, Body, BodySet, Dynamics, Entity, MAX_ENTITIES, PhysicsConfig, State, Vec2,
-    arena,
+    AGENT_COUNT, Action, AgentId, BodySet, Dynamics, Entity, PhysicsConfig, State, Vec2, arena,
 };
-
-/// Particles whose dynamics are computed together.
-const TOGETHER: usize = 32;
 
 /// Advances all particles by one step in which the believing agent acts and the other continues its motion.
 ///
@@ -26,15 +22,11 @@ pub(crate) fn predict(
     let mut actions = [Action::NoForce; AGENT_COUNT];
     actions[agent] = own_action;
     let other = agent.other();
-    for particles in particles.chunks_mut(TOGETHER) {
-        let mut before = [State::new([Body::default(); MAX_ENTITIES]); TOGETHER];
-        let before = &mut before[..particles.len()];
-        before.copy_from_slice(particles);
-        dynamics.step_batch(particles, &[actions; TOGETHER][..particles.len()]);
+    for particle in particles {
+        let before = *particle;
+        dynamics.step(particle, actions);
         if !observed.contains(Entity::Agent(other)) {
-            for (particle, before) in particles.iter_mut().zip(before) {
-                apply_constant_motion(physics, before, particle, other);
-            }
+            apply_constant_motion(physics, &before, particle, other);
         }
     }
 }

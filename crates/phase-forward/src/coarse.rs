@@ -20,9 +20,9 @@ const SUBSTEPS_NEAR_BODIES: &[u8] = &[3, 2];
 /// The same where only walls can be hit; impacts on walls are found in time.
 const SUBSTEPS_NEAR_WALLS: &[u8] = &[SUBSTEPS as u8];
 /// Maximum number of iterations of the velocity solver.
-pub(crate) const ITERATIONS: usize = 10;
+const ITERATIONS: usize = 10;
 /// Convergence threshold of impulse changes, relative to that of the exact solver.
-pub(crate) const TOLERANCE_FACTOR: f32 = 10.0;
+const TOLERANCE_FACTOR: f32 = 10.0;
 /// Iterations of the position solver, and the share of an overlap that each corrects.
 pub(crate) const POSITION_ITERATIONS: usize = 3;
 pub(crate) const BAUMGARTE: f32 = 0.5;
@@ -189,13 +189,7 @@ impl World<'_> {
 
     /// Resolves impacts of a group on walls: it stops at the first wall that one of the given bodies reaches,
     /// loses its normal velocity, and continues from there for the remaining time.
-    pub(crate) fn resolve_wall_impacts(
-        &mut self,
-        groups: &mut Groups,
-        name: usize,
-        met: BodyMask,
-        seconds: f32,
-    ) {
+    fn resolve_wall_impacts(&mut self, groups: &mut Groups, name: usize, met: BodyMask, seconds: f32) {
         if groups.bodies[name].count_ones() < 2 {
             let walls = reach::walls_swept(self, name);
             self.seconds = seconds;

@@ -12,11 +12,11 @@ use phase_model::Vec2;
 
 /// Sides whose gaps differ by less than this tie, and the first wins (u). Bodies that start at the same point
 /// are such ties, and rounding must not decide their direction.
-pub(crate) const TIE_TOLERANCE: f32 = 1e-5;
+const TIE_TOLERANCE: f32 = 1e-5;
 
 /// The first shape's side is the reference unless the second's gap exceeds this share of the first's plus
 /// this margin (u).
-pub(crate) const REFERENCE_BIAS: (f32, f32) = (0.98, 0.001);
+const REFERENCE_BIAS: (f32, f32) = (0.98, 0.001);
 
 /// Contact of two discs.
 pub(crate) fn discs(a: &BodyMotion, b: &BodyMotion, skins: f32) -> Manifold {

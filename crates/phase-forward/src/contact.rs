@@ -9,7 +9,7 @@ use glam::Vec3;
 use phase_model::Vec2;
 
 /// Two points whose effective masses differ by more than this are solved as one.
-pub(crate) const MAX_CONDITION_NUMBER: f32 = 1000.0;
+const MAX_CONDITION_NUMBER: f32 = 1000.0;
 
 /// A touching contact and all data for its solution.
 #[derive(Clone, Copy, Debug)]

@@ -5,7 +5,6 @@ use crate::{
     constants::{COLD_ITERATIONS, VELOCITY_ITERATIONS},
     finish::stop_turning,
     key::BodyMask,
-    lanes,
     model::Model,
     reach,
     solver_cache::SolverCache,
@@ -100,30 +99,6 @@ impl Forward {
         stop_turning(state);
         substeps[SUBSTEPS - 1] = *state;
         substeps
-    }
-
-    /// [`Forward::step_warm_with`] of several states, each with its cache, with the states after each substep: eight at a time, one
-    /// in each lane of a vector, with the same bits. That saves most where the states are one state in which different things are
-    /// done.
-    ///
-    /// # Panics
-    ///
-    /// If there are not as many caches, exertions and places for substeps as states.
-    pub fn step_warm_batch(
-        &self,
-        states: &mut [State],
-        caches: &mut [SolverCache],
-        exertions: &[Exertion],
-        substeps: &mut [[State; SUBSTEPS]],
-    ) {
-        let count = states.len();
-        assert_eq!(caches.len(), count, "one cache for each state");
-        assert_eq!(exertions.len(), count, "one exertion for each state");
-        assert_eq!(substeps.len(), count, "one place for each state");
-        let mut batch = lanes::WarmBatch { states, caches, exertions, substeps };
-        lanes::step_warm(&self.model, &mut batch, |state, cache, exertion| {
-            self.step_warm_with(state, cache, exertion)
-        });
     }
 
     /// One approximate step: as [`phase_model::Dynamics::step`], at a fraction of its cost.
@@ -276,25 +251,5 @@ impl Dynamics for Forward {
     /// [`Forward::step_coarse`].
     fn step_approximate(&self, state: &mut State, actions: [Action; AGENT_COUNT]) {
         self.step_coarse(state, actions);
-    }
-
-    /// States are stepped eight at a time, one in each lane of a vector, with the bits that [`Dynamics::step`] gives them.
-    ///
-    /// # Panics
-    ///
-    /// If there are not as many pairs of actions as states.
-    fn step_batch(&self, states: &mut [State], actions: &[[Action; AGENT_COUNT]]) {
-        assert_eq!(states.len(), actions.len(), "one pair of actions for each state");
-        lanes::step(&self.model, states, actions, |state, actions| self.step(state, actions));
-    }
-
-    /// [`Forward::step_coarse`] of several states, as [`Dynamics::step_batch`].
-    ///
-    /// # Panics
-    ///
-    /// If there are not as many pairs of actions as states.
-    fn step_approximate_batch(&self, states: &mut [State], actions: &[[Action; AGENT_COUNT]]) {
-        assert_eq!(states.len(), actions.len(), "one pair of actions for each state");
-        lanes::step_coarse(&self.model, states, actions, |state, actions| self.step_coarse(state, actions));
     }
 }

@@ -13,7 +13,7 @@ use phase_model::{AGENT_COUNT, Action, Vec2, physics::GROUND_FRICTION};
 
 /// Maximum speed (u/s) and angular velocity (rad/s), as in the exact kernel.
 pub(crate) const MAX_SPEED: f32 = MAX_TRANSLATION / H;
-pub(crate) const MAX_SPIN: f32 = MAX_ROTATION / H;
+const MAX_SPIN: f32 = MAX_ROTATION / H;
 
 /// All bodies of a step in rigid groups. A body that neither holds nor is held is a group of one.
 #[derive(Clone, Debug)]
@@ -33,16 +33,6 @@ pub(crate) struct Groups {
 }
 
 impl Groups {
-    /// No groups.
-    pub(crate) const NONE: Self = Self {
-        names: [0, 1, 2, 3, STATIC],
-        bodies: [0; 5],
-        within: 0,
-        inverse_mass_vector: [Vec3::ZERO; 5],
-        centres: [Vec2::ZERO; 5],
-        twists: [Twist::ZERO; 5],
-    };
-
     /// The groups that grips make.
     pub(crate) fn new(world: &World<'_>) -> Self {
         let mut names = [0, 1, 2, 3, STATIC];

@@ -9,7 +9,7 @@
 //! - [`phase_model::Dynamics::step_approximate`] goes from a state alone as well, at a fraction of the cost. This is what
 //!   searches use; see below.
 //! - [`Forward::step_warm`] also takes a [`SolverCache`] of the last impulses and of the broad-phase pairs.
-//!   This is what replays of recordings need. [`Forward::step_warm_batch`] does so for many deeds at a time.
+//!   This is what replays of recordings need.
 //!
 //! Key design decision: the solver is of the same *kind* as the one that made the published recordings
 //! (sequential impulses with ten iterations, ground friction and grips as constraints among the contacts,
@@ -104,7 +104,6 @@ mod forward;
 mod grasp;
 mod group;
 mod key;
-mod lanes;
 mod manifold;
 mod model;
 mod narrow;
@@ -124,5 +123,4 @@ mod world;
 
 pub use exertion::Exertion;
 pub use forward::Forward;
-pub use lanes::LANES;
 pub use solver_cache::SolverCache;

@@ -11,12 +11,12 @@ use crate::{
 use phase_model::{AGENT_COUNT, arena};
 
 /// Substeps in a step, as seconds.
-pub(crate) const STEP: f32 = arena::SUBSTEPS as f32 * H;
+const STEP: f32 = arena::SUBSTEPS as f32 * H;
 /// Displacement in a step per unit of constant acceleration, since each substep moves with its final speed
 /// (s²).
-pub(crate) const DISPLACEMENT_PER_ACCELERATION: f32 = 15.0 * H * H;
+const DISPLACEMENT_PER_ACCELERATION: f32 = 15.0 * H * H;
 /// Margin for position corrections in a group of bodies (u).
-pub(crate) const CORRECTION_MARGIN: f32 = 0.5;
+const CORRECTION_MARGIN: f32 = 0.5;
 /// Leeway of all tests (u).
 pub(crate) const MARGIN: f32 = 0.02;
 

@@ -8,11 +8,11 @@ use crate::{
 use phase_model::{AGENT_COUNT, AgentId, Entity, State, Vec2};
 
 /// Distance from the point of release beyond which an object is clear of its holder (u).
-pub(crate) const CLEARANCE: f32 = 0.1;
+const CLEARANCE: f32 = 0.1;
 /// Additional distance, in substeps at the body's current speed.
-pub(crate) const CLEARANCE_SUBSTEPS: f32 = 4.0;
+const CLEARANCE_SUBSTEPS: f32 = 4.0;
 /// Speed of approach above which an object was not just released (u/s).
-pub(crate) const APPROACH: f32 = 1.0;
+const APPROACH: f32 = 1.0;
 
 impl World<'_> {
     /// Excludes contacts of held objects, and limits those of objects that are released in this step or

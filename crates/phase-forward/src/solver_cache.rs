@@ -13,9 +13,9 @@ use phase_model::{AGENT_COUNT, Vec2, arena::SUBSTEPS};
 /// Margin around a body when its box is updated (u).
 pub(crate) const MARGIN: f32 = 0.1;
 /// Substeps after a release in which a pair may overlap without limit, as in the original: three steps.
-pub(crate) const UNLIMITED_SUBSTEPS: u8 = 3 * SUBSTEPS as u8;
+const UNLIMITED_SUBSTEPS: u8 = 3 * SUBSTEPS as u8;
 /// Share of its last displacement that a body is expected to repeat, in updated boxes.
-pub(crate) const AABB_MULTIPLIER: f32 = 2.0;
+const AABB_MULTIPLIER: f32 = 2.0;
 
 /// The cache of a replay: the last impulses of contacts, grips and ground friction, and the original's broad
 /// phase. There, a pair of shapes becomes a contact candidate once their enlarged boxes overlap, and a box is

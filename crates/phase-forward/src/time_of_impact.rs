@@ -109,7 +109,7 @@ fn target(shape: &Shape) -> f32 {
 }
 
 /// Distance from a body's outline (or from a disc's centre) beyond which a wall cannot be reached (u).
-pub(crate) fn clearance(shape: &Shape) -> f32 {
+fn clearance(shape: &Shape) -> f32 {
     target(shape) + TOLERANCE
 }
 

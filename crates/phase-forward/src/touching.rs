@@ -87,14 +87,6 @@ impl CachedContacts {
         &self.list[..self.count]
     }
 
-    /// Keeps another contact, older than the others. Those past the maximum are dropped.
-    pub(crate) fn push(&mut self, contact: CachedContact) {
-        if let Some(place) = self.list.get_mut(self.count) {
-            *place = contact;
-            self.count += 1;
-        }
-    }
-
     /// Restores the impulses of a contact's points.
     fn warm_start(&self, contact: &mut Contact) {
         let Some(trace) = self.kept().iter().find(|trace| trace.key == contact.key) else {

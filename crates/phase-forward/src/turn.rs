@@ -4,7 +4,7 @@
 use phase_model::Vec2;
 
 /// Largest angle for which the series below are exact to the last bit or two (rad).
-pub(crate) const SMALL: f32 = 0.6;
+const SMALL: f32 = 0.6;
 
 /// Cosine and sine of an angle, as the unit vector at that angle from +x.
 #[inline]

@@ -2,10 +2,9 @@
 
 use crate::constants::SKIN;
 use phase_model::{Segment, Vec2, arena};
-use wide::f32x4;
 
 /// Maximum number of inner walls in a kernel; PHASE has at most four.
-pub(crate) const MAX_INNER: usize = 4;
+const MAX_INNER: usize = 4;
 /// Pieces of the boundary: four sides and one degenerate point.
 const BOUNDARY: usize = 5;
 /// Maximum number of wall pieces: five for the boundary, two for every inner wall.
@@ -41,27 +40,23 @@ impl Wall {
 /// A set of walls, one bit each.
 pub(crate) type WallSet = u16;
 
-/// Walls are tested against a box four at a time.
-const GROUPS: usize = MAX_WALLS.div_ceil(4);
+/// Boxes that are tested together: a whole number of the processor's vectors.
+const BOXES: usize = MAX_WALLS.next_multiple_of(4);
 
 /// AABBs of all walls, skin included, as a structure of arrays, so that one box is tested against several at
 /// once. Boxes of absent walls are empty.
 #[derive(Clone, Debug)]
 pub(crate) struct WallBoxes {
-    min_x: [f32x4; GROUPS],
-    min_y: [f32x4; GROUPS],
-    max_x: [f32x4; GROUPS],
-    max_y: [f32x4; GROUPS],
+    min_x: [f32; BOXES],
+    min_y: [f32; BOXES],
+    max_x: [f32; BOXES],
+    max_y: [f32; BOXES],
 }
 
 impl WallBoxes {
     pub(crate) fn new(walls: &[Wall]) -> Self {
-        let coordinate = |of: fn(&Wall) -> f32, none: f32| {
-            let lane = |k: usize| walls.get(k).map_or(none, of);
-            core::array::from_fn(|g| {
-                f32x4::new([lane(4 * g), lane(4 * g + 1), lane(4 * g + 2), lane(4 * g + 3)])
-            })
-        };
+        let coordinate =
+            |of: fn(&Wall) -> f32, none: f32| core::array::from_fn(|wall| walls.get(wall).map_or(none, of));
         Self {
             min_x: coordinate(|wall| wall.min.x, f32::INFINITY),
             min_y: coordinate(|wall| wall.min.y, f32::INFINITY),
@@ -79,15 +74,14 @@ impl WallBoxes {
     /// The walls whose boxes overlap a box.
     #[inline]
     pub(crate) fn near(&self, min: Vec2, max: Vec2) -> WallSet {
-        let (min_x, min_y) = (f32x4::splat(min.x), f32x4::splat(min.y));
-        let (max_x, max_y) = (f32x4::splat(max.x), f32x4::splat(max.y));
         let mut near = 0;
-        for group in 0..GROUPS {
-            let overlaps = self.min_x[group].simd_le(max_x)
-                & self.max_x[group].simd_ge(min_x)
-                & self.min_y[group].simd_le(max_y)
-                & self.max_y[group].simd_ge(min_y);
-            near |= (overlaps.to_bitmask() as WallSet) << (4 * group);
+        // Without branches, so that the compiler tests several boxes in one instruction.
+        for wall in 0..BOXES {
+            let overlaps = (self.min_x[wall] <= max.x)
+                & (self.max_x[wall] >= min.x)
+                & (self.min_y[wall] <= max.y)
+                & (self.max_y[wall] >= min.y);
+            near |= WallSet::from(overlaps) << wall;
         }
         near
     }

@@ -183,7 +183,7 @@ const MAX_GRIP_ANGLE: f32 = 1.0;
 
 /// A body of a state. Invalid values are replaced, and its centre of mass is clamped to the arena.
 #[inline]
-pub(crate) fn unpacked(model: &Model, index: usize, body: &Body) -> BodyMotion {
+fn unpacked(model: &Model, index: usize, body: &Body) -> BodyMotion {
     let replaced;
     let body = if is_sane(body) {
         body
@@ -202,14 +202,9 @@ pub(crate) fn unpacked(model: &Model, index: usize, body: &Body) -> BodyMotion {
     motion
 }
 
-/// The angle of a body of a state, as [`unpacked`] has it.
-pub(crate) fn unpacked_angle(body: &Body) -> f32 {
-    if is_sane(body) { body.angle } else { sanitized(*body).angle }
-}
-
 /// The same grip, at the actual angle of its object if the stated angle differs much from that or is NaN. Takes the angles of the
 /// bodies.
-pub(crate) fn sanitized_grip(grip: Grip, agent: usize, angles: &[f32; 5]) -> Grip {
+fn sanitized_grip(grip: Grip, agent: usize, angles: &[f32; 5]) -> Grip {
     let angle = angles[held_body(&grip)] - angles[agent];
     let is_sane = (grip.relative_angle - angle).abs() <= MAX_GRIP_ANGLE;
     Grip { relative_angle: if is_sane { grip.relative_angle } else { angle }, ..grip }

@@ -3,8 +3,8 @@
 mod scenes;
 
 use core::hint::black_box;
-use phase_forward::{Exertion, Forward};
-use phase_model::{Contacts, Dynamics, arena::SUBSTEPS};
+use phase_forward::Forward;
+use phase_model::{Contacts, Dynamics};
 use proptest::{
     strategy::{Strategy, ValueTree},
     test_runner::TestRunner,
@@ -14,8 +14,6 @@ use scenes::{actions, clear_of_walls, separated_bodies};
 /// Scenes, and runs of held actions in each.
 const SCENES: usize = 250;
 const RUNS: usize = 10;
-/// Worlds stepped together.
-const WORLDS: usize = 11;
 
 #[test]
 fn steps_allocate_nothing() {
@@ -39,19 +37,7 @@ fn steps_allocate_nothing() {
             });
             allocated("step", &mut || forward.step(&mut cold, actions));
             let mut imagined = cold;
-            let (mut worlds, mut imagined_worlds) = ([cold; WORLDS], [cold; WORLDS]);
-            allocated("step_batch", &mut || forward.step_batch(&mut worlds, &[actions; WORLDS]));
-            allocated("step_approximate_batch", &mut || {
-                forward.step_approximate_batch(&mut imagined_worlds, &[actions; WORLDS]);
-            });
             allocated("step_coarse", &mut || forward.step_coarse(&mut imagined, actions));
-            let (mut worlds, mut caches) = ([warm; WORLDS], [solver_cache; WORLDS]);
-            let max_forces = physics.agents.each_ref().map(|agent| agent.max_force);
-            let exertions = [Exertion { actions, max_forces }; WORLDS];
-            let mut substeps = [[warm; SUBSTEPS]; WORLDS];
-            allocated("step_warm_batch", &mut || {
-                forward.step_warm_batch(&mut worlds, &mut caches, &exertions, &mut substeps);
-            });
             allocated("step_warm", &mut || {
                 black_box(forward.step_warm(&mut warm, &mut solver_cache, actions));
             });

@@ -235,27 +235,4 @@ pub trait Dynamics {
     fn step_approximate(&self, state: &mut State, actions: [Action; AGENT_COUNT]) {
         self.step(state, actions);
     }
-
-    /// [`step`](Self::step) of several states of the same scene, each by its own pair of actions, with the same results. For
-    /// dynamics that step worlds together at less cost; the default steps one after the other.
-    ///
-    /// # Panics
-    ///
-    /// Implementors may panic if there are not as many pairs of actions as states.
-    fn step_batch(&self, states: &mut [State], actions: &[[Action; AGENT_COUNT]]) {
-        for (state, &actions) in states.iter_mut().zip(actions) {
-            self.step(state, actions);
-        }
-    }
-
-    /// [`step_approximate`](Self::step_approximate) of several states, as [`step_batch`](Self::step_batch).
-    ///
-    /// # Panics
-    ///
-    /// Implementors may panic if there are not as many pairs of actions as states.
-    fn step_approximate_batch(&self, states: &mut [State], actions: &[[Action; AGENT_COUNT]]) {
-        for (state, &actions) in states.iter_mut().zip(actions) {
-            self.step_approximate(state, actions);
-        }
-    }
 }

@@ -51,7 +51,6 @@ const SETTINGS: PomcpSettings = PomcpSettings {
     stop_when_decided: false,
     convergence: 0.0,
     untried_first: true,
-    batch: 1,
     simulations: 4096,
     rollout_steps: 10,
     c_init: 0.6,

@@ -44,7 +44,7 @@ pub struct ActionStatistics {
 /// The cost of one search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct SearchStatistics {
-    /// Histories in the final tree, including the root; of a forest, in all trees.
+    /// Histories in the final tree, including the root.
     pub histories: usize,
     /// The longest path from the root that a simulation took by selection, in actions; rollouts not counted.
     pub depth: usize,

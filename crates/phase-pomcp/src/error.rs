@@ -11,12 +11,6 @@ pub enum PomcpError {
     /// The settings specify zero simulations.
     #[error("`simulations` is 0; a decision needs at least one")]
     ZeroSimulations,
-    /// The settings allow no simulation at a time.
-    #[error("`batch` is 0; a search runs at least one simulation at a time")]
-    ZeroBatch,
-    /// A forest has no trees.
-    #[error("`trees` is 0; a forest has at least one")]
-    ZeroTrees,
     /// The settings do not allow even the first step.
     #[error("`horizon` is 0; a decision looks at least one step ahead")]
     ZeroHorizon,
@@ -99,14 +93,6 @@ pub enum PomcpError {
         weights: usize,
         /// The model's number of actions.
         action_count: usize,
-    },
-    /// The model did not give one outcome for each state of a batch.
-    #[error("a batch of {states} steps gave {outcomes} outcomes")]
-    OutcomeCount {
-        /// The number of outcomes that the model appended.
-        outcomes: usize,
-        /// The number of states.
-        states: usize,
     },
     /// The default policy returned an invalid action.
     #[error("`rollout_action` chose {action}, but there are only {action_count} actions")]

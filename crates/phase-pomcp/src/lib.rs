@@ -35,13 +35,10 @@
 //! # Ok::<(), phase_pomcp::PomcpError>(())
 //! ```
 //!
-//! A generator is any of `rand` 0.10, here `rand_pcg`'s. `examples/tiger.rs` goes on to whole episodes, with a [`ParticleBelief`] between the real steps; `examples/anchors`
-//! measures returns on published problems, which docs/planners.md lists. Where not every action is possible everywhere, a
-//! model says so ([`GenerativeModel::is_legal`]).
-//!
-//! Two ways to search faster: several simulations in progress, whose steps a model computes together
-//! ([`PomcpSettings::batch`]), and several trees at the same time ([`Forest`], on all threads with the feature
-//! `parallel`).
+//! A generator is any of `rand` 0.10, here `rand_pcg`'s. `examples/tiger.rs` goes on to whole episodes, with a
+//! [`ParticleBelief`] between the real steps; `examples/anchors` measures returns on published problems, which
+//! docs/planners.md lists. Where not every action is possible everywhere, a model says so
+//! ([`GenerativeModel::is_legal`]).
 //!
 //! # Key design decision
 //!
@@ -49,7 +46,7 @@
 //! states. So a plan can react to future observations, which gives information gathering its value, and the
 //! whole tree is three flat vectors of a few words per node that are reused from search to search. Only for a
 //! model that declares itself deterministic does a search keep the states it reached, and computes no step of
-//! the tree twice, unless several simulations in progress come to it at once.
+//! the tree twice.
 //!
 //! The trade-off: the model must return observations coarse enough for simulations to meet again, since the
 //! tree has no notion of similar observations; branches of an action are searched linearly, fine for dozens
@@ -58,8 +55,8 @@
 //!
 //! # Determinism
 //!
-//! A search is a function of its settings, model, particles and generator, to the last bit, and that of a [`Forest`]
-//! does not depend on the number of threads: it does not iterate over hashes or read a clock, and the logarithm is that of the `libm` crate on every platform.
+//! A search is a function of its settings, model, particles and generator, to the last bit: it does not iterate over
+//! hashes or read a clock, and the logarithm is that of the `libm` crate on every platform.
 //!
 //! # Deviations from the sources
 //!
@@ -71,11 +68,9 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
-mod batch;
 mod belief;
 mod decision;
 mod error;
-mod forest;
 mod model;
 pub mod puct;
 mod search;
@@ -86,7 +81,6 @@ mod tree;
 pub use belief::{BeliefError, BeliefModel, BeliefUpdate, DEFAULT_ATTEMPTS, ParticleBelief};
 pub use decision::{ActionStatistics, Decision, SearchStatistics};
 pub use error::PomcpError;
-pub use forest::Forest;
 pub use model::{GenerativeModel, Transition};
 pub use search::Pomcp;
 pub use settings::PomcpSettings;

@@ -32,60 +32,13 @@ pub trait GenerativeModel {
         random: &mut impl Rng,
     ) -> Transition<Self::Observation>;
 
-    /// As [`step`](Self::step), for rollouts, which need no observation.
+    /// Advances `state` as [`step`](Self::step) does, for rollouts, which need no observation.
     ///
     /// Override it where observations cost more than the step; it must change the state and return the reward
     /// just as `step` does.
     fn rollout_step(&self, state: &mut Self::State, action: usize, random: &mut impl Rng) -> Transition<()> {
         let Transition { reward, terminal, .. } = self.step(state, action, random);
         Transition { observation: (), reward, terminal }
-    }
-
-    /// As [`step`](Self::step), for several states at once: appends one outcome per state to `outcomes`, in their order.
-    ///
-    /// Override it where steps are cheaper together, such as in the lanes of vector instructions. `states` and `actions`
-    /// are of the same length, at most [`PomcpSettings::batch`](crate::PomcpSettings::batch), perhaps zero.
-    fn step_batch(
-        &self,
-        states: &mut [Self::State],
-        actions: &[usize],
-        random: &mut impl Rng,
-        outcomes: &mut Vec<Transition<Self::Observation>>,
-    ) {
-        let pairs = states.iter_mut().zip(actions);
-        outcomes.extend(pairs.map(|(state, &action)| self.step(state, action, random)));
-    }
-
-    /// As [`rollout_step`](Self::rollout_step), for several states at once; as [`step_batch`](Self::step_batch).
-    fn rollout_step_batch(
-        &self,
-        states: &mut [Self::State],
-        actions: &[usize],
-        random: &mut impl Rng,
-        outcomes: &mut Vec<Transition<()>>,
-    ) {
-        let pairs = states.iter_mut().zip(actions);
-        outcomes.extend(pairs.map(|(state, &action)| self.rollout_step(state, action, random)));
-    }
-
-    /// One step of all simulations in progress, the way a search takes steps with a batch of two or more: [`step_batch`](Self::step_batch) for
-    /// the first `in_tree` states and [`rollout_step_batch`](Self::rollout_step_batch) for the others.
-    ///
-    /// Override it instead of those two where both kinds of steps share their cost, so that a batch fills the lanes
-    /// whatever share of it is in the tree: advance all states together, then observe the first `in_tree`.
-    fn advance_batch(
-        &self,
-        states: &mut [Self::State],
-        actions: &[usize],
-        in_tree: usize,
-        random: &mut impl Rng,
-        outcomes: &mut Vec<Transition<Self::Observation>>,
-        rollout_outcomes: &mut Vec<Transition<()>>,
-    ) {
-        let (tree_states, rollout_states) = states.split_at_mut(in_tree);
-        let (tree_actions, rollout_actions) = actions.split_at(in_tree);
-        self.step_batch(tree_states, tree_actions, random, outcomes);
-        self.rollout_step_batch(rollout_states, rollout_actions, random, rollout_outcomes);
     }
 
     /// The action of the default policy, which is followed from a new leaf on; in `0..action_count()`,
@@ -128,9 +81,8 @@ pub trait GenerativeModel {
     /// Whether the model is deterministic: the next state is a function of state and action, and nothing is
     /// drawn from the generator.
     ///
-    /// The search then caches the steps of the tree, if it has a single root: it computes each once, or, in a batch,
-    /// once for each simulation that comes to it in the same round. One simulation at a time, its decisions are the
-    /// same with fewer steps.
+    /// The search then caches the steps of the tree, if it has a single root, and computes each once. Its decisions are
+    /// the same with fewer steps.
     fn is_deterministic(&self) -> bool {
         false
     }

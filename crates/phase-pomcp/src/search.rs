@@ -1,10 +1,9 @@
 //! The planner and its memory: one search from root particles to a decision.
 
-use rand::Rng;
+use rand::{Rng, RngExt};
 
-use crate::batch::{self, Lanes};
 use crate::puct::{ExplorationTable, ValueRange};
-use crate::simulation::Simulations;
+use crate::simulation::{PathStep, Simulations};
 use crate::tree::{HistoryId, Tree};
 use crate::{ActionStatistics, Decision, GenerativeModel, PomcpError, PomcpSettings, SearchStatistics};
 
@@ -13,14 +12,14 @@ use crate::{ActionStatistics, Decision, GenerativeModel, PomcpError, PomcpSettin
 ///
 /// Every search starts from an empty tree, and its result depends on the settings, the model, the particles
 /// and the generator alone, not on earlier searches. Only the memory is reused, so that after the first few
-/// searches a search allocates its [`Decision`] and one copy of a state for each simulation in progress, and nothing per simulation; for a
+/// searches a search allocates its [`Decision`] and one copy of a state, and nothing per simulation; for a
 /// [deterministic](GenerativeModel::is_deterministic) model, a copy of every state in the tree.
 #[derive(Debug, Clone)]
 pub struct Pomcp<O> {
     settings: PomcpSettings,
     tree: Tree<O>,
     table: ExplorationTable,
-    lanes: Lanes<O>,
+    path: Vec<PathStep>,
 }
 
 impl<O: Eq> Pomcp<O> {
@@ -30,7 +29,7 @@ impl<O: Eq> Pomcp<O> {
     /// As [`PomcpSettings::validate`].
     pub fn new(settings: PomcpSettings) -> Result<Self, PomcpError> {
         settings.validate()?;
-        Ok(Self { settings, tree: Tree::new(), table: ExplorationTable::EMPTY, lanes: Lanes::new() })
+        Ok(Self { settings, tree: Tree::new(), table: ExplorationTable::EMPTY, path: Vec::new() })
     }
 
     /// The settings it searches with.
@@ -71,12 +70,19 @@ impl<O: Eq> Pomcp<O> {
             table: &mut self.table,
             range: ValueRange::EMPTY,
             weights: Vec::with_capacity(action_count),
+            path: &mut self.path,
             depth: 0,
             steps: 0,
         };
         let mut progress = Progress { ended: 0, policy: Vec::new() };
-        let is_over = |search: &Simulations<'_, M>| progress.is_over(search.settings, search.tree);
-        batch::run(&mut simulations, &mut self.lanes, roots, random, is_over)?;
+        let mut state = root.clone();
+        for _ in 0..self.settings.simulations {
+            state.clone_from(&roots[random.random_range(0..roots.len())]);
+            simulations.run(&mut state, random)?;
+            if progress.is_over(&self.settings, simulations.tree) {
+                break;
+            }
+        }
         let (depth, steps) = (simulations.depth, simulations.steps);
         let effort = SearchStatistics { histories: self.tree.history_count(), depth, steps };
         let evidence = self.tree.evidence(HistoryId::ROOT);

@@ -47,17 +47,6 @@ pub struct PomcpSettings {
     /// untried action is scored like the others, with the mean value of the history in place of its own, so
     /// that its prior decides when it is tried (Silver et al. 2018).
     pub untried_first: bool,
-    /// Simulations in progress at a time, one or more (1 by default). They advance in lockstep, so that a model can
-    /// compute their steps together ([`advance_batch`](crate::GenerativeModel::advance_batch)); when one ends, the next
-    /// begins.
-    ///
-    /// Those in progress count as visits when actions are selected, and say nothing of the values (WU-UCT, Liu et al.
-    /// 2020). One that comes to a history of which nothing is known yet, since all that came there before are still in
-    /// progress, follows the default policy from there instead of choosing blindly.
-    ///
-    /// Results depend on this number, not on how the model computes a batch. Keep it small beside `simulations`:
-    /// docs/planners.md has measurements for 1 to 32.
-    pub batch: usize,
 }
 
 impl Default for PomcpSettings {
@@ -72,7 +61,6 @@ impl Default for PomcpSettings {
             stop_when_decided: false,
             convergence: 0.0,
             untried_first: true,
-            batch: 1,
         }
     }
 }
@@ -81,14 +69,11 @@ impl PomcpSettings {
     /// Checks every parameter against its stated range.
     ///
     /// # Errors
-    /// [`PomcpError::ZeroSimulations`], [`PomcpError::ZeroBatch`], [`PomcpError::ZeroHorizon`],
-    /// [`PomcpError::InvalidExploration`] or [`PomcpError::InvalidConvergence`].
+    /// [`PomcpError::ZeroSimulations`], [`PomcpError::ZeroHorizon`], [`PomcpError::InvalidExploration`] or
+    /// [`PomcpError::InvalidConvergence`].
     pub fn validate(&self) -> Result<(), PomcpError> {
         if self.simulations == 0 {
             return Err(PomcpError::ZeroSimulations);
-        }
-        if self.batch == 0 {
-            return Err(PomcpError::ZeroBatch);
         }
         if self.horizon == 0 {
             return Err(PomcpError::ZeroHorizon);

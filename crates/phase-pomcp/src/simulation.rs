@@ -1,12 +1,13 @@
-//! Simulations under way: selection, expansion, rollout and backup.
+//! One simulation after another: selection, expansion, rollout and backup.
 
 use rand::Rng;
+use std::ops::ControlFlow;
 
 use crate::puct::{ExplorationTable, ValueRange};
 use crate::tree::{ActionId, HistoryId, Tree};
 use crate::{GenerativeModel, PomcpError, PomcpSettings, Transition};
 
-/// What the simulations of one search share.
+/// State that the simulations of one search share.
 pub(crate) struct Simulations<'a, M: GenerativeModel> {
     pub(crate) model: &'a M,
     pub(crate) settings: &'a PomcpSettings,
@@ -19,35 +20,17 @@ pub(crate) struct Simulations<'a, M: GenerativeModel> {
     pub(crate) range: ValueRange,
     /// The prior weights of the history that is being expanded.
     pub(crate) weights: Vec<f64>,
+    /// Steps inside the tree of the simulation under way.
+    pub(crate) path: &'a mut Vec<PathStep>,
     /// The longest path so far.
     pub(crate) depth: usize,
     /// Steps of the model so far.
     pub(crate) steps: usize,
 }
 
-/// One simulation under way; its state is kept beside it.
-#[derive(Debug, Clone)]
-pub(crate) struct Simulation {
-    pub(crate) stage: Stage,
-    /// The action of its next step, once chosen.
-    pub(crate) action: usize,
-    path: Vec<PathStep>,
-}
-
-/// Where a simulation is.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Stage {
-    /// In the tree, at a history; the action chosen there is set with it.
-    Tree { history: HistoryId, chosen: Option<ActionId> },
-    /// In a rollout from a history: its discounted return so far, the weight of its next reward, and the steps left.
-    Rollout { from: HistoryId, total: f64, weight: f64, left: usize },
-    /// Backed up, or not started.
-    Ended,
-}
-
 /// One step that a simulation took inside the tree.
 #[derive(Debug, Clone, Copy)]
-struct PathStep {
+pub(crate) struct PathStep {
     history: HistoryId,
     action: ActionId,
     reward: f64,
@@ -56,106 +39,58 @@ struct PathStep {
 /// Returns up to this size can be averaged, and their differences taken, without overflow.
 const RETURN_LIMIT: f64 = f64::MAX / 4.0;
 
-impl Simulation {
-    /// A place for simulations, none of which has started.
-    pub(crate) fn new() -> Self {
-        Self { stage: Stage::Ended, action: 0, path: Vec::new() }
-    }
-
-    /// Places it at the root.
-    pub(crate) fn start(&mut self) {
-        self.path.clear();
-        self.stage = Stage::Tree { history: HistoryId::ROOT, chosen: None };
-    }
-}
-
 impl<M: GenerativeModel> Simulations<'_, M> {
-    /// Chooses the action of a simulation's next step. A simulation in the tree may end instead, on steps that are
-    /// known.
-    #[inline(always)]
-    pub(crate) fn choose(
-        &mut self,
-        simulation: &mut Simulation,
-        state: &mut M::State,
-        random: &mut impl Rng,
-    ) -> Result<(), PomcpError> {
-        if let Stage::Tree { history, .. } = simulation.stage {
-            self.select(simulation, history, state, random)?;
-        }
-        if let Stage::Rollout { .. } = simulation.stage {
-            let (action, action_count) = (self.model.rollout_action(state, random), self.action_count);
-            if action >= action_count {
-                return Err(PomcpError::RolloutActionOutOfRange { action, action_count });
-            }
-            if !self.model.is_legal(state, action) {
-                return Err(PomcpError::IllegalRolloutAction { action });
-            }
-            simulation.action = action;
-        }
-        Ok(())
-    }
-
-    /// Takes a simulation to its end.
-    pub(crate) fn finish(
-        &mut self,
-        simulation: &mut Simulation,
-        state: &mut M::State,
-        random: &mut impl Rng,
-    ) -> Result<(), PomcpError> {
+    /// Runs one simulation from a root state to its end, and backs up its return.
+    pub(crate) fn run(&mut self, state: &mut M::State, random: &mut impl Rng) -> Result<(), PomcpError> {
+        self.path.clear();
+        let mut history = HistoryId::ROOT;
         loop {
-            self.choose(simulation, state, random)?;
-            match simulation.stage {
-                Stage::Tree { .. } => {
-                    let outcome = self.model.step(state, simulation.action, random);
-                    self.after_step(simulation, state, outcome)?;
-                }
-                Stage::Rollout { .. } => {
-                    let outcome = self.model.rollout_step(state, simulation.action, random);
-                    self.after_rollout_step(simulation, state, outcome)?;
-                }
-                Stage::Ended => return Ok(()),
+            match self.step(history, state, random)? {
+                ControlFlow::Continue(child) => history = child,
+                ControlFlow::Break(rest) => return self.back_up(rest),
             }
         }
     }
 
-    /// Selects an action at `history`, and at those that known steps lead to, until a step has to be computed.
-    ///
-    /// At a history of which nothing is known yet, the choice of an action would be blind: a rollout begins there.
-    fn select(
+    /// Selects an action at `history` and takes its step. Continues with the history that it leads to, or breaks with
+    /// the return beyond the path.
+    fn step(
         &mut self,
-        simulation: &mut Simulation,
-        mut history: HistoryId,
+        history: HistoryId,
         state: &mut M::State,
         random: &mut impl Rng,
-    ) -> Result<(), PomcpError> {
-        loop {
-            if self.tree.is_unknown(history, self.settings) {
-                if let Some(known) = &self.known {
-                    state.clone_from(&known[history.index()].0);
+    ) -> Result<ControlFlow<f64, HistoryId>, PomcpError> {
+        self.expand(history, state)?;
+        let chosen = self.tree.select(history, self.settings, self.table, &self.range, random);
+        let action = self.tree.action(history, chosen);
+        if let Some(known) = &self.known {
+            if let Some(child) = self.tree.newest_child(action) {
+                let (there, reward) = &known[child.index()];
+                self.path.push(PathStep { history, action, reward: *reward });
+                if self.path.len() >= self.settings.horizon {
+                    return self.estimate(there).map(ControlFlow::Break);
                 }
-                return self.start_rollout(simulation, history, state);
+                return Ok(ControlFlow::Continue(child));
             }
-            self.expand(history, state)?;
-            let chosen = self.tree.select(history, self.settings, self.table, &self.range, random);
-            let action = self.tree.action(history, chosen);
-            self.tree.begin(history, action);
-            if let Some(known) = &self.known {
-                if let Some(child) = self.tree.newest_child(action) {
-                    let (there, reward) = &known[child.index()];
-                    simulation.path.push(PathStep { history, action, reward: *reward });
-                    if simulation.path.len() >= self.settings.horizon {
-                        let rest = self.estimate(there)?;
-                        return self.back_up(simulation, rest);
-                    }
-                    history = child;
-                    continue;
-                }
-                state.clone_from(&known[history.index()].0);
-            }
-            simulation.action = chosen;
-            simulation.stage = Stage::Tree { history, chosen: Some(action) };
-            return Ok(());
+            state.clone_from(&known[history.index()].0);
         }
+        let Transition { observation, reward, terminal } = self.model.step(state, chosen, random);
+        self.count_step(chosen, reward)?;
+        self.path.push(PathStep { history, action, reward });
+        if terminal {
+            return Ok(ControlFlow::Break(0.0));
+        }
+        if self.path.len() >= self.settings.horizon {
+            return self.estimate(state).map(ControlFlow::Break);
+        }
+        let (child, is_new) = self.tree.child(action, observation);
+        if !is_new {
+            return Ok(ControlFlow::Continue(child));
+        }
+        if let Some(known) = &mut self.known {
+            known.push((state.clone(), reward));
+        }
+        self.rollout(state, random).map(ControlFlow::Break)
     }
 
     /// Adds a history's actions to the tree, if they are not there yet.
@@ -173,78 +108,39 @@ impl<M: GenerativeModel> Simulations<'_, M> {
         self.tree.add_actions(history, &self.weights, |action| self.model.is_legal(here, action))
     }
 
-    /// Continues a simulation in the tree with the step that it took to `state`.
-    pub(crate) fn after_step(
-        &mut self,
-        simulation: &mut Simulation,
-        state: &M::State,
-        outcome: Transition<M::Observation>,
-    ) -> Result<(), PomcpError> {
-        let Transition { observation, reward, terminal } = outcome;
-        let Stage::Tree { history, chosen: Some(action) } = simulation.stage else { return Ok(()) };
-        self.check(simulation.action, reward)?;
-        simulation.path.push(PathStep { history, action, reward });
-        if terminal {
-            return self.back_up(simulation, 0.0);
+    /// Follows the default policy from a new history on, and returns the discounted return.
+    fn rollout(&mut self, state: &mut M::State, random: &mut impl Rng) -> Result<f64, PomcpError> {
+        let steps = self.settings.rollout_steps.min(self.settings.horizon - self.path.len());
+        let mut total = 0.0;
+        let mut weight = 1.0;
+        for _ in 0..steps {
+            let action = self.rollout_action(state, random)?;
+            let Transition { reward, terminal, .. } = self.model.rollout_step(state, action, random);
+            self.count_step(action, reward)?;
+            total += weight * reward;
+            weight *= self.discount;
+            if terminal {
+                return Ok(total);
+            }
         }
-        let steps = simulation.path.len();
-        if steps >= self.settings.horizon {
-            let rest = self.estimate(state)?;
-            return self.back_up(simulation, rest);
-        }
-        let (child, is_new) = self.tree.child(action, observation);
-        if !is_new {
-            simulation.stage = Stage::Tree { history: child, chosen: None };
-            return Ok(());
-        }
-        if let Some(known) = &mut self.known {
-            known.push((state.clone(), reward));
-        }
-        self.start_rollout(simulation, child, state)
+        Ok(total + weight * self.estimate(state)?)
     }
 
-    /// Sends a simulation at `history` on a rollout, of no step if the settings say so.
-    fn start_rollout(
-        &mut self,
-        simulation: &mut Simulation,
-        history: HistoryId,
-        state: &M::State,
-    ) -> Result<(), PomcpError> {
-        let left = self.settings.rollout_steps.min(self.settings.horizon - simulation.path.len());
-        if left == 0 {
-            let rest = 0.0 + self.estimate(state)?;
-            return self.back_up(simulation, rest);
+    /// The action of the default policy, checked.
+    fn rollout_action(&self, state: &M::State, random: &mut impl Rng) -> Result<usize, PomcpError> {
+        let action = self.model.rollout_action(state, random);
+        let action_count = self.action_count;
+        if action >= action_count {
+            return Err(PomcpError::RolloutActionOutOfRange { action, action_count });
         }
-        self.tree.begin_rollout(history);
-        simulation.stage = Stage::Rollout { from: history, total: 0.0, weight: 1.0, left };
-        Ok(())
-    }
-
-    /// Continues a rollout with the step that it took to `state`.
-    #[inline(always)]
-    pub(crate) fn after_rollout_step(
-        &mut self,
-        simulation: &mut Simulation,
-        state: &M::State,
-        outcome: Transition<()>,
-    ) -> Result<(), PomcpError> {
-        let Stage::Rollout { from, mut total, mut weight, left } = simulation.stage else { return Ok(()) };
-        self.check(simulation.action, outcome.reward)?;
-        total += weight * outcome.reward;
-        weight *= self.discount;
-        if !outcome.terminal && left > 1 {
-            simulation.stage = Stage::Rollout { from, total, weight, left: left - 1 };
-            return Ok(());
+        if !self.model.is_legal(state, action) {
+            return Err(PomcpError::IllegalRolloutAction { action });
         }
-        if !outcome.terminal {
-            total += weight * self.estimate(state)?;
-        }
-        self.tree.end_rollout(from);
-        self.back_up(simulation, total)
+        Ok(action)
     }
 
     /// Counts a step of the model and checks its reward.
-    fn check(&mut self, action: usize, reward: f64) -> Result<(), PomcpError> {
+    fn count_step(&mut self, action: usize, reward: f64) -> Result<(), PomcpError> {
         self.steps += 1;
         if reward.is_finite() { Ok(()) } else { Err(PomcpError::NonFiniteReward { action, reward }) }
     }
@@ -254,11 +150,11 @@ impl<M: GenerativeModel> Simulations<'_, M> {
         if estimate.is_finite() { Ok(estimate) } else { Err(PomcpError::NonFiniteEstimate { estimate }) }
     }
 
-    /// Ends a simulation: averages the return from each step of its path on into that step's action, the last step
-    /// first. `rest` is the return beyond the path.
-    fn back_up(&mut self, simulation: &mut Simulation, rest: f64) -> Result<(), PomcpError> {
+    /// Averages the return from each step of the path on into that step's action, the last step first. `rest` is the
+    /// return beyond the path.
+    fn back_up(&mut self, rest: f64) -> Result<(), PomcpError> {
         let mut value = rest;
-        for step in simulation.path.iter().rev() {
+        for step in self.path.iter().rev() {
             value = step.reward + self.discount * value;
             if value.is_nan() || value.abs() > RETURN_LIMIT {
                 return Err(PomcpError::ReturnOverflow { value });
@@ -266,8 +162,7 @@ impl<M: GenerativeModel> Simulations<'_, M> {
             let mean = self.tree.record(step.history, step.action, value);
             self.range.include(mean);
         }
-        self.depth = self.depth.max(simulation.path.len());
-        simulation.stage = Stage::Ended;
+        self.depth = self.depth.max(self.path.len());
         Ok(())
     }
 }

@@ -38,32 +38,15 @@ pub(crate) struct Tree<O> {
 #[derive(Debug, Clone, Copy)]
 struct History {
     visits: u32,
-    /// Simulations that have chosen an action here and have not ended.
-    pending: u32,
-    /// What is known of it as a leaf.
-    rollout: Rollout,
     first_action: u32,
     action_count: u32,
-    /// Legal actions with neither visits nor simulations pending.
+    /// Legal actions without visits.
     untried: u32,
-}
-
-/// The rollouts from a history.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Rollout {
-    /// None has begun.
-    None,
-    /// None has ended.
-    InProgress,
-    /// One or more have ended.
-    Ended,
 }
 
 #[derive(Debug, Clone, Copy)]
 struct Action {
     visits: u32,
-    /// Simulations that have chosen it and have not ended.
-    pending: u32,
     /// The newest of the branches added after this action, or [`NONE`].
     branch: u32,
     value: f64,
@@ -143,37 +126,9 @@ impl<O: Eq> Tree<O> {
         Ok(())
     }
 
-    /// Whether nothing is known of a history, though simulations have come to it: of a leaf if no rollout from there
-    /// has ended, later if no simulation beyond it has ended and there is no untried action to begin with. The root is
-    /// excepted, where an action has to be chosen.
-    pub(crate) fn is_unknown(&self, history: HistoryId, settings: &PomcpSettings) -> bool {
-        let node = &self.histories[history.0 as usize];
-        if node.action_count == 0 {
-            return node.rollout == Rollout::InProgress;
-        }
-        let has_begun = node.visits == 0 && node.pending > 0;
-        has_begun && history != HistoryId::ROOT && !(settings.untried_first && node.untried > 0)
-    }
-
-    /// Notes that a simulation follows the default policy from a new history on.
-    pub(crate) fn begin_rollout(&mut self, history: HistoryId) {
-        let node = &mut self.histories[history.0 as usize];
-        if node.rollout == Rollout::None {
-            node.rollout = Rollout::InProgress;
-        }
-    }
-
-    /// Notes that a rollout from a history has ended.
-    pub(crate) fn end_rollout(&mut self, history: HistoryId) {
-        self.histories[history.0 as usize].rollout = Rollout::Ended;
-    }
-
     /// The next action to try after an expanded history: while there are actions never tried, one of them,
     /// uniformly sampled, if the settings ask for it; otherwise the one with the maximum PUCT score, of smallest
     /// index among equals.
-    ///
-    /// A simulation that is pending counts as a visit, but says nothing of the value, as in WU-UCT (Liu et al. 2020):
-    /// simulations at the same time spread over the actions just as far as exploration asks for.
     pub(crate) fn select(
         &self,
         history: HistoryId,
@@ -190,13 +145,13 @@ impl<O: Eq> Tree<O> {
             return untried.nth(drawn).map_or(0, |(index, _)| index);
         }
         // At the first visit, too, the priors decide.
-        let exploration = table.at(settings, (node.visits + node.pending).max(1));
+        let exploration = table.at(settings, node.visits.max(1));
         let mean = node.mean(actions);
         let mut best = (0, f64::NEG_INFINITY);
         for (index, action) in actions.iter().enumerate().filter(|(_, action)| action.is_legal()) {
             let value = if action.visits == 0 { mean } else { action.value };
             let value = if settings.normalise_values { range.normalise(value) } else { value };
-            let score = puct::score(value, action.prior, exploration, action.visits + action.pending);
+            let score = puct::score(value, action.prior, exploration, action.visits);
             if score > best.1 {
                 best = (index, score);
             }
@@ -233,23 +188,13 @@ impl<O: Eq> Tree<O> {
         Some(HistoryId(branch.child))
     }
 
-    /// Notes that a simulation has chosen the action.
-    pub(crate) fn begin(&mut self, history: HistoryId, action: ActionId) {
+    /// Counts a visit of an action with return `value`, and returns the action's new mean.
+    pub(crate) fn record(&mut self, history: HistoryId, action: ActionId, value: f64) -> f64 {
         let node = &mut self.histories[history.0 as usize];
         let action = &mut self.actions[action.0 as usize];
         if action.is_untried() {
             node.untried -= 1;
         }
-        node.pending += 1;
-        action.pending += 1;
-    }
-
-    /// Turns a simulation pending into a visit with return `value`, and returns the action's new mean.
-    pub(crate) fn record(&mut self, history: HistoryId, action: ActionId, value: f64) -> f64 {
-        let node = &mut self.histories[history.0 as usize];
-        let action = &mut self.actions[action.0 as usize];
-        node.pending -= 1;
-        action.pending -= 1;
         node.visits += 1;
         action.visits += 1;
         action.value += (value - action.value) / f64::from(action.visits);
@@ -290,7 +235,7 @@ impl<O: Eq> Tree<O> {
 
 impl Action {
     fn with_prior(prior: f64) -> Self {
-        Self { visits: 0, pending: 0, branch: NONE, value: 0.0, prior }
+        Self { visits: 0, branch: NONE, value: 0.0, prior }
     }
 
     fn is_legal(&self) -> bool {
@@ -298,13 +243,12 @@ impl Action {
     }
 
     fn is_untried(&self) -> bool {
-        self.visits + self.pending == 0 && self.is_legal()
+        self.visits == 0 && self.is_legal()
     }
 }
 
 impl History {
-    const LEAF: Self =
-        Self { visits: 0, pending: 0, rollout: Rollout::None, first_action: 0, action_count: 0, untried: 0 };
+    const LEAF: Self = Self { visits: 0, first_action: 0, action_count: 0, untried: 0 };
 
     /// The mean of all returns after this history; 0 before the first.
     fn mean(&self, actions: &[Action]) -> f64 {

@@ -2,7 +2,7 @@
 
 use phase_event::{Recording, from_json};
 use phase_model::{Action, AgentId};
-use phase_simple::{InverseDynamics, MotionTracker};
+use phase_simple::InverseDynamics;
 use std::{fs, path::Path};
 
 /// Residual added by what was done in place of what was found, up to which they have the same effect (u).
@@ -14,9 +14,6 @@ const THINNED: usize = 8;
 fn turned(action: Action) -> Action {
     if action == Action::TurnRight { Action::TurnLeft } else { action }
 }
-
-/// Of the recordings, every so many are also explained with steps computed one by one.
-const COMPARED: usize = 10;
 
 /// The number of recovered actions that do not explain the motion as well as what was found.
 fn missed(recording: &Recording, motion: &InverseDynamics) -> usize {
@@ -46,14 +43,6 @@ fn nearly_every_step_is_explained_and_every_known_action_found() {
             continue;
         }
         let motion = InverseDynamics::new(&recording.observed().expect("a sound event"));
-        if number % COMPARED == 0 {
-            let observed = recording.observed().expect("a sound event");
-            let one_by_one = MotionTracker::with_batch(&observed, 1).into_motion();
-            assert_eq!(one_by_one.states, motion.states, "{}", recording.id);
-            assert_eq!(one_by_one.actions, motion.actions, "{}", recording.id);
-            assert_eq!(one_by_one.residuals, motion.residuals, "{}", recording.id);
-            assert_eq!(one_by_one.log_strengths, motion.log_strengths, "{}", recording.id);
-        }
         assert_eq!(missed(recording, &motion), 0, "{}", recording.id);
         assert_eq!(motion.strengths(), recording.scene.agents.each_ref().map(|agent| agent.strength));
         assert_eq!(motion.late_start, recording.scene.layout.flip().is_some(), "{}", recording.id);

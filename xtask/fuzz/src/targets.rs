@@ -12,7 +12,7 @@ mod texts;
 pub type Check = fn(&[u8]);
 
 /// Every target, by its name.
-pub const TARGETS: [(&str, Check); 21] = [
+pub const TARGETS: [(&str, Check); 20] = [
     ("events", texts::events),
     ("scene", texts::scene),
     ("preset", texts::preset),
@@ -31,7 +31,6 @@ pub const TARGETS: [(&str, Check); 21] = [
     ("parquet", files::parquet),
     ("world", engines::world),
     ("kernel", engines::kernel),
-    ("lanes", engines::lanes),
     ("planner", searches::planner),
     ("pomcp", searches::pomcp),
 ];

@@ -1,4 +1,4 @@
-//! Steps a second of the scalar kernel, of the kernel in lanes, and of rapier2d, on one core.
+//! Steps a second of the kernel and of rapier2d, on one core.
 //!
 //! `cargo run --release -p phase-forward --example steps_per_second -- [--json] [EVENTS.json]`
 //!
@@ -33,20 +33,10 @@ fn main() {
         return;
     }
     println!("steps a second, one core, random actions, eight worlds from each state");
-    for (name, Rates { scalar, lanes, rapier, states }) in &reports {
+    for (name, Rates { exact, coarse, rapier, states }) in &reports {
         println!("{name} ({states} states)");
-        println!(
-            "  exact:  scalar {:>9.0}  lanes {:>9.0}  ratio {:.2}",
-            scalar[0],
-            lanes[0],
-            lanes[0] / scalar[0]
-        );
-        println!(
-            "  coarse: scalar {:>9.0}  lanes {:>9.0}  ratio {:.2}",
-            scalar[1],
-            lanes[1],
-            lanes[1] / scalar[1]
-        );
+        println!("  exact:  {exact:>9.0}");
+        println!("  coarse: {coarse:>9.0}");
         println!("  rapier: {rapier:>9.0}");
     }
 }

@@ -18,20 +18,23 @@ const STEPS: usize = 10;
 /// Each engine is measured as often, and the fastest time counts.
 const ROUNDS: usize = 3;
 
-/// Steps a second; exact and coarse.
+/// Steps a second.
 pub(crate) struct Rates {
-    pub(crate) scalar: [f64; 2],
-    pub(crate) lanes: [f64; 2],
+    /// The kernel's exact steps.
+    pub(crate) exact: f64,
+    /// The kernel's coarse steps.
+    pub(crate) coarse: f64,
+    /// Steps of the reference world.
     pub(crate) rapier: f64,
+    /// The states from which they were made.
     pub(crate) states: usize,
 }
 
 impl Rates {
     pub(crate) fn to_json(&self) -> serde_json::Value {
-        let kernel = |[exact, coarse]: [f64; 2]| serde_json::json!({ "exact": exact, "coarse": coarse });
         serde_json::json!({
-            "scalar": kernel(self.scalar),
-            "lanes": kernel(self.lanes),
+            "exact": self.exact,
+            "coarse": self.coarse,
             "rapier": self.rapier,
             "states": self.states,
         })
@@ -39,26 +42,13 @@ impl Rates {
 }
 
 type Joint = [Action; AGENT_COUNT];
-type Step = fn(&Forward, &mut [State], &[Joint]);
+type Step = fn(&Forward, &mut State, Joint);
 
 /// Measures all engines.
 pub(crate) fn measure(starts: &[Starts]) -> Rates {
-    let one_by_one: [Step; 2] = [
-        |forward, states, actions| {
-            for (state, &actions) in states.iter_mut().zip(actions) {
-                forward.step(state, actions);
-            }
-        },
-        |forward, states, actions| {
-            for (state, &actions) in states.iter_mut().zip(actions) {
-                forward.step_approximate(state, actions);
-            }
-        },
-    ];
-    let together: [Step; 2] = [Forward::step_batch, Forward::step_approximate_batch];
     Rates {
-        scalar: one_by_one.map(|step| kernel(starts, step)),
-        lanes: together.map(|step| kernel(starts, step)),
+        exact: kernel(starts, Forward::step),
+        coarse: kernel(starts, Forward::step_approximate),
         rapier: rapier(starts),
         states: starts.iter().map(|starts| starts.states.len()).sum(),
     }
@@ -71,7 +61,9 @@ fn kernel(starts: &[Starts], step: Step) -> f64 {
             for state in &starts.states {
                 let mut worlds = [*state; WORLDS];
                 for _ in 0..STEPS {
-                    step(forward, black_box(&mut worlds), &draw(random));
+                    for (world, actions) in black_box(&mut worlds).iter_mut().zip(draw(random)) {
+                        step(forward, world, actions);
+                    }
                 }
             }
         }

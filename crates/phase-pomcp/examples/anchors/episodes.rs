@@ -29,7 +29,6 @@ pub(crate) trait Problem: BeliefModel {
 /// What is simulated for a row of the table.
 pub(crate) struct RowSettings {
     pub(crate) simulations: usize,
-    pub(crate) batch: usize,
     pub(crate) episodes: u64,
     pub(crate) seed: u64,
 }
@@ -84,7 +83,7 @@ impl RowSettings {
         problem: &P,
         random: &mut Pcg64Mcg,
     ) -> Result<Episode, Box<dyn Error + Send + Sync>> {
-        let settings = PomcpSettings { simulations: self.simulations, batch: self.batch, ..P::SETTINGS };
+        let settings = PomcpSettings { simulations: self.simulations, ..P::SETTINGS };
         let mut pomcp = Pomcp::new(settings)?;
         let mut state = problem.start(random);
         let particles = (0..PARTICLES).map(|_| problem.imagine(&state, random)).collect();

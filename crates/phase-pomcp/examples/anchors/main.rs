@@ -29,9 +29,6 @@ struct Arguments {
     /// Numbers of simulations per decision, one row each.
     #[arg(long, value_delimiter = ',', default_values_t = [64, 256, 1024])]
     simulations: Vec<usize>,
-    /// Simulations in progress at a time.
-    #[arg(long, default_value_t = 1)]
-    batch: usize,
     /// Episodes per row.
     #[arg(long, default_value_t = 200)]
     episodes: u64,
@@ -70,12 +67,7 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
     }
     let mut rows = Vec::new();
     for &simulations in &arguments.simulations {
-        let settings = RowSettings {
-            simulations,
-            batch: arguments.batch,
-            episodes: arguments.episodes,
-            seed: arguments.seed,
-        };
+        let settings = RowSettings { simulations, episodes: arguments.episodes, seed: arguments.seed };
         let row = row(arguments.problem, &settings)?;
         if !arguments.json {
             let Row { mean, half_width, speed, .. } = row;
@@ -96,11 +88,8 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
                 })
             })
             .collect();
-        let (episodes, seed, batch) = (arguments.episodes, arguments.seed, arguments.batch);
-        println!(
-            "{}",
-            json!({"problem": name, "episodes": episodes, "seed": seed, "batch": batch, "rows": rows})
-        );
+        let (episodes, seed) = (arguments.episodes, arguments.seed);
+        println!("{}", json!({"problem": name, "episodes": episodes, "seed": seed, "rows": rows}));
     }
     Ok(())
 }

@@ -184,7 +184,6 @@ impl BeliefModel for RockSample {
 impl Problem for RockSample {
     const SETTINGS: PomcpSettings = PomcpSettings {
         simulations: 1000,
-        batch: 1,
         rollout_steps: 0,
         c_init: 1.0,
         c_base: 1e6,

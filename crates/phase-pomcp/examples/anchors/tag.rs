@@ -129,7 +129,6 @@ impl BeliefModel for Tag {}
 impl Problem for Tag {
     const SETTINGS: PomcpSettings = PomcpSettings {
         simulations: 1000,
-        batch: 1,
         rollout_steps: 30,
         c_init: 0.8,
         c_base: 1e6,

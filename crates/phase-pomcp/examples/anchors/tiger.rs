@@ -48,7 +48,6 @@ impl Problem for Tiger {
     /// only a hundredth better than one that does not; a small exploration rate distinguishes them.
     const SETTINGS: PomcpSettings = PomcpSettings {
         simulations: 1000,
-        batch: 1,
         rollout_steps: 10,
         c_init: 0.6,
         c_base: 1e6,

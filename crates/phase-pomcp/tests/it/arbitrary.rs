@@ -80,7 +80,7 @@ pub(crate) fn problem() -> impl Strategy<Value = Arbitrary> {
     })
 }
 
-/// Settings of all kinds, one simulation at a time.
+/// Settings of all kinds.
 pub(crate) fn settings() -> impl Strategy<Value = PomcpSettings> {
     let horizon = prop_oneof![1..20_usize, Just(usize::MAX)];
     let flags = (any::<bool>(), any::<bool>());
@@ -90,7 +90,6 @@ pub(crate) fn settings() -> impl Strategy<Value = PomcpSettings> {
                 stop_when_decided: false,
                 convergence: 0.0,
                 untried_first,
-                batch: 1,
                 simulations,
                 rollout_steps,
                 c_init,

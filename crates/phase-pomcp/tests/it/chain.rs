@@ -11,7 +11,6 @@ const BACK: usize = 1;
 /// certain probability; otherwise the state does not change.
 struct Chain {
     success: f64,
-    batch: usize,
 }
 
 impl GenerativeModel for Chain {
@@ -51,7 +50,7 @@ impl Chain {
     }
 
     fn decide(&self, distance: u32, simulations: usize) -> Decision {
-        let settings = PomcpSettings { simulations, batch: self.batch, ..PomcpSettings::default() };
+        let settings = PomcpSettings { simulations, ..PomcpSettings::default() };
         let mut pomcp = Pomcp::new(settings).expect("the defaults are valid");
         pomcp.search(self, &[distance], &mut Pcg64Mcg::seed_from_u64(7)).expect("a chain can be searched")
     }
@@ -60,15 +59,12 @@ impl Chain {
 #[test]
 fn root_values_converge_to_the_closed_form() {
     let cases = [(1.0, 1), (1.0, 3), (1.0, 5), (0.7, 1), (0.7, 2), (0.7, 3)];
-    for ((success, distance), batch) in cases.into_iter().flat_map(|case| [(case, 1), (case, 8)]) {
-        let chain = Chain { success, batch };
+    for (success, distance) in cases {
+        let chain = Chain { success };
         let exact = chain.exact(distance as i32);
         let errors = [300, 3000, 30_000].map(|simulations| {
             let decision = chain.decide(distance, simulations);
-            assert_eq!(
-                decision.action, FORWARD,
-                "success {success}, distance {distance}, batch {batch}: {decision:?}"
-            );
+            assert_eq!(decision.action, FORWARD, "success {success}, distance {distance}: {decision:?}");
             let back = decision.actions[BACK].value - exact[BACK];
             assert!(back < 0.02, "going back cannot be worth more than {}: {decision:?}", exact[BACK]);
             (decision.value() - exact[FORWARD]).abs()
@@ -76,21 +72,18 @@ fn root_values_converge_to_the_closed_form() {
         // Every step on the path is an opportunity to explore, which lowers the mean slightly each time.
         assert!(
             errors[2] < 0.02 * f64::from(distance),
-            "success {success}, distance {distance}, batch {batch}: errors {errors:?}"
+            "success {success}, distance {distance}: errors {errors:?}"
         );
         // One step from the goal there is nothing left to learn, and the error is sampling error alone.
         if distance > 1 {
-            assert!(
-                errors[2] < 0.5 * errors[0],
-                "success {success}, distance {distance}, batch {batch}: errors {errors:?}"
-            );
+            assert!(errors[2] < 0.5 * errors[0], "success {success}, distance {distance}: errors {errors:?}");
         }
     }
 }
 
 #[test]
 fn a_certain_last_step_is_valued_exactly() {
-    let decision = Chain { success: 1.0, batch: 1 }.decide(1, 100);
+    let decision = Chain { success: 1.0 }.decide(1, 100);
     assert_eq!(decision.actions[FORWARD].value, 1.0);
     assert_eq!(decision.value(), 1.0);
 }

@@ -110,7 +110,6 @@ fn settings_are_checked_before_any_search() {
     assert_eq!(refused(fine), None);
     assert_eq!(refused(PomcpSettings { c_init: 0.0, rollout_steps: 0, horizon: 1, ..fine }), None);
     assert_eq!(refused(PomcpSettings { simulations: 0, ..fine }), Some(PomcpError::ZeroSimulations));
-    assert_eq!(refused(PomcpSettings { batch: 0, ..fine }), Some(PomcpError::ZeroBatch));
     assert_eq!(refused(PomcpSettings { horizon: 0, ..fine }), Some(PomcpError::ZeroHorizon));
     for (c_init, c_base) in [(-1.0, 1.0), (f64::NAN, 1.0), (1.0, 0.0), (1.0, f64::NAN), (1.0, f64::INFINITY)]
     {

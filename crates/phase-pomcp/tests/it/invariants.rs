@@ -10,9 +10,8 @@ use crate::arbitrary::{Arbitrary, Certain, problem, settings};
 proptest! {
     #[test]
     fn stopping_early_decides_the_same(
-        problem in problem(), settings in settings(), seed: u64, batch in 1..20_usize
+        problem in problem(), settings in settings(), seed: u64
     ) {
-        let settings = PomcpSettings { batch, ..settings };
         let roots: Vec<u64> = (0..problem.states).collect();
         let search = |stop_when_decided| {
             let settings = PomcpSettings { stop_when_decided, ..settings };
@@ -74,9 +73,8 @@ proptest! {
 
     #[test]
     fn evidence_adds_up(
-        problem in problem(), settings in settings(), seed: u64, other_seed: u64, batch in 1..20_usize
+        problem in problem(), settings in settings(), seed: u64, other_seed: u64
     ) {
-        let settings = PomcpSettings { batch, ..settings };
         let roots: Vec<u64> = (0..problem.states).collect();
         let mut pomcp = Pomcp::new(settings).unwrap();
         let mut random = Pcg64Mcg::seed_from_u64(seed);

@@ -50,11 +50,10 @@ proptest! {
         seed: u64,
         root in 1..STATES,
         weights in proptest::collection::vec(0.1..5.0_f64, ACTIONS),
-        batch in 1..9_usize,
         untried_first: bool,
     ) {
         let model = Masked { seed, weights };
-        let settings = PomcpSettings { simulations: 300, batch, untried_first, ..PomcpSettings::default() };
+        let settings = PomcpSettings { simulations: 300, untried_first, ..PomcpSettings::default() };
         let mut pomcp = Pomcp::new(settings).unwrap();
         let decision = pomcp.search(&model, &[root], &mut Pcg64Mcg::seed_from_u64(seed)).unwrap();
         prop_assert!(model.is_legal(&root, decision.action));

@@ -1,11 +1,9 @@
 //! The search on problems with independently known solutions.
 
 mod arbitrary;
-mod batch;
 mod belief;
 mod chain;
 mod errors;
-mod forest;
 mod invariants;
 mod legal;
 mod pinned;

@@ -1,4 +1,4 @@
-//! Searches one simulation at a time are, to the last bit, those of the release that knew no batches.
+//! The results of searches are pinned, to the last bit.
 
 use phase_pomcp::{Decision, Pomcp, PomcpSettings};
 use rand::{Rng, RngExt, SeedableRng};
@@ -6,8 +6,8 @@ use rand_pcg::Pcg64Mcg;
 
 use crate::arbitrary::{Arbitrary, Certain};
 
-/// The digests of 200 problems under settings of all kinds, computed before batches existed: with several roots, and
-/// with the single root of a deterministic problem, whose steps are cached.
+/// Digests of 200 problems under settings of all kinds: with several roots, and with the single root of a
+/// deterministic problem, whose steps are cached.
 const PINNED: [u64; 2] = [0xf322_6601_2487_c88f, 0x08d0_5a65_9930_99d8];
 
 fn problem(random: &mut impl Rng) -> Arbitrary {
@@ -55,7 +55,7 @@ fn include(digest: &mut u64, decision: &Decision) {
 }
 
 #[test]
-fn searches_are_those_of_before() {
+fn searches_are_unchanged() {
     let mut digests = [0xcbf2_9ce4_8422_2325_u64; 2];
     let mut random = Pcg64Mcg::seed_from_u64(20_260_101);
     for _ in 0..200 {

@@ -20,7 +20,6 @@ const SHARP: PomcpSettings = PomcpSettings {
     stop_when_decided: false,
     convergence: 0.0,
     untried_first: true,
-    batch: 1,
     simulations: 2000,
     rollout_steps: 10,
     c_init: 0.6,
@@ -97,11 +96,6 @@ fn root_values_approach_the_exact_ones() {
 #[test]
 fn episodes_earn_nearly_the_optimum() {
     assert_near_optimum(SHARP);
-}
-
-#[test]
-fn in_batches_episodes_earn_nearly_the_optimum() {
-    assert_near_optimum(PomcpSettings { batch: 8, ..SHARP });
 }
 
 /// Simulates whole episodes, planning at every step from a particle belief, and compares them with the

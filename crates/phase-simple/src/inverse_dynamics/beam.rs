@@ -26,11 +26,11 @@ pub(super) struct Beam {
 }
 
 impl Beam {
-    /// All readings of an event, followed to its last row; so many steps are computed together at most.
-    pub(super) fn new(observed: &ObservedEvent, batch: usize) -> Self {
+    /// All readings of an event, followed to its last row.
+    pub(super) fn new(observed: &ObservedEvent) -> Self {
         let reading = |reading: Reading| {
             let between = interpolation::states(&reading);
-            (Replay::new(reading, batch), between)
+            (Replay::new(reading), between)
         };
         let readings: Vec<_> = Reading::all(observed).into_iter().map(reading).collect();
         let starts =

@@ -31,9 +31,6 @@ use strength::LevelCosts;
 /// Residual up to which a step counts as explained (u).
 pub const EXPLAINED_RESIDUAL: f32 = 0.05;
 
-/// Steps that are computed together, unless [`MotionTracker::with_batch`] says otherwise.
-pub const BATCH: usize = 32;
-
 /// An event explained by what its agents did.
 #[derive(Clone, Debug)]
 pub struct InverseDynamics {
@@ -62,7 +59,6 @@ pub struct InverseDynamics {
 /// Explains an event while it is watched.
 #[derive(Clone, Debug)]
 pub struct MotionTracker {
-    batch: usize,
     beam: Beam,
     motion: InverseDynamics,
 }
@@ -71,16 +67,9 @@ impl MotionTracker {
     /// Explains what was observed so far.
     #[must_use]
     pub fn new(observed: &ObservedEvent) -> Self {
-        Self::with_batch(observed, BATCH)
-    }
-
-    /// The same with at most so many steps computed together, in the lanes of vectors; one by one if there are fewer than two. The
-    /// explanation does not depend on it.
-    #[must_use]
-    pub fn with_batch(observed: &ObservedEvent, batch: usize) -> Self {
-        let beam = Beam::new(observed, batch);
+        let beam = Beam::new(observed);
         let motion = InverseDynamics::of(&beam, None);
-        Self { batch, beam, motion }
+        Self { beam, motion }
     }
 
     /// Watches the next row of `observed`, its last one. How many states are explained as before: what follows may show what
@@ -91,7 +80,7 @@ impl MotionTracker {
     pub fn push(&mut self, observed: &ObservedEvent) -> Result<usize, ObservedError> {
         let Some(row) = observed.rows().last() else { return Err(ObservedError::Empty) };
         if !self.beam.push(row)? {
-            *self = Self::with_batch(observed, self.batch);
+            *self = Self::new(observed);
             return Ok(1);
         }
         // The last step was followed without the row after it.
@@ -210,13 +199,11 @@ impl InverseDynamics {
         let deed = |agent: AgentId, action| (reading.observed_action(action), levels[agent]);
         let (tracked, actions) = (&self.tracked[step], &self.actions[step]);
         AgentId::ALL.map(|agent| {
-            let both = Action::ALL.map(|action| {
+            Action::ALL.map(|action| {
                 let mut deeds = AgentId::ALL.map(|agent| deed(agent, actions[agent]));
                 deeds[agent] = deed(agent, action);
-                deeds
-            });
-            let predicted = self.replay.steps(tracked, self.replay.row(step + 1), &both);
-            core::array::from_fn(|action| predicted[action].residual)
+                self.replay.step(tracked, self.replay.row(step + 1), deeds).residual
+            })
         })
     }
 }

@@ -4,7 +4,7 @@ use super::{
     difference::Difference,
     reading::{Reading, Start},
 };
-use phase_forward::{Exertion, Forward, LANES, SolverCache};
+use phase_forward::{Exertion, Forward, SolverCache};
 use phase_model::{
     AGENT_COUNT, Action, AgentId, Body, Entity, MAX_ENTITIES, PhysicsConfig, State, Strength, arena::SUBSTEPS,
 };
@@ -46,12 +46,10 @@ pub(super) struct Replay {
     pub(super) physics: PhysicsConfig,
     pub(super) radii: [f32; MAX_ENTITIES],
     forward: Forward,
-    /// Steps that are computed together at most.
-    batch: usize,
 }
 
 impl Replay {
-    pub(super) fn new(reading: Reading, batch: usize) -> Self {
+    pub(super) fn new(reading: Reading) -> Self {
         let event = &reading.event;
         let physics = event.physics([0.0; AGENT_COUNT]);
         let mut radii = [0.0; MAX_ENTITIES];
@@ -61,7 +59,7 @@ impl Replay {
                 Entity::Object(object) => physics.object_radii[object],
             };
         }
-        Self { forward: Forward::new(&physics), reading, physics, radii, batch }
+        Self { forward: Forward::new(&physics), reading, physics, radii }
     }
 
     /// What was observed after so many steps.
@@ -111,35 +109,6 @@ impl Replay {
 
     fn run(&self, tracked: &mut TrackedState, deeds: [Deed; AGENT_COUNT]) -> [State; SUBSTEPS] {
         self.forward.step_warm_with(&mut tracked.state, &mut tracked.cache, &exertion(deeds))
-    }
-
-    /// How many steps more can be computed together with some from a state at no cost, in lanes that are left.
-    pub(super) fn room(&self, tracked: &TrackedState, steps: usize) -> usize {
-        if tracked.late || self.batch < 2 { 0 } else { steps.next_multiple_of(LANES) - steps }
-    }
-
-    /// Steps from one state, each compared with what was observed; [`Replay::step`] of each.
-    pub(super) fn steps(
-        &self,
-        tracked: &TrackedState,
-        row: &[Body; MAX_ENTITIES],
-        deeds: &[[Deed; AGENT_COUNT]],
-    ) -> Vec<PredictedStep> {
-        if tracked.late || self.batch < 2 {
-            return deeds.iter().map(|&both| self.step(tracked, row, both)).collect();
-        }
-        let mut steps = Vec::with_capacity(deeds.len());
-        for deeds in deeds.chunks(self.batch) {
-            let exertions: Vec<Exertion> = deeds.iter().map(|&both| exertion(both)).collect();
-            let mut states = vec![tracked.state; deeds.len()];
-            let mut caches = vec![tracked.cache; deeds.len()];
-            let mut substeps = vec![[tracked.state; SUBSTEPS]; deeds.len()];
-            self.forward.step_warm_batch(&mut states, &mut caches, &exertions, &mut substeps);
-            for ((state, cache), substeps) in states.into_iter().zip(caches).zip(&substeps) {
-                steps.push(self.compare(TrackedState { state, cache, late: false }, substeps, row));
-            }
-        }
-        steps
     }
 
     fn compare(

@@ -49,12 +49,12 @@ pub(super) fn explanations(
     let [firsts, seconds] = search.candidates(last);
     let both = firsts.iter().flat_map(|&first| seconds.iter().map(move |&second| [first, second]));
     let both: Vec<_> = both.collect();
-    let residuals = search.residuals(&both, &[]);
+    let residuals = search.residuals(&both);
     let mut pairs: Vec<_> = both.iter().map(|&pair| search.named(pair)).zip(residuals).collect();
     pairs.sort_by(|a, b| a.1.total_cmp(&b.1));
     let best = best(&pairs);
-    let predicted = replay.steps(tracked, row, &best);
-    best.into_iter().zip(predicted).map(|(deeds, predicted)| Explanation { deeds, predicted }).collect()
+    let explanation = |deeds| Explanation { deeds, predicted: replay.step(tracked, row, deeds) };
+    best.into_iter().map(explanation).collect()
 }
 
 impl Search<'_> {
@@ -62,23 +62,19 @@ impl Search<'_> {
         [self.deeds[0][first], self.deeds[1][second]]
     }
 
-    /// The residuals of some pairs of deeds (u). Those that are not known yet are computed together, with as many of those that
-    /// are likely to be asked for next as do not cost anything.
-    fn residuals(&mut self, pairs: &[[usize; AGENT_COUNT]], next: &[[usize; AGENT_COUNT]]) -> Vec<f32> {
-        let count = self.deeds[1].len();
-        let place = |[first, second]: [usize; AGENT_COUNT]| first * count + second;
-        let is_unknown = |&pair: &[usize; AGENT_COUNT]| self.residuals[place(pair)].is_none();
-        // Only where both hold what they held can a pair share a vector with others.
-        let holds = |&pair: &[usize; AGENT_COUNT]| !self.named(pair).into_iter().any(changes_grip);
-        let mut unknown: Vec<_> = pairs.iter().copied().filter(is_unknown).collect();
-        let room = self.replay.room(self.tracked, unknown.iter().copied().filter(holds).count());
-        let new = |pair: &[usize; AGENT_COUNT]| is_unknown(pair) && holds(pair) && !pairs.contains(pair);
-        unknown.extend(next.iter().copied().filter(new).take(room));
-        let deeds: Vec<_> = unknown.iter().map(|&pair| self.named(pair)).collect();
-        for (&pair, predicted) in unknown.iter().zip(self.replay.steps(self.tracked, self.row, &deeds)) {
-            self.residuals[place(pair)] = Some(predicted.residual);
+    /// The residuals of some pairs of deeds (u), each computed once.
+    fn residuals(&mut self, pairs: &[[usize; AGENT_COUNT]]) -> Vec<f32> {
+        pairs.iter().map(|&pair| self.residual(pair)).collect()
+    }
+
+    fn residual(&mut self, [first, second]: [usize; AGENT_COUNT]) -> f32 {
+        let place = first * self.deeds[1].len() + second;
+        if let Some(residual) = self.residuals[place] {
+            return residual;
         }
-        pairs.iter().map(|&pair| self.residuals[place(pair)].unwrap_or(f32::INFINITY)).collect()
+        let residual = self.replay.step(self.tracked, self.row, self.named([first, second])).residual;
+        self.residuals[place] = Some(residual);
+        residual
     }
 
     /// The deeds of each agent that are to be combined with those of the other.
@@ -95,17 +91,13 @@ impl Search<'_> {
                     continue;
                 }
                 given[agent] = Some(best[agent.other()]);
-                let instead = |agent: AgentId, deed: usize| {
+                let instead = |deed: usize| {
                     let mut pair = best;
                     pair[agent] = deed;
                     pair
                 };
-                let instead = |agent: AgentId| -> Vec<_> {
-                    (0..self.deeds[agent].len()).map(|deed| instead(agent, deed)).collect()
-                };
-                // What is asked for next if this agent's best deed stays the best.
-                let (pairs, next) = (instead(agent), instead(agent.other()));
-                residuals[agent] = self.residuals(&pairs, &next);
+                let pairs: Vec<_> = (0..self.deeds[agent].len()).map(instead).collect();
+                residuals[agent] = self.residuals(&pairs);
                 let deeds = residuals[agent].iter().enumerate();
                 if let Some((deed, _)) = deeds.min_by(|a, b| a.1.total_cmp(b.1)) {
                     best[agent] = deed;

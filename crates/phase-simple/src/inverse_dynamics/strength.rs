@@ -27,9 +27,8 @@ pub(super) fn level_costs(
             both[agent] = deed;
             both
         };
-        let both: Vec<_> = deeds.iter().map(instead).collect();
-        for (deed, predicted) in deeds.iter().zip(replay.steps(tracked, row, &both)) {
-            let cost = path::cost(predicted.residual);
+        for deed in &deeds {
+            let cost = path::cost(replay.step(tracked, row, instead(deed)).residual);
             let pushes = deed.0.push().is_some();
             for (level, least) in costs.iter_mut().enumerate() {
                 if !pushes || level == deed.1 {

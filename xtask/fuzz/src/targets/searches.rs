@@ -102,7 +102,6 @@ pub(super) fn pomcp(data: &[u8]) {
         stop_when_decided: bytes.below(2) == 0,
         convergence: f64::from(bytes.unit()) * f64::from(u8::from(bytes.below(2) == 0)),
         untried_first: bytes.below(2) == 0,
-        batch: bytes.below(9),
     };
     let (actions, discount) = (bytes.below(6), f64::from(bytes.unit()));
     let noisy = bytes.below(2) == 0;

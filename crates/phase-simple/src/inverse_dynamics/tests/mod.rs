@@ -3,12 +3,11 @@
 mod contact;
 mod mirrored;
 
-use super::{BATCH, InverseDynamics, MotionTracker};
+use super::InverseDynamics;
 use phase_event::ObservedEvent;
 use phase_forward::Forward;
 use phase_model::{
-    AGENT_COUNT, Action, AgentId, Body, Flip, Layout, MAX_ENTITIES, Size, State, Strength, Vec2,
-    arena::SUBSTEPS,
+    AGENT_COUNT, Action, AgentId, Body, Layout, MAX_ENTITIES, Size, State, Strength, Vec2, arena::SUBSTEPS,
 };
 
 /// Steps for which an action is held.
@@ -148,19 +147,6 @@ fn an_explanation_repeats_bit_for_bit() {
     let event = pulled();
     let [first, second] = [0, 1].map(|_| InverseDynamics::new(&event.observed));
     assert_same(&first, &second);
-}
-
-#[test]
-fn steps_computed_together_explain_as_steps_one_by_one() {
-    let contested = contact::contested();
-    let mirrored = mirrored::recorded(&contested, Flip::Diagonal);
-    for observed in [apart().observed, pulled().observed, contested.observed, mirrored] {
-        let explained = |batch| MotionTracker::with_batch(&observed, batch).into_motion();
-        let one_by_one = explained(1);
-        for batch in [5, BATCH, usize::MAX] {
-            assert_same(&explained(batch), &one_by_one);
-        }
-    }
 }
 
 /// Explanations are equal, bit for bit.
