@@ -3,9 +3,9 @@
 
 use core::{hint::black_box, ops::ControlFlow};
 use criterion::{Criterion, SamplingMode};
-use phase_agent::MindParameters;
 use phase_dataset::phase_events;
 use phase_event::{ObservedEvent, Recording};
+use phase_minds::MindParameters;
 use phase_model::{
     EventKind,
     random::{Purpose, stream},
@@ -46,7 +46,7 @@ fn main() {
 fn simulated(kind: EventKind) -> ObservedEvent {
     let scene =
         phase_sampler::sample_kind(kind, &mut stream(1, Purpose::Scene, 0)).expect("a scene of every kind");
-    let minds = MindParameters { simulations: 100, ..MindParameters::default() };
+    let minds = MindParameters::default().with_simulations(100);
     let settings = SimulationSettings { minds, ..SimulationSettings::default() };
     let event = phase_sim::simulate(&scene, 1, &settings).expect("a sound scene");
     let recording = Recording::of_event("event", event, "bench".into(), serde_json::Value::Null);
@@ -80,7 +80,7 @@ fn bench_simple(criterion: &mut Criterion, events: &[ObservedEvent]) {
     let settings = InferenceSettings::averaged();
     let tick = &mut || ControlFlow::Continue(());
     let mut understand = |event: &ObservedEvent, ahead: usize| {
-        let prepared = PreparedEvent::new(event, settings.minds, 1);
+        let prepared = PreparedEvent::new(event, settings.agents, 1);
         let inference = infer(&prepared, &cues, 1, &settings, tick).expect("sound parameters");
         let inference = inference.expect("nobody breaks it off");
         if ahead > 0 {

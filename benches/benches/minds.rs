@@ -3,9 +3,9 @@
 
 use core::hint::black_box;
 use criterion::{BenchmarkId, Criterion, SamplingMode};
-use phase_agent::{Agent, MindParameters};
 use phase_belief::Belief;
 use phase_forward::Forward;
+use phase_minds::{Agent, PhaseParameters};
 use phase_model::{
     Action, AgentId, EventKind, Scene,
     random::{Purpose, stream},
@@ -82,15 +82,8 @@ fn main() {
     });
     criterion.bench_function("agent/one decision at the paper's settings", |bencher| {
         let mut random = stream(1, Purpose::Belief, 0);
-        let mut agent = Agent::new(
-            &scene,
-            AgentId::ZERO,
-            forward(),
-            MindParameters::default(),
-            &observation,
-            &mut random,
-        )
-        .expect("good settings");
+        let parameters = PhaseParameters::default().into();
+        let mut agent = Agent::new(&scene, &parameters, &observation, &mut random).expect("good parameters");
         let mut search = stream(1, Purpose::Search, 0);
         bencher.iter(|| agent.decide(&mut search));
     });
@@ -104,12 +97,12 @@ fn main() {
 fn scaling(criterion: &mut Criterion, scene: &Scene) {
     let (physics, state) = (scene.physics(), scene.initial_state());
     let observation = observe(&physics, &state, AgentId::ZERO);
-    let paper = MindParameters::default();
-    let with_simulations = |simulations| (simulations, MindParameters { simulations, ..paper });
+    let paper = PhaseParameters::default();
+    let with_simulations = |simulations| (simulations, PhaseParameters { simulations, ..paper });
     // One simulation, since the search does not grow with the number of particles, but the subgoal that they
     // agree on may change.
-    let with_particles = |particles| (particles, MindParameters { particles, simulations: 1, ..paper });
-    let with_rollout = |rollout_steps| (rollout_steps, MindParameters { rollout_steps, ..paper });
+    let with_particles = |particles| (particles, PhaseParameters { particles, simulations: 1, ..paper });
+    let with_rollout = |rollout_steps| (rollout_steps, PhaseParameters { rollout_steps, ..paper });
     for (name, settings) in [
         ("simulations", [250, 500, 1000, 2000].map(with_simulations).to_vec()),
         ("particles, one simulation", [25, 50, 100, 200].map(with_particles).to_vec()),
@@ -119,9 +112,8 @@ fn scaling(criterion: &mut Criterion, scene: &Scene) {
         for (count, settings) in settings {
             let mut random = stream(1, Purpose::Belief, 0);
             let mut search = stream(1, Purpose::Search, 0);
-            let forward = Forward::new(&physics);
-            let mut agent = Agent::new(scene, AgentId::ZERO, forward, settings, &observation, &mut random)
-                .expect("good settings");
+            let mut agent =
+                Agent::new(scene, &settings.into(), &observation, &mut random).expect("good parameters");
             group.bench_function(BenchmarkId::from_parameter(count), |bencher| {
                 bencher.iter(|| {
                     let decision = agent.decide(&mut search);

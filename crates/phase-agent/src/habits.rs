@@ -1,6 +1,6 @@
 //! Habits: which actions are likely before any search, as priors of PUCT.
 
-use crate::{MindParameters, objective::Objective, rollout_policy};
+use crate::{PhaseParameters, objective::Objective, rollout_policy};
 use phase_model::{Action, Entity, State};
 
 /// Distance to go below which an agent may rest (u).
@@ -16,7 +16,7 @@ pub(crate) const MOVING_SPEED: f32 = 0.5;
 /// not repeated out of habit.
 pub(crate) fn weight(
     action: Action,
-    parameters: &MindParameters,
+    parameters: &PhaseParameters,
     objective: &Objective<'_>,
     state: &State,
     context: Context,

@@ -1,8 +1,8 @@
 //! The policy of one PHASE agent, its mind: from belief to subgoal to action (paper, Algorithm 1).
 //!
-//! [`Agent::perceive`] updates the belief; [`Agent::decide`] plans from every particle, evaluates the subgoals, and
-//! searches for an action with the particles that agree on the best one. [`Mind::decide`] does the latter for a
-//! given belief, such as one estimated by inference.
+//! [`Mind::decide`] plans from every particle of a belief, evaluates the subgoals, and searches for an action with the
+//! particles that agree on the best one. The belief is an argument, so that inference can use a mind with an estimated
+//! one; `phase_minds::Agent` joins a mind and a belief that follows observations.
 //!
 //! Key design decision: a mind has its own model of the world ([`phase_model::Dynamics`]) and no access to
 //! the true state; everything it knows comes from observations. The cost is a second simulation of the
@@ -11,10 +11,10 @@
 //! An agent that faces the landmark it wants to reach, 5.5 u ahead in the same room, pushes forward:
 //!
 //! ```
-//! use phase_agent::{Agent, MindParameters};
+//! use phase_agent::{BeliefView, Mind, PhaseParameters};
 //! use phase_forward::Forward;
 //! use phase_model::{Action, AgentId, Scene, random::{Purpose, stream}};
-//! use phase_perception::observe;
+//! use phase_perception::observed_set;
 //!
 //! let scene = Scene::from_json(
 //!     r#"{"layout": {"base": 0}, "objects": [], "event": "independent", "agents": [
@@ -23,12 +23,12 @@
 //!         {"size_level": 0, "strength_level": 2, "alpha": 0, "start": {"x": 8.5, "y": 14, "angle": 0},
 //!          "goal": {"kind": "agent_on_landmark", "agent": 1, "landmark": 0, "sign": 1}}]}"#,
 //! )?;
-//! let forward = Forward::new(&scene.physics());
-//! let observation = observe(&scene.physics(), &scene.initial_state(), AgentId::ZERO);
-//! let settings = MindParameters { particles: 5, simulations: 100, ..MindParameters::default() };
-//! let mut random = stream(1, Purpose::Search, 0);
-//! let mut agent = Agent::new(&scene, AgentId::ZERO, forward, settings, &observation, &mut random)?;
-//! let (action, thought) = agent.decide(&mut random)?;
+//! let (physics, state) = (scene.physics(), scene.initial_state());
+//! let parameters = PhaseParameters { simulations: 100, ..PhaseParameters::default() };
+//! let mut mind = Mind::new(&scene, AgentId::ZERO, Forward::new(&physics), parameters)?;
+//! let observed = observed_set(&physics, &state, AgentId::ZERO);
+//! let belief = BeliefView { particles: &[state], observed, last_action: None };
+//! let (action, thought) = mind.decide(belief, &mut stream(1, Purpose::Search, 0))?;
 //! assert_eq!(thought.subgoal.to_string(), "On(agent 0, landmark 1)");
 //! assert_eq!(action, Action::Up);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -38,16 +38,12 @@
 #![deny(missing_docs)]
 
 pub mod action_set;
-pub mod agent;
 mod habits;
 pub mod mind;
 pub mod objective;
-pub mod overrides;
+pub mod parameters;
 pub mod rollout_policy;
 pub mod search_model;
-pub mod settings;
 
-pub use agent::Agent;
 pub use mind::{BeliefView, Mind};
-pub use overrides::ParametersError;
-pub use settings::{Foresight, MindKind, MindParameters};
+pub use parameters::{Foresight, PhaseParameters};

@@ -1,7 +1,7 @@
 //! The decision step of Algorithm 1: from particles to subgoal to action, for a given belief.
 
 use crate::{
-    MindParameters, action_set,
+    PhaseParameters, action_set,
     objective::Objective,
     search_model::{SearchModel, SearchState},
 };
@@ -24,7 +24,7 @@ pub struct Mind<D> {
     physics: PhysicsConfig,
     goals: [Goal; AGENT_COUNT],
     attitude: Attitude,
-    settings: MindParameters,
+    settings: PhaseParameters,
     dynamics: D,
     planner: Planner,
     pomcp: Pomcp<u16>,
@@ -51,7 +51,7 @@ impl<D: Dynamics> Mind<D> {
         scene: &Scene,
         agent: AgentId,
         dynamics: D,
-        settings: MindParameters,
+        settings: PhaseParameters,
     ) -> Result<Self, PomcpError> {
         let physics = scene.physics();
         let pomcp = Pomcp::new(PomcpSettings {

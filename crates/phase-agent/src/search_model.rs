@@ -1,7 +1,7 @@
 //! The generative model that POMCP searches: the agent's own model of the world.
 
 use crate::{
-    Foresight, MindParameters,
+    Foresight, PhaseParameters,
     habits::{self, Context, MOVING_SPEED},
     objective::{ARENA_DIAGONAL, Objective},
     rollout_policy,
@@ -36,7 +36,7 @@ pub struct SearchModel<'a, D> {
     /// The agent's attitude.
     pub attitude: Attitude,
     /// The mind's parameters.
-    pub parameters: MindParameters,
+    pub parameters: PhaseParameters,
 }
 
 impl<D> SearchModel<'_, D> {

@@ -1,11 +1,12 @@
 //! Steering, action sets, reward and decisions in hand-made states.
 
 use phase_agent::{
-    Agent, MindParameters, action_set,
+    BeliefView, Mind, PhaseParameters, action_set,
     objective::{ARENA_DIAGONAL, Objective},
     rollout_policy,
     search_model::{SearchModel, SearchState},
 };
+use phase_belief::Belief;
 use phase_forward::Forward;
 use phase_model::{
     Action, AgentId, AgentSpec, Attitude, Body, Dynamics, Entity, EventKind, Goal, Grip, LandmarkId, Layout,
@@ -45,7 +46,7 @@ fn achieve(predicate: Predicate) -> Subgoal {
 
 /// A subgoal of agent 0, compiled in a state.
 fn compiled<'a>(physics: &'a PhysicsConfig, scene: &Scene, state: &State, subgoal: Subgoal) -> Objective<'a> {
-    let parameters = MindParameters::default();
+    let parameters = PhaseParameters::default();
     let costs = NavigationCosts { impassable: parameters.impassable, obstruction: parameters.obstruction };
     let mut navigator = Navigator::new(scene.layout, costs);
     Objective::new(physics, &mut navigator, state, AgentId::ZERO, subgoal, &parameters)
@@ -131,7 +132,7 @@ fn rewards_follow_equation_1() {
                 goals,
                 rewards_goals: true,
                 attitude,
-                parameters: MindParameters { other_initiative: 0.0, ..MindParameters::default() },
+                parameters: PhaseParameters { other_initiative: 0.0, ..PhaseParameters::default() },
             };
             let mut after = SearchState::new(&objective, state, None);
             let reward = model.rollout_step(&mut after, 0, &mut stream(1, Purpose::Search, 0)).reward;
@@ -155,12 +156,14 @@ fn rewards_follow_equation_1() {
 fn decide(scene: &Scene, seed: u64) -> (Action, Subgoal) {
     let (physics, state) = (scene.physics(), scene.initial_state());
     let observation = observe(&physics, &state, AgentId::ZERO);
-    let settings = MindParameters { simulations: 300, particles: 20, ..MindParameters::default() };
+    let parameters = PhaseParameters { simulations: 300, particles: 20, ..PhaseParameters::default() };
     let mut random = stream(seed, Purpose::Belief, 0);
-    let forward = Forward::new(&physics);
-    let mut agent = Agent::new(scene, AgentId::ZERO, forward, settings, &observation, &mut random)
-        .expect("good settings");
-    let (action, thought) = agent.decide(&mut stream(seed, Purpose::Search, 0)).expect("a decision");
+    let belief = Belief::new(&physics, &observation, parameters.particles, &mut random);
+    let mut mind =
+        Mind::new(scene, AgentId::ZERO, Forward::new(&physics), parameters).expect("good parameters");
+    let view =
+        BeliefView { particles: belief.particles(), observed: observation.observed, last_action: None };
+    let (action, thought) = mind.decide(view, &mut stream(seed, Purpose::Search, 0)).expect("a decision");
     (action, thought.subgoal)
 }
 

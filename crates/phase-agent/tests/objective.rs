@@ -1,6 +1,6 @@
 //! Objectives in hand-made states: heading, carrying, releasing, yielding.
 
-use phase_agent::{MindParameters, objective::Objective};
+use phase_agent::{PhaseParameters, objective::Objective};
 use phase_model::{
     AgentId, Body, Entity, Grip, LandmarkId, Layout, Literal, ObjectId, PhysicsConfig, Predicate,
     PredicateTarget, Side, Size, State, Strength, Subgoal, Vec2, arena, physics::AgentBody,
@@ -36,7 +36,7 @@ fn state(agent: Vec2, angle: f32, other: Vec2, object: Vec2) -> State {
 /// Distance and waypoint of agent 0.
 fn evaluate(size: Size, state: &State, literal: Literal) -> (f32, Vec2) {
     let physics = physics(size);
-    let parameters = MindParameters::default();
+    let parameters = PhaseParameters::default();
     let costs = NavigationCosts { impassable: parameters.impassable, obstruction: parameters.obstruction };
     let mut navigator = Navigator::new(layout(), costs);
     let subgoal = Subgoal::Achieve(literal);

@@ -1,11 +1,12 @@
 //! Physics engine, length of events and search effort of agents: options shared by several commands.
 
+use crate::error::CliError;
 use clap::{
     Args,
     builder::{PossibleValuesParser, TypedValueParser},
     value_parser,
 };
-use phase_agent::{Foresight, MindKind, MindParameters};
+use phase_minds::{Foresight, MindKind, MindParameters, PhaseParameters};
 use phase_sim::{Engine, SimulationSettings};
 
 /// Which minds agents have.
@@ -20,12 +21,6 @@ pub struct MindOptions {
 }
 
 impl MindOptions {
-    /// Sets in parameters what was given.
-    pub fn apply(&self, parameters: &mut MindParameters) {
-        parameters.kind = self.minds.unwrap_or(parameters.kind);
-        parameters.one_way_turns |= self.one_way_turns;
-    }
-
     /// Whether these are the minds without any of the options.
     #[must_use]
     pub fn are_default(&self) -> bool {
@@ -50,7 +45,7 @@ pub struct SimulationOptions {
     #[command(flatten)]
     pub minds: MindOptions,
     /// Dynamics in the agents' search: `coarse`, or `exact`, which takes several times as long, or `points`, in which
-    /// bodies pass through each other [default: coarse]
+    /// bodies pass through each other; published minds have dynamics of their own, or `points` [default: coarse]
     #[arg(long, value_name = "HOW", hide_possible_values = true, value_parser = foresights())]
     pub foresight: Option<Foresight>,
     /// Belief particles of each agent [default: 50]
@@ -66,37 +61,42 @@ pub struct SimulationOptions {
 
 impl SimulationOptions {
     /// The requested settings.
-    #[must_use]
-    pub fn settings(&self) -> SimulationSettings {
-        let mut settings =
-            SimulationSettings { engine: self.engine.unwrap_or_default(), ..SimulationSettings::default() };
-        self.minds.apply(&mut settings.minds);
-        if let Some(foresight) = self.foresight {
-            settings.minds.foresight = foresight;
-        }
-        if let Some(particles) = self.particles {
-            settings.minds.particles = particles as usize;
-        }
-        if let Some(simulations) = self.simulations {
-            settings.minds.simulations = simulations as usize;
-        }
-        if let Some(steps) = self.max_steps {
-            settings.max_steps = steps as usize;
-        }
-        settings
+    ///
+    /// # Errors
+    /// [`CliError::Usage`], if minds of this kind do not have a parameter that was given.
+    pub fn settings(&self) -> Result<SimulationSettings, CliError> {
+        self.settings_with(MindParameters::of(self.minds.minds.unwrap_or_default()))
     }
 
-    /// The settings in words.
-    #[must_use]
-    pub fn description(&self) -> String {
-        let SimulationSettings { engine, max_steps, minds, .. } = self.settings();
-        let (engine, kind, foresight) = (engine.name(), minds.kind.name(), minds.foresight.name());
-        let turns = if minds.one_way_turns { ", one-way turns" } else { "" };
-        let (particles, simulations) = (minds.particles, minds.simulations);
-        format!(
-            "engine {engine}, {kind} minds{turns}, foresight {foresight}, {particles} particles, {simulations} simulations, at most \
-             {max_steps} steps"
-        )
+    /// The requested settings, where minds have these parameters in place of the defaults.
+    ///
+    /// # Errors
+    /// [`CliError::Usage`], if other minds were requested, or minds of this kind do not have a parameter that was given.
+    pub fn settings_with(&self, mut minds: MindParameters) -> Result<SimulationSettings, CliError> {
+        if let Some(kind) = self.minds.minds.filter(|kind| *kind != minds.kind()) {
+            let asked = kind.name();
+            let given = minds.kind().name();
+            return Err(CliError::Usage(format!(
+                "--minds {asked}: the parameters are those of {given} minds"
+            )));
+        }
+        if let Some(foresight) = self.foresight {
+            minds = with_foresight(minds, foresight)?;
+        }
+        if let Some(particles) = self.particles {
+            minds = minds.with_particles(particles as usize);
+        }
+        if let Some(simulations) = self.simulations {
+            minds = minds.with_simulations(simulations as usize);
+        }
+        let defaults = SimulationSettings::default();
+        Ok(SimulationSettings {
+            engine: self.engine.unwrap_or_default(),
+            max_steps: self.max_steps.map_or(defaults.max_steps, |steps| steps as usize),
+            one_way_turns: self.minds.one_way_turns,
+            minds,
+            ..defaults
+        })
     }
 
     /// The options as given, to repeat the command.
@@ -110,6 +110,38 @@ impl SimulationOptions {
         let foresight = self.foresight.map(|foresight| format!(" --foresight {}", foresight.name()));
         let given = options.into_iter().filter_map(|(name, value)| Some(format!(" --{name} {}", value?)));
         engine.into_iter().chain(minds).chain(turns).chain(foresight).chain(given).collect()
+    }
+}
+
+/// Settings in words.
+#[must_use]
+pub fn description(settings: &SimulationSettings) -> String {
+    let SimulationSettings { engine, max_steps, minds, one_way_turns, .. } = settings;
+    let engine = engine.name();
+    let kind = minds.kind().name();
+    let search = match minds {
+        MindParameters::Phase(phase) => format!(", foresight {}", phase.foresight.name()),
+        MindParameters::Published(_) if minds.foresees_collisions() => String::new(),
+        MindParameters::Published(_) => ", without collisions".to_owned(),
+    };
+    let turns = if *one_way_turns { ", one-way turns" } else { "" };
+    let particles = minds.particles();
+    let simulations = minds.simulations();
+    format!(
+        "engine {engine}, {kind} minds{turns}{search}, {particles} particles, {simulations} simulations, at most \
+         {max_steps} steps"
+    )
+}
+
+/// Minds that search in these dynamics, if minds of their kind can.
+fn with_foresight(minds: MindParameters, foresight: Foresight) -> Result<MindParameters, CliError> {
+    match (minds, foresight) {
+        (MindParameters::Phase(phase), _) => Ok(PhaseParameters { foresight, ..phase }.into()),
+        (MindParameters::Published(_), Foresight::Points) => Ok(minds.without_collisions()),
+        (MindParameters::Published(_), Foresight::Coarse | Foresight::Exact) => {
+            let rule = "published minds search in dynamics of their own, which can only be `points` instead";
+            Err(CliError::Usage(format!("--foresight {}: {rule}", foresight.name())))
+        }
     }
 }
 

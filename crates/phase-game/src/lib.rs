@@ -19,7 +19,7 @@
 //! let scene = phase_sampler::sample_named(Some("helping"), None, 1)?;
 //! let round = |id: &str| Round { id: id.into(), source: "helping".into(), scene: scene.clone(), seed: 1 };
 //! let mut settings = GameSettings { players: [Player::Human, Player::Mind], ..GameSettings::default() };
-//! settings.simulation.minds.simulations = 10;
+//! settings.simulation.minds = settings.simulation.minds.with_simulations(10);
 //! let mut room = Room::open("a", [None, None], settings, vec![round(""), round("first")], Duration::ZERO)?;
 //!
 //! let you = AgentId::ZERO;

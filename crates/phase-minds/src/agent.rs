@@ -1,12 +1,16 @@
 //! A mind with its own belief.
 
-use crate::{BeliefState, Mind, belief, mind};
-use phase_agent::{BeliefView, MindParameters};
+use crate::{BeliefState, Mind, MindParameters, belief, mind};
+use phase_agent::BeliefView;
 use phase_event::Thought;
-use phase_model::{Action, AgentId, BodySet, Scene, State, random::Pcg64Mcg};
+use phase_model::{Action, BodySet, Scene, State, random::Pcg64Mcg};
+use phase_perception::Observation;
 use phase_pomcp::PomcpError;
 
 /// One agent of Algorithm 1: it perceives, believes and decides.
+///
+/// Everything that it knows comes from observations. Whoever has the true state makes them by the senses of the agent's
+/// kind: the first by [`observe()`](crate::observe()), those after an action by [`observe`](Self::observe).
 #[derive(Debug)]
 pub struct Agent {
     mind: Box<dyn Mind>,
@@ -16,41 +20,44 @@ pub struct Agent {
 }
 
 impl Agent {
-    /// The agent of a scene, with its initial belief from what it observes of a state.
+    /// The agent of a scene that made an observation, its first, with the belief that follows from it.
     ///
     /// # Errors
-    /// Invalid search parameters.
+    /// [`PomcpError`] for parameters that [`MindParameters::validate`] refuses and a search cannot have.
     pub fn new(
         scene: &Scene,
-        agent: AgentId,
         parameters: &MindParameters,
-        state: &State,
+        observation: &Observation,
         random: &mut Pcg64Mcg,
     ) -> Result<Self, PomcpError> {
-        let mind = mind(scene, agent, parameters)?;
-        let belief = belief(scene.layout, &scene.physics(), agent, parameters, state, random);
-        let observed = belief.observe(state).observed;
-        Ok(Self { mind, belief, observed, last_action: None })
+        let mind = mind(scene, observation.agent, parameters)?;
+        let belief = belief(scene.layout, &scene.physics(), parameters, observation, random);
+        Ok(Self { mind, belief, observed: observation.observed, last_action: None })
     }
 
-    /// What the agent believes.
+    /// The agent's belief.
     #[must_use]
     pub fn belief(&self) -> &dyn BeliefState {
         &*self.belief
     }
 
-    /// Updates the belief with what the agent observes of the state that its action has led to.
-    pub fn perceive(&mut self, action: Action, state: &State, random: &mut Pcg64Mcg) {
-        let observation = self.belief.observe(state);
+    /// The observation that the agent makes of a state of the world.
+    #[must_use]
+    pub fn observe(&self, state: &State) -> Observation {
+        self.belief.observe(state)
+    }
+
+    /// Updates the belief with the observation of the state that the agent's action has led to.
+    pub fn perceive(&mut self, action: Action, observation: &Observation, random: &mut Pcg64Mcg) {
         self.observed = observation.observed;
         self.last_action = Some(action);
-        self.belief.update(action, &observation, random);
+        self.belief.update(action, observation, random);
     }
 
     /// Chooses the next action; returns it with its explanation.
     ///
     /// # Errors
-    /// As POMCP's search.
+    /// [`PomcpError`], if the search fails.
     pub fn decide(&mut self, random: &mut Pcg64Mcg) -> Result<(Action, Thought), PomcpError> {
         let view = BeliefView {
             particles: self.belief.particles(),

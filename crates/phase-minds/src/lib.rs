@@ -12,8 +12,7 @@
 //! A mind of either kind that sees its landmark ahead walks there:
 //!
 //! ```
-//! use phase_agent::{MindKind, MindParameters};
-//! use phase_minds::Agent;
+//! use phase_minds::{Agent, MindKind, MindParameters, observe};
 //! use phase_model::{Action, AgentId, Scene, random::{Purpose, stream}};
 //!
 //! let scene = Scene::from_json(
@@ -24,9 +23,10 @@
 //!          "goal": {"kind": "agent_on_landmark", "agent": 1, "landmark": 0, "sign": 1}}]}"#,
 //! )?;
 //! for kind in MindKind::ALL {
-//!     let parameters = MindParameters { kind, particles: 5, simulations: 100, ..MindParameters::default() };
+//!     let parameters = MindParameters::of(kind).with_particles(5).with_simulations(100);
+//!     let observation = observe(kind, &scene.physics(), &scene.initial_state(), AgentId::ZERO);
 //!     let mut random = stream(1, Purpose::Search, 0);
-//!     let mut agent = Agent::new(&scene, AgentId::ZERO, &parameters, &scene.initial_state(), &mut random)?;
+//!     let mut agent = Agent::new(&scene, &parameters, &observation, &mut random)?;
 //!     let (action, thought) = agent.decide(&mut random)?;
 //!     assert_eq!(action, Action::Up, "{}", kind.name());
 //!     assert_eq!(thought.subgoal.to_string(), "On(agent 0, landmark 1)");
@@ -38,13 +38,17 @@
 #![deny(missing_docs)]
 
 mod agent;
+mod parameters;
 mod phase;
 mod published;
+mod ranges;
 mod turns;
 
 pub use agent::Agent;
-pub use phase_agent::{BeliefView, MindKind, MindParameters};
-pub use phase_published::SearchMemo;
+pub use parameters::{MindKind, MindParameters, ParametersError};
+pub use phase_agent::{BeliefView, Foresight, PhaseParameters};
+pub use phase_published::{PublishedParameters, SearchMemo};
+pub use ranges::RangeError;
 pub use turns::carried_out;
 
 use phase_event::Thought;
@@ -89,43 +93,55 @@ impl Clone for Box<dyn BeliefState> {
 /// The mind of an agent of a scene.
 ///
 /// # Errors
-/// Invalid search parameters.
+/// [`PomcpError`] for parameters that [`MindParameters::validate`] refuses and a search cannot have.
 pub fn mind(scene: &Scene, agent: AgentId, parameters: &MindParameters) -> Result<Box<dyn Mind>, PomcpError> {
-    match parameters.kind {
-        MindKind::Phase => phase::mind(scene, agent, parameters),
-        MindKind::Published => published::mind(scene, agent, parameters, None),
+    match parameters {
+        MindParameters::Phase(parameters) => phase::mind(scene, agent, *parameters),
+        MindParameters::Published(parameters) => published::mind(scene, agent, *parameters, None),
     }
 }
 
-/// The same mind, which looks up a search that another mind with this memo has done. It decides as it would without; only
-/// published minds search for what other intents would search for, too.
+/// The mind of an agent of a scene, which looks up searches that other minds with this memo have done. It decides as it
+/// would without; only published minds search for what other intents would search for, too.
 ///
 /// # Errors
-/// Invalid search parameters.
+/// [`PomcpError`] for parameters that [`MindParameters::validate`] refuses and a search cannot have.
 pub fn mind_sharing(
     scene: &Scene,
     agent: AgentId,
     parameters: &MindParameters,
     memo: &SearchMemo,
 ) -> Result<Box<dyn Mind>, PomcpError> {
-    match parameters.kind {
-        MindKind::Phase => phase::mind(scene, agent, parameters),
-        MindKind::Published => published::mind(scene, agent, parameters, Some(memo)),
+    match parameters {
+        MindParameters::Phase(parameters) => phase::mind(scene, agent, *parameters),
+        MindParameters::Published(parameters) => published::mind(scene, agent, *parameters, Some(memo)),
     }
 }
 
-/// The belief of an agent after its first observation, of this state.
+/// The observation that an agent with a mind of some kind makes of a state of the world.
+#[must_use]
+pub fn observe(kind: MindKind, physics: &PhysicsConfig, state: &State, agent: AgentId) -> Observation {
+    match kind {
+        MindKind::Phase => phase_perception::observe(physics, state, agent),
+        MindKind::Published => phase_published::senses::observe(physics, state, agent),
+    }
+}
+
+/// The belief of an agent after its first observation, which has to be made by the senses of its kind ([`observe()`]).
 #[must_use]
 pub fn belief(
     layout: Layout,
     physics: &PhysicsConfig,
-    agent: AgentId,
     parameters: &MindParameters,
-    state: &State,
+    observation: &Observation,
     random: &mut Pcg64Mcg,
 ) -> Box<dyn BeliefState> {
-    match parameters.kind {
-        MindKind::Phase => phase::belief(physics, agent, parameters, state, random),
-        MindKind::Published => published::belief(layout, physics, agent, parameters, state, random),
+    match parameters {
+        MindParameters::Phase(parameters) => {
+            phase::belief(physics, parameters.particles, observation, random)
+        }
+        MindParameters::Published(parameters) => {
+            published::belief(layout, physics, parameters.particles, observation, random)
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! Our own minds behind the interface.
 
 use crate::{BeliefState, Mind};
-use phase_agent::{BeliefView, Foresight, MindParameters};
+use phase_agent::{BeliefView, Foresight, PhaseParameters};
 use phase_belief::Belief;
 use phase_event::Thought;
 use phase_forward::Forward;
@@ -12,25 +12,23 @@ use phase_pomcp::PomcpError;
 pub(crate) fn mind(
     scene: &Scene,
     agent: AgentId,
-    parameters: &MindParameters,
+    parameters: PhaseParameters,
 ) -> Result<Box<dyn Mind>, PomcpError> {
     let forward = Forward::new(&scene.physics());
     let forward = match parameters.foresight {
         Foresight::Points => forward.without_collisions(),
         Foresight::Coarse | Foresight::Exact => forward,
     };
-    Ok(Box::new(phase_agent::Mind::new(scene, agent, forward, *parameters)?))
+    Ok(Box::new(phase_agent::Mind::new(scene, agent, forward, parameters)?))
 }
 
 pub(crate) fn belief(
     physics: &PhysicsConfig,
-    agent: AgentId,
-    parameters: &MindParameters,
-    state: &State,
+    particles: usize,
+    observation: &Observation,
     random: &mut Pcg64Mcg,
 ) -> Box<dyn BeliefState> {
-    let observation = observe(physics, state, agent);
-    let belief = Belief::new(physics, &observation, parameters.particles, random);
+    let belief = Belief::new(physics, observation, particles, random);
     Box::new(PhaseBelief { belief, physics: physics.clone(), forward: Forward::new(physics) })
 }
 

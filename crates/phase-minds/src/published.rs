@@ -1,7 +1,7 @@
 //! The published simulator's minds behind the interface.
 
 use crate::{BeliefState, Mind};
-use phase_agent::{BeliefView, Foresight, MindParameters};
+use phase_agent::BeliefView;
 use phase_event::Thought;
 use phase_model::{Action, AgentId, Layout, PhysicsConfig, Scene, State, random::Pcg64Mcg};
 use phase_perception::Observation;
@@ -11,10 +11,10 @@ use phase_published::{Belief, PublishedParameters, SearchMemo};
 pub(crate) fn mind(
     scene: &Scene,
     agent: AgentId,
-    parameters: &MindParameters,
+    parameters: PublishedParameters,
     memo: Option<&SearchMemo>,
 ) -> Result<Box<dyn Mind>, PomcpError> {
-    let mind = phase_published::Mind::new(scene, agent, published(parameters))?;
+    let mind = phase_published::Mind::new(scene, agent, parameters)?;
     Ok(match memo {
         Some(memo) => Box::new(mind.sharing(memo.clone())),
         None => Box::new(mind),
@@ -24,28 +24,11 @@ pub(crate) fn mind(
 pub(crate) fn belief(
     layout: Layout,
     physics: &PhysicsConfig,
-    agent: AgentId,
-    parameters: &MindParameters,
-    state: &State,
+    particles: usize,
+    observation: &Observation,
     random: &mut Pcg64Mcg,
 ) -> Box<dyn BeliefState> {
-    let observation = phase_published::senses::observe(physics, state, agent);
-    Box::new(Belief::new(layout, physics, &observation, parameters.particles, random))
-}
-
-/// Those of the parameters that published minds have, too.
-const fn published(parameters: &MindParameters) -> PublishedParameters {
-    PublishedParameters {
-        particles: parameters.particles,
-        lambda: parameters.lambda,
-        simulations: parameters.simulations,
-        searches: parameters.searches,
-        rollout_steps: parameters.rollout_steps,
-        c_init: parameters.c_init,
-        c_base: parameters.c_base,
-        discount: parameters.discount,
-        collisions: !matches!(parameters.foresight, Foresight::Points),
-    }
+    Box::new(Belief::new(layout, physics, observation, particles, random))
 }
 
 impl Mind for phase_published::Mind {

@@ -1,15 +1,16 @@
-//! The published recorder's defect: whichever way an agent turns, its body turns the same way.
+//! The published recorder's defect: whichever way an agent turns, its body turns one and the same way.
 
-use crate::MindParameters;
 use phase_model::{Action, Layout};
 
-/// What an agent's body does when its mind chooses an action. With
-/// [`one_way_turns`](phase_agent::MindParameters::one_way_turns) all turns are left turns, and right turns in a reflected
-/// layout, as in the published recordings; without it, the action itself.
+/// The action that an agent's body carries out when its mind chooses `action`: the action itself, or with `one_way_turns`
+/// a left turn for every turn, and a right turn in a reflected layout, as in the published recordings.
+///
+/// The defect belongs to the body and not to the mind, which does not know of it: simulations and inference have the
+/// switch in their own settings.
 #[must_use]
-pub const fn carried_out(action: Action, parameters: &MindParameters, layout: Layout) -> Action {
+pub const fn carried_out(action: Action, one_way_turns: bool, layout: Layout) -> Action {
     match action {
-        Action::TurnLeft | Action::TurnRight if parameters.one_way_turns => {
+        Action::TurnLeft | Action::TurnRight if one_way_turns => {
             if layout.flip().is_some() {
                 Action::TurnRight
             } else {

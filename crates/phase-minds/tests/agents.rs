@@ -2,9 +2,11 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
-use phase_agent::Foresight;
 use phase_event::ActionEvaluation;
-use phase_minds::{Agent, BeliefView, MindKind, MindParameters, carried_out, mind};
+use phase_minds::{
+    Agent, BeliefView, MindKind, MindParameters, PhaseParameters, PublishedParameters, carried_out, mind,
+    observe,
+};
 use phase_model::{
     Action, AgentId, BodySet, Dynamics, Entity, Flip, Layout, Scene,
     random::{Pcg64Mcg, Purpose, stream},
@@ -26,7 +28,7 @@ fn random(seed: u64) -> Pcg64Mcg {
 }
 
 fn parameters(kind: MindKind) -> MindParameters {
-    MindParameters { kind, particles: 10, simulations: 200, ..MindParameters::default() }
+    MindParameters::of(kind).with_particles(10).with_simulations(200)
 }
 
 /// Observation in; action, belief and reasons out.
@@ -36,7 +38,8 @@ fn every_kind_walks_to_its_landmark() {
         let scene = scene("null");
         let forward = phase_forward::Forward::new(&scene.physics());
         let (mut state, mut random) = (scene.initial_state(), random(1));
-        let mut agent = Agent::new(&scene, AgentId::ZERO, &parameters(kind), &state, &mut random).unwrap();
+        let first = observe(kind, &scene.physics(), &state, AgentId::ZERO);
+        let mut agent = Agent::new(&scene, &parameters(kind), &first, &mut random).unwrap();
         let goal = scene.goals()[0];
         let before = goal.distance(&state);
         for _ in 0..14 {
@@ -48,7 +51,8 @@ fn every_kind_walks_to_its_landmark() {
             let (action, thought) = agent.decide(&mut random).unwrap();
             assert_eq!(thought.subgoals.iter().map(|proposed| proposed.particles).sum::<usize>(), 10);
             forward.step(&mut state, [action, Action::Stop]);
-            agent.perceive(action, &state, &mut random);
+            let observation = agent.observe(&state);
+            agent.perceive(action, &observation, &mut random);
         }
         let after = goal.distance(&state);
         assert!(after < 0.5 * before, "{}: {before} u, then {after} u", kind.name());
@@ -57,34 +61,19 @@ fn every_kind_walks_to_its_landmark() {
 
 #[test]
 fn one_way_turns_go_left_and_in_reflections_right() {
-    let broken = MindParameters { one_way_turns: true, ..MindParameters::default() };
     let layout = Layout::new(4, None).unwrap();
     for action in Action::ALL {
-        assert_eq!(carried_out(action, &MindParameters::default(), layout), action);
+        assert_eq!(carried_out(action, false, layout), action);
         for layout in [layout, layout.flipped(Flip::UpDown)] {
-            let done = carried_out(action, &broken, layout);
+            let done = carried_out(action, true, layout);
             let turn = if layout.flip().is_some() { Action::TurnRight } else { Action::TurnLeft };
             assert_eq!(done, if action.turn() == 0.0 { action } else { turn });
         }
     }
 }
 
-#[test]
-fn older_files_mean_our_own_minds() {
-    let old: MindParameters = serde_json::from_str(r#"{"particles": 7}"#).unwrap();
-    assert_eq!(old, MindParameters { particles: 7, ..read_defaults() });
-    assert_eq!(old.kind, MindKind::Phase);
-    let published: MindParameters = serde_json::from_str(r#"{"kind": "published"}"#).unwrap();
-    assert_eq!(published.kind, MindKind::Published);
-}
-
-/// The defaults of a file without any field.
-fn read_defaults() -> MindParameters {
-    serde_json::from_str("{}").unwrap()
-}
-
-/// What an agent thinks of its actions with a huge object at some height (u) above it, who stands at 5 u and goes up.
-fn evaluations(kind: MindKind, foresight: Foresight, height: f32) -> Vec<ActionEvaluation> {
+/// An agent's evaluation of its actions, at 5 u and on its way up, with a huge object at some height (u).
+fn evaluations(kind: MindKind, collisions: bool, height: f32) -> Vec<ActionEvaluation> {
     let text = r#"{"layout": {"base": 0, "flip": null}, "event": "independent",
         "objects": [{"size_level": 3, "start": {"x": 8.5, "y": HEIGHT, "angle": 0}}], "agents": [
         {"size_level": 0, "strength_level": 2, "alpha": 0, "start": {"x": 8.5, "y": 5, "angle": 0},
@@ -97,18 +86,25 @@ fn evaluations(kind: MindKind, foresight: Foresight, height: f32) -> Vec<ActionE
     AgentId::ALL.into_iter().for_each(|agent| observed.insert(Entity::Agent(agent)));
     let belief = BeliefView { particles: &particles, observed, last_action: None };
     // Few steps, in which only what is near can be reached.
-    let parameters =
-        MindParameters { foresight, simulations: 10, rollout_steps: 2, ..MindParameters::default() };
-    let mut mind = mind(&scene, AgentId::ZERO, &MindParameters { kind, ..parameters }).expect("a mind");
+    let parameters: MindParameters = match kind {
+        MindKind::Phase => {
+            PhaseParameters { simulations: 10, rollout_steps: 2, ..PhaseParameters::default() }.into()
+        }
+        MindKind::Published => {
+            PublishedParameters { simulations: 10, rollout_steps: 2, ..PublishedParameters::default() }.into()
+        }
+    };
+    let parameters = if collisions { parameters } else { parameters.without_collisions() };
+    assert_eq!(parameters.foresees_collisions(), collisions);
+    let mut mind = mind(&scene, AgentId::ZERO, &parameters).expect("a mind");
     mind.decide(belief, &mut random(1)).expect("a decision").1.actions
 }
 
 #[test]
-fn who_foresees_points_disregards_collisions_and_nothing_else() {
+fn a_search_without_collisions_disregards_bodies_in_the_way_and_nothing_else() {
     for kind in MindKind::ALL {
         let same = |height| {
-            let [solid, points] =
-                [Foresight::Coarse, Foresight::Points].map(|foresight| evaluations(kind, foresight, height));
+            let [solid, points] = [true, false].map(|collisions| evaluations(kind, collisions, height));
             assert!(!solid.is_empty());
             solid == points
         };

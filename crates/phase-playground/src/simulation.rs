@@ -1,8 +1,8 @@
 //! A scene that is simulated step by step.
 
 use crate::{GENERATOR, packed, scenes, sentence};
-use phase_agent::MindParameters;
 use phase_event::{Recording, mean_state, to_json};
+use phase_minds::MindParameters;
 use phase_model::{AGENT_COUNT, Action, AgentId, PhysicsConfig};
 use phase_perception::{Cell, observe};
 use phase_predicates::achieved;

@@ -13,8 +13,8 @@ const OPTIONS: &str = r#"{"max_steps": 6, "minds": {"simulations": 30, "particle
 
 fn settings() -> SimulationSettings {
     let mut settings = SimulationSettings { max_steps: 6, ..SimulationSettings::default() };
-    settings.minds.simulations = 30;
-    settings.minds.particles = 8;
+    settings.minds = settings.minds.with_simulations(30);
+    settings.minds = settings.minds.with_particles(8);
     settings
 }
 

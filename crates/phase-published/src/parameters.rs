@@ -1,7 +1,12 @@
-//! Parameters of the published mind.
+//! The parameters of a published mind.
 
-/// Every number of the published mind that can be chosen. The defaults are those of the published recordings.
-#[derive(Clone, Copy, PartialEq, Debug)]
+use serde::{Deserialize, Serialize};
+
+/// Every number of a published mind that can be chosen. The defaults are those of the published recordings; what cannot be
+/// chosen is a fact of the published code. Ranges are checked where parameters enter a program, by
+/// `phase_minds::MindParameters::validate`.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct PublishedParameters {
     /// Belief particles; at least 1.
     pub particles: usize,

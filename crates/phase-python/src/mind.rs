@@ -7,12 +7,10 @@ use crate::{
     scene::{Scene, action_of, agent_of},
 };
 use numpy::{PyArray1, PyArray3, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
-use phase_agent::{BeliefView, MindKind, MindParameters};
-use phase_belief::Belief;
 use phase_event::Thought;
-use phase_forward::Forward;
+use phase_minds::{Agent, MindKind, MindParameters};
 use phase_model::{
-    Action, AgentId, PhysicsConfig,
+    Action, AgentId,
     random::{self, Pcg64Mcg, Purpose},
 };
 use phase_perception::Observation;
@@ -28,13 +26,12 @@ pub(crate) struct Mind {
     state: Arc<Mutex<MindState>>,
 }
 
-/// What changes as a mind observes and decides.
+/// The parts of a mind that change as it observes and decides.
 struct MindState {
-    mind: Box<dyn phase_minds::Mind>,
-    belief: Option<Belief>,
-    physics: PhysicsConfig,
-    forward: Forward,
-    particles: usize,
+    scene: phase_model::Scene,
+    parameters: MindParameters,
+    /// The agent, from its first observation on.
+    agent: Option<Agent>,
     belief_random: Pcg64Mcg,
     search_random: Pcg64Mcg,
     last_action: Option<Action>,
@@ -43,18 +40,21 @@ struct MindState {
 
 impl MindState {
     fn decide(&mut self, observation: &Observation, action: Option<Action>) -> Result<Action, String> {
-        if let (Some(belief), Some(action)) = (&mut self.belief, action.or(self.last_action)) {
-            belief.update(&self.forward, &self.physics, action, observation, &mut self.belief_random);
-            self.last_action = Some(action);
-        } else {
-            let random = &mut self.belief_random;
-            self.belief = Some(Belief::new(&self.physics, observation, self.particles, random));
-        }
-        let particles = self.belief.as_ref().map(Belief::particles).unwrap_or_default();
-        let view = BeliefView { particles, observed: observation.observed, last_action: self.last_action };
-        let decided = self.mind.decide(view, &mut self.search_random);
+        let known = self.agent.take().zip(action.or(self.last_action));
+        let agent = match known {
+            Some((mut agent, action)) => {
+                agent.perceive(action, observation, &mut self.belief_random);
+                self.last_action = Some(action);
+                agent
+            }
+            None => Agent::new(&self.scene, &self.parameters, observation, &mut self.belief_random)
+                .map_err(|error| error.to_string())?,
+        };
+        let agent = self.agent.insert(agent);
+        let decided = agent.decide(&mut self.search_random);
         let (action, thought) = decided.map_err(|error| error.to_string())?;
-        (self.last_action, self.thought) = (Some(action), Some(thought));
+        self.last_action = Some(action);
+        self.thought = Some(thought);
         Ok(action)
     }
 }
@@ -66,24 +66,22 @@ impl Mind {
     fn new(scene: PyRef<'_, Scene>, agent: usize, seed: u64, parameters: Option<&str>) -> PyResult<Self> {
         let agent = agent_of(agent)?;
         let parameters = read_parameters(parameters)?;
-        if parameters.kind != MindKind::Phase {
+        if parameters.kind() != MindKind::Phase {
             let rule = "a mind that decides from observations is of the kind phase: published minds have senses of their own";
             return Err(raise(rule));
         }
         let scene = &scene.scene;
-        let physics = scene.physics();
+        let entities = scene.physics().entities().count();
         let state = MindState {
-            mind: phase_minds::mind(scene, agent, &parameters).map_err(raise)?,
-            belief: None,
-            forward: Forward::new(&physics),
-            particles: parameters.particles,
+            scene: scene.clone(),
+            parameters,
+            agent: None,
             belief_random: random::stream(seed, Purpose::Belief, agent.number().into()),
             search_random: random::stream(seed, Purpose::Search, agent.number().into()),
             last_action: None,
             thought: None,
-            physics,
         };
-        Ok(Self { agent, entities: state.physics.entities().count(), state: Arc::new(Mutex::new(state)) })
+        Ok(Self { agent, entities, state: Arc::new(Mutex::new(state)) })
     }
 
     /// Observes and decides; `action` is what the agent did in fact since its last decision, if not what it decided.
@@ -105,8 +103,9 @@ impl Mind {
     /// The possible worlds, equally likely: (particles, entities, 6); `None` before the first decision.
     fn particles<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyArray3<f32>>>> {
         let state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
-        let Some(belief) = &state.belief else { return Ok(None) };
-        let particles: Vec<Vec<Vec<f32>>> = belief
+        let Some(agent) = &state.agent else { return Ok(None) };
+        let particles: Vec<Vec<Vec<f32>>> = agent
+            .belief()
             .particles()
             .iter()
             .map(|particle| {

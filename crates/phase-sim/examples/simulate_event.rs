@@ -2,14 +2,14 @@
 //!
 //! `cargo run --release --package phase-sim --example simulate_event`
 
-use phase_agent::MindParameters;
+use phase_minds::MindParameters;
 use phase_model::{AgentId, Entity};
 use phase_sim::{SimulationSettings, simulate};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let scene = phase_sampler::sample_named(Some("helping"), None, 1)?;
     // Less search than by default, to be quick.
-    let minds = MindParameters { particles: 10, simulations: 100, ..MindParameters::default() };
+    let minds = MindParameters::default().with_particles(10).with_simulations(100);
     let settings = SimulationSettings { max_steps: 12, minds, ..SimulationSettings::default() };
     let event = simulate(&scene, 1, &settings)?;
 

@@ -2,7 +2,7 @@
 
 use crate::simulation::belief_stream;
 use phase_event::Event;
-use phase_minds::{MindParameters, belief};
+use phase_minds::{MindParameters, belief, observe};
 use phase_model::{AgentId, State, arena::SUBSTEPS};
 use phase_perception::CellSet;
 
@@ -22,9 +22,10 @@ pub struct BeliefSnapshot {
 pub fn beliefs(event: &Event, agent: AgentId, minds: &MindParameters) -> Vec<BeliefSnapshot> {
     let physics = event.scene.physics();
     let mut random = belief_stream(event.seed, agent);
-    let mut belief = belief(event.scene.layout, &physics, agent, minds, &event.initial, &mut random);
-    let visible = belief.observe(&event.initial).visible;
-    let mut snapshots = vec![BeliefSnapshot { visible, particles: belief.particles().to_vec() }];
+    let first = observe(minds.kind(), &physics, &event.initial, agent);
+    let mut belief = belief(event.scene.layout, &physics, minds, &first, &mut random);
+    let mut snapshots =
+        vec![BeliefSnapshot { visible: first.visible, particles: belief.particles().to_vec() }];
     for step in &event.steps {
         let observation = belief.observe(&step.substeps[SUBSTEPS - 1]);
         belief.update(step.actions[agent], &observation, &mut random);

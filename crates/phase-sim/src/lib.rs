@@ -15,6 +15,7 @@
 //! are closer:
 //!
 //! ```
+//! use phase_minds::MindParameters;
 //! use phase_model::{AgentId, Entity, LandmarkId, Scene, arena};
 //! use phase_sim::{SimulationSettings, simulate};
 //!
@@ -25,7 +26,7 @@
 //!         {"size_level": 0, "strength_level": 2, "alpha": 0, "start": {"x": 8.5, "y": 8, "angle": 0},
 //!          "goal": {"kind": "agent_on_landmark", "agent": 1, "landmark": 0, "sign": 1}}]}"#,
 //! )?;
-//! let minds = phase_agent::MindParameters { particles: 5, simulations: 50, ..phase_agent::MindParameters::default() };
+//! let minds = MindParameters::default().with_particles(5).with_simulations(50);
 //! let event = simulate(&scene, 1, &SimulationSettings { max_steps: 6, minds, ..SimulationSettings::default() })?;
 //! assert_eq!(event.steps.len(), 6);
 //! let last = event.steps[5].substeps[4];

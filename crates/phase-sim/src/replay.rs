@@ -14,7 +14,8 @@ pub fn replay<'a>(
     let mut world = Environment::new(settings.engine, &event.scene.physics(), &event.initial);
     event.steps.iter().map(move |step| {
         let layout = event.scene.layout;
-        let mut states = world.step(step.actions.map(|action| carried_out(action, &settings.minds, layout)));
+        let mut states =
+            world.step(step.actions.map(|action| carried_out(action, settings.one_way_turns, layout)));
         if settings.stop_between_steps {
             states[SUBSTEPS - 1] = world.stop_agents();
         }

@@ -1,5 +1,6 @@
 //! Settings of a simulation: engine, length, parameters of the minds.
 
+use phase_minds::{MindParameters, RangeError};
 use phase_model::AgentId;
 use serde::{Deserialize, Serialize};
 
@@ -34,11 +35,13 @@ impl Engine {
     }
 }
 
-/// Physics, lengths and parameters of the minds. The defaults are the paper's.
+/// The settings of a simulation: engine, length, bodies and minds. The defaults are the paper's.
+///
+/// In a file they are one object with a member for every field, of which `idle` and `stop_between_steps` are left out at
+/// their defaults. [`validate`](Self::validate) checks ranges; [`simulate`](crate::simulate) does so itself.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 pub struct SimulationSettings {
-    /// The engine that simulates the event. Absent in older files, which means the default.
-    #[serde(default)]
+    /// The engine that simulates the event.
     pub engine: Engine,
     /// Maximum length (steps of 0.25 s; the paper's 25 s).
     pub max_steps: usize,
@@ -48,23 +51,30 @@ pub struct SimulationSettings {
     /// moved.
     pub rest_steps: usize,
     /// An event also ends once nothing has moved for this many consecutive steps, whatever the subgoals.
-    #[serde(default = "legacy_still_steps")]
     pub still_steps: usize,
     /// An agent that stops and stays whatever its goal, so that an event can be compared with its
     /// counterfactual without that agent; usually none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub idle: Option<AgentId>,
-    /// Whether both agents' velocities are set to zero after every step, which makes agents easier to control, as in the paper's
-    /// two-player game (appendix, "Experiment 2"); never where minds play alone.
+    /// Whether both agents' velocities are set to zero after every step, which makes agents easier to control, as in the
+    /// paper's two-player game (appendix, "Experiment 2"); never where minds play alone.
     #[serde(default, skip_serializing_if = "core::ops::Not::not")]
     pub stop_between_steps: bool,
+    /// Whether bodies turn one way whichever way their minds choose: to the left, and to the right in a reflected layout. It
+    /// is a defect of the published recorder, of which its minds do not know.
+    pub one_way_turns: bool,
     /// Parameters of both agents' minds.
-    pub minds: phase_agent::MindParameters,
+    pub minds: MindParameters,
 }
 
-/// Default for files written before the limit existed.
-const fn legacy_still_steps() -> usize {
-    usize::MAX
+impl SimulationSettings {
+    /// Checks that every parameter of the minds is in its range.
+    ///
+    /// # Errors
+    /// [`RangeError`], which names the parameter and its range.
+    pub fn validate(&self) -> Result<(), RangeError> {
+        self.minds.validate()
+    }
 }
 
 impl Default for SimulationSettings {
@@ -77,7 +87,8 @@ impl Default for SimulationSettings {
             still_steps: 24,
             idle: None,
             stop_between_steps: false,
-            minds: phase_agent::MindParameters::default(),
+            one_way_turns: false,
+            minds: MindParameters::default(),
         }
     }
 }

@@ -3,7 +3,7 @@
 use crate::{SimulationSettings, environment::Environment};
 use core::ops::ControlFlow;
 use phase_event::{Event, Step, Thought};
-use phase_minds::{Agent, carried_out};
+use phase_minds::{Agent, RangeError, carried_out, observe};
 use phase_model::{
     AGENT_COUNT, Action, AgentId, PhysicsConfig, Scene, SceneError, State, Subgoal,
     arena::SUBSTEPS,
@@ -23,12 +23,12 @@ pub enum SimulationError {
     /// The scene is invalid.
     #[error(transparent)]
     Scene(#[from] SceneError),
-    /// The settings are invalid for a search, or the search failed.
+    /// A search failed.
     #[error(transparent)]
     Search(#[from] phase_pomcp::PomcpError),
-    /// The number of particles is zero.
-    #[error("minds.particles must be at least 1")]
-    NoParticles,
+    /// A parameter of the minds is out of its range.
+    #[error("minds: {0}")]
+    Parameters(#[from] RangeError),
 }
 
 /// Simulates a scene from its start to its end.
@@ -102,9 +102,7 @@ impl Simulation {
         minds: [bool; AGENT_COUNT],
     ) -> Result<Self, SimulationError> {
         scene.validate()?;
-        if settings.minds.particles == 0 {
-            return Err(SimulationError::NoParticles);
-        }
+        settings.validate()?;
         let physics = scene.physics();
         let initial = scene.initial_state();
         Ok(Self {
@@ -132,7 +130,7 @@ impl Simulation {
         let idle = thoughts.iter().all(|thought| thought.subgoal == Subgoal::Stay);
         let before = self.state;
         let (settings, layout) = (&self.settings, self.event.scene.layout);
-        let carried_out = actions.map(|action| carried_out(action, &settings.minds, layout));
+        let carried_out = actions.map(|action| carried_out(action, settings.one_way_turns, layout));
         let mut substeps = self.world.step(carried_out);
         if settings.stop_between_steps {
             substeps[SUBSTEPS - 1] = self.world.stop_agents();
@@ -240,10 +238,14 @@ impl Minds {
         settings: &SimulationSettings,
         minds: [bool; AGENT_COUNT],
     ) -> Result<Self, SimulationError> {
+        let physics = scene.physics();
         let mut beliefs: [Pcg64Mcg; AGENT_COUNT] = AgentId::ALL.map(|agent| belief_stream(seed, agent));
         let searches = AgentId::ALL.map(|agent| random::stream(seed, Purpose::Search, agent.number().into()));
         let mut mind = |agent: AgentId| {
-            let mut new = || Agent::new(scene, agent, &settings.minds, initial, &mut beliefs[agent]);
+            let mut new = || {
+                let first = observe(settings.minds.kind(), &physics, initial, agent);
+                Agent::new(scene, &settings.minds, &first, &mut beliefs[agent])
+            };
             minds[agent].then(&mut new).transpose()
         };
         let agents = [mind(AgentId::ZERO)?, mind(AgentId::ONE)?];
@@ -290,7 +292,8 @@ impl Minds {
                 continue;
             }
             if let Some(mind) = mind {
-                mind.perceive(actions[agent], state, &mut self.beliefs[agent]);
+                let observation = mind.observe(state);
+                mind.perceive(actions[agent], &observation, &mut self.beliefs[agent]);
             }
         }
     }

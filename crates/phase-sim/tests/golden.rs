@@ -75,6 +75,6 @@ fn golden_events_of_every_kind_are_unchanged() -> Result<(), String> {
 #[test]
 fn golden_event_of_few_simulations_is_unchanged() -> Result<(), String> {
     let mut settings = SimulationSettings::default();
-    settings.minds.simulations = 50;
+    settings.minds = settings.minds.with_simulations(50);
     check("event-50-simulations", &[(EventKind::Hindering, settings)])
 }

@@ -3,6 +3,7 @@
 use core::ops::ControlFlow;
 use phase_event::Thought;
 use phase_forward::Forward;
+use phase_minds::{MindKind, MindParameters};
 use phase_model::{
     Action, AgentId, Entity, EventKind, Scene, Vec2,
     random::{Purpose, stream},
@@ -17,8 +18,8 @@ fn scene(kind: EventKind) -> Scene {
 /// Small searches and short events, so that a test takes a moment.
 fn quick() -> SimulationSettings {
     let mut settings = SimulationSettings { max_steps: 12, min_steps: 4, ..SimulationSettings::default() };
-    settings.minds.particles = 10;
-    settings.minds.simulations = 40;
+    settings.minds = settings.minds.with_particles(10);
+    settings.minds = settings.minds.with_simulations(40);
     settings
 }
 
@@ -71,14 +72,22 @@ fn events_of_the_kernel_are_replays_of_it() {
 }
 
 #[test]
-fn settings_without_an_engine_mean_the_world() {
-    let mut settings = serde_json::to_value(quick()).unwrap();
-    for engine in Engine::ALL {
-        settings["engine"] = engine.name().into();
-        assert_eq!(serde_json::from_value::<SimulationSettings>(settings.clone()).unwrap().engine, engine);
+fn settings_can_be_written_and_read_and_name_engine_and_kind_of_minds() {
+    for (engine, kind) in [(Engine::World, MindKind::Phase), (Engine::Forward, MindKind::Published)] {
+        let given = SimulationSettings { engine, minds: MindParameters::of(kind), ..quick() };
+        let written = serde_json::to_value(given).unwrap();
+        assert_eq!(
+            (&written["engine"], &written["minds"]["kind"]),
+            (&engine.name().into(), &kind.name().into())
+        );
+        assert_eq!(serde_json::from_value::<SimulationSettings>(written.clone()).unwrap(), given);
+        for name in ["engine", "still_steps", "one_way_turns", "minds"] {
+            let mut part = written.clone();
+            part.as_object_mut().unwrap().remove(name);
+            let refused = serde_json::from_value::<SimulationSettings>(part).unwrap_err().to_string();
+            assert!(refused.contains(&format!("missing field `{name}`")), "{refused}");
+        }
     }
-    settings.as_object_mut().unwrap().remove("engine");
-    assert_eq!(serde_json::from_value::<SimulationSettings>(settings).unwrap(), quick());
 }
 
 #[test]
@@ -107,18 +116,16 @@ fn nonsense_is_refused() {
     let mut bad = scene(EventKind::Independent);
     bad.agents[0].start.position.x = f32::NAN;
     assert!(matches!(simulate(&bad, 1, &quick()), Err(SimulationError::Scene(_))));
-    let mut settings = quick();
-    settings.minds.particles = 0;
-    assert!(matches!(
-        simulate(&scene(EventKind::Independent), 1, &settings),
-        Err(SimulationError::NoParticles)
-    ));
-    settings = quick();
-    settings.minds.simulations = 0;
-    assert!(matches!(
-        simulate(&scene(EventKind::Independent), 1, &settings),
-        Err(SimulationError::Search(_))
-    ));
+    for minds in [quick().minds.with_particles(0), quick().minds.with_simulations(0)] {
+        let refused = simulate(&scene(EventKind::Independent), 1, &SimulationSettings { minds, ..quick() });
+        assert!(matches!(refused, Err(SimulationError::Parameters(_))));
+    }
+    let refused = simulate(
+        &scene(EventKind::Independent),
+        1,
+        &SimulationSettings { minds: quick().minds.with_particles(0), ..quick() },
+    );
+    assert_eq!(refused.unwrap_err().to_string(), "minds: field `particles` must be at least 1, not 0");
 }
 
 #[test]

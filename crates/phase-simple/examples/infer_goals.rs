@@ -18,7 +18,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     // Less search than by default, to be quick.
     let mut settings = InferenceSettings::default();
-    (settings.minds.particles, settings.minds.simulations) = (5, 20);
+    settings.agents.minds = settings.agents.minds.with_particles(5).with_simulations(20);
     let posterior = explain(&observed, &UniformStrength, 1, &settings)?.posterior;
     println!("What agent 0 may want:");
     for (goal, probability) in posterior.goals(AgentId::ZERO).into_iter().take(3) {

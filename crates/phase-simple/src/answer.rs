@@ -1,7 +1,6 @@
 //! The answer of an inference: the posterior, and what is known of its parts.
 
-use crate::{Hypothesis, Posterior, ReportModel, impression::Impression};
-use phase_minds::MindParameters;
+use crate::{Hypothesis, ImaginedAgents, Posterior, ReportModel, impression::Impression};
 use phase_model::Judgement;
 
 /// The result of an inference.
@@ -32,8 +31,8 @@ impl Inference {
 /// What is inferred about one kind of minds.
 #[derive(Clone, PartialEq, Debug)]
 pub struct MindPosterior {
-    /// Their parameters.
-    pub minds: MindParameters,
+    /// The agents with such minds.
+    pub agents: ImaginedAgents,
     /// P(kind | motion), 0 to 1.
     pub probability: f64,
     /// P(Y | motion, kind).
@@ -68,16 +67,16 @@ pub(crate) fn mixture(kinds: &[KindEvidence]) -> (Posterior, Vec<f64>) {
 
 /// The answer of all kinds of minds together.
 pub(crate) fn average(
-    minds: &[MindParameters],
+    agents: &[ImaginedAgents],
     kinds: Vec<KindEvidence>,
     impression: Option<Impression>,
 ) -> Inference {
     let (posterior, probabilities) = mixture(&kinds);
-    let of_kind = |((&minds, kind), probability): ((&MindParameters, KindEvidence), f64)| MindPosterior {
-        minds,
+    let of_kind = |((&agents, kind), probability): ((&ImaginedAgents, KindEvidence), f64)| MindPosterior {
+        agents,
         probability,
         posterior: Posterior::new(kind.joint),
     };
-    let minds = minds.iter().zip(kinds).zip(probabilities).map(of_kind).collect();
+    let minds = agents.iter().zip(kinds).zip(probabilities).map(of_kind).collect();
     Inference { posterior, minds, impression, accepted: Vec::new(), simulated: 0 }
 }

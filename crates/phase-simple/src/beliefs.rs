@@ -2,7 +2,7 @@
 
 use phase_belief::overwrite;
 use phase_event::ObservedEvent;
-use phase_minds::{BeliefState, MindParameters, belief};
+use phase_minds::{BeliefState, MindParameters, belief, observe};
 use phase_model::{
     AGENT_COUNT, Action, AgentId, BodySet, State,
     random::{self, Pcg64Mcg, Purpose},
@@ -30,7 +30,8 @@ impl EstimatedBeliefs {
     ) -> Self {
         let physics = observed.physics([0.0; AGENT_COUNT]);
         let mut random = random::stream(seed, Purpose::Belief, agent.number().into());
-        let first = belief(observed.layout(), &physics, agent, minds, &states[0], &mut random);
+        let seen = observe(minds.kind(), &physics, &states[0], agent);
+        let first = belief(observed.layout(), &physics, minds, &seen, &mut random);
         let mut beliefs = Self { steps: vec![(first, random)] };
         beliefs.follow(states, 1);
         beliefs

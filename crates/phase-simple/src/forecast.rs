@@ -158,7 +158,7 @@ pub fn continuations(
     tick: &mut dyn FnMut() -> ControlFlow<()>,
 ) -> Result<Option<Vec<Continuation>>, PomcpError> {
     let others: Vec<PreparedEvent> =
-        inference.minds.iter().skip(1).map(|kind| prepared.with_minds(kind.minds)).collect();
+        inference.minds.iter().skip(1).map(|kind| prepared.with_agents(kind.agents)).collect();
     let by_kind = core::iter::once(prepared).chain(&others).zip(&inference.minds);
     let mut likely: Vec<(&PreparedEvent, &Hypothesis, f64)> = by_kind
         .flat_map(|(prepared, kind)| {

@@ -1,9 +1,9 @@
 //! G(Y): simulation of the event under a hypothesis.
 
-use crate::{Hypothesis, InverseDynamics, beliefs::EstimatedBeliefs};
+use crate::{Hypothesis, ImaginedAgents, InverseDynamics, beliefs::EstimatedBeliefs};
 use phase_event::{ObservedEvent, Thought};
 use phase_forward::{Forward, SolverCache};
-use phase_minds::{BeliefView, Mind, SearchMemo, carried_out, mind, mind_sharing};
+use phase_minds::{BeliefView, Mind, MindParameters, SearchMemo, carried_out, mind, mind_sharing};
 use phase_model::{
     AGENT_COUNT, Action, AgentId, Body, BodySet, Entity, Layout, MAX_ENTITIES, State, Vec2,
     arena::SUBSTEPS,
@@ -18,7 +18,7 @@ pub struct PreparedEvent {
     observed: Arc<ObservedEvent>,
     motion: Arc<InverseDynamics>,
     beliefs: Arc<[EstimatedBeliefs; AGENT_COUNT]>,
-    minds: phase_agent::MindParameters,
+    agents: ImaginedAgents,
     seed: u64,
     /// What the minds of all intents share.
     memo: SearchMemo,
@@ -32,27 +32,27 @@ impl PreparedEvent {
     /// Estimates actions and beliefs of an event. All hypotheses use the same random streams (common random
     /// numbers), so that differences are due to the hypotheses alone.
     #[must_use]
-    pub fn new(observed: &ObservedEvent, minds: phase_agent::MindParameters, seed: u64) -> Self {
+    pub fn new(observed: &ObservedEvent, agents: impl Into<ImaginedAgents>, seed: u64) -> Self {
         let motion = Arc::new(InverseDynamics::new(observed));
-        Self::with_motion(Arc::new(observed.clone()), motion, minds, seed)
+        Self::with_motion(Arc::new(observed.clone()), motion, agents.into(), seed)
     }
 
-    /// The same event for minds with other parameters. What does not depend on minds is taken over.
+    /// This event prepared for other agents. What does not depend on agents is taken over.
     #[must_use]
-    pub fn with_minds(&self, minds: phase_agent::MindParameters) -> Self {
-        Self::with_motion(Arc::clone(&self.observed), Arc::clone(&self.motion), minds, self.seed)
+    pub fn with_agents(&self, agents: ImaginedAgents) -> Self {
+        Self::with_motion(Arc::clone(&self.observed), Arc::clone(&self.motion), agents, self.seed)
     }
 
     /// An event whose motion has been explained.
     pub(crate) fn with_motion(
         observed: Arc<ObservedEvent>,
         motion: Arc<InverseDynamics>,
-        minds: phase_agent::MindParameters,
+        agents: ImaginedAgents,
         seed: u64,
     ) -> Self {
-        let beliefs =
-            AgentId::ALL.map(|agent| EstimatedBeliefs::new(&observed, &motion.states, agent, &minds, seed));
-        Self { observed, motion, beliefs: Arc::new(beliefs), minds, seed, memo: SearchMemo::default() }
+        let beliefs = AgentId::ALL
+            .map(|agent| EstimatedBeliefs::new(&observed, &motion.states, agent, &agents.minds, seed));
+        Self { observed, motion, beliefs: Arc::new(beliefs), agents, seed, memo: SearchMemo::default() }
     }
 
     /// Follows an event of which more has been observed, and of whose states so many are explained as before.
@@ -67,15 +67,15 @@ impl PreparedEvent {
         (self.observed, self.motion) = (observed, motion);
     }
 
-    /// The parameters of the minds.
+    /// The agents that it was prepared for.
     #[must_use]
-    pub const fn minds(&self) -> &phase_agent::MindParameters {
-        &self.minds
+    pub const fn agents(&self) -> &ImaginedAgents {
+        &self.agents
     }
 
-    /// The parameters of minds that act: they search once.
-    fn acting(&self) -> phase_agent::MindParameters {
-        phase_agent::MindParameters { searches: 1, ..self.minds }
+    /// Agents that act: their minds search once.
+    const fn acting(&self) -> ImaginedAgents {
+        self.agents.with_minds(self.agents.minds.searching_once())
     }
 
     /// The event.
@@ -109,8 +109,9 @@ impl PreparedEvent {
         limit: f64,
     ) -> Result<Deviations, PomcpError> {
         let rows = self.observed.rows();
-        let (minds, start) = (self.acting(), self.motion.states[0]);
-        let mut run = SimulationRun::new(&self.observed, hypothesis, minds, self.seed, start, None)?;
+        let agents = self.acting();
+        let start = self.motion.states[0];
+        let mut run = SimulationRun::new(&self.observed, hypothesis, agents, self.seed, start, None)?;
         let mut deviations = Deviations::with_capacity(self.observed.steps());
         let mut sum = 0.0;
         for (step, row) in rows.iter().enumerate().skip(1) {
@@ -159,9 +160,9 @@ impl PreparedEvent {
     ) -> Result<Vec<AgentDecision>, PomcpError> {
         let rows = self.observed.rows();
         let start = self.motion.states[0];
-        let minds = if resync_interval > 1 { self.acting() } else { self.minds };
+        let agents = if resync_interval > 1 { self.acting() } else { self.agents };
         let memo = Some(&self.memo);
-        let mut run = SimulationRun::new(&self.observed, hypothesis, minds, self.seed, start, memo)?;
+        let mut run = SimulationRun::new(&self.observed, hypothesis, agents, self.seed, start, memo)?;
         let mut decided = Vec::with_capacity(self.observed.steps());
         for (step, (row, action_likelihoods)) in rows[1..].iter().zip(&self.motion.actions).enumerate() {
             if step > 0 && step % resync_interval.max(1) == 0 {
@@ -191,12 +192,13 @@ impl PreparedEvent {
         &self,
         hypothesis: &Hypothesis,
         agent: AgentId,
-        minds: phase_agent::MindParameters,
+        minds: MindParameters,
         steps: &[usize],
     ) -> Result<Vec<AgentDecision>, PomcpError> {
         let rows = self.observed.rows();
+        let agents = self.agents.with_minds(minds);
         let start = self.motion.states[0];
-        let mut run = SimulationRun::new(&self.observed, hypothesis, minds, self.seed, start, None)?;
+        let mut run = SimulationRun::new(&self.observed, hypothesis, agents, self.seed, start, None)?;
         let mut decided = Vec::with_capacity(steps.len());
         for &step in steps.iter().filter(|&&step| step < self.observed.steps()) {
             let (action, thought) = self.decide(&mut run, agent, step)?;
@@ -216,7 +218,7 @@ impl PreparedEvent {
     /// parameters. They share their searches with others of this event.
     pub(crate) fn run(&self, hypothesis: &Hypothesis) -> Result<SimulationRun, PomcpError> {
         let (start, memo) = (self.motion.states[0], Some(&self.memo));
-        SimulationRun::new(&self.observed, hypothesis, self.minds, self.seed, start, memo)
+        SimulationRun::new(&self.observed, hypothesis, self.agents, self.seed, start, memo)
     }
 
     /// Lets an agent decide at a step, and nothing happen.
@@ -291,7 +293,7 @@ pub struct AgentDecision {
 #[derive(Debug)]
 pub(crate) struct SimulationRun {
     layout: Layout,
-    parameters: phase_agent::MindParameters,
+    one_way_turns: bool,
     forward: Forward,
     minds: [Box<dyn Mind>; AGENT_COUNT],
     random: [Pcg64Mcg; AGENT_COUNT],
@@ -307,7 +309,7 @@ impl SimulationRun {
     fn new(
         observed: &ObservedEvent,
         hypothesis: &Hypothesis,
-        settings: phase_agent::MindParameters,
+        agents: ImaginedAgents,
         seed: u64,
         state: State,
         memo: Option<&SearchMemo>,
@@ -316,14 +318,15 @@ impl SimulationRun {
         let physics = scene.physics();
         let forward = Forward::new(&physics);
         let mind = |agent| match memo {
-            Some(memo) => mind_sharing(&scene, agent, &settings, memo),
-            None => mind(&scene, agent, &settings),
+            Some(memo) => mind_sharing(&scene, agent, &agents.minds, memo),
+            None => mind(&scene, agent, &agents.minds),
         };
         let minds = [mind(AgentId::ZERO)?, mind(AgentId::ONE)?];
         let random = AgentId::ALL.map(|agent| random::stream(seed, Purpose::Search, agent.number().into()));
         let cache = forward.fresh_cache(&state);
         let (layout, last_actions) = (scene.layout, [None; AGENT_COUNT]);
-        Ok(Self { layout, parameters: settings, forward, minds, random, state, cache, last_actions })
+        let one_way_turns = agents.one_way_turns;
+        Ok(Self { layout, one_way_turns, forward, minds, random, state, cache, last_actions })
     }
 
     /// Sets the world to a state that both agents' actions have led to, if they have acted.
@@ -354,7 +357,7 @@ impl SimulationRun {
         let belief_view =
             BeliefView { particles, observed: *observed, last_action: self.last_actions[agent] };
         let (action, thought) = self.minds[agent].decide(belief_view, &mut self.random[agent])?;
-        Ok((carried_out(action, &self.parameters, self.layout), thought))
+        Ok((carried_out(action, self.one_way_turns, self.layout), thought))
     }
 
     /// Both act: the mean positions of all bodies over the step.

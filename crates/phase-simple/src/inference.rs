@@ -78,7 +78,7 @@ fn run_chains(
     }
     let posterior = Posterior::new(particles);
     let minds =
-        vec![MindPosterior { minds: *prepared.minds(), probability: 1.0, posterior: posterior.clone() }];
+        vec![MindPosterior { agents: *prepared.agents(), probability: 1.0, posterior: posterior.clone() }];
     Ok(Some(Inference { posterior, minds, impression: None, accepted, simulated: simulations.count() }))
 }
 
@@ -92,7 +92,7 @@ pub fn explain(
     seed: u64,
     settings: &InferenceSettings,
 ) -> Result<Inference, PomcpError> {
-    let prepared = PreparedEvent::new(observed, settings.minds, seed);
+    let prepared = PreparedEvent::new(observed, settings.agents, seed);
     let cues = Cues { strengths, guide: None };
     let inference = infer(&prepared, &cues, seed, settings, &mut || ControlFlow::Continue(()))?;
     Ok(inference.unwrap_or_else(|| unreachable!("nobody breaks it off")))

@@ -1,7 +1,8 @@
 //! Inverse planning with every kind of minds, and what the guide said while the event was watched.
 
 use crate::{
-    AlternativeMinds, Budget, Guidance, Guide, InversePlanningSettings, Proposal, UniformStrength,
+    AlternativeAgents, Budget, Guidance, Guide, ImaginedAgents, InversePlanningSettings, Proposal,
+    UniformStrength,
     answer::{Inference, KindEvidence, average, log_sum, mixture},
     generative::PreparedEvent,
     guide::Guess,
@@ -12,7 +13,6 @@ use crate::{
 };
 use core::ops::ControlFlow;
 use phase_event::ObservedEvent;
-use phase_minds::MindParameters;
 use phase_model::{AGENT_COUNT, AgentId, Body, MAX_ENTITIES, Strength};
 use phase_pomcp::PomcpError;
 use std::sync::Arc;
@@ -53,7 +53,7 @@ impl<'a> GuideCourse<'a> {
 pub(crate) struct Planners {
     /// In the order of the settings.
     pub(crate) planners: Vec<InversePlanner>,
-    minds: Vec<MindParameters>,
+    agents: Vec<ImaginedAgents>,
     /// ε at which kinds are compared, if there are two.
     comparison: Option<f64>,
 }
@@ -62,15 +62,15 @@ impl Planners {
     pub(crate) fn new(
         prepared: &PreparedEvent,
         planning: &InversePlanningSettings,
-        alternative: Option<AlternativeMinds>,
+        alternative: Option<AlternativeAgents>,
     ) -> Self {
         let mut planners = vec![InversePlanner::new(prepared.clone(), planning)];
-        if let Some(AlternativeMinds { minds, lapse_rate, .. }) = alternative {
+        if let Some(AlternativeAgents { agents, lapse_rate, .. }) = alternative {
             let planning = InversePlanningSettings { lapse_rate, ..*planning };
-            planners.push(InversePlanner::new(prepared.with_minds(minds), &planning));
+            planners.push(InversePlanner::new(prepared.with_agents(agents), &planning));
         }
-        let minds = planners.iter().map(|planner| *planner.prepared.minds()).collect();
-        Self { planners, minds, comparison: alternative.map(|it| it.comparison_lapse_rate) }
+        let agents = planners.iter().map(|planner| *planner.prepared.agents()).collect();
+        Self { planners, agents, comparison: alternative.map(|it| it.comparison_lapse_rate) }
     }
 
     /// What each kind makes of the first so many decisions, when the guide said `guess`.
@@ -136,6 +136,6 @@ impl Planners {
         });
         let impression = Impression::of(&observed, course);
         let evidence = self.evidence(first.decisions(), last.as_ref());
-        Ok(Some(average(&self.minds, evidence, impression)))
+        Ok(Some(average(&self.agents, evidence, impression)))
     }
 }

@@ -31,7 +31,7 @@
 //! let observed = ObservedEvent::new(Layout::new(0, None)?, [Size::Small; 2], Vec::new(), rows.collect())?;
 //!
 //! let mut settings = InferenceSettings::default();
-//! (settings.minds.particles, settings.minds.simulations) = (5, 20);
+//! settings.agents.minds = settings.agents.minds.with_particles(5).with_simulations(20);
 //! let posterior = explain(&observed, &UniformStrength, 1, &settings)?.posterior;
 //! let (likeliest, _probability) = posterior.goals(AgentId::ZERO)[0];
 //! let (agent, landmark) = (AgentId::ZERO, LandmarkId::TOP_RIGHT);
@@ -85,7 +85,7 @@ pub use posterior::Posterior;
 pub use proposal::Proposal;
 pub use report_model::{ReportModel, ReportModelError};
 pub use settings::{
-    Algorithm, AlternativeMinds, ChainSettings, InferenceSettings, InversePlanningSettings, StrengthSource,
-    Update,
+    Algorithm, AlternativeAgents, ChainSettings, ImaginedAgents, InferenceSettings, InversePlanningSettings,
+    StrengthSource, Update,
 };
 pub use strength::{InferredStrengths, StrengthCue, StrengthRegressor, UniformStrength};

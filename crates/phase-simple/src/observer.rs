@@ -64,7 +64,7 @@ impl<'a> Observer<'a> {
         let tracker = MotionTracker::new(observed);
         let observed = Arc::new(observed.clone());
         let motion = Arc::new(tracker.motion().clone());
-        let prepared = PreparedEvent::with_motion(Arc::clone(&observed), motion, settings.minds, seed);
+        let prepared = PreparedEvent::with_motion(Arc::clone(&observed), motion, settings.agents, seed);
         let planners = Planners::new(&prepared, &planning, settings.alternative);
         let guide = guide.map(|guide| GuideCourse::new(guide, &observed));
         let budget = Budget { decisions: Some(BUDGET) };

@@ -1,6 +1,7 @@
 //! Settings of an inference.
 
 use crate::cue::GAMMA;
+use phase_minds::{MindKind, MindParameters, PublishedParameters};
 use phase_model::AGENT_COUNT;
 use serde::{Deserialize, Serialize};
 
@@ -44,19 +45,61 @@ pub struct InferenceSettings {
     pub algorithm: Algorithm,
     /// γ of the goal proposal (1/u).
     pub gamma: f64,
-    /// Parameters of the agents in a simulation.
-    pub minds: phase_agent::MindParameters,
+    /// The agents in a simulation.
+    pub agents: ImaginedAgents,
     /// Agents of another kind that may have made the motion instead, with an even prior: the answer averages over both. Of
-    /// inverse planning alone; the chains of Algorithm 2 imagine one kind. Absent in older files, which means none.
+    /// inverse planning alone; the chains of Algorithm 2 imagine one kind.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub alternative: Option<AlternativeMinds>,
+    pub alternative: Option<AlternativeAgents>,
 }
 
-/// Another kind of minds that an inference considers.
+/// The agents that an inference imagines: their minds, and the bodies that carry out what the minds choose.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
-pub struct AlternativeMinds {
-    /// Their parameters.
-    pub minds: phase_agent::MindParameters,
+pub struct ImaginedAgents {
+    /// Whether bodies turn one way whichever way their minds choose, a defect of the published recorder: to the left, and to
+    /// the right in a reflected layout.
+    pub one_way_turns: bool,
+    /// Parameters of both agents' minds.
+    pub minds: MindParameters,
+}
+
+impl ImaginedAgents {
+    /// The agents of a kind of minds for an inference, which searches less than an agent that acts; published ones with
+    /// their recorder's turns.
+    #[must_use]
+    pub fn of(kind: MindKind) -> Self {
+        match kind {
+            MindKind::Phase => MindParameters::of(kind).with_simulations(SIMULATIONS).into(),
+            MindKind::Published => {
+                let minds = PublishedParameters {
+                    simulations: PUBLISHED_SIMULATIONS,
+                    searches: PUBLISHED_SEARCHES,
+                    ..PublishedParameters::default()
+                };
+                Self { one_way_turns: true, minds: minds.into() }
+            }
+        }
+    }
+
+    /// These agents with other minds.
+    #[must_use]
+    pub const fn with_minds(self, minds: MindParameters) -> Self {
+        Self { minds, ..self }
+    }
+}
+
+impl From<MindParameters> for ImaginedAgents {
+    /// Agents whose bodies turn as their minds choose.
+    fn from(minds: MindParameters) -> Self {
+        Self { one_way_turns: false, minds }
+    }
+}
+
+/// Another kind of agents that an inference considers.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+pub struct AlternativeAgents {
+    /// The agents.
+    pub agents: ImaginedAgents,
     /// ε of their actions, in place of that of [`InversePlanningSettings`], 0 to 1.
     pub lapse_rate: f64,
     /// ε at which the two kinds are compared, 0 to 1: of two kinds that explain an event alike, the one with the smaller ε would
@@ -140,51 +183,34 @@ impl InferenceSettings {
             strengths,
             ..ChainSettings::resynchronised(update)
         })
-        .with_minds(Self::minds_of(phase_agent::MindKind::Published))
+        .with_agents(ImaginedAgents::of(MindKind::Published))
     }
 
     /// Inverse planning that averages over our own minds and the published simulator's.
     #[must_use]
     pub fn averaged() -> Self {
-        let minds = Self::minds_of(phase_agent::MindKind::Published);
-        let alternative = Some(AlternativeMinds {
-            minds,
+        let alternative = Some(AlternativeAgents {
+            agents: ImaginedAgents::of(MindKind::Published),
             lapse_rate: LAPSE_RATE_OF_PUBLISHED,
             comparison_lapse_rate: COMPARISON_LAPSE_RATE,
         });
         Self { alternative, ..Self::default() }
     }
 
-    /// The same with these minds and no others.
+    /// These settings with these agents and no others.
     #[must_use]
-    pub const fn with_minds(self, minds: phase_agent::MindParameters) -> Self {
-        Self { minds, alternative: None, ..self }
+    pub const fn with_agents(self, agents: ImaginedAgents) -> Self {
+        Self { agents, alternative: None, ..self }
     }
 
-    /// The same with minds whose search has these dynamics, of every kind that it considers.
+    /// These settings with minds, of every kind that they consider, in whose search bodies pass through each other.
     #[must_use]
-    pub fn with_foresight(mut self, foresight: phase_agent::Foresight) -> Self {
-        self.minds.foresight = foresight;
+    pub const fn without_collisions(mut self) -> Self {
+        self.agents.minds = self.agents.minds.without_collisions();
         if let Some(alternative) = &mut self.alternative {
-            alternative.minds.foresight = foresight;
+            alternative.agents.minds = alternative.agents.minds.without_collisions();
         }
         self
-    }
-
-    /// The minds of a kind for an inference, which searches less than an agent that acts; published ones with their
-    /// recorder's turns.
-    #[must_use]
-    pub fn minds_of(kind: phase_agent::MindKind) -> phase_agent::MindParameters {
-        match kind {
-            phase_agent::MindKind::Phase => Self::default().minds,
-            phase_agent::MindKind::Published => phase_agent::MindParameters {
-                kind,
-                one_way_turns: true,
-                simulations: PUBLISHED_SIMULATIONS,
-                searches: PUBLISHED_SEARCHES,
-                ..phase_agent::MindParameters::default()
-            },
-        }
     }
 
     /// Algorithm 2.
@@ -233,10 +259,7 @@ impl Default for InferenceSettings {
         Self {
             algorithm: Algorithm::InversePlanning(InversePlanningSettings::default()),
             gamma: GAMMA,
-            minds: phase_agent::MindParameters {
-                simulations: SIMULATIONS,
-                ..phase_agent::MindParameters::default()
-            },
+            agents: ImaginedAgents::of(MindKind::Phase),
             alternative: None,
         }
     }

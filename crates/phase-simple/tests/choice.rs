@@ -1,6 +1,7 @@
 //! The chance of what was done, by hand and by its definition.
 
 use phase_event::{ActionEvaluation, ObservedEvent, Thought};
+use phase_minds::MindParameters;
 use phase_model::{Action, AgentId, Body, Goal, LandmarkId, Layout, Sign, Size, Strength, Subgoal, Vec2};
 use phase_simple::{
     Hypothesis, PreparedEvent,
@@ -91,11 +92,7 @@ fn an_agent_at_rest_is_likelier_to_want_to_be_where_it_is() {
     let rows = vec![rest.map(|place| Body::at_rest(place, 0.0)); 7];
     let layout = Layout::new(0, None).expect("a layout");
     let observed = ObservedEvent::new(layout, [Size::Small; 2], Vec::new(), rows).expect("an event");
-    let minds = phase_agent::MindParameters {
-        particles: 5,
-        simulations: 20,
-        ..phase_agent::MindParameters::default()
-    };
+    let minds = MindParameters::default().with_particles(5).with_simulations(20);
     let prepared = PreparedEvent::new(&observed, minds, 1);
     let likelihoods = action_likelihoods(&prepared, 0.03);
     let agent = AgentId::ZERO;
@@ -121,11 +118,7 @@ fn a_decision_at_a_step_depends_on_no_other_and_steps_past_the_end_are_left_out(
     let layout = Layout::new(0, None).expect("a layout");
     let observed =
         ObservedEvent::new(layout, [Size::Small; 2], Vec::new(), rows.collect()).expect("an event");
-    let minds = phase_agent::MindParameters {
-        particles: 5,
-        simulations: 20,
-        ..phase_agent::MindParameters::default()
-    };
+    let minds = MindParameters::default().with_particles(5).with_simulations(20);
     let prepared = PreparedEvent::new(&observed, minds, 1);
     let agent = AgentId::ZERO;
     let goal = Goal::AgentOnLandmark { agent, landmark: LandmarkId::TOP_RIGHT, sign: Sign::Positive };

@@ -37,7 +37,7 @@ fn observed(event: &Event) -> ObservedEvent {
 #[test]
 fn golden_posterior_is_unchanged() -> Result<(), String> {
     let mut settings = phase_sim::SimulationSettings::default();
-    settings.minds.simulations = 50;
+    settings.minds = settings.minds.with_simulations(50);
     let mut random = stream(SEED, Purpose::Scene, EventKind::Hindering as u64);
     let scene = phase_sampler::sample_kind(EventKind::Hindering, &mut random).expect("a scene");
     let event = phase_sim::simulate(&scene, SEED, &settings).map_err(|error| error.to_string())?;

@@ -1,6 +1,7 @@
 //! Whole inferences, on events whose labels are known only to the test.
 
 use phase_event::{Event, ObservedEvent, Recording};
+use phase_minds::MindParameters;
 use phase_model::{
     AgentId, Attitude, Goal, LandmarkId, Layout, ObjectId, Relation,
     random::{Purpose, stream},
@@ -16,7 +17,7 @@ fn event(variant: Variant, seed: u64) -> Event {
     let layouts: Vec<Layout> = Layout::all_used().collect();
     let request = Request { variant, goal_index: seed as usize, layouts: &layouts };
     let scene = sample(&request, &mut stream(seed, Purpose::Scene, 0)).expect("there are such scenes");
-    let minds = phase_agent::MindParameters { simulations: 100, ..phase_agent::MindParameters::default() };
+    let minds = MindParameters::default().with_simulations(100);
     let settings = phase_sim::SimulationSettings { minds, ..phase_sim::SimulationSettings::default() };
     phase_sim::simulate(&scene, seed, &settings).expect("a sound scene")
 }
@@ -33,13 +34,9 @@ fn recording(event: Event) -> Recording {
 fn quick() -> [InferenceSettings; 2] {
     let chains =
         ChainSettings { particles: 4, iterations: 2, ..ChainSettings::resynchronised(Update::Local) };
-    let minds = phase_agent::MindParameters {
-        simulations: 20,
-        particles: 10,
-        ..phase_agent::MindParameters::default()
-    };
+    let minds = MindParameters::default().with_particles(10).with_simulations(20);
     [InferenceSettings::default(), InferenceSettings::chains(chains)]
-        .map(|settings| InferenceSettings { minds, ..settings })
+        .map(|settings| settings.with_agents(minds.into()))
 }
 
 fn whole(inference: &Inference) -> f64 {
@@ -181,7 +178,7 @@ fn a_late_start_is_noticed() {
 fn the_truth_deviates_least() {
     let event = event(Variant::Places, 5);
     let seen = observed(&event);
-    let prepared = PreparedEvent::new(&seen, InferenceSettings::default().minds, 1);
+    let prepared = PreparedEvent::new(&seen, InferenceSettings::default().agents, 1);
     let strengths = event.scene.agents.map(|agent| agent.strength);
     let deviation = |goals: [Goal; 2]| {
         let hypothesis = phase_simple::Hypothesis::new(goals, [Attitude::Neutral; 2], strengths);

@@ -25,7 +25,7 @@ fn observed(variant: Variant, kind: MindKind) -> ObservedEvent {
     let layouts: Vec<Layout> = Layout::all_used().collect();
     let request = Request { variant, goal_index: 0, layouts: &layouts };
     let scene = sample(&request, &mut stream(5, Purpose::Scene, 0)).expect("there are such scenes");
-    let minds = MindParameters { kind, simulations: 200, ..MindParameters::default() };
+    let minds = MindParameters::of(kind).with_simulations(200);
     let settings = SimulationSettings { minds, ..SimulationSettings::default() };
     let event = phase_sim::simulate(&scene, 1, &settings).expect("a sound scene");
     let recording = Recording::of_event("event", event, "test".into(), serde_json::Value::Null);
@@ -33,7 +33,7 @@ fn observed(variant: Variant, kind: MindKind) -> ObservedEvent {
 }
 
 fn probability(inference: &Inference, kind: MindKind) -> f64 {
-    inference.minds.iter().filter(|it| it.minds.kind == kind).map(|it| it.probability).sum()
+    inference.minds.iter().filter(|it| it.agents.minds.kind() == kind).map(|it| it.probability).sum()
 }
 
 /// Both kinds walk alike to a landmark that they see, so that a single start of an event may leave it open.
@@ -80,15 +80,15 @@ fn one_kind_alone_gives_its_part_of_the_average() {
     let event = observed(Variant::Carry, MindKind::Published).prefix(8);
     let both = InferenceSettings::averaged();
     let average = explain(&event, &UniformStrength, 1, &both).expect("is sound");
-    let (first, second) = (both.with_minds(both.minds), both.alternative.expect("there are two kinds"));
+    let (first, second) = (both.with_agents(both.agents), both.alternative.expect("there are two kinds"));
     let Algorithm::InversePlanning(planning) = both.algorithm else { panic!("not inverse planning") };
     let planning = InversePlanningSettings { lapse_rate: second.lapse_rate, ..planning };
     let second = InferenceSettings {
         algorithm: Algorithm::InversePlanning(planning),
-        ..both.with_minds(second.minds)
+        ..both.with_agents(second.agents)
     };
     for (kind, settings) in average.minds.iter().zip([first, second]) {
-        let prepared = PreparedEvent::new(&event, settings.minds, 1);
+        let prepared = PreparedEvent::new(&event, settings.agents, 1);
         let cues = Cues { strengths: &UniformStrength, guide: None };
         let alone = infer(&prepared, &cues, 1, &settings, &mut || core::ops::ControlFlow::Continue(()));
         let alone = alone.expect("is sound").expect("nobody breaks it off");

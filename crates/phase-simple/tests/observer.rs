@@ -10,9 +10,9 @@ use phase_model::{
 use phase_sampler::{Request, Variant, sample};
 use phase_sim::SimulationSettings;
 use phase_simple::{
-    AlternativeMinds, Budget, ChainSettings, Cues, Guidance, Guide, Inference, InferenceSettings,
-    IntentNetwork, InverseDynamics, MotionTracker, Observer, ObserverError, PreparedEvent, UniformStrength,
-    Update, infer,
+    AlternativeAgents, Budget, ChainSettings, Cues, Guidance, Guide, ImaginedAgents, Inference,
+    InferenceSettings, IntentNetwork, InverseDynamics, MotionTracker, Observer, ObserverError, PreparedEvent,
+    UniformStrength, Update, infer,
 };
 use std::{fs, path::Path};
 
@@ -24,7 +24,7 @@ fn observed(variant: Variant, steps: usize) -> ObservedEvent {
     let layouts: Vec<Layout> = Layout::all_used().collect();
     let request = Request { variant, goal_index: 0, layouts: &layouts };
     let scene = sample(&request, &mut stream(5, Purpose::Scene, 0)).expect("there are such scenes");
-    let minds = MindParameters { simulations: 100, ..MindParameters::default() };
+    let minds = MindParameters::default().with_simulations(100);
     let settings = SimulationSettings { minds, ..SimulationSettings::default() };
     let event = phase_sim::simulate(&scene, 1, &settings).expect("a sound scene");
     let recording = Recording::of_event("event", event, "test".into(), serde_json::Value::Null);
@@ -34,15 +34,17 @@ fn observed(variant: Variant, steps: usize) -> ObservedEvent {
 /// SIMPLE's settings with less search.
 fn settings() -> InferenceSettings {
     let averaged = InferenceSettings::averaged();
-    let cheap =
-        |minds: MindParameters| MindParameters { particles: 5, simulations: 10, searches: 1, ..minds };
-    let alternative = averaged.alternative.map(|it| AlternativeMinds { minds: cheap(it.minds), ..it });
-    InferenceSettings { minds: cheap(averaged.minds), alternative, ..averaged }
+    let cheap = |agents: ImaginedAgents| {
+        let minds = agents.minds.with_particles(5).with_simulations(10).searching_once();
+        agents.with_minds(minds)
+    };
+    let alternative = averaged.alternative.map(|it| AlternativeAgents { agents: cheap(it.agents), ..it });
+    InferenceSettings { agents: cheap(averaged.agents), alternative, ..averaged }
 }
 
 fn at_once(observed: &ObservedEvent, guide: Option<Guide<'_>>) -> Inference {
     let settings = settings();
-    let prepared = PreparedEvent::new(observed, settings.minds, 3);
+    let prepared = PreparedEvent::new(observed, settings.agents, 3);
     let cues = Cues { strengths: &UniformStrength, guide };
     let inference = infer(&prepared, &cues, 3, &settings, &mut || ControlFlow::Continue(()));
     inference.expect("sound parameters").expect("nobody breaks it off")

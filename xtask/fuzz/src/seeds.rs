@@ -80,7 +80,7 @@ fn event(kind: EventKind) -> Option<Vec<u8>> {
     let scene = phase_sampler::sample_kind(kind, &mut stream(1, Purpose::Scene, 0)).ok()?;
     let mut settings =
         SimulationSettings { max_steps: STEPS, min_steps: STEPS, ..SimulationSettings::default() };
-    settings.minds.simulations = SIMULATIONS;
+    settings.minds = settings.minds.with_simulations(SIMULATIONS);
     let event = simulate(&scene, 1, &settings).ok()?;
     let text =
         to_json(&[Recording::of_event("seed", event, "phase".into(), serde_json::Value::Null)]).ok()?;

@@ -4,7 +4,7 @@ mod drawing;
 
 use drawing::Drawing;
 use phase_agent::{
-    BeliefView, Mind, MindParameters,
+    BeliefView, Mind, PhaseParameters,
     objective::Objective,
     search_model::{SearchModel, SearchState},
 };
@@ -41,7 +41,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let path = std::env::args().nth(1).ok_or("usage: decision FILE.svg")?;
     let scene = Scene::from_json(SCENE)?;
     let physics = scene.physics();
-    let parameters = MindParameters::default();
+    let parameters = PhaseParameters::default();
     let forward = Forward::new(&physics);
     let mut state = scene.initial_state();
     state.bodies[Entity::Agent(ME).index()].velocity = VELOCITY;

@@ -9,7 +9,7 @@ mod reach;
 mod task;
 mod way;
 
-use crate::MindParameters;
+use crate::PhaseParameters;
 use phase_model::{
     AgentId, Entity, Layout, Literal, ObjectId, PhysicsConfig, Predicate, PredicateTarget, State, Subgoal,
     Vec2,
@@ -63,7 +63,7 @@ impl<'a> Objective<'a> {
         state: &State,
         agent: AgentId,
         subgoal: Subgoal,
-        parameters: &MindParameters,
+        parameters: &PhaseParameters,
     ) -> Self {
         let layout = navigator.map().layout();
         let mut compiler = Compiler { physics, navigator, state, agent, turning: parameters.turning };

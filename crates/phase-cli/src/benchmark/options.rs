@@ -3,7 +3,7 @@
 use super::plan::METHODS;
 use crate::{effort::mind_kinds, eval::options::Parts, output::Output, parallel::Jobs};
 use clap::{Args, builder::PossibleValuesParser, value_parser};
-use phase_agent::MindKind;
+use phase_minds::MindKind;
 use std::path::{Path, PathBuf};
 
 /// The default seed.

@@ -6,7 +6,7 @@ use crate::{
     error::CliError,
     eval::{networks, simple::Simple},
 };
-use phase_agent::MindKind;
+use phase_minds::MindKind;
 use std::path::PathBuf;
 
 /// Every method of the benchmark.

@@ -11,8 +11,8 @@ use clap::{
     builder::{PossibleValuesParser, TypedValueParser},
     value_parser,
 };
-use phase_agent::MindKind;
 use phase_dataset::splits::Split;
+use phase_minds::MindKind;
 use phase_model::arena::{FRAMES_PER_SECOND, SUBSTEPS};
 use std::path::PathBuf;
 

@@ -1,7 +1,6 @@
 //! SIMPLE and its variants as methods to be evaluated.
 
 use crate::effort::MindOptions;
-use phase_agent::{Foresight, MindParameters};
 use phase_eval::{
     Forecaster, Recogniser,
     method::{MethodError, MethodResult, ProgressCallback},
@@ -10,9 +9,9 @@ use phase_eval::{
 use phase_event::ObservedEvent;
 use phase_model::Judgement;
 use phase_simple::{
-    ChainSettings, Cues, ForecastSettings, Guidance, Guide, Inference, InferenceSettings, IntentNetwork,
-    MindPosterior, PreparedEvent, Proposal, ReportModel, StrengthRegressor, StrengthSource, UniformStrength,
-    Update, futures, infer,
+    ChainSettings, Cues, ForecastSettings, Guidance, Guide, ImaginedAgents, Inference, InferenceSettings,
+    IntentNetwork, MindPosterior, PreparedEvent, Proposal, ReportModel, StrengthRegressor, StrengthSource,
+    UniformStrength, Update, futures, infer,
 };
 use serde_json::{Value, json};
 
@@ -43,7 +42,7 @@ impl Simple {
         let published = |update| InferenceSettings::published(update, StrengthSource::Network);
         let settings = match name {
             "simple" | "simple-unguided" => InferenceSettings::averaged(),
-            "simple-points" => InferenceSettings::averaged().with_foresight(Foresight::Points),
+            "simple-points" => InferenceSettings::averaged().without_collisions(),
             "simple-initial" => algorithm_2(Update::Initial),
             "simple-global" => algorithm_2(Update::Global),
             "simple-local" => algorithm_2(Update::Local),
@@ -66,11 +65,15 @@ impl Simple {
             // The weights of an average over kinds are not those of one kind alone.
             let alone = InferenceSettings::default();
             let settings = if self.settings.alternative.is_some() { alone } else { self.settings };
-            let MindParameters { one_way_turns, foresight, .. } = self.settings.minds;
-            let minds = MindParameters { one_way_turns, foresight, ..InferenceSettings::minds_of(kind) };
-            self.settings = settings.with_minds(minds);
+            let one_way_turns = self.settings.agents.one_way_turns;
+            let alone = ImaginedAgents { one_way_turns, ..ImaginedAgents::of(kind) };
+            let foresees_collisions = self.settings.agents.minds.foresees_collisions();
+            self.settings = settings.with_agents(alone);
+            if !foresees_collisions {
+                self.settings = self.settings.without_collisions();
+            }
         }
-        self.settings.minds.one_way_turns |= options.one_way_turns;
+        self.settings.agents.one_way_turns |= options.one_way_turns;
         self
     }
 
@@ -107,7 +110,7 @@ impl Recogniser for Simple {
         seed: u64,
         tick: ProgressCallback<'_>,
     ) -> MethodResult<Judgement> {
-        let prepared = PreparedEvent::new(observed, self.settings.minds, seed);
+        let prepared = PreparedEvent::new(observed, self.settings.agents, seed);
         let inference = self.infer(&prepared, seed, tick)?;
         let model = ReportModel::bundled().map_err(MethodError::new)?;
         Ok(inference.map(|inference| (inference.judgement(&model), details(&inference))))
@@ -130,7 +133,7 @@ impl Forecaster for Simple {
         seed: u64,
         tick: ProgressCallback<'_>,
     ) -> MethodResult<Prediction> {
-        let prepared = PreparedEvent::new(observed, self.settings.minds, seed);
+        let prepared = PreparedEvent::new(observed, self.settings.agents, seed);
         let Some(inference) = self.infer(&prepared, seed, &mut *tick)? else { return Ok(None) };
         let futures =
             futures(&prepared, &inference, steps, seed, &self.forecast, tick).map_err(MethodError::new)?;
@@ -162,7 +165,7 @@ fn details(inference: &Inference) -> Value {
     let hypothesis = |(hypothesis, weight): &(_, f64)| json!({ "hypothesis": hypothesis, "weight": weight });
     let hypotheses: Vec<Value> =
         inference.posterior.hypotheses.iter().take(REPORTED_HYPOTHESES).map(hypothesis).collect();
-    let kind = |kind: &MindPosterior| json!({ "kind": kind.minds.kind, "probability": kind.probability });
+    let kind = |kind: &MindPosterior| json!({ "kind": kind.agents.minds.kind().name(), "probability": kind.probability });
     let minds: Vec<Value> = inference.minds.iter().map(kind).collect();
     json!({
         "hypotheses": hypotheses,

@@ -51,7 +51,7 @@ pub fn run(arguments: &GenDataset, context: &Context) -> Result<(), CliError> {
         Contents::Nothing => {}
     }
     interrupt::listen();
-    context.detail(format!("seed {}: {}", plan.seed, arguments.effort.description()));
+    context.detail(format!("seed {}: {}", plan.seed, crate::effort::description(&plan.settings)));
     let folder = Folder::claim(&out, &plan.run())?;
     folder.subfolder("events")?;
     if plan.videos {

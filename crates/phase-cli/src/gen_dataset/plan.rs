@@ -65,7 +65,7 @@ impl Plan {
         let command = format!(
             "phase gen-dataset --preset {name} --events {count} --seed {seed}{effort}{no_video}{date}"
         );
-        let settings = arguments.effort.settings();
+        let settings = arguments.effort.settings()?;
         let settings_value = settings_value(&settings)?;
         let facts = format!("{settings_value} {seed} {text}");
         let fingerprint = hexadecimal(&sha256(&[&program()[..], facts.as_bytes()].concat()));

@@ -41,7 +41,7 @@ pub fn run(arguments: &Serve, context: &Context) -> Result<(), CliError> {
         min_steps: default.simulation.min_steps,
         rest_steps: default.simulation.rest_steps,
         still_steps: default.simulation.still_steps,
-        ..arguments.simulation.settings()
+        ..arguments.simulation.settings()?
     };
     let settings = ServerSettings {
         listen: arguments.listen,

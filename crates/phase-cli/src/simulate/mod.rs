@@ -42,7 +42,9 @@ pub fn run(arguments: &Simulate, context: &Context) -> Result<(), CliError> {
     let chosen = inputs(arguments, context)?;
     let seeds = seeds(arguments)?;
     check_ids(arguments, &chosen, &seeds)?;
-    let (run, out) = (run_value(arguments, &chosen)?, &arguments.out);
+    let settings = arguments.effort.settings()?;
+    let run = run_value(arguments, &settings, &chosen)?;
+    let out = &arguments.out;
     match folder::inspect(out, SUMMARY_FILE)? {
         Contents::Finished => return check_finished(arguments, &run),
         Contents::Unfinished(other) => {
@@ -52,11 +54,11 @@ pub fn run(arguments: &Simulate, context: &Context) -> Result<(), CliError> {
         Contents::Nothing => {}
     }
     interrupt::listen();
-    context.detail(format!("seed {}: {}", arguments.seed, arguments.effort.description()));
+    context.detail(format!("seed {}: {}", arguments.seed, crate::effort::description(&settings)));
     let folder = Folder::claim(out, &run)?;
     let events = chosen.len() * seeds.len();
     let activity = format!("simulating {}", console::events(events));
-    let event_writer = EventWriter::new(context, &activity, &folder, arguments.effort.settings(), events)?;
+    let event_writer = EventWriter::new(context, &activity, &folder, settings, events)?;
     let made = make_all(&arguments.jobs, events, |k| {
         let (index, recording) = &chosen[k / seeds.len()];
         make(&event_writer, arguments, *index, recording, seeds[k % seeds.len()])
@@ -156,12 +158,16 @@ fn check_ids(arguments: &Simulate, chosen: &[Input], seeds: &[u64]) -> Result<()
 
 /// Everything that determines the results: the events themselves and not the file they came in, the seeds,
 /// the settings.
-fn run_value(arguments: &Simulate, chosen: &[Input]) -> Result<Value, CliError> {
+fn run_value(
+    arguments: &Simulate,
+    settings: &phase_sim::SimulationSettings,
+    chosen: &[Input],
+) -> Result<Value, CliError> {
     let events: Vec<Value> = chosen.iter().map(|(index, recording)| json!([index, recording.id])).collect();
     let read: String = chosen.iter().map(|(index, recording)| input_of(*index, recording)).collect();
     let mut run = json!({
         "command": "simulate", "generator": GENERATOR, "seed": arguments.seed, "seeds": arguments.seeds,
-        "videos": !arguments.no_video, "settings": settings_value(&arguments.effort.settings())?,
+        "videos": !arguments.no_video, "settings": settings_value(settings)?,
         "events": events, "input_sha256": hexadecimal(&sha256(read.as_bytes())),
     });
     if arguments.same_chance {

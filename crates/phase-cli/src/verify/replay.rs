@@ -212,7 +212,7 @@ impl<'a> Recorded<'a> {
             for (agent, thought) in step.thoughts.iter().enumerate() {
                 let rule = |what: &str| format!("has {what} in step {number} of agent {agent}");
                 let particles: usize = thought.subgoals.iter().map(|it| it.particles).sum();
-                if particles > settings.minds.particles {
+                if particles > settings.minds.particles() {
                     return Err(self.fail("thoughts", rule("more particles than the belief")));
                 }
                 let searched = thought.actions.iter().any(|it| it.action == step.actions[agent]);

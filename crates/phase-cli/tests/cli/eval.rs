@@ -171,8 +171,9 @@ fn only_simple_has_minds_to_choose() {
     succeed(path, &[&asked[..], &["--minds", "published", "--one-way-turns", "--json", "out.json"]].concat());
     let results = results(&path.join("out.json"));
     assert_eq!(results["method"], "simple-published-minds");
-    let minds = &results["run"]["method_settings"]["method"]["minds"];
-    assert_eq!((&minds["kind"], &minds["one_way_turns"]), (&json!("published"), &json!(true)));
+    let agents = &results["run"]["method_settings"]["method"]["agents"];
+    assert_eq!(agents["minds"]["kind"], "published");
+    assert_eq!(agents["one_way_turns"], true);
 }
 
 #[test]

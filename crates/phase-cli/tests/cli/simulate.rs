@@ -197,13 +197,18 @@ fn published_minds_are_named_and_act_otherwise() {
     let one_way = made("one-way", &["--minds", "published", "--one-way-turns"]).simulation.expect("one");
     assert_eq!(ours.settings["minds"]["kind"], "phase");
     assert_eq!(theirs.settings["minds"]["kind"], "published");
-    assert_eq!(
-        (&theirs.settings["minds"]["one_way_turns"], &one_way.settings["minds"]["one_way_turns"]),
-        (&json!(false), &json!(true))
-    );
+    assert_eq!(theirs.settings["one_way_turns"], false);
+    assert_eq!(one_way.settings["one_way_turns"], true);
     // Walking needs five actions in published minds, and twelve in ours.
     let searched = |simulation: &phase_event::Simulation| simulation.event.steps[0].thoughts[1].actions.len();
     assert_eq!((searched(&ours), searched(&theirs)), (12, 5));
     let refused = refuse(path, &simulate("no", &["--minds", "mine"]));
     assert!(refused.contains("published"), "{refused}");
+    for foresight in ["coarse", "exact"] {
+        let refused = refuse(path, &simulate("no", &["--minds", "published", "--foresight", foresight]));
+        let expected = format!("--foresight {foresight}: published minds search in dynamics of their own");
+        assert!(refused.contains(&expected), "{refused}");
+    }
+    let points = made("points", &["--minds", "published", "--foresight", "points"]).simulation.expect("one");
+    assert_eq!(points.settings["minds"]["collisions"], false);
 }

@@ -21,8 +21,8 @@ pub(crate) fn round(id: &str, kind: &str) -> Round {
 pub(crate) fn settings(players: [Player; 2]) -> GameSettings {
     let mut settings = GameSettings { players, practice_steps: 4, ..GameSettings::default() };
     settings.simulation.max_steps = 6;
-    settings.simulation.minds.particles = 5;
-    settings.simulation.minds.simulations = 20;
+    settings.simulation.minds = settings.simulation.minds.with_particles(5);
+    settings.simulation.minds = settings.simulation.minds.with_simulations(20);
     settings
 }
 

@@ -2,8 +2,8 @@
 
 use crate::mind::Player;
 use futures_util::{SinkExt as _, StreamExt as _};
-use phase_agent::MindParameters;
 use phase_game::playlist::Item;
+use phase_minds::MindParameters;
 use phase_model::{
     Action, AgentId,
     random::{Pcg64Mcg, Purpose, stream},

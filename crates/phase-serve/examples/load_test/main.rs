@@ -72,7 +72,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         scenes.push(Item { source: kind.name().into(), scene: sample_named(Some(kind.name()), None, seed)? });
     }
     let mut game = GameSettings::default();
-    game.simulation.minds.simulations = options.simulations;
+    game.simulation.minds = game.simulation.minds.with_simulations(options.simulations);
     let settings = ServerSettings {
         listen: ([127, 0, 0, 1], 0).into(),
         host: None,

@@ -1,13 +1,10 @@
 //! A mind that plays as a person would: from what the server tells its agent.
 
-use phase_agent::{BeliefView, MindParameters};
-use phase_belief::Belief;
-use phase_forward::Forward;
 use phase_game::{Instructions, playlist::Item};
-use phase_minds::Mind;
+use phase_minds::{Agent, MindParameters};
 use phase_model::{
-    Action, AgentId, Body, BodySet, Contacts, Entity, Grip, MAX_ENTITIES, ObjectId, PhysicsConfig, Side,
-    State, Vec2,
+    Action, AgentId, Body, BodySet, Contacts, Entity, Grip, MAX_ENTITIES, ObjectId, PhysicsConfig, Scene,
+    Side, State, Vec2,
     random::{Pcg64Mcg, Purpose, stream},
 };
 use phase_perception::{
@@ -17,14 +14,14 @@ use phase_perception::{
 use phase_render::Palette;
 use serde_json::Value;
 
-/// A mind with its belief.
+/// An agent of a scene that observes what the server tells it.
 pub(crate) struct Player {
-    mind: Box<dyn Mind>,
-    agent: AgentId,
+    scene: Scene,
+    parameters: MindParameters,
     physics: PhysicsConfig,
-    forward: Forward,
-    belief: Option<Belief>,
-    particles: usize,
+    own: AgentId,
+    /// The agent, from its first observation on.
+    agent: Option<Agent>,
     last: Option<Action>,
     random: [Pcg64Mcg; 2],
 }
@@ -44,14 +41,12 @@ impl Player {
                 serde_json::to_value(told).is_ok_and(|told| told == stage["instructions"])
             })?
             .scene;
-        let physics = scene.physics();
         Some(Self {
-            mind: phase_minds::mind(scene, agent, parameters).ok()?,
-            forward: Forward::new(&physics),
-            physics,
-            agent,
-            belief: None,
-            particles: parameters.particles,
+            scene: scene.clone(),
+            parameters: *parameters,
+            physics: scene.physics(),
+            own: agent,
+            agent: None,
             last: None,
             random: [Purpose::Belief, Purpose::Search]
                 .map(|purpose| stream(1, purpose, agent.number().into())),
@@ -62,15 +57,14 @@ impl Player {
     pub(crate) fn decide(&mut self, sight: &Value) -> Option<Action> {
         let observation = self.observation(sight)?;
         let [beliefs, searches] = &mut self.random;
-        match (&mut self.belief, self.last) {
-            (Some(belief), Some(action)) => {
-                belief.update(&self.forward, &self.physics, action, &observation, beliefs);
+        let agent = match self.agent.take().zip(self.last) {
+            Some((mut agent, action)) => {
+                agent.perceive(action, &observation, beliefs);
+                agent
             }
-            _ => self.belief = Some(Belief::new(&self.physics, &observation, self.particles, beliefs)),
-        }
-        let particles = self.belief.as_ref()?.particles();
-        let view = BeliefView { particles, observed: observation.observed, last_action: self.last };
-        let (action, _) = self.mind.decide(view, searches).ok()?;
+            None => Agent::new(&self.scene, &self.parameters, &observation, beliefs).ok()?,
+        };
+        let (action, _) = self.agent.insert(agent).decide(searches).ok()?;
         self.last = Some(action);
         Some(action)
     }
@@ -105,10 +99,10 @@ impl Player {
             contacts.insert(entity(0)?, entity(1)?);
         }
         known.contacts = contacts;
-        let own = Entity::Agent(self.agent);
+        let own = Entity::Agent(self.own);
         let touched = self.physics.entities().filter(|&entity| known.touching(own, entity)).collect();
         let visible = cells(sight["visible"].as_str()?);
-        Some(Observation::from_parts(self.agent, visible, observed, touched, &known))
+        Some(Observation::from_parts(self.own, visible, observed, touched, &known))
     }
 }
 

@@ -23,8 +23,8 @@ const PATIENCE: Duration = Duration::from_secs(20);
 pub(crate) fn settings() -> ServerSettings {
     let mut game = GameSettings { countdown: Duration::from_millis(100), ..GameSettings::default() };
     game.simulation.max_steps = 6;
-    game.simulation.minds.particles = 5;
-    game.simulation.minds.simulations = 20;
+    game.simulation.minds = game.simulation.minds.with_particles(5);
+    game.simulation.minds = game.simulation.minds.with_simulations(20);
     ServerSettings {
         listen: ([127, 0, 0, 1], 0).into(),
         host: None,

@@ -9,7 +9,6 @@ mod trial;
 
 use crate::check_minds::parameters;
 use options::CheckBehaviour;
-use phase_agent::MindParameters;
 use phase_cli::{
     console::print_result,
     context::Context,
@@ -25,6 +24,7 @@ use phase_files::{
     WriteError, atomic,
     folder::{self, Folder},
 };
+use phase_minds::MindParameters;
 use phase_model::{Scene, arena::SUBSTEPS};
 use phase_render::Palette;
 use phase_sim::SimulationSettings;
@@ -91,13 +91,11 @@ pub fn run(arguments: &CheckBehaviour, context: &Context) -> Result<(), CliError
 
 /// The settings of the events, with the parameters of a file if one is given.
 fn settings(arguments: &CheckBehaviour) -> Result<SimulationSettings, CliError> {
-    let given = arguments.effort.settings();
-    let Some(file) = &arguments.parameters else { return Ok(given) };
+    let Some(file) = &arguments.parameters else { return arguments.effort.settings() };
     let minds = parameters::read(file)?;
-    let (simulations, foresight) = (given.minds.simulations, given.minds.foresight);
-    let mut minds = MindParameters { simulations, foresight, ..minds };
-    arguments.effort.minds.apply(&mut minds);
-    Ok(SimulationSettings { minds, ..given })
+    // What was fitted with few simulations is checked with as many as an agent has that acts.
+    let simulations = MindParameters::of(minds.kind()).simulations();
+    arguments.effort.settings_with(minds.with_simulations(simulations))
 }
 
 /// The requested scenes: part of the table, id, scene.

@@ -104,7 +104,7 @@ impl TrialRunner {
             settings.rest_steps = usize::MAX;
         }
         if let Some(lambda) = part.lambda {
-            settings.minds.lambda = lambda;
+            settings.minds = settings.minds.with_lambda(lambda);
         }
         settings
     }

@@ -10,7 +10,8 @@ use phase_evidence::Track;
 use phase_model::{AGENT_COUNT, AgentId, EventKind};
 use phase_sim::SimulationSettings;
 use phase_simple::{
-    Algorithm, Cues, InferenceSettings, InversePlanningSettings, PreparedEvent, UniformStrength,
+    Algorithm, Cues, ImaginedAgents, InferenceSettings, InversePlanningSettings, PreparedEvent,
+    UniformStrength,
     choice::{self, Chance},
     infer,
 };
@@ -26,7 +27,7 @@ pub(super) struct Plan {
     /// Whether SIMPLE's posterior is wanted.
     pub(super) posterior: bool,
     /// The minds of the open loop.
-    pub(super) open_loop: phase_agent::MindParameters,
+    pub(super) open_loop: ImaginedAgents,
     /// Simulations of every scene in the open loop.
     pub(super) open_loop_seeds: u64,
     /// The seed; simulations in the open loop use those that follow, too.
@@ -91,7 +92,7 @@ impl Plan {
         let scene = &recording.scene;
         let truth = truth(scene);
         let observed = recording.observed().map_err(|error| failed(MethodError::new(error)))?;
-        let prepared = PreparedEvent::new(&observed, self.inference.minds, self.seed);
+        let prepared = PreparedEvent::new(&observed, self.inference.agents, self.seed);
         let likelihoods = choice::action_likelihoods(&prepared, self.tolerance());
         let chances = |agent| {
             let chances = choice::chances(&prepared, &likelihoods, &truth, agent);
@@ -148,7 +149,8 @@ impl Plan {
         let settings = SimulationSettings {
             max_steps: steps,
             min_steps: steps,
-            minds: self.open_loop,
+            one_way_turns: self.open_loop.one_way_turns,
+            minds: self.open_loop.minds,
             ..SimulationSettings::default()
         };
         let begun = ThreadTime::now();

@@ -13,7 +13,6 @@ mod table;
 use crate::{error::LabError, json_file};
 use measure::Plan;
 use options::CheckMinds;
-use phase_agent::{MindKind, MindParameters};
 use phase_cli::{
     console::{self, print_result},
     context::Context,
@@ -27,8 +26,9 @@ use phase_cli::{
 use phase_eval::goals::canonical;
 use phase_event::Recording;
 use phase_files::atomic;
+use phase_minds::{MindKind, MindParameters, PublishedParameters};
 use phase_model::{AgentId, Attitude, EventKind, Goal, Scene};
-use phase_simple::{Hypothesis, InferenceSettings, Intent};
+use phase_simple::{Hypothesis, ImaginedAgents, InferenceSettings, Intent};
 use report::Report;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -52,7 +52,7 @@ pub fn run(arguments: &CheckMinds, context: &Context) -> Result<(), LabError> {
     let parameters = arguments.parameters.as_deref().map(parameters::read).transpose()?;
     let mut recordings = recordings(&arguments.events, arguments.only, context)?;
     retain(&mut recordings, &arguments.ids, &arguments.events)?;
-    let plan = plan(arguments, minds(arguments, parameters.unwrap_or_default(), &recordings));
+    let plan = plan(arguments, agents(arguments, parameters, &recordings)?)?;
     interrupt::listen();
     let units = recordings.iter().map(|recording| plan.units(recording.trajectory.steps())).max();
     let activity = format!("measuring {}", console::events(recordings.len()));
@@ -84,33 +84,49 @@ fn retain(recordings: &mut Vec<Recording>, ids: &[String], file: &Path) -> Resul
     Ok(())
 }
 
-/// The parameters of the minds that were asked for. Published minds in recordings have bodies that turn one way, as those
-/// of the recorder did; events that were simulated here had others.
-fn minds(arguments: &CheckMinds, parameters: MindParameters, recordings: &[Recording]) -> MindParameters {
-    let kind = arguments.minds.unwrap_or(parameters.kind);
+/// The agents that were asked for. Those of recordings with published minds have bodies that turn one way, as those of the
+/// recorder did; events that were simulated here had others.
+fn agents(
+    arguments: &CheckMinds,
+    given: Option<MindParameters>,
+    recordings: &[Recording],
+) -> Result<ImaginedAgents, CliError> {
+    let minds = given.unwrap_or_else(|| MindParameters::of(arguments.minds.unwrap_or_default()));
+    if let Some(kind) = arguments.minds.filter(|kind| *kind != minds.kind()) {
+        let asked = kind.name();
+        let found = minds.kind().name();
+        return Err(CliError::Usage(format!("--minds {asked}: the parameters are those of {found} minds")));
+    }
     let recorded = recordings.iter().all(|recording| recording.simulation.is_none());
-    let one_way_turns = parameters.one_way_turns || kind == MindKind::Published && recorded;
-    MindParameters { kind, one_way_turns, ..parameters }
+    Ok(ImaginedAgents { one_way_turns: minds.kind() == MindKind::Published && recorded, minds })
 }
 
-/// What is to be measured, with these parameters of the minds.
-fn plan(arguments: &CheckMinds, parameters: MindParameters) -> Plan {
-    let minds = |simulations: u32| MindParameters { simulations: simulations as usize, ..parameters };
-    let (simulations, searches) = match parameters.kind {
-        MindKind::Phase => (SIMULATIONS, 1),
-        MindKind::Published => (PUBLISHED_SIMULATIONS, PUBLISHED_SEARCHES),
+/// The measurement of such agents.
+fn plan(arguments: &CheckMinds, agents: ImaginedAgents) -> Result<Plan, CliError> {
+    let simulations = match agents.minds.kind() {
+        MindKind::Phase => SIMULATIONS,
+        MindKind::Published => PUBLISHED_SIMULATIONS,
     };
-    let at_states = MindParameters {
-        searches: arguments.searches.unwrap_or(searches) as usize,
-        ..minds(arguments.simulations.unwrap_or(simulations))
+    let at_states = match agents.minds.with_simulations(arguments.simulations.unwrap_or(simulations) as usize)
+    {
+        MindParameters::Published(parameters) => {
+            let searches = arguments.searches.unwrap_or(PUBLISHED_SEARCHES) as usize;
+            PublishedParameters { searches, ..parameters }.into()
+        }
+        minds if arguments.searches.is_none() => minds,
+        minds => {
+            let rule = format!("{} minds search once a decision", minds.kind().name());
+            return Err(CliError::Usage(format!("--searches: {rule}")));
+        }
     };
-    Plan {
-        inference: InferenceSettings { minds: at_states, ..InferenceSettings::default() },
+    let open_loop = agents.minds.with_simulations(arguments.simulations_open_loop as usize);
+    Ok(Plan {
+        inference: InferenceSettings::default().with_agents(agents.with_minds(at_states)),
         posterior: !arguments.no_posterior,
-        open_loop: minds(arguments.simulations_open_loop),
+        open_loop: agents.with_minds(open_loop),
         open_loop_seeds: arguments.open_loop_seeds.into(),
         seed: arguments.seed,
-    }
+    })
 }
 
 /// The events of a file or folder, of one kind only if one is given: at least one, and each with a step.
@@ -161,7 +177,7 @@ pub(crate) fn is_true(intent: &Intent, truth: &Hypothesis, agent: AgentId) -> bo
 fn description(arguments: &CheckMinds, plan: &Plan) -> Value {
     json!({
         "command": "check-minds", "generator": GENERATOR, "seed": plan.seed,
-        "only": arguments.only.map(EventKind::name), "ids": arguments.ids, "minds": plan.open_loop.kind.name(),
+        "only": arguments.only.map(EventKind::name), "ids": arguments.ids, "minds": plan.open_loop.minds.kind().name(),
         "inference": plan.inference, "posterior": plan.posterior,
         "open_loop": plan.open_loop, "open_loop_seeds": plan.open_loop_seeds,
     })

@@ -1,8 +1,8 @@
 //! The options of `check-minds`.
 
 use clap::{Args, builder::PossibleValuesParser, builder::TypedValueParser, value_parser};
-use phase_agent::MindKind;
 use phase_cli::{effort::mind_kinds, parallel::Jobs};
+use phase_minds::MindKind;
 use phase_model::EventKind;
 use std::path::PathBuf;
 

@@ -1,8 +1,8 @@
 //! Parameters of the minds, from a file.
 
-use phase_agent::MindParameters;
 use phase_cli::error::CliError;
 use phase_files::json;
+use phase_minds::MindParameters;
 use std::path::Path;
 
 /// The default parameters with those of a file in their place.

@@ -227,7 +227,7 @@ fn simulated(
     let network = IntentNetwork::bundled().map_err(MethodError::new)?;
     let guide = Guide { network: &network, guidance: Guidance::default() };
     let settings = InferenceSettings::averaged();
-    let prepared = PreparedEvent::new(&observed, settings.minds, seed);
+    let prepared = PreparedEvent::new(&observed, settings.agents, seed);
     let cues = Cues { strengths: &UniformStrength, guide: Some(guide) };
     let inference = infer(&prepared, &cues, seed, &settings, tick).map_err(MethodError::new)?;
     let Some(inference) = inference else { return Ok(None) };

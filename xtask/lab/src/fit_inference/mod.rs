@@ -16,7 +16,6 @@ mod weights;
 use crate::{check_minds::parameters, error::LabError, fit_events::KeptFigures, fit_minds::folds, json_file};
 use grid::Grid;
 use options::FitInference;
-use phase_agent::MindParameters;
 use phase_cli::{
     console::{self, print_result},
     context::Context,
@@ -26,7 +25,9 @@ use phase_cli::{
 };
 use phase_event::Recording;
 use phase_model::AGENT_COUNT;
-use phase_simple::{Algorithm, AlternativeMinds, InferenceSettings, IntentNetwork, InversePlanningSettings};
+use phase_simple::{
+    Algorithm, AlternativeAgents, ImaginedAgents, InferenceSettings, IntentNetwork, InversePlanningSettings,
+};
 use report::{Fold, Report};
 use subject::{EventEvidence, INTENTS, Subject};
 use weights::Weights;
@@ -52,8 +53,8 @@ pub fn run(arguments: &FitInference, context: &Context) -> Result<(), LabError> 
     interrupt::listen();
     let planning = planning(arguments, &settings);
     let present = Weights::of(&settings, &planning);
-    let kinds: Vec<MindParameters> =
-        core::iter::once(settings.minds).chain(settings.alternative.map(|it| it.minds)).collect();
+    let kinds: Vec<ImaginedAgents> =
+        core::iter::once(settings.agents).chain(settings.alternative.map(|it| it.agents)).collect();
     let network = IntentNetwork::bundled().map_err(LabError::IntentNetwork)?;
     let made_by = format!("{} {}", json_text(&kinds, "the minds")?, planning.interval);
     let kept = KeptFigures::new(&made_by, files, context)?;
@@ -99,19 +100,19 @@ fn settings(arguments: &FitInference) -> Result<InferenceSettings, CliError> {
     let one = InferenceSettings::default();
     let given = arguments.parameters.as_deref().map(parameters::read).transpose()?;
     let mut settings = match (given, arguments.minds) {
-        (Some(minds), _) => one.with_minds(MindParameters {
-            simulations: InferenceSettings::minds_of(minds.kind).simulations,
-            ..minds
-        }),
-        (None, Some(kind)) => one.with_minds(InferenceSettings::minds_of(kind)),
+        (Some(minds), _) => {
+            let agents = ImaginedAgents::of(minds.kind());
+            one.with_agents(agents.with_minds(minds.with_simulations(agents.minds.simulations())))
+        }
+        (None, Some(kind)) => one.with_agents(ImaginedAgents::of(kind)),
         (None, None) => InferenceSettings::averaged(),
     };
     if let Some(simulations) = arguments.simulations {
-        let simulations = simulations as usize;
-        settings.minds.simulations = simulations;
-        settings.alternative = settings
-            .alternative
-            .map(|it| AlternativeMinds { minds: MindParameters { simulations, ..it.minds }, ..it });
+        let searching =
+            |agents: ImaginedAgents| agents.with_minds(agents.minds.with_simulations(simulations as usize));
+        settings.agents = searching(settings.agents);
+        let alternative = settings.alternative;
+        settings.alternative = alternative.map(|it| AlternativeAgents { agents: searching(it.agents), ..it });
     }
     Ok(settings)
 }

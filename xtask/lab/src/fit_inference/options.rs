@@ -2,8 +2,8 @@
 
 use crate::fit_events::FitEvents;
 use clap::{Args, value_parser};
-use phase_agent::MindKind;
 use phase_cli::effort::mind_kinds;
+use phase_minds::MindKind;
 use std::path::PathBuf;
 
 /// Options of `fit-inference`.

@@ -3,14 +3,14 @@
 use super::weights::Weights;
 use crate::check_minds::{is_true, recognition::Recognition, truth};
 use core::ops::ControlFlow;
-use phase_agent::MindParameters;
 use phase_cli::error::CliError;
 use phase_eval::MethodError;
 use phase_event::{ObservedEvent, Recording};
 use phase_model::{AGENT_COUNT, AgentId, EventKind, Goal, Strength};
 use phase_simple::{
-    ActionLikelihoods, Budget, Hypothesis, Intent, IntentEvidence, IntentNetwork, InversePlanningSettings,
-    Posterior, PreparedEvent, Proposal, UniformStrength, choice::Chance, cue::GAMMA, intent::joint_logs,
+    ActionLikelihoods, Budget, Hypothesis, ImaginedAgents, Intent, IntentEvidence, IntentNetwork,
+    InversePlanningSettings, Posterior, PreparedEvent, Proposal, UniformStrength, choice::Chance, cue::GAMMA,
+    intent::joint_logs,
 };
 use serde::{Deserialize, Serialize};
 
@@ -61,7 +61,7 @@ impl EventEvidence {
     /// not social takes the other's likeliest goal by the cue for the other's goal.
     pub(super) fn of(
         recording: &Recording,
-        kinds: &[MindParameters],
+        kinds: &[ImaginedAgents],
         planning: &InversePlanningSettings,
         network: &IntentNetwork,
         seed: u64,
@@ -73,10 +73,10 @@ impl EventEvidence {
         let assumed = AgentId::ALL.map(|agent| cue.most_likely_goal(agent));
         let mut evidence = Vec::with_capacity(kinds.len());
         let mut prepared: Option<PreparedEvent> = None;
-        for minds in kinds {
+        for imagined in kinds {
             let event = match &prepared {
-                Some(other) => other.with_minds(*minds),
-                None => PreparedEvent::new(&observed, *minds, seed),
+                Some(other) => other.with_agents(*imagined),
+                None => PreparedEvent::new(&observed, *imagined, seed),
             };
             match agents(&event, planning, assumed, tick).map_err(failed)? {
                 Some(of_kind) => evidence.push(of_kind),

@@ -8,7 +8,7 @@ use super::{
     subject::{Figures, Method},
 };
 use crate::error::LabError;
-use phase_agent::MindParameters;
+use phase_minds::PhaseParameters;
 use serde::Serialize;
 
 /// What the parameters are worth on some events.
@@ -40,7 +40,7 @@ impl Ablation {
     /// # Errors
     /// As [`Evaluations::of`].
     pub(super) fn of(
-        base: MindParameters,
+        base: PhaseParameters,
         parameters: &[&Parameter],
         events: &[usize],
         method: Method,

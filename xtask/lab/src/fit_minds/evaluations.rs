@@ -5,7 +5,6 @@ use crate::{
     error::LabError,
     evaluations_file::{EvaluationsFile, Line},
 };
-use phase_agent::MindParameters;
 use phase_cli::{
     context::Context,
     error::CliError,
@@ -14,6 +13,7 @@ use phase_cli::{
     parallel::{Jobs, make_all},
 };
 use phase_files::checksum::{hexadecimal, sha256};
+use phase_minds::PhaseParameters;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Hexadecimal digits of a key: 128 bits.
@@ -55,14 +55,14 @@ impl<'a> Evaluations<'a> {
     /// Parameters that minds do not accept, a file that cannot be written, or an interruption.
     pub(super) fn of(
         &mut self,
-        wanted: &[(MindParameters, usize)],
+        wanted: &[(PhaseParameters, usize)],
         activity: &str,
     ) -> Result<Vec<Figures>, LabError> {
         let keys = wanted.iter().map(|(parameters, event)| self.key(*parameters, *event));
         let keys: Vec<String> = keys.collect::<Result<_, _>>()?;
         let mut seen = BTreeSet::new();
         let tasks = keys.iter().zip(wanted.iter().copied());
-        let tasks: Vec<(&String, (MindParameters, usize))> =
+        let tasks: Vec<(&String, (PhaseParameters, usize))> =
             tasks.filter(|(key, _)| !self.known.contains_key(*key) && seen.insert(*key)).collect();
         if !tasks.is_empty() {
             let computed = self.compute(&tasks, activity)?;
@@ -73,7 +73,7 @@ impl<'a> Evaluations<'a> {
 
     fn compute(
         &self,
-        tasks: &[(&String, (MindParameters, usize))],
+        tasks: &[(&String, (PhaseParameters, usize))],
         activity: &str,
     ) -> Result<Vec<Figures>, LabError> {
         let progress =
@@ -96,7 +96,7 @@ impl<'a> Evaluations<'a> {
     }
 
     /// A name of everything that determines an evaluation.
-    fn key(&self, parameters: MindParameters, event: usize) -> Result<String, CliError> {
+    fn key(&self, parameters: PhaseParameters, event: usize) -> Result<String, CliError> {
         let parameters = json_text(&parameters, "a set of parameters")?;
         let all = format!("{} {} {parameters}", self.made_by, self.subjects[event].digest);
         let mut key = hexadecimal(&sha256(all.as_bytes()));

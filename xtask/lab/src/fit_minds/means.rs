@@ -2,7 +2,7 @@
 
 use super::{evaluations::Evaluations, subject::Figures};
 use crate::error::LabError;
-use phase_agent::MindParameters;
+use phase_minds::PhaseParameters;
 use phase_statistics::{mean, standard_error};
 use serde::Serialize;
 
@@ -36,7 +36,7 @@ impl Means {
     /// # Errors
     /// As [`Evaluations::of`].
     pub(super) fn of(
-        parameters: MindParameters,
+        parameters: PhaseParameters,
         events: &[usize],
         evaluations: &mut Evaluations<'_>,
         activity: &str,

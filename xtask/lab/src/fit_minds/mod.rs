@@ -20,7 +20,6 @@ use ablation::Ablation;
 use evaluations::Evaluations;
 use options::FitMinds;
 use parameter::{PARAMETERS, Parameter};
-use phase_agent::MindParameters;
 use phase_cli::{
     console::{self, print_result},
     context::Context,
@@ -31,6 +30,7 @@ use phase_cli::{
 };
 use phase_eval::MethodError;
 use phase_event::{ObservedEvent, Recording};
+use phase_minds::{MindParameters, PhaseParameters};
 use search::Fit;
 use std::path::Path;
 use subject::{Method, Subject};
@@ -47,8 +47,7 @@ pub fn run(arguments: &FitMinds, context: &Context) -> Result<(), LabError> {
             return Err(CliError::Usage("--out -: a file is needed".into()).into());
         }
     }
-    let start = arguments.parameters.as_deref().map(check_minds::parameters::read).transpose()?;
-    let start = start.unwrap_or_default();
+    let start = start(arguments)?;
     let mut recordings = check_minds::recordings(&arguments.events, None, context)?;
     let own = recordings.len();
     if !arguments.ablation && own < usize::from(arguments.folds) {
@@ -78,17 +77,32 @@ pub fn run(arguments: &FitMinds, context: &Context) -> Result<(), LabError> {
     search::run(&mut fits, &chosen, arguments.rounds.into(), &mut evaluations, context)?;
     let text = report::of(&fits, start, &chosen, held_out, method, &mut evaluations)?;
     if let Some(all) = fits.last() {
-        json_file::write(arguments.out.as_deref(), &json_text(&all.parameters, "the parameters")?)?;
+        json_file::write(
+            arguments.out.as_deref(),
+            &json_text(&MindParameters::from(all.parameters), "the parameters")?,
+        )?;
     }
     print_result(text.trim_end());
     Ok(())
+}
+
+/// The parameters that a fit starts from.
+fn start(arguments: &FitMinds) -> Result<PhaseParameters, CliError> {
+    let Some(file) = &arguments.parameters else { return Ok(PhaseParameters::default()) };
+    match check_minds::parameters::read(file)? {
+        MindParameters::Phase(parameters) => Ok(parameters),
+        MindParameters::Published(_) => {
+            let rule = "the parameters of published minds are not fitted";
+            Err(CliError::Usage(format!("{}: {rule}", file.display())))
+        }
+    }
 }
 
 /// The parameters to be changed.
 ///
 /// # Errors
 /// If one of them starts from a value that it may not have.
-fn chosen(arguments: &FitMinds, start: &MindParameters) -> Result<Vec<&'static Parameter>, CliError> {
+fn chosen(arguments: &FitMinds, start: &PhaseParameters) -> Result<Vec<&'static Parameter>, CliError> {
     let wanted =
         |it: &&Parameter| arguments.only.is_empty() || arguments.only.iter().any(|name| name == it.name);
     let chosen: Vec<&'static Parameter> = PARAMETERS.iter().filter(wanted).collect();
@@ -134,7 +148,12 @@ fn prepare<'a>(
 }
 
 /// One fit without each fold, and at last one on all events.
-fn fits(subjects: &[Subject<'_>], events: &[usize], start: MindParameters, arguments: &FitMinds) -> Vec<Fit> {
+fn fits(
+    subjects: &[Subject<'_>],
+    events: &[usize],
+    start: PhaseParameters,
+    arguments: &FitMinds,
+) -> Vec<Fit> {
     let folds = usize::from(arguments.folds);
     let named: Vec<_> = subjects.iter().map(|subject| (subject.id, subject.kind)).collect();
     let fold_of = folds::assign(&named, folds, arguments.seed);

@@ -1,6 +1,6 @@
 //! The parameters that are fitted: where they are, what values they may have, and which are tried.
 
-use phase_agent::MindParameters;
+use phase_minds::PhaseParameters;
 
 /// A parameter of the minds that is fitted.
 pub(super) struct Parameter {
@@ -9,8 +9,8 @@ pub(super) struct Parameter {
     /// The value with which it has no effect, for the ablation.
     pub(super) neutral: f64,
     domain: Domain,
-    get: fn(&MindParameters) -> f64,
-    set: fn(&mut MindParameters, f64),
+    get: fn(&PhaseParameters) -> f64,
+    set: fn(&mut PhaseParameters, f64),
 }
 
 /// The values that a parameter may have, and how it is changed.
@@ -121,12 +121,12 @@ pub(super) const PARAMETERS: [Parameter; 11] = [
 
 impl Parameter {
     /// Its value.
-    pub(super) fn value(&self, of: &MindParameters) -> f64 {
+    pub(super) fn value(&self, of: &PhaseParameters) -> f64 {
         rounded((self.get)(of))
     }
 
     /// The parameters with this value of it.
-    pub(super) fn with(&self, mut of: MindParameters, value: f64) -> MindParameters {
+    pub(super) fn with(&self, mut of: PhaseParameters, value: f64) -> PhaseParameters {
         (self.set)(&mut of, value);
         of
     }
@@ -172,18 +172,18 @@ fn rounded(value: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::{PARAMETERS, Step, rounded};
-    use phase_agent::MindParameters;
+    use phase_minds::PhaseParameters;
     use serde_json::Value;
 
     #[test]
     fn every_parameter_from_the_heuristic_prior_on_is_fitted_and_is_the_field_of_its_name() {
-        let text = serde_json::to_string(&MindParameters::default()).expect("JSON");
+        let text = serde_json::to_string(&PhaseParameters::default()).expect("JSON");
         let places = PARAMETERS.each_ref().map(|it| text.find(&format!("\"{}\":", it.name)).expect(it.name));
         assert!(places.is_sorted(), "the order is that of the fields");
         let rest = &text[places[0]..];
         assert_eq!(rest.matches(':').count(), PARAMETERS.len(), "{rest}");
         for parameter in &PARAMETERS {
-            let changed = parameter.with(MindParameters::default(), 0.375);
+            let changed = parameter.with(PhaseParameters::default(), 0.375);
             let json: Value = serde_json::to_value(changed).expect("JSON");
             assert_eq!((&json[parameter.name], parameter.value(&changed)), (&0.375.into(), 0.375));
         }
@@ -193,7 +193,7 @@ mod tests {
     fn defaults_neutral_values_and_all_that_is_tried_are_within_range() {
         for parameter in &PARAMETERS {
             let (low, high) = parameter.range();
-            let default = parameter.value(&MindParameters::default());
+            let default = parameter.value(&PhaseParameters::default());
             for value in [default, parameter.neutral, low, high] {
                 assert!((low..=high).contains(&value), "{}: {value}", parameter.name);
                 for step in [Step::Coarse, Step::Fine] {

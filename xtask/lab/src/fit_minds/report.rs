@@ -8,7 +8,7 @@ use super::{
     subject::{Figures, Method},
 };
 use crate::error::LabError;
-use phase_agent::MindParameters;
+use phase_minds::PhaseParameters;
 
 /// Heading of a column of means.
 const HEADING: &str = "events log post     ll chance";
@@ -20,7 +20,7 @@ const HEADING: &str = "events log post     ll chance";
 /// As [`Evaluations::of`].
 pub(super) fn of(
     fits: &[Fit],
-    start: MindParameters,
+    start: PhaseParameters,
     parameters: &[&Parameter],
     held_out: &[usize],
     method: Method,

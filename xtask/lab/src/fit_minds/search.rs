@@ -6,8 +6,8 @@ use super::{
     parameter::{Parameter, Step},
 };
 use crate::error::LabError;
-use phase_agent::MindParameters;
 use phase_cli::context::Context;
+use phase_minds::PhaseParameters;
 
 /// What a change must gain in mean log posterior to be kept (nat an event). Less is chance.
 const MINIMUM_GAIN: f64 = 0.01;
@@ -17,7 +17,7 @@ pub(super) struct Fit {
     /// Its name in tables.
     pub(super) name: String,
     /// The parameters, as far as fitted.
-    pub(super) parameters: MindParameters,
+    pub(super) parameters: PhaseParameters,
     /// The events to which they are fitted.
     pub(super) training: Vec<usize>,
     /// The events held out.
@@ -30,7 +30,7 @@ impl Fit {
     /// A fit that has not begun.
     pub(super) fn new(
         name: String,
-        start: MindParameters,
+        start: PhaseParameters,
         training: Vec<usize>,
         validation: Vec<usize>,
     ) -> Self {
@@ -89,7 +89,7 @@ fn improve(
     activity: &str,
     evaluations: &mut Evaluations<'_>,
 ) -> Result<(), LabError> {
-    let tried: Vec<Vec<MindParameters>> = fits
+    let tried: Vec<Vec<PhaseParameters>> = fits
         .iter()
         .map(|fit| fit.values(parameter).into_iter().map(|it| parameter.with(fit.parameters, it)).collect())
         .collect();
@@ -99,7 +99,7 @@ fn improve(
     // All at once, so that no core waits.
     evaluations.of(&pairs.collect::<Vec<_>>(), activity)?;
     for (fit, tried) in fits.iter_mut().zip(tried) {
-        let mut best: Option<(MindParameters, f64)> = None;
+        let mut best: Option<(PhaseParameters, f64)> = None;
         for parameters in tried {
             let score = Means::of(parameters, &fit.training, evaluations, activity)?.log_posterior;
             // The present value comes first, and only a gain replaces it; of two that gain, the better one wins.

@@ -2,11 +2,11 @@
 
 use crate::check_minds::{is_true, recognition::Recognition, truth};
 use cpu_time::ThreadTime;
-use phase_agent::MindParameters;
 use phase_cli::{error::CliError, interrupt};
 use phase_eval::MethodError;
 use phase_event::{ObservedEvent, Recording};
 use phase_files::checksum::{hexadecimal, sha256};
+use phase_minds::{MindParameters, PhaseParameters};
 use phase_model::{AGENT_COUNT, AgentId, Attitude, EventKind};
 use phase_simple::{
     Hypothesis, Intent, InversePlanningSettings, Posterior, PreparedEvent,
@@ -94,8 +94,8 @@ impl<'a> Subject<'a> {
             }
         }
         let text = recording.to_json().map_err(CliError::EventWrite)?;
-        let minds = MindParameters { particles, ..MindParameters::default() };
-        let prepared = PreparedEvent::new(observed, minds, method.seed);
+        let minds = PhaseParameters { particles, ..PhaseParameters::default() };
+        let prepared = PreparedEvent::new(observed, MindParameters::from(minds), method.seed);
         let likelihoods = choice::action_likelihoods(&prepared, InversePlanningSettings::default().tolerance);
         let count = observed.steps();
         // From the middle of the first interval on: at the start of an event nobody has moved yet.
@@ -117,9 +117,9 @@ impl<'a> Subject<'a> {
     ///
     /// # Errors
     /// Invalid parameters of the agents' search.
-    pub(super) fn evaluate(&self, parameters: MindParameters) -> Result<Option<Figures>, CliError> {
+    pub(super) fn evaluate(&self, parameters: PhaseParameters) -> Result<Option<Figures>, CliError> {
         let failed = |error| CliError::Method { id: self.id.to_owned(), source: MethodError::new(error) };
-        let minds = MindParameters { simulations: self.method.simulations, ..parameters };
+        let minds = PhaseParameters { simulations: self.method.simulations, ..parameters };
         let objects = self.prepared.observed().object_sizes().len();
         let begun = ThreadTime::now();
         let mut decisions = 0;
@@ -133,7 +133,7 @@ impl<'a> Subject<'a> {
                 let others = self.truth.goals[agent.other()];
                 let hypothesis = intent.hypothesis(agent, others, self.truth.strengths);
                 let decided =
-                    self.prepared.decide_at(&hypothesis, agent, minds, &self.steps).map_err(failed)?;
+                    self.prepared.decide_at(&hypothesis, agent, minds.into(), &self.steps).map_err(failed)?;
                 let chances = decided
                     .iter()
                     .zip(&self.steps)

@@ -133,7 +133,7 @@ fn parameters_come_from_a_file() {
     fs::write(path.join("minds.json"), r#"{"lambda": 0.5, "particles": 7}"#).expect("written");
     let printed = succeed(path, &check(&["--no-posterior", "--parameters", "minds.json", "--json"]));
     let report: Value = serde_json::from_str(&printed).expect("one JSON object");
-    for minds in [&report["run"]["inference"]["minds"], &report["run"]["open_loop"]] {
+    for minds in [&report["run"]["inference"]["agents"]["minds"], &report["run"]["open_loop"]["minds"]] {
         assert_eq!((&minds["lambda"], &minds["particles"]), (&json!(0.5), &json!(7)));
         assert_eq!(minds["simulations"], 10);
     }
@@ -143,6 +143,7 @@ fn parameters_come_from_a_file() {
         (r#"{"lamda": 0.5}"#, "`lamda`"),
         (r#"{"lambda": "much"}"#, "much"),
         (r#"{"particles": 0}"#, "`particles`"),
+        (r#"{"searches": 2}"#, "`searches` is a parameter of published minds, not of phase minds"),
     ];
     for (content, said) in cases {
         fs::write(path.join("minds.json"), content).expect("written");
@@ -191,9 +192,12 @@ fn published_minds_turn_one_way_in_recordings() {
     succeed(path, &check(&more));
     let report = report(&path.join("out.json"));
     assert_eq!((&report["events"], &report["run"]["minds"]), (&json!(1), &json!("published")));
-    let minds = &report["run"]["inference"]["minds"];
-    assert_eq!((&minds["kind"], &minds["one_way_turns"]), (&json!("published"), &json!(true)));
+    let agents = &report["run"]["inference"]["agents"];
+    let minds = &agents["minds"];
+    assert_eq!((&minds["kind"], &agents["one_way_turns"]), (&json!("published"), &json!(true)));
     assert_eq!((&minds["simulations"], &minds["searches"]), (&json!(10), &json!(5)));
+    let refused = refuse(path, &check(&["--searches", "2"]));
+    assert!(refused.contains("--searches: phase minds search once a decision"), "{refused}");
     let refused = refuse(path, &check(&["--ids", "nobody"]));
     assert!(refused.contains("has no event nobody"), "{refused}");
 }

@@ -1,25 +1,24 @@
-//! Parameters of an agent's mind.
+//! The parameters of a PHASE mind.
 
 use phase_planner::PlannerCosts;
 use serde::{Deserialize, Serialize};
 
-/// Fidelity of the dynamics that an agent's search uses. Its belief is always predicted with exact steps.
+/// The dynamics in which an agent searches. Its belief is always predicted with exact steps.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Foresight {
-    /// By [`Dynamics::step_approximate`](phase_model::Dynamics::step_approximate), at a fraction of the cost.
+    /// [`Dynamics::step_approximate`](phase_model::Dynamics::step_approximate), at a fraction of the cost.
     #[default]
     Coarse,
-    /// By [`Dynamics::step`](phase_model::Dynamics::step), the exact dynamics.
+    /// [`Dynamics::step`](phase_model::Dynamics::step), the exact dynamics.
     Exact,
-    /// As [`Coarse`](Self::Coarse), in a world without collisions between bodies: agents and objects pass through each
-    /// other, and only walls stop them. Whoever makes a mind gives it such dynamics (`phase-minds` does); published minds
-    /// search with theirs, less the collisions.
+    /// Coarse steps in a world without collisions between bodies: agents and objects pass through each other, and
+    /// only walls stop them. Whoever makes a mind gives it such dynamics, as `phase-minds` does.
     Points,
 }
 
 impl Foresight {
-    /// All of them.
+    /// Every value, the default first.
     pub const ALL: [Self; 3] = [Self::Coarse, Self::Exact, Self::Points];
 
     /// The name used in files and options.
@@ -33,45 +32,14 @@ impl Foresight {
     }
 }
 
-/// Which minds agents have.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum MindKind {
-    /// Those of this crate.
-    #[default]
-    Phase,
-    /// Those of the published simulator, reimplemented in `phase-published`, which [`crate::Mind`] is not.
-    Published,
-}
-
-impl MindKind {
-    /// All kinds.
-    pub const ALL: [Self; 2] = [Self::Phase, Self::Published];
-
-    /// The name used in files and options.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Phase => "phase",
-            Self::Published => "published",
-        }
-    }
-}
-
-/// Parameters of an agent's mind: every number that shapes its behaviour.
+/// The parameters of a PHASE mind: every number that shapes its behaviour.
 ///
-/// The search's parameters are the paper's. The others, from `heuristic_prior` on, are those that
-/// `cargo xtask fit-minds` fits; `docs/minds.md` says what was fitted on which events.
+/// Those of belief and search, up to `foresight`, are the paper's where it gives them. The others are those that
+/// `cargo xtask fit-minds` fits; `docs/minds.md` has their units and says what was fitted to which events. Ranges are
+/// checked where parameters enter a program, by `phase_minds::MindParameters::validate`.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
-#[serde(default)]
-pub struct MindParameters {
-    /// Which minds. Absent in older files, which means `phase`. Published minds have, of the parameters below, only those of
-    /// belief, subgoal value and search: `particles` to `discount`, less `convergence`; and of `foresight` whether it is
-    /// [`Foresight::Points`].
-    pub kind: MindKind,
-    /// Whether bodies turn one way whichever way their minds choose: to the left, and to the right in a reflected layout. It
-    /// is a defect of the published recorder, of which its minds do not know.
-    pub one_way_turns: bool,
+#[serde(deny_unknown_fields)]
+pub struct PhaseParameters {
     /// K, the number of belief particles; at least 1.
     pub particles: usize,
     /// λ of the subgoal value (1/u).
@@ -81,9 +49,6 @@ pub struct MindParameters {
     /// Change of the policy, as total variation, below which a search ends early
     /// ([`PomcpSettings::convergence`](phase_pomcp::PomcpSettings::convergence)), 0 to 1.
     pub convergence: f64,
-    /// Independent searches per decision, whose visits are added up; at least 1. Of `published` minds only, whose searches
-    /// commit themselves early; `phase` minds search once.
-    pub searches: usize,
     /// Steps of the rollout policy after a leaf of the tree.
     pub rollout_steps: usize,
     /// c_init of PUCT.
@@ -96,10 +61,8 @@ pub struct MindParameters {
     /// most visited; at least 0.
     pub decisiveness: f64,
     /// Share of rollout actions taken from the heuristic instead of uniformly sampled, 0 to 1.
-    #[serde(rename = "guidance")]
     pub heuristic_share: f64,
-    /// Fidelity of the search's dynamics. Absent in older files, which means `exact`.
-    #[serde(default = "legacy_foresight")]
+    /// The dynamics in which the agent searches.
     pub foresight: Foresight,
     /// Prior of the heuristic's action in PUCT, relative to that of any other; above 0.
     pub heuristic_prior: f64,
@@ -127,11 +90,7 @@ pub struct MindParameters {
     pub effort: f32,
 }
 
-const fn legacy_foresight() -> Foresight {
-    Foresight::Exact
-}
-
-impl MindParameters {
+impl PhaseParameters {
     /// The costs of plans.
     #[must_use]
     pub const fn planner_costs(&self) -> PlannerCosts {
@@ -139,16 +98,13 @@ impl MindParameters {
     }
 }
 
-impl Default for MindParameters {
+impl Default for PhaseParameters {
     fn default() -> Self {
         Self {
-            kind: MindKind::Phase,
-            one_way_turns: false,
             particles: 50,
             lambda: phase_planner::value::LAMBDA,
             simulations: 1000,
             convergence: 0.1,
-            searches: 1,
             rollout_steps: 10,
             c_init: 1.25,
             c_base: 1000.0,

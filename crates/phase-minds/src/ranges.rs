@@ -1,0 +1,104 @@
+//! The range of every parameter of every kind of mind.
+
+use phase_agent::PhaseParameters;
+use phase_published::PublishedParameters;
+use thiserror::Error;
+
+/// A parameter of a mind that is out of its range.
+#[derive(Clone, Copy, PartialEq, Debug, Error)]
+#[error("field `{name}` must be {range}, not {value}")]
+pub struct RangeError {
+    /// The parameter's name.
+    pub name: &'static str,
+    /// The range in words.
+    pub range: &'static str,
+    /// The rejected value.
+    pub value: f64,
+}
+
+/// The values that a parameter may have.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Range {
+    /// A number of things, of which there has to be one.
+    AtLeastOne,
+    /// A share.
+    Share,
+    /// A ratio or a scale.
+    Positive,
+    /// An amount.
+    NotNegative,
+}
+
+impl Range {
+    const fn in_words(self) -> &'static str {
+        match self {
+            Self::AtLeastOne => "at least 1",
+            Self::Share => "from 0 to 1",
+            Self::Positive => "finite and above 0",
+            Self::NotNegative => "finite and at least 0",
+        }
+    }
+
+    fn contains(self, value: f64) -> bool {
+        match self {
+            Self::AtLeastOne => value >= 1.0,
+            Self::Share => (0.0..=1.0).contains(&value),
+            Self::Positive => value.is_finite() && value > 0.0,
+            Self::NotNegative => value.is_finite() && value >= 0.0,
+        }
+    }
+}
+
+/// A parameter: its name in files, its value, and its range.
+type Ranged = (&'static str, f64, Range);
+
+/// Checks values against their ranges.
+pub(crate) fn check(parameters: &[Ranged]) -> Result<(), RangeError> {
+    for &(name, value, range) in parameters {
+        if !range.contains(value) {
+            return Err(RangeError { name, range: range.in_words(), value });
+        }
+    }
+    Ok(())
+}
+
+pub(crate) fn of_phase(parameters: &PhaseParameters) -> [Ranged; 21] {
+    use Range::{AtLeastOne, NotNegative, Positive, Share};
+    [
+        ("particles", parameters.particles as f64, AtLeastOne),
+        ("lambda", parameters.lambda, NotNegative),
+        ("simulations", parameters.simulations as f64, AtLeastOne),
+        ("convergence", parameters.convergence, Share),
+        ("rollout_steps", parameters.rollout_steps as f64, NotNegative),
+        ("c_init", parameters.c_init, NotNegative),
+        ("c_base", parameters.c_base, Positive),
+        ("discount", parameters.discount, Share),
+        ("decisiveness", parameters.decisiveness, NotNegative),
+        ("heuristic_share", parameters.heuristic_share, Share),
+        ("heuristic_prior", parameters.heuristic_prior, Positive),
+        ("momentum_prior", parameters.momentum_prior, Positive),
+        ("lateral_prior", parameters.lateral_prior, Positive),
+        ("rest_prior", parameters.rest_prior, Positive),
+        ("horizon_steps", parameters.horizon_steps, NotNegative),
+        ("other_initiative", parameters.other_initiative, Share),
+        ("obstruction", parameters.obstruction.into(), NotNegative),
+        ("grasp", parameters.grasp.into(), NotNegative),
+        ("turning", parameters.turning.into(), NotNegative),
+        ("impassable", parameters.impassable.into(), NotNegative),
+        ("effort", parameters.effort.into(), Share),
+    ]
+}
+
+pub(crate) fn of_published(parameters: &PublishedParameters) -> [Ranged; 8] {
+    use Range::{AtLeastOne, NotNegative, Positive, Share};
+    [
+        ("particles", parameters.particles as f64, AtLeastOne),
+        ("lambda", parameters.lambda, NotNegative),
+        ("simulations", parameters.simulations as f64, AtLeastOne),
+        ("searches", parameters.searches as f64, AtLeastOne),
+        ("rollout_steps", parameters.rollout_steps as f64, NotNegative),
+        ("c_init", parameters.c_init, NotNegative),
+        ("c_base", parameters.c_base, Positive),
+        ("discount", parameters.discount, Share),
+    ]
+}

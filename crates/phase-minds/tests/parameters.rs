@@ -1,0 +1,98 @@
+//! Parameters as people give them: by name, of one kind of mind, within their ranges.
+
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
+use phase_minds::{MindKind, MindParameters, PhaseParameters, PublishedParameters};
+use serde_json::{Value, json};
+
+fn refused(given: Value) -> String {
+    MindParameters::from_overrides(given).unwrap_err().to_string()
+}
+
+#[test]
+fn absent_parameters_have_their_defaults() {
+    let given = MindParameters::from_overrides(json!({"simulations": 7, "heuristic_share": 0.25})).unwrap();
+    let expected = PhaseParameters { simulations: 7, heuristic_share: 0.25, ..PhaseParameters::default() };
+    assert_eq!(given, expected.into());
+    assert_eq!(MindParameters::from_overrides(json!({})).unwrap(), MindParameters::default());
+    let given = MindParameters::from_overrides(json!({"kind": "published", "searches": 3})).unwrap();
+    assert_eq!(given, PublishedParameters { searches: 3, ..PublishedParameters::default() }.into());
+}
+
+#[test]
+fn an_error_names_the_parameter_and_the_rule() {
+    assert_eq!(refused(json!(3)), "parameters of minds must be an object");
+    assert_eq!(refused(json!({"kind": "mine"})), "field `kind` must be phase or published, not \"mine\"");
+    assert_eq!(refused(json!({"patience": 3})), "field `patience` is no parameter of phase minds");
+    assert!(
+        refused(json!({"simulations": "many"})).starts_with("field `simulations` is wrong: invalid type")
+    );
+    assert_eq!(refused(json!({"particles": 0})), "field `particles` must be at least 1, not 0");
+    assert_eq!(
+        refused(json!({"decisiveness": -1})),
+        "field `decisiveness` must be finite and at least 0, not -1"
+    );
+    assert_eq!(refused(json!({"effort": 2})), "field `effort` must be from 0 to 1, not 2");
+    assert_eq!(refused(json!({"rest_prior": 0})), "field `rest_prior` must be finite and above 0, not 0");
+}
+
+#[test]
+fn a_parameter_of_another_kind_is_refused_by_name() {
+    assert_eq!(
+        refused(json!({"searches": 2})),
+        "field `searches` is a parameter of published minds, not of phase minds"
+    );
+    assert_eq!(
+        refused(json!({"kind": "published", "rest_prior": 0.5})),
+        "field `rest_prior` is a parameter of phase minds, not of published minds"
+    );
+    for (kind, foreign) in [("phase", "searches"), ("published", "effort"), ("phase", "one_way_turns")] {
+        let mut whole = json!(MindParameters::from_overrides(json!({ "kind": kind })).unwrap());
+        assert!(serde_json::from_value::<MindParameters>(whole.clone()).is_ok());
+        whole[foreign] = json!(1);
+        let refused = serde_json::from_value::<MindParameters>(whole).unwrap_err().to_string();
+        assert!(refused.contains(&format!("unknown field `{foreign}`")), "{refused}");
+    }
+}
+
+#[test]
+fn files_name_the_kind_and_hold_every_parameter() {
+    for kind in MindKind::ALL {
+        let whole = json!(MindParameters::of(kind));
+        assert_eq!(whole["kind"], kind.name());
+        assert_eq!(
+            serde_json::from_value::<MindParameters>(whole.clone()).unwrap(),
+            MindParameters::of(kind)
+        );
+        for name in whole.as_object().unwrap().keys() {
+            let mut part = whole.clone();
+            part.as_object_mut().unwrap().remove(name);
+            let refused = serde_json::from_value::<MindParameters>(part).unwrap_err().to_string();
+            assert!(refused.contains(name), "{refused}");
+        }
+    }
+}
+
+#[test]
+fn a_file_with_a_parameter_out_of_its_range_is_refused() {
+    let mut whole = json!(MindParameters::default());
+    whole["particles"] = json!(0);
+    let refused = serde_json::from_value::<MindParameters>(whole).unwrap_err().to_string();
+    assert_eq!(refused, "field `particles` must be at least 1, not 0");
+}
+
+/// Every number has a range, and the defaults lie in it.
+#[test]
+fn no_number_may_be_negative() {
+    for kind in MindKind::ALL {
+        MindParameters::of(kind).validate().unwrap();
+        let whole = json!(MindParameters::of(kind));
+        for (name, value) in whole.as_object().unwrap() {
+            if !value.is_number() {
+                continue;
+            }
+            let refused = refused(json!({"kind": kind.name(), name.as_str(): -1}));
+            assert!(refused.contains(&format!("field `{name}`")), "{refused}");
+        }
+    }
+}
