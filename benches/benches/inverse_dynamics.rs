@@ -11,10 +11,7 @@ use phase_model::{
     random::{Purpose, stream},
 };
 use phase_sim::SimulationSettings;
-use phase_simple::{
-    Cues, ForecastSettings, Guidance, Guide, InferenceSettings, IntentNetwork, MotionTracker, PreparedEvent,
-    UniformStrength, futures, infer,
-};
+use phase_simple::{ForecastSettings, MotionTracker, Simple, futures};
 use std::path::Path;
 
 /// Of the recordings, every so many are explained.
@@ -74,14 +71,11 @@ fn bench(criterion: &mut Criterion, name: &str, events: &[ObservedEvent]) {
 
 /// Goals of whole events, and futures after their first seconds.
 fn bench_simple(criterion: &mut Criterion, events: &[ObservedEvent]) {
-    let network = IntentNetwork::bundled().expect("a sound file");
-    let guide = Guide { network: &network, guidance: Guidance::default() };
-    let cues = Cues { strengths: &UniformStrength, guide: Some(guide) };
-    let settings = InferenceSettings::averaged();
+    let simple = Simple::bundled().expect("sound files");
     let tick = &mut || ControlFlow::Continue(());
     let mut understand = |event: &ObservedEvent, ahead: usize| {
-        let prepared = PreparedEvent::new(event, settings.agents, 1);
-        let inference = infer(&prepared, &cues, 1, &settings, tick).expect("sound parameters");
+        let prepared = simple.prepare(event, 1);
+        let inference = simple.infer(&prepared, 1, tick).expect("sound parameters");
         let inference = inference.expect("nobody breaks it off");
         if ahead > 0 {
             let forecast = ForecastSettings::default();

@@ -8,7 +8,7 @@
 //! - [`social_gnn`] is a later one for the relations of Task 1,
 //! - [`nodes`] is the input of all of them; [`recognition`] with [`goals`], and [`forecasting`], are what
 //!   those for one task have in common,
-//! - [`training`] trains any of them,
+//! - [`training`] trains any of them, and as a [`TrainedNetwork`] each answers to events,
 //! - [`layer`], [`perceptron`], [`lstm`] and attention are the building blocks of networks.
 //!
 //! Key design decision: all randomness (initial weights, order of samples, sampling of events) comes from one
@@ -57,6 +57,7 @@ pub mod goals;
 pub mod intent_network;
 pub mod layer;
 pub mod lstm;
+mod method;
 pub mod nodes;
 pub mod parameters;
 pub mod perceptron;
@@ -67,3 +68,5 @@ pub mod stgat;
 pub mod strength;
 pub mod training;
 pub mod two_level_lstm;
+
+pub use method::TrainedNetwork;

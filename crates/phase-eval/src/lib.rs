@@ -1,9 +1,9 @@
 //! How well a method perceives social events: the metrics of both tasks, with confidence intervals.
 //!
-//! - [`method`] is the interface of methods: a [`Recogniser`] for Task 1 (goals and relations), a
-//!   [`Forecaster`] for Task 2 (trajectories); [`trivial`] has trivial baselines for both, below which no
-//!   method should fall.
-//! - [`goals`] and [`trajectories`] score answers; [`estimate`] puts intervals around every score.
+//! - [`goals`] scores the answers of a [`Recogniser`](phase_event::Recogniser) (Task 1: goals and relations),
+//!   [`trajectories`] those of a [`Forecaster`](phase_event::Forecaster) (Task 2); [`estimate`] puts intervals
+//!   around every score.
+//! - [`trivial`] has trivial baselines for both tasks, below which no method should fall.
 //! - [`benchmark`] compares many methods on the same events.
 //! - [`ratings`] are people's judgements of relations, with which [`goals::Agreement`] compares a method's.
 //! - [`results`] is output for programs, and [`predictions`] the answers of an external method to either
@@ -21,8 +21,8 @@
 //!
 //! ```
 //! use core::ops::ControlFlow;
-//! use phase_eval::{Forecaster, trajectories::Errors, trivial::ConstantVelocity};
-//! use phase_event::ObservedEvent;
+//! use phase_eval::{trajectories::Errors, trivial::ConstantVelocity};
+//! use phase_event::{Forecaster, ObservedEvent};
 //! use phase_model::{Body, Layout, Size, Vec2};
 //!
 //! let places = [Vec2::new(10.0, 5.0), Vec2::new(20.0, 15.0), Vec2::ZERO, Vec2::ZERO];
@@ -47,7 +47,6 @@ pub mod benchmark;
 pub mod estimate;
 pub mod goals;
 mod group;
-pub mod method;
 pub mod predictions;
 pub mod ratings;
 pub mod results;
@@ -56,4 +55,3 @@ pub mod trivial;
 
 pub use estimate::{CONFIDENCE, Estimate, RESAMPLES};
 pub use group::GroupScores;
-pub use method::{Forecaster, MethodError, ProgressCallback, Recogniser};

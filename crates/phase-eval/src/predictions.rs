@@ -2,9 +2,9 @@
 
 use crate::{
     goals::{Answer, canonical},
-    trajectories::{PREDICTED_STEPS, Prediction},
+    trajectories::PREDICTED_STEPS,
 };
-use phase_event::EventReadError;
+use phase_event::{EventReadError, Prediction};
 use phase_model::{
     AGENT_COUNT, Forecast, Goal, Judgement, RelationProbabilities, RoleProbabilities, Vec2,
     json::{Field, FieldError, finite},

@@ -1,10 +1,6 @@
 //! Trivial baselines: the scores that are reached without perception.
 
-use crate::{
-    method::{Forecaster, MethodResult, ProgressCallback, Recogniser},
-    trajectories::Prediction,
-};
-use phase_event::ObservedEvent;
+use phase_event::{Forecaster, MethodResult, ObservedEvent, Prediction, ProgressCallback, Recogniser};
 use phase_model::{
     AgentId, Entity, Forecast, Goal, Judgement, LandmarkId, ObjectId, RelationProbabilities, Sign, Vec2,
     arena::{self, SUBSTEP_SECONDS, SUBSTEPS},

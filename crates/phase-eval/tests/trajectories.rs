@@ -2,11 +2,11 @@
 
 use core::ops::ControlFlow;
 use phase_eval::{
-    Forecaster, predictions,
+    predictions,
     trajectories::{Errors, ForecastError, ForecastEvent, ForecastSummary, SampleErrors},
     trivial::{ConstantVelocity, Stationary},
 };
-use phase_event::ObservedEvent;
+use phase_event::{Forecaster, ObservedEvent};
 use phase_model::{Body, EventKind, Forecast, Layout, MAX_ENTITIES, Relation, Size, Vec2};
 use proptest::prelude::*;
 use serde_json::{Value, json};

@@ -20,6 +20,9 @@
 //! # Ok::<(), phase_event::EventReadError>(())
 //! ```
 //!
+//! A method that perceives events implements [`Recogniser`] (goals and relations) or [`Forecaster`] (trajectories),
+//! and is shown an [`ObservedEvent`].
+//!
 //! `docs/formats.md` describes every field. Reading and writing are exact inverses, bit for bit. Every part
 //! can also be read and written separately: [`Recording`], [`Event`] and [`Scene`](phase_model::Scene) have
 //! `from_json` and `to_json`, and implement serde's traits.
@@ -35,6 +38,7 @@ mod error;
 mod event;
 mod line_formatter;
 mod mean;
+mod method;
 mod observed;
 mod read;
 mod read_simulation;
@@ -49,6 +53,7 @@ mod write;
 pub use error::{EventReadError, EventWriteError};
 pub use event::{Event, Step};
 pub use mean::mean_state;
+pub use method::{Forecaster, MethodError, MethodResult, Prediction, ProgressCallback, Recogniser, SAMPLES};
 pub use observed::{ObservedError, ObservedEvent};
 pub use read::{LONGEST_ID, check_id, from_json, parse};
 pub use recording::{Controller, Recording, Recovered, Simulation};

@@ -1,8 +1,8 @@
 //! An event as observed by a viewer: walls, sizes and motion, without labels.
 
 use phase_model::{
-    AGENT_COUNT, AgentBody, AgentId, Body, Entity, Layout, MAX_ENTITIES, MAX_OBJECTS, PhysicsConfig, Size,
-    State,
+    AGENT_COUNT, AgentBody, AgentId, Body, Entity, Layout, MAX_ENTITIES, MAX_OBJECTS, PhysicsConfig, Scene,
+    Size, State,
 };
 use thiserror::Error;
 
@@ -54,6 +54,16 @@ impl ObservedEvent {
             Some(row) => Err(ObservedError::NotFinite(row)),
             None => Ok(Self { layout, agent_sizes, object_sizes, rows }),
         }
+    }
+
+    /// An event of which these rows have been observed in a scene, whose layout and sizes are all that is read of
+    /// it. See [`ObservedEvent::new`] for rows.
+    ///
+    /// # Errors
+    /// [`ObservedError`] for no rows, too many objects, or non-finite numbers.
+    pub fn in_scene(scene: &Scene, rows: Vec<[Body; MAX_ENTITIES]>) -> Result<Self, ObservedError> {
+        let objects = scene.objects.iter().map(|object| object.size).collect();
+        Self::new(scene.layout, scene.agents.map(|agent| agent.size), objects, rows)
     }
 
     /// Adds the next row, as in [`ObservedEvent::new`].

@@ -90,7 +90,6 @@ impl Recording {
     /// [`ObservedError`] for recordings that cannot occur in a file.
     pub fn observed(&self) -> Result<ObservedEvent, ObservedError> {
         let rows = self.trajectory.states().iter().map(|state| state.bodies).collect();
-        let objects = self.scene.objects.iter().map(|object| object.size).collect();
-        ObservedEvent::new(self.scene.layout, self.scene.agents.map(|agent| agent.size), objects, rows)
+        ObservedEvent::in_scene(&self.scene, rows)
     }
 }

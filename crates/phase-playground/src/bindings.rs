@@ -1,9 +1,7 @@
 //! What JavaScript calls. Errors are exceptions with the sentence as their message.
 
-use crate::{packed, scenes};
+use crate::{PageObserver, PageSimulation, packed, scenes};
 use phase_model::{AGENT_COUNT, Action, AgentId};
-use phase_simple::IntentNetwork;
-use std::sync::OnceLock;
 use wasm_bindgen::prelude::*;
 
 fn raise(sentence: String) -> JsError {
@@ -111,76 +109,68 @@ impl Events {
     }
 }
 
-/// As [`crate::Simulation`].
+/// As [`PageSimulation`].
 #[wasm_bindgen]
-pub struct Simulation(crate::Simulation);
+pub struct Simulation(PageSimulation);
 
 #[wasm_bindgen]
 impl Simulation {
-    /// As [`crate::Simulation::new`].
+    /// As [`PageSimulation::new`].
     #[wasm_bindgen(constructor)]
     pub fn new(scene: &str, seed: u64, options: &str) -> Result<Simulation, JsError> {
-        crate::Simulation::new(scene, seed, options).map(Self).map_err(raise)
+        PageSimulation::new(scene, seed, options).map(Self).map_err(raise)
     }
 
-    /// As [`crate::Simulation::step`]; a negative number leaves the agent to its mind.
+    /// As [`PageSimulation::step`]; a negative number leaves the agent to its mind.
     pub fn step(&mut self, first: i32, second: i32) -> Result<(), JsError> {
         let given: [Option<Action>; AGENT_COUNT] = [action_of(first)?, action_of(second)?];
         self.0.step(given).map_err(raise)
     }
 
-    /// As [`crate::Simulation::frames`].
+    /// As [`PageSimulation::frames`].
     pub fn frames(&self) -> Vec<f32> {
         self.0.frames()
     }
 
-    /// As [`crate::Simulation::row`].
+    /// As [`PageSimulation::row`].
     pub fn row(&self) -> Vec<f32> {
         self.0.row()
     }
 
-    /// As [`crate::Simulation::report`].
+    /// As [`PageSimulation::report`].
     pub fn report(&self) -> String {
         self.0.report()
     }
 
-    /// As [`crate::Simulation::belief`].
+    /// As [`PageSimulation::belief`].
     pub fn belief(&self, agent: u32) -> Result<Vec<f32>, JsError> {
         Ok(self.0.belief(agent_of(agent)?))
     }
 
-    /// As [`crate::Simulation::view`].
+    /// As [`PageSimulation::view`].
     pub fn view(&self, agent: u32) -> Result<Vec<u8>, JsError> {
         Ok(self.0.view(agent_of(agent)?))
     }
 
-    /// As [`crate::Simulation::document`].
+    /// As [`PageSimulation::document`].
     pub fn document(&self, id: &str) -> Result<String, JsError> {
         self.0.document(id).map_err(raise)
     }
 }
 
-/// As [`crate::Observer`].
+/// Infers goals, relation and roles from an event row by row; a [`PageObserver`] for JavaScript.
 #[wasm_bindgen]
-pub struct Observer(crate::Observer);
+pub struct Observer(PageObserver);
 
 #[wasm_bindgen]
 impl Observer {
-    /// As [`crate::Observer::new`], with the bundled intent network.
+    /// As [`PageObserver::new`].
     #[wasm_bindgen(constructor)]
     pub fn new(scene: &str, row: &[f32], decisions: usize) -> Result<Observer, JsError> {
-        static NETWORK: OnceLock<IntentNetwork> = OnceLock::new();
-        let network = match NETWORK.get() {
-            Some(network) => network,
-            None => {
-                let network = IntentNetwork::bundled().map_err(|error| raise(error.to_string()))?;
-                NETWORK.get_or_init(|| network)
-            }
-        };
-        crate::Observer::new(network, scene, row, decisions).map(Self).map_err(raise)
+        PageObserver::new(scene, row, decisions).map(Self).map_err(raise)
     }
 
-    /// As [`crate::Observer::push`].
+    /// As [`PageObserver::push`].
     pub fn push(&mut self, row: &[f32]) -> Result<String, JsError> {
         self.0.push(row).map_err(raise)
     }

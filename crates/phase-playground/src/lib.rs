@@ -1,6 +1,6 @@
 //! PHASE in a browser: what the playground's pages call, as WebAssembly.
 //!
-//! A [`Simulation`] simulates a scene step by step, with minds or people's actions; an [`Observer`] infers goals and relation while an event
+//! A [`PageSimulation`] simulates a scene step by step, with minds or people's actions; a [`PageObserver`] infers goals and relation while an event
 //! runs; a [`Picture`] draws as the videos are drawn; [`scenes`] checks, describes and samples scenes, and reads files of events.
 //! Everything is exchanged as JSON in the formats of `docs/formats.md`, or as 32-bit floats where there is one for each body and
 //! step ([`packed`]).
@@ -10,10 +10,10 @@
 //! a download of some megabytes.
 //!
 //! ```
-//! use phase_playground::{Simulation, scenes};
+//! use phase_playground::{PageSimulation, scenes};
 //!
 //! let scene = scenes::sample("helping", None, 1)?;
-//! let mut simulation = Simulation::new(&scene, 1, r#"{"max_steps": 3, "minds": {"simulations": 20}}"#)?;
+//! let mut simulation = PageSimulation::new(&scene, 1, r#"{"max_steps": 3, "minds": {"simulations": 20}}"#)?;
 //! while !simulation.is_over() {
 //!     simulation.step([None, None])?;
 //! }
@@ -32,9 +32,9 @@ pub mod picture;
 pub mod scenes;
 pub mod simulation;
 
-pub use observer::Observer;
+pub use observer::PageObserver;
 pub use picture::Picture;
-pub use simulation::Simulation;
+pub use simulation::PageSimulation;
 
 /// The generator named in files.
 const GENERATOR: &str = concat!("phase ", env!("CARGO_PKG_VERSION"));

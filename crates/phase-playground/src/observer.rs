@@ -5,43 +5,35 @@ use phase_eval::goals::Answer;
 use phase_event::ObservedEvent;
 use phase_model::AgentId;
 use phase_render::Palette;
-use phase_simple::{Budget, Guidance, Guide, Inference, InferenceSettings, IntentNetwork, ReportModel};
+use phase_simple::{Budget, Inference, Observer, Simple};
 use serde_json::{Value, json};
 
 /// Goals that are told in words.
 const GOALS: usize = 4;
+/// Seed of its minds' search.
+const SEED: u64 = 0;
 
-/// Infers goals, relation and roles from an event row by row.
+/// A page's observer: infers goals, relation and roles from an event row by row, and puts them into words.
 #[derive(Debug)]
-pub struct Observer {
-    observer: phase_simple::Observer<'static>,
-    reports: ReportModel,
+pub struct PageObserver {
+    simple: Simple,
+    observer: Observer,
 }
 
-impl Observer {
+impl PageObserver {
     /// Begins with the first row, a packed state. Of the scene only walls and sizes are looked at. `decisions` is what it spends on a
     /// row: a decision takes a few milliseconds.
     ///
     /// # Errors
     /// A sentence for an invalid scene or row.
-    pub fn new(
-        network: &'static IntentNetwork,
-        scene: &str,
-        row: &[f32],
-        decisions: usize,
-    ) -> Result<Self, String> {
+    pub fn new(scene: &str, row: &[f32], decisions: usize) -> Result<Self, String> {
         let scene = scenes::read(scene)?;
         let first = packed::states(row).next().ok_or("the first row is missing")?;
-        let sizes = scene.objects.iter().map(|object| object.size).collect();
-        let agents = scene.agents.map(|agent| agent.size);
-        let observed =
-            ObservedEvent::new(scene.layout, agents, sizes, vec![first.bodies]).map_err(sentence)?;
-        let guide = Guide { network, guidance: Guidance::default() };
-        let settings = InferenceSettings::default();
-        let mut observer =
-            phase_simple::Observer::new(&observed, Some(&guide), 0, &settings).map_err(sentence)?;
+        let observed = ObservedEvent::in_scene(&scene, vec![first.bodies]).map_err(sentence)?;
+        let simple = Simple::bundled().map_err(sentence)?;
+        let mut observer = simple.observer(&observed, SEED).map_err(sentence)?;
         observer.set_budget(Budget { decisions: Some(decisions) });
-        Ok(Self { observer, reports: ReportModel::bundled().map_err(sentence)? })
+        Ok(Self { simple, observer })
     }
 
     /// Watches the next row, a packed state, and answers as `eval` does (`goals`, `relation`, `roles`, `reported`), with the likeliest
@@ -56,7 +48,7 @@ impl Observer {
     }
 
     fn answer(&self, inference: &Inference) -> Result<String, String> {
-        let answer = Answer::of(&inference.judgement(&self.reports)).map_err(sentence)?;
+        let answer = Answer::of(&self.simple.judgement(inference)).map_err(sentence)?;
         let words = AgentId::ALL.map(|agent| -> Vec<Value> {
             let goals = answer.goals[agent].iter().take(GOALS);
             goals.map(|it| json!({ "goal": Palette::PAPER.goal_text(it.goal, agent), "p": it.p })).collect()

@@ -10,9 +10,9 @@ use phase_sim::{Engine, SimulationSettings};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-/// A scene with its minds.
+/// A page's simulation: a scene with its minds, which exchanges JSON and packed states.
 #[derive(Debug)]
-pub struct Simulation {
+pub struct PageSimulation {
     simulation: phase_sim::Simulation,
     settings: SimulationSettings,
     physics: PhysicsConfig,
@@ -29,7 +29,7 @@ struct Options {
     minds: Option<Value>,
 }
 
-impl Simulation {
+impl PageSimulation {
     /// A scene at its start. `options` is an object with `engine`, `max_steps`, `min_steps` and `minds`, parameters of the minds that
     /// differ from the defaults; all are optional.
     ///

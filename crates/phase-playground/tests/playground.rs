@@ -1,12 +1,14 @@
 //! What pages are given is what the crates below give.
 
-use phase_event::{Recording, to_json};
+use core::ops::ControlFlow;
+use phase_eval::goals::Answer;
+use phase_event::{Recogniser, Recording, from_json, to_json};
 use phase_model::{Action, AgentId, Scene};
 use phase_perception::observe;
-use phase_playground::{Observer, Picture, Simulation, packed, scenes};
+use phase_playground::{PageObserver, PageSimulation, Picture, packed, scenes};
 use phase_render::{Overlay, Palette, SceneRenderer, Style};
 use phase_sim::{SimulationSettings, simulate};
-use phase_simple::IntentNetwork;
+use phase_simple::Simple;
 use serde_json::Value;
 
 const OPTIONS: &str = r#"{"max_steps": 6, "minds": {"simulations": 30, "particles": 8}}"#;
@@ -24,7 +26,7 @@ fn scene() -> String {
 
 #[test]
 fn a_show_is_the_event_that_is_simulated() {
-    let mut show = Simulation::new(&scene(), 9, OPTIONS).unwrap();
+    let mut show = PageSimulation::new(&scene(), 9, OPTIONS).unwrap();
     let mut shown = show.frames();
     while !show.is_over() {
         show.step([None, None]).unwrap();
@@ -51,7 +53,7 @@ fn a_show_is_the_event_that_is_simulated() {
 
 #[test]
 fn actions_from_outside_are_carried_out() {
-    let mut show = Simulation::new(&scene(), 9, OPTIONS).unwrap();
+    let mut show = PageSimulation::new(&scene(), 9, OPTIONS).unwrap();
     show.step([Some(Action::TurnLeft), None]).unwrap();
     let report: Value = serde_json::from_str(&show.report()).unwrap();
     assert_eq!(report["actions"][0], "turnleft");
@@ -60,7 +62,7 @@ fn actions_from_outside_are_carried_out() {
 /// The picture with a mind is the frame that videos have of it.
 #[test]
 fn pictures_are_frames() {
-    let mut show = Simulation::new(&scene(), 9, OPTIONS).unwrap();
+    let mut show = PageSimulation::new(&scene(), 9, OPTIONS).unwrap();
     show.step([None, None]).unwrap();
     let frames = show.frames();
     let last = &frames[frames.len() - packed::STATE..];
@@ -83,11 +85,30 @@ fn pictures_are_frames() {
     assert_eq!(picture.draw(last).unwrap(), renderer.frame(&state, None).rgba());
 }
 
+/// Once with the time that it takes, a page's observer says what `phase eval --method simple` says of the file.
+#[test]
+fn the_posterior_of_a_page_is_that_of_the_program() {
+    let mut show = PageSimulation::new(&scene(), 9, OPTIONS).unwrap();
+    let mut observer = PageObserver::new(&scene(), &show.row(), usize::MAX).unwrap();
+    let mut said = Value::Null;
+    while !show.is_over() {
+        show.step([None, None]).unwrap();
+        said = serde_json::from_str(&observer.push(&show.row()).unwrap()).unwrap();
+    }
+    let file = from_json(&show.document("event").unwrap()).unwrap();
+    let observed = file[0].observed().unwrap();
+    let program = Simple::bundled().unwrap();
+    let judged = program.judge(&observed, 0, &mut || ControlFlow::Continue(())).unwrap();
+    let (judgement, _) = judged.expect("nobody breaks it off");
+    let answer = serde_json::to_value(Answer::of(&judgement).unwrap()).unwrap();
+    said.as_object_mut().unwrap().remove("words");
+    assert_eq!(said, answer);
+}
+
 #[test]
 fn what_is_watched_is_answered() {
-    let network: &'static IntentNetwork = Box::leak(Box::new(IntentNetwork::bundled().unwrap()));
-    let mut show = Simulation::new(&scene(), 9, OPTIONS).unwrap();
-    let mut observer = Observer::new(network, &scene(), &show.row(), 4).unwrap();
+    let mut show = PageSimulation::new(&scene(), 9, OPTIONS).unwrap();
+    let mut observer = PageObserver::new(&scene(), &show.row(), 4).unwrap();
     show.step([None, None]).unwrap();
     let answer: Value = serde_json::from_str(&observer.push(&show.row()).unwrap()).unwrap();
     let relation = answer["relation"].as_object().unwrap();
@@ -113,10 +134,10 @@ fn scenes_are_described_and_rubbish_is_refused() {
     for rubbish in ["", "{}", "[]", "null", "{\"layout\": 3}"] {
         assert!(scenes::describe(rubbish).is_err());
         assert!(scenes::events(rubbish).is_err());
-        assert!(Simulation::new(rubbish, 0, "{}").is_err());
+        assert!(PageSimulation::new(rubbish, 0, "{}").is_err());
     }
     for options in ["", "[]", r#"{"speed": 3}"#, r#"{"minds": {"simulations": 0}}"#, r#"{"minds": 3}"#] {
-        assert!(Simulation::new(&scene(), 0, options).is_err(), "{options}");
+        assert!(PageSimulation::new(&scene(), 0, options).is_err(), "{options}");
     }
     assert!(scenes::sample("helping", Some("chase"), 1).is_err());
     assert!(scenes::sample("flying", None, 1).is_err());

@@ -39,7 +39,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<mind::Mind>()?;
     module.add_class::<event::Event>()?;
     module.add_class::<event::EventSource>()?;
-    module.add_class::<observer::Observer>()?;
+    module.add_class::<observer::PythonObserver>()?;
     module.add_class::<drawing::Renderer>()?;
     module.add_function(wrap_pyfunction!(mind::decide_all, module)?)?;
     module.add_function(wrap_pyfunction!(event::simulate, module)?)?;

@@ -6,25 +6,24 @@ use numpy::{PyReadonlyArray2, PyUntypedArrayMethods};
 use phase_eval::goals::Answer;
 use phase_event::ObservedEvent;
 use phase_model::{Body, MAX_ENTITIES, Vec2};
-use phase_simple::{
-    Budget, Guidance, Guide, Inference, InferenceSettings, IntentNetwork, Observer as Simple, ReportModel,
-};
+use phase_simple::{Budget, Inference, Observer, Simple};
 use pyo3::prelude::*;
 use serde_json::json;
-use std::sync::{Mutex, OnceLock, PoisonError};
+use std::sync::{Mutex, PoisonError};
 
 /// Columns of a row of an event: x, y (u), vx, vy (u/s), angle (rad).
 const COLUMNS: usize = 5;
 
 /// Watches an event row by row.
-#[pyclass(frozen, module = "phase_events._native")]
-pub(crate) struct Observer {
-    simple: Mutex<Simple<'static>>,
+#[pyclass(frozen, name = "Observer", module = "phase_events._native")]
+pub(crate) struct PythonObserver {
+    simple: Simple,
+    observer: Mutex<Observer>,
     entities: usize,
 }
 
 #[pymethods]
-impl Observer {
+impl PythonObserver {
     /// Begins with the first row, (entities, 5). Of the scene only walls and sizes are looked at.
     #[new]
     fn new(
@@ -37,53 +36,38 @@ impl Observer {
         let scene = &scene.scene;
         let entities = scene.physics().entities().count();
         let row = read_row(&row, entities)?;
-        let sizes = scene.objects.iter().map(|object| object.size).collect();
-        let agents = scene.agents.map(|agent| agent.size);
-        let observed = ObservedEvent::new(scene.layout, agents, sizes, vec![row]).map_err(raise)?;
-        let network = network()?;
-        let simple = py.detach(|| {
-            let guide = Guide { network, guidance: Guidance::default() };
-            Simple::new(&observed, Some(&guide), seed, &InferenceSettings::averaged())
-        });
-        let mut simple = simple.map_err(raise)?;
+        let observed = ObservedEvent::in_scene(scene, vec![row]).map_err(raise)?;
+        let simple = Simple::bundled().map_err(raise)?;
+        let mut observer = py.detach(|| simple.observer(&observed, seed)).map_err(raise)?;
         if let Some(decisions) = decisions {
-            simple.set_budget(Budget { decisions: Some(decisions) });
+            observer.set_budget(Budget { decisions: Some(decisions) });
         }
-        Ok(Self { simple: Mutex::new(simple), entities })
+        Ok(Self { simple, observer: Mutex::new(observer), entities })
     }
 
     /// Watches the next row and answers with limited effort, as JSON.
     fn push(&self, py: Python<'_>, row: PyReadonlyArray2<'_, f32>) -> PyResult<String> {
         let row = read_row(&row, self.entities)?;
-        let inference = py.detach(|| self.simple.lock().unwrap_or_else(PoisonError::into_inner).push(row));
-        answer(&inference.map_err(raise)?)
+        let inference = py.detach(|| self.observer.lock().unwrap_or_else(PoisonError::into_inner).push(row));
+        self.answer(&inference.map_err(raise)?)
     }
 
     /// The answer of a batch inference of the rows seen so far, as JSON.
     fn inference(&self, py: Python<'_>) -> PyResult<String> {
         let inference = py.detach(|| {
-            let mut simple = self.simple.lock().unwrap_or_else(PoisonError::into_inner);
-            simple.inference(&mut || ControlFlow::Continue(()))
+            let mut observer = self.observer.lock().unwrap_or_else(PoisonError::into_inner);
+            observer.inference(&mut || ControlFlow::Continue(()))
         });
         let inference = inference.map_err(raise)?;
-        answer(&inference.ok_or_else(|| raise("interrupted"))?)
+        self.answer(&inference.ok_or_else(|| raise("interrupted"))?)
     }
 }
 
-fn answer(inference: &Inference) -> PyResult<String> {
-    let model = ReportModel::bundled().map_err(raise)?;
-    let answer = Answer::of(&inference.judgement(&model)).map_err(raise)?;
-    serde_json::to_string(&json!({ "answer": answer })).map_err(raise)
-}
-
-/// The bundled intent network, which observers share.
-fn network() -> PyResult<&'static IntentNetwork> {
-    static NETWORK: OnceLock<IntentNetwork> = OnceLock::new();
-    if let Some(network) = NETWORK.get() {
-        return Ok(network);
+impl PythonObserver {
+    fn answer(&self, inference: &Inference) -> PyResult<String> {
+        let answer = Answer::of(&self.simple.judgement(inference)).map_err(raise)?;
+        serde_json::to_string(&json!({ "answer": answer })).map_err(raise)
     }
-    let network = IntentNetwork::bundled().map_err(raise)?;
-    Ok(NETWORK.get_or_init(|| network))
 }
 
 fn read_row(row: &PyReadonlyArray2<'_, f32>, entities: usize) -> PyResult<[Body; MAX_ENTITIES]> {

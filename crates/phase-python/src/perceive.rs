@@ -88,5 +88,5 @@ pub(crate) fn forecast(
 /// Names of the methods for `infer` and for `forecast`.
 #[pyfunction]
 pub(crate) fn methods() -> (Vec<&'static str>, Vec<&'static str>) {
-    (named::RECOGNISERS.to_vec(), named::FORECASTERS.to_vec())
+    (named::recognisers(), named::FORECASTERS.to_vec())
 }

@@ -10,7 +10,7 @@ use crate::{
 };
 use phase_model::{AGENT_COUNT, AgentId, Attitude, Goal, Strength};
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeSet;
+use std::{collections::BTreeSet, sync::Arc};
 
 /// How a network guides inverse planning (docs/simple.md).
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
@@ -29,10 +29,10 @@ impl Default for Guidance {
 }
 
 /// A network and how it guides.
-#[derive(Clone, Copy, Debug)]
-pub struct Guide<'a> {
-    /// The network.
-    pub network: &'a IntentNetwork,
+#[derive(Clone, Debug)]
+pub struct Guide {
+    /// The network, which observers share.
+    pub network: Arc<IntentNetwork>,
     /// How it guides.
     pub guidance: Guidance,
 }

@@ -16,12 +16,12 @@ use phase_model::random::{self, Purpose};
 use phase_pomcp::PomcpError;
 
 /// What was learnt about motion, for an inference.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub struct Cues<'a> {
     /// Proposals of strengths, for Algorithm 2.
     pub strengths: &'a dyn StrengthCue,
     /// The guide of inverse planning, if it has one.
-    pub guide: Option<Guide<'a>>,
+    pub guide: Option<Guide>,
 }
 
 /// Infers what explains an event. The same seed gives the same result. `tick` is called about once a

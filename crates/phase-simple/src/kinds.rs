@@ -19,16 +19,16 @@ use std::sync::Arc;
 
 /// What the guide said after every row.
 #[derive(Clone, Debug)]
-pub(crate) struct GuideCourse<'a> {
+pub(crate) struct GuideCourse {
     guidance: Guidance,
-    reader: IntentReader<'a>,
+    reader: IntentReader,
     /// ln Q of every intent of each agent after each row.
     intents: Vec<[WeightedIntents; AGENT_COUNT]>,
 }
 
-impl<'a> GuideCourse<'a> {
+impl GuideCourse {
     /// Watches all rows that have been observed.
-    pub(crate) fn new(guide: &Guide<'a>, observed: &ObservedEvent) -> Self {
+    pub(crate) fn new(guide: &Guide, observed: &ObservedEvent) -> Self {
         let reader = guide.network.watch(observed);
         let mut course = Self { guidance: guide.guidance, reader, intents: Vec::new() };
         observed.rows().iter().for_each(|row| course.push(row));
@@ -89,7 +89,7 @@ impl Planners {
     pub(crate) fn weigh(
         &mut self,
         gamma: f64,
-        guide: Option<&GuideCourse<'_>>,
+        guide: Option<&GuideCourse>,
         budget: &mut Budget,
         tick: &mut dyn FnMut() -> ControlFlow<()>,
     ) -> Result<Option<Inference>, PomcpError> {

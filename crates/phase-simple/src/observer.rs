@@ -34,11 +34,11 @@ pub enum ObserverError {
 /// [`infer`](crate::infer) for the rows seen so far, bit for bit. [`Observer::push`] gives the same within a budget, so that an
 /// event can be watched as it happens; the two differ while intents that have just become likely are being simulated.
 #[derive(Debug)]
-pub struct Observer<'a> {
+pub struct Observer {
     observed: Arc<ObservedEvent>,
     tracker: MotionTracker,
     planners: Planners,
-    guide: Option<GuideCourse<'a>>,
+    guide: Option<GuideCourse>,
     gamma: f64,
     budget: Budget,
 }
@@ -47,14 +47,14 @@ pub struct Observer<'a> {
 /// (docs/simple.md).
 const BUDGET: usize = 20;
 
-impl<'a> Observer<'a> {
+impl Observer {
     /// Watches an event from its beginning: `observed` has the rows seen so far, at least one.
     ///
     /// # Errors
     /// [`ObserverError::Chains`] unless the settings are those of inverse planning.
     pub fn new(
         observed: &ObservedEvent,
-        guide: Option<&Guide<'a>>,
+        guide: Option<&Guide>,
         seed: u64,
         settings: &InferenceSettings,
     ) -> Result<Self, ObserverError> {

@@ -14,7 +14,7 @@ use phase_simple::{
     InferenceSettings, IntentNetwork, InverseDynamics, MotionTracker, Observer, ObserverError, PreparedEvent,
     UniformStrength, Update, infer,
 };
-use std::{fs, path::Path};
+use std::{fs, path::Path, sync::Arc};
 
 /// Rows after which the answers are compared.
 const COMPARED: usize = 7;
@@ -42,7 +42,7 @@ fn settings() -> InferenceSettings {
     InferenceSettings { agents: cheap(averaged.agents), alternative, ..averaged }
 }
 
-fn at_once(observed: &ObservedEvent, guide: Option<Guide<'_>>) -> Inference {
+fn at_once(observed: &ObservedEvent, guide: Option<Guide>) -> Inference {
     let settings = settings();
     let prepared = PreparedEvent::new(observed, settings.agents, 3);
     let cues = Cues { strengths: &UniformStrength, guide };
@@ -52,10 +52,10 @@ fn at_once(observed: &ObservedEvent, guide: Option<Guide<'_>>) -> Inference {
 
 #[test]
 fn every_answer_is_that_of_the_rows_seen_so_far() {
-    let network = IntentNetwork::bundled().expect("a sound file");
-    let guide = Guide { network: &network, guidance: Guidance::default() };
+    let network = Arc::new(IntentNetwork::bundled().expect("a sound file"));
+    let guide = Guide { network: Arc::clone(&network), guidance: Guidance::default() };
     for (variant, guide) in
-        [(Variant::Places, None), (Variant::Carry, Some(guide)), (Variant::Block, Some(guide))]
+        [(Variant::Places, None), (Variant::Carry, Some(guide.clone())), (Variant::Block, Some(guide))]
     {
         let whole = observed(variant, 45);
         let mut observer =
@@ -68,7 +68,7 @@ fn every_answer_is_that_of_the_rows_seen_so_far() {
             let tick = &mut || ControlFlow::Continue(());
             let inference =
                 observer.inference(tick).expect("sound parameters").expect("nobody breaks it off");
-            let expected = at_once(&whole.prefix(step), guide);
+            let expected = at_once(&whole.prefix(step), guide.clone());
             assert_eq!(inference, expected, "{variant:?} after {step} steps");
         }
     }
@@ -77,8 +77,8 @@ fn every_answer_is_that_of_the_rows_seen_so_far() {
 /// Nothing is known of minds that cannot be simulated, so the guide answers; with more effort the answer comes nearer to the whole.
 #[test]
 fn what_there_is_no_time_for_is_left_to_the_guide() {
-    let network = IntentNetwork::bundled().expect("a sound file");
-    let guide = Guide { network: &network, guidance: Guidance::default() };
+    let network = Arc::new(IntentNetwork::bundled().expect("a sound file"));
+    let guide = Guide { network: Arc::clone(&network), guidance: Guidance::default() };
     let whole = observed(Variant::Carry, 30);
     let settings = settings();
     let distance = |decisions: usize| {
@@ -89,7 +89,7 @@ fn what_there_is_no_time_for_is_left_to_the_guide() {
         for row in &whole.rows()[1..] {
             last = Some(observer.push(*row).expect("a sound row").posterior);
         }
-        let expected = at_once(&whole, Some(guide)).posterior;
+        let expected = at_once(&whole, Some(guide.clone())).posterior;
         let said = last.expect("there are rows");
         if decisions == 0 {
             let alone = network.posterior(&whole);

@@ -225,6 +225,7 @@ mod tests {
     use phase_event::ObservedEvent;
     use phase_model::{AgentId, Attitude, Body, Goal, LandmarkId, Layout, ObjectId, Sign, Size, Vec2};
     use phase_simple::Hypothesis;
+    use std::sync::Arc;
 
     fn goal(agent: AgentId) -> Goal {
         Goal::AgentOnLandmark { agent, landmark: LandmarkId::TOP_RIGHT, sign: Sign::Positive }
@@ -251,6 +252,7 @@ mod tests {
         let network = IntentNetwork::new(7, &mut random).expect("a network");
         let bytes = to_safetensors(&network).expect("a file");
         let evaluated = phase_simple::IntentNetwork::from_safetensors(&bytes).expect("the same network");
+        let evaluated = Arc::new(evaluated);
         for objects in 0..=2 {
             let (long, short) = (event(objects, 9), event(objects, 4));
             let labelled = [&long, &short].map(|event| {

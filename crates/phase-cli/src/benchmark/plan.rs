@@ -1,12 +1,9 @@
 //! Which methods are evaluated at which task.
 
 use super::options::Benchmark;
-use crate::{
-    effort::MindOptions,
-    error::CliError,
-    eval::{networks, simple::Simple},
-};
+use crate::{effort::MindOptions, error::CliError, eval::networks};
 use phase_minds::MindKind;
+use phase_simple::Simple;
 use std::path::PathBuf;
 
 /// Every method of the benchmark.
@@ -143,7 +140,7 @@ pub fn entries(arguments: &Benchmark) -> Result<Vec<BenchmarkEntry>, CliError> {
 /// turn one way; only SIMPLE has minds.
 #[must_use]
 pub fn minds_of(arguments: &Benchmark, method: &str, recorded: bool) -> MindOptions {
-    if Simple::of(method).is_none() {
+    if !Simple::NAMES.contains(&method) {
         return MindOptions::default();
     }
     let one_way_turns = recorded && arguments.minds == Some(MindKind::Published);

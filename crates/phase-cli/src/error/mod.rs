@@ -7,14 +7,13 @@ use crate::program::Failure;
 #[cfg(feature = "networks")]
 use phase_baselines::training::{NetworkError, TrainingRecordError};
 use phase_dataset::ExportError;
-use phase_eval::MethodError;
-use phase_event::EventWriteError;
+use phase_event::{EventWriteError, MethodError};
 use phase_files::{FileError, WriteError, folder::FolderError};
 use phase_model::EventKind;
 use phase_render::RenderError;
 use phase_sampler::SampleError;
 use phase_sim::SimulationError;
-use phase_simple::intent_network::IntentNetworkError;
+use phase_simple::{ModelsError, intent_network::IntentNetworkError};
 use rayon::ThreadPoolBuildError;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -183,6 +182,9 @@ pub enum CliError {
     #[cfg(feature = "networks")]
     #[error(transparent)]
     Train(#[from] TrainError),
+    /// The models that come with the program cannot be used.
+    #[error("the program was built with a damaged file")]
+    Models(#[from] ModelsError),
     /// A file of weights of the intent network cannot be used.
     #[error("{}: is not a complete file of weights: {source}", file.display())]
     IntentNetwork {
@@ -297,6 +299,7 @@ impl Failure for CliError {
             Self::Interrupted(_) => 130,
             Self::Simulation { .. }
             | Self::Method { .. }
+            | Self::Models(_)
             | Self::Sample(_)
             | Self::Exhausted { .. }
             | Self::Write(_)

@@ -3,8 +3,7 @@
 use super::input::{Event, Input};
 use crate::{context::Context, error::CliError};
 use cpu_time::ThreadTime;
-use phase_eval::MethodError;
-use phase_event::EventReadError;
+use phase_event::{EventReadError, MethodError};
 use phase_files::{
     FileError, Problem,
     checksum::{hexadecimal, sha256},

@@ -10,12 +10,11 @@ use super::{
 };
 use crate::{context::Context, effort::MindOptions, error::CliError};
 use phase_eval::{
-    MethodError, ProgressCallback, Recogniser,
     goals::{Answer, Label, PartialAnswer, RecognisedEvent, SocialRole},
     predictions,
     ratings::RatingCounts,
 };
-use phase_event::{ObservedEvent, Recording};
+use phase_event::{MethodError, ObservedEvent, ProgressCallback, Recogniser, Recording};
 use serde_json::{Value, json};
 use std::path::Path;
 

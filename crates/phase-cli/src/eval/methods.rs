@@ -1,39 +1,28 @@
 //! The methods by name. A new method is added here.
 
-use super::{
-    intent_guess::IntentGuess,
-    networks,
-    simple::{Cue, Simple},
-};
+use super::networks;
 use crate::{effort::MindOptions, error::CliError};
-use phase_eval::{
-    Forecaster, Recogniser,
-    trivial::{Chance, ConstantVelocity, Stationary},
+use phase_eval::trivial::{Chance, ConstantVelocity, Stationary};
+use phase_event::{Forecaster, Recogniser};
+use phase_files::{
+    checksum::{hexadecimal, sha256},
+    json,
 };
-use std::path::Path;
+use phase_simple::{IntentGuess, IntentNetwork, Models, MotionCue, Simple};
+use std::{path::Path, sync::Arc};
 
-/// Names of the methods for goals and relations.
-pub const RECOGNISERS: [&str; 16] = [
-    "simple",
-    "simple-unguided",
-    "simple-points",
-    "simple-initial",
-    "simple-global",
-    "simple-local",
-    "simple-published",
-    "simple-published-global",
-    "simple-published-initial",
-    "simple-published-dynamics",
-    "intent-network",
-    "cue",
-    "two-level-lstm",
-    "arg",
-    "socialgnn",
-    "chance",
-];
+/// Names of the methods for goals and relations beside the variants of SIMPLE.
+const OTHER_RECOGNISERS: [&str; 6] =
+    ["intent-network", "cue", "two-level-lstm", "arg", "socialgnn", "chance"];
 /// Names of the methods for trajectories.
 pub const FORECASTERS: [&str; 6] =
     ["simple", "simple-published", "social-lstm", "stgat", "constant-velocity", "still"];
+
+/// Names of the methods for goals and relations.
+#[must_use]
+pub fn recognisers() -> Vec<&'static str> {
+    Simple::NAMES.into_iter().chain(OTHER_RECOGNISERS).collect()
+}
 
 /// A method for goals and relations; networks with the weights of a file or, without one, the bundled ones, SIMPLE with these
 /// minds.
@@ -50,12 +39,12 @@ pub fn recogniser(
         return Ok(network);
     }
     if name == "intent-network" {
-        return Ok(Box::new(IntentGuess::open(weights)?));
+        return Ok(Box::new(intent_guess(weights)?));
     }
     no_weights(name, weights)?;
     match name {
         "chance" => Ok(Box::new(Chance)),
-        "cue" => Ok(Box::new(Cue)),
+        "cue" => Ok(Box::new(MotionCue)),
         _ => Ok(Box::new(simple.ok_or_else(|| no_such(name))?)),
     }
 }
@@ -83,12 +72,22 @@ pub fn forecaster(
 
 /// SIMPLE with these minds; `None` for other methods, for which none can be chosen.
 fn simple(name: &str, minds: &MindOptions) -> Result<Option<Simple>, CliError> {
-    match Simple::of(name) {
-        None if !minds.are_default() => {
-            Err(CliError::Usage(format!("--minds, --one-way-turns: method {name:?} has no minds")))
-        }
-        simple => Ok(simple.map(|simple| simple.with_minds(minds))),
+    if !Simple::NAMES.contains(&name) {
+        let rule = || CliError::Usage(format!("--minds, --one-way-turns: method {name:?} has no minds"));
+        return if minds.are_default() { Ok(None) } else { Err(rule()) };
     }
+    let simple = Simple::named(name, &Arc::new(Models::bundled()?));
+    Ok(simple.map(|simple| simple.with_minds(minds.minds, minds.one_way_turns)))
+}
+
+/// The intent network alone, with the weights of a file or the bundled ones.
+fn intent_guess(weights: Option<&Path>) -> Result<IntentGuess, CliError> {
+    let given = weights.map(json::bytes).transpose()?;
+    let bytes = given.as_deref().unwrap_or(IntentNetwork::BUNDLED_WEIGHTS);
+    let file = || weights.map_or_else(|| "data/intent-network.safetensors".into(), Path::to_owned);
+    let network = IntentNetwork::from_safetensors(bytes)
+        .map_err(|source| CliError::IntentNetwork { file: file(), source })?;
+    Ok(IntentGuess::new(Arc::new(network), hexadecimal(&sha256(bytes))))
 }
 
 fn no_weights(name: &str, weights: Option<&Path>) -> Result<(), CliError> {

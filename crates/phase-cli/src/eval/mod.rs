@@ -7,14 +7,12 @@
 mod answers;
 pub(crate) mod goals;
 pub(crate) mod input;
-mod intent_guess;
 pub mod methods;
 pub mod networks;
 pub mod options;
 pub(crate) mod ratings;
 pub(crate) mod scored;
 mod shards;
-pub mod simple;
 pub(crate) mod task;
 pub(crate) mod trajectories;
 

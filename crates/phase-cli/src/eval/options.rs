@@ -29,7 +29,7 @@ pub enum Eval {
 #[derive(Args, Debug)]
 pub struct EvalGoals {
     /// The method to measure
-    #[arg(long, value_name = "METHOD", value_parser = PossibleValuesParser::new(methods::RECOGNISERS),
+    #[arg(long, value_name = "METHOD", value_parser = PossibleValuesParser::new(methods::recognisers()),
           required_unless_present = "predictions")]
     pub method: Option<String>,
     /// The weights of a neural network (safetensors, as `train` writes them) [default: those that come with the

@@ -19,8 +19,7 @@ use crate::{
 };
 use phase_dataset::shard::slots;
 use phase_document::document::Document;
-use phase_eval::{MethodError, ProgressCallback};
-use phase_event::Recording;
+use phase_event::{MethodError, ProgressCallback, Recording};
 use phase_files::{
     FileError, Problem, WriteError, atomic,
     checksum::{hexadecimal, sha256},

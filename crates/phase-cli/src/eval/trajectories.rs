@@ -9,10 +9,10 @@ use super::{
 };
 use crate::{context::Context, effort::MindOptions, error::CliError};
 use phase_eval::{
-    Forecaster, MethodError, ProgressCallback, predictions,
-    trajectories::{Errors, ForecastEvent, PREDICTED_STEPS, Prediction, SampleErrors, WATCHED_STEPS},
+    predictions,
+    trajectories::{Errors, ForecastEvent, PREDICTED_STEPS, SampleErrors, WATCHED_STEPS},
 };
-use phase_event::Recording;
+use phase_event::{Forecaster, MethodError, Prediction, ProgressCallback, Recording};
 use phase_model::Forecast;
 use serde_json::{Value, json};
 use std::path::Path;

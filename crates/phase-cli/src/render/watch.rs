@@ -2,14 +2,13 @@
 
 use crate::error::CliError;
 use core::ops::ControlFlow;
-use phase_eval::MethodError;
-use phase_event::Recording;
+use phase_event::{MethodError, Recording};
 use phase_model::{
     AgentId, Attitude, Goal, RelationProbabilities, RoleProbabilities,
     arena::{FRAMES_PER_SECOND, SUBSTEPS},
 };
 use phase_render::{Caption, Palette};
-use phase_simple::{Guidance, Guide, Inference, InferenceSettings, IntentNetwork, Observer, ReportModel};
+use phase_simple::{Inference, Simple};
 use serde::Serialize;
 use std::time::Instant;
 
@@ -51,11 +50,8 @@ pub(super) fn watch(
 ) -> Result<Option<Vec<Watched>>, CliError> {
     let failed = |error: MethodError| CliError::Method { id: recording.id.clone(), source: error };
     let observed = recording.observed().map_err(|error| failed(MethodError::new(error)))?;
-    let network = IntentNetwork::bundled().map_err(|error| failed(MethodError::new(error)))?;
-    let reports = ReportModel::bundled().map_err(|error| failed(MethodError::new(error)))?;
-    let guide = Guide { network: &network, guidance: Guidance::default() };
-    let settings = InferenceSettings::averaged();
-    let observer = Observer::new(&observed.prefix(0), Some(&guide), seed, &settings);
+    let simple = Simple::bundled()?;
+    let observer = simple.observer(&observed.prefix(0), seed);
     let mut observer = observer.map_err(|error| failed(MethodError::new(error)))?;
     let mut watched = Vec::with_capacity(observed.rows().len());
     for (step, row) in observed.rows().iter().enumerate() {
@@ -73,20 +69,20 @@ pub(super) fn watch(
         let took = begun.elapsed().as_secs_f64();
         if let Some(inference) = inference {
             let seconds = (step * SUBSTEPS) as f64 / f64::from(FRAMES_PER_SECOND);
-            watched.push(Watched::of(&inference, &reports, seconds, took));
+            watched.push(Watched::of(&inference, &simple, seconds, took));
         }
     }
     Ok(Some(watched))
 }
 
 impl Watched {
-    fn of(inference: &Inference, reports: &ReportModel, seconds: f64, took: f64) -> Self {
+    fn of(inference: &Inference, simple: &Simple, seconds: f64, took: f64) -> Self {
         let posterior = &inference.posterior;
         let goals = AgentId::ALL.map(|agent| {
             let goals = posterior.goals(agent).into_iter();
             goals.take(GOALS).map(|(goal, p)| GoalShare { goal, p }).collect()
         });
-        let reported = inference.impression.as_ref().map(|impression| reports.reports(impression));
+        let reported = simple.judgement(inference).reported;
         Self { seconds, goals, relation: posterior.relation(), reported, roles: posterior.roles(), took }
     }
 

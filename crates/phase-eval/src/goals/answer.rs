@@ -2,6 +2,7 @@
 
 use super::canonical;
 use crate::ratings::RatingCounts;
+use phase_event::MethodError;
 use phase_model::{
     AGENT_COUNT, AgentId, Attitude, EventKind, Goal, Judgement, Relation, RelationProbabilities,
     RoleProbabilities,
@@ -36,6 +37,12 @@ pub enum InvalidAnswer {
     /// The roles' probabilities are invalid.
     #[error("`roles` must have four numbers from 0 to 1 that add up to at most 1")]
     Roles,
+}
+
+impl From<InvalidAnswer> for MethodError {
+    fn from(invalid: InvalidAnswer) -> Self {
+        Self::new(format!("the method's {invalid}"))
+    }
 }
 
 /// A goal and its probability.

@@ -1,6 +1,7 @@
 //! Errors of a prediction.
 
 use super::SampleErrors;
+use phase_event::MethodError;
 use phase_model::{AGENT_COUNT, EventKind, Forecast, Relation, Vec2};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -26,6 +27,12 @@ pub enum ForecastError {
         /// Its index.
         entity: usize,
     },
+}
+
+impl From<ForecastError> for MethodError {
+    fn from(error: ForecastError) -> Self {
+        Self::new(error)
+    }
 }
 
 /// Distances between predicted and true positions (u), means over some entities.

@@ -5,7 +5,7 @@ mod samples;
 mod summary;
 
 pub use errors::{Errors, ForecastError, ForecastEvent};
-pub use samples::{Prediction, SAMPLES, SampleErrors};
+pub use samples::SampleErrors;
 pub use summary::{ForecastScores, ForecastSummary, SampleScores};
 
 /// Observed steps before the prediction (5 s of video).

@@ -4,24 +4,6 @@ use super::{Errors, ForecastError};
 use phase_model::{AGENT_COUNT, Forecast};
 use serde::{Deserialize, Serialize};
 
-/// Number of futures that a method is asked for, as usual in trajectory forecasting.
-pub const SAMPLES: usize = 20;
-
-/// What a method predicts.
-#[derive(Clone, PartialEq, Debug, Default)]
-pub struct Prediction {
-    /// One future, by entity and step: the one whose displacement errors are reported.
-    pub forecast: Forecast,
-    /// [`SAMPLES`] equally likely futures, if the method knows more than one.
-    pub samples: Vec<Forecast>,
-}
-
-impl From<Forecast> for Prediction {
-    fn from(forecast: Forecast) -> Self {
-        Self { forecast, samples: Vec::new() }
-    }
-}
-
 /// Scores of equally likely futures of the two agents (u).
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -8,8 +8,9 @@ use phase_document::{
 };
 use phase_eval::{
     Estimate,
-    trajectories::{ForecastScores, ForecastSummary, PREDICTED_STEPS, SAMPLES, SampleScores, WATCHED_STEPS},
+    trajectories::{ForecastScores, ForecastSummary, PREDICTED_STEPS, SampleScores, WATCHED_STEPS},
 };
+use phase_event::SAMPLES;
 
 /// How well trajectories are predicted.
 #[must_use]

@@ -9,6 +9,7 @@ use crate::{
 };
 use phase_event::ObservedEvent;
 use phase_model::{AGENT_COUNT, AgentId, Attitude, Body, MAX_ENTITIES, Strength};
+use std::sync::Arc;
 
 /// Outputs for a goal: its owner pursues it, the other helps the owner, the other hinders it.
 pub const OUTPUTS: usize = 3;
@@ -28,8 +29,8 @@ pub struct IntentNetwork {
 
 /// The network's state for each goal of an event that is being watched.
 #[derive(Clone, Debug)]
-pub struct IntentReader<'a> {
-    network: &'a IntentNetwork,
+pub struct IntentReader {
+    network: Arc<IntentNetwork>,
     features: GoalFeatures,
     states: Vec<State>,
 }
@@ -61,13 +62,13 @@ impl IntentNetwork {
 
     /// ln Q of every intent of each agent after a whole event, but for a constant.
     #[must_use]
-    pub fn weigh(&self, observed: &ObservedEvent) -> [WeightedIntents; AGENT_COUNT] {
+    pub fn weigh(self: &Arc<Self>, observed: &ObservedEvent) -> [WeightedIntents; AGENT_COUNT] {
         self.watched(observed).intents()
     }
 
     /// Watches all rows of an event that have been observed.
     #[must_use]
-    pub fn watched(&self, observed: &ObservedEvent) -> IntentReader<'_> {
+    pub fn watched(self: &Arc<Self>, observed: &ObservedEvent) -> IntentReader {
         let mut reader = self.watch(observed);
         observed.rows().iter().for_each(|row| reader.push(row));
         reader
@@ -75,18 +76,18 @@ impl IntentNetwork {
 
     /// Q(Y | S) after a whole event. It says nothing of strengths; those of its hypotheses do not matter.
     #[must_use]
-    pub fn posterior(&self, observed: &ObservedEvent) -> Posterior {
+    pub fn posterior(self: &Arc<Self>, observed: &ObservedEvent) -> Posterior {
         let goals = physical_goals(AgentId::ZERO, observed.object_sizes().len()).len();
         Posterior::new(joint_logs(&self.weigh(observed), [Strength::Fair; AGENT_COUNT], goals))
     }
 
     /// Begins to watch an event, of which no row has been seen; those of `observed` do not matter.
     #[must_use]
-    pub fn watch(&self, observed: &ObservedEvent) -> IntentReader<'_> {
+    pub fn watch(self: &Arc<Self>, observed: &ObservedEvent) -> IntentReader {
         let features = GoalFeatures::new(observed);
         let state = State { output: vec![0.0; self.units()], cell: vec![0.0; self.units()] };
         let states = vec![state; features.goals().len()];
-        IntentReader { network: self, features, states }
+        IntentReader { network: Arc::clone(self), features, states }
     }
 
     fn step(&self, features: &[f32; FEATURES], state: &mut State) {
@@ -111,7 +112,7 @@ impl IntentNetwork {
     }
 }
 
-impl IntentReader<'_> {
+impl IntentReader {
     /// Watches the next row.
     pub fn push(&mut self, row: &[Body; MAX_ENTITIES]) {
         for (state, features) in self.states.iter_mut().zip(self.features.of_row(row)) {

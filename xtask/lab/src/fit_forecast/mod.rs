@@ -14,17 +14,10 @@ use phase_cli::{
     console::print_result, context::Context, effort::MindOptions, error::CliError, eval::methods, interrupt,
     output::json_text,
 };
-use phase_eval::{
-    Forecaster, MethodError,
-    method::MethodResult,
-    trajectories::{Errors, PREDICTED_STEPS, Prediction, WATCHED_STEPS},
-};
-use phase_event::Recording;
+use phase_eval::trajectories::{Errors, PREDICTED_STEPS, WATCHED_STEPS};
+use phase_event::{Forecaster, MethodError, MethodResult, Prediction, Recording};
 use phase_model::{Forecast, Vec2};
-use phase_simple::{
-    Continuation, Cues, ForecastSettings, Futures, Guidance, Guide, InferenceSettings, IntentNetwork,
-    PreparedEvent, UniformStrength, continuations, hindcast_error, infer,
-};
+use phase_simple::{Continuation, ForecastSettings, Futures, Simple, continuations, hindcast_error};
 use serde::{Deserialize, Serialize};
 
 /// Inverse temperatures that are compared.
@@ -79,6 +72,7 @@ pub fn run(arguments: &FitEvents, context: &Context) -> Result<(), LabError> {
     let others = arguments.read_all(&arguments.held_out, context)?;
     interrupt::listen();
     let learnt = methods::forecaster(LEARNT, None, &MindOptions::default())?;
+    let simple = Simple::bundled().map_err(CliError::from)?;
     let kept = KeptFigures::new("", arguments, context)?;
     let known = |recordings: &[Recording]| {
         let long: Vec<&Recording> =
@@ -86,7 +80,7 @@ pub fn run(arguments: &FitEvents, context: &Context) -> Result<(), LabError> {
         let ForecastSettings { hypotheses, repeats, .. } = ForecastSettings::default();
         let each = hypotheses * (1 + repeats);
         kept.of("simulating the futures", &long, each, |recording, tick| {
-            let found = simulated(recording, &*learnt, arguments.seed, tick);
+            let found = simulated(recording, &simple, &*learnt, arguments.seed, tick);
             found.map_err(|source| CliError::Method { id: recording.id.clone(), source })
         })
     };
@@ -217,6 +211,7 @@ fn places_of(forecast: &Forecast) -> Places {
 
 fn simulated(
     recording: &Recording,
+    simple: &Simple,
     learnt: &dyn Forecaster,
     seed: u64,
     tick: &mut dyn FnMut() -> ControlFlow<()>,
@@ -224,12 +219,8 @@ fn simulated(
     let whole = recording.observed().map_err(MethodError::new)?;
     let observed = whole.prefix(WATCHED_STEPS);
     let steps = (whole.steps() - WATCHED_STEPS).min(PREDICTED_STEPS);
-    let network = IntentNetwork::bundled().map_err(MethodError::new)?;
-    let guide = Guide { network: &network, guidance: Guidance::default() };
-    let settings = InferenceSettings::averaged();
-    let prepared = PreparedEvent::new(&observed, settings.agents, seed);
-    let cues = Cues { strengths: &UniformStrength, guide: Some(guide) };
-    let inference = infer(&prepared, &cues, seed, &settings, tick).map_err(MethodError::new)?;
+    let prepared = simple.prepare(&observed, seed);
+    let inference = simple.infer(&prepared, seed, tick).map_err(MethodError::new)?;
     let Some(inference) = inference else { return Ok(None) };
     // Every hypothesis is simulated further, whatever its weight.
     let settings = ForecastSettings { least_weight: 0.0, ..ForecastSettings::default() };

@@ -29,6 +29,7 @@ use phase_simple::{
     Algorithm, AlternativeAgents, ImaginedAgents, InferenceSettings, IntentNetwork, InversePlanningSettings,
 };
 use report::{Fold, Report};
+use std::sync::Arc;
 use subject::{EventEvidence, INTENTS, Subject};
 use weights::Weights;
 
@@ -55,7 +56,7 @@ pub fn run(arguments: &FitInference, context: &Context) -> Result<(), LabError> 
     let present = Weights::of(&settings, &planning);
     let kinds: Vec<ImaginedAgents> =
         core::iter::once(settings.agents).chain(settings.alternative.map(|it| it.agents)).collect();
-    let network = IntentNetwork::bundled().map_err(LabError::IntentNetwork)?;
+    let network = Arc::new(IntentNetwork::bundled().map_err(LabError::IntentNetwork)?);
     let made_by = format!("{} {}", json_text(&kinds, "the minds")?, planning.interval);
     let kept = KeptFigures::new(&made_by, files, context)?;
     let evidence = |recordings: Vec<Recording>| -> Result<Vec<Subject>, LabError> {

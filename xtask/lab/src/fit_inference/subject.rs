@@ -4,8 +4,7 @@ use super::weights::Weights;
 use crate::check_minds::{is_true, recognition::Recognition, truth};
 use core::ops::ControlFlow;
 use phase_cli::error::CliError;
-use phase_eval::MethodError;
-use phase_event::{ObservedEvent, Recording};
+use phase_event::{MethodError, ObservedEvent, Recording};
 use phase_model::{AGENT_COUNT, AgentId, EventKind, Goal, Strength};
 use phase_simple::{
     ActionLikelihoods, Budget, Hypothesis, ImaginedAgents, Intent, IntentEvidence, IntentNetwork,
@@ -13,6 +12,7 @@ use phase_simple::{
     intent::joint_logs,
 };
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// Number of intents of an agent in an event with two objects.
 pub(super) const INTENTS: usize = 42;
@@ -63,7 +63,7 @@ impl EventEvidence {
         recording: &Recording,
         kinds: &[ImaginedAgents],
         planning: &InversePlanningSettings,
-        network: &IntentNetwork,
+        network: &Arc<IntentNetwork>,
         seed: u64,
         tick: &mut dyn FnMut() -> ControlFlow<()>,
     ) -> Result<Option<Self>, CliError> {

@@ -28,8 +28,7 @@ use phase_cli::{
     output::json_text,
     parallel::make_all,
 };
-use phase_eval::MethodError;
-use phase_event::{ObservedEvent, Recording};
+use phase_event::{MethodError, ObservedEvent, Recording};
 use phase_minds::{MindParameters, PhaseParameters};
 use search::Fit;
 use std::path::Path;

@@ -3,8 +3,7 @@
 use crate::check_minds::{is_true, recognition::Recognition, truth};
 use cpu_time::ThreadTime;
 use phase_cli::{error::CliError, interrupt};
-use phase_eval::MethodError;
-use phase_event::{ObservedEvent, Recording};
+use phase_event::{MethodError, ObservedEvent, Recording};
 use phase_files::checksum::{hexadecimal, sha256};
 use phase_minds::{MindParameters, PhaseParameters};
 use phase_model::{AGENT_COUNT, AgentId, Attitude, EventKind};

@@ -1,7 +1,8 @@
 //! Behaviour of a program that was built without networks.
 
 use crate::{context::Context, error::CliError};
-use phase_eval::{Forecaster, Recogniser, benchmark::Training};
+use phase_eval::benchmark::Training;
+use phase_event::{Forecaster, Recogniser};
 use std::path::Path;
 
 /// Checks that this program has networks.

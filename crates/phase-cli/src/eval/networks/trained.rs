@@ -1,12 +1,10 @@
 //! The networks themselves.
 
 use crate::{context::Context, error::CliError};
-use candle_core::Result as NetworkResult;
 use phase_baselines::{
+    TrainedNetwork,
     arg::Arg,
-    forecasting::Forecasting,
     intent_network::IntentNetwork,
-    recognition::Recognition,
     social_gnn::SocialGnn,
     social_lstm::SocialLstm,
     stgat::Stgat,
@@ -14,19 +12,16 @@ use phase_baselines::{
     two_level_lstm::TwoLevelLstm,
 };
 use phase_eval::{
-    Forecaster, Recogniser,
     benchmark::{Curve, Training},
-    method::{MethodError, MethodResult, ProgressCallback},
-    trajectories::Prediction,
     trivial::Chance,
 };
-use phase_event::ObservedEvent;
+use phase_event::{Forecaster, MethodError, MethodResult, ObservedEvent, ProgressCallback, Recogniser};
 use phase_files::{
     checksum::{hexadecimal, sha256},
     json,
 };
 use phase_model::Judgement;
-use serde_json::{Value, json};
+use serde_json::Value;
 use std::{
     ffi::OsString,
     path::{Path, PathBuf},
@@ -39,9 +34,9 @@ use std::{
 /// If the file cannot be used.
 pub fn recogniser(name: &str, weights: Option<&Path>) -> Result<Option<Box<dyn Recogniser>>, CliError> {
     Ok(match name {
-        "two-level-lstm" => Some(Box::new(TrainedNetwork::<TwoLevelLstm>::open(weights)?)),
-        "arg" => Some(Box::new(TrainedNetwork::<Arg>::open(weights)?)),
-        "socialgnn" => Some(Box::new(RelationAlone(TrainedNetwork::open(weights)?))),
+        "two-level-lstm" => Some(Box::new(open::<TwoLevelLstm>(weights)?)),
+        "arg" => Some(Box::new(open::<Arg>(weights)?)),
+        "socialgnn" => Some(Box::new(RelationAlone(open(weights)?))),
         _ => None,
     })
 }
@@ -52,8 +47,8 @@ pub fn recogniser(name: &str, weights: Option<&Path>) -> Result<Option<Box<dyn R
 /// If the file cannot be used.
 pub fn forecaster(name: &str, weights: Option<&Path>) -> Result<Option<Box<dyn Forecaster>>, CliError> {
     Ok(match name {
-        "social-lstm" => Some(Box::new(TrainedNetwork::<SocialLstm>::open(weights)?)),
-        "stgat" => Some(Box::new(TrainedNetwork::<Stgat>::open(weights)?)),
+        "social-lstm" => Some(Box::new(open::<SocialLstm>(weights)?)),
+        "stgat" => Some(Box::new(open::<Stgat>(weights)?)),
         _ => None,
     })
 }
@@ -127,43 +122,16 @@ fn values(record: &TrainingRecord, measure: &str, part: fn(&RecordedRound) -> &N
     record.rounds.iter().map(score).collect()
 }
 
-/// A trained network.
-struct TrainedNetwork<N> {
-    network: N,
-    /// Digest of its weights.
-    sha256: String,
-}
-
-impl<N: PublishedNetwork> TrainedNetwork<N> {
-    fn open(weights: Option<&Path>) -> Result<Self, CliError> {
-        let given = weights.map(json::bytes).transpose()?;
-        let bytes = given.as_deref().unwrap_or(N::BUNDLED_WEIGHTS);
-        let wrong = |source: NetworkError| CliError::Weights {
-            file: weights.map_or_else(|| format!("data/{}.safetensors", N::NAME).into(), Path::to_owned),
-            source,
-        };
-        let network = N::with_weights(bytes).map_err(wrong)?;
-        Ok(Self { network, sha256: hexadecimal(&sha256(bytes)) })
-    }
-
-    fn settings(&self) -> Value {
-        json!({ "weights_sha256": self.sha256 })
-    }
-}
-
-impl<N: PublishedNetwork + Recognition + Sync> Recogniser for TrainedNetwork<N> {
-    fn settings(&self) -> Value {
-        self.settings()
-    }
-
-    fn judge(
-        &self,
-        observed: &ObservedEvent,
-        _seed: u64,
-        _tick: ProgressCallback<'_>,
-    ) -> MethodResult<Judgement> {
-        answered(self.network.judge(observed))
-    }
+/// A network with the weights of a file or the bundled ones.
+fn open<N: PublishedNetwork>(weights: Option<&Path>) -> Result<TrainedNetwork<N>, CliError> {
+    let given = weights.map(json::bytes).transpose()?;
+    let bytes = given.as_deref().unwrap_or(N::BUNDLED_WEIGHTS);
+    let wrong = |source: NetworkError| CliError::Weights {
+        file: weights.map_or_else(|| format!("data/{}.safetensors", N::NAME).into(), Path::to_owned),
+        source,
+    };
+    let network = N::with_weights(bytes).map_err(wrong)?;
+    Ok(TrainedNetwork::new(network, hexadecimal(&sha256(bytes))))
 }
 
 /// SocialGNN, which tells the relation and says nothing about goals.
@@ -185,24 +153,4 @@ impl Recogniser for RelationAlone {
         let relation = self.0.network.judge(observed).map_err(MethodError::new)?;
         Ok(Some((Judgement { relation, ..judgement }, details)))
     }
-}
-
-impl<N: PublishedNetwork + Forecasting + Sync> Forecaster for TrainedNetwork<N> {
-    fn settings(&self) -> Value {
-        self.settings()
-    }
-
-    fn forecast(
-        &self,
-        observed: &ObservedEvent,
-        steps: usize,
-        _seed: u64,
-        _tick: ProgressCallback<'_>,
-    ) -> MethodResult<Prediction> {
-        answered(self.network.forecast(observed, steps).map(Prediction::from))
-    }
-}
-
-fn answered<T>(answer: NetworkResult<T>) -> MethodResult<T> {
-    answer.map(|answer| Some((answer, Value::Null))).map_err(MethodError::new)
 }

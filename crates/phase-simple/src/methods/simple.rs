@@ -1,0 +1,216 @@
+//! SIMPLE and its variants as methods.
+
+use super::variants::{VARIANTS, Variant};
+use crate::{
+    Cues, ForecastSettings, Guidance, Guide, ImaginedAgents, Inference, InferenceSettings, MindPosterior,
+    Models, ModelsError, Observer, ObserverError, PreparedEvent, futures, infer,
+};
+use core::ops::ControlFlow;
+use phase_event::{
+    Forecaster, MethodError, MethodResult, ObservedEvent, Prediction, ProgressCallback, Recogniser, SAMPLES,
+};
+use phase_minds::MindKind;
+use phase_model::Judgement;
+use phase_pomcp::PomcpError;
+use serde_json::{Value, json};
+use std::sync::Arc;
+
+/// Hypotheses kept with an answer.
+const REPORTED_HYPOTHESES: usize = 12;
+
+/// SIMPLE with some settings, as a method for both tasks and as the maker of observers.
+///
+/// The command line, Python and the browser all ask this type, so that `simple` names one method everywhere.
+///
+/// ```
+/// use phase_simple::{Models, Simple};
+/// use std::sync::Arc;
+///
+/// let models = Arc::new(Models::bundled()?);
+/// assert_eq!(Simple::NAMES[0], "simple");
+/// assert!(Simple::NAMES.iter().all(|name| Simple::named(name, &models).is_some()));
+/// # Ok::<(), phase_simple::ModelsError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Simple {
+    settings: InferenceSettings,
+    forecast: ForecastSettings,
+    /// How the intent network guides it, if it does.
+    guidance: Option<Guidance>,
+    models: Arc<Models>,
+}
+
+impl Simple {
+    /// The names of all variants; `docs/simple.md` describes them.
+    pub const NAMES: [&str; VARIANTS.len()] = {
+        let mut names = [""; VARIANTS.len()];
+        let mut place = 0;
+        while place < names.len() {
+            names[place] = VARIANTS[place].name;
+            place += 1;
+        }
+        names
+    };
+
+    /// SIMPLE with these settings. With a guidance, the intent network of the models guides inverse planning.
+    #[must_use]
+    pub fn new(settings: InferenceSettings, guidance: Option<Guidance>, models: &Arc<Models>) -> Self {
+        Self { settings, forecast: ForecastSettings::default(), guidance, models: Arc::clone(models) }
+    }
+
+    /// The method `simple`, the first of [`Simple::NAMES`], with the models that come with the program.
+    ///
+    /// # Errors
+    /// [`ModelsError`] if the program was built with a damaged file.
+    pub fn bundled() -> Result<Self, ModelsError> {
+        Ok(Self::of(&VARIANTS[0], &Arc::new(Models::bundled()?)))
+    }
+
+    /// The variant of a name.
+    ///
+    /// - `simple` is inverse planning that averages over both kinds of minds, guided by the intent network;
+    ///   `simple-unguided` lacks the network, and in `simple-points` the minds plan as if bodies passed through
+    ///   each other.
+    /// - `simple-initial`, `simple-global` and `simple-local` are Algorithm 2 of the paper and its ablation, over
+    ///   simulations by our own minds that are periodically resynchronised with the observed event.
+    /// - `simple-published` is Algorithm 2 whole, with the published simulator's minds and simulations that are not
+    ///   resynchronised; `simple-published-global` and `simple-published-initial` are its ablation, and
+    ///   `simple-published-dynamics` has strengths from inverse dynamics in place of the network's.
+    ///
+    /// `None` for a name that is not among [`Simple::NAMES`].
+    #[must_use]
+    pub fn named(name: &str, models: &Arc<Models>) -> Option<Self> {
+        let variant = VARIANTS.iter().find(|variant| variant.name == name)?;
+        Some(Self::of(variant, models))
+    }
+
+    /// SIMPLE with minds of one kind in all its simulations, or the kind that it has if none is given.
+    /// `one_way_turns` makes their turns go one way.
+    #[must_use]
+    pub fn with_minds(mut self, kind: Option<MindKind>, one_way_turns: bool) -> Self {
+        if let Some(kind) = kind {
+            // The weights of an average over kinds are not those of one kind alone.
+            let alone = InferenceSettings::default();
+            let settings = if self.settings.alternative.is_some() { alone } else { self.settings };
+            let agents = self.settings.agents;
+            let one_kind = ImaginedAgents { one_way_turns: agents.one_way_turns, ..ImaginedAgents::of(kind) };
+            self.settings = settings.with_agents(one_kind);
+            if !agents.minds.foresees_collisions() {
+                self.settings = self.settings.without_collisions();
+            }
+        }
+        self.settings.agents.one_way_turns |= one_way_turns;
+        self
+    }
+
+    /// Begins to watch an event row by row; `observed` has the rows seen so far, at least one.
+    ///
+    /// # Errors
+    /// [`ObserverError::Chains`] for a variant of Algorithm 2, which simulates whole events.
+    pub fn observer(&self, observed: &ObservedEvent, seed: u64) -> Result<Observer, ObserverError> {
+        Observer::new(observed, self.guide().as_ref(), seed, &self.settings)
+    }
+
+    /// Prepares an event for [`Simple::infer`] and [`futures`]: infers its actions, and the observations and beliefs
+    /// that each agent can have had.
+    #[must_use]
+    pub fn prepare(&self, observed: &ObservedEvent, seed: u64) -> PreparedEvent {
+        PreparedEvent::new(observed, self.settings.agents, seed)
+    }
+
+    /// Infers what explains a prepared event; `None` if `tick` cancelled it.
+    ///
+    /// # Errors
+    /// Invalid parameters of the agents' search.
+    pub fn infer(
+        &self,
+        prepared: &PreparedEvent,
+        seed: u64,
+        tick: &mut dyn FnMut() -> ControlFlow<()>,
+    ) -> Result<Option<Inference>, PomcpError> {
+        let cues = Cues { strengths: &self.models.strengths, guide: self.guide() };
+        infer(prepared, &cues, seed, &self.settings, tick)
+    }
+
+    /// The answer to Task 1 that an inference gives, with people's predicted reports.
+    #[must_use]
+    pub fn judgement(&self, inference: &Inference) -> Judgement {
+        inference.judgement(&self.models.reports)
+    }
+
+    fn of(variant: &Variant, models: &Arc<Models>) -> Self {
+        Self::new((variant.settings)(), variant.guided.then(Guidance::default), models)
+    }
+
+    fn guide(&self) -> Option<Guide> {
+        self.guidance.map(|guidance| Guide { network: Arc::clone(&self.models.intents), guidance })
+    }
+}
+
+impl Recogniser for Simple {
+    fn settings(&self) -> Value {
+        let mut settings = json!(self.settings);
+        if let Some(guidance) = self.guidance {
+            settings["guidance"] = json!(guidance);
+        }
+        settings
+    }
+
+    fn ticks(&self) -> usize {
+        self.settings.ticks()
+    }
+
+    fn judge(
+        &self,
+        observed: &ObservedEvent,
+        seed: u64,
+        tick: ProgressCallback<'_>,
+    ) -> MethodResult<Judgement> {
+        let prepared = self.prepare(observed, seed);
+        let inference = self.infer(&prepared, seed, tick).map_err(MethodError::new)?;
+        Ok(inference.map(|inference| (self.judgement(&inference), details(&inference))))
+    }
+}
+
+impl Forecaster for Simple {
+    fn settings(&self) -> Value {
+        json!({ "inference": self.settings, "forecast": self.forecast })
+    }
+
+    fn ticks(&self) -> usize {
+        self.settings.ticks() + self.forecast.hypotheses * self.forecast.repeats
+    }
+
+    fn forecast(
+        &self,
+        observed: &ObservedEvent,
+        steps: usize,
+        seed: u64,
+        tick: ProgressCallback<'_>,
+    ) -> MethodResult<Prediction> {
+        let prepared = self.prepare(observed, seed);
+        let inference = self.infer(&prepared, seed, &mut *tick).map_err(MethodError::new)?;
+        let Some(inference) = inference else { return Ok(None) };
+        let futures =
+            futures(&prepared, &inference, steps, seed, &self.forecast, tick).map_err(MethodError::new)?;
+        Ok(futures.map(|futures| {
+            let prediction = Prediction { forecast: futures.median(), samples: futures.draw(SAMPLES, seed) };
+            (prediction, details(&inference))
+        }))
+    }
+}
+
+fn details(inference: &Inference) -> Value {
+    let hypothesis = |(hypothesis, weight): &(_, f64)| json!({ "hypothesis": hypothesis, "weight": weight });
+    let hypotheses: Vec<Value> =
+        inference.posterior.hypotheses.iter().take(REPORTED_HYPOTHESES).map(hypothesis).collect();
+    let kind = |kind: &MindPosterior| json!({ "kind": kind.agents.minds.kind().name(), "probability": kind.probability });
+    let minds: Vec<Value> = inference.minds.iter().map(kind).collect();
+    json!({
+        "hypotheses": hypotheses,
+        "minds": minds,
+        "impression": inference.impression,
+        "accepted": inference.accepted,
+        "simulated": inference.simulated,
+    })
+}
