@@ -6,7 +6,8 @@ use crate::{
     leaderboard::{self, Leaderboard},
     packages::Elsewhere,
     results::{self, Results},
-    tidy, wasm,
+    tidy::{self, Tidy},
+    wasm,
 };
 use clap::{Parser, Subcommand};
 use phase_cli::{
@@ -43,7 +44,7 @@ pub enum Command {
     /// Rewrite the documents that show results from docs/results.json, which `benchmark --page` writes
     Results(Results),
     /// Check the project rules that the compiler cannot
-    Tidy,
+    Tidy(Tidy),
 }
 
 impl Interface for Cli {
@@ -65,7 +66,7 @@ impl Interface for Cli {
             Command::Book(options) => book::run(options),
             Command::Leaderboard(options) => leaderboard::run(options, context),
             Command::Results(options) => results::run(options),
-            Command::Tidy => tidy::run(),
+            Command::Tidy(options) => tidy::run(options),
         }
     }
 }

@@ -36,7 +36,7 @@ impl EventCache {
     }
 }
 
-/// An event in types that do not describe themselves; `bincode` does not write such descriptions.
+/// An event in types that do not describe themselves, since the cache stores no descriptions.
 #[derive(Serialize, Deserialize)]
 struct CachedEvent {
     layout: (u8, Option<u8>),

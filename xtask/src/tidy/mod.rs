@@ -1,15 +1,20 @@
 //! `tidy`: project rules that the compiler cannot check.
 
+mod figures;
 mod layers;
 mod modules;
 mod readmes;
+mod scan;
 mod sources;
 pub(crate) mod texts;
+mod words;
 
-pub use layers::LAYERS;
+pub use layers::layers;
 
 use crate::error::XtaskError;
+use clap::Args;
 use phase_cli::console::{print_message, print_result};
+use scan::Source;
 use std::{
     fmt, fs, io,
     path::{Path, PathBuf},
@@ -32,12 +37,24 @@ impl fmt::Display for Finding {
     }
 }
 
+/// Options of `tidy`.
+#[derive(Args, Debug)]
+pub struct Tidy {
+    /// Print figures of every package (lines, tests, documentation) beside their goals, and check nothing
+    #[arg(long)]
+    pub figures: bool,
+}
+
 /// Runs the command on the workspace this program was built from.
 ///
 /// # Errors
 /// [`XtaskError::Untidy`] if a rule is broken.
-pub fn run() -> Result<(), XtaskError> {
+pub fn run(options: &Tidy) -> Result<(), XtaskError> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."));
+    if options.figures {
+        print_result(figures::table(&mut Workspace { root: root.to_owned(), findings: Vec::new() }));
+        return Ok(());
+    }
     let findings = check(root);
     for finding in &findings {
         print_message(finding);
@@ -59,6 +76,7 @@ pub fn check(root: &Path) -> Vec<Finding> {
     readmes::check(&mut workspace);
     sources::check(&mut workspace);
     texts::check(&mut workspace);
+    words::check(&mut workspace);
     let mut findings = workspace.findings;
     findings.sort();
     findings.dedup();
@@ -79,6 +97,11 @@ struct Package {
 impl Package {
     fn manifest(&self) -> PathBuf {
         self.folder.join("Cargo.toml")
+    }
+
+    /// Whether it may still break a rule: `exempt.txt` has a line for each package and rule.
+    fn is_exempt(&self, rule: &str) -> bool {
+        include_str!("exempt.txt").lines().any(|line| line == format!("{} {rule}", self.name))
     }
 
     /// Whether it is below `xtask/`, so that only people who work on PHASE have it.
@@ -117,6 +140,25 @@ impl Workspace {
         }
         packages.sort();
         packages
+    }
+
+    /// All packages whose Rust files are checked and counted: those of `packages`, and those at the root.
+    fn all_packages(&self) -> Vec<Package> {
+        let mut packages = self.packages();
+        for (name, folder) in [("phase-data", "data"), ("phase-benches", "benches"), (XTASK, XTASK)] {
+            packages.push(Package { name: name.to_owned(), folder: folder.into() });
+        }
+        packages
+    }
+
+    /// The Rust files of a package, without those of packages in its folder.
+    fn sources(&mut self, package: &Package) -> Vec<Source> {
+        let folder = package.folder.to_string_lossy();
+        let folders = ["src", "tests", "examples", "benches"].map(|name| format!("{folder}/{name}"));
+        let mut files = self.files(&folders.each_ref().map(String::as_str), &[".rs"]);
+        let beside = ["lib.rs", "build.rs"].map(|name| package.folder.join(name));
+        files.extend(beside.into_iter().filter(|file| self.root.join(file).is_file()));
+        files.into_iter().filter_map(|file| Some(Source::new(&file, self.read(&file)?))).collect()
     }
 
     /// All files with one of these endings below some folders, relative to the workspace, sorted.

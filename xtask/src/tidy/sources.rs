@@ -6,7 +6,7 @@ use std::path::Path;
 /// Maximum length of a Rust file (lines).
 const LONGEST: usize = 400;
 /// The one file that may know the cache's encoding.
-const CACHE: &str = "crates/phase-dataset/src/cache.rs";
+const CACHE: &str = "crates/phase-files/src/cache.rs";
 /// Attributes that every crate root must contain.
 const ROOT_ATTRIBUTES: [&str; 2] = ["#![forbid(unsafe_code)]", "#![deny(missing_docs)]"];
 

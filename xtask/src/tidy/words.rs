@@ -1,0 +1,75 @@
+//! Lines, doc comments and bindings: rules of `CONTRIBUTING.md` that neither `rustfmt` nor clippy checks.
+
+use super::{Package, Workspace, scan::Source};
+
+/// Greatest width of a line (characters).
+const WIDTH: usize = 110;
+/// A word or literal of this width excuses the line that it stands on (characters).
+const UNBREAKABLE: usize = 60;
+
+/// Checks the Rust files of all packages.
+pub(super) fn check(workspace: &mut Workspace) {
+    for package in workspace.all_packages() {
+        let sources = workspace.sources(&package);
+        for source in &sources {
+            check_lines(workspace, &package, source);
+        }
+        check_tuples(workspace, &package, &sources);
+    }
+}
+
+fn check_lines(workspace: &mut Workspace, package: &Package, source: &Source) {
+    if !package.is_exempt("width") {
+        for line in source.lines().filter(|line| line.text.chars().count() > WIDTH) {
+            if !is_unbreakable(line.text, line.code) {
+                workspace.report(&source.file, line.number, format!("is wider than {WIDTH} characters"));
+            }
+        }
+    }
+    if !package.is_exempt("openings") {
+        for (line, opening) in source.openings() {
+            if let Some(opening) = opening {
+                let rule = format!("a doc comment that begins with “{opening}” does not stand alone");
+                workspace.report(&source.file, line, rule);
+            }
+        }
+    }
+}
+
+/// Whether a line is wide because of a word, or of a text that `rustfmt` does not break.
+fn is_unbreakable(text: &str, code: &str) -> bool {
+    let words = text.split_whitespace().map(|word| word.chars().count());
+    let literals = code.split(|letter| letter != '"').map(str::len);
+    words.chain(literals).any(|width| width >= UNBREAKABLE)
+}
+
+/// At most one `let` of a tuple in a thousand lines.
+fn check_tuples(workspace: &mut Workspace, package: &Package, sources: &[Source]) {
+    if package.is_exempt("tuples") {
+        return;
+    }
+    let lines: usize = sources.iter().map(|source| source.source().count()).sum();
+    let found: Vec<_> = sources
+        .iter()
+        .flat_map(|source| source.tuple_lets().into_iter().map(|line| (&source.file, line)))
+        .collect();
+    if found.len() > lines.div_ceil(1000) {
+        let rule = format!("one `let` binds one thing; {} has {} of tuples", package.name, found.len());
+        for (file, line) in found {
+            workspace.report(file, line, &rule);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_unbreakable;
+
+    #[test]
+    fn words_and_texts_may_be_wide() {
+        let word = "x".repeat(60);
+        assert!(is_unbreakable(&format!("/// {word}"), ""));
+        assert!(is_unbreakable("f(\"…\");", &format!("f({});", "\"".repeat(60))));
+        assert!(!is_unbreakable(&"x ".repeat(60), &"x ".repeat(60)));
+    }
+}
