@@ -1,33 +1,22 @@
 //! Habits: which actions are likely before any search, as priors of PUCT.
 
-use crate::{PhaseParameters, objective::Objective, rollout_policy};
+use crate::{objective::Objective, rollout_policy};
 use phase_model::{Action, Entity, State};
-
-/// Distance to go below which an agent may rest (u).
-const AT_REST: f32 = 1.0;
-
-/// Speed above which a body goes on by habit (u/s).
-pub(crate) const MOVING_SPEED: f32 = 0.5;
 
 /// Prior weight of an action: what the heuristic suggests, going on as before, walking forward, and not resting
 /// while there is a distance to go are likelier.
 ///
 /// Who touches or holds another body does not walk: every direction is as likely, and what did not move it is
 /// not repeated out of habit.
-pub(crate) fn weight(
-    action: Action,
-    parameters: &PhaseParameters,
-    objective: &Objective<'_>,
-    state: &State,
-    context: Context,
-) -> f64 {
+pub(crate) fn weight(action: Action, objective: &Objective<'_>, state: &State, context: Context) -> f64 {
     let mut weight = 1.0;
     let agent = objective.agent();
+    let parameters = objective.parameters();
     let walks = walks(objective, state);
     if action == context.heuristic {
         weight *= parameters.heuristic_prior;
     }
-    let is_moving = state.body(Entity::Agent(agent)).velocity.length() > MOVING_SPEED;
+    let is_moving = state.body(Entity::Agent(agent)).velocity.length() > parameters.moving_speed;
     if Some(action) == context.last && (is_moving || walks) {
         weight *= parameters.momentum_prior;
     }
@@ -35,7 +24,7 @@ pub(crate) fn weight(
     if is_lateral && walks {
         weight *= parameters.lateral_prior;
     }
-    if matches!(action, Action::Stop | Action::NoForce) && context.distance > AT_REST {
+    if matches!(action, Action::Stop | Action::NoForce) && context.distance > parameters.rest_distance {
         weight *= parameters.rest_prior;
     }
     weight

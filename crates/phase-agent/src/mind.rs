@@ -24,7 +24,7 @@ pub struct Mind<D> {
     physics: PhysicsConfig,
     goals: [Goal; AGENT_COUNT],
     attitude: Attitude,
-    settings: PhaseParameters,
+    parameters: PhaseParameters,
     dynamics: D,
     planner: Planner,
     pomcp: Pomcp<u16>,
@@ -51,16 +51,16 @@ impl<D: Dynamics> Mind<D> {
         scene: &Scene,
         agent: AgentId,
         dynamics: D,
-        settings: PhaseParameters,
+        parameters: PhaseParameters,
     ) -> Result<Self, PomcpError> {
         let physics = scene.physics();
         let pomcp = Pomcp::new(PomcpSettings {
-            simulations: settings.simulations,
-            rollout_steps: settings.rollout_steps,
-            c_init: settings.c_init,
-            c_base: settings.c_base,
+            simulations: parameters.simulations,
+            rollout_steps: parameters.rollout_steps,
+            c_init: parameters.c_init,
+            c_base: parameters.c_base,
             stop_when_decided: true,
-            convergence: settings.convergence,
+            convergence: parameters.convergence,
             untried_first: false,
             ..PomcpSettings::default()
         })?;
@@ -69,7 +69,7 @@ impl<D: Dynamics> Mind<D> {
             agent,
             goals: scene.goals(),
             attitude,
-            settings,
+            parameters,
             dynamics,
             planner: Planner::with_costs(
                 physics.clone(),
@@ -77,12 +77,12 @@ impl<D: Dynamics> Mind<D> {
                 agent,
                 scene.goals(),
                 attitude,
-                settings.planner_costs(),
+                parameters.planner_costs(),
             ),
             pomcp,
             navigator: Navigator::new(
                 scene.layout,
-                NavigationCosts { impassable: settings.impassable, obstruction: settings.obstruction },
+                NavigationCosts { impassable: parameters.impassable, obstruction: parameters.obstruction },
             ),
             physics,
         })
@@ -103,10 +103,11 @@ impl<D: Dynamics> Mind<D> {
         random: &mut impl Rng,
     ) -> Result<(Action, Thought), PomcpError> {
         let particles = belief_view.particles;
-        let known = belief_view.observed.union(localised(&self.physics, particles));
+        let known =
+            belief_view.observed.union(localised(&self.physics, particles, self.parameters.agreement));
         let (plans, plan_of) = self.plans(particles, known);
         let by_particle: Vec<&Plan> = plan_of.iter().map(|&plan| &plans[plan]).collect();
-        let candidates = value::candidates(&by_particle, self.settings.lambda);
+        let candidates = value::candidates(&by_particle, self.parameters.lambda);
         let Some(best) = candidates.first() else {
             return Ok((Action::Stop, Thought::IDLE));
         };
@@ -145,8 +146,6 @@ impl<D: Dynamics> Mind<D> {
         candidate: &Candidate,
         plans: &[&Plan],
     ) -> Vec<usize> {
-        /// Maximum distance between target positions that are searched together (u).
-        const COLOCATION_DISTANCE: f32 = 3.0;
         let all = &candidate.particles;
         let Some(unobserved_target) = self.unobserved_target(belief_view, candidate.subgoal) else {
             return all.clone();
@@ -154,7 +153,7 @@ impl<D: Dynamics> Mind<D> {
         let shortest = all.iter().min_by(|&&a, &&b| plans[a].distance.total_cmp(&plans[b].distance));
         let Some(&first) = shortest else { return all.clone() };
         let place = |particle: usize| belief_view.particles[particle].position(unobserved_target);
-        let near = |&&particle: &&usize| place(particle).distance(place(first)) <= COLOCATION_DISTANCE;
+        let near = |&&particle: &&usize| place(particle).distance(place(first)) <= self.parameters.colocation;
         // A NaN position is near nothing, not even itself.
         let mut search_particles: Vec<usize> = all.iter().filter(near).copied().collect();
         if search_particles.is_empty() {
@@ -183,7 +182,7 @@ impl<D: Dynamics> Mind<D> {
         }
         let other = self.agent.other();
         let other_goal = Subgoal::Achieve(Literal::from(self.goals[other]));
-        let (physics, parameters) = (&self.physics, &self.settings);
+        let (physics, parameters) = (&self.physics, &self.parameters);
         let navigator = &mut self.navigator;
         let objective = Objective::new(physics, navigator, &roots[0], self.agent, subgoal, parameters);
         let other_objective = Objective::new(physics, navigator, &roots[0], other, other_goal, parameters);
@@ -196,7 +195,6 @@ impl<D: Dynamics> Mind<D> {
             goals: self.goals,
             rewards_goals: !matches!(unobserved, Some(Entity::Object(_))),
             attitude: self.attitude,
-            parameters: self.settings,
         };
         // If all particles are equal, one root suffices and the search can cache its transitions.
         let different = if roots.iter().all(|root| root == &roots[0]) { &roots[..1] } else { roots };
@@ -217,7 +215,7 @@ impl<D: Dynamics> Mind<D> {
             })
             .collect();
         let visits: Vec<f64> = decision.actions.iter().map(|found| found.visits as f64).collect();
-        let chosen = sample(&visits, self.settings.decisiveness, &mut random).unwrap_or(decision.action);
+        let chosen = sample(&visits, self.parameters.decisiveness, &mut random).unwrap_or(decision.action);
         Ok((actions[chosen], evidence))
     }
 }
@@ -258,16 +256,14 @@ fn summary(candidate: &Candidate) -> SubgoalValue {
     SubgoalValue { subgoal: candidate.subgoal, value: candidate.value, particles: candidate.particles.len() }
 }
 
-/// Entities on whose position all particles agree. An agent need not verify the position of an object it has
+/// Entities on whose position all particles agree, to within `agreement` (u). An agent need not verify the position of an object it has
 /// just put down.
-fn localised(physics: &PhysicsConfig, particles: &[State]) -> BodySet {
-    /// Maximum distance between positions that count as equal (u).
-    const AGREEMENT_DISTANCE: f32 = 0.5;
+fn localised(physics: &PhysicsConfig, particles: &[State], agreement: f32) -> BodySet {
     let mut known = BodySet::EMPTY;
     let Some(first) = particles.first() else { return known };
     for entity in physics.entities() {
         let place = first.position(entity);
-        if particles.iter().all(|particle| particle.position(entity).distance(place) <= AGREEMENT_DISTANCE) {
+        if particles.iter().all(|particle| particle.position(entity).distance(place) <= agreement) {
             known.insert(entity);
         }
     }

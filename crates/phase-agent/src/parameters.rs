@@ -32,17 +32,17 @@ impl Foresight {
     }
 }
 
-/// The parameters of a PHASE mind: every number that shapes its behaviour.
+/// The parameters of a PHASE mind: every number that shapes its decisions.
 ///
-/// Those of belief and search, up to `foresight`, are the paper's where it gives them. The others are those that
-/// `cargo xtask fit-minds` fits; `docs/minds.md` has their units and says what was fitted to which events. Ranges are
-/// checked where parameters enter a program, by `phase_minds::MindParameters::validate`.
+/// Those of belief and search, up to `directions`, are the paper's where it gives them; `cargo xtask fit-minds` fits the
+/// others, and `docs/minds.md` says what was fitted to which events. Ranges are checked where parameters enter a
+/// program, by `phase_minds::MindParameters::validate`.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PhaseParameters {
     /// K, the number of belief particles; at least 1.
     pub particles: usize,
-    /// λ of the subgoal value (1/u).
+    /// λ of the subgoal value (1/u); at least 0.
     pub lambda: f64,
     /// POMCP simulations per decision; at least 1.
     pub simulations: usize,
@@ -51,11 +51,11 @@ pub struct PhaseParameters {
     pub convergence: f64,
     /// Steps of the rollout policy after a leaf of the tree.
     pub rollout_steps: usize,
-    /// c_init of PUCT.
+    /// c_init of PUCT; at least 0.
     pub c_init: f64,
-    /// c_base of PUCT.
+    /// c_base of PUCT; above 0.
     pub c_base: f64,
-    /// Discount of the next step's reward relative to this one's.
+    /// Discount of the next step's reward relative to this one's, 0 to 1.
     pub discount: f64,
     /// Exponent of the visits in the choice of an action: 1 draws in proportion to them, a large one always takes the
     /// most visited; at least 0.
@@ -64,6 +64,8 @@ pub struct PhaseParameters {
     pub heuristic_share: f64,
     /// The dynamics in which the agent searches.
     pub foresight: Foresight,
+    /// Directions, evenly spaced, of the pushes and of the escapes that are tried; at least 1.
+    pub directions: usize,
     /// Prior of the heuristic's action in PUCT, relative to that of any other; above 0.
     pub heuristic_prior: f64,
     /// Prior of repeating the last action, relative to that of any other; above 0.
@@ -72,20 +74,51 @@ pub struct PhaseParameters {
     pub lateral_prior: f64,
     /// Prior of stopping and coasting while there is a distance to go, relative to a push; above 0.
     pub rest_prior: f64,
-    /// Further steps for which the distance at the end of a rollout is charged.
+    /// Distance to go (u) up to which stopping and coasting have the prior of a push; at least 0.
+    pub rest_distance: f32,
+    /// Speed (u/s) above which a body is in motion: an agent then repeats its last action out of habit, and another agent
+    /// is expected to pursue its goal; at least 0.
+    pub moving_speed: f32,
+    /// Further steps for which the distance at the end of a rollout is charged; at least 0.
     pub horizon_steps: f64,
     /// p: share of the imagined steps in which the other agent pursues its own goal instead of coasting, 0 to 1.
     pub other_initiative: f64,
-    /// Cost of each unit of a path that leads through a body (dimensionless), beside its length.
+    /// Distance (u) between the believed positions of an entity up to which its position counts as known; at least 0.
+    pub agreement: f32,
+    /// Distance (u) between the believed positions of an unseen target up to which they are searched together; at least 0.
+    pub colocation: f32,
+    /// Distance (u) ahead on a way at which the next waypoint lies; above 0.
+    pub look_ahead: f32,
+    /// Deviation from the direction of the waypoint (rad) below which an agent pushes forward instead of turning; at least 0.
+    pub heading_tolerance: f32,
+    /// Distance to the waypoint (u) below which an agent stops; at least 0.
+    pub arrival_distance: f32,
+    /// Share of the grab reach within which an object counts as reached, 0 to 1.
+    pub grasp_reach: f32,
+    /// Distance (in widths of the agent) from a door that is too narrow for it at which an agent waits, so that others can
+    /// come through; at least 0.
+    pub waiting_widths: f32,
+    /// Spacing (u) of the points of a path at which a body could be cut off, and of a push at which it could be stopped,
+    /// 0.1 to 10.
+    pub interception_spacing: f32,
+    /// Length (u) of a push that is considered; at least 0.
+    pub push_length: f32,
+    /// Distance to its post (u) below which a guard next to a body turns on that body; at least 0.
+    pub post_distance: f32,
+    /// Clearance (u) that an agent leaves between itself and the path of another that it lets pass; at least 0.
+    pub clearance: f32,
+    /// Length (u) of a step away from a pursuer that is tried; at least 0.
+    pub escape_length: f32,
+    /// Cost of each unit of a path that leads through a body (dimensionless), beside its length; at least 0.
     pub obstruction: f32,
-    /// Cost of grasping an object, and of releasing it (u), of plans and on the way.
+    /// Cost of grasping an object, and of releasing it (u), of plans and on the way; at least 0.
     pub grasp: f32,
     /// Cost of turning (u/rad): of an object and its holders about the object. An agent that faces away from where it
-    /// goes is charged as much as one radian.
+    /// goes is charged as much as one radian; at least 0.
     pub turning: f32,
-    /// Cost of what is nearly impossible (u): a door that is too narrow, a load that is too heavy.
+    /// Cost of what is nearly impossible (u): a door that is too narrow, a load that is too heavy; at least 0.
     pub impassable: f32,
-    /// What 1 u of travel for or against the other's goal costs, relative to 1 u that it spares or costs the other,
+    /// Cost of 1 u of travel for or against the other's goal, relative to 1 u that it spares or costs the other,
     /// 0 to 1.
     pub effort: f32,
 }
@@ -112,12 +145,27 @@ impl Default for PhaseParameters {
             decisiveness: 4.0,
             heuristic_share: 0.5,
             foresight: Foresight::Coarse,
+            directions: 8,
             heuristic_prior: 2.0,
             momentum_prior: 3.0,
             lateral_prior: 0.1,
             rest_prior: 0.2,
+            rest_distance: 1.0,
+            moving_speed: 0.5,
             horizon_steps: 8.0,
             other_initiative: 0.5,
+            agreement: 0.5,
+            colocation: 3.0,
+            look_ahead: 1.5,
+            heading_tolerance: 0.6,
+            arrival_distance: 0.2,
+            grasp_reach: 0.5,
+            waiting_widths: 2.0,
+            interception_spacing: 1.0,
+            push_length: 4.0,
+            post_distance: 0.6,
+            clearance: 0.8,
+            escape_length: 3.0,
             obstruction: 2.0,
             grasp: 1.0,
             turning: 1.0,

@@ -5,10 +5,6 @@ use phase_model::{Action, AgentId, Entity, State, Vec2, arena};
 
 /// Seconds of physics in one step.
 const STEP_SECONDS: f32 = arena::SUBSTEP_SECONDS * arena::SUBSTEPS as f32;
-/// Heading error below which the policy pushes forward (rad).
-const HEADING_TOLERANCE: f32 = 0.6;
-/// Distance to the waypoint below which there is nothing to do (u).
-const ARRIVAL_DISTANCE: f32 = 0.2;
 
 /// The action of the heuristic: attach or detach where that is the subgoal; stop at the end of the way; with an
 /// object in hand, apply the push closest to the direction of the waypoint; with free hands, turn until the
@@ -16,6 +12,7 @@ const ARRIVAL_DISTANCE: f32 = 0.2;
 #[must_use]
 pub fn action(objective: &Objective<'_>, state: &State) -> Action {
     let agent = objective.agent();
+    let parameters = objective.parameters();
     if objective.releases(state) {
         return Action::Detach;
     }
@@ -27,15 +24,19 @@ pub fn action(objective: &Objective<'_>, state: &State) -> Action {
     let motion = objective.motion(state);
     let way = motion.waypoint - state.position(motion.entity);
     let distance = way.length();
-    if distance < ARRIVAL_DISTANCE && motion.turn != 0.0 {
+    if distance < parameters.arrival_distance && motion.turn != 0.0 {
         return if motion.turn > 0.0 { Action::TurnLeft } else { Action::TurnRight };
     }
     let body = state.body(Entity::Agent(agent));
-    if distance < ARRIVAL_DISTANCE || body.velocity.length() * STEP_SECONDS > distance {
+    if distance < parameters.arrival_distance || body.velocity.length() * STEP_SECONDS > distance {
         return Action::Stop;
     }
     let direction = way / distance;
-    if is_free(state, agent) { walk(body.forward(), direction) } else { push(body.forward(), direction) }
+    if is_free(state, agent) {
+        walk(body.forward(), direction, parameters.heading_tolerance)
+    } else {
+        push(body.forward(), direction)
+    }
 }
 
 /// Whether an agent has free hands.
@@ -43,10 +44,10 @@ pub(crate) fn is_free(state: &State, agent: AgentId) -> bool {
     state.grips[agent].is_none()
 }
 
-/// Turning to a direction, or forward.
-fn walk(forward: Vec2, direction: Vec2) -> Action {
+/// Turning to a direction, or forward if the heading deviates from it by less than `tolerance` (rad).
+fn walk(forward: Vec2, direction: Vec2, tolerance: f32) -> Action {
     let off = libm::atan2f(forward.perp_dot(direction), forward.dot(direction));
-    if off.abs() < HEADING_TOLERANCE {
+    if off.abs() < tolerance {
         Action::Up
     } else if off > 0.0 {
         Action::TurnLeft

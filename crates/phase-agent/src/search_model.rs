@@ -1,8 +1,8 @@
 //! The generative model that POMCP searches: the agent's own model of the world.
 
 use crate::{
-    Foresight, PhaseParameters,
-    habits::{self, Context, MOVING_SPEED},
+    Foresight,
+    habits::{self, Context},
     objective::{ARENA_DIAGONAL, Objective},
     rollout_policy,
 };
@@ -35,8 +35,6 @@ pub struct SearchModel<'a, D> {
     pub rewards_goals: bool,
     /// The agent's attitude.
     pub attitude: Attitude,
-    /// The mind's parameters.
-    pub parameters: PhaseParameters,
 }
 
 impl<D> SearchModel<'_, D> {
@@ -46,7 +44,7 @@ impl<D> SearchModel<'_, D> {
     /// push will do, and two who push each other would go on for ever. Nothing is drawn, so that the tree's
     /// steps can be cached.
     fn other_action(&self, search_state: &SearchState) -> Action {
-        let p = self.parameters.other_initiative;
+        let p = self.objective.parameters().other_initiative;
         let count = |steps: u16| libm::floor(f64::from(steps) * p);
         let acts = search_state.other_moves && count(search_state.steps + 1) > count(search_state.steps);
         if acts || self.in_contact(&search_state.state) {
@@ -126,7 +124,7 @@ impl SearchState {
     #[must_use]
     pub fn new(objective: &Objective<'_>, state: State, last_action: Option<Action>) -> Self {
         let other = state.body(Entity::Agent(objective.agent().other()));
-        let other_moves = other.velocity.length() > MOVING_SPEED;
+        let other_moves = other.velocity.length() > objective.parameters().moving_speed;
         Self { state, distance: objective.distance(&state), last_action, steps: 0, other_moves }
     }
 
@@ -146,7 +144,7 @@ impl<D: Dynamics> GenerativeModel for SearchModel<'_, D> {
     }
 
     fn discount(&self) -> f64 {
-        self.parameters.discount
+        self.objective.parameters().discount
     }
 
     fn step(&self, search_state: &mut SearchState, action: usize, random: &mut impl Rng) -> Transition<u16> {
@@ -163,7 +161,7 @@ impl<D: Dynamics> GenerativeModel for SearchModel<'_, D> {
         let action = self.actions[action];
         let actions = self.joint_action(search_state, action);
         let state = &mut search_state.state;
-        match self.parameters.foresight {
+        match self.objective.parameters().foresight {
             Foresight::Coarse | Foresight::Points => self.dynamics.step_approximate(state, actions),
             Foresight::Exact => self.dynamics.step(state, actions),
         }
@@ -171,7 +169,7 @@ impl<D: Dynamics> GenerativeModel for SearchModel<'_, D> {
     }
 
     fn rollout_action(&self, search_state: &SearchState, random: &mut impl Rng) -> usize {
-        if random.random_bool(self.parameters.heuristic_share) {
+        if random.random_bool(self.objective.parameters().heuristic_share) {
             let heuristic = rollout_policy::action(&self.objective, &search_state.state);
             if let Some(index) = self.actions.iter().position(|&action| action == heuristic) {
                 return index;
@@ -186,9 +184,7 @@ impl<D: Dynamics> GenerativeModel for SearchModel<'_, D> {
             last: search_state.last_action,
             distance: search_state.distance,
         };
-        let weight = |&action: &Action| {
-            habits::weight(action, &self.parameters, &self.objective, &search_state.state, context)
-        };
+        let weight = |&action: &Action| habits::weight(action, &self.objective, &search_state.state, context);
         weights.extend(self.actions.iter().map(weight));
     }
 
@@ -197,6 +193,6 @@ impl<D: Dynamics> GenerativeModel for SearchModel<'_, D> {
     }
 
     fn value_estimate(&self, search_state: &SearchState) -> f64 {
-        self.reward(search_state, Action::NoForce) * self.parameters.horizon_steps
+        self.reward(search_state, Action::NoForce) * self.objective.parameters().horizon_steps
     }
 }

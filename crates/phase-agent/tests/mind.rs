@@ -44,9 +44,9 @@ fn achieve(predicate: Predicate) -> Subgoal {
     Subgoal::Achieve(Literal::is(predicate))
 }
 
-/// A subgoal of agent 0, compiled in a state.
+/// A subgoal of agent 0, compiled in a state, by a mind that believes that the other agent only coasts.
 fn compiled<'a>(physics: &'a PhysicsConfig, scene: &Scene, state: &State, subgoal: Subgoal) -> Objective<'a> {
-    let parameters = PhaseParameters::default();
+    let parameters = PhaseParameters { other_initiative: 0.0, ..PhaseParameters::default() };
     let costs = NavigationCosts { impassable: parameters.impassable, obstruction: parameters.obstruction };
     let mut navigator = Navigator::new(scene.layout, costs);
     Objective::new(physics, &mut navigator, state, AgentId::ZERO, subgoal, &parameters)
@@ -132,7 +132,6 @@ fn rewards_follow_equation_1() {
                 goals,
                 rewards_goals: true,
                 attitude,
-                parameters: PhaseParameters { other_initiative: 0.0, ..PhaseParameters::default() },
             };
             let mut after = SearchState::new(&objective, state, None);
             let reward = model.rollout_step(&mut after, 0, &mut stream(1, Purpose::Search, 0)).reward;

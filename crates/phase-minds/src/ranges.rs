@@ -27,6 +27,8 @@ pub(crate) enum Range {
     Positive,
     /// An amount.
     NotNegative,
+    /// The spacing of points on a way, of which there must not be too many (u).
+    Spacing,
 }
 
 impl Range {
@@ -36,6 +38,7 @@ impl Range {
             Self::Share => "from 0 to 1",
             Self::Positive => "finite and above 0",
             Self::NotNegative => "finite and at least 0",
+            Self::Spacing => "from 0.1 to 10",
         }
     }
 
@@ -45,6 +48,8 @@ impl Range {
             Self::Share => (0.0..=1.0).contains(&value),
             Self::Positive => value.is_finite() && value > 0.0,
             Self::NotNegative => value.is_finite() && value >= 0.0,
+            // A parameter of 32 bits is read as 64.
+            Self::Spacing => (f64::from(0.1_f32)..=10.0).contains(&value),
         }
     }
 }
@@ -62,8 +67,8 @@ pub(crate) fn check(parameters: &[Ranged]) -> Result<(), RangeError> {
     Ok(())
 }
 
-pub(crate) fn of_phase(parameters: &PhaseParameters) -> [Ranged; 21] {
-    use Range::{AtLeastOne, NotNegative, Positive, Share};
+pub(crate) fn of_phase(parameters: &PhaseParameters) -> [Ranged; 36] {
+    use Range::{AtLeastOne, NotNegative, Positive, Share, Spacing};
     [
         ("particles", parameters.particles as f64, AtLeastOne),
         ("lambda", parameters.lambda, NotNegative),
@@ -75,12 +80,27 @@ pub(crate) fn of_phase(parameters: &PhaseParameters) -> [Ranged; 21] {
         ("discount", parameters.discount, Share),
         ("decisiveness", parameters.decisiveness, NotNegative),
         ("heuristic_share", parameters.heuristic_share, Share),
+        ("directions", parameters.directions as f64, AtLeastOne),
         ("heuristic_prior", parameters.heuristic_prior, Positive),
         ("momentum_prior", parameters.momentum_prior, Positive),
         ("lateral_prior", parameters.lateral_prior, Positive),
         ("rest_prior", parameters.rest_prior, Positive),
+        ("rest_distance", parameters.rest_distance.into(), NotNegative),
+        ("moving_speed", parameters.moving_speed.into(), NotNegative),
         ("horizon_steps", parameters.horizon_steps, NotNegative),
         ("other_initiative", parameters.other_initiative, Share),
+        ("agreement", parameters.agreement.into(), NotNegative),
+        ("colocation", parameters.colocation.into(), NotNegative),
+        ("look_ahead", parameters.look_ahead.into(), Positive),
+        ("heading_tolerance", parameters.heading_tolerance.into(), NotNegative),
+        ("arrival_distance", parameters.arrival_distance.into(), NotNegative),
+        ("grasp_reach", parameters.grasp_reach.into(), Share),
+        ("waiting_widths", parameters.waiting_widths.into(), NotNegative),
+        ("interception_spacing", parameters.interception_spacing.into(), Spacing),
+        ("push_length", parameters.push_length.into(), NotNegative),
+        ("post_distance", parameters.post_distance.into(), NotNegative),
+        ("clearance", parameters.clearance.into(), NotNegative),
+        ("escape_length", parameters.escape_length.into(), NotNegative),
         ("obstruction", parameters.obstruction.into(), NotNegative),
         ("grasp", parameters.grasp.into(), NotNegative),
         ("turning", parameters.turning.into(), NotNegative),

@@ -1,9 +1,6 @@
 //! Distance to go while grasping, carrying and releasing.
 
-use super::{
-    ARENA_DIAGONAL, Compiler, Motion, Objective,
-    way::{LOOK_AHEAD, Way},
-};
+use super::{ARENA_DIAGONAL, Compiler, Motion, Objective, way::Way};
 use phase_model::{Entity, ObjectId, State, Vec2, arena, physics};
 use phase_navigation::{Assembly, AssemblyCosts, AssemblyField, Field, Target};
 use phase_predicates::threshold::ON_OBJECT;
@@ -33,15 +30,15 @@ impl Carry {
         self.load.distance(state.position(Entity::Object(self.object)))
     }
 
-    /// How the load should move next.
-    pub(crate) fn motion(&self, state: &State) -> Motion {
+    /// The load's next motion, towards a point so far ahead on the way (u).
+    pub(crate) fn motion(&self, state: &State, look_ahead: f32) -> Motion {
         let entity = Entity::Object(self.object);
         let body = state.body(entity);
         let Some(assembly) = &self.assembly else {
-            return Motion::to(entity, self.load.waypoint(body.position, LOOK_AHEAD));
+            return Motion::to(entity, self.load.waypoint(body.position, look_ahead));
         };
         let descent = assembly.descent(body.position, body.angle);
-        Motion { entity, waypoint: body.position + descent.direction * LOOK_AHEAD, turn: descent.turn }
+        Motion { entity, waypoint: body.position + descent.direction * look_ahead, turn: descent.turn }
     }
 }
 
@@ -61,11 +58,11 @@ impl Objective<'_> {
             .map(|side| body.position + rotation.rotate(side.direction() * radius))
             .map(|point| point.distance(there))
             .fold(f32::INFINITY, f32::min);
-        let reach = self.physics.object_radii[object] + 0.5 * physics::GRAB_REACH;
+        let reach = self.physics.object_radii[object] + self.parameters.grasp_reach * physics::GRAB_REACH;
         let here = self.place(state, Entity::Agent(self.agent));
         let detour = way.distance(here, there) - here.distance(there);
         // What is grasped has to be released later.
-        (nearest - reach).max(0.0) + detour.max(0.0) + 2.0 * self.grasp
+        (nearest - reach).max(0.0) + detour.max(0.0) + 2.0 * self.parameters.grasp
     }
 
     /// How far an object would slide if it were released now (u): it should stay where it is put.
@@ -86,7 +83,7 @@ impl Compiler<'_, '_> {
             let assembly = Assembly::of(self.physics, &self.state.grips, object);
             // So that crossing a wall for the length of a room is as bad as a door that is too narrow.
             let collision = self.navigator.costs().impassable / (0.5 * arena::SIDE);
-            let costs = AssemblyCosts { turning: self.turning, collision };
+            let costs = AssemblyCosts { turning: self.parameters.turning, collision };
             self.navigator.assembly_field(target, ON_OBJECT, &assembly, costs)
         });
         Carry { object, load, assembly }

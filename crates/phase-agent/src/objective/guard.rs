@@ -1,21 +1,10 @@
 //! Keeping an entity away from a target, driving it to one, and staying out of its way.
 
-use super::{
-    ARENA_DIAGONAL, Compiler,
-    way::{LOOK_AHEAD, Way},
-};
+use super::{ARENA_DIAGONAL, Compiler, pursuit, way::Way};
+use crate::PhaseParameters;
 use phase_model::{Entity, LandmarkId, RoomId, Vec2, arena, layout::room_of};
 use phase_navigation::{Field, Target};
 use std::sync::Arc;
-
-/// Spacing of the points of a path at which it could be cut off (u).
-const INTERCEPTION_SPACING: f32 = 1.0;
-/// Number of directions in which a push is considered.
-const PUSH_DIRECTIONS: usize = 8;
-/// Length of a push that is considered (u).
-const PUSH_LENGTH: f32 = 4.0;
-/// Closer than this to its post, a guard turns on the entity (u).
-const AT_POST: f32 = 0.6;
 
 /// One agent influences where an entity goes, by standing in its way and pushing.
 #[derive(Clone, Debug)]
@@ -51,9 +40,13 @@ impl Guard {
     }
 
     /// The post, or from there the entity itself.
-    pub(crate) fn waypoint(&self, here: Vec2, subject: Vec2) -> Vec2 {
+    pub(crate) fn waypoint(&self, here: Vec2, subject: Vec2, parameters: &PhaseParameters) -> Vec2 {
         let post = self.post(subject);
-        if self.is_next_to && here.distance(post) < AT_POST { subject } else { self.way.waypoint(here, post) }
+        if self.is_next_to && here.distance(post) < parameters.post_distance {
+            subject
+        } else {
+            self.way.waypoint(here, post, parameters.look_ahead)
+        }
     }
 }
 
@@ -90,9 +83,6 @@ impl ClearPath {
     }
 }
 
-/// Clearance between bodies that pass each other (u).
-const CLEARANCE: f32 = 0.8;
-
 /// Where a path from a point enters a room (u); `None` if it starts there.
 fn entrance(field: &Field, start: Vec2, room: RoomId) -> Option<Vec2> {
     let mut last = start;
@@ -105,7 +95,7 @@ fn entrance(field: &Field, start: Vec2, room: RoomId) -> Option<Vec2> {
     None
 }
 
-/// How far past a door a point counts as inside the room (u).
+/// Distance (u) past a door at which a point lies inside the room. It allows for rounding and shapes no behaviour.
 const PAST_DOOR: f32 = 0.1;
 
 impl Compiler<'_, '_> {
@@ -134,7 +124,7 @@ impl Compiler<'_, '_> {
         let mut post = field.waypoint(start, ahead);
         let mut is_next_to = true;
         while to_me.distance(post) > ahead && ahead < length {
-            ahead = (ahead + INTERCEPTION_SPACING).min(length);
+            ahead = (ahead + self.parameters.interception_spacing).min(length);
             post = field.waypoint(start, ahead);
             is_next_to = false;
         }
@@ -152,9 +142,7 @@ impl Compiler<'_, '_> {
         let own = self.mover(me);
         let to_me = self.navigator.field(Target::Point(here), own, &obstacles);
         let mut best = (f32::NEG_INFINITY, here);
-        for k in 0..PUSH_DIRECTIONS {
-            let angle = k as f32 * (core::f32::consts::TAU / PUSH_DIRECTIONS as f32);
-            let direction = Vec2::new(libm::cosf(angle), libm::sinf(angle));
+        for direction in pursuit::directions(self.parameters.directions) {
             let post = start - direction * touching;
             if !self.is_free(me, post, Some(subject)) {
                 continue;
@@ -169,11 +157,11 @@ impl Compiler<'_, '_> {
         Guard { subject, field, drives: false, post: best.1, is_next_to: true, start, way }
     }
 
-    /// Where an entity comes to a stop that is pushed straight on for at most [`PUSH_LENGTH`].
+    /// Where an entity comes to a stop that is pushed straight on for at most the length of a push.
     fn pushed(&self, entity: Entity, start: Vec2, direction: Vec2) -> Vec2 {
         let mut end = start;
-        while end.distance(start) < PUSH_LENGTH {
-            let next = end + direction * INTERCEPTION_SPACING;
+        while end.distance(start) < self.parameters.push_length {
+            let next = end + direction * self.parameters.interception_spacing;
             if !self.is_free(entity, next, None) {
                 break;
             }
@@ -206,7 +194,7 @@ impl Compiler<'_, '_> {
         let me = Entity::Agent(self.agent);
         let (here, start) = (self.place(me), self.place(subject));
         let own = self.mover(me);
-        let forward = (field.waypoint(start, LOOK_AHEAD) - start).normalize_or(Vec2::Y);
+        let forward = (field.waypoint(start, self.parameters.look_ahead) - start).normalize_or(Vec2::Y);
         let post = start - forward * (self.physics.radius(me) + self.physics.radius(subject));
         let way = Way::new(self.navigator, own, here, post, &[]);
         Guard { subject, field, drives: true, post, is_next_to: true, start, way }
@@ -218,11 +206,11 @@ impl Compiler<'_, '_> {
         let mover = self.state.held_object(other).map_or(Entity::Agent(other), Entity::Object);
         let wide = self.mover(Entity::Agent(other)).half_width.max(self.mover(mover).half_width);
         let width = phase_navigation::Mover { half_width: wide };
-        let field = self.navigator.field(super::task::centre(landmark), width, &[]);
+        let field = self.navigator.field(pursuit::centre(landmark), width, &[]);
         let start = self.place(mover);
         let points: Vec<Vec2> = core::iter::once(start).chain(field.path(start)).collect();
         let own = self.mover(Entity::Agent(self.agent)).half_width;
-        let path = ClearPath { points, room: own + wide + CLEARANCE };
+        let path = ClearPath { points, room: own + wide + self.parameters.clearance };
         (path.distance(self.state.position(Entity::Agent(self.agent))) > 0.0).then_some(path)
     }
 }

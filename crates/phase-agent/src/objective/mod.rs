@@ -5,18 +5,18 @@
 
 mod carry;
 mod guard;
-mod reach;
-mod task;
+mod own_way;
+mod pursuit;
 mod way;
 
 use crate::PhaseParameters;
+use own_way::OwnWay;
 use phase_model::{
     AgentId, Entity, Layout, Literal, ObjectId, PhysicsConfig, Predicate, PredicateTarget, State, Subgoal,
     Vec2,
 };
 use phase_navigation::{Disc, Mover, Navigator};
-use reach::Reach;
-use task::Task;
+use pursuit::Pursuit;
 
 /// Diagonal of the arena (u), the scale of distances in rewards.
 pub const ARENA_DIAGONAL: f32 = 28.284;
@@ -45,13 +45,8 @@ pub struct Objective<'a> {
     layout: Layout,
     agent: AgentId,
     subgoal: Subgoal,
-    task: Task,
-    /// Cost of facing away from what the agent goes to (u).
-    turning: f32,
-    /// Cost of grasping an object, and of releasing it (u).
-    grasp: f32,
-    /// Cost of a door that is too narrow (u).
-    impassable: f32,
+    pursuit: Pursuit,
+    parameters: PhaseParameters,
 }
 
 impl<'a> Objective<'a> {
@@ -66,18 +61,9 @@ impl<'a> Objective<'a> {
         parameters: &PhaseParameters,
     ) -> Self {
         let layout = navigator.map().layout();
-        let mut compiler = Compiler { physics, navigator, state, agent, turning: parameters.turning };
-        let task = compiler.task(subgoal);
-        Self {
-            physics,
-            layout,
-            agent,
-            subgoal,
-            task,
-            turning: parameters.turning,
-            grasp: parameters.grasp,
-            impassable: parameters.impassable,
-        }
+        let mut compiler = Compiler { physics, navigator, state, agent, parameters };
+        let pursuit = compiler.pursuit(subgoal);
+        Self { physics, layout, agent, subgoal, pursuit, parameters: *parameters }
     }
 
     /// The agent that pursues it.
@@ -92,6 +78,12 @@ impl<'a> Objective<'a> {
         self.subgoal
     }
 
+    /// The parameters of the agent's mind.
+    #[must_use]
+    pub const fn parameters(&self) -> &PhaseParameters {
+        &self.parameters
+    }
+
     /// Bodies and walls.
     #[must_use]
     pub const fn physics(&self) -> &PhysicsConfig {
@@ -103,37 +95,37 @@ impl<'a> Objective<'a> {
     pub fn distance(&self, state: &State) -> f32 {
         let me = Entity::Agent(self.agent);
         let here = self.place(state, me);
-        match &self.task {
-            Task::Rest => 0.0,
-            Task::Reach(reach) => {
-                let facing = reach.closed_door().map_or(0.0, |door| self.facing_cost(state, door));
-                reach.distance(here) + facing
+        match &self.pursuit {
+            Pursuit::Rest => 0.0,
+            Pursuit::BeAt(way) => {
+                let facing = way.closed_door().map_or(0.0, |door| self.facing_cost(state, door));
+                way.distance(here) + facing
             }
-            Task::Meet(entity, way) => {
+            Pursuit::Meet(entity, way) => {
                 let there = self.place(state, *entity);
                 (way.distance(here, there) - self.gap(*entity)).max(0.0) + self.facing_cost(state, there)
             }
-            Task::Grasp(object, way) => self.to_grasp(state, *object, way),
-            Task::Release(object) => {
+            Pursuit::Grasp(object, way) => self.to_grasp(state, *object, way),
+            Pursuit::Release(object) => {
                 if state.holds(self.agent, *object) {
-                    self.grasp + self.sliding_distance(state, *object)
+                    self.parameters.grasp + self.sliding_distance(state, *object)
                 } else {
                     self.sliding_distance(state, *object)
                 }
             }
-            Task::Bring(object, way, carry) => {
+            Pursuit::Bring(object, way, carry) => {
                 if state.holds(self.agent, *object) {
                     carry.distance(state)
                 } else {
                     self.to_grasp(state, *object, way) + carry.load_distance(state)
                 }
             }
-            Task::Escape(way) => {
+            Pursuit::Escape(way) => {
                 let from = self.place(state, Entity::Agent(self.agent.other()));
-                (ARENA_DIAGONAL - task::separation(way, from, here, self.impassable)).max(0.0)
+                (ARENA_DIAGONAL - pursuit::separation(way, from, here, self.parameters.impassable)).max(0.0)
             }
-            Task::Guard(guard) => guard.distance(here, self.place(state, guard.subject())),
-            Task::ClearPath(path) => path.distance(here),
+            Pursuit::Guard(guard) => guard.distance(here, self.place(state, guard.subject())),
+            Pursuit::ClearPath(path) => path.distance(here),
         }
     }
 
@@ -142,23 +134,28 @@ impl<'a> Objective<'a> {
     pub fn motion(&self, state: &State) -> Motion {
         let me = Entity::Agent(self.agent);
         let here = self.place(state, me);
-        let waypoint = match &self.task {
-            Task::Rest | Task::Release(_) => here,
-            Task::Reach(reach) => reach.waypoint(here),
-            Task::Meet(entity, way) => way.waypoint(here, self.place(state, *entity)),
-            Task::Grasp(object, way) => way.waypoint(here, state.position(Entity::Object(*object))),
-            Task::Bring(object, way, carry) => {
+        let look_ahead = self.parameters.look_ahead;
+        let waypoint = match &self.pursuit {
+            Pursuit::Rest | Pursuit::Release(_) => here,
+            Pursuit::BeAt(way) => way.waypoint(here, look_ahead),
+            Pursuit::Meet(entity, way) => way.waypoint(here, self.place(state, *entity), look_ahead),
+            Pursuit::Grasp(object, way) => {
+                way.waypoint(here, state.position(Entity::Object(*object)), look_ahead)
+            }
+            Pursuit::Bring(object, way, carry) => {
                 if state.holds(self.agent, *object) {
-                    return carry.motion(state);
+                    return carry.motion(state, look_ahead);
                 }
-                way.waypoint(here, state.position(Entity::Object(*object)))
+                way.waypoint(here, state.position(Entity::Object(*object)), look_ahead)
             }
-            Task::Escape(way) => {
+            Pursuit::Escape(way) => {
                 let from = self.place(state, Entity::Agent(self.agent.other()));
-                task::away(way, from, here, self.physics.radius(me), self.impassable)
+                pursuit::away(way, from, here, self.physics.radius(me), &self.parameters)
             }
-            Task::Guard(guard) => guard.waypoint(here, self.place(state, guard.subject())),
-            Task::ClearPath(path) => path.waypoint(here),
+            Pursuit::Guard(guard) => {
+                guard.waypoint(here, self.place(state, guard.subject()), &self.parameters)
+            }
+            Pursuit::ClearPath(path) => path.waypoint(here),
         };
         Motion::to(me, waypoint)
     }
@@ -171,8 +168,8 @@ impl<'a> Objective<'a> {
     /// The object to hold on to next, if the agent does not hold it.
     #[must_use]
     pub fn wanted_object(&self, state: &State) -> Option<ObjectId> {
-        match self.task {
-            Task::Grasp(object, _) | Task::Bring(object, ..) => {
+        match self.pursuit {
+            Pursuit::Grasp(object, _) | Pursuit::Bring(object, ..) => {
                 (!state.holds(self.agent, object)).then_some(object)
             }
             _ => None,
@@ -182,7 +179,7 @@ impl<'a> Objective<'a> {
     /// Whether the subgoal is to release an object that the agent holds.
     #[must_use]
     pub fn releases(&self, state: &State) -> bool {
-        matches!(self.task, Task::Release(object) if state.holds(self.agent, object))
+        matches!(self.pursuit, Pursuit::Release(object) if state.holds(self.agent, object))
     }
 
     /// Distance between the centres of the agent and an entity that touch (u).
@@ -195,7 +192,7 @@ impl<'a> Objective<'a> {
     fn facing_cost(&self, state: &State, target: Vec2) -> f32 {
         let body = state.body(Entity::Agent(self.agent));
         let way = (target - body.position).normalize_or_zero();
-        0.5 * self.turning * (1.0 - way.dot(body.forward()))
+        0.5 * self.parameters.turning * (1.0 - way.dot(body.forward()))
     }
 }
 
@@ -205,39 +202,38 @@ struct Compiler<'a, 'n> {
     navigator: &'n mut Navigator,
     state: &'a State,
     agent: AgentId,
-    /// Cost of turning a load (u/rad).
-    turning: f32,
+    parameters: &'a PhaseParameters,
 }
 
 impl Compiler<'_, '_> {
-    fn task(&mut self, subgoal: Subgoal) -> Task {
-        let Subgoal::Achieve(Literal { predicate, holds }) = subgoal else { return Task::Rest };
+    fn pursuit(&mut self, subgoal: Subgoal) -> Pursuit {
+        let Subgoal::Achieve(Literal { predicate, holds }) = subgoal else { return Pursuit::Rest };
         let me = Entity::Agent(self.agent);
         match (predicate, holds) {
-            (Predicate::On(entity, landmark), true) => self.bring(entity, task::centre(landmark)),
+            (Predicate::On(entity, landmark), true) => self.bring(entity, pursuit::centre(landmark)),
             (Predicate::Close(entity, PredicateTarget::Landmark(landmark)), true) => {
-                self.bring(entity, task::room(landmark))
+                self.bring(entity, pursuit::room(landmark))
             }
             (Predicate::Close(who, PredicateTarget::Entity(entity)), true) if who == me => self.meet(entity),
             (Predicate::Touch(who, entity), true) if Entity::Agent(who) == me => self.meet(entity),
             (Predicate::Attach(who, object), true) if Entity::Agent(who) == me => {
-                Task::Grasp(object, self.way_to(Entity::Object(object)))
+                Pursuit::Grasp(object, self.way_to(Entity::Object(object)))
             }
-            (Predicate::Attach(who, object), false) if Entity::Agent(who) == me => Task::Release(object),
+            (Predicate::Attach(who, object), false) if Entity::Agent(who) == me => Pursuit::Release(object),
             (Predicate::Touch(..), false) | (Predicate::Close(_, PredicateTarget::Entity(_)), false) => {
                 self.escape()
             }
             (Predicate::On(entity, landmark), false) if entity == me => {
-                self.clear_path(landmark).map_or(Task::Rest, Task::ClearPath)
+                self.clear_path(landmark).map_or(Pursuit::Rest, Pursuit::ClearPath)
             }
             (Predicate::On(entity, landmark), false) => {
-                Task::Guard(self.guard(entity, task::centre(landmark)))
+                Pursuit::Guard(self.guard(entity, pursuit::centre(landmark)))
             }
             (Predicate::Close(entity, PredicateTarget::Landmark(landmark)), false) => {
-                Task::Guard(self.guard(entity, task::room(landmark)))
+                Pursuit::Guard(self.guard(entity, pursuit::room(landmark)))
             }
             // What only the other agent can do.
-            _ => Task::Rest,
+            _ => Pursuit::Rest,
         }
     }
 
@@ -283,12 +279,12 @@ impl Compiler<'_, '_> {
         way::Way::new(self.navigator, mover, from, to, &obstacles)
     }
 
-    fn meet(&mut self, entity: Entity) -> Task {
-        Task::Meet(entity, self.way_to(entity))
+    fn meet(&mut self, entity: Entity) -> Pursuit {
+        Pursuit::Meet(entity, self.way_to(entity))
     }
 
     /// An entity is to be at a target: the agent itself, or something that it has to move there.
-    fn bring(&mut self, entity: Entity, target: phase_navigation::Target) -> Task {
+    fn bring(&mut self, entity: Entity, target: phase_navigation::Target) -> Pursuit {
         let me = Entity::Agent(self.agent);
         match entity {
             _ if entity == me => {
@@ -296,17 +292,23 @@ impl Compiler<'_, '_> {
                 let mover = self.mover(me);
                 let field = self.navigator.field(target, mover, &obstacles);
                 let here = self.place(me);
-                Task::Reach(Reach::new(field, self.navigator.map(), mover, here))
+                Pursuit::BeAt(OwnWay::new(
+                    field,
+                    self.navigator.map(),
+                    mover,
+                    here,
+                    self.parameters.waiting_widths,
+                ))
             }
-            Entity::Object(object) => Task::Bring(object, self.way_to(entity), self.carry(object, target)),
-            Entity::Agent(_) => Task::Guard(self.drive(entity, target)),
+            Entity::Object(object) => Pursuit::Bring(object, self.way_to(entity), self.carry(object, target)),
+            Entity::Agent(_) => Pursuit::Guard(self.drive(entity, target)),
         }
     }
 
-    fn escape(&mut self) -> Task {
+    fn escape(&mut self) -> Pursuit {
         let (me, other) = (Entity::Agent(self.agent), Entity::Agent(self.agent.other()));
         let (from, to) = (self.place(other), self.place(me));
         let mover = self.mover(other);
-        Task::Escape(way::Way::new(self.navigator, mover, from, to, &[]))
+        Pursuit::Escape(way::Way::new(self.navigator, mover, from, to, &[]))
     }
 }

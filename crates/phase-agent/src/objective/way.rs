@@ -4,10 +4,8 @@ use phase_model::{Vec2, layout::room_of};
 use phase_navigation::{Disc, Field, Mover, Navigator, Target};
 use std::sync::Arc;
 
-/// Distance ahead on a path at which the next waypoint lies (u).
-pub(crate) const LOOK_AHEAD: f32 = 1.5;
-/// A waypoint closer to the end of a path than this is its end (u).
-const AT_END: f32 = 1e-3;
+/// Distance (u) up to which two points are one. It allows for rounding and shapes no behaviour.
+const ROUNDING: f32 = 1e-3;
 
 /// Distances between a mover and a target near the places that they had when it was made.
 ///
@@ -49,10 +47,10 @@ impl Way {
         (self.to_target.distance(from) + change).max(0.0)
     }
 
-    /// The point to head for (u).
-    pub(crate) fn waypoint(&self, from: Vec2, target: Vec2) -> Vec2 {
-        let next = self.to_target.waypoint(from, LOOK_AHEAD);
-        let is_end = next.distance(self.target) < AT_END;
+    /// The point to head for, so far ahead on the way (u).
+    pub(crate) fn waypoint(&self, from: Vec2, target: Vec2, look_ahead: f32) -> Vec2 {
+        let next = self.to_target.waypoint(from, look_ahead);
+        let is_end = next.distance(self.target) < ROUNDING;
         if is_end || room_of(from) == room_of(target) && room_of(from) != room_of(self.target) {
             target
         } else {

@@ -18,6 +18,8 @@ pub(super) struct Parameter {
 enum Domain {
     /// A ratio, from `1 / RATIO_LIMIT` to `RATIO_LIMIT`: it is multiplied.
     Ratio,
+    /// A length or another scale, from `low` to `high`, both above 0: it is multiplied.
+    Between { low: f64, high: f64 },
     /// A share, from 0 to 1: something is added.
     Share,
     /// An amount, from 0 to `limit`: it is multiplied. Below a quarter of `unit` it becomes 0; from 0 it becomes `unit`.
@@ -39,7 +41,7 @@ const RATIO_LIMIT: f64 = 1000.0;
 const DIGITS: i32 = 3;
 
 /// All fitted parameters, in the order in which they are changed.
-pub(super) const PARAMETERS: [Parameter; 11] = [
+pub(super) const PARAMETERS: [Parameter; 25] = [
     Parameter {
         name: "heuristic_prior",
         neutral: 1.0,
@@ -69,6 +71,20 @@ pub(super) const PARAMETERS: [Parameter; 11] = [
         set: |it, value| it.rest_prior = value,
     },
     Parameter {
+        name: "rest_distance",
+        neutral: 0.0,
+        domain: Domain::Amount { unit: 0.5, limit: 30.0 },
+        get: |it| it.rest_distance.into(),
+        set: |it, value| it.rest_distance = value as f32,
+    },
+    Parameter {
+        name: "moving_speed",
+        neutral: 0.0,
+        domain: Domain::Amount { unit: 0.5, limit: 20.0 },
+        get: |it| it.moving_speed.into(),
+        set: |it, value| it.moving_speed = value as f32,
+    },
+    Parameter {
         name: "horizon_steps",
         neutral: 0.0,
         domain: Domain::Amount { unit: 2.0, limit: 100.0 },
@@ -81,6 +97,90 @@ pub(super) const PARAMETERS: [Parameter; 11] = [
         domain: Domain::Share,
         get: |it| it.other_initiative,
         set: |it, value| it.other_initiative = value,
+    },
+    Parameter {
+        name: "agreement",
+        neutral: 0.0,
+        domain: Domain::Amount { unit: 0.5, limit: 30.0 },
+        get: |it| it.agreement.into(),
+        set: |it, value| it.agreement = value as f32,
+    },
+    Parameter {
+        name: "colocation",
+        neutral: 30.0,
+        domain: Domain::Amount { unit: 0.5, limit: 30.0 },
+        get: |it| it.colocation.into(),
+        set: |it, value| it.colocation = value as f32,
+    },
+    Parameter {
+        name: "look_ahead",
+        neutral: 0.1,
+        domain: Domain::Between { low: 0.1, high: 10.0 },
+        get: |it| it.look_ahead.into(),
+        set: |it, value| it.look_ahead = value as f32,
+    },
+    Parameter {
+        name: "heading_tolerance",
+        neutral: 0.0,
+        domain: Domain::Amount { unit: 0.1, limit: 3.0 },
+        get: |it| it.heading_tolerance.into(),
+        set: |it, value| it.heading_tolerance = value as f32,
+    },
+    Parameter {
+        name: "arrival_distance",
+        neutral: 0.0,
+        domain: Domain::Amount { unit: 0.1, limit: 10.0 },
+        get: |it| it.arrival_distance.into(),
+        set: |it, value| it.arrival_distance = value as f32,
+    },
+    Parameter {
+        name: "grasp_reach",
+        neutral: 0.0,
+        domain: Domain::Share,
+        get: |it| it.grasp_reach.into(),
+        set: |it, value| it.grasp_reach = value as f32,
+    },
+    Parameter {
+        name: "waiting_widths",
+        neutral: 0.0,
+        domain: Domain::Amount { unit: 0.5, limit: 10.0 },
+        get: |it| it.waiting_widths.into(),
+        set: |it, value| it.waiting_widths = value as f32,
+    },
+    Parameter {
+        name: "interception_spacing",
+        neutral: 10.0,
+        domain: Domain::Between { low: 0.1, high: 10.0 },
+        get: |it| it.interception_spacing.into(),
+        set: |it, value| it.interception_spacing = value as f32,
+    },
+    Parameter {
+        name: "push_length",
+        neutral: 0.0,
+        domain: Domain::Amount { unit: 1.0, limit: 30.0 },
+        get: |it| it.push_length.into(),
+        set: |it, value| it.push_length = value as f32,
+    },
+    Parameter {
+        name: "post_distance",
+        neutral: 0.0,
+        domain: Domain::Amount { unit: 0.2, limit: 10.0 },
+        get: |it| it.post_distance.into(),
+        set: |it, value| it.post_distance = value as f32,
+    },
+    Parameter {
+        name: "clearance",
+        neutral: 0.0,
+        domain: Domain::Amount { unit: 0.2, limit: 10.0 },
+        get: |it| it.clearance.into(),
+        set: |it, value| it.clearance = value as f32,
+    },
+    Parameter {
+        name: "escape_length",
+        neutral: 0.0,
+        domain: Domain::Amount { unit: 1.0, limit: 30.0 },
+        get: |it| it.escape_length.into(),
+        set: |it, value| it.escape_length = value as f32,
     },
     Parameter {
         name: "obstruction",
@@ -135,6 +235,7 @@ impl Parameter {
     pub(super) const fn range(&self) -> (f64, f64) {
         match self.domain {
             Domain::Ratio => (1.0 / RATIO_LIMIT, RATIO_LIMIT),
+            Domain::Between { low, high } => (low, high),
             Domain::Share => (0.0, 1.0),
             Domain::Amount { limit, .. } => (0.0, limit),
         }
@@ -147,7 +248,7 @@ impl Parameter {
             Step::Fine => (core::f64::consts::SQRT_2, 0.1),
         };
         let tried = match self.domain {
-            Domain::Ratio => vec![value / factor, value * factor],
+            Domain::Ratio | Domain::Between { .. } => vec![value / factor, value * factor],
             Domain::Share => vec![value - summand, value + summand],
             Domain::Amount { unit, .. } if value <= 0.0 => vec![unit],
             Domain::Amount { unit, .. } if value / factor < 0.25 * unit => vec![0.0, value * factor],
@@ -211,8 +312,7 @@ mod tests {
 
     #[test]
     fn an_amount_can_vanish_and_come_back() {
-        let horizon = &PARAMETERS[4];
-        assert_eq!(horizon.name, "horizon_steps");
+        let horizon = PARAMETERS.iter().find(|it| it.name == "horizon_steps").expect("it is fitted");
         assert_eq!(horizon.neighbours(8.0, Step::Coarse), [4.0, 16.0]);
         assert_eq!(horizon.neighbours(0.5, Step::Coarse), [0.0, 1.0]);
         assert_eq!(horizon.neighbours(0.0, Step::Coarse), [2.0]);

@@ -3,19 +3,20 @@
 use super::{
     carry::Carry,
     guard::{ClearPath, Guard},
-    reach::Reach,
+    own_way::OwnWay,
     way::Way,
 };
+use crate::PhaseParameters;
 use phase_model::{Entity, LandmarkId, ObjectId, Vec2, arena};
 use phase_navigation::{ROOM_DEPTH, Target};
 
 /// The kinds of distance to go.
 #[derive(Clone, Debug)]
-pub(crate) enum Task {
+pub(crate) enum Pursuit {
     /// Nothing.
     Rest,
     /// Be at a target.
-    Reach(Reach),
+    BeAt(OwnWay),
     /// Be next to an entity.
     Meet(Entity, Way),
     /// Hold an object.
@@ -42,6 +43,14 @@ pub(crate) const fn room(landmark: LandmarkId) -> Target {
     Target::Room { room: landmark.room(), depth: ROOM_DEPTH }
 }
 
+/// Unit vectors in so many directions, evenly spaced.
+pub(crate) fn directions(count: usize) -> impl Iterator<Item = Vec2> {
+    (0..count).map(move |k| {
+        let angle = k as f32 * (core::f32::consts::TAU / count as f32);
+        Vec2::new(libm::cosf(angle), libm::sinf(angle))
+    })
+}
+
 /// Length of a pursuer's path to a place (u). Behind a door that is too narrow for it a body is safe, and yet
 /// farther away is better.
 pub(crate) fn separation(way: &Way, pursuer: Vec2, place: Vec2, impassable: f32) -> f32 {
@@ -49,20 +58,14 @@ pub(crate) fn separation(way: &Way, pursuer: Vec2, place: Vec2, impassable: f32)
     if cost >= impassable { cost - impassable } else { cost }
 }
 
-/// Number of directions in which an escape is tried.
-const DIRECTIONS: usize = 8;
-/// Length of a tried escape (u).
-const ESCAPE_LENGTH: f32 = 3.0;
-
-/// Of several points around a body, within the arena, the one farthest from a pursuer by its way.
-pub(crate) fn away(way: &Way, pursuer: Vec2, here: Vec2, radius: f32, impassable: f32) -> Vec2 {
+/// Of several points around a body of some radius, within the arena, the one farthest from a pursuer by its way.
+pub(crate) fn away(way: &Way, pursuer: Vec2, here: Vec2, radius: f32, parameters: &PhaseParameters) -> Vec2 {
     let inset = Vec2::splat(radius);
     let mut best = (f32::NEG_INFINITY, here);
-    for k in 0..DIRECTIONS {
-        let angle = k as f32 * (core::f32::consts::TAU / DIRECTIONS as f32);
-        let step = Vec2::new(libm::cosf(angle), libm::sinf(angle)) * ESCAPE_LENGTH;
+    for direction in directions(parameters.directions) {
+        let step = direction * parameters.escape_length;
         let place = (here + step).max(arena::MIN + inset).min(arena::MAX - inset);
-        let distance = separation(way, pursuer, place, impassable);
+        let distance = separation(way, pursuer, place, parameters.impassable);
         if distance > best.0 {
             best = (distance, place);
         }
