@@ -3,9 +3,6 @@
 use crate::objective::Objective;
 use phase_model::{Action, AgentId, Entity, State, Vec2, arena};
 
-/// Seconds of physics in one step.
-const STEP_SECONDS: f32 = arena::SUBSTEP_SECONDS * arena::SUBSTEPS as f32;
-
 /// The action of the heuristic: attach or detach where that is the subgoal; stop at the end of the way; with an
 /// object in hand, apply the push closest to the direction of the waypoint; with free hands, turn until the
 /// heading error is small, then push forward.
@@ -28,7 +25,8 @@ pub fn action(objective: &Objective<'_>, state: &State) -> Action {
         return if motion.turn > 0.0 { Action::TurnLeft } else { Action::TurnRight };
     }
     let body = state.body(Entity::Agent(agent));
-    if distance < parameters.arrival_distance || body.velocity.length() * STEP_SECONDS > distance {
+    let reach = body.velocity.length() * arena::STEP_SECONDS as f32;
+    if distance < parameters.arrival_distance || reach > distance {
         return Action::Stop;
     }
     let direction = way / distance;

@@ -6,11 +6,7 @@ use crate::{
 };
 use candle_core::{D, Device, Result, Tensor};
 use phase_event::ObservedEvent;
-use phase_model::{
-    AGENT_COUNT, Forecast, Vec2,
-    arena::{SUBSTEP_SECONDS, SUBSTEPS},
-    random::Pcg64Mcg,
-};
+use phase_model::{AGENT_COUNT, Forecast, Vec2, arena::STEP_SECONDS, random::Pcg64Mcg};
 
 /// Steps that the networks predict at a time.
 pub const HORIZON: usize = 10;
@@ -92,7 +88,7 @@ fn continued(event: &ObservedEvent, forecast: &Forecast) -> Option<ObservedEvent
         let mut row = *rows.last()?;
         for (body, path) in row.iter_mut().zip(forecast) {
             let position = *path.get(path.len().checked_sub(1 + step)?)?;
-            body.velocity = (position - body.position) / (SUBSTEPS as f32 * SUBSTEP_SECONDS);
+            body.velocity = (position - body.position) / STEP_SECONDS as f32;
             body.position = position;
         }
         rows.push(row);

@@ -10,10 +10,7 @@ use crate::{
     training::{Loss, Network, PublishedNetwork},
 };
 use candle_core::{Device, Module, Result, Tensor};
-use phase_model::{
-    arena::{SUBSTEP_SECONDS, SUBSTEPS},
-    random::Pcg64Mcg,
-};
+use phase_model::{arena::STEP_SECONDS, random::Pcg64Mcg};
 use rand::seq::SliceRandom;
 
 /// Moments of each event from which futures are unrolled in one training pass; all of them would take ten
@@ -123,7 +120,7 @@ impl Forecasting for Stgat {
         let known = Tensor::cat(&self.encoded(batch)?, 0)?.index_select(&places, 0)?;
         let velocity = Tensor::cat(&batch.moving, 0)?.index_select(&places, 0)?.narrow(1, FEATURES - 2, 2)?;
         // Displacement in the last step (u).
-        let mut covered = (velocity * (SPEED * f64::from(SUBSTEP_SECONDS) * SUBSTEPS as f64))?;
+        let mut covered = (velocity * (SPEED * STEP_SECONDS))?;
         let mut state = Tensor::cat(&[&known, &known.zeros_like()?], 1)?;
         let mut position = covered.zeros_like()?;
         let mut positions = Vec::with_capacity(HORIZON);

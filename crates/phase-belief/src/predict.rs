@@ -47,7 +47,7 @@ fn apply_constant_motion(physics: &PhysicsConfig, before: &State, after: &mut St
         let way = velocity * (substep as f32 * arena::SUBSTEP_SECONDS);
         moving.iter().all(|entity| is_free(physics, before, after, moving, entity, way))
     }) {
-        let way = velocity * (arena::SUBSTEPS as f32 * arena::SUBSTEP_SECONDS);
+        let way = velocity * arena::STEP_SECONDS as f32;
         for entity in moving.iter() {
             let mut body = *before.body(entity);
             body.position += way;

@@ -1,4 +1,4 @@
-//! The one place where the command line meets sampler and simulation.
+//! Seeds of events and attempts, and simulations whose errors name the event.
 
 use crate::error::CliError;
 use core::ops::ControlFlow;

@@ -18,7 +18,7 @@ use phase_dataset::{
 };
 use phase_document::plot::bars;
 use phase_files::{WriteError, atomic};
-use phase_model::Scene;
+use phase_model::{Scene, arena::STEP_VIDEO_SECONDS};
 use phase_report::{
     acceptance,
     statistics::{self, Statistics, StatisticsRow},
@@ -49,8 +49,6 @@ pub struct Stats {
 
 /// Width of the bars in the plot of lengths (s).
 const LENGTH_STEP: usize = 1;
-/// Steps of a second of video.
-const STEPS_PER_SECOND: usize = 4;
 
 /// File name, title, unit, and the bars.
 type Plot = (&'static str, &'static str, &'static str, Vec<(String, f64)>);
@@ -136,7 +134,7 @@ fn write(
     atomic::write(&out.join("stats.md"), text.as_bytes())?;
     let mut lengths: BTreeMap<usize, usize> = BTreeMap::new();
     for (steps, count) in &statistics.lengths {
-        *lengths.entry(steps / (STEPS_PER_SECOND * LENGTH_STEP)).or_default() += count;
+        *lengths.entry((*steps as f64 * STEP_VIDEO_SECONDS) as usize / LENGTH_STEP).or_default() += count;
     }
     let seconds = |at: usize| format!("{} to {} s", at * LENGTH_STEP, (at + 1) * LENGTH_STEP);
     let number = |count: usize| count as f64;

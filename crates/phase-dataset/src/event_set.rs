@@ -125,7 +125,7 @@ pub fn pair_rows<'a>(set: &SetEntry, place: impl Fn(&str) -> Option<&'a SetPlace
         let seen = pair.seen.as_ref().map_or_else(
             || ",,,,,,".to_owned(),
             |SeenDifference { step, entity, places: [[x, y], [to_x, to_y]] }| {
-                let seconds = *step as f64 * arena::SUBSTEPS as f64 / f64::from(arena::FRAMES_PER_SECOND);
+                let seconds = *step as f64 * arena::STEP_VIDEO_SECONDS;
                 format!("{step},{seconds:.2},{entity},{x:.2},{y:.2},{to_x:.2},{to_y:.2}")
             },
         );

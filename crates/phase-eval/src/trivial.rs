@@ -3,7 +3,7 @@
 use phase_event::{Forecaster, MethodResult, ObservedEvent, Prediction, ProgressCallback, Recogniser};
 use phase_model::{
     AgentId, Entity, Forecast, Goal, Judgement, LandmarkId, ObjectId, RelationProbabilities, Sign, Vec2,
-    arena::{self, SUBSTEP_SECONDS, SUBSTEPS},
+    arena::{self, STEP_SECONDS},
     random::{Purpose, stream},
 };
 use rand::RngExt;
@@ -83,7 +83,7 @@ impl Forecaster for ConstantVelocity {
 /// Every entity continued from the last row with a share of its velocity.
 fn straight_on(observed: &ObservedEvent, steps: usize, share: f32) -> Forecast {
     let last = observed.rows().last().copied().unwrap_or_default();
-    let step_seconds = SUBSTEPS as f32 * SUBSTEP_SECONDS;
+    let step_seconds = STEP_SECONDS as f32;
     let path = |entity: Entity| -> Vec<Vec2> {
         let body = last[entity];
         let after = |step: usize| body.position + body.velocity * (share * step_seconds * step as f32);

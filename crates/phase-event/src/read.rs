@@ -8,7 +8,7 @@ use crate::{
 };
 use phase_model::{
     AGENT_COUNT, Relation, Scene, Vec2,
-    arena::{self, FRAMES_PER_SECOND, SUBSTEPS},
+    arena::{self, STEP_VIDEO_SECONDS},
     json::{self, Field, FieldError, finite, shown},
     path::check_file_name,
     scene_json::Starts,
@@ -207,7 +207,7 @@ fn labels(event: &Field<'_>, rows: usize) -> Result<Labels, FieldError> {
         ("neutral", Relation::Neutral),
     ];
     if let Some(field) = event.optional("step_seconds")? {
-        let expected = SUBSTEPS as f32 / FRAMES_PER_SECOND as f32;
+        let expected = STEP_VIDEO_SECONDS as f32;
         if (field.number()? - expected).abs() > 1e-4 {
             return Err(field.must_be(&expected.to_string()));
         }

@@ -6,7 +6,7 @@ use crate::{
 };
 use phase_model::{
     AGENT_COUNT, Action, Contacts, Entity, EventKind, Layout, MAX_ENTITIES, Relation, Scene, State, Vec2,
-    arena::{self, FRAMES_PER_SECOND, SUBSTEPS},
+    arena::{self, STEP_VIDEO_SECONDS},
     scene_json::{AgentMembers, ObjectMembers},
 };
 use serde::Serialize;
@@ -123,7 +123,7 @@ impl<'a> EventMembers<'a> {
             event: scene.kind,
             relation: scene.relation(),
             relation_human: None,
-            step_seconds: SUBSTEPS as f32 / FRAMES_PER_SECOND as f32,
+            step_seconds: STEP_VIDEO_SECONDS as f32,
             row_0: None,
             recorded_steps: None,
             trajectory: Table { columns: &COLUMNS, agents: &trajectory.agents, objects: &trajectory.objects },

@@ -1,10 +1,7 @@
 //! How an agent moved: how fast, how far, and how long it was in contact.
 
 use crate::{Track, contact};
-use phase_model::{
-    AgentId, Entity,
-    arena::{SUBSTEP_SECONDS, SUBSTEPS},
-};
+use phase_model::{AgentId, Entity, arena::STEP_SECONDS};
 
 /// How one agent moved in the first steps of an event.
 #[derive(Clone, PartialEq, Debug, Default)]
@@ -30,7 +27,7 @@ impl MotionStatistics {
         let states = track.states.iter().skip(1).take(steps);
         let in_contact = states
             .filter(|state| others.iter().any(|&other| contact::near(&track.physics, state, entity, other)));
-        let seconds = SUBSTEPS as f32 * SUBSTEP_SECONDS;
+        let seconds = STEP_SECONDS as f32;
         Self {
             speeds: (1..=steps).map(|step| track.distance_in_step(entity, step) / seconds).collect(),
             path: track.distance_travelled(entity, 1..steps + 1),

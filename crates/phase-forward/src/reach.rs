@@ -10,8 +10,8 @@ use crate::{
 };
 use phase_model::{AGENT_COUNT, arena};
 
-/// Substeps in a step, as seconds.
-const STEP: f32 = arena::SUBSTEPS as f32 * H;
+/// Duration of a step (s).
+const STEP: f32 = arena::STEP_SECONDS as f32;
 /// Displacement in a step per unit of constant acceleration, since each substep moves with its final speed
 /// (s²).
 const DISPLACEMENT_PER_ACCELERATION: f32 = 15.0 * H * H;

@@ -21,8 +21,12 @@ pub const LANDMARKS: [Vec2; 4] =
 pub const SUBSTEP_SECONDS: f32 = 1.0 / 60.0;
 /// Substeps in one step of the simulation; each is one frame of video.
 pub const SUBSTEPS: usize = 5;
-/// Video frames per second. One step lasts `SUBSTEPS / FRAMES_PER_SECOND` = 0.25 s of video.
+/// Duration of one step of the physics (s): 1/12 s, as far as [`SUBSTEP_SECONDS`] is 1/60 s.
+pub const STEP_SECONDS: f64 = SUBSTEPS as f64 * SUBSTEP_SECONDS as f64;
+/// Video frames per second, three times slower than the physics.
 pub const FRAMES_PER_SECOND: u32 = 20;
+/// Duration for which one step is shown (s): 0.25 s of video.
+pub const STEP_VIDEO_SECONDS: f64 = SUBSTEPS as f64 / FRAMES_PER_SECOND as f64;
 
 /// Whether a point lies inside the arena, boundary included; false for NaN.
 #[must_use]

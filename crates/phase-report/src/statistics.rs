@@ -5,11 +5,8 @@ use phase_dataset::{
     manifest::Manifest,
     splits::{self, Split},
 };
-use phase_model::{EventKind, Relation};
+use phase_model::{EventKind, Relation, arena::STEP_VIDEO_SECONDS};
 use std::collections::{BTreeMap, BTreeSet};
-
-/// Seconds of video in a step.
-const STEP_SECONDS: f64 = 0.25;
 
 /// The composition of a dataset.
 #[derive(Clone, PartialEq, Debug)]
@@ -73,7 +70,7 @@ impl Statistics {
     pub fn figures(&self) -> Vec<StatisticsRow> {
         let figure = |what, paper, ours: String| StatisticsRow { what, paper, ours };
         let seconds = |steps: Option<(&usize, &usize)>| {
-            steps.map_or_else(|| "–".into(), |(&steps, _)| format!("{} s", steps as f64 * STEP_SECONDS))
+            steps.map_or_else(|| "–".into(), |(&steps, _)| format!("{} s", steps as f64 * STEP_VIDEO_SECONDS))
         };
         let relation = |relation| self.relations.get(&relation).copied().unwrap_or_default().to_string();
         let part = |k: usize| self.parts.map_or_else(|| "–".into(), |parts| parts[k].to_string());

@@ -13,7 +13,7 @@ use clap::{
 };
 use phase_dataset::splits::Split;
 use phase_minds::MindKind;
-use phase_model::arena::{FRAMES_PER_SECOND, SUBSTEPS};
+use phase_model::arena::STEP_VIDEO_SECONDS;
 use std::path::PathBuf;
 
 /// What to evaluate.
@@ -119,7 +119,7 @@ pub struct Parts {
 /// Seconds of video in steps; both are exact, for there are four steps in a second.
 #[must_use]
 pub fn steps_of(seconds: f64) -> usize {
-    (seconds * f64::from(FRAMES_PER_SECOND) / SUBSTEPS as f64) as usize
+    (seconds / STEP_VIDEO_SECONDS) as usize
 }
 
 /// Reads a number of seconds after which an event has a row.

@@ -4,8 +4,7 @@ use crate::error::CliError;
 use core::ops::ControlFlow;
 use phase_event::{MethodError, Recording};
 use phase_model::{
-    AgentId, Attitude, Goal, RelationProbabilities, RoleProbabilities,
-    arena::{FRAMES_PER_SECOND, SUBSTEPS},
+    AgentId, Attitude, Goal, RelationProbabilities, RoleProbabilities, arena::STEP_VIDEO_SECONDS,
 };
 use phase_render::{Caption, Palette};
 use phase_simple::{Inference, Simple};
@@ -68,7 +67,7 @@ pub(super) fn watch(
         };
         let took = begun.elapsed().as_secs_f64();
         if let Some(inference) = inference {
-            let seconds = (step * SUBSTEPS) as f64 / f64::from(FRAMES_PER_SECOND);
+            let seconds = step as f64 * STEP_VIDEO_SECONDS;
             watched.push(Watched::of(&inference, &simple, seconds, took));
         }
     }

@@ -12,13 +12,10 @@ use phase_dataset::{
 };
 use phase_document::markup::{escape, escape_script};
 use phase_model::{
-    AgentId, Attitude, Entity, Goal, ObjectId, Sign, Size, Strength,
-    arena::{FRAMES_PER_SECOND, SUBSTEPS},
+    AgentId, Attitude, Entity, Goal, ObjectId, Sign, Size, Strength, arena::STEP_VIDEO_SECONDS,
 };
 use std::{collections::BTreeMap, fmt::Write as _};
 
-/// Duration for which a step is shown (s).
-const SECONDS_PER_STEP: f64 = SUBSTEPS as f64 / FRAMES_PER_SECOND as f64;
 const PAGE: &str = include_str!("../../assets/page.html");
 const INDEX: &str = include_str!("../../assets/pages.html");
 const STYLE: &str = include_str!("../../assets/style.css");
@@ -258,7 +255,7 @@ fn card(event: &EventEntry) -> String {
         json = escape(event.event.path.as_str()),
         base = event.layout.base,
         steps = event.steps,
-        seconds = event.steps as f64 * SECONDS_PER_STEP,
+        seconds = event.steps as f64 * STEP_VIDEO_SECONDS,
     )
 }
 
@@ -274,7 +271,7 @@ fn agent(who: AgentId, agent: &AgentEntry) -> String {
     let goal: String = describe::goal(who, agent.goal).into_iter().map(chip).collect();
     let outcome = match (agent.reached, agent.steps_to_goal) {
         (true, Some(steps)) => {
-            format!("<span class=\"yes\">done after {:.1} s</span>", steps as f64 * SECONDS_PER_STEP)
+            format!("<span class=\"yes\">done after {:.1} s</span>", steps as f64 * STEP_VIDEO_SECONDS)
         }
         (true, None) => "<span class=\"yes\">so at the end</span>".into(),
         (false, _) if agent.goal.sign() == Sign::Negative => {

@@ -3,11 +3,8 @@
 use super::interpolation::SUBSTEPS_TO_END;
 use phase_model::{
     Body, MAX_ENTITIES, State, Vec2,
-    arena::{SUBSTEP_SECONDS, SUBSTEPS},
+    arena::{STEP_SECONDS, SUBSTEP_SECONDS, SUBSTEPS},
 };
-
-/// Duration of a step (s).
-pub(super) const STEP_SECONDS: f32 = SUBSTEP_SECONDS * SUBSTEPS as f32;
 
 /// The correction from a predicted body to the observed one, as means over a step.
 #[derive(Clone, Copy, Default, Debug)]
@@ -32,7 +29,9 @@ impl Difference {
     /// motion of the rim.
     pub(super) fn square(&self, radius: f32) -> f32 {
         let turned = self.angle * radius;
-        self.position.length_squared() + (self.velocity * STEP_SECONDS).length_squared() + turned * turned
+        self.position.length_squared()
+            + (self.velocity * STEP_SECONDS as f32).length_squared()
+            + turned * turned
     }
 
     /// The body at the end of the step, corrected.

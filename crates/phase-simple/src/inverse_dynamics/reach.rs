@@ -1,7 +1,7 @@
 //! Whether what one agent does can affect the other within a step.
 
-use super::{difference::STEP_SECONDS, replay::Replay};
-use phase_model::{Entity, MAX_ENTITIES, State};
+use super::replay::Replay;
+use phase_model::{Entity, MAX_ENTITIES, State, arena::STEP_SECONDS};
 
 /// Distance that two bodies may cover in a step in addition to what they cover at their present speeds (u).
 const LEEWAY: f32 = 1.2;
@@ -26,7 +26,7 @@ pub(super) fn coupled(replay: &Replay, state: &State) -> bool {
 fn near(replay: &Replay, state: &State, a: Entity, b: Entity) -> bool {
     let reach = |entity: Entity| {
         let outline = if matches!(entity, Entity::Agent(_)) { OUTLINE } else { 1.0 };
-        outline * replay.radii[entity.index()] + STEP_SECONDS * state.body(entity).velocity.length()
+        outline * replay.radii[entity.index()] + STEP_SECONDS as f32 * state.body(entity).velocity.length()
     };
     state.touching(a, b) || state.position(a).distance(state.position(b)) < reach(a) + reach(b) + LEEWAY
 }

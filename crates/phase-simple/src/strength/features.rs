@@ -1,15 +1,9 @@
 //! Input features of the strength regressor.
 
-use phase_model::{
-    AgentId, Body, Entity, MAX_ENTITIES, Size, Vec2,
-    arena::{SUBSTEP_SECONDS, SUBSTEPS},
-};
+use phase_model::{AgentId, Body, Entity, MAX_ENTITIES, Size, Vec2, arena::STEP_SECONDS};
 
 /// Number of [`features`].
 pub const FEATURES: usize = 7;
-
-/// Time between rows (s).
-const STEP_SECONDS: f64 = SUBSTEPS as f64 * SUBSTEP_SECONDS as f64;
 
 /// Mean, maximum and minimum speed (u/s) of an agent, the same of its acceleration (u/s²), and its radius
 /// (u), from the rows of a time window.

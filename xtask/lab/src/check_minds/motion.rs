@@ -1,17 +1,11 @@
 //! How agents moved, simulated or recorded, and whether their goals were reached.
 
 use phase_evidence::{GoalOutcome, MotionStatistics, Track, outcome};
-use phase_model::{
-    AGENT_COUNT, AgentId, Attitude, Goal, Scene, Sign,
-    arena::{FRAMES_PER_SECOND, SUBSTEP_SECONDS, SUBSTEPS},
-};
+use phase_model::{AGENT_COUNT, AgentId, Attitude, Goal, Scene, Sign, arena::STEP_SECONDS};
 
 /// An agent that is slower does not move (u/s): it is displaced by less than 0.05 u in a step. Turning on the spot is
 /// not motion here, as it is none in [`MotionStatistics`].
-const STILL_SPEED: f32 = 0.05 / (SUBSTEPS as f32 * SUBSTEP_SECONDS);
-
-/// Seconds of video in a step.
-pub(super) const STEP_SECONDS: f64 = SUBSTEPS as f64 / FRAMES_PER_SECOND as f64;
+const STILL_SPEED: f32 = 0.05 / STEP_SECONDS as f32;
 
 /// The motion of both agents in one event, and what became of their goals.
 #[derive(Clone, PartialEq, Debug)]

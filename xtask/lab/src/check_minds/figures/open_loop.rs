@@ -1,8 +1,8 @@
 //! Simulations in the open loop beside the recordings, over a group of events.
 
 use super::Member;
-use crate::check_minds::motion::{Motion, STEP_SECONDS};
-use phase_model::AgentId;
+use crate::check_minds::motion::Motion;
+use phase_model::{AgentId, arena};
 use phase_statistics::{mean, percentile};
 use serde::Serialize;
 
@@ -108,7 +108,7 @@ fn mean_share<'a>(
 }
 
 fn still_seconds<'a>(motions: impl Iterator<Item = (&'a Motion, &'a [AgentId])>) -> Vec<f64> {
-    motions.map(|(motion, _)| motion.longest_still as f64 * STEP_SECONDS).collect()
+    motions.map(|(motion, _)| motion.longest_still as f64 * arena::STEP_VIDEO_SECONDS).collect()
 }
 
 fn median(values: impl Iterator<Item = f32>) -> Option<f64> {
