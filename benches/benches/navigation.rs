@@ -4,9 +4,8 @@ use core::hint::black_box;
 use criterion::Criterion;
 use phase_model::{Grip, Layout, ObjectId, PhysicsConfig, Side, Vec2, physics::AgentBody};
 use phase_navigation::{
-    Assembly, AssemblyCosts, AssemblyField, Disc, Field, Map, Mover, NavigationCosts, Target,
+    Assembly, AssemblyCosts, AssemblyField, Disc, Field, IMPASSABLE_COST, Map, Mover, NavigationCosts, Target,
 };
-use phase_planner::Routes;
 
 fn main() {
     let mut criterion = Criterion::default().configure_from_args();
@@ -31,10 +30,9 @@ fn main() {
         }
     }
     // What a plan pays for the same distance, through doors alone (docs/minds.md).
-    let routes = Routes::new(Layout::new(16, None).expect("layout 16 exists"));
     criterion.bench_function("navigation/route of a plan", |bencher| {
         let (from, to) = (Vec2::new(24.0, 20.0), Vec2::new(8.5, 19.5));
-        bencher.iter(|| routes.cost(black_box(from), to, 2.4, routes.gaps()));
+        bencher.iter(|| map.route_cost(black_box(from), to, 2.4, map.gaps(), IMPASSABLE_COST));
     });
     let assembly = both_hold();
     let costs = AssemblyCosts { turning: 1.0, collision: 20.0 };

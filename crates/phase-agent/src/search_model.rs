@@ -3,11 +3,11 @@
 use crate::{
     Foresight,
     habits::{self, Context},
-    objective::{ARENA_DIAGONAL, Objective},
+    objective::Objective,
     rollout_policy,
 };
 use phase_model::{
-    AGENT_COUNT, Action, AgentId, Attitude, Dynamics, Entity, Goal, PhysicsConfig, State, reward,
+    AGENT_COUNT, Action, AgentId, Attitude, Dynamics, Entity, Goal, PhysicsConfig, State, arena, reward,
 };
 use phase_perception::observed_set;
 use phase_pomcp::{GenerativeModel, Transition};
@@ -84,7 +84,7 @@ impl<D> SearchModel<'_, D> {
             let holds = self.rewards_goals && achieved(self.physics, state, goal);
             f64::from(u8::from(holds))
         };
-        let shaping = -f64::from(search_state.distance / ARENA_DIAGONAL);
+        let shaping = -f64::from(search_state.distance / arena::DIAGONAL);
         reward::social_reward(
             self.attitude,
             satisfied(self.goals[agent]),

@@ -2,7 +2,7 @@
 
 use phase_agent::{
     BeliefView, Mind, PhaseParameters, action_set,
-    objective::{ARENA_DIAGONAL, Objective},
+    objective::Objective,
     rollout_policy,
     search_model::{SearchModel, SearchState},
 };
@@ -11,7 +11,7 @@ use phase_forward::Forward;
 use phase_model::{
     Action, AgentId, AgentSpec, Attitude, Body, Dynamics, Entity, EventKind, Goal, Grip, LandmarkId, Layout,
     Literal, ObjectId, ObjectSpec, PhysicsConfig, Predicate, PredicateTarget, Scene, Side, Sign, Size, State,
-    Strength, Subgoal, Vec2,
+    Strength, Subgoal, Vec2, arena,
     random::{Purpose, stream},
 };
 use phase_navigation::{NavigationCosts, Navigator};
@@ -140,7 +140,7 @@ fn rewards_follow_equation_1() {
             assert_eq!(*after.state(), by_hand);
             let distance = objective.distance(&by_hand);
             assert!((distance - 15.0).abs() < 0.7, "landmark 1 is 15 u above landmark 2: {distance}");
-            let expected = social - cost - f64::from(distance / ARENA_DIAGONAL);
+            let expected = social - cost - f64::from(distance / arena::DIAGONAL);
             assert!((reward - expected).abs() < 1e-6, "{attitude:?} {action:?}: {reward} {expected}");
             // While an agent goes to verify whether a goal holds, no satisfied goal is rewarded.
             let looking = SearchModel { rewards_goals: false, ..model };

@@ -2,7 +2,7 @@
 
 use crate::Track;
 use phase_model::{AgentId, Entity, Goal, SlotId, State, Vec2, arena};
-use phase_planner::{Routes, problem::obstruct, routes::point_in};
+use phase_navigation::{IMPASSABLE_COST, Map};
 
 /// Steps in which an agent's body narrowed a door on another's cheapest path to a point so much that the
 /// other no longer fitted through. `target` gives the point for each state (u); `None` where there is none.
@@ -11,7 +11,7 @@ use phase_planner::{Routes, problem::obstruct, routes::point_in};
 #[must_use]
 pub fn steps_blocking_a_door(
     track: &Track,
-    routes: &Routes,
+    map: &Map,
     blocker: AgentId,
     target: impl Fn(&State) -> Option<Vec2>,
 ) -> Vec<usize> {
@@ -19,17 +19,16 @@ pub fn steps_blocking_a_door(
     let width = track.physics.agents[blocked].width();
     let in_the_way = |state: &State| {
         let from = state.position(Entity::Agent(blocked));
-        let route = target(state).and_then(|to| routes.best(from, to, width, routes.gaps()));
+        let route = target(state).and_then(|to| map.route(from, to, width, map.gaps(), IMPASSABLE_COST));
         let Some(route) = route else { return false };
         let radius = track.physics.agents[blocker].radius;
-        let mut gaps = *routes.gaps();
-        obstruct(
-            &mut gaps,
+        let mut gaps = *map.gaps();
+        gaps.obstruct(
             state.position(Entity::Agent(blocker)),
             radius,
             radius + track.physics.agents[blocked].radius,
         );
-        route.doors().iter().any(|&(slot, _)| routes.gaps().width(slot) >= width && gaps.width(slot) < width)
+        route.doors().iter().any(|&(slot, _)| map.gaps().width(slot) >= width && gaps.width(slot) < width)
     };
     (0..track.states.len()).filter(|&t| in_the_way(&track.states[t])).collect()
 }
@@ -53,15 +52,12 @@ pub fn steps_between(track: &Track, blocker: AgentId, target: impl Fn(&State) ->
 /// The door an agent stands in, if any, by its slot: its origin is closer to the door's line than its radius,
 /// and within the opening.
 #[must_use]
-pub fn door_of(track: &Track, routes: &Routes, state: &State, agent: AgentId) -> Option<SlotId> {
+pub fn door_of(track: &Track, map: &Map, state: &State, agent: AgentId) -> Option<SlotId> {
     let position = state.position(Entity::Agent(agent));
     let radius = track.physics.agents[agent].radius;
-    SlotId::ALL.into_iter().find(|&slot| {
-        routes.gaps().0[slot].is_some_and(|(low, high)| {
-            let line = phase_model::Segment { a: point_in(slot, low), b: point_in(slot, high) };
-            line.distance(position) < radius
-        })
-    })
+    SlotId::ALL
+        .into_iter()
+        .find(|&slot| map.layout().opening(slot).is_some_and(|opening| opening.distance(position) < radius))
 }
 
 /// The next target of an agent with a goal: the object while it is not held, else the goal's landmark or agent.

@@ -2,7 +2,7 @@
 
 use crate::{GoalOutcome, Track, blocking, contact, holding, outcome};
 use phase_model::{AgentId, Attitude, Entity, EventKind, Goal, ObjectId, Scene, State};
-use phase_planner::Routes;
+use phase_navigation::Map;
 use serde::{Deserialize, Serialize};
 
 /// What makes a social event of its kind visible. Judged by motion and grips, whatever was intended.
@@ -207,7 +207,7 @@ fn blocked(scene: &Scene, track: &Track, hinderer: AgentId, goal: Goal) -> bool 
 /// Steps in which an agent is in a door of the other's way, or between it and its next target.
 pub(crate) fn in_the_way(scene: &Scene, track: &Track, blocker: AgentId, goal: Goal) -> Vec<usize> {
     let target = |state: &State| blocking::next_place(goal, state);
-    let mut steps = blocking::steps_blocking_a_door(track, &Routes::new(scene.layout), blocker, target);
+    let mut steps = blocking::steps_blocking_a_door(track, &Map::new(scene.layout), blocker, target);
     steps.extend(blocking::steps_between(track, blocker, target));
     steps.sort_unstable();
     steps.dedup();

@@ -21,6 +21,15 @@ pub const SLOT_ROOMS: [(RoomId, RoomId); 4] = [
 /// Unit vectors from the centre along each slot.
 pub const SLOT_DIRECTIONS: [Vec2; 4] = [Vec2::Y, Vec2::NEG_X, Vec2::NEG_Y, Vec2::X];
 
+impl SlotId {
+    /// The room on the other side of the slot from a room beside it.
+    #[must_use]
+    pub fn beyond(self, room: RoomId) -> RoomId {
+        let (a, b) = SLOT_ROOMS[self];
+        if a == room { b } else { a }
+    }
+}
+
 /// A wall in one slot.
 #[derive(Clone, Copy, PartialEq, Debug)]
 enum Wall {

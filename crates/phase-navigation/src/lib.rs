@@ -1,5 +1,8 @@
 //! Travel distances through the arena: how far it is to a target for a body of some width, and which way to go.
 //!
+//! A [`Map`] has the rooms of a layout, the doors between them and the ways from room to room; a [`Route`] is the
+//! cheapest sequence of straight legs through doors, good enough to cost plans.
+//!
 //! A [`Field`] answers both for one target, one mover and a set of obstacles, from any point. The inner walls are
 //! segments on the two axes through the arena's centre, so shortest paths consist of straight legs between a few
 //! points around the ends of walls (*corners*), in doors and around obstacles. The field holds the cost to go of
@@ -40,21 +43,32 @@ mod assembly_field;
 mod buckets;
 mod cache;
 mod field;
+mod gaps;
 mod lattice;
 mod map;
 mod navigator;
 mod obstacle;
+mod route;
 mod terrain;
 mod visibility;
+mod ways;
 
 pub use assembly::Assembly;
 pub use assembly_field::{AssemblyField, Descent};
 pub use field::Field;
+pub use gaps::Gaps;
 pub use map::{CLEARANCE, Map};
 pub use navigator::Navigator;
 pub use obstacle::Disc;
+pub use route::Route;
+pub use ways::Crossing;
 
 use phase_model::{RoomId, Vec2};
+
+/// Price of a door that is narrower than the body that is to pass it (u), unless parameters say otherwise: more
+/// than any detour, so that such doors are a last resort, yet finite, so that an agent without a better way still
+/// tries.
+pub const IMPASSABLE_COST: f32 = 100.0;
 
 /// Depth inside a room at which a body counts as having entered it (u).
 pub const ROOM_DEPTH: f32 = 1.5;

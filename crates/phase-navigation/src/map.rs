@@ -1,21 +1,36 @@
-//! The doors of a layout, and which part of each a mover may cross.
+//! The rooms of a layout, the openings between them, and which part of each a mover may cross.
 
-use crate::Mover;
-use phase_model::{
-    Layout, Segment, SlotId, Vec2, arena,
-    layout::{SLOT_DIRECTIONS, SLOT_LENGTH},
+use crate::{
+    Gaps, Mover,
+    ways::{Crossing, Ways, ways},
 };
+use phase_model::{Layout, RoomId, Segment, SlotId, layout::SLOT_LENGTH};
 
 /// Clearance between a mover and the ends of a door (u); less where the door leaves no room for it.
 pub const CLEARANCE: f32 = 0.1;
 
-/// Inner walls and openings of a layout.
+/// Rooms, inner walls and openings of a layout, and the ways from room to room.
+///
+/// The only home of what is known of doors: [`ways`](Self::ways) and [`way`](Self::way) say through which rooms
+/// a body gets from one to another, [`route`](Self::route) how long that is, and a [`Field`](crate::Field) says
+/// it around corners and obstacles.
+///
+/// ```
+/// use phase_model::{Layout, RoomId};
+/// use phase_navigation::Map;
+///
+/// let map = Map::new(Layout::new(4, None)?); // a full wall above the centre, a door of 2.5 u on the left
+/// let rooms = |width| map.way(RoomId::TOP_RIGHT, RoomId::TOP_LEFT, width).map(|way| way.len());
+/// assert_eq!(rooms(2.4), Some(3)); // all the way round
+/// assert_eq!(rooms(2.6), None); // too wide for the door
+/// # Ok::<(), phase_model::LayoutError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Map {
     layout: Layout,
     walls: Vec<Segment>,
-    /// The opening of each slot, as distances from the arena's centre (u).
-    openings: [Option<(f32, f32)>; 4],
+    gaps: Gaps,
+    ways: Ways,
 }
 
 /// How a mover passes a slot.
@@ -33,11 +48,8 @@ impl Map {
     /// The map of a layout.
     #[must_use]
     pub fn new(layout: Layout) -> Self {
-        let openings = SlotId::ALL.map(|slot| {
-            let along = |point: Vec2| (point - arena::CENTRE).dot(SLOT_DIRECTIONS[slot]);
-            layout.opening(slot).map(|opening| (along(opening.a), along(opening.b)))
-        });
-        Self { layout, walls: layout.walls(), openings }
+        let gaps = Gaps::of(layout);
+        Self { layout, walls: layout.walls(), gaps, ways: ways(layout) }
     }
 
     /// The layout.
@@ -52,15 +64,62 @@ impl Map {
         &self.walls
     }
 
+    /// The openings of the layout itself, without any bodies in them.
+    #[must_use]
+    pub const fn gaps(&self) -> &Gaps {
+        &self.gaps
+    }
+
+    /// The step from a room to one next to it; `None` where a full wall is in between, and for rooms that are not
+    /// next to each other.
+    #[must_use]
+    pub fn crossing(&self, from: RoomId, to: RoomId) -> Option<Crossing> {
+        Crossing::out_of(self.layout, from).find(|step| step.to == to)
+    }
+
+    /// All ways from one room to another that visit no room twice, the shortest first; none from a room to
+    /// itself.
+    #[must_use]
+    pub fn ways(&self, from: RoomId, to: RoomId) -> &[Vec<Crossing>] {
+        &self.ways[from][to]
+    }
+
+    /// The way from one room to another through the fewest openings, each at least this wide (u); empty from a
+    /// room to itself, `None` where there is no such way.
+    #[must_use]
+    pub fn way(&self, from: RoomId, to: RoomId, width: f32) -> Option<&[Crossing]> {
+        if from == to {
+            return Some(&[]);
+        }
+        let is_wide = |way: &&Vec<Crossing>| way.iter().all(|step| self.gaps.width(step.slot) >= width);
+        self.ways(from, to).iter().find(is_wide).map(Vec::as_slice)
+    }
+
+    /// The rooms other than the given one, grouped by whether they are connected without it; the smaller groups
+    /// first.
+    #[must_use]
+    pub fn regions_around(&self, room: RoomId) -> Vec<Vec<RoomId>> {
+        let mut regions: Vec<Vec<RoomId>> = Vec::new();
+        for other in RoomId::ALL.into_iter().filter(|&other| other != room) {
+            let is_beside = |it: &RoomId| Crossing::out_of(self.layout, other).any(|step| step.to == *it);
+            let (joined, apart): (Vec<_>, Vec<_>) =
+                regions.into_iter().partition(|region: &Vec<RoomId>| region.iter().any(is_beside));
+            regions = apart;
+            regions.push(joined.into_iter().flatten().chain([other]).collect());
+        }
+        regions.sort_by_key(Vec::len);
+        regions
+    }
+
     /// Whether a mover is narrower than the opening of a slot.
     #[must_use]
     pub fn fits(&self, slot: SlotId, mover: Mover) -> bool {
-        self.openings[slot].is_some_and(|(low, high)| high - low >= 2.0 * mover.half_width)
+        self.gaps.0[slot].is_some() && self.gaps.width(slot) >= 2.0 * mover.half_width
     }
 
     /// Whether a wall ends or passes at the arena's centre.
     fn centre_is_walled(&self) -> bool {
-        self.openings.iter().any(|opening| opening.is_none_or(|(low, _)| low > 0.0))
+        self.gaps.0.iter().any(|opening| opening.is_none_or(|(low, _)| low > 0.0))
     }
 
     /// The part of a slot that a mover's centre may cross.
@@ -68,7 +127,7 @@ impl Map {
     /// An end of the opening keeps the mover off by its half width and [`CLEARANCE`], except where there is no
     /// wall: at the centre of an arena without walls, and at the boundary of a slot without a wall of its own.
     pub(crate) fn passage(&self, slot: SlotId, mover: Mover) -> Passage {
-        let Some((low, high)) = self.openings[slot] else { return Passage::Wall };
+        let Some((low, high)) = self.gaps.0[slot] else { return Passage::Wall };
         if !self.fits(slot, mover) {
             return Passage::Closed(0.5 * (low + high));
         }
@@ -80,13 +139,8 @@ impl Map {
 
     /// The ends of walls around which paths bend in one slot: the position along the slot (u) of each.
     pub(crate) fn corners(&self, slot: SlotId) -> impl Iterator<Item = f32> {
-        let (low, high) = self.openings[slot].unwrap_or((SLOT_LENGTH, SLOT_LENGTH));
+        let (low, high) = self.gaps.0[slot].unwrap_or((SLOT_LENGTH, SLOT_LENGTH));
         let is_corner = |end: f32| end < SLOT_LENGTH && (end > 0.0 || self.centre_is_walled());
         [low, high].into_iter().filter(move |&end| is_corner(end))
     }
-}
-
-/// The point of a slot at a distance from the centre (u).
-pub(crate) fn point_in(slot: SlotId, distance: f32) -> Vec2 {
-    arena::CENTRE + SLOT_DIRECTIONS[slot] * distance
 }

@@ -1,9 +1,6 @@
 //! What a straight leg costs: its length, and more where it cuts a corner or crosses an obstacle.
 
-use crate::{
-    Disc, Map, Mover, NavigationCosts,
-    map::{Passage, point_in},
-};
+use crate::{Disc, Map, Mover, NavigationCosts, gaps::point_in, map::Passage};
 use phase_model::{
     RoomId, SlotId, Vec2, arena,
     layout::{SLOT_DIRECTIONS, SLOT_ROOMS},

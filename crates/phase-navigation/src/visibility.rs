@@ -2,7 +2,8 @@
 
 use crate::{
     Disc, Map, Mover,
-    map::{Passage, point_in},
+    gaps::point_in,
+    map::Passage,
     terrain::{Corner, Terrain},
 };
 use phase_model::{SlotId, Vec2, arena, layout::SLOT_DIRECTIONS};

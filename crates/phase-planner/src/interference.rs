@@ -8,16 +8,16 @@
 
 use crate::{
     plan::{self, Plan, is, not},
-    problem::{Location, PlanningProblem, obstruct},
-    routes::{Gaps, Route, Routes, point_in},
+    problem::{Location, PlanningProblem},
     search::{self, SymbolicPlan},
     symbolic::{Node, Operator},
-    task::{Effort, Task},
+    task::{Effort, PlanningTask},
 };
 use phase_model::{
     AgentId, BodySet, Entity, Goal, LandmarkId, ObjectId, Predicate, PredicateTarget, SlotId, Vec2,
     layout::room_of,
 };
+use phase_navigation::{Gaps, Route};
 use phase_predicates::{achieved, is_true};
 
 /// The plan that raises the other's cost of a condition most; the condition is a positive goal. The agent
@@ -110,8 +110,8 @@ impl<'a> Interference<'a> {
     }
 
     /// The other acts alone, and the agent pulls against it.
-    fn others_task(&self, narrowed: Option<Gaps>) -> Task<'a> {
-        Task {
+    fn others_task(&self, narrowed: Option<Gaps>) -> PlanningTask<'a> {
+        PlanningTask {
             problem: self.problem,
             goal: self.condition,
             actors: plan::only(self.other),
@@ -146,13 +146,13 @@ impl<'a> Interference<'a> {
     fn way(&self, who: AgentId, to: Vec2) -> f32 {
         let from = self.problem.position(Location::Current(Entity::Agent(who)));
         let gaps = self.problem.gaps(who, BodySet::OBJECTS);
-        self.problem.routes.cost(from, to, self.problem.width(who, None), gaps)
+        self.problem.route_cost(from, to, self.problem.width(who, None), gaps)
     }
 
     fn route(&self, to: Vec2) -> Option<Route> {
         let from = self.problem.position(Location::Current(Entity::Agent(self.agent)));
         let gaps = self.problem.gaps(self.agent, BodySet::OBJECTS);
-        self.problem.routes.best(from, to, self.problem.width(self.agent, None), gaps)
+        self.problem.route(from, to, self.problem.width(self.agent, None), gaps)
     }
 
     fn candidate(&self, effect: f32, effort: f32, subgoals: Vec<phase_model::Subgoal>) -> Candidate {
@@ -212,7 +212,7 @@ impl<'a> Interference<'a> {
 
     fn object(&self, object: ObjectId, candidates: &mut Vec<Candidate>) {
         let problem = self.problem;
-        let task = Task { actors: plan::only(self.agent), ..self.others_task(None) };
+        let task = PlanningTask { actors: plan::only(self.agent), ..self.others_task(None) };
         let location = self.start.objects[object];
         let is_holding = problem.state.held_object(self.agent) == Some(object);
         let mut holding = self.start;
@@ -244,7 +244,7 @@ impl<'a> Interference<'a> {
             let (from, to) = (problem.position(location), problem.position(place));
             let gaps = task.gaps(&holding, self.agent, Some(object));
             let width = problem.width(self.agent, Some(object));
-            if let Some(route) = problem.routes.best(from, to, width, &gaps) {
+            if let Some(route) = problem.route(from, to, width, &gaps) {
                 plan::rooms(&route, from, to, Entity::Object(object), &mut subgoals);
             }
             subgoals.push(is(Predicate::On(Entity::Object(object), refuge)));
@@ -264,14 +264,13 @@ impl<'a> Interference<'a> {
         let half_width = 0.5 * self.problem.width(self.agent, None);
         let margin: f32 = self.problem.physics.agents.iter().map(|body| body.radius).sum();
         for DoorAhead { slot, next, distance } in self.doors_ahead() {
-            let Some((low, high)) = self.problem.routes.gaps().0[slot] else { continue };
-            let middle = point_in(slot, 0.5 * (low + high));
+            let Some(middle) = self.problem.map.gaps().middle(slot) else { continue };
             let own = self.way(self.agent, middle);
             if own > distance + margin {
                 continue;
             }
             let mut gaps = *self.problem.gaps(self.other, BodySet::OBJECTS);
-            obstruct(&mut gaps, middle, half_width, half_width);
+            gaps.obstruct(middle, half_width, half_width);
             let effect = self.cost(&self.start, Some(gaps)) - self.now;
             if effect <= 0.0 {
                 continue;
@@ -304,12 +303,12 @@ impl<'a> Interference<'a> {
             };
             let (from, to) = (problem.position(from), problem.position(to));
             let gaps = task.gaps(node, self.other, held);
-            let Some(route) = problem.routes.best(from, to, problem.width(self.other, held), &gaps) else {
+            let Some(route) = problem.route(from, to, problem.width(self.other, held), &gaps) else {
                 continue;
             };
             let (mut room, mut last) = (room_of(from), from);
             for &(slot, crossing) in route.doors() {
-                room = Routes::neighbour_across(slot, room);
+                room = slot.beyond(room);
                 so_far += last.distance(crossing);
                 last = crossing;
                 doors.push(DoorAhead { slot, next: room.landmark(), distance: so_far });

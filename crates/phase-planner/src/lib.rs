@@ -45,17 +45,15 @@ pub mod interference;
 pub mod plan;
 pub mod planner;
 pub mod problem;
-pub mod routes;
 pub mod search;
 pub mod symbolic;
 pub mod task;
 mod to_subgoals;
 pub mod value;
-pub mod yielding;
+mod yielding;
 
 pub use costs::PlannerCosts;
 pub use plan::Plan;
 pub use planner::Planner;
 pub use problem::{Location, PlanningProblem};
-pub use routes::{Gaps, Route, Routes};
 pub use value::Candidate;

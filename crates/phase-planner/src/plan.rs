@@ -1,12 +1,10 @@
 //! An agent's plan, and the building blocks of plans of all kinds.
 
-use crate::{
-    problem::{Location, PlanningProblem},
-    routes::{Route, Routes},
-};
+use crate::problem::{Location, PlanningProblem};
 use phase_model::{
     AGENT_COUNT, AgentId, Entity, Literal, Predicate, PredicateTarget, Subgoal, layout::room_of,
 };
+use phase_navigation::Route;
 use phase_predicates::is_true;
 
 /// An agent's plan from one possible state.
@@ -36,7 +34,7 @@ pub(crate) fn inspect(problem: &PlanningProblem<'_>, agent: AgentId, entity: Ent
     let (from, to) = (problem.position(Location::Current(me)), problem.position(Location::Current(entity)));
     let mut subgoals = Vec::new();
     let width = problem.width(agent, None);
-    let route = problem.routes.best(from, to, width, problem.routes.gaps());
+    let route = problem.route(from, to, width, problem.map.gaps());
     if let Some(route) = &route {
         rooms(route, from, to, me, &mut subgoals);
     }
@@ -44,7 +42,7 @@ pub(crate) fn inspect(problem: &PlanningProblem<'_>, agent: AgentId, entity: Ent
     // Close and yet unobserved means behind the agent's back: approaching it means turning around.
     subgoals.push(is(Predicate::Touch(agent, entity)));
     drop_satisfied(problem, &mut subgoals);
-    Plan { subgoals, distance: route.map_or(0.0, |route| route.cost()) }
+    Plan { subgoals, distance: route.map_or(0.0, |route| route.cost) }
 }
 
 /// Drops the leading subgoals that are satisfied already.
@@ -91,7 +89,7 @@ pub(crate) fn rooms(
     }
     let mut room = room_of(from);
     for &(slot, _) in route.doors() {
-        room = Routes::neighbour_across(slot, room);
+        room = slot.beyond(room);
         subgoals.push(is(Predicate::Close(mover, PredicateTarget::Landmark(room.landmark()))));
     }
 }

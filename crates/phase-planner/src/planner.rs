@@ -5,23 +5,23 @@ use crate::{
     interference,
     plan::{Plan, inspect, is, not, only, release, rooms},
     problem::{Location, PlanningProblem},
-    routes::Routes,
     search,
     symbolic::Node,
-    task::{Effort, Task},
+    task::{Effort, PlanningTask},
     to_subgoals::to_subgoals,
     yielding,
 };
 use phase_model::{
     AGENT_COUNT, AgentId, Attitude, BodySet, Entity, Goal, Layout, PhysicsConfig, Predicate, Sign, State,
 };
+use phase_navigation::Map;
 use phase_predicates::achieved;
 
 /// The high-level planner of one agent, with everything that does not change during an event.
 #[derive(Clone, Debug)]
 pub struct Planner {
     physics: PhysicsConfig,
-    routes: Routes,
+    map: Map,
     agent: AgentId,
     goals: [Goal; AGENT_COUNT],
     attitude: Attitude,
@@ -52,20 +52,14 @@ impl Planner {
         attitude: Attitude,
         costs: PlannerCosts,
     ) -> Self {
-        Self { physics, routes: Routes::new(layout), agent, goals, attitude, costs }
-    }
-
-    /// The routes between rooms.
-    #[must_use]
-    pub const fn routes(&self) -> &Routes {
-        &self.routes
+        Self { physics, map: Map::new(layout), agent, goals, attitude, costs }
     }
 
     /// HP(gᵢ, gⱼ, αᵢⱼ, b) of Algorithm 1: the agent's best plan if the world is in this state, of which it
     /// observes these entities.
     #[must_use]
     pub fn plan(&self, state: &State, observed: BodySet) -> Plan {
-        let problem = PlanningProblem::new(&self.physics, &self.routes, state, self.costs);
+        let problem = PlanningProblem::new(&self.physics, &self.map, state, self.costs);
         let own = self.goals[self.agent];
         let other = self.goals[self.agent.other()];
         // A goal is to become true or not to become true, by its sign and, for the other's goal, the attitude.
@@ -103,7 +97,7 @@ impl Planner {
         if let Some(plan) = self.finish(problem, own, observed) {
             return plan;
         }
-        let task = Task {
+        let task = PlanningTask {
             problem,
             goal: own,
             actors: only(self.agent),
@@ -133,7 +127,7 @@ impl Planner {
         let mut efforts = [Effort::OWN; AGENT_COUNT];
         efforts[owner.other()] = Effort::helper(self.costs.effort);
         let actors = [true; AGENT_COUNT];
-        let task = Task { problem, goal, actors, efforts, cooperative: true, narrowed: None };
+        let task = PlanningTask { problem, goal, actors, efforts, cooperative: true, narrowed: None };
         let plan = search::solve(&task, Node::start(problem))
             .map_or(Plan::STAY, |plan| to_subgoals(&task, &plan, self.agent));
         // An agent has to observe that it is not needed.
@@ -166,7 +160,8 @@ impl Planner {
         let me = Entity::Agent(self.agent);
         let actors = only(self.agent);
         let efforts = [Effort::OWN; AGENT_COUNT];
-        let task = Task { problem, goal: condition, actors, efforts, cooperative: false, narrowed: None };
+        let task =
+            PlanningTask { problem, goal: condition, actors, efforts, cooperative: false, narrowed: None };
         let last = match (condition, condition.landmark()) {
             (_, Some(landmark)) => is(Predicate::On(condition.subject(), landmark)),
             _ => is(Predicate::Touch(self.agent, Entity::Agent(self.agent.other()))),
@@ -180,10 +175,9 @@ impl Planner {
                 );
                 let width = problem.width(self.agent, None);
                 let mut plan = release(problem, self.agent);
-                if let Some(route) =
-                    problem.routes.best(from, to, width, problem.gaps(self.agent, BodySet::OBJECTS))
-                {
-                    plan.distance = route.cost();
+                let gaps = problem.gaps(self.agent, BodySet::OBJECTS);
+                if let Some(route) = problem.route(from, to, width, gaps) {
+                    plan.distance = route.cost;
                     rooms(&route, from, to, me, &mut plan.subgoals);
                 }
                 plan

@@ -1,14 +1,12 @@
 //! A physical state as represented in the high-level planner: a few named locations and what lies between
 //! them.
 
-use crate::{
-    costs::PlannerCosts,
-    routes::{Gaps, Routes, point_in},
-};
+use crate::costs::PlannerCosts;
 use phase_model::{
     AGENT_COUNT, AgentId, BodySet, Entity, LandmarkId, MAX_OBJECTS, ObjectId, PhysicsConfig, RoomId, SlotId,
     State, Vec2, arena, layout::SLOT_DIRECTIONS, physics::GROUND_FRICTION,
 };
+use phase_navigation::{Gaps, Map, Route};
 
 /// A location that a plan can refer to: where an entity is now, or a landmark's centre.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -34,8 +32,8 @@ const INSIDE: f32 = 1.2;
 pub struct PlanningProblem<'a> {
     /// Walls, bodies and forces.
     pub physics: &'a PhysicsConfig,
-    /// The routes between rooms.
-    pub routes: &'a Routes,
+    /// Rooms, doors and the ways between them.
+    pub map: &'a Map,
     /// The physical state.
     pub state: &'a State,
     /// The costs of what agents do.
@@ -50,27 +48,22 @@ pub struct PlanningProblem<'a> {
 impl<'a> PlanningProblem<'a> {
     /// Computes which doors the objects obstruct.
     #[must_use]
-    pub fn new(
-        physics: &'a PhysicsConfig,
-        routes: &'a Routes,
-        state: &'a State,
-        costs: PlannerCosts,
-    ) -> Self {
+    pub fn new(physics: &'a PhysicsConfig, map: &'a Map, state: &'a State, costs: PlannerCosts) -> Self {
         let gaps = AgentId::ALL.map(|agent| {
             core::array::from_fn(|mask| {
-                let mut gaps = *routes.gaps();
+                let mut gaps = *map.gaps();
                 for object in physics.objects().filter(|object| mask & 1 << object.index() != 0) {
                     let radius = physics.object_radii[object];
                     // A held object is not put down before there is room to turn between it and the door.
                     let in_hand = AgentId::ALL.into_iter().any(|holder| state.holds(holder, object));
                     let own = physics.agents[agent];
                     let reach = radius + if in_hand { own.width() } else { own.radius };
-                    obstruct(&mut gaps, state.position(Entity::Object(object)), radius, reach);
+                    gaps.obstruct(state.position(Entity::Object(object)), radius, reach);
                 }
                 gaps
             })
         });
-        let mut problem = Self { physics, routes, state, costs, gaps, blockers: [false; MAX_OBJECTS] };
+        let mut problem = Self { physics, map, state, costs, gaps, blockers: [false; MAX_OBJECTS] };
         for object in physics.objects() {
             problem.blockers[object] =
                 AgentId::ALL.into_iter().any(|agent| problem.narrows_a_door(object, agent));
@@ -89,16 +82,28 @@ impl<'a> PlanningProblem<'a> {
     #[must_use]
     pub fn position(&self, location: Location) -> Vec2 {
         match location {
-            Location::Current(entity) => self.routes.layout().place_of(self.physics, self.state, entity),
+            Location::Current(entity) => self.map.layout().place_of(self.physics, self.state, entity),
             Location::Landmark(landmark) => arena::LANDMARKS[landmark],
             Location::Inside { slot, room } => {
-                let (low, high) = self.routes.gaps().0[slot].unwrap_or_default();
-                let middle = point_in(slot, 0.5 * (low + high));
+                let middle = self.map.gaps().middle(slot).unwrap_or(arena::CENTRE);
                 let across = SLOT_DIRECTIONS[slot].perp();
                 let inwards = across.dot(arena::LANDMARKS[room.landmark()] - middle).signum();
                 middle + across * inwards * INSIDE
             }
         }
+    }
+
+    /// The cheapest route for a body of some width (u) through doors with these gaps, at the price
+    /// [`PlannerCosts::impassable`] of a door that is too narrow; `None` if walls separate the two points.
+    #[must_use]
+    pub fn route(&self, from: Vec2, to: Vec2, width: f32, gaps: &Gaps) -> Option<Route> {
+        self.map.route(from, to, width, gaps, self.costs.impassable)
+    }
+
+    /// Cost of that route (u), finite even where there is none; see [`Map::route_cost`].
+    #[must_use]
+    pub fn route_cost(&self, from: Vec2, to: Vec2, width: f32, gaps: &Gaps) -> f32 {
+        self.map.route_cost(from, to, width, gaps, self.costs.impassable)
     }
 
     /// The doors as they are for an agent while the objects in `unmoved` are still where they are now. Agents
@@ -151,12 +156,12 @@ impl PlanningProblem<'_> {
         SlotId::ALL.into_iter().zip(SLOT_DIRECTIONS).any(|(slot, direction)| {
             let across = |offset: Vec2| direction.perp_dot(offset);
             let is_in_door = across(here).abs() < 0.5 * width
-                && self.routes.gaps().0[slot].is_some_and(|(low, high)| {
+                && self.map.gaps().0[slot].is_some_and(|(low, high)| {
                     let along = direction.dot(here);
                     low < along && along < high
                 });
             is_in_door
-                && self.routes.gaps().width(slot) >= width
+                && self.map.gaps().width(slot) >= width
                 && narrowed.width(slot) < width
                 && across(there).signum() == across(to - arena::CENTRE).signum()
         })
@@ -166,31 +171,7 @@ impl PlanningProblem<'_> {
         let width = self.width(agent, None);
         SlotId::ALL.into_iter().any(|slot| {
             let narrowed = self.gaps(agent, BodySet::from_iter([Entity::Object(object)]));
-            self.routes.gaps().width(slot) >= width && narrowed.width(slot) < width
+            self.map.gaps().width(slot) >= width && narrowed.width(slot) < width
         })
-    }
-}
-
-/// Removes a round obstacle from every door that it lies in or before, leaving the wider remainder. An
-/// obstacle counts when the door's line is closer to its centre than `reach` (u).
-pub fn obstruct(gaps: &mut Gaps, centre: Vec2, radius: f32, reach: f32) {
-    for (slot, direction) in SlotId::ALL.into_iter().zip(SLOT_DIRECTIONS) {
-        let offset = centre - arena::CENTRE;
-        let (along, across) = (direction.dot(offset), direction.perp_dot(offset));
-        if across.abs() >= reach {
-            continue;
-        }
-        if let Some((from, to)) = gaps.0[slot] {
-            let (low, high) = ((along - radius).clamp(from, to), (along + radius).clamp(from, to));
-            if low < high {
-                let below = low - from;
-                let above = to - high;
-                gaps.0[slot] = match (below > 0.0, above > 0.0) {
-                    (false, false) => None,
-                    _ if below >= above => Some((from, low)),
-                    _ => Some((high, to)),
-                };
-            }
-        }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::{
     symbolic::{Node, Operator},
-    task::Task,
+    task::PlanningTask,
 };
 
 /// A* needs a totally ordered cost; this many units make one world unit.
@@ -22,7 +22,7 @@ pub struct SymbolicPlan {
 /// The cheapest sequence of operators from a symbolic state to one where the task is done; `None` if there is
 /// none, as when no agent acts.
 #[must_use]
-pub fn solve(task: &Task<'_>, start: Node) -> Option<SymbolicPlan> {
+pub fn solve(task: &PlanningTask<'_>, start: Node) -> Option<SymbolicPlan> {
     let (nodes, cost) = pathfinding::prelude::astar(
         &start,
         |node| task.successors(node).into_iter().map(|(_, after, cost)| (after, quantise(cost))),

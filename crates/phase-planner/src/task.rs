@@ -2,7 +2,6 @@
 
 use crate::{
     problem::{Location, PlanningProblem},
-    routes::Gaps,
     symbolic::{Node, Operator},
 };
 use phase_model::{
@@ -10,6 +9,7 @@ use phase_model::{
     layout::{SLOT_ROOMS, room_of},
     physics::GROUND_FRICTION,
 };
+use phase_navigation::Gaps;
 
 /// Effort weights of an agent: what 1 u of its travel costs (u).
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -35,7 +35,7 @@ impl Effort {
 
 /// A goal to be reached by some agents' actions.
 #[derive(Clone, Copy, Debug)]
-pub struct Task<'a> {
+pub struct PlanningTask<'a> {
     /// The planning problem.
     pub problem: &'a PlanningProblem<'a>,
     /// The goal; its sign is taken as positive.
@@ -50,7 +50,7 @@ pub struct Task<'a> {
     pub narrowed: Option<(AgentId, Gaps)>,
 }
 
-impl Task<'_> {
+impl PlanningTask<'_> {
     /// Whether the goal holds in a symbolic state and no acting agent holds anything.
     #[must_use]
     pub fn is_done(&self, node: &Node) -> bool {
@@ -129,7 +129,7 @@ impl Task<'_> {
         let problem = self.problem;
         let gaps = self.gaps(node, agent, ignored);
         let cost = |from: Location, width: f32| {
-            problem.routes.cost(problem.position(from), problem.position(to), width, &gaps)
+            problem.route_cost(problem.position(from), problem.position(to), width, &gaps)
         };
         let Some(object) = held else { return cost(node.agents[agent], problem.width(agent, None)) };
         let radius = |who: AgentId| problem.physics.agents[who].radius;
@@ -226,7 +226,7 @@ impl Task<'_> {
         let own = self.problem.width(agent, None);
         let diameter = 2.0 * self.problem.physics.object_radii[object];
         for (slot, (a, b)) in SlotId::ALL.into_iter().zip(SLOT_ROOMS) {
-            let gap = self.problem.routes.gaps().width(slot);
+            let gap = self.problem.map.gaps().width(slot);
             if gap < diameter || gap >= own {
                 continue;
             }

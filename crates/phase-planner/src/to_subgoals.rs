@@ -3,16 +3,15 @@
 use crate::{
     plan::{Plan, drop_satisfied, is, not, rooms},
     problem::Location,
-    routes::Routes,
     search::SymbolicPlan,
     symbolic::{Node, Operator},
-    task::Task,
+    task::PlanningTask,
 };
 use phase_model::{AgentId, Entity, ObjectId, Predicate, PredicateTarget, Subgoal};
 
 /// One agent's own part of a symbolic plan as subgoals, and the distance that all agents have to travel.
 #[must_use]
-pub(crate) fn to_subgoals(task: &Task<'_>, plan: &SymbolicPlan, agent: AgentId) -> Plan {
+pub(crate) fn to_subgoals(task: &PlanningTask<'_>, plan: &SymbolicPlan, agent: AgentId) -> Plan {
     let mut subgoals = Vec::with_capacity(8);
     let mut distance = 0.0;
     for (node, operator) in &plan.steps {
@@ -40,7 +39,7 @@ pub(crate) fn to_subgoals(task: &Task<'_>, plan: &SymbolicPlan, agent: AgentId) 
                 subgoals.push(is(Predicate::On(Entity::Object(object), landmark)));
             }
             Operator::Pass { agent: who, object, slot, room } if who == agent => {
-                let near = Routes::neighbour_across(slot, room);
+                let near = slot.beyond(room);
                 go(
                     task,
                     node,
@@ -65,7 +64,7 @@ pub(crate) fn to_subgoals(task: &Task<'_>, plan: &SymbolicPlan, agent: AgentId) 
 }
 
 /// Distance travelled in one operator, by whichever agent (u).
-fn travel(task: &Task<'_>, node: &Node, operator: Operator) -> f32 {
+fn travel(task: &PlanningTask<'_>, node: &Node, operator: Operator) -> f32 {
     match operator {
         Operator::Approach { agent, object } => {
             task.distance(node, agent, None, node.objects[object], Some(object))
@@ -78,7 +77,7 @@ fn travel(task: &Task<'_>, node: &Node, operator: Operator) -> f32 {
             task.distance(node, agent, Some(object), Location::Landmark(landmark), Some(object))
         }
         Operator::Pass { agent, object, slot, room } => {
-            let near = Routes::neighbour_across(slot, room);
+            let near = slot.beyond(room);
             task.distance(node, agent, Some(object), Location::Inside { slot, room: near }, Some(object))
         }
         Operator::Grab { .. } | Operator::Release { .. } => 0.0,
@@ -88,7 +87,7 @@ fn travel(task: &Task<'_>, node: &Node, operator: Operator) -> f32 {
 /// The rooms on the path to a location, as Close(·, landmark) subgoals for the agent or for its load. Rooms
 /// that the straight line passes through anyway do not become subgoals.
 fn go(
-    task: &Task<'_>,
+    task: &PlanningTask<'_>,
     node: &Node,
     agent: AgentId,
     held: Option<ObjectId>,
@@ -102,7 +101,7 @@ fn go(
     let mover = held.map_or(Entity::Agent(agent), Entity::Object);
     let width = problem.width(agent, held);
     let gaps = task.gaps(node, agent, held.or(heads_for));
-    if let Some(route) = problem.routes.best(from, to, width, &gaps) {
+    if let Some(route) = problem.route(from, to, width, &gaps) {
         rooms(&route, from, to, mover, subgoals);
     }
 }

@@ -2,56 +2,12 @@
 
 use crate::{
     plan::{is, not},
-    problem::{self, Location, PlanningProblem},
-    routes::Routes,
+    problem::{Location, PlanningProblem},
 };
-use phase_model::{
-    AgentId, Entity, Goal, LandmarkId, PhysicsConfig, Predicate, SlotId, State, Subgoal, Vec2, arena,
-    layout::room_of,
-};
+use phase_model::{AgentId, Entity, Goal, LandmarkId, Predicate, SlotId, Subgoal, arena, layout::room_of};
 
 /// Lateral clearance to the other agent's path (u).
 const CLEARANCE: f32 = 0.4;
-
-/// An agent that obstructs the other agent's path to a landmark.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct PathObstruction {
-    /// The closest point of the other's path (u).
-    pub nearest: Vec2,
-    /// The place beside that path to step to (u).
-    pub place: Vec2,
-}
-
-/// Whether an agent obstructs the path of the other, or of the object the other holds, to a landmark;
-/// `None` if the two bodies can pass each other, or the agent is behind the other.
-#[must_use]
-pub fn path_obstruction(
-    physics: &PhysicsConfig,
-    routes: &Routes,
-    state: &State,
-    agent: AgentId,
-    landmark: LandmarkId,
-) -> Option<PathObstruction> {
-    let other = agent.other();
-    let here = state.position(Entity::Agent(agent));
-    let mover = state.held_object(other).map_or(Entity::Agent(other), Entity::Object);
-    let (from, to) = (state.position(mover), arena::LANDMARKS[landmark]);
-    let width = physics.agents[other].width().max(2.0 * physics.radius(mover));
-    let room = 0.5 * (physics.agents[agent].width() + width) + CLEARANCE;
-    let nearest = routes.best(from, to, width, routes.gaps())?.nearest(from, to, here);
-    if nearest == from || nearest.distance(here) >= room {
-        return None;
-    }
-    let away = (here - nearest).normalize_or((to - from).perp().normalize_or(Vec2::X));
-    let inset = Vec2::splat(physics.agents[agent].radius);
-    let is_free = |place: Vec2| {
-        arena::contains(place - inset) && arena::contains(place + inset) && room_of(place) == room_of(here)
-    };
-    // With a margin, so that the agent does not stop exactly at the limit.
-    let beside = [away, -away].map(|side| nearest + side * (room + CLEARANCE));
-    let place = beside.into_iter().find(|&place| is_free(place)).unwrap_or(beside[0]);
-    Some(PathObstruction { nearest, place })
-}
 
 /// Subgoal of an agent without a part in the other's plan that obstructs the other: leave a door that the
 /// other would fit through, then the path to the landmark of the other's goal.
@@ -68,18 +24,33 @@ pub(crate) fn subgoal(problem: &PlanningProblem<'_>, agent: AgentId, goal: Goal)
         Goal::ObjectOnLandmark { object, landmark, .. } if held == Some(object) => landmark,
         _ => return None,
     };
-    path_obstruction(problem.physics, problem.routes, problem.state, agent, landmark)
-        .map(|_| not(Predicate::On(me, landmark)))
+    stands_on_path(problem, agent, landmark).then(|| not(Predicate::On(me, landmark)))
 }
 
 /// Whether the agent's body blocks a door that the other would fit through otherwise.
 fn blocks_doorway(problem: &PlanningProblem<'_>, agent: AgentId) -> bool {
     let other = agent.other();
     let radius = |agent: AgentId| problem.physics.agents[agent].radius;
-    let open = problem.routes.gaps();
+    let open = problem.map.gaps();
     let mut gaps = *open;
     let here = problem.state.position(Entity::Agent(agent));
-    problem::obstruct(&mut gaps, here, radius(agent), radius(agent) + radius(other));
+    gaps.obstruct(here, radius(agent), radius(agent) + radius(other));
     let width = problem.width(other, None);
     SlotId::ALL.into_iter().any(|slot| open.width(slot) >= width && gaps.width(slot) < width)
+}
+
+/// Whether the agent stands on the path of the other, or of the object that the other holds, to a landmark, so
+/// that the two bodies cannot pass each other. An agent behind the other does not.
+fn stands_on_path(problem: &PlanningProblem<'_>, agent: AgentId, landmark: LandmarkId) -> bool {
+    let other = agent.other();
+    let here = problem.state.position(Entity::Agent(agent));
+    let mover = problem.state.held_object(other).map_or(Entity::Agent(other), Entity::Object);
+    let from = problem.state.position(mover);
+    let to = arena::LANDMARKS[landmark];
+    let width = problem.physics.agents[other].width().max(2.0 * problem.physics.radius(mover));
+    let room = 0.5 * (problem.physics.agents[agent].width() + width) + CLEARANCE;
+    problem.route(from, to, width, problem.map.gaps()).is_some_and(|route| {
+        let nearest = route.nearest(from, to, here);
+        nearest != from && nearest.distance(here) < room
+    })
 }

@@ -3,7 +3,7 @@
 mod support;
 
 use phase_model::{AgentId, Attitude, LandmarkId, Size::*, Strength::*, Subgoal, Vec2};
-use phase_planner::{Routes, yielding};
+use phase_planner::{Planner, PlannerCosts};
 use support::{Setup, agent_on, approach, everything, layout, object_on};
 
 /// Agent 0 at the top left, agent 1 at the bottom right, no walls, no objects.
@@ -222,19 +222,26 @@ fn helpers_stay_out_of_the_way_when_not_needed() {
     assert_eq!(met.plan(0).first().to_string(), "On(agent 0, landmark 3)");
 }
 
+/// Layout 4's narrow door leads from room 0 to room 3; there is no other way.
 #[test]
-fn one_steps_beside_the_others_way() {
+fn a_door_that_is_too_narrow_costs_what_the_parameter_says() {
     let setup = Setup {
-        agents: [(Small, Strong, Vec2::new(9.0, 12.0)), (Small, Strong, Vec2::new(8.5, 6.0))],
-        goals: [agent_on(1, 0); 2],
+        layout: layout(4, None),
+        agents: [(Large, Strong, Vec2::new(7.25, 16.0)), (Small, Strong, Vec2::new(23.0, 15.0))],
+        goals: [agent_on(0, 3); 2],
         ..plain()
     };
-    let (physics, routes, state) = (setup.physics(), Routes::new(setup.layout), setup.state());
-    let found = yielding::path_obstruction(&physics, &routes, &state, AgentId::ZERO, LandmarkId::TOP_LEFT)
-        .expect("in the way");
-    // The other goes straight up at x = 8.5; both are 2.4 u wide.
-    assert!((found.nearest.x - 8.5).abs() < 1e-3 && found.nearest.distance(Vec2::new(9.0, 12.0)) < 0.6);
-    assert!(found.place.x > 8.5 + 2.4, "to the side it is on: {found:?}");
+    let distance = |impassable: f32| {
+        let costs = PlannerCosts { impassable, ..PlannerCosts::default() };
+        let me = AgentId::ZERO;
+        Planner::with_costs(setup.physics(), setup.layout, me, setup.goals, Attitude::Neutral, costs)
+            .plan(&setup.state(), setup.observed)
+            .distance
+    };
+    let length = Vec2::new(7.25, 16.0).distance(Vec2::new(8.5, 4.5));
+    // A wide body can only cross in the middle of the door, close to the straight line.
+    assert!((distance(100.0) - 100.0 - length).abs() < 0.1, "{}", distance(100.0));
+    assert!((distance(1000.0) - 1000.0 - length).abs() < 0.1, "{}", distance(1000.0));
 }
 
 /// Holding an object that does not fit closer than the arm's length must not look like a reason to release it

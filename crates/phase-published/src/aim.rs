@@ -1,6 +1,6 @@
 //! What the published planner's high level asks of its low level.
 
-use crate::rooms::{FARTHEST, Rooms};
+use crate::rooms::Rooms;
 use phase_model::{
     Action, AgentId, Entity, Goal, LandmarkId, Literal, ObjectId, PhysicsConfig, Predicate, PredicateTarget,
     RoomId, Sign, State, Subgoal, Vec2, arena, layout::room_of,
@@ -103,7 +103,8 @@ impl Aim {
     #[must_use]
     pub fn reward(self, rooms: &Rooms, state: &State, action: Action) -> f64 {
         let sign = f64::from(self.sign().value());
-        -sign * f64::from(self.distance(rooms, state) / FARTHEST) + phase_model::reward::action_cost(action)
+        -sign * f64::from(self.distance(rooms, state) / arena::DIAGONAL)
+            + phase_model::reward::action_cost(action)
     }
 
     /// Whether it is to be achieved or undone.

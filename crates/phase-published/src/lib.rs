@@ -60,7 +60,7 @@ pub mod mind;
 pub mod parameters;
 mod perimeter;
 mod redraw;
-pub mod rooms;
+mod rooms;
 mod rules;
 mod search;
 mod selection;

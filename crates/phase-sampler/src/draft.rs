@@ -3,9 +3,9 @@
 use phase_model::{
     AgentId, Attitude, Body, Entity, EventKind, Goal, LandmarkId, Layout, MAX_OBJECTS, ObjectId, RoomId,
     Scene, Sign, Size, SlotId, Strength, Vec2, arena,
-    layout::SLOT_ROOMS,
     scene::{AgentSpec, ObjectSpec},
 };
+use phase_navigation::Crossing;
 use rand::{Rng, RngExt};
 
 /// How far a body may start from its start point in each direction (u).
@@ -93,15 +93,9 @@ pub fn any_size(random: &mut impl Rng) -> Size {
 
 /// A narrow door of a room, which only the smallest agents fit through, and the room beyond it.
 pub fn narrow_door_of(layout: Layout, room: RoomId, random: &mut impl Rng) -> Option<(SlotId, RoomId)> {
-    let narrow =
-        |slot: SlotId| layout.opening(slot).is_some_and(|opening| opening.length() <= NARROW_DOOR_WIDTH);
-    let beyond = |slot: SlotId| match SLOT_ROOMS[slot] {
-        (a, b) if a == room => Some((slot, b)),
-        (a, b) if b == room => Some((slot, a)),
-        _ => None,
-    };
+    let is_narrow = |door: &Crossing| door.opening.length() <= NARROW_DOOR_WIDTH;
     let doors: Vec<(SlotId, RoomId)> =
-        SlotId::ALL.into_iter().filter(|&slot| narrow(slot)).filter_map(beyond).collect();
+        Crossing::out_of(layout, room).filter(is_narrow).map(|door| (door.slot, door.to)).collect();
     (!doors.is_empty()).then(|| choose(&doors, random))
 }
 

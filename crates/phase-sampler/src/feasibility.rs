@@ -1,23 +1,24 @@
 //! Whether a scene can show the intended event, as judged by the planner.
 
 use phase_model::{AGENT_COUNT, AgentId, Goal, Scene};
+use phase_navigation::Map;
 use phase_planner::{
-    PlannerCosts, PlanningProblem, Routes, search,
+    PlannerCosts, PlanningProblem, search,
     symbolic::Node,
-    task::{Effort, Task},
+    task::{Effort, PlanningTask},
 };
 use phase_predicates::achieved;
 
 /// Plans that cost more than this contain something nearly impossible (u); see
-/// [`phase_planner::routes::IMPASSABLE_COST`].
+/// [`phase_navigation::IMPASSABLE_COST`].
 pub const INFEASIBLE_COST: f32 = 95.0;
 
 /// What reaching a goal costs these agents together (u of travel with penalties), from the scene's start.
 #[must_use]
 pub fn cost(scene: &Scene, goal: Goal, actors: [bool; AGENT_COUNT]) -> f32 {
-    let (physics, routes, state) = (scene.physics(), Routes::new(scene.layout), scene.initial_state());
-    let problem = PlanningProblem::new(&physics, &routes, &state, PlannerCosts::default());
-    let task = Task {
+    let (physics, map, state) = (scene.physics(), Map::new(scene.layout), scene.initial_state());
+    let problem = PlanningProblem::new(&physics, &map, &state, PlannerCosts::default());
+    let task = PlanningTask {
         problem: &problem,
         goal,
         actors,

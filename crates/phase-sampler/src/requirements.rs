@@ -9,7 +9,7 @@ use crate::{
 use phase_model::{
     AgentId, Entity, EventKind, Goal, LandmarkId, ObjectId, RoomId, Scene, Sign, Strength, layout::room_of,
 };
-use phase_planner::{Routes, problem::obstruct, routes::IMPASSABLE_COST};
+use phase_navigation::{IMPASSABLE_COST, Map};
 
 /// Minimum ratio of a goal's cost without the helper to its cost with the helper.
 const MIN_COST_RATIO: f32 = 1.5;
@@ -169,16 +169,16 @@ fn is_placed(variant: Variant, scene: &Scene) -> bool {
 /// Whether agent 1 cannot come to the object that it wants, but stands by the way on which agent 0 brings it. Elsewhere it has
 /// nothing to do until the object is there, or takes it itself.
 fn is_handed_over_on_the_way(scene: &Scene, object: ObjectId, goal: Goal) -> bool {
-    let (physics, routes, state) = (scene.physics(), Routes::new(scene.layout), scene.initial_state());
+    let (physics, map, state) = (scene.physics(), Map::new(scene.layout), scene.initial_state());
     let Some(landmark) = goal.landmark() else { return false };
     let (from, to) = (state.position(Entity::Object(object)), phase_model::arena::LANDMARKS[landmark]);
     let [helper, helpee] = [0, 1].map(|role: usize| physics.agents[role].width());
     let waits = scene.agents[1].start.position;
-    if routes.cost(waits, from, helpee, routes.gaps()) < IMPASSABLE_COST {
+    if map.route_cost(waits, from, helpee, map.gaps(), IMPASSABLE_COST) < IMPASSABLE_COST {
         return false;
     }
     let width = helper.max(2.0 * physics.object_radii[object.index()]);
-    let way = routes.best(from, to, width, routes.gaps());
+    let way = map.route(from, to, width, map.gaps(), IMPASSABLE_COST);
     way.is_some_and(|way| way.nearest(from, to, waits).distance(waits) <= MAX_ASIDE)
 }
 
@@ -190,16 +190,16 @@ fn crosses(scene: &Scene, rooms: [RoomId; 2]) -> bool {
 
 /// Whether agent 0 stands in a door of agent 1's cheapest way, which agent 1 then does not fit through.
 fn obstructs(scene: &Scene, goal: Goal) -> bool {
-    let (physics, routes) = (scene.physics(), Routes::new(scene.layout));
+    let (physics, map) = (scene.physics(), Map::new(scene.layout));
     let [blocker, blocked] = scene.agents.map(|agent| agent.start.position);
     let width = physics.agents[1].width();
     let Some(landmark) = goal.landmark() else { return false };
     let to = phase_model::arena::LANDMARKS[landmark];
-    let Some(route) = routes.best(blocked, to, width, routes.gaps()) else { return false };
-    let mut gaps = *routes.gaps();
+    let Some(route) = map.route(blocked, to, width, map.gaps(), IMPASSABLE_COST) else { return false };
+    let mut gaps = *map.gaps();
     let radius = physics.agents[0].radius;
-    obstruct(&mut gaps, blocker, radius, radius + physics.agents[1].radius);
-    route.doors().iter().any(|&(slot, _)| routes.gaps().width(slot) >= width && gaps.width(slot) < width)
+    gaps.obstruct(blocker, radius, radius + physics.agents[1].radius);
+    route.doors().iter().any(|&(slot, _)| map.gaps().width(slot) >= width && gaps.width(slot) < width)
 }
 
 /// Distance between an agent and an object at the start (u).

@@ -4,7 +4,7 @@ use phase_model::{
     AgentId, Attitude, Entity, Goal, Layout, Relation, arena,
     random::{Purpose, stream},
 };
-use phase_planner::{Routes, routes::IMPASSABLE_COST};
+use phase_navigation::{IMPASSABLE_COST, Map};
 use phase_sampler::{Part, SampleError, Stage, Variant};
 use std::collections::BTreeSet;
 
@@ -64,8 +64,8 @@ fn objects_are_handed_over_on_their_way() {
         };
         let [from, past] =
             [Entity::Object(object), Entity::Agent(helpee)].map(|it| scene.initial_state().position(it));
-        let (routes, physics, to) = (Routes::new(scene.layout), scene.physics(), arena::LANDMARKS[landmark]);
-        let way = |from, to, width| routes.cost(from, to, width, routes.gaps());
+        let (map, physics, to) = (Map::new(scene.layout), scene.physics(), arena::LANDMARKS[landmark]);
+        let way = |from, to, width| map.route_cost(from, to, width, map.gaps(), IMPASSABLE_COST);
         assert!(way(past, from, physics.agents[helpee].width()) >= IMPASSABLE_COST, "{k}");
         let width = physics.agents[helpee.other()].width().max(2.0 * physics.object_radii[object.index()]);
         let detour = way(from, past, width) + way(past, to, width) - way(from, to, width);

@@ -29,4 +29,3 @@ pub mod fit_inference;
 pub mod fit_minds;
 pub mod fit_reports;
 pub mod json_file;
-mod rooms;

@@ -1,6 +1,6 @@
 //! Distance to go while grasping, carrying and releasing.
 
-use super::{ARENA_DIAGONAL, Compiler, Motion, Objective, way::Way};
+use super::{Compiler, Motion, Objective, way::Way};
 use phase_model::{Entity, ObjectId, State, Vec2, arena, physics};
 use phase_navigation::{Assembly, AssemblyCosts, AssemblyField, Field, Target};
 use phase_predicates::threshold::ON_OBJECT;
@@ -69,7 +69,7 @@ impl Objective<'_> {
     pub(crate) fn sliding_distance(&self, state: &State, object: ObjectId) -> f32 {
         let mass = physics::object_mass(self.physics.object_radii[object]);
         let speed = state.body(Entity::Object(object)).velocity.length();
-        (0.5 * mass * speed * speed / physics::GROUND_FRICTION).min(ARENA_DIAGONAL)
+        (0.5 * mass * speed * speed / physics::GROUND_FRICTION).min(arena::DIAGONAL)
     }
 }
 

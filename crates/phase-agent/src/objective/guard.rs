@@ -1,6 +1,6 @@
 //! Keeping an entity away from a target, driving it to one, and staying out of its way.
 
-use super::{ARENA_DIAGONAL, Compiler, pursuit, way::Way};
+use super::{Compiler, pursuit, way::Way};
 use crate::PhaseParameters;
 use phase_model::{Entity, LandmarkId, RoomId, Vec2, arena, layout::room_of};
 use phase_navigation::{Field, Target};
@@ -34,8 +34,8 @@ impl Guard {
 
     /// Distance to the post, and what the entity is short of, for these places of the agent and the entity (u).
     pub(crate) fn distance(&self, here: Vec2, subject: Vec2) -> f32 {
-        let to_target = self.field.distance(subject).min(ARENA_DIAGONAL);
-        let missing = if self.drives { to_target } else { ARENA_DIAGONAL - to_target };
+        let to_target = self.field.distance(subject).min(arena::DIAGONAL);
+        let missing = if self.drives { to_target } else { arena::DIAGONAL - to_target };
         self.way.distance(here, self.post(subject)) + missing
     }
 
@@ -110,7 +110,7 @@ impl Compiler<'_, '_> {
         let obstacles = self.obstacles(Some(subject));
         let to_me = self.navigator.field(Target::Point(here), own, &obstacles);
         let touching = self.physics.radius(me) + self.physics.radius(subject);
-        let length = field.distance(start).min(2.0 * ARENA_DIAGONAL);
+        let length = field.distance(start).min(2.0 * arena::DIAGONAL);
         if let Target::Room { room, .. } = target
             && let Some(door) = entrance(&field, start, room)
         {

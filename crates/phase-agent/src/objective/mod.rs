@@ -13,13 +13,10 @@ use crate::PhaseParameters;
 use own_way::OwnWay;
 use phase_model::{
     AgentId, Entity, Layout, Literal, ObjectId, PhysicsConfig, Predicate, PredicateTarget, State, Subgoal,
-    Vec2,
+    Vec2, arena,
 };
 use phase_navigation::{Disc, Mover, Navigator};
 use pursuit::Pursuit;
-
-/// Diagonal of the arena (u), the scale of distances in rewards.
-pub const ARENA_DIAGONAL: f32 = 28.284;
 
 /// How a body should move next.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -122,7 +119,7 @@ impl<'a> Objective<'a> {
             }
             Pursuit::Escape(way) => {
                 let from = self.place(state, Entity::Agent(self.agent.other()));
-                (ARENA_DIAGONAL - pursuit::separation(way, from, here, self.parameters.impassable)).max(0.0)
+                (arena::DIAGONAL - pursuit::separation(way, from, here, self.parameters.impassable)).max(0.0)
             }
             Pursuit::Guard(guard) => guard.distance(here, self.place(state, guard.subject())),
             Pursuit::ClearPath(path) => path.distance(here),

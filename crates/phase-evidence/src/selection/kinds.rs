@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{GoalOutcome, Track, blocking, contact, holding, manner, pursuit::Pursuit};
 use phase_model::{AgentId, Entity, EventKind, Goal, ObjectId, Scene, Sign};
-use phase_planner::Routes;
+use phase_navigation::Map;
 
 /// Minimum number of steps for which both pull at an object that is fought over.
 const MIN_CONTESTED_STEPS: usize = 5;
@@ -134,8 +134,7 @@ pub(super) fn is_in_the_way(scene: &Scene, track: &Track, hinderer: AgentId, goa
     let target = |state: &phase_model::State| blocking::next_place(goal, state);
     let met = contact::steps_touching(track, Entity::Agent(hinderer), Entity::Agent(victim)).len();
     let handled = object_of(goal).map_or(0, |object| holding::carried(track, hinderer, object).steps);
-    let in_door =
-        || blocking::steps_blocking_a_door(track, &Routes::new(scene.layout), hinderer, target).len();
+    let in_door = || blocking::steps_blocking_a_door(track, &Map::new(scene.layout), hinderer, target).len();
     let between = || blocking::steps_between(track, hinderer, target).len();
     met >= MIN_VISIBLE_STEPS
         || handled >= MIN_VISIBLE_STEPS

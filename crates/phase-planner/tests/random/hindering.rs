@@ -2,10 +2,11 @@
 
 use crate::problems::problems;
 use phase_model::{AgentId, Attitude, BodySet, Entity, Goal, Subgoal};
+use phase_navigation::Map;
 use phase_planner::{
-    Planner, PlannerCosts, PlanningProblem, Routes, search,
+    Planner, PlannerCosts, PlanningProblem, search,
     symbolic::Node,
-    task::{Effort, Task},
+    task::{Effort, PlanningTask},
 };
 use phase_predicates::achieved;
 use proptest::{
@@ -31,10 +32,9 @@ fn a_hinderer_never_stays_while_the_other_has_a_way() {
         {
             continue;
         }
-        let (physics, state, routes) =
-            (situation.physics(), situation.state(), Routes::new(situation.layout));
-        let problem = PlanningProblem::new(&physics, &routes, &state, costs);
-        let task = Task {
+        let (physics, state, map) = (situation.physics(), situation.state(), Map::new(situation.layout));
+        let problem = PlanningProblem::new(&physics, &map, &state, costs);
+        let task = PlanningTask {
             problem: &problem,
             goal: situation.goal,
             actors: [false, true],

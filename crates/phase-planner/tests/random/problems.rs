@@ -6,8 +6,7 @@ use phase_model::{
 };
 use phase_planner::{
     PlanningProblem,
-    problem::obstruct,
-    task::{Effort, Task},
+    task::{Effort, PlanningTask},
 };
 use proptest::prelude::*;
 
@@ -48,14 +47,14 @@ impl Problem {
         state
     }
 
-    pub(crate) fn task<'a>(&self, problem: &'a PlanningProblem<'a>) -> Task<'a> {
+    pub(crate) fn task<'a>(&self, problem: &'a PlanningProblem<'a>) -> PlanningTask<'a> {
         let narrowed = self.narrowed.map(|(agent, place)| {
             let mut gaps = *problem.gaps(agent, BodySet::OBJECTS);
-            obstruct(&mut gaps, place, 1.0, 1.0);
+            gaps.obstruct(place, 1.0, 1.0);
             (agent, gaps)
         });
         let (goal, actors, efforts, cooperative) = (self.goal, self.actors, self.efforts, self.cooperative);
-        Task { problem, goal, actors, efforts, cooperative, narrowed }
+        PlanningTask { problem, goal, actors, efforts, cooperative, narrowed }
     }
 }
 

@@ -8,7 +8,8 @@ use petgraph::{
     graph::{DiGraph, NodeIndex},
     visit::{EdgeRef, Reversed},
 };
-use phase_planner::{PlannerCosts, PlanningProblem, Routes, search::solve, symbolic::Node, task::Task};
+use phase_navigation::Map;
+use phase_planner::{PlannerCosts, PlanningProblem, search::solve, symbolic::Node, task::PlanningTask};
 use proptest::{
     strategy::{Strategy, ValueTree},
     test_runner::TestRunner,
@@ -29,7 +30,7 @@ struct Reachable {
 }
 
 impl Reachable {
-    fn new(task: &Task<'_>, start: Node) -> Self {
+    fn new(task: &PlanningTask<'_>, start: Node) -> Self {
         let mut graph = DiGraph::new();
         let end = graph.add_node(None);
         let first = graph.add_node(Some(start));
@@ -66,9 +67,9 @@ fn no_plan_is_cheaper_and_the_heuristic_is_a_lower_bound() {
     let (mut solved, mut informed) = (0, 0);
     for _ in 0..count {
         let random_problem = strategy.new_tree(&mut runner).expect("a problem").current();
-        let (routes, physics, state) =
-            (Routes::new(random_problem.layout), random_problem.physics(), random_problem.state());
-        let problem = PlanningProblem::new(&physics, &routes, &state, PlannerCosts::default());
+        let (map, physics, state) =
+            (Map::new(random_problem.layout), random_problem.physics(), random_problem.state());
+        let problem = PlanningProblem::new(&physics, &map, &state, PlannerCosts::default());
         let task = random_problem.task(&problem);
         let start = Node::start(&problem);
         let reachable = Reachable::new(&task, start);

@@ -54,7 +54,7 @@ impl View<'_> {
         let here = self.room(Entity::Object(object));
         let length = |to: RoomId| self.rooms().way(here, to).map(|way| way.len());
         way.windows(2)
-            .filter(|pair| self.rooms().door(pair[0], pair[1]).is_some_and(|door| door.width < diameter))
+            .filter(|pair| self.rooms().door(pair[0], pair[1]).is_some_and(|door| door.length() < diameter))
             .flat_map(|pair| [pair[0], pair[1]])
             .filter_map(|room| Some((length(room)?, room)))
             .filter(|&(length, _)| length < way.len())

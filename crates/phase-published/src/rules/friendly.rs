@@ -1,11 +1,11 @@
 //! The friendly rules: the other's goal, by what the other cannot do.
 
 use super::{OBJECT_REACHED, View};
-use crate::{aim::Aim, rooms::FARTHEST};
-use phase_model::{AgentId, Entity, Goal, LandmarkId, ObjectId, Sign};
+use crate::aim::Aim;
+use phase_model::{AgentId, Entity, Goal, LandmarkId, ObjectId, Sign, arena};
 
 /// An agent that is closer to what it wants to touch needs no help (u): a reward above −0.1.
-const CLOSE: f32 = 0.1 * FARTHEST;
+const CLOSE: f32 = 0.1 * arena::DIAGONAL;
 
 impl View<'_> {
     /// Helps the other with its goal.
@@ -96,7 +96,7 @@ impl View<'_> {
         };
         let place = self.state.position(Entity::Object(object));
         let reach = self.rules.physics.object_radii[object] + self.rules.physics.agents[self.other].radius;
-        if self.rooms().doors(&way).any(|door| door.point.distance(place) < reach) {
+        if self.rooms().doors(&way).any(|door| door.middle().distance(place) < reach) {
             self.put(object, self.room(Entity::Object(object)).landmark())
         } else {
             self.release_or_stop()

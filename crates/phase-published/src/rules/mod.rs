@@ -11,9 +11,9 @@ use phase_model::{
 };
 
 /// An agent is on a landmark within this distance (u): a reward above −0.02.
-pub(crate) const AGENT_REACHED: f32 = 0.02 * crate::rooms::FARTHEST;
+pub(crate) const AGENT_REACHED: f32 = 0.02 * arena::DIAGONAL;
 /// An object is on a landmark within this distance (u): a reward above −0.05.
-pub(crate) const OBJECT_REACHED: f32 = 0.05 * crate::rooms::FARTHEST;
+pub(crate) const OBJECT_REACHED: f32 = 0.05 * arena::DIAGONAL;
 /// What fits through a door for one who carries: one and a half times its size on each side.
 const CARRYING_WIDTH: f32 = 1.5;
 

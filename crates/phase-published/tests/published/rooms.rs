@@ -1,7 +1,7 @@
 //! Doors, ways and distances, against the table of layouts.
 
-use phase_model::{Layout, RoomId, Size, Vec2, layout::USED_BASES};
-use phase_published::{Rooms, rooms::FARTHEST};
+use phase_model::{Layout, RoomId, Size, Vec2, arena, layout::USED_BASES};
+use phase_published::Rooms;
 
 const TL: RoomId = RoomId::TOP_LEFT;
 const TR: RoomId = RoomId::TOP_RIGHT;
@@ -16,11 +16,11 @@ fn rooms(base: u8) -> Rooms {
 fn doors_are_crossed_in_their_middle() {
     let four = rooms(4);
     assert!(four.door(TL, TR).is_none());
-    assert_eq!(four.door(TL, BL).unwrap().point, Vec2::new(7.25, 12.0));
-    assert_eq!(four.door(BL, BR).unwrap().point, Vec2::new(16.0, 7.0));
-    assert_eq!(four.door(BR, TR).unwrap().point, Vec2::new(21.0, 12.0));
-    assert_eq!(rooms(9).door(TL, TR).unwrap().point, Vec2::new(16.0, 19.5));
-    assert_eq!(rooms(10).door(TL, TR).unwrap().point, Vec2::new(16.0, 20.75));
+    assert_eq!(four.door(TL, BL).unwrap().middle(), Vec2::new(7.25, 12.0));
+    assert_eq!(four.door(BL, BR).unwrap().middle(), Vec2::new(16.0, 7.0));
+    assert_eq!(four.door(BR, TR).unwrap().middle(), Vec2::new(21.0, 12.0));
+    assert_eq!(rooms(9).door(TL, TR).unwrap().middle(), Vec2::new(16.0, 19.5));
+    assert_eq!(rooms(10).door(TL, TR).unwrap().middle(), Vec2::new(16.0, 20.75));
 }
 
 #[test]
@@ -50,7 +50,7 @@ fn a_room_is_as_far_as_its_corner_if_it_is_next() {
     assert!((four.room_distance(here, BL) - here.distance(Vec2::new(7.25, 3.25))).abs() < 1e-5);
     let (door, corner) = (Vec2::new(7.25, 12.0), Vec2::new(7.25, 20.75));
     assert!((four.room_distance(here, TL) - here.distance(door) - door.distance(corner)).abs() < 1e-5);
-    assert_eq!(four.room_distance(here, TR), FARTHEST);
+    assert_eq!(four.room_distance(here, TR), arena::DIAGONAL);
 }
 
 /// One who carries needs three times its size: doors of 2.5 u pass the smallest only, doors of 5 u all.

@@ -1,12 +1,11 @@
 //! Judges an event by the criterion of its test.
 
 use super::rows::{BehaviourTest, Criterion, Form};
-use crate::rooms;
 use phase_evidence::{
     Effect, GoalOutcome, Rest, Track, blocking, contact, exploration, holding, outcome, pursuit::Pursuit,
 };
 use phase_model::{AgentId, Entity, Goal, ObjectId, Scene, State, layout::room_of};
-use phase_planner::Routes;
+use phase_navigation::{IMPASSABLE_COST, Map};
 
 /// Maximum number of steps for an agent to release its object and come to rest after its goal is reached.
 const SETTLING_STEPS: usize = 8;
@@ -103,7 +102,7 @@ impl Case<'_> {
 
     fn search(&self, wanted: usize) -> Assessment {
         let start = self.scene.agents[self.part.judged].start.position;
-        let regions = rooms::regions_around(self.scene.layout, room_of(start));
+        let regions = Map::new(self.scene.layout).regions_around(room_of(start));
         let [near, larger] = &regions[..] else { return (false, None, "there are not two regions".into()) };
         let first = exploration::searched_first(self.track, self.part.judged, &[near, larger]);
         let notes = first.map_or_else(
@@ -135,9 +134,9 @@ impl Case<'_> {
         let alone = holding::carried_alone(self.track, hinderer, object);
         match form {
             Form::Block => {
-                let routes = Routes::new(self.scene.layout);
+                let map = Map::new(self.scene.layout);
                 let target = |state: &State| blocking::next_place(goal, state);
-                let door = blocking::steps_blocking_a_door(self.track, &routes, hinderer, target).len();
+                let door = blocking::steps_blocking_a_door(self.track, &map, hinderer, target).len();
                 let between = blocking::steps_between(self.track, hinderer, target).len();
                 (
                     door.max(between) >= MIN_VISIBLE_STEPS,
@@ -225,10 +224,10 @@ impl Case<'_> {
     /// Whether an object finally lies where an agent does not fit through the doors.
     fn out_of_reach(&self, agent: AgentId, object: ObjectId) -> bool {
         let Some(state) = self.track.states.last() else { return false };
-        let routes = Routes::new(self.scene.layout);
+        let map = Map::new(self.scene.layout);
         let (from, to) = (state.position(Entity::Agent(agent)), state.position(Entity::Object(object)));
         let width = self.track.physics.agents[agent].width();
-        routes.best(from, to, width, routes.gaps()).is_none_or(|route| route.impassable > 0)
+        map.route(from, to, width, map.gaps(), IMPASSABLE_COST).is_none_or(|route| route.impassable > 0)
     }
 }
 

@@ -1,10 +1,11 @@
 //! A drawn scene and the measures that decide whether it is kept: distances, openings, forces, view.
 
-use crate::rooms::{Crossing, Walk, walk};
+use super::walk::{Walk, walk};
 use phase_evidence::outcome;
 use phase_model::{
     AgentId, Entity, EventKind, Flip, Goal, ObjectId, RoomId, Scene, Segment, Vec2, arena, layout::room_of,
 };
+use phase_navigation::Crossing;
 
 /// Width of the gap that an agent of radius R needs, over R: its base is 3R wide.
 const BASE: f32 = 3.0;

@@ -3,10 +3,10 @@
 //! Agent 0 is the one who helps, hinders or chases, or the one that a scene for one agent is about.
 
 use super::candidate::{Candidate, Errand};
-use crate::rooms::{regions_around, route};
 use phase_evidence::Track;
 use phase_evidence::exploration;
 use phase_model::{AgentId, Entity, Goal, ObjectId, RoomId, Strength, layout::room_of};
+use phase_navigation::Map;
 use phase_perception::{Cell, observe};
 
 const FIRST: AgentId = AgentId::ZERO;
@@ -41,7 +41,8 @@ pub(super) fn errand_through_door(scene: &Candidate<'_>) -> bool {
 /// clearly nearer; the idle agent does not stand in a door.
 pub(super) fn search(scene: &Candidate<'_>) -> bool {
     let room = scene.room(FIRST);
-    let regions = regions_around(scene.0.layout, room);
+    let map = Map::new(scene.0.layout);
+    let regions = map.regions_around(room);
     let ([near, larger], Some((object, _))) = (&regions[..], scene.object(FIRST)) else { return false };
     if near.len() != 1 || larger.len() != 2 || room_of(object) == room {
         return false;
@@ -57,16 +58,16 @@ pub(super) fn search(scene: &Candidate<'_>) -> bool {
     let start = Track { physics: physics.clone(), states: vec![state] };
     let undecided = exploration::searched_first(&start, FIRST, &[near, larger]).is_none();
     let entrance = |rooms: &[RoomId]| {
-        let ways = rooms.iter().filter_map(|&to| route(scene.0.layout, room, to, scene.width(FIRST)));
+        let ways = rooms.iter().filter_map(|&to| map.way(room, to, scene.width(FIRST)));
         ways.filter_map(|way| way.first().map(|crossing| crossing.opening.distance(scene.position(FIRST))))
             .fold(f32::INFINITY, f32::min)
     };
-    let fits = RoomId::ALL.iter().all(|&to| route(scene.0.layout, room, to, scene.width(FIRST)).is_some());
+    let fits = RoomId::ALL.iter().all(|&to| map.way(room, to, scene.width(FIRST)).is_some());
     // Room for the searching agent to pass.
     let clearance = 0.5 * scene.width(SECOND) + scene.width(FIRST);
     let unobstructed = RoomId::ALL
         .iter()
-        .filter_map(|&to| route(scene.0.layout, room, to, 0.0))
+        .filter_map(|&to| map.way(room, to, 0.0))
         .flatten()
         .all(|crossing| crossing.opening.distance(scene.position(SECOND)) >= clearance);
     view.body(Entity::Object(wanted)).is_none()
@@ -156,12 +157,12 @@ pub(super) fn object_to_drag(scene: &Candidate<'_>) -> bool {
 /// second does not fit.
 pub(super) fn object_to_hide(scene: &Candidate<'_>) -> bool {
     let Some((object, radius)) = scene.object(SECOND) else { return false };
-    let layout = scene.0.layout;
+    let map = Map::new(scene.0.layout);
     let carrying = scene.width(FIRST).max(2.0 * radius);
     object_to_take(scene)
         && RoomId::ALL.into_iter().any(|hideout| {
-            route(layout, room_of(object), hideout, carrying).is_some()
-                && route(layout, scene.room(SECOND), hideout, scene.width(SECOND)).is_none()
+            map.way(room_of(object), hideout, carrying).is_some()
+                && map.way(scene.room(SECOND), hideout, scene.width(SECOND)).is_none()
         })
 }
 

@@ -7,6 +7,7 @@
 mod candidate;
 mod conditions;
 mod recipes;
+mod walk;
 
 use crate::error::LabError;
 use candidate::Candidate;

@@ -4,8 +4,7 @@ use phase_model::{
     Layout, Size, Vec2, arena,
     random::{Purpose, stream},
 };
-use phase_navigation::{Field, Map, Mover, NavigationCosts, Target};
-use phase_planner::{Routes, routes::IMPASSABLE_COST};
+use phase_navigation::{Field, IMPASSABLE_COST, Map, Mover, NavigationCosts, Target};
 use rand::RngExt;
 
 /// Number of random pairs of points.
@@ -24,10 +23,10 @@ fn routes_and_fields_agree_on_what_is_closed_and_nearly_always_on_the_distance()
             arena::MIN + Vec2::new(along(), along())
         };
         let (from, to) = (point(), point());
-        let routes = Routes::new(layout);
-        let route = routes.cost(from, to, 2.0 * half_width, routes.gaps());
+        let map = Map::new(layout);
+        let route = map.route_cost(from, to, 2.0 * half_width, map.gaps(), IMPASSABLE_COST);
         let mover = Mover { half_width };
-        let field = Field::new(&Map::new(layout), Target::Point(to), mover, &[], costs).distance(from);
+        let field = Field::new(&map, Target::Point(to), mover, &[], costs).distance(from);
         assert_eq!(route >= IMPASSABLE_COST, field >= IMPASSABLE_COST, "{layout:?} {from} {to}");
         if field < IMPASSABLE_COST {
             differences.push((field - route).abs() / field.max(1.0));

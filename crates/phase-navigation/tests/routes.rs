@@ -1,28 +1,33 @@
 //! Routes through doors compared with lengths computed by hand.
 
 use phase_model::{Layout, SlotId, Vec2};
-use phase_planner::{Routes, problem::obstruct, routes::IMPASSABLE_COST};
+use phase_navigation::{IMPASSABLE_COST, Map, Route};
 use proptest::prelude::*;
 
 /// Layout 4: full wall between rooms 0 and 1, a narrow door (x 6 to 8.5) between 0 and 3, the rest open.
-fn narrow() -> Routes {
-    Routes::new(Layout::new(4, None).expect("layout 4"))
+fn narrow() -> Map {
+    Map::new(Layout::new(4, None).expect("layout 4"))
+}
+
+/// The route between two points that are connected, without bodies in doors.
+fn route(map: &Map, from: Vec2, to: Vec2, width: f32) -> Route {
+    map.route(from, to, width, map.gaps(), IMPASSABLE_COST).expect("the points are connected")
 }
 
 #[test]
 fn in_one_room_the_way_is_straight() {
-    let routes = narrow();
+    let map = narrow();
     let (from, to) = (Vec2::new(8.0, 20.0), Vec2::new(14.0, 14.0));
-    let route = routes.best(from, to, 2.4, routes.gaps()).unwrap();
+    let route = route(&map, from, to, 2.4);
     assert!((route.length - from.distance(to)).abs() < 1e-4);
     assert_eq!(route.doors(), []);
 }
 
 #[test]
 fn a_narrow_door_is_crossed_in_its_middle() {
-    let routes = narrow();
+    let map = narrow();
     let (from, to) = (Vec2::new(14.0, 14.0), Vec2::new(14.0, 10.0));
-    let route = routes.best(from, to, 2.4, routes.gaps()).unwrap();
+    let route = route(&map, from, to, 2.4);
     // The gap of 2.5 leaves a body of width 2.4 no choice: x = 7.25.
     let crossing = Vec2::new(7.25, 12.0);
     assert!((route.length - 2.0 * from.distance(crossing)).abs() < 0.2, "{}", route.length);
@@ -31,26 +36,26 @@ fn a_narrow_door_is_crossed_in_its_middle() {
 
 #[test]
 fn who_does_not_fit_pays_for_it() {
-    let routes = narrow();
+    let map = narrow();
     let (from, to) = (Vec2::new(7.0, 14.0), Vec2::new(7.0, 10.0));
-    let route = routes.best(from, to, 3.6, routes.gaps()).unwrap();
+    let route = route(&map, from, to, 3.6);
     assert_eq!(route.impassable, 1);
-    assert!(route.cost() > IMPASSABLE_COST);
+    assert!(route.cost > IMPASSABLE_COST);
 }
 
 #[test]
 fn the_shorter_way_round_is_taken() {
     // Layout 2: full wall up, half wall left, nothing right and down: from room 1 to room 0 leads through
     // rooms 2 and 3.
-    let routes = Routes::new(Layout::new(2, None).unwrap());
-    let route = routes.best(Vec2::new(18.0, 20.0), Vec2::new(14.0, 20.0), 2.4, routes.gaps()).unwrap();
+    let map = Map::new(Layout::new(2, None).unwrap());
+    let route = route(&map, Vec2::new(18.0, 20.0), Vec2::new(14.0, 20.0), 2.4);
     let slots: Vec<SlotId> = route.doors().iter().map(|&(slot, _)| slot).collect();
     assert_eq!(slots, [SlotId::RIGHT, SlotId::DOWN, SlotId::LEFT]);
 }
 
 #[test]
 fn obstacles_narrow_doors() {
-    let routes = narrow();
+    let map = narrow();
     // (centre, radius, reach, remaining part of the left slot's door, from 7.5 to 10)
     let cases = [
         (Vec2::new(7.25, 12.0), 0.8, 1.6, Some((7.5_f32, 7.95_f32))),
@@ -60,8 +65,8 @@ fn obstacles_narrow_doors() {
         (Vec2::new(12.0, 12.0), 0.8, 1.6, Some((7.5, 10.0))),
     ];
     for (centre, radius, reach, left) in cases {
-        let mut gaps = *routes.gaps();
-        obstruct(&mut gaps, centre, radius, reach);
+        let mut gaps = *map.gaps();
+        gaps.obstruct(centre, radius, reach);
         match (gaps.0[1], left) {
             (Some(found), Some(expected)) => {
                 assert!((found.0 - expected.0).abs() < 1e-4, "{centre} {found:?} {expected:?}");
@@ -74,11 +79,12 @@ fn obstacles_narrow_doors() {
 
 #[test]
 fn a_gap_that_rounding_turns_upside_down_is_no_panic() {
-    let routes = narrow();
+    let map = narrow();
     for step in 0..2000 {
-        let mut gaps = *routes.gaps();
+        let mut gaps = *map.gaps();
         gaps.0[1] = Some((7.5 + step as f32 * 1e-3, 10.0 - step as f32 * 3e-4));
-        let route = routes.best(Vec2::new(7.0, 14.0), Vec2::new(9.0, 10.0), 4.8, &gaps).unwrap();
+        let route =
+            map.route(Vec2::new(7.0, 14.0), Vec2::new(9.0, 10.0), 4.8, &gaps, IMPASSABLE_COST).unwrap();
         assert!(route.length.is_finite());
     }
 }
@@ -93,9 +99,9 @@ proptest! {
         index in 0..90_usize, from in point(), to in point()
     ) {
         let layout = Layout::all_used().nth(index).unwrap();
-        let routes = Routes::new(layout);
-        let there = routes.best(from, to, 2.4, routes.gaps()).unwrap();
-        let back = routes.best(to, from, 2.4, routes.gaps()).unwrap();
+        let map = Map::new(layout);
+        let there = route(&map, from, to, 2.4);
+        let back = route(&map, to, from, 2.4);
         prop_assert!(there.length >= from.distance(to) - 1e-3);
         prop_assert!((there.length - back.length).abs() < 0.3, "{} {}", there.length, back.length);
     }
@@ -103,8 +109,8 @@ proptest! {
     #[test]
     fn the_legs_of_a_way_cross_no_wall(index in 0..90_usize, from in point(), to in point()) {
         let layout = Layout::all_used().nth(index).unwrap();
-        let routes = Routes::new(layout);
-        let route = routes.best(from, to, 2.4, routes.gaps()).unwrap();
+        let map = Map::new(layout);
+        let route = route(&map, from, to, 2.4);
         let points: Vec<Vec2> = core::iter::once(from)
             .chain(route.doors().iter().map(|&(_, point)| point))
             .chain(core::iter::once(to))
