@@ -1,6 +1,6 @@
 //! What is known of an event without looking at its motion.
 
-use phase_dataset::{describe, labels::goal_label};
+use phase_dataset::labels::goal_label;
 use phase_event::Recording;
 use phase_model::{AgentId, Entity, MAX_ENTITIES, MAX_OBJECTS, SlotId, State};
 
@@ -77,7 +77,7 @@ impl AuditItem {
         let goal =
             |agent: AgentId| goal_label(scene.agents[agent].goal, scene.agents[agent].attitude.alpha());
         let classes = [
-            describe::relation(recording.relation).to_owned(),
+            recording.relation.name().to_owned(),
             scene.kind.name().to_owned(),
             goal(AgentId::ZERO),
             goal(AgentId::ONE),

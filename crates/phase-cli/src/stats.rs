@@ -12,7 +12,6 @@ use clap::Args;
 use phase_audit::{Audit, Target};
 use phase_dataset::{
     acceptance::Acceptance,
-    describe,
     labels::goal_counts,
     manifest::{MANIFEST_FILE, Manifest},
 };
@@ -169,7 +168,7 @@ fn write(
             "relations.svg",
             "Events by relation",
             "",
-            statistics.relations.iter().map(|(&it, &n)| (describe::relation(it).into(), number(n))).collect(),
+            statistics.relations.iter().map(|(&it, &n)| (it.name().into(), number(n))).collect(),
         ),
         (
             "acceptance.svg",

@@ -35,7 +35,6 @@
 pub mod acceptance;
 pub mod composition;
 pub mod croissant;
-pub mod describe;
 pub mod error;
 pub mod event_cache;
 pub mod event_set;
@@ -56,3 +55,7 @@ pub mod verify;
 pub mod video_table;
 
 pub use error::{DatasetProblem, ExportError};
+
+/// The names of colours in the files of a dataset.
+pub const NAMES: phase_model::words::Names =
+    phase_model::words::Names { objects: ["blue", "pink"], ..phase_model::words::Names::PAPER };

@@ -1,7 +1,7 @@
 //! `videos/metadata.csv`: the labels of every video, beside the videos, as the `videofolder` loader of the `datasets` library
 //! reads them.
 
-use crate::{describe, manifest::EventEntry};
+use crate::manifest::EventEntry;
 
 /// The file, in a dataset's folder.
 pub const VIDEO_TABLE_FILE: &str = "videos/metadata.csv";
@@ -20,7 +20,7 @@ pub fn video_row(event: &EventEntry) -> Option<String> {
         &event.id,
         event.kind.name(),
         event.variant.map_or("", phase_sampler::Variant::name),
-        describe::relation(event.relation),
+        event.relation.name(),
         event.split().name(),
         set,
         stance,

@@ -1,7 +1,6 @@
 //! What players are told before a round.
 
-use phase_model::{AGENT_COUNT, AgentId, Attitude, Scene};
-use phase_render::Palette;
+use phase_model::{AGENT_COUNT, AgentId, Attitude, Entity, Scene, words::Names};
 use serde::Serialize;
 
 /// What a player is told before a round: both goals, as in the paper (appendix, "Experiment 2").
@@ -18,27 +17,27 @@ pub struct Instructions {
 impl Instructions {
     /// The instructions for the player of an agent.
     #[must_use]
-    pub fn new(scene: &Scene, agent: AgentId, palette: &Palette) -> Self {
-        let names = palette.agent_names;
+    pub fn new(scene: &Scene, agent: AgentId, names: &Names) -> Self {
         let other = agent.other();
         let told = |who: AgentId, whose: &str| {
             let goals = scene.goals();
-            let helped = palette.goal_text(goals[who.other()], who.other());
+            let whom = names.entity(Entity::Agent(who.other()));
+            let helped = names.wants(goals[who.other()], who.other());
             match scene.attitudes()[who] {
-                Attitude::Neutral => format!("{whose} goal: {}.", palette.goal_text(goals[who], who)),
+                Attitude::Neutral => format!("{whose} goal: {}.", names.wants(goals[who], who)),
                 Attitude::Help => {
-                    format!("Help the {} agent to reach its goal: {helped}.", names[who.other()])
+                    format!("Help the {} to reach its goal: {helped}.", whom)
                 }
                 Attitude::Hinder => {
-                    format!("Keep the {} agent from reaching its goal: {helped}.", names[who.other()])
+                    format!("Keep the {} from reaching its goal: {helped}.", whom)
                 }
             }
         };
-        Self { you: names[agent], yours: told(agent, "Your"), theirs: told(other, "Its") }
+        Self { you: names.agents[agent], yours: told(agent, "Your"), theirs: told(other, "Its") }
     }
 }
 
 /// The instructions of both players.
 pub(crate) fn of_both(scene: &Scene) -> [Instructions; AGENT_COUNT] {
-    AgentId::ALL.map(|agent| Instructions::new(scene, agent, &Palette::PAPER))
+    AgentId::ALL.map(|agent| Instructions::new(scene, agent, &Names::PAPER))
 }

@@ -176,6 +176,8 @@ pub enum ToPlayer {
         protocol: &'static str,
         /// The agent that the player moves.
         agent: AgentId,
+        /// That agent by its colour, such as `red agent`.
+        you: String,
         /// What players see.
         view: View,
         /// Whether the other agent is moved by its mind.

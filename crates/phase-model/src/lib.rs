@@ -61,6 +61,7 @@ pub mod state;
 pub mod subgoal;
 pub mod validate;
 pub mod warning;
+pub mod words;
 
 pub use action::Action;
 pub use entity::{AGENT_COUNT, BodySet, Entity, MAX_ENTITIES, MAX_OBJECTS};

@@ -32,6 +32,17 @@ impl Size {
         Self::ALL.get(usize::from(level)).copied()
     }
 
+    /// The name on pages: small, medium, large or huge.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Small => "small",
+            Self::Medium => "medium",
+            Self::Large => "large",
+            Self::Huge => "huge",
+        }
+    }
+
     /// Radius R (u): an object's radius, or half an agent's height.
     #[must_use]
     pub const fn radius(self) -> f32 {
@@ -71,6 +82,17 @@ impl Strength {
     #[must_use]
     pub fn from_level(level: u8) -> Option<Self> {
         Self::ALL.get(usize::from(level)).copied()
+    }
+
+    /// The name on pages: weak, fair, strong or mighty.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Weak => "weak",
+            Self::Fair => "fair",
+            Self::Strong => "strong",
+            Self::Mighty => "mighty",
+        }
     }
 
     /// Maximum force (N), held constant through a step.

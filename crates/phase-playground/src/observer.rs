@@ -3,8 +3,7 @@
 use crate::{packed, scenes, sentence};
 use phase_eval::goals::Answer;
 use phase_event::ObservedEvent;
-use phase_model::AgentId;
-use phase_render::Palette;
+use phase_model::{AgentId, words::Names};
 use phase_simple::{Budget, Inference, Observer, Simple};
 use serde_json::{Value, json};
 
@@ -51,7 +50,7 @@ impl PageObserver {
         let answer = Answer::of(&self.simple.judgement(inference)).map_err(sentence)?;
         let words = AgentId::ALL.map(|agent| -> Vec<Value> {
             let goals = answer.goals[agent].iter().take(GOALS);
-            goals.map(|it| json!({ "goal": Palette::PAPER.goal_text(it.goal, agent), "p": it.p })).collect()
+            goals.map(|it| json!({ "goal": Names::PAPER.wants(it.goal, agent), "p": it.p })).collect()
         });
         let mut value = serde_json::to_value(&answer).map_err(sentence)?;
         value["words"] = json!(words);

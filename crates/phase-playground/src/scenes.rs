@@ -3,9 +3,9 @@
 use crate::{packed, sentence};
 use phase_event::Recording;
 use phase_model::{
-    AgentId, EventKind, Goal, LandmarkId, ObjectId, Scene, Sign, State, arena, layout::USED_BASES,
+    AgentId, Entity, EventKind, Goal, LandmarkId, ObjectId, Scene, Sign, State, arena, layout::USED_BASES,
+    words::Names,
 };
-use phase_render::Palette;
 use phase_sampler::{Variant, sample_named};
 use serde_json::{Value, json};
 
@@ -28,7 +28,7 @@ pub fn read(scene: &str) -> Result<Scene, String> {
 pub fn describe(scene: &str) -> Result<String, String> {
     let scene = read(scene)?;
     let physics = scene.physics();
-    let goals = AgentId::ALL.map(|agent| Palette::PAPER.goal_text(scene.goals()[agent], agent));
+    let goals = AgentId::ALL.map(|agent| Names::PAPER.wants(scene.goals()[agent], agent));
     let walls: Vec<_> = physics.walls.iter().map(|wall| [wall.a.to_array(), wall.b.to_array()]).collect();
     let canonical: Value = serde_json::from_str(&scene.to_json().map_err(sentence)?).map_err(sentence)?;
     let radii: Vec<f32> = physics.entities().map(|entity| physics.radius(entity)).collect();
@@ -42,7 +42,7 @@ pub fn describe(scene: &str) -> Result<String, String> {
     Ok(description.to_string())
 }
 
-/// What there is to choose from: `kinds` with their `variants`, and the numbers of the `layouts` in use.
+/// Words and choices of the page: `kinds` with their `variants`, the numbers of the `layouts` in use, and the `names` of the bodies.
 #[must_use]
 pub fn choices() -> String {
     let kinds: Vec<_> = EventKind::ALL
@@ -52,7 +52,8 @@ pub fn choices() -> String {
             json!({ "name": kind.name(), "variants": variants })
         })
         .collect();
-    json!({ "kinds": kinds, "layouts": USED_BASES }).to_string()
+    let names = Entity::ALL.map(|entity| Names::PAPER.entity(entity));
+    json!({ "kinds": kinds, "layouts": USED_BASES, "names": names }).to_string()
 }
 
 /// The goals that an agent of a scene with so many objects can have: `goal`, as it stands in scenes, and `words`.
@@ -70,7 +71,7 @@ pub fn goals(agent: AgentId, objects: usize) -> String {
     let flee = Goal::Touch { agent: other, other: agent, sign: Sign::Negative };
     let all = places.flat_map(|goal| [goal, goal.negated()]).chain([chase, flee]);
     let told: Vec<_> =
-        all.map(|goal| json!({ "goal": goal, "words": Palette::PAPER.goal_text(goal, agent) })).collect();
+        all.map(|goal| json!({ "goal": goal, "words": Names::PAPER.wants(goal, agent) })).collect();
     Value::from(told).to_string()
 }
 

@@ -51,7 +51,6 @@ pub mod video;
 pub mod yuv;
 
 mod bodies;
-mod goal_text;
 mod painter;
 
 pub use annotation::{Annotation, Course};

@@ -1,5 +1,7 @@
 //! Colours.
 
+use phase_model::words::Names;
+
 /// An opaque sRGB colour: red, green, blue.
 pub type Colour = [u8; 3];
 
@@ -52,14 +54,10 @@ pub struct Palette {
     pub landmarks: [Colour; 4],
     /// Agents 0 and 1.
     pub agents: [Colour; 2],
-    /// What the agents' colours are called in titles.
-    pub agent_names: [&'static str; 2],
     /// Objects 0 and 1.
     pub objects: [Colour; 2],
-    /// What the landmarks' colours are called.
-    pub landmark_names: [&'static str; 4],
-    /// What the objects' colours are called.
-    pub object_names: [&'static str; 2],
+    /// What these colours are called in captions.
+    pub names: Names,
     /// The shares friendly, adversarial and neutral of a course.
     pub shares: [Colour; SHARES],
     /// Outlines of bodies.
@@ -93,10 +91,8 @@ impl Palette {
             mix_with_white([180, 180, 45], 50),
         ],
         agents: [[235, 20, 20], [20, 190, 20]],
-        agent_names: ["red", "green"],
         objects: [[117, 216, 230], [255, 153, 153]],
-        landmark_names: ["blue", "green", "red", "yellow"],
-        object_names: ["light blue", "pink"],
+        names: Names::PAPER,
         shares: [[111, 173, 101], [204, 97, 85], [190, 190, 190]],
         outline: [40, 40, 40],
         unseen: [110, 110, 120],
@@ -118,10 +114,12 @@ impl Palette {
             mix_with_white([240, 228, 66], 40),
         ],
         agents: [[213, 94, 0], [0, 80, 125]],
-        agent_names: ["vermilion", "blue"],
         objects: [[86, 180, 233], [240, 228, 66]],
-        landmark_names: ["pale blue", "grey", "orange", "pale yellow"],
-        object_names: ["sky blue", "yellow"],
+        names: Names {
+            agents: ["vermilion", "blue"],
+            objects: ["sky blue", "yellow"],
+            landmarks: ["pale blue", "grey", "orange", "pale yellow"],
+        },
         // Blue, orange and grey.
         shares: [[0, 114, 178], [230, 159, 0], [190, 190, 190]],
         ..Self::PAPER

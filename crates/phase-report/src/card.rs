@@ -3,12 +3,11 @@
 
 use crate::features::features;
 use phase_dataset::{
-    describe,
     overview::Overview,
     parquet::{self, FOLDER},
     splits::Split,
 };
-use phase_model::EventKind;
+use phase_model::{EventKind, words};
 
 const PAGE: &str = "| `index.html` | opens in a browser, offline, and shows every video with its labels |\n";
 const VIDEOS: &str = "| `videos/<id>.mp4` | H.264, 20 frames a second, five frames a step |\n\
@@ -117,7 +116,7 @@ fn front_matter(overview: &Overview) -> String {
 
 fn kinds(overview: &Overview) -> String {
     let line = |(&kind, count): (&EventKind, &usize)| {
-        format!("| {} | {count} | {} |\n", kind.name(), describe::kind(kind))
+        format!("| {} | {count} | {} |\n", kind.name(), words::kind(kind))
     };
     let present = EventKind::ALL.iter().filter_map(|kind| overview.kinds.get_key_value(kind));
     present.map(line).collect()

@@ -4,7 +4,6 @@
 //! lengths are fixed.
 
 use phase_dataset::{
-    describe,
     parquet::{self, Description},
     splits::Split,
 };
@@ -29,7 +28,7 @@ fn classes(column: &str) -> Vec<&'static str> {
     match column {
         "kind" => EventKind::ALL.into_iter().map(EventKind::name).collect(),
         "relation" => {
-            [Relation::Friendly, Relation::Neutral, Relation::Adversarial].map(describe::relation).to_vec()
+            [Relation::Friendly, Relation::Neutral, Relation::Adversarial].map(Relation::name).to_vec()
         }
         "split" => Split::ALL.into_iter().map(Split::name).collect(),
         _ => Vec::new(),

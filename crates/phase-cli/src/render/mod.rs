@@ -267,7 +267,7 @@ fn minds(
 ) -> Vec<BeliefFrame> {
     let event = &simulation.event;
     let snapshots = engine::beliefs(event, agent, settings);
-    let colour = palette.agent_names[agent];
+    let colour = palette.names.agents[agent];
     let steps = event.steps.iter().enumerate();
     let mind = |((t, step), snapshot): ((usize, &phase_event::Step), phase_sim::BeliefSnapshot)| {
         let thought = &step.thoughts[agent];

@@ -4,7 +4,8 @@ use crate::error::CliError;
 use core::ops::ControlFlow;
 use phase_event::{MethodError, Recording};
 use phase_model::{
-    AgentId, Attitude, Goal, RelationProbabilities, RoleProbabilities, arena::STEP_VIDEO_SECONDS,
+    AgentId, Attitude, Entity, Goal, RelationProbabilities, RoleProbabilities, arena::STEP_VIDEO_SECONDS,
+    words,
 };
 use phase_render::{Caption, Palette};
 use phase_simple::{Inference, Simple};
@@ -114,10 +115,10 @@ impl Watched {
             self.role(palette),
         ];
         for agent in AgentId::ALL {
-            lines.push(heading(&["P"], format!("the {} agent wants", palette.agent_names[agent])));
+            lines.push(heading(&["P"], format!("the {} wants", palette.names.entity(Entity::Agent(agent)))));
             let goals = self.goals[agent].iter().map(|share| Caption {
                 cells: vec![format!("{:.2}", share.p)],
-                text: palette.goal_label(share.goal, agent),
+                text: palette.names.wants_briefly(share.goal, agent),
                 bar: share.p as f32,
             });
             lines.extend(goals.chain(core::iter::repeat_with(Caption::default)).take(GOALS));
@@ -127,14 +128,15 @@ impl Watched {
 
     /// The likeliest of the four roles.
     fn role(&self, palette: &Palette) -> Caption {
-        let of = |agent: AgentId, attitude, verb| (self.roles.of(agent, attitude), agent, verb);
+        let of =
+            |agent: AgentId, attitude| (self.roles.of(agent, attitude), agent, words::attitude(attitude));
         let roles = AgentId::ALL
             .into_iter()
-            .flat_map(|agent| [of(agent, Attitude::Help, "helps"), of(agent, Attitude::Hinder, "hinders")]);
+            .flat_map(|agent| [Attitude::Help, Attitude::Hinder].map(|it| of(agent, it)));
         let Some((p, agent, verb)) = roles.max_by(|a, b| a.0.total_cmp(&b.0)) else {
             return Caption::default();
         };
-        let [who, whom] = [agent, agent.other()].map(|agent| palette.agent_names[agent]);
+        let [who, whom] = [agent, agent.other()].map(|agent| palette.names.agents[agent]);
         Caption { cells: vec![format!("{p:.2}")], text: format!("{who} {verb} {whom}"), bar: p as f32 }
     }
 

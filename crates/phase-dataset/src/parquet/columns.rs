@@ -4,7 +4,6 @@ use super::{
     column::{Column, Description, TypedColumn},
     row::{goal_kind, goal_other, number},
 };
-use crate::describe;
 use phase_model::{LandmarkId, arena};
 
 /// What every column holds, in the files' order.
@@ -144,10 +143,11 @@ fn labels() -> Vec<Box<dyn Column>> {
             "in what manner one helps or hinders the other or the two meet, by what is seen; may be empty",
             |row| row.entry.manners.iter().map(|manner| manner.name().to_owned()).collect::<Vec<_>>()
         ),
-        ("relation", "", "string", "", "`friendly`, `adversarial` or `neutral`", |row| describe::relation(
-            row.recording.relation
-        )
-        .to_owned()),
+        ("relation", "", "string", "", "`friendly`, `adversarial` or `neutral`", |row| row
+            .recording
+            .relation
+            .name()
+            .to_owned()),
         ("alpha", "[2]", "int32", "", "social utility weight: 1 helps, -1 hinders, 0 neither", |row| row
             .of_agents(|agent| i32::from(agent.attitude.alpha()))),
         ("goal", "[2]", "string", "", "the goal in words, colours as in the video", |row| row.goal_words()),

@@ -1,8 +1,8 @@
 //! One event as the values of its columns.
 
-use crate::{describe, manifest::EventEntry};
+use crate::{NAMES, manifest::EventEntry};
 use phase_event::{Event, Recording, Simulation, Step, pairs_in_contact, substep_row};
-use phase_model::{AGENT_COUNT, AgentId, AgentSpec, Goal, ObjectId, State};
+use phase_model::{AGENT_COUNT, AgentId, AgentSpec, Goal, ObjectId, State, words};
 
 /// An event, with what the manifest states about its file.
 pub(super) struct Row<'a> {
@@ -27,7 +27,7 @@ impl Row<'_> {
     /// The goals as the end of the sentence "it wants to …".
     pub(super) fn goal_words(&self) -> Vec<String> {
         let goals = AgentId::ALL.into_iter().zip(self.recording.scene.goals());
-        goals.map(|(agent, goal)| describe::plain(&describe::goal(agent, goal))).collect()
+        goals.map(|(agent, goal)| NAMES.plain(&words::wants_to(goal, agent))).collect()
     }
 
     pub(super) fn walls(&self) -> Vec<Vec<f32>> {

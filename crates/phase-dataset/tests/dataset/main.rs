@@ -3,7 +3,6 @@
 mod boxes;
 mod composition;
 mod croissant;
-mod describe;
 mod event_cache;
 mod import_pik;
 mod import_socialgnn;

@@ -13,7 +13,7 @@ use crate::{
     message::PROTOCOL,
 };
 use core::time::Duration;
-use phase_model::{AGENT_COUNT, Action, AgentId, Goal, PhysicsConfig, Sign};
+use phase_model::{AGENT_COUNT, Action, AgentId, Entity, Goal, PhysicsConfig, Sign, words::Names};
 use phase_predicates::achieved;
 use phase_sim::{Simulation, SimulationError, SimulationSettings};
 
@@ -195,6 +195,7 @@ impl Room {
         let welcome = ToPlayer::Welcome {
             protocol: PROTOCOL,
             agent,
+            you: Names::PAPER.entity(Entity::Agent(agent)),
             view: self.settings.view,
             mind: self.settings.players[other] == Player::Mind,
             step_ms: STEP.as_millis() as u64,

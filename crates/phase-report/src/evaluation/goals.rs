@@ -2,7 +2,6 @@
 
 use super::{BESIDE, Subject, bars_beside, cost, share};
 use crate::published;
-use phase_dataset::describe;
 use phase_document::{
     document::{Block, Document, head},
     plot::{Axis, Series, line_chart},
@@ -211,11 +210,11 @@ fn watched_plot(groups: &[GroupScores<RecognitionScores>]) -> Block {
 }
 
 fn confusion(summary: &RecognitionSummary) -> Block {
-    let row = |(right, counts): (_, &[usize; RELATIONS.len()])| {
+    let row = |(right, counts): (phase_model::Relation, &[usize; RELATIONS.len()])| {
         let counts = counts.iter().map(ToString::to_string);
-        [describe::relation(right).to_owned()].into_iter().chain(counts).collect()
+        [right.name().to_owned()].into_iter().chain(counts).collect()
     };
-    let said = RELATIONS.map(|relation| format!("taken for {}", describe::relation(relation)));
+    let said = RELATIONS.map(|relation| format!("taken for {}", relation.name()));
     Block::Table {
         head: ["made to show".to_owned()].into_iter().chain(said).collect(),
         rows: RELATIONS.into_iter().zip(&summary.confusion).map(row).collect(),

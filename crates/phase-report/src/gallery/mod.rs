@@ -6,13 +6,15 @@ mod timeline;
 pub use timeline::Timeline;
 
 use phase_dataset::{
-    describe::{self, Fragment},
+    NAMES,
     event_set::set_video_path,
     manifest::{AgentEntry, EventEntry, PAGE_FILE},
 };
 use phase_document::markup::{escape, escape_script};
 use phase_model::{
-    AgentId, Attitude, Entity, Goal, ObjectId, Sign, Size, Strength, arena::STEP_VIDEO_SECONDS,
+    AgentId, Attitude, Entity, Goal, ObjectId, Sign, Size, Strength,
+    arena::STEP_VIDEO_SECONDS,
+    words::{self, Fragment},
 };
 use std::{collections::BTreeMap, fmt::Write as _};
 
@@ -54,7 +56,7 @@ impl PageSummary {
     pub fn of(events: &[EventEntry]) -> Option<Self> {
         let mut relations = BTreeMap::new();
         for event in events {
-            *relations.entry(describe::relation(event.relation)).or_default() += 1;
+            *relations.entry(event.relation.name()).or_default() += 1;
         }
         Some(Self { range: [events.first()?.id.clone(), events.last()?.id.clone()], relations })
     }
@@ -161,7 +163,7 @@ fn filters(events: &[EventEntry]) -> String {
     let keys: [(&str, Values); 6] = [
         ("kind", |event| vec![event.kind.name().into()]),
         ("manner", |event| manners(event).map(Into::into).collect()),
-        ("relation", |event| vec![describe::relation(event.relation).into()]),
+        ("relation", |event| vec![event.relation.name().into()]),
         ("goal", goals),
         ("stance", stance),
         ("split", |event| vec![event.split().name().into()]),
@@ -193,7 +195,7 @@ fn manners(event: &EventEntry) -> impl Iterator<Item = &'static str> {
 /// The distinct goals of an event's agents.
 fn goals(event: &EventEntry) -> Vec<String> {
     let text = |agent: &AgentEntry| {
-        let landmark = agent.goal.landmark().map_or("", describe::landmark);
+        let landmark = agent.goal.landmark().map_or_else(String::new, |it| NAMES.landmark_and_place(it));
         let on = if agent.goal.sign() == Sign::Positive { "on" } else { "off" };
         match agent.goal {
             Goal::AgentOnLandmark { .. } => format!("agent {on} {landmark}"),
@@ -212,7 +214,7 @@ fn card(event: &EventEntry) -> String {
     let agents: String = AgentId::ALL.into_iter().map(|who| agent(who, &event.agents[who])).collect();
     let mut things = String::new();
     for (object, &level) in ObjectId::ALL.into_iter().zip(&event.object_size_levels) {
-        let size = Size::from_level(level).map_or("", describe::size);
+        let size = Size::from_level(level).map_or("", Size::name);
         let _ = write!(things, "{} {size} · ", chip(Fragment::Entity(Entity::Object(object))));
     }
     let flip = event.layout.flip.map_or_else(String::new, |flip| format!(", flip {flip}"));
@@ -241,7 +243,7 @@ fn card(event: &EventEntry) -> String {
          <ul class=\"agents\">\n{agents}</ul>\n\
          <p class=\"meta\">{things}layout {base}{flip} · {steps} steps, {seconds:.1} s · \
          <a href=\"{json}\">data</a>{beside}</p>\n</article>\n",
-        relation = describe::relation(event.relation),
+        relation = event.relation.name(),
         split = event.split().name(),
         goals = escape(&goals(event).join("|")),
         manners = manners(event).collect::<Vec<_>>().join("|"),
@@ -249,7 +251,7 @@ fn card(event: &EventEntry) -> String {
         beside = event.set.as_ref().filter(|_| event.video.is_some()).map_or_else(String::new, |place| {
             format!(" · <a href=\"{}\">its set side by side</a>", escape(&set_video_path(&place.set)))
         }),
-        what = escape(describe::kind(event.kind)),
+        what = escape(words::kind(event.kind)),
         video = event.video.as_ref().map_or_else(String::new, |video| escape(video.path.as_str())),
         buttons = buttons.concat(),
         json = escape(event.event.path.as_str()),
@@ -260,15 +262,15 @@ fn card(event: &EventEntry) -> String {
 }
 
 fn agent(who: AgentId, agent: &AgentEntry) -> String {
-    let size = Size::from_level(agent.size_level).map_or("", describe::size);
-    let strength = Strength::from_level(agent.strength_level).map_or("", describe::strength);
+    let size = Size::from_level(agent.size_level).map_or("", Size::name);
+    let strength = Strength::from_level(agent.strength_level).map_or("", Strength::name);
     let other = chip(Fragment::Entity(Entity::Agent(who.other())));
     let attitude = Attitude::try_from(agent.alpha).unwrap_or_default();
     let stance = match attitude {
         Attitude::Neutral => String::new(),
-        social => format!(" <strong>{}</strong> {other}:", describe::attitude(social)),
+        social => format!(" <strong>{}</strong> {other}:", words::attitude(social)),
     };
-    let goal: String = describe::goal(who, agent.goal).into_iter().map(chip).collect();
+    let goal: String = words::wants_to(agent.goal, who).into_iter().map(chip).collect();
     let outcome = match (agent.reached, agent.steps_to_goal) {
         (true, Some(steps)) => {
             format!("<span class=\"yes\">done after {:.1} s</span>", steps as f64 * STEP_VIDEO_SECONDS)
@@ -290,17 +292,11 @@ fn agent(who: AgentId, agent: &AgentEntry) -> String {
 
 /// A piece of a sentence as HTML; what has a colour in the video has it here.
 fn chip(piece: Fragment) -> String {
-    let (class, text) = match piece {
+    let class = match piece {
         Fragment::Text(text) => return escape(text),
-        Fragment::Entity(Entity::Agent(agent)) => {
-            (format!("agent agent{agent}"), describe::entity(Entity::Agent(agent)))
-        }
-        Fragment::Entity(Entity::Object(object)) => {
-            (format!("object object{object}"), describe::entity(Entity::Object(object)))
-        }
-        Fragment::Landmark(landmark) => {
-            (format!("landmark landmark{landmark}"), describe::landmark(landmark))
-        }
+        Fragment::Entity(Entity::Agent(agent)) => format!("agent agent{agent}"),
+        Fragment::Entity(Entity::Object(object)) => format!("object object{object}"),
+        Fragment::Landmark(landmark) => format!("landmark landmark{landmark}"),
     };
-    format!("<span class=\"chip {class}\">{}</span>", escape(text))
+    format!("<span class=\"chip {class}\">{}</span>", escape(&NAMES.plain(&[piece])))
 }

@@ -1,12 +1,7 @@
 //! Goals in the words of the form.
 
-use phase_model::{AgentId, Attitude, Goal, Sign};
+use phase_model::{AgentId, Attitude, Goal, Sign, words::Names};
 use std::collections::BTreeSet;
-
-/// Colours of the landmarks, 0 to 3, as videos show them.
-const LANDMARKS: [&str; 4] = ["blue", "green", "red", "yellow"];
-/// Colours of the objects, 0 and 1.
-const OBJECTS: [&str; 2] = ["light blue", "pink"];
 
 /// The answers about the goals of both agents that are right. An agent who helps or hinders may be said to, or to have the goal that
 /// follows. `None` where the form has no words for a goal: to stay off a landmark.
@@ -27,12 +22,13 @@ pub fn known_goals(goals: [Goal; 2], attitudes: [Attitude; 2]) -> Option<[BTreeS
 
 /// A goal about the agent's own place, an object or the other agent.
 fn physical(goal: Goal, whose: AgentId) -> Option<String> {
+    let Names { objects, landmarks, .. } = Names::PAPER;
     match goal {
         Goal::AgentOnLandmark { agent, landmark, sign: Sign::Positive } if agent == whose => {
-            Some(format!("agent on {}", LANDMARKS[landmark.index()]))
+            Some(format!("agent on {}", landmarks[landmark.index()]))
         }
         Goal::ObjectOnLandmark { object, landmark, sign: Sign::Positive } => {
-            Some(format!("{} on {}", OBJECTS[object.index()], LANDMARKS[landmark.index()]))
+            Some(format!("{} on {}", objects[object.index()], landmarks[landmark.index()]))
         }
         Goal::Touch { sign: Sign::Positive, .. } => Some("touch".into()),
         Goal::Touch { sign: Sign::Negative, .. } => Some("get away".into()),

@@ -94,9 +94,9 @@ fn goals_have_the_words_of_form_and_video() {
         let choice =
             choices(0).into_iter().find(|choice| choice.value == *word).expect("a choice of the form");
         // The palette tells what videos show: colours must be the same.
-        let shown = palette.goal_text(goal, AgentId::ZERO);
+        let shown = palette.names.wants(goal, AgentId::ZERO);
         let colours: Vec<&str> =
-            palette.object_names.iter().copied().filter(|name| shown.contains(name)).collect();
+            palette.names.objects.iter().copied().filter(|name| shown.contains(name)).collect();
         assert!(colours.iter().all(|colour| choice.text.contains(colour)), "{shown}: {}", choice.text);
         let place = shown.rsplit(" on ").next().expect("a place").trim_start_matches("the ");
         assert!(choice.text.ends_with(place), "{shown}: {}", choice.text);

@@ -194,7 +194,7 @@ function tell(practice) {
   const told = [];
   if (result && !practice) told.push(paragraph(`Last round: your goal was ${result[welcome.agent] ? "reached" : "not reached"} at the end.`, "small"));
   if (practice) {
-    told.push(paragraph(`You move the ${welcome.agent === 0 ? "red" : "green"} agent.`, "you"));
+    told.push(paragraph(`You move the ${welcome.you}.`, "you"));
     if (welcome.view === "own") told.push(paragraph("You see only what your agent sees: what lies ahead of its eyes and is not hidden by walls or bodies, and what it touches. Everything else is covered in grey, and others are drawn only while they are seen."));
     told.push(paragraph("Try to move, to turn, and to grab an object and carry it. There is no goal yet."));
   } else {

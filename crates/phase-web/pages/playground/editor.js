@@ -1,7 +1,6 @@
 // The form of a scene. It holds the scene as it stands in files and says when somebody has changed it.
 import { choices, describeScene, goals } from "./phase.js";
 
-const NAMES = ["red agent", "green agent"];
 const RADII = [0.8, 1.2, 1.6, 1.01];
 const FORCES = [150, 300, 450, 600];
 const ATTITUDES = [["1", "helps the other"], ["0", "minds its own goal"], ["-1", "hinders the other"]];
@@ -42,7 +41,8 @@ export class Editor {
   constructor(changed, complain) {
     this.#changed = changed;
     this.#complain = complain;
-    const { kinds, layouts } = JSON.parse(choices());
+    const { kinds, layouts, names } = JSON.parse(choices());
+    this.names = names;
     byId("kind").replaceChildren(...kinds.map((kind) => new Option(kind.name)));
     const variants = () => {
       const kind = kinds.find((it) => it.name === byId("kind").value);
@@ -187,7 +187,7 @@ export class Editor {
     const fieldset = document.createElement("fieldset");
     fieldset.className = `agent-${agent}`;
     const legend = document.createElement("legend");
-    legend.textContent = `The ${NAMES[agent]}`;
+    legend.textContent = `The ${this.names[agent]}`;
     fieldset.append(legend, grid);
     return fieldset;
   }
@@ -197,7 +197,7 @@ export class Editor {
     const size = this.#field(select(RADII.map((radius, level) => [level, `${radius} u`]), spec.size_level), `size-${k + 2}`, (scene, value) => {
       Object.assign(scene.objects[k], { size_level: Number(value), radius: RADII[value] });
     });
-    return [labelled(k === 0 ? "First object (light blue)" : "Second object (pink)", size), ...this.#place(k + 2)];
+    return [labelled(`Size of the ${this.names[k + 2]}`, size), ...this.#place(k + 2)];
   }
 }
 

@@ -1,6 +1,8 @@
 // What is thought and inferred, as lists with meters. Text is set as text, never as HTML.
 
-const NAMES = ["red agent", "green agent"];
+import { choices } from "./phase.js";
+
+const names = () => JSON.parse(choices()).names;
 
 function element(name, attributes = {}, ...children) {
   const made = document.createElement(name);
@@ -16,8 +18,8 @@ function share(label, value, text = `${Math.round(100 * value)} %`) {
 }
 
 function two(of) {
-  const agents = [0, 1].map((agent) =>
-    element("div", {}, element("h2", { className: `agent-${agent}`, textContent: NAMES[agent] }), ...of(agent)));
+  const agents = names().slice(0, 2).map((textContent, agent) =>
+    element("div", {}, element("h2", { className: `agent-${agent}`, textContent }), ...of(agent)));
   return element("div", { className: "two" }, ...agents);
 }
 
