@@ -6,12 +6,12 @@ use phase_model::{
     Action, AgentId, Body, BodySet, Contacts, Entity, Grip, MAX_ENTITIES, ObjectId, PhysicsConfig, Scene,
     Side, State, Vec2,
     random::{Pcg64Mcg, Purpose, stream},
+    words::Names,
 };
 use phase_perception::{
     CellSet, Observation,
     cells::{CELL_COUNT, Cell},
 };
-use phase_render::Palette;
 use serde_json::Value;
 
 /// An agent of a scene that observes what the server tells it.
@@ -37,7 +37,7 @@ impl Player {
         let scene = &scenes
             .iter()
             .find(|item| {
-                let told = Instructions::new(&item.scene, agent, &Palette::PAPER);
+                let told = Instructions::new(&item.scene, agent, &Names::PAPER);
                 serde_json::to_value(told).is_ok_and(|told| told == stage["instructions"])
             })?
             .scene;
