@@ -2,6 +2,7 @@
 
 use crate::{Hypothesis, ImaginedAgents, Posterior, ReportModel, impression::Impression};
 use phase_model::Judgement;
+use phase_statistics::{log_softmax, log_sum_exp};
 
 /// The result of an inference.
 #[derive(Clone, PartialEq, Debug)]
@@ -47,22 +48,20 @@ pub(crate) struct KindEvidence {
     pub(crate) log_evidence: f64,
 }
 
-/// ln Σ e^x.
-pub(crate) fn log_sum(joint: &[(Hypothesis, f64)]) -> f64 {
-    let greatest = joint.iter().map(|it| it.1).fold(f64::NEG_INFINITY, f64::max);
-    greatest + libm::log(joint.iter().map(|it| libm::exp(it.1 - greatest)).sum())
+/// ln Σ P(Y) P(motion | Y), from the logarithms.
+pub(crate) fn log_evidence(joint: &[(Hypothesis, f64)]) -> f64 {
+    log_sum_exp(joint.iter().map(|(_, log)| *log))
 }
 
 /// The posterior averaged over kinds of minds with an even prior, and the probability of each kind.
 pub(crate) fn mixture(kinds: &[KindEvidence]) -> (Posterior, Vec<f64>) {
-    let greatest = kinds.iter().map(|kind| kind.log_evidence).fold(f64::NEG_INFINITY, f64::max);
-    let total: f64 = kinds.iter().map(|kind| libm::exp(kind.log_evidence - greatest)).sum();
-    let share = |kind: &KindEvidence| kind.log_evidence - greatest - libm::log(total);
-    let weighted = kinds.iter().flat_map(|kind| {
-        let shift = share(kind) - log_sum(&kind.joint);
+    let mut shares: Vec<f64> = kinds.iter().map(|kind| kind.log_evidence).collect();
+    log_softmax(&mut shares);
+    let weighted = kinds.iter().zip(&shares).flat_map(|(kind, share)| {
+        let shift = share - log_evidence(&kind.joint);
         kind.joint.iter().map(move |&(hypothesis, log)| (hypothesis, log + shift))
     });
-    (Posterior::new(weighted), kinds.iter().map(|kind| libm::exp(share(kind))).collect())
+    (Posterior::new(weighted), shares.iter().map(|share| libm::exp(*share)).collect())
 }
 
 /// The answer of all kinds of minds together.

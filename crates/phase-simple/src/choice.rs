@@ -23,6 +23,7 @@ use crate::{
 use phase_event::Thought;
 use phase_model::{AGENT_COUNT, Action, AgentId};
 use phase_pomcp::PomcpError;
+use phase_statistics::softmax;
 
 /// Number of choices. The direction of a turn carries little information, and none in recordings of the published
 /// simulator, in which all turns are left turns; the two turns are therefore one choice.
@@ -85,9 +86,8 @@ pub(crate) fn likelihoods_in(
             argmin[place] = argmin[place].min(f64::from(residuals[action.index()]));
         }
         let best = argmin.iter().copied().fold(f64::INFINITY, f64::min);
-        let weights = argmin.map(|residual| libm::exp((best - residual) / tolerance));
-        let sum: f64 = weights.iter().sum();
-        weights.map(|weight| weight / sum)
+        // Differences from the best are taken before they are scaled, where they are exact.
+        softmax(argmin.map(|residual| (best - residual) / tolerance))
     })
 }
 

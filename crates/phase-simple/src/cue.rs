@@ -3,6 +3,7 @@
 
 use phase_model::{AgentId, Body, Entity, Goal, MAX_ENTITIES, Sign, State, arena};
 use phase_predicates::threshold::ON_OBJECT;
+use phase_statistics::log_softmax;
 
 /// Separation at which an avoidance goal counts as satisfied (u).
 const SAFE_DISTANCE: f32 = 14.0;
@@ -39,21 +40,8 @@ pub fn log_proposal(goals: &[Goal], agent: AgentId, rows: &[[Body; MAX_ENTITIES]
     };
     let (before, after) = (State::new(*first), State::new(*last));
     let left = |goal: &Goal, state: &State| f64::from(distance_left(*goal, agent, state));
-    let logs = goals.iter().map(|goal| -gamma * (2.0 * left(goal, &after) - left(goal, &before))).collect();
-    normalised(logs)
-}
-
-/// Normalises log-weights to log-probabilities.
-pub(crate) fn normalised(mut logs: Vec<f64>) -> Vec<f64> {
-    normalise(&mut logs);
+    let log = |goal: &Goal| -gamma * (2.0 * left(goal, &after) - left(goal, &before));
+    let mut logs: Vec<f64> = goals.iter().map(log).collect();
+    log_softmax(&mut logs);
     logs
-}
-
-/// The same in place.
-pub(crate) fn normalise(logs: &mut [f64]) {
-    let greatest = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    // Relative to the maximum: beside thousands a logarithm of a few would lose its digits.
-    logs.iter_mut().for_each(|log| *log -= greatest);
-    let whole = libm::log(logs.iter().map(|log| libm::exp(*log)).sum());
-    logs.iter_mut().for_each(|log| *log -= whole);
 }

@@ -8,6 +8,7 @@ use phase_model::{
     random::{self, Purpose},
 };
 use phase_pomcp::PomcpError;
+use phase_statistics::mean;
 use rand::RngExt;
 
 /// Iterations of Weiszfeld's algorithm.
@@ -135,9 +136,8 @@ impl Continuation {
     /// The weight of its futures together, on a logarithmic scale and not normalised: the posterior's, and what the hindcasts say.
     #[must_use]
     pub fn log_weight(&self, settings: &ForecastSettings) -> f64 {
-        let errors = &self.hindcast_errors;
-        let mean = errors.iter().sum::<f64>() / errors.len().max(1) as f64;
-        settings.inverse_temperature * libm::log(self.weight) - settings.hindcast_error_rate * mean
+        let error = mean(&self.hindcast_errors).unwrap_or_default();
+        settings.inverse_temperature * libm::log(self.weight) - settings.hindcast_error_rate * error
     }
 }
 

@@ -5,6 +5,7 @@
 
 use crate::{
     Hypothesis, Intent, IntentNetwork, Posterior,
+    answer::log_evidence,
     intent::{WeightedIntents, joint_logs},
     physical_goals,
 };
@@ -102,9 +103,7 @@ impl Guess {
         if joint.is_empty() {
             return self.posterior.hypotheses.iter().map(|&(it, weight)| (it, libm::log(weight))).collect();
         }
-        let greatest = joint.iter().map(|it| it.1).fold(f64::NEG_INFINITY, f64::max);
-        let sum: f64 = joint.iter().map(|it| libm::exp(it.1 - greatest)).sum();
-        let scale = greatest + libm::log(sum) - libm::log((1.0 - share).max(f64::MIN_POSITIVE));
+        let scale = log_evidence(&joint) - libm::log((1.0 - share).max(f64::MIN_POSITIVE));
         let rest: Vec<_> = others()
             .filter(|(_, weight)| *weight > 0.0)
             .map(|(hypothesis, weight)| (*hypothesis, libm::log(*weight) + scale))

@@ -3,7 +3,7 @@
 use crate::{
     AlternativeAgents, Budget, Guidance, Guide, ImaginedAgents, InversePlanningSettings, Proposal,
     UniformStrength,
-    answer::{Inference, KindEvidence, average, log_sum, mixture},
+    answer::{Inference, KindEvidence, average, log_evidence, mixture},
     generative::PreparedEvent,
     guide::Guess,
     impression::Impression,
@@ -78,7 +78,7 @@ impl Planners {
         let one = |planner: &InversePlanner| {
             let joint = planner.weighted_after(decisions, guess, None);
             let compared = self.comparison.map(|lapse| planner.weighted_after(decisions, guess, Some(lapse)));
-            let log_evidence = log_sum(compared.as_ref().unwrap_or(&joint));
+            let log_evidence = log_evidence(compared.as_ref().unwrap_or(&joint));
             KindEvidence { joint, log_evidence }
         };
         self.planners.iter().map(one).collect()

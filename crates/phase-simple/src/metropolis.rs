@@ -2,12 +2,13 @@
 //! event.
 
 use crate::{
-    ChainSettings, Hypothesis, Proposal, Update, cue::normalised, generative::PreparedEvent,
-    proposal::sample_index, simulations::Simulations, strength::StrengthCue,
+    ChainSettings, Hypothesis, Proposal, Update, generative::PreparedEvent, proposal::sample_index,
+    simulations::Simulations, strength::StrengthCue,
 };
 use core::ops::{ControlFlow, RangeInclusive};
 use phase_model::random::Pcg64Mcg;
 use phase_pomcp::PomcpError;
+use phase_statistics::log_softmax;
 use rand::RngExt;
 
 /// The log-likelihood that a proposal must exceed to be accepted, known before it has been simulated: ln P(s
@@ -78,10 +79,13 @@ impl Chains<'_, '_> {
         if self.settings.update != Update::Local {
             return None;
         }
-        let (window, deviations) = (self.settings.window, simulations.deviations(current)?);
+        let window = self.settings.window;
+        let deviations = simulations.deviations(current)?;
         let starts = deviations.len().saturating_sub(window) + 1;
         let sums = (0..starts).map(|start| deviations.iter().skip(start).take(window).sum::<f64>());
-        let start = sample_index(&normalised(sums.map(|sum| self.settings.eta * sum).collect()), random);
+        let mut logs: Vec<f64> = sums.map(|sum| self.settings.eta * sum).collect();
+        log_softmax(&mut logs);
+        let start = sample_index(&logs, random);
         Some(start..=start + window)
     }
 }

@@ -4,6 +4,7 @@ use crate::Hypothesis;
 use phase_model::{
     AGENT_COUNT, AgentId, Attitude, Goal, Judgement, Relation, RelationProbabilities, RoleProbabilities,
 };
+use phase_statistics::log_softmax;
 use std::collections::BTreeMap;
 
 /// Weighted hypotheses; the weights are not negative and sum to 1 unless there are none.
@@ -18,7 +19,8 @@ impl Posterior {
     #[must_use]
     pub fn new(particles: impl IntoIterator<Item = (Hypothesis, f64)>) -> Self {
         let particles: Vec<_> = particles.into_iter().collect();
-        let logs = crate::cue::normalised(particles.iter().map(|(_, log)| *log).collect());
+        let mut logs: Vec<f64> = particles.iter().map(|(_, log)| *log).collect();
+        log_softmax(&mut logs);
         let mut weights: BTreeMap<Hypothesis, f64> = BTreeMap::new();
         for ((hypothesis, _), log) in particles.iter().zip(logs) {
             *weights.entry(*hypothesis).or_default() += libm::exp(log);

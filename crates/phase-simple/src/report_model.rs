@@ -2,6 +2,7 @@
 
 use crate::impression::{HAPPENINGS, Impression, Interaction};
 use phase_model::RelationProbabilities;
+use phase_statistics::softmax;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -95,10 +96,7 @@ impl ReportModel {
             let weighted = self.weights[report].iter().zip(&standardised).map(|(weight, it)| weight * it);
             self.intercepts[report] + weighted.sum::<f64>()
         });
-        let greatest = logits.into_iter().fold(f64::NEG_INFINITY, f64::max);
-        let odds = logits.map(|logit| libm::exp(logit - greatest));
-        let sum: f64 = odds.iter().sum();
-        let [friendly, adversarial, neutral] = odds.map(|odds| odds / sum);
+        let [friendly, adversarial, neutral] = softmax(logits);
         RelationProbabilities { friendly, adversarial, neutral }
     }
 }

@@ -7,6 +7,7 @@
 //! - [`pearson`] and [`spearman`] correlations, and [`spearman_brown`] for the reliability of a whole.
 //! - [`krippendorff_alpha`] for the agreement of raters, [`standard_deviation`] of a sample.
 //! - [`fisher_exact_greater`] to compare two proportions.
+//! - [`log_sum_exp`], [`log_softmax`], [`softmax`] and [`logistic`] between probabilities and their logarithms; [`entropy`].
 //!
 //! Key design decision: every function takes plain slices and counts and names its definition. Nine quantile
 //! definitions and half a dozen intervals for a proportion are in use, and two reports are comparable only if
@@ -38,6 +39,7 @@ mod bootstrap;
 mod correlation;
 mod fisher;
 mod interval;
+mod logarithms;
 mod mean;
 mod proportion;
 mod quantile;
@@ -47,6 +49,7 @@ pub use bootstrap::{bootstrap, bootstrap_difference, bootstrap_mean};
 pub use correlation::{pearson, spearman, spearman_brown};
 pub use fisher::fisher_exact_greater;
 pub use interval::Interval;
+pub use logarithms::{entropy, log_softmax, log_sum_exp, logistic, softmax};
 pub use mean::{mean, standard_deviation, standard_error};
 pub use proportion::wilson_interval;
 pub use quantile::{median, percentile, quartiles};

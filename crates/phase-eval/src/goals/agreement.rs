@@ -10,7 +10,7 @@ use phase_model::{
     RelationProbabilities,
     random::{Pcg64Mcg, Purpose, stream},
 };
-use phase_statistics::{bootstrap, mean, pearson, spearman, spearman_brown};
+use phase_statistics::{bootstrap, entropy, mean, pearson, spearman, spearman_brown};
 use rand::seq::SliceRandom;
 use serde::{Deserialize, Serialize};
 
@@ -179,10 +179,6 @@ fn cross_entropy(people: &Shares, said: &Shares) -> f64 {
     let uniform = 1.0 / people.len() as f64;
     let log = |p: f64| libm::log((1.0 - UNIFORM_SHARE) * p + UNIFORM_SHARE * uniform);
     -people.iter().zip(said).map(|(h, p)| h * log(*p)).sum::<f64>()
-}
-
-fn entropy(shares: &Shares) -> f64 {
-    -shares.iter().filter(|share| **share > 0.0).map(|share| share * libm::log(*share)).sum::<f64>()
 }
 
 /// The Euclidean distances between every two events.

@@ -3,6 +3,7 @@
 use super::SampleErrors;
 use phase_event::MethodError;
 use phase_model::{AGENT_COUNT, EventKind, Forecast, Relation, Vec2};
+use phase_statistics::mean;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use thiserror::Error;
@@ -102,7 +103,7 @@ impl Errors {
                 *sum += a.as_dvec2().distance(b.as_dvec2()) / truth.len() as f64;
             }
         }
-        let ade = by_step.iter().sum::<f64>() / steps as f64;
+        let ade = mean(&by_step).unwrap_or_default();
         Self { ade, fde: by_step.last().copied().unwrap_or_default(), by_step }
     }
 }

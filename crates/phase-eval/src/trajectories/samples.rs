@@ -2,6 +2,7 @@
 
 use super::{Errors, ForecastError};
 use phase_model::{AGENT_COUNT, Forecast};
+use phase_statistics::mean;
 use serde::{Deserialize, Serialize};
 
 /// Scores of equally likely futures of the two agents (u).
@@ -43,7 +44,7 @@ impl SampleErrors {
                     .collect()
             });
             let errors: Vec<Vec<f64>> = errors.collect();
-            let ades = || errors.iter().map(|by_step| by_step.iter().sum::<f64>() / steps);
+            let ades = || errors.iter().filter_map(|by_step| mean(by_step));
             let fdes = || errors.iter().filter_map(|by_step| by_step.last().copied());
             min_ade += ades().fold(f64::INFINITY, f64::min);
             min_fde += fdes().fold(f64::INFINITY, f64::min);

@@ -9,6 +9,7 @@ use crate::{
 };
 use phase_event::ObservedEvent;
 use phase_model::{AGENT_COUNT, AgentId, Attitude, Body, MAX_ENTITIES, Strength};
+use phase_statistics::logistic;
 use std::sync::Arc;
 
 /// Outputs for a goal: its owner pursues it, the other helps the owner, the other hinders it.
@@ -97,10 +98,10 @@ impl IntentNetwork {
         inputs.extend_from_slice(&state.output);
         let gates = self.memory.apply(&inputs);
         for k in 0..units {
-            let input = sigmoid(gates[k]);
+            let input = logistic(gates[k]);
             // The forget gate has an additional bias of 1, as in training.
-            let forget = sigmoid(gates[units + k] + 1.0);
-            let (new, output) = (libm::tanh(gates[2 * units + k]), sigmoid(gates[3 * units + k]));
+            let forget = logistic(gates[units + k] + 1.0);
+            let (new, output) = (libm::tanh(gates[2 * units + k]), logistic(gates[3 * units + k]));
             state.cell[k] = forget * state.cell[k] + input * new;
             state.output[k] = output * libm::tanh(state.cell[k]);
         }
@@ -136,8 +137,4 @@ impl IntentReader {
             own.chain(help).chain(of(agent.other(), Attitude::Hinder, 2)).collect()
         })
     }
-}
-
-fn sigmoid(number: f64) -> f64 {
-    1.0 / (1.0 + libm::exp(-number))
 }

@@ -3,6 +3,7 @@
 use super::{FEATURES, StrengthCue, UniformStrength, Weights, WeightsError, features};
 use crate::dense::relu;
 use phase_model::{AgentId, Body, MAX_ENTITIES, Size, Strength};
+use phase_statistics::log_softmax;
 
 /// Estimates an agent's maximum force from its speeds and accelerations.
 ///
@@ -84,7 +85,7 @@ impl StrengthCue for StrengthRegressor {
             let force = f64::from(strength.max_force());
             (force - MEAN_FORCE) * (2.0 * estimate - force - MEAN_FORCE) / (2.0 * variance)
         });
-        crate::cue::normalise(&mut logs);
+        log_softmax(&mut logs);
         logs
     }
 }

@@ -183,7 +183,7 @@ impl KnownFutures {
 
     /// What the learnt forecaster gains or loses against the hypotheses by the error of its hindcasts.
     fn learnt_factor(&self, continuations: &[Continuation], settings: &ForecastSettings) -> f64 {
-        let mean = |errors: &[f64]| errors.iter().sum::<f64>() / errors.len().max(1) as f64;
+        let mean = |errors: &[f64]| phase_statistics::mean(errors).unwrap_or_default();
         let (mut sum, mut total) = (0.0, 0.0);
         for continuation in continuations {
             let weight = libm::exp(continuation.log_weight(settings));

@@ -1,6 +1,7 @@
 //! How long what a decision tells stays the same.
 
 use super::{subject::Subject, weights::Weights};
+use phase_statistics::mean;
 
 /// The integrated autocorrelation time (steps) of the log likelihood ratio of every other intent and the true one, over all
 /// agents, kinds of minds and events: 1 + 2 Σ ρ(k) decisions, where the sum ends before the first ρ(k) below 0 (Sokal's
@@ -8,7 +9,7 @@ use super::{subject::Subject, weights::Weights};
 pub(super) fn time(subjects: &[Subject], weights: &Weights) -> Option<f64> {
     let mut covariances: Vec<f64> = Vec::new();
     for ratios in subjects.iter().flat_map(|subject| subject.log_ratios(&weights.lapse_rates)) {
-        let mean = ratios.iter().sum::<f64>() / ratios.len().max(1) as f64;
+        let mean = mean(&ratios).unwrap_or_default();
         let centred: Vec<f64> = ratios.iter().map(|ratio| ratio - mean).collect();
         covariances.resize(covariances.len().max(centred.len()), 0.0);
         for (lag, covariance) in covariances.iter_mut().enumerate().take(centred.len()) {

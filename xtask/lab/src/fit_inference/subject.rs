@@ -11,6 +11,7 @@ use phase_simple::{
     InversePlanningSettings, Posterior, PreparedEvent, Proposal, UniformStrength, choice::Chance, cue::GAMMA,
     intent::joint_logs,
 };
+use phase_statistics::{log_softmax, log_sum_exp};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -149,14 +150,16 @@ impl Subject {
         let joint: Vec<Vec<(Hypothesis, f64)>> =
             choices.iter().map(|choices| self.joint(choices, weights)).collect();
         let evidence: Vec<f64> = match compared {
-            Some(compared) => compared.iter().map(|choices| log_sum(&self.joint(choices, weights))).collect(),
-            None => joint.iter().map(|joint| log_sum(joint)).collect(),
+            Some(compared) => {
+                compared.iter().map(|choices| log_evidence(&self.joint(choices, weights))).collect()
+            }
+            None => joint.iter().map(|joint| log_evidence(joint)).collect(),
         };
-        let greatest = evidence.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let shares: Vec<f64> = evidence.iter().map(|log| libm::exp(log - greatest)).collect();
-        let last_kind = shares.last().map_or(0.0, |share| share / shares.iter().sum::<f64>());
+        let mut shares = evidence.clone();
+        log_softmax(&mut shares);
+        let last_kind = shares.last().map_or(0.0, |share| libm::exp(*share));
         let weighted = joint.iter().zip(&evidence).flat_map(|(joint, evidence)| {
-            let shift = evidence - log_sum(joint);
+            let shift = evidence - log_evidence(joint);
             joint.iter().map(move |&(hypothesis, log)| (hypothesis, log + shift))
         });
         Answer { recognition: Recognition::of(&Posterior::new(weighted), &self.truth), last_kind }
@@ -176,10 +179,9 @@ impl Subject {
     }
 }
 
-/// ln Σ e^x.
-fn log_sum(joint: &[(Hypothesis, f64)]) -> f64 {
-    let greatest = joint.iter().map(|it| it.1).fold(f64::NEG_INFINITY, f64::max);
-    greatest + libm::log(joint.iter().map(|it| libm::exp(it.1 - greatest)).sum())
+/// ln Σ P(Y) P(motion | Y), from the logarithms.
+fn log_evidence(joint: &[(Hypothesis, f64)]) -> f64 {
+    log_sum_exp(joint.iter().map(|(_, log)| *log))
 }
 
 fn cue(observed: &ObservedEvent) -> Proposal {
