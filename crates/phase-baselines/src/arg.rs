@@ -19,9 +19,9 @@ pub const FRAMES: usize = 10;
 /// Rows between consecutive windows of frames when the whole event is used.
 pub const STRIDE: usize = 5;
 
-/// Node embeddings of ten frames, related to each other by dot-product attention with a residual connection. Goals come
-/// from the agent nodes, the relation from a max-pool over all nodes, both for every frame; logits are averaged over
-/// frames and over windows.
+/// Node embeddings of ten frames, related to each other by dot-product attention with a residual connection.
+/// Goals come from the agent nodes, the relation from a max-pool over all nodes, both for every frame; logits
+/// are averaged over frames and over windows.
 #[derive(Clone, Debug)]
 pub struct Arg {
     nodes: NodeEmbedding,
@@ -74,7 +74,8 @@ impl Arg {
 
     /// The logits for windows: windows × 2 × [`CLASSES`] and windows × 3.
     fn look(&self, batch: &Batch, embeddings: &[Tensor], windows: &[Window]) -> Result<Logits> {
-        let (events, count) = (batch.events(), windows.len());
+        let events = batch.events();
+        let count = windows.len();
         let rows =
             windows.iter().flat_map(|window| window.rows.iter().map(|row| row * events + window.event));
         let rows = Tensor::from_iter(rows.map(|row| row as u32), &Device::Cpu)?;

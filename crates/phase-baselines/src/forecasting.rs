@@ -1,4 +1,4 @@
-//! What the networks for Task 2 have in common: inputs, loss, forecasts.
+//! Common parts of the networks for Task 2: inputs, loss, forecasts.
 
 use crate::{
     nodes::{Batch, MOVING, Nodes},
@@ -10,7 +10,7 @@ use phase_model::{AGENT_COUNT, Forecast, Vec2, arena::STEP_SECONDS, random::Pcg6
 
 /// Steps that the networks predict at a time.
 pub const HORIZON: usize = 10;
-/// How the networks are trained: batch size and learning rate are the paper's.
+/// Settings of the training of these networks: batch size and learning rate are the paper's.
 pub const SETTINGS: TrainingSettings = TrainingSettings {
     batch: 8,
     learning_rate: 1e-2,
@@ -80,8 +80,8 @@ pub trait Forecasting {
     }
 }
 
-/// The event extended by the last [`HORIZON`] positions of a forecast, with velocities from finite differences and
-/// constant angles. `None` if a value is not finite.
+/// The event extended by the last [`HORIZON`] positions of a forecast, with velocities from finite
+/// differences and constant angles. `None` if a value is not finite.
 fn continued(event: &ObservedEvent, forecast: &Forecast) -> Option<ObservedEvent> {
     let mut rows = event.rows().to_vec();
     for step in (0..HORIZON).rev() {
@@ -106,7 +106,8 @@ pub(crate) fn loss(
     let origins = network.origins(&batch, random);
     let displacements = network.displacements(&batch, &origins)?;
     let mut truth = Vec::with_capacity(origins.len() * MOVING * HORIZON * 2);
-    let (mut agents, mut all) = (Vec::new(), Vec::new());
+    let mut agents = Vec::new();
+    let mut all = Vec::new();
     for &ForecastOrigin { event, row } in &origins {
         for node in 0..MOVING {
             for step in 1..=HORIZON {

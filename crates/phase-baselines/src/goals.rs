@@ -8,16 +8,17 @@ pub const CLASSES: usize = PLACES + 2 * PLACES + MAX_OBJECTS * 2 * PLACES + 2;
 /// Number of landmarks.
 const PLACES: usize = LANDMARKS.len();
 
-/// The goals of an agent in the order of the classes: itself on each landmark (4); the other on each landmark,
-/// then kept off each, as helpers and hinderers have it (8); each object on each landmark, then kept off each (8 an
-/// object); approaching the other, getting away from it (2).
+/// The goals of an agent in the order of the classes: itself on each landmark (4); the other on each
+/// landmark, then kept off each, as helpers and hinderers have it (8); each object on each landmark, then
+/// kept off each (8 an object); approaching the other, getting away from it (2).
 ///
 /// "The other" makes the list the same for both agents, so that one network serves both. These are the goals
 /// of `phase_simple::physical_goals` together with what the other's become if one helps or hinders it.
 /// Keeping oneself off a landmark is not among them: an agent that hinders itself does not exist.
 #[must_use]
 pub fn classes(agent: AgentId) -> [Goal; CLASSES] {
-    let (me, other) = (agent, agent.other());
+    let me = agent;
+    let other = agent.other();
     let places = |agent: AgentId, sign: Sign| {
         LandmarkId::ALL.into_iter().map(move |landmark| Goal::AgentOnLandmark { agent, landmark, sign })
     };

@@ -38,7 +38,7 @@ impl Layer {
         [self.weight.clone(), self.bias.clone()]
     }
 
-    /// The same, named.
+    /// The trainable parameters with their names in a file of weights.
     #[must_use]
     pub fn parameters(&self, name: &str) -> Vec<Parameter> {
         vec![(format!("{name}.weight"), self.weight.clone()), (format!("{name}.bias"), self.bias.clone())]

@@ -2,7 +2,8 @@
 //!
 //! - [`strength`] trains SIMPLE's estimate of agents' strengths, which `phase_simple::StrengthRegressor`
 //!   evaluates,
-//! - [`intent_network`] trains SIMPLE's learnt guess at intents, which `phase_simple::IntentNetwork` evaluates,
+//! - [`intent_network`] trains SIMPLE's learnt guess at intents, which `phase_simple::IntentNetwork`
+//!   evaluates,
 //! - [`two_level_lstm`] and [`arg`] are the paper's baselines for Task 1,
 //! - [`social_lstm`] and [`stgat`] are those for Task 2,
 //! - [`social_gnn`] is a later one for the relations of Task 1,

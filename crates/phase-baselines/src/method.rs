@@ -17,8 +17,8 @@ pub struct TrainedNetwork<N> {
 }
 
 impl<N> TrainedNetwork<N> {
-    /// A method that answers with a network. `weights_sha256` is the digest of its file, to be stored with the
-    /// answers.
+    /// A method that answers with a network. `weights_sha256` is the digest of its file, to be stored with
+    /// the answers.
     pub const fn new(network: N, weights_sha256: String) -> Self {
         Self { network, weights_sha256 }
     }

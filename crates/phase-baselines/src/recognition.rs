@@ -1,4 +1,4 @@
-//! What the networks for Task 1 have in common: labels, loss, predictions.
+//! Common parts of the networks for Task 1: labels, loss, predictions.
 
 use crate::{
     goals::{CLASSES, class_of, classes, is_absent},
@@ -13,7 +13,7 @@ use thiserror::Error;
 
 /// The relations in the order of the networks' outputs.
 pub const RELATIONS: [Relation; 3] = [Relation::Friendly, Relation::Adversarial, Relation::Neutral];
-/// How the networks are trained: batch size and learning rate are the paper's.
+/// Settings of the training of these networks: batch size and learning rate are the paper's.
 pub const SETTINGS: TrainingSettings = TrainingSettings {
     batch: 8,
     learning_rate: 1e-3,

@@ -1,5 +1,5 @@
-//! SocialGNN, after Malik and Isik (2023): at every row a graph of agents and objects whose edges are contacts, then an
-//! LSTM over rows. It recognises the relation and says nothing about goals.
+//! SocialGNN, after Malik and Isik (2023): at every row a graph of agents and objects whose edges are
+//! contacts, then an LSTM over rows. It recognises the relation and says nothing about goals.
 
 use crate::{
     layer::Layer,
@@ -14,27 +14,31 @@ use candle_nn::ops::log_softmax;
 use phase_event::ObservedEvent;
 use phase_model::{RelationProbabilities, arena, random::Pcg64Mcg};
 
-/// How it is trained: batches of 20 events, as published; the rest as the other networks of Task 1.
+/// Settings of its training: batches of 20 events, as published; the rest as the other networks of Task 1.
 pub const SETTINGS: TrainingSettings = TrainingSettings { batch: 20, ..recognition::SETTINGS };
 
 /// Weights of the relations in the loss, in the order of [`RELATIONS`]: neutral events are half as many.
 const CLASS_WEIGHTS: [f32; RELATIONS.len()] = [1.0, 1.0, 2.0];
 /// λ: half of it times the sum of all squared weights is added to the loss.
 const WEIGHT_DECAY: f64 = 0.05;
-/// Features of a node: whether it is an agent, half its length, position (2), direction it faces (2), velocity (2).
-/// Colours are left out, since nodes are told apart by their places.
+/// Features of a node: whether it is an agent, half its length, position (2), direction it faces (2),
+/// velocity (2). Colours are left out, since nodes are told apart by their places.
 const NODE_FEATURES: usize = 8;
-/// Where those from half its length on begin among the [`FEATURES`](crate::nodes::FEATURES) of a node.
+/// The place at which those from half its length on begin among the [`FEATURES`](crate::nodes::FEATURES) of a
+/// node.
 const FIRST_MEASURE: usize = 8;
-/// Their units in those of the other networks. They are lengths in u and velocities in u/s, as published: with the others'
-/// units, in which they are below 1, the penalty on weights would keep the network from learning.
+/// Their units in those of the other networks. They are lengths in u and velocities in u/s, as published:
+/// with the others' units, in which they are below 1, the penalty on weights would keep the network from
+/// learning.
 const UNITS: [f32; NODE_FEATURES] = [1.0, LENGTH, LENGTH, LENGTH, 1.0, 1.0, SPEED, SPEED];
-/// Features of the scene: both ends of every inner wall. Landmarks are left out, since they are always the same.
+/// Features of the scene: both ends of every inner wall. Landmarks are left out, since they are always the
+/// same.
 const SCENE_FEATURES: usize = 4 * WALLS;
 
-/// The published variant with node updates, SocialGNN-V. An edge is a linear function of the nodes at its ends; a node is
-/// updated by one of the sum of the edges that it receives, of its own features and of those of the scene; the four updated
-/// nodes side by side are the input of an LSTM, from whose last output one layer tells the relation.
+/// The published variant with node updates, SocialGNN-V. An edge is a linear function of the nodes at its
+/// ends; a node is updated by one of the sum of the edges that it receives, of its own features and of those
+/// of the scene; the four updated nodes side by side are the input of an LSTM, from whose last output one
+/// layer tells the relation.
 #[derive(Clone, Debug)]
 pub struct SocialGnn {
     /// The edge's layer in two parts, one for each end: the sum over edges is then a product of matrices.
@@ -84,7 +88,8 @@ impl SocialGnn {
 
     /// The updated nodes of every row: rows × events × 4·units, zero for absent nodes.
     fn graphs(&self, batch: &Batch) -> Result<Tensor> {
-        let (rows, events) = (batch.moving.len(), batch.events());
+        let rows = batch.moving.len();
+        let events = batch.events();
         let all = Tensor::cat(&batch.moving, 0)?;
         let inputs = Tensor::cat(
             &[all.narrow(1, 0, 1)?, all.narrow(1, FIRST_MEASURE, NODE_FEATURES - 1)?],
@@ -117,7 +122,8 @@ impl SocialGnn {
 
 /// 1 where two moving nodes are in contact: (rows · events) × receiver × sender.
 fn contacts(batch: &Batch) -> Result<Tensor> {
-    let (rows, events) = (batch.moving.len(), batch.events());
+    let rows = batch.moving.len();
+    let events = batch.events();
     let mut values = Vec::with_capacity(rows * events * MOVING * MOVING);
     for row in 0..rows {
         for event in 0..events {
@@ -135,7 +141,8 @@ fn scenes(batch: &Batch) -> Result<Tensor> {
         for wall in 0..WALLS {
             let wall = batch.walls(event).get(wall);
             values.extend(wall.map_or([0.0; 4], |wall| {
-                let (a, b) = (wall.a - arena::CENTRE, wall.b - arena::CENTRE);
+                let a = wall.a - arena::CENTRE;
+                let b = wall.b - arena::CENTRE;
                 [a.x, a.y, b.x, b.y]
             }));
         }

@@ -17,9 +17,10 @@ pub const CELLS: usize = 4;
 /// Side of a cell (u).
 pub const CELL: f32 = 4.0;
 
-/// Every moving node has an LSTM; its input is the node's features and a social-pooling grid that sums, for each cell,
-/// the neighbours' hidden states of the previous step. Landmarks and walls, which have no LSTM, enter the grid with an
-/// embedding. After every step a linear layer predicts the next ten positions from the hidden state.
+/// Every moving node has an LSTM; its input is the node's features and a social-pooling grid that sums, for
+/// each cell, the neighbours' hidden states of the previous step. Landmarks and walls, which have no LSTM,
+/// enter the grid with an embedding. After every step a linear layer predicts the next ten positions from the
+/// hidden state.
 #[derive(Clone, Debug)]
 pub struct SocialLstm {
     features: Layer,
@@ -50,7 +51,8 @@ impl SocialLstm {
 
 impl Forecasting for SocialLstm {
     fn displacements(&self, batch: &Batch, origins: &[ForecastOrigin]) -> Result<Tensor> {
-        let (events, hidden) = (batch.events(), self.hidden);
+        let events = batch.events();
+        let hidden = self.hidden;
         let fixed = self.fixed.forward(batch)?;
         let mut state = self.memory.start(events * MOVING)?;
         let mut outputs = Vec::with_capacity(batch.moving.len());
@@ -98,7 +100,7 @@ impl PublishedNetwork for SocialLstm {
     }
 }
 
-/// Which node is in which cell around each moving node, 0 or 1: events × ([`MOVING`] · cells) × [`NODES`].
+/// The occupation of the cells around each moving node, 0 or 1: events × ([`MOVING`] · cells) × [`NODES`].
 fn grids(batch: &Batch, row: usize) -> Result<Tensor> {
     let shape = (batch.events(), MOVING * CELLS * CELLS, NODES);
     let mut grids = vec![0.0_f32; shape.0 * shape.1 * shape.2];

@@ -50,7 +50,8 @@ struct Head {
 }
 
 impl Stgat {
-    /// A network with the given number of hidden units in every layer, a multiple of the number of attention heads.
+    /// A network with the given number of hidden units in every layer, a multiple of the number of attention
+    /// heads.
     ///
     /// # Errors
     ///
@@ -95,7 +96,8 @@ impl Stgat {
 
     /// Hidden states of motion and graph LSTM after each row: (events · [`MOVING`]) × 2·hidden.
     fn encoded(&self, batch: &Batch) -> Result<Vec<Tensor>> {
-        let (events, hidden) = (batch.events(), self.hidden);
+        let events = batch.events();
+        let hidden = self.hidden;
         let fixed = self.fixed.forward(batch)?;
         let present = (0..events).flat_map(|event| batch.attention_bias(event));
         let mask = Tensor::from_iter(present, &Device::Cpu)?.reshape((events, 1, NODES))?;

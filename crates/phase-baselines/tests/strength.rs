@@ -8,8 +8,8 @@ use phase_event::ObservedEvent;
 use phase_model::{AGENT_COUNT, AgentId, Body, Layout, MAX_ENTITIES, Size, Strength, Vec2};
 use phase_simple::{ChainSettings, StrengthRegressor, Update, strength::features};
 
-/// Two agents that push in a straight line until friction holds them at a speed: 2 u/s for each level of strength.
-/// `variety` makes one event unlike the next.
+/// Two agents that push in a straight line until friction holds them at a speed: 2 u/s for each level of
+/// strength. `variety` makes one event unlike the next.
 fn event(strengths: [Strength; AGENT_COUNT], variety: u8) -> ObservedEvent {
     let rows = (0..=15_u8).map(|t| {
         let mut row = [Body::default(); MAX_ENTITIES];
@@ -75,7 +75,8 @@ fn windows_are_as_long_as_those_of_inference() {
 #[test]
 fn the_error_becomes_small() {
     let (regressor, epochs) = trained(&motions(0), 1, &small());
-    let (first, best) = (epochs.first().unwrap(), epochs.iter().rfind(|epoch| epoch.best).unwrap());
+    let first = epochs.first().unwrap();
+    let best = epochs.iter().rfind(|epoch| epoch.best).unwrap();
     // A constant prediction is wrong by 168 N.
     assert!(best.training < 0.3 * first.training, "{first:?} {best:?}");
     assert!(best.validation < 60.0, "{best:?}");
@@ -122,7 +123,8 @@ fn eight_samples_are_learnt_by_heart() {
     };
     let regressor = train(&motions, &motions, 1, &settings, &mut |_| {}).unwrap();
     for AgentSamples { whole, .. } in &motions {
-        let (force, estimate) = (whole.strength.max_force(), regressor.estimate_from(&whole.features));
+        let force = whole.strength.max_force();
+        let estimate = regressor.estimate_from(&whole.features);
         assert!((estimate - f64::from(force)).abs() < 10.0, "{estimate} is not {force}");
     }
 }
@@ -156,7 +158,8 @@ fn scores_by_hand() {
     weights.output.bias = vec![400.0];
     let regressor = StrengthRegressor::new(weights).unwrap();
     let sample = |strength| Sample { features: [0.0; 7], strength };
-    let (fair, strong) = (sample(Strength::Fair), sample(Strength::Strong));
+    let fair = sample(Strength::Fair);
+    let strong = sample(Strength::Strong);
     // 100 N off in half of the first group, 50 N in the other half and in all of the second.
     let groups: [&[Sample]; 2] = [&[fair, strong], &[strong]];
     let found = score(&regressor, groups, Strength::Fair);

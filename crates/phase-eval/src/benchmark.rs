@@ -40,7 +40,7 @@ pub struct Benchmark {
 pub struct EventSet {
     /// In words.
     pub name: String,
-    /// What they are called in a table: [`GENERATED`], [`RECORDED`] or [`PAIRS`].
+    /// Their name in a table: [`GENERATED`], [`RECORDED`] or [`PAIRS`].
     pub label: String,
     /// Digest of the events.
     pub sha256: String,
@@ -83,13 +83,13 @@ pub struct Row<S> {
 /// Some of a set's events.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Subset<S> {
-    /// What they have in common.
+    /// The name of what they have in common.
     pub familiarity: Familiarity,
     /// The method's scores on them.
     pub summary: S,
 }
 
-/// What an event has in common with the training and validation events.
+/// The parts of an event that occur in the training and validation events too.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Familiarity {
@@ -103,7 +103,7 @@ pub enum Familiarity {
     UnseenInteraction,
 }
 
-/// How a network was trained.
+/// The training of a network.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Training {
     /// The kind of network.

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 /// Scores of the events that have something in common.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct GroupScores<S> {
-    /// What they have in common.
+    /// The name of what they have in common.
     pub name: String,
     /// Their scores.
     #[serde(flatten)]

@@ -1,8 +1,8 @@
-//! How well a method perceives social events: the metrics of both tasks, with confidence intervals.
+//! Evaluation of methods that perceive social events: the metrics of both tasks, with confidence intervals.
 //!
 //! - [`goals`] scores the answers of a [`Recogniser`](phase_event::Recogniser) (Task 1: goals and relations),
-//!   [`trajectories`] those of a [`Forecaster`](phase_event::Forecaster) (Task 2); [`estimate`] puts intervals
-//!   around every score.
+//!   [`trajectories`] those of a [`Forecaster`](phase_event::Forecaster) (Task 2); [`estimate`] puts
+//!   intervals around every score.
 //! - [`trivial`] has trivial baselines for both tasks, below which no method should fall.
 //! - [`benchmark`] compares many methods on the same events.
 //! - [`ratings`] are people's judgements of relations, with which [`goals::Agreement`] compares a method's.
@@ -11,8 +11,8 @@
 //!
 //! Key design decision: every score is a mean over events of one number for each event. So one bootstrap over
 //! events serves all of them, and the stored data of an event suffices to score it again. The trade-off is
-//! that figures which are not such means come without an interval (the calibration error, the confusion matrix), or
-//! resample the events themselves (correlations with people).
+//! that figures which are not such means come without an interval (the calibration error, the confusion
+//! matrix), or resample the events themselves (correlations with people).
 //!
 //! Nothing here reads a file, accesses a clock or prints.
 //!

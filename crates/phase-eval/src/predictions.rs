@@ -15,11 +15,11 @@ use std::collections::BTreeMap;
 /// Most futures that a prediction may have; their distances are compared in pairs.
 pub const MAX_FUTURES: usize = 200;
 
-/// Reads answers to Task 1 by the ids of their events: `{"events": [{"id", "goals": [[{"goal", "p"}…], […]],
-/// "relation": {"friendly", "adversarial", "neutral"}, "roles": {"helps": [p, p], "hinders": [p, p]}}…]}`, where `roles`, the
-/// probabilities that either agent helps or hinders the other, may be absent, and so may `reported`, the shares of people who
-/// would report each relation, of the form of `relation`. Other members are ignored, so results of PHASE are valid predictions
-/// too.
+/// Reads answers to Task 1 by the ids of their events:
+/// `{"events": [{"id", "goals": [[{"goal", "p"}…], […]], "relation": {"friendly", "adversarial", "neutral"}, "roles": {"helps": [p, p], "hinders": [p, p]}}…]}`,
+/// where `roles`, the probabilities that either agent helps or hinders the other, may be absent, and so may
+/// `reported`, the shares of people who would report each relation, of the form of `relation`. Other members
+/// are ignored, so results of PHASE are valid predictions too.
 ///
 /// # Errors
 /// If there is no event, one occurs twice, a field is missing or of the wrong type, or a probability is
@@ -33,9 +33,10 @@ pub fn goals(value: &Value) -> Result<BTreeMap<String, Answer>, EventReadError> 
     })
 }
 
-/// Reads answers to Task 2 by the ids of their events: `{"events": [{"id", "forecast": [[[x, y], …steps]
-/// …entities], "futures": [forecast…]}…]}`, positions in u, where `futures`, equally likely ones, may be absent. Other members are
-/// ignored, so results of PHASE are valid predictions too. Whether a forecast has the shape of its event is checked by [`fit`].
+/// Reads answers to Task 2 by the ids of their events:
+/// `{"events": [{"id", "forecast": [[[x, y], …steps] …entities], "futures": [forecast…]}…]}`, positions in u,
+/// where `futures`, equally likely ones, may be absent. Other members are ignored, so results of PHASE are
+/// valid predictions too. Whether a forecast has the shape of its event is checked by [`fit`].
 ///
 /// # Errors
 /// If there is no event, one occurs twice, a field is missing or of the wrong type, or a number is not
@@ -47,7 +48,7 @@ pub fn forecasts(value: &Value) -> Result<BTreeMap<String, Prediction>, EventRea
 /// The parts of a prediction for an event; see [`fit`].
 ///
 /// # Errors
-/// As [`fit`], and for more than [`MAX_FUTURES`] futures.
+/// The rules of [`fit`], and for more than [`MAX_FUTURES`] futures.
 pub fn fit_prediction(
     prediction: &Prediction,
     entities: usize,

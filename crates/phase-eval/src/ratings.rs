@@ -12,11 +12,11 @@ pub const RATINGS_FORMAT: &str = "phase-ratings/1";
 /// Most raters that one event may have in a file.
 const MAX_RATERS: i64 = 1_000_000;
 
-/// How many people called an event friendly, adversarial and neutral.
+/// Numbers of people who called an event friendly, adversarial and neutral.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RatingCounts {
-    /// Those who called it friendly.
+    /// Number of people who called it friendly.
     pub friendly: usize,
     /// Adversarial.
     pub adversarial: usize,
@@ -38,11 +38,13 @@ impl RatingCounts {
     }
 }
 
-/// Reads ratings by the ids of their events: `{"format": "phase-ratings/1", "ratings": {id: {"friendly", "neutral",
-/// "adversarial"}…}}`, whole numbers, at least one rater an event.
+/// Reads ratings by the ids of their events:
+/// `{"format": "phase-ratings/1", "ratings": {id: {"friendly", "neutral", "adversarial"}…}}`, whole numbers,
+/// at least one rater an event.
 ///
 /// # Errors
-/// If the format is another, there is no event, a field is missing or of the wrong type, or an event has no rater.
+/// If the format is another, there is no event, a field is missing or of the wrong type, or an event has no
+/// rater.
 pub fn ratings(value: &Value) -> Result<BTreeMap<String, RatingCounts>, EventReadError> {
     check_format(value, RATINGS_FORMAT)?;
     let of_file = |problem| EventReadError::Field { event: None, problem };

@@ -61,11 +61,14 @@ pub fn trajectories(
     summary: &trajectories::ForecastSummary,
     events: &[ForecastEvent],
 ) -> serde_json::Result<Value> {
-    let (independent, social) = (summary.independent.as_ref(), summary.social.as_ref());
+    let independent = summary.independent.as_ref();
+    let social = summary.social.as_ref();
     let parts = |of: fn(&trajectories::ForecastScores) -> Estimate| {
-        let (independent, social) = (independent.map(of), social.map(of));
+        let independent = independent.map(of);
+        let social = social.map(of);
         let all = of(&summary.all);
-        let (value, interval) = (|it: Estimate| it.value, |it: Estimate| it.interval());
+        let value = |it: Estimate| it.value;
+        let interval = |it: Estimate| it.interval();
         [
             json!({ "independent": independent.map(value), "social": social.map(value), "all": all.value }),
             json!({
@@ -74,9 +77,10 @@ pub fn trajectories(
             }),
         ]
     };
-    let ([ade, ade_interval], [fde, fde_interval]) = (parts(|it| it.ade), parts(|it| it.fde));
-    let ([ade_entities, ade_entities_interval], [fde_entities, fde_entities_interval]) =
-        (parts(|it| it.ade_entities), parts(|it| it.fde_entities));
+    let [ade, ade_interval] = parts(|it| it.ade);
+    let [fde, fde_interval] = parts(|it| it.fde);
+    let [ade_entities, ade_entities_interval] = parts(|it| it.ade_entities);
+    let [fde_entities, fde_entities_interval] = parts(|it| it.fde_entities);
     Ok(json!({
         "format": TRAJECTORIES_FORMAT, "run": run, "method": run["method"], "seed": run["seed"],
         "n_events": summary.all.n, "ade": ade, "fde": fde,

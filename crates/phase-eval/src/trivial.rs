@@ -36,8 +36,10 @@ impl Recogniser for Chance {
 /// from it. As in labels, touching names the one that approaches first.
 #[must_use]
 pub fn own_goals(agent: AgentId, objects: usize) -> Vec<Goal> {
-    let (me, other) = (agent, agent.other());
-    let (landmarks, sign) = (LandmarkId::ALL.into_iter(), Sign::Positive);
+    let me = agent;
+    let other = agent.other();
+    let landmarks = LandmarkId::ALL.into_iter();
+    let sign = Sign::Positive;
     let places = landmarks.clone().map(|landmark| Goal::AgentOnLandmark { agent: me, landmark, sign });
     let things = ObjectId::ALL.into_iter().take(objects).flat_map(|object| {
         landmarks.clone().map(move |landmark| Goal::ObjectOnLandmark { object, landmark, sign })
@@ -63,8 +65,8 @@ impl Forecaster for Stationary {
     }
 }
 
-/// Everything keeps the velocity of the last row, and stops at the walls around the arena. Inner walls, sizes and
-/// collisions play no part.
+/// Everything keeps the velocity of the last row, and stops at the walls around the arena. Inner walls, sizes
+/// and collisions play no part.
 #[derive(Clone, Copy, Debug)]
 pub struct ConstantVelocity;
 

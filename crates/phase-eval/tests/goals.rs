@@ -134,7 +134,9 @@ fn numbers_that_are_no_probabilities_are_refused() {
 /// Two events: in the first agent 0 is correct at once and agent 1 at the third goal, in the second neither
 /// is.
 fn two_events() -> Vec<RecognisedEvent> {
-    let (a, b, c) = (place(0, 0, PLUS), place(0, 1, PLUS), place(0, 2, PLUS));
+    let a = place(0, 0, PLUS);
+    let b = place(0, 1, PLUS);
+    let c = place(0, 2, PLUS);
     let label = |kind, relation, relation_human, layout_seen| Label {
         kind,
         goals: [a, b],
@@ -153,7 +155,8 @@ fn two_events() -> Vec<RecognisedEvent> {
         cpu_seconds,
         details: Value::Null,
     };
-    let (helping, chasing) = (EventKind::Helping, EventKind::Chasing);
+    let helping = EventKind::Helping;
+    let chasing = EventKind::Chasing;
     let right = label(helping, Relation::Friendly, Some(Relation::Neutral), Some(true));
     let wrong = label(chasing, Relation::Adversarial, None, Some(false));
     vec![

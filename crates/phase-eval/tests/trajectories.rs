@@ -42,8 +42,8 @@ fn scores_of_a_distribution_by_hand() {
     let of = |futures: &[Forecast]| SampleErrors::of(futures, &truth).expect("of its shape");
     let both = of(&futures).expect("there are futures");
     assert_eq!((both.count, both.min_ade, both.min_fde), (2, 0.0, 0.0));
-    // Agent 0: errors 0 and (0 + 6) / 2; distances 0, 6. Agent 1: errors 4 and 0; distances 4, 4. Of the four pairs of futures
-    // two are different.
+    // Agent 0: errors 0 and (0 + 6) / 2; distances 0, 6. Agent 1: errors 4 and 0; distances 4, 4. Of the four
+    // pairs of futures two are different.
     let expected = 0.5 * ((1.5 - 0.25 * 3.0) + (2.0 - 0.25 * 4.0));
     assert!((both.energy - expected).abs() < 1e-12, "{both:?}");
     let one = of(&futures[..1]).expect("there is a future");
@@ -56,7 +56,8 @@ fn scores_of_a_distribution_by_hand() {
     assert_eq!(shape, Err(ForecastError::Shape { entities: 3, steps: 2 }));
 }
 
-/// The energy score is proper: of two distributions it prefers, on average, the one that the truth is drawn from.
+/// The energy score is proper: of two distributions it prefers, on average, the one that the truth is drawn
+/// from.
 #[test]
 fn the_energy_score_prefers_the_true_distribution() {
     let at = |x: f32| vec![vec![Vec2::new(x, 0.0)]; 2];
@@ -66,7 +67,9 @@ fn the_energy_score_prefers_the_true_distribution() {
         });
         0.5 * (scores[0] + scores[1])
     };
-    let (true_one, middle, certain) = (mean(&[at(0.0), at(10.0)]), mean(&[at(5.0)]), mean(&[at(0.0)]));
+    let true_one = mean(&[at(0.0), at(10.0)]);
+    let middle = mean(&[at(5.0)]);
+    let certain = mean(&[at(0.0)]);
     assert!(true_one < middle && true_one < certain, "{true_one} {middle} {certain}");
 }
 

@@ -21,7 +21,8 @@ pub enum EventReadError {
     /// A field violates a rule.
     #[error("{}{problem}", event_prefix(event))]
     Field {
-        /// The event it belongs to, by its `id` or its number; `None` if it belongs to none, or to the only one.
+        /// The event it belongs to, by its `id` or its number; `None` if it belongs to none, or to the only
+        /// one.
         event: Option<String>,
         /// The field and the rule.
         #[source]

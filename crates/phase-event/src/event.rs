@@ -3,7 +3,11 @@
 use crate::Thought;
 use phase_model::{AGENT_COUNT, Action, Scene, State, arena::SUBSTEPS};
 
-/// One step of an event: the actions of both agents, their explanations and the resulting states.
+/// One step of an event, a quarter of a second of video: the actions of both agents, their explanations and
+/// the resulting states.
+///
+/// Both agents choose at the same time, from the state before the step, and hold their action for all of its
+/// substeps.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Step {
     /// The actions of both agents.
@@ -14,7 +18,13 @@ pub struct Step {
     pub substeps: [State; SUBSTEPS],
 }
 
-/// A social event: a scene and the simulated motion.
+/// A simulated social event: a scene and everything that happened in it.
+///
+/// The scene, the seed and the settings of a simulation determine an event, bit for bit.
+/// [`Recording::of_event`] turns it into a recording, as files hold it; a recording of measured motion has no
+/// `Event`.
+///
+/// [`Recording::of_event`]: crate::Recording::of_event
 #[derive(Clone, PartialEq, Debug)]
 pub struct Event {
     /// The scene.

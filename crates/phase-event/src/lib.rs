@@ -14,14 +14,15 @@
 //!     "trajectory": {"columns": ["x", "y", "vx", "vy", "angle"], "objects": [],
 //!                    "agents": [[[8, 14, 0, 0, 0]], [[24, 14, 0, 0, 1.5]]]}}]}"#;
 //! for recording in phase_event::from_json(text)? {
-//!     let (kind, relation) = (recording.scene.kind.name(), recording.relation.name());
+//!     let kind = recording.scene.kind.name();
+//!     let relation = recording.relation.name();
 //!     println!("{}: {kind}, {relation}, {} steps", recording.id, recording.trajectory.steps());
 //! }
 //! # Ok::<(), phase_event::EventReadError>(())
 //! ```
 //!
-//! A method that perceives events implements [`Recogniser`] (goals and relations) or [`Forecaster`] (trajectories),
-//! and is shown an [`ObservedEvent`].
+//! A method that perceives events implements [`Recogniser`] (goals and relations) or [`Forecaster`]
+//! (trajectories), and is shown an [`ObservedEvent`].
 //!
 //! `docs/formats.md` describes every field. Reading and writing are exact inverses, bit for bit. Every part
 //! can also be read and written separately: [`Recording`], [`Event`] and [`Scene`](phase_model::Scene) have
@@ -56,7 +57,7 @@ pub use mean::mean_state;
 pub use method::{Forecaster, MethodError, MethodResult, Prediction, ProgressCallback, Recogniser, SAMPLES};
 pub use observed::{ObservedError, ObservedEvent};
 pub use read::{LONGEST_ID, check_id, from_json, parse};
-pub use recording::{Controller, Recording, Recovered, Simulation};
+pub use recording::{Controller, Recording, Recovered, SimulationRecord};
 pub use subgoals::subgoal_of;
 pub use thought::{ActionEvaluation, SubgoalValue, Thought};
 pub use trajectory::{COLUMNS, Row, SUBSTEP_COLUMNS, SubstepRow, Trajectory, substep_row};

@@ -3,7 +3,9 @@
 use crate::Step;
 use phase_model::{Body, Contacts, MAX_ENTITIES, State, arena::SUBSTEPS};
 
-/// The state that represents a whole step: bodies are means over its five substeps (angles are unbounded, so
+/// The state that represents a whole step in files and in evaluation.
+///
+/// Bodies are means over its five substeps (angles are unbounded, so
 /// a plain mean is valid), grips are those at its end, and contacts are the union over its substeps.
 #[must_use]
 pub fn mean_state(step: &Step) -> State {

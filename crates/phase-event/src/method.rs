@@ -30,7 +30,8 @@ impl MethodError {
     }
 }
 
-/// A callback that a method calls from time to time while it works. The method stops with `Ok(None)` on `Break`.
+/// A callback that a method calls from time to time while it works. The method stops with `Ok(None)` on
+/// `Break`.
 pub type ProgressCallback<'a> = &'a mut dyn FnMut() -> ControlFlow<()>;
 
 /// An answer with details that the method attaches as JSON, or null; `None` if the method was cancelled.
@@ -54,8 +55,8 @@ impl From<Forecast> for Prediction {
 /// A method for Task 1 of the paper, the joint inference of both agents' goals and of their relation.
 ///
 /// All randomness of a method comes from the seed: the same event and the same seed give the same answer. A
-/// method runs on the calling thread alone, because the other cores process other events and its CPU time is that
-/// of the thread. It sees an [`ObservedEvent`], which has no labels.
+/// method runs on the calling thread alone, because the other cores process other events and its CPU time is
+/// that of the thread. It sees an [`ObservedEvent`], which has no labels.
 ///
 /// ```
 /// use core::ops::ControlFlow;
@@ -79,8 +80,8 @@ impl From<Forecast> for Prediction {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait Recogniser: Sync {
-    /// The settings that determine the answers beside event and seed, to be stored with the answers; null for a
-    /// method without settings.
+    /// The settings that determine the answers beside event and seed, to be stored with the answers; null for
+    /// a method without settings.
     fn settings(&self) -> Value {
         Value::Null
     }
@@ -93,7 +94,8 @@ pub trait Recogniser: Sync {
 
     /// The probabilities of each agent's goals and of the relation, given the rows observed so far.
     ///
-    /// Probabilities are 0 to 1. Goals may be listed in any order, and those that a list lacks have probability 0.
+    /// Probabilities are 0 to 1. Goals may be listed in any order, and those that a list lacks have
+    /// probability 0.
     ///
     /// # Errors
     /// [`MethodError`] if the method has no answer for such an event.
@@ -109,8 +111,8 @@ pub trait Recogniser: Sync {
 ///
 /// A [`Recogniser`]'s rules for seeds and threads hold for it too.
 pub trait Forecaster: Sync {
-    /// The settings that determine the answers beside event and seed, to be stored with the answers; null for a
-    /// method without settings.
+    /// The settings that determine the answers beside event and seed, to be stored with the answers; null for
+    /// a method without settings.
     fn settings(&self) -> Value {
         Value::Null
     }

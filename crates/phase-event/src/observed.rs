@@ -21,7 +21,9 @@ pub enum ObservedError {
 }
 
 /// The observable part of an event up to some moment: the layout with its landmarks, the sizes of all bodies,
-/// and all positions. Goals, attitudes, strengths, the kind of event and its remaining length are not
+/// and their motion.
+///
+/// Goals, attitudes, strengths, the kind of event and its remaining length are not
 /// included, so inference from it cannot access them.
 #[derive(Clone, PartialEq, Debug)]
 pub struct ObservedEvent {
@@ -56,8 +58,8 @@ impl ObservedEvent {
         }
     }
 
-    /// An event of which these rows have been observed in a scene, whose layout and sizes are all that is read of
-    /// it. See [`ObservedEvent::new`] for rows.
+    /// An event of which these rows have been observed in a scene, whose layout and sizes are all that is
+    /// read of it. See [`ObservedEvent::new`] for rows.
     ///
     /// # Errors
     /// [`ObservedError`] for no rows, too many objects, or non-finite numbers.
@@ -139,7 +141,8 @@ impl ObservedEvent {
         }
     }
 
-    /// Row `t` as a state without grips and contacts, which trajectories do not contain; `None` past the last row.
+    /// Row `t` as a state without grips and contacts, which trajectories do not contain; `None` past the last
+    /// row.
     #[must_use]
     pub fn state(&self, t: usize) -> Option<State> {
         self.rows.get(t).copied().map(State::new)

@@ -47,13 +47,17 @@ pub const LONGEST_ID: usize = 100;
 
 /// Reads all events of a `phase-events/1` file and checks each.
 ///
+/// Scenes must keep the rules of [`phase_model::validate`], trajectories of an event have one length, numbers
+/// are finite, and ids differ in more than case. The result has at least one event, in the order of the file.
+/// Suspicious but usable properties are no errors; [`Recording::warnings`] lists them.
+///
 /// # Errors
 /// [`EventReadError`] names event, field and rule.
 pub fn from_json(text: &str) -> Result<Vec<Recording>, EventReadError> {
     all_of(&json::parse_text(text)?)
 }
 
-/// The same for bytes, which need not be valid UTF-8.
+/// Reads events from the bytes of a file, which need not be valid UTF-8.
 ///
 /// # Errors
 /// [`EventReadError`] names event, field and rule.
@@ -94,7 +98,7 @@ impl Recording {
         Self::from_value(&json::parse_text(text)?)
     }
 
-    /// The same for JSON that is already parsed.
+    /// Reads one event from JSON that is already parsed, in its form as an element of a file's list `events`.
     ///
     /// # Errors
     /// [`EventReadError`] names field and rule.
@@ -113,7 +117,7 @@ impl Event {
         Self::from_value(&json::parse_text(text)?)
     }
 
-    /// The same for JSON that is already parsed.
+    /// Reads a simulated event from JSON that is already parsed; see [`Event::from_json`] for its form.
     ///
     /// # Errors
     /// [`EventReadError`] names field and rule.
@@ -226,7 +230,7 @@ fn labels(event: &Field<'_>, rows: usize) -> Result<Labels, FieldError> {
     })
 }
 
-/// Who moved each agent: `agents[i].controller`. The scene has been read, so there are two agents.
+/// The controllers of both agents: `agents[i].controller`. The scene has been read, so there are two agents.
 fn controllers(event: &Field<'_>) -> Result<[Controller; AGENT_COUNT], FieldError> {
     const NAMES: [(&str, Controller); 2] = [("mind", Controller::Mind), ("human", Controller::Human)];
     let mut controllers = [Controller::default(); AGENT_COUNT];

@@ -1,7 +1,7 @@
 //! The data that a simulated event stores in addition to its trajectory.
 
 use crate::{
-    ActionEvaluation, Event, Row, SUBSTEP_COLUMNS, Simulation, Step, SubgoalValue, Thought, Trajectory,
+    ActionEvaluation, Event, Row, SUBSTEP_COLUMNS, SimulationRecord, Step, SubgoalValue, Thought, Trajectory,
     read::{columns, rows},
     subgoals::subgoal_of,
 };
@@ -21,9 +21,9 @@ pub(crate) fn simulation_of(
     event: &Field<'_>,
     scene: &mut Scene,
     trajectory: &Trajectory,
-) -> Result<Option<Simulation>, FieldError> {
+) -> Result<Option<SimulationRecord>, FieldError> {
     let Some(substeps) = event.optional("substeps")? else { return Ok(None) };
-    Ok(Some(Simulation {
+    Ok(Some(SimulationRecord {
         event: event_of(event, &substeps, scene, trajectory)?,
         generator: event.required("generator")?.text()?.into(),
         settings: event.required("settings")?.value().clone(),
@@ -127,7 +127,8 @@ fn states(field: &Field<'_>, objects: usize, frames: usize) -> Result<Vec<State>
                 return Err(track.error(rule));
             }
             for (state, [x, y, vx, vy, angle, angular_velocity]) in states.iter_mut().zip(rows) {
-                let (position, velocity) = (Vec2::new(x, y), Vec2::new(vx, vy));
+                let position = Vec2::new(x, y);
+                let velocity = Vec2::new(vx, vy);
                 state.bodies[first + k] = Body { position, velocity, angle, angular_velocity };
             }
         }

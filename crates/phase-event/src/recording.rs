@@ -14,7 +14,7 @@ pub struct Recovered {
     pub note: Option<String>,
 }
 
-/// Who moved an agent.
+/// The mover of an agent: a program or a person.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Controller {
@@ -25,9 +25,10 @@ pub enum Controller {
     Human,
 }
 
-/// Additional data of a simulated event: all substeps, actions and thoughts.
+/// The part of a recording that only a simulated event has: all substeps, actions and thoughts, and how they
+/// were made.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Simulation {
+pub struct SimulationRecord {
     /// The complete event.
     pub event: Event,
     /// The program that made it, such as `phase 0.1.0`.
@@ -36,7 +37,14 @@ pub struct Simulation {
     pub settings: Value,
 }
 
-/// One event: its scene, labels and trajectory.
+/// One event of a file, simulated or measured: its scene, labels and trajectory.
+///
+/// The scene holds goals and attitudes, which are labels too; a method is shown [`Recording::observed`],
+/// which has none of them. A simulated event has its [`SimulationRecord`] beside the trajectory, and a
+/// measured one may have the exact actions of its first steps.
+///
+/// `docs/formats.md` describes every field of a file; [`Recording::from_json`] and [`Recording::to_json`] are
+/// exact inverses.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Recording {
     /// Name, unique among the events of a file.
@@ -51,7 +59,7 @@ pub struct Recording {
     pub row_0: Option<String>,
     /// Steps that were recorded, which may exceed the number of rows.
     pub recorded_steps: Option<u32>,
-    /// Who moved each agent.
+    /// The movers of both agents.
     pub controllers: [Controller; AGENT_COUNT],
     /// The trajectories of all entities.
     pub trajectory: Trajectory,
@@ -61,7 +69,7 @@ pub struct Recording {
     /// share their random draws. A simulated event has its seed in [`Recording::simulation`].
     pub seed: Option<u64>,
     /// All other data of a simulated event.
-    pub simulation: Option<Simulation>,
+    pub simulation: Option<SimulationRecord>,
 }
 
 impl Recording {
@@ -79,7 +87,7 @@ impl Recording {
             trajectory: Trajectory::means(&event),
             recovered_actions: None,
             seed: None,
-            simulation: Some(Simulation { event, generator, settings }),
+            simulation: Some(SimulationRecord { event, generator, settings }),
         }
     }
 

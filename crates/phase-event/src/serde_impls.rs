@@ -7,7 +7,7 @@ use crate::{
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de, ser};
 use serde_json::Value;
 
-/// As in the list `events` of a file.
+/// The form of an element of the list `events` of a file.
 impl Serialize for Recording {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         if !is_recording_finite(self) {
@@ -24,7 +24,7 @@ impl<'de> Deserialize<'de> for Recording {
     }
 }
 
-/// As in the list `events` of a file, without the members that only a [`Recording`] has.
+/// The form of an element of the list `events` of a file, without the members that only a [`Recording`] has.
 impl Serialize for Event {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         if !is_event_finite(self) {

@@ -3,7 +3,15 @@
 use phase_model::{AgentId, Entity, LandmarkId, Literal, ObjectId, Predicate, PredicateTarget, Subgoal};
 use std::{collections::BTreeMap, sync::LazyLock};
 
-/// The subgoal that is displayed as a text, such as `not Attach(agent 0, object 1)`.
+/// The subgoal that is displayed as a text, such as `not Attach(agent 0, object 1)`; `None` for other texts.
+///
+/// ```
+/// use phase_event::subgoal_of;
+///
+/// let text = "not Attach(agent 0, object 1)";
+/// assert_eq!(subgoal_of(text).map(|subgoal| subgoal.to_string()).as_deref(), Some(text));
+/// assert_eq!(subgoal_of("Attach(agent 7, object 1)"), None);
+/// ```
 #[must_use]
 pub fn subgoal_of(text: &str) -> Option<Subgoal> {
     // There are so few subgoals that a lookup in the full list is simpler than parsing, and always agrees

@@ -11,7 +11,7 @@ pub struct SubgoalValue {
     pub subgoal: Subgoal,
     /// V(B, h, g) of the paper: share of particles minus λ times their mean cost.
     pub value: f64,
-    /// How many particles propose it.
+    /// Number of particles that propose it.
     pub particles: usize,
 }
 
@@ -26,7 +26,11 @@ pub struct ActionEvaluation {
     pub value: f64,
 }
 
-/// One decision of one agent, explained.
+/// One decision of one agent, explained: the subgoal that it pursued, the subgoals that it considered, and
+/// the actions that it searched.
+///
+/// The high level of a mind plans from every particle of its belief, and each plan proposes its first
+/// subgoal. The subgoal of the greatest value V is pursued by the low level, a tree search over actions.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Thought {
     /// The subgoal pursued.
@@ -45,8 +49,8 @@ impl Thought {
     pub const IDLE: Self =
         Self { subgoal: Subgoal::Stay, subgoals: Vec::new(), plan: Vec::new(), actions: Vec::new() };
 
-    /// As JSON with subgoals as people write them, such as `On(agent 0, landmark 1)`: `subgoal`, `subgoals` with `value` and
-    /// `particles`, `plan`, and `actions` with `visits` and `value`.
+    /// The thought as JSON with subgoals as people write them, such as `On(agent 0, landmark 1)`: `subgoal`,
+    /// `subgoals` with `value` and `particles`, `plan`, and `actions` with `visits` and `value`.
     #[must_use]
     pub fn described(&self) -> Value {
         let Self { subgoal, subgoals, plan, actions } = self;

@@ -11,7 +11,8 @@ pub const SUBSTEP_COLUMNS: [&str; 6] = ["x", "y", "vx", "vy", "angle", "angular_
 /// Position (u), velocity (u/s) and angle (rad) of one entity at one step, in the order of [`COLUMNS`].
 pub type Row = [f32; COLUMNS.len()];
 
-/// The same and the angular velocity (rad/s), in the order of [`SUBSTEP_COLUMNS`].
+/// Position (u), velocity (u/s), angle (rad) and angular velocity (rad/s) of one entity after one substep, in
+/// the order of [`SUBSTEP_COLUMNS`].
 pub type SubstepRow = [f32; SUBSTEP_COLUMNS.len()];
 
 /// Trajectories of all entities: `agents[i][t]` and `objects[k][t]`, all of the same length, which is at
@@ -81,6 +82,7 @@ pub const fn substep_row(body: &Body) -> SubstepRow {
 
 /// The body of a row; its angular velocity is unknown and set to 0.
 pub(crate) const fn body_of(&[x, y, vx, vy, angle]: &Row) -> Body {
-    let (position, velocity) = (Vec2::new(x, y), Vec2::new(vx, vy));
+    let position = Vec2::new(x, y);
+    let velocity = Vec2::new(vx, vy);
     Body { position, velocity, angle, angular_velocity: 0.0 }
 }

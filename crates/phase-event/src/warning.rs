@@ -4,7 +4,8 @@ use crate::{Recording, error::in_trajectory};
 use core::fmt;
 use phase_model::{Relation, SceneWarning};
 
-/// Something in an event that is likely to be a mistake. The text names the field and the rule, not the event.
+/// Something in an event that is likely to be a mistake. The text names the field and the rule, not the
+/// event.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum EventWarning {
     /// A warning about its scene.
@@ -30,7 +31,8 @@ impl fmt::Display for EventWarning {
         match self {
             Self::Scene(warning) => formatter.write_str(&in_trajectory(&warning.to_string())),
             Self::Relation { relation, follows } => {
-                let (relation, follows) = (relation.name(), follows.name());
+                let relation = relation.name();
+                let follows = follows.name();
                 write!(formatter, "relation is {relation:?}, but goals and attitudes make it {follows:?}")
             }
             Self::RecordedSteps { recorded, steps } => {
@@ -46,7 +48,8 @@ impl Recording {
     #[must_use]
     pub fn warnings(&self) -> Vec<EventWarning> {
         let mut warnings: Vec<_> = self.scene.warnings().into_iter().map(EventWarning::Scene).collect();
-        let (relation, follows) = (self.relation, self.scene.relation());
+        let relation = self.relation;
+        let follows = self.scene.relation();
         if relation != follows {
             warnings.push(EventWarning::Relation { relation, follows });
         }

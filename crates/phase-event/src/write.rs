@@ -15,8 +15,9 @@ use serde_json::Value;
 /// The value of the field `format` of these files.
 pub const FILE_FORMAT: &str = "phase-events/1";
 
-/// The text of a file with these events: one line for each field of an event, numbers in the shortest form
-/// that reads back to the same bits.
+/// The text of a `phase-events/1` file with these events, which [`from_json`](crate::from_json) reads back
+/// bit for bit: one line for each field of an event, numbers in the shortest form that reads back to the same
+/// bits.
 ///
 /// # Errors
 /// [`EventWriteError`] names the first event that cannot be written.

@@ -1,4 +1,4 @@
-//! What JavaScript calls. Errors are exceptions with the sentence as their message.
+//! The functions and classes that JavaScript calls. Errors are exceptions with the sentence as their message.
 
 use crate::{PageObserver, PageSimulation, packed, scenes};
 use phase_model::{AGENT_COUNT, Action, AgentId};
@@ -36,31 +36,31 @@ pub fn actions() -> Vec<String> {
     Action::ALL.iter().filter_map(name).collect()
 }
 
-/// As [`scenes::choices`].
+/// The choices that an editor offers, as JSON; see [`scenes::choices`].
 #[wasm_bindgen]
 pub fn choices() -> String {
     scenes::choices()
 }
 
-/// As [`scenes::goals`].
+/// The goals that an agent can have, as JSON; see [`scenes::goals`].
 #[wasm_bindgen]
 pub fn goals(agent: u32, objects: usize) -> Result<String, JsError> {
     Ok(scenes::goals(agent_of(agent)?, objects))
 }
 
-/// As [`scenes::describe`].
+/// Checks and describes a scene, as JSON; see [`scenes::describe`].
 #[wasm_bindgen(js_name = describeScene)]
 pub fn describe_scene(scene: &str) -> Result<String, JsError> {
     scenes::describe(scene).map_err(raise)
 }
 
-/// As [`scenes::sample`].
+/// Samples a scene of a kind or variant; see [`scenes::sample`].
 #[wasm_bindgen(js_name = sampleScene)]
 pub fn sample_scene(kind: &str, variant: Option<String>, seed: u64) -> Result<String, JsError> {
     scenes::sample(kind, variant.as_deref(), seed).map_err(raise)
 }
 
-/// As [`scenes::start`].
+/// The initial state of a scene, packed; see [`scenes::start`].
 #[wasm_bindgen(js_name = startState)]
 pub fn start_state(scene: &str) -> Result<Vec<f32>, JsError> {
     scenes::start(scene).map_err(raise)
@@ -78,7 +78,7 @@ impl Events {
         scenes::events(text).map(Self).map_err(raise)
     }
 
-    /// How many there are.
+    /// Number of events.
     #[wasm_bindgen(getter)]
     pub fn length(&self) -> usize {
         self.0.len()
@@ -94,7 +94,7 @@ impl Events {
         self.0.get(index).and_then(|recording| recording.scene.to_json().ok())
     }
 
-    /// As [`scenes::frames`].
+    /// The states of an event, packed, to be shown one after the other; see [`scenes::frames`].
     pub fn frames(&self, index: usize) -> Option<Vec<f32>> {
         self.0.get(index).map(scenes::frames)
     }
@@ -109,50 +109,50 @@ impl Events {
     }
 }
 
-/// As [`PageSimulation`].
+/// Simulates a scene step by step; a [`PageSimulation`] for JavaScript.
 #[wasm_bindgen]
 pub struct Simulation(PageSimulation);
 
 #[wasm_bindgen]
 impl Simulation {
-    /// As [`PageSimulation::new`].
+    /// Puts a scene at its start; see [`PageSimulation::new`] for the options.
     #[wasm_bindgen(constructor)]
     pub fn new(scene: &str, seed: u64, options: &str) -> Result<Simulation, JsError> {
         PageSimulation::new(scene, seed, options).map(Self).map_err(raise)
     }
 
-    /// As [`PageSimulation::step`]; a negative number leaves the agent to its mind.
+    /// Simulates one step with these actions; a negative number leaves the agent to its mind.
     pub fn step(&mut self, first: i32, second: i32) -> Result<(), JsError> {
         let given: [Option<Action>; AGENT_COUNT] = [action_of(first)?, action_of(second)?];
         self.0.step(given).map_err(raise)
     }
 
-    /// As [`PageSimulation::frames`].
+    /// The states after each substep of the last step, packed.
     pub fn frames(&self) -> Vec<f32> {
         self.0.frames()
     }
 
-    /// As [`PageSimulation::row`].
+    /// The row of the last step that an observer is shown, packed.
     pub fn row(&self) -> Vec<f32> {
         self.0.row()
     }
 
-    /// As [`PageSimulation::report`].
+    /// The last step in words, as JSON; see [`PageSimulation::report`].
     pub fn report(&self) -> String {
         self.0.report()
     }
 
-    /// As [`PageSimulation::belief`].
+    /// The particles of an agent's belief, packed one after the other.
     pub fn belief(&self, agent: u32) -> Result<Vec<f32>, JsError> {
         Ok(self.0.belief(agent_of(agent)?))
     }
 
-    /// As [`PageSimulation::view`].
+    /// The cells that an agent sees, 1 for each that it does; see [`PageSimulation::view`].
     pub fn view(&self, agent: u32) -> Result<Vec<u8>, JsError> {
         Ok(self.0.view(agent_of(agent)?))
     }
 
-    /// As [`PageSimulation::document`].
+    /// The event so far, as a file in the format `phase-events/1`.
     pub fn document(&self, id: &str) -> Result<String, JsError> {
         self.0.document(id).map_err(raise)
     }
@@ -164,25 +164,25 @@ pub struct Observer(PageObserver);
 
 #[wasm_bindgen]
 impl Observer {
-    /// As [`PageObserver::new`].
+    /// Begins with the first row; see [`PageObserver::new`].
     #[wasm_bindgen(constructor)]
     pub fn new(scene: &str, row: &[f32], decisions: usize) -> Result<Observer, JsError> {
         PageObserver::new(scene, row, decisions).map(Self).map_err(raise)
     }
 
-    /// As [`PageObserver::push`].
+    /// Watches the next row and answers, as JSON; see [`PageObserver::push`].
     pub fn push(&mut self, row: &[f32]) -> Result<String, JsError> {
         self.0.push(row).map_err(raise)
     }
 }
 
-/// As [`crate::Picture`].
+/// Draws states of one scene; a [`crate::Picture`] for JavaScript.
 #[wasm_bindgen]
 pub struct Picture(crate::Picture);
 
 #[wasm_bindgen]
 impl Picture {
-    /// As [`crate::Picture::new`].
+    /// Prepares to draw a scene; see [`crate::Picture::new`].
     #[wasm_bindgen(constructor)]
     pub fn new(scene: &str, side: u32, palette: &str) -> Result<Picture, JsError> {
         crate::Picture::new(scene, side, palette).map(Self).map_err(raise)
@@ -200,25 +200,25 @@ impl Picture {
         self.0.size()[1]
     }
 
-    /// As [`crate::Picture::show_mind`].
+    /// Draws the view and the belief of an agent over the states to come.
     #[wasm_bindgen(js_name = showMind)]
     pub fn show_mind(&mut self, agent: u32, view: &[u8], belief: &[f32]) -> Result<(), JsError> {
         self.0.show_mind(agent_of(agent)?, view, belief);
         Ok(())
     }
 
-    /// As [`crate::Picture::hide_mind`].
+    /// Draws the states to come alone.
     #[wasm_bindgen(js_name = hideMind)]
     pub fn hide_mind(&mut self) {
         self.0.hide_mind();
     }
 
-    /// As [`crate::Picture::draw`].
+    /// The picture of a packed state: red, green, blue and opacity of each pixel, row by row from the top.
     pub fn draw(&self, state: &[f32]) -> Result<Vec<u8>, JsError> {
         self.0.draw(state).map_err(raise)
     }
 
-    /// As [`crate::Picture::pixel`].
+    /// The pixel at which a place of the arena (u) is drawn.
     pub fn pixel(&self, x: f32, y: f32) -> Vec<f32> {
         self.0.pixel(x, y).to_vec()
     }

@@ -1,13 +1,13 @@
 //! PHASE in a browser: what the playground's pages call, as WebAssembly.
 //!
-//! A [`PageSimulation`] simulates a scene step by step, with minds or people's actions; a [`PageObserver`] infers goals and relation while an event
-//! runs; a [`Picture`] draws as the videos are drawn; [`scenes`] checks, describes and samples scenes, and reads files of events.
-//! Everything is exchanged as JSON in the formats of `docs/formats.md`, or as 32-bit floats where there is one for each body and
-//! step ([`packed`]).
+//! A [`PageSimulation`] simulates a scene step by step, with minds or people's actions; a [`PageObserver`]
+//! infers goals and relation while an event runs; a [`Picture`] draws as the videos are drawn; [`scenes`]
+//! checks, describes and samples scenes, and reads files of events. Everything is exchanged as JSON in the
+//! formats of `docs/formats.md`, or as 32-bit floats where there is one for each body and step ([`packed`]).
 //!
-//! Key design decision: the browser runs the same code as the command line, physics, minds, inference and drawing, and
-//! the pages only ask and show. An event that is made in a browser has the bytes that `phase simulate` gives it. The trade-off is
-//! a download of some megabytes.
+//! Key design decision: the browser runs the same code as the command line, physics, minds, inference and
+//! drawing, and the pages only ask and show. An event that is made in a browser has the bytes that
+//! `phase simulate` gives it. The trade-off is a download of some megabytes.
 //!
 //! ```
 //! use phase_playground::{PageSimulation, scenes};

@@ -20,8 +20,8 @@ pub struct PageObserver {
 }
 
 impl PageObserver {
-    /// Begins with the first row, a packed state. Of the scene only walls and sizes are looked at. `decisions` is what it spends on a
-    /// row: a decision takes a few milliseconds.
+    /// Begins with the first row, a packed state. Of the scene only walls and sizes are looked at.
+    /// `decisions` is what it spends on a row: a decision takes a few milliseconds.
     ///
     /// # Errors
     /// A sentence for an invalid scene or row.
@@ -35,8 +35,8 @@ impl PageObserver {
         Ok(Self { simple, observer })
     }
 
-    /// Watches the next row, a packed state, and answers as `eval` does (`goals`, `relation`, `roles`, `reported`), with the likeliest
-    /// goals in `words`.
+    /// Watches the next row, a packed state, and answers as `eval` does (`goals`, `relation`, `roles`,
+    /// `reported`), with the likeliest goals in `words`.
     ///
     /// # Errors
     /// A sentence for an invalid row, and if a search fails.

@@ -4,7 +4,8 @@ use phase_model::{AGENT_COUNT, Body, Entity, Grip, MAX_ENTITIES, ObjectId, Side,
 
 /// Numbers of a body: x, y (u), angle (rad), vx, vy (u/s), angular velocity (rad/s).
 pub const BODY: usize = 6;
-/// Numbers of a grip: the object, or −1 for none; the index of the side in [`Side::ALL`]; the object's angle minus the agent's (rad).
+/// Numbers of a grip: the object, or −1 for none; the index of the side in [`Side::ALL`]; the object's angle
+/// minus the agent's (rad).
 pub const GRIP: usize = 3;
 /// Numbers of a state: four bodies, absent objects included, then the grips of both agents.
 pub const STATE: usize = MAX_ENTITIES * BODY + AGENT_COUNT * GRIP;

@@ -32,7 +32,8 @@ impl Picture {
         [self.stage.width(), self.stage.height()]
     }
 
-    /// Shows from now on what an agent sees (`view`, as of [`Simulation::view`](crate::Simulation::view)) and believes (`belief`, packed states).
+    /// Draws an agent's view (`view`, as of [`PageSimulation::view`](crate::PageSimulation::view)) and belief
+    /// (`belief`, packed states) over the states to come.
     pub fn show_mind(&mut self, agent: AgentId, view: &[u8], belief: &[f32]) {
         let particles: Vec<_> = packed::states(belief).collect();
         let mut visible = CellSet::EMPTY;

@@ -19,12 +19,13 @@ pub fn read(scene: &str) -> Result<Scene, String> {
     Ok(scene)
 }
 
-/// A scene in its canonical form, and what a page shows of it: `scene`, `walls` ([[x, y], [x, y]], u), `radii` (u), `landmarks`
-/// ([x, y], u), `relation`, `goals` in words, `kind` as goals and attitudes have it, and `overlap`, what overlaps at the start, as a sentence: a recording may begin so, but
-/// nobody should make such a scene.
+/// A scene in its canonical form, and what a page shows of it: `scene`, `walls` ([[x, y], [x, y]], u),
+/// `radii` (u), `landmarks` ([x, y], u), `relation`, `goals` in words, `kind` as goals and attitudes have it,
+/// and `overlap`, what overlaps at the start, as a sentence: a recording may begin so, but nobody should make
+/// such a scene.
 ///
 /// # Errors
-/// As [`read`].
+/// A sentence that names the field and the rule.
 pub fn describe(scene: &str) -> Result<String, String> {
     let scene = read(scene)?;
     let physics = scene.physics();
@@ -42,7 +43,8 @@ pub fn describe(scene: &str) -> Result<String, String> {
     Ok(description.to_string())
 }
 
-/// Words and choices of the page: `kinds` with their `variants`, the numbers of the `layouts` in use, and the `names` of the bodies.
+/// The words and choices that an editor offers: `kinds` with their `variants`, the numbers of the `layouts`
+/// in use, and the `names` of the bodies.
 #[must_use]
 pub fn choices() -> String {
     let kinds: Vec<_> = EventKind::ALL
@@ -56,7 +58,8 @@ pub fn choices() -> String {
     json!({ "kinds": kinds, "layouts": USED_BASES, "names": names }).to_string()
 }
 
-/// The goals that an agent of a scene with so many objects can have: `goal`, as it stands in scenes, and `words`.
+/// The goals that an agent of a scene with so many objects can have: `goal`, as it stands in scenes, and
+/// `words`.
 #[must_use]
 pub fn goals(agent: AgentId, objects: usize) -> String {
     let other = agent.other();
@@ -87,7 +90,7 @@ pub fn sample(kind: &str, variant: Option<&str>, seed: u64) -> Result<String, St
 /// The state in which a scene begins, packed.
 ///
 /// # Errors
-/// As [`read`].
+/// A sentence that names the field and the rule.
 pub fn start(scene: &str) -> Result<Vec<f32>, String> {
     let mut numbers = Vec::new();
     packed::push(&read(scene)?.initial_state(), &mut numbers);

@@ -18,7 +18,7 @@ pub struct PageSimulation {
     physics: PhysicsConfig,
 }
 
-/// What can be set, all of it optional.
+/// The settings of a page's simulation, all of them optional.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Options {
@@ -30,8 +30,8 @@ struct Options {
 }
 
 impl PageSimulation {
-    /// A scene at its start. `options` is an object with `engine`, `max_steps`, `min_steps` and `minds`, parameters of the minds that
-    /// differ from the defaults; all are optional.
+    /// A scene at its start. `options` is an object with `engine`, `max_steps`, `min_steps` and `minds`,
+    /// parameters of the minds that differ from the defaults; all are optional.
     ///
     /// # Errors
     /// A sentence that names the field and the rule.
@@ -77,7 +77,8 @@ impl PageSimulation {
         numbers
     }
 
-    /// The row of the last step that an observer is shown, packed: the mean over its substeps; before the first one the initial state.
+    /// The row of the last step that an observer is shown, packed: the mean over its substeps; before the
+    /// first one the initial state.
     #[must_use]
     pub fn row(&self) -> Vec<f32> {
         let event = self.simulation.event();
@@ -86,8 +87,9 @@ impl PageSimulation {
         numbers
     }
 
-    /// The last step in words: `step`, its number; `over`; `actions`; `goals`, which hold now; and `minds`, the thoughts of both
-    /// agents (`subgoal`, `subgoals`, `plan`, `actions`), all before the first step without actions and minds.
+    /// The last step in words: `step`, its number; `over`; `actions`; `goals`, which hold now; and `minds`,
+    /// the thoughts of both agents (`subgoal`, `subgoals`, `plan`, `actions`), all before the first step
+    /// without actions and minds.
     #[must_use]
     pub fn report(&self) -> String {
         let event = self.simulation.event();
@@ -101,7 +103,7 @@ impl PageSimulation {
         .to_string()
     }
 
-    /// What an agent believes: its particles, packed one after the other.
+    /// The particles of an agent's belief, packed one after the other.
     #[must_use]
     pub fn belief(&self, agent: AgentId) -> Vec<f32> {
         let mut numbers = Vec::new();
@@ -116,7 +118,7 @@ impl PageSimulation {
         Cell::all().map(|cell| u8::from(observation.visible.contains(cell))).collect()
     }
 
-    /// What has happened, as a file in the format `phase-events/1`.
+    /// The event so far, as a file in the format `phase-events/1`.
     ///
     /// # Errors
     /// If the id is not valid.

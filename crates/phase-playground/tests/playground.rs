@@ -1,4 +1,4 @@
-//! What pages are given is what the crates below give.
+//! Pages are given what the crates below give.
 
 use core::ops::ControlFlow;
 use phase_eval::goals::Answer;
@@ -85,7 +85,8 @@ fn pictures_are_frames() {
     assert_eq!(picture.draw(last).unwrap(), renderer.frame(&state, None).rgba());
 }
 
-/// Once with the time that it takes, a page's observer says what `phase eval --method simple` says of the file.
+/// Once with the time that it takes, a page's observer says what `phase eval --method simple` says of the
+/// file.
 #[test]
 fn the_posterior_of_a_page_is_that_of_the_program() {
     let mut show = PageSimulation::new(&scene(), 9, OPTIONS).unwrap();

@@ -10,7 +10,7 @@ use phase_cli::{
 use pyo3::prelude::*;
 use std::{ffi::OsString, thread, time::Duration};
 
-/// How often Python is asked whether it was interrupted.
+/// Time between two questions to Python whether it was interrupted.
 const POLL: Duration = Duration::from_millis(100);
 
 /// A context without notes and progress.
@@ -18,8 +18,8 @@ pub(crate) const fn quiet() -> Context {
     Context { program: PHASE, verbosity: Verbosity { quiet: true, verbose: false } }
 }
 
-/// Runs a command of `phase`, as from its command line without the program's name. An interruption of Python stops it as Ctrl-C does
-/// there: what is finished is kept.
+/// Runs a command of `phase`, as from its command line without the program's name. An interruption of Python
+/// stops it as Ctrl-C does there: what is finished is kept.
 #[pyfunction]
 pub(crate) fn run(py: Python<'_>, arguments: Vec<String>) -> PyResult<()> {
     interrupt::leave_to_host();

@@ -49,8 +49,8 @@ impl Renderer {
         self.array(py, &self.frame(&recording.scene.physics(), &state)?)
     }
 
-    /// Writes an event as an .mp4 with 20 frames a second: five a step, or for a recording, which has no substeps, one a step shown
-    /// five times.
+    /// Writes an event as an .mp4 with 20 frames a second: five a step, or for a recording, which has no
+    /// substeps, one a step shown five times.
     fn video(&self, py: Python<'_>, event: PyRef<'_, Event>, path: PathBuf) -> PyResult<()> {
         let recording = event.recording.clone();
         py.detach(|| {

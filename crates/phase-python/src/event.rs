@@ -57,8 +57,8 @@ impl Event {
         Scene { scene: self.recording.scene.clone() }
     }
 
-    /// The rows of the trajectory: (steps + 1, entities, 5), columns x, y, vx, vy, angle. Row 0 is the initial state, every other
-    /// the mean over the substeps of its step.
+    /// The rows of the trajectory: (steps + 1, entities, 5), columns x, y, vx, vy, angle. Row 0 is the
+    /// initial state, every other the mean over the substeps of its step.
     fn trajectory<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f32>>> {
         let entities: Vec<_> = self.recording.trajectory.entities().collect();
         let row = |step: usize| entities.iter().map(|rows| rows[step].to_vec()).collect();
@@ -66,7 +66,8 @@ impl Event {
         PyArray3::from_vec3(py, &rows).map_err(raise)
     }
 
-    /// The bodies after every substep, 60 a second: (5 · steps, entities, 6); `None` for a recording, which has none.
+    /// The bodies after every substep, 60 a second: (5 · steps, entities, 6); `None` for a recording, which
+    /// has none.
     fn substeps<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyArray3<f32>>>> {
         let Some(simulation) = &self.recording.simulation else { return Ok(None) };
         let entities = self.recording.scene.physics().entities();
@@ -164,7 +165,8 @@ pub(crate) fn simulate(
     let (event, _) = found.map_err(raise)?;
     let settings = settings_value(&settings).map_err(raise)?;
     let recording = Recording::of_event(id, event, GENERATOR.into(), settings);
-    // What a file of it would be read as, so that an event is the same wherever it comes from, and its id is checked.
+    // What a file of it would be read as, so that an event is the same wherever it comes from, and its id is
+    // checked.
     let text = to_json(&[recording]).map_err(raise)?;
     let mut read = Event::list_from_json(py, &text)?;
     read.pop().ok_or_else(|| raise("the event cannot be read back"))

@@ -1,11 +1,13 @@
 //! The native part of the Python package `phase_events`, the module `phase_events._native`.
 //!
-//! It hands numbers over as numpy arrays and everything else as JSON, in the formats of `docs/formats.md`, so that Python and files
-//! have one vocabulary. What users see, with types, units and errors, is documented in the package, `python/phase_events`.
+//! It hands numbers over as numpy arrays and everything else as JSON, in the formats of `docs/formats.md`, so
+//! that Python and files have one vocabulary. What users see, with types, units and errors, is documented in
+//! the package, `python/phase_events`.
 //!
-//! Key design decision: an agent's observation is one vector of fixed length (`observation`). Learners, vector environments and
-//! PHASE's own minds read the same vector, and nothing is lost in it: two minds that play in an environment make the event that
-//! [`phase_sim::simulate`] makes. The trade-off is a longer vector than most learners need.
+//! Key design decision: an agent's observation is one vector of fixed length (`observation`). Learners,
+//! vector environments and PHASE's own minds read the same vector, and nothing is lost in it: two minds that
+//! play in an environment make the event that [`phase_sim::simulate`] makes. The trade-off is a longer vector
+//! than most learners need.
 //!
 //! The interpreter's lock is released in every call that computes.
 

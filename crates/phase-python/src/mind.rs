@@ -84,7 +84,8 @@ impl Mind {
         Ok(Self { agent, entities, state: Arc::new(Mutex::new(state)) })
     }
 
-    /// Observes and decides; `action` is what the agent did in fact since its last decision, if not what it decided.
+    /// Observes and decides; `action` is what the agent did in fact since its last decision, if not what it
+    /// decided.
     #[pyo3(signature = (observation, action))]
     fn decide(
         &self,
@@ -123,8 +124,8 @@ impl Mind {
     }
 }
 
-/// Lets several minds decide at once, each from a row of the observations, (N, OBSERVATION_SIZE). `threads` at most decide at the
-/// same time.
+/// Lets several minds decide at once, each from a row of the observations, (N, OBSERVATION_SIZE). `threads`
+/// at most decide at the same time.
 #[pyfunction]
 pub(crate) fn decide_all<'py>(
     py: Python<'py>,

@@ -1,8 +1,8 @@
 //! An agent's observation as a vector.
 //!
-//! The agent comes first, then the other, then the objects. Everything that is not observed is 0. The last parts say what both
-//! agents know of the scene: bodies, doors, both goals, and the agent's own attitude (the paper: "we assume agents know each other's
-//! goals").
+//! The agent comes first, then the other, then the objects. Everything that is not observed is 0. The last
+//! parts say what both agents know of the scene: bodies, doors, both goals, and the agent's own attitude (the
+//! paper: "we assume agents know each other's goals").
 
 use crate::error::raise;
 use phase_model::{
@@ -14,9 +14,11 @@ use pyo3::PyResult;
 
 /// A part of the vector: its name and its shape, in order.
 const PARTS: [(&str, &[usize]); 13] = [
-    // Of each entity: present, observed, touched, x, y, cos(angle), sin(angle), angle, vx, vy, angular velocity.
+    // Of each entity: present, observed, touched, x, y, cos(angle), sin(angle), angle, vx, vy, angular
+    // velocity.
     ("entities", &[MAX_ENTITIES, ENTITY_NUMBERS]),
-    // Of each agent: object 0 held, object 1 held, by head, tail, right, left, the object's angle minus the agent's.
+    // Of each agent: object 0 held, object 1 held, by head, tail, right, left, the object's angle minus the
+    // agent's.
     ("grips", &[AGENT_COUNT, GRIP_NUMBERS]),
     // Of each pair of entities, in the order of `PAIRS`: whether they are in contact.
     ("contacts", &[PAIRS.len()]),
@@ -26,7 +28,8 @@ const PARTS: [(&str, &[usize]); 13] = [
     ("radii", &[MAX_ENTITIES]),
     // Maximum force of each agent (N / 100).
     ("forces", &[AGENT_COUNT]),
-    // Of each of the four inner walls: where its door begins and ends, from the centre (u); 0, 0 without a door.
+    // Of each of the four inner walls: where its door begins and ends, from the centre (u); 0, 0 without a
+    // door.
     ("doors", &[4, 2]),
     ("attitude", &[1]),
     // Of the agent's goal: its kind, its subject, its landmark (one of each is 1), its sign.
@@ -50,7 +53,8 @@ const PAIRS: [(usize, usize); 6] = [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 
 
 /// Numbers in an observation.
 pub(crate) const SIZE: usize = {
-    let (mut sum, mut part) = (0, 0);
+    let mut sum = 0;
+    let mut part = 0;
     while part < PARTS.len() {
         sum += length(part);
         part += 1;
@@ -61,7 +65,8 @@ pub(crate) const SIZE: usize = {
 /// Numbers in a part.
 const fn length(part: usize) -> usize {
     let shape = PARTS[part].1;
-    let (mut product, mut k) = (1, 0);
+    let mut product = 1;
+    let mut k = 0;
     while k < shape.len() {
         product *= shape[k];
         k += 1;
@@ -82,7 +87,7 @@ pub(crate) fn parts() -> Vec<(&'static str, Vec<usize>)> {
 pub(crate) struct Encoder {
     physics: PhysicsConfig,
     goals: [Goal; AGENT_COUNT],
-    /// What does not change, for each agent.
+    /// The numbers that do not change, for each agent.
     scene: [Vec<f32>; AGENT_COUNT],
 }
 
@@ -105,7 +110,8 @@ impl Encoder {
             numbers[2] = f32::from(u8::from(observation.touched.contains(entity)));
             let Some(body) = observation.body(entity).filter(|_| present) else { continue };
             let Body { position, angle, velocity, angular_velocity } = *body;
-            let (sine, cosine) = (libm::sinf(angle), libm::cosf(angle));
+            let sine = libm::sinf(angle);
+            let cosine = libm::cosf(angle);
             numbers[1] = 1.0;
             numbers[3..].copy_from_slice(&[
                 position.x,
@@ -155,7 +161,7 @@ fn involved(goal: Goal) -> impl Iterator<Item = Entity> {
     [Some(goal.subject()), target].into_iter().flatten()
 }
 
-/// What is observed of a state.
+/// The state as far as it is observed: other bodies are at the origin.
 fn known_state(observation: &Observation) -> State {
     let mut state = State::new([Body::default(); MAX_ENTITIES]);
     for entity in observation.observed.iter() {
@@ -186,7 +192,8 @@ pub(crate) fn read(agent: AgentId, numbers: &[f32]) -> PyResult<Observation> {
     let (moving, _) = numbers.split_at(MOVING);
     let (entities, rest) = moving.split_at(length(0));
     let mut known = State::new([Body::default(); MAX_ENTITIES]);
-    let (mut observed, mut touched) = (BodySet::EMPTY, BodySet::EMPTY);
+    let mut observed = BodySet::EMPTY;
+    let mut touched = BodySet::EMPTY;
     for (numbers, entity) in entities.chunks_exact(ENTITY_NUMBERS).zip(order) {
         if numbers[2] > 0.5 {
             touched.insert(entity);
@@ -252,8 +259,8 @@ fn scene_numbers(scene: &Scene, physics: &PhysicsConfig, agent: AgentId) -> Vec<
     numbers
 }
 
-/// A goal, for an agent: its kind (agent on landmark, object on landmark, touch), its subject in the agent's order, its landmark,
-/// its sign.
+/// A goal, for an agent: its kind (agent on landmark, object on landmark, touch), its subject in the agent's
+/// order, its landmark, its sign.
 fn goal_numbers(goal: Goal, agent: AgentId) -> [f32; GOAL_NUMBERS] {
     let mut numbers = [0.0; GOAL_NUMBERS];
     let kind = match goal {

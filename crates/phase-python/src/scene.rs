@@ -35,7 +35,8 @@ impl Scene {
         Ok(Self { scene: scene.map_err(raise)? })
     }
 
-    /// Draws a scene as a preset has them: of a random one of its slots, with that slot's variant, goals and layouts.
+    /// Draws a scene as a preset has them: of a random one of its slots, with that slot's variant, goals and
+    /// layouts.
     #[staticmethod]
     fn sample_preset(py: Python<'_>, preset: &str, seed: u64) -> PyResult<Self> {
         let preset = plan::preset(preset).map_err(raise)?;

@@ -43,7 +43,8 @@ struct Lane {
 
 impl Lane {
     fn new(scene: &Scene, engine: Engine) -> Self {
-        let (scene, physics) = (&scene.scene, scene.scene.physics());
+        let scene = &scene.scene;
+        let physics = scene.physics();
         let state = scene.initial_state();
         Self {
             environment: Environment::new(engine, &physics, &state),
@@ -82,13 +83,14 @@ impl Lane {
     fn rewards(&self, achieved: [bool; AGENT_COUNT], actions: [Action; AGENT_COUNT]) -> [f64; AGENT_COUNT] {
         let satisfied = achieved.map(|achieved| f64::from(u8::from(achieved)));
         AgentId::ALL.map(|agent| {
-            let (own, other) = (satisfied[usize::from(agent)], satisfied[usize::from(agent.other())]);
+            let own = satisfied[usize::from(agent)];
+            let other = satisfied[usize::from(agent.other())];
             social_reward(self.attitudes[agent], own, other, actions[usize::from(agent)])
         })
     }
 }
 
-/// What a step writes for one world.
+/// The parts of the output arrays that a step writes for one world.
 struct Row<'a> {
     lane: &'a mut Lane,
     actions: [Action; AGENT_COUNT],
@@ -130,8 +132,8 @@ impl Worlds {
         Ok(())
     }
 
-    /// Writes the observations of both agents, (N, 2, OBSERVATION_SIZE), and whether their goals hold, (N, 2): of these worlds, or
-    /// of all.
+    /// Writes the observations of both agents, (N, 2, OBSERVATION_SIZE), and whether their goals hold, (N,
+    /// 2): of these worlds, or of all.
     #[pyo3(signature = (observations, achieved, worlds=None))]
     fn observe(
         &self,
@@ -147,10 +149,12 @@ impl Worlds {
             }
         };
         self.check_shapes(&observations, &achieved)?;
-        let (observations, achieved) = (observations.as_slice_mut()?, achieved.as_slice_mut()?);
+        let observations = observations.as_slice_mut()?;
+        let achieved = achieved.as_slice_mut()?;
         py.detach(|| {
             for index in chosen {
-                let (lane, row) = (&self.lanes[index], AGENT_COUNT * SIZE);
+                let lane = &self.lanes[index];
+                let row = AGENT_COUNT * SIZE;
                 lane.observe(self.omniscient, &mut observations[index * row..(index + 1) * row]);
                 achieved[index * AGENT_COUNT..(index + 1) * AGENT_COUNT].copy_from_slice(&lane.achieved());
             }
@@ -158,8 +162,8 @@ impl Worlds {
         Ok(())
     }
 
-    /// Lets both agents of each world act, (N, 2) actions, and writes observations as `observe`, rewards (N, 2) of Equation 1,
-    /// and whether the goals hold. Nothing happens if an action is invalid.
+    /// Lets both agents of each world act, (N, 2) actions, and writes observations as `observe`, rewards (N,
+    /// 2) of Equation 1, and whether the goals hold. Nothing happens if an action is invalid.
     fn step(
         &mut self,
         py: Python<'_>,
@@ -243,7 +247,7 @@ impl Worlds {
         PyArray3::from_vec3(py, &states).map_err(raise)
     }
 
-    /// What each agent of a world holds: the number of the object, or −1.
+    /// The object that each agent of a world holds: its number, or −1.
     fn held<'py>(&self, py: Python<'py>, world: i64) -> PyResult<Bound<'py, PyArray1<i64>>> {
         let state = self.lane(world)?.state();
         let held =

@@ -11,9 +11,11 @@ pub struct Inference {
     pub posterior: Posterior,
     /// Each kind of minds that was considered, in the order of the settings; their probabilities sum to 1.
     pub minds: Vec<MindPosterior>,
-    /// What the event looked like while it was watched; `None` for Algorithm 2, which sees it at once, and before the first decision.
+    /// The impression that the event made while it was watched; `None` for Algorithm 2, which sees it at
+    /// once, and before the first decision.
     pub impression: Option<Impression>,
-    /// How many chains accepted their proposal, for each iteration of Algorithm 2; empty for inverse planning.
+    /// The number of chains that accepted their proposal, for each iteration of Algorithm 2; empty for
+    /// inverse planning.
     pub accepted: Vec<usize>,
     /// Hypotheses that Algorithm 2 simulated, completely or until rejection was certain; 0 for inverse
     /// planning.
@@ -21,7 +23,8 @@ pub struct Inference {
 }
 
 impl Inference {
-    /// What it says of goals, relation and roles, and of how people would report the relation.
+    /// The answer to Task 1: goals, relation and roles, and people's predicted reports of the relation.
+    /// Reports are `None` without an impression.
     #[must_use]
     pub fn judgement(&self, reports: &ReportModel) -> Judgement {
         let reported = self.impression.as_ref().map(|impression| reports.reports(impression));
@@ -29,7 +32,7 @@ impl Inference {
     }
 }
 
-/// What is inferred about one kind of minds.
+/// The result of an inference for one kind of minds.
 #[derive(Clone, PartialEq, Debug)]
 pub struct MindPosterior {
     /// The agents with such minds.
@@ -40,8 +43,8 @@ pub struct MindPosterior {
     pub posterior: Posterior,
 }
 
-/// What one kind of minds makes of an event: ln P(Y) P(motion | Y, kind) of every hypothesis but for a constant, and ln P(motion |
-/// kind).
+/// The evidence that one kind of minds finds in an event: ln P(Y) P(motion | Y, kind) of every hypothesis but
+/// for a constant, and ln P(motion | kind).
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct KindEvidence {
     pub(crate) joint: Vec<(Hypothesis, f64)>,

@@ -37,7 +37,8 @@ impl EstimatedBeliefs {
         beliefs
     }
 
-    /// Follows an event of which more has been observed, and of whose states so many, at least one, are what they were.
+    /// Follows an event of which more has been observed, and of whose states so many, at least one, are what
+    /// they were.
     pub(crate) fn follow(&mut self, states: &[State], unchanged: usize) {
         self.steps.truncate(unchanged.max(1));
         for state in &states[self.steps.len()..] {
@@ -49,7 +50,7 @@ impl EstimatedBeliefs {
         }
     }
 
-    /// What the agent believes after the given number of steps if the world is in this state: from what it
+    /// The agent's belief after the given number of steps if the world is in this state: from what it
     /// has observed until then in the event, and what it observes now. The particles, and the entities that
     /// it observes.
     #[must_use]

@@ -1,14 +1,15 @@
-//! What a mind would choose at each observed state, compared with what the agent did there.
+//! The choices of a mind at each observed state, compared with what the agent did there.
 //!
 //! A mind's policy is the share of visits of each action in its search. What the agent did is known only as a
-//! likelihood of each action ([`action_likelihoods`]). [`chances`] brings the two together for one agent under one
-//! hypothesis, and [`log_likelihood`] and [`fitted_lapse`] summarise many steps.
+//! likelihood of each action ([`action_likelihoods`]). [`chances`] brings the two together for one agent
+//! under one hypothesis, and [`log_likelihood`] and [`fitted_lapse`] summarise many steps.
 //!
 //! ```
 //! use phase_simple::choice::{CHOICES, Chance};
 //!
 //! // The mind chooses the first action with 0.6, the second with 0.4; the motion is twice as likely under the second.
-//! let (mut policy, mut likelihoods) = ([0.0; CHOICES], [0.0; CHOICES]);
+//! let mut policy = [0.0; CHOICES];
+//! let mut likelihoods = [0.0; CHOICES];
 //! (policy[0], policy[1]) = (0.6, 0.4);
 //! (likelihoods[0], likelihoods[1]) = (0.5, 1.0);
 //! let chance = Chance::of(&policy, &likelihoods);
@@ -25,8 +26,8 @@ use phase_model::{AGENT_COUNT, Action, AgentId};
 use phase_pomcp::PomcpError;
 use phase_statistics::softmax;
 
-/// Number of choices. The direction of a turn carries little information, and none in recordings of the published
-/// simulator, in which all turns are left turns; the two turns are therefore one choice.
+/// Number of choices. The direction of a turn carries little information, and none in recordings of the
+/// published simulator, in which all turns are left turns; the two turns are therefore one choice.
 pub const CHOICES: usize = Action::ALL.len() - 1;
 
 /// A number for each choice, by [`index`].
@@ -51,7 +52,7 @@ pub fn policy(decided: &AgentDecision) -> ByChoice {
     policy_of(decided.action, &decided.thought)
 }
 
-/// The same of an action and its explanation.
+/// The policy behind an action, from its explanation.
 pub(crate) fn policy_of(action: Action, thought: &Thought) -> ByChoice {
     let mut policy = [0.0; CHOICES];
     let visits: f64 = thought.actions.iter().map(|value| f64::from(value.visits)).sum();
@@ -65,15 +66,15 @@ pub(crate) fn policy_of(action: Action, thought: &Thought) -> ByChoice {
     policy
 }
 
-/// Normalised likelihood of each choice for each step and agent, proportional to e^{−residual/σ}, where the residual
-/// is the best that inverse dynamics achieves with that choice and `tolerance` is σ (u).
+/// Normalised likelihood of each choice for each step and agent, proportional to e^{−residual/σ}, where the
+/// residual is the best that inverse dynamics achieves with that choice and `tolerance` is σ (u).
 #[must_use]
 pub fn action_likelihoods(prepared: &PreparedEvent, tolerance: f64) -> Vec<[ByChoice; AGENT_COUNT]> {
     let motion = prepared.motion();
     (0..motion.actions.len()).map(|step| likelihoods_in(motion, step, tolerance)).collect()
 }
 
-/// The same of one step.
+/// The normalised likelihood of each choice of each agent in one step; see [`action_likelihoods`].
 pub(crate) fn likelihoods_in(
     motion: &InverseDynamics,
     step: usize,
@@ -91,13 +92,13 @@ pub(crate) fn likelihoods_in(
     })
 }
 
-/// How likely what was done in one step is to be chosen, relative to the best that the uncertainty about it allows: 1
-/// for a policy that always takes the likeliest action.
+/// The probability that what was done in one step is chosen, relative to the best that the uncertainty about
+/// it allows: 1 for a policy that always takes the likeliest action.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Chance {
     /// Σ P(a) L(a) / max L of the mind's policy, 0 to 1.
     pub mind: f64,
-    /// The same of the uniform policy.
+    /// Σ P(a) L(a) / max L of the uniform policy, 0 to 1.
     pub uniform: f64,
 }
 
@@ -124,8 +125,8 @@ impl Chance {
     }
 }
 
-/// The chance of what an agent did in each step. The mind of a hypothesis decides at every observed state with
-/// estimated beliefs, while the other agent replays its inferred actions. `likelihoods` are those of
+/// The chance of what an agent did in each step. The mind of a hypothesis decides at every observed state
+/// with estimated beliefs, while the other agent replays its inferred actions. `likelihoods` are those of
 /// [`action_likelihoods`] of the same event.
 ///
 /// # Errors
@@ -148,11 +149,12 @@ pub fn log_likelihood(chances: &[Chance], lapse: f64) -> Option<f64> {
     (!chances.is_empty()).then(|| sum / chances.len() as f64)
 }
 
-/// The lapse rate, 0 to 1, at which the log likelihood of these steps is greatest. It is concave in the lapse rate, so
-/// that bisection on the sign of its derivative finds the maximum.
+/// The lapse rate, 0 to 1, at which the log likelihood of these steps is greatest. It is concave in the lapse
+/// rate, so that bisection on the sign of its derivative finds the maximum.
 #[must_use]
 pub fn fitted_lapse(chances: &[Chance]) -> f64 {
-    let (mut low, mut high) = (0.0, 1.0);
+    let mut low = 0.0;
+    let mut high = 1.0;
     for _ in 0..BISECTIONS {
         let middle = 0.5 * (low + high);
         let slope = |chance: &Chance| (chance.uniform - chance.mind) / chance.with_lapse(middle);

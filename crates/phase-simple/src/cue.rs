@@ -38,7 +38,8 @@ pub fn log_proposal(goals: &[Goal], agent: AgentId, rows: &[[Body; MAX_ENTITIES]
     let (Some(first), Some(last)) = (rows.first(), rows.last()) else {
         return vec![-libm::log(goals.len() as f64); goals.len()];
     };
-    let (before, after) = (State::new(*first), State::new(*last));
+    let before = State::new(*first);
+    let after = State::new(*last);
     let left = |goal: &Goal, state: &State| f64::from(distance_left(*goal, agent, state));
     let log = |goal: &Goal| -gamma * (2.0 * left(goal, &after) - left(goal, &before));
     let mut logs: Vec<f64> = goals.iter().map(log).collect();

@@ -1,5 +1,5 @@
-//! Fully connected layers of the small networks that are evaluated here, in a fixed order and in double precision: no
-//! neural-network library is needed, and the result is the same everywhere, bit for bit.
+//! Fully connected layers of the small networks that are evaluated here, in a fixed order and in double
+//! precision: no neural-network library is needed, and the result is the same everywhere, bit for bit.
 
 use phase_tensors::{NamedTensor, TensorFile, TensorsError, check_shape};
 

@@ -1,4 +1,4 @@
-//! What one agent's part of the motion says about one intent, before it is weighed.
+//! Evidence of one agent's part of the motion on one intent, before it is weighed.
 
 use crate::{
     Intent, InversePlanningSettings, PreparedEvent,
@@ -8,7 +8,7 @@ use crate::{
 use phase_model::{AGENT_COUNT, AgentId, Goal, Strength};
 use phase_pomcp::PomcpError;
 
-/// What may be spent.
+/// Decisions that an inference may spend.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct Budget {
     /// Decisions of simulated minds left; `None` for as many as it takes.
@@ -16,7 +16,7 @@ pub struct Budget {
 }
 
 impl Budget {
-    /// As much as it takes.
+    /// As many decisions as it takes.
     pub const UNLIMITED: Self = Self { decisions: None };
 
     /// Takes a decision, if there is one left.
@@ -32,7 +32,8 @@ impl Budget {
     }
 }
 
-/// How likely each action explains what was observed, in the steps whose decisions are looked at. All intents share them.
+/// Likelihoods of all actions given the motion, in the steps whose decisions are looked at. All intents share
+/// them.
 #[derive(Clone, PartialEq, Debug)]
 pub struct ActionLikelihoods {
     tolerance: f64,
@@ -41,14 +42,14 @@ pub struct ActionLikelihoods {
 }
 
 impl ActionLikelihoods {
-    /// Of no step yet.
+    /// The likelihoods of no step yet.
     #[must_use]
     pub const fn new(settings: &InversePlanningSettings) -> Self {
         Self { tolerance: settings.tolerance, interval: settings.interval, of_decisions: Vec::new() }
     }
 
-    /// The steps whose decisions are looked at: one of each interval, from the middle of the first one on. At the start of an
-    /// event nobody has moved yet.
+    /// The steps whose decisions are looked at: one of each interval, from the middle of the first one on. At
+    /// the start of an event nobody has moved yet.
     fn step(&self, decision: usize) -> usize {
         let interval = self.interval.max(1);
         interval / 2 + decision * interval
@@ -76,7 +77,8 @@ impl ActionLikelihoods {
         self.step(decisions.saturating_sub(1)) + 1
     }
 
-    /// Number of decisions in steps before the one that leads to row `rows`, of rows that are explained as before.
+    /// Number of decisions in steps before the one that leads to row `rows`, of rows that are explained as
+    /// before.
     fn decisions_before(&self, rows: usize) -> usize {
         (0..).take_while(|&decision| self.step(decision) + 1 < rows).count()
     }
@@ -112,8 +114,9 @@ impl IntentEvidence {
         Ok(Self { agent, run, chances: Vec::new() })
     }
 
-    /// Catches up with the event: lets the mind of the intent decide in every state that is looked at. `likelihoods` have
-    /// caught up with the same event. Whether it has caught up: it stops when the budget is spent.
+    /// Catches up with the event: lets the mind of the intent decide in every state that is looked at.
+    /// `likelihoods` have caught up with the same event. Whether it has caught up: it stops when the budget
+    /// is spent.
     ///
     /// # Errors
     /// Invalid parameters of the agents' search.
@@ -144,14 +147,14 @@ impl IntentEvidence {
         &self.chances
     }
 
-    /// ln P(motion | intent) of the agent's part of the motion, but for a constant: relative to the best choices, which are the
-    /// same under every intent.
+    /// ln P(motion | intent) of the agent's part of the motion, but for a constant: relative to the best
+    /// choices, which are the same under every intent.
     #[must_use]
     pub fn log_likelihood(&self, settings: &InversePlanningSettings) -> f64 {
         self.log_likelihood_of(self.chances.len(), settings)
     }
 
-    /// The same of the first so many decisions.
+    /// ln P(motion | intent) of the first so many decisions.
     pub(crate) fn log_likelihood_of(&self, decisions: usize, settings: &InversePlanningSettings) -> f64 {
         let first = self.chances.iter().take(decisions);
         let log: f64 = first.map(|chance| chance.log(settings.lapse_rate)).sum();

@@ -14,8 +14,8 @@ use rand::RngExt;
 /// Iterations of Weiszfeld's algorithm.
 const ROUNDS: usize = 30;
 
-/// How futures are combined. The inverse temperature, the error rate and the least weight were fitted by `cargo xtask-networks
-/// fit-forecast`.
+/// Settings of the combination of futures. The inverse temperature, the error rate and the least weight were
+/// fitted by `cargo xtask-networks fit-forecast`.
 #[derive(Clone, Copy, PartialEq, Debug, serde::Serialize, serde::Deserialize)]
 pub struct ForecastSettings {
     /// Number of most likely hypotheses to simulate; at least 1.
@@ -25,9 +25,11 @@ pub struct ForecastSettings {
     /// Inverse temperature of the posterior weights: 1 takes them as they are.
     #[serde(rename = "temper")]
     pub inverse_temperature: f64,
-    /// Hindcasts of each hypothesis, from evenly spaced earlier steps to the last observed one. With 0 there are none.
+    /// Hindcasts of each hypothesis, from evenly spaced earlier steps to the last observed one. With 0 there
+    /// are none.
     pub hindcasts: usize,
-    /// How much a hypothesis loses by the mean displacement error of its hindcasts (nat/u).
+    /// Loss of a hypothesis for each unit of the mean displacement error of its hindcasts (nat/u); at least
+    /// 0.
     pub hindcast_error_rate: f64,
     /// Hypotheses with less than this share of the weight of the best one are not simulated further, 0 to 1.
     pub least_weight: f64,
@@ -47,7 +49,8 @@ impl Default for ForecastSettings {
 }
 
 impl ForecastSettings {
-    /// The steps after which hindcasts begin if so many have been watched: evenly spaced, each before the last.
+    /// The steps after which hindcasts begin if so many have been watched: evenly spaced, each before the
+    /// last.
     #[must_use]
     pub fn starts(&self, watched: usize) -> Vec<usize> {
         let start = |k: usize| watched * k / (self.hindcasts + 1);
@@ -89,7 +92,8 @@ impl Futures {
         Self::new(weighted.collect())
     }
 
-    /// For every entity and step, the weighted geometric median of its positions, which minimises the expected displacement.
+    /// For every entity and step, the weighted geometric median of its positions, which minimises the
+    /// expected displacement.
     #[must_use]
     pub fn median(&self) -> Forecast {
         let place = |entity: usize, step: usize| {
@@ -100,8 +104,8 @@ impl Futures {
         (0..self.entities).map(|entity| (0..self.steps).map(|step| place(entity, step)).collect()).collect()
     }
 
-    /// So many equally likely futures, drawn by their weights: systematic resampling, so that a future with a share p of the
-    /// weight is drawn p · `count` times, rounded up or down.
+    /// So many equally likely futures, drawn by their weights: systematic resampling, so that a future with a
+    /// share p of the weight is drawn p · `count` times, rounded up or down.
     #[must_use]
     pub fn draw(&self, count: usize, seed: u64) -> Vec<Forecast> {
         let total: f64 = self.paths.iter().map(|(_, weight)| weight).sum();
@@ -121,7 +125,7 @@ impl Futures {
     }
 }
 
-/// What a hypothesis predicts.
+/// The prediction of one hypothesis.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Continuation {
     /// Its posterior probability.
@@ -133,7 +137,8 @@ pub struct Continuation {
 }
 
 impl Continuation {
-    /// The weight of its futures together, on a logarithmic scale and not normalised: the posterior's, and what the hindcasts say.
+    /// The weight of its futures together, on a logarithmic scale and not normalised: the posterior's, and
+    /// what the hindcasts say.
     #[must_use]
     pub fn log_weight(&self, settings: &ForecastSettings) -> f64 {
         let error = mean(&self.hindcast_errors).unwrap_or_default();
@@ -141,10 +146,12 @@ impl Continuation {
     }
 }
 
-/// Simulates the most likely hypotheses, each by the minds that it is about: from earlier steps to the last observed one, and those
-/// with enough weight for the given number of further steps. `None` if `tick` cancelled it.
+/// Simulates the most likely hypotheses, each by the minds that it is about: from earlier steps to the last
+/// observed one, and those with enough weight for the given number of further steps. `None` if `tick`
+/// cancelled it.
 ///
-/// A hypothesis explains each decision by itself; a hindcast says whether it also explains where many decisions in a row lead.
+/// A hypothesis explains each decision by itself; a hindcast says whether it also explains where many
+/// decisions in a row lead.
 ///
 /// # Errors
 ///
@@ -169,7 +176,8 @@ pub fn continuations(
     likely.sort_by(|a, b| b.2.total_cmp(&a.2));
     likely.truncate(settings.hypotheses.max(1));
     let observed = prepared.observed();
-    let (last, starts) = (observed.steps(), settings.starts(observed.steps()));
+    let last = observed.steps();
+    let starts = settings.starts(observed.steps());
     let seeds = |repeat: usize| random::derive_seed(seed, Purpose::Inference, repeat as u64);
     let mut found = Vec::with_capacity(likely.len());
     for &(prepared, hypothesis, weight) in &likely {
@@ -240,7 +248,9 @@ pub fn geometric_median(places: &[(Vec2, f64)]) -> Vec2 {
     /// Below this distance to a place the iteration has converged to it (u).
     const CONVERGENCE_TOLERANCE: f64 = 1e-4;
     let mean = |weights: &dyn Fn(&(Vec2, f64)) -> f64| {
-        let (mut x, mut y, mut sum) = (0.0, 0.0, 0.0);
+        let mut x = 0.0;
+        let mut y = 0.0;
+        let mut sum = 0.0;
         for place in places {
             let weight = weights(place);
             x += weight * f64::from(place.0.x);

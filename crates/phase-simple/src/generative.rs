@@ -20,12 +20,12 @@ pub struct PreparedEvent {
     beliefs: Arc<[EstimatedBeliefs; AGENT_COUNT]>,
     agents: ImaginedAgents,
     seed: u64,
-    /// What the minds of all intents share.
+    /// The search results that the minds of all intents share.
     memo: SearchMemo,
 }
 
-/// How far the trajectories of a simulation lie from those observed, ‖sᵗ − ŝᵗ‖₂ over the positions of all entities,
-/// for each step from 1 on (u).
+/// Distances of the trajectories of a simulation from those observed, ‖sᵗ − ŝᵗ‖₂ over the positions of all
+/// entities, for each step from 1 on (u).
 pub type Deviations = Vec<f64>;
 
 impl PreparedEvent {
@@ -95,9 +95,10 @@ impl PreparedEvent {
         &self.motion
     }
 
-    /// Simulates the event under a hypothesis and returns its deviations. Every `resync_interval` steps the simulation is
-    /// resynchronised with the observed state; with `None` it runs freely from the start, as in the paper. It
-    /// stops early once the sum of deviations exceeds `limit`; then fewer deviations are returned.
+    /// Simulates the event under a hypothesis and returns its deviations. Every `resync_interval` steps the
+    /// simulation is resynchronised with the observed state; with `None` it runs freely from the start, as in
+    /// the paper. It stops early once the sum of deviations exceeds `limit`; then fewer deviations are
+    /// returned.
     ///
     /// # Errors
     ///
@@ -145,9 +146,9 @@ impl PreparedEvent {
     }
 
     /// Lets one agent decide under a hypothesis, while the other replays its inferred actions. Every
-    /// `resync_interval` steps the simulation is resynchronised with the observed event. If that is every step, decisions
-    /// are the policy at the observed states, and take as many searches as the minds' parameters say; otherwise the agent
-    /// acts, and searches once.
+    /// `resync_interval` steps the simulation is resynchronised with the observed event. If that is every
+    /// step, decisions are the policy at the observed states, and take as many searches as the minds'
+    /// parameters say; otherwise the agent acts, and searches once.
     ///
     /// # Errors
     ///
@@ -178,12 +179,13 @@ impl PreparedEvent {
         Ok(decided)
     }
 
-    /// Lets one agent decide at some steps of the event under a hypothesis, with these parameters in place of the
-    /// event's own, while the other replays its inferred actions. Steps that the event does not have are left out.
+    /// Lets one agent decide at some steps of the event under a hypothesis, with these parameters in place of
+    /// the event's own, while the other replays its inferred actions. Steps that the event does not have are
+    /// left out.
     ///
-    /// Every decision starts from the observed state and the inferred last actions, and has a random stream of its
-    /// own, so that it depends on no other: at any step, all hypotheses and parameters use the same random numbers.
-    /// There are as many particles as the event was prepared with.
+    /// Every decision starts from the observed state and the inferred last actions, and has a random stream
+    /// of its own, so that it depends on no other: at any step, all hypotheses and parameters use the same
+    /// random numbers. There are as many particles as the event was prepared with.
     ///
     /// # Errors
     ///
@@ -214,10 +216,11 @@ impl PreparedEvent {
         Ok(decided)
     }
 
-    /// Minds that decide at observed states one by one, as those of [`PreparedEvent::decide_at`] with the event's own
-    /// parameters. They share their searches with others of this event.
+    /// Minds that decide at observed states one by one, as those of [`PreparedEvent::decide_at`] with the
+    /// event's own parameters. They share their searches with others of this event.
     pub(crate) fn run(&self, hypothesis: &Hypothesis) -> Result<SimulationRun, PomcpError> {
-        let (start, memo) = (self.motion.states[0], Some(&self.memo));
+        let start = self.motion.states[0];
+        let memo = Some(&self.memo);
         SimulationRun::new(&self.observed, hypothesis, self.agents, self.seed, start, memo)
     }
 
@@ -235,9 +238,9 @@ impl PreparedEvent {
         run.decide(agent, &belief_view)
     }
 
-    /// Continues for the given number of steps from the state after `start` observed steps: where every entity will be after
-    /// each, if the hypothesis is true. Beliefs continue from those estimated, by what the agents observe in
-    /// the simulation.
+    /// Continues for the given number of steps from the state after `start` observed steps: where every
+    /// entity will be after each, if the hypothesis is true. Beliefs continue from those estimated, by what
+    /// the agents observe in the simulation.
     ///
     /// # Errors
     ///
@@ -285,7 +288,7 @@ pub struct AgentDecision {
     pub action: Action,
     /// The explanation of the decision.
     pub thought: Thought,
-    /// As in [`Deviations`] (u).
+    /// Distance of the simulated from an observed state (u); see [`Deviations`].
     pub deviation: f64,
 }
 
@@ -302,7 +305,7 @@ pub(crate) struct SimulationRun {
     last_actions: [Option<Action>; AGENT_COUNT],
 }
 
-/// What an agent believes possible, and the entities that it observes.
+/// The states that each agent believes possible, and the entities that it observes.
 type BeliefViews = [(Vec<State>, BodySet); AGENT_COUNT];
 
 impl SimulationRun {
@@ -324,7 +327,8 @@ impl SimulationRun {
         let minds = [mind(AgentId::ZERO)?, mind(AgentId::ONE)?];
         let random = AgentId::ALL.map(|agent| random::stream(seed, Purpose::Search, agent.number().into()));
         let cache = forward.fresh_cache(&state);
-        let (layout, last_actions) = (scene.layout, [None; AGENT_COUNT]);
+        let layout = scene.layout;
+        let last_actions = [None; AGENT_COUNT];
         let one_way_turns = agents.one_way_turns;
         Ok(Self { layout, one_way_turns, forward, minds, random, state, cache, last_actions })
     }

@@ -1,7 +1,8 @@
-//! The intent network as a guide of inverse planning: which hypotheses are worth simulating, and how much its guess counts.
+//! The intent network as a guide of inverse planning: which hypotheses are worth simulating, and how much its
+//! guess counts.
 //!
-//! The posterior is a product of experts, P(Y | S) ∝ P(Y) Q(Y | S)^a P(S | Y), over the hypotheses that the guide leaves. What it
-//! leaves out keeps the probability that the guide gives it.
+//! The posterior is a product of experts, P(Y | S) ∝ P(Y) Q(Y | S)^a P(S | Y), over the hypotheses that the
+//! guide leaves. What it leaves out keeps the probability that the guide gives it.
 
 use crate::{
     Hypothesis, Intent, IntentNetwork, Posterior,
@@ -13,7 +14,7 @@ use phase_model::{AGENT_COUNT, AgentId, Attitude, Goal, Strength};
 use serde::{Deserialize, Serialize};
 use std::{collections::BTreeSet, sync::Arc};
 
-/// How a network guides inverse planning (docs/simple.md).
+/// The weight of a network's guess in inverse planning (docs/simple.md).
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Guidance {
@@ -29,16 +30,16 @@ impl Default for Guidance {
     }
 }
 
-/// A network and how it guides.
+/// A network that guides inverse planning.
 #[derive(Clone, Debug)]
 pub struct Guide {
     /// The network, which observers share.
     pub network: Arc<IntentNetwork>,
-    /// How it guides.
+    /// The weight of its guess.
     pub guidance: Guidance,
 }
 
-/// What the guide says of one event.
+/// The guide's guess at one event.
 #[derive(Clone, Debug)]
 pub(crate) struct Guess {
     /// a ln Q of every intent.
@@ -94,8 +95,8 @@ impl Guess {
         known.map_or(f64::NEG_INFINITY, |(_, log)| *log)
     }
 
-    /// Adds the hypotheses that were not simulated to ln P(Y, motion) of those that were, such that the former keep the share
-    /// that the guide gives them. If none was, the guide alone answers.
+    /// Adds the hypotheses that were not simulated to ln P(Y, motion) of those that were, such that the
+    /// former keep the share that the guide gives them. If none was, the guide alone answers.
     pub(crate) fn complete(&self, mut joint: Vec<(Hypothesis, f64)>) -> Vec<(Hypothesis, f64)> {
         let simulated: BTreeSet<Hypothesis> = joint.iter().map(|(hypothesis, _)| *hypothesis).collect();
         let others = || self.posterior.hypotheses.iter().filter(|(it, _)| !simulated.contains(it));

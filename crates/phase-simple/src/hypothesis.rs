@@ -94,7 +94,8 @@ impl Hypothesis {
 /// objects.
 #[must_use]
 pub fn physical_goals(agent: AgentId, objects: usize) -> Vec<Goal> {
-    let (me, other) = (agent, agent.other());
+    let me = agent;
+    let other = agent.other();
     let landmarks = LandmarkId::ALL.into_iter();
     let mut goals: Vec<Goal> = landmarks
         .clone()

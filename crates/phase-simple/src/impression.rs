@@ -1,9 +1,10 @@
-//! What an event looks like while it is watched, to predict how people report it.
+//! Impressions of an event while it is watched, from which people's reports are predicted.
 //!
-//! A posterior at the end of an event says what is true given all of the motion. People's reports also carry what they thought on
-//! the way there and what they could see happen between the two: of help from a distance many say that nothing went on. The
-//! impression therefore holds the posterior of what goes on averaged over the time watched, and how much the two had to do with
-//! each other. [`ReportModel`](crate::ReportModel) predicts reports from it.
+//! A posterior at the end of an event says what is true given all of the motion. People's reports also carry
+//! what they thought on the way there and what they could see happen between the two: of help from a distance
+//! many say that nothing went on. The impression therefore holds the posterior of what goes on averaged over
+//! the time watched, and how much the two had to do with each other. [`ReportModel`](crate::ReportModel)
+//! predicts reports from it.
 
 use crate::{Hypothesis, Posterior};
 use phase_event::ObservedEvent;
@@ -18,7 +19,7 @@ const CONTACT: f32 = 0.3;
 /// Agents whose outlines are closer than this are near each other (u): about the size of two agents.
 const NEAR: f32 = 2.0;
 
-/// What goes on between two agents under a hypothesis, as far as people tell it apart.
+/// Things that can go on between two agents under a hypothesis, as far as people tell them apart.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum Happening {
     /// One helps the other.
@@ -40,7 +41,7 @@ impl Happening {
     pub const ALL: [Self; 6] =
         [Self::Help, Self::Hindrance, Self::SharedGoal, Self::Competition, Self::Chase, Self::Nothing];
 
-    /// What goes on if a hypothesis is true.
+    /// The thing that goes on if a hypothesis is true.
     #[must_use]
     pub fn of(hypothesis: &Hypothesis) -> Self {
         let social = hypothesis.attitudes.into_iter().find(|attitude| *attitude != Attitude::Neutral);
@@ -56,22 +57,23 @@ impl Happening {
     }
 }
 
-/// How much the two agents had to do with each other: shares of the time watched, 0 to 1.
+/// The extent to which two agents had to do with each other: shares of the time watched, 0 to 1.
 #[derive(Clone, Copy, PartialEq, Debug, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Interaction {
-    /// In which they touched.
+    /// Share in which they touched.
     pub touching: f64,
-    /// In which both touched the same object.
+    /// Share in which both touched the same object.
     pub same_object: f64,
-    /// In which they were near each other.
+    /// Share in which they were near each other.
     pub near: f64,
-    /// The geometric mean of the shares in which either touched an object, of the object for which it is greatest.
+    /// The geometric mean of the shares in which either touched an object, of the object for which it is
+    /// greatest.
     pub shared_object: f64,
 }
 
 impl Interaction {
-    /// Of what was observed.
+    /// The interaction in the rows that were observed.
     #[must_use]
     pub fn of(observed: &ObservedEvent) -> Self {
         let physics = observed.physics([0.0; 2]);
@@ -100,20 +102,21 @@ impl Interaction {
     }
 }
 
-/// What an event looked like while it was watched.
+/// The impression that an event made while it was watched.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Impression {
     /// P([`Happening`] | motion so far), averaged over the time watched; they sum to 1.
     pub happenings: [f64; HAPPENINGS],
-    /// How much the two had to do with each other.
+    /// The extent to which the two had to do with each other.
     pub interaction: Interaction,
 }
 
 impl Impression {
     /// The mean over posteriors at evenly spaced times; `None` without any.
     pub(crate) fn of(observed: &ObservedEvent, course: impl IntoIterator<Item = Posterior>) -> Option<Self> {
-        let (mut happenings, mut times) = ([0.0; HAPPENINGS], 0_usize);
+        let mut happenings = [0.0; HAPPENINGS];
+        let mut times = 0_usize;
         for posterior in course {
             times += 1;
             for (hypothesis, weight) in &posterior.hypotheses {

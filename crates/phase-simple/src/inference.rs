@@ -15,7 +15,7 @@ use phase_event::ObservedEvent;
 use phase_model::random::{self, Purpose};
 use phase_pomcp::PomcpError;
 
-/// What was learnt about motion, for an inference.
+/// The learnt models that an inference uses.
 #[derive(Clone)]
 pub struct Cues<'a> {
     /// Proposals of strengths, for Algorithm 2.
@@ -85,7 +85,7 @@ fn run_chains(
 /// Prepares an event and infers what explains it.
 ///
 /// # Errors
-/// As [`infer`].
+/// Invalid parameters of the agents' search.
 pub fn explain(
     observed: &ObservedEvent,
     strengths: &dyn StrengthCue,

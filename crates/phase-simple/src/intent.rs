@@ -42,10 +42,11 @@ impl Intent {
     }
 }
 
-/// ln P(Y) P(motion | Y) of every hypothesis in which at most one agent is social: its prior times the likelihoods of both
-/// agents' intents. Both agents decide at the same time from the same state, so that these are independent.
-/// `goals` is the number of goals that an agent can have. [`Posterior::new`](crate::Posterior::new) makes a posterior of it, or, of those of
-/// several kinds of minds one after the other, their average with an even prior.
+/// ln P(Y) P(motion | Y) of every hypothesis in which at most one agent is social: its prior times the
+/// likelihoods of both agents' intents. Both agents decide at the same time from the same state, so that
+/// these are independent. `goals` is the number of goals that an agent can have.
+/// [`Posterior::new`](crate::Posterior::new) makes a posterior of it, or, of those of several kinds of minds
+/// one after the other, their average with an even prior.
 #[must_use]
 pub fn joint_logs(
     weighted_intents: &[WeightedIntents; AGENT_COUNT],

@@ -1,11 +1,12 @@
 //! Inverse planning: the likelihood of each agent's motion under each of its possible intents.
 //!
-//! Both agents decide at the same time from the same state, so given the states their actions are conditionally
-//! independent. P(motion | Y) is therefore a product of one factor per agent, and instead of 14 · 14 + 2 · 28
-//! hypotheses it suffices to simulate 42 intents of each agent, with the other replaying its inferred actions.
+//! Both agents decide at the same time from the same state, so given the states their actions are
+//! conditionally independent. P(motion | Y) is therefore a product of one factor per agent, and instead of 14
+//! · 14 + 2 · 28 hypotheses it suffices to simulate 42 intents of each agent, with the other replaying its
+//! inferred actions.
 //!
-//! All evidence is kept by what it is about and catches up with the event when it is asked for, so that an event can be
-//! followed while it is watched, and the answer is the same as if it had been seen at once.
+//! All evidence is kept by what it is about and catches up with the event when it is asked for, so that an
+//! event can be followed while it is watched, and the answer is the same as if it had been seen at once.
 
 use crate::{
     Hypothesis, IntentEvidence, InversePlanningSettings, Posterior,
@@ -34,7 +35,7 @@ pub(crate) struct InversePlanner {
     strengths: [Strength; AGENT_COUNT],
     likelihoods: ActionLikelihoods,
     evidence: BTreeMap<Key, IntentEvidence>,
-    /// What the last answer was made of.
+    /// The evidence that the last answer used.
     asked: [Vec<Key>; AGENT_COUNT],
 }
 
@@ -50,7 +51,8 @@ impl InversePlanner {
         }
     }
 
-    /// Drops the evidence on all but some first rows of an event that was followed, which are explained as before.
+    /// Drops the evidence on all but some first rows of an event that was followed, which are explained as
+    /// before.
     pub(crate) fn forget(&mut self, rows: usize) {
         let strengths = self.prepared.motion().strengths();
         if strengths == self.strengths {
@@ -66,7 +68,8 @@ impl InversePlanner {
         self.likelihoods.follow(&self.prepared);
     }
 
-    /// Catches up with an intent of an agent, the other pursuing `others`. Whether it could, within the budget.
+    /// Catches up with an intent of an agent, the other pursuing `others`. Whether it could, within the
+    /// budget.
     ///
     /// # Errors
     /// Invalid parameters of the agents' search.
@@ -80,9 +83,10 @@ impl InversePlanner {
         Ok(self.log_likelihood(agent, intent, others, budget)?.is_some())
     }
 
-    /// Simulates these intents, as far as the budget suffices, with the strengths inferred from the physics; whether `tick`, which is
-    /// called about once per intent, let it. `assumed` are the goals that neutral agents first attribute to each other; the
-    /// likeliest ones, given what a guide guesses, take their place. [`InversePlanner::weighted_after`] has the result.
+    /// Simulates these intents, as far as the budget suffices, with the strengths inferred from the physics;
+    /// whether `tick`, which is called about once per intent, let it. `assumed` are the goals that neutral
+    /// agents first attribute to each other; the likeliest ones, given what a guide guesses, take their
+    /// place. [`InversePlanner::weighted_after`] has the result.
     ///
     /// # Errors
     /// Invalid parameters of the agents' search.
@@ -152,8 +156,9 @@ impl InversePlanner {
         self.likelihoods.row_after(decisions)
     }
 
-    /// The last answer as it would have been after so many decisions, when the guide said `guess`: ln P(Y) P(motion | Y) of every
-    /// hypothesis, those that were not simulated included, at the planner's own lapse rate or another.
+    /// The last answer as it would have been after so many decisions, when the guide said `guess`: ln P(Y)
+    /// P(motion | Y) of every hypothesis, those that were not simulated included, at the planner's own lapse
+    /// rate or another.
     pub(crate) fn weighted_after(
         &self,
         decisions: usize,
@@ -177,7 +182,8 @@ impl InversePlanner {
         }
     }
 
-    /// ln P(motion | intent) of an agent's part of the motion, the other pursuing `others`; `None` if the budget does not suffice.
+    /// ln P(motion | intent) of an agent's part of the motion, the other pursuing `others`; `None` if the
+    /// budget does not suffice.
     fn log_likelihood(
         &mut self,
         agent: AgentId,
@@ -196,7 +202,7 @@ impl InversePlanner {
     }
 }
 
-/// What the evidence on an intent depends on, the other pursuing `others`.
+/// The key of the evidence on an intent, which depends on the other's goal only if the agent is not social.
 fn key(agent: AgentId, intent: Intent, others: Goal) -> Key {
     (agent, intent, (intent.attitude == Attitude::Neutral).then_some(others))
 }

@@ -17,7 +17,7 @@ use phase_model::{AGENT_COUNT, AgentId, Body, MAX_ENTITIES, Strength};
 use phase_pomcp::PomcpError;
 use std::sync::Arc;
 
-/// What the guide said after every row.
+/// The guide's guesses after every row of an event.
 #[derive(Clone, Debug)]
 pub(crate) struct GuideCourse {
     guidance: Guidance,
@@ -40,7 +40,7 @@ impl GuideCourse {
         self.intents.push(self.reader.intents());
     }
 
-    /// What it said after a row, of an event with so many objects whose agents have these strengths.
+    /// The guess after a row of an event with so many objects, whose agents have these strengths.
     fn guess(&self, row: usize, objects: usize, strengths: [Strength; AGENT_COUNT]) -> Guess {
         let last = self.intents.len().saturating_sub(1);
         let intents = self.intents.get(row.min(last)).cloned().unwrap_or_default();
@@ -73,7 +73,7 @@ impl Planners {
         Self { planners, agents, comparison: alternative.map(|it| it.comparison_lapse_rate) }
     }
 
-    /// What each kind makes of the first so many decisions, when the guide said `guess`.
+    /// The evidence that each kind finds in the first so many decisions, given the guide's guess.
     fn evidence(&self, decisions: usize, guess: Option<&Guess>) -> Vec<KindEvidence> {
         let one = |planner: &InversePlanner| {
             let joint = planner.weighted_after(decisions, guess, None);
@@ -84,8 +84,8 @@ impl Planners {
         self.planners.iter().map(one).collect()
     }
 
-    /// The answer of all kinds of minds together, and how it came about. Intents that the budget does not suffice for are left to
-    /// the guide.
+    /// The answer of all kinds of minds together, and how it came about. Intents that the budget does not
+    /// suffice for are left to the guide.
     pub(crate) fn weigh(
         &mut self,
         gamma: f64,

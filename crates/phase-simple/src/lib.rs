@@ -34,7 +34,8 @@
 //! settings.agents.minds = settings.agents.minds.with_particles(5).with_simulations(20);
 //! let posterior = explain(&observed, &UniformStrength, 1, &settings)?.posterior;
 //! let (likeliest, _probability) = posterior.goals(AgentId::ZERO)[0];
-//! let (agent, landmark) = (AgentId::ZERO, LandmarkId::TOP_RIGHT);
+//! let agent = AgentId::ZERO;
+//! let landmark = LandmarkId::TOP_RIGHT;
 //! assert_eq!(likeliest, Goal::AgentOnLandmark { agent, landmark, sign: Sign::Positive });
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

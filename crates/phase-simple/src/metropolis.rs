@@ -23,7 +23,7 @@ pub fn threshold(log_u: f64, log_likelihood: f64, log_proposed: f64, log_current
     log_u + log_likelihood + log_proposed - log_current
 }
 
-/// What all chains of an event share.
+/// The parts that all chains of an event share.
 #[derive(Clone, Copy)]
 pub(crate) struct Chains<'a, 's> {
     pub(crate) prepared: &'a PreparedEvent,

@@ -28,11 +28,12 @@ pub enum ObserverError {
     Search(#[from] PomcpError),
 }
 
-/// Watches an event row by row, and says after each what explains it.
+/// Watches an event row by row, and infers after each row what explains it.
 ///
-/// What is learnt later about earlier steps is taken back, so [`Observer::inference`] gives the answer of
-/// [`infer`](crate::infer) for the rows seen so far, bit for bit. [`Observer::push`] gives the same within a budget, so that an
-/// event can be watched as it happens; the two differ while intents that have just become likely are being simulated.
+/// Conclusions about earlier steps are taken back where later ones contradict them, so
+/// [`Observer::inference`] gives the answer of [`infer`](crate::infer) for the rows seen so far, bit for bit.
+/// [`Observer::push`] gives the same within a budget, so that an event can be watched as it happens; the two
+/// differ while intents that have just become likely are being simulated.
 #[derive(Debug)]
 pub struct Observer {
     observed: Arc<ObservedEvent>,
@@ -43,8 +44,8 @@ pub struct Observer {
     budget: Budget,
 }
 
-/// What an observer spends on a row by default (decisions): less than the 250 ms that a step lasts in a video. A decision takes 2 to 6 ms
-/// (docs/simple.md).
+/// Decisions that an observer spends on a row by default: less than the 250 ms that a step lasts in a video.
+/// A decision takes 2 to 6 ms (docs/simple.md).
 const BUDGET: usize = 20;
 
 impl Observer {
@@ -72,11 +73,13 @@ impl Observer {
     }
 
     /// Watches the next row, and infers what explains the event so far with no more decisions than
-    /// [`Observer::set_budget`] says: intents that have become likely and cannot all be simulated at once are taken one after the
-    /// other, the likeliest first, and have what the guide gives them until it is their turn.
+    /// [`Observer::set_budget`] says: intents that have become likely and cannot all be simulated at once are
+    /// taken one after the other, the likeliest first, and have what the guide gives them until it is their
+    /// turn.
     ///
     /// # Errors
-    /// [`ObserverError::Row`] for numbers that are not finite; the row is then ignored. [`ObserverError::Search`].
+    /// [`ObserverError::Row`] for numbers that are not finite; the row is then ignored.
+    /// [`ObserverError::Search`].
     pub fn push(&mut self, row: [Body; MAX_ENTITIES]) -> Result<Inference, ObserverError> {
         self.watch(row)?;
         // Without a guide there is nothing to say of what is not simulated.
@@ -86,12 +89,14 @@ impl Observer {
         Ok(inference.unwrap_or_else(|| unreachable!("not cancelled")))
     }
 
-    /// Sets what [`Observer::push`] may spend on a row if the observer has a guide; without one it spends what it takes.
+    /// Sets what [`Observer::push`] may spend on a row if the observer has a guide; without one it spends
+    /// what it takes.
     pub const fn set_budget(&mut self, budget: Budget) {
         self.budget = budget;
     }
 
-    /// Watches the next row without asking what explains it, which is left to the next [`Observer::inference`].
+    /// Watches the next row without asking what explains it, which is left to the next
+    /// [`Observer::inference`].
     ///
     /// # Errors
     /// [`ObserverError::Row`].
@@ -109,7 +114,8 @@ impl Observer {
         Ok(())
     }
 
-    /// What explains the event so far, with as many decisions as it takes; `None` if `tick`, which is called once for each intent of each kind of minds, cancelled it.
+    /// Infers what explains the event so far, with as many decisions as it takes; `None` if `tick`, which is
+    /// called once for each intent of each kind of minds, cancelled it.
     ///
     /// # Errors
     /// Invalid parameters of the agents' search.
@@ -120,7 +126,7 @@ impl Observer {
         self.planners.weigh(self.gamma, self.guide.as_ref(), &mut Budget::UNLIMITED.clone(), tick)
     }
 
-    /// What has been observed so far.
+    /// The part of the event that has been observed so far.
     #[must_use]
     pub fn observed(&self) -> &ObservedEvent {
         &self.observed

@@ -17,7 +17,8 @@ pub struct Proposal {
 }
 
 impl Proposal {
-    /// What the rows of a range suggest; rows of the range past the event's end are ignored.
+    /// The proposal that the rows of a range of steps suggest; rows past the event's end are ignored. `gamma`
+    /// is γ of the goals' exponent (1/u), and `strengths` estimates strengths from the same rows.
     #[must_use]
     pub fn new(
         observed: &ObservedEvent,
@@ -26,7 +27,8 @@ impl Proposal {
         strengths: &dyn StrengthCue,
     ) -> Self {
         let last = observed.steps();
-        let (from, to) = ((*range.start()).min(last), (*range.end()).min(last));
+        let from = (*range.start()).min(last);
+        let to = (*range.end()).min(last);
         let rows = observed.rows().get(from..=to).unwrap_or_default();
         let goals: [Vec<Goal>; AGENT_COUNT] =
             AgentId::ALL.map(|agent| physical_goals(agent, observed.object_sizes().len()));

@@ -1,4 +1,4 @@
-//! How people report what they saw.
+//! The prediction of people's reports from an impression.
 
 use crate::impression::{HAPPENINGS, Impression, Interaction};
 use phase_model::RelationProbabilities;
@@ -12,11 +12,12 @@ pub const REPORT_MODEL_FORMAT: &str = "phase-report-model/1";
 pub const REPORT_FEATURES: usize = HAPPENINGS + 4;
 /// Number of reports: friendly, adversarial, neutral.
 pub const REPORTS: usize = 3;
-/// Added to the probability of what goes on before its logarithm is taken: below it, people do not tell apart.
+/// Added to the probability of what goes on before its logarithm is taken: below it, people do not tell
+/// apart.
 const FLOOR: f64 = 0.02;
 
-/// The features of an impression: the logarithm of how likely each happening was on the way, and the shares of time in which the
-/// agents interacted.
+/// The features of an impression: the logarithm of how likely each happening was on the way, and the shares
+/// of time in which the agents interacted.
 #[must_use]
 pub fn report_features(impression: &Impression) -> [f64; REPORT_FEATURES] {
     let Interaction { touching, same_object, near, shared_object } = impression.interaction;
@@ -25,8 +26,8 @@ pub fn report_features(impression: &Impression) -> [f64; REPORT_FEATURES] {
     core::array::from_fn(|_| features.next().unwrap_or_default())
 }
 
-/// P(report | impression): multinomial logistic regression on standardised [`report_features`], fitted to people's reports by
-/// `cargo xtask fit-reports`.
+/// P(report | impression): multinomial logistic regression on standardised [`report_features`], fitted to
+/// people's reports by `cargo xtask fit-reports`.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ReportModel {

@@ -17,7 +17,7 @@ pub enum Update {
     Local,
 }
 
-/// Where proposals of strengths come from.
+/// The source of proposals of strengths.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum StrengthSource {
@@ -28,7 +28,7 @@ pub enum StrengthSource {
     InverseDynamics,
 }
 
-/// How hypotheses are found and weighed.
+/// The algorithm that finds and weighs hypotheses.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Algorithm {
@@ -38,17 +38,25 @@ pub enum Algorithm {
     Chains(ChainSettings),
 }
 
-/// How to infer. The defaults perform best; [`InferenceSettings::published`] is the paper's.
+/// Settings of an inference.
+///
+/// The default is inverse planning with our own minds alone. [`InferenceSettings::averaged`] considers the
+/// published simulator's minds too and is what the method `simple` uses; [`InferenceSettings::published`] is
+/// the paper's.
+///
+/// An answer depends on more numbers than these: on the weights of the [`Models`](crate::Models), and on the
+/// constants of inverse dynamics, of impressions and of the intent network's features, which stand in their
+/// modules because the models were fitted with them.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 pub struct InferenceSettings {
-    /// How hypotheses are found and weighed.
+    /// The algorithm that finds and weighs hypotheses.
     pub algorithm: Algorithm,
     /// γ of the goal proposal (1/u).
     pub gamma: f64,
     /// The agents in a simulation.
     pub agents: ImaginedAgents,
-    /// Agents of another kind that may have made the motion instead, with an even prior: the answer averages over both. Of
-    /// inverse planning alone; the chains of Algorithm 2 imagine one kind.
+    /// Agents of another kind that may have made the motion instead, with an even prior: the answer averages
+    /// over both. Of inverse planning alone; the chains of Algorithm 2 imagine one kind.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub alternative: Option<AlternativeAgents>,
 }
@@ -56,16 +64,16 @@ pub struct InferenceSettings {
 /// The agents that an inference imagines: their minds, and the bodies that carry out what the minds choose.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 pub struct ImaginedAgents {
-    /// Whether bodies turn one way whichever way their minds choose, a defect of the published recorder: to the left, and to
-    /// the right in a reflected layout.
+    /// Whether bodies turn one way whichever way their minds choose, a defect of the published recorder: to
+    /// the left, and to the right in a reflected layout.
     pub one_way_turns: bool,
     /// Parameters of both agents' minds.
     pub minds: MindParameters,
 }
 
 impl ImaginedAgents {
-    /// The agents of a kind of minds for an inference, which searches less than an agent that acts; published ones with
-    /// their recorder's turns.
+    /// The agents of a kind of minds for an inference, which searches less than an agent that acts; published
+    /// ones with their recorder's turns.
     #[must_use]
     pub fn of(kind: MindKind) -> Self {
         match kind {
@@ -102,20 +110,20 @@ pub struct AlternativeAgents {
     pub agents: ImaginedAgents,
     /// ε of their actions, in place of that of [`InversePlanningSettings`], 0 to 1.
     pub lapse_rate: f64,
-    /// ε at which the two kinds are compared, 0 to 1: of two kinds that explain an event alike, the one with the smaller ε would
-    /// seem likelier.
+    /// ε at which the two kinds are compared, 0 to 1: of two kinds that explain an event alike, the one with
+    /// the smaller ε would seem likelier.
     pub comparison_lapse_rate: f64,
 }
 
-/// ε of published minds where both kinds are considered, fitted to recordings and generated events together. That of our own
-/// minds is the default ε, which stands for what other minds do and ours do not.
+/// ε of published minds where both kinds are considered, fitted to recordings and generated events together.
+/// That of our own minds is the default ε, which stands for what other minds do and ours do not.
 const LAPSE_RATE_OF_PUBLISHED: f64 = 0.1;
-/// ε at which the kinds are compared: that of events by such minds, for which the likelihood of the true intents is greatest near
-/// no lapse at all; a search that did not try an action must not rule an intent out.
+/// ε at which the kinds are compared: that of events by such minds, for which the likelihood of the true
+/// intents is greatest near no lapse at all; a search that did not try an action must not rule an intent out.
 const COMPARISON_LAPSE_RATE: f64 = 0.05;
 
-/// Parameters of inverse planning. ε is fitted by `cargo xtask fit-inference` and κ measured by it (docs/simple.md), σ was
-/// selected on the validation events of PHASE-500.
+/// Parameters of inverse planning. ε is fitted by `cargo xtask fit-inference` and κ measured by it
+/// (docs/simple.md), σ was selected on the validation events of PHASE-500.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 pub struct InversePlanningSettings {
     /// ε, the lapse rate: probability of a uniformly random action instead of the policy's.
@@ -123,11 +131,13 @@ pub struct InversePlanningSettings {
     pub lapse_rate: f64,
     /// σ, scale of the residuals (u): a residual larger by σ divides an action's likelihood by e.
     pub tolerance: f64,
-    /// κ, inverse temperature of the action likelihood of a step, 0 to 1: one over the integrated autocorrelation time of the log
-    /// likelihood ratio of two intents (steps), because what a decision tells is correlated over steps.
+    /// κ, inverse temperature of the action likelihood of a step, 0 to 1: one over the integrated
+    /// autocorrelation time of the log likelihood ratio of two intents (steps), because what a decision tells
+    /// is correlated over steps.
     #[serde(rename = "temper")]
     pub inverse_temperature: f64,
-    /// Steps from one decision that is looked at to the next; at least 1. What lies between them is taken to be alike.
+    /// Steps from one decision that is looked at to the next; at least 1. What lies between them is taken to
+    /// be alike.
     pub interval: usize,
 }
 
@@ -157,7 +167,7 @@ pub struct ChainSettings {
     /// Steps between resynchronisations with the observed state; `None` (the paper) for none.
     #[serde(rename = "anchor")]
     pub resync_interval: Option<usize>,
-    /// Where proposals of strengths come from. Absent in older files, which means the network.
+    /// The source of proposals of strengths. Absent in older files, which means the network.
     #[serde(default)]
     pub strengths: StrengthSource,
 }
@@ -172,9 +182,10 @@ const PUBLISHED_SEARCHES: usize = 2;
 const INTENTS: usize = 42;
 
 impl InferenceSettings {
-    /// The paper's: Algorithm 2 with M = 15, L = 6, β = 0.05, η = 0.1 and ΔT = 10, over simulations by the published
-    /// simulator's minds that run freely from the start; [`Update::Local`] is the paper's method, the others are its
-    /// ablation. Its strengths come from a network. Only γ is not the printed one (see [`GAMMA`]), and agents search with fewer simulations.
+    /// The paper's: Algorithm 2 with M = 15, L = 6, β = 0.05, η = 0.1 and ΔT = 10, over simulations by the
+    /// published simulator's minds that run freely from the start; [`Update::Local`] is the paper's method,
+    /// the others are its ablation. Its strengths come from a network. Only γ is not the printed one (see
+    /// [`GAMMA`]), and agents search with fewer simulations.
     #[must_use]
     pub fn published(update: Update, strengths: StrengthSource) -> Self {
         Self::chains(ChainSettings {
@@ -203,7 +214,8 @@ impl InferenceSettings {
         Self { agents, alternative: None, ..self }
     }
 
-    /// These settings with minds, of every kind that they consider, in whose search bodies pass through each other.
+    /// These settings with minds, of every kind that they consider, in whose search bodies pass through each
+    /// other.
     #[must_use]
     pub const fn without_collisions(mut self) -> Self {
         self.agents.minds = self.agents.minds.without_collisions();

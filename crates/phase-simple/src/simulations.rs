@@ -34,8 +34,8 @@ impl<'a> Simulations<'a> {
         Ok(self.log_likelihood_above(hypothesis, f64::NEG_INFINITY)?.unwrap_or(f64::NEG_INFINITY))
     }
 
-    /// The same if it is above a threshold. A simulation whose deviation is already too large to reach it is
-    /// stopped early, which does not change the result: deviations only add up.
+    /// ln P(s | Y), or `None` if it is not above a threshold. A simulation whose deviation is already too
+    /// large to reach it is stopped early, which does not change the result: deviations only add up.
     ///
     /// # Errors
     ///
@@ -55,13 +55,13 @@ impl<'a> Simulations<'a> {
         Ok(self.known(hypothesis).filter(|&log| log > threshold))
     }
 
-    /// How far a hypothesis deviates step by step, as far as it has been simulated.
+    /// The deviations of a hypothesis by step (u), as far as it has been simulated; `None` if it has not.
     #[must_use]
     pub fn deviations(&self, hypothesis: &Hypothesis) -> Option<&Deviations> {
         self.simulated.get(hypothesis)
     }
 
-    /// How many hypotheses were simulated, to the end or not.
+    /// The number of hypotheses that were simulated, to the end or not.
     #[must_use]
     pub fn count(&self) -> usize {
         self.simulated.len()

@@ -48,8 +48,8 @@ fn an_only_action_is_certain() {
 
 #[test]
 fn lapses_are_fitted_as_by_hand() {
-    // One step in two that the mind would never have chosen, of which the uniform choice takes one in ten, and one that
-    // it is certain of: ln(0.1 e) + ln(1 - 0.9 e) is greatest at e = 1/1.8.
+    // One step in two that the mind would never have chosen, of which the uniform choice takes one in ten,
+    // and one that it is certain of: ln(0.1 e) + ln(1 - 0.9 e) is greatest at e = 1/1.8.
     let steps = [Chance { mind: 0.0, uniform: 0.1 }, Chance { mind: 1.0, uniform: 0.1 }];
     assert!((fitted_lapse(&steps) - 1.0 / 1.8).abs() < 1e-9);
     let expected = 0.5 * ((0.1_f64 / 1.8).ln() + 0.5_f64.ln());

@@ -1,4 +1,4 @@
-//! How hypotheses share the weight of a forecast.
+//! The shares of hypotheses in the weight of a forecast.
 
 use phase_model::{Forecast, Vec2};
 use phase_simple::{Continuation, ForecastSettings, Futures};

@@ -12,7 +12,7 @@ use phase_simple::{InferenceSettings, StrengthRegressor, explain};
 /// Seed of the scene, of the event and of the inference.
 const SEED: u64 = 2021;
 
-/// What a viewer sees of an event: the initial bodies, then the mean over the substeps of each step.
+/// The part of an event that a viewer sees: the initial bodies, then the mean over the substeps of each step.
 fn observed(event: &Event) -> ObservedEvent {
     let mean = |bodies: [[Body; MAX_ENTITIES]; SUBSTEPS], k: usize| {
         let mut mean = Body::default();

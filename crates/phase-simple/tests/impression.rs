@@ -1,4 +1,4 @@
-//! What an event looks like while it is watched, and how people report it.
+//! Impressions of events while they are watched, and people's predicted reports.
 
 use phase_event::ObservedEvent;
 use phase_model::{
@@ -19,7 +19,8 @@ fn row(places: [(f32, f32); MAX_ENTITIES]) -> [Body; MAX_ENTITIES] {
 #[test]
 fn interactions_by_hand() {
     let [agent, object] = [Size::Small, Size::Large].map(Size::radius);
-    let (near, touching) = (8.0 + 2.0 * agent + 1.9, 8.0 + 2.0 * agent + 0.29);
+    let near = 8.0 + 2.0 * agent + 1.9;
+    let touching = 8.0 + 2.0 * agent + 0.29;
     let beside = 12.0 + agent + object + 0.29;
     let rows = vec![
         // Far apart from everything.
@@ -85,7 +86,8 @@ fn happenings_have_the_relations_of_their_hypotheses() {
 }
 
 fn model(weights: [[f64; REPORT_FEATURES]; 3], intercepts: [f64; 3]) -> ReportModel {
-    let (means, deviations) = ([0.0; REPORT_FEATURES], [1.0; REPORT_FEATURES]);
+    let means = [0.0; REPORT_FEATURES];
+    let deviations = [1.0; REPORT_FEATURES];
     ReportModel { format: REPORT_MODEL_FORMAT.into(), means, deviations, weights, intercepts }
 }
 

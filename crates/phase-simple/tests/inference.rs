@@ -93,7 +93,8 @@ fn every_hypothesis_is_weighed_and_neutral_agents_are_independent() {
         action_likelihoods.expect("every pair is there").1.ln()
     };
     for ([a, b], [c, d]) in neutral.iter().zip(&neutral[1..]).map(|(x, y)| (x.0.goals, y.0.goals)) {
-        let (straight, crossed) = (log([a, b]) + log([c, d]), log([a, d]) + log([c, b]));
+        let straight = log([a, b]) + log([c, d]);
+        let crossed = log([a, d]) + log([c, b]);
         assert!((straight - crossed).abs() < 1e-6, "{straight} {crossed}");
     }
 }
@@ -116,7 +117,11 @@ fn two_who_walk_to_their_landmarks_are_understood() {
 fn actions_strengths_and_grips_are_found_again() {
     /// Log-odds by which a strength is identified.
     const SURE: f64 = 10.0;
-    let (mut pushes, mut pushes_found, mut held, mut held_found, mut strengths) = (0, 0, 0, 0, 0);
+    let mut pushes = 0;
+    let mut pushes_found = 0;
+    let mut held = 0;
+    let mut held_found = 0;
+    let mut strengths = 0;
     for (seed, variant) in
         [(0, Variant::Carry), (1, Variant::Places), (2, Variant::Carry), (3, Variant::Chase)]
     {
@@ -164,7 +169,8 @@ fn a_late_start_is_noticed() {
     let mut recording = recording(event.clone());
     for (agent, rows) in recording.trajectory.agents.iter_mut().enumerate() {
         let body = event.steps[0].substeps[0].bodies[agent];
-        let (position, velocity) = (body.position, body.velocity);
+        let position = body.position;
+        let velocity = body.velocity;
         rows[0] = [position.x, position.y, velocity.x, velocity.y, body.angle];
     }
     let motion = InverseDynamics::new(&recording.observed().expect("a sound event"));

@@ -1,4 +1,4 @@
-//! Which of two kinds of minds made an event is inferred with the rest.
+//! The kind of minds that made an event is inferred with the rest.
 
 use phase_event::{ObservedEvent, Recording};
 use phase_minds::{MindKind, MindParameters};
@@ -80,7 +80,8 @@ fn one_kind_alone_gives_its_part_of_the_average() {
     let event = observed(Variant::Carry, MindKind::Published).prefix(8);
     let both = InferenceSettings::averaged();
     let average = explain(&event, &UniformStrength, 1, &both).expect("is sound");
-    let (first, second) = (both.with_agents(both.agents), both.alternative.expect("there are two kinds"));
+    let first = both.with_agents(both.agents);
+    let second = both.alternative.expect("there are two kinds");
     let Algorithm::InversePlanning(planning) = both.algorithm else { panic!("not inverse planning") };
     let planning = InversePlanningSettings { lapse_rate: second.lapse_rate, ..planning };
     let second = InferenceSettings {

@@ -74,7 +74,8 @@ fn every_answer_is_that_of_the_rows_seen_so_far() {
     }
 }
 
-/// Nothing is known of minds that cannot be simulated, so the guide answers; with more effort the answer comes nearer to the whole.
+/// Nothing is known of minds that cannot be simulated, so the guide answers; with more effort the answer
+/// comes nearer to the whole.
 #[test]
 fn what_there_is_no_time_for_is_left_to_the_guide() {
     let network = Arc::new(IntentNetwork::bundled().expect("a sound file"));
@@ -107,12 +108,13 @@ fn what_there_is_no_time_for_is_left_to_the_guide() {
         }
         distance
     };
-    let (nothing, plenty) = (distance(0), distance(100_000));
+    let nothing = distance(0);
+    let plenty = distance(100_000);
     assert!(nothing > 1e-3, "the guide alone is right: {nothing}");
     assert!(plenty < 1e-12, "{plenty}");
 }
 
-/// What is learnt later about earlier steps is taken back, also in mirrored recordings.
+/// Conclusions about earlier steps are taken back, also in mirrored recordings.
 #[test]
 fn motion_is_explained_as_if_it_had_been_seen_at_once() {
     let mut events = vec![observed(Variant::Carry, 60), observed(Variant::Block, 60)];
@@ -134,7 +136,8 @@ fn motion_is_explained_as_if_it_had_been_seen_at_once() {
             let unchanged = tracker.push(&watched).expect("a sound row");
             assert_eq!(before[..unchanged], tracker.motion().states[..unchanged]);
             if step % COMPARED == 0 || step == event.steps() {
-                let (motion, expected) = (tracker.motion(), InverseDynamics::new(&watched));
+                let motion = tracker.motion();
+                let expected = InverseDynamics::new(&watched);
                 assert_eq!(motion.states, expected.states, "{step}");
                 assert_eq!(motion.actions, expected.actions, "{step}");
                 assert_eq!(motion.log_strengths, expected.log_strengths, "{step}");

@@ -58,7 +58,8 @@ fn there_are_fourteen_goals_with_two_objects() {
 /// Weights 3/4 and 1/4 from log likelihoods that are ln 3 apart, far below what exp can hold.
 #[test]
 fn weights_are_likelihoods_in_proportion() {
-    let (a, b) = (neutral([place(0, 1), place(1, 2)]), neutral([place(0, 1), thing(0, 2)]));
+    let a = neutral([place(0, 1), place(1, 2)]);
+    let b = neutral([place(0, 1), thing(0, 2)]);
     let posterior = Posterior::new([(b, -5000.0), (a, -5000.0 + 3f64.ln())]);
     let weights: Vec<f64> = posterior.hypotheses.iter().map(|(_, weight)| *weight).collect();
     assert_eq!(posterior.hypotheses[0].0, a);
@@ -72,7 +73,8 @@ fn weights_are_likelihoods_in_proportion() {
 
 #[test]
 fn equal_particles_add_up() {
-    let (a, b) = (neutral([place(0, 1), place(1, 2)]), social(thing(0, 2), Attitude::Help));
+    let a = neutral([place(0, 1), place(1, 2)]);
+    let b = social(thing(0, 2), Attitude::Help);
     let posterior = Posterior::new([(a, -1.0), (b, -1.0), (a, -1.0)]);
     assert_eq!(posterior.hypotheses.len(), 2);
     assert!((posterior.attitude(AgentId::ZERO, Attitude::Help) - 1.0 / 3.0).abs() < 1e-12);

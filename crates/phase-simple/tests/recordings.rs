@@ -36,7 +36,8 @@ fn nearly_every_step_is_explained_and_every_known_action_found() {
         return;
     }
     let recordings = from_json(&fs::read_to_string(&path).expect("a text")).expect("the recordings");
-    let (mut steps, mut explained) = (0, 0);
+    let mut steps = 0;
+    let mut explained = 0;
     for (number, recording) in recordings.iter().enumerate() {
         let known = recording.recovered_actions.is_some();
         if !known && number % THINNED != 0 {

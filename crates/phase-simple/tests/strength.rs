@@ -18,8 +18,9 @@ fn motion(velocities: &[(f32, f32)]) -> Vec<[Body; MAX_ENTITIES]> {
     velocities.iter().map(row).collect()
 }
 
-/// Two hidden numbers: how much the mean speed is above 1 u/s, in halves, and how much it is below; then their sum and
-/// twice the first less the second; then 10 N a unit of the former, 1 N a unit of the latter, from 100 N.
+/// Two hidden numbers: how much the mean speed is above 1 u/s, in halves, and how much it is below; then
+/// their sum and twice the first less the second; then 10 N a unit of the former, 1 N a unit of the latter,
+/// from 100 N.
 fn tiny() -> Weights {
     let row = |first: f32| {
         let mut row = vec![0.0; FEATURES];
@@ -156,8 +157,8 @@ fn the_shipped_regressor_tells_weak_from_mighty() {
     let regressor = StrengthRegressor::bundled().unwrap();
     let [first, second] = &regressor.weights().hidden;
     assert_eq!((first.outputs, second.outputs), (64, 64), "the paper's sizes");
-    // An errand in the way agents run them: ten times three steps of pushing against 100 N of friction, then a stop to
-    // turn for as long.
+    // An errand in the way agents run them: ten times three steps of pushing against 100 N of friction, then
+    // a stop to turn for as long.
     for size in Size::ALL {
         let run = |strength: Strength| {
             let body = AgentBody { radius: size.radius(), max_force: strength.max_force() };
@@ -166,7 +167,8 @@ fn the_shipped_regressor_tells_weak_from_mighty() {
             motion(&(0..=60).map(|step| (gained * pushed(step), 0.0)).collect::<Vec<_>>())
         };
         let estimate = |strength| regressor.estimate(&run(strength), AgentId::ONE, size);
-        let (weak, mighty) = (estimate(Strength::Weak), estimate(Strength::Mighty));
+        let weak = estimate(Strength::Weak);
+        let mighty = estimate(Strength::Mighty);
         assert!(weak + 100.0 < mighty, "{size:?}: {weak} N and {mighty} N");
     }
 }

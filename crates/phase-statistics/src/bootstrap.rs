@@ -21,8 +21,8 @@ pub fn bootstrap_mean<R: Rng>(
     bootstrap(values.len(), resamples, confidence, random, mean)
 }
 
-/// The same interval of any statistic of `count` items, given the indices of a resample. Resamples for which the
-/// statistic is not defined are left out; `None` if it is for none.
+/// The percentile bootstrap interval of any statistic of `count` items, given the indices of a resample.
+/// Resamples for which the statistic is not defined are left out; `None` if it is for none.
 #[must_use]
 pub fn bootstrap<R: Rng>(
     count: usize,
@@ -43,8 +43,8 @@ pub fn bootstrap<R: Rng>(
     central(values, confidence)
 }
 
-/// The same interval of the difference of two means, `one` less `other`: both samples are drawn independently. `None` if either is
-/// empty.
+/// The percentile bootstrap interval of the difference of two means, `one` less `other`: both samples are
+/// drawn independently. `None` if either is empty.
 #[must_use]
 pub fn bootstrap_difference<R: Rng>(
     one: &[f64],

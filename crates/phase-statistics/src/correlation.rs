@@ -1,10 +1,11 @@
-//! How closely two series agree.
+//! Correlations of two series.
 
-/// A series whose standard deviation is smaller than this share of its greatest value is constant but for rounding errors.
+/// A series whose standard deviation is smaller than this share of its greatest value is constant but for
+/// rounding errors.
 const ROUNDING: f64 = 1e-12;
 
-/// Pearson's product-moment correlation, −1 to 1. `None` if the series differ in length, have fewer than two values, or one
-/// of them is constant.
+/// Pearson's product-moment correlation, −1 to 1. `None` if the series differ in length, have fewer than two
+/// values, or one of them is constant.
 #[must_use]
 pub fn pearson(first: &[f64], second: &[f64]) -> Option<f64> {
     if first.len() != second.len() || first.len() < 2 {
@@ -12,10 +13,14 @@ pub fn pearson(first: &[f64], second: &[f64]) -> Option<f64> {
     }
     let count = first.len() as f64;
     let mean = |values: &[f64]| values.iter().sum::<f64>() / count;
-    let (first_mean, second_mean) = (mean(first), mean(second));
-    let (mut product, mut first_square, mut second_square) = (0.0, 0.0, 0.0);
+    let first_mean = mean(first);
+    let second_mean = mean(second);
+    let mut product = 0.0;
+    let mut first_square = 0.0;
+    let mut second_square = 0.0;
     for (a, b) in first.iter().zip(second) {
-        let (a, b) = (a - first_mean, b - second_mean);
+        let a = a - first_mean;
+        let b = b - second_mean;
         product += a * b;
         first_square += a * a;
         second_square += b * b;
@@ -28,14 +33,15 @@ pub fn pearson(first: &[f64], second: &[f64]) -> Option<f64> {
     defined.then(|| (product / scale).clamp(-1.0, 1.0))
 }
 
-/// Spearman's rank correlation, −1 to 1: [`pearson`] of the ranks, where equal values share the mean of their ranks. `None`
-/// as there.
+/// Spearman's rank correlation, −1 to 1: [`pearson`] of the ranks, where equal values share the mean of their
+/// ranks. `None` if the series differ in length, have fewer than two values, or one of them is constant.
 #[must_use]
 pub fn spearman(first: &[f64], second: &[f64]) -> Option<f64> {
     pearson(&ranks(first), &ranks(second))
 }
 
-/// The Spearman–Brown prediction: the reliability of a whole of which two halves correlate by `correlation` (above −1).
+/// The Spearman–Brown prediction: the reliability of a whole of which two halves correlate by `correlation`
+/// (above −1).
 #[must_use]
 pub fn spearman_brown(correlation: f64) -> f64 {
     2.0 * correlation / (1.0 + correlation)

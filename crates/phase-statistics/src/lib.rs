@@ -1,13 +1,15 @@
 //! The statistics of all PHASE reports: means, quantiles, confidence intervals and tests, each defined once.
 //!
 //! - [`mean`] and [`standard_error`] of a sample.
-//! - [`percentile`] and [`quartiles`] by nearest rank, and the conventional [`median`], the midpoint of the two
-//!   central values.
-//! - [`wilson_interval`] for a proportion, [`bootstrap_mean`] for the mean of anything, [`bootstrap_difference`] for that of two, [`bootstrap`] for any statistic.
+//! - [`percentile`] and [`quartiles`] by nearest rank, and the conventional [`median`], the midpoint of the
+//!   two central values.
+//! - [`wilson_interval`] for a proportion, [`bootstrap_mean`] for the mean of anything,
+//!   [`bootstrap_difference`] for that of two, [`bootstrap`] for any statistic.
 //! - [`pearson`] and [`spearman`] correlations, and [`spearman_brown`] for the reliability of a whole.
 //! - [`krippendorff_alpha`] for the agreement of raters, [`standard_deviation`] of a sample.
 //! - [`fisher_exact_greater`] to compare two proportions.
-//! - [`log_sum_exp`], [`log_softmax`], [`softmax`] and [`logistic`] between probabilities and their logarithms; [`entropy`].
+//! - [`log_sum_exp`], [`log_softmax`], [`softmax`] and [`logistic`] between probabilities and their
+//!   logarithms; [`entropy`].
 //!
 //! Key design decision: every function takes plain slices and counts and names its definition. Nine quantile
 //! definitions and half a dozen intervals for a proportion are in use, and two reports are comparable only if

@@ -1,7 +1,7 @@
 //! Probabilities and their logarithms.
 
-/// ln Σ eˣ of logarithms of weights, without overflow: the greatest is taken out before the exponentials are summed, from
-/// first to last. −∞ without values or if all are −∞.
+/// ln Σ eˣ of logarithms of weights, without overflow: the greatest is taken out before the exponentials are
+/// summed, from first to last. −∞ without values or if all are −∞.
 ///
 /// ```
 /// use phase_statistics::log_sum_exp;
@@ -19,11 +19,12 @@ pub fn log_sum_exp(logs: impl IntoIterator<Item = f64, IntoIter: Clone>) -> f64 
     greatest + libm::log(logs.map(|log| libm::exp(log - greatest)).sum())
 }
 
-/// Turns logarithms of weights into logarithms of probabilities, x − ln Σ eˣ, in place. Nothing changes without values
-/// or if all are −∞.
+/// Turns logarithms of weights into logarithms of probabilities, x − ln Σ eˣ, in place. Nothing changes
+/// without values or if all are −∞.
 ///
-/// Each value is taken relative to the greatest before the logarithm of the sum is subtracted: beside thousands, that
-/// logarithm would lose its digits. So the result may differ from x less [`log_sum_exp`] in the last bits.
+/// Each value is taken relative to the greatest before the logarithm of the sum is subtracted: beside
+/// thousands, that logarithm would lose its digits. So the result may differ from x less [`log_sum_exp`] in
+/// the last bits.
 pub fn log_softmax(logs: &mut [f64]) {
     let greatest = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     if greatest == f64::NEG_INFINITY {

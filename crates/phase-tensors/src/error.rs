@@ -1,4 +1,4 @@
-//! What can be wrong with a file of tensors.
+//! Errors of files of tensors.
 
 use safetensors::SafeTensorError;
 use thiserror::Error;
@@ -31,9 +31,9 @@ pub enum TensorsError {
     Shape {
         /// The tensor.
         name: String,
-        /// What it must have.
+        /// The dimensions that it must have.
         expected: Vec<usize>,
-        /// What it has.
+        /// The dimensions that it has.
         found: Vec<usize>,
     },
     /// A value is not finite.

@@ -50,10 +50,11 @@ impl<'a> TensorFile<'a> {
         Ok(Self { tensors: SafeTensors::deserialize(bytes)?, metadata_value })
     }
 
-    /// The same, and checks the value of the entry.
+    /// Opens bytes whose entry `field` has this value.
     ///
     /// # Errors
-    /// As [`open`](Self::open), and [`TensorsError::Kind`] if it has another value or is missing.
+    /// [`TensorsError::Container`] if they are not such a file, [`TensorsError::Kind`] if the entry has
+    /// another value or is missing.
     pub fn open_as(bytes: &'a [u8], field: &'static str, expected: &str) -> Result<Self, TensorsError> {
         let file = Self::open(bytes, field)?;
         if file.metadata_value() == Some(expected) {
@@ -111,7 +112,8 @@ impl<'a> TensorFile<'a> {
     /// The values of a tensor of this shape.
     ///
     /// # Errors
-    /// As [`tensor`](Self::tensor), and [`TensorsError::Shape`] for another shape.
+    /// [`TensorsError::Missing`], [`TensorsError::Type`] and [`TensorsError::NotFinite`] as of
+    /// [`tensor`](Self::tensor), and [`TensorsError::Shape`] for another shape.
     pub fn values(&self, name: &str, shape: &[usize]) -> Result<Vec<f32>, TensorsError> {
         let NamedTensor { shape: found, values, .. } = self.tensor(name)?;
         check_shape(name, shape, &found)?;

@@ -1,4 +1,5 @@
-//! Weights on disk: named 32-bit float tensors in a safetensors file, with one metadata entry that identifies them.
+//! Weights on disk: named 32-bit float tensors in a safetensors file, with one metadata entry that identifies
+//! them.
 //!
 //! [`write()`] makes such a file, [`TensorFile`] reads one, [`TensorsError`] describes what is wrong with it.
 //!
@@ -8,7 +9,8 @@
 //! Nothing here depends on a particular network, so evaluation in plain Rust and training in a library share
 //! it.
 //!
-//! Two numbers are written and read again. By the safetensors format they are the last bytes of the file, little-endian:
+//! Two numbers are written and read again. By the safetensors format they are the last bytes of the file,
+//! little-endian:
 //!
 //! ```
 //! use phase_tensors::{NamedTensor, TensorFile, TensorsError, write};

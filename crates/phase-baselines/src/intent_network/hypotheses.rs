@@ -28,7 +28,8 @@ impl Hypotheses {
             ((owner.index() * GOALS + goal) * OUTPUTS + output) as u32
         };
         let strengths = [Strength::Fair; AGENT_COUNT];
-        let (mut all, mut terms) = (Vec::new(), Vec::new());
+        let mut all = Vec::new();
+        let mut terms = Vec::new();
         for (a, first) in goals[0].iter().enumerate() {
             for (b, second) in goals[1].iter().enumerate() {
                 all.push(Hypothesis::new([*first, *second], [Attitude::Neutral; AGENT_COUNT], strengths));

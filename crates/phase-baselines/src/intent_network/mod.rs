@@ -1,7 +1,7 @@
 //! Training of SIMPLE's intent network, which `phase_simple::IntentNetwork` evaluates.
 //!
-//! The loss is the cross-entropy of the true hypothesis among all of them, after every row: half of it after the last row, the
-//! rest spread evenly over the others, so that the network can be asked at any moment.
+//! The loss is the cross-entropy of the true hypothesis among all of them, after every row: half of it after
+//! the last row, the rest spread evenly over the others, so that the network can be asked at any moment.
 
 mod hypotheses;
 
@@ -30,7 +30,7 @@ const LAST: f32 = 0.5;
 /// Sequences of an event: the goals of both agents.
 const SEQUENCES: usize = AGENT_COUNT * GOALS;
 
-/// How the network is trained.
+/// Settings of the network's training.
 pub const SETTINGS: TrainingSettings = TrainingSettings {
     batch: 8,
     learning_rate: 2e-3,
@@ -107,8 +107,8 @@ impl IntentNetwork {
         })
     }
 
-    /// ln Q of every hypothesis after every row from the first step on: rows − 1 tensors of events × hypotheses. An event that
-    /// has ended keeps its last values.
+    /// ln Q of every hypothesis after every row from the first step on: rows − 1 tensors of events ×
+    /// hypotheses. An event that has ended keeps its last values.
     fn log_probabilities(
         &self,
         events: &[&LabelledIntents],
@@ -124,7 +124,8 @@ impl IntentNetwork {
             let terms: Vec<u32> = self.hypotheses.terms.iter().map(|terms| terms[k]).collect();
             Tensor::from_vec(terms, count, &Device::Cpu)
         });
-        let (first, second) = (first?, second?);
+        let first = first?;
+        let second = second?;
         let mut state = self.memory.start(sequences)?;
         let mut all = Vec::with_capacity(rows);
         for row in 0..rows {
@@ -245,7 +246,7 @@ mod tests {
         ObservedEvent::new(layout, [Size::Small, Size::Medium], sizes, rows.collect()).expect("an event")
     }
 
-    /// What is trained here and what is evaluated by SIMPLE are the same network.
+    /// The network in training and the one that SIMPLE evaluates give the same probabilities.
     #[test]
     fn the_evaluated_network_is_the_trained_one() {
         let mut random = TrainingRun::<IntentNetwork>::first_weights(3);
@@ -254,7 +255,8 @@ mod tests {
         let evaluated = phase_simple::IntentNetwork::from_safetensors(&bytes).expect("the same network");
         let evaluated = Arc::new(evaluated);
         for objects in 0..=2 {
-            let (long, short) = (event(objects, 9), event(objects, 4));
+            let long = event(objects, 9);
+            let short = event(objects, 4);
             let labelled = [&long, &short].map(|event| {
                 LabelledIntents::new(event, AgentId::ALL.map(goal), [Attitude::Neutral; 2]).expect("labels")
             });

@@ -35,7 +35,8 @@ impl Cell {
         let input = sigmoid(gates[k]);
         // Forget-gate bias of 1, as usual, so that the initial cell state persists over long events.
         let forget = sigmoid(gates[size + k] + 1.0);
-        let (new, output) = (tanh(gates[2 * size + k]), sigmoid(gates[3 * size + k]));
+        let new = tanh(gates[2 * size + k]);
+        let output = sigmoid(gates[3 * size + k]);
         let memory = forget * state[size + k] + input * new;
         Unit { input, forget, new, output, memory, shown: tanh(memory) }
     }
@@ -82,7 +83,9 @@ impl CustomOp2 for Cell {
     ) -> Result<(Option<Tensor>, Option<Tensor>)> {
         let size = self.size;
         let flat = |tensor: &Tensor| tensor.flatten_all()?.to_vec1::<f32>();
-        let (gate_numbers, state_numbers, gradients) = (flat(gates)?, flat(state)?, flat(gradient)?);
+        let gate_numbers = flat(gates)?;
+        let state_numbers = flat(state)?;
+        let gradients = flat(gradient)?;
         let mut gate_slopes = vec![0.0; gate_numbers.len()];
         // An inactive row passes its gradient through unchanged.
         let mut state_gradients = gradients.clone();

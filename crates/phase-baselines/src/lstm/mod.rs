@@ -36,8 +36,8 @@ impl Lstm {
         Tensor::zeros((rows, 2 * self.size), DType::F32, &Device::Cpu)
     }
 
-    /// The state after one more input (rows × inputs). Rows that are not `active` keep their state; without a list
-    /// all are.
+    /// The state after one more input (rows × inputs). Rows that are not `active` keep their state; without a
+    /// list all are.
     ///
     /// # Errors
     /// If shapes do not match.

@@ -45,7 +45,7 @@ impl Batch {
         Self::padded_with(events, 0.0)
     }
 
-    /// The same with some value instead of zeros as padding. The networks' outputs do not depend on it.
+    /// A batch with some value instead of zeros as padding. The networks' outputs do not depend on it.
     ///
     /// # Errors
     ///
@@ -138,7 +138,7 @@ impl Batch {
         self.walls.get(event).map_or(&[], Vec::as_slice)
     }
 
-    /// Which events are active at a row, repeated `each` times; `None` if all are.
+    /// Whether each event is active at a row, repeated `each` times; `None` if all are.
     pub(crate) fn active(&self, row: usize, each: usize) -> Option<Arc<[bool]>> {
         if self.lengths.iter().all(|&length| row < length) {
             return None;

@@ -28,7 +28,8 @@ pub(super) fn landmark(number: usize) -> [f32; FEATURES] {
 /// An inner wall, at its middle and facing along itself.
 pub(super) fn wall(wall: &Segment) -> [f32; FEATURES] {
     let along = wall.b - wall.a;
-    let (middle, half) = ((wall.a + wall.b) / 2.0, along.length() / 2.0);
+    let middle = (wall.a + wall.b) / 2.0;
+    let half = along.length() / 2.0;
     node(3, None, half, middle, along.normalize_or_zero(), Vec2::ZERO)
 }
 

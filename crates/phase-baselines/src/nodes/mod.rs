@@ -42,7 +42,7 @@ pub struct Nodes {
     positions: Vec<[Vec2; MOVING]>,
     /// Positions of landmarks and walls (u), walls by their centres.
     places: Vec<Vec2>,
-    /// Which agents and objects are in contact, by row.
+    /// The pairs of agents and objects that are in contact, by row.
     contacts: Vec<ContactMatrix>,
     /// The inner walls (u).
     walls: Vec<Segment>,

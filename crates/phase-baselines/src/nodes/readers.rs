@@ -1,4 +1,4 @@
-//! What several networks read from the nodes of a batch.
+//! Readers of the nodes of a batch that several networks share.
 
 use super::{Batch, FEATURES, FIXED, NODES};
 use crate::{
@@ -77,14 +77,14 @@ impl GoalHead {
 }
 
 impl Batch {
-    /// What is added to the scores of an event's nodes before attention, in order.
+    /// The terms that are added to the scores of an event's nodes before attention, in order.
     pub(crate) fn attention_bias(&self, event: usize) -> impl Iterator<Item = f32> {
         (0..NODES).map(move |node| if self.has(event, node) { 0.0 } else { MASK_BIAS })
     }
 }
 
-/// The maximum over the present nodes of each graph: graphs × hidden, from graphs × [`NODES`] × hidden and a mask of graphs ×
-/// [`NODES`] × 1.
+/// The maximum over the present nodes of each graph: graphs × hidden, from graphs × [`NODES`] × hidden and a
+/// mask of graphs × [`NODES`] × 1.
 pub(crate) fn max_pool(nodes: &Tensor, mask: &Tensor) -> Result<Tensor> {
     nodes.broadcast_add(mask)?.max(1)
 }

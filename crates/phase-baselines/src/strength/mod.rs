@@ -1,5 +1,5 @@
-//! SIMPLE's strength regressor: two hidden layers from speeds and accelerations to a force (appendix, "Bottom-up
-//! Proposals").
+//! SIMPLE's strength regressor: two hidden layers from speeds and accelerations to a force (appendix,
+//! "Bottom-up Proposals").
 //!
 //! It is trained on the inputs that it is used for: whole events, for the initial proposals, and windows of
 //! ΔT steps, for those after.

@@ -77,7 +77,7 @@ impl Network {
 }
 
 impl Standardisation {
-    /// Of the training samples.
+    /// The scaling of the training samples.
     pub(super) fn of<'a>(samples: impl Iterator<Item = &'a Sample> + Clone) -> Self {
         let features =
             core::array::from_fn(|k| MeanAndDeviation::of(samples.clone().map(|sample| sample.features[k])));

@@ -31,7 +31,8 @@ impl AgentSamples {
     pub fn of_event(event: &ObservedEvent, strengths: [Strength; AGENT_COUNT]) -> [Self; AGENT_COUNT] {
         let rows = event.rows();
         AgentId::ALL.map(|agent| {
-            let (size, strength) = (event.agent_sizes()[agent], strengths[agent]);
+            let size = event.agent_sizes()[agent];
+            let strength = strengths[agent];
             let sample = |rows| Sample { features: features(rows, agent, size), strength };
             let whole = sample(rows);
             let mut windows: Vec<Sample> = rows.windows(WINDOW + 1).map(sample).collect();

@@ -9,7 +9,7 @@ use phase_simple::StrengthRegressor;
 pub struct Score {
     /// Root mean squared error (N).
     pub rmse: f64,
-    /// The same of the best constant prediction (N): the standard deviation of the forces.
+    /// Root mean squared error of the best constant prediction (N): the standard deviation of the forces.
     pub rmse_of_constant: f64,
     /// Share of estimates that are closest to the correct level (0 to 1).
     pub accuracy: f64,
@@ -17,16 +17,20 @@ pub struct Score {
     pub accuracy_of_guess: f64,
 }
 
-/// Scores a regressor on non-empty groups of samples; groups have equal weight, as have the samples of a group.
-/// `guess` is the constant prediction. Zeros without groups.
+/// Scores a regressor on non-empty groups of samples; groups have equal weight, as have the samples of a
+/// group. `guess` is the constant prediction. Zeros without groups.
 #[must_use]
 pub fn score<'a>(
     regressor: &StrengthRegressor,
     groups: impl IntoIterator<Item = &'a [Sample]>,
     guess: Strength,
 ) -> Score {
-    let (mut squares, mut right, mut guessed) = (0.0, 0.0, 0.0);
-    let (mut sum, mut sum_of_squares, mut count) = (0.0, 0.0, 0.0);
+    let mut squares = 0.0;
+    let mut right = 0.0;
+    let mut guessed = 0.0;
+    let mut sum = 0.0;
+    let mut sum_of_squares = 0.0;
+    let mut count = 0.0;
     for group in groups {
         let share = 1.0 / group.len().max(1) as f64;
         for sample in group {

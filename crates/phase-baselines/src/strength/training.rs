@@ -12,7 +12,7 @@ use phase_simple::{StrengthRegressor, strength::WeightsError};
 use rand::{RngExt, seq::SliceRandom};
 use thiserror::Error;
 
-/// How to train. The paper gives the hidden layers' size; the rest is standard.
+/// Settings of the training. The paper gives the hidden layers' size; the rest is standard.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct StrengthTrainingSettings {
     /// Size of both hidden layers, at least 1.
@@ -66,7 +66,7 @@ pub enum TrainingError {
     Diverged {
         /// The epoch, from 1.
         epoch: usize,
-        /// What is wrong with the weights.
+        /// The rule that the weights break.
         source: WeightsError,
     },
 }

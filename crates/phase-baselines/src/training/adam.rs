@@ -26,8 +26,8 @@ impl Adam {
         Self { steps: 0, first: zeros.clone(), second: zeros }
     }
 
-    /// Updates the parameters by the gradients of a loss, clipped to the global norm `max_norm`. A parameter that the
-    /// loss does not depend on has gradient 0.
+    /// Updates the parameters by the gradients of a loss, clipped to the global norm `max_norm`. A parameter
+    /// that the loss does not depend on has gradient 0.
     pub(super) fn step(
         &mut self,
         parameters: &[Parameter],
@@ -45,8 +45,10 @@ impl Adam {
         let shortened = (max_norm / squares.sqrt().max(max_norm)) as f32;
         self.steps += 1;
         let grown = |beta: f64| 1.0 - libm::pow(beta, f64::from(self.steps));
-        let (rate, root) = ((rate / grown(BETA_1)) as f32, (1.0 / grown(BETA_2)) as f32);
-        let (beta_1, beta_2) = (BETA_1 as f32, BETA_2 as f32);
+        let rate = (rate / grown(BETA_1)) as f32;
+        let root = (1.0 / grown(BETA_2)) as f32;
+        let beta_1 = BETA_1 as f32;
+        let beta_2 = BETA_2 as f32;
         let mut all = values(parameters)?;
         for (((values, gradients), first), second) in
             all.iter_mut().zip(&gradients).zip(&mut self.first).zip(&mut self.second)

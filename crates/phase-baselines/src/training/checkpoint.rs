@@ -57,7 +57,8 @@ impl<N: Network> TrainingRun<N> {
     /// Identity of this training for the given digest of its data.
     #[must_use]
     pub fn checkpoint_of(&self, data: &str) -> Checkpoint {
-        let (seed, settings) = (self.seed, self.settings);
+        let seed = self.seed;
+        let settings = self.settings;
         Checkpoint { network: N::NAME.into(), seed, settings, data: data.into() }
     }
 
@@ -72,7 +73,8 @@ impl<N: Network> TrainingRun<N> {
         let parts = [Some(&now), Some(&self.adam.first), Some(&self.adam.second), self.best.as_ref()];
         for (part, values) in PARTS.into_iter().zip(parts) {
             for ((name, variable), values) in parameters.iter().zip(values.into_iter().flatten()) {
-                let (name, shape) = (format!("{part}{name}"), variable.dims().into());
+                let name = format!("{part}{name}");
+                let shape = variable.dims().into();
                 tensors.push(NamedTensor { name, shape, values: values.clone() });
             }
         }
@@ -94,7 +96,8 @@ impl<N: Network> TrainingRun<N> {
         let missing = || TensorsError::Kind { field: FIELD, expected: "a training's state".into() };
         let said = file.metadata_value().ok_or_else(missing)?;
         let said: CheckpointMetadata = serde_json::from_str(said)?;
-        let (theirs, ours) = (&said.of, self.checkpoint_of(data));
+        let theirs = &said.of;
+        let ours = self.checkpoint_of(data);
         let differences = [
             (theirs.network != ours.network, "network"),
             (theirs.seed != ours.seed, "seed"),
@@ -108,7 +111,9 @@ impl<N: Network> TrainingRun<N> {
         let [now, first, second, best] = PARTS.map(|part| part_of(&file, part, &parameters));
         let has_best = parameters.first().is_some_and(|(name, _)| file.has(&format!("{}{name}", PARTS[3])));
         let best = if has_best { Some(best?) } else { None };
-        let (now, first, second) = (now?, first?, second?);
+        let now = now?;
+        let first = first?;
+        let second = second?;
         parameters::set_values(&parameters, &now).map_err(NetworkError::from)?;
         self.adam = Adam { steps: said.steps, first, second };
         self.rounds = said.rounds;

@@ -1,5 +1,5 @@
-//! Training of any of the networks: rounds, batches, Adam, early stopping, and checkpoints from which it resumes
-//! exactly.
+//! Training of any of the networks: rounds, batches, Adam, early stopping, and checkpoints from which it
+//! resumes exactly.
 
 mod adam;
 mod checkpoint;

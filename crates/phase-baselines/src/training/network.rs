@@ -7,7 +7,7 @@ use phase_model::random::Pcg64Mcg;
 
 /// A network, as seen by training.
 pub trait Network {
-    /// What it is trained and evaluated on: an event with its targets.
+    /// An example to train and evaluate with: an event with its targets.
     type Sample;
 
     /// Its name, in commands and files.
@@ -19,8 +19,8 @@ pub trait Network {
     /// Trainable parameters, always in the same order.
     fn parameters(&self) -> Vec<Parameter>;
 
-    /// Loss and metrics over some samples, at least one. With a generator the network is in training mode and may
-    /// sample its input; without one it is evaluated deterministically.
+    /// Loss and metrics over some samples, at least one. With a generator the network is in training mode and
+    /// may sample its input; without one it is evaluated deterministically.
     ///
     /// # Errors
     ///

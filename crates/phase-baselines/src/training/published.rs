@@ -22,7 +22,7 @@ pub trait PublishedNetwork: Network + Sized {
     /// [`BUNDLED_WEIGHTS`](Self::BUNDLED_WEIGHTS).
     ///
     /// # Errors
-    /// As [`from_safetensors`].
+    /// [`NetworkError`] if the file is not of this network.
     fn with_weights(bytes: &[u8]) -> core::result::Result<Self, NetworkError> {
         // The initial random weights are overwritten.
         from_safetensors(Self::published(&mut TrainingRun::<Self>::first_weights(0))?, bytes)

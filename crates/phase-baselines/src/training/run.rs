@@ -7,8 +7,8 @@ use phase_model::random::{self, Pcg64Mcg, Purpose};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// Training settings. Rounds have a fixed size whatever the number of events, so that a number of rounds is the same
-/// amount of work, and patience has the same meaning, for every dataset.
+/// Training settings. Rounds have a fixed size whatever the number of events, so that a number of rounds is
+/// the same amount of work, and patience has the same meaning, for every dataset.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TrainingSettings {
@@ -63,8 +63,8 @@ pub enum TrainingError {
     Diverged(usize),
 }
 
-/// A training in progress. All randomness is derived from the seed and the number of the round or pass, so it can
-/// stop after any round and resume.
+/// A training in progress. All randomness is derived from the seed and the number of the round or pass, so it
+/// can stop after any round and resume.
 #[derive(Debug)]
 pub struct TrainingRun<N: Network> {
     pub(super) network: N,
@@ -117,7 +117,8 @@ impl<N: Network> TrainingRun<N> {
         done >= self.settings.rounds || done - best >= self.settings.patience.max(1)
     }
 
-    /// Trains on the next events of an endless sequence of shuffled passes, then evaluates on the validation events.
+    /// Trains on the next events of an endless sequence of shuffled passes, then evaluates on the validation
+    /// events.
     ///
     /// # Errors
     /// [`TrainingError`].

@@ -76,7 +76,8 @@ fn learns_by_heart<N: Network>(
     }
     // One more may be worse.
     run.round(events, events).expect("a round");
-    let (first, best) = (run.rounds()[0].validation.clone(), run.best_round().expect("a best one").clone());
+    let first = run.rounds()[0].validation.clone();
+    let best = run.best_round().expect("a best one").clone();
     assert!(learnt(&first, &best.validation), "{}: {first:?} {best:?}", N::NAME);
     // The best weights are kept, whatever came after them.
     let again = evaluate(&run.into_best().expect("a network"), events, QUICK.batch).expect("a measure");

@@ -70,7 +70,8 @@ fn what_is_written_is_read() {
 
 #[test]
 fn times_add_up_after_a_break() {
-    let (mut before, mut after) = (run(1), run(1));
+    let mut before = run(1);
+    let mut after = run(1);
     let mut earlier = record(&before);
     go_on(&mut before, &mut earlier, 2);
     let training_files = before.checkpoint("data").expect("a checkpoint");

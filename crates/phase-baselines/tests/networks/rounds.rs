@@ -87,7 +87,8 @@ fn every_sample_comes_equally_often_up_to_one() {
         for round in shown(&mut new(1, SETTINGS), samples, 9) {
             assert_eq!(round.len(), 10);
             round.iter().for_each(|&sample| counts[sample] += 1);
-            let (least, most) = (*counts.iter().min().unwrap(), *counts.iter().max().unwrap());
+            let least = *counts.iter().min().unwrap();
+            let most = *counts.iter().max().unwrap();
             assert!(most - least <= 1, "{samples} samples: {counts:?}");
             all.extend(round);
         }

@@ -15,7 +15,7 @@ use crate::{
     source::EventInput,
 };
 use options::{Belief, Render};
-use phase_event::{Recording, Row, Simulation, Trajectory};
+use phase_event::{Recording, Row, SimulationRecord, Trajectory};
 use phase_files::{WriteError, atomic};
 use phase_model::{AgentId, State, arena::SUBSTEPS};
 use phase_render::Palette;
@@ -249,7 +249,11 @@ fn unsimulated(arguments: &Render, id: &str) -> CliError {
 }
 
 /// The settings that an event was simulated with.
-fn settings(arguments: &Render, id: &str, simulation: &Simulation) -> Result<SimulationSettings, CliError> {
+fn settings(
+    arguments: &Render,
+    id: &str,
+    simulation: &SimulationRecord,
+) -> Result<SimulationSettings, CliError> {
     let settings = serde_json::from_value(simulation.settings.clone());
     settings.map_err(|source| CliError::SimulationSettings {
         file: arguments.file.clone(),
@@ -260,7 +264,7 @@ fn settings(arguments: &Render, id: &str, simulation: &Simulation) -> Result<Sim
 
 /// What an agent saw, believed and pursued at every step.
 fn minds(
-    simulation: &Simulation,
+    simulation: &SimulationRecord,
     agent: AgentId,
     palette: &Palette,
     settings: &SimulationSettings,

@@ -17,7 +17,7 @@ use phase_dataset::{
     manifest::{EventEntry, Manifest},
     phase_events,
 };
-use phase_event::{Event, EventReadError, Recording, Simulation};
+use phase_event::{Event, EventReadError, Recording, SimulationRecord};
 use phase_files::{
     FileError, Problem,
     checksum::{FileEntry, sha256_hex},
@@ -134,7 +134,7 @@ fn simulate(folder: &Path, entry: &EventEntry) -> Result<Option<Option<FileError
         Ok((settings, recorded)) => (recorded, settings),
         Err(error) => return Ok(Some(Some(error))),
     };
-    let Simulation { event, generator, settings: value } = &recorded.simulation;
+    let SimulationRecord { event, generator, settings: value } = &recorded.simulation;
     let again =
         engine::simulate(&entry.id, &event.scene, event.seed, &settings, &mut |_| ControlFlow::Continue(()));
     let Some(again) = again? else { return Ok(None) };
@@ -148,7 +148,7 @@ fn simulate(folder: &Path, entry: &EventEntry) -> Result<Option<Option<FileError
 struct Recorded<'a> {
     folder: &'a Path,
     entry: &'a EventEntry,
-    simulation: Simulation,
+    simulation: SimulationRecord,
 }
 
 impl<'a> Recorded<'a> {

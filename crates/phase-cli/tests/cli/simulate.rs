@@ -200,7 +200,8 @@ fn published_minds_are_named_and_act_otherwise() {
     assert_eq!(theirs.settings["one_way_turns"], false);
     assert_eq!(one_way.settings["one_way_turns"], true);
     // Walking needs five actions in published minds, and twelve in ours.
-    let searched = |simulation: &phase_event::Simulation| simulation.event.steps[0].thoughts[1].actions.len();
+    let searched =
+        |simulation: &phase_event::SimulationRecord| simulation.event.steps[0].thoughts[1].actions.len();
     assert_eq!((searched(&ours), searched(&theirs)), (12, 5));
     let refused = refuse(path, &simulate("no", &["--minds", "mine"]));
     assert!(refused.contains("published"), "{refused}");

@@ -1,14 +1,14 @@
 //! One event as the values of its columns.
 
 use crate::{NAMES, manifest::EventEntry};
-use phase_event::{Event, Recording, Simulation, Step, pairs_in_contact, substep_row};
+use phase_event::{Event, Recording, SimulationRecord, Step, pairs_in_contact, substep_row};
 use phase_model::{AGENT_COUNT, AgentId, AgentSpec, Goal, ObjectId, State, words};
 
 /// An event, with what the manifest states about its file.
 pub(super) struct Row<'a> {
     pub(super) entry: &'a EventEntry,
     pub(super) recording: &'a Recording,
-    pub(super) simulation: &'a Simulation,
+    pub(super) simulation: &'a SimulationRecord,
 }
 
 impl Row<'_> {

@@ -1,8 +1,8 @@
 //! Agreement with people who rated the relations of events.
 //!
-//! People do not agree with one another entirely, and how many of them call an event friendly is information. So a method's
-//! three probabilities are compared with the shares of raters, and both with the *noise ceiling*: how well one half of the
-//! raters predicts the other.
+//! People do not agree with one another entirely, and how many of them call an event friendly is information.
+//! So a method's three probabilities are compared with the shares of raters, and both with the *noise
+//! ceiling*: how well one half of the raters predicts the other.
 
 use super::{Answer, RecognisedEvent};
 use crate::{CONFIDENCE, Estimate, RESAMPLES, ratings::RatingCounts};
@@ -14,8 +14,8 @@ use phase_statistics::{bootstrap, entropy, mean, pearson, spearman, spearman_bro
 use rand::seq::SliceRandom;
 use serde::{Deserialize, Serialize};
 
-/// Share of the uniform distribution that is mixed into a method's probabilities for the cross-entropy, so that a single
-/// event cannot make it infinite.
+/// Share of the uniform distribution that is mixed into a method's probabilities for the cross-entropy, so
+/// that a single event cannot make it infinite.
 pub const UNIFORM_SHARE: f64 = 0.01;
 /// Divisions of the raters into halves, over which ceilings are averaged.
 const HALVINGS: usize = 200;
@@ -27,20 +27,21 @@ const HALVING_STREAM: u64 = 1;
 /// Shares of the three relations, in the order of [`RELATIONS`](super::RELATIONS).
 type Shares = [f64; 3];
 
-/// How closely a method's probabilities of relations agree with people's ratings.
+/// The agreement of a method's probabilities of relations with people's ratings.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Agreement {
     /// Number of events that were rated.
     pub n: usize,
     /// Number of ratings in all.
     pub ratings: usize,
-    /// Pearson's correlation of probabilities and shares of raters over events and relations; `None` if either is constant.
+    /// Pearson's correlation of probabilities and shares of raters over events and relations; `None` if
+    /// either is constant.
     pub correlation: Option<Estimate>,
-    /// Mean over events of −Σ h ln p (nat), where h are the shares of raters and p the probabilities, mixed with
-    /// [`UNIFORM_SHARE`].
+    /// Mean over events of −Σ h ln p (nat), where h are the shares of raters and p the probabilities, mixed
+    /// with [`UNIFORM_SHARE`].
     pub cross_entropy: Estimate,
-    /// Representational similarity: Spearman's correlation of the distances between every two events, by probabilities and by
-    /// shares (Euclidean). `None` if it is not defined.
+    /// Representational similarity: Spearman's correlation of the distances between every two events, by
+    /// probabilities and by shares (Euclidean). `None` if it is not defined.
     pub similarity: Option<Estimate>,
     /// Share of events whose most likely relation is the one most raters named; of equally frequent ones any.
     pub mode: Estimate,
@@ -48,10 +49,12 @@ pub struct Agreement {
     pub ceiling: Option<Ceiling>,
 }
 
-/// How well people agree with one another: the mean over random divisions of each event's raters into halves.
+/// The agreement of people with one another: the mean over random divisions of each event's raters into
+/// halves.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Ceiling {
-    /// Correlation of the halves' shares, corrected to all raters (Spearman–Brown); `None` if they are constant.
+    /// Correlation of the halves' shares, corrected to all raters (Spearman–Brown); `None` if they are
+    /// constant.
     pub correlation: Option<f64>,
     /// Mean entropy of the shares (nat): the least cross-entropy that any probabilities reach.
     pub entropy: f64,
@@ -68,15 +71,15 @@ struct Rated {
 }
 
 impl Agreement {
-    /// Compares the reports that the answers to rated events predict, or, where an answer predicts none, its probabilities of
-    /// relations; `None` without any. The seed is that of intervals and halves.
+    /// Compares the reports that the answers to rated events predict, or, where an answer predicts none, its
+    /// probabilities of relations; `None` without any. The seed is that of intervals and halves.
     #[must_use]
     pub fn of(events: &[RecognisedEvent], seed: u64) -> Option<Self> {
         Self::with(events, seed, |answer| answer.reported.unwrap_or(answer.relation))
     }
 
-    /// The same of the probabilities of relations alone; `None` also if no answer predicts reports, and [`Agreement::of`] says the
-    /// same.
+    /// Compares the probabilities of relations alone. `None` without any, and if no answer predicts reports,
+    /// so that [`Agreement::of`] has compared them already.
     #[must_use]
     pub fn of_relations(events: &[RecognisedEvent], seed: u64) -> Option<Self> {
         let predicted = events.iter().any(|event| event.answer.reported.is_some());
@@ -98,7 +101,8 @@ impl Agreement {
         let random = || stream(seed, Purpose::Bootstrap, 0);
         let all: Vec<usize> = (0..rated.len()).collect();
         let correlated = |sample: &[usize]| correlation(&said, &people, sample);
-        let (from, to) = (distances(&said), distances(&people));
+        let from = distances(&said);
+        let to = distances(&people);
         let similar = |sample: &[usize]| similarity(&from, &to, sample);
         let estimate = |resamples, statistic: &dyn Fn(&[usize]) -> Option<f64>| {
             let value = statistic(&all)?;
@@ -128,7 +132,9 @@ impl Ceiling {
         }
         let mut random = stream(seed, Purpose::Bootstrap, HALVING_STREAM);
         let all: Vec<usize> = (0..several.len()).collect();
-        let (mut correlations, mut similarities, mut modes) = (Vec::new(), Vec::new(), Vec::new());
+        let mut correlations = Vec::new();
+        let mut similarities = Vec::new();
+        let mut modes = Vec::new();
         for _ in 0..HALVINGS {
             let halves: Vec<[Shares; 2]> =
                 several.iter().map(|event| halves(event.counts, &mut random)).collect();
@@ -189,7 +195,8 @@ fn distances(of: &[Shares]) -> Vec<Vec<f64>> {
     of.iter().map(|one| of.iter().map(|other| distance(one, other)).collect()).collect()
 }
 
-/// Spearman's correlation of the distances of all pairs of a sample. An event that was drawn twice is no pair.
+/// Spearman's correlation of the distances of all pairs of a sample. An event that was drawn twice is no
+/// pair.
 fn similarity(one: &[Vec<f64>], other: &[Vec<f64>], sample: &[usize]) -> Option<f64> {
     let pairs = || {
         let after = |k: usize| sample[k + 1..].iter().map(move |&b| (sample[k], b));

@@ -113,7 +113,8 @@ impl Answer {
     }
 }
 
-/// Three probabilities of relations, if they are valid. A sum of probabilities may exceed 1 by a rounding error.
+/// Three probabilities of relations, if they are valid. A sum of probabilities may exceed 1 by a rounding
+/// error.
 fn distribution(relation: &RelationProbabilities) -> Option<RelationProbabilities> {
     let three = [relation.friendly, relation.adversarial, relation.neutral];
     let valid = three.into_iter().all(probable) && (three.iter().sum::<f64>() - 1.0).abs() <= TOLERANCE;
@@ -137,7 +138,7 @@ pub struct Label {
     /// The agent that helps or hinders the other, if one does.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub role: Option<SocialRole>,
-    /// How people rated the relation, where they were asked.
+    /// People's ratings of the relation, where they were asked.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ratings: Option<RatingCounts>,
     /// The set of events that it belongs to, which differ in one social variable, if it belongs to one.
@@ -155,7 +156,8 @@ pub struct SocialRole {
 }
 
 impl SocialRole {
-    /// The role in a scene; of two social agents, which labels do not have, the first. `None` if there is none.
+    /// The role in a scene; of two social agents, which labels do not have, the first. `None` if there is
+    /// none.
     #[must_use]
     pub fn of(attitudes: [Attitude; AGENT_COUNT]) -> Option<Self> {
         let roles = AgentId::ALL.map(|agent| Self { agent, attitude: attitudes[agent] });

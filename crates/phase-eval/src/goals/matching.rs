@@ -1,4 +1,4 @@
-//! When two goals are the same.
+//! Equality of goals.
 
 use phase_model::Goal;
 

@@ -46,8 +46,10 @@ impl ErrorBreakdown {
             self.nothing += 1;
             return;
         };
-        let (said, right) = (canonical(said), canonical(right));
-        let ([said_kind, said_entity, said_landmark], [kind, entity, landmark]) = (parts(said), parts(right));
+        let said = canonical(said);
+        let right = canonical(right);
+        let [said_kind, said_entity, said_landmark] = parts(said);
+        let [kind, entity, landmark] = parts(right);
         self.kinds[kind][said_kind] += 1;
         if said_kind != kind {
             return;

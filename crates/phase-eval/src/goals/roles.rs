@@ -1,4 +1,4 @@
-//! Who helps or hinders whom.
+//! Scores of roles: naming the agent that helps or hinders the other.
 
 use super::{RecognisedEvent, SocialRole};
 use crate::Estimate;
@@ -8,22 +8,22 @@ use serde::{Deserialize, Serialize};
 /// Probabilities that differ by less are equal but for rounding errors.
 const ROUNDING: f64 = 1e-9;
 
-/// How well a method names the agent that helps or hinders, given the relation: its probability that the right agent has the
-/// right attitude, beside that of the other agent having it.
+/// Scores of a method at naming the agent that helps or hinders, given the relation: its probability that the
+/// right agent has the right attitude, beside that of the other agent having it.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct RoleScores {
     /// Number of events in which one agent helps or hinders the other.
     pub n: usize,
     /// The right agent is the likelier one; equally likely ones do not count.
     pub named: Estimate,
-    /// Brier score of the two: (1 − p)², where p is the probability of the right agent over that of both; 0.25 for a method
-    /// that does not know.
+    /// Brier score of the two: (1 − p)², where p is the probability of the right agent over that of both;
+    /// 0.25 for a method that does not know.
     pub brier: Estimate,
 }
 
 impl RoleScores {
-    /// Scores the events in which one agent helps or hinders the other; `None` if there is none, or a method does not say. The
-    /// seed is that of the intervals.
+    /// Scores the events in which one agent helps or hinders the other; `None` if there is none, or a method
+    /// does not say. The seed is that of the intervals.
     #[must_use]
     pub fn of<'a>(events: impl IntoIterator<Item = &'a RecognisedEvent>, seed: u64) -> Option<Self> {
         let social = events.into_iter().filter_map(|event| Some((event.label.role?, event.answer.roles)));

@@ -68,16 +68,17 @@ pub struct RecognitionSummary {
     /// By sets of events that differ in one social variable, if there are any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sets: Option<SetScores>,
-    /// How well the agent that helps or hinders is named, if the method says.
+    /// Scores of naming the agent that helps or hinders, if the method says.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub roles: Option<RoleScores>,
-    /// The same by kind of event.
+    /// Scores of naming that agent, by kind of event.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub role_kinds: Vec<GroupScores<RoleScores>>,
     /// Agreement with people's ratings, of the events that were rated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub agreement: Option<Agreement>,
-    /// The same of the probabilities of relations, where the method predicts reports beside them.
+    /// Agreement of the probabilities of relations with people's ratings, where the method predicts reports
+    /// beside them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub relation_agreement: Option<Agreement>,
     /// Confusion matrix of relations (number of events): `confusion[right][said]`, both in the order of

@@ -13,19 +13,19 @@ pub struct SampleErrors {
     pub count: usize,
     /// minADE: the average displacement error of the future in which it is least, chosen for each agent.
     pub min_ade: f64,
-    /// minFDE: the same of the final displacement error.
+    /// minFDE: the final displacement error of the future in which it is least, chosen for each agent.
     pub min_fde: f64,
-    /// Energy score, a proper score of distributions (Gneiting and Raftery 2007): the mean over agents and steps of
-    /// E‖X − y‖ − ½ E‖X − X′‖, where X and X′ are predicted positions, drawn independently, and y is the true one. Of a single future it is
-    /// the ADE.
+    /// Energy score, a proper score of distributions (Gneiting and Raftery 2007): the mean over agents and
+    /// steps of E‖X − y‖ − ½ E‖X − X′‖, where X and X′ are predicted positions, drawn independently, and y is
+    /// the true one. Of a single future it is the ADE.
     pub energy: f64,
 }
 
 impl SampleErrors {
-    /// Of some futures; `None` without any.
+    /// Scores some futures; `None` without any.
     ///
     /// # Errors
-    /// As [`Errors::of`].
+    /// [`ForecastError`] if there is no step, a shape differs or a number is not finite.
     pub fn of(samples: &[Forecast], truth: &Forecast) -> Result<Option<Self>, ForecastError> {
         for sample in samples {
             Errors::of(sample, truth)?;
@@ -33,8 +33,11 @@ impl SampleErrors {
         if samples.is_empty() {
             return Ok(None);
         }
-        let (count, steps) = (samples.len() as f64, truth[0].len() as f64);
-        let (mut min_ade, mut min_fde, mut energy) = (0.0, 0.0, 0.0);
+        let count = samples.len() as f64;
+        let steps = truth[0].len() as f64;
+        let mut min_ade = 0.0;
+        let mut min_fde = 0.0;
+        let mut energy = 0.0;
         for (agent, truth) in truth.iter().enumerate().take(AGENT_COUNT) {
             let place = |sample: &Forecast, step: usize| sample[agent][step].as_dvec2();
             let errors = samples.iter().map(|sample| {

@@ -19,7 +19,8 @@ pub struct ForecastScores {
     pub ade_entities: Estimate,
     /// Final displacement error of agents and objects.
     pub fde_entities: Estimate,
-    /// Scores of the distribution of futures, over the events for which the method gave one; `None` without any.
+    /// Scores of the distribution of futures, over the events for which the method gave one; `None` without
+    /// any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub samples: Option<SampleScores>,
 }

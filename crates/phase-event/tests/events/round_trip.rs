@@ -34,7 +34,7 @@ fn a_measured_recording_comes_back_whole() {
     assert_eq!(parse(text.as_bytes()).expect("our own file"), read);
 }
 
-/// Who moved an agent is told of agents that people moved; a scene does not say it.
+/// The controller is written of agents that people moved; a scene does not say it.
 #[test]
 fn controllers_come_back() {
     let controllers = [Controller::Mind, Controller::Human];

@@ -1,4 +1,4 @@
-//! What a viewer sees of one agent's progress towards one goal, in one row of an event.
+//! Features of one agent's progress towards one goal in one row of an event, as a viewer sees it.
 
 use crate::physical_goals;
 use phase_event::ObservedEvent;
@@ -16,12 +16,13 @@ const LENGTH: f32 = SIDE / 2.0;
 const SPEED: f32 = 10.0;
 /// Bodies whose outlines are closer than this touch (u).
 const TOUCH: f32 = 0.2;
-/// A body whose origin is this near to a landmark's centre in both coordinates (u) is on it: a body of medium size then lies
-/// inside.
+/// A body whose origin is this near to a landmark's centre in both coordinates (u) is on it: a body of medium
+/// size then lies inside.
 const ON: f32 = LANDMARK_HALF_SIDE - 1.0;
 
-/// Features of all goals of both agents in an event, relative to the goal: what has to get where, who is near it, who moves
-/// towards what. Neither places nor numbers of agents, objects and landmarks enter, so what is learnt of one goal holds for all.
+/// Features of all goals of both agents in an event, relative to the goal: what has to get where, who is near
+/// it, who moves towards what. Neither places nor numbers of agents, objects and landmarks enter, so what is
+/// learnt of one goal holds for all.
 #[derive(Clone, Debug)]
 pub struct GoalFeatures {
     walls: Vec<Segment>,
@@ -32,7 +33,7 @@ pub struct GoalFeatures {
 }
 
 impl GoalFeatures {
-    /// Of the goals that agents can have in an event.
+    /// Features of the goals that agents can have in an event.
     #[must_use]
     pub fn new(observed: &ObservedEvent) -> Self {
         let objects = observed.object_sizes().len();
@@ -55,12 +56,14 @@ impl GoalFeatures {
         self.goals.iter().map(move |&(agent, goal)| self.of_goal(row, agent, goal))
     }
 
-    /// The features of a goal: its kind (4, one-hot); the remaining way of what has to be moved, with the speed at which it
-    /// shortens and whether a wall lies across it; the same of both agents' ways to it and to where it has to get, and of
-    /// both agents' ways to one another, with how far they face along it; who touches what; the nearest of the other objects;
-    /// speeds; whether the goal holds; radii. Distances in units of 10 u, speeds of 10 u/s, radii in u.
+    /// The features of a goal: its kind (4, one-hot); the remaining way of what has to be moved, with the
+    /// speed at which it shortens and whether a wall lies across it; the same of both agents' ways to it and
+    /// to where it has to get, and of both agents' ways to one another, with how far they face along it; who
+    /// touches what; the nearest of the other objects; speeds; whether the goal holds; radii. Distances in
+    /// units of 10 u, speeds of 10 u/s, radii in u.
     fn of_goal(&self, row: &[Body; MAX_ENTITIES], agent: AgentId, goal: Goal) -> [f32; FEATURES] {
-        let (me, other) = (Entity::Agent(agent), Entity::Agent(agent.other()));
+        let me = Entity::Agent(agent);
+        let other = Entity::Agent(agent.other());
         let (kind, carried, to) = match goal {
             Goal::AgentOnLandmark { agent, landmark, .. } => {
                 (0, Entity::Agent(agent), LANDMARKS[usize::from(landmark)])
@@ -86,7 +89,8 @@ impl GoalFeatures {
             let way = self.way(&row[who], to);
             features.extend([way.distance, way.closing, way.facing]);
         }
-        let (mine, theirs) = (self.way(&row[me], place(other)), self.way(&row[other], place(me)));
+        let mine = self.way(&row[me], place(other));
+        let theirs = self.way(&row[other], place(me));
         features.extend([mine.distance, mine.closing, mine.facing, theirs.closing, theirs.facing, mine.wall]);
 
         let touches = |a: Entity, b: Entity| a != b && self.touch(row, a, b);
@@ -187,8 +191,8 @@ impl FeatureList {
     }
 }
 
-/// The number of a goal among [`physical_goals`] of an agent; of touching goals only the sign counts. `None` for others, such as
-/// keeping somebody off a landmark.
+/// The number of a goal among [`physical_goals`] of an agent; of touching goals only the sign counts. `None`
+/// for others, such as keeping somebody off a landmark.
 #[must_use]
 pub fn goal_index(agent: AgentId, goal: Goal, objects: usize) -> Option<usize> {
     let same = |other: &Goal| match (*other, goal) {
@@ -259,7 +263,8 @@ mod tests {
             let sizes = plain.object_sizes().to_vec();
             let other = ObservedEvent::new(layout.flipped(flip), plain.agent_sizes(), sizes, rows);
             let other = other.expect("an event");
-            let (one, two) = (features(&plain), features(&other));
+            let one = features(&plain);
+            let two = features(&other);
             for (agent, goal) in GoalFeatures::new(&plain).goals() {
                 let reflected = match *goal {
                     Goal::AgentOnLandmark { agent, landmark, sign } => {
@@ -271,7 +276,8 @@ mod tests {
                     touch @ Goal::Touch { .. } => touch,
                 };
                 let index = |goal| agent.index() * 14 + goal_index(*agent, goal, 2).expect("a goal");
-                let (a, b) = (one[index(*goal)], two[index(reflected)]);
+                let a = one[index(*goal)];
+                let b = two[index(reflected)];
                 for (k, (a, b)) in a.iter().zip(b).enumerate() {
                     assert!((a - b).abs() < 1e-4, "{flip:?}, {goal:?}: feature {k} is {a} and {b}");
                 }

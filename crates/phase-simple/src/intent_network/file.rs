@@ -38,7 +38,8 @@ impl IntentNetwork {
     fn check(&self) -> Result<(), TensorsError> {
         let units = self.units().max(1);
         // A product that overflows is not a valid length.
-        let (twice, four) = (units.saturating_mul(2), units.saturating_mul(4));
+        let twice = units.saturating_mul(2);
+        let four = units.saturating_mul(4);
         for (name, layer, inputs, outputs) in [
             ("embedding", &self.embedding, FEATURES, units),
             ("memory", &self.memory, twice, four),

@@ -15,7 +15,8 @@ use std::sync::Arc;
 /// Outputs for a goal: its owner pursues it, the other helps the owner, the other hinders it.
 pub const OUTPUTS: usize = 3;
 
-/// From features to a hidden layer, an LSTM of the same size over the rows, another hidden layer, and the logits.
+/// From features to a hidden layer, an LSTM of the same size over the rows, another hidden layer, and the
+/// logits.
 #[derive(Clone, PartialEq, Debug)]
 pub struct IntentNetwork {
     /// [`FEATURES`] to the hidden units.
@@ -101,7 +102,8 @@ impl IntentNetwork {
             let input = logistic(gates[k]);
             // The forget gate has an additional bias of 1, as in training.
             let forget = logistic(gates[units + k] + 1.0);
-            let (new, output) = (libm::tanh(gates[2 * units + k]), logistic(gates[3 * units + k]));
+            let new = libm::tanh(gates[2 * units + k]);
+            let output = logistic(gates[3 * units + k]);
             state.cell[k] = forget * state.cell[k] + input * new;
             state.output[k] = output * libm::tanh(state.cell[k]);
         }
@@ -121,7 +123,8 @@ impl IntentReader {
         }
     }
 
-    /// ln Q of every intent of each agent given the rows so far, but for a constant, in the order of [`Intent::all`].
+    /// ln Q of every intent of each agent given the rows so far, but for a constant, in the order of
+    /// [`Intent::all`].
     #[must_use]
     pub fn intents(&self) -> [WeightedIntents; AGENT_COUNT] {
         let logits: Vec<[f64; OUTPUTS]> =

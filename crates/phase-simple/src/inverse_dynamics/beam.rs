@@ -6,7 +6,7 @@ use phase_model::{Body, MAX_ENTITIES, State};
 
 /// Paths that are followed at once.
 const BEAM_WIDTH: usize = 16;
-/// Those of them with the same grips.
+/// Greatest number of paths with the same grips among them.
 const SAME_GRIPS: usize = 8;
 /// Paths whose cost exceeds that of the best by more are given up.
 const GIVE_UP: f64 = 15.0;
@@ -20,8 +20,8 @@ pub(super) struct Beam {
     paths: Vec<Path>,
     /// The numbers of those that are followed, cheapest first: at least one.
     followed: Vec<usize>,
-    /// The last step is followed without the row after it, so it is followed again when that row has come: how many paths there
-    /// were before, and which were followed. `None` before the first step.
+    /// The last step is followed without the row after it, so it is followed again when that row has come:
+    /// how many paths there were before, and which were followed. `None` before the first step.
     before_last: Option<(usize, Vec<usize>)>,
 }
 
@@ -44,8 +44,9 @@ impl Beam {
         beam
     }
 
-    /// Follows the event to its next row, as it was observed. Whether the paths, but for their last steps, are continued; if not,
-    /// [`Beam::new`] has to begin again, since the row tells how earlier rows are to be read.
+    /// Follows the event to its next row, as it was observed. Whether the paths, but for their last steps,
+    /// are continued; if not, [`Beam::new`] has to begin again, since the row tells how earlier rows are to
+    /// be read.
     pub(super) fn push(&mut self, row: &[Body; MAX_ENTITIES]) -> Result<bool, ObservedError> {
         let mut read_anew = false;
         for (replay, between) in &mut self.readings {

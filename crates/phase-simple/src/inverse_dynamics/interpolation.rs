@@ -4,8 +4,8 @@
 use super::reading::Reading;
 use phase_model::{Body, MAX_ENTITIES, State, arena};
 
-/// How far the end of a step lies on the way from its mean to the mean of the next: the mean stands for the third of
-/// five substeps, the end is the fifth.
+/// Share of the way from the mean of a step to the mean of the next at which the step ends: the mean stands
+/// for the third of five substeps, the end is the fifth.
 const END_OF_STEP: f32 = 0.4;
 /// Substeps from the mean of a step to its end.
 pub(super) const SUBSTEPS_TO_END: f32 = 2.0;

@@ -1,19 +1,20 @@
 //! Inverse dynamics: the actions of both agents step by step, and their strengths.
 //!
-//! Forces are not seen, but what they do is, and there are only fourteen actions and four strengths. [`InverseDynamics`]
-//! follows an event through the forward model and asks at every step which actions of both lead to what was observed. That
-//! tells actions, grips, the states between steps, and strengths.
+//! Forces are not seen, but what they do is, and there are only fourteen actions and four strengths.
+//! [`InverseDynamics`] follows an event through the forward model and asks at every step which actions of
+//! both lead to what was observed. That tells actions, grips, the states between steps, and strengths.
 //!
-//! Key design decision: the state that a step is predicted to end in is carried on as it is, with its contact memory, as long
-//! as it is exact; it is corrected by what was observed only where it is not. Contacts amplify small errors, so a state that
-//! is corrected by means over a step loses track as soon as bodies touch. Several explanations are followed at once (a beam),
-//! since grips and strengths show later than they begin.
+//! Key design decision: the state that a step is predicted to end in is carried on as it is, with its contact
+//! memory, as long as it is exact; it is corrected by what was observed only where it is not. Contacts
+//! amplify small errors, so a state that is corrected by means over a step loses track as soon as bodies
+//! touch. Several explanations are followed at once (a beam), since grips and strengths show later than they
+//! begin.
 
 mod beam;
+mod coupling;
 mod difference;
 mod interpolation;
 mod path;
-mod reach;
 mod reading;
 mod replay;
 mod search;
@@ -72,11 +73,11 @@ impl MotionTracker {
         Self { beam, motion }
     }
 
-    /// Watches the next row of `observed`, its last one. How many states are explained as before: what follows may show what
-    /// happened earlier.
+    /// Watches the next row of `observed`, its last one. How many states are explained as before: what
+    /// follows may show what happened earlier.
     ///
     /// # Errors
-    /// As [`ObservedEvent::push`].
+    /// [`ObservedError`] for numbers that are not finite.
     pub fn push(&mut self, observed: &ObservedEvent) -> Result<usize, ObservedError> {
         let Some(row) = observed.rows().last() else { return Err(ObservedError::Empty) };
         if !self.beam.push(row)? {
@@ -97,7 +98,7 @@ impl MotionTracker {
         &self.motion
     }
 
-    /// The same, for keeps.
+    /// The best explanation of the event, without the tracker.
     #[must_use]
     pub fn into_motion(self) -> InverseDynamics {
         self.motion
@@ -116,7 +117,8 @@ impl InverseDynamics {
         MotionTracker::new(observed).into_motion()
     }
 
-    /// The best path of a beam. `known` is an explanation of fewer rows, of which so many numbers of paths are valid.
+    /// The best path of a beam. `known` is an explanation of fewer rows, of which so many numbers of paths
+    /// are valid.
     fn of(beam: &Beam, known: Option<(&Self, usize)>) -> Self {
         let numbers = beam.best();
         let path = || numbers.iter().map(|&number| beam.path(number));
@@ -188,7 +190,8 @@ impl InverseDynamics {
         (0..self.actions.len()).map(|step| self.alternatives_in(step)).collect()
     }
 
-    /// The same of one step.
+    /// The residual of one step (u) if an agent does each of its actions instead, as in
+    /// [`InverseDynamics::alternatives`].
     ///
     /// # Panics
     /// If the event has no such step.
@@ -196,13 +199,14 @@ impl InverseDynamics {
     pub fn alternatives_in(&self, step: usize) -> [[f32; Action::ALL.len()]; AGENT_COUNT] {
         let reading = &self.replay.reading;
         let levels = self.strengths().map(|strength| usize::from(strength.level()));
-        let deed = |agent: AgentId, action| (reading.observed_action(action), levels[agent]);
-        let (tracked, actions) = (&self.tracked[step], &self.actions[step]);
+        let candidate = |agent: AgentId, action| (reading.observed_action(action), levels[agent]);
+        let tracked = &self.tracked[step];
+        let actions = &self.actions[step];
         AgentId::ALL.map(|agent| {
             Action::ALL.map(|action| {
-                let mut deeds = AgentId::ALL.map(|agent| deed(agent, actions[agent]));
-                deeds[agent] = deed(agent, action);
-                self.replay.step(tracked, self.replay.row(step + 1), deeds).residual
+                let mut candidates = AgentId::ALL.map(|agent| candidate(agent, actions[agent]));
+                candidates[agent] = candidate(agent, action);
+                self.replay.step(tracked, self.replay.row(step + 1), candidates).residual
             })
         })
     }

@@ -19,8 +19,8 @@ const ALWAYS_CORRECTED: f32 = 0.1;
 const FORGET_CONTACTS: f32 = 0.2;
 /// Prediction error beyond which a body is reset to the observation (u, rad).
 const RESET: f32 = 0.4;
-/// Cost of not correcting a state that is not exact, in logarithms: of two states that explain the rest of the event
-/// equally well, the corrected one is taken.
+/// Cost of not correcting a state that is not exact, in logarithms: of two states that explain the rest of
+/// the event equally well, the corrected one is taken.
 const UNCORRECTED_COST: f64 = 1e-3;
 /// Difference up to which states are the same (u, u/s, rad).
 const SAME: f32 = 2e-4;
@@ -60,8 +60,9 @@ impl Path {
         }
     }
 
-    /// The path continued by an explanation of the next step, from the state that it predicts, from that state corrected
-    /// by the observation, or both; `number` is its own number, `between` the state afterwards by interpolation.
+    /// The path continued by an explanation of the next step, from the state that it predicts, from that
+    /// state corrected by the observation, or both; `number` is its own number, `between` the state
+    /// afterwards by interpolation.
     pub(super) fn extended(
         &self,
         number: usize,
@@ -69,9 +70,9 @@ impl Path {
         explanation: Explanation,
         between: &State,
     ) -> Vec<Self> {
-        let Explanation { deeds, predicted } = explanation;
+        let Explanation { candidates, predicted } = explanation;
         let mut strengths = self.strengths;
-        for (strengths, (action, level)) in strengths.iter_mut().zip(deeds) {
+        for (strengths, (action, level)) in strengths.iter_mut().zip(candidates) {
             if action.push().is_some() {
                 *strengths = 1 << level;
             }
@@ -84,7 +85,7 @@ impl Path {
             mirrored: self.mirrored,
             tracked: predicted.end,
             strengths,
-            actions: deeds.map(|(action, _)| action),
+            actions: candidates.map(|(action, _)| action),
             residual: predicted.residual,
             cost: self.cost + cost(predicted.residual) + GRIP_CHANGE_COST * changes as f64,
         };
@@ -132,7 +133,8 @@ impl Path {
 
     /// Whether two paths have come to the same state, so that the cheaper one will stay the cheaper.
     pub(super) fn same_state(&self, other: &Self) -> bool {
-        let (bodies, others) = (&self.tracked.state.bodies, &other.tracked.state.bodies);
+        let bodies = &self.tracked.state.bodies;
+        let others = &other.tracked.state.bodies;
         let same = |(a, b): (&Body, &Body)| {
             (a.position - b.position).abs().max_element() < SAME
                 && (a.velocity - b.velocity).abs().max_element() < SAME
@@ -144,8 +146,8 @@ impl Path {
     }
 }
 
-/// Cost of a residual (u), in logarithms: a heavy-tailed distribution, since motion that cannot be explained does
-/// occur.
+/// Cost of a residual (u), in logarithms: a heavy-tailed distribution, since motion that cannot be explained
+/// does occur.
 pub(super) fn cost(residual: f32) -> f64 {
     let scaled = f64::from(residual) / RESIDUAL_SCALE;
     libm::log1p(scaled * scaled)

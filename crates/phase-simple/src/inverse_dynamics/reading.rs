@@ -1,9 +1,9 @@
-//! What the rows of an event stand for.
+//! The states that the rows of an event stand for.
 //!
-//! Row 0 is the initial state. But in recordings of the published simulator that were mirrored afterwards, it is the state
-//! after the first substep of the first step, and the motion obeys the physics of the arena as it was before. That makes a
-//! difference: contacts are solved in an order, so the solver is not symmetric, and bodies that push each other
-//! amplify what is different.
+//! Row 0 is the initial state. But in recordings of the published simulator that were mirrored afterwards, it
+//! is the state after the first substep of the first step, and the motion obeys the physics of the arena as
+//! it was before. That makes a difference: contacts are solved in an order, so the solver is not symmetric,
+//! and bodies that push each other amplify what is different.
 
 use core::f32::consts::TAU;
 use phase_event::{ObservedError, ObservedEvent};
@@ -13,11 +13,11 @@ use phase_model::{
 
 /// Speed below which a body is at rest in row 0 (u/s). Rows have five decimals.
 const REST_SPEED: f32 = 1e-4;
-/// Cost of a late start where nothing moves in row 0, in logarithms: most agents act at once, and a mirrored event and
-/// its original can then hardly be told apart.
+/// Cost of a late start where nothing moves in row 0, in logarithms: most agents act at once, and a mirrored
+/// event and its original can then hardly be told apart.
 const RESTING_LATE_COST: f64 = 5.0;
 
-/// What row 0 is.
+/// The state that row 0 shows.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Start {
     /// The state at the beginning of the first step.
@@ -60,14 +60,15 @@ impl Reading {
 
     /// The event before it was mirrored; `None` if there is no such layout.
     ///
-    /// The recorder computed the angles of agents anew if it exchanged the axes: wrapped in every substep, and then averaged,
-    /// so that they are off by multiples of a fifth of a turn from the moment when they first wrapped. It did not record the
-    /// angles of objects at all.
+    /// The recorder computed the angles of agents anew if it exchanged the axes: wrapped in every substep,
+    /// and then averaged, so that they are off by multiples of a fifth of a turn from the moment when they
+    /// first wrapped. It did not record the angles of objects at all.
     fn before_mirroring(observed: &ObservedEvent, flip: Flip, cost: f64) -> Option<Self> {
         let layout = Layout::new(observed.layout().base(), None).ok()?;
         let mirrored = |row: &[Body; MAX_ENTITIES]| row.map(|body| body.mirrored(flip));
         let rows = observed.rows().iter().map(mirrored).collect();
-        let (agents, objects) = (observed.agent_sizes(), observed.object_sizes().to_vec());
+        let agents = observed.agent_sizes();
+        let objects = observed.object_sizes().to_vec();
         let event = ObservedEvent::new(layout, agents, objects, rows).ok()?;
         let period = match flip {
             Flip::UpDown | Flip::LeftRight => TAU,
@@ -80,7 +81,8 @@ impl Reading {
         Some(Self { start: Start::Late, event, angle_periods, cost, flip: Some(flip) })
     }
 
-    /// Adds the next row, as it was observed; whether what is known of the angles of earlier rows changes with it.
+    /// Adds the next row, as it was observed; whether what is known of the angles of earlier rows changes
+    /// with it.
     pub(super) fn push(&mut self, row: &[Body; MAX_ENTITIES]) -> Result<bool, ObservedError> {
         let Some(flip) = self.flip else { return self.event.push(*row).map(|()| false) };
         self.event.push(row.map(|body| body.mirrored(flip)))?;

@@ -18,8 +18,8 @@ const LATE_ITERATIONS: usize = 4;
 /// Residual by which it has to be worse (u) for the state after the first substep to be taken instead.
 const LATE_MARGIN: f32 = 0.003;
 
-/// What one agent does in a step: an action, and the level of its strength.
-pub(super) type Deed = (Action, usize);
+/// A candidate for what one agent does in a step: an action, and the level of its strength.
+pub(super) type CandidateAction = (Action, usize);
 
 /// A state to step from.
 #[derive(Clone, Debug)]
@@ -62,7 +62,7 @@ impl Replay {
         Self { forward: Forward::new(&physics), reading, physics, radii }
     }
 
-    /// What was observed after so many steps.
+    /// The row that was observed after so many steps.
     pub(super) fn row(&self, t: usize) -> &[Body; MAX_ENTITIES] {
         &self.reading.event.rows()[t]
     }
@@ -97,18 +97,22 @@ impl Replay {
         &self,
         tracked: &TrackedState,
         row: &[Body; MAX_ENTITIES],
-        deeds: [Deed; AGENT_COUNT],
+        candidates: [CandidateAction; AGENT_COUNT],
     ) -> PredictedStep {
         if tracked.late {
-            return self.late_step(&tracked.state, row, deeds);
+            return self.late_step(&tracked.state, row, candidates);
         }
         let mut end = tracked.clone();
-        let substeps = self.run(&mut end, deeds);
+        let substeps = self.run(&mut end, candidates);
         self.compare(end, &substeps, row)
     }
 
-    fn run(&self, tracked: &mut TrackedState, deeds: [Deed; AGENT_COUNT]) -> [State; SUBSTEPS] {
-        self.forward.step_warm_with(&mut tracked.state, &mut tracked.cache, &exertion(deeds))
+    fn run(
+        &self,
+        tracked: &mut TrackedState,
+        candidates: [CandidateAction; AGENT_COUNT],
+    ) -> [State; SUBSTEPS] {
+        self.forward.step_warm_with(&mut tracked.state, &mut tracked.cache, &exertion(candidates))
     }
 
     fn compare(
@@ -139,22 +143,22 @@ impl Replay {
         self.bodies().map(|body| differences[body].square(self.radii[body])).sum::<f32>().sqrt()
     }
 
-    /// The first step of a late start, of which the state after its first substep is known: the state before is the
-    /// one from which these deeds lead there. All were at rest, and one idle substep had passed. The difference from
-    /// the known state is part of the residual.
+    /// The first step of a late start, of which the state after its first substep is known: the state before
+    /// is the one from which these candidate actions lead there. All were at rest, and one idle substep had
+    /// passed. The difference from the known state is part of the residual.
     fn late_step(
         &self,
         after_substep: &State,
         row: &[Body; MAX_ENTITIES],
-        deeds: [Deed; AGENT_COUNT],
+        candidates: [CandidateAction; AGENT_COUNT],
     ) -> PredictedStep {
         let mut start = resting(after_substep);
-        let mut best = self.step_after_substep(after_substep, row, deeds);
+        let mut best = self.step_after_substep(after_substep, row, candidates);
         best.residual += LATE_MARGIN;
         for _ in 0..LATE_ITERATIONS {
             let mut tracked = self.at(start);
             self.settle(&mut tracked);
-            let substeps = self.run(&mut tracked, deeds);
+            let substeps = self.run(&mut tracked, candidates);
             let mut predicted = self.compare(tracked, &substeps, row);
             let differences = self.differences(&substeps[0].bodies, &after_substep.bodies);
             let known = self.norm(&differences);
@@ -169,21 +173,21 @@ impl Replay {
         best
     }
 
-    /// The same from the known state on, without contact memory: for overlapping bodies that were pushed apart so
-    /// that the state before cannot be found.
+    /// The step from the known state after its first substep on, without contact memory: for overlapping
+    /// bodies that were pushed apart so that the state before cannot be found.
     fn step_after_substep(
         &self,
         after_substep: &State,
         row: &[Body; MAX_ENTITIES],
-        deeds: [Deed; AGENT_COUNT],
+        candidates: [CandidateAction; AGENT_COUNT],
     ) -> PredictedStep {
         // Row 0 does not tell how fast the agents turn, but they have turned for one substep from rest.
-        let first = self.run(&mut self.at(resting(after_substep)), deeds)[0];
+        let first = self.run(&mut self.at(resting(after_substep)), candidates)[0];
         let mut start = *after_substep;
         for (body, first) in start.bodies.iter_mut().zip(&first.bodies) {
             body.angular_velocity = first.angular_velocity;
         }
-        let mut substeps = self.run(&mut self.at(start), deeds);
+        let mut substeps = self.run(&mut self.at(start), candidates);
         // The first of the step has passed, and the last belongs to the next.
         substeps.rotate_right(1);
         substeps[0] = *after_substep;
@@ -192,11 +196,12 @@ impl Replay {
         self.compare(self.at(end), &substeps, row)
     }
 
-    /// The deeds of an agent in a state that differ in what they do, for some of its strengths (one bit for each level).
-    pub(super) fn deeds(&self, state: &State, agent: AgentId, strengths: u8) -> Vec<Deed> {
+    /// The candidate actions of an agent in a state that differ in what they do, for some of its strengths
+    /// (one bit for each level).
+    pub(super) fn candidates(&self, state: &State, agent: AgentId, strengths: u8) -> Vec<CandidateAction> {
         let levels = || (0..LEVELS).filter(move |level| strengths & 1 << level != 0);
         let weakest = levels().next().unwrap_or(0);
-        let mut deeds = Vec::new();
+        let mut candidates = Vec::new();
         for action in Action::ALL {
             let idle = match action {
                 Action::Attach => state.attachable(&self.physics, agent).is_none(),
@@ -205,20 +210,20 @@ impl Replay {
             };
             // Only pushing needs strength.
             if action.push().is_some() {
-                deeds.extend(levels().map(|level| (action, level)));
+                candidates.extend(levels().map(|level| (action, level)));
             } else if !idle {
-                deeds.push((action, weakest));
+                candidates.push((action, weakest));
             }
         }
-        deeds
+        candidates
     }
 }
 
-/// What deeds are for the kernel.
-fn exertion(deeds: [Deed; AGENT_COUNT]) -> Exertion {
+/// The candidate actions in the kernel's words.
+fn exertion(candidates: [CandidateAction; AGENT_COUNT]) -> Exertion {
     Exertion {
-        actions: deeds.map(|(action, _)| action),
-        max_forces: deeds.map(|(_, level)| Strength::ALL[level].max_force()),
+        actions: candidates.map(|(action, _)| action),
+        max_forces: candidates.map(|(_, level)| Strength::ALL[level].max_force()),
     }
 }
 

@@ -1,16 +1,17 @@
-//! What an explained event tells about strengths.
+//! The strengths of agents, from the steps of an explained event.
 
 use super::{
     path,
-    replay::{ALL_LEVELS, Deed, LEVELS, Replay, TrackedState},
+    replay::{ALL_LEVELS, CandidateAction, LEVELS, Replay, TrackedState},
 };
 use phase_model::{AGENT_COUNT, Action, AgentId, Body, MAX_ENTITIES};
 
 /// Costs of one agent's and of the other's levels of strength in a step, in logarithms.
 pub(super) type LevelCosts = [[f64; LEVELS]; AGENT_COUNT];
 
-/// What one step costs with each level of each agent's strength, weakest first, in logarithms: what the best action explains, the
-/// other agent doing what was found, with these levels of strength. `row` is the row that the step leads to.
+/// The costs of one step with each level of each agent's strength, weakest first, in logarithms: those of the
+/// best action, the other agent doing what was found, with these levels of strength. `row` is the row that
+/// the step leads to.
 pub(super) fn level_costs(
     replay: &Replay,
     tracked: &TrackedState,
@@ -21,17 +22,17 @@ pub(super) fn level_costs(
     let found = [(actions[0], levels[0]), (actions[1], levels[1])];
     AgentId::ALL.map(|agent| {
         let mut costs = [f64::INFINITY; LEVELS];
-        let deeds = replay.deeds(&tracked.state, agent, ALL_LEVELS);
-        let instead = |&deed: &Deed| {
+        let candidates = replay.candidates(&tracked.state, agent, ALL_LEVELS);
+        let instead = |&candidate: &CandidateAction| {
             let mut both = found;
-            both[agent] = deed;
+            both[agent] = candidate;
             both
         };
-        for deed in &deeds {
-            let cost = path::cost(replay.step(tracked, row, instead(deed)).residual);
-            let pushes = deed.0.push().is_some();
+        for candidate in &candidates {
+            let cost = path::cost(replay.step(tracked, row, instead(candidate)).residual);
+            let pushes = candidate.0.push().is_some();
             for (level, least) in costs.iter_mut().enumerate() {
-                if !pushes || level == deed.1 {
+                if !pushes || level == candidate.1 {
                     *least = least.min(cost);
                 }
             }

@@ -14,8 +14,8 @@ pub struct IntentGuess {
 }
 
 impl IntentGuess {
-    /// A method that answers with a network. `weights_sha256` is the digest of its file, to be stored with the
-    /// answers.
+    /// A method that answers with a network. `weights_sha256` is the digest of its file, to be stored with
+    /// the answers.
     #[must_use]
     pub const fn new(network: Arc<IntentNetwork>, weights_sha256: String) -> Self {
         Self { network, weights_sha256 }

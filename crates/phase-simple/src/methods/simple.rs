@@ -35,7 +35,7 @@ const REPORTED_HYPOTHESES: usize = 12;
 pub struct Simple {
     settings: InferenceSettings,
     forecast: ForecastSettings,
-    /// How the intent network guides it, if it does.
+    /// The weight of the intent network's guess, if it guides.
     guidance: Option<Guidance>,
     models: Arc<Models>,
 }
@@ -69,13 +69,13 @@ impl Simple {
     /// The variant of a name.
     ///
     /// - `simple` is inverse planning that averages over both kinds of minds, guided by the intent network;
-    ///   `simple-unguided` lacks the network, and in `simple-points` the minds plan as if bodies passed through
-    ///   each other.
-    /// - `simple-initial`, `simple-global` and `simple-local` are Algorithm 2 of the paper and its ablation, over
-    ///   simulations by our own minds that are periodically resynchronised with the observed event.
-    /// - `simple-published` is Algorithm 2 whole, with the published simulator's minds and simulations that are not
-    ///   resynchronised; `simple-published-global` and `simple-published-initial` are its ablation, and
-    ///   `simple-published-dynamics` has strengths from inverse dynamics in place of the network's.
+    ///   `simple-unguided` lacks the network, and in `simple-points` the minds plan as if bodies passed
+    ///   through each other.
+    /// - `simple-initial`, `simple-global` and `simple-local` are Algorithm 2 of the paper and its ablation,
+    ///   over simulations by our own minds that are periodically resynchronised with the observed event.
+    /// - `simple-published` is Algorithm 2 whole, with the published simulator's minds and simulations that
+    ///   are not resynchronised; `simple-published-global` and `simple-published-initial` are its ablation,
+    ///   and `simple-published-dynamics` has strengths from inverse dynamics in place of the network's.
     ///
     /// `None` for a name that is not among [`Simple::NAMES`].
     #[must_use]
@@ -111,8 +111,8 @@ impl Simple {
         Observer::new(observed, self.guide().as_ref(), seed, &self.settings)
     }
 
-    /// Prepares an event for [`Simple::infer`] and [`futures`]: infers its actions, and the observations and beliefs
-    /// that each agent can have had.
+    /// Prepares an event for [`Simple::infer`] and [`futures`]: infers its actions, and the observations and
+    /// beliefs that each agent can have had.
     #[must_use]
     pub fn prepare(&self, observed: &ObservedEvent, seed: u64) -> PreparedEvent {
         PreparedEvent::new(observed, self.settings.agents, seed)

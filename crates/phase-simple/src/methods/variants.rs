@@ -12,9 +12,9 @@ pub(super) struct Variant {
     pub(super) settings: fn() -> InferenceSettings,
 }
 
-/// Every variant. `simple` averages over both kinds of minds; `simple-initial`, `simple-global` and `simple-local`
-/// are the paper's Algorithm 2 and its ablation with our own minds; `simple-published…` are Algorithm 2 and its
-/// ablation with the published simulator's minds.
+/// Every variant. `simple` averages over both kinds of minds; `simple-initial`, `simple-global` and
+/// `simple-local` are the paper's Algorithm 2 and its ablation with our own minds; `simple-published…` are
+/// Algorithm 2 and its ablation with the published simulator's minds.
 pub(super) const VARIANTS: [Variant; 10] = [
     Variant { name: "simple", guided: true, settings: InferenceSettings::averaged },
     unguided("simple-unguided", InferenceSettings::averaged),

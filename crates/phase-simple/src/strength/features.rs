@@ -42,7 +42,10 @@ fn length([x, y]: [f64; 2]) -> f64 {
 
 /// Mean, maximum and minimum of values that are not negative; zeros if there are none.
 fn summary(values: impl Iterator<Item = f64>) -> [f64; 3] {
-    let (mut sum, mut greatest, mut argmin, mut count) = (0.0, 0.0_f64, f64::INFINITY, 0_usize);
+    let mut sum = 0.0;
+    let mut greatest = 0.0_f64;
+    let mut argmin = f64::INFINITY;
+    let mut count = 0_usize;
     for number in values {
         sum += number;
         greatest = greatest.max(number);

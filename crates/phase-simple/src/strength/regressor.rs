@@ -32,7 +32,7 @@ impl StrengthRegressor {
     /// A regressor of these weights.
     ///
     /// # Errors
-    /// As [`Weights::check`].
+    /// [`WeightsError`] for layers that do not match each other and for values that are not valid.
     pub fn new(weights: Weights) -> Result<Self, WeightsError> {
         weights.check()?;
         Ok(Self { weights })
@@ -51,7 +51,7 @@ impl StrengthRegressor {
         self.estimate_from(&features(rows, agent, size)) as f32
     }
 
-    /// The same from the [`features`].
+    /// The maximum force (N) of an agent with these [`features`], in double precision.
     #[must_use]
     pub fn estimate_from(&self, features: &[f64; FEATURES]) -> f64 {
         let Weights { mean, scale, hidden: [first, second], output, .. } = &self.weights;

@@ -10,7 +10,7 @@ use phase_dataset::{
     manifest::{CARD_FILE, event_path, video_path},
     splits::Split,
 };
-use phase_event::{Recording, Simulation, to_json};
+use phase_event::{Recording, SimulationRecord, to_json};
 use phase_model::random::Pcg64Mcg;
 use phase_sampler::Variant;
 use rand::{
@@ -72,7 +72,7 @@ pub(super) fn labels(copy: &mut Copy, random: &mut Pcg64Mcg, _: &Original) -> Re
 }
 
 /// Changes every event.
-pub(super) fn in_all(copy: &Copy, change: impl Fn(&mut Simulation)) -> Result<bool, TortureError> {
+pub(super) fn in_all(copy: &Copy, change: impl Fn(&mut SimulationRecord)) -> Result<bool, TortureError> {
     for entry in &copy.manifest.events {
         let recording = copy.recording(entry)?;
         let Some(mut simulation) = recording.simulation else { return Ok(false) };
@@ -82,8 +82,8 @@ pub(super) fn in_all(copy: &Copy, change: impl Fn(&mut Simulation)) -> Result<bo
     Ok(true)
 }
 
-pub(super) fn write_event(copy: &Copy, id: &str, simulation: Simulation) -> Result<(), TortureError> {
-    let Simulation { event, generator, settings } = simulation;
+pub(super) fn write_event(copy: &Copy, id: &str, simulation: SimulationRecord) -> Result<(), TortureError> {
+    let SimulationRecord { event, generator, settings } = simulation;
     let text = to_json(&[Recording::of_event(id, event, generator, settings)]);
     copy.write(&event_path(id), text.map_err(CliError::from)?.as_bytes())
 }

@@ -4,10 +4,11 @@ use super::{Simulated, simulate};
 use crate::InverseDynamics;
 use phase_model::{Action, AgentId, Size, Vec2};
 
-/// Both grab one object from opposite sides, pull it to and fro and turn it, let go of it one after the other, and push each
-/// other.
+/// Both grab one object from opposite sides, pull it to and fro and turn it, let go of it one after the
+/// other, and push each other.
 pub(super) fn contested() -> Simulated {
-    let (object, gap) = (Vec2::new(20.0, 6.0), 0.02);
+    let object = Vec2::new(20.0, 6.0);
+    let gap = 0.02;
     let below = Vec2::new(20.0, 6.0 - 2.0 * Size::Small.radius() - gap);
     let above = Vec2::new(20.0, 6.0 + Size::Small.radius() + Size::Medium.radius() + gap);
     let runs = [
@@ -25,7 +26,7 @@ pub(super) fn contested() -> Simulated {
     simulate([below, above, object, Vec2::new(8.0, 20.0)], vec![Size::Small, Size::Medium], &runs)
 }
 
-/// What was done explains every step, and leads to the states that were simulated.
+/// The actions that were done explain every step, and leads to the states that were simulated.
 pub(super) fn assert_found(motion: &InverseDynamics, event: &Simulated) {
     assert_eq!(motion.strengths(), super::STRENGTHS);
     for (step, residuals) in motion.alternatives().iter().enumerate() {

@@ -1,4 +1,5 @@
-//! Recordings that were mirrored: they begin late, lack the angles of objects, and may garble those of agents.
+//! Recordings that were mirrored: they begin late, lack the angles of objects, and may garble those of
+//! agents.
 
 use super::{
     Simulated,
@@ -10,8 +11,8 @@ use core::f32::consts::TAU;
 use phase_event::ObservedEvent;
 use phase_model::{AGENT_COUNT, Action, Body, Flip, MAX_ENTITIES, State, arena::SUBSTEPS};
 
-/// What the recorder made of an event: every substep mirrored, angles of agents wrapped if the axes were exchanged, and the
-/// mean taken.
+/// An event as the published recorder changes it: every substep mirrored, angles of agents wrapped if the
+/// axes were exchanged, and the mean taken.
 pub(super) fn recorded(event: &Simulated, flip: Flip) -> ObservedEvent {
     let wraps = matches!(flip, Flip::Diagonal | Flip::AntiDiagonal);
     let body = |index: usize, body: &Body| {

@@ -14,8 +14,8 @@ use phase_model::{
 const HELD: usize = 3;
 const STRENGTHS: [Strength; AGENT_COUNT] = [Strength::Strong, Strength::Mighty];
 
-/// What was simulated: the state at the end of every step, state 0 being the start, those after every substep, and what a
-/// viewer sees.
+/// A simulated event: the state at the end of every step, state 0 being the start, those after every substep,
+/// and what a viewer sees.
 struct Simulated {
     states: Vec<State>,
     substeps: Vec<[State; SUBSTEPS]>,
@@ -46,8 +46,11 @@ fn simulate(
     let blank = event(vec![start.bodies]).expect("an event of one row");
     let world = Forward::new(&blank.physics(STRENGTHS.map(Strength::max_force)));
     let actions: Vec<_> = runs.iter().flat_map(|&(actions, steps)| vec![actions; steps]).collect();
-    let (mut states, mut rows, mut all) = (vec![start], vec![start.bodies], Vec::new());
-    let (mut state, mut cache) = (start, world.fresh_cache(&start));
+    let mut states = vec![start];
+    let mut rows = vec![start.bodies];
+    let mut all = Vec::new();
+    let mut state = start;
+    let mut cache = world.fresh_cache(&start);
     for &actions in &actions {
         let substeps = world.step_warm(&mut state, &mut cache, actions);
         states.push(state);
