@@ -12,7 +12,7 @@ use phase_perception::Observation;
 /// One agent's belief at the end of every step, computed bottom-up: once for an event and shared by all
 /// hypotheses. Forces play no part in it, since an agent observes the outcome of its own actions.
 #[derive(Clone, Debug)]
-pub struct EstimatedBeliefs {
+pub(crate) struct EstimatedBeliefs {
     /// After each step, with the state of the random stream.
     steps: Vec<(Box<dyn BeliefState>, Pcg64Mcg)>,
 }
@@ -21,7 +21,7 @@ impl EstimatedBeliefs {
     /// The beliefs of an agent along the states of an event (those of
     /// [`InverseDynamics`](crate::InverseDynamics)), by minds with these parameters.
     #[must_use]
-    pub fn new(
+    pub(crate) fn new(
         observed: &ObservedEvent,
         states: &[State],
         agent: AgentId,
@@ -54,7 +54,7 @@ impl EstimatedBeliefs {
     /// has observed until then in the event, and what it observes now. The particles, and the entities that
     /// it observes.
     #[must_use]
-    pub fn belief_view(&self, step: usize, state: &State) -> (Vec<State>, BodySet) {
+    pub(crate) fn belief_view(&self, step: usize, state: &State) -> (Vec<State>, BodySet) {
         let (known, _) = &self.steps[step.min(self.steps.len() - 1)];
         let observation = known.observe(state);
         let mut particles = known.particles().to_vec();
@@ -67,7 +67,7 @@ impl EstimatedBeliefs {
     /// # Panics
     /// If the event has fewer steps.
     #[must_use]
-    pub fn after(&self, step: usize) -> &dyn BeliefState {
+    pub(crate) fn after(&self, step: usize) -> &dyn BeliefState {
         &*self.steps[step].0
     }
 }

@@ -26,7 +26,7 @@ pub struct PreparedEvent {
 
 /// Distances of the trajectories of a simulation from those observed, ‖sᵗ − ŝᵗ‖₂ over the positions of all
 /// entities, for each step from 1 on (u).
-pub type Deviations = Vec<f64>;
+pub(crate) type Deviations = Vec<f64>;
 
 impl PreparedEvent {
     /// Estimates actions and beliefs of an event. All hypotheses use the same random streams (common random

@@ -12,7 +12,7 @@ use phase_model::{AgentId, Attitude, Body, Entity, Goal, MAX_ENTITIES, ObjectId,
 use serde::{Deserialize, Serialize};
 
 /// Number of things that can go on between two agents ([`Happening`]).
-pub const HAPPENINGS: usize = Happening::ALL.len();
+pub(crate) const HAPPENINGS: usize = Happening::ALL.len();
 
 /// Outlines that are closer than this are in contact (u).
 const CONTACT: f32 = 0.3;

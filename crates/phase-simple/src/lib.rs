@@ -43,39 +43,41 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
-pub mod answer;
-pub mod beliefs;
+mod answer;
+mod beliefs;
 pub mod choice;
 pub mod cue;
 mod dense;
-pub mod evidence;
-pub mod forecast;
-pub mod generative;
-pub mod guide;
-pub mod hypothesis;
-pub mod impression;
-pub mod inference;
+mod evidence;
+mod forecast;
+mod generative;
+mod guide;
+mod hypothesis;
+mod impression;
+mod inference;
 pub mod intent;
 pub mod intent_network;
 pub mod inverse_dynamics;
 mod inverse_planning;
 mod kinds;
-pub mod methods;
+mod methods;
 pub mod metropolis;
 mod models;
-pub mod observer;
-pub mod posterior;
-pub mod proposal;
+mod observer;
+mod posterior;
+mod proposal;
 pub mod report_model;
-pub mod settings;
-pub mod simulations;
+mod settings;
+mod simulations;
 pub mod strength;
 
 pub use answer::{Inference, MindPosterior};
 pub use dense::Dense;
 pub use evidence::{ActionLikelihoods, Budget, IntentEvidence};
-pub use forecast::{Continuation, ForecastSettings, Futures, continuations, futures, hindcast_error};
-pub use generative::PreparedEvent;
+pub use forecast::{
+    Continuation, ForecastSettings, Futures, continuations, futures, geometric_median, hindcast_error,
+};
+pub use generative::{AgentDecision, PreparedEvent};
 pub use guide::{Guidance, Guide};
 pub use hypothesis::{Hypothesis, physical_goals};
 pub use impression::{Happening, Impression, Interaction};

@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 /// Simulations of one event. Each hypothesis is simulated once: repeating it would use the same random
 /// numbers again.
 #[derive(Debug)]
-pub struct Simulations<'a> {
+pub(crate) struct Simulations<'a> {
     prepared: &'a PreparedEvent,
     resync_interval: Option<usize>,
     beta: f64,
@@ -21,7 +21,7 @@ impl<'a> Simulations<'a> {
     /// An empty cache. `resync_interval` is that of [`PreparedEvent::simulate`], `beta` that of the
     /// likelihood (1/u).
     #[must_use]
-    pub const fn new(prepared: &'a PreparedEvent, resync_interval: Option<usize>, beta: f64) -> Self {
+    pub(crate) const fn new(prepared: &'a PreparedEvent, resync_interval: Option<usize>, beta: f64) -> Self {
         Self { prepared, resync_interval, beta, simulated: BTreeMap::new() }
     }
 
@@ -30,7 +30,7 @@ impl<'a> Simulations<'a> {
     /// # Errors
     ///
     /// Invalid parameters of the agents' search.
-    pub fn log_likelihood(&mut self, hypothesis: &Hypothesis) -> Result<f64, PomcpError> {
+    pub(crate) fn log_likelihood(&mut self, hypothesis: &Hypothesis) -> Result<f64, PomcpError> {
         Ok(self.log_likelihood_above(hypothesis, f64::NEG_INFINITY)?.unwrap_or(f64::NEG_INFINITY))
     }
 
@@ -40,7 +40,7 @@ impl<'a> Simulations<'a> {
     /// # Errors
     ///
     /// Invalid parameters of the agents' search.
-    pub fn log_likelihood_above(
+    pub(crate) fn log_likelihood_above(
         &mut self,
         hypothesis: &Hypothesis,
         threshold: f64,
@@ -57,13 +57,13 @@ impl<'a> Simulations<'a> {
 
     /// The deviations of a hypothesis by step (u), as far as it has been simulated; `None` if it has not.
     #[must_use]
-    pub fn deviations(&self, hypothesis: &Hypothesis) -> Option<&Deviations> {
+    pub(crate) fn deviations(&self, hypothesis: &Hypothesis) -> Option<&Deviations> {
         self.simulated.get(hypothesis)
     }
 
     /// The number of hypotheses that were simulated, to the end or not.
     #[must_use]
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.simulated.len()
     }
 

@@ -4,9 +4,8 @@ use phase_event::{ActionEvaluation, ObservedEvent, Thought};
 use phase_minds::MindParameters;
 use phase_model::{Action, AgentId, Body, Goal, LandmarkId, Layout, Sign, Size, Strength, Subgoal, Vec2};
 use phase_simple::{
-    Hypothesis, PreparedEvent,
+    AgentDecision, Hypothesis, PreparedEvent,
     choice::{CHOICES, Chance, action_likelihoods, chances, fitted_lapse, index, log_likelihood, policy},
-    generative::AgentDecision,
 };
 use proptest::prelude::*;
 

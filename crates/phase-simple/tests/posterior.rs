@@ -1,7 +1,7 @@
 //! Marginals of weighted hypotheses, computed by hand.
 
 use phase_model::{AgentId, Attitude, Goal, LandmarkId, ObjectId, Relation, Sign, Strength};
-use phase_simple::{Hypothesis, Posterior, forecast::geometric_median, physical_goals};
+use phase_simple::{Hypothesis, Posterior, geometric_median, physical_goals};
 
 fn place(agent: u8, landmark: u8) -> Goal {
     Goal::AgentOnLandmark {
