@@ -11,11 +11,16 @@ use crate::{
 use core::ops::ControlFlow;
 use phase_dataset::event_cache::EventCache;
 use phase_event::{Event, Recording};
-use phase_files::{atomic, checksum::sha256, folder::Folder};
+use phase_files::{
+    atomic,
+    checksum::{hexadecimal, sha256},
+    folder::Folder,
+    run,
+};
 use phase_model::{Relation, Scene};
 use phase_render::Palette;
 use phase_sim::SimulationSettings;
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::{
     path::{Path, PathBuf},
     time::Instant,
@@ -168,7 +173,7 @@ pub fn video(id: &str, event: &Event) -> Result<Vec<u8>, CliError> {
 /// Digest of everything that determines an event besides its scene and seed: the settings and this
 /// executable. An event cached by another build is simulated again, so that no dataset mixes two.
 fn fingerprint(settings: &Value) -> [u8; 32] {
-    sha256(&[&program()[..], settings.to_string().as_bytes()].concat())
+    sha256(run::canonical(&json!({ "program": hexadecimal(&program()), "settings": settings })).as_bytes())
 }
 
 /// Digest of this executable.

@@ -3,7 +3,7 @@
 //! A sample is an event: `<id>.mp4`, `<id>.json` with its labels, the entry of the manifest, and `<id>.phase-events`, its file
 //! of the format `phase-events/1`.
 
-use crate::{console, context::Context, error::CliError, gen_dataset::check_same, interrupt, output::Output};
+use crate::{console, context::Context, error::CliError, interrupt, output::Output};
 use clap::{Args, value_parser};
 use phase_dataset::{
     manifest::{EventEntry, MANIFEST_FILE, Manifest},
@@ -14,6 +14,7 @@ use phase_files::{
     atomic::{self, AtomicFile},
     checksum::FileEntry,
     folder::{self, Contents, Folder},
+    run::Run,
 };
 use serde_json::{Value, json};
 use std::{
@@ -59,18 +60,20 @@ pub fn run(arguments: &Export, context: &Context) -> Result<(), CliError> {
     }
     let manifest = Manifest::read(&manifest_file)?;
     let digest = FileEntry::of(from, MANIFEST_FILE)?.sha256;
-    let run = json!({
-        "command": "export", "manifest_sha256": digest, "events_per_file": arguments.events_per_file,
-    });
+    let run = Run::new([
+        ("command", "export".into()),
+        ("manifest_sha256", digest.into()),
+        ("events_per_file", arguments.events_per_file.into()),
+    ]);
     match folder::inspect(out, INDEX_FILE)? {
         Contents::Finished => {
             let index: Value = phase_files::json::read(&out.join(INDEX_FILE))?;
-            check_same(out, "a finished", &index["run"], &run)?;
+            run.check(out, "a finished", &index["run"])?;
             folder::remove_leftovers(out, &run)?;
             return announce(arguments, &index, false);
         }
         Contents::Unfinished(other) => {
-            check_same(out, "an unfinished", &other, &run)?;
+            run.check(out, "an unfinished", &other)?;
             context.note(format!("continuing in {}", out.display()));
         }
         Contents::Nothing => {}

@@ -10,11 +10,26 @@ use phase_dataset::{
 use phase_event::Recording;
 use phase_files::{FileError, Problem};
 use phase_model::path::RelativePath;
+use serde_json::Value;
 use std::{
     collections::BTreeSet,
     fs,
     path::{Path, PathBuf},
 };
+
+/// What determines how an event is judged and simulated: its layout, bodies, labels and rows, as in its file.
+///
+/// # Errors
+/// If it holds a number that is not finite.
+pub(crate) fn labels_and_rows(recording: &Recording) -> Result<Value, CliError> {
+    const MEMBERS: [&str; 7] =
+        ["layout", "agents", "objects", "event", "relation", "relation_human", "trajectory"];
+    let without_simulation = Recording { simulation: None, ..recording.clone() };
+    let text = without_simulation.to_json()?;
+    let event: Value = serde_json::from_str(&text)
+        .map_err(|source| CliError::Serialise { what: "the labels of an event", source })?;
+    Ok(MEMBERS.iter().map(|&member| (member.to_owned(), event[member].clone())).collect())
+}
 
 /// Events that can be loaded one at a time.
 #[derive(Debug)]

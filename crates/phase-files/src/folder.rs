@@ -1,7 +1,12 @@
 //! Output folders: which run they belong to, and that only one run at a time writes into them.
 
-use crate::{WriteError, atomic, error::plain_reason, fault, json};
-use serde_json::{Value, json};
+use crate::{
+    WriteError, atomic,
+    error::plain_reason,
+    fault, json,
+    run::{self, RUN_FORMAT, Run},
+};
+use serde_json::Value;
 use std::{
     fs::{self, File, OpenOptions, TryLockError},
     io,
@@ -15,14 +20,13 @@ const MARKER: &str = ".phase-run.json";
 const LOCK: &str = ".phase-lock";
 /// Where a run keeps what it may need again if it is interrupted.
 const CACHE: &str = ".cache";
-const MARKER_FORMAT: &str = "phase-run/1";
 
 /// What a folder contains.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Contents {
     /// Nothing, or it is not there at all.
     Nothing,
-    /// An interrupted run, with its description.
+    /// An interrupted run, with its description; see [`Run::check`].
     Unfinished(Value),
     /// A finished run: the file that is written last is present.
     Finished,
@@ -53,6 +57,19 @@ pub enum FolderError {
     /// It cannot be written.
     #[error(transparent)]
     NotWritable(#[from] WriteError),
+    /// It belongs to a run with other options.
+    #[error("{}: holds {state} run of another kind ({difference}); choose another folder or remove it", path.display())]
+    OtherRun {
+        /// The folder.
+        path: PathBuf,
+        /// `an unfinished`, `a finished` or `a part of a`.
+        state: &'static str,
+        /// How that run differs from the one that was asked for.
+        difference: String,
+    },
+    /// It belongs to a run of an earlier version, whose description cannot be compared.
+    #[error("{}: holds a run of an earlier version of PHASE, which this one cannot continue; choose a new folder with --out", .0.display())]
+    EarlierRun(PathBuf),
     /// Another run is writing into it right now.
     #[error("{}: is in use by another run; wait for it to finish or choose another folder", .0.display())]
     Busy(PathBuf),
@@ -62,7 +79,7 @@ pub enum FolderError {
 /// last.
 ///
 /// # Errors
-/// [`FolderError::IsFile`], [`FolderError::Foreign`] or [`FolderError::Unreadable`].
+/// [`FolderError::IsFile`], [`FolderError::Foreign`], [`FolderError::EarlierRun`] or [`FolderError::Unreadable`].
 pub fn inspect(path: &Path, last_file: &str) -> Result<Contents, FolderError> {
     let entries = match fs::read_dir(path) {
         Ok(entries) => entries,
@@ -82,9 +99,10 @@ pub fn inspect(path: &Path, last_file: &str) -> Result<Contents, FolderError> {
     if names.iter().any(|name| name == last_file) {
         return Ok(Contents::Finished);
     }
-    match marker(path) {
-        Some(run) => Ok(Contents::Unfinished(run)),
-        None => Err(FolderError::Foreign { path: path.to_owned(), entry: names.swap_remove(0) }),
+    match json::read(&path.join(MARKER)).ok() {
+        Some(run) if run["format"] == RUN_FORMAT => Ok(Contents::Unfinished(run)),
+        Some(other) if run::is_earlier(&other) => Err(FolderError::EarlierRun(path.to_owned())),
+        _ => Err(FolderError::Foreign { path: path.to_owned(), entry: names.swap_remove(0) }),
     }
 }
 
@@ -128,10 +146,9 @@ impl Folder {
     ///
     /// # Errors
     /// [`FolderError::NotWritable`] or [`FolderError::Busy`].
-    pub fn claim(path: &Path, run: &Value) -> Result<Self, FolderError> {
+    pub fn claim(path: &Path, run: &Run) -> Result<Self, FolderError> {
         let lock = Lock::take(path)?;
-        let marker = json!({ "format": MARKER_FORMAT, "run": run });
-        atomic::write(&path.join(MARKER), format!("{marker}\n").as_bytes())?;
+        atomic::write_json_line(&path.join(MARKER), run)?;
         let folder = Self { path: path.to_owned(), _lock: lock };
         folder.subfolder(CACHE)?;
         Ok(folder)
@@ -180,17 +197,11 @@ impl Folder {
 ///
 /// # Errors
 /// [`FolderError::NotWritable`] or [`FolderError::Busy`].
-pub fn remove_leftovers(path: &Path, run: &Value) -> Result<(), FolderError> {
+pub fn remove_leftovers(path: &Path, run: &Run) -> Result<(), FolderError> {
     if [MARKER, LOCK, CACHE].iter().any(|name| path.join(name).exists()) {
         Folder::claim(path, run)?.finish()?;
     }
     Ok(())
-}
-
-fn marker(path: &Path) -> Option<Value> {
-    let value = json::read(&path.join(MARKER)).ok()?;
-    let ours = value.get("format").and_then(Value::as_str) == Some(MARKER_FORMAT);
-    ours.then(|| value.get("run").cloned()).flatten()
 }
 
 fn clear_parts(folder: &Path) {

@@ -2,6 +2,7 @@
 //!
 //! - [`atomic`] writes files beside their place, syncs and renames them; [`checksum`] measures them.
 //! - [`folder`] locks a folder and records which run it belongs to; [`cache`] keeps results of an interrupted run.
+//! - [`run`] says which run it is, and hashes its description; two runs are compared by it.
 //! - [`json`] reads files of JSON.
 //! - [`fault`] interrupts a program, on demand, at any step of writing.
 //! - [`FileError`] and [`WriteError`] name the file and what is wrong with it in one plain sentence.
@@ -42,5 +43,6 @@ mod error;
 pub mod fault;
 pub mod folder;
 pub mod json;
+pub mod run;
 
 pub use error::{FileError, Problem, WriteError, plain_reason};

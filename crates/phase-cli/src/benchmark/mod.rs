@@ -12,12 +12,12 @@ use crate::{
     context::Context,
     error::CliError,
     eval::{networks, task},
-    gen_dataset::check_same,
 };
 use options::Benchmark;
 use phase_files::{
     WriteError, atomic,
     folder::{self, Contents, Folder},
+    run::Run,
 };
 use phase_report::evaluation;
 use plan::{entries, needs_networks};
@@ -41,9 +41,9 @@ pub fn run(arguments: &Benchmark, context: &Context) -> Result<(), CliError> {
     for file in &arguments.results {
         rows.add_results(file)?;
     }
-    let (out, run) = (&arguments.out, json!({ "command": "benchmark" }));
+    let (out, run) = (&arguments.out, Run::new([("command", "benchmark".into())]));
     if let Contents::Unfinished(other) = folder::inspect(out, BENCHMARK_FILE)? {
-        check_same(out, "an unfinished", &other, &run)?;
+        run.check(out, "an unfinished", &other)?;
     }
     // A part has no report.
     let folder = match arguments.parts.shard {

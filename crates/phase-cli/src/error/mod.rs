@@ -32,16 +32,6 @@ pub enum CliError {
     /// The output cannot be written to the given path.
     #[error(transparent)]
     Output(WriteError),
-    /// The folder belongs to a run with other options.
-    #[error("{}: holds {state} run of another kind ({difference}); choose another folder or remove it", path.display())]
-    OtherRun {
-        /// The folder.
-        path: PathBuf,
-        /// `an unfinished` or `a finished`.
-        state: &'static str,
-        /// How that run differs from this one.
-        difference: String,
-    },
     /// The files of a finished folder have changed.
     #[error("{0}; remove the folder or choose another")]
     Altered(#[source] FileError),
@@ -280,7 +270,6 @@ impl Failure for CliError {
             Self::File(_)
             | Self::Folder(_)
             | Self::Output(_)
-            | Self::OtherRun { .. }
             | Self::Altered(_)
             | Self::UnknownPreset { .. }
             | Self::UnknownId { .. }

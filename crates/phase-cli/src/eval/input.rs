@@ -1,13 +1,17 @@
 //! The events that a method is evaluated on.
 
 use super::options::Common;
-use crate::{context::Context, error::CliError, source::EventInput};
+use crate::{
+    context::Context,
+    error::CliError,
+    source::{EventInput, labels_and_rows},
+};
 use phase_dataset::{
     manifest::{MANIFEST_FILE, Manifest},
     splits::Split,
 };
 use phase_event::Recording;
-use phase_files::checksum::{hexadecimal, sha256};
+use phase_files::{checksum::sha256_hex, run};
 use phase_model::AGENT_COUNT;
 use phase_sampler::Variant;
 use std::{collections::BTreeSet, path::Path};
@@ -74,7 +78,7 @@ impl Input {
         let contents: String =
             events.iter().map(|event| format!("{} {}\n", event.id, event.contents)).collect();
         let (name, description) = names(path, arguments.split);
-        Ok(Self { name, description, sha256: hexadecimal(&sha256(contents.as_bytes())), events, source })
+        Ok(Self { name, description, sha256: sha256_hex(contents.as_bytes()), events, source })
     }
 
     /// Loads one of the events.
@@ -110,7 +114,6 @@ fn of_manifest(manifest: &Manifest, split: Option<Split>) -> Vec<Event> {
 /// An event of a file; its digest covers labels and rows, independent of the layout of the file.
 fn of_recording(index: usize, recording: &Recording) -> Result<Event, CliError> {
     let (scene, rows) = (&recording.scene, &recording.trajectory);
-    let relations = (recording.relation, recording.relation_human);
     Ok(Event {
         id: recording.id.clone(),
         steps: rows.steps(),
@@ -119,7 +122,7 @@ fn of_recording(index: usize, recording: &Recording) -> Result<Event, CliError> 
         layout_seen: None,
         interaction_seen: None,
         index,
-        contents: hexadecimal(&sha256(format!("{relations:?} {scene:?} {rows:?}").as_bytes())),
+        contents: run::digest(&labels_and_rows(recording)?),
     })
 }
 

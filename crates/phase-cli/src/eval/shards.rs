@@ -1,8 +1,8 @@
 //! An evaluation in several parts: `shard.json` in the folder of a part, and the parts that are merged.
 
 use super::task::{AnswerStore, EVENTS};
-use crate::{error::CliError, gen_dataset::check_same};
-use phase_files::{FileError, Problem, atomic, json};
+use crate::error::CliError;
+use phase_files::{FileError, Problem, atomic, json, run::Run};
 use phase_model::json::check_format;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -12,6 +12,8 @@ use std::path::{Path, PathBuf};
 pub(super) const SHARD_FILE: &str = "shard.json";
 /// The value of its field `format`.
 const SHARD_FORMAT: &str = "phase-eval-shard/1";
+/// The member of a run that says which part it is.
+const SHARD: &str = "shard";
 
 /// A part of an evaluation: the events k − 1, k − 1 + n, k − 1 + 2 n …
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
@@ -31,31 +33,26 @@ pub(super) struct EvaluationShard {
 impl EvaluationShard {
     /// The run of the folder.
     pub(super) fn run(&self) -> Value {
-        run_of(&self.whole, Some((self.shard, self.of)))
+        let mut run = self.whole.clone();
+        if let Some(members) = run.as_object_mut() {
+            members.insert(SHARD.into(), shard_name(self.shard, self.of).into());
+        }
+        run
     }
 }
 
 /// The identity of a run, of the whole or of a part.
-pub(super) fn run_of(whole: &Value, shard: Option<(usize, usize)>) -> Value {
-    let mut run = whole.clone();
-    if let Some((shard, of)) = shard {
-        run["shard"] = format!("{shard}/{of}").into();
-    }
-    run
+pub(super) fn run_of(whole: &Run, shard: Option<(usize, usize)>) -> Run {
+    shard.map_or_else(|| whole.clone(), |(shard, of)| whole.clone().with(SHARD, shard_name(shard, of)))
 }
 
 /// Marks a part as done.
 ///
 /// # Errors
 /// If the file cannot be written.
-pub(super) fn write(
-    out: &Path,
-    shard: usize,
-    of: usize,
-    whole: Value,
-    program: &str,
-) -> Result<(), CliError> {
-    let part = EvaluationShard { format: SHARD_FORMAT.into(), shard, of, whole, program: program.into() };
+pub(super) fn write(out: &Path, shard: usize, of: usize, whole: &Run, program: &str) -> Result<(), CliError> {
+    let (format, whole) = (SHARD_FORMAT.into(), whole.value().clone());
+    let part = EvaluationShard { format, shard, of, whole, program: program.into() };
     Ok(atomic::write_json(&out.join(SHARD_FILE), &part)?)
 }
 
@@ -88,12 +85,12 @@ pub(super) struct Merged(Vec<AnswerStore>);
 /// Opens the parts, in any order; `None` if there are none. All parts of the evaluation must be there, made by one program.
 ///
 /// # Errors
-/// [`CliError::Usage`], [`CliError::OtherRun`], or if a part cannot be used.
-pub(super) fn open(folders: &[PathBuf], whole: &Value) -> Result<Option<Merged>, CliError> {
+/// [`CliError::Usage`], [`FolderError`](phase_files::folder::FolderError), or if a part cannot be used.
+pub(super) fn open(folders: &[PathBuf], whole: &Run) -> Result<Option<Merged>, CliError> {
     let mut parts = Vec::new();
     for folder in folders {
         let part = read(folder)?;
-        check_same(folder, "a part of", &part.whole, whole)?;
+        whole.check(folder, "a part of a", &part.whole)?;
         parts.push((part, folder));
     }
     parts.sort_by_key(|(part, _)| part.shard);
@@ -127,4 +124,8 @@ impl Merged {
     pub(super) fn store(&self, event: usize) -> &AnswerStore {
         &self.0[event % self.0.len()]
     }
+}
+
+fn shard_name(shard: usize, of: usize) -> String {
+    format!("{shard}/{of}")
 }

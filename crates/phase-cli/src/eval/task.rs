@@ -11,7 +11,6 @@ use crate::{
     context::Context,
     error::CliError,
     event_writer::program,
-    gen_dataset::check_same,
     interrupt,
     output::print_json,
     parallel::make_all,
@@ -25,6 +24,7 @@ use phase_files::{
     checksum::{hexadecimal, sha256},
     folder::{self, Contents, Folder},
     json,
+    run::Run,
 };
 use phase_model::random::{Purpose, derive_seed};
 use phase_report::evaluation::Subject;
@@ -139,11 +139,15 @@ pub(crate) fn evaluate<T: Task>(
     input.events.iter().try_for_each(|event| task.check(event, &arguments.events))?;
     let shard = arguments.parts.shard;
     let out = arguments.out.clone().unwrap_or_else(|| default_folder(task, input, shard));
-    let whole = json!({
-        "command": format!("eval {}", T::NAME), "generator": crate::engine::GENERATOR, "method": task.method(),
-        "method_settings": task.settings(), "seed": arguments.seed, "n_events": input.events.len(),
-        "events_sha256": input.sha256,
-    });
+    let whole = Run::new([
+        ("command", format!("eval {}", T::NAME).into()),
+        ("generator", crate::engine::GENERATOR.into()),
+        ("method", task.method().into()),
+        ("method_settings", task.settings()),
+        ("seed", arguments.seed.into()),
+        ("n_events", input.events.len().into()),
+        ("events_sha256", input.sha256.as_str().into()),
+    ]);
     let subject = Subject {
         method: task.method(),
         given: task.is_external(),
@@ -154,13 +158,13 @@ pub(crate) fn evaluate<T: Task>(
     let last_file = if shard.is_some() { shards::SHARD_FILE } else { RESULTS_FILE };
     match folder::inspect(&out, last_file)? {
         Contents::Finished if shard.is_some() => {
-            check_same(&out, "a finished", &shards::read(&out)?.run(), &run)?;
+            run.check(&out, "a finished", &shards::read(&out)?.run())?;
             folder::remove_leftovers(&out, &run)?;
             return Ok(None);
         }
         Contents::Finished => return finished(&whole, subject, out).map(Some),
         Contents::Unfinished(other) => {
-            check_same(&out, "an unfinished", &other, &run)?;
+            run.check(&out, "an unfinished", &other)?;
             context.note(format!("continuing in {}", out.display()));
         }
         Contents::Nothing => {}
@@ -180,7 +184,7 @@ pub(crate) fn evaluate<T: Task>(
     drop(progress);
     let Some(answered) = answered else { return Err(CliError::Interrupted(out)) };
     if let Some((number, of)) = shard {
-        shards::write(&out, number, of, whole, &kept.program)?;
+        shards::write(&out, number, of, &whole, &kept.program)?;
         folder.finish()?;
         return Ok(None);
     }
@@ -196,7 +200,7 @@ pub(crate) fn evaluate<T: Task>(
 
 /// Results, without measured times, and report, with them.
 fn summary<A: ScoredEvent>(
-    run: &Value,
+    run: &Run,
     subject: Subject<'_>,
     answered: &[A],
     out: &Path,
@@ -204,7 +208,7 @@ fn summary<A: ScoredEvent>(
     let mut untimed = answered.to_vec();
     untimed.iter_mut().for_each(|event| *event.cpu_seconds() = None);
     let sum_up = |events: &[A]| A::sum_up(events, subject.seed).ok_or_else(|| no_events(out));
-    let results = A::results(run, &sum_up(&untimed)?, &untimed);
+    let results = A::results(run.value(), &sum_up(&untimed)?, &untimed);
     let results = results.map_err(|error| WriteError::json(&out.join(RESULTS_FILE), error))?;
     Ok((results, A::report(subject, &sum_up(answered)?)))
 }
@@ -307,13 +311,13 @@ fn write_copies(arguments: &Common, results: &Value, document: &Document) -> Res
 
 /// A finished folder of the same run is used unchanged.
 fn finished<A: ScoredEvent>(
-    run: &Value,
+    run: &Run,
     subject: Subject<'_>,
     out: PathBuf,
 ) -> Result<Evaluation<A>, CliError> {
     let file = out.join(RESULTS_FILE);
     let results = json::read(&file)?;
-    check_same(&out, "a finished", &results["run"], run)?;
+    run.check(&out, "a finished", &results["run"])?;
     let altered = |rule: String| {
         let problem = Problem::Shape { what: "results file", rule };
         CliError::Altered(FileError { file: file.clone(), problem })

@@ -1,6 +1,6 @@
 //! `merge`: combines the shards of a dataset.
 
-use super::{announce, complete::complete, options::Merge, run_value};
+use super::{announce, complete::complete, options::Merge, run_of};
 use crate::{console, context::Context, error::CliError, interrupt};
 use phase_dataset::{
     manifest::MANIFEST_FILE,
@@ -26,13 +26,12 @@ use std::{
 pub fn run(arguments: &Merge, context: &Context) -> Result<(), CliError> {
     let (shards, out) = (Shards::read(&arguments.shards)?, &arguments.out);
     let whole = &shards.first().whole;
-    let finished = run_value(whole, None);
-    let mut run = finished.clone();
-    run["command"] = "merge".into();
+    let finished = run_of(whole, None);
+    let run = finished.clone().with("command", "merge");
     match folder::inspect(out, MANIFEST_FILE)? {
         Contents::Finished => return super::check_finished(out, whole.slots, &finished, arguments.output),
         Contents::Unfinished(other) => {
-            super::check_same(out, "an unfinished", &other, &run)?;
+            run.check(out, "an unfinished", &other)?;
             context.note(format!("continuing in {}", out.display()));
         }
         Contents::Nothing => {}

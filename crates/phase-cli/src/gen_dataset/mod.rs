@@ -23,11 +23,13 @@ use phase_dataset::{
     parquet,
     shard::{self, DatasetDescription, SHARD_FILE, Shard},
 };
-use phase_files::folder::{self, Contents, Folder};
+use phase_files::{
+    folder::{self, Contents, Folder},
+    run::Run,
+};
 use phase_report::acceptance;
-use phase_sim::Engine;
 use plan::Plan;
-use serde_json::{Value, json};
+use serde_json::json;
 use slot::{FilledSlots, Slots};
 use std::path::{Path, PathBuf};
 
@@ -45,7 +47,7 @@ pub fn run(arguments: &GenDataset, context: &Context) -> Result<(), CliError> {
         }
         Contents::Finished => return check_finished(&out, plan.slot_count, &plan.run(), arguments.output),
         Contents::Unfinished(run) => {
-            check_same(&out, "an unfinished", &run, &plan.run())?;
+            plan.run().check(&out, "an unfinished", &run)?;
             context.note(format!("continuing in {}", out.display()));
         }
         Contents::Nothing => {}
@@ -111,8 +113,8 @@ fn page_line(out: &Path) -> String {
 /// A finished and complete shard is used unchanged if it is the requested one.
 fn check_finished_shard(plan: &Plan, out: &Path, output: Output) -> Result<(), CliError> {
     let shard = Shard::read(out)?;
-    let run = run_value(&shard.whole, Some((shard.shard, shard.of)));
-    check_same(out, "a finished", &run, &plan.run())?;
+    let run = run_of(&shard.whole, Some((shard.shard, shard.of)));
+    plan.run().check(out, "a finished", run.value())?;
     for record in shard.records(out) {
         record?.files().try_for_each(|file| file.verify(out)).map_err(CliError::Altered)?;
     }
@@ -121,11 +123,11 @@ fn check_finished_shard(plan: &Plan, out: &Path, output: Output) -> Result<(), C
 }
 
 /// A finished and complete dataset is used unchanged if it is that of a run.
-fn check_finished(out: &Path, slots: usize, expected: &Value, output: Output) -> Result<(), CliError> {
+fn check_finished(out: &Path, slots: usize, expected: &Run, output: Output) -> Result<(), CliError> {
     let manifest = Manifest::read(&out.join(MANIFEST_FILE))?;
     let description = description(&manifest, slots);
-    let run = run_value(&description, None);
-    check_same(out, "a finished", &run, expected)?;
+    let run = run_of(&description, None);
+    expected.check(out, "a finished", run.value())?;
     manifest.all_files().try_for_each(|file| file.verify(out)).map_err(CliError::Altered)?;
     keep_finished(out, &run, ("dataset", description.events), output)
 }
@@ -149,7 +151,7 @@ pub(crate) fn description(manifest: &Manifest, slots: usize) -> DatasetDescripti
 /// Removes what a run that was killed at its very end has left, and says that everything is there.
 fn keep_finished(
     out: &Path,
-    run: &Value,
+    run: &Run,
     (what, events): (&str, usize),
     output: Output,
 ) -> Result<(), CliError> {
@@ -159,61 +161,17 @@ fn keep_finished(
     output.print(text + &page_line(out), &value)
 }
 
-/// The identity of a run, as stored in the folder it works in.
-pub(crate) fn run_value(whole: &DatasetDescription, shard: Option<(usize, usize)>) -> Value {
-    let mut value = json!({
-        "command": "gen-dataset", "preset": whole.preset, "events": whole.events, "seed": whole.seed,
-        "generator": whole.generator, "settings": whole.settings,
-    });
-    if !whole.videos {
-        value["videos"] = false.into();
-    }
-    if let Some(date) = &whole.date_published {
-        value["date_published"] = date.as_str().into();
-    }
-    if let Some((shard, of)) = shard {
-        value["shard"] = format!("{shard}/{of}").into();
-    }
-    value
-}
-
-/// Checks that the run of a folder is this one.
-///
-/// # Errors
-/// [`CliError::OtherRun`].
-pub fn check_same(out: &Path, state: &'static str, other: &Value, run: &Value) -> Result<(), CliError> {
-    let mut other = other.clone();
-    if let Some(settings) = other.get_mut("settings").and_then(Value::as_object_mut) {
-        // For runs from before there was a choice.
-        settings.entry("engine").or_insert_with(|| Engine::default().name().into());
-    }
-    match difference(&other, run) {
-        None => Ok(()),
-        Some(difference) => Err(CliError::OtherRun { path: out.to_owned(), state, difference }),
-    }
-}
-
-/// The first difference between another run and this one, in words.
-pub(crate) fn difference(other: &Value, this: &Value) -> Option<String> {
-    match (other, this) {
-        (Value::Object(a), Value::Object(b)) => {
-            let mut keys: Vec<&String> = b.keys().chain(a.keys()).collect();
-            keys.sort();
-            keys.dedup();
-            // The command first: with another command the remainder cannot be compared.
-            keys.sort_by_key(|key| *key != "command");
-            keys.into_iter().find_map(|key| {
-                let (a, b) = (a.get(key).unwrap_or(&Value::Null), b.get(key).unwrap_or(&Value::Null));
-                match (a, b) {
-                    (Value::Object(_), Value::Object(_)) => {
-                        difference(a, b).map(|inner| format!("{key}.{inner}"))
-                    }
-                    _ if a == b => None,
-                    _ => Some(format!("{key} {a} instead of {b}")),
-                }
-            })
-        }
-        _ if other == this => None,
-        _ => Some(format!("{other} instead of {this}")),
-    }
+/// The identity of the run that makes a dataset, or a shard of it.
+pub(crate) fn run_of(whole: &DatasetDescription, shard: Option<(usize, usize)>) -> Run {
+    Run::new([
+        ("command", "gen-dataset".into()),
+        ("preset", whole.preset.as_str().into()),
+        ("events", whole.events.into()),
+        ("seed", whole.seed.into()),
+        ("generator", whole.generator.as_str().into()),
+        ("settings", whole.settings.clone()),
+        ("videos", whole.videos.into()),
+        ("date_published", whole.date_published.as_deref().into()),
+        ("shard", shard.map(|(shard, of)| format!("{shard}/{of}")).into()),
+    ])
 }

@@ -1,6 +1,6 @@
 //! Everything that determines a dataset.
 
-use super::{options::GenDataset, run_value};
+use super::{options::GenDataset, run_of};
 use crate::{
     engine::GENERATOR,
     error::CliError,
@@ -13,12 +13,13 @@ use phase_dataset::{
 };
 use phase_files::{
     FileError,
-    checksum::{hexadecimal, sha256},
+    checksum::hexadecimal,
     json,
+    run::{self, Run},
 };
 use phase_model::json::JsonError;
 use phase_sim::{Engine, SimulationSettings};
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
 /// A preset with all options of the command line.
@@ -67,8 +68,9 @@ impl Plan {
         );
         let settings = arguments.effort.settings()?;
         let settings_value = settings_value(&settings)?;
-        let facts = format!("{settings_value} {seed} {text}");
-        let fingerprint = hexadecimal(&sha256(&[&program()[..], facts.as_bytes()].concat()));
+        let fingerprint = run::digest(&json!({
+            "program": hexadecimal(&program()), "settings": settings_value, "seed": seed, "preset": text,
+        }));
         let (composition, shard) = (Composition::of(&preset), arguments.shard);
         let slot_count = composition.slots(count).ok_or_else(|| {
             let rule =
@@ -136,8 +138,8 @@ impl Plan {
 
     /// The identity of this run, for the folder it works in.
     #[must_use]
-    pub fn run(&self) -> Value {
-        run_value(&self.whole(), self.shard)
+    pub fn run(&self) -> Run {
+        run_of(&self.whole(), self.shard)
     }
 }
 

@@ -10,10 +10,9 @@ use crate::{
     engine::{self, GENERATOR},
     error::CliError,
     event_writer::{EventJob, EventWriter, settings_value},
-    gen_dataset::check_same,
     interrupt,
     parallel::make_all,
-    source::EventInput,
+    source::{EventInput, labels_and_rows},
 };
 use gallery::Shown;
 use options::Simulate;
@@ -23,10 +22,9 @@ use phase_dataset::{
 };
 use phase_event::Recording;
 use phase_files::{
-    checksum::{hexadecimal, sha256},
     folder::{self, Contents, Folder},
+    run::{self, Run},
 };
-use phase_model::Relation;
 use phase_report::summary;
 use serde_json::{Value, json};
 
@@ -43,12 +41,12 @@ pub fn run(arguments: &Simulate, context: &Context) -> Result<(), CliError> {
     let seeds = seeds(arguments)?;
     check_ids(arguments, &chosen, &seeds)?;
     let settings = arguments.effort.settings()?;
-    let run = run_value(arguments, &settings, &chosen)?;
+    let run = run_of(arguments, &settings, &chosen)?;
     let out = &arguments.out;
     match folder::inspect(out, SUMMARY_FILE)? {
         Contents::Finished => return check_finished(arguments, &run),
         Contents::Unfinished(other) => {
-            check_same(out, "an unfinished", &other, &run)?;
+            run.check(out, "an unfinished", &other)?;
             context.note(format!("continuing in {}", out.display()));
         }
         Contents::Nothing => {}
@@ -69,7 +67,7 @@ pub fn run(arguments: &Simulate, context: &Context) -> Result<(), CliError> {
     if !arguments.no_video {
         gallery::write(out, arguments.seed, shown)?;
     }
-    let summary = SimulationSummary::new(run, pairs);
+    let summary = SimulationSummary::new(run.value().clone(), pairs);
     summary.write(&out.join(SUMMARY_FILE))?;
     folder.finish()?;
     let line = format!("simulated {} in {}", console::events(summary.events.len()), out.display());
@@ -158,36 +156,33 @@ fn check_ids(arguments: &Simulate, chosen: &[Input], seeds: &[u64]) -> Result<()
 
 /// Everything that determines the results: the events themselves and not the file they came in, the seeds,
 /// the settings.
-fn run_value(
+fn run_of(
     arguments: &Simulate,
     settings: &phase_sim::SimulationSettings,
     chosen: &[Input],
-) -> Result<Value, CliError> {
-    let events: Vec<Value> = chosen.iter().map(|(index, recording)| json!([index, recording.id])).collect();
-    let read: String = chosen.iter().map(|(index, recording)| input_of(*index, recording)).collect();
-    let mut run = json!({
-        "command": "simulate", "generator": GENERATOR, "seed": arguments.seed, "seeds": arguments.seeds,
-        "videos": !arguments.no_video, "settings": settings_value(settings)?,
-        "events": events, "input_sha256": hexadecimal(&sha256(read.as_bytes())),
+) -> Result<Run, CliError> {
+    let events = chosen.iter().map(|(index, recording)| json!([index, recording.id])).collect();
+    let read = chosen.iter().map(|(index, recording)| {
+        Ok(json!([index, recording.id, recording.seed, labels_and_rows(recording)?]))
     });
-    if arguments.same_chance {
-        run["same_chance"] = true.into();
-    }
-    Ok(run)
+    let read = read.collect::<Result<Value, CliError>>()?;
+    Ok(Run::new([
+        ("command", "simulate".into()),
+        ("generator", GENERATOR.into()),
+        ("seed", arguments.seed.into()),
+        ("seeds", arguments.seeds.into()),
+        ("same_chance", arguments.same_chance.into()),
+        ("videos", (!arguments.no_video).into()),
+        ("settings", settings_value(settings)?),
+        ("events", Value::Array(events)),
+        ("input_sha256", run::digest(&read).into()),
+    ]))
 }
 
-/// Everything the results depend on in one event of the input: the scene, the labels, the seed and the recorded rows.
-fn input_of(index: usize, recording: &Recording) -> String {
-    let (scene, rows) = (&recording.scene, &recording.trajectory);
-    let relation: Relation = recording.relation;
-    let seed = recording.seed.map_or_else(String::new, |seed| format!("seed {seed} "));
-    format!("{index} {} {seed}{relation:?} {scene:?} {rows:?}\n", recording.id)
-}
-
-fn check_finished(arguments: &Simulate, run: &Value) -> Result<(), CliError> {
+fn check_finished(arguments: &Simulate, run: &Run) -> Result<(), CliError> {
     let out = &arguments.out;
     let summary = SimulationSummary::read(&out.join(SUMMARY_FILE))?;
-    check_same(out, "a finished", &summary.run, run)?;
+    run.check(out, "a finished", &summary.run)?;
     summary.verify(out).map_err(CliError::Altered)?;
     folder::remove_leftovers(out, run)?;
     let line = format!("{} holds these {} simulated events already", out.display(), summary.events.len());

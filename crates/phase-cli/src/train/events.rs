@@ -10,7 +10,7 @@ use phase_dataset::{
     summary::{EventComparison, SUMMARY_FILE, SimulationSummary},
 };
 use phase_event::Recording;
-use phase_files::checksum::{hexadecimal, sha256};
+use phase_files::checksum::sha256_hex;
 use phase_model::path::RelativePath;
 use std::path::{Path, PathBuf};
 
@@ -85,7 +85,7 @@ impl Events {
     pub(super) fn more_sources(&self) -> Vec<DataSource> {
         let source = |dataset: &Dataset| DataSource {
             folder: dataset.name(),
-            sha256: hexadecimal(&sha256(dataset.id().as_bytes())),
+            sha256: dataset.sha256(),
             events: dataset.entries(Split::Train).count(),
         };
         self.more.iter().map(source).collect()
@@ -95,7 +95,7 @@ impl Events {
     pub(super) fn source(&self, split: Split) -> DataSource {
         let (dataset, count) = self.chosen(split);
         let events = dataset.entries(split).take(count).count();
-        DataSource { folder: dataset.name(), sha256: hexadecimal(&sha256(dataset.id().as_bytes())), events }
+        DataSource { folder: dataset.name(), sha256: dataset.sha256(), events }
     }
 
     fn chosen(&self, split: Split) -> (&Dataset, usize) {
@@ -158,15 +158,25 @@ impl Dataset {
         self.entries.iter().filter(move |entry| entry.split == Some(split))
     }
 
-    /// A digest of the dataset, over the checksums of all events.
-    fn id(&self) -> String {
-        let entries = self.entries.iter();
-        entries.map(|entry| format!("{} {:?} {}\n", entry.id, entry.split, entry.sha256)).collect()
+    /// Digest of the dataset, over a line for each event: its id, its split and the checksum of its file.
+    fn sha256(&self) -> String {
+        let line = |entry: &Entry| format!("{} {} {}\n", entry.id, split_word(entry.split), entry.sha256);
+        sha256_hex(self.entries.iter().map(line).collect::<String>().as_bytes())
     }
 
     /// The folder's own name, independent of the path to it.
     fn name(&self) -> String {
         let folder = self.folder.canonicalize().unwrap_or_else(|_| self.folder.clone());
         folder.file_name().unwrap_or_default().to_string_lossy().into_owned()
+    }
+}
+
+/// A split in the digest of a dataset. These words are part of the digests in the training records of the bundled weights.
+const fn split_word(split: Option<Split>) -> &'static str {
+    match split {
+        Some(Split::Train) => "Some(Train)",
+        Some(Split::Validation) => "Some(Validation)",
+        Some(Split::Test) => "Some(Test)",
+        None => "None",
     }
 }

@@ -21,7 +21,7 @@ use phase_dataset::{
 use phase_files::{
     FileError, Problem,
     checksum::FileEntry,
-    folder::{self, Contents},
+    folder::{self, Contents, FolderError},
 };
 use phase_model::random::{self, Purpose};
 use rand::seq::SliceRandom;
@@ -37,7 +37,9 @@ pub fn run(arguments: &Verify, context: &Context) -> Result<(), CliError> {
     let folder = &arguments.folder;
     match folder::inspect(folder, MANIFEST_FILE) {
         Ok(Contents::Finished) => {}
-        Ok(Contents::Unfinished(_)) => return Err(CliError::Unfinished(folder.clone())),
+        Ok(Contents::Unfinished(_)) | Err(FolderError::EarlierRun(_)) => {
+            return Err(CliError::Unfinished(folder.clone()));
+        }
         _ => {
             let rule = "holds no manifest.json; give the folder of a finished dataset";
             return Err(CliError::Usage(format!("{}: {rule}", folder.display())));

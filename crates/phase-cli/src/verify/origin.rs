@@ -4,9 +4,7 @@ use super::{derived::command, options::Checks};
 use crate::{
     engine::{GENERATOR, attempt_seed},
     error::CliError,
-    gen_dataset::{
-        description, difference, options::GenDataset, plan::Plan, run_value, scenes::Scenes, slot::required,
-    },
+    gen_dataset::{description, options::GenDataset, plan::Plan, run_of, scenes::Scenes, slot::required},
 };
 use clap::Parser;
 use phase_dataset::{
@@ -68,8 +66,8 @@ impl Origin {
             Err(rule) => return Err(vec![differs(CARD_FILE, rule)]),
         };
         let slots = plan.slot_count;
-        let (found, expected) = (run_value(&description(manifest, slots), None), plan.run());
-        if let Some(difference) = difference(&found, &expected) {
+        let (found, expected) = (run_of(&description(manifest, slots), None), plan.run());
+        if let Some(difference) = expected.difference(found.value()) {
             return Err(vec![differs(CARD_FILE, format!("the manifest, which has {difference}"))]);
         }
         let origin = Self { slots: slots_of(&plan), plan };

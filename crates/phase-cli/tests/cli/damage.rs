@@ -103,8 +103,7 @@ fn a_finished_merge_is_left_as_it_is() {
         for name in left {
             match *name {
                 ".cache" => fs::create_dir(merged.join(name)).expect("a folder"),
-                name => fs::write(merged.join(name), "{\"format\":\"phase-run/1\",\"run\":{}}\n")
-                    .expect("written"),
+                name => fs::write(merged.join(name), "{\"format\":\"phase-run/2\"}\n").expect("written"),
             }
         }
         let told = succeed(path, &merge);

@@ -7,6 +7,7 @@ mod blocks;
 mod captions;
 mod console;
 mod damage;
+mod earlier;
 mod eval;
 mod export;
 mod gen_dataset;

@@ -50,8 +50,7 @@ fn what_is_no_finished_dataset_is_refused() {
     assert!(refuse(path, &["verify", "empty"]).contains("empty: holds no manifest.json"));
 
     fs::create_dir(path.join("begun")).expect("made");
-    fs::write(path.join("begun/.phase-run.json"), r#"{"format": "phase-run/1", "run": {}}"#)
-        .expect("written");
+    fs::write(path.join("begun/.phase-run.json"), r#"{"format": "phase-run/2"}"#).expect("written");
     assert!(refuse(path, &["verify", "begun"]).contains("begun: is unfinished"));
 
     fs::create_dir(path.join("cut")).expect("made");

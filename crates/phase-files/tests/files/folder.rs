@@ -1,10 +1,16 @@
 //! Which run a folder belongs to.
 
-use phase_files::folder::{self, Contents, Folder, FolderError};
-use serde_json::json;
+use phase_files::{
+    folder::{self, Contents, Folder, FolderError},
+    run::Run,
+};
 use std::fs;
 
 const LAST: &str = "manifest.json";
+
+fn run() -> Run {
+    Run::new([("seed", 1.into())])
+}
 
 #[test]
 fn the_life_of_a_folder() {
@@ -13,9 +19,9 @@ fn the_life_of_a_folder() {
     assert_eq!(folder::inspect(&path, LAST).expect("usable"), Contents::Nothing);
     assert!(!path.exists(), "looking must not touch");
 
-    let run = json!({"seed": 1});
+    let run = run();
     let claimed = Folder::claim(&path, &run).expect("claimed");
-    assert_eq!(folder::inspect(&path, LAST).expect("usable"), Contents::Unfinished(run.clone()));
+    assert_eq!(folder::inspect(&path, LAST).expect("usable"), Contents::Unfinished(run.value().clone()));
     assert!(claimed.cache().is_dir());
     fs::write(claimed.cache().join("event.bin"), "kept").expect("written");
     drop(claimed);
@@ -23,7 +29,7 @@ fn the_life_of_a_folder() {
     // An interrupted run, perhaps in the middle of a file.
     fs::create_dir(path.join("events")).expect("a folder");
     fs::write(path.join("events").join(".a.json.17.part"), "half").expect("written");
-    assert_eq!(folder::inspect(&path, LAST).expect("usable"), Contents::Unfinished(run.clone()));
+    assert_eq!(folder::inspect(&path, LAST).expect("usable"), Contents::Unfinished(run.value().clone()));
     let claimed = Folder::claim(&path, &run).expect("claimed again");
     assert!(claimed.cache().join("event.bin").exists());
     claimed.subfolder("events").expect("there already");
@@ -67,7 +73,7 @@ fn a_file_is_no_folder() {
     assert!(matches!(folder::inspect(&file, LAST), Err(FolderError::IsFile(_))));
     let below = file.join("below");
     assert_eq!(folder::inspect(&below, LAST).expect("nothing there"), Contents::Nothing);
-    let error = Folder::claim(&below, &json!({})).expect_err("cannot be created");
+    let error = Folder::claim(&below, &run()).expect_err("cannot be created");
     assert!(matches!(error, FolderError::NotWritable(_)), "{error}");
     assert_eq!(fs::read_to_string(&file).expect("untouched"), "text");
 }
@@ -76,9 +82,23 @@ fn a_file_is_no_folder() {
 fn two_runs_do_not_meet_in_one_folder() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("out");
-    let first = Folder::claim(&path, &json!({"seed": 1})).expect("claimed");
-    let error = Folder::claim(&path, &json!({"seed": 1})).expect_err("busy");
+    let first = Folder::claim(&path, &run()).expect("claimed");
+    let error = Folder::claim(&path, &run()).expect_err("busy");
     assert!(matches!(error, FolderError::Busy(_)), "{error}");
     drop(first);
-    Folder::claim(&path, &json!({"seed": 1})).expect("free again");
+    Folder::claim(&path, &run()).expect("free again");
+}
+
+#[test]
+fn a_run_of_an_earlier_version_is_named_and_left_alone() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    let marker = path.join(".phase-run.json");
+    fs::write(&marker, r#"{"format":"phase-run/1","run":{"seed":1}}"#).expect("written");
+    let error = folder::inspect(path, LAST).expect_err("it cannot be compared");
+    let sentence = error.to_string();
+    assert!(sentence.contains(&path.display().to_string()), "{sentence}");
+    assert!(sentence.contains("an earlier version of PHASE") && sentence.contains("--out"), "{sentence}");
+    assert!(matches!(error, FolderError::EarlierRun(_)), "{error:?}");
+    assert!(fs::read_to_string(&marker).expect("there").contains("phase-run/1"));
 }

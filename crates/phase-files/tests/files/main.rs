@@ -4,3 +4,4 @@ mod atomic;
 mod cache;
 mod checksum;
 mod folder;
+mod run;

@@ -23,6 +23,7 @@ use phase_dataset::phase_events;
 use phase_files::{
     WriteError, atomic,
     folder::{self, Folder},
+    run::Run,
 };
 use phase_minds::MindParameters;
 use phase_model::{Scene, arena::SUBSTEPS};
@@ -30,7 +31,7 @@ use phase_render::Palette;
 use phase_sim::SimulationSettings;
 use report::{SceneResult, Trial};
 use rows::PARTS;
-use serde_json::{Value, json};
+use serde_json::Value;
 use std::path::Path;
 use trial::TrialRunner;
 
@@ -49,11 +50,13 @@ pub fn run(arguments: &CheckBehaviour, context: &Context) -> Result<(), CliError
     let scenes = scenes(arguments)?;
     let seeds = arguments.seeds as usize;
     let settings = settings(arguments)?;
-    let run = json!({
-        "command": "check-behaviour", "generator": GENERATOR, "seeds": seeds,
-        "set": arguments.scenes.is_none().then(|| arguments.set.name()),
-        "settings": settings_value(&settings)?,
-    });
+    let run = Run::new([
+        ("command", "check-behaviour".into()),
+        ("generator", GENERATOR.into()),
+        ("seeds", seeds.into()),
+        ("set", arguments.scenes.is_none().then(|| arguments.set.name()).into()),
+        ("settings", settings_value(&settings)?),
+    ]);
     let folder = prepare(&arguments.out, &run)?;
     interrupt::listen();
     let controls = scenes.iter().filter(|(part, ..)| PARTS[*part].control.is_some()).count();
@@ -78,7 +81,7 @@ pub fn run(arguments: &CheckBehaviour, context: &Context) -> Result<(), CliError
         draw(&runner, &sheets, result, scene)?;
     }
     drop(runner);
-    let report = report::to_json(&run, &results);
+    let report = report::to_json(run.value(), &results);
     complete(arguments, folder, &report)?;
     if to_stdout(arguments) {
         print_result(format!("{report:#}"));
@@ -127,7 +130,7 @@ fn problem(scene: &Scene) -> Option<String> {
 
 /// Prepares the folder. The results of a finished check are replaced; those of an unfinished one are kept and
 /// used if they are of this executable.
-fn prepare(out: &Path, run: &Value) -> Result<Folder, CliError> {
+fn prepare(out: &Path, run: &Run) -> Result<Folder, CliError> {
     folder::inspect(out, REPORT_FILE)?;
     let folder = Folder::claim(out, run)?;
     atomic::remove(&out.join(REPORT_FILE))?;

@@ -14,9 +14,14 @@ use phase_cli::{
 use phase_dataset::event_cache::EventCache;
 use phase_event::Event;
 use phase_evidence::Track;
-use phase_files::{checksum::sha256, folder::Folder};
+use phase_files::{
+    checksum::{hexadecimal, sha256},
+    folder::Folder,
+    run,
+};
 use phase_model::{AgentId, Attitude, Flip, Scene};
 use phase_sim::SimulationSettings;
+use serde_json::json;
 use std::{path::PathBuf, time::Instant};
 
 /// The reflections that seeds use in rotation.
@@ -118,8 +123,12 @@ impl TrialRunner {
     ) -> Result<Option<Event>, CliError> {
         let seed = index as u64 + 1;
         let name = format!("{name}.{seed}");
-        let key = format!("{} {scene:?}", settings_value(settings)?);
-        let cache = EventCache::new(&self.cache, sha256(&[&self.program[..], key.as_bytes()].concat()));
+        let scene_value = serde_json::to_value(&scene)
+            .map_err(|source| CliError::Serialise { what: "the scene", source })?;
+        let facts = json!({
+            "program": hexadecimal(&self.program), "settings": settings_value(settings)?, "scene": scene_value,
+        });
+        let cache = EventCache::new(&self.cache, sha256(run::canonical(&facts).as_bytes()));
         if let Some(event) = cache.load(&name, seed) {
             return Ok(Some(event));
         }
