@@ -3,26 +3,12 @@
 use phase_files::{FileError, Problem, WriteError};
 use thiserror::Error;
 
-/// A contradiction between a file of a dataset and the rest of it, or a Parquet file that is none.
+/// A contradiction between a file of a dataset and the rest of it.
 #[derive(Debug, Error)]
 pub enum DatasetProblem {
-    /// It is not a Parquet file, or a damaged one.
-    #[error("is not a complete Parquet file: {0}")]
-    Parquet(#[source] Box<dyn core::error::Error + Send + Sync>),
-    /// It is a Parquet file whose pages are damaged.
-    #[error("is no whole Parquet file: its pages cannot be decoded")]
-    ParquetPages,
     /// Its contents cannot be converted to JSON, and so cannot be compared with its manifest.
     #[error("cannot be compared with its manifest: {0}")]
     Encode(#[source] serde_json::Error),
-    /// A Parquet file contradicts the event's own file or the manifest.
-    #[error("event {event}: column `{column}` differs from the event's own file or the manifest")]
-    Disagrees {
-        /// The event's `id`.
-        event: String,
-        /// The first column that differs.
-        column: &'static str,
-    },
     /// It says what it should, but has other bytes than PHASE writes for that.
     #[error(
         "is not in the form in which it is written: it holds more, or something else, than follows from its contents"

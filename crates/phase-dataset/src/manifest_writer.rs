@@ -8,11 +8,7 @@ use crate::{
     slot_record::{Records, SlotRecord},
 };
 use core::cell::RefCell;
-use phase_files::{
-    FileError,
-    atomic::AtomicFile,
-    checksum::{FileEntry, HashingWriter},
-};
+use phase_files::{FileError, checksum::FileEntry, measured::MeasuredFile};
 use serde::{Serialize, Serializer};
 use serde_json::Value;
 use std::{
@@ -84,14 +80,14 @@ pub fn write_manifest(
         }),
         files: &overview.files,
     };
-    let mut file = HashingWriter::new(AtomicFile::create(&folder.join(MANIFEST_FILE))?);
+    let mut file = MeasuredFile::create(folder, MANIFEST_FILE)?;
     let written = serde_json::to_writer_pretty(&mut file, &text).map_err(io::Error::from);
     let written = written.and_then(|()| file.write_all(b"\n"));
-    let (file, digest) = file.finish();
     if let Some(error) = failure.take() {
         return Err(error.into());
     }
     written.map_err(|source| file.failed(source))?;
+    let digest = file.entry().sha256;
     write_digest(folder, &digest)?;
     file.commit()?;
     Ok(digest)

@@ -7,7 +7,7 @@ use sha2::{Digest, Sha256};
 use std::{
     fmt::Write as _,
     fs::{self, File},
-    io::{self, Read, Write},
+    io::{self, Read},
     path::Path,
 };
 
@@ -75,37 +75,6 @@ pub fn sha256(bytes: &[u8]) -> [u8; 32] {
 #[must_use]
 pub fn sha256_hex(bytes: &[u8]) -> String {
     hexadecimal(&sha256(bytes))
-}
-
-/// A writer that knows the checksum of what was written through it.
-#[derive(Debug)]
-pub struct HashingWriter<W> {
-    writer: W,
-    hasher: Sha256,
-}
-
-impl<W: Write> HashingWriter<W> {
-    /// Nothing written yet.
-    pub fn new(writer: W) -> Self {
-        Self { writer, hasher: Sha256::new() }
-    }
-
-    /// The writer, and the SHA-256 of what it received, in lower-case hexadecimal.
-    pub fn finish(self) -> (W, String) {
-        (self.writer, hexadecimal(&self.hasher.finalize()))
-    }
-}
-
-impl<W: Write> Write for HashingWriter<W> {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        let count = self.writer.write(bytes)?;
-        self.hasher.update(&bytes[..count]);
-        Ok(count)
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        self.writer.flush()
-    }
 }
 
 /// Bytes in lower-case hexadecimal.

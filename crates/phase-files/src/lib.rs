@@ -1,6 +1,7 @@
 //! Files that are whole or absent, and folders that one run at a time writes into.
 //!
-//! - [`atomic`] writes files beside their place, syncs and renames them; [`checksum`] measures them.
+//! - [`atomic`] writes files beside their place, syncs and renames them; [`checksum`] measures them, and
+//!   [`measured`] does so while they are written.
 //! - [`folder`] locks a folder and records which run it belongs to; [`cache`] keeps results of an interrupted run.
 //! - [`run`] says which run it is, and hashes its description; two runs are compared by it.
 //! - [`json`] reads files of JSON.
@@ -43,6 +44,7 @@ mod error;
 pub mod fault;
 pub mod folder;
 pub mod json;
+pub mod measured;
 pub mod run;
 
 pub use error::{FileError, Problem, WriteError, plain_reason};

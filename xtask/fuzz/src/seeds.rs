@@ -59,7 +59,6 @@ pub fn seeds(target: &str) -> Vec<Vec<u8>> {
             r#"{"format":"phase-shard/1","shard":[1,2]}"#,
             r#"{"fingerprint":"fuzz","refused":[],"entries":[]}"#,
         ]),
-        "parquet" => texts(&["PAR1\0\0\0\0PAR1"]),
         _ => CHOICES.into_iter().map(choices).collect(),
     }
 }

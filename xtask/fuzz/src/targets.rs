@@ -28,7 +28,6 @@ pub const TARGETS: [(&str, Check); 20] = [
     ("weights", texts::weights),
     ("manifest", files::manifest),
     ("records", files::records),
-    ("parquet", files::parquet),
     ("world", engines::world),
     ("kernel", engines::kernel),
     ("planner", searches::planner),

@@ -100,10 +100,6 @@ pub fn problems(
     jobs: &Jobs,
     context: &Context,
 ) -> Result<Vec<FileError>, CliError> {
-    // Errors of the Parquet library about a file that was damaged on purpose are returned as a problem; its
-    // panics must not be visible.
-    let hook = std::panic::take_hook();
-    std::panic::set_hook(Box::new(|_| {}));
     let progress = context
         .progress_over(&format!("verifying {}", console::events(manifest.events.len())), work(manifest));
     let run = |count: usize, check: &Check<'_>| {
@@ -111,10 +107,8 @@ pub fn problems(
         // There is always a result: interruptions are not handled here, and nothing is written.
         Ok::<_, CliError>(answers.unwrap_or_default())
     };
-    let problems = verify_with(folder, manifest, &|steps| progress.steps(steps), run);
+    let mut problems = verify_with(folder, manifest, &|steps| progress.steps(steps), run)?;
     drop(progress);
-    std::panic::set_hook(hook);
-    let mut problems = problems?;
     let digest = FileEntry::of(folder, MANIFEST_FILE)?.sha256;
     if checks.digest.as_ref().is_some_and(|expected| *expected != digest) {
         let file = folder.join(MANIFEST_FILE);

@@ -37,7 +37,9 @@ fn a_finished_evaluation_or_simulation() {
     let path = folder.path();
     write_events(&path.join("events.json"), &[recording("a")]);
     let eval = ["eval", "goals", "--method", "chance", "--events", "events.json", "--out", "answers"];
-    let simulate = [&["simulate", "--events", "events.json"][..], &QUICK, &["--no-video", "--out", "simulated"]].concat();
+    let simulate =
+        [&["simulate", "--events", "events.json"][..], &QUICK, &["--no-video", "--out", "simulated"]]
+            .concat();
     for (arguments, file) in [(&eval[..], "answers/results.json"), (&simulate, "simulated/summary.json")] {
         succeed(path, arguments);
         let mut told = results(&path.join(file));

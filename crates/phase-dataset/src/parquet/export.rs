@@ -1,26 +1,14 @@
-//! Writing.
+//! Writing the files of a dataset.
 
-use super::{EVENTS_PER_GROUP, FOLDER, ParquetFile, column::Column, columns, parts, push, schema};
+use super::{
+    FOLDER, ParquetFile, parts, row_of,
+    rows::{Rows, io_error},
+};
 use crate::{ExportError, manifest::EventEntry, splits::Split};
-use parquet::{
-    basic::{Compression, Encoding, ZstdLevel},
-    errors::{ParquetError, Result},
-    file::{
-        properties::{EnabledStatistics, WriterProperties},
-        writer::SerializedFileWriter,
-    },
-};
+use parquet::errors::ParquetError;
 use phase_event::Recording;
-use phase_files::{FileError, Problem, WriteError, atomic::AtomicFile, checksum::FileEntry};
-use std::{
-    collections::BTreeMap,
-    fs, io,
-    path::{Path, PathBuf},
-    sync::Arc,
-};
-
-/// Compression level, from 1 to 22; higher levels gain nothing on these columns.
-const EFFORT: i32 = 9;
+use phase_files::{FileError, Problem, WriteError, checksum::FileEntry, measured::MeasuredFile};
+use std::{collections::BTreeMap, fs, path::Path};
 
 /// A dataset's Parquet files while they are written, one for each part of the dataset at a time; the events of one row group
 /// of each are in memory. The same events give the same bytes.
@@ -37,14 +25,8 @@ pub struct ParquetWriter<'a> {
 
 /// A file that is being written.
 struct OpenFile {
-    path: PathBuf,
-    name: String,
-    writer: SerializedFileWriter<AtomicFile>,
-    columns: Vec<Box<dyn Column>>,
-    /// Events that are not written yet.
-    held: usize,
-    /// Events to come.
-    left: usize,
+    path: std::path::PathBuf,
+    rows: Rows<MeasuredFile>,
 }
 
 impl<'a> ParquetWriter<'a> {
@@ -52,7 +34,7 @@ impl<'a> ParquetWriter<'a> {
     ///
     /// # Errors
     /// If their folder cannot be created.
-    pub fn new(folder: &'a Path, splits: &BTreeMap<Split, usize>) -> std::result::Result<Self, WriteError> {
+    pub fn new(folder: &'a Path, splits: &BTreeMap<Split, usize>) -> Result<Self, WriteError> {
         let data = folder.join(FOLDER);
         fs::create_dir_all(&data).map_err(|source| WriteError {
             path: data,
@@ -72,11 +54,7 @@ impl<'a> ParquetWriter<'a> {
     ///
     /// # Errors
     /// If it was not simulated, or was not counted when the files were prepared; if a file cannot be written.
-    pub fn push(
-        &mut self,
-        entry: &EventEntry,
-        recording: &Recording,
-    ) -> std::result::Result<(), ExportError> {
+    pub fn push(&mut self, entry: &EventEntry, recording: &Recording) -> Result<(), ExportError> {
         let split = entry.split();
         let mut file = match self.open.remove(&split) {
             Some(file) => file,
@@ -92,13 +70,10 @@ impl<'a> ParquetWriter<'a> {
                 OpenFile::create(self.folder, &next.ok_or_else(uncounted)?)?
             }
         };
-        push(&mut file.columns, self.folder, entry, recording)?;
-        (file.held, file.left) = (file.held + 1, file.left - 1);
-        if file.held == EVENTS_PER_GROUP || file.left == 0 {
-            file.write_group()?;
-        }
-        if file.left == 0 {
-            self.complete.push(file.finish(self.folder)?);
+        let row = row_of(self.folder, entry, recording)?;
+        file.rows.push(&row).map_err(|error| file.failed(error))?;
+        if file.rows.left() == 0 {
+            self.complete.push(file.finish()?);
         } else {
             self.open.insert(split, file);
         }
@@ -109,9 +84,9 @@ impl<'a> ParquetWriter<'a> {
     ///
     /// # Errors
     /// If fewer events were added than were counted when the files were prepared.
-    pub fn finish(mut self) -> std::result::Result<Vec<FileEntry>, ExportError> {
+    pub fn finish(mut self) -> Result<Vec<FileEntry>, ExportError> {
         if let Some((_, file)) = self.open.first_key_value() {
-            let rule = format!("{} events are missing", file.left);
+            let rule = format!("{} events are missing", file.rows.left());
             let problem = Problem::Shape { what: "Parquet file", rule };
             return Err(FileError { file: file.path.clone(), problem }.into());
         }
@@ -122,61 +97,25 @@ impl<'a> ParquetWriter<'a> {
 }
 
 impl OpenFile {
-    fn create(folder: &Path, part: &ParquetFile) -> std::result::Result<Self, WriteError> {
+    fn create(folder: &Path, part: &ParquetFile) -> Result<Self, WriteError> {
         let path = folder.join(&part.path);
-        let columns = columns::all();
-        let properties = properties(&columns).map_err(|error| failed(&path, error))?;
-        let schema = schema(&columns).map_err(|error| failed(&path, error))?;
-        let file = AtomicFile::create(&path)?;
-        let writer = SerializedFileWriter::new(file, schema, Arc::new(properties));
-        let writer = writer.map_err(|error| failed(&path, error))?;
-        Ok(Self { path, name: part.path.clone(), writer, columns, held: 0, left: part.events })
+        let file = MeasuredFile::create(folder, part.path.as_str())?;
+        match Rows::new(file, part.events) {
+            Ok(rows) => Ok(Self { path, rows }),
+            Err(error) => Err(failed(&path, error)),
+        }
     }
 
-    fn write_group(&mut self) -> std::result::Result<(), WriteError> {
-        self.held = 0;
-        write_group(&mut self.writer, &mut self.columns).map_err(|error| failed(&self.path, error))
+    fn failed(&self, error: ParquetError) -> WriteError {
+        failed(&self.path, error)
     }
 
-    fn finish(self, folder: &Path) -> std::result::Result<FileEntry, ExportError> {
-        let file = self.writer.into_inner().map_err(|error| failed(&self.path, error))?;
-        file.commit()?;
-        Ok(FileEntry::of(folder, self.name)?)
+    fn finish(self) -> Result<FileEntry, WriteError> {
+        let Self { path, rows } = self;
+        rows.finish().map_err(|error| failed(&path, error))?.commit()
     }
 }
 
 fn failed(path: &Path, error: ParquetError) -> WriteError {
-    WriteError {
-        path: path.to_owned(),
-        action: "write the file",
-        source: match error {
-            ParquetError::External(inner) => io::Error::other(inner),
-            other => io::Error::other(other),
-        },
-    }
-}
-
-fn write_group(writer: &mut SerializedFileWriter<AtomicFile>, columns: &mut [Box<dyn Column>]) -> Result<()> {
-    let mut group = writer.next_row_group()?;
-    for column in columns {
-        if let Some(mut place) = group.next_column()? {
-            column.flush(&mut place)?;
-            place.close()?;
-        }
-    }
-    group.close()?;
-    Ok(())
-}
-
-fn properties(columns: &[Box<dyn Column>]) -> Result<WriterProperties> {
-    let mut properties = WriterProperties::builder()
-        .set_compression(Compression::ZSTD(ZstdLevel::try_new(EFFORT)?))
-        .set_statistics_enabled(EnabledStatistics::Chunk);
-    for path in columns.iter().filter_map(|column| column.floating_path()) {
-        // Values hardly repeat, but their first bytes do.
-        properties = properties
-            .set_column_dictionary_enabled(path.clone(), false)
-            .set_column_encoding(path, Encoding::BYTE_STREAM_SPLIT);
-    }
-    Ok(properties.build())
+    WriteError { path: path.to_owned(), action: "write the file", source: io_error(error) }
 }

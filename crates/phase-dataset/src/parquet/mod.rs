@@ -1,36 +1,33 @@
 //! A dataset's events as Parquet, one row per event, for pandas, `datasets` and other tools that read
 //! columns.
 //!
-//! [`ParquetWriter`] writes them from the events one after the other, [`compare`] checks that they still agree, and
-//! [`descriptions`] describes every column. `docs/formats.md` has the same table.
+//! [`ParquetWriter`] writes them from the events one after the other, [`compare`] writes them again and compares the
+//! bytes, and [`descriptions`] describes every column. `docs/formats.md` has the same table.
 //!
 //! Key design decision: a column's type is a Rust type. Nested lists of numbers determine both the file's
-//! schema and its levels, without an intermediate array library, and comparing is writing without a file. The
-//! trade-off is that only types known to the module `cell` can be columns.
+//! schema and its levels, without an intermediate array library, and comparing is writing without a file: no reader
+//! has to be protected from what a damaged file declares. The trade-off is that only types known to the module `cell`
+//! can be columns, and that a file is the same only for one version of the Parquet library.
 
 mod cell;
 mod column;
 mod columns;
 mod compare;
-mod declared;
 mod export;
 mod row;
-mod thrift;
+mod rows;
 
 pub use column::Description;
 pub use columns::descriptions;
 pub use compare::compare;
-pub(crate) use compare::{compare_share, shares};
 pub use export::ParquetWriter;
 
 use crate::{manifest::EventEntry, phase_events, splits::Split};
-use ::parquet::{errors::Result, schema::types::Type};
-use column::Column;
 use phase_event::{EventReadError, Recording};
 use phase_files::{FileError, Problem};
 use phase_model::json::FieldError;
 use row::Row;
-use std::{collections::BTreeMap, path::Path, sync::Arc};
+use std::{collections::BTreeMap, path::Path};
 
 /// Folder of the files within a dataset.
 pub const FOLDER: &str = "data";
@@ -78,14 +75,8 @@ pub fn parts(splits: &BTreeMap<Split, usize>) -> Vec<ParquetFile> {
     parts
 }
 
-/// The schema of a file with these columns.
-fn schema(columns: &[Box<dyn Column>]) -> Result<Arc<Type>> {
-    let fields = columns.iter().map(|column| Ok(Arc::new(column.schema()?))).collect::<Result<Vec<_>>>()?;
-    Ok(Arc::new(Type::group_type_builder("schema").with_fields(fields).build()?))
-}
-
 /// Reads the event of an entry.
-pub(crate) fn read(folder: &Path, entry: &EventEntry) -> std::result::Result<Recording, FileError> {
+pub(crate) fn read(folder: &Path, entry: &EventEntry) -> Result<Recording, FileError> {
     let file = entry.event.place(folder);
     let recordings = phase_events::read(&file)?;
     let count = recordings.len();
@@ -95,20 +86,15 @@ pub(crate) fn read(folder: &Path, entry: &EventEntry) -> std::result::Result<Rec
     }
 }
 
-/// Adds an event to all columns.
-fn push(
-    columns: &mut [Box<dyn Column>],
-    folder: &Path,
-    entry: &EventEntry,
-    recording: &Recording,
-) -> std::result::Result<(), FileError> {
-    let Some(simulation) = &recording.simulation else {
-        let file = entry.event.place(folder);
-        return Err(not_whole(file, Some(&recording.id), "substeps", "is missing".into()));
-    };
-    let row = Row { entry, recording, simulation };
-    columns.iter_mut().for_each(|column| column.push(&row));
-    Ok(())
+/// The row of an event, which has to be simulated.
+fn row_of<'a>(folder: &Path, entry: &'a EventEntry, recording: &'a Recording) -> Result<Row<'a>, FileError> {
+    match &recording.simulation {
+        Some(simulation) => Ok(Row { entry, recording, simulation }),
+        None => {
+            let file = entry.event.place(folder);
+            Err(not_whole(file, Some(&recording.id), "substeps", "is missing".into()))
+        }
+    }
 }
 
 fn not_whole(file: std::path::PathBuf, event: Option<&str>, field: &str, rule: String) -> FileError {

@@ -108,11 +108,16 @@ pub fn verify_with<E>(
         (whole && video).then(|| events::pairs(folder, set, members).err()).flatten()
     })?;
     problems.extend(sets.into_iter().flatten());
-    let with_events = parts.iter().map(|part| (part, part.of(&manifest.events)));
-    let whole = |(part, events): &(&ParquetFile, Vec<&EventEntry>)| {
-        readable(&part.path) && events.iter().all(|entry| readable(entry.event.path.as_str()))
-    };
-    problems.extend(compare(folder, &with_events.filter(whole).collect::<Vec<_>>(), done, run)?);
+    let with_events: Vec<(&ParquetFile, Vec<&EventEntry>)> =
+        parts.iter().map(|part| (part, part.of(&manifest.events))).collect();
+    let tables = run(with_events.len(), &|k| {
+        let (part, events) = &with_events[k];
+        let whole = readable(&part.path) && events.iter().all(|entry| readable(entry.event.path.as_str()));
+        let answer = whole.then(|| parquet::compare(folder, part, events).err()).flatten();
+        done(part.events);
+        answer
+    })?;
+    problems.extend(tables.into_iter().flatten());
     Ok(problems)
 }
 
@@ -120,31 +125,6 @@ pub fn verify_with<E>(
 #[must_use]
 pub fn work(manifest: &Manifest) -> usize {
     4 * manifest.events.len() + manifest.files.len()
-}
-
-/// Compares Parquet files with the event files, share by share; one error for each file.
-fn compare<E>(
-    folder: &Path,
-    parts: &[(&ParquetFile, Vec<&EventEntry>)],
-    done: &(dyn Fn(usize) + Sync),
-    run: impl Fn(usize, &Check<'_>) -> Result<Vec<Option<FileError>>, E>,
-) -> Result<Vec<FileError>, E> {
-    let of_part = |number: usize| (0..parquet::shares(parts[number].0)).map(move |share| (number, share));
-    let shares: Vec<(usize, usize)> = (0..parts.len()).flat_map(of_part).collect();
-    let answers = run(shares.len(), &|k| {
-        let (number, share) = shares[k];
-        let (part, events) = &parts[number];
-        let answer = parquet::compare_share(folder, part, events, share).err();
-        done(part.events / parquet::shares(part));
-        answer
-    })?;
-    let mut found: BTreeMap<usize, FileError> = BTreeMap::new();
-    for ((number, _), problem) in shares.iter().zip(answers) {
-        if let Some(problem) = problem {
-            found.entry(*number).or_insert(problem);
-        }
-    }
-    Ok(found.into_values().collect())
 }
 
 /// Checks that the description's checksums are the manifest's.

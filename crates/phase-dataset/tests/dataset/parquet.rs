@@ -261,36 +261,34 @@ fn events_that_were_not_simulated_are_refused() {
     assert!(text.contains("made-up-0.json") && text.contains("`substeps` is missing"), "{text}");
 }
 
-/// Every change of an event is detected in its column.
+/// Every change of an event is detected.
 #[test]
-fn a_comparison_names_event_and_column() {
+fn a_comparison_finds_events_that_changed() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path();
     let entries = events(path, &[2, 2]);
     export(path, &entries).expect("written");
     let file = path.join(event_path("made-up-1"));
     let text = fs::read_to_string(&file).expect("an event");
-    for (from, to, column) in [
-        ("\"relation\":\"friendly\"", "\"relation\":\"neutral\"", "relation"),
-        ("[\"Attach(agent 0, object 1)\",\"Stay\"]", "[\"Attach(agent 0, object 0)\",\"Stay\"]", "subgoals"),
-        ("\"grips\":[[0,[null,null]],[8,", "\"grips\":[[0,[null,null]],[7,", "held"),
-        ("\"contacts\":[[0,[]],[4,", "\"contacts\":[[0,[]],[5,", "contacts"),
+    for (from, to) in [
+        ("\"relation\":\"friendly\"", "\"relation\":\"neutral\""),
+        ("[\"Attach(agent 0, object 1)\",\"Stay\"]", "[\"Attach(agent 0, object 0)\",\"Stay\"]"),
+        ("\"grips\":[[0,[null,null]],[8,", "\"grips\":[[0,[null,null]],[7,"),
+        ("\"contacts\":[[0,[]],[4,", "\"contacts\":[[0,[]],[5,"),
     ] {
         let changed = text.replacen(from, to, 1);
         assert_ne!(changed, text, "{from}");
         fs::write(&file, changed).expect("written");
         let error = compare(path, &parts(&entries)[0], &entries).expect_err(from).to_string();
-        assert!(
-            error.contains("event made-up-1: column") && error.contains(&format!("`{column}`")),
-            "{error}"
-        );
+        let told = "train-00000-of-00001.parquet: differs from what PHASE writes for its events";
+        assert!(error.contains(told), "{error}");
     }
     fs::write(&file, &text).expect("written");
     compare(path, &parts(&entries)[0], &entries).expect("as before");
 }
 
 #[test]
-fn damaged_files_are_errors() {
+fn damage_anywhere_is_found() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path();
     let entries = events(path, &[3]);
@@ -301,76 +299,17 @@ fn damaged_files_are_errors() {
     for length in [0, 4, 11, whole.len() / 2, whole.len() - 1] {
         fs::write(&file, &whole[..length]).expect("written");
         let error = compare(path, part, &entries).expect_err("cut short").to_string();
-        assert!(error.contains("train-00000-of-00001.parquet"), "{error}");
+        assert!(error.contains("train-00000-of-00001.parquet: differs"), "{error}");
     }
-    // Changing any byte is detected or has no effect; it never causes a panic.
+    fs::write(&file, [&whole[..], b"x"].concat()).expect("written");
+    compare(path, part, &entries).expect_err("something after the end");
     let dense = std::env::var_os("PHASE_EVERY_BYTE").is_some();
-    for at in (0..whole.len()).step_by(if dense { 1 } else { 97 }) {
-        for mask in [0x55, 0x80, 0x01] {
-            let mut bytes = whole.clone();
-            bytes[at] ^= mask;
-            fs::write(&file, bytes).expect("written");
-            let _ = compare(path, part, &entries);
-        }
-    }
-}
-
-/// What a file says of itself is not believed: a few bytes could ask for gigabytes.
-#[test]
-fn declared_sizes_are_checked_before_anything_is_reserved() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path();
-    let entries = events(path, &[2]);
-    export(path, &entries).expect("written");
-    let part = &parts(&entries)[0];
-    let file = path.join(&part.path);
-    let good = fs::read(&file).expect("a file");
-    let refused = |bytes: &[u8], rule: &str| {
+    for at in (0..whole.len()).step_by(if dense { 1 } else { 970 }) {
+        let mut bytes = whole.clone();
+        bytes[at] ^= 0x80;
         fs::write(&file, bytes).expect("written");
-        let error = compare(path, part, &entries).expect_err(rule).to_string();
-        assert!(error.contains(rule), "{error}");
-    };
-    // A description of version 2 whose schema has as many elements as fit into a number.
-    let description = [0x15, 4, 0x19, 0xfc, 0xff, 0xff, 0xff, 0xff, 0x07, 0, 0];
-    let length = (description.len() as u32).to_le_bytes();
-    refused(
-        &[b"PAR1", &description[..], &length, b"PAR1"].concat(),
-        "it declares 2147483647 elements in 2 bytes",
-    );
-    refused(&[b"PAR1", &length[..], b"PAR1"].concat(), "it describes itself in 11 bytes, but has 12");
-    refused(b"PAR1", "it ends too early");
-
-    // A page that unfolds to 2 GiB: the number takes more bytes, which the page has fewer.
-    fs::write(&file, &good).expect("written");
-    let reader = SerializedFileReader::new(fs::File::open(&file).expect("a file")).expect("Parquet");
-    let name = "substeps";
-    let columns = reader.metadata().row_group(0).columns();
-    let column = columns.iter().find(|it| it.column_path().parts()[0] == name).expect("the column");
-    let page = usize::try_from(column.data_page_offset()).expect("a place");
-    assert_eq!((good[page], good[page + 2]), (0x15, 0x15), "type, then size");
-    let size = page + 3;
-    let next = size + good[size..].iter().position(|byte| *byte < 128).expect("its end") + 1;
-    assert_eq!(good[next], 0x15, "then compressed size");
-    let end = next + 1 + good[next + 1..].iter().position(|byte| *byte < 128).expect("its end") + 1;
-    let number =
-        |bytes: &[u8]| bytes.iter().rev().fold(0_u64, |sum, byte| sum << 7 | u64::from(byte & 127)) / 2;
-    let varint = |mut value: u64| {
-        let mut bytes = Vec::new();
-        while value > 127 {
-            bytes.push((value & 127) as u8 | 128);
-            value >>= 7;
-        }
-        bytes.push(value as u8);
-        bytes
-    };
-    let huge = varint(2 * 0x7fff_ffff);
-    let longer = huge.len() - (next - size);
-    let compressed = number(&good[next + 1..end]) - longer as u64;
-    let compressed = varint(2 * compressed);
-    assert_eq!(compressed.len(), end - next - 1, "as long as before");
-    let total = usize::try_from(column.compressed_size()).expect("a size");
-    let mut bytes = [&good[..size], &huge, &[0x15], &compressed, &good[end..page + total - longer]].concat();
-    bytes.extend(&good[page + total..]);
-    assert_eq!(bytes.len(), good.len());
-    refused(&bytes, "it declares a page of 2147483647 bytes, and none has more than 16777216");
+        compare(path, part, &entries).expect_err("a byte is another");
+    }
+    fs::write(&file, whole).expect("written");
+    compare(path, part, &entries).expect("as before");
 }

@@ -4,4 +4,5 @@ mod atomic;
 mod cache;
 mod checksum;
 mod folder;
+mod measured;
 mod run;

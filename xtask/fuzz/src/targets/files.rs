@@ -2,13 +2,12 @@
 
 use phase_dataset::{
     manifest::Manifest,
-    parquet::{compare, parts},
     shard::{SHARD_FILE, Shard},
     slot_record::SlotRecord,
     split_list::SplitList,
     summary::SimulationSummary,
 };
-use std::{collections::BTreeMap, fs, path::Path};
+use std::{fs, path::Path};
 use tempfile::TempDir;
 
 /// A folder with one file.
@@ -39,12 +38,4 @@ pub(super) fn records(data: &[u8]) {
     let file = folder.path().join(SHARD_FILE);
     let _ = (Shard::read(folder.path()), SplitList::read(&file), SimulationSummary::read(&file));
     let _ = SlotRecord::load(&file, "fuzz");
-}
-
-/// Parquet files beside the events that they should hold.
-pub(super) fn parquet(data: &[u8]) {
-    let counts = BTreeMap::from([(phase_dataset::splits::Split::Train, 1)]);
-    let [part] = &parts(&counts)[..] else { return };
-    let folder = folder_with(&part.path, data);
-    let _ = compare(folder.path(), part, &[]);
 }
