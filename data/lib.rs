@@ -48,6 +48,9 @@ pub const TWO_LEVEL_LSTM: Trained = trained!("two-level-lstm.safetensors");
 
 /// How people report what they saw (JSON, docs/simple.md).
 pub const REPORT_MODEL: &str = include_str!("report-model.json");
+/// The record of its fit: to whose ratings, and how it agrees with those held out of it (JSON, format phase-report-training/1,
+/// docs/formats.md).
+pub const REPORT_TRAINING: &str = include_str!("report-model.training.json");
 
 /// The rating forms: what people are asked about a video (JSON, format phase-forms/1, docs/formats.md). The 23 types of interaction are
 /// those of the paper, in its order.

@@ -39,9 +39,9 @@ pub enum Command {
     Elsewhere(Elsewhere),
     /// Make the book of the documents, with mdBook
     Book(Book),
-    /// Score the predictions in docs/leaderboard, and rewrite its page
+    /// Score the predictions in data/leaderboard, and rewrite its page
     Leaderboard(Leaderboard),
-    /// Rewrite the documents that show results from docs/results.json, which `benchmark --page` writes
+    /// Rewrite the documents that show results from data/results.json, which `benchmark --figures` writes
     Results(Results),
     /// Check the project rules that the compiler cannot
     Tidy(Tidy),

@@ -29,7 +29,7 @@ pub enum XtaskError {
         /// What went wrong.
         problem: String,
     },
-    /// Documents do not have the figures of `docs/results.json`.
+    /// Documents do not have the figures of `data/results.json`.
     #[error("{0} document(s) differ from what `cargo xtask results` writes")]
     Results(usize),
     /// Tidy found something.

@@ -1,4 +1,4 @@
-//! `leaderboard`: scores the predictions of methods from outside, which lie in `docs/leaderboard`.
+//! `leaderboard`: scores the predictions of methods from outside, which lie in `data/leaderboard`.
 //!
 //! A file is named `<set>/<task>/<method>.json`, where the set is the label of one of the benchmark's. Scores are kept in
 //! `scores.json` beside them, with the digest of each file, so that the page can be written, and checked, without the events.
@@ -28,7 +28,7 @@ use std::{
 /// The page.
 pub const PAGE: &str = "docs/leaderboard.md";
 /// The folder of predictions and scores.
-const FOLDER: &str = "docs/leaderboard";
+const FOLDER: &str = "data/leaderboard";
 /// The scores in it.
 const SCORES: &str = "scores.json";
 /// Who made the methods, by their names.
@@ -48,7 +48,7 @@ pub struct Leaderboard {
     /// The recordings (a phase-events/1 file)
     #[arg(long, value_name = "FILE")]
     pub real: Option<PathBuf>,
-    /// Write nothing, and fail if a score is not the one in docs/leaderboard/scores.json
+    /// Write nothing, and fail if a score is not the one in data/leaderboard/scores.json
     #[arg(long)]
     pub check: bool,
 }
@@ -179,7 +179,7 @@ impl Predictions {
         let digest = results["run"]["events_sha256"].as_str().unwrap_or_default().to_owned();
         let set = benchmark.sets.iter().find(|set| set.label == self.set);
         if set.is_some_and(|set| set.sha256 != digest) {
-            return Err(results::shape(events, "does not have the events of docs/results.json"));
+            return Err(results::shape(events, "does not have the events of data/results.json"));
         }
         let measures = measures(self.task, &results).ok_or_else(|| {
             results::shape(&self.file, "has results without the measures of the leaderboard")

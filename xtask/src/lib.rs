@@ -1,7 +1,7 @@
 //! `cargo xtask`: the commands of `phase` (the crate `phase_cli`), and chores of this repository.
 //!
 //! - `book` makes a book of the documents,
-//! - `leaderboard` scores the predictions in `docs/leaderboard`,
+//! - `leaderboard` scores the predictions in `data/leaderboard`,
 //! - `playground` builds the WebAssembly first,
 //! - `results` rewrites the documents that show results,
 //! - `tidy` checks what the compiler cannot.

@@ -1,9 +1,9 @@
-//! `results`: rewrites the documents that show results from `docs/results.json`, which `benchmark --page` wrote.
+//! `results`: rewrites the documents that show results from `data/results.json`, which `benchmark --figures` wrote.
 
 use crate::{error::XtaskError, leaderboard};
 use clap::Args;
 use phase_cli::{console::print_result, error::CliError};
-use phase_eval::benchmark::Benchmark;
+use phase_eval::{benchmark::Benchmark, goals::ReportTraining};
 use phase_files::{FileError, Problem, WriteError, atomic};
 use phase_report::evaluation;
 use std::{
@@ -12,7 +12,9 @@ use std::{
 };
 
 /// The benchmark's figures.
-const FIGURES: &str = "docs/results.json";
+const FIGURES: &str = "data/results.json";
+/// The record of the fit of the model of reports.
+const REPORT_TRAINING: &str = "data/report-model.training.json";
 /// The page of all results.
 const PAGE: &str = "docs/results.md";
 /// The first page, with the most important ones between two comments.
@@ -48,7 +50,7 @@ pub fn run(options: &Results) -> Result<(), XtaskError> {
         print_result(format!("{}: {}", file.display(), if options.check { "differs" } else { "rewritten" }));
     }
     match different {
-        0 => print_result("the documents have the figures of docs/results.json"),
+        0 => print_result("the documents have the figures of data/results.json"),
         count if options.check => return Err(XtaskError::Results(count)),
         _ => {}
     }
@@ -68,6 +70,7 @@ pub fn documents(root: &Path) -> Result<Vec<(PathBuf, String)>, XtaskError> {
     let benchmark = benchmark(root)?;
     let figures = evaluation::to_lines(&evaluation::figures(&benchmark))
         .map_err(|error| CliError::from(WriteError::json(Path::new(FIGURES), error)))?;
+    check_protocols(root, &benchmark)?;
     let page = evaluation::page(&benchmark)
         .map_err(|error| CliError::Usage(format!("{FIGURES}: the page lacks a figure: {error}")))?;
     let readme = with_table(&read(&root.join(README))?, &evaluation::overview(&benchmark).to_markdown());
@@ -86,6 +89,19 @@ pub fn documents(root: &Path) -> Result<Vec<(PathBuf, String)>, XtaskError> {
 /// The benchmark whose figures are shown.
 pub(crate) fn benchmark(root: &Path) -> Result<Benchmark, XtaskError> {
     read_json(&root.join(FIGURES))
+}
+
+/// Checks that no agreement with people is labelled as something else than it is: the record of the fit has both that of the model
+/// itself and that of folds held out.
+fn check_protocols(root: &Path, benchmark: &Benchmark) -> Result<(), XtaskError> {
+    let record: ReportTraining = read_json(&root.join(REPORT_TRAINING))?;
+    for row in &benchmark.goals {
+        record.check(&row.summary).map_err(|error| {
+            let set = benchmark.sets.get(row.set).map_or("", |set| &set.label);
+            shape(&root.join(FIGURES), &format!("{} on {set} events: {error}", row.method))
+        })?;
+    }
+    Ok(())
 }
 
 /// A text with a table between the two marks; `None` without them.

@@ -1,7 +1,10 @@
 //! Roles, and agreement with people who rated events.
 
 use phase_eval::{
-    goals::{Agreement, Answer, Label, RecognisedEvent, RoleScores, SocialRole, UNIFORM_SHARE},
+    goals::{
+        Agreement, Answer, Label, Protocol, ProtocolError, REPORT_TRAINING_FORMAT, RecognisedEvent,
+        RecognitionSummary, ReportTraining, RoleScores, SocialRole, UNIFORM_SHARE,
+    },
     ratings::{RatingCounts, ratings},
 };
 use phase_model::{
@@ -146,4 +149,43 @@ fn files_of_ratings() {
         let sentence = ratings(&wrong).expect_err(part).to_string();
         assert!(sentence.contains(part), "{sentence}");
     }
+}
+
+/// An evaluation of the events that a model of reports was fitted to is labelled, and shows the figures held out; others stay.
+#[test]
+fn agreement_with_known_ratings_is_labelled_in_sample() {
+    let reported = |said: [f64; 3], predicted: [f64; 3], counts| {
+        let mut event = event(said, Some(counts), None, None);
+        let [friendly, adversarial, neutral] = predicted;
+        event.answer.reported = Some(RelationProbabilities { friendly, adversarial, neutral });
+        event
+    };
+    let events = [
+        reported([0.6, 0.2, 0.2], [0.8, 0.1, 0.1], [8, 1, 1]),
+        reported([0.2, 0.6, 0.2], [0.1, 0.8, 0.1], [1, 8, 1]),
+    ];
+    let summary = RecognitionSummary::of(&events, 1).expect("events");
+    let in_sample = summary.agreement.clone().expect("ratings");
+    let other = summary.relation_agreement.clone().expect("reports");
+    let record = ReportTraining {
+        format: REPORT_TRAINING_FORMAT.into(),
+        events_sha256: "ab".into(),
+        seed: 1,
+        in_sample: Agreement { protocol: Protocol::InSample, ..in_sample },
+        held_out: Agreement { protocol: Protocol::HeldOut { folds: 2 }, ..other },
+    };
+    assert_eq!(record.check(&summary), Err(ProtocolError::InSample), "not labelled yet");
+    let mut labelled = summary.clone();
+    record.label(&mut labelled, "ab");
+    assert_eq!(labelled.agreement.as_ref(), Some(&record.in_sample));
+    assert_eq!(labelled.held_out_agreement.as_ref(), Some(&record.held_out));
+    assert_eq!(record.check(&labelled), Ok(()));
+    let mut elsewhere = summary.clone();
+    record.label(&mut elsewhere, "cd");
+    assert_eq!(elsewhere, summary, "other events");
+    // Of a part of the events there are no figures held out.
+    let mut part = RecognitionSummary::of(&events[..1], 1).expect("an event");
+    record.label(&mut part, "ab");
+    assert_eq!(part.agreement.map(|it| it.protocol), Some(Protocol::InSample));
+    assert_eq!(part.held_out_agreement, None);
 }

@@ -23,7 +23,6 @@ use phase_report::evaluation;
 use plan::{entries, needs_networks};
 use rows::Rows;
 use serde_json::json;
-use std::path::Path;
 
 /// The benchmark's figures; written last.
 const BENCHMARK_FILE: &str = "benchmark.json";
@@ -78,26 +77,13 @@ pub fn run(arguments: &Benchmark, context: &Context) -> Result<(), CliError> {
     let benchmark = rows.finish();
     let document = evaluation::benchmark(&benchmark);
     task::write_report(out, &document)?;
-    if let Some(page) = &arguments.page {
-        write_page(page, &benchmark)?;
+    if let Some(file) = &arguments.figures {
+        let text = evaluation::to_lines(&evaluation::figures(&benchmark));
+        atomic::write(file, text.map_err(|error| WriteError::json(file, error))?.as_bytes())?;
     }
     atomic::write_json(&out.join(BENCHMARK_FILE), &benchmark)?;
     folder.map_or(Ok(()), Folder::finish)?;
     let report = out.join(task::REPORT_FILE);
     let text = format!("{}\nreport in {}", document.first_table().trim_end(), report.display());
     arguments.output.print(text, &benchmark)
-}
-
-/// Writes the results page, its figures and its pictures.
-fn write_page(file: &Path, benchmark: &phase_eval::benchmark::Benchmark) -> Result<(), CliError> {
-    let page = evaluation::page(benchmark)
-        .map_err(|error| CliError::Usage(format!("{}: the page lacks a figure: {error}", file.display())))?;
-    for (picture, svg) in page.pictures {
-        atomic::write(&file.with_file_name(picture), svg.as_bytes())?;
-    }
-    let figures = file.with_extension("json");
-    let text = evaluation::to_lines(&evaluation::figures(benchmark))
-        .map_err(|error| WriteError::json(&figures, error))?;
-    atomic::write(&figures, text.as_bytes())?;
-    Ok(atomic::write(file, page.text.as_bytes())?)
 }

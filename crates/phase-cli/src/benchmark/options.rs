@@ -52,10 +52,9 @@ pub struct Benchmark {
     /// Folder for the report; new, empty, or of a benchmark, which is overwritten
     #[arg(long, value_name = "DIR", default_value = "out/benchmark")]
     pub out: PathBuf,
-    /// Also write the results page of the documents here, its figures beside it (the same name, .json) and its pictures in a
-    /// folder `images`
-    #[arg(long, value_name = "FILE.md", conflicts_with = "shard", value_parser = page)]
-    pub page: Option<PathBuf>,
+    /// Also write the figures that documents show, a row on each line; `cargo xtask results` makes pages of them
+    #[arg(long, value_name = "FILE", conflicts_with = "shard")]
+    pub figures: Option<PathBuf>,
     /// Which part of the events, and the parts that are merged.
     #[command(flatten)]
     pub parts: Parts,
@@ -89,14 +88,5 @@ impl Benchmark {
         ];
         let given = all.into_iter().filter(|(_, values)| !values.is_empty());
         given.flat_map(|(name, values)| [name.to_owned()].into_iter().chain(values)).collect()
-    }
-}
-
-/// Reads the name of a page, which must not be that of its figures.
-fn page(text: &str) -> Result<PathBuf, String> {
-    let path = PathBuf::from(text);
-    match path.extension().is_some_and(|ending| ending == "md") {
-        true => Ok(path),
-        false => Err(format!("must end in .md, not {text:?}")),
     }
 }

@@ -24,7 +24,7 @@ use phase_eval::{
         self, BENCHMARK_FORMAT, EventSet, Familiarity, GENERATED, Origin, PAIRS, RECORDED, Row, Subset,
         Training,
     },
-    goals::RecognisedEvent,
+    goals::{RecognisedEvent, ReportTraining},
     trajectories::ForecastEvent,
 };
 use phase_files::{FileError, Problem, json};
@@ -36,6 +36,8 @@ pub(super) struct Rows<'a> {
     arguments: &'a Benchmark,
     inputs: Vec<(Input, Common)>,
     ratings: Option<Ratings>,
+    /// What the bundled model of reports was fitted to.
+    reports: ReportTraining,
     benchmark: benchmark::Benchmark,
 }
 
@@ -71,6 +73,11 @@ impl<'a> Rows<'a> {
             Ratings::read(file, &inputs, context)
         };
         let ratings = arguments.ratings.as_deref().map(of_file).transpose()?;
+        let reports = serde_json::from_str(phase_data::REPORT_TRAINING);
+        let reports = reports.map_err(|error| {
+            let problem = Problem::Shape { what: "record of a fit", rule: error.to_string() };
+            CliError::File(FileError { file: "data/report-model.training.json".into(), problem })
+        })?;
         let benchmark = benchmark::Benchmark {
             format: BENCHMARK_FORMAT.into(),
             generator: GENERATOR.into(),
@@ -81,7 +88,7 @@ impl<'a> Rows<'a> {
             trajectories: Vec::new(),
             trainings: Vec::new(),
         };
-        Ok(Self { arguments, inputs, ratings, benchmark })
+        Ok(Self { arguments, inputs, ratings, reports, benchmark })
     }
 
     /// Number of sets of events.
@@ -140,7 +147,11 @@ impl<'a> Rows<'a> {
                 let task = Goals::by_method(&name, method, weights, &minds)?.with_ratings(ratings);
                 let Some(done) = evaluate(&task, input, common, context)? else { return Ok(()) };
                 let events = done.events;
-                self.benchmark.goals.extend(row(name, origin, set, training, input, &events, seed));
+                let mut row = row(name, origin, set, training, input, &events, seed);
+                if let Some(row) = &mut row {
+                    self.reports.label(&mut row.summary, &self.benchmark.sets[set].sha256);
+                }
+                self.benchmark.goals.extend(row);
             }
             Task::Trajectories => {
                 let task = Trajectories::by_method(&name, method, weights, &minds)?;

@@ -4,6 +4,7 @@ use crate::{
     eval::{events_of, results},
     support::{refuse, succeed},
 };
+use phase_eval::benchmark::Benchmark;
 use phase_report::evaluation;
 use serde_json::{Value, json};
 use std::{fs, path::Path};
@@ -158,22 +159,24 @@ fn methods_from_outside_stand_beside_ours() {
     assert!(sentence.contains("full: contains other files (thesis.tex)"), "{sentence}");
 }
 
-/// The page and its figures are of one run; minimal pairs are asked of methods alone.
+/// The figures for documents are those of the report; minimal pairs are asked of methods alone.
 #[test]
-fn the_results_page_has_the_figures_beside_it() {
+fn figures_for_documents_make_the_results_page() {
     let folder = folder();
     let path = folder.path();
-    fs::create_dir(path.join("docs")).expect("a folder");
     fs::write(path.join("pairs.json"), PAIRS).expect("written");
     let options = ["--simulations", "10", "--particles", "4", "--no-video", "--out", "pairs"];
     succeed(path, &[&["gen-dataset", "--preset", "pairs.json"], &options[..]].concat());
     let measured = ["--data", "tiny", "--pairs", "pairs", "--methods", "cue,still"];
-    succeed(path, &[&["benchmark", "--page", "docs/results.md"], &measured[..]].concat());
-    let page = fs::read_to_string(path.join("docs/results.md")).expect("a page");
-    let command = format!("cargo xtask-networks benchmark {} --page docs/results.md", measured.join(" "));
+    succeed(path, &[&["benchmark", "--figures", "figures.json"], &measured[..]].concat());
+    let shown = fs::read_to_string(path.join("figures.json")).expect("a file");
+    let shown: Benchmark = serde_json::from_str(&shown).expect("a benchmark");
+    let page = evaluation::page(&shown).expect("a page").text;
+    let command =
+        format!("cargo xtask-networks benchmark {} --figures data/results.json", measured.join(" "));
     assert!(page.lines().any(|line| line == command), "{page}");
     assert!(page.contains("## Minimal pairs") && !page.contains("## Agreement"), "{page}");
-    let figures = figures(&path.join("docs/results.json"));
+    let figures = figures(&path.join("figures.json"));
     assert_eq!(figures["options"], json!(measured));
     let labels: Vec<&Value> =
         figures["sets"].as_array().expect("sets").iter().map(|set| &set["label"]).collect();
@@ -187,11 +190,9 @@ fn the_results_page_has_the_figures_beside_it() {
         assert!(page.contains(&format!("| {value:.3} [")), "{value} in {page}");
     }
     let whole = fs::read_to_string(path.join("out/benchmark/benchmark.json")).expect("a file");
-    let shown = evaluation::figures(&serde_json::from_str(&whole).expect("a benchmark"));
-    let beside = fs::read_to_string(path.join("docs/results.json")).expect("a file");
-    assert!(beside == evaluation::to_lines(&shown).expect("JSON") && beside.len() < whole.len() / 2);
-    let sentence = refuse(path, &["benchmark", "--data", "tiny", "--methods", "cue", "--page", "page.html"]);
-    assert!(sentence.contains("must end in .md"), "{sentence}");
+    let expected = evaluation::figures(&serde_json::from_str(&whole).expect("a benchmark"));
+    let written = fs::read_to_string(path.join("figures.json")).expect("a file");
+    assert!(written == evaluation::to_lines(&expected).expect("JSON") && written.len() < whole.len() / 2);
 }
 
 #[cfg(not(feature = "networks"))]

@@ -4,7 +4,7 @@
 //! So a method's three probabilities are compared with the shares of raters, and both with the *noise
 //! ceiling*: how well one half of the raters predicts the other.
 
-use super::{Answer, RecognisedEvent};
+use super::{Answer, Protocol, RecognisedEvent};
 use crate::{CONFIDENCE, Estimate, RESAMPLES, ratings::RatingCounts};
 use phase_model::{
     RelationProbabilities,
@@ -47,6 +47,9 @@ pub struct Agreement {
     pub mode: Estimate,
     /// The noise ceiling; `None` if no event has two ratings.
     pub ceiling: Option<Ceiling>,
+    /// Whether the ratings are those that the probabilities were fitted to.
+    #[serde(default, skip_serializing_if = "is_unfitted")]
+    pub protocol: Protocol,
 }
 
 /// The agreement of people with one another: the mean over random divisions of each event's raters into
@@ -120,6 +123,7 @@ impl Agreement {
             similarity: estimate(PAIR_RESAMPLES, &similar),
             mode: over_events(&|k| f64::from(u8::from(names_mode(&said[k], &people[k]))))?,
             ceiling: Ceiling::of(&rated, seed),
+            protocol: Protocol::default(),
         })
     }
 }
@@ -152,6 +156,10 @@ impl Ceiling {
             mode: mean(&modes)?,
         })
     }
+}
+
+fn is_unfitted(protocol: &Protocol) -> bool {
+    *protocol == Protocol::Unfitted
 }
 
 const fn shares_of(relation: &RelationProbabilities) -> Shares {

@@ -5,6 +5,7 @@ mod answer;
 mod calibration;
 mod matching;
 mod mistakes;
+mod report_training;
 mod roles;
 mod sets;
 mod summary;
@@ -14,6 +15,7 @@ pub use answer::{Answer, GoalProbability, InvalidAnswer, Label, PartialAnswer, R
 pub use calibration::{BINS, Bin, Calibration};
 pub use matching::canonical;
 pub use mistakes::{ErrorBreakdown, GOAL_KINDS};
+pub use report_training::{Protocol, ProtocolError, REPORT_TRAINING_FORMAT, ReportTraining};
 pub use roles::RoleScores;
 pub use sets::SetScores;
 pub use summary::{RELATIONS, RecognitionScores, RecognitionSummary};

@@ -77,6 +77,10 @@ pub struct RecognitionSummary {
     /// Agreement with people's ratings, of the events that were rated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub agreement: Option<Agreement>,
+    /// Agreement of reports predicted by models that did not see the event's ratings, where the method's own
+    /// model did.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub held_out_agreement: Option<Agreement>,
     /// Agreement of the probabilities of relations with people's ratings, where the method predicts reports
     /// beside them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -121,6 +125,7 @@ impl RecognitionSummary {
             roles: RoleScores::of(events, seed),
             role_kinds: role_kinds(events, seed),
             agreement: Agreement::of(events, seed),
+            held_out_agreement: None,
             relation_agreement: Agreement::of_relations(events, seed),
             confusion: confusion(events),
             goal_calibration: Calibration::of(&goal_answers(events)),

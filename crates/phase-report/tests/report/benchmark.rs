@@ -220,7 +220,7 @@ fn the_page_shows_the_same_figures_after_a_round_trip() {
     let page = evaluation::page(&benchmark).expect("a page");
     let text = &page.text;
     assert!(
-        text.contains("cargo xtask-networks benchmark --data out/made-up --page docs/results.md\n"),
+        text.contains("cargo xtask-networks benchmark --data out/made-up --figures data/results.json\n"),
         "{text}"
     );
     assert!(text.contains("Made up\n(3;"), "{text}");

@@ -12,7 +12,7 @@ use options::FitReports;
 use phase_cli::{console::print_result, error::CliError, output::json_text};
 use phase_eval::{
     Estimate,
-    goals::{Agreement, RecognisedEvent},
+    goals::{Agreement, Protocol, REPORT_TRAINING_FORMAT, RecognisedEvent, ReportTraining},
     results::GOALS_FORMAT,
 };
 use phase_files::{FileError, Problem, json};
@@ -38,10 +38,11 @@ struct Details {
 /// # Errors
 /// Results without impressions or ratings, or a file that cannot be read or written.
 pub fn run(arguments: &FitReports) -> Result<(), LabError> {
-    if let Some(out) = &arguments.out {
-        json_file::check("--out", out, core::iter::once(arguments.results.as_path()))?;
+    for (option, file) in [("--out", &arguments.out), ("--record", &arguments.record)] {
+        let inputs = core::iter::once(arguments.results.as_path());
+        file.as_ref().map_or(Ok(()), |file| json_file::check(option, file, inputs))?;
     }
-    let (events, rated) = read(arguments)?;
+    let Input { events, rated, sha256 } = read(arguments)?;
     let folds = usize::from(arguments.folds);
     if events.len() < folds {
         let rule = format!("--results: {} rated events, fewer than --folds {folds}", events.len());
@@ -68,6 +69,25 @@ pub fn run(arguments: &FitReports) -> Result<(), LabError> {
         event.answer.reported = Some(model.reports(&rated.impression));
     }
     json_file::write(arguments.out.as_deref(), &json_text(&model, "the model")?)?;
+    let seed = arguments.seed;
+    let agreement = |events: &[RecognisedEvent], protocol| {
+        Agreement::of(events, seed).map(|agreement| Agreement { protocol, ..agreement })
+    };
+    let own = agreement(&in_sample, Protocol::InSample);
+    let other = agreement(&held_out, Protocol::HeldOut { folds });
+    if let (Some(file), Some(in_sample), Some(held_out)) = (&arguments.record, &own, &other) {
+        let record = ReportTraining {
+            format: REPORT_TRAINING_FORMAT.into(),
+            events_sha256: sha256.ok_or_else(|| {
+                let rule = "field run.events_sha256 is missing, which --record needs";
+                CliError::Usage(format!("--results {}: {rule}", arguments.results.display()))
+            })?,
+            seed,
+            in_sample: in_sample.clone(),
+            held_out: held_out.clone(),
+        };
+        json_file::write(Some(file), &json_text(&record, "the record")?)?;
+    }
     let mut text = format!(
         "{} events with {} ratings; ridge {ridge}, without one fold {}\n\n{:<40} {:>22} {:>22} {:>22} {:>22}\n",
         events.len(),
@@ -79,11 +99,10 @@ pub fn run(arguments: &FitReports) -> Result<(), LabError> {
         "similarity",
         "mode"
     );
-    let seed = arguments.seed;
-    text += &line("a model that did not see the event", Agreement::of(&held_out, seed).as_ref());
-    text += &line("the model fitted to all events", Agreement::of(&in_sample, seed).as_ref());
+    text += &line("a model that did not see the event", other.as_ref());
+    text += &line("the model fitted to all events", own.as_ref());
     text += &line("the posterior of the relation", Agreement::of_relations(&in_sample, seed).as_ref());
-    if let Some(ceiling) = Agreement::of(&held_out, seed).and_then(|it| it.ceiling) {
+    if let Some(ceiling) = other.and_then(|it| it.ceiling) {
         let number = |it: Option<f64>| it.map_or_else(|| "-".into(), |it| format!("{it:.3}"));
         text += &format!(
             "{:<40} {:>22} {:>22} {:>22} {:>22}\n",
@@ -98,8 +117,16 @@ pub fn run(arguments: &FitReports) -> Result<(), LabError> {
     Ok(())
 }
 
-/// The rated events of the results, and what is fitted to.
-fn read(arguments: &FitReports) -> Result<(Vec<RecognisedEvent>, Vec<Rated>), CliError> {
+/// The results of an evaluation: the rated events.
+struct Input {
+    events: Vec<RecognisedEvent>,
+    /// The impression and the ratings of each.
+    rated: Vec<Rated>,
+    /// Digest of all events, if the results name it.
+    sha256: Option<String>,
+}
+
+fn read(arguments: &FitReports) -> Result<Input, CliError> {
     let file = &arguments.results;
     let fail = |problem: Problem| CliError::File(FileError { file: file.clone(), problem });
     let value = phase_model::json::parse(&json::bytes(file)?).map_err(|error| fail(error.into()))?;
@@ -125,7 +152,8 @@ fn read(arguments: &FitReports) -> Result<(Vec<RecognisedEvent>, Vec<Rated>), Cl
     if events.is_empty() {
         return Err(rule("no event was rated; run eval goals with --ratings"));
     }
-    Ok((events, rated))
+    let sha256 = value["run"]["events_sha256"].as_str().map(str::to_owned);
+    Ok(Input { events, rated, sha256 })
 }
 
 /// The ridge under which the reports of events held out are likeliest.

@@ -16,6 +16,10 @@ pub struct FitReports {
     /// Where to write the model fitted to all events as JSON
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
+    /// Where to write the record of the fit as JSON: to which events, and how the reports agree with ratings, also with those
+    /// held out
+    #[arg(long, value_name = "FILE")]
+    pub record: Option<PathBuf>,
     /// The seed of the division into folds and of the intervals
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub seed: u64,

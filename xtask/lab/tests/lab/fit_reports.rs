@@ -54,6 +54,37 @@ fn reports_that_follow_what_goes_on_are_predicted_for_other_events() {
     assert_eq!(succeed(path, &fit), table);
 }
 
+/// The record has the figures that are printed, each with its protocol.
+#[test]
+fn the_record_says_which_figures_are_held_out() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    let fit = ["fit-reports", "--results", "results.json", "--folds", "3", "--record", "record.json"];
+    write(path, &results(true, true));
+    let told = refuse(path, &fit);
+    assert!(told.contains("results.json: field run.events_sha256 is missing"), "{told}");
+    let mut results = results(true, true);
+    results["run"] = json!({ "events_sha256": "ab" });
+    write(path, &results);
+    let table = succeed(path, &fit);
+    let record: Value =
+        serde_json::from_slice(&fs::read(path.join("record.json")).expect("a file")).expect("JSON");
+    assert_eq!(
+        (&record["format"], &record["events_sha256"]),
+        (&json!("phase-report-training/1"), &json!("ab"))
+    );
+    assert_eq!(record["in_sample"]["protocol"], "in-sample");
+    assert_eq!(record["held_out"]["protocol"], json!({ "held-out": { "folds": 3 } }));
+    for (row, field) in
+        [("a model that did not see the event", "held_out"), ("the model fitted to all events", "in_sample")]
+    {
+        let line = table.lines().find(|line| line.starts_with(row)).expect("a line");
+        let value = record[field]["cross_entropy"]["value"].as_f64().expect("a number");
+        assert!(line.contains(&format!(" {value:.3} [")), "{line}: {value}");
+    }
+    assert_ne!(record["in_sample"]["cross_entropy"], record["held_out"]["cross_entropy"]);
+}
+
 #[test]
 fn results_that_nothing_can_be_fitted_to_are_refused() {
     let folder = tempfile::tempdir().expect("a folder");

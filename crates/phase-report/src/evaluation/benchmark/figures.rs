@@ -49,7 +49,9 @@ fn recognition(summary: &mut RecognitionSummary, whole: bool) {
     summary.relation_calibration.bins.clear();
     if !whole {
         (summary.sets, summary.roles) = (None, None);
-        (summary.agreement, summary.relation_agreement) = (None, None);
+        summary.agreement = None;
+        summary.held_out_agreement = None;
+        summary.relation_agreement = None;
     }
 }
 

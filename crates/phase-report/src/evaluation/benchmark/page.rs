@@ -55,6 +55,7 @@ pub fn page(benchmark: &Benchmark) -> Result<Page, Error> {
         "layout_tables": parts(layouts),
         "interaction_tables": parts(interactions),
         "agreement_table": table(people::agreement(benchmark)),
+        "report_protocol": people::protocol(benchmark),
         "ratings": ratings(benchmark),
         "pair_table": table(tables::sets(benchmark)),
         "training_table": table(training::table(benchmark)),

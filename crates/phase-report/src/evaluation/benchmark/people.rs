@@ -8,7 +8,7 @@ use phase_document::document::{Block, head};
 use phase_eval::{
     Estimate,
     benchmark::{Benchmark, Origin, Row},
-    goals::{Agreement, Ceiling, RecognitionSummary},
+    goals::{Agreement, Ceiling, Protocol, RecognitionSummary},
 };
 
 /// Both tables with their heading; nothing where no method says who helps or hinders and nobody was asked.
@@ -60,7 +60,9 @@ pub(super) fn agreement(benchmark: &Benchmark) -> Option<Block> {
         let (name, posterior) = (name(row), summary.relation_agreement.as_ref());
         let reports =
             if posterior.is_some() { format!("{name}, the reports that it predicts") } else { name.clone() };
-        let own = summary.agreement.as_ref().map(|agreement| line(reports, agreement));
+        // Where a model was fitted to the ratings, other models tell how good it is.
+        let agreement = summary.held_out_agreement.as_ref().or(summary.agreement.as_ref());
+        let own = agreement.map(|agreement| line(reports + of(agreement.protocol), agreement));
         let posterior =
             posterior.map(|agreement| line(format!("{name}, its posterior of the relation"), agreement));
         own.into_iter().chain(posterior)
@@ -68,6 +70,28 @@ pub(super) fn agreement(benchmark: &Benchmark) -> Option<Block> {
     let columns =
         ["method", "correlation", "cross-entropy (nat)", "similarity", "most frequent rating named"];
     Some(Block::Table { head: head(&columns), rows: [people(ceiling)].into_iter().chain(lines).collect() })
+}
+
+/// The protocol of a row in words, after its name.
+const fn of(protocol: Protocol) -> &'static str {
+    match protocol {
+        Protocol::Unfitted => "",
+        Protocol::InSample => ", in-sample",
+        Protocol::HeldOut { .. } => ", held out",
+    }
+}
+
+/// Explanation of the protocol of predicted reports, for prose; nothing where no model was fitted to the ratings.
+pub(super) fn protocol(benchmark: &Benchmark) -> Option<String> {
+    let summaries = rows(benchmark).map(|row| &row.summary);
+    let mut shown = summaries.filter_map(|it| it.held_out_agreement.as_ref().or(it.agreement.as_ref()));
+    shown.find_map(|agreement| match agreement.protocol {
+        Protocol::Unfitted => None,
+        Protocol::InSample => Some("which was fitted to these very ratings".into()),
+        Protocol::HeldOut { folds } => Some(format!(
+            "fitted {folds} times, each time without the ratings of the events that it then predicts"
+        )),
+    })
 }
 
 fn line(name: String, agreement: &Agreement) -> Vec<String> {
