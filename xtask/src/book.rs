@@ -1,7 +1,7 @@
 //! `book`: the documents as a book of pages, with every link inside it.
 //!
-//! Documents link to files elsewhere in the repository, which mdBook, whose source is one folder, would not have. So the book's
-//! source is a copy of the documents and of what they link to, in the same places.
+//! Documents link to files elsewhere in the repository, which mdBook, whose source is one folder, would not
+//! have. So the book's source is a copy of the documents and of what they link to, in the same places.
 
 use crate::{error::XtaskError, results::root, tidy::texts};
 use clap::Args;
@@ -17,7 +17,7 @@ use std::{
 const DOCUMENTS: &str = "docs";
 /// The first page.
 const FIRST: &str = "README.md";
-/// What mdBook calls it, and every other of this name.
+/// mdBook's name of it, and of every other of this name.
 const INDEX: &str = "index.md";
 /// The contents, as mdBook wants them at the top of its source.
 const CONTENTS: &str = "SUMMARY.md";
@@ -34,7 +34,8 @@ pub struct Book {
     pub out: PathBuf,
 }
 
-/// Copies the documents, has mdBook make pages of them and run their examples, and checks the links of the pages.
+/// Copies the documents, has mdBook make pages of them and run their examples, and checks the links of the
+/// pages.
 ///
 /// # Errors
 /// [`XtaskError`] if a file cannot be used, mdBook is missing or fails, or a page has a link to nothing.
@@ -119,7 +120,7 @@ fn assemble(root: &Path, folder: &Path) -> Result<usize, (PathBuf, io::Error)> {
     Ok(copied.values().filter(|title| !title.is_empty()).count() - 1)
 }
 
-/// Where a file lies in the book's source: a `README.md` is the page that mdBook calls `index.md`.
+/// Place of a file in the book's source: a `README.md` is the page that mdBook calls `index.md`.
 fn place_of(file: &Path) -> PathBuf {
     if file.ends_with(FIRST) { file.with_file_name(INDEX) } else { file.to_owned() }
 }
@@ -131,8 +132,8 @@ fn with_places(text: &str) -> String {
         .fold(text.to_owned(), |text, end| text.replace(&format!("{FIRST}{end}"), &format!("{INDEX}{end}")))
 }
 
-/// The page of a crate without tests: mdBook, which has none of the crates, cannot run the example. It is that of the
-/// crate's documentation (`tidy`), which `cargo test` runs.
+/// The page of a crate without tests: mdBook, which has none of the crates, cannot run the example. It is
+/// that of the crate's documentation (`tidy`), which `cargo test` runs.
 fn without_tests(text: &str) -> String {
     text.replace("```rust\n", "```rust,ignore\n")
 }

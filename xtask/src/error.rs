@@ -24,9 +24,9 @@ pub enum XtaskError {
     /// Something that has to be built is not.
     #[error("{what}: {problem}")]
     Build {
-        /// What was being built, or the tool that builds it.
+        /// The thing that was being built, or the tool that builds it.
         what: &'static str,
-        /// What went wrong.
+        /// The problem, in words.
         problem: String,
     },
     /// Documents do not have the figures of `data/results.json`.

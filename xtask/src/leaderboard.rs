@@ -1,7 +1,8 @@
 //! `leaderboard`: scores the predictions of methods from outside, which lie in `data/leaderboard`.
 //!
-//! A file is named `<set>/<task>/<method>.json`, where the set is the label of one of the benchmark's. Scores are kept in
-//! `scores.json` beside them, with the digest of each file, so that the page can be written, and checked, without the events.
+//! A file is named `<set>/<task>/<method>.json`, where the set is the label of one of the benchmark's. Scores
+//! are kept in `scores.json` beside them, with the digest of each file, so that the page can be written, and
+//! checked, without the events.
 
 use crate::{error::XtaskError, results};
 use clap::{Args, Parser};
@@ -31,7 +32,7 @@ pub const PAGE: &str = "docs/leaderboard.md";
 const FOLDER: &str = "data/leaderboard";
 /// The scores in it.
 const SCORES: &str = "scores.json";
-/// Who made the methods, by their names.
+/// Authors and sources of the methods, by their names.
 const SOURCES: &str = "methods.json";
 /// The tasks, as `eval` names them.
 const TASKS: [&str; 2] = ["goals", "trajectories"];
@@ -64,9 +65,8 @@ struct Predictions {
 
 /// Scores what it has the events for; other scores stay as they are.
 ///
-/// # Errors
-/// [`XtaskError`] if a file cannot be used, predictions have no score and their events were not given, or, with `--check`, a
-/// score differs.
+/// # Errors [`XtaskError`] if a file cannot be used, predictions have no score and their events were not
+/// given, or, with `--check`, a score differs.
 pub fn run(options: &Leaderboard, context: &Context) -> Result<(), XtaskError> {
     let root = results::root();
     let (benchmark, known) = (results::benchmark(root)?, scores(root)?);

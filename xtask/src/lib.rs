@@ -8,8 +8,9 @@
 //!
 //! Commands of the packages below `xtask/` are listed in [`packages`].
 //!
-//! Key design decision: a command that only people who work on PHASE need is in a package of its own, which is built when it is
-//! asked for: `cargo xtask gen-dataset` builds none of them. The price is a second start of cargo for such a command.
+//! Key design decision: a command that only people who work on PHASE need is in a package of its own, which
+//! is built when it is asked for: `cargo xtask gen-dataset` builds none of them. The price is a second start
+//! of cargo for such a command.
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]

@@ -59,8 +59,8 @@ pub struct Elsewhere {
 }
 
 impl Elsewhere {
-    /// Builds the package if need be, and runs the command in it. On Unix it takes the place of this program, so that
-    /// signals and the exit code are its own; elsewhere this program ends with its exit code.
+    /// Builds the package if need be, and runs the command in it. On Unix it takes the place of this program,
+    /// so that signals and the exit code are its own; elsewhere this program ends with its exit code.
     ///
     /// # Errors
     /// If cargo cannot be started.

@@ -1,4 +1,5 @@
-//! `results`: rewrites the documents that show results from `data/results.json`, which `benchmark --figures` wrote.
+//! `results`: rewrites the documents that show results from `data/results.json`, which `benchmark --figures`
+//! wrote.
 
 use crate::{error::XtaskError, leaderboard};
 use clap::Args;
@@ -19,7 +20,7 @@ const REPORT_TRAINING: &str = "data/report-model.training.json";
 const PAGE: &str = "docs/results.md";
 /// The first page, with the most important ones between two comments.
 const README: &str = "README.md";
-/// Where its table begins and ends.
+/// Lines before and after its table.
 const MARKS: [&str; 2] =
     ["<!-- Written by `cargo xtask results`. -->\n", "<!-- End of what `cargo xtask results` writes. -->\n"];
 
@@ -91,8 +92,8 @@ pub(crate) fn benchmark(root: &Path) -> Result<Benchmark, XtaskError> {
     read_json(&root.join(FIGURES))
 }
 
-/// Checks that no agreement with people is labelled as something else than it is: the record of the fit has both that of the model
-/// itself and that of folds held out.
+/// Checks that no agreement with people is labelled as something else than it is: the record of the fit has
+/// both that of the model itself and that of folds held out.
 fn check_protocols(root: &Path, benchmark: &Benchmark) -> Result<(), XtaskError> {
     let record: ReportTraining = read_json(&root.join(REPORT_TRAINING))?;
     for row in &benchmark.goals {

@@ -1,4 +1,5 @@
-//! Builds the playground's WebAssembly: compiles `phase-playground` for browsers and has `wasm-bindgen` write what JavaScript loads.
+//! Builds the playground's WebAssembly: compiles `phase-playground` for browsers and has `wasm-bindgen` write
+//! what JavaScript loads.
 
 use crate::error::XtaskError;
 use phase_cli::context::Context;

@@ -50,7 +50,7 @@ pub(crate) fn mean(substeps: &[State; SUBSTEPS]) -> [Body; MAX_ENTITIES] {
     })
 }
 
-/// Which object each agent holds.
+/// Object that each agent holds.
 pub(crate) fn held(state: &State) -> [Option<ObjectId>; AGENT_COUNT] {
     AgentId::ALL.map(|agent| state.held_object(agent))
 }

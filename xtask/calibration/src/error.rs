@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-/// Why a file of probes or runs cannot be used, in one plain sentence.
+/// Reason that a file of probes or runs cannot be used, in one plain sentence.
 #[derive(Debug, Error)]
 pub enum ReadError {
     /// It is not JSON, or contains a number that is out of range.
@@ -11,17 +11,17 @@ pub enum ReadError {
     /// A field has the wrong type or shape.
     #[error("field `{field}` must be {shape}: {source}")]
     Shape {
-        /// Where in the file, such as `probes[3].actions`.
+        /// Place in the file, such as `probes[3].actions`.
         field: String,
-        /// What it must be, such as `four numbers`.
+        /// The expected value, such as `four numbers`.
         shape: String,
-        /// What it is instead.
+        /// The value that is there instead.
         source: serde_json::Error,
     },
     /// A field violates a rule.
     #[error("field `{field}` {rule}")]
     Field {
-        /// Where in the file, such as `probes[3].actions`.
+        /// Place in the file, such as `probes[3].actions`.
         field: String,
         /// The rule, such as `is missing`.
         rule: String,

@@ -1,4 +1,4 @@
-//! Which probes belong together.
+//! Families of probes.
 
 /// Prefixes of names that belong to a family of another name, longest first where one is a prefix of another.
 const PREFIXES: [(&str, &str); 6] = [

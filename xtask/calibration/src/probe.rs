@@ -55,7 +55,7 @@ impl Probe {
         Self::from_value(&read::json(text)?)
     }
 
-    /// The same from a JSON tree.
+    /// Reads probes from a JSON tree.
     ///
     /// # Errors
     /// A [`ReadError`] that names field and rule.

@@ -80,7 +80,7 @@ impl<'a> Entry<'a> {
         })
     }
 
-    /// The same for a member that may be absent or null.
+    /// Reads a member that may be absent or null.
     pub(crate) fn optional<T: Deserialize<'a>>(
         &self,
         key: &str,
@@ -133,7 +133,7 @@ impl<'a> Entry<'a> {
         Ok(first.iter().zip(second).map(|(&first, &second)| [first, second]).collect())
     }
 
-    /// Which object each agent holds after each step.
+    /// Object that each agent holds after each step.
     pub(crate) fn held(&self, steps: usize) -> Result<Vec<[Option<ObjectId>; AGENT_COUNT]>, ReadError> {
         const KEY: &str = "attached_after_step";
         let held: Vec<[Option<ObjectId>; AGENT_COUNT]> = self.take(KEY, "a list of pairs of 0, 1 or null")?;

@@ -13,7 +13,7 @@ pub struct Replay {
     pub physics: PhysicsConfig,
     /// The state before the idle substep.
     pub initial: State,
-    /// What both agents did, by step.
+    /// Actions of both agents, by step.
     pub actions: Vec<[Action; AGENT_COUNT]>,
     /// The means over the five substeps of each step; angular velocities are not recorded.
     pub rows: Vec<[Body; MAX_ENTITIES]>,

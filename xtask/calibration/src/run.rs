@@ -33,7 +33,7 @@ impl Run {
         Self::from_value(&read::json(text)?)
     }
 
-    /// The same from a JSON tree.
+    /// Reads runs from a JSON tree.
     ///
     /// # Errors
     /// A [`ReadError`] that names field and rule.

@@ -1,4 +1,5 @@
-//! Both engines in random scenes: energy from nowhere, overlaps, worlds rebuilt from their state, two agents that meet.
+//! Both engines in random scenes: energy from nowhere, overlaps, worlds rebuilt from their state, two agents
+//! that meet.
 
 mod energy;
 mod meeting;

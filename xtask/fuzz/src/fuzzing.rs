@@ -9,7 +9,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 pub struct Failure {
     /// The input.
     pub input: Vec<u8>,
-    /// What the panic said.
+    /// Message of the panic.
     pub message: String,
 }
 
@@ -25,8 +25,8 @@ pub fn run_once(check: Check, input: &[u8]) -> Result<(), Failure> {
     })
 }
 
-/// Runs a target on its seeds and on a corpus, and then on random mutations of both until `goes_on` returns false. Returns the
-/// number of executions.
+/// Runs a target on its seeds and on a corpus, and then on random mutations of both until `goes_on` returns
+/// false. Returns the number of executions.
 ///
 /// # Errors
 /// The first failure.

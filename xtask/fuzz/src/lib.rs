@@ -1,4 +1,4 @@
-//! What fuzzing checks: every reader, both engines, planners and searches, each as a function of some bytes.
+//! Checks by fuzzing: every reader, both engines, planners and searches, each as a function of some bytes.
 //!
 //! ```
 //! use phase_fuzz::scenes::{Doing, Start, actions, physique, start};

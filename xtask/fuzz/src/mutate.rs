@@ -9,7 +9,7 @@ const MOST_CHANGES: usize = 6;
 const LONGEST_PIECE: usize = 64;
 /// Longest input (bytes).
 const LONGEST: usize = 1 << 16;
-/// What readers of texts and numbers are most likely to take amiss.
+/// Bytes that readers of texts and numbers are most likely to take amiss.
 const TOKENS: [&[u8]; 24] = [
     b"0",
     b"-1",

@@ -14,15 +14,15 @@ const ROOM: f32 = 0.02;
 const DRAWS: usize = 24;
 /// Maximum speed along an axis (u/s) and turning rate (rad/s) of a fast start.
 const FAST: (f32, f32) = (30.0, 8.0);
-/// The same of an odd start.
+/// Maximum speed along an axis (u/s) and turning rate (rad/s) of an odd start.
 const ODD: (f32, f32) = (70.0, 30.0);
 
-/// How a scene starts.
+/// Kind of start of a scene.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Start {
     /// At rest, no two bodies and no body and wall overlapping: what the sampler makes.
     Apart,
-    /// The same, but moving at up to 42 u/s.
+    /// No two bodies and no body and wall overlapping, moving at up to 42 u/s.
     Fast,
     /// At rest, anywhere in the arena: in walls and in each other.
     Overlapping,
@@ -126,7 +126,7 @@ pub fn outline(physics: &PhysicsConfig, state: &State, entity: Entity, margin: f
     Outline::of(&other, entity, state.body(entity))
 }
 
-/// Which actions are drawn.
+/// Kind of actions that are drawn.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Doing {
     /// Any.
@@ -175,7 +175,7 @@ pub struct Overlap {
     pub pair: [Entity; 2],
     /// By how much the outlines overlap, by how much less both would have to be (u).
     pub depth: f32,
-    /// The same as a share of the smaller radius.
+    /// The depth as a share of the smaller radius.
     pub share: f32,
 }
 

@@ -1,7 +1,7 @@
 //! The targets: functions of some bytes that panic if anything is wrong.
 //!
-//! A reader may refuse any input, but must not panic, and what it accepts must be written and read again unchanged where there
-//! is a writer.
+//! A reader may refuse any input, but must not panic, and what it accepts must be written and read again
+//! unchanged where there is a writer.
 
 mod engines;
 mod files;

@@ -1,4 +1,5 @@
-//! Bounds of what both engines do wrong. `cargo xtask check-engines` measures the same in more scenes; `docs/physics.md` explains it.
+//! Bounds of what both engines do wrong. `cargo xtask check-engines` measures the same in more scenes;
+//! `docs/physics.md` explains it.
 
 use phase_fuzz::{
     engines::{GAIN, Kind, energy_gains, meetings, overlaps, rebuilt},
@@ -12,7 +13,8 @@ const SCENES: u64 = 12;
 proptest! {
     #![proptest_config(ProptestConfig { cases: 12, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// From starts without overlaps, engines make hardly any energy where nothing is held: 3 substeps of 1.3 million did.
+    /// From starts without overlaps, engines make hardly any energy where nothing is held: 3 substeps of 1.3
+    /// million did.
     #[test]
     fn energy_comes_from_somewhere(seed in 0..u64::MAX / 2, fast in any::<bool>()) {
         let begins = if fast { Start::Fast } else { Start::Apart };
@@ -30,8 +32,8 @@ proptest! {
         prop_assert_eq!((gains.separating, gains.free), (0, 0), "{:?}", gains);
     }
 
-    /// Bodies that start at rest overlap by no more than what they move in a substep, or a released object may; and not for
-    /// long.
+    /// Bodies that start at rest overlap by no more than what they move in a substep, or a released object
+    /// may; and not for long.
     #[test]
     fn overlaps_come_from_speed(seed in 0..u64::MAX / 2) {
         for (kind, beyond, longest) in

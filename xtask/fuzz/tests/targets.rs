@@ -1,4 +1,5 @@
-//! Every target, shortly: on its seeds, on inputs that once failed, and on mutations of both. `cargo xtask fuzz` runs them for longer.
+//! Every target, shortly: on its seeds, on inputs that once failed, and on mutations of both. `cargo xtask
+//! fuzz` runs them for longer.
 
 use phase_calibration::{Probe, Run};
 use phase_dataset::{
@@ -19,7 +20,8 @@ use std::{cell::Cell, fs, path::Path};
 /// Mutations of each target.
 const MUTATIONS: u32 = 60;
 
-/// The inputs kept in `corpus/<target>`: some that once failed, small files that were made by commands, and some that fuzzing guided by coverage found.
+/// The inputs kept in `corpus/<target>`: some that once failed, small files that were made by commands, and
+/// some that fuzzing guided by coverage found.
 fn corpus(target: &str) -> Vec<Vec<u8>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("corpus").join(target);
     let Ok(files) = fs::read_dir(folder) else { return Vec::new() };

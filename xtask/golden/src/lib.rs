@@ -8,7 +8,8 @@
 //! and types may change, results may not. The trade-off is that a digest shows *that* something changed, not
 //! what; tables therefore have a line for each part.
 //!
-//! Tests use this crate, and its program runs them: `cargo xtask golden --bless` rewrites the files and prints what changed.
+//! Tests use this crate, and its program runs them: `cargo xtask golden --bless` rewrites the files and
+//! prints what changed.
 //!
 //! ```
 //! use phase_golden::{Digest, fixtures};

@@ -22,7 +22,7 @@ use phase_cli::{
 #[derive(Parser, Debug)]
 #[command(version)]
 pub struct Cli {
-    /// What to do.
+    /// The command.
     #[command(subcommand)]
     pub command: Command,
     /// Verbosity.

@@ -17,7 +17,7 @@ pub enum LabError {
     Calibration {
         /// The file.
         file: PathBuf,
-        /// What is wrong with it.
+        /// The problem with it.
         source: ReadError,
     },
     /// The bundled intent network cannot be read.

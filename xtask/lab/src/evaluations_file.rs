@@ -1,4 +1,5 @@
-//! A file in which evaluations are kept, so that an interrupted fit goes on where it was: one JSON object a line.
+//! A file in which evaluations are kept, so that an interrupted fit goes on where it was: one JSON object a
+//! line.
 
 use phase_cli::error::CliError;
 use phase_files::{FileError, Problem, WriteError};
@@ -17,7 +18,7 @@ pub(crate) struct Line<T> {
     pub(crate) key: String,
     /// The event's id, for readers.
     pub(crate) event: String,
-    /// What was found.
+    /// The result of the evaluation.
     #[serde(flatten)]
     pub(crate) figures: T,
 }
@@ -30,8 +31,8 @@ pub(crate) struct EvaluationsFile {
 }
 
 impl EvaluationsFile {
-    /// Opens the file beside another, or begins it; returns the evaluations in it, too. A line that is no evaluation,
-    /// such as the last one of a run that was killed, is skipped.
+    /// Opens the file beside another, or begins it; returns the evaluations in it, too. A line that is no
+    /// evaluation, such as the last one of a run that was killed, is skipped.
     ///
     /// # Errors
     /// If it cannot be read or written.

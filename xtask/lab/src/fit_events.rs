@@ -1,4 +1,5 @@
-//! What the commands that fit SIMPLE to events share: their options, and figures of events that are computed once and kept.
+//! Shared by the commands that fit SIMPLE to events: their options, and figures of events that are computed
+//! once and kept.
 
 use crate::{
     check_minds,
@@ -27,24 +28,25 @@ use std::{
 /// Options of `fit-forecast` and `fit-inference`.
 #[derive(Args, Debug)]
 pub struct FitEvents {
-    /// The events to fit to: a file in the format phase-events/1, or the folder of a dataset or of simulations; may be given
-    /// several times
+    /// The events to fit to: a file in the format phase-events/1, or the folder of a dataset or of
+    /// simulations; may be given several times
     #[arg(long, value_name = "FILE|DIR", required = true)]
     pub events: Vec<PathBuf>,
-    /// Further events, to which nothing is fitted; their figures are reported beside. May be given several times
+    /// Further events, to which nothing is fitted; their figures are reported beside. May be given several
+    /// times
     #[arg(long, value_name = "FILE|DIR")]
     pub held_out: Vec<PathBuf>,
     /// Only the first N events of each file
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..))]
     pub limit: Option<u32>,
-    /// Where to write what was fitted as JSON; what was simulated of each event is kept in a file beside it, and the same command
-    /// goes on from there
+    /// File for the fit (JSON); what was simulated of each event is kept in a file beside it, and the same
+    /// command goes on from there
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
     /// The seed of all random draws, the same in every event, and of a division into folds
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub seed: u64,
-    /// How many events at once.
+    /// Number of events at once.
     #[command(flatten)]
     pub jobs: Jobs,
 }
@@ -94,7 +96,8 @@ pub(crate) struct KeptFigures<'a, T> {
 }
 
 impl<'a, T: Clone + Send + Sync + Serialize + DeserializeOwned> KeptFigures<'a, T> {
-    /// Nothing yet but what the file holds. `settings` names what determines the figures beside program, seed and event.
+    /// Nothing yet but what the file holds. `settings` names what determines the figures beside program, seed
+    /// and event.
     ///
     /// # Errors
     /// If that file cannot be used.
@@ -110,8 +113,8 @@ impl<'a, T: Clone + Send + Sync + Serialize + DeserializeOwned> KeptFigures<'a, 
         Ok(Self { arguments, context, made_by, file, known })
     }
 
-    /// The figures of these events, in their order. `compute` calls its tick about once a simulation, `ticks` times an event, and
-    /// returns `None` if the tick breaks.
+    /// The figures of these events, in their order. `compute` calls its tick about once a simulation, `ticks`
+    /// times an event, and returns `None` if the tick breaks.
     ///
     /// # Errors
     /// An event that cannot be simulated, a file that cannot be written, or an interruption.

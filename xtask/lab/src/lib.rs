@@ -1,5 +1,5 @@
-//! Fits of minds and inference to recordings and events whose labels are known, and checks of minds, behaviour and physics:
-//! commands of `cargo xtask`.
+//! Fits of minds and inference to recordings and events whose labels are known, and checks of minds,
+//! behaviour and physics: commands of `cargo xtask`.
 //!
 //! - `check-behaviour` shows how reliably agents do what they are planned to do,
 //! - `check-minds` compares minds with recorded agents,
@@ -10,8 +10,9 @@
 //! - `fit-minds` fits the parameters of minds to recorded agents,
 //! - `fit-reports` fits how people report what they saw.
 //!
-//! Key design decision: a number that was fitted can be fitted again, by a command that anyone can run. The price is a package
-//! that users of PHASE never need, so `cargo xtask` builds it only when one of these commands is asked for.
+//! Key design decision: a number that was fitted can be fitted again, by a command that anyone can run. The
+//! price is a package that users of PHASE never need, so `cargo xtask` builds it only when one of these
+//! commands is asked for.
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]

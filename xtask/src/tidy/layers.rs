@@ -3,8 +3,8 @@
 use super::Workspace;
 use std::path::Path;
 
-/// The crates, and the packages below `xtask/`, from the bottom layer up. Each may use those before it, never those
-/// after it.
+/// The crates, and the packages below `xtask/`, from the bottom layer up. Each may use those before it, never
+/// those after it.
 pub fn layers() -> impl Iterator<Item = &'static str> {
     include_str!("layers.txt").lines()
 }
@@ -55,7 +55,8 @@ fn check_uses(workspace: &mut Workspace, name: &str, manifest: &Path) {
                     format!("{name} must not use {used}, which is not below it"),
                 );
             }
-            // Tests may use crates of higher layers. With a version these would have to be published before this crate is.
+            // Tests may use crates of higher layers. With a version these would have to be published before
+            // this crate is.
             "[dev-dependencies]" if published && has_version(line, used, &versions) => {
                 let rule = format!("tests of {name} use {used}, which is not below it: by `path` alone");
                 workspace.report(manifest, k + 1, rule);

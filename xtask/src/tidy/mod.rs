@@ -27,7 +27,7 @@ pub struct Finding {
     pub file: PathBuf,
     /// The line, from 1.
     pub line: usize,
-    /// What is wrong, in a sentence.
+    /// The rule that is broken, in a sentence.
     pub rule: String,
 }
 

@@ -1,4 +1,4 @@
-//! Which modules of a crate use which: no cycles.
+//! Modules of a crate that use each other: no cycles.
 
 use super::Workspace;
 use petgraph::{algo::tarjan_scc, graph::DiGraph};
@@ -9,8 +9,8 @@ use std::{
 
 /// Reports every set of modules that use each other in a cycle, at the crate's root.
 ///
-/// A module is a file or folder right below `src`; it uses another if it names it, or something that the crate
-/// root re-exports from it, in a path that starts with `crate::`.
+/// A module is a file or folder right below `src`; it uses another if it names it, or something that the
+/// crate root re-exports from it, in a path that starts with `crate::`.
 pub(super) fn check(workspace: &mut Workspace) {
     for package in workspace.packages().into_iter().filter(|package| !package.is_exempt("cycles")) {
         let root = package.folder.join("src");

@@ -1,11 +1,13 @@
-//! What every crate has to show on the page of a registry: a README whose example is compiled, and the keys to find it by.
+//! Rules of the page that a registry shows of a crate: a README whose example is compiled, and the keys to
+//! find it by.
 
 use super::{Package, Workspace};
 use std::path::Path;
 
 /// Its README is that of the Python package.
 const PYTHON: &str = "phase-python";
-/// What a published crate must say of itself. Cargo asks for the description, registries for nothing more.
+/// Keys of the manifest that a published crate must have. Cargo asks for the description, registries for
+/// nothing more.
 const KEYS: [&str; 4] = ["description", "readme", "keywords", "categories"];
 
 /// Every package has a README with its name and the example of its documentation, which is compiled and run.
@@ -48,7 +50,8 @@ fn check_package(workspace: &mut Workspace, package: &Package, root: &Path) {
     }
 }
 
-/// The first block of code that opens with a fence, without lines that documentation hides and without empty lines at its end.
+/// The first block of code that opens with a fence, without lines that documentation hides and without empty
+/// lines at its end.
 fn example<'a>(lines: impl Iterator<Item = &'a str>, fence: &str) -> Vec<&'a str> {
     let block = lines.skip_while(|line| !line.starts_with(fence)).skip(1).take_while(|line| *line != "```");
     let mut shown: Vec<&str> = block.filter(|line| *line != "#" && !line.starts_with("# ")).collect();

@@ -1,4 +1,5 @@
-//! Rust files as `rustfmt` leaves them: which characters are code, which lines are tests, and what can be counted there.
+//! Rust files as `rustfmt` leaves them: which characters are code, which lines are tests, and what can be
+//! counted there.
 
 use std::path::{Path, PathBuf};
 

@@ -1,4 +1,4 @@
-//! What Rust files must and must not contain.
+//! Rules of Rust files: required attributes, forbidden words, length.
 
 use super::Workspace;
 use std::path::Path;

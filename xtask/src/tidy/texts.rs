@@ -76,8 +76,8 @@ fn without_code(line: &str) -> String {
     line.split('`').step_by(2).collect()
 }
 
-/// The anchors of a document's headings, as code forges and books make them: letters, digits, `-` and `_` in lower case, `-` for
-/// a space, and a number where a heading is repeated.
+/// The anchors of a document's headings, as code forges and books make them: letters, digits, `-` and `_` in
+/// lower case, `-` for a space, and a number where a heading is repeated.
 fn headings(text: &str) -> BTreeSet<String> {
     let mut anchors = BTreeSet::new();
     for (_, line) in prose(text) {

@@ -26,7 +26,7 @@ fn documents() -> Vec<PathBuf> {
     found
 }
 
-/// What is wrong with a command of `phase` or `cargo xtask`; nothing with others.
+/// Complaint about a command of `phase` or `cargo xtask`; nothing with others.
 fn complaint(words: &[String]) -> Option<String> {
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
     let arguments: Vec<&str> = match words.as_slice() {

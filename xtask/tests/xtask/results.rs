@@ -8,7 +8,7 @@ use phase_eval::{
 use std::{fs, path::Path};
 use xtask::results::documents;
 
-/// What the documents are made of, beside the leaderboard.
+/// Sources of the documents, beside the leaderboard.
 const SOURCES: [&str; 5] = [
     "data/report-model.training.json",
     "data/results.json",
@@ -65,7 +65,8 @@ fn a_typed_figure_is_noticed() {
     }
 }
 
-/// The results file says of every agreement with people whether the model knew their ratings, and the page shows what it says.
+/// The results file says of every agreement with people whether the model knew their ratings, and the page
+/// shows what it says.
 #[test]
 fn figures_in_sample_cannot_be_shown_as_held_out() {
     let folder = copied();

@@ -4,7 +4,7 @@ use std::{fs, path::Path};
 use xtask::tidy::{check, layers};
 
 const ROOT: &str = "//! It.\n//!\n//! ```\n//! # hidden();\n//! f();\n//! ```\n#![forbid(unsafe_code)]\n#![deny(missing_docs)]\n";
-/// What a crate says of itself.
+/// Keys that a published crate must have.
 const KEYS: &str = "description = \"\"\nreadme = \"\"\nkeywords = []\ncategories = []\n";
 
 fn readme_of(name: &str) -> String {

@@ -18,7 +18,7 @@ pub enum TortureError {
     Undisturbed {
         /// The command.
         what: &'static str,
-        /// What went wrong.
+        /// The problem, in words.
         problem: String,
     },
     /// The user interrupted a command that keeps nothing of what it has done.

@@ -17,7 +17,7 @@ use thiserror::Error;
 #[derive(Parser, Debug)]
 #[command(version)]
 pub struct Cli {
-    /// What to do.
+    /// The command.
     #[command(subcommand)]
     command: Command,
     /// Verbosity.

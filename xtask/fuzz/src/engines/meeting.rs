@@ -1,4 +1,5 @@
-//! Two agents that meet: the world beside the kernel, which reproduces recordings of such meetings to a thousandth of a unit.
+//! Two agents that meet: the world beside the kernel, which reproduces recordings of such meetings to a
+//! thousandth of a unit.
 
 use super::{Kind, Quantiles, Running, apart, quantiles};
 use crate::{
@@ -36,7 +37,7 @@ pub struct Meetings {
     pub one_step: Quantiles,
     /// After all steps: the kernel beside one whose start is disturbed by the size of a recording's rounding.
     pub disturbed: Quantiles,
-    /// The same for one disturbed by the world's median error at the first contact.
+    /// After all steps: the kernel beside one disturbed by the world's median error at the first contact.
     pub disturbed_as_world: Quantiles,
 }
 

@@ -1,4 +1,4 @@
-//! How deeply bodies overlap.
+//! Depth of overlaps of bodies.
 
 use super::{Kind, Scenes, Substep};
 use crate::scenes::{Doing, Overlap, Start, deepest_overlap};
@@ -22,8 +22,8 @@ pub struct Overlaps {
     pub deep_and_free: usize,
     /// The deepest (u), without held objects.
     pub deepest: f32,
-    /// By how much an overlap without held objects exceeds the way of both bodies in the substep, or what a released object
-    /// may, at most (u).
+    /// By how much an overlap without held objects exceeds the way of both bodies in the substep, or what a
+    /// released object may, at most (u).
     pub beyond: f32,
     /// Substeps that an overlap counted in `deep_and_free` lasts at most.
     pub longest: usize,

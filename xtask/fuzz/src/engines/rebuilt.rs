@@ -17,9 +17,10 @@ pub struct Rebuilt {
     pub differ: usize,
     /// Those of them in which no object had been released before.
     pub differ_unreleased: usize,
-    /// How far apart bodies then are (u): median, nine in ten, 99 in 100, all, where nothing had been released.
+    /// Distance between the bodies then (u): median, nine in ten, 99 in 100, all, where nothing had been
+    /// released.
     pub apart: Quantiles,
-    /// How far at most where something had been (u).
+    /// Greatest distance where something had been released (u).
     pub most_released: f32,
     /// Steps after which a copy of the world differed.
     pub copies_differ: usize,

@@ -1,4 +1,4 @@
-//! What was measured, as tables.
+//! The measurements, as tables.
 
 use super::{GAIN, Kind, energy_gains, meetings, overlaps, rebuilt};
 use crate::scenes::Start;
@@ -6,7 +6,8 @@ use core::{fmt::Write as _, ops::Range};
 
 /// Engines whose overlaps are measured.
 const KINDS: [Kind; 3] = [Kind::World, Kind::Kernel, Kind::KernelWithCache];
-/// An engine whose energies are measured beside: with a thousand sweeps the world's solver has converged where it ever does.
+/// An engine whose energies are measured beside: with a thousand sweeps the world's solver has converged
+/// where it ever does.
 const CONVERGED: Kind = Kind::WorldWithPasses(1000);
 
 /// Measures everything in scenes `seeds` of each kind. What comes next is announced.

@@ -10,7 +10,7 @@ use phase_model::{Body, PhysicsConfig, State, Vec2, arena};
 
 /// Steps of a scene.
 const STEPS: usize = 8;
-/// How far an origin may be outside the arena in the kernel, which keeps centres of mass inside (u).
+/// Greatest distance of an origin outside the arena in the kernel, which keeps centres of mass inside (u).
 const OUTSIDE: f32 = 0.3;
 /// A scene, and a start with any numbers in it.
 fn scene(bytes: &mut Bytes<'_>) -> (PhysicsConfig, State) {
@@ -33,8 +33,8 @@ fn scene(bytes: &mut Bytes<'_>) -> (PhysicsConfig, State) {
     (physics, state)
 }
 
-/// Nothing that is no number, and nothing outside. There is no bound of speeds: an impact turns the spin of a body, which may begin with any,
-/// into speed of another.
+/// Nothing that is no number, and nothing outside. There is no bound of speeds: an impact turns the spin of a
+/// body, which may begin with any, into speed of another.
 fn check(physics: &PhysicsConfig, after: &State, outside: f32) {
     assert!(after.is_finite(physics), "not finite: {after:?}");
     for entity in physics.entities() {

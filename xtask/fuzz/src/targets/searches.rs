@@ -88,8 +88,8 @@ impl GenerativeModel for Small<'_> {
     }
 }
 
-/// A search in a small problem: it ends, its visits are those of its simulations, it takes legal actions only, and its values are
-/// within the range of returns.
+/// A search in a small problem: it ends, its visits are those of its simulations, it takes legal actions
+/// only, and its values are within the range of returns.
 pub(super) fn pomcp(data: &[u8]) {
     let mut bytes = Bytes::new(data);
     let settings = PomcpSettings {

@@ -21,7 +21,8 @@ impl Machine {
         }
     }
 
-    /// What starts its programs. Paths in it are absolute: cargo starts tests in the folders of their packages.
+    /// Command that starts its programs. Paths in it are absolute: cargo starts tests in the folders of their
+    /// packages.
     fn runner(self, root: &Path) -> Vec<String> {
         match self {
             // Where the linker for it has its libraries, too.

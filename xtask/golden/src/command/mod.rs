@@ -1,5 +1,5 @@
-//! `golden`: runs the golden tests of all crates, or rewrites the values that they compare with; also those of the engines and of
-//! events as another machine.
+//! `golden`: runs the golden tests of all crates, or rewrites the values that they compare with; also those
+//! of the engines and of events as another machine.
 
 mod machine;
 
@@ -60,13 +60,14 @@ struct GoldenOptions {
     /// Rewrite the golden values and print every line that changed
     #[arg(long)]
     bless: bool,
-    /// Run those of the engines, of events and of an inference as another machine does, by an emulator; compare them with the same values
+    /// Run those of the engines, of events and of an inference as another machine does, by an emulator;
+    /// compare them with the same values
     #[arg(long, value_enum, conflicts_with = "bless")]
     machine: Option<Machine>,
 }
 
-/// Packages whose golden tests other machines run: both engines, whole events, an inference. The one that is left needs other processes,
-/// which not every machine has.
+/// Packages whose golden tests other machines run: both engines, whole events, an inference. The one that is
+/// left needs other processes, which not every machine has.
 const ELSEWHERE: [&str; 4] = ["phase-forward", "phase-sim", "phase-simple", "phase-world"];
 
 impl Cli {
@@ -81,8 +82,8 @@ impl Cli {
     }
 }
 
-/// Runs every test named `golden` of the workspace that this program was built from. With `--bless` their files are
-/// rewritten and every line that changed is printed.
+/// Runs every test named `golden` of the workspace that this program was built from. With `--bless` their
+/// files are rewritten and every line that changed is printed.
 ///
 /// # Errors
 /// [`GoldenError`] if a value differs, or if a file or cargo cannot be used.

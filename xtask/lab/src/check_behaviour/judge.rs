@@ -23,9 +23,9 @@ pub(super) struct Verdict {
     pub shown: Option<bool>,
     /// The outcome of the judged agent's goal.
     pub with: GoalOutcome,
-    /// The same without the other's contribution.
+    /// The outcome of that goal without the other's contribution.
     pub without: Option<GoalOutcome>,
-    /// What was seen, in words, for people.
+    /// Observations in words, for people.
     pub notes: String,
 }
 

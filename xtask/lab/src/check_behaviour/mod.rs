@@ -37,7 +37,7 @@ use trial::TrialRunner;
 
 /// The report's file name in the output folder; it is written last.
 const REPORT_FILE: &str = "behaviour.json";
-/// Where the contact sheets go.
+/// Folder of the contact sheets.
 const SHEETS: &str = "sheets";
 /// Frames of a contact sheet.
 const SHEET_FRAMES: usize = 15;
@@ -120,7 +120,7 @@ fn scenes(arguments: &CheckBehaviour) -> Result<Vec<(usize, String, Scene)>, Cli
     Ok(scenes)
 }
 
-/// Why a scene cannot be simulated here, if it cannot.
+/// Reason that a scene cannot be simulated here, if there is one.
 fn problem(scene: &Scene) -> Option<String> {
     if scene.layout.flip().is_some() {
         return Some("field `layout.flip` must be null, since scenes are mirrored here".into());

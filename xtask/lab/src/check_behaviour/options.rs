@@ -8,7 +8,8 @@ use std::path::PathBuf;
 /// Options of `check-behaviour`.
 #[derive(Args, Debug)]
 pub struct CheckBehaviour {
-    /// Print the report as one JSON object on stdout, and nothing else there; or, with a file, write it there too
+    /// Print the report as one JSON object on stdout, and nothing else there; or, with a file, write it there
+    /// too
     #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = "-")]
     pub json: Option<PathBuf>,
     /// Only these rows of the table in docs/behaviour.md
@@ -20,7 +21,7 @@ pub struct CheckBehaviour {
     /// Folder for report and contact sheets; new, empty, or of such a check, whose results are replaced
     #[arg(long, value_name = "DIR", default_value = "out/behaviour")]
     pub out: PathBuf,
-    /// Which of the bundled scenes to simulate
+    /// Set of bundled scenes to simulate
     #[arg(long, value_name = "SET", value_enum, default_value_t, conflicts_with = "scenes")]
     pub set: SceneSet,
     /// Folder with other scenes
@@ -32,7 +33,7 @@ pub struct CheckBehaviour {
     /// Parameters of the agents.
     #[command(flatten)]
     pub effort: SimulationOptions,
-    /// How many events at once.
+    /// Number of events at once.
     #[command(flatten)]
     pub jobs: Jobs,
 }

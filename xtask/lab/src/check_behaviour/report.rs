@@ -46,7 +46,7 @@ struct Rates {
     without: Option<Reached>,
 }
 
-/// How often the judged goal was reached and in how many steps.
+/// Number of times that the judged goal was reached, and steps that it took.
 #[derive(Clone, Debug)]
 struct Reached {
     count: usize,

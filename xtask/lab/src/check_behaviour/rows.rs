@@ -9,7 +9,7 @@ pub(super) struct BehaviourTest {
     pub row: u8,
     /// The file in a set's folder without `.json`; begins with the row.
     pub name: &'static str,
-    /// What is checked, in words.
+    /// The intended behaviour, in words.
     pub title: &'static str,
     /// An agent that is idle because the scene is about the other alone.
     pub idle: Option<AgentId>,
@@ -21,16 +21,16 @@ pub(super) struct BehaviourTest {
     pub lambda: Option<f64>,
     /// Whether the event lasts to its maximum length however quiet it is.
     pub runs_full_length: bool,
-    /// What counts as success.
+    /// Condition of success.
     pub criterion: Criterion,
 }
 
-/// What an event has to show to count as a success.
+/// Condition on which an event counts as a success.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Criterion {
     /// Every agent that is not idle reaches its goal.
     Reach,
-    /// The same; and at the end nothing is held and nothing moves.
+    /// Every agent that is not idle reaches its goal, and at the end nothing is held and nothing moves.
     Fetch,
     /// Of the two regions on either side of its room the agent first searches this one (0 the near one of one
     /// room, 1 the larger).
@@ -51,7 +51,7 @@ pub(super) enum Criterion {
     Rest,
 }
 
-/// How an agent is hindered.
+/// Way in which an agent is hindered.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Form {
     /// By obstructing it.

@@ -3,7 +3,7 @@
 use clap::ValueEnum;
 use std::path::{Path, PathBuf};
 
-/// Which of the bundled scenes are simulated.
+/// A choice among the bundled scenes.
 #[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum SceneSet {
     /// Designed by hand: data/behaviour

@@ -88,7 +88,7 @@ impl TrialRunner {
         self.play(&format!("{}.{id}", key(part)), mirrored(scene, index), index, &settings)
     }
 
-    /// The same without an agent's contribution: it is neutral and stays where it is.
+    /// Simulates a scene without an agent's contribution: it is neutral and stays where it is.
     fn control(
         &self,
         part: &BehaviourTest,

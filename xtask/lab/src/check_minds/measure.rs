@@ -18,7 +18,7 @@ use phase_simple::{
 /// Steps after which a simulation whose straying is measured is set to the observed state.
 const RESYNC_INTERVAL: usize = 10;
 
-/// What is to be measured.
+/// Measurements that are wanted.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Plan {
     /// SIMPLE, whose minds also decide at observed states.
@@ -46,22 +46,23 @@ pub(super) struct MeasuredEvent {
     pub(super) chances: [Vec<Chance>; AGENT_COUNT],
     /// Whether inverse dynamics explains each step, so that it is known what was done.
     pub(super) explained: Vec<bool>,
-    /// Deviation of simulations in which this agent decides and the other does what was inferred, by step (u).
+    /// Deviation of simulations in which this agent decides and the other does what was inferred, by step
+    /// (u).
     pub(super) deviations: [Vec<f64>; AGENT_COUNT],
-    /// The same of simulations in which both decide.
+    /// Deviation of simulations in which both decide, by step (u).
     pub(super) joint_deviations: Vec<f64>,
     /// SIMPLE's answer, if wanted.
     pub(super) recognition: Option<Recognition>,
-    /// How the agents moved.
+    /// Motion of the agents, as recorded.
     pub(super) recorded: Motion,
-    /// How they move in the open loop, by seed.
+    /// Simulations in the open loop, by seed.
     pub(super) simulated: Vec<Simulated>,
 }
 
 /// One simulation in the open loop.
 #[derive(Clone, Debug)]
 pub(super) struct Simulated {
-    /// How the agents move.
+    /// Motion of the agents.
     pub(super) motion: Motion,
     /// CPU time of 100 steps (s).
     pub(super) cpu_seconds: f64,

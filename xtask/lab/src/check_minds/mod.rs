@@ -35,7 +35,8 @@ use std::path::Path;
 
 /// Simulations a decision at observed states by our own minds.
 const SIMULATIONS: u32 = 50;
-/// The same by published minds, which need more, and whose searches settle early on what is partly chance.
+/// Simulations a decision at observed states by published minds, which need more, and whose searches settle
+/// early on what is partly chance.
 const PUBLISHED_SIMULATIONS: u32 = 200;
 /// Searches a decision at observed states by published minds.
 const PUBLISHED_SEARCHES: u32 = 5;
@@ -84,8 +85,8 @@ fn retain(recordings: &mut Vec<Recording>, ids: &[String], file: &Path) -> Resul
     Ok(())
 }
 
-/// The agents that were asked for. Those of recordings with published minds have bodies that turn one way, as those of the
-/// recorder did; events that were simulated here had others.
+/// The agents that were asked for. Those of recordings with published minds have bodies that turn one way, as
+/// those of the recorder did; events that were simulated here had others.
 fn agents(
     arguments: &CheckMinds,
     given: Option<MindParameters>,
@@ -173,7 +174,7 @@ pub(crate) fn is_true(intent: &Intent, truth: &Hypothesis, agent: AgentId) -> bo
     intent.attitude == truth.attitudes[agent] && canonical(intent.goal) == canonical(goal)
 }
 
-/// How the report is made.
+/// Settings of the report, as in its file.
 fn description(arguments: &CheckMinds, plan: &Plan) -> Value {
     json!({
         "command": "check-minds", "generator": GENERATOR, "seed": plan.seed,

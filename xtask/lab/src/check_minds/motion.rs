@@ -1,10 +1,10 @@
-//! How agents moved, simulated or recorded, and whether their goals were reached.
+//! Motion of agents, simulated or recorded, and whether their goals were reached.
 
 use phase_evidence::{GoalOutcome, MotionStatistics, Track, outcome};
 use phase_model::{AGENT_COUNT, AgentId, Attitude, Goal, Scene, Sign, arena::STEP_SECONDS};
 
-/// An agent that is slower does not move (u/s): it is displaced by less than 0.05 u in a step. Turning on the spot is
-/// not motion here, as it is none in [`MotionStatistics`].
+/// An agent that is slower does not move (u/s): it is displaced by less than 0.05 u in a step. Turning on the
+/// spot is not motion here, as it is none in [`MotionStatistics`].
 const STILL_SPEED: f32 = 0.05 / STEP_SECONDS as f32;
 
 /// The motion of both agents in one event, and what became of their goals.
@@ -83,7 +83,8 @@ fn holds(track: &Track, goal: Goal) -> Vec<bool> {
     track.states.iter().map(|state| outcome::condition(&track.physics, state, goal)).collect()
 }
 
-/// For each step whether a positive goal of one of the agents is open after it. Touching closes a goal for good.
+/// For each step whether a positive goal of one of the agents is open after it. Touching closes a goal for
+/// good.
 fn open_steps(scene: &Scene, track: &Track) -> Vec<bool> {
     let mut open = vec![false; track.steps()];
     for goal in scene.goals().into_iter().filter(|goal| goal.sign() == Sign::Positive) {

@@ -21,14 +21,16 @@ pub struct CheckMinds {
     /// The minds: `phase`, or `published`, those of the published simulator [default: phase]
     #[arg(long, value_name = "MINDS", hide_possible_values = true, value_parser = mind_kinds())]
     pub minds: Option<MindKind>,
-    /// JSON file of parameters of the minds, of which all that are absent have their defaults; it does not say how
-    /// many simulations there are
+    /// JSON file of parameters of the minds, of which all that are absent have their defaults; it does not
+    /// say how many simulations there are
     #[arg(long, value_name = "FILE")]
     pub parameters: Option<PathBuf>,
-    /// POMCP simulations a decision at observed states and within SIMPLE [default: 50, with published minds 200]
+    /// POMCP simulations a decision at observed states and within SIMPLE [default: 50, with published minds
+    /// 200]
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=10_000_000))]
     pub simulations: Option<u32>,
-    /// Searches of so many simulations a decision at observed states, which only published minds repeat [default: 5]
+    /// Searches of so many simulations a decision at observed states, which only published minds repeat
+    /// [default: 5]
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=1000))]
     pub searches: Option<u32>,
     /// POMCP simulations a decision in the open loop
@@ -43,10 +45,11 @@ pub struct CheckMinds {
     /// The seed of all random draws, the same in every event
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub seed: u64,
-    /// Print the report as one JSON object on stdout, and nothing else there; or, with a file, write it there too
+    /// Print the report as one JSON object on stdout, and nothing else there; or, with a file, write it there
+    /// too
     #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = "-")]
     pub json: Option<PathBuf>,
-    /// How many events at once.
+    /// Number of events at once.
     #[command(flatten)]
     pub jobs: Jobs,
 }

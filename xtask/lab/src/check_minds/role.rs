@@ -1,4 +1,4 @@
-//! What part an agent plays in an event.
+//! The part that an agent plays in an event.
 
 use phase_model::{AgentId, Attitude, EventKind, Scene, Sign};
 use serde::Serialize;

@@ -8,7 +8,7 @@ type Column = (&'static str, fn(&Figures) -> String);
 /// A row: its name, and its text for each column.
 type Row = (&'static str, Vec<String>);
 
-/// What minds would choose, and what SIMPLE concludes.
+/// Columns about choices of minds and conclusions of SIMPLE.
 const MINDS: [Column; 14] = [
     ("events", |it| it.events.to_string()),
     ("decisions", |it| it.decisions.to_string()),

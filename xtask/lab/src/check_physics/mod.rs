@@ -19,7 +19,7 @@ use serde_json::Value;
 use std::path::Path;
 use targets::Target;
 
-/// What the engine is compared with.
+/// Records that the engine is compared with.
 struct Records {
     probes: Option<Vec<Probe>>,
     runs: Option<Vec<Run>>,

@@ -20,7 +20,8 @@ pub struct CheckPhysics {
     /// The engine to check
     #[arg(long, value_name = "ENGINE", default_value = Engine::World.name(), value_parser = engines())]
     pub engine: Engine,
-    /// Print the measurements as one JSON object on stdout, and nothing else there; or, with a file, write it there too
+    /// Print the measurements as one JSON object on stdout, and nothing else there; or, with a file, write it
+    /// there too
     #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = "-")]
     pub json: Option<PathBuf>,
 }

@@ -7,9 +7,9 @@ use serde::Serialize;
 /// One target and what was measured.
 #[derive(Serialize)]
 pub(super) struct Target {
-    /// What is measured, such as `wall: steps within 0.1 u and 0.1 rad`.
+    /// Name of the measure, such as `wall: steps within 0.1 u and 0.1 rad`.
     pub(super) what: String,
-    /// What was measured.
+    /// The measured value.
     pub(super) measured: f32,
     /// The upper or lower limit.
     limit: f32,

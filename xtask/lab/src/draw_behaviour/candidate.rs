@@ -17,10 +17,10 @@ const BESIDE_OPENING: f32 = 0.1;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Candidate<'a>(pub &'a Scene);
 
-/// What an agent has to do for its goal: the way to an object, if the goal is about one, and on to the target.
+/// Walks of an agent for its goal: the way to an object, if the goal is about one, and on to the target.
 #[derive(Clone, Debug)]
 pub(super) struct Errand {
-    /// Where the ways lead through the rooms.
+    /// Rooms through which the ways lead.
     pub rooms: Vec<RoomId>,
     /// The way to the object, if the goal is about one.
     pub approach: Option<Walk>,
@@ -97,7 +97,7 @@ impl Candidate<'_> {
         Some(self.way(agent, object)?.length)
     }
 
-    /// What an agent has to do for its own goal, whatever the goal's sign. `None` if it does not fit through
+    /// Errand of an agent for its own goal, whatever the goal's sign. `None` if it does not fit through
     /// the openings on any way.
     pub(super) fn errand(&self, agent: AgentId) -> Option<Errand> {
         let target = match self.0.agents[agent].goal {

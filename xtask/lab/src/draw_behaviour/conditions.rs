@@ -1,4 +1,4 @@
-//! What a drawn scene must satisfy, by geometry and force alone, to be a scene of its part.
+//! Conditions that a drawn scene must satisfy, by geometry and force alone, to be a scene of its part.
 //!
 //! Agent 0 is the one who helps, hinders or chases, or the one that a scene for one agent is about.
 
@@ -32,13 +32,13 @@ pub(super) fn errand_alone(scene: &Candidate<'_>) -> bool {
         .is_some_and(|errand| scene.avoids_other(&errand, FIRST) && scene.avoids_distractors(&errand))
 }
 
-/// The same, through a door.
+/// The first agent goes to its target alone, through a door.
 pub(super) fn errand_through_door(scene: &Candidate<'_>) -> bool {
     errand_alone(scene) && scene.errand(FIRST).is_some_and(|errand| errand.doors().count() > 0)
 }
 
-/// The object is out of sight; of the two regions next to the agent's room, hardly visible at the start, the smaller is
-/// clearly nearer; the idle agent does not stand in a door.
+/// The object is out of sight; of the two regions next to the agent's room, hardly visible at the start, the
+/// smaller is clearly nearer; the idle agent does not stand in a door.
 pub(super) fn search(scene: &Candidate<'_>) -> bool {
     let room = scene.room(FIRST);
     let map = Map::new(scene.0.layout);
@@ -153,8 +153,8 @@ pub(super) fn object_to_drag(scene: &Candidate<'_>) -> bool {
     scene.force(FIRST) >= scene.force(SECOND) && is_even_contest(scene)
 }
 
-/// The same as [`object_to_take`]; and from the object's place the first can bring it to a room into which the
-/// second does not fit.
+/// The first agent is clearly nearer to the second's object ([`object_to_take`]), and can bring it to a room
+/// into which the second does not fit.
 pub(super) fn object_to_hide(scene: &Candidate<'_>) -> bool {
     let Some((object, radius)) = scene.object(SECOND) else { return false };
     let map = Map::new(scene.0.layout);
@@ -217,7 +217,8 @@ pub(super) fn separate_errands(scene: &Candidate<'_>) -> bool {
     })
 }
 
-/// Lengths of the two agents' ways to the second's object (u), if both have errands and nothing is on the way.
+/// Lengths of the two agents' ways to the second's object (u), if both have errands and nothing is on the
+/// way.
 fn contest(scene: &Candidate<'_>) -> Option<(f32, f32)> {
     for agent in AgentId::ALL {
         let errand = scene.errand(agent)?;

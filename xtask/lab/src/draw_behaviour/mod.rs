@@ -50,7 +50,7 @@ pub struct DrawBehaviour {
     /// Folder for the files, one for each part; files of the same names are replaced
     #[arg(long, value_name = "DIR", default_value = "out/behaviour-drawn")]
     pub out: PathBuf,
-    /// How many parts at once.
+    /// Number of parts at once.
     #[command(flatten)]
     pub jobs: Jobs,
 }
@@ -175,7 +175,8 @@ mod tests {
     use phase_dataset::phase_events;
     use std::collections::BTreeSet;
 
-    /// The files were drawn with the sampler of their day. Whatever became of it, they satisfy their conditions.
+    /// The files were drawn with the sampler of their day. Whatever became of it, they satisfy their
+    /// conditions.
     #[test]
     fn bundled_scenes_satisfy_the_condition_of_their_part() {
         let folders = SceneSet::Drawn.folders();

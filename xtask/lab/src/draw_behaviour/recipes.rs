@@ -4,12 +4,12 @@ use super::{candidate::Candidate, conditions};
 use phase_model::{AgentId, Attitude, EventKind, Goal, Scene};
 use phase_sampler::Variant;
 
-/// How the scenes of one part are drawn.
+/// Recipe by which the scenes of one part are drawn.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Recipe {
     /// The part of the table, the name of its file without `.json`.
     pub part: &'static str,
-    /// What is drawn, in rotation over the part's scenes.
+    /// Sources of draws, in rotation over the part's scenes.
     pub sources: &'static [Source],
     /// Whether a draw is a scene of this part.
     pub condition: fn(&Candidate<'_>) -> bool,
@@ -18,7 +18,7 @@ pub(super) struct Recipe {
 /// A variant of the sampler and how its goals and attitudes are rewritten.
 pub(super) type Source = (Variant, Rewriting);
 
-/// How the goals and attitudes of a drawn scene are rewritten, where the sampler has no variant for a part.
+/// Change of the goals and attitudes of a drawn scene, where the sampler has no variant for a part.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Rewriting {
     /// Not at all.

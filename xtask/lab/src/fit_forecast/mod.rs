@@ -1,8 +1,9 @@
 //! `fit-forecast`: fits how SIMPLE combines simulated futures to events whose continuation is known.
 //!
-//! The likeliest hypotheses after the seconds watched are simulated once, from there and from earlier steps. The inverse temperature of
-//! their weights, what they lose by the errors of their hindcasts, the least weight, and the share of a learnt forecaster's future
-//! among them, even or weighed by the error of its own hindcasts, are compared on a grid by the mean displacement error.
+//! The likeliest hypotheses after the seconds watched are simulated once, from there and from earlier steps.
+//! The inverse temperature of their weights, what they lose by the errors of their hindcasts, the least
+//! weight, and the share of a learnt forecaster's future among them, even or weighed by the error of its own
+//! hindcasts, are compared on a grid by the mean displacement error.
 
 use crate::{
     error::LabError,
@@ -31,7 +32,7 @@ const SHARES: [f64; 4] = [0.0, 0.1, 0.2, 0.3];
 /// The learnt forecaster.
 const LEARNT: &str = "social-lstm";
 
-/// How futures are combined.
+/// Combination of futures.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize)]
 struct Combination {
     #[serde(flatten)]
@@ -181,7 +182,7 @@ impl KnownFutures {
         futures.median()
     }
 
-    /// What the learnt forecaster gains or loses against the hypotheses by the error of its hindcasts.
+    /// Gain or loss of the learnt forecaster against the hypotheses by the error of its hindcasts.
     fn learnt_factor(&self, continuations: &[Continuation], settings: &ForecastSettings) -> f64 {
         let mean = |errors: &[f64]| phase_statistics::mean(errors).unwrap_or_default();
         let (mut sum, mut total) = (0.0, 0.0);

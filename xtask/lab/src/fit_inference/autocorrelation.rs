@@ -1,11 +1,12 @@
-//! How long what a decision tells stays the same.
+//! Autocorrelation of the evidence: the time over which decisions tell the same.
 
 use super::{subject::Subject, weights::Weights};
 use phase_statistics::mean;
 
-/// The integrated autocorrelation time (steps) of the log likelihood ratio of every other intent and the true one, over all
-/// agents, kinds of minds and events: 1 + 2 Σ ρ(k) decisions, where the sum ends before the first ρ(k) below 0 (Sokal's
-/// initial positive sequence). Each ratio is taken relative to its mean over the event. `None` without decisions.
+/// The integrated autocorrelation time (steps) of the log likelihood ratio of every other intent and the true
+/// one, over all agents, kinds of minds and events: 1 + 2 Σ ρ(k) decisions, where the sum ends before the
+/// first ρ(k) below 0 (Sokal's initial positive sequence). Each ratio is taken relative to its mean over the
+/// event. `None` without decisions.
 pub(super) fn time(subjects: &[Subject], weights: &Weights) -> Option<f64> {
     let mut covariances: Vec<f64> = Vec::new();
     for ratios in subjects.iter().flat_map(|subject| subject.log_ratios(&weights.lapse_rates)) {

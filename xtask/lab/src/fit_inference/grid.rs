@@ -27,12 +27,13 @@ impl Grid {
         self.events.iter().map(|(id, kind)| (id.as_str(), *kind))
     }
 
-    /// The weights under which the mean log posterior of the truth of these events is greatest; the first of equals.
+    /// The weights under which the mean log posterior of the truth of these events is greatest; the first of
+    /// equals.
     pub(super) fn fit(&self, events: &[usize]) -> Weights {
         self.fit_among(events, |_| true)
     }
 
-    /// The same among some weights; the first of all if there are none.
+    /// The best of some weights, as [`Grid::fit`] finds that of all; the first of all if there are none.
     pub(super) fn fit_among(&self, events: &[usize], among: impl Fn(&Weights) -> bool) -> Weights {
         let sum = |k: usize| -> f64 {
             events.iter().map(|&event| self.answers[event][k].recognition.log_posterior).sum()

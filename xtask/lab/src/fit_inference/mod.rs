@@ -1,10 +1,11 @@
 //! `fit-inference`: fits how SIMPLE weighs its evidence to events whose labels are known.
 //!
-//! Every intent of both agents is simulated once with each kind of minds. Three numbers say what the evidence is worth: the
-//! weight κ of what the minds would choose, the exponent a of the intent network's guess, and the rate ε at which minds of a kind
-//! lapse. All combinations on a grid are compared by the log posterior of the true goals and attitudes, averaged over the kinds,
-//! and every fold of the events is held out of one fit. Beside that, κ is measured without labels being fitted: as one over the
-//! integrated autocorrelation time of the log likelihood ratios of the intents.
+//! Every intent of both agents is simulated once with each kind of minds. Three numbers say what the evidence
+//! is worth: the weight κ of what the minds would choose, the exponent a of the intent network's guess, and
+//! the rate ε at which minds of a kind lapse. All combinations on a grid are compared by the log posterior of
+//! the true goals and attitudes, averaged over the kinds, and every fold of the events is held out of one
+//! fit. Beside that, κ is measured without labels being fitted: as one over the integrated autocorrelation
+//! time of the log likelihood ratios of the intents.
 
 mod autocorrelation;
 mod grid;
@@ -118,7 +119,7 @@ fn settings(arguments: &FitInference) -> Result<InferenceSettings, CliError> {
     Ok(settings)
 }
 
-/// How these settings weigh what minds would choose.
+/// Settings of inverse planning, by which choices of minds are weighed.
 fn planning(arguments: &FitInference, settings: &InferenceSettings) -> InversePlanningSettings {
     let planning = match settings.algorithm {
         Algorithm::InversePlanning(planning) => planning,

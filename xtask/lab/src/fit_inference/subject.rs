@@ -41,8 +41,8 @@ pub(super) struct EventEvidence {
     kinds: Vec<AgentEvidence>,
 }
 
-/// The evidence on all intents of each agent, in the order of [`Intent::all`]: the chance of each choice that is looked at, the
-/// mind's and a uniform one's.
+/// The evidence on all intents of each agent, in the order of [`Intent::all`]: the chance of each choice that
+/// is looked at, the mind's and a uniform one's.
 pub(super) type AgentEvidence = [Vec<Vec<(f64, f64)>>; AGENT_COUNT];
 
 /// ln P(choices | intent) of every intent of each agent at some lapse rate.
@@ -58,8 +58,8 @@ pub(super) struct Answer {
 }
 
 impl EventEvidence {
-    /// Simulates all intents of both agents with each kind of minds; `None` if it was interrupted. An agent that is
-    /// not social takes the other's likeliest goal by the cue for the other's goal.
+    /// Simulates all intents of both agents with each kind of minds; `None` if it was interrupted. An agent
+    /// that is not social takes the other's likeliest goal by the cue for the other's goal.
     pub(super) fn of(
         recording: &Recording,
         kinds: &[ImaginedAgents],
@@ -119,7 +119,8 @@ impl Subject {
         self.evidence.kinds[kind].each_ref().map(|evidence| evidence.iter().map(one).collect())
     }
 
-    /// For each agent, the log likelihood ratio of every other intent and the true one (nat), by decision, of each kind of minds.
+    /// For each agent, the log likelihood ratio of every other intent and the true one (nat), by decision, of
+    /// each kind of minds.
     pub(super) fn log_ratios(&self, lapse_rates: &[f64]) -> Vec<Vec<f64>> {
         let mut ratios = Vec::new();
         for (kind, &rate) in self.evidence.kinds.iter().zip(lapse_rates) {
@@ -139,8 +140,8 @@ impl Subject {
         ratios
     }
 
-    /// SIMPLE's answer beside the truth. `choices` are those of each kind of minds at its lapse rate, `compared` at the one at which
-    /// kinds are compared.
+    /// SIMPLE's answer beside the truth. `choices` are those of each kind of minds at its lapse rate,
+    /// `compared` at the one at which kinds are compared.
     pub(super) fn answer(
         &self,
         choices: &[&LogChoices],

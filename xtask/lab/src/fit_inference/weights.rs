@@ -1,4 +1,4 @@
-//! How SIMPLE weighs its evidence.
+//! Weights of SIMPLE's evidence.
 
 use phase_simple::{Guidance, InferenceSettings, InversePlanningSettings};
 use serde::Serialize;
@@ -12,7 +12,7 @@ const LAPSE_RATES: [f64; 10] = [0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6, 
 /// Values of ε of each kind where there are two.
 const LAPSE_RATES_OF_TWO: [f64; 6] = [0.02, 0.05, 0.1, 0.2, 0.35, 0.5];
 
-/// How SIMPLE weighs its evidence.
+/// Weights of SIMPLE's evidence.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub(super) struct Weights {
     /// κ. Kinds of minds have it in common, or their likelihoods could not be compared.

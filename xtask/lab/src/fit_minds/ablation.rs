@@ -1,4 +1,4 @@
-//! What each parameter is worth: the figures with it at its neutral value.
+//! Worth of each parameter: the figures with it at its neutral value.
 
 use super::{
     evaluations::Evaluations,
@@ -11,7 +11,7 @@ use crate::error::LabError;
 use phase_minds::PhaseParameters;
 use serde::Serialize;
 
-/// What the parameters are worth on some events.
+/// Worth of the parameters on some events.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub(super) struct Ablation {
     format: &'static str,
@@ -22,7 +22,8 @@ pub(super) struct Ablation {
     without: Vec<Without>,
 }
 
-/// The figures with one parameter at its neutral value, and by how much they exceed those with all parameters.
+/// The figures with one parameter at its neutral value, and by how much they exceed those with all
+/// parameters.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 struct Without {
     parameter: &'static str,

@@ -48,8 +48,8 @@ impl<'a> Evaluations<'a> {
         Ok(Self { subjects, made_by, known, file, jobs, context })
     }
 
-    /// The figures of each wanted pair of parameters and event, in their order. What is not known is computed, and
-    /// `activity` says what for.
+    /// The figures of each wanted pair of parameters and event, in their order. What is not known is
+    /// computed, and `activity` says what for.
     ///
     /// # Errors
     /// Parameters that minds do not accept, a file that cannot be written, or an interruption.

@@ -3,8 +3,8 @@
 use phase_files::checksum::sha256;
 use phase_model::EventKind;
 
-/// The fold of each event, from 0. Every kind is spread evenly over the folds, whose sizes differ by at most one; which
-/// events share a fold follows from their ids and the seed, not from their order.
+/// The fold of each event, from 0. Every kind is spread evenly over the folds, whose sizes differ by at most
+/// one; which events share a fold follows from their ids and the seed, not from their order.
 pub(crate) fn assign(events: &[(&str, EventKind)], folds: usize, seed: u64) -> Vec<usize> {
     let mut order: Vec<usize> = (0..events.len()).collect();
     let place = |&k: &usize| {

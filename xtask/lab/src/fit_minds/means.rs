@@ -9,7 +9,7 @@ use serde::Serialize;
 /// Means of the figures of some events.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize)]
 pub(super) struct Means {
-    /// How many events.
+    /// Number of events.
     pub(super) events: usize,
     /// ln of the posterior probability of the truth (nat).
     pub(super) log_posterior: f64,

@@ -1,9 +1,9 @@
 //! `fit-minds`: fits the parameters of the minds to events whose labels are known.
 //!
-//! What is maximised is how well the truth stands out: the log posterior of the true goals and attitudes among all
-//! hypotheses. A mind that makes what was done likelier under every hypothesis alike would gain likelihood and tell
-//! nobody's goals; the log likelihood under the truth is reported beside it. `subject` evaluates one event,
-//! `search` changes the parameters, and every fold of the events is held out of one fit.
+//! The fit maximises how well the truth stands out: the log posterior of the true goals and attitudes among
+//! all hypotheses. A mind that makes what was done likelier under every hypothesis alike would gain
+//! likelihood and tell nobody's goals; the log likelihood under the truth is reported beside it. `subject`
+//! evaluates one event, `search` changes the parameters, and every fold of the events is held out of one fit.
 
 mod ablation;
 mod evaluations;
@@ -118,7 +118,7 @@ fn chosen(arguments: &FitMinds, start: &PhaseParameters) -> Result<Vec<&'static 
     Ok(chosen)
 }
 
-/// What an observer sees of each event.
+/// Prepares what an observer sees of each event.
 fn observed(recordings: &[Recording]) -> Result<Vec<ObservedEvent>, CliError> {
     let one = |recording: &Recording| {
         let failed = |error| CliError::Method { id: recording.id.clone(), source: MethodError::new(error) };

@@ -8,7 +8,8 @@ use std::path::PathBuf;
 /// Options of `fit-minds`.
 #[derive(Args, Debug)]
 pub struct FitMinds {
-    /// The events to fit to: a file in the format phase-events/1, or the folder of a dataset or of simulations
+    /// The events to fit to: a file in the format phase-events/1, or the folder of a dataset or of
+    /// simulations
     #[arg(long, value_name = "FILE|DIR")]
     pub events: PathBuf,
     /// Further events, to which nothing is fitted; their figures are reported beside
@@ -23,7 +24,7 @@ pub struct FitMinds {
     /// JSON file of the parameters to start from, of which all that are absent have their defaults
     #[arg(long, value_name = "FILE")]
     pub parameters: Option<PathBuf>,
-    /// Where to write the result as JSON; evaluations are kept in a file beside it, and the same command goes on
+    /// File for the result (JSON); evaluations are kept in a file beside it, and the same command goes on
     /// from there
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
@@ -36,13 +37,14 @@ pub struct FitMinds {
     /// POMCP simulations a decision
     #[arg(long, value_name = "N", default_value_t = 50, value_parser = value_parser!(u32).range(1..=10_000_000))]
     pub simulations: u32,
-    /// In place of a fit, show what the parameters are worth: the figures with each of them at its neutral value
+    /// In place of a fit, show what the parameters are worth: the figures with each of them at its neutral
+    /// value
     #[arg(long, conflicts_with_all = ["folds", "rounds"])]
     pub ablation: bool,
     /// The seed of all random draws, the same in every event, and of the division into folds
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub seed: u64,
-    /// How many evaluations at once.
+    /// Number of evaluations at once.
     #[command(flatten)]
     pub jobs: Jobs,
 }

@@ -22,7 +22,8 @@ enum Domain {
     Between { low: f64, high: f64 },
     /// A share, from 0 to 1: something is added.
     Share,
-    /// An amount, from 0 to `limit`: it is multiplied. Below a quarter of `unit` it becomes 0; from 0 it becomes `unit`.
+    /// An amount, from 0 to `limit`: it is multiplied. Below a quarter of `unit` it becomes 0; from 0 it
+    /// becomes `unit`.
     Amount { unit: f64, limit: f64 },
 }
 

@@ -13,8 +13,8 @@ use phase_minds::PhaseParameters;
 /// Heading of a column of means.
 const HEADING: &str = "events log post     ll chance";
 
-/// The results of fits, of which the last is on all events: how well each explains the events that it was fitted to and
-/// those held out, and the parameters. `held_out` are the events of another file.
+/// The results of fits, of which the last is on all events: how well each explains the events that it was
+/// fitted to and those held out, and the parameters. `held_out` are the events of another file.
 ///
 /// # Errors
 /// As [`Evaluations::of`].
@@ -68,7 +68,7 @@ pub(super) fn of(
     Ok(text)
 }
 
-/// How events are evaluated, and what the figures are.
+/// Legend: the evaluation of events, and the meaning of the figures.
 pub(super) fn about(method: Method) -> String {
     let Method { thin, simulations, exponent, lapse, .. } = method;
     format!(
@@ -86,7 +86,7 @@ pub(super) fn means(it: &Means) -> String {
     format!("{:>6} {:>8.3} {:>6.3} {:>6.3}", it.events, it.log_posterior, it.log_likelihood, it.chance)
 }
 
-/// How figures of the same events differ.
+/// Difference between figures of the same events, in words.
 pub(super) fn gain(before: &[Figures], after: &[Figures]) -> String {
     let one = |get| {
         let Difference { mean, standard_error } = Difference::of(before, after, get);

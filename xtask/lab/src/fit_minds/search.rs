@@ -9,7 +9,7 @@ use crate::error::LabError;
 use phase_cli::context::Context;
 use phase_minds::PhaseParameters;
 
-/// What a change must gain in mean log posterior to be kept (nat an event). Less is chance.
+/// Least gain in mean log posterior for which a change is kept (nat an event). Less is chance.
 const MINIMUM_GAIN: f64 = 0.01;
 
 /// Parameters that are being fitted to some events.
@@ -56,8 +56,8 @@ impl Fit {
     }
 }
 
-/// Fits these parameters by the mean log posterior of the truth, in at most so many rounds. Fits go side by side, since
-/// they share most evaluations.
+/// Fits these parameters by the mean log posterior of the truth, in at most so many rounds. Fits go side by
+/// side, since they share most evaluations.
 ///
 /// # Errors
 /// As [`Evaluations::of`].
@@ -102,7 +102,8 @@ fn improve(
         let mut best: Option<(PhaseParameters, f64)> = None;
         for parameters in tried {
             let score = Means::of(parameters, &fit.training, evaluations, activity)?.log_posterior;
-            // The present value comes first, and only a gain replaces it; of two that gain, the better one wins.
+            // The present value comes first, and only a gain replaces it; of two that gain, the better one
+            // wins.
             let least = match best {
                 None => f64::NEG_INFINITY,
                 Some((kept, score)) if kept == fit.parameters => score + MINIMUM_GAIN,
@@ -119,7 +120,8 @@ fn improve(
     Ok(())
 }
 
-/// A row of the running table: the value of a parameter and the mean log posterior of the training events, by fit.
+/// A row of the running table: the value of a parameter and the mean log posterior of the training events, by
+/// fit.
 fn row(
     round: usize,
     parameter: &Parameter,

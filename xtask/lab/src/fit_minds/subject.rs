@@ -15,10 +15,11 @@ use phase_simple::{
 };
 use serde::{Deserialize, Serialize};
 
-/// Probability with which a mind lapses into a uniformly random choice: that of a calibrated model of recorded choices.
+/// Probability with which a mind lapses into a uniformly random choice: that of a calibrated model of
+/// recorded choices.
 pub(super) const LAPSE: f64 = 0.07;
 
-/// How events are evaluated.
+/// Settings of the evaluation of events.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize)]
 pub(super) struct Method {
     /// Minds decide at one of so many observed states; at least 1.
@@ -34,15 +35,15 @@ pub(super) struct Method {
 }
 
 impl Method {
-    /// SIMPLE's exponent κ allows for errors that are correlated over steps. One of `thin` steps stands for all of them,
-    /// hence κ · `thin`; but no step counts more than once.
+    /// SIMPLE's exponent κ allows for errors that are correlated over steps. One of `thin` steps stands for
+    /// all of them, hence κ · `thin`; but no step counts more than once.
     pub(super) fn new(thin: usize, simulations: usize, seed: u64) -> Self {
         let exponent = (InversePlanningSettings::default().inverse_temperature * thin as f64).min(1.0);
         Self { thin, simulations, seed, lapse: LAPSE, exponent }
     }
 }
 
-/// How well minds explain one event.
+/// Figures of one event: how well minds explain it.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 pub(super) struct Figures {
     /// ln of the posterior probability of the true goals and attitudes among all hypotheses (nat).
@@ -111,8 +112,9 @@ impl<'a> Subject<'a> {
         })
     }
 
-    /// How well minds with these parameters explain the event; `None` if it was interrupted. The agents have their true
-    /// strengths. In weighing the own goals of an agent, the other pursues its true goal.
+    /// Measures how well minds with these parameters explain the event; `None` if it was interrupted. The
+    /// agents have their true strengths. In weighing the own goals of an agent, the other pursues its true
+    /// goal.
     ///
     /// # Errors
     /// Invalid parameters of the agents' search.

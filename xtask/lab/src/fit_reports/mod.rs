@@ -1,8 +1,8 @@
 //! `fit-reports`: fits how people report what they saw to raters of recordings.
 //!
-//! SIMPLE's impression of each event and its ratings come from results of `eval goals --ratings`. Every fold of the events is held
-//! out of one fit, and the strength of its regularisation is chosen by the same within the rest, so that the figures of the
-//! folds held out are those of events that played no part.
+//! SIMPLE's impression of each event and its ratings come from results of `eval goals --ratings`. Every fold
+//! of the events is held out of one fit, and the strength of its regularisation is chosen by the same within
+//! the rest, so that the figures of the folds held out are those of events that played no part.
 
 pub mod options;
 mod regression;
@@ -27,7 +27,7 @@ const RIDGES: [f64; 6] = [1.0, 4.0, 15.0, 40.0, 100.0, 300.0];
 /// Folds within which the ridge is chosen.
 const INNER_FOLDS: usize = 5;
 
-/// What is read of an event of the results.
+/// Members of an event of the results that are read.
 #[derive(Deserialize)]
 struct Details {
     impression: Impression,

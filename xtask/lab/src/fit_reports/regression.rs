@@ -18,7 +18,8 @@ pub(super) struct Rated {
     pub(super) counts: RatingCounts,
 }
 
-/// Fits the model to some events. `ridge` is the weight of the sum of squared weights beside the log likelihood of all raters.
+/// Fits the model to some events. `ridge` is the weight of the sum of squared weights beside the log
+/// likelihood of all raters.
 ///
 /// # Errors
 /// That of the library, for example if nobody reported one of the relations.

@@ -16,7 +16,7 @@ fn still() -> Value {
     recording("still")
 }
 
-/// The same, but agent 1 walks 0.2 u in each step.
+/// Agent 1 walks 0.2 u in each of the four steps; else as [`still`].
 fn walking() -> Value {
     let mut walking = recording("walking");
     for (step, row) in walking["trajectory"]["agents"][1].as_array_mut().expect("rows").iter_mut().enumerate()

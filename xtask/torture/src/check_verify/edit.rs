@@ -31,8 +31,8 @@ pub(super) fn space(text: &mut String, random: &mut Pcg64Mcg) -> bool {
     true
 }
 
-/// Changes one number, text or truth value somewhere in a value, or drops an element of a list. Texts become others of the same
-/// value, so that they keep a meaning.
+/// Changes one number, text or truth value somewhere in a value, or drops an element of a list. Texts become
+/// others of the same value, so that they keep a meaning.
 pub(super) fn alter(value: &mut Value, random: &mut Pcg64Mcg) -> bool {
     let mut texts = Vec::new();
     collect(value, &mut texts);

@@ -47,7 +47,8 @@ pub(super) fn comment(copy: &mut Copy, random: &mut Pcg64Mcg, _: &Original) -> R
     in_event(copy, random, |text, _| Some(text.replacen("\"format\"", "\"_comment\":\"\",\"format\"", 1)))
 }
 
-/// Changes a member of an event. Whoever does it writes the file as PHASE does, if the event can still be read.
+/// Changes a member of an event. Whoever does it writes the file as PHASE does, if the event can still be
+/// read.
 pub(super) fn member(copy: &Copy, random: &mut Pcg64Mcg, member: &str) -> Result<bool, TortureError> {
     in_event(copy, random, |text, random| {
         let changed = alter_member(text, member, random)?;

@@ -38,7 +38,7 @@ const PRESET_FILE: &str = "small.json";
 /// Options that make its events quickly.
 const OPTIONS: [&str; 6] = ["--simulations", "30", "--particles", "6", "--max-steps", "6"];
 
-/// How somebody mends what betrays an edit.
+/// Mending of traces that betray an edit.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Mends {
     /// Not at all.
@@ -188,7 +188,8 @@ impl Copy {
         self.write(other, &first)
     }
 
-    /// Mends what betrays an edit, as far as somebody does. Whether it could be done: not if an event can no longer be read.
+    /// Mends what betrays an edit, as far as somebody does. Whether it could be done: not if an event can no
+    /// longer be read.
     pub(super) fn mend(&mut self, mends: Mends, context: &Context) -> Result<bool, TortureError> {
         let path = self.path();
         match mends {
@@ -251,7 +252,7 @@ impl Copy {
     }
 }
 
-/// What is in a folder, by name; without bytes for anything but regular files.
+/// Entries of a folder, by name; without bytes for anything but regular files.
 fn tree(folder: &Path) -> Result<BTreeMap<String, Option<Vec<u8>>>, TortureError> {
     let mut found = BTreeMap::new();
     let mut folders = vec![folder.to_owned()];

@@ -1,7 +1,8 @@
 //! `check-verify`: how many edits of a dataset `verify` finds, and with which of its options.
 //!
-//! A small dataset is made, and for each edit a copy of it is changed in a random place. Some edits are accidents; the others are
-//! made by somebody who mends what betrays them: the checksums, or every file that describes the events, with PHASE's own code.
+//! A small dataset is made, and for each edit a copy of it is changed in a random place. Some edits are
+//! accidents; the others are made by somebody who mends what betrays them: the checksums, or every file that
+//! describes the events, with PHASE's own code.
 
 mod edit;
 mod event_edits;
@@ -45,7 +46,7 @@ pub struct CheckVerify {
     /// Print the counts as a single JSON object
     #[arg(long)]
     pub json: bool,
-    /// How many checks at once.
+    /// Number of checks at once.
     #[command(flatten)]
     pub jobs: Jobs,
 }

@@ -7,7 +7,8 @@ pub(super) struct Job {
     pub(super) prepare: &'static [&'static [&'static str]],
     /// The command. It writes into `out`, in a folder of its own.
     pub(super) command: &'static [&'static str],
-    /// Files that are the same in every run, but for CPU times in them; all of them if none is named. Others have measured times.
+    /// Files that are the same in every run, but for CPU times in them; all of them if none is named. Others
+    /// have measured times.
     pub(super) same: &'static [&'static str],
     /// A file that is there only until the command has finished.
     pub(super) meanwhile: Option<&'static str>,

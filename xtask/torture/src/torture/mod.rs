@@ -1,5 +1,6 @@
-//! `torture`: stops programs while they write, fills their disk, takes their permissions away and lets two of them race, and checks that
-//! nothing is lost, nothing half-written, and that the same command makes the same bytes afterwards.
+//! `torture`: stops programs while they write, fills their disk, takes their permissions away and lets two of
+//! them race, and checks that nothing is lost, nothing half-written, and that the same command makes the same
+//! bytes afterwards.
 
 mod jobs;
 mod permissions;
@@ -32,8 +33,8 @@ const SMALL_DISK: u64 = 40_000;
 /// Options of `torture`.
 #[derive(Args, Debug)]
 pub struct Torture {
-    /// Times that each thing is done to each command: it is stopped at a random step of writing, killed at a random moment, finds its disk
-    /// full, loses its permission to write, or races
+    /// Times that each thing is done to each command: it is stopped at a random step of writing, killed at a
+    /// random moment, finds its disk full, loses its permission to write, or races
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = value_parser!(u32).range(1..=1_000_000))]
     pub kills: u32,
     /// Seed of the steps and moments
@@ -48,12 +49,12 @@ pub struct Torture {
     /// The program, such as `target/release/phase`, which has `train` and `serve` [default: this one]
     #[arg(long, value_name = "FILE")]
     pub program: Option<PathBuf>,
-    /// How many at once.
+    /// Number at once.
     #[command(flatten)]
     pub jobs: Jobs,
 }
 
-/// What is done to a command.
+/// Something that is done to a command.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Torment {
     /// It ends at a step of writing.
@@ -87,8 +88,8 @@ impl Torment {
 
 /// Runs the command. What was done until an interruption is told, too.
 ///
-/// # Errors
-/// [`TortureError::Tortured`] if something was lost, half-written or different; if a command cannot be run at all.
+/// # Errors [`TortureError::Tortured`] if something was lost, half-written or different; if a command cannot
+/// be run at all.
 pub fn run(arguments: &Torture, context: &Context) -> Result<(), TortureError> {
     interrupt::listen();
     let this = std::env::current_exe().map_err(TortureError::Start)?;
@@ -140,9 +141,9 @@ pub fn run(arguments: &Torture, context: &Context) -> Result<(), TortureError> {
 /// A command or the server.
 struct Subject<'a> {
     name: &'static str,
-    /// Which one of all there are, wanted or not.
+    /// Its number among all there are, wanted or not.
     number: u64,
-    /// Where the command runs, and its steps of writing; `None` for the server.
+    /// Place in which the command runs, and its steps of writing; `None` for the server.
     command: Option<(Ground<'a>, u64)>,
 }
 
@@ -150,14 +151,14 @@ struct Subject<'a> {
 struct Disturbance {
     subject: usize,
     torment: Torment,
-    /// Which one of this subject.
+    /// Its number among those of this subject.
     number: u64,
     /// The step of writing that it concerns; `None` for a random one.
     step: Option<u64>,
 }
 
 impl Subject<'_> {
-    /// What goes wrong after a disturbance, if anything.
+    /// Disturbs it, and says in words what is wrong afterwards, if anything.
     fn suffer(&self, program: &Path, it: &Disturbance, seed: u64) -> Result<Option<String>, TortureError> {
         let mut random = stream(seed, Purpose::Event, self.number << 32 | it.number);
         let Some((ground, steps)) = &self.command else {
@@ -168,7 +169,7 @@ impl Subject<'_> {
         Ok(what.map(|what| format!("(step {step}) {what}")))
     }
 
-    /// What can be done to it on this system.
+    /// Torments that can be inflicted on it on this system.
     fn torments(&self) -> impl Iterator<Item = Torment> {
         let of_servers = self.command.is_none();
         let fits = move |torment: &Torment| !of_servers || serve::TORMENTS.contains(torment);
@@ -176,7 +177,7 @@ impl Subject<'_> {
     }
 }
 
-/// What is to be disturbed, prepared; without what the program was built without.
+/// Prepares the wanted subjects; leaves out those that the program was built without.
 fn subjects<'a>(
     arguments: &Torture,
     program: &'a Path,

@@ -1,4 +1,5 @@
-//! Permissions to write, taken away and given back. They do not bind an administrator: for it, programs run as another user.
+//! Permissions to write, taken away and given back. They do not bind an administrator: for it, programs run
+//! as another user.
 
 use std::{io, path::Path, process::Command};
 
@@ -96,7 +97,8 @@ pub(super) fn show(path: &Path) -> io::Result<()> {
     return unknown(path);
 }
 
-/// Takes the permission to write away from a folder and those in it: in them nothing can be created, renamed or removed.
+/// Takes the permission to write away from a folder and those in it: in them nothing can be created, renamed
+/// or removed.
 pub(super) fn revoke(place: &Path) -> io::Result<()> {
     #[cfg(unix)]
     return unix::set(place, 0o555);

@@ -21,7 +21,7 @@ use tempfile::TempDir;
 
 /// Most steps of writing that are looked for.
 const MOST_STEPS: u64 = 1 << 20;
-/// What a program says that was built without what a command needs.
+/// Words of a program that was built without something that a command needs.
 pub(super) const BUILT_WITHOUT: &str = "which this program was built without";
 
 /// A command with its input, and what it makes if nothing happens.
@@ -33,7 +33,7 @@ pub(super) struct Ground<'a> {
     seconds: f64,
 }
 
-/// How a run ended.
+/// End of a run.
 pub(super) struct End {
     output: Output,
 }
@@ -104,7 +104,7 @@ impl<'a> Ground<'a> {
         Err(TortureError::Undisturbed { what: self.job.name, problem })
     }
 
-    /// How long the command takes (s).
+    /// Time that the command takes (s).
     pub(super) const fn seconds(&self) -> f64 {
         self.seconds
     }
@@ -150,7 +150,8 @@ impl<'a> Ground<'a> {
         finish(child)
     }
 
-    /// Runs the command where no file may be larger. The signal is ignored, so that writing fails as on a full disk.
+    /// Runs the command where no file may be larger. The signal is ignored, so that writing fails as on a
+    /// full disk.
     pub(super) fn run_on_small_disk(&self, place: &TempDir, bytes: u64) -> Result<End, TortureError> {
         let inner = self.command(place);
         let script = format!("trap '' XFSZ; ulimit -f {}; exec \"$@\"", bytes.div_ceil(512));

@@ -1,4 +1,5 @@
-//! `serve`, with raters and a player while it is disturbed: what they were told is there when it is started again, and goes on.
+//! `serve`, with raters and a player while it is disturbed: what they were told is there when it is started
+//! again, and goes on.
 
 mod client;
 mod server;
@@ -23,21 +24,22 @@ use tempfile::TempDir;
 
 /// The name of its row.
 pub(super) const NAME: &str = "serve";
-/// What is done to a server. Its journals and answers are appended to, not written by steps.
+/// Torments of a server. Its journals and answers are appended to, not written by steps.
 pub(super) const TORMENTS: [Torment; 4] = [Torment::Kill, Torment::SmallDisk, Torment::Revoke, Torment::Race];
 
 /// Raters who answer at the same time.
 const RATERS: usize = 3;
 /// Videos that each of them judges: more than there is time for.
 const VIDEOS: usize = 400;
-/// When a server is disturbed (s after people have come). A step of a game takes a quarter of a second.
+/// First and last moment at which a server is disturbed (s after people have come). A step of a game takes a
+/// quarter of a second.
 const MOMENTS: (f64, f64) = (0.1, 2.5);
-/// How long people go on with a server that lost its permissions (s).
+/// Time for which people go on with a server that lost its permissions (s).
 const AFTERWARDS: f64 = 0.4;
 /// Longest file of a server whose disk is small (bytes): from too small to begin to enough for a while.
 const SMALL_DISK: (u64, u64) = (8_000, 300_000);
 
-/// Why a server cannot be tortured at all, or what went wrong.
+/// Reason that a server cannot be tortured at all, or something that went wrong.
 struct Wrong(String);
 
 impl<T: fmt::Display> From<T> for Wrong {
@@ -57,7 +59,8 @@ pub(super) fn is_built_in(program: &Path) -> Result<bool, TortureError> {
     }
 }
 
-/// Starts a server in a fresh folder, does something to it while people use it, and starts it again: what is wrong then, if anything.
+/// Starts a server in a fresh folder, does something to it while people use it, and starts it again: what is
+/// wrong then, if anything.
 pub(super) fn inflict(
     program: &Path,
     torment: Torment,

@@ -3,7 +3,8 @@
 use crate::support::phase;
 use serde_json::Value;
 
-/// One edit of every kind. Those that make something genuine of the whole are found by the manifest's digest alone.
+/// One edit of every kind. Those that make something genuine of the whole are found by the manifest's digest
+/// alone.
 #[test]
 fn an_edit_of_every_kind_is_found() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -6,17 +6,18 @@ use phase_simple::choice::{Chance, log_likelihood};
 use phase_statistics::mean;
 use serde::Serialize;
 
-/// How many decisions are explained to within [`phase_simple::inverse_dynamics::EXPLAINED_RESIDUAL`], and how likely what was
-/// done is in these alone.
+/// Share of decisions that are explained to within [`phase_simple::inverse_dynamics::EXPLAINED_RESIDUAL`],
+/// and how likely what was done is in these alone.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize)]
 pub(in crate::check_minds) struct ExplainedFigures {
     /// Share of all decisions.
     pub(in crate::check_minds) explained_share: Option<f64>,
     /// Mean chance of what was done.
     pub(in crate::check_minds) choice_probability_explained: Option<f64>,
-    /// Mean log likelihood of what was done, with the lapse rate fitted to all decisions of all events (nat a step).
+    /// Mean log likelihood of what was done, with the lapse rate fitted to all decisions of all events (nat a
+    /// step).
     pub(in crate::check_minds) log_likelihood_per_step_explained: Option<f64>,
-    /// The same with a lapse rate of 0.05.
+    /// Mean log likelihood of what was done, with a lapse rate of 0.05 (nat a step).
     pub(in crate::check_minds) log_likelihood_lapse_05_explained: Option<f64>,
 }
 

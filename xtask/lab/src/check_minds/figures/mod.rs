@@ -42,15 +42,15 @@ pub(super) struct Figures {
     pub(super) choice_probability: Option<f64>,
     /// Mean log likelihood of what was done, with the lapse rate fitted to all events (nat a step).
     pub(super) log_likelihood_per_step: Option<f64>,
-    /// The same with a lapse rate of 0.05.
+    /// Mean log likelihood of what was done, with a lapse rate of 0.05 (nat a step).
     pub(super) log_likelihood_lapse_05: Option<f64>,
-    /// What is known of what was done.
+    /// Decisions of which it is known what was done.
     #[serde(flatten)]
     pub(super) explained: ExplainedFigures,
-    /// Mean over events of the mean deviation of a step from simulations in which one agent decides under the truth and the
-    /// other does what was inferred (u).
+    /// Mean over events of the mean deviation of a step from simulations in which one agent decides under the
+    /// truth and the other does what was inferred (u).
     pub(super) stray_per_step: Option<f64>,
-    /// The same where both decide, always over whole events.
+    /// That deviation where both agents decide, always over whole events (u).
     pub(super) stray_of_both_per_step: Option<f64>,
     /// SIMPLE's posterior.
     #[serde(flatten)]

@@ -19,19 +19,19 @@ pub(in crate::check_minds) struct OpenLoopFigures {
     pub(in crate::check_minds) path_ratio: Option<f64>,
     /// Length of all paths, ours (median, u).
     pub(in crate::check_minds) path: Option<f64>,
-    /// The same, recorded.
+    /// Length of all paths, recorded (median, u).
     pub(in crate::check_minds) path_recorded: Option<f64>,
     /// Speed in a step, ours (median, u/s of physics).
     pub(in crate::check_minds) speed: Option<f64>,
-    /// The same, recorded.
+    /// Speed in a step, recorded (median, u/s of physics).
     pub(in crate::check_minds) speed_recorded: Option<f64>,
     /// Mean share of steps in which nobody moves, ours.
     pub(in crate::check_minds) still_share: Option<f64>,
-    /// The same, recorded.
+    /// Mean share of steps in which nobody moves, recorded.
     pub(in crate::check_minds) still_share_recorded: Option<f64>,
     /// Mean share of steps in contact with the other or an object, ours.
     pub(in crate::check_minds) contact_share: Option<f64>,
-    /// The same, recorded.
+    /// Mean share of steps in contact with the other or an object, recorded.
     pub(in crate::check_minds) contact_share_recorded: Option<f64>,
     /// Longest time in which nobody moves while a positive goal is open, ours (s of video): the maximum.
     pub(in crate::check_minds) longest_still_with_open_goal: Option<f64>,
@@ -85,7 +85,8 @@ impl OpenLoopFigures {
     }
 }
 
-/// For each own positive goal and seed whether its outcome is as recorded, and whether it holds at any time as recorded.
+/// For each own positive goal and seed whether its outcome is as recorded, and whether it holds at any time
+/// as recorded.
 fn agreements<'a>(member: &'a Member<'_>) -> impl Iterator<Item = [bool; 2]> + 'a {
     let recorded = &member.event.recorded.reached;
     member.event.simulated.iter().flat_map(move |run| {

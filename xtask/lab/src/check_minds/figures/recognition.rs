@@ -1,4 +1,4 @@
-//! How well SIMPLE recognises the truth, over a group of events.
+//! Figures of SIMPLE's recognition of the truth, over a group of events.
 
 use super::Member;
 use crate::check_minds::recognition::{Recognition, SocialAgent};
@@ -9,7 +9,7 @@ use serde::Serialize;
 /// A posterior probability above which SIMPLE is as good as certain.
 const CERTAIN: f64 = 0.9;
 
-/// How well SIMPLE recognises the truth.
+/// Figures of SIMPLE's recognition of the truth.
 #[derive(Clone, PartialEq, Debug, Default, Serialize)]
 pub(in crate::check_minds) struct RecognitionFigures {
     /// Mean log posterior probability of the true goals and attitudes (nat).

@@ -1,4 +1,4 @@
-//! How well the true hypothesis stands out in SIMPLE's posterior.
+//! The true hypothesis in SIMPLE's posterior.
 
 use phase_eval::goals::canonical;
 use phase_model::{AgentId, Attitude, Relation};
@@ -13,13 +13,13 @@ pub(crate) struct Recognition {
     pub(crate) relation: f64,
     /// Whether the true relation is the likeliest.
     pub(crate) relation_right: bool,
-    /// How many of the two agents' true goals are the likeliest.
+    /// Number of the two agents' true goals that are the likeliest.
     pub(crate) goals_right: usize,
-    /// Where one agent helps or hinders the other: what is said about who does.
+    /// Answer about who helps or hinders, if one agent helps or hinders the other.
     pub(crate) social: Option<SocialAgent>,
 }
 
-/// What the posterior says about which agent helps (or hinders).
+/// Posterior of which agent helps (or hinders).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct SocialAgent {
     /// Posterior probability that the agent that does so does.

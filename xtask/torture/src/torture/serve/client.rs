@@ -13,7 +13,7 @@ use std::{
     time::Duration,
 };
 
-/// How long anything may take.
+/// Longest wait for anything.
 const PATIENCE: Duration = Duration::from_secs(20);
 /// Time between two answers of a rater. The server refuses who asks too often.
 const BETWEEN: Duration = Duration::from_millis(20);
@@ -110,7 +110,7 @@ impl Rater {
     }
 }
 
-/// Who plays with a mind, and what was shown: for each round the last step.
+/// Somebody who plays with a mind, with the last step that was shown of each round.
 pub(super) struct Player {
     room: String,
     token: String,

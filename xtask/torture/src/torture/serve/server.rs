@@ -8,7 +8,7 @@ use std::{
     process::{Child, Command, Stdio},
 };
 
-/// How a server is started.
+/// Options of a start of the server.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Start {
     /// Longest file that it may write (bytes).
@@ -28,7 +28,7 @@ impl Server {
     /// Starts it in a folder.
     ///
     /// # Errors
-    /// What it said when it ended.
+    /// Output of its end.
     pub(super) fn start(program: &Path, place: &Path, start: &Start) -> Result<Self, String> {
         let words = ["serve", "--listen", "127.0.0.1:0", "--out", "out", "--rounds", "1"];
         let minds = ["--simulations", "10", "--particles", "4", "--max-steps", "40"];
@@ -84,7 +84,7 @@ impl Drop for Server {
     }
 }
 
-/// How a process that ended did so.
+/// Exit status of a process that ended, in words.
 fn told(child: &mut Child) -> String {
     let mut text = String::new();
     // What cannot be read has not been said.
