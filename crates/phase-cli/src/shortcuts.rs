@@ -24,7 +24,7 @@ pub fn audited(path: &Path, jobs: &Jobs, context: &Context) -> Result<Option<Aud
     let count = source.len().min(MAX_EVENTS);
     let progress = context.progress_over(&format!("auditing {}", console::events(count)), count);
     let items = make_all(jobs, count, |index| {
-        let item = AuditItem::of(&source.load(index)?);
+        let item = AuditItem::of(source.load(index)?.as_ref());
         progress.steps(1);
         Ok(Some(item))
     })?;

@@ -12,6 +12,7 @@ use phase_files::{FileError, Problem};
 use phase_model::path::RelativePath;
 use serde_json::Value;
 use std::{
+    borrow::Cow,
     collections::BTreeSet,
     fs,
     path::{Path, PathBuf},
@@ -123,18 +124,19 @@ impl EventInput {
         }
     }
 
-    /// Loads one event.
+    /// Loads one event, or lends it if it is in memory.
     ///
     /// # Errors
     /// If its file cannot be used.
-    pub fn load(&self, index: usize) -> Result<Recording, CliError> {
+    pub fn load(&self, index: usize) -> Result<Cow<'_, Recording>, CliError> {
         match self {
-            Self::Loaded(recordings) => Ok(recordings[index].1.clone()),
+            Self::Loaded(recordings) => Ok(Cow::Borrowed(&recordings[index].1)),
             Self::Files(files) => {
                 let EventFile { id, path, .. } = &files[index];
                 let recordings = phase_events::read(path)?;
                 let ids: Vec<String> = recordings.iter().map(|recording| recording.id.clone()).collect();
                 let found = recordings.into_iter().find(|recording| recording.id == *id);
+                let found = found.map(Cow::Owned);
                 found.ok_or_else(|| CliError::unknown_id(path, id, ids.iter().map(String::as_str)))
             }
         }

@@ -82,7 +82,7 @@ fn events(arguments: &Splits, context: &Context) -> Result<(Vec<Item>, Option<Ve
         let recording = source.load(index)?;
         let scene = &recording.scene;
         let (kind, goals, base) = (scene.kind, scene.goals(), scene.layout.base());
-        Ok(Item { id: recording.id, kind, goals, base })
+        Ok(Item { id: recording.id.clone(), kind, goals, base })
     };
     Ok(((0..source.len()).map(item).collect::<Result<_, CliError>>()?, None))
 }

@@ -129,7 +129,7 @@ impl EventSource {
             return Err(raise(format!("there are {} events, and no event {index}", self.source.len())));
         }
         let recording = py.detach(|| self.source.load(index)).map_err(raise)?;
-        Ok(Event { recording: Arc::new(recording) })
+        Ok(Event { recording: Arc::new(recording.into_owned()) })
     }
 }
 

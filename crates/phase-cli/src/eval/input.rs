@@ -14,7 +14,7 @@ use phase_event::Recording;
 use phase_files::{checksum::sha256_hex, run};
 use phase_model::AGENT_COUNT;
 use phase_sampler::Variant;
-use std::{collections::BTreeSet, path::Path};
+use std::{borrow::Cow, collections::BTreeSet, path::Path};
 
 /// The events of a run, loaded one at a time.
 #[derive(Debug)]
@@ -67,7 +67,7 @@ impl Input {
             return Err(CliError::Usage(format!("{}: {rule}", path.display())));
         } else {
             (0..source.len())
-                .map(|index| of_recording(index, &source.load(index)?))
+                .map(|index| of_recording(index, source.load(index)?.as_ref()))
                 .collect::<Result<_, _>>()?
         };
         if events.is_empty() {
@@ -85,7 +85,7 @@ impl Input {
     ///
     /// # Errors
     /// If its file cannot be used.
-    pub(crate) fn load(&self, event: &Event) -> Result<Recording, CliError> {
+    pub(crate) fn load(&self, event: &Event) -> Result<Cow<'_, Recording>, CliError> {
         self.source.load(event.index)
     }
 }

@@ -61,7 +61,7 @@ pub fn run(arguments: &Render, context: &Context) -> Result<(), CliError> {
             watched.map(|watched| ObserverCourse::write(&path, &recording.id, watched)).transpose()?;
         progress.event(0, &recording.id);
         let interpolated = recording.simulation.is_none();
-        Ok(Some(Rendered { id: recording.id, file: path, interpolated, observer }))
+        Ok(Some(Rendered { id: recording.id.clone(), file: path, interpolated, observer }))
     })?;
     drop(progress);
     let made = made.ok_or_else(|| CliError::Interrupted(arguments.out.clone()))?;

@@ -41,7 +41,7 @@ pub(super) fn of(arguments: &Serve, context: &Context) -> Result<Vec<Item>, CliE
     }
     let input = EventInput::open(path, &ids, context)?;
     let item = |index: usize| {
-        let recording = input.load(index)?;
+        let recording = input.load(index)?.into_owned();
         Ok(Item { source: recording.id, scene: recording.scene })
     };
     (0..input.len()).map(item).collect()

@@ -77,7 +77,8 @@ pub fn run(arguments: &Simulate, context: &Context) -> Result<(), CliError> {
 /// The events to simulate, in the order of the input.
 fn inputs(arguments: &Simulate, context: &Context) -> Result<Vec<Input>, CliError> {
     let source = EventInput::open(&arguments.events, &arguments.id, context)?;
-    let input = |k: usize| Ok((source.place(k), Recording { simulation: None, ..source.load(k)? }));
+    let input =
+        |k: usize| Ok((source.place(k), Recording { simulation: None, ..source.load(k)?.into_owned() }));
     (0..source.len()).map(input).collect()
 }
 

@@ -31,7 +31,7 @@ use phase_model::{AgentId, Attitude, EventKind, Goal, Scene};
 use phase_simple::{Hypothesis, ImaginedAgents, InferenceSettings, Intent};
 use report::Report;
 use serde_json::{Value, json};
-use std::path::Path;
+use std::{borrow::Cow, path::Path};
 
 /// Simulations a decision at observed states by our own minds.
 const SIMULATIONS: u32 = 50;
@@ -140,7 +140,8 @@ pub(crate) fn recordings(
     context: &Context,
 ) -> Result<Vec<Recording>, CliError> {
     let source = EventInput::open(file, &[], context)?;
-    let mut recordings = (0..source.len()).map(|k| source.load(k)).collect::<Result<Vec<_>, _>>()?;
+    let mut recordings =
+        (0..source.len()).map(|k| source.load(k).map(Cow::into_owned)).collect::<Result<Vec<_>, _>>()?;
     if let Some(kind) = only {
         recordings.retain(|recording| recording.scene.kind == kind);
     }

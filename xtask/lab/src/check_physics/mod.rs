@@ -16,7 +16,7 @@ use phase_cli::{
 use phase_files::{atomic, json};
 use serde::Serialize;
 use serde_json::Value;
-use std::path::Path;
+use std::{borrow::Cow, path::Path};
 use targets::Target;
 
 /// Records that the engine is compared with.
@@ -111,7 +111,8 @@ fn read<T>(file: &Path, parse: impl Fn(&Value) -> Result<T, ReadError>) -> Resul
 /// reflected.
 fn replays(file: &Path, context: &Context) -> Result<(Vec<Replay>, usize), CliError> {
     let source = EventInput::open(file, &[], context)?;
-    let mut recordings = (0..source.len()).map(|k| source.load(k)).collect::<Result<Vec<_>, _>>()?;
+    let mut recordings =
+        (0..source.len()).map(|k| source.load(k).map(Cow::into_owned)).collect::<Result<Vec<_>, _>>()?;
     recordings.retain(|recording| recording.recovered_actions.is_some());
     let replays: Vec<Replay> = recordings.iter().filter_map(Replay::of_recording).collect();
     let mirrored = recordings.iter().filter(|recording| recording.scene.layout.flip().is_some()).count();
