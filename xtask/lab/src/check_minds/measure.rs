@@ -20,7 +20,7 @@ const RESYNC_INTERVAL: usize = 10;
 
 /// Measurements that are wanted.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Plan {
+pub(super) struct Measurement {
     /// SIMPLE, whose minds also decide at observed states.
     pub(super) inference: InferenceSettings,
     /// Whether SIMPLE's posterior is wanted.
@@ -68,7 +68,7 @@ pub(super) struct Simulated {
     pub(super) cpu_seconds: f64,
 }
 
-impl Plan {
+impl Measurement {
     /// Approximate number of units of progress of an event of so many steps.
     pub(super) fn units(&self, steps: usize) -> usize {
         let posterior = if self.posterior { self.inference.ticks() } else { 0 };

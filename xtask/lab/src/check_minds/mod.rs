@@ -11,7 +11,7 @@ mod role;
 mod table;
 
 use crate::{error::LabError, json_file};
-use measure::Plan;
+use measure::Measurement;
 use options::CheckMinds;
 use phase_cli::{
     console::{self, print_result},
@@ -29,7 +29,7 @@ use phase_files::atomic;
 use phase_minds::{MindKind, MindParameters, PublishedParameters};
 use phase_model::{AgentId, Attitude, EventKind, Goal, Scene};
 use phase_simple::{Hypothesis, ImaginedAgents, InferenceSettings, Intent};
-use report::Report;
+use report::MindsReport;
 use serde_json::{Value, json};
 use std::{borrow::Cow, path::Path};
 
@@ -61,7 +61,7 @@ pub fn run(arguments: &CheckMinds, context: &Context) -> Result<(), LabError> {
     let events = make_all(&arguments.jobs, recordings.len(), |k| plan.measure(&recordings[k], &progress))?;
     drop(progress);
     let Some(events) = events else { return Err(LabError::Interrupted) };
-    let report = Report::of(&events, description(arguments, &plan));
+    let report = MindsReport::of(&events, description(arguments, &plan));
     if let Some(out) = &arguments.json {
         let text = json_text(&report, "the report")?;
         if out == Path::new(json_file::STDOUT) {
@@ -103,7 +103,7 @@ fn agents(
 }
 
 /// The measurement of such agents.
-fn plan(arguments: &CheckMinds, agents: ImaginedAgents) -> Result<Plan, CliError> {
+fn plan(arguments: &CheckMinds, agents: ImaginedAgents) -> Result<Measurement, CliError> {
     let simulations = match agents.minds.kind() {
         MindKind::Phase => SIMULATIONS,
         MindKind::Published => PUBLISHED_SIMULATIONS,
@@ -121,7 +121,7 @@ fn plan(arguments: &CheckMinds, agents: ImaginedAgents) -> Result<Plan, CliError
         }
     };
     let open_loop = agents.minds.with_simulations(arguments.simulations_open_loop as usize);
-    Ok(Plan {
+    Ok(Measurement {
         inference: InferenceSettings::default().with_agents(agents.with_minds(at_states)),
         posterior: !arguments.no_posterior,
         open_loop: agents.with_minds(open_loop),
@@ -176,7 +176,7 @@ pub(crate) fn is_true(intent: &Intent, truth: &Hypothesis, agent: AgentId) -> bo
 }
 
 /// Settings of the report, as in its file.
-fn description(arguments: &CheckMinds, plan: &Plan) -> Value {
+fn description(arguments: &CheckMinds, plan: &Measurement) -> Value {
     json!({
         "command": "check-minds", "generator": GENERATOR, "seed": plan.seed,
         "only": arguments.only.map(EventKind::name), "ids": arguments.ids, "minds": plan.open_loop.minds.kind().name(),

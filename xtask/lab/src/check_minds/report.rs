@@ -15,7 +15,7 @@ const FORMAT: &str = "phase-minds/1";
 
 /// The figures of all events, of those of each kind, and of the agents of each role.
 #[derive(Clone, PartialEq, Debug, Serialize)]
-pub(super) struct Report {
+pub(super) struct MindsReport {
     format: &'static str,
     run: Value,
     /// The lapse rate at which all that was done is likeliest.
@@ -41,7 +41,7 @@ struct EventReport {
     figures: Figures,
 }
 
-impl Report {
+impl MindsReport {
     /// The report of some events; `run` describes how it was made.
     pub(super) fn of(events: &[MeasuredEvent], run: Value) -> Self {
         let chances: Vec<Chance> = events.iter().flat_map(|event| event.chances.concat()).collect();

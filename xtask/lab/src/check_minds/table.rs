@@ -1,6 +1,6 @@
 //! A report for people.
 
-use super::{figures::Figures, report::Report};
+use super::{figures::Figures, report::MindsReport};
 
 /// A column: its heading, and its text for a row.
 type Column = (&'static str, fn(&Figures) -> String);
@@ -55,7 +55,7 @@ const COST: [Column; 2] = [
 ];
 
 /// The tables of a report.
-pub(super) fn print(report: &Report) -> String {
+pub(super) fn print(report: &MindsReport) -> String {
     let open_loop: Vec<Column> = OPEN_LOOP.into_iter().chain(COST).collect();
     format!(
         "minds under the true goals, attitudes and strengths; fitted lapse {:.3}\n\n{}\n\
@@ -73,7 +73,7 @@ pub(super) fn print(report: &Report) -> String {
     )
 }
 
-fn table(report: &Report, columns: &[Column]) -> String {
+fn table(report: &MindsReport, columns: &[Column]) -> String {
     let row = |(name, figures): &(&'static str, Figures)| (*name, cells(figures, columns));
     let groups: [Vec<Row>; 3] = [
         vec![("all", cells(&report.overall, columns))],

@@ -29,7 +29,7 @@ use phase_model::AGENT_COUNT;
 use phase_simple::{
     Algorithm, AlternativeAgents, ImaginedAgents, InferenceSettings, IntentNetwork, InversePlanningSettings,
 };
-use report::{Fold, Report};
+use report::{Fold, InferenceFitReport};
 use std::sync::Arc;
 use subject::{EventEvidence, INTENTS, Subject};
 use weights::Weights;
@@ -84,7 +84,7 @@ pub fn run(arguments: &FitInference, context: &Context) -> Result<(), LabError> 
         Fold { weights: grid.fit(&training), validation }
     };
     let all: Vec<usize> = (0..own).collect();
-    let report = Report {
+    let report = InferenceFitReport {
         folds: (0..folds).map(fold).collect(),
         fitted: grid.fit(&all),
         autocorrelation_time: autocorrelation::time(&subjects, &present),

@@ -12,7 +12,7 @@ pub(super) struct Fold {
 }
 
 /// Everything that is reported.
-pub(super) struct Report<'a> {
+pub(super) struct InferenceFitReport<'a> {
     /// One fit without each fold.
     pub(super) folds: Vec<Fold>,
     /// Fitted to all events.
@@ -27,7 +27,7 @@ pub(super) struct Report<'a> {
     pub(super) held_out: &'a [(String, Grid)],
 }
 
-impl Report<'_> {
+impl InferenceFitReport<'_> {
     /// The table.
     pub(super) fn text(&self) -> String {
         let mut text = String::from(

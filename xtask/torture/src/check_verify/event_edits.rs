@@ -2,7 +2,7 @@
 
 use super::{
     edit::{alter, alter_member, space},
-    folder::{Copy, Original, failed},
+    folder::{EditedCopy, Original, failed},
 };
 use crate::error::TortureError;
 use phase_cli::{error::CliError, event_writer::video};
@@ -21,7 +21,7 @@ use serde_json::Value;
 use std::fs;
 
 pub(super) fn in_event(
-    copy: &Copy,
+    copy: &EditedCopy,
     random: &mut Pcg64Mcg,
     change: impl FnOnce(&str, &mut Pcg64Mcg) -> Option<String>,
 ) -> Result<bool, TortureError> {
@@ -33,7 +33,7 @@ pub(super) fn in_event(
 }
 
 pub(super) fn white_space(
-    copy: &mut Copy,
+    copy: &mut EditedCopy,
     random: &mut Pcg64Mcg,
     _: &Original,
 ) -> Result<bool, TortureError> {
@@ -43,13 +43,17 @@ pub(super) fn white_space(
     })
 }
 
-pub(super) fn comment(copy: &mut Copy, random: &mut Pcg64Mcg, _: &Original) -> Result<bool, TortureError> {
+pub(super) fn comment(
+    copy: &mut EditedCopy,
+    random: &mut Pcg64Mcg,
+    _: &Original,
+) -> Result<bool, TortureError> {
     in_event(copy, random, |text, _| Some(text.replacen("\"format\"", "\"_comment\":\"\",\"format\"", 1)))
 }
 
 /// Changes a member of an event. Whoever does it writes the file as PHASE does, if the event can still be
 /// read.
-pub(super) fn member(copy: &Copy, random: &mut Pcg64Mcg, member: &str) -> Result<bool, TortureError> {
+pub(super) fn member(copy: &EditedCopy, random: &mut Pcg64Mcg, member: &str) -> Result<bool, TortureError> {
     in_event(copy, random, |text, random| {
         let changed = alter_member(text, member, random)?;
         let Some(recording) = phase_event::from_json(&changed).ok().and_then(|mut read| read.pop()) else {
@@ -59,21 +63,36 @@ pub(super) fn member(copy: &Copy, random: &mut Pcg64Mcg, member: &str) -> Result
     })
 }
 
-pub(super) fn one_of(copy: &Copy, random: &mut Pcg64Mcg, members: &[&str]) -> Result<bool, TortureError> {
+pub(super) fn one_of(
+    copy: &EditedCopy,
+    random: &mut Pcg64Mcg,
+    members: &[&str],
+) -> Result<bool, TortureError> {
     let name = members.choose(random).copied().unwrap_or_default();
     member(copy, random, name)
 }
 
-pub(super) fn subgoals(copy: &mut Copy, random: &mut Pcg64Mcg, _: &Original) -> Result<bool, TortureError> {
+pub(super) fn subgoals(
+    copy: &mut EditedCopy,
+    random: &mut Pcg64Mcg,
+    _: &Original,
+) -> Result<bool, TortureError> {
     one_of(copy, random, &["subgoals", "values"])
 }
 
-pub(super) fn labels(copy: &mut Copy, random: &mut Pcg64Mcg, _: &Original) -> Result<bool, TortureError> {
+pub(super) fn labels(
+    copy: &mut EditedCopy,
+    random: &mut Pcg64Mcg,
+    _: &Original,
+) -> Result<bool, TortureError> {
     one_of(copy, random, &["layout", "agents", "objects", "event", "relation", "recorded_steps", "row_0"])
 }
 
 /// Changes every event.
-pub(super) fn in_all(copy: &Copy, change: impl Fn(&mut SimulationRecord)) -> Result<bool, TortureError> {
+pub(super) fn in_all(
+    copy: &EditedCopy,
+    change: impl Fn(&mut SimulationRecord),
+) -> Result<bool, TortureError> {
     for entry in &copy.manifest.events {
         let recording = copy.recording(entry)?;
         let Some(mut simulation) = recording.simulation else { return Ok(false) };
@@ -83,14 +102,18 @@ pub(super) fn in_all(copy: &Copy, change: impl Fn(&mut SimulationRecord)) -> Res
     Ok(true)
 }
 
-pub(super) fn write_event(copy: &Copy, id: &str, simulation: SimulationRecord) -> Result<(), TortureError> {
+pub(super) fn write_event(
+    copy: &EditedCopy,
+    id: &str,
+    simulation: SimulationRecord,
+) -> Result<(), TortureError> {
     let SimulationRecord { event, generator, settings } = simulation;
     let text = to_json(&[Recording::of_event(id, event, generator, settings)]);
     copy.write(&event_path(id), text.map_err(CliError::from)?.as_bytes())
 }
 
 pub(super) fn generator_everywhere(
-    copy: &mut Copy,
+    copy: &mut EditedCopy,
     random: &mut Pcg64Mcg,
     _: &Original,
 ) -> Result<bool, TortureError> {
@@ -100,7 +123,7 @@ pub(super) fn generator_everywhere(
 }
 
 pub(super) fn settings_everywhere(
-    copy: &mut Copy,
+    copy: &mut EditedCopy,
     random: &mut Pcg64Mcg,
     _: &Original,
 ) -> Result<bool, TortureError> {
@@ -123,7 +146,7 @@ pub(super) fn settings_everywhere(
 }
 
 pub(super) fn dataset_seed(
-    copy: &mut Copy,
+    copy: &mut EditedCopy,
     random: &mut Pcg64Mcg,
     _: &Original,
 ) -> Result<bool, TortureError> {
@@ -135,13 +158,21 @@ pub(super) fn dataset_seed(
     copy.write(CARD_FILE, card.as_bytes()).map(|()| true)
 }
 
-pub(super) fn split(copy: &mut Copy, random: &mut Pcg64Mcg, _: &Original) -> Result<bool, TortureError> {
+pub(super) fn split(
+    copy: &mut EditedCopy,
+    random: &mut Pcg64Mcg,
+    _: &Original,
+) -> Result<bool, TortureError> {
     let Some(entry) = copy.manifest.events.choose_mut(random) else { return Ok(false) };
     entry.split = Split::ALL.choose(random).copied();
     Ok(true)
 }
 
-pub(super) fn variant(copy: &mut Copy, random: &mut Pcg64Mcg, _: &Original) -> Result<bool, TortureError> {
+pub(super) fn variant(
+    copy: &mut EditedCopy,
+    random: &mut Pcg64Mcg,
+    _: &Original,
+) -> Result<bool, TortureError> {
     let Some(entry) = copy.manifest.events.choose_mut(random) else { return Ok(false) };
     entry.variant = Variant::ALL.choose(random).copied();
     Ok(true)
@@ -149,7 +180,7 @@ pub(super) fn variant(copy: &mut Copy, random: &mut Pcg64Mcg, _: &Original) -> R
 
 /// Moves something in one frame, and draws the video again.
 pub(super) fn substeps_with_video(
-    copy: &mut Copy,
+    copy: &mut EditedCopy,
     random: &mut Pcg64Mcg,
     _: &Original,
 ) -> Result<bool, TortureError> {
@@ -162,7 +193,11 @@ pub(super) fn substeps_with_video(
     write_event(copy, &entry.id, simulation).map(|()| true)
 }
 
-pub(super) fn last_step(copy: &mut Copy, random: &mut Pcg64Mcg, _: &Original) -> Result<bool, TortureError> {
+pub(super) fn last_step(
+    copy: &mut EditedCopy,
+    random: &mut Pcg64Mcg,
+    _: &Original,
+) -> Result<bool, TortureError> {
     let Some(entry) = copy.some_event(random) else { return Ok(false) };
     let Some(mut simulation) = copy.recording(entry)?.simulation else { return Ok(false) };
     simulation.event.steps.pop();
@@ -171,7 +206,7 @@ pub(super) fn last_step(copy: &mut Copy, random: &mut Pcg64Mcg, _: &Original) ->
 }
 
 pub(super) fn events_exchanged(
-    copy: &mut Copy,
+    copy: &mut EditedCopy,
     random: &mut Pcg64Mcg,
     _: &Original,
 ) -> Result<bool, TortureError> {
@@ -188,14 +223,18 @@ pub(super) fn events_exchanged(
     Ok(true)
 }
 
-pub(super) fn order(copy: &mut Copy, random: &mut Pcg64Mcg, _: &Original) -> Result<bool, TortureError> {
+pub(super) fn order(
+    copy: &mut EditedCopy,
+    random: &mut Pcg64Mcg,
+    _: &Original,
+) -> Result<bool, TortureError> {
     copy.manifest.events.shuffle(random);
     Ok(true)
 }
 
 /// An event of the other dataset under the name of one of this, with its own seed and video.
 pub(super) fn other_event(
-    copy: &mut Copy,
+    copy: &mut EditedCopy,
     random: &mut Pcg64Mcg,
     original: &Original,
 ) -> Result<bool, TortureError> {
@@ -209,7 +248,7 @@ pub(super) fn other_event(
 }
 
 /// A date of publication where there was none, in the command, too.
-pub(super) fn date(copy: &mut Copy, random: &mut Pcg64Mcg, _: &Original) -> Result<bool, TortureError> {
+pub(super) fn date(copy: &mut EditedCopy, random: &mut Pcg64Mcg, _: &Original) -> Result<bool, TortureError> {
     let date = format!("2026-{:02}-{:02}", random.random_range(1..=12), random.random_range(1..=28));
     let card = String::from_utf8_lossy(&copy.read(CARD_FILE)?).into_owned();
     let mut lines: Vec<String> = card.lines().map(String::from).collect();

@@ -3,7 +3,7 @@
 use super::{
     edit::{alter, flip, insert, space},
     event_edits::one_of,
-    folder::{Copy, Original, failed},
+    folder::{EditedCopy, Original, failed},
 };
 use crate::error::TortureError;
 use phase_cli::{error::CliError, event_writer::video};
@@ -18,28 +18,28 @@ use rand::{RngExt, seq::IndexedRandom};
 use std::{fs, process::Command};
 
 /// Names of all files but the manifest and its digest.
-pub(super) fn listed(copy: &Copy) -> Vec<String> {
+pub(super) fn listed(copy: &EditedCopy) -> Vec<String> {
     copy.manifest.all_files().map(|file| file.path.to_string()).collect()
 }
 
-pub(super) fn some_file(copy: &Copy, random: &mut Pcg64Mcg) -> String {
+pub(super) fn some_file(copy: &EditedCopy, random: &mut Pcg64Mcg) -> String {
     listed(copy).choose(random).cloned().unwrap_or_else(|| MANIFEST_FILE.into())
 }
 
 /// A file, perhaps the manifest or its digest.
-pub(super) fn any_file(copy: &Copy, random: &mut Pcg64Mcg) -> String {
+pub(super) fn any_file(copy: &EditedCopy, random: &mut Pcg64Mcg) -> String {
     let mut files = listed(copy);
     files.extend([MANIFEST_FILE, DIGEST_FILE].map(String::from));
     files.choose(random).cloned().unwrap_or_default()
 }
 
-pub(super) fn link(copy: &mut Copy, random: &mut Pcg64Mcg, _: &Original) -> Result<bool, TortureError> {
+pub(super) fn link(copy: &mut EditedCopy, random: &mut Pcg64Mcg, _: &Original) -> Result<bool, TortureError> {
     let name = some_file(copy, random);
     move_and_link(copy, &name)
 }
 
 pub(super) fn link_of_folder(
-    copy: &mut Copy,
+    copy: &mut EditedCopy,
     random: &mut Pcg64Mcg,
     _: &Original,
 ) -> Result<bool, TortureError> {
@@ -48,7 +48,7 @@ pub(super) fn link_of_folder(
 }
 
 #[cfg(unix)]
-pub(super) fn move_and_link(copy: &Copy, name: &str) -> Result<bool, TortureError> {
+pub(super) fn move_and_link(copy: &EditedCopy, name: &str) -> Result<bool, TortureError> {
     let path = copy.path().join(name);
     let done =
         fs::rename(&path, copy.beside()).and_then(|()| std::os::unix::fs::symlink(copy.beside(), &path));
@@ -56,22 +56,30 @@ pub(super) fn move_and_link(copy: &Copy, name: &str) -> Result<bool, TortureErro
 }
 
 #[cfg(not(unix))]
-pub(super) fn move_and_link(_: &Copy, _: &str) -> Result<bool, TortureError> {
+pub(super) fn move_and_link(_: &EditedCopy, _: &str) -> Result<bool, TortureError> {
     Ok(false)
 }
 
-pub(super) fn pipe(copy: &mut Copy, random: &mut Pcg64Mcg, _: &Original) -> Result<bool, TortureError> {
+pub(super) fn pipe(copy: &mut EditedCopy, random: &mut Pcg64Mcg, _: &Original) -> Result<bool, TortureError> {
     let path = copy.path().join(any_file(copy, random));
     let made = fs::remove_file(&path).and_then(|()| Command::new("mkfifo").arg(&path).status());
     made.map(|status| status.success()).map_err(|source| failed(&path, "make a pipe", source))
 }
 
-pub(super) fn missing(copy: &mut Copy, random: &mut Pcg64Mcg, _: &Original) -> Result<bool, TortureError> {
+pub(super) fn missing(
+    copy: &mut EditedCopy,
+    random: &mut Pcg64Mcg,
+    _: &Original,
+) -> Result<bool, TortureError> {
     let path = copy.path().join(any_file(copy, random));
     fs::remove_file(&path).map(|()| true).map_err(|source| failed(&path, "remove it", source))
 }
 
-pub(super) fn further(copy: &mut Copy, random: &mut Pcg64Mcg, _: &Original) -> Result<bool, TortureError> {
+pub(super) fn further(
+    copy: &mut EditedCopy,
+    random: &mut Pcg64Mcg,
+    _: &Original,
+) -> Result<bool, TortureError> {
     let folder = ["", "events/", "videos/", "data/", "more/"].choose(random).copied().unwrap_or("");
     if random.random_bool(0.2) {
         let path = copy.path().join(format!("{folder}empty"));
@@ -84,7 +92,7 @@ pub(super) fn further(copy: &mut Copy, random: &mut Pcg64Mcg, _: &Original) -> R
 }
 
 pub(super) fn bytes_of(
-    copy: &Copy,
+    copy: &EditedCopy,
     name: &str,
     change: impl FnOnce(&mut Vec<u8>) -> bool,
 ) -> Result<bool, TortureError> {
@@ -94,19 +102,23 @@ pub(super) fn bytes_of(
     Ok(changed)
 }
 
-pub(super) fn byte(copy: &mut Copy, random: &mut Pcg64Mcg, _: &Original) -> Result<bool, TortureError> {
+pub(super) fn byte(copy: &mut EditedCopy, random: &mut Pcg64Mcg, _: &Original) -> Result<bool, TortureError> {
     bytes_of(copy, &any_file(copy, random), |bytes| flip(bytes, random))
 }
 
 pub(super) fn byte_listed(
-    copy: &mut Copy,
+    copy: &mut EditedCopy,
     random: &mut Pcg64Mcg,
     _: &Original,
 ) -> Result<bool, TortureError> {
     bytes_of(copy, &some_file(copy, random), |bytes| flip(bytes, random))
 }
 
-pub(super) fn stray(copy: &mut Copy, random: &mut Pcg64Mcg, _: &Original) -> Result<bool, TortureError> {
+pub(super) fn stray(
+    copy: &mut EditedCopy,
+    random: &mut Pcg64Mcg,
+    _: &Original,
+) -> Result<bool, TortureError> {
     bytes_of(copy, &any_file(copy, random), |bytes| {
         insert(bytes, random);
         true
@@ -114,7 +126,7 @@ pub(super) fn stray(copy: &mut Copy, random: &mut Pcg64Mcg, _: &Original) -> Res
 }
 
 pub(super) fn stray_listed(
-    copy: &mut Copy,
+    copy: &mut EditedCopy,
     random: &mut Pcg64Mcg,
     _: &Original,
 ) -> Result<bool, TortureError> {
@@ -124,14 +136,14 @@ pub(super) fn stray_listed(
     })
 }
 
-pub(super) fn cut(copy: &mut Copy, random: &mut Pcg64Mcg, _: &Original) -> Result<bool, TortureError> {
+pub(super) fn cut(copy: &mut EditedCopy, random: &mut Pcg64Mcg, _: &Original) -> Result<bool, TortureError> {
     bytes_of(copy, &any_file(copy, random), |bytes| {
         bytes.truncate(random.random_range(0..bytes.len().max(1)));
         true
     })
 }
 
-pub(super) fn text(copy: &mut Copy, random: &mut Pcg64Mcg, _: &Original) -> Result<bool, TortureError> {
+pub(super) fn text(copy: &mut EditedCopy, random: &mut Pcg64Mcg, _: &Original) -> Result<bool, TortureError> {
     let name = [CARD_FILE, "index.html", "videos/metadata.csv", CROISSANT_FILE].choose(random).copied();
     bytes_of(copy, name.unwrap_or(CARD_FILE), |bytes| {
         let letters: Vec<usize> = (0..bytes.len()).filter(|&k| bytes[k].is_ascii_alphanumeric()).collect();
@@ -142,7 +154,11 @@ pub(super) fn text(copy: &mut Copy, random: &mut Pcg64Mcg, _: &Original) -> Resu
 }
 
 /// Writes the Parquet files of other events.
-pub(super) fn parquet(copy: &mut Copy, random: &mut Pcg64Mcg, _: &Original) -> Result<bool, TortureError> {
+pub(super) fn parquet(
+    copy: &mut EditedCopy,
+    random: &mut Pcg64Mcg,
+    _: &Original,
+) -> Result<bool, TortureError> {
     let names: Vec<String> = listed(copy).into_iter().filter(|name| name.starts_with("events/")).collect();
     let before = names.iter().map(|name| copy.read(name)).collect::<Result<Vec<_>, _>>()?;
     if !one_of(copy, random, &["thoughts", "actions", "substeps", "seed"])? {
@@ -160,7 +176,7 @@ pub(super) fn parquet(copy: &mut Copy, random: &mut Pcg64Mcg, _: &Original) -> R
 }
 
 pub(super) fn videos_exchanged(
-    copy: &mut Copy,
+    copy: &mut EditedCopy,
     random: &mut Pcg64Mcg,
     _: &Original,
 ) -> Result<bool, TortureError> {
@@ -170,7 +186,7 @@ pub(super) fn videos_exchanged(
 }
 
 pub(super) fn frames_exchanged(
-    copy: &mut Copy,
+    copy: &mut EditedCopy,
     random: &mut Pcg64Mcg,
     _: &Original,
 ) -> Result<bool, TortureError> {
@@ -186,7 +202,7 @@ pub(super) fn frames_exchanged(
 }
 
 pub(super) fn in_manifest(
-    copy: &mut Copy,
+    copy: &mut EditedCopy,
     random: &mut Pcg64Mcg,
     _: &Original,
 ) -> Result<bool, TortureError> {
@@ -203,7 +219,7 @@ pub(super) fn in_manifest(
 }
 
 pub(super) fn space_in_manifest(
-    copy: &mut Copy,
+    copy: &mut EditedCopy,
     random: &mut Pcg64Mcg,
     _: &Original,
 ) -> Result<bool, TortureError> {

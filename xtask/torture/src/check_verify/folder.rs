@@ -106,28 +106,28 @@ impl Original {
         &self.digest
     }
 
-    pub(super) fn copy(&self) -> Result<Copy, TortureError> {
+    pub(super) fn copy(&self) -> Result<EditedCopy, TortureError> {
         let scratch =
             tempfile::tempdir().map_err(|source| failed(Path::new("."), "create a folder", source))?;
-        let mut copy = Copy { scratch, manifest: verify::manifest(&self.path()).map_err(cli)? };
+        let mut copy = EditedCopy { scratch, manifest: verify::manifest(&self.path()).map_err(cli)? };
         copy.fill(&self.path())?;
         Ok(copy)
     }
 
     /// Whether a copy is not the dataset any more.
-    pub(super) fn differs(&self, copy: &Copy) -> Result<bool, TortureError> {
+    pub(super) fn differs(&self, copy: &EditedCopy) -> Result<bool, TortureError> {
         Ok(tree(&self.path())? != tree(&copy.path())?)
     }
 }
 
 /// A copy that is edited.
-pub(super) struct Copy {
+pub(super) struct EditedCopy {
     scratch: TempDir,
     /// Its manifest, as it was.
     pub(super) manifest: Manifest,
 }
 
-impl Copy {
+impl EditedCopy {
     pub(super) fn path(&self) -> PathBuf {
         self.scratch.path().join("dataset")
     }

@@ -2,13 +2,13 @@
 
 use super::{
     event_edits, file_edits,
-    folder::{Copy, Mends, Original},
+    folder::{EditedCopy, Mends, Original},
 };
 use crate::error::TortureError;
 use phase_model::random::Pcg64Mcg;
 
 /// Makes an edit; whether there is anything to edit.
-type Make = fn(&mut Copy, &mut Pcg64Mcg, &Original) -> Result<bool, TortureError>;
+type Make = fn(&mut EditedCopy, &mut Pcg64Mcg, &Original) -> Result<bool, TortureError>;
 
 /// A kind of edits.
 pub(super) struct Kind {

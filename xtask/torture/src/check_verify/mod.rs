@@ -12,7 +12,7 @@ mod kinds;
 
 use crate::error::TortureError;
 use clap::{Args, value_parser};
-use folder::{Copy, Original};
+use folder::{EditedCopy, Original};
 use kinds::{KINDS, Kind};
 use phase_cli::{
     console::print_result,
@@ -123,7 +123,7 @@ fn one(
 }
 
 fn look(
-    copy: &Copy,
+    copy: &EditedCopy,
     original: &Original,
     arguments: &CheckVerify,
     context: &Context,
